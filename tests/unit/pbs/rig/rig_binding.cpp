@@ -76,10 +76,12 @@ TEST(RigBinding, TheLargestMeshComesFirstAndDeterminesTheBindPose)
 {
     Rig rig = two_joint_rig();                                    // 4 points
     rig.nodes[1].rest.rotation = Eigen::Quaterniond(0, 0, 0, 1);  // the rest pose of the elbow does not matter
-    rig.meshes.insert(rig.meshes.begin(), small_mesh("cuff", 2, {joint_bound_at(1, {1, 2, 3})}));
+    rig.nodes.push_back(test_support::rig_node("hand", 1, {0, 1, 0}));
+    rig.meshes.insert(rig.meshes.begin(), small_mesh("cuff", 2, {joint_bound_at(1, {1, 2, 3}), joint_bound_at(3, {1, 3, 3})}));
     const RigBinding binding = bind_rig(rig, nullptr, 1.0);
     EXPECT_EQ(binding.meshes[0].name, "arm");
     EXPECT_LE((binding.bind.at(1).translation() - Vec3(1, 2, 0)).norm(), bind_rounding);
+    EXPECT_LE((binding.bind.at(3).translation() - Vec3(1, 3, 0)).norm(), bind_rounding);
     Positions expected = rig.meshes[0].points;
     expected.col(2).array() -= 3.0;  // brought to where the larger mesh was bound
     EXPECT_LE(largest_difference(rest_points(binding.meshes[1], binding), expected), bind_rounding);
