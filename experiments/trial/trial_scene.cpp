@@ -136,14 +136,15 @@ TrialScene trial_scene(const TrialOptions& options)
     if (options.frames < 2) throw pbs::InputError("", 0, "--frames", std::to_string(options.frames), "expected at least 2");
     if (!(options.scale >= lowest_scale && options.scale <= highest_scale))
         throw pbs::InputError("", 0, "--scale", fmt::format("{}", options.scale), "expected a number from 1e-6 to 1e6");
+    const bool has_skeleton_file = !options.skeleton.empty() && options.skeleton != "human";
+    if (has_skeleton_file && !fs::exists(options.skeleton)) throw pbs::InputError(options.skeleton, 0, "", "", "no such file");
     TrialScene made;
     const std::string moved = motion(options, made.remarks);
     std::string character = fmt::format("model = {}\n", quoted(from_folder(options.model, options.folder)));
     if (options.scale != 1.0) character += fmt::format("scale = {}\n", nlohmann::json(options.scale).dump());
     if (options.vertices > 0) character += fmt::format("vertices = {}\n", options.vertices);
     if (!options.skeleton.empty())
-        character +=
-            fmt::format("skeleton = {}\n", quoted(options.skeleton == "human" ? "human" : from_folder(options.skeleton, options.folder)));
+        character += fmt::format("skeleton = {}\n", quoted(has_skeleton_file ? from_folder(options.skeleton, options.folder) : "human"));
     const bool has_artist = options.skeleton.empty();
     made.text =
         fmt::format("# {} through its motion. Change this file and run it: pbskin run {} -o DIR\nschema = 1\n[character]\n{}[motion]\n{}",

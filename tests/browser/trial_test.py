@@ -1,5 +1,5 @@
-"""The page that `pbskin try` writes for a rigged model, in Debian's Chromium. `./check --long` runs this test and sets PBS_LONG=1; otherwise
-it is skipped (exit status 77). The model is one of tests/support/rig_files.py.
+"""The page that `pbskin try` writes for a rigged model, in Debian's Chromium. `./check --long` runs this test and sets PBS_LONG=1;
+otherwise it is skipped (exit status 77). The model is one of tests/support/rig_files.py.
 
     PBS_LONG=1 python3 tests/browser/trial_test.py build/release/bin/pbskin SCRATCH
 """
