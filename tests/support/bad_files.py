@@ -76,7 +76,7 @@ def byte_order_marks():
             ("bad.csv", WEIGHTS, [*run, "skinning.weights=bad.csv"], ":1: expected the header vertex,joint,weight"),
             ("bad.bvh", bvh(), ["run", "clip.toml", "-o", "out", "--set", "motion.clip=bad.bvh"], "Expected header string"),
             ("bad.msh", tet_texts.msh(POINTS, TETS), ["measure", "bad.msh", "bad.msh"], "expected a Gmsh file beginning with $MeshFormat"),
-            ("bad.vtk", tet_texts.vtk(POINTS, TETS), ["measure", "bad.vtk", "bad.vtk"], "Unrecognized file type"),
+            ("bad.vtk", tet_texts.vtk(POINTS, TETS), ["measure", "bad.vtk", "bad.vtk"], "Error parsing XML in stream at line 1"),
             ("bad.obj", bad_surfaces.obj(), ["mesh", "bad.obj", "-o", "t.vtu"], "OBJ: vertex index out of range"),
             ("bad.off", bad_surfaces.off(), ["mesh", "bad.off", "-o", "t.vtu"], "damaged: CGAL read 0 points and 0 faces")):
         yield Case(f"byte-order mark in {file}", {file: BYTE_ORDER_MARK + text}, command, (file + ":", words))

@@ -5,6 +5,7 @@ import struct
 import bad_tets
 import rig_files
 from bad_case import Case
+from bad_characters import bvh
 from bad_files import secret
 from bad_places import locked
 
@@ -147,6 +148,8 @@ def cases():
         yield Case(f"model {name}", {"bad.glb": content}, [*run, "bad.glb", "-o", "out"], ("bad.glb: ", words))
     yield Case("model missing_buffer", {"bad.gltf": missing_buffer()}, [*run, "bad.gltf", "-o", "out"],
                ("bad.gltf: ", NO_GLTF + "File not found : gone.bin"))
+    yield Case("trial a_clip_of_another_skeleton", {"hero.glb": WHOLE, "other.bvh": bvh(root="a", child="b")},
+               [*run, "hero.glb", "-o", "out", "--animation", "other.bvh"], ("other.bvh: ", "no joint has the name of a bone"))
     yield Case("model that is missing", {}, [*run, "none.glb", "-o", "out"], ("none.glb: ", "no such file"))
     yield Case("model that is a folder", {}, [*run, ".", "-o", "out"], (".: ", "expected a file"))
     for name, words, said in options():

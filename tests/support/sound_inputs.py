@@ -13,6 +13,7 @@ from bad_files import BYTE_ORDER_MARK
 POINTS, TETS = bad_tets.POINTS, bad_tets.TETS
 RUN = ["run", "arm.toml", "-o", "out", "--set"]
 CORNERS, FACES = bad_surfaces.POINTS, bad_surfaces.FACES
+BELOW = [(0, 4, 1), (0, 1, 5), (0, 5, 4), (1, 4, 5)]  # another body that shares the edge from 0 to 1
 
 
 def accepted(name, files, command, *says):
@@ -78,5 +79,16 @@ def told():
     yield surface("surface inside out", "x.off", bad_surfaces.off(faces=[face[::-1] for face in FACES]), "= -0.166667: inside out")
     yield surface("surface through itself", "x.off", bad_surfaces.off(*through_itself()),
                   "pairs of triangles that meet = 3: it intersects or touches itself, first at (")
+    for name, points, faces in (("triangle twice", CORNERS, [*FACES, FACES[1]]),
+                                ("bodies along an edge", [*CORNERS, (0, -1, 0), (0, 0, -1)], [*FACES, *BELOW])):
+        yield surface(f"surface with {name}", "x.off", bad_surfaces.off(points, faces),
+                      "not manifold there, first from (0, 0, 0) to (1, 0, 0); the surface is wrapped")
+    for extension in (".vtk", ".vtu"):
+        content = tet_texts.FORMATS[extension]([*POINTS, (9, 9, 9)], TETS)
+        yield measured(f"tets with an unused vertex{extension}", "x" + extension, content, "unused vertices = 1 (45): left out")
+    for name, write in (("4.1", binary_bytes.msh41), ("4.1, binary", binary_bytes.msh41_binary)):
+        content = write(POINTS, TETS, tets_told=90)
+        yield measured(f"msh {name}, fewer tets told than there are", "x.msh", content, "unused vertices = 1 (44): left out")
+    yield accepted("clip at a rate that no step of 10 ms divides", {}, [*RUN[:1], "clip.toml", *RUN[2:], "motion.rate_hz=33"])
     yield surface("surface of 1,700 m", "x.off", bad_surfaces.off([[1700 * x for x in point] for point in CORNERS]),
                   "extent [m] = 1700: taken as it is")

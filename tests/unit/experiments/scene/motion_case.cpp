@@ -101,6 +101,10 @@ TEST_F(MotionCase, AClipThatMatchesLessThanHalfIsRefusedUnlessItIsAllowed)
         "e, f and 2 others");
     walk.allow_partial = true;
     EXPECT_EQ(made(walk).matched_joints, 2);
+    walk = clip({"upper", "forearm", "a", "b", "c"});
+    expect_input_error([&] { made(walk); }, walk.clip + ": joints = 2 of 5 moving joints: ", "without a bone: a, b, c");
+    walk.allow_partial = true;
+    EXPECT_EQ(made(walk).matched_joints, 2);
     EXPECT_EQ(made(clip({"upper", "forearm", "a", "b"})).matched_joints, 2);  // one half is enough
 }
 
