@@ -4,12 +4,11 @@
 #include "analysis/rest_mesh_checks.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/tet_volume.hpp"
+#include "pbs/geometry/topology.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <map>
 #include <utility>
 #include <vector>
 
@@ -48,16 +47,6 @@ bool is_closed(const pbs::Triangles& triangles)
     return triangles.rows() > 0 && directed_edges(triangles, false) == directed_edges(triangles, true);
 }
 
-// Every corner is the first point at its place.
-pbs::Triangles joined_triangles(const pbs::Positions& points, const pbs::Triangles& triangles)
-{
-    std::map<std::array<double, 3>, int> first_at;
-    std::vector<int> first(static_cast<std::size_t>(points.rows()));
-    for (int p = 0; p < points.rows(); ++p)
-        first[p] = first_at.emplace(std::array{points(p, 0), points(p, 1), points(p, 2)}, p).first->second;
-    return triangles.unaryExpr([&](int p) { return first[p]; });
-}
-
 double volume_within(const pbs::Positions& points, const pbs::Triangles& triangles)
 {
     const pbs::Vec3 origin = points.row(triangles(0, 0));  // a nearby origin, so that a surface far from zero loses no digits
@@ -90,7 +79,7 @@ double SurfaceVolume::change_pct(const pbs::Positions& posed) const
 
 std::optional<SurfaceVolume> surface_volume_of(const pbs::Positions& rest, const pbs::Triangles& triangles)
 {
-    const pbs::Triangles joined = joined_triangles(rest, triangles);
+    const pbs::Triangles joined = pbs::joined_triangles(rest, triangles);
     if (!is_closed(joined) || !(volume_within(rest, joined) > 0.0)) return std::nullopt;
     return SurfaceVolume(rest, joined);
 }

@@ -24,7 +24,9 @@ nlohmann::json model_record(const pbs::Character& character)
     record["extent_m"] = (body.surface.colwise().maxCoeff() - body.surface.colwise().minCoeff()).maxCoeff();
     if (!body.skeleton.bones.empty())
         record["weights_transferred_pct"] =
-            pbs::carried_weight_pct(body.skin, character.artist->weights, *character.surface, character.mesh.tets);
+            pbs::carried_weight(body.skin, character.artist->weights, *character.surface, character.mesh.tets,
+                                static_cast<int>(body.skeleton.bones.size()))
+                .share_pct();
     return record;
 }
 

@@ -8,7 +8,7 @@
 namespace experiments {
 
 // file, joints (the bones), joints_dropped with reasons, containers, meshes, bind_pose_deg, metres_per_unit, extent_m, animations,
-// animation (the one that determined the size), weights_transferred_pct (pbs::carried_weight_pct). The character has a model.
+// animation (the one that determined the size), weights_transferred_pct (pbs::CarriedWeight). The character has a model.
 nlohmann::json model_record(const pbs::Character& character);
 
 }  // namespace experiments

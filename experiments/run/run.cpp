@@ -18,6 +18,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <memory>
 
@@ -85,11 +86,18 @@ pbs::CharacterSource needed_character(const Scene& scene)
     return source;
 }
 
+// "folder/hero.glb: two joints ..." -> "hero.glb: two joints ...": records name files without folders of the machine.
+std::string without_folder(const std::string& remark)
+{
+    const std::size_t end = remark.find(": ");
+    return end == std::string::npos ? remark : pbs::file_name(remark.substr(0, end)) + remark.substr(end);
+}
+
 // Warnings of a run reach the terminal at once and run.json at its end.
 void add_warnings(const std::vector<std::string>& remarks, std::vector<std::string>& warnings)
 {
     warn(remarks);
-    warnings.insert(warnings.end(), remarks.begin(), remarks.end());
+    std::transform(remarks.begin(), remarks.end(), std::back_inserter(warnings), without_folder);
 }
 
 pbs::Character character_with_warnings(const Scene& scene, std::vector<std::string>& warnings)

@@ -14,13 +14,16 @@ most_mb = 25
 
 def main(results, quiet=False):
     """Returns the exit status: 2 if there are no records, damaged ones, or the page cannot be written; 1 if the page is too large."""
+    file = results / "report.html"
     try:
         is_run = (results / "run.json").is_file()
         text, missing = run_page.page(results) if is_run else page.page(record_set.RecordSet(results))
     except records.RecordsMissing as error:
         print(f"pbskin: {error}", file=sys.stderr)
         return 2
-    file = results / "report.html"
+    except whole_file.CannotBeWritten as error:
+        print(f"pbskin: {file}: cannot be written: {error}", file=sys.stderr)
+        return 2
     try:
         with whole_file.beside(file) as part:
             part.write_text(text)

@@ -23,6 +23,7 @@ struct RiggedModel;
 struct ArtistSkin {
     Weights weights;                           // the artist's weights in the tets, #V; none of a file without joints
     std::shared_ptr<const RiggedModel> model;  // the file with its animations (model_character.hpp)
+    double largest_distance_m = 0.0;           // from a vertex of the tets' boundary to the surface of the model
 };
 
 // make_character returns a whole one; whoever fills one in directly is responsible for matching sizes.

@@ -85,10 +85,13 @@ Character make_model_character(const ModelSource& source, std::vector<std::strin
     character.inputs = hashed;
     character.artist.emplace();
     character.artist->model = model;
-    if (rigged)
-        character.artist->weights =
-            transfer_weights(character.mesh, body.surface, body.triangles, body.skin, static_cast<int>(body.skeleton.bones.size())).weights;
-    const auto found = remarks_on_model(body, character.mesh, character.artist->weights, source.file);
+    if (rigged) {
+        const TransferredWeights transferred =
+            transfer_weights(character.mesh, body.surface, body.triangles, body.skin, static_cast<int>(body.skeleton.bones.size()));
+        character.artist->weights = transferred.weights;
+        character.artist->largest_distance_m = transferred.largest_distance_m;
+    }
+    const auto found = remarks_on_model(body, character, source.file);
     remarks.insert(remarks.end(), found.begin(), found.end());
     return character;
 }

@@ -1,5 +1,6 @@
 #include "pbs/character/model_remarks.hpp"
 
+#include "pbs/character/transferred_weights.hpp"
 #include "pbs/geometry/meshing.hpp"
 #include "pbs/geometry/number_text.hpp"
 #include "pbs/geometry/topology.hpp"
@@ -8,6 +9,7 @@ namespace pbs {
 namespace {
 
 constexpr double smallest_m = 0.05, largest_m = 20.0;  // of a body whose unit is believed
+constexpr double far_from_tets = 0.01;                 // over the diagonal of the body; the wrap alone takes up to 0.008
 constexpr int samples_per_bone = 5;                    // on its middle, the part that Eq. 2 gives to it alone
 
 std::string listed(const std::vector<std::string>& names)
@@ -52,29 +54,40 @@ void add_bones_outside(const RiggedBody& body, const TetMesh& mesh, const std::s
                           " bones lie outside the body: " + listed(outside));
 }
 
-void add_joints_without_flesh(const RiggedBody& body, const Weights& artist, const std::string& file, std::vector<std::string>& remarks)
+void add_distance(const RiggedBody& body, double distance_m, const std::string& file, std::vector<std::string>& remarks)
 {
-    std::vector<double> weight(body.skeleton.bones.size(), 0.0);
-    for (std::size_t e = 0; e < artist.bone.size(); ++e) weight[artist.bone[e]] += artist.weight[e];
+    const double diagonal_m = (body.surface.colwise().maxCoeff() - body.surface.colwise().minCoeff()).norm();
+    if (distance_m > far_from_tets * diagonal_m)
+        remarks.push_back(file + ": the boundary of the tets lies up to " + number_text(distance_m, 3) +
+                          " m from the surface of the model");
+}
+
+void add_joints_without_flesh(const RiggedBody& body, const Character& character, const std::string& file,
+                              std::vector<std::string>& remarks)
+{
+    const std::vector<Bone>& bones = body.skeleton.bones;
+    const CarriedWeight weight =
+        carried_weight(body.skin, character.artist->weights, *character.surface, character.mesh.tets, static_cast<int>(bones.size()));
     std::vector<std::string> without;
-    for (std::size_t b = 0; b < weight.size(); ++b)
-        if (weight[b] < 0.5) without.push_back(body.skeleton.bones[b].name);  // less than half a vertex
+    for (std::size_t b = 0; b < bones.size(); ++b)
+        if (weight.carried[b] <= 0.5 * weight.of_artist[b]) without.push_back(bones[b].name);
     if (!without.empty())
-        remarks.push_back(file + ": " + std::to_string(without.size()) + " of " + std::to_string(weight.size()) +
+        remarks.push_back(file + ": " + std::to_string(without.size()) + " of " + std::to_string(bones.size()) +
                           " joints are without flesh: the tets are too coarse for what they move: " + listed(without));
 }
 
 }  // namespace
 
-std::vector<std::string> remarks_on_model(const RiggedBody& body, const TetMesh& mesh, const Weights& artist, const std::string& file)
+std::vector<std::string> remarks_on_model(const RiggedBody& body, const Character& character, const std::string& file)
 {
     std::vector<std::string> remarks;
     for (const std::string& remark : body.remarks) remarks.push_back(file + ": " + remark);
     add_size(body, file, remarks);
     add_sheet(body, file, remarks);
     if (body.skeleton.bones.empty()) return remarks;
-    add_bones_outside(body, mesh, file, remarks);
-    add_joints_without_flesh(body, artist, file, remarks);
+    add_distance(body, character.artist->largest_distance_m, file, remarks);
+    add_bones_outside(body, character.mesh, file, remarks);
+    add_joints_without_flesh(body, character, file, remarks);
     return remarks;
 }
 

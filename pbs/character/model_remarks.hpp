@@ -9,8 +9,8 @@
 
 namespace pbs {
 
-// One sentence each: an unlikely size, a surface without volume, bones outside the body, joints without flesh. `artist`: the artist's
-// weights in the tets.
-std::vector<std::string> remarks_on_model(const RiggedBody& body, const TetMesh& mesh, const Weights& artist, const std::string& file);
+// One sentence each: an unlikely size, a surface without volume or far from the tets, bones outside the body, joints without flesh. The
+// character is made of the body and has its surface and its artist's weights.
+std::vector<std::string> remarks_on_model(const RiggedBody& body, const Character& character, const std::string& file);
 
 }  // namespace pbs

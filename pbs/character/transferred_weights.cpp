@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 
 namespace pbs {
 
@@ -30,9 +31,9 @@ TransferredWeights transfer_weights(const TetMesh& mesh, const Positions& surfac
     return transferred;
 }
 
-double carried_weight_pct(const Weights& skin, const Weights& in_tets, const EmbeddedSurface& surface, const Tets& tets)
+CarriedWeight carried_weight(const Weights& skin, const Weights& in_tets, const EmbeddedSurface& surface, const Tets& tets, int bones)
 {
-    double carried = 0.0;
+    CarriedWeight weight{std::vector<double>(bones, 0.0), std::vector<double>(bones, 0.0)};
     for (int point = 0; point < skin.vertices(); ++point) {
         std::map<int, double> of_tets;
         for (int corner = 0; corner < 4; ++corner) {
@@ -40,9 +41,18 @@ double carried_weight_pct(const Weights& skin, const Weights& in_tets, const Emb
             for (int e = in_tets.first[v]; e < in_tets.first[v + 1]; ++e)
                 of_tets[in_tets.bone[e]] += surface.barycentric(point, corner) * in_tets.weight[e];
         }
-        for (int e = skin.first[point]; e < skin.first[point + 1]; ++e) carried += std::clamp(of_tets[skin.bone[e]], 0.0, skin.weight[e]);
+        for (int e = skin.first[point]; e < skin.first[point + 1]; ++e) {
+            weight.of_artist[skin.bone[e]] += skin.weight[e];
+            weight.carried[skin.bone[e]] += std::clamp(of_tets[skin.bone[e]], 0.0, skin.weight[e]);
+        }
     }
-    return skin.vertices() > 0 ? 100.0 * carried / skin.vertices() : 0.0;
+    return weight;
+}
+
+double CarriedWeight::share_pct() const
+{
+    const double whole = std::accumulate(of_artist.begin(), of_artist.end(), 0.0);
+    return whole > 0.0 ? 100.0 * std::accumulate(carried.begin(), carried.end(), 0.0) / whole : 0.0;
 }
 
 }  // namespace pbs

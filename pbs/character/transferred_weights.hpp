@@ -18,8 +18,12 @@ struct TransferredWeights {
 TransferredWeights transfer_weights(const TetMesh& mesh, const Positions& surface, const Triangles& triangles, const Weights& skin,
                                     int bones);
 
-// How much of the artist's weights the tets carry [%]: 100 times the mean, over the points of the surface, of the sum over the bones of the
-// lesser of the artist's weight and the one that the tets have at that point. 100: the tets move every point as the artist does.
-double carried_weight_pct(const Weights& skin, const Weights& in_tets, const EmbeddedSurface& surface, const Tets& tets);
+// How much of the artist's weights the tets carry: at a point of the surface, the lesser of the artist's weight of a bone and the one that
+// the tets have there.
+struct CarriedWeight {
+    std::vector<double> of_artist, carried;  // sums over the points, #bones
+    double share_pct() const;                // 100: the tets move every point as the artist does
+};
+CarriedWeight carried_weight(const Weights& skin, const Weights& in_tets, const EmbeddedSurface& surface, const Tets& tets, int bones);
 
 }  // namespace pbs

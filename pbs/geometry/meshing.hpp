@@ -23,17 +23,17 @@ TetMesh mesh_bar(int vertices);  // InputError, as of the limb, for fewer vertic
 struct SurfaceMeshing {
     int vertices = 2000;                    // wanted, 150 or more
     double wrap_alpha_m = 0.0;              // smallest gap the wrap enters; 0: the bounding box's diagonal / 170
-    double wrap_offset_m = 0.0;             // 0: alpha / 3
+    double wrap_offset_m = 0.0;             // 0: alpha / 3; more for sheets that are too thin to be meshed otherwise
     double min_dihedral_deg = 5.0;          // required of every tet
     std::optional<int> boundary_euler = 2;  // required of the boundary; 2: a ball, 0: a body with one handle; null: any
     bool is_closed = true;                  // required of the surface: its wrap holds about what it encloses
     bool is_one_piece = true;               // required of the tets
     std::vector<Vec3> inside;               // points that must lie inside, e.g. joints
 };
-// InputError where fewer than 150 vertices are requested; the surface has fewer than 4 triangles, a point that is not finite or an index
-// out of range; a surface that must be closed has no volume, or its wrap holds less than half or more than twice what it encloses (an open
-// sheet, triangles turned both ways); the wrap has another Euler number or leaves a point of `inside` outside; or none of six attempts has
-// the required quality. Also in a build without CGAL.
+// InputError where fewer than 150 vertices are requested; the surface has fewer than 4 triangles, a point that is not finite, an index out
+// of range or a diagonal below 1e-9 m; a surface that must be closed has no volume, or its wrap holds less than half or more than twice
+// what it encloses (an open sheet, triangles turned both ways); the wrap has another Euler number or leaves a point of `inside` outside; or
+// none of six attempts has the required quality. Also in a build without CGAL.
 TetMesh mesh_surface(const SurfaceMesh& surface, const SurfaceMeshing& options);
 
 // How far mesh_surface thickens a surface to both sides if it encloses no volume and need not be closed [m]; 0 if it encloses one.

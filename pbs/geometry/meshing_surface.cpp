@@ -24,6 +24,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 namespace pbs {
@@ -266,6 +267,25 @@ TetMesh optimised(Body& body, double size, double distance)
     return tet_mesh_of(complex);
 }
 
+// The first mesh of the quality asked; nothing where none of the distances gives one. may_thicken: gives up sooner at a boundary that is
+// not manifold, which is what becomes of a layer too thin to be meshed.
+std::optional<TetMesh> mesh_wrapped(const SurfaceMesh& surface, double alpha, double offset, bool may_thicken,
+                                    const SurfaceMeshing& options, std::string& breach)
+{
+    Body body(surface, alpha, offset);
+    if (options.is_closed) check_closed(surface, body);
+    check_wrap(body, options);
+    int not_manifold = 0;
+    for (const double distance : {1.0, 0.8, 1.25, 0.65, 1.5, 0.5}) {
+        TetMesh mesh = optimised(body, size_of(body, options.vertices, distance), distance);
+        breach = breach_of(mesh, options);
+        if (breach.empty()) return mesh;
+        not_manifold += breach == boundary_not_manifold;
+        if (may_thicken && not_manifold == 2) break;
+    }
+    return std::nullopt;
+}
+
 }  // namespace
 
 TetMesh mesh_surface(const SurfaceMesh& surface, const SurfaceMeshing& options)
@@ -275,16 +295,14 @@ TetMesh mesh_surface(const SurfaceMesh& surface, const SurfaceMeshing& options)
     const double default_alpha = sheet_m > 0.0 ? sheet_m : diagonal_of(surface.points) / 170.0;
     const double alpha = options.wrap_alpha_m > 0.0 ? options.wrap_alpha_m : default_alpha;
     const double offset = options.wrap_offset_m > 0.0 ? options.wrap_offset_m : sheet_m > 0.0 ? sheet_m : alpha / 3.0;
-    Body body(surface, alpha, offset);
-    if (options.is_closed) check_closed(surface, body);
-    check_wrap(body, options);
 
+    // A sheet of the surface, such as hair or a cape, becomes a layer between the offsets on both sides. Where that is too thin to be
+    // meshed, the offset grows.
+    std::vector<double> offsets = {offset};
+    if (options.wrap_offset_m == 0.0 && !is_watertight(surface)) offsets.insert(offsets.end(), {3.0 * offset, 6.0 * offset});
     std::string breach;
-    for (const double distance : {1.0, 0.8, 1.25, 0.65, 1.5, 0.5}) {
-        TetMesh mesh = optimised(body, size_of(body, options.vertices, distance), distance);
-        breach = breach_of(mesh, options);
-        if (breach.empty()) return mesh;
-    }
+    for (const double grown : offsets)
+        if (const auto mesh = mesh_wrapped(surface, alpha, grown, grown < offsets.back(), options, breach)) return *mesh;
     throw InputError("", 0, "surface", "", "could not be meshed with the quality asked: " + breach);
 }
 

@@ -25,6 +25,10 @@ TetMesh mesh_surface(const SurfaceMesh&, const SurfaceMeshing&)
 {
     refuse("surface");
 }
+double sheet_offset_m(const SurfaceMesh&)
+{
+    refuse("surface");
+}
 bool self_intersects(const Positions&, const Triangles&)
 {
     refuse("self-intersection");

@@ -4,15 +4,18 @@
 #include "pbs/geometry/number_text.hpp"
 #include "pbs/geometry/quality.hpp"
 #include "pbs/geometry/tet_volume.hpp"
+#include "pbs/geometry/topology.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace pbs {
 namespace {
 
 // |V| / diagonal^3 is 0.19 of the cube. Rounding leaves 1e-16 of a flat surface; a body so thin would be all wrap.
 constexpr double flat_surface = 1e-12;
+constexpr double smallest_m = 1e-9;       // squares and cubes of cells of a smaller surface leave the range that CGAL can compare
 constexpr double sheet_thickness = 0.05;  // over the diagonal: some tets across it at the default number of vertices
 
 }  // namespace
@@ -25,6 +28,9 @@ void check_surface(const SurfaceMesh& surface, const SurfaceMeshing& options)
     if (!surface.points.allFinite()) throw InputError("", 0, "points", "", "expected finite coordinates [m]");
     if (surface.triangles.minCoeff() < 0 || surface.triangles.maxCoeff() >= surface.points.rows())
         throw InputError("", 0, "triangles", "", "expected indices of points");
+    const double diagonal = (surface.points.colwise().maxCoeff() - surface.points.colwise().minCoeff()).norm();
+    if (!(diagonal >= smallest_m))
+        throw InputError("", 0, "diagonal of the surface [m]", number_text(diagonal), "expected at least " + number_text(smallest_m));
     if (options.is_closed && sheet_offset_m(surface) > 0.0)
         throw InputError("", 0, "enclosed volume [m^3]", number_text(enclosed_volume(surface)),
                          "expected a closed surface round a volume, neither flat nor open");
@@ -47,11 +53,23 @@ double enclosed_volume(const SurfaceMesh& surface)
     return volume;
 }
 
+bool is_watertight(const SurfaceMesh& surface)
+{
+    const Triangles triangles = joined_triangles(surface.points, surface.triangles);
+    std::map<std::pair<int, int>, int> uses;
+    for (const auto& triangle : triangles.rowwise())
+        for (int k = 0; k < 3; ++k) ++uses[{triangle(k), triangle((k + 1) % 3)}];
+    return std::all_of(uses.begin(), uses.end(), [&](const auto& use) {
+        const auto back = uses.find({use.first.second, use.first.first});
+        return use.second == 1 && back != uses.end() && back->second == 1;
+    });
+}
+
 std::string breach_of(const TetMesh& mesh, const SurfaceMeshing& options)
 {
     if (mesh.tets.rows() == 0) return "no tets";
     const Quality quality = quality_of(mesh);
-    if (!quality.topology.boundary_manifold) return "the boundary is not manifold";
+    if (!quality.topology.boundary_manifold) return boundary_not_manifold;
     if (options.is_one_piece && quality.topology.components != 1) return std::to_string(quality.topology.components) + " pieces";
     if (options.boundary_euler && quality.topology.boundary_euler != *options.boundary_euler)
         return "Euler number of the boundary " + std::to_string(quality.topology.boundary_euler) + ", expected " +

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <functional>
+#include <map>
 #include <numeric>
 #include <tuple>
 #include <utility>
@@ -203,6 +204,15 @@ Triangles boundary_of(const Tets& tets)
 std::vector<bool> boundary_vertices(const Tets& tets, Eigen::Index vertices)
 {
     return vertices_of(boundary_of(tets), vertices);
+}
+
+Triangles joined_triangles(const Positions& points, const Triangles& triangles)
+{
+    std::map<std::array<double, 3>, int> first_at;
+    std::vector<int> first(static_cast<std::size_t>(points.rows()));
+    for (int p = 0; p < points.rows(); ++p)
+        first[p] = first_at.emplace(std::array{points(p, 0), points(p, 1), points(p, 2)}, p).first->second;
+    return triangles.unaryExpr([&](int p) { return first[p]; });
 }
 
 Topology topology_of(const Tets& tets, Eigen::Index vertices)

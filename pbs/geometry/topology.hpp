@@ -20,6 +20,9 @@ struct Adjacency {
 // Counted over all vertices, including those without a tet.
 Adjacency adjacency_of(const Tets& tets, int vertices);
 
+// The triangles with each corner replaced by the first point at its place. Files of models repeat points along texture seams.
+Triangles joined_triangles(const Positions& points, const Triangles& triangles);
+
 // Topology of the tets and their boundary; one manifold component with Euler number 2 is a ball.
 struct Topology {
     // Every boundary edge in two triangles, every boundary vertex in one fan, every face in at most two tets.

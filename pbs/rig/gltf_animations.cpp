@@ -84,6 +84,9 @@ private:
     {
         if (channel.target_node >= static_cast<int>(rig_node_.size()))
             throw InputError(rig_.file, 0, field + "/target/node", std::to_string(channel.target_node), "expected a node of the file");
+        if (!model_.nodes[channel.target_node].matrix.empty())
+            throw InputError(rig_.file, 0, field + "/target/node", std::to_string(channel.target_node),
+                             "expected a node without a matrix: its animation replaces translation, rotation or scale");
         if (channel.sampler < 0 || channel.sampler >= static_cast<int>(source_.samplers.size()))
             throw InputError(rig_.file, 0, field + "/sampler", std::to_string(channel.sampler), "expected a sampler of the animation");
         if (channel.target_path != "translation" && channel.target_path != "rotation" && channel.target_path != "scale")

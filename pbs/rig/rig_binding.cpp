@@ -118,9 +118,12 @@ RigBinding bind_rig(const Rig& rig, const RigAnimation* animation, double scale)
     double size = 1.0;
     if (animation) {
         const int root = root_joint(binding.meshes.front()).node;
-        size = scale_of(node_transforms(rig, animation, animation->start_s)[root]) / scale_of(rest[root]);
-        if (!(size > 0.0 && std::isfinite(size)))
-            throw InputError(rig.file, 0, "scale of " + rig.nodes[root].name, number_text(size), "expected a scale that is not zero");
+        const double at_rest = scale_of(rest[root]), at_start = scale_of(node_transforms(rig, animation, animation->start_s)[root]);
+        for (const double scale_of_root : {at_rest, at_start})
+            if (!(scale_of_root > 0.0 && std::isfinite(scale_of_root)))
+                throw InputError(rig.file, 0, "scale of " + rig.nodes[root].name, number_text(scale_of_root),
+                                 "expected a scale that is not zero");
+        size = at_start / at_rest;
         if (std::abs(size - 1.0) <= same_scale) size = 1.0;
     }
     for (auto& [node, bind] : binding.bind) bind = Eigen::Scaling(size * binding.metres_per_unit) * bind;

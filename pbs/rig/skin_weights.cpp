@@ -54,6 +54,8 @@ Weights SkinWeights::normalised(const std::string& file, const std::string& mesh
         }
         skin.first.push_back(static_cast<int>(skin.bone.size()));
     }
+    if (without_weight > 0 && without_weight == static_cast<int>(points_.size()))
+        throw InputError(file, 0, "mesh " + mesh + ", weights", "0", "expected a point with a weight: the mesh has a skin");
     const std::string of_mesh = " of the " + std::to_string(points_.size()) + " points of mesh " + mesh;
     if (without_weight > 0)
         remarks.push_back(std::to_string(without_weight) + of_mesh + " have no weight; they follow the first joint of the skin");

@@ -1,5 +1,5 @@
-"""Rigged glTF files with the difficulties that rigs from outside have, made of one tube with three joints: root, elbow and tip. What the file
-format makes of them is computed by skin_formula.py, without pbskin.
+"""Rigged glTF files with the difficulties that rigs from outside have, made of one tube with three joints: root, elbow and tip. What the
+file format makes of them is computed by skin_formula.py, without pbskin.
 
     rig_files.write("scaled_container", path)      # PATH.glb
 """
@@ -113,13 +113,8 @@ def quantised(weights):
     return codes
 
 
-def add_mesh(gltf, points, triangles, unit, compact, tiny_tip):
-    """A mesh with its skin weights; compact: as bytes and shorts."""
-    weights = weights_of(points)
-    if tiny_tip:
-        weights[:, 1] += weights[:, 2]
-        weights[:, 2] = 0.0
-        weights[points[:, 0].argmax()] = (0.0, 0.9, 0.1)
+def add_mesh(gltf, points, triangles, weights, unit, compact):
+    """A mesh with its skin weights, #P x 3; compact: as bytes and shorts."""
     weights = numpy.pad(weights, ((0, 0), (0, 1)))
     joints = numpy.tile([0, 1, 2, 0], (len(points), 1))
     attributes = {"POSITION": gltf.put(points / unit, "VEC3", FLOAT)}
@@ -132,6 +127,19 @@ def add_mesh(gltf, points, triangles, unit, compact, tiny_tip):
     indices = gltf.put(triangles.reshape(-1, 1), "SCALAR", UNSIGNED_SHORT if compact else UNSIGNED_INT)
     gltf.document["meshes"].append({"name": "tube", "primitives": [{"attributes": attributes, "indices": indices}]})
     return len(gltf.document["meshes"]) - 1
+
+
+def without_tip(weights):
+    """The weights with those of the tip given to the elbow."""
+    return numpy.stack([weights[:, 0], weights[:, 1] + weights[:, 2], numpy.zeros(len(weights))], axis=1)
+
+
+def add_bead(gltf, unit):
+    """A bead of 8 mm at the end of the tube, which alone follows the tip."""
+    points, triangles = tube()
+    points = 0.008 * points + numpy.array([LENGTH + 0.3 * RADIUS, 0.0, 0.0])
+    mesh = add_mesh(gltf, points, triangles, numpy.tile([0.0, 0.0, 1.0], (len(points), 1)), unit, False)
+    gltf.document["scenes"][0]["nodes"].append(gltf.node(name="bead", mesh=mesh, skin=0))
 
 
 def add_animation(gltf, name, channels):
@@ -157,10 +165,10 @@ def rig(containers=(), unit=1.0, compact=False, halves=1, rest_deg=0.0, mesh_nam
         shifted_m=(0.0, 0.0, 0.0), first_deg=None, tiny_tip=False):
     """The bytes of a .glb file.
 
-    containers: transforms of the nodes above the root joint, outermost first. unit: metres per unit of the points and joints. rest_deg: angle
-    of the elbow in the file's rest pose, which then is not the bind pose. extra: further animations, as add_animation takes them. shifted_m:
-    distance of the joints from the tube. first_deg: angle of the elbow in the first frame. tiny_tip: the tip moves a single point, by a
-    tenth."""
+    containers: transforms of the nodes above the root joint, outermost first. unit: metres per unit of the points and joints. rest_deg:
+    angle of the elbow in the file's rest pose, which then is not the bind pose. extra: further animations, as add_animation takes them.
+    shifted_m: distance of the joints from the tube. first_deg: angle of the elbow in the first frame. tiny_tip: the tip moves a bead alone.
+    """
     gltf = Gltf()
     parents = []
     for name, members in containers:
@@ -190,8 +198,11 @@ def rig(containers=(), unit=1.0, compact=False, halves=1, rest_deg=0.0, mesh_nam
         begin, end = LENGTH * half / halves, LENGTH * (half + 1) / halves
         overlap = 0.05 if halves > 1 else 0.0
         points, triangles = tube(begin - overlap * (half > 0), end)
-        mesh = add_mesh(gltf, points, triangles, unit, compact, tiny_tip)
+        weights = without_tip(weights_of(points)) if tiny_tip else weights_of(points)
+        mesh = add_mesh(gltf, points, triangles, weights, unit, compact)
         gltf.document["scenes"][0]["nodes"].append(gltf.node(name=mesh_name, mesh=mesh, skin=0))
+    if tiny_tip:
+        add_bead(gltf, unit)
     for name in animations:
         if name == "Bend":
             bend(gltf, joints, rest_deg if first_deg is None else first_deg)

@@ -29,7 +29,7 @@ const WrongScene wrong_scenes[] = {
     {"unknown_table", "schema = 1\n[caracter]\nbody = \"limb\"\n",
      "scene.toml:2: caracter: unknown key; the nearest known one is character"},
     {"joint_and_clip", "schema = 1\n[character]\nbody = \"limb\"\n[motion]\njoint = \"forearm\"\nclip = \"01_01.bvh\"\n",
-     "scene.toml:5: motion.joint = forearm: expected either a joint (a sweep) or a clip"},
+     "scene.toml:5: motion.joint = forearm: expected either a joint (a sweep), a clip, or an animation"},
     {"table_as_value", "schema = 1\npbs = 3\n", "scene.toml:2: pbs: expected a table"},
     {"fem_with_a_dot_in_quotes", "schema = 1\n\"fem.0\" = 1\n", "scene.toml:2: fem.0: expected a key without a dot in quotes"},
     {"path_in_quotes", "schema = 1\n\"pbs.jiggle.k_stretch\" = 0.5\n",
@@ -188,7 +188,10 @@ TEST(SceneErrors, StepsMustDivideAFrame)
 {
     const std::string text =
         std::string("schema = 1\n[character]\nbody = \"human\"\n[motion]\nclip = \"01_01.bvh\"\nrate_hz = 30.0\n") + stated;
-    EXPECT_NE(refused_with(text).find("scene.toml:6: motion.rate_hz = 30.0: expected rate_hz * pbs.time_step_s = 1/n"), std::string::npos)
+    EXPECT_EQ(refused_with(text), "accepted");  // by default, the time step divides the frame
+    EXPECT_NE(
+        refused_with(text + "time_step_s = 0.01\n").find("scene.toml:6: motion.rate_hz = 30.0: expected rate_hz * pbs.time_step_s = 1/n"),
+        std::string::npos)
         << refused_with(text);
 }
 

@@ -27,8 +27,16 @@ struct BoxModel {
             artist.weight.push_back(1.0);
             artist.first.push_back(v + 1);
         }
+        body.skin = artist;
     }
-    std::vector<std::string> remarks() const { return remarks_on_model(body, mesh, artist, "a.glb"); }
+    std::vector<std::string> remarks(double distance_m = 0.0) const
+    {
+        Character character;
+        character.mesh = mesh;
+        character.surface = embed(body.surface, body.triangles, mesh);
+        character.artist = ArtistSkin{.weights = artist, .model = nullptr, .largest_distance_m = distance_m};
+        return remarks_on_model(body, character, "a.glb");
+    }
 };
 
 TEST(ModelRemarks, ASoundModelHasNone)
@@ -55,7 +63,8 @@ TEST(ModelRemarks, AnExtentBelowFiveCentimetresOrAboveTwentyMetresSpeaksForOther
         }
         const std::vector<std::string> remarks = box.remarks();
         ASSERT_EQ(remarks.size(), count) << extent_m;
-        if (count > 0) EXPECT_NE(remarks[0].find("a.glb: unlikely units: the body's largest extent is "), std::string::npos) << remarks[0];
+        for (const std::string& remark : remarks)
+            EXPECT_NE(remark.find("a.glb: unlikely units: the body's largest extent is "), std::string::npos) << remark;
     }
 }
 
@@ -74,14 +83,22 @@ TEST(ModelRemarks, ABoneThatIsPartlyInsideIsNotOutside)
     EXPECT_TRUE(box.remarks().empty());
 }
 
-TEST(ModelRemarks, AJointOfLessThanHalfAVertexIsWithoutFlesh)
+TEST(ModelRemarks, AJointThatTheTetsDoNotCarryIsWithoutFlesh)
 {
     BoxModel box;
     box.artist.bone.assign(box.artist.bone.size(), 0);
     EXPECT_EQ(box.remarks(),
               std::vector<std::string>{"a.glb: 1 of 2 joints are without flesh: the tets are too coarse for what they move: b"});
-    box.artist.bone.back() = 1;
+    box.artist = box.body.skin;
     EXPECT_TRUE(box.remarks().empty());
+}
+
+TEST(ModelRemarks, TetsFarFromTheSurface)
+{
+    const BoxModel box;  // with a diagonal of 1.73 m
+    EXPECT_TRUE(box.remarks(0.017).empty());
+    EXPECT_EQ(box.remarks(0.018),
+              std::vector<std::string>{"a.glb: the boundary of the tets lies up to 0.018 m from the surface of the model"});
 }
 
 TEST(ModelRemarks, ASurfaceWithoutVolumeIsALayer)
@@ -89,6 +106,7 @@ TEST(ModelRemarks, ASurfaceWithoutVolumeIsALayer)
     BoxModel box;
     box.body.surface = (Positions(4, 3) << 0, 0, 0.5, 1, 0, 0.5, 1, 1, 0.5, 0, 1, 0.5).finished();
     box.body.triangles = (Triangles(2, 3) << 0, 1, 2, 0, 2, 3).finished();
+    box.body.skin = {.first = {0, 1, 2, 3, 4}, .bone = {0, 1, 1, 0}, .weight = {1, 1, 1, 1}};
     const std::vector<std::string> remarks = box.remarks();
     ASSERT_EQ(remarks.size(), 1u);
     EXPECT_NE(remarks[0].find("a.glb: the surface encloses no volume"), std::string::npos) << remarks[0];

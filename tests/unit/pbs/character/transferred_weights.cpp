@@ -100,10 +100,13 @@ TEST(CarriedWeight, IsTheOverlapOfTheArtistsWeightsAndThoseOfTheTets)
     in_tets.first = {0, 1, 2, 3, 4};
     in_tets.bone = {0, 0, 0, 1};
     in_tets.weight = {1, 1, 1, 1};
-    EXPECT_DOUBLE_EQ(carried_weight_pct(two_weights(0.25), in_tets, point_in_the_middle(), tet.tets), 100.0);
-    EXPECT_DOUBLE_EQ(carried_weight_pct(two_weights(0.75), in_tets, point_in_the_middle(), tet.tets), 50.0);
+    const auto share_pct = [&](double of_second) {
+        return carried_weight(two_weights(of_second), in_tets, point_in_the_middle(), tet.tets, 3).share_pct();
+    };
+    EXPECT_DOUBLE_EQ(share_pct(0.25), 100.0);
+    EXPECT_DOUBLE_EQ(share_pct(0.75), 50.0);
     in_tets.bone = {2, 2, 2, 2};
-    EXPECT_EQ(carried_weight_pct(two_weights(0.25), in_tets, point_in_the_middle(), tet.tets), 0.0);
+    EXPECT_EQ(share_pct(0.25), 0.0);
 }
 
 }  // namespace

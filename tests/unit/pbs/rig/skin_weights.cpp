@@ -66,13 +66,26 @@ TEST(SkinWeights, OfZeroAreLeftOut)
 TEST(SkinWeights, APointWithoutAnyFollowsTheFirstJointWithARemark)
 {
     for (const std::vector<JointShare>& shares : {std::vector<JointShare>{}, {{1, 0.0}, {2, 0.0}}}) {
+        SkinWeights skin;
+        skin.add_point({{2, 1.0}});
+        skin.add_point(shares);
         std::vector<std::string> remarks;
-        const Weights weights = weights_of_one_point(shares, remarks);
-        EXPECT_EQ(weights.bone, std::vector<int>{0});
-        EXPECT_EQ(weights.weight, std::vector<double>{1.0});
+        const Weights weights = skin.normalised("a.glb", "arm", remarks);
+        EXPECT_EQ(weights.bone, (std::vector<int>{2, 0}));
+        EXPECT_EQ(weights.weight, (std::vector<double>{1.0, 1.0}));
         ASSERT_EQ(remarks.size(), 1u);
-        EXPECT_NE(remarks[0].find("1 of the 1 points of mesh arm have no weight"), std::string::npos) << remarks[0];
+        EXPECT_NE(remarks[0].find("1 of the 2 points of mesh arm have no weight"), std::string::npos) << remarks[0];
     }
+}
+
+TEST(SkinWeights, AMeshWithoutAnyIsRefused)
+{
+    std::vector<std::string> remarks;
+    expect_input_error(
+        [&] {
+            weights_of_one_point({{1, 0.0}}, remarks);
+        },
+        "a.glb: mesh arm, weights = 0: ", "expected a point with a weight");
 }
 
 TEST(SkinWeights, ThatAreNegativeOrNotFiniteAreRefusedByPoint)
