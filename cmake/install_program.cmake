@@ -22,6 +22,8 @@ install(DIRECTORY paper_figures DESTINATION ${data_folder} COMPONENT program
     PATTERN __pycache__ EXCLUDE PATTERN readme EXCLUDE PATTERN node_modules EXCLUDE PATTERN viewer/src EXCLUDE PATTERN viewer/*.json EXCLUDE
     PATTERN viewer/*.mjs EXCLUDE PATTERN viewer/.npmrc EXCLUDE)
 install(DIRECTORY experiments/scenes DESTINATION ${data_folder} COMPONENT program FILES_MATCHING PATTERN *.toml PATTERN *.obj)
+install(DIRECTORY experiments/deformers/external/examples DESTINATION ${data_folder} COMPONENT program)
+install(FILES experiments/deformers/external/pbskin_deformer.h DESTINATION include COMPONENT program)
 install(FILES CITATION.cff experiments/verdicts/claims.toml DESTINATION ${data_folder} COMPONENT program)
 
 # Parameter sweeps, as bin/pbskin-sweep. The scaling study of the distributed reference is only part of a checkout.

@@ -32,8 +32,7 @@ pbs::TetMesh meshed(const MeshArguments& arguments, const pbs::SurfaceMesh& surf
 int mesh(const MeshArguments& arguments)
 {
     std::vector<std::string> remarks;
-    pbs::SurfaceMesh surface = pbs::read_surface(arguments.surface, remarks);
-    surface.points *= arguments.scale;
+    const pbs::SurfaceMesh surface = pbs::read_surface(arguments.surface, remarks, arguments.scale);
     warn(remarks);
     pbs::require_tet_mesh_format(arguments.tets);
     analysis::require_writable(arguments.tets);

@@ -4,10 +4,13 @@
 #include "experiments/process/program_run.hpp"
 #include "pbs/geometry/input_error.hpp"
 
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
 #include <cstdio>
 #include <filesystem>
-
-#include <unistd.h>
 
 namespace experiments {
 namespace {
@@ -45,8 +48,13 @@ int write_report_page(const std::string& folder, bool quiet)
     for (std::string& word : words) arguments.push_back(word.data());
     arguments.push_back(nullptr);
     std::fflush(nullptr);
-    execvp(arguments.front(), arguments.data());
-    throw pbs::InputError("", 0, "report", words.front(), "cannot be started");
+    pid_t process = 0;
+    if (posix_spawnp(&process, arguments.front(), nullptr, nullptr, arguments.data(), environ) != 0)
+        throw pbs::InputError("", 0, "report", words.front(), "cannot be started");
+    int status = 0;
+    while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
+    }
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
 }  // namespace experiments

@@ -9,7 +9,10 @@
 #include "experiments/run/run.hpp"
 #include "experiments/trial/trial_scene.hpp"
 #include "experiments/trial/trial_summary.hpp"
+#include "pbs/character/body_cache.hpp"
+#include "pbs/character/json_file.hpp"
 #include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/text_file.hpp"
 
 #include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
@@ -21,13 +24,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Runs a scene that was just written. If it is refused, nothing of it is left behind.
-RunResult run_new_scene(const std::string& scene_file, const std::string& folder, bool folder_is_new, int threads)
+// Runs the scene that was just written. If it is refused, nothing of it is left behind.
+RunResult run_new_scene(const std::string& scene_file, const std::string& folder, bool folder_is_new, int threads,
+                        const std::vector<std::string>& warnings)
 {
     try {
         Scene scene = read_scene(scene_file, {});
         for (DeformerSpec& spec : scene.deformers) spec.threads = threads;
-        return run_scene(scene, folder);
+        return run_scene(scene, folder, warnings);
     } catch (const pbs::InputError&) {
         std::error_code code;
         fs::remove(scene_file, code);
@@ -36,29 +40,42 @@ RunResult run_new_scene(const std::string& scene_file, const std::string& folder
     }
 }
 
+// The scene of an earlier trial is replaced. One that was changed since, or written by somebody else, is not.
+void refuse_a_scene_of_the_user(const std::string& scene_file, const std::string& text)
+{
+    if (!fs::exists(scene_file)) return;
+    const std::string found = pbs::read_text_file(scene_file, pbs::most_text_bytes);
+    const fs::path facts_file = fs::path(scene_file).parent_path() / "try.json";
+    const bool is_of_a_trial = fs::exists(facts_file) && pbs::JsonFile(facts_file.string()).at("scene_hash") == pbs::content_hash(found);
+    if (found != text && !is_of_a_trial)
+        throw pbs::InputError(scene_file, 0, "", "",
+                              "exists and is not the scene of a trial: expected another folder (-o); `pbskin run` runs this scene");
+}
+
 int try_model(TrialOptions options, const CommonOptions& common)
 {
     if (common.quiet) hide_progress();
     if (options.folder.empty()) options.folder = "results/" + fs::path(options.model).stem().string();
     const TrialScene made = trial_scene(options);
-    warn(made.remarks);
     std::error_code code;
     const bool is_new = fs::create_directories(options.folder, code);
     if (code) throw pbs::InputError(options.folder, 0, "", "", "the output folder cannot be made: " + code.message());
     const std::string scene_file = (fs::path(options.folder) / "scene.toml").string();
+    refuse_a_scene_of_the_user(scene_file, made.text);
     analysis::write_text_atomically(scene_file, made.text);
 
-    const RunResult result = run_new_scene(scene_file, options.folder, is_new, common.threads);
+    const RunResult result = run_new_scene(scene_file, options.folder, is_new, common.threads, made.remarks);
     for (const auto& line : result.lines) spdlog::info("{}", line);
     nlohmann::json facts = trial_facts(options.folder);
-    for (auto remark = made.remarks.rbegin(); remark != made.remarks.rend(); ++remark)
-        facts["warnings"].insert(facts["warnings"].begin(), *remark);
+    facts["scene_hash"] = pbs::content_hash(made.text);
     facts["summary"] = trial_sentence(facts);
     analysis::write_text_atomically((fs::path(options.folder) / "try.json").string(), analysis::record_text(facts));
     spdlog::info("{}", facts["summary"].get<std::string>());
     spdlog::info("To go on, change {} and run it with `pbskin run`.", scene_file);
-    if (!result.failure().empty()) spdlog::error("pbskin: {}", result.failure());
-    return write_report_page(options.folder, common.quiet);
+    const int page = write_report_page(options.folder, common.quiet);
+    if (result.failure().empty()) return page;
+    spdlog::error("pbskin: {}", result.failure());
+    return exit_breakdown;
 }
 
 }  // namespace

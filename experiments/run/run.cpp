@@ -100,6 +100,13 @@ void add_warnings(const std::vector<std::string>& remarks, std::vector<std::stri
     std::transform(remarks.begin(), remarks.end(), std::back_inserter(warnings), without_folder);
 }
 
+std::vector<std::string> printed(const std::vector<std::string>& remarks)
+{
+    std::vector<std::string> warnings;
+    add_warnings(remarks, warnings);
+    return warnings;
+}
+
 pbs::Character character_with_warnings(const Scene& scene, std::vector<std::string>& warnings)
 {
     std::vector<std::string> remarks;
@@ -130,8 +137,9 @@ nlohmann::json motion_record(const CaseMotion& motion)
 
 class SceneRun {
 public:
-    SceneRun(const Scene& scene, const std::string& folder)
+    SceneRun(const Scene& scene, const std::string& folder, const std::vector<std::string>& warnings)
         : scene_(scene),
+          warnings_(printed(warnings)),
           character_(cost_.time("character", [&] { return character_with_warnings(scene, warnings_); })),
           motion_case_(cost_.time("motion", [&] { return read_motion(scene, character_, warnings_); })),
           motion_(motion_case_.motion),
@@ -209,7 +217,7 @@ private:
     void warn_of_open_surface()
     {
         if (scene_.output.surface && character_.surface && !measurer_.measures_surface_volume())
-            add_warnings({scene_.file + ": surface_volume_change_pct is empty: the surface of the model is open or encloses no volume"},
+            add_warnings({scene_.file + ": surface_volume_change_pct is empty: the rendered surface is open or encloses no volume"},
                          warnings_);
     }
 
@@ -218,10 +226,10 @@ private:
     {
         for (const Runner& runner : runners_)
             if (traits_of(runner.spec).blends_linearly && runner.most_inverted > 0)
-                add_warnings(
-                    {fmt::format("{}: {} has {} inverted tets in the first frame: a bind pose far from it, or weights that contradict it",
-                                 scene_.file, runner.spec.label, runner.most_inverted)},
-                    warnings_);
+                add_warnings({fmt::format("{}: {} has {} inverted tets in the first frame: its pose is far from the bind pose, or the "
+                                          "weights do not fit the joints",
+                                          scene_.file, runner.spec.label, runner.most_inverted)},
+                             warnings_);
     }
 
     void record_deformer(Runner& runner, int frame, double time_s, const FrameContext& context)
@@ -321,9 +329,9 @@ private:
     }
 
     const Scene& scene_;
+    std::vector<std::string> warnings_;
     CostRecord cost_;
     pbs::Stopwatch stopwatch_;
-    std::vector<std::string> warnings_;
     pbs::Character character_;
     CaseMotion motion_case_;
     const pbs::Motion& motion_;
@@ -341,9 +349,9 @@ private:
 
 }  // namespace
 
-RunResult run_scene(const Scene& scene, const std::string& folder)
+RunResult run_scene(const Scene& scene, const std::string& folder, const std::vector<std::string>& warnings)
 {
-    return SceneRun(scene, folder).run();
+    return SceneRun(scene, folder, warnings).run();
 }
 
 }  // namespace experiments

@@ -25,6 +25,7 @@ struct RunResult {
 
 // Overwrites the records in `folder`. Each file is written whole or not at all, run.json last. A breakdown of a negative control (the
 // printed forms, linear elasticity) is only recorded, under outcome.broken_frames.
-RunResult run_scene(const Scene& scene, const std::string& folder);
+// warnings: what the caller has to say about the scene; they are printed and recorded before those of the run.
+RunResult run_scene(const Scene& scene, const std::string& folder, const std::vector<std::string>& warnings = {});
 
 }  // namespace experiments

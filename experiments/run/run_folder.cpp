@@ -99,7 +99,7 @@ RunFolder::RunFolder(const Scene& scene, const pbs::Character& character, const 
     fs::create_directories(fs::path(folder) / "frames", error);
     if (error) throw pbs::InputError(folder, 0, "", "", "the output folder cannot be made: " + error.message());
     for (const char* old : {"run.json", "metrics.csv", "frame_statistics.csv", "distances.csv", "iterations.csv", "regions.csv",
-                            "bones.csv", "bones_rest.csv", "binding.csv", "surface_rest.vtp", "embedding.csv"})
+                            "bones.csv", "bones_rest.csv", "binding.csv", "surface_rest.vtp", "embedding.csv", "try.json", "report.html"})
         analysis::remove_record(fs::path(folder) / old);
     analysis::remove_abandoned_files(folder, false);
     analysis::remove_abandoned_files((fs::path(folder) / "frames").string(), false);

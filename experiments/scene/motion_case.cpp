@@ -11,6 +11,7 @@ namespace experiments {
 namespace {
 
 constexpr double still_deg = 0.1;       // no one sees less
+constexpr double still_share = 1e-3;    // over the size of the body, likewise
 constexpr double rigid_stretch = 1e-3;  // rounding of exporters
 
 std::string bone_names(const pbs::Skeleton& skeleton)
@@ -44,10 +45,10 @@ CaseMotion motion_of_clip(const MotionSpec& spec, const pbs::Character& characte
     made.matched_joints = match.matched;
     const std::string share = fmt::format("{} of {} moving joints", match.matched, match.moving);
     if (2 * match.matched < match.moving && !spec.allow_partial)
-        throw pbs::InputError(
-            spec.clip, 0, "joints", share,
-            "expected at least one half to match a bone of the character (--allow-partial accepts fewer); without a bone: " +
-                a_few(match.unmatched));
+        throw pbs::InputError(spec.clip, 0, "joints", share,
+                              "expected at least one half to match a bone of the character (motion.allow_partial = true in the scene, or "
+                              "--allow-partial of `pbskin try`, accepts fewer); without a bone: " +
+                                  a_few(match.unmatched));
     if (match.matched < match.moving)
         made.partial_match = fmt::format("{}: {} of the clip match a bone; without a bone: {}", spec.clip, share, a_few(match.unmatched));
     return made;
@@ -90,9 +91,12 @@ CaseMotion make_case_motion(const MotionSpec& spec, const pbs::Character& charac
     else
         made.motion = make_motion(spec, character.skeleton, scene_file);
     made.largest_rotation_deg = pbs::largest_rotation_deg(made.motion);
-    if (made.largest_rotation_deg < still_deg)
-        made.remarks.push_back(
-            fmt::format("{}: no joint moves: the bones turn by at most {:.2g} degrees", scene_file, made.largest_rotation_deg));
+    const double displacement_m = pbs::largest_displacement_m(made.motion, character.skeleton);
+    const pbs::Positions& rest = character.mesh.rest;
+    const double size_m = rest.rows() > 0 ? (rest.colwise().maxCoeff() - rest.colwise().minCoeff()).norm() : 0.0;
+    if (made.largest_rotation_deg < still_deg && displacement_m <= still_share * size_m)
+        made.remarks.push_back(fmt::format("{}: no joint moves: the bones turn by at most {:.2g} degrees and move by at most {:.2g} m",
+                                           scene_file, made.largest_rotation_deg, displacement_m));
     return made;
 }
 

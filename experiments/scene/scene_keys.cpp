@@ -40,8 +40,8 @@ std::vector<SceneKey> character_and_motion_keys()
                {"", "limb", "bar", "ring", "human", "man", "lady", "frankie"}),
         key("character", "model", text, "\"\"", "",
             "rigged model, relative to the scene: .glb .gltf .fbx .dae .zae; its surface is meshed, and its joints are the skeleton"),
-        within(key("character", "scale", number, "1.0", "", "factor by which a model is enlarged, for files that state a wrong unit"),
-               1e-6, 1e6),
+        within(key("character", "scale", number, "1.0", "", "factor by which a model is enlarged, for files that state a wrong unit"), 1e-6,
+               1e6),
         key("character", "mesh", text, "\"\"", "", "tet mesh file, relative to the scene: .msh .vtu .vtk .mesh .ele"),
         key("character", "skeleton", text, "\"\"", "",
             "skeleton file, relative to the scene: .toml with [[joint]] tables, or the joints of a clip or a rig "
@@ -95,8 +95,8 @@ std::vector<SceneKey> output_keys()
         within(key("output", "frames", integers, "[]", "", "further frames to write, by number"), 0, 1e9),
         key("output", "frame_names", texts, "[]", "", "titles of `frames`, in the same order"),
         key("output", "glb", boolean, "false", "",
-            "also writes the surface of each deformer over the written frames as frames/LABEL.glb, which Blender opens; the character needs "
-            "a rendered surface"),
+            "also writes the surface of each deformer over the written frames as frames/LABEL.glb, which Blender opens; the character "
+            "needs a rendered surface"),
         key("output", "metrics", texts, "[\"all\"]", "",
             "groups of metrics beyond the volume columns: errors, sections, surface, all; [] leaves them out"),
     };

@@ -69,7 +69,7 @@ std::string bending(const TrialOptions& options, const pbs::RiggedBody& body, st
     const int bone = bone_to_bend(body);
     if (bone < 0)
         throw pbs::InputError(options.model, 0, "animation", "",
-                              "the model has no animation, and no joint hangs from another one that could be bent: "
+                              "the model has no animation, and no joint has a parent about which it could be bent: "
                               "expected --animation CLIP");
     const pbs::Bone& bent = body.skeleton.bones[bone];
     const pbs::Vec3 axis = (bent.tail - bent.head).unitOrthogonal();

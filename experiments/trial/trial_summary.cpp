@@ -146,7 +146,8 @@ std::string trial_sentence(const nlohmann::json& facts)
     if (const nlohmann::json& nearer = facts.at("nearer"); !nearer.is_null())
         text += fmt::format("; it is closer to the finite elements in {} of {} frames", nearer.at("frames").get<int>(),
                             nearer.at("of").get<int>());
-    return text + fmt::format("; a frame takes {:.2g} ms.", facts.at("frame_ms").at("pbs").get<double>());
+    const double ms = facts.at("frame_ms").at("pbs");
+    return text + (ms < 10.0 ? fmt::format("; a frame takes {:.2g} ms.", ms) : fmt::format("; a frame takes {:.0f} ms.", ms));
 }
 
 }  // namespace experiments

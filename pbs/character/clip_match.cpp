@@ -48,4 +48,14 @@ double largest_rotation_deg(const Motion& motion)
     return largest * 180.0 / M_PI;
 }
 
+double largest_displacement_m(const Motion& motion, const Skeleton& skeleton)
+{
+    double largest = 0.0;
+    for (const Pose& pose : motion.steps)
+        for (std::size_t b = 0; b < pose.size(); ++b)
+            for (const Vec3& end : {skeleton.bones[b].head, skeleton.bones[b].tail})
+                largest = std::max(largest, (pose[b] * end - motion.steps.front()[b] * end).norm());
+    return largest;
+}
+
 }  // namespace pbs

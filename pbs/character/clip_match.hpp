@@ -17,7 +17,10 @@ struct ClipMatch {
 // By the same names as retarget().
 ClipMatch match_of(const Clip& clip, const Skeleton& skeleton);
 
-// The largest rotation of a bone from the first pose to another one [deg]; 0 where no bone moves relative to the root's own translation.
+// The largest rotation of a bone from the first pose to another one [deg]; translations do not count.
 double largest_rotation_deg(const Motion& motion);
+
+// The largest displacement of an end of a bone from the first pose to another one [m].
+double largest_displacement_m(const Motion& motion, const Skeleton& skeleton);
 
 }  // namespace pbs

@@ -13,6 +13,7 @@
 #include "pbs/geometry/topology.hpp"
 #include "pbs/rig/rig_reader.hpp"
 
+#include <algorithm>
 #include <set>
 
 namespace pbs {
@@ -25,16 +26,15 @@ void leave_out_parts_without_bone(Character& character, const std::string& file,
 {
     const std::vector<int> part = parts_of(character.mesh.tets);
     std::set<int> with_bone;
-    const BoneBinding binding = bind_to_nearest_bone(character.mesh.rest, character.skeleton);
     const int parts = part.empty() ? 0 : 1 + *std::max_element(part.begin(), part.end());
     if (parts <= 1) return;
+    std::vector<Vec3> middles;
+    for (const Bone& bone : character.skeleton.bones)
+        for (const double along : {0.25, 0.5, 0.75}) middles.emplace_back(bone.head + along * (bone.tail - bone.head));
     for (int p = 0; p < parts; ++p) {
         std::vector<bool> own(part.size());
         for (std::size_t t = 0; t < part.size(); ++t) own[t] = part[t] == p;
         const TetMesh mesh = kept_tets(character.mesh, own);
-        std::vector<Vec3> middles;
-        for (const Bone& bone : character.skeleton.bones)
-            for (const double along : {0.25, 0.5, 0.75}) middles.emplace_back(bone.head + along * (bone.tail - bone.head));
         const std::vector<bool> inside = points_inside(mesh.rest, boundary_of(mesh.tets), middles);
         if (std::find(inside.begin(), inside.end(), true) != inside.end()) with_bone.insert(p);
     }
@@ -66,10 +66,14 @@ Character make_model_character(const ModelSource& source, std::vector<std::strin
     const RiggedBody& body = model->body;
     const bool rigged = !body.skeleton.bones.empty();
     if (!rigged && source.skeleton.bones.empty())
-        throw InputError(source.file, 0, "skins", "0", "the file has no joints: expected a skeleton beside it");
+        throw InputError(source.file, 0, "skins", "0",
+                         "the file has no joints: expected a skeleton (character.skeleton in a scene, --skeleton of `pbskin try`)");
+    if (rigged && !source.skeleton.bones.empty())
+        throw InputError(source.file, 0, "skins", "",
+                         "the model has joints of its own: expected no other skeleton (character.skeleton, --skeleton)");
 
     const auto hashed = input.hashed();
-    std::string made_from = std::to_string(model_version) + number_text(source.scale, 17) + source.animation;
+    std::string made_from = std::to_string(model_version) + "|" + number_text(source.scale, 17) + "|" + source.animation + "|";
     for (const auto& [name, hash] : hashed) made_from += hash;
     const SurfaceBody surface{.name = file_name(source.file),
                               .made_from = made_from,

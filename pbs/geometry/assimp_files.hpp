@@ -1,4 +1,4 @@
-// assimp opens only the files that may_be_opened_for the file that it reads.
+// assimp opens only files that own_folder.hpp allows: the file itself and regular files below its folder.
 //   Assimp::Importer importer;
 //   const OwnFolder& files = only_own_folder(importer, path);
 //   if (!importer.ReadFile(path, 0)) files.refuse_what_was_referred_to();

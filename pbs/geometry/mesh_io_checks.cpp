@@ -148,10 +148,11 @@ void check_boundary(const std::string& path, const MeshReading& reading)
 #ifdef PBS_WITH_CGAL
     const Triangles boundary = boundary_of(reading.mesh.tets);
     for (const auto& [a, b] : self_intersections(reading.mesh.rest, boundary)) {
-        bool touch = false;
+        bool were_split = false;
         for (const int of_a : boundary.row(a))
-            for (const int of_b : boundary.row(b)) touch = touch || reading.file_vertex[of_a] == reading.file_vertex[of_b];
-        if (touch && !reading.split_vertices.empty()) continue;
+            for (const int of_b : boundary.row(b))
+                were_split = were_split || (of_a != of_b && reading.file_vertex[of_a] == reading.file_vertex[of_b]);
+        if (were_split) continue;
         throw InputError(path, 0, "boundary", "vertex " + std::to_string(reading.file_vertex[boundary(a, 0)]),
                          "expected a surface that does not intersect itself; it does near this vertex: mesh the body anew (pbskin mesh)");
     }

@@ -12,7 +12,7 @@ std::vector<std::string> remarks_on(const std::string& path, const MeshReading& 
 
 // read_surface of a file that a user names, with its remarks: points that no triangle uses, triangles that are a line or a point, holes,
 // edges in three triangles or more, triangles that cross (checked in builds with CGAL), a surface inside out, and the size as above.
-SurfaceMesh read_surface(const std::string& path, std::vector<std::string>& remarks);
+SurfaceMesh read_surface(const std::string& path, std::vector<std::string>& remarks, double scale = 1.0);
 
 // For readers: remarks on a surface after its points were joined, and on what was left out of it.
 std::vector<std::string> remarks_on(const std::string& path, const SurfaceMesh& surface, int unused_points, int triangles_without_area);

@@ -33,7 +33,7 @@ struct SurfaceMeshing {
 // InputError where fewer than 150 vertices are requested; the surface has fewer than 4 triangles, a point that is not finite, an index out
 // of range or a diagonal below 1e-9 m; a surface that must be closed has no volume, or its wrap holds less than half or more than twice
 // what it encloses (an open sheet, triangles turned both ways); the wrap has another Euler number or leaves a point of `inside` outside; or
-// none of six attempts has the required quality. Also in a build without CGAL.
+// none of the attempts has the required quality. Also in a build without CGAL.
 TetMesh mesh_surface(const SurfaceMesh& surface, const SurfaceMeshing& options);
 
 // How far mesh_surface thickens a surface to both sides if it encloses no volume and need not be closed [m]; 0 if it encloses one.

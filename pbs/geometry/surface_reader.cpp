@@ -78,10 +78,11 @@ SurfaceMesh read_surface(const std::string& path, const std::string& mesh_name)
     return joined(path, checked_points(path, mesh_name));
 }
 
-SurfaceMesh read_surface(const std::string& path, std::vector<std::string>& remarks)
+SurfaceMesh read_surface(const std::string& path, std::vector<std::string>& remarks, double scale)
 {
     const IndexedPoints read = checked_points(path, "");
-    const SurfaceMesh surface = joined(path, read);
+    SurfaceMesh surface = joined(path, read);
+    surface.points *= scale;
     remarks = remarks_on(path, surface, unused_points(read), static_cast<int>(read.cells.rows() - surface.triangles.rows()));
     return surface;
 }

@@ -28,6 +28,11 @@ std::vector<double> numbers_of(const std::string& line, std::size_t count, const
     return numbers;
 }
 
+bool is_of_kind(const std::string& line, char kind)
+{
+    return line.size() > 1 && line[0] == kind && (line[1] == ' ' || line[1] == '\t');
+}
+
 }  // namespace
 
 TetMesh read_tobj(const std::string& path)
@@ -38,9 +43,9 @@ TetMesh read_tobj(const std::string& path)
     int number = 0;
     for (std::string line; std::getline(file, line);) {
         ++number;
-        if (line.starts_with("v ")) {
+        if (is_of_kind(line, 'v')) {
             for (const double coordinate : numbers_of(line, 3, path, number)) coordinates.push_back(coordinate);
-        } else if (line.starts_with("t ")) {
+        } else if (is_of_kind(line, 't')) {
             for (const double index : numbers_of(line, 4, path, number)) {
                 if (!(index >= 0.0 && index <= 2e9 && index == std::floor(index)))
                     throw InputError(path, number, "t", number_text(index, 12), "expected the number of a vertex, from 0");

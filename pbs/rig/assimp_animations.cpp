@@ -46,6 +46,7 @@ RigAnimation animation_of(const aiAnimation& source, unsigned index, const std::
     RigAnimation animation;
     animation.name = source.mName.length > 0 ? source.mName.C_Str() : "animation " + std::to_string(index);
     animation.start_s = std::numeric_limits<double>::max();
+    animation.end_s = std::numeric_limits<double>::lowest();
     for (unsigned c = 0; c < source.mNumChannels; ++c) {
         const aiNodeAnim& channel = *source.mChannels[c];
         const std::string name = channel.mNodeName.C_Str();
@@ -62,6 +63,7 @@ RigAnimation animation_of(const aiAnimation& source, unsigned index, const std::
             animation.start_s = std::min(animation.start_s, (*track)->times_s.front());
             animation.end_s = std::max(animation.end_s, (*track)->times_s.back());
         }
+        if (!tracks.translation && !tracks.rotation && !tracks.scale) continue;
         rig.nodes[node->second].rest.matrix.reset();
         animation.nodes.push_back(std::move(tracks));
     }
@@ -73,7 +75,11 @@ RigAnimation animation_of(const aiAnimation& source, unsigned index, const std::
 void add_assimp_animations(const aiScene& scene, Rig& rig)
 {
     std::map<std::string, int> node_named;
-    for (std::size_t n = rig.nodes.size(); n-- > 0;) node_named[rig.nodes[n].name] = static_cast<int>(n);
+    std::set<int> with_mesh;
+    for (const RigMesh& mesh : rig.meshes) with_mesh.insert(mesh.node);
+    for (const bool is_mesh : {true, false})  // of nodes with the same name, the one without a mesh, which is the joint
+        for (std::size_t n = rig.nodes.size(); n-- > 0;)
+            if ((with_mesh.count(static_cast<int>(n)) > 0) == is_mesh) node_named[rig.nodes[n].name] = static_cast<int>(n);
     for (unsigned a = 0; a < scene.mNumAnimations; ++a) {
         RigAnimation animation = animation_of(*scene.mAnimations[a], a, node_named, rig);
         if (!animation.nodes.empty()) rig.animations.push_back(std::move(animation));

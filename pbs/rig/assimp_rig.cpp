@@ -11,6 +11,7 @@
 #include <assimp/scene.h>
 #include <assimp/Importer.hpp>
 
+#include <cmath>
 #include <new>
 
 namespace pbs {
@@ -97,6 +98,10 @@ RigMesh mesh_of(const aiMesh& source, int node, const Nodes& nodes, Rig& rig)
     for (unsigned joint = 0; joint < source.mNumBones; ++joint)
         mesh.joints.push_back(
             {joint_named(source.mBones[joint]->mName.C_Str(), nodes, rig), to_eigen(source.mBones[joint]->mOffsetMatrix)});
+    for (const SkinJoint& joint : mesh.joints)
+        if (!(std::abs(joint.inverse_bind.linear().determinant()) > 0.0))
+            throw InputError(rig.file, 0, "mesh " + mesh.name + ", joint " + rig.nodes[joint.node].name + ", inverse bind matrix", "",
+                             "expected a matrix that has an inverse");
     if (!mesh.joints.empty()) mesh.skin = skin_of(source, rig);
     if (source.mNumAnimMeshes > 0)
         rig.remarks.push_back("mesh " + mesh.name + ": " + std::to_string(source.mNumAnimMeshes) + " morph targets are left out");

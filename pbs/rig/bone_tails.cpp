@@ -117,7 +117,7 @@ private:
         return bone.head + (farthest_m > same_place * extent_m_ ? share_to_farthest * farthest_m : share_of_parent * parent_m) * along;
     }
 
-    // Of the points that the bone moves more than all others together, or of all that it moves if there are none.
+    // Among the points that the bone moves more than all others together, or among all that it moves if there are none.
     double farthest_point(int b, const Vec3& along) const
     {
         double farthest_m = 0.0, farthest_of_any_m = 0.0;

@@ -37,6 +37,9 @@ KeyTrack track_of(const tinygltf::Model& model, const tinygltf::AnimationSampler
     for (Eigen::Index v = 0; v < values.rows(); ++v) {
         track.values.emplace_back(Eigen::Vector4d::Zero());
         track.values.back().head(components) = values.row(v).transpose();
+        const bool is_key = per_key == 1 || v % 3 == 1;  // between the tangents of a spline
+        if (components == 4 && is_key && !(track.values.back().norm() > 0.0))
+            throw InputError(path, 0, field + "/output, key " + std::to_string(v / per_key), "", "expected a quaternion that is not zero");
     }
     return track;
 }

@@ -61,7 +61,7 @@ private:
         return accessor_numbers(model_, found->second, components, rig_.file, field + "/attributes/" + name);
     }
 
-    // Of the primitive's indices, or of its vertices in their order.
+    // Takes the primitive's indices, or its vertices in their order.
     void add_triangles(const tinygltf::Primitive& primitive, int first, int points, const std::string& field)
     {
         std::vector<int> corners;

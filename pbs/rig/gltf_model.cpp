@@ -71,7 +71,10 @@ void read_gltf_model(const std::string& path, tinygltf::Model& model)
         bytes.rfind("glTF", 0) == 0
             ? loader.LoadBinaryFromMemory(&model, &error, &warning, reinterpret_cast<const unsigned char*>(bytes.data()), length, folder)
             : loader.LoadASCIIFromString(&model, &error, &warning, bytes.data(), length, folder);
-    if (!read) throw InputError(path, 0, "", "", "no glTF that tinygltf can read: " + one_line(error));
+    if (!read) {
+        require_known_extensions(model, path);  // which may be why
+        throw InputError(path, 0, "", "", "no glTF that tinygltf can read: " + one_line(error));
+    }
     if (model.asset.version.rfind("2.", 0) != 0) throw InputError(path, 0, "asset.version", model.asset.version, "expected 2.0");
     require_known_extensions(model, path);
 }

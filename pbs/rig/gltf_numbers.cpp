@@ -126,7 +126,7 @@ AccessorNumbers accessor_numbers(const tinygltf::Model& model, int accessor, int
         field.refuse(std::to_string(accessor), "expected an accessor of the file");
     const tinygltf::Accessor& from = model.accessors[accessor];
     if (tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(from.type)) != components)
-        field.refuse(std::to_string(accessor), "expected an accessor with " + std::to_string(components) + " numbers an element");
+        field.refuse(std::to_string(accessor), "expected an accessor with " + std::to_string(components) + " numbers per element");
     if (from.count > most_elements) field.refuse(std::to_string(from.count), "expected at most 100,000,000 elements");
 
     AccessorNumbers numbers = AccessorNumbers::Zero(static_cast<Eigen::Index>(from.count), components);  // of a purely sparse one

@@ -32,6 +32,11 @@ int carrier_of(int node, const std::set<int>& moving, const Rig& rig)
     return node;
 }
 
+double scale_of(const Eigen::Affine3d& affine)
+{
+    return std::cbrt(std::abs(affine.linear().determinant()));
+}
+
 Weights all_on_first_joint(Eigen::Index points)
 {
     Weights skin;
@@ -42,7 +47,7 @@ Weights all_on_first_joint(Eigen::Index points)
 }
 
 // A mesh without a skin as one with a single joint, its carrier.
-RigMesh hung_on(int carrier, RigMesh mesh, const std::vector<Eigen::Affine3d>& rest)
+RigMesh carried_by(int carrier, RigMesh mesh, const std::vector<Eigen::Affine3d>& rest)
 {
     mesh.joints = {{carrier, rest[carrier].inverse() * rest[mesh.node]}};
     mesh.skin = all_on_first_joint(mesh.points.rows());
@@ -57,20 +62,17 @@ std::vector<RigMesh> moved_meshes(const Rig& rig, const std::vector<Eigen::Affin
         const int carrier = mesh.joints.empty() ? carrier_of(mesh.node, moving, rig) : -1;
         if (!mesh.joints.empty())
             meshes.push_back(mesh);
+        else if (carrier >= 0 && !(scale_of(rest[carrier]) > 0.0))
+            remarks.push_back("mesh " + mesh.name + " is left out: its node " + rig.nodes[carrier].name + " has scale 0 at rest");
         else if (carrier >= 0)
-            meshes.push_back(hung_on(carrier, mesh, rest));
+            meshes.push_back(carried_by(carrier, mesh, rest));
         else if (moving.empty())
-            meshes.push_back(hung_on(mesh.node, mesh, rest));
+            meshes.push_back(carried_by(mesh.node, mesh, rest));
         else
             remarks.push_back("mesh " + mesh.name + " is moved by no joint; it is left out");
     }
     std::stable_sort(meshes.begin(), meshes.end(), [](const RigMesh& a, const RigMesh& b) { return a.points.rows() > b.points.rows(); });
     return meshes;
-}
-
-double scale_of(const Eigen::Affine3d& affine)
-{
-    return std::cbrt(std::abs(affine.linear().determinant()));
 }
 
 // The joint of a mesh that comes first in the tree: no other one is above it.

@@ -1,4 +1,4 @@
-// How the meshes of a rig hang on its nodes in the bind pose: the joints that move them, and one rest space for all of them.
+// How the meshes of a rig are attached to its nodes in the bind pose: the joints that move them, and one rest space for all of them.
 #pragma once
 
 #include "pbs/rig/rig.hpp"

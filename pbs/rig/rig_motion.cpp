@@ -2,21 +2,10 @@
 
 #include "pbs/rig/rig_pose.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 namespace pbs {
 namespace {
 
 constexpr double slack_s = 1e-6;  // times given in decimal are not refused for their last digit
-
-double rotation_between_deg(const Pose& a, const Pose& b)
-{
-    double largest = 0.0;
-    for (std::size_t bone = 0; bone < a.size(); ++bone)
-        largest = std::max(largest, Eigen::AngleAxisd(a[bone].linear().transpose() * b[bone].linear()).angle());
-    return largest * 180.0 / M_PI;
-}
 
 }  // namespace
 
@@ -29,8 +18,6 @@ RigMotion rig_motion(const Rig& rig, const RiggedBody& body, const RigAnimation&
     for (int step = 0; step <= frames * made.motion.steps_per_frame; ++step) {
         const double time_s = animation.start_s + sampling.start_s + step * sampling.time_step_s;
         made.motion.steps.push_back(rigid_pose(body, node_transforms(rig, &animation, time_s), &made.stretch));
-        made.largest_rotation_deg =
-            std::max(made.largest_rotation_deg, rotation_between_deg(made.motion.steps.front(), made.motion.steps.back()));
     }
     return made;
 }

@@ -8,8 +8,7 @@ namespace pbs {
 
 struct RigMotion {
     Motion motion;
-    double stretch = 0.0;               // the largest relative change of a length in a bone's transform, which is left out
-    double largest_rotation_deg = 0.0;  // of a bone, from the first frame to another one
+    double stretch = 0.0;  // the largest relative change of a length in a bone's transform, which is left out
 };
 
 // sampling.start_s is after the first key of the animation. InputErrors are those of motion_sampling.hpp.

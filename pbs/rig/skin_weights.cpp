@@ -10,7 +10,7 @@ namespace pbs {
 namespace {
 
 constexpr double sum_tolerance =
-    1e-3;  // weights of 8 bits, four a point, sum to one within 4/255 at worst and 1e-3 where they are rounded well
+    1e-3;  // weights of 8 bits, four per point, sum to one within 4/255 at worst and 1e-3 where they are rounded well
 
 }  // namespace
 

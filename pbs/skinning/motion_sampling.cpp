@@ -19,9 +19,9 @@ int steps_per_frame(const MotionSampling& sampling)
     if (!(sampling.time_step_s > 0.0)) throw InputError("", 0, "time_step_s", std::to_string(sampling.time_step_s), "expected a time > 0");
     const double steps = 1.0 / (sampling.rate_hz * sampling.time_step_s);
     if (!(std::round(steps) >= 1.0 && std::abs(steps - std::round(steps)) <= rounding * steps))
-        throw InputError("", 0, "rate_hz * time_step_s", std::to_string(1.0 / steps), "expected 1 / n: n steps a frame");
+        throw InputError("", 0, "rate_hz * time_step_s", std::to_string(1.0 / steps), "expected 1 / n: n steps per frame");
     if (steps > most_steps_per_frame)
-        throw InputError("", 0, "rate_hz * time_step_s", std::to_string(1.0 / steps), "expected at most 100000 steps a frame");
+        throw InputError("", 0, "rate_hz * time_step_s", std::to_string(1.0 / steps), "expected at most 100000 steps per frame");
     return static_cast<int>(std::round(steps));
 }
 

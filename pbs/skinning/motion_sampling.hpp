@@ -9,7 +9,7 @@ struct MotionSampling {
     double start_s = 0.0;
     double duration_s = 0.0;    // 0: to the end
     double rate_hz = 100.0;     // frames per second of the motion that is made, whatever the recorded rate
-    double time_step_s = 0.01;  // of Algorithm 1; rate_hz * time_step_s = 1 / n: n steps a frame
+    double time_step_s = 0.01;  // of Algorithm 1; rate_hz * time_step_s = 1 / n: n steps per frame
 };
 
 // n. InputErrors: a rate or a time step that is not positive; a product of the two that is not 1 / n with n from 1 to 100,000.

@@ -59,6 +59,10 @@ def times(document):
     return document["animations"][0]["samplers"][0]["input"]
 
 
+def rotations(document):
+    return document["animations"][0]["samplers"][0]["output"]
+
+
 def lines(document, _):
     document["meshes"][0]["primitives"][0]["mode"] = 1
 
@@ -73,6 +77,19 @@ def joint_that_is_no_node(document, _):
 
 def own_ancestor(document, _):
     document["nodes"][2]["children"] = [0]
+
+
+def draco_alone(document, _):
+    """The accessors of a compressed mesh have no data of their own."""
+    document.update(extensionsRequired=["KHR_draco_mesh_compression"], extensionsUsed=["KHR_draco_mesh_compression"])
+    for accessor in document["accessors"][:4]:
+        accessor.pop("bufferView")
+
+
+def animated_matrix(document, _):
+    node = document["nodes"][document["animations"][0]["channels"][0]["target"]["node"]]
+    x, y, z = node.pop("translation")
+    node["matrix"] = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, x, y, z, 1]
 
 
 def requires(extension):
@@ -102,6 +119,10 @@ def glbs():
     yield "time_that_goes_back", put(times, 0, struct.pack("<ff", 0.9, 0.1)), "samplers/0/input: expected times that do not go back"
     yield "node_that_is_its_own_ancestor", changed(own_ancestor), "nodes/0: is its own ancestor"
     yield "draco", requires("KHR_draco_mesh_compression"), "extensionsRequired = KHR_draco_mesh_compression" + UNSUPPORTED
+    yield "draco_alone", changed(draco_alone), "extensionsRequired = KHR_draco_mesh_compression" + UNSUPPORTED
+    yield "weights_all_zero", put(attribute("WEIGHTS_0"), 0, bytes(16 * 402)), "weights = 0: expected a point with a weight"
+    yield "animated_matrix", changed(animated_matrix), "channels/0/target/node = 1: expected a node without a matrix"
+    yield "quaternion_of_zero", put(rotations, 0, bytes(16)), "samplers/0/output, key 0: expected a quaternion that is not zero"
     yield "unknown_extension", requires("ACME_gloves"), "extensionsRequired = ACME_gloves" + UNSUPPORTED
 
 
@@ -120,7 +141,8 @@ def options():
     yield "few_vertices", ["--vertices", "10"], "--vertices: Value 10 not in range 150 to"
     for scale in ("0", "nan", "-1", "inf", "1e-300", "1e300"):
         yield f"scale_{scale}", ["--scale", scale], f"--scale = {scale.replace('1e300', '1e+300')}: expected a number from 1e-6 to 1e6"
-    yield "another_skeleton", ["--skeleton", "none.toml"], "none.toml: no such file"
+    yield "a_skeleton_that_is_not_there", ["--skeleton", "none.toml"], "none.toml: no such file"
+    yield "another_skeleton", ["--skeleton", "human"], "hero.glb: skins: the model has joints of its own"
     yield "output_under_a_file", ["-o", "hero.glb/out"], "hero.glb/out: the output folder cannot be made: Not a directory"
 
 

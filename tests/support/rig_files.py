@@ -135,9 +135,9 @@ def without_tip(weights):
 
 
 def add_bead(gltf, unit):
-    """A bead of 8 mm at the end of the tube, which alone follows the tip."""
+    """A bead of 8 mm on the axis of the tube, far from its skin, which alone follows the tip."""
     points, triangles = tube()
-    points = 0.008 * points + numpy.array([LENGTH + 0.3 * RADIUS, 0.0, 0.0])
+    points = 0.008 * points + numpy.array([0.6 * LENGTH, 0.0, 0.0])
     mesh = add_mesh(gltf, points, triangles, numpy.tile([0.0, 0.0, 1.0], (len(points), 1)), unit, False)
     gltf.document["scenes"][0]["nodes"].append(gltf.node(name="bead", mesh=mesh, skin=0))
 
@@ -167,7 +167,8 @@ def rig(containers=(), unit=1.0, compact=False, halves=1, rest_deg=0.0, mesh_nam
 
     containers: transforms of the nodes above the root joint, outermost first. unit: metres per unit of the points and joints. rest_deg:
     angle of the elbow in the file's rest pose, which then is not the bind pose. extra: further animations, as add_animation takes them.
-    shifted_m: distance of the joints from the tube. first_deg: angle of the elbow in the first frame. tiny_tip: the tip moves a bead alone.
+    shifted_m: distance of the joints from the tube. first_deg: angle of the elbow in the first frame. tiny_tip: the tip
+    moves a bead inside the tube alone.
     """
     gltf = Gltf()
     parents = []

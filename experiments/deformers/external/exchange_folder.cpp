@@ -53,8 +53,9 @@ nlohmann::json character_json(const pbs::Character& character, std::size_t poses
             {"bones", bones}};
 }
 
-// Dense, #V x #bones.
-std::vector<double> dense(const pbs::Weights& weights, std::size_t bones)
+}  // namespace
+
+std::vector<double> dense_weights(const pbs::Weights& weights, std::size_t bones)
 {
     std::vector<double> rows(static_cast<std::size_t>(weights.vertices()) * bones, 0.0);
     for (int v = 0; v < weights.vertices(); ++v)
@@ -63,25 +64,26 @@ std::vector<double> dense(const pbs::Weights& weights, std::size_t bones)
     return rows;
 }
 
-// The upper three rows of each bone's transform.
-std::vector<double> flat(const std::vector<pbs::Pose>& poses)
+std::vector<double> transform_rows(const pbs::Pose& pose)
 {
     std::vector<double> numbers;
-    for (const pbs::Pose& pose : poses)
-        for (const Eigen::Isometry3d& bone : pose)
-            for (int row = 0; row < 3; ++row)
-                for (int column = 0; column < 4; ++column) numbers.push_back(bone.matrix()(row, column));
+    for (const Eigen::Isometry3d& bone : pose)
+        for (int row = 0; row < 3; ++row)
+            for (int column = 0; column < 4; ++column) numbers.push_back(bone.matrix()(row, column));
     return numbers;
 }
-
-}  // namespace
 
 void write_exchange(const std::string& folder, const pbs::Character& character, const std::vector<pbs::Pose>& poses, double time_step_s)
 {
     const pbs::TetMesh& mesh = character.mesh;
     write_numbers(folder + "/rest.f64", mesh.rest.data(), static_cast<std::size_t>(mesh.rest.size()));
     write_numbers(folder + "/tets.i32", mesh.tets.data(), static_cast<std::size_t>(mesh.tets.size()));
-    const std::vector<double> weights = dense(character.weights, character.skeleton.bones.size()), transforms = flat(poses);
+    const std::vector<double> weights = dense_weights(character.weights, character.skeleton.bones.size());
+    std::vector<double> transforms;
+    for (const pbs::Pose& pose : poses) {
+        const std::vector<double> rows = transform_rows(pose);
+        transforms.insert(transforms.end(), rows.begin(), rows.end());
+    }
     write_numbers(folder + "/weights.f64", weights.data(), weights.size());
     write_numbers(folder + "/poses.f64", transforms.data(), transforms.size());
     pbs::write_atomically(folder + "/character.json", analysis::record_text(character_json(character, poses.size(), time_step_s)));

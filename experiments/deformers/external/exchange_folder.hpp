@@ -1,4 +1,4 @@
-// The files by which pbskin and an external program talk. README.md of this folder specifies them.
+// The files through which pbskin and an external program exchange data. README.md of this folder specifies them.
 #pragma once
 
 #include "pbs/character/character.hpp"
@@ -9,6 +9,12 @@
 #include <vector>
 
 namespace experiments {
+
+// The weights as a dense array by rows, #V x #bones.
+std::vector<double> dense_weights(const pbs::Weights& weights, std::size_t bones);
+
+// The upper three rows of each bone's transform, #bones x 3 x 4.
+std::vector<double> transform_rows(const pbs::Pose& pose);
 
 // character.json, rest.f64, tets.i32, weights.f64 and poses.f64. Numbers are little-endian, arrays by rows.
 void write_exchange(const std::string& folder, const pbs::Character& character, const std::vector<pbs::Pose>& poses, double time_step_s);

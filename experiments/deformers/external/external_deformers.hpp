@@ -3,18 +3,20 @@
 
 #include "experiments/deformers/deformer.hpp"
 
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
 namespace experiments {
 
-// Of an [[external]] table: either a command or a library.
+// The options of an [[external]] table, which has either a command or a library.
 struct ExternalOptions {
-    std::vector<std::string> command = {};  // the program and its arguments, files with their absolute paths
-    std::string library = {};               // path
-    bool has_memory = false;                // it gets every time step, not only the frames
-    std::string scene = {}, name = {};      // the scene file with the table, and the deformer's name there, for messages
+    std::vector<std::string> command = {};                // the program and its arguments, files with their absolute paths
+    std::string library = {};                             // path
+    bool has_memory = false;                              // it gets every time step, not only the frames
+    std::map<std::string, std::string> file_hashes = {};  // of the command's files or the library, by name
+    std::string scene = {}, name = {};                    // the scene file with the table, and the deformer's name there, for messages
 };
 
 // Throws the InputError `SCENE: NAME.KEY = VALUE: RULE`; the key is command or library.

@@ -2,9 +2,13 @@
 #include "experiments/deformers/external/external_deformers.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/settings/scene_values.hpp"
+#include "pbs/character/body_cache.hpp"
+#include "pbs/character/input_file.hpp"
 #include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/text_file.hpp"
 
 #include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
 #include <filesystem>
 
@@ -42,13 +46,23 @@ void read_external(const SceneValues& values, const std::string& table, Deformer
     options.name = spec.name;
     if (options.command.empty() == options.library.empty()) values.refuse(table + ".command", "expected either a command or a library");
     if (!options.library.empty()) options.library = fs::absolute(folder / options.library).string();
+    std::vector<std::string> files = options.command;
+    files.push_back(options.library);
+    for (const std::string& file : files)
+        if (fs::path(file).is_absolute() && fs::is_regular_file(file))
+            options.file_hashes[pbs::file_name(file)] = pbs::content_hash(pbs::read_text_file(file, pbs::most_mesh_bytes));
     spec.options = options;
 }
 
 nlohmann::json external_json(const DeformerSpec& spec)
 {
     const auto& options = options_of<ExternalOptions>(spec);
-    return {{"command", options.command}, {"library", options.library}, {"has_memory", options.has_memory}};
+    std::vector<std::string> words;
+    for (const std::string& word : options.command) words.push_back(fs::path(word).is_absolute() ? pbs::file_name(word) : word);
+    return {{"command", words},
+            {"library", pbs::file_name(options.library)},
+            {"has_memory", options.has_memory},
+            {"file_hashes", options.file_hashes}};
 }
 
 }  // namespace

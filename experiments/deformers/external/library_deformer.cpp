@@ -1,5 +1,6 @@
 #include "experiments/deformers/external/external_deformers.hpp"
 
+#include "experiments/deformers/external/exchange_folder.hpp"
 #include "experiments/deformers/external/pbskin_deformer.h"
 #include "pbs/geometry/stopwatch.hpp"
 
@@ -32,11 +33,8 @@ public:
     {
         release();
         const std::size_t bones = character.skeleton.bones.size();
-        std::vector<double> weights(static_cast<std::size_t>(character.mesh.rest.rows()) * bones, 0.0), ends;
-        for (int v = 0; v < character.weights.vertices(); ++v)
-            for (int e = character.weights.first[v]; e < character.weights.first[v + 1]; ++e)
-                weights[static_cast<std::size_t>(v) * bones + static_cast<std::size_t>(character.weights.bone[e])] +=
-                    character.weights.weight[e];
+        const std::vector<double> weights = dense_weights(character.weights, bones);
+        std::vector<double> ends;
         std::vector<int> parents;
         for (const pbs::Bone& bone : character.skeleton.bones) {
             ends.insert(ends.end(), bone.head.begin(), bone.head.end());
@@ -61,10 +59,7 @@ public:
 
     pbs::StepSummary advance(const pbs::Pose& pose, double dt_s) override
     {
-        std::vector<double> transforms;
-        for (const Eigen::Isometry3d& bone : pose)
-            for (int row = 0; row < 3; ++row)
-                for (int column = 0; column < 4; ++column) transforms.push_back(bone.matrix()(row, column));
+        const std::vector<double> transforms = transform_rows(pose);
         const pbs::Stopwatch stopwatch;
         const int status = advance_(deformer_, transforms.data(), dt_s, positions_.data());
         pbs::StepSummary summary;
@@ -73,8 +68,6 @@ public:
         if (!positions_.allFinite()) summary.outcome = pbs::Outcome::not_finite;
         return summary;
     }
-
-    nlohmann::json record() const override { return {{"library", options_.library}}; }
 
 private:
     template <typename Function>

@@ -9,14 +9,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace experiments {
 namespace {
 
 bool same(const pbs::Pose& a, const pbs::Pose& b)
 {
-    for (std::size_t bone = 0; bone < a.size(); ++bone)
-        if (a[bone].matrix() != b[bone].matrix()) return false;
-    return a.size() == b.size();
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [](const Eigen::Isometry3d& one, const Eigen::Isometry3d& other) { return one.matrix() == other.matrix(); });
 }
 
 // How a program failed, with the last line that it printed: of a Python program, that is the exception.
@@ -67,7 +68,7 @@ public:
         return summary;
     }
 
-    nlohmann::json record() const override { return {{"command", options_.command}, {"own_times", done_.seconds.has_value()}}; }
+    nlohmann::json record() const override { return {{"own_times", done_.seconds.has_value()}}; }
 
 private:
     void run(double dt_s)

@@ -4,8 +4,13 @@ import json
 import os
 import unittest
 
+import numpy
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
+
 import program
 import rig_files
+import skin_formula
 
 CLIP = """HIERARCHY
 ROOT %s
@@ -28,6 +33,13 @@ def clip(names):
     return CLIP % (names[0], inner, frames)
 
 
+def points_of(file):
+    reader = vtkXMLPolyDataReader()
+    reader.SetFileName(file)
+    reader.Update()
+    return vtk_to_numpy(reader.GetOutput().GetPoints().GetData())
+
+
 class OwnCharacter(program.ProgramTest):
     def rig(self, variant="plain", **options):
         if not options:
@@ -48,9 +60,11 @@ class OwnCharacter(program.ProgramTest):
         return process.stderr
 
     def warned(self, facts, printed, words):
-        """In the terminal, in try.json and in the page; those of the run itself in run.json too."""
+        """In the terminal, in run.json, in try.json and in the page."""
         self.assertIn(words, printed)
         self.assertTrue(any(words in warning for warning in facts["warnings"]), facts["warnings"])
+        recorded = json.loads(self.read("out", "run.json"))["outcome"]["warnings"]
+        self.assertTrue(any(words in warning for warning in recorded), recorded)
         self.assertIn(words, self.read("out", "report.html"))
 
     # Errors that once had no message.
@@ -67,8 +81,13 @@ class OwnCharacter(program.ProgramTest):
 
     def test_the_artists_weights_are_the_default(self):
         self.tried(self.rig())
-        run = json.loads(self.read("out", "run.json"))
-        self.assertNotEqual(run["state_hash"]["lbs"], run["state_hash"]["lbs_paper"])
+        for name, weights in (("default", ""), ("artist", 'weights = "artist"\n'), ("paper", 'weights = "paper"\n')):
+            scene = self.read("out", "scene.toml") + f"[skinning]\n{weights}"
+            self.succeeds("run", self.write(os.path.join("out", f"{name}.toml"), scene), "-o", self.path(name))
+        default, artist, paper = (json.loads(self.read(name, "run.json"))["state_hash"] for name in ("default", "artist", "paper"))
+        self.assertEqual(default, artist)
+        self.assertEqual(paper["lbs"], default["lbs_paper"])
+        self.assertNotEqual(default["lbs"], default["lbs_paper"])
 
     def test_the_bind_pose_is_the_rest_pose(self):
         facts, _ = self.tried(self.rig("bind_pose_is_not_rest"))
@@ -141,10 +160,36 @@ class OwnCharacter(program.ProgramTest):
         first, again = (json.loads(self.read(folder, "run.json"))["state_hash"] for folder in ("out", "again"))
         self.assertEqual(first, again)
 
+    def test_a_scene_that_was_changed_is_not_replaced(self):
+        self.tried(self.rig())
+        self.tried(self.rig(), "--allow-partial")  # the scene of a trial is
+        with open(self.path("out", "scene.toml"), "a", encoding="utf-8") as file:
+            file.write("# my own line")
+        self.assertIn("expected another folder", self.refused("try", self.rig(), "-o", self.path("out"), "--no-reference"))
+        self.assertIn("# my own line", self.read("out", "scene.toml"))
+
+    def test_a_model_with_joints_takes_no_other_skeleton(self):
+        self.assertIn("joints of its own", self.refused("try", self.rig(), "--skeleton", "human", "-o", self.path("out")))
+
+    def test_a_joint_that_only_moves_along_is_no_warning(self):
+        slide = [(2, "translation", [0.0, 1.0], [[0.35, 0, 0], [0.45, 0, 0]], "LINEAR")]
+        facts, _ = self.tried(self.rig(animations=(), extra=[("Slide", slide)]))
+        self.assertFalse(any("no joint moves" in warning for warning in facts["warnings"]), facts["warnings"])
+
     def test_the_surface_is_written_as_a_file_that_others_open(self):
         facts, _ = self.tried(self.rig())
-        self.assertGreater(os.path.getsize(self.path("out", "frames", "pbs.glb")), 1000)
         self.assertEqual(facts["frames"], 3)
+        model = skin_formula.Model(self.path("out", "frames", "pbs.glb"))
+        primitive = model.document["meshes"][0]["primitives"][0]
+        first = model.numbers(primitive["attributes"]["POSITION"])
+        changes = [numpy.zeros_like(first), *(model.numbers(target["POSITION"]) for target in primitive["targets"])]
+        self.assertEqual(len(changes), 3)
+        weights = model.numbers(model.document["animations"][0]["samplers"][0]["output"])
+        self.assertEqual(weights.reshape(3, 2).tolist(), [[0, 0], [1, 0], [0, 1]])
+        for frame, change in enumerate(changes):
+            points = first + change
+            expected = points_of(self.path("out", "frames", f"pbs_surface_{frame:06}.vtp"))
+            self.assertLess(abs(points - expected).max(), 1e-6)  # single precision, 1 m
 
 
 if __name__ == "__main__":

@@ -4,6 +4,8 @@ their numbers."""
 import glob
 import os
 import unittest
+import xml.etree.ElementTree
+import zipfile
 
 import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
@@ -34,6 +36,10 @@ metrics = []
 FRAMES = 5
 INSTALLED = "/usr/share/assimp/models"
 SIMPLE_SKIN, FBX_SKIN = f"{INSTALLED}/glTF2/simple_skin/simple_skin.gltf", f"{INSTALLED}/FBX/animation_with_skeleton.fbx"
+HUMAN, CLIP = f"{INSTALLED}/Collada/human.zae", f"{INSTALLED}/BVH/01_01.bvh"
+
+
+SHIFTS = [numpy.array([x, y, z]) for x in (-1, 0, 1) for y in (-1, 0, 1) for z in (-1, 0, 1)]  # to the neighbours in a grid
 
 
 def points_of(file):
@@ -94,6 +100,39 @@ class ArtistSkin(SkinTest):
     @unittest.skipUnless(os.path.exists(SIMPLE_SKIN), "assimp-testmodels is not installed")
     def test_simple_skin(self):
         self.compare(SIMPLE_SKIN)
+
+
+def collada_points(path):
+    """The positions of all geometries of a .zae whose nodes have identity transforms and whose unit is the metre, #P x 3."""
+    space = "{http://www.collada.org/2005/11/COLLADASchema}"
+    with zipfile.ZipFile(path) as archive:
+        root = xml.etree.ElementTree.fromstring(archive.read(next(name for name in archive.namelist() if name.endswith(".dae"))))
+    identity = numpy.eye(4).ravel().tolist()
+    assert all([float(x) for x in matrix.text.split()] == identity for matrix in root.iter(f"{space}matrix"))
+    assert float(root.find(f"{space}asset/{space}unit").get("meter")) == 1.0
+    points = []
+    for mesh in root.iter(f"{space}mesh"):
+        source = mesh.find(f"{space}vertices/{space}input[@semantic='POSITION']").get("source")[1:]
+        array = mesh.find(f"{space}source[@id='{source}']/{space}float_array")
+        points.append(numpy.array(array.text.split(), dtype=float).reshape(-1, 3))
+    return numpy.concatenate(points)
+
+
+@unittest.skipUnless(os.path.exists(HUMAN), "assimp-testmodels is not installed")
+class Human(program.ProgramTest):
+    """MakeHuman's body as its authors export it: a surface without joints, which takes the skeleton of the body `human`."""
+
+    def test_the_surface_at_rest_is_that_of_the_file_and_the_clip_moves_it(self):
+        self.succeeds("try", HUMAN, "--skeleton", "human", "--animation", CLIP, "-o", self.path("out"), "--no-reference", "--frames", "3")
+        expected = collada_points(HUMAN)
+        found = points_of(self.path("out", "surface_rest.vtp"))
+        tolerance = 1e-6 * numpy.linalg.norm(numpy.ptp(expected, axis=0))
+        rounded = {tuple(numpy.rint(point / tolerance / 4)) for point in expected}
+        near = [any(tuple(numpy.rint(point / tolerance / 4) + shift) in rounded for shift in SHIFTS) for point in found]
+        self.assertTrue(all(near))
+        self.assertGreaterEqual(len(found), 0.95 * len(expected))  # some points belong to no triangle
+        moved = points_of(self.path("out", "frames", "pbs_surface_000002.vtp"))
+        self.assertGreater(abs(moved - found).max(), 0.1)
 
 
 def add_variant(variant):

@@ -1,5 +1,5 @@
 /* A deformer for pbskin as a shared library: each vertex follows the bone with its largest weight.
-     cc -O2 -shared -fPIC rigid_skinning.c -o librigid_skinning.so */
+     cc -O2 -shared -fPIC -I .. rigid_skinning.c -o librigid_skinning.so */
 #include "pbskin_deformer.h"
 
 #include <stdlib.h>

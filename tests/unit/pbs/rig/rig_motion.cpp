@@ -34,12 +34,6 @@ TEST_F(RigMotionOfAnElbow, HasAPosePerTimeStepFromTheFirstKeyToTheLast)
     }
 }
 
-TEST_F(RigMotionOfAnElbow, ReportsTheLargestRotationFromTheFirstFrame)
-{
-    EXPECT_NEAR(motion({.duration_s = 0.5, .rate_hz = 4.0, .time_step_s = 0.25}).largest_rotation_deg, 90.0, 1e-6);
-    EXPECT_NEAR(motion({.start_s = 0.25, .duration_s = 0.25, .rate_hz = 4.0, .time_step_s = 0.25}).largest_rotation_deg, 45.0, 1e-6);
-}
-
 TEST_F(RigMotionOfAnElbow, BeginsAfterTheFirstKeyWhereverThatIs)
 {
     rig.animations[0].nodes[0].rotation->times_s = {10.0, 11.0};
