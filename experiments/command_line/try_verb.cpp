@@ -96,7 +96,8 @@ void add_try_verb(CLI::App& app, CommonOptions& common, VerbAction& action)
     verb->add_option("--skeleton", options->skeleton, "skeleton of a model without joints: a file, or human");
     verb->add_option("--scale", options->scale, "enlarges the model, for files that state a wrong unit");
     verb->add_flag("--allow-partial", options->allow_partial, "accepts a clip of which fewer than half of the moving joints match a bone");
-    verb->add_flag("!--no-reference", options->reference, "leaves out the finite elements, which take most of the time");
+    verb->add_flag_callback(
+        "--no-reference", [options] { options->reference = false; }, "leaves out the finite elements, which take most of the time");
     verb->callback([&action, &common, options] { action = [&common, options] { return try_model(*options, common); }; });
 }
 

@@ -33,7 +33,9 @@ std::string in_folder(const std::string& folder, const std::string& path)
 {
     if (path.empty() || fs::path(path).is_absolute()) return path;
     const fs::path file = fs::path(folder) / path;
-    return path.rfind("..", 0) == 0 ? fs::weakly_canonical(file).string() : file.string();
+    if (path.rfind("..", 0) != 0) return file.string();
+    const fs::path whole = fs::weakly_canonical(file), from_here = whole.lexically_proximate(fs::current_path());
+    return (from_here.string().rfind("..", 0) == 0 ? whole : from_here).string();
 }
 
 // One of the three: a body, a model, mesh and skeleton files.

@@ -69,8 +69,8 @@ Character make_model_character(const ModelSource& source, std::vector<std::strin
         throw InputError(source.file, 0, "skins", "0",
                          "the file has no joints: expected a skeleton (character.skeleton in a scene, --skeleton of `pbskin try`)");
     if (rigged && !source.skeleton.bones.empty())
-        throw InputError(source.file, 0, "skins", "",
-                         "the model has joints of its own: expected no other skeleton (character.skeleton, --skeleton)");
+        throw InputError(source.file, 0, "joints of the skins", std::to_string(body.skeleton.bones.size()),
+                         "expected no other skeleton (character.skeleton, --skeleton): the model has joints of its own");
 
     const auto hashed = input.hashed();
     std::string made_from = std::to_string(model_version) + "|" + number_text(source.scale, 17) + "|" + source.animation + "|";

@@ -124,6 +124,6 @@ def cases():
                    ("bad.bvh", words))
     for name, setting, words in (("start_after_the_end", "motion.start_s=99", "start_s = 99.000000: the clip lasts"),
                                  ("duration_beyond_the_end", "motion.duration_s=99", "duration_s = 99.000000: the clip ends at"),
-                                 ("rate_of_a_million_steps", "motion.rate_hz=0.001", "expected at most 100000 steps a frame")):
+                                 ("rate_of_a_million_steps", "motion.rate_hz=0.001", "expected at most 100000 steps per frame")):
         yield Case(f"clip {name}", {}, ["run", "clip.toml", "-o", "out", "--set", setting,
                                         *(["--set", "pbs.time_step_s=1e-9"] if "million" in name else [])], (words,))

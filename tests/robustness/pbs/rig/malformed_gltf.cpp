@@ -99,7 +99,7 @@ const MalformedGltf malformed_meshes[] = {
      attributes + "WEIGHTS_0 = 70: ", "an accessor of the file"},
     {"indices_out_of_range", [](auto& gltf) { primitive(gltf)["indices"] = 70; }, "no glTF that tinygltf can read: ", "indices"},
     {"points_as_scalars", [](auto& gltf) { primitive(gltf)["attributes"]["POSITION"] = 1; },
-     attributes + "POSITION = 1: ", "3 numbers an element"},
+     attributes + "POSITION = 1: ", "3 numbers per element"},
     {"no_weights", [](auto& gltf) { primitive(gltf)["attributes"].erase("WEIGHTS_0"); }, attributes + "WEIGHTS_0: ", "missing"},
     {"negative_weight",
      [](auto& gltf) {
@@ -136,7 +136,7 @@ const MalformedGltf malformed_skins[] = {
     {"fewer_matrices_than_joints", [](auto& gltf) { gltf.json["accessors"][4]["count"] = 1; },
      "skins/0/inverseBindMatrices = 1: ", "one per joint"},
     {"matrices_as_vectors", [](auto& gltf) { gltf.json["skins"][0]["inverseBindMatrices"] = 3; },
-     "skins/0/inverseBindMatrices = 3: ", "16 numbers an element"},
+     "skins/0/inverseBindMatrices = 3: ", "16 numbers per element"},
     {"singular_matrix", [](auto& gltf) { gltf.json["skins"][0]["inverseBindMatrices"] = gltf.template put<float>("MAT4", two_binds(0)); },
      "skins/0/inverseBindMatrices = 1: ", "matrices that can be inverted"},
     {"matrix_nan",

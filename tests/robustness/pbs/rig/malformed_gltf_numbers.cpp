@@ -111,7 +111,7 @@ TEST(MalformedAnimations, AreRefusedByFieldAndRule)
                         field + "samplers/0/interpolation = BEZIER: ", "expected LINEAR, STEP or CUBICSPLINE");
     expect_gltf_refused([&](auto& gltf) { sampler(gltf)["interpolation"] = "CUBICSPLINE"; },
                         field + "samplers/0/output = 2: ", "expected 6 for 2 keys");
-    expect_gltf_refused([&](auto& gltf) { sampler(gltf)["output"] = 0; }, field + "samplers/0/output = 0: ", "4 numbers an element");
+    expect_gltf_refused([&](auto& gltf) { sampler(gltf)["output"] = 0; }, field + "samplers/0/output = 0: ", "4 numbers per element");
     expect_gltf_refused(
         [&](auto& gltf) {
             sampler(gltf)["input"] = gltf.template put<float>("SCALAR", {1, 0});

@@ -66,8 +66,9 @@ TEST_F(MotionCase, AMotionInWhichNothingTurnsIsRemarkedOn)
     MotionSpec sweep;
     sweep.joint = "forearm";
     sweep.angle_deg = 0.05;
-    sweep.frames = 2;
-    EXPECT_EQ(made(sweep).remarks, std::vector<std::string>{"scene.toml: no joint moves: the bones turn by at most 0.05 degrees"});
+    sweep.frames = 2;  // about the axis of the bone
+    EXPECT_EQ(made(sweep).remarks,
+              std::vector<std::string>{"scene.toml: no joint moves: the bones turn by at most 0.05 degrees and move by at most 0 m"});
     sweep.angle_deg = 0.2;
     EXPECT_TRUE(made(sweep).remarks.empty());
 }
@@ -95,10 +96,10 @@ TEST_F(MotionCase, AClipThatMatchesInPartNamesTheOthers)
 TEST_F(MotionCase, AClipThatMatchesLessThanHalfIsRefusedUnlessItIsAllowed)
 {
     MotionSpec walk = clip({"upper", "forearm", "a", "b", "c", "d", "e", "f", "g", "h"});
-    expect_input_error(
-        [&] { made(walk); }, walk.clip + ": joints = 2 of 10 moving joints: ",
-        "expected at least one half to match a bone of the character (--allow-partial accepts fewer); without a bone: a, b, c, d, "
-        "e, f and 2 others");
+    expect_input_error([&] { made(walk); }, walk.clip + ": joints = 2 of 10 moving joints: ",
+                       "expected at least one half to match a bone of the character (motion.allow_partial = true in the scene, or "
+                       "--allow-partial of `pbskin try`, accepts fewer); without a bone: a, b, c, d, "
+                       "e, f and 2 others");
     walk.allow_partial = true;
     EXPECT_EQ(made(walk).matched_joints, 2);
     walk = clip({"upper", "forearm", "a", "b", "c"});

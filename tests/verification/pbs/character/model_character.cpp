@@ -112,7 +112,7 @@ TEST_F(ModelCharacter, PartsWithoutABoneAreLeftOutWithARemark)
 TEST_F(ModelCharacter, WithoutJointsNeedsASkeleton)
 {
     expect_input_error([&] { made_from(folder, ellipsoid_document(0, false), remarks); },
-                       (folder / "hero.gltf") + ": skins = 0: ", "expected a skeleton beside it");
+                       (folder / "hero.gltf") + ": skins = 0: ", "expected a skeleton (character.skeleton");
 }
 
 TEST(ReadModel, ChoosesTheAnimationByNameAndAppliesTheScale)
