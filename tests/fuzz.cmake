@@ -9,7 +9,7 @@ find_package(tomlplusplus REQUIRED)
 find_package(nlohmann_json REQUIRED)
 
 # fuzz_target(fuzz/NAME.cpp LIBRARY SOURCE...): a target and the sources that it tests. The replay links the library. libFuzzer's program
-# compiles the sources itself, so that all of them are instrumented.
+# compiles the sources itself, so that all of them are instrumented, without those that use CGAL.
 function(fuzz_target target library)
     cmake_path(GET target STEM name)
     set(folders ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/corpus/${name})
@@ -26,7 +26,7 @@ function(fuzz_target target library)
         add_executable(fuzz_${name} ${target} ${ARGN})
         target_link_libraries(fuzz_${name} PRIVATE pbs_settings fmt::fmt tomlplusplus::tomlplusplus nlohmann_json::nlohmann_json)
         set_target_properties(fuzz_${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
-        target_compile_options(fuzz_${name} PRIVATE -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=undefined)
+        target_compile_options(fuzz_${name} PRIVATE -UPBS_WITH_CGAL -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=undefined)
         target_link_options(fuzz_${name} PRIVATE -fsanitize=fuzzer,address,undefined)
     endif()
 endfunction()
@@ -38,14 +38,14 @@ fuzz_target(fuzz/scene.cpp experiments
     pbs/geometry/nearest_name.cpp pbs/geometry/input_error.cpp)
 fuzz_target(fuzz/mesh.cpp pbs_mesh_io
     pbs/geometry/guarded_reading.cpp pbs/geometry/isolated_reader.cpp pbs/geometry/reading_limits.cpp pbs/geometry/mesh_io_checks.cpp
-    pbs/geometry/mesh_io_files.cpp pbs/geometry/text_file.cpp pbs/geometry/tet_volume.cpp pbs/geometry/topology.cpp
-    pbs/geometry/input_error.cpp)
+    pbs/geometry/mesh_io_files.cpp pbs/geometry/mesh_repair.cpp pbs/geometry/text_file.cpp pbs/geometry/tet_volume.cpp
+    pbs/geometry/topology.cpp pbs/geometry/input_error.cpp)
 fuzz_target(fuzz/skeleton.cpp pbs_character
     pbs/character/skeleton_file.cpp pbs/character/skeleton_order.cpp pbs/geometry/text_file.cpp pbs/geometry/toml_text.cpp
     pbs/geometry/nearest_name.cpp pbs/geometry/input_error.cpp)
 fuzz_target(fuzz/clip.cpp pbs_character
     pbs/character/clip_bytes.cpp pbs/character/retarget.cpp pbs/character/retarget_plan.cpp pbs/character/joint_map.cpp
-    pbs/skinning/pose.cpp pbs/skinning/skeleton.cpp pbs/geometry/input_error.cpp)
+    pbs/skinning/motion_sampling.cpp pbs/skinning/pose.cpp pbs/skinning/skeleton.cpp pbs/geometry/input_error.cpp)
 fuzz_target(fuzz/rig.cpp pbs_rig
     pbs/rig/bone_tails.cpp pbs/rig/gltf_animations.cpp pbs/rig/gltf_meshes.cpp pbs/rig/gltf_model.cpp pbs/rig/gltf_numbers.cpp
     pbs/rig/gltf_rig.cpp pbs/rig/rig_binding.cpp pbs/rig/rig_bytes.cpp pbs/rig/rig_motion.cpp pbs/rig/rig_pose.cpp pbs/rig/rigged_body.cpp

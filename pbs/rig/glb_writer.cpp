@@ -113,11 +113,18 @@ void add_animation(const std::vector<double>& times_s, GlbModel& glb)
     glb.model.animations.push_back(animation);
 }
 
+constexpr double most_glb_bytes = 4.2e9;  // its lengths have 32 bits; some room for the description
+
 }  // namespace
 
 void write_glb(const std::string& path, const std::string& name, const Triangles& triangles, const std::vector<double>& times_s,
                const std::vector<Positions>& frames)
 {
+    const auto count = static_cast<double>(frames.size()), numbers = static_cast<double>(frames.front().size());
+    const double bytes_needed = 4.0 * count * (numbers + count);  // the points, and a weight per frame and target
+    if (bytes_needed > most_glb_bytes)
+        throw InputError(path, 0, "frames", std::to_string(frames.size()),
+                         "expected fewer: a .glb file is limited to 4 GiB (output.frames_every writes fewer frames)");
     GlbModel glb;
     add_mesh(name, triangles, frames, glb);
     if (frames.size() > 1) add_animation(times_s, glb);

@@ -10,7 +10,8 @@
 namespace pbs {
 
 // frames: points [m], #frames of #S x 3, 1 or more; times_s: of the frames, ascending. Between frames the points move linearly. Coordinates
-// are stored in single precision, as glTF defines. An InputError where the file cannot be written.
+// are stored in single precision, as glTF defines. An InputError where the file would be larger
+// than 4 GiB or cannot be written.
 void write_glb(const std::string& path, const std::string& name, const Triangles& triangles, const std::vector<double>& times_s,
                const std::vector<Positions>& frames);
 
