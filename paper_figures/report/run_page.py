@@ -27,7 +27,9 @@ class RunRecords:
 
     @property
     def name(self):
-        return self.record["scene"]["name"]
+        """A rigged model is known by its file."""
+        model = self.record.get("character", {}).get("model")
+        return model["file"] if model else self.record["scene"]["name"]
 
     def labels(self):
         return [deformer["label"] for deformer in self.record["scene"].get("runs", [])]
@@ -77,5 +79,5 @@ def page(folder):
     as_set = types.SimpleNamespace(results=folder, runs={found.name: found.record}, left_out=lambda: [])
     sections.append(("origin", "Where the records come from", origin.section(as_set, with_viewer=viewer is not None)))
     frames = found.record["outcome"].get("frames", 0)
-    lead = element("p", f"The scene {found.name}, {frames} frames, moved by {', '.join(found.labels())}.", class_="lead")
+    lead = element("p", f"{found.name}, {frames} frames, moved by {', '.join(found.labels())}.", class_="lead")
     return whole(f"pbskin: {found.name}", lead, [navigation(sections), *written(sections)], "summary"), missing

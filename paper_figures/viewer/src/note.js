@@ -1,8 +1,7 @@
 // Notes on the frame that is shown: the kind of FEM, the number of stored frames, their rounding, and the origin of the body.
 
-const locking = "The FEM shown has linear elements (P1), which lock: they are stiffer than the material. How far they are from quadratic "
-    + "ones, and the reference\u2019s own error, stand in the report: \u201cHow far from the finite elements?\u201d, \u201cDistance from "
-    + "the finite elements\u201d. ";
+const locking = "The FEM shown has linear elements (P1), which lock: they are stiffer than the material. The studies error_split and "
+    + "work_precision measure how far they are from quadratic ones, and the reference\u2019s own error. ";
 
 export function note_of(run, every, at) {
     const masked_pct = run.masked_share_pct(at);
@@ -10,7 +9,8 @@ export function note_of(run, every, at) {
         + `${masked_pct.toPrecision(2)} % of the volume. ` : "";
     const kept = every === 1 ? "every recorded frame" : `one of ${every} recorded frames`;
     const step_um = (1e6 * run.step_m).toFixed(1);
-    return `${mark}${locking}${run.vertices} vertices, ${run.tets} tets${carried_by(run)}; ${kept}. Positions are rounded to steps of `
+    const of_reference = run.labels.includes(run.reference) ? locking : "";
+    return `${mark}${of_reference}${run.vertices} vertices, ${run.tets} tets${carried_by(run)}; ${kept}. Positions are rounded to steps of `
         + `${step_um} \u00b5m: each coordinate of a vertex is within half a step of the record's; volume ratios to 1/127 up to 2; `
         + "the numbers are the records' own. A cut goes through the body at rest, so that every panel and frame shows the same tets. "
         + run.rights;
