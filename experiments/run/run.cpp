@@ -120,7 +120,9 @@ pbs::Character character_with_warnings(const Scene& scene, std::vector<std::stri
 CaseMotion read_motion(const Scene& scene, pbs::Character& character, std::vector<std::string>& warnings)
 {
     const pbs::InputFile clip(scene.motion.clip);
-    CaseMotion motion = make_case_motion(scene.motion, character, scene.file);
+    MotionSpec spec = scene.motion;
+    spec.allow_partial = spec.allow_partial || !scene.character.body.empty();
+    CaseMotion motion = make_case_motion(spec, character, scene.file);
     if (!motion.partial_match.empty() && scene.character.body.empty()) motion.remarks.push_back(motion.partial_match);
     add_warnings(motion.remarks, warnings);
     if (scene.motion.clip.empty()) return motion;
@@ -224,6 +226,7 @@ private:
     // Blending that inverts tets in the first frame, before anything has moved far, points to a rest pose that is not the model's.
     void warn_of_inverted_start()
     {
+        if (!scene_.character.body.empty()) return;  // made with its skeleton
         for (const Runner& runner : runners_)
             if (traits_of(runner.spec).blends_linearly && runner.most_inverted > 0)
                 add_warnings({fmt::format("{}: {} has {} inverted tets in the first frame: its pose is far from the bind pose, or the "

@@ -168,6 +168,26 @@ class OwnCharacter(program.ProgramTest):
         self.assertIn("expected another folder", self.refused("try", self.rig(), "-o", self.path("out"), "--no-reference"))
         self.assertIn("# my own line", self.read("out", "scene.toml"))
 
+    @unittest.skipUnless(os.path.exists("/usr/share/assimp/models/BVH/01_01.bvh"), "assimp-testmodels is not installed")
+    def test_a_body_by_name_may_use_few_joints_of_a_clip(self):
+        scene = """schema = 1
+[character]
+body = "ring"
+[motion]
+clip = "01_01.bvh"
+duration_s = 0.1
+rate_hz = 20.0
+[pbs]
+k_stretch = 0.2
+k_volume = 1.0
+k_bind = 1.0
+gravity_m_s2 = [0.0, 0.0, 0.0]
+[deformers]
+use = ["lbs"]
+"""
+        process = self.succeeds("run", self.write("ring.toml", scene), "-o", self.path("run"))
+        self.assertNotIn("warning", process.stderr)
+
     def test_a_model_with_joints_takes_no_other_skeleton(self):
         self.assertIn("joints of its own", self.refused("try", self.rig(), "--skeleton", "human", "-o", self.path("out")))
 
