@@ -1,4 +1,4 @@
-// What a run took from a rigged model and what it left out, for run.json and try.json.
+// The record of a rigged model for run.json and try.json: the parts that the run uses and the parts that it leaves out.
 #pragma once
 
 #include "pbs/character/character.hpp"

@@ -1,4 +1,4 @@
-// What a trial found, from the records of its run.
+// The results of a trial, computed from the records of its run.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

@@ -46,9 +46,9 @@ class RunRecords:
 
 def warnings_of(found):
     outcome = found.record["outcome"]
-    told = list((found.trial or outcome).get("warnings", []))
-    told += [text for text in (outcome.get("breakdown"), outcome.get("bad_frame")) if text]
-    return told
+    warnings = list((found.trial or outcome).get("warnings", []))
+    warnings += [text for text in (outcome.get("breakdown"), outcome.get("bad_frame")) if text]
+    return warnings
 
 
 def viewer_of(found):
@@ -66,10 +66,10 @@ def viewer_of(found):
 def page(folder):
     """The text of the page, and what is missing in it."""
     found = RunRecords(folder)
-    told = warnings_of(found)
+    warnings = warnings_of(found)
     viewer, missing = viewer_of(found)
     sections = [("summary", "What was found", run_tables.summary(found))]
-    sections += [("warnings", "Warnings", items(told, "missing"))] if told else []
+    sections += [("warnings", "Warnings", items(warnings, "missing"))] if warnings else []
     sections += [("viewer", "Viewer", viewer)] if viewer else []
     sections += [("frames", "Over the frames", run_figures.section(found))]
     for anchor, name, content in (("joints", "Volume at the joints", run_tables.joints(found)),

@@ -71,12 +71,12 @@ def model(found):
     dropped = [f"{joint['name']} ({joint['reason']})" for joint in record["joints_dropped"]]
     motion = found.record["outcome"].get("motion", {})
     matched = f"{motion['matched_joints']} of the clip's {motion['clip_joints']} moving joints match" if "clip_joints" in motion else ""
-    told = [f"File: {record['file']}; {counted(len(record['meshes']), 'mesh', 'meshes')}: {listed(record['meshes'])}.",
+    facts = [f"File: {record['file']}; {counted(len(record['meshes']), 'mesh', 'meshes')}: {listed(record['meshes'])}.",
             f"Largest extent: {figure(record['extent_m'])} m, with {figure(record['metres_per_unit'])} m per unit of the file.",
             f"Joints dropped: {listed(dropped)}.", f"Containers, which only contribute their transform: {listed(record['containers'])}.",
             f"From the bind pose to the file's rest pose, bones turn by up to {figure(record['bind_pose_deg'])}\u00b0.",
             f"Animations: {listed(record['animations'])}."]
     if "weights_transferred_pct" in record:
-        told.append(f"The tets carry {figure(record['weights_transferred_pct'])} % of the artist's weights.")
-    told += [matched + "."] if matched else []
-    return joined([items(told), details(f"{counted(len(record['joints']), 'joint')} that are bones", items(record["joints"]))], "\n")
+        facts.append(f"The tets carry {figure(record['weights_transferred_pct'])} % of the artist's weights.")
+    facts += [matched + "."] if matched else []
+    return joined([items(facts), details(f"{counted(len(record['joints']), 'joint')} that are bones", items(record["joints"]))], "\n")

@@ -19,7 +19,7 @@ enum class WeightKind { paper, rigid, smooth, artist, file };
 
 struct RiggedModel;
 
-// What a rigged file brings along.
+// The skin of a rigged file, with the file itself.
 struct ArtistSkin {
     Weights weights;                           // the artist's weights in the tets, #V; none of a file without joints
     std::shared_ptr<const RiggedModel> model;  // the file with its animations (model_character.hpp)

@@ -10,7 +10,7 @@ namespace pbs {
 // The rest space is the file's scene in the bind pose, in metres: where the root joint of the largest skin is at rest, the bind pose is
 // attached to it. B_j carries the frame of joint j into it.
 struct RigBinding {
-    std::vector<RigMesh> meshes;          // those that joints move; one without a skin hangs on the joint above it with weight 1
+    std::vector<RigMesh> meshes;          // those that joints move; one without a skin follows the joint above it with weight 1
     std::map<int, Eigen::Affine3d> bind;  // node of each joint of these meshes -> B_j [m]
     double metres_per_unit = 1.0;         // of the posed scene
     std::vector<std::string> remarks;     // meshes that no joint moves and that were left out, bind poses that contradict each other
