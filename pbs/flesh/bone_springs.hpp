@@ -28,7 +28,7 @@ public:
     // -k beta_i beta_j, summed over the springs in each tet, of its edges 01 02 03 12 13 23 [m], #T x 6.
     const Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>& edge_stiffness() const { return edge_stiffness_; }
     const Eigen::MatrixXd& stiffness_of_bones() const { return of_bone_; }  // the part of a_i that each bone contributes [m], #V x #bones
-    int left_out() const { return left_out_; }                             // springs outside every tet
+    int left_out() const { return left_out_; }                              // springs outside every tet
 
     // c_i in a pose [m], #V x 3; zero where nothing holds the vertex.
     void centres(const Pose& pose, Positions& centres) const;

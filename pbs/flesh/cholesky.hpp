@@ -1,5 +1,6 @@
-// The Cholesky factor of a sparse symmetric positive definite matrix, computed once by CHOLMOD (Y. Chen, T. Davis, W. Hager, S. Rajamanickam,
-// Algorithm 887, ACM TOMS 35(3), 2008) and kept. The factor goes into code of this library, which solves for x, y and z side by side.
+// The Cholesky factor of a sparse symmetric positive definite matrix, computed once by CHOLMOD (Y. Chen, T. Davis, W. Hager, S.
+// Rajamanickam, Algorithm 887, ACM TOMS 35(3), 2008) and kept. The factor goes into code of this library, which solves for x, y and z side
+// by side.
 #pragma once
 
 #include <Eigen/SparseCore>

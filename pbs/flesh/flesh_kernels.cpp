@@ -36,7 +36,8 @@ template <typename Scalar>
 
 // Adds the gradient of as many tets as there are lanes; returns their energy. FleshEnergy, line by line.
 template <typename Scalar>
-[[gnu::always_inline]] inline Lanes<Scalar> add_gradient_of_part(const FleshBatch<Scalar>& batch, int first, const Scalar* x, Scalar* gradient)
+[[gnu::always_inline]] inline Lanes<Scalar> add_gradient_of_part(const FleshBatch<Scalar>& batch, int first, const Scalar* x,
+                                                                 Scalar* gradient)
 {
     Vertices<Scalar> p[4], g[4];
     for (int i = 0; i < 4; ++i) p[i] = gather(x, batch.offset[i] + first);
@@ -174,7 +175,8 @@ void solve_supernodes(const Supernode* nodes, int count, const std::uint32_t* be
     for (int n = 0; n < count; ++n)
         with_width(
             nodes[n].width,
-            [&](auto width) { forward<Scalar, width>(nodes[n], below + nodes[n].first_below, values + nodes[n].first_value, work); }, widths);
+            [&](auto width) { forward<Scalar, width>(nodes[n], below + nodes[n].first_below, values + nodes[n].first_value, work); },
+            widths);
     for (int n = count - 1; n >= 0; --n)
         with_width(
             nodes[n].width,

@@ -55,7 +55,8 @@ template <typename Scalar>
 void PackedFlesh<Scalar>::fill_slab(int slab, const std::vector<const FleshTet*>& tets)
 {
     std::vector<ConstraintGroup> groups;
-    for (const FleshTet* tet : tets) groups.push_back({GroupKind::tet, {tet->vertex[0], tet->vertex[1], tet->vertex[2], tet->vertex[3]}, {}});
+    for (const FleshTet* tet : tets)
+        groups.push_back({GroupKind::tet, {tet->vertex[0], tet->vertex[1], tet->vertex[2], tet->vertex[3]}, {}});
     const int dummies = rows_ - (order_.slabs() - slab) * dummies_a_slab;
     BatchScheduler scheduler(static_cast<int>(order_.new_of_old.size()));
     std::vector<FleshBatch<Scalar>>& batches = batches_.emplace_back();

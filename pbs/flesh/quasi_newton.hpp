@@ -11,21 +11,20 @@
 namespace pbs {
 
 struct QuasiNewtonOptions {
-    int iterations = 12;          // at most
-    int history = 5;              // pairs of steps and changes of the gradient that L-BFGS keeps
-    double volume_share = 0.3;    // of lambda in the first matrix; it changes the way, not the minimum
-    double stop_gradient = 0.0;   // stop where the norm of H^-1 g is below this share of its first value; 0: never
+    int iterations = 16;         // at most
+    int history = 5;             // pairs of steps and changes of the gradient that L-BFGS keeps
+    double stop_gradient = 0.0;  // stop where the norm of H^-1 g is below this share of its first value; 0: never
     Arithmetic arithmetic = Arithmetic::packed_f32;
     int threads = 1;
 };
 
 struct QuasiNewtonSummary {
     int iterations = 0;
-    int evaluations = 0;          // of value and gradient
-    int solves = 0;               // with the factor, for three right-hand sides
-    bool converged = false;       // stop_gradient was reached, or no step lowers the energy any more in this arithmetic
-    double energy = 0.0;          // over Young's modulus, without the constant [m^3]
-    std::vector<double> steps;    // norm of H^-1 g at the beginning of each iteration [m]
+    int evaluations = 0;        // of value and gradient
+    int solves = 0;             // with the factor, for three right-hand sides
+    bool converged = false;     // stop_gradient was reached, or no step lowers the energy any more in this arithmetic
+    double energy = 0.0;        // over Young's modulus, without the constant [m^3]
+    std::vector<double> steps;  // norm of H^-1 g at the beginning of each iteration [m]
 };
 
 template <typename Scalar>

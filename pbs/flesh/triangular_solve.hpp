@@ -16,8 +16,8 @@ public:
     // place: where row i of the matrix lies among the rows that are passed to apply, #rows.
     TriangularSolve(const CholeskyFactor& factor, const std::vector<int>& place);
 
-    void apply(Scalar* rows);                // four numbers per row
-    std::size_t bytes() const;               // of the factor, which an application reads twice
+    void apply(Scalar* rows);                         // four numbers per row
+    std::size_t bytes() const;                        // of the factor, which an application reads twice
     std::size_t entries() const { return entries_; }  // of L
 
 private:
