@@ -35,7 +35,7 @@ function(pbs_install_headers component)
 endfunction()
 
 pbs_install_libraries(method pbs_settings=settings pbs_method=method)
-pbs_install_headers(method pbs/geometry pbs/skinning pbs/constraints pbs/solver)
+pbs_install_headers(method pbs/geometry pbs/skinning pbs/constraints pbs/solver pbs/author)
 pbs_install_libraries(mesh_io pbs_module=module pbs_meshing=meshing pbs_mesh_io=mesh_io)
 install(FILES pbs/geometry/mesh_io.hpp pbs/geometry/mesh_remarks.hpp pbs/geometry/meshing.hpp pbs/geometry/module.hpp
     DESTINATION include/pbs/geometry COMPONENT mesh_io)
