@@ -56,6 +56,7 @@ void add_deformer_kind(DeformerKind kind);  // for programs with deformers of th
 DeformerKind lbs_kind();
 DeformerKind dqs_kind();
 DeformerKind pbs_kind();
+DeformerKind pbs_author_kind();
 DeformerKind xpbd_kind();
 DeformerKind xpbd_small_steps_kind();
 DeformerKind delta_mush_kind();

@@ -18,6 +18,7 @@
 #include "experiments/studies/study_run.hpp"
 #include "experiments/studies/timing/timing_records.hpp"
 #include "experiments/studies/work_precision/measured_points.hpp"
+#include "pbs/author/author_options.hpp"
 #include "pbs/skinning/delta_mush.hpp"
 #include "pbs/solver/xpbd_options.hpp"
 #include "tests/support/scratch_folder.hpp"
@@ -189,6 +190,7 @@ TEST(RecordedSettings, OfDeformers)
     expect_each_option_is_recorded("fem", FemOptions{});
     expect_each_option_is_recorded("xpbd", pbs::XpbdOptions{});
     expect_each_option_is_recorded("delta_mush", pbs::DeltaMushOptions{});
+    expect_each_option_is_recorded("pbs_author", pbs::AuthorOptions{});
     const int threads = 6;  // the member on which results do not depend
     expect_each_option_is_recorded("pbs", pbs::PbsOptions{}, threads);
 }
