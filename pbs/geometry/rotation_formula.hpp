@@ -7,7 +7,8 @@
 //      real, so that Laguerre's iteration from the bound sqrt(3) |M| >= lambda descends to it with third order.
 //   2. adj(K - lambda 1) is a multiple of q q^T: its largest column is the quaternion.
 //   3. Newton's method for max tr(R^T M) removes what the small differences of step 1 have lost. With R^T M = S, the correction w solves
-//      (tr(S) 1 - (S + S^T) / 2) w = (S_32 - S_23, S_13 - S_31, S_21 - S_12). It is of third order as well, since S is symmetric at the end.
+//      (tr(S) 1 - (S + S^T) / 2) w = (S_32 - S_23, S_13 - S_31, S_21 - S_12). It is of third order as well, since S is symmetric at the
+//      end.
 // The last correction proves the result: where the matrix of step 3 is positive definite and w vanishes, R is a local maximum, and max
 // tr(R^T M) has no local maximum other than the largest eigenvalue. Its determinant (s_1 + s_2) (s_1 + s s_3) (s_2 + s s_3) of M / |M|,
 // s = sign(det M), is zero where the nearest rotation is not unique: rank one, rank zero, and reflections with s_2 = s_3. An error E of M
@@ -21,6 +22,7 @@ namespace pbs {
 // What the formulae need of a type of numbers that is not built in, such as a register: a specialisation has the same functions.
 template <class Number>
 struct NumberFunctions {
+    static Number of(double a) { return static_cast<Number>(a); }
     static Number root(Number a) { return std::sqrt(a); }
     static Number magnitude(Number a) { return std::abs(a); }
     static Number larger(Number a, Number b) { return a < b ? b : a; }
@@ -80,8 +82,8 @@ template <class Number>
 [[gnu::always_inline]] inline Matrix3<Number> cofactors(const Matrix3<Number>& a)
 {
     const Number* m = a.m;
-    return {{m[4] * m[8] - m[5] * m[7], m[5] * m[6] - m[3] * m[8], m[3] * m[7] - m[4] * m[6],   //
-             m[2] * m[7] - m[1] * m[8], m[0] * m[8] - m[2] * m[6], m[1] * m[6] - m[0] * m[7],   //
+    return {{m[4] * m[8] - m[5] * m[7], m[5] * m[6] - m[3] * m[8], m[3] * m[7] - m[4] * m[6],  //
+             m[2] * m[7] - m[1] * m[8], m[0] * m[8] - m[2] * m[6], m[1] * m[6] - m[0] * m[7],  //
              m[1] * m[5] - m[2] * m[4], m[2] * m[3] - m[0] * m[5], m[0] * m[4] - m[1] * m[3]}};
 }
 
@@ -93,7 +95,7 @@ template <class Number>
     const Matrix3<Number> cofactor = cofactors(a);
     const Number det = a.m[0] * cofactor.m[0] + a.m[1] * cofactor.m[1] + a.m[2] * cofactor.m[2];
     const Number c1 = Number(-8) * det, c0 = Number(1) - Number(4) * squares(cofactor);
-    Number x = Number(1.7320508075688772);
+    Number x = Of::of(1.7320508075688772);
     for (int step = 0; step < 6; ++step) {
         const Number x2 = x * x;
         const Number p = (x2 - Number(2)) * x2 + (c1 * x + c0), slope = Number(4) * x * (x2 - Number(1)) + c1;
@@ -123,15 +125,9 @@ template <class Number>
     const Number s3 = k.a01 * k.a12 - k.a11 * k.a02, s4 = k.a01 * k.a13 - k.a11 * k.a03, s5 = k.a02 * k.a13 - k.a12 * k.a03;
     const Number c1 = k.a02 * k.a23 - k.a03 * k.a22, c2 = k.a02 * k.a33 - k.a03 * k.a23, c3 = k.a12 * k.a23 - k.a13 * k.a22;
     const Number c4 = k.a12 * k.a33 - k.a13 * k.a23, c5 = k.a22 * k.a33 - k.a23 * k.a23;
-    return {k.a11 * c5 - k.a12 * c4 + k.a13 * c3,
-            k.a02 * c4 - k.a01 * c5 - k.a03 * c3,
-            k.a13 * s5 - k.a23 * s4 + k.a33 * s3,
-            k.a22 * s4 - k.a12 * s5 - k.a23 * s3,
-            k.a00 * c5 - k.a02 * c2 + k.a03 * c1,
-            k.a23 * s2 - k.a03 * s5 - k.a33 * s1,
-            k.a02 * s5 - k.a22 * s2 + k.a23 * s1,
-            k.a03 * s4 - k.a13 * s2 + k.a33 * s0,
-            k.a12 * s2 - k.a02 * s4 - k.a23 * s0,
+    return {k.a11 * c5 - k.a12 * c4 + k.a13 * c3, k.a02 * c4 - k.a01 * c5 - k.a03 * c3, k.a13 * s5 - k.a23 * s4 + k.a33 * s3,
+            k.a22 * s4 - k.a12 * s5 - k.a23 * s3, k.a00 * c5 - k.a02 * c2 + k.a03 * c1, k.a23 * s2 - k.a03 * s5 - k.a33 * s1,
+            k.a02 * s5 - k.a22 * s2 + k.a23 * s1, k.a03 * s4 - k.a13 * s2 + k.a33 * s0, k.a12 * s2 - k.a02 * s4 - k.a23 * s0,
             k.a02 * s3 - k.a12 * s1 + k.a22 * s0};
 }
 
@@ -173,9 +169,9 @@ template <class Number>
 // The result of step 3.
 template <class Number>
 struct Correction {
-    Quaternion<Number> q;        // q (1, w / 2), normalized
-    Number definite;   // the determinant of the matrix of step 3 if that is positive definite, else not positive
-    Number half_turn;  // |w / 2|^2
+    Quaternion<Number> q;  // q (1, w / 2), normalized
+    Number definite;       // the determinant of the matrix of step 3 if that is positive definite, else not positive
+    Number half_turn;      // |w / 2|^2
 };
 
 template <class Number>
@@ -186,7 +182,7 @@ template <class Number>
     Number s[3][3];
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j) s[i][j] = r.m[i] * a.m[j] + r.m[3 + i] * a.m[3 + j] + r.m[6 + i] * a.m[6 + j];
-    const Number half = Number(0.5);
+    const Number half = Of::of(0.5);
     const Number h00 = s[1][1] + s[2][2], h11 = s[0][0] + s[2][2], h22 = s[0][0] + s[1][1];
     const Number h01 = -half * (s[0][1] + s[1][0]), h02 = -half * (s[0][2] + s[2][0]), h12 = -half * (s[1][2] + s[2][1]);
     const Number b0 = s[2][1] - s[1][2], b1 = s[0][2] - s[2][0], b2 = s[1][0] - s[0][1];
