@@ -59,6 +59,7 @@ DeformerKind pbs_kind();
 DeformerKind xpbd_kind();
 DeformerKind xpbd_small_steps_kind();
 DeformerKind delta_mush_kind();
+DeformerKind direct_delta_mush_kind();
 DeformerKind fem_kind();
 DeformerKind external_kind();
 

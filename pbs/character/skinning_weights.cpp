@@ -56,4 +56,11 @@ Weights weights_by(WeightKind kind, const Character& character)
     throw InputError(character.name, 0, "skinning.weights", name_of(kind), "expected a character that brings such weights");
 }
 
+Character with_weights(WeightKind kind, Character character)
+{
+    character.weights = weights_by(kind, character);
+    character.weight_kind = kind;
+    return character;
+}
+
 }  // namespace pbs

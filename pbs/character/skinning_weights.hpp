@@ -10,6 +10,9 @@ namespace pbs {
 // between.
 Weights weights_by(WeightKind kind, const Character& character);
 
+// The character with weights by another rule; everything else is kept.
+Character with_weights(WeightKind kind, Character character);
+
 bool has_artist_weights(const Character& character);
 
 const char* name_of(WeightKind kind);  // paper, rigid, smooth, artist, file

@@ -7,6 +7,7 @@
 // weights. This is plain code in double; packed_delta_mush.hpp computes the same in packed float.
 #pragma once
 
+#include "pbs/geometry/precision.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/geometry/topology.hpp"
 
@@ -15,6 +16,8 @@ namespace pbs {
 struct DeltaMushOptions {
     int iterations = 20;  // of smoothing
     double step = 0.5;    // share of the way to the neighbours' mean
+    // Which code a deformer runs: f64 this plain one, f32 PackedDeltaMush<float>. Neither class reads it.
+    Precision precision = Precision::f64;
 };
 
 class DeltaMush {

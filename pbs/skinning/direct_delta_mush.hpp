@@ -14,6 +14,7 @@
 // unit weights, as in delta_mush.hpp; entries of a weight below `negligible` are dropped, and the others are scaled to a sum of one.
 #pragma once
 
+#include "pbs/geometry/precision.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/skinning/weights.hpp"
 
@@ -29,6 +30,8 @@ struct DirectDeltaMushOptions {
     double alpha = 0.5;        // share of w' in the translations, in [0, 1]
     double negligible = 1e-4;  // weight below which a bone is dropped from a vertex; from 0 to 1e-3
     MushSmoothing smoothing = MushSmoothing::implicit_steps;
+    // Which code a deformer runs: f64 this plain one, f32 PackedDirectMush<float>. Neither class reads it.
+    Precision precision = Precision::f64;
 };
 
 class DirectDeltaMush {
