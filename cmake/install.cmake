@@ -25,6 +25,7 @@ function(pbs_install_headers component)
         set(no_call_for_users  # headers internal to readers and meshers, to text and files, to solvers, and to parts of bodies
             "mesh_io_|meshing_|guarded_reading|isolated_reader|reading_limits|packed_bytes|assimp_|vtk_messages|surface_checks|own_folder"
             "geometry/(atomic_file|file_limits|nearest_name|number_text|process|stopwatch|text_file|toml_text)"
+            "flesh/(cholmod_module|flesh_kernels|packed_|plain_|triangular_solve)"
             "solver/(algorithm_1|hand_over|parallel|plain_projection|project_plain|reordered_projection)"
             "rig/(assimp_|gltf_|rig_bytes|skin_weights|tiny_gltf)"
             "character/(bvh_header|clip_bytes|face_stream|folded_skeleton|input_file|json_file|making_lock|morph_targets|skeleton_order)")
@@ -39,8 +40,8 @@ pbs_install_headers(method pbs/geometry pbs/skinning pbs/constraints pbs/solver)
 pbs_install_libraries(mesh_io pbs_module=module pbs_meshing=meshing pbs_mesh_io=mesh_io)
 install(FILES pbs/geometry/mesh_io.hpp pbs/geometry/mesh_remarks.hpp pbs/geometry/meshing.hpp pbs/geometry/module.hpp
     DESTINATION include/pbs/geometry COMPONENT mesh_io)
-pbs_install_libraries(character pbs_rig=rig pbs_character=character)
-pbs_install_headers(character pbs/rig pbs/character)
+pbs_install_libraries(character pbs_rig=rig pbs_flesh=flesh pbs_character=character)
+pbs_install_headers(character pbs/flesh pbs/rig pbs/character)
 if(PBS_WITH_ANALYSIS)
     pbs_install_libraries(analysis analysis=analysis)
     pbs_install_headers(analysis analysis analysis/records)

@@ -1,6 +1,6 @@
 #include "reference_fem/attached_points.hpp"
 
-#include "reference_fem/point_location.hpp"
+#include "pbs/geometry/point_location.hpp"
 
 #include <limits>
 #include <map>
@@ -15,9 +15,9 @@ AttachedPoints::AttachedPoints(const pbs::TetMesh& mesh, const SimplexSpace& spa
       nodes_(space.tet_nodes().cols(), points.rows()),
       shapes_(space.tet_nodes().cols(), points.rows())
 {
-    const PointLocation where(mesh);
+    const pbs::PointLocation where(mesh);
     for (Eigen::Index s = 0; s < points.rows(); ++s) {
-        const Location location = where.locate(points.row(s));
+        const pbs::Location location = where.locate(points.row(s));
         tet_[s] = location.tet;
         if (location.tet < 0) continue;
         nodes_.col(s) = space.tet_nodes().row(location.tet);

@@ -12,8 +12,17 @@ namespace {
 std::vector<DeformerKind>& registered()
 {
     static std::vector<DeformerKind> kinds = {
-        lbs_kind(), dqs_kind(),      pbs_kind(), xpbd_kind(), xpbd_small_steps_kind(), delta_mush_kind(), direct_delta_mush_kind(),
-        fem_kind(), external_kind(),
+        lbs_kind(),
+        dqs_kind(),
+        pbs_kind(),
+        xpbd_kind(),
+        xpbd_small_steps_kind(),
+        delta_mush_kind(),
+        direct_delta_mush_kind(),
+        quasi_newton_kind(),
+        projective_dynamics_kind(),
+        fem_kind(),
+        external_kind(),
     };
     return kinds;
 }

@@ -4,7 +4,7 @@
 #include "reference_fem/held_space.hpp"
 #include "reference_fem/input_checks.hpp"
 #include "reference_fem/material.hpp"
-#include "reference_fem/point_location.hpp"
+#include "pbs/geometry/point_location.hpp"
 
 namespace reference_fem {
 namespace {
@@ -37,7 +37,7 @@ void add_attached(const pbs::TetMesh& mesh, const Attachment& attachment, HeldPo
             held.tets.push_back(tet);
         }
     if (attachment.spring_points.rows() == 0) return;
-    const PointLocation where(mesh);
+    const pbs::PointLocation where(mesh);
     for (Eigen::Index s = 0; s < attachment.spring_points.rows(); ++s) {
         held.points.emplace_back(attachment.spring_points.row(s));
         held.tets.push_back(where.locate(held.points.back()).tet);

@@ -1,6 +1,6 @@
 #include "reference_fem/distributed/springs_in_tets.hpp"
 
-#include "reference_fem/point_location.hpp"
+#include "pbs/geometry/point_location.hpp"
 
 #include <algorithm>
 
@@ -9,10 +9,10 @@ namespace reference_fem {
 SpringsInTets::SpringsInTets(const pbs::TetMesh& mesh, const Attachment& attachment, const pbs::Positions& targets)
 {
     if (attachment.spring_points.rows() == 0) return;
-    const PointLocation where(mesh);
+    const pbs::PointLocation where(mesh);
     for (Eigen::Index s = 0; s < attachment.spring_points.rows(); ++s) {
         const pbs::Vec3 point = attachment.spring_points.row(s);
-        const Location location = where.locate(point);
+        const pbs::Location location = where.locate(point);
         if (location.tet < 0) continue;
         springs_.push_back({location.tet, attachment.spring_stiffness(s), location.barycentric, targets.row(s).transpose() - point});
     }

@@ -47,6 +47,7 @@ public:
         }
         pbs::StepSummary summary;
         summary.seconds = stopwatch.seconds();
+        summary.work.vertex_visits = (options_.iterations + 2) * positions_.rows();  // blended, smoothed, rotated
         if (!positions_.allFinite()) summary.outcome = pbs::Outcome::not_finite;
         return summary;
     }

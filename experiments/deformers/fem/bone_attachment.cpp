@@ -1,5 +1,6 @@
 #include "experiments/deformers/fem/bone_attachment.hpp"
 
+#include "pbs/character/capsule_springs.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/tet_volume.hpp"
 
@@ -30,28 +31,26 @@ std::vector<int> tets_inside(const pbs::TetMesh& mesh, const pbs::BoneCapsule& c
     return inside;
 }
 
-// Springs at the sample points of the capsules, each with the stiffness of its share of the volume. relative_density(capsule, point) is 1
-// on the axis.
-template <typename RelativeDensity>
-BoneAttachment springs_of_density(const pbs::Character& character, const FemOptions& options, const RelativeDensity& relative_density)
+// Springs at the sample points of the capsules, each with the stiffness of its share of the volume.
+BoneAttachment attached_by(pbs::CapsuleSprings held, const pbs::Character& character, const FemOptions& options)
 {
-    BoneAttachment bones = empty_attachment(character, core_radius_of(options));
-    std::vector<double> stiffness;
-    for (std::size_t j = 0; j < bones.capsules.size(); ++j) {
-        const pbs::BoneCapsule& capsule = bones.capsules[j];
-        const pbs::Positions points = pbs::sample_points(capsule, options.attachment_samples);
-        const double on_axis = spring_factor_of(options) * options.young_pa / (capsule.radius_m * capsule.radius_m);
-        const Eigen::Index springs = bones.attachment.spring_points.rows();
-        bones.attachment.spring_points.conservativeResize(springs + points.rows(), 3);
-        bones.attachment.spring_points.bottomRows(points.rows()) = points;
-        bones.spring_bone.insert(bones.spring_bone.end(), points.rows(), static_cast<int>(j));
-        for (const auto& point : points.rowwise()) {
-            bones.spring_density.push_back(relative_density(capsule, point.transpose()));
-            stiffness.push_back(on_axis * bones.spring_density.back() * capsule.volume_m3() / static_cast<double>(points.rows()));
-        }
-    }
-    bones.attachment.spring_stiffness = Eigen::VectorXd::Map(stiffness.data(), stiffness.size());
+    BoneAttachment bones;
+    bones.capsules = std::move(held.capsules);
+    bones.attachment.spring_points = std::move(held.springs.points);
+    bones.attachment.spring_stiffness = options.young_pa * held.springs.stiffness;
+    bones.spring_bone = std::move(held.springs.bone);
+    bones.spring_density = std::move(held.density);
+    bones.vertex_bone.assign(character.mesh.rest.rows(), -1);
     return bones;
+}
+
+pbs::SmoothSpringOptions spring_options(const FemOptions& options)
+{
+    return {.core_radius = core_radius_of(options),
+            .spring_factor = spring_factor_of(options),
+            .kernel = options.attachment_kernel,
+            .ends = options.attachment_ends,
+            .samples = options.attachment_samples};
 }
 
 // The children of the tets that are held in the unrefined character, which are the same parts of the flesh.
@@ -90,14 +89,13 @@ BoneAttachment bone_attachment(const pbs::Character& character, const FemOptions
 
 BoneAttachment smooth_attachment(const pbs::Character& character, const FemOptions& options)
 {
-    return springs_of_density(character, options, [&](const pbs::BoneCapsule& capsule, const pbs::Vec3& point) {
-        return pbs::smooth_density(capsule, options.attachment_kernel, options.attachment_ends, point);
-    });
+    return attached_by(pbs::smooth_springs(character, spring_options(options)), character, options);
 }
 
 BoneAttachment embedded_attachment(const pbs::Character& character, const FemOptions& options)
 {
-    return springs_of_density(character, options, [](const pbs::BoneCapsule&, const pbs::Vec3&) { return 1.0; });
+    const auto everywhere = [](const pbs::BoneCapsule&, const pbs::Vec3&) { return 1.0; };
+    return attached_by(pbs::capsule_springs(character, spring_options(options), everywhere), character, options);
 }
 
 BoneAttachment nodes_attachment(const pbs::Character& character, const FemOptions& options)

@@ -41,15 +41,13 @@ ConstraintValues<Scalar> volume_values(const ConstraintSet<Scalar>& constraints)
 
 constexpr int least_vertices_a_slab = 3072;
 
-// So that there are about four slabs and a half at either end, or eight ..., which two threads share evenly; or one. Fewer slabs are
-// nearer to `plain`.
+}  // namespace
+
 int vertices_a_slab(int vertices)
 {
     const int slabs = vertices / (4 * least_vertices_a_slab) * 4;
     return slabs == 0 ? std::max(vertices, 1) : vertices / slabs;
 }
-
-}  // namespace
 
 bool shared_among_threads(int vertices)
 {

@@ -17,6 +17,10 @@ struct BatchedConstraints {
     int vertices() const { return static_cast<int>(order.old_of_new.size()); }  // #V of the mesh, dummies not counted
 };
 
+// The size of the slabs of a mesh: about four of them and a half at either end, or eight ..., which two threads share evenly; or one. Fewer
+// slabs are nearer to `plain`.
+int vertices_a_slab(int vertices);
+
 // order: ordered or grouped.
 template <typename Scalar>
 BatchedConstraints<Scalar> make_batched_constraints(const ConstraintSet<Scalar>& constraints, const Tets& tets, Order order);

@@ -1,4 +1,4 @@
-#include "reference_fem/point_location.hpp"
+#include "pbs/geometry/point_location.hpp"
 
 #include <Eigen/LU>
 
@@ -6,14 +6,14 @@
 #include <cmath>
 #include <numeric>
 
-namespace reference_fem {
+namespace pbs {
 namespace {
 
 constexpr double on_face = 1e-10;  // of a barycentric coordinate: some 1e5 roundings of a well-shaped tet
 
-pbs::Vec3 barycentric_in(const pbs::TetMesh& mesh, Eigen::Index tet, const pbs::Vec3& point)
+Vec3 barycentric_in(const TetMesh& mesh, Eigen::Index tet, const Vec3& point)
 {
-    const auto corner = [&](int c) -> pbs::Vec3 { return mesh.rest.row(mesh.tets(tet, c)); };
+    const auto corner = [&](int c) -> Vec3 { return mesh.rest.row(mesh.tets(tet, c)); };
     Eigen::Matrix3d edges;
     edges << corner(1) - corner(0), corner(2) - corner(0), corner(3) - corner(0);
     return edges.inverse() * (point - corner(0));
@@ -21,9 +21,9 @@ pbs::Vec3 barycentric_in(const pbs::TetMesh& mesh, Eigen::Index tet, const pbs::
 
 }  // namespace
 
-PointLocation::PointLocation(const pbs::TetMesh& mesh) : mesh_(mesh), low_(mesh.rest.colwise().minCoeff())
+PointLocation::PointLocation(const TetMesh& mesh) : mesh_(mesh), low_(mesh.rest.colwise().minCoeff())
 {
-    const pbs::Vec3 size = mesh.rest.colwise().maxCoeff().transpose() - low_;
+    const Vec3 size = mesh.rest.colwise().maxCoeff().transpose() - low_;
     const double cell_m = std::cbrt(size.prod() / static_cast<double>(mesh.tets.rows()));  // about one cell a tet
     for (int axis = 0; axis < 3; ++axis) cells_(axis) = std::clamp(static_cast<int>(size(axis) / cell_m), 1, 1000);
     cell_size_m_ = size.cwiseQuotient(cells_.cast<double>());
@@ -37,7 +37,7 @@ PointLocation::PointLocation(const pbs::TetMesh& mesh) : mesh_(mesh), low_(mesh.
         for_each_cell_of_tet(t, [&](int cell) { tet_in_cell_[next[cell]++] = static_cast<int>(t); });
 }
 
-PointLocation::Cell PointLocation::cell_of(const pbs::Vec3& point) const
+PointLocation::Cell PointLocation::cell_of(const Vec3& point) const
 {
     Cell cell;
     for (int axis = 0; axis < 3; ++axis) {
@@ -50,28 +50,28 @@ PointLocation::Cell PointLocation::cell_of(const pbs::Vec3& point) const
 template <typename Visit>
 void PointLocation::for_each_cell_of_tet(Eigen::Index tet, Visit visit) const
 {
-    pbs::Vec3 low = mesh_.rest.row(mesh_.tets(tet, 0)), high = low;
+    Vec3 low = mesh_.rest.row(mesh_.tets(tet, 0)), high = low;
     for (int corner = 1; corner < 4; ++corner) {
-        const pbs::Vec3 point = mesh_.rest.row(mesh_.tets(tet, corner));
+        const Vec3 point = mesh_.rest.row(mesh_.tets(tet, corner));
         low = low.cwiseMin(point);
         high = high.cwiseMax(point);
     }
-    const pbs::Vec3 margin = on_face * (high - low);  // so that a point taken for on the face is looked for here
+    const Vec3 margin = on_face * (high - low);  // so that a point taken for on the face is looked for here
     const Cell first = cell_of(low - margin), last = cell_of(high + margin);
     for (int k = first(2); k <= last(2); ++k)
         for (int j = first(1); j <= last(1); ++j)
             for (int i = first(0); i <= last(0); ++i) visit(index_of({i, j, k}));
 }
 
-Location PointLocation::locate(const pbs::Vec3& point) const
+Location PointLocation::locate(const Vec3& point) const
 {
     if (!point.allFinite()) return {};
     const int cell = index_of(cell_of(point));
     for (int k = first_[cell]; k < first_[cell + 1]; ++k) {
-        const pbs::Vec3 barycentric = barycentric_in(mesh_, tet_in_cell_[k], point);
+        const Vec3 barycentric = barycentric_in(mesh_, tet_in_cell_[k], point);
         if (std::min(barycentric.minCoeff(), 1.0 - barycentric.sum()) >= -on_face) return {tet_in_cell_[k], barycentric};
     }
     return {};
 }
 
-}  // namespace reference_fem
+}  // namespace pbs

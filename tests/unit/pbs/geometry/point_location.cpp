@@ -1,5 +1,5 @@
 // Reference: the barycentric coordinates of a point that was placed in a known tet, and a search through all tets.
-#include "reference_fem/point_location.hpp"
+#include "pbs/geometry/point_location.hpp"
 
 #include "tests/support/rounding_error.hpp"
 #include "tests/support/structured_bar.hpp"
@@ -12,8 +12,8 @@
 namespace {
 
 using pbs::Vec3;
-using reference_fem::Location;
-using reference_fem::PointLocation;
+using pbs::Location;
+using pbs::PointLocation;
 
 const pbs::TetMesh bar = test_support::structured_bar({-1, -0.15, -0.15}, {1, 0.15, 0.15}, {20, 3, 3});
 

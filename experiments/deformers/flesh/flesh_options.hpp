@@ -1,0 +1,74 @@
+// What the deformers that minimise the energy of elastic flesh have in common: the material, the springs of the bones, the initial guess.
+// The options of such a deformer are a struct with these members and its own; its keys begin with flesh_fields<Options>(kind).
+#pragma once
+
+#include "experiments/settings/option_fields.hpp"
+#include "pbs/character/capsule_springs.hpp"
+#include "pbs/flesh/arithmetic.hpp"
+#include "pbs/flesh/held_flesh.hpp"
+#include "pbs/skinning/blend_skinning.hpp"
+
+#include <optional>
+
+namespace experiments {
+
+template <>
+struct OptionNames<pbs::Arithmetic> {
+    static constexpr std::array<std::pair<pbs::Arithmetic, const char*>, 3> table{{{pbs::Arithmetic::packed_f32, "packed_f32"},
+                                                                                   {pbs::Arithmetic::packed_f64, "packed_f64"},
+                                                                                   {pbs::Arithmetic::plain_f64, "plain_f64"}}};
+};
+
+template <>
+struct OptionNames<pbs::FleshStart> {
+    static constexpr std::array<std::pair<pbs::FleshStart, const char*>, 2> table{
+        {{pbs::FleshStart::smooth_dqs, "smooth_dqs"}, {pbs::FleshStart::lbs, "lbs"}}};
+};
+
+template <typename Options>
+OptionFields<Options> flesh_fields(const std::string& kind)
+{
+    return OptionFields<Options>(kind)
+        .add("iterations", &Options::iterations, {.lowest = 0, .highest = 1e6, .meaning = "iterations per frame"})
+        .add("poisson", &Options::poisson, {.lowest = 0.0, .highest = 0.4999, .meaning = "Poisson's ratio of the neo-Hookean flesh"})
+        .add("core_radius", &Options::core_radius,
+             {.lowest = above_zero,
+              .highest = 1.0,
+              .meaning = "radius of the capsules whose springs hold the flesh, over the limb's radius"})
+        .add("spring_factor", &Options::spring_factor,
+             {.lowest = above_zero, .meaning = "q: the springs have the density q E / r^2 on the axis of a capsule of radius r"})
+        .add("start", &Options::start,
+             {.meaning = "initial guess of each frame: dual quaternion skinning with weights that the springs determine, or LBS"})
+        .add("arithmetic", &Options::arithmetic,
+             {.meaning = "several elements side by side in float or double, or one after the other in double"});
+}
+
+// The flesh of a character and the initial guesses of its frames.
+class PosedFlesh {
+public:
+    template <typename Options>
+    PosedFlesh(const pbs::Character& character, const Options& options, double volume_share)
+        : PosedFlesh(character, {.core_radius = options.core_radius, .spring_factor = options.spring_factor},
+                     {.poisson = options.poisson, .volume_share = volume_share}, options.start)
+    {
+    }
+
+    // Sets the centres of the springs and the initial guess of a pose.
+    void pose(const pbs::Pose& pose);
+
+    const pbs::HeldFlesh& flesh() const { return flesh_; }
+    const pbs::Positions& centres() const { return centres_; }  // [m], #V x 3
+    const pbs::Positions& start() const { return start_; }      // [m], #V x 3
+    nlohmann::json record() const;                              // of the springs and the factor, for run.json
+
+private:
+    PosedFlesh(const pbs::Character& character, const pbs::SmoothSpringOptions& springs, const pbs::HeldFleshOptions& options,
+               pbs::FleshStart start);
+
+    pbs::HeldFlesh flesh_;
+    pbs::FleshStart how_;
+    pbs::BlendSkinning<double> skinning_;
+    pbs::Positions centres_, start_;
+};
+
+}  // namespace experiments

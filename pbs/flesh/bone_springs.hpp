@@ -1,0 +1,57 @@
+// Springs between points of the flesh and its bones: the attachment of the energy-minimising deformers. A spring s joins the material point
+// X_s, which the tets carry, to the same point of its bone: k_s / 2 |x(X_s) - T X_s|^2, T the bone's transform.
+#pragma once
+
+#include "pbs/geometry/tet_mesh.hpp"
+#include "pbs/skinning/pose.hpp"
+
+#include <array>
+#include <vector>
+
+namespace pbs {
+
+struct BoneSprings {
+    Positions points;           // X_s at rest [m], #springs x 3
+    Eigen::VectorXd stiffness;  // k_s over Young's modulus [m], #springs
+    std::vector<int> bone;      // #springs
+};
+
+// The springs summed over tets and vertices. The barycentric coordinates beta of a point in its tet add up to 1, so that
+//   |sum_i beta_i x_i - q|^2 = sum_i beta_i |x_i - q|^2 - sum_{i<j} beta_i beta_j |x_i - x_j|^2.
+// The first sum is a spring of each vertex to a centre c_i, of stiffness a_i; the second one does not depend on the pose.
+class BoneHold {
+public:
+    // A spring outside the tets is left out. A bone with no spring left holds nothing.
+    BoneHold(const TetMesh& mesh, const BoneSprings& springs, int bones);
+
+    const Eigen::VectorXd& stiffness() const { return stiffness_; }  // a_i over Young's modulus [m], #V
+    // -k beta_i beta_j, summed over the springs in each tet, of its edges 01 02 03 12 13 23 [m], #T x 6.
+    const Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>& edge_stiffness() const { return edge_stiffness_; }
+    const Eigen::MatrixXd& stiffness_of_bones() const { return of_bone_; }  // the part of a_i that each bone contributes [m], #V x #bones
+    int left_out() const { return left_out_; }                              // springs outside every tet
+
+    // c_i in a pose [m], #V x 3; zero where nothing holds the vertex.
+    void centres(const Pose& pose, Positions& centres) const;
+    // sum_s k_s / 2 |T X_s|^2 - sum_i a_i / 2 |c_i|^2: what the two sums above leave out of the energy [m^3].
+    double constant(const Pose& pose, const Positions& centres) const;
+
+private:
+    struct Share {
+        int vertex, bone;
+        Vec3 first;     // sum_s k_s beta_i X_s [m^2]
+        double zeroth;  // sum_s k_s beta_i [m]
+    };
+    struct Moments {
+        double zeroth = 0.0, second = 0.0;  // sum_s k_s, sum_s k_s |X_s|^2
+        Vec3 first = Vec3::Zero();          // sum_s k_s X_s
+    };
+
+    Eigen::VectorXd stiffness_;
+    Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor> edge_stiffness_;
+    Eigen::MatrixXd of_bone_;
+    std::vector<Share> shares_;  // by vertex, then by bone
+    std::vector<Moments> moments_;
+    int left_out_ = 0;
+};
+
+}  // namespace pbs

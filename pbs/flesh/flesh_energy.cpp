@@ -1,0 +1,117 @@
+#include "pbs/flesh/flesh_energy.hpp"
+
+#include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/tet_volume.hpp"
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <string>
+
+namespace pbs {
+namespace {
+
+constexpr int edges_of_tet[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
+
+// Gradients of the barycentric coordinates [1/m], one per column.
+Eigen::Matrix<double, 3, 4> barycentric_gradients(const TetMesh& mesh, Eigen::Index tet)
+{
+    Eigen::Matrix3d edges;
+    for (int k = 0; k < 3; ++k) edges.row(k) = mesh.rest.row(mesh.tets(tet, k + 1)) - mesh.rest.row(mesh.tets(tet, 0));
+    Eigen::Matrix<double, 3, 4> gradients;
+    gradients.rightCols<3>() = edges.inverse();
+    gradients.col(0) = -gradients.rightCols<3>().rowwise().sum();
+    return gradients;
+}
+
+double six_volumes(const Vec3& p21, const Vec3& p31, const Vec3& p41)
+{
+    return p21.cross(p31).dot(p41);
+}
+
+}  // namespace
+
+FleshEnergy::FleshEnergy(const TetMesh& mesh, const FleshMaterial& material, const BoneHold& hold) : hold_(hold.stiffness())
+{
+    const Eigen::VectorXd volumes = tet_volumes(mesh.rest, mesh.tets);
+    for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t) {
+        if (!(volumes(t) > 0.0))
+            throw InputError("flesh", 0, "tet " + std::to_string(t), std::to_string(volumes(t)) + " m^3", "expected a volume above 0");
+        FleshTet tet{{mesh.tets(t, 0), mesh.tets(t, 1), mesh.tets(t, 2), mesh.tets(t, 3)}, {}, 0.0, 0.0};
+        const auto gradients = barycentric_gradients(mesh, t);
+        for (int e = 0; e < 6; ++e) {
+            const auto [i, j] = edges_of_tet[e];
+            tet.w[e] = -material.mu * volumes(t) * gradients.col(i).dot(gradients.col(j)) + hold.edge_stiffness()(t, e);
+        }
+        tet.kappa = material.lambda / (36.0 * volumes(t));
+        tet.d = 6.0 * material.alpha * volumes(t);
+        tets_.push_back(tet);
+    }
+}
+
+double FleshEnergy::value(const Positions& x, const Positions& centres) const
+{
+    Positions ignored;
+    return value_and_gradient(x, centres, ignored);
+}
+
+double FleshEnergy::value_and_gradient(const Positions& x, const Positions& centres, Positions& gradient) const
+{
+    double value = 0.0;
+    gradient.resize(x.rows(), 3);
+    for (Eigen::Index i = 0; i < x.rows(); ++i) {
+        const Eigen::RowVector3d from_centre = x.row(i) - centres.row(i);
+        value += hold_(i) / 2.0 * from_centre.squaredNorm();
+        gradient.row(i) = hold_(i) * from_centre;
+    }
+    for (const FleshTet& tet : tets_) {
+        Vec3 p[4], g[4] = {Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+        for (int i = 0; i < 4; ++i) p[i] = x.row(tet.vertex[i]);
+        for (int e = 0; e < 6; ++e) {
+            const auto [i, j] = edges_of_tet[e];
+            const Vec3 edge = p[i] - p[j];
+            value += tet.w[e] / 2.0 * edge.squaredNorm();
+            g[i] += tet.w[e] * edge;
+            g[j] -= tet.w[e] * edge;
+        }
+        const Vec3 p21 = p[1] - p[0], p31 = p[2] - p[0], p41 = p[3] - p[0];
+        const double beyond = six_volumes(p21, p31, p41) - tet.d;
+        value += tet.kappa / 2.0 * beyond * beyond;
+        const double pressure = tet.kappa * beyond;
+        const Vec3 n2 = p31.cross(p41), n3 = p41.cross(p21), n4 = p21.cross(p31);
+        g[0] -= pressure * (n2 + n3 + n4);
+        g[1] += pressure * n2;
+        g[2] += pressure * n3;
+        g[3] += pressure * n4;
+        for (int i = 0; i < 4; ++i) gradient.row(tet.vertex[i]) += g[i].transpose();
+    }
+    return value;
+}
+
+Eigen::SparseMatrix<double> flesh_laplacian(const TetMesh& mesh, const FleshMaterial& material, const FleshEnergy& energy,
+                                            double volume_share)
+{
+    constexpr double regular = 1e-9;
+    std::vector<Eigen::Triplet<double>> entries;
+    Eigen::VectorXd diagonal = energy.hold();
+    const Eigen::VectorXd volumes = tet_volumes(mesh.rest, mesh.tets);
+    for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t) {
+        const FleshTet& tet = energy.tets()[t];
+        const auto gradients = barycentric_gradients(mesh, t);
+        for (int e = 0; e < 6; ++e) {
+            const auto [i, j] = edges_of_tet[e];
+            const double h = tet.w[e] - volume_share * material.lambda * volumes(t) * gradients.col(i).dot(gradients.col(j));
+            const auto [low, high] = std::minmax(tet.vertex[i], tet.vertex[j]);
+            entries.emplace_back(high, low, -h);
+            diagonal(low) += h;
+            diagonal(high) += h;
+        }
+    }
+    for (Eigen::Index i = 0; i < diagonal.size(); ++i)
+        entries.emplace_back(i, i, diagonal(i) > 0.0 ? (1.0 + regular) * diagonal(i) : 1.0);  // 1: a vertex without tets
+    Eigen::SparseMatrix<double> laplacian(diagonal.size(), diagonal.size());
+    laplacian.setFromTriplets(entries.begin(), entries.end());
+    return laplacian;
+}
+
+}  // namespace pbs

@@ -1,0 +1,131 @@
+#include "pbs/flesh/packed_flesh.hpp"
+
+#include "pbs/solver/batched/batch_schedule.hpp"
+#include "pbs/solver/batched/batched_constraints.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace pbs {
+namespace {
+
+constexpr int dummies_a_slab = 4 * batch_size;
+
+int whole_blocks(int rows)
+{
+    return (rows + batch_size - 1) / batch_size * batch_size;
+}
+
+// Tets of each slab by the first of their vertices.
+std::vector<std::vector<const FleshTet*>> by_slab(const std::vector<FleshTet>& tets, const VertexOrder& order)
+{
+    const auto first = [&](const FleshTet& tet) {
+        int lowest = order.new_of_old[tet.vertex[0]];
+        for (const int v : tet.vertex) lowest = std::min(lowest, order.new_of_old[v]);
+        return lowest;
+    };
+    std::vector<int> sorted(tets.size()), first_vertex;
+    for (const FleshTet& tet : tets) first_vertex.push_back(first(tet));
+    std::iota(sorted.begin(), sorted.end(), 0);
+    std::stable_sort(sorted.begin(), sorted.end(), [&](int a, int b) { return first_vertex[a] < first_vertex[b]; });
+    const std::vector<int> slab_of = order.slab_of_new();
+    std::vector<std::vector<const FleshTet*>> slabs(order.slabs());
+    for (const int t : sorted) slabs[slab_of[first_vertex[t]]].push_back(&tets[t]);
+    return slabs;
+}
+
+}  // namespace
+
+template <typename Scalar>
+PackedFlesh<Scalar>::PackedFlesh(const TetMesh& mesh, const FleshEnergy& energy, const CholeskyFactor& factor, int threads)
+    : order_(order_vertices(mesh.tets, static_cast<int>(mesh.rest.rows()), vertices_a_slab(static_cast<int>(mesh.rest.rows())))),
+      parallel_(order_.slabs() >= 3 ? threads : 1),
+      slab_energy_(order_.slabs()),
+      solve_(factor, order_.new_of_old)
+{
+    const int vertices = static_cast<int>(mesh.rest.rows());
+    rows_ = whole_blocks(vertices) + order_.slabs() * dummies_a_slab;
+    const auto slabs = by_slab(energy.tets(), order_);
+    for (int slab = 0; slab < order_.slabs(); ++slab) fill_slab(slab, slabs[slab]);
+    centres_ = rows();
+    for (int i = 0; i < vertices; ++i) centres_[i][3] = Scalar(energy.hold()(order_.old_of_new[i]));
+}
+
+template <typename Scalar>
+void PackedFlesh<Scalar>::fill_slab(int slab, const std::vector<const FleshTet*>& tets)
+{
+    std::vector<ConstraintGroup> groups;
+    for (const FleshTet* tet : tets)
+        groups.push_back({GroupKind::tet, {tet->vertex[0], tet->vertex[1], tet->vertex[2], tet->vertex[3]}, {}});
+    const int dummies = rows_ - (order_.slabs() - slab) * dummies_a_slab;
+    BatchScheduler scheduler(static_cast<int>(order_.new_of_old.size()));
+    std::vector<FleshBatch<Scalar>>& batches = batches_.emplace_back();
+    for (const std::vector<int>& members : scheduler.schedule(groups)) {
+        FleshBatch<Scalar>& batch = batches.emplace_back();
+        for (int lane = 0; lane < batch_size; ++lane) {
+            const FleshTet* tet = lane < static_cast<int>(members.size()) ? tets[members[lane]] : nullptr;
+            for (int i = 0; i < 4; ++i) batch.offset[i][lane] = 4u * (tet ? order_.new_of_old[tet->vertex[i]] : dummies + 4 * lane + i);
+            if (!tet) continue;
+            for (int e = 0; e < 6; ++e) batch.w[e][lane] = Scalar(tet->w[e]);
+            batch.kappa[lane] = Scalar(tet->kappa);
+            batch.d[lane] = Scalar(tet->d);
+        }
+    }
+}
+
+template <typename Scalar>
+void PackedFlesh<Scalar>::set_centres(const Positions& centres)
+{
+    origin_.setZero();
+    double hold = 0.0;
+    for (Eigen::Index i = 0; i < centres.rows(); ++i) {
+        const double a = double(centres_[order_.new_of_old[i]][3]);
+        origin_ += a * centres.row(i).transpose();
+        hold += a;
+    }
+    if (hold > 0.0) origin_ /= hold;
+    for (Eigen::Index i = 0; i < centres.rows(); ++i)
+        for (int axis = 0; axis < 3; ++axis) centres_[order_.new_of_old[i]][axis] = Scalar(centres(i, axis) - origin_(axis));
+}
+
+template <typename Scalar>
+void PackedFlesh<Scalar>::load(const Positions& x, Rows<Scalar>& rows) const
+{
+    for (Eigen::Index i = 0; i < x.rows(); ++i)
+        for (int axis = 0; axis < 3; ++axis) rows[order_.new_of_old[i]][axis] = Scalar(x(i, axis) - origin_(axis));
+}
+
+template <typename Scalar>
+void PackedFlesh<Scalar>::store(const Rows<Scalar>& rows, Positions& x) const
+{
+    x.resize(static_cast<Eigen::Index>(order_.new_of_old.size()), 3);
+    for (Eigen::Index i = 0; i < x.rows(); ++i)
+        for (int axis = 0; axis < 3; ++axis) x(i, axis) = double(rows[order_.new_of_old[i]][axis]) + origin_(axis);
+}
+
+template <typename Scalar>
+double PackedFlesh<Scalar>::value_and_gradient(const Rows<Scalar>& x, Rows<Scalar>& gradient)
+{
+    const double of_hold = set_gradient_of_hold(centres_.data(), centres_.size(), x.data(), gradient.data());
+    for (const int parity : {0, 1})
+        parallel_.for_each((order_.slabs() + 1 - parity) / 2, [&](int pair) {
+            const auto& batches = batches_[2 * pair + parity];
+            slab_energy_[2 * pair + parity] =
+                add_gradient_of_tets(batches.data(), static_cast<int>(batches.size()), x.data(), gradient.data());
+        });
+    return std::accumulate(slab_energy_.begin(), slab_energy_.end(), of_hold);
+}
+
+template <typename Scalar>
+std::size_t PackedFlesh<Scalar>::bytes() const
+{
+    std::size_t batches = 0;
+    for (const auto& slab : batches_) batches += slab.size();
+    const std::size_t of_rows = 4 * sizeof(Scalar) * rows_;
+    return batches * sizeof(FleshBatch<Scalar>) + 3 * of_rows + 2 * (solve_.bytes() + of_rows);
+}
+
+template class PackedFlesh<float>;
+template class PackedFlesh<double>;
+
+}  // namespace pbs

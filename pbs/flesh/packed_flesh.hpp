@@ -1,0 +1,44 @@
+// The packed implementation of FleshSystem: sixteen tets that share no vertex side by side, in the order of memory of the solvers of
+// Algorithm 1 (batched/vertex_order.hpp). Slabs of the mesh are worked off in parallel; the number of threads changes no bit.
+#pragma once
+
+#include "pbs/flesh/flesh_kernels.hpp"
+#include "pbs/flesh/flesh_system.hpp"
+#include "pbs/flesh/triangular_solve.hpp"
+#include "pbs/solver/batched/vertex_order.hpp"
+#include "pbs/solver/parallel.hpp"
+
+namespace pbs {
+
+template <typename Scalar>
+class PackedFlesh : public FleshSystem<Scalar> {
+public:
+    PackedFlesh(const TetMesh& mesh, const FleshEnergy& energy, const CholeskyFactor& factor, int threads);
+
+    Rows<Scalar> rows() const override { return Rows<Scalar>(rows_); }
+    void set_centres(const Positions& centres) override;
+    void load(const Positions& x, Rows<Scalar>& rows) const override;
+    void store(const Rows<Scalar>& rows, Positions& x) const override;
+    double value_and_gradient(const Rows<Scalar>& x, Rows<Scalar>& gradient) override;
+    void precondition(Rows<Scalar>& residual) override { solve_.apply(residual.data()); }
+    double dot(const Rows<Scalar>& a, const Rows<Scalar>& b) const override { return pbs::dot(a.data(), b.data(), a.size()); }
+    void add(double factor, const Rows<Scalar>& a, Rows<Scalar>& to) const override
+    {
+        pbs::add(Scalar(factor), a.data(), a.size(), to.data());
+    }
+    std::size_t bytes() const override;
+
+private:
+    void fill_slab(int slab, const std::vector<const FleshTet*>& tets);
+
+    VertexOrder order_;
+    int rows_ = 0;  // of vertices and, behind them, of the dummies of each slab
+    Parallel parallel_;
+    std::vector<std::vector<FleshBatch<Scalar>>> batches_;  // of each slab
+    std::vector<double> slab_energy_;
+    Rows<Scalar> centres_;  // c_i - origin, a_i
+    Vec3 origin_ = Vec3::Zero();
+    TriangularSolve<Scalar> solve_;
+};
+
+}  // namespace pbs

@@ -1,0 +1,112 @@
+#include "pbs/flesh/quasi_newton.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace pbs {
+
+template <typename Scalar>
+QuasiNewton<Scalar>::QuasiNewton(const TetMesh& mesh, const FleshEnergy& energy, const CholeskyFactor& factor,
+                                 const QuasiNewtonOptions& options)
+    : options_(options),
+      system_(make_flesh_system<Scalar>(mesh, energy, factor, options.arithmetic, options.threads)),
+      x_(system_->rows()),
+      gradient_(x_),
+      direction_(x_),
+      next_x_(x_),
+      next_gradient_(x_)
+{
+}
+
+template <typename Scalar>
+QuasiNewtonSummary QuasiNewton<Scalar>::minimise(const Positions& centres, Positions& x)
+{
+    QuasiNewtonSummary summary;
+    pairs_.clear();
+    system_->set_centres(centres);
+    system_->load(x, x_);
+    summary.energy = system_->value_and_gradient(x_, gradient_);
+    summary.evaluations = 1;
+    while (summary.iterations < options_.iterations && !summary.converged) {
+        const double slope = set_direction();
+        ++summary.solves;
+        summary.steps.push_back(std::sqrt(system_->dot(direction_, direction_)));
+        if (!std::isfinite(slope)) break;
+        const bool is_below = summary.steps.back() <= options_.stop_gradient * summary.steps.front();
+        summary.converged = is_below || !search(slope, summary);
+        if (!summary.converged) ++summary.iterations;
+    }
+    system_->store(x_, x);
+    return summary;
+}
+
+// The direction is -H_k g by the two loops of L-BFGS (J. Nocedal, S. Wright, Numerical Optimization, algorithm 7.4). Returns the slope.
+template <typename Scalar>
+double QuasiNewton<Scalar>::set_direction()
+{
+    direction_ = gradient_;
+    std::vector<double> alpha(pairs_.size());
+    for (std::size_t k = pairs_.size(); k-- > 0;) {
+        alpha[k] = system_->dot(pairs_[k].step, direction_) / pairs_[k].product;
+        system_->add(-alpha[k], pairs_[k].change, direction_);
+    }
+    system_->precondition(direction_);
+    for (std::size_t k = 0; k < pairs_.size(); ++k) {
+        const double beta = system_->dot(pairs_[k].change, direction_) / pairs_[k].product;
+        system_->add(alpha[k] - beta, pairs_[k].step, direction_);
+    }
+    return -system_->dot(direction_, gradient_);
+}
+
+// Halves the step until the energy decreases as it should (Armijo), or, where its change is below its rounding, the slope does (W. Hager,
+// H. Zhang, SIAM J. Optim. 16, 2005, approximate Wolfe condition). False: no step does.
+template <typename Scalar>
+bool QuasiNewton<Scalar>::search(double slope, QuasiNewtonSummary& summary)
+{
+    constexpr double sufficient = 1e-4;
+    constexpr int halvings = 20;
+    const double rounding = 16.0 * std::numeric_limits<Scalar>::epsilon() * std::abs(summary.energy);
+    double length = 1.0;
+    for (int attempt = 0; attempt <= halvings; ++attempt, length /= 2.0) {
+        next_x_ = x_;
+        system_->add(-length, direction_, next_x_);
+        const double energy = system_->value_and_gradient(next_x_, next_gradient_);
+        ++summary.evaluations;
+        const bool is_lower = energy <= summary.energy + sufficient * length * slope;
+        const bool is_equal = std::abs(energy - summary.energy) <= rounding;
+        const bool is_flatter = is_equal && -system_->dot(direction_, next_gradient_) >= (1.0 - 2.0 * sufficient) * slope &&
+                                std::abs(system_->dot(direction_, next_gradient_)) < std::abs(slope);
+        if (!is_lower && !is_flatter) continue;
+        remember();
+        std::swap(x_, next_x_);
+        std::swap(gradient_, next_gradient_);
+        summary.energy = energy;
+        return true;
+    }
+    return false;
+}
+
+// Keeps the last step where its curvature is positive.
+template <typename Scalar>
+void QuasiNewton<Scalar>::remember()
+{
+    if (options_.history == 0) return;
+    Pair pair;
+    if (static_cast<int>(pairs_.size()) == options_.history) {
+        pair = std::move(pairs_.front());
+        pairs_.pop_front();
+    }
+    pair.step = next_x_;
+    pair.change = next_gradient_;
+    system_->add(-1.0, x_, pair.step);
+    system_->add(-1.0, gradient_, pair.change);
+    pair.product = system_->dot(pair.step, pair.change);
+    if (pair.product > 0.0) pairs_.push_back(std::move(pair));
+}
+
+template class QuasiNewton<float>;
+template class QuasiNewton<double>;
+
+}  // namespace pbs
