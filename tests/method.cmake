@@ -15,6 +15,9 @@ pbs_tests(unit pbs_geometry FOLDERS pbs/geometry
 pbs_tests(unit pbs_skinning FOLDERS pbs/skinning pbs/constraints
     ALONE pbs/skinning/bone_binding pbs/skinning/pose_path pbs/skinning/root_frame pbs/constraints/volume_printed
     LIBRARIES pbs_method)
+if(TARGET pbskin_cholmod)
+    pbs_tests(unit pbs_flesh BLAS FOLDERS pbs/flesh LIBRARIES pbs_flesh)
+endif()
 pbs_tests(unit pbs_solver FOLDERS pbs/solver
     ALONE pbs/solver/batched/batched_constraints pbs/solver/batched/batched_projection pbs/solver/batched/constraint_groups
         pbs/solver/batched/vertex_order pbs/solver/constraint_set pbs/solver/poses_solver pbs/solver/reordered_projection

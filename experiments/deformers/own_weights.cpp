@@ -8,8 +8,8 @@
 namespace experiments {
 namespace {
 
-constexpr std::array<pbs::WeightKind, 4> own_weights = {pbs::WeightKind::paper, pbs::WeightKind::rigid, pbs::WeightKind::smooth,
-                                                        pbs::WeightKind::artist};
+constexpr std::array<pbs::WeightKind, 5> own_weights = {pbs::WeightKind::paper, pbs::WeightKind::rigid, pbs::WeightKind::smooth,
+                                                        pbs::WeightKind::diffused, pbs::WeightKind::artist};
 constexpr const char* of_the_scene = "scene";
 
 class WeightedDeformer : public Deformer {

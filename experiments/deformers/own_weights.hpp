@@ -17,7 +17,7 @@ class SceneValues;
 // such weights.
 std::unique_ptr<Deformer> with_own_weights(std::unique_ptr<Deformer> deformer, pbs::WeightKind weights);
 
-// The key `weights` of a deformer's table: scene (the default), paper, rigid, smooth or artist.
+// The key `weights` of a deformer's table: scene (the default), paper, rigid, smooth, diffused or artist.
 SceneKey own_weights_key(const std::string& table, bool in_list = false);
 
 // Sets the weights and, unless they are the scene's, the variant: weights_smooth.

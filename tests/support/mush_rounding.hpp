@@ -14,10 +14,10 @@
 
 namespace test_support {
 
-// Mean positions of the neighbours, again and again, half-way: the default options.
-inline pbs::Positions halfway_smoothed(const pbs::Adjacency& neighbours, pbs::Positions positions)
+// Mean positions of the neighbours, again and again, half-way: the default step.
+inline pbs::Positions halfway_smoothed(const pbs::Adjacency& neighbours, pbs::Positions positions, int iterations)
 {
-    for (int iteration = 0; iteration < pbs::DeltaMushOptions().iterations; ++iteration) {
+    for (int iteration = 0; iteration < iterations; ++iteration) {
         const pbs::Positions last = positions;
         for (int i = 0; i < last.rows(); ++i) {
             const int count = neighbours.first[i + 1] - neighbours.first[i];
@@ -36,7 +36,7 @@ inline double rotation_gap(const Eigen::Matrix3d& covariance)
     return s(1) + std::copysign(s(2), covariance.determinant());
 }
 
-// How far rounding may move a mushed position [m] of coordinates up to `farthest`, with the default options.
+// How far rounding may move a mushed position [m] of coordinates up to `farthest`, with the default step.
 //   Smoothing: each mean of n neighbours goes through n + 4 roundings, and means do not amplify those before. Without a motion, the blend
 //   and the rest shape are smoothed in the same roundings.
 //   Rotation: the covariance is a sum of n products of smoothed edges, whose ends are in error by smoothing on both sides, and its
@@ -44,15 +44,16 @@ inline double rotation_gap(const Eigen::Matrix3d& covariance)
 //   smaller singular values, the last with the sign of its determinant (C. Kenney, A. J. Laub, SIAM J. Matrix Anal. Appl. 12, 1991), which
 //   moves the vertex by that share of its detail. Sum: the detail, its rotated coordinates and their sum go through six roundings.
 template <class Scalar>
-double mush_error(const pbs::TetMesh& mesh, const pbs::Positions& blended, bool moved, double farthest)
+double mush_error(const pbs::TetMesh& mesh, const pbs::Positions& blended, bool moved, double farthest,
+                  int iterations = pbs::DeltaMushOptions().iterations)
 {
     const pbs::Adjacency neighbours = pbs::adjacency_of(mesh.tets, static_cast<int>(mesh.rest.rows()));
     const auto count = [&](int i) { return neighbours.first[i + 1] - neighbours.first[i]; };
-    const pbs::Positions rest = halfway_smoothed(neighbours, mesh.rest), posed = halfway_smoothed(neighbours, blended);
+    const pbs::Positions rest = halfway_smoothed(neighbours, mesh.rest, iterations),
+                         posed = halfway_smoothed(neighbours, blended, iterations);
     int most = 0;
     for (int i = 0; i < rest.rows(); ++i) most = std::max(most, count(i));
-    const double of_smoothing =
-        moved ? std::sqrt(3.0) * rounding_error_in<Scalar>(pbs::DeltaMushOptions().iterations * (most + 4), farthest) : 0.0;
+    const double of_smoothing = moved ? std::sqrt(3.0) * rounding_error_in<Scalar>(iterations * (most + 4), farthest) : 0.0;
     double largest = 0.0;
     for (int i = 0; i < rest.rows(); ++i) {
         Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();

@@ -44,7 +44,7 @@ int inverted_tets(WeightKind kind, const Blend& blend)
 
 TEST(SmoothWeightsOfTheHuman, SumUpToOneAndAreNotNegative)
 {
-    const Weights weights = weights_by(WeightKind::smooth, human_of_blends());
+    const Weights weights = weights_by(WeightKind::diffused, human_of_blends());
     ASSERT_EQ(weights.vertices(), human_of_blends().mesh.rest.rows());
     int blended = 0;
     for (int v = 0; v < weights.vertices(); ++v) {
@@ -64,12 +64,12 @@ TEST(SmoothWeightsOfTheHuman, SumUpToOneAndAreNotNegative)
 TEST(SmoothWeightsOfTheHuman, LeaveFewerTetsInverted)
 {
     const int paper = inverted_tets(WeightKind::paper, linear_blend_skinning),
-              smooth = inverted_tets(WeightKind::smooth, linear_blend_skinning);
+              smooth = inverted_tets(WeightKind::diffused, linear_blend_skinning);
     RecordProperty("inverted_by_lbs_with_paper_weights", paper);
     RecordProperty("inverted_by_lbs_with_smooth_weights", smooth);
     EXPECT_GT(paper, 50);
     EXPECT_LT(10 * smooth, paper);
-    EXPECT_LT(inverted_tets(WeightKind::smooth, dual_quaternion_skinning), inverted_tets(WeightKind::paper, dual_quaternion_skinning));
+    EXPECT_LT(inverted_tets(WeightKind::diffused, dual_quaternion_skinning), inverted_tets(WeightKind::paper, dual_quaternion_skinning));
 }
 
 }  // namespace
