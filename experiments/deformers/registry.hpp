@@ -60,7 +60,9 @@ DeformerKind pbs_author_kind();
 DeformerKind xpbd_kind();
 DeformerKind xpbd_small_steps_kind();
 DeformerKind delta_mush_kind();
+DeformerKind direct_delta_mush_kind();
 DeformerKind quasi_newton_kind();
+DeformerKind projective_dynamics_kind();
 DeformerKind fem_kind();
 DeformerKind external_kind();
 

@@ -1,6 +1,7 @@
 // Options of a position based skinning step. Stiffnesses are dimensionless, in [0, 1]; zero leaves the class out.
 #pragma once
 
+#include "pbs/geometry/precision.hpp"
 #include "pbs/geometry/types.hpp"
 
 #include <optional>
@@ -11,9 +12,6 @@ namespace pbs {
 // sixteen constraints that share no vertex side by side. grouped: the same with neighbouring constraints in groups, quicker and farther
 // from `plain`.
 enum class Order { plain, ordered, grouped };
-// Floating point of the projections; particles, their integration and sums of residuals are double in both. f32 projects relative to the
-// step's mean position, so that far from the origin no digits are lost.
-enum class Precision { f32, f64 };
 // m_i = 1 (the paper), or in proportion to the lumped rest volume; only their ratios count.
 enum class Masses { unit, lumped };
 // The volume correction: derived from Eq. 11 (default), or with one error of Eq. 12-20 at a time, or all of them:

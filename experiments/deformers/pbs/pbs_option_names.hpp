@@ -1,6 +1,7 @@
 // The names of the options of PBS in scenes and records.
 #pragma once
 
+#include "experiments/deformers/precision_names.hpp"
 #include "experiments/settings/option_names.hpp"
 #include "pbs/solver/options.hpp"
 
@@ -10,11 +11,6 @@ template <>
 struct OptionNames<pbs::Order> {
     static constexpr std::array<std::pair<pbs::Order, const char*>, 3> table{
         {{pbs::Order::plain, "plain"}, {pbs::Order::ordered, "ordered"}, {pbs::Order::grouped, "grouped"}}};
-};
-template <>
-struct OptionNames<pbs::Precision> {
-    static constexpr std::array<std::pair<pbs::Precision, const char*>, 2> table{
-        {{pbs::Precision::f32, "f32"}, {pbs::Precision::f64, "f64"}}};
 };
 template <>
 struct OptionNames<pbs::Masses> {

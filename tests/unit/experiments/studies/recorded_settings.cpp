@@ -1,4 +1,5 @@
 // --resume repeats a run when anything changed that its work depends on. Reference: the members of the cases, each changed in turn.
+#include "experiments/deformers/blend/blend_options.hpp"
 #include "experiments/deformers/fem/fem_option_names.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/studies/ambiguity/reading_values.hpp"
@@ -20,6 +21,7 @@
 #include "experiments/studies/work_precision/measured_points.hpp"
 #include "pbs/author/author_options.hpp"
 #include "pbs/skinning/delta_mush.hpp"
+#include "pbs/skinning/direct_delta_mush.hpp"
 #include "pbs/solver/xpbd_options.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/struct_members.hpp"
@@ -189,8 +191,10 @@ TEST(RecordedSettings, OfDeformers)
 {
     expect_each_option_is_recorded("fem", FemOptions{});
     expect_each_option_is_recorded("xpbd", pbs::XpbdOptions{});
+    expect_each_option_is_recorded("lbs", BlendOptions{});
     expect_each_option_is_recorded("delta_mush", pbs::DeltaMushOptions{});
     expect_each_option_is_recorded("pbs_author", pbs::AuthorOptions{});
+    expect_each_option_is_recorded("direct_delta_mush", pbs::DirectDeltaMushOptions{});
     const int threads = 6;  // the member on which results do not depend
     expect_each_option_is_recorded("pbs", pbs::PbsOptions{}, threads);
 }
