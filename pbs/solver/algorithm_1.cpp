@@ -5,6 +5,8 @@
 #include "pbs/solver/residuals.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 namespace pbs {
 namespace {
@@ -24,10 +26,19 @@ template <typename Scalar>
 Algorithm1<Scalar>::Algorithm1(const TetMesh& mesh, const Eigen::VectorXd& bind_distance, const std::vector<bool>& jiggle_zone,
                                const PbsOptions& options, const std::vector<bool>& held)
     : options_(options),
-      projection_(make_projection(make_constraint_set<Scalar>(mesh, bind_distance, jiggle_zone, options, held), mesh.tets, options)),
+      projection_(projection_of(make_constraint_set<Scalar>(mesh, bind_distance, jiggle_zone, options, held), mesh.tets)),
       sleep_tolerance_(sleep_tolerance(mesh, options)),
       particles_(mesh.rest, jiggle_zone, options)
 {
+}
+
+template <typename Scalar>
+std::unique_ptr<Projection<Scalar>> Algorithm1<Scalar>::projection_of(ConstraintSet<Scalar> constraints, const Tets& tets)
+{
+    bind_ = static_cast<std::int64_t>(constraints.bind.size());
+    stretch_ = static_cast<std::int64_t>(constraints.stretch.size());
+    volume_ = static_cast<std::int64_t>(constraints.volume.size());
+    return make_projection(std::move(constraints), tets, options_);
 }
 
 template <typename Scalar>
@@ -51,6 +62,7 @@ StepSummary Algorithm1<Scalar>::advance(const Positions& lbs_positions, const Po
             projection_->project_volume_constraints();   // (13)
             converged = examine_residuals(summary);
         }  // (14)
+        summary.work += work_of(summary.iterations);
     } while (options_.sleep && woken(summary));
     projection_->store(origin, particles_.predicted());
     particles_.update(dt_s);  // (15)-(18)
@@ -69,6 +81,15 @@ Vec3 Algorithm1<Scalar>::local_origin() const
     const bool of_absolute_positions =
         options_.volume_form == VolumeForm::labels_absolute || options_.volume_form == VolumeForm::as_printed;
     return of_absolute_positions ? Vec3(Vec3::Zero()) : pbs::local_origin<Scalar>(particles_.predicted());
+}
+
+// Of these iterations. Sleeping constraints are counted by their share, which is that of both classes.
+template <typename Scalar>
+WorkCounters Algorithm1<Scalar>::work_of(int iterations) const
+{
+    const double awake = 1.0 - projection_->sleeping_share();
+    const auto awake_of = [&](std::int64_t constraints) { return std::llround(awake * double(constraints)); };
+    return {.tet_visits = iterations * awake_of(volume_), .projections = iterations * (bind_ + awake_of(stretch_) + awake_of(volume_))};
 }
 
 // Whether a sleeping constraint is needed after all; the step is redone with it.

@@ -23,10 +23,13 @@ public:
 
 private:
     Vec3 local_origin() const;
+    std::unique_ptr<Projection<Scalar>> projection_of(ConstraintSet<Scalar> constraints, const Tets& tets);
+    WorkCounters work_of(int iterations) const;
     bool woken(StepSummary& summary);
     bool examine_residuals(StepSummary& summary) const;
 
     PbsOptions options_;
+    std::int64_t bind_ = 0, stretch_ = 0, volume_ = 0;  // constraints of each class
     std::unique_ptr<Projection<Scalar>> projection_;
     SleepTolerance sleep_tolerance_;  // of a mesh that the constraints have checked
     Particles particles_;

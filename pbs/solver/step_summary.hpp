@@ -1,6 +1,8 @@
 // The summary of one step: residuals, the reason why it stopped, and its time.
 #pragma once
 
+#include "pbs/solver/work_counters.hpp"
+
 #include <vector>
 
 namespace pbs {
@@ -24,6 +26,7 @@ struct StepSummary {
     double sleeping_share = 0.0;          // of stretch and volume constraints that were left out
     int wakings = 0;                      // how often the step was redone because some of them were needed
     double seconds = 0.0;                 // wall time of the step
+    WorkCounters work;                    // that was done in the step, of all attempts
     std::vector<Residuals> history;       // one per iteration, if requested
 };
 

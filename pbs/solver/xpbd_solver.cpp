@@ -83,6 +83,9 @@ StepSummary XpbdSolver::advance(const Positions& lbs_positions, const Positions&
 
     StepSummary summary;
     summary.iterations = options_.iterations * options_.substeps;
+    const auto constraints = static_cast<std::int64_t>(bind_.size() + stretch_.size() + volume_.size());
+    summary.work = {.tet_visits = summary.iterations * static_cast<std::int64_t>(volume_.size()),
+                    .projections = summary.iterations * constraints};
     if (!positions_.allFinite()) summary.outcome = Outcome::not_finite;
     summary.seconds = stopwatch.seconds();
     return summary;

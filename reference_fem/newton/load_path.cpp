@@ -17,6 +17,13 @@ int LoadPathSummary::halvings() const
     return static_cast<int>(std::count_if(steps.begin(), steps.end(), [](const LoadStep& step) { return !step.newton.converged(); }));
 }
 
+pbs::WorkCounters LoadPathSummary::work() const
+{
+    pbs::WorkCounters work;
+    for (const LoadStep& step : steps) work += step.newton.work;
+    return work;
+}
+
 LoadPathSummary follow_load_path(const std::function<NewtonSummary(double fraction)>& attempt, Eigen::VectorXd& displacement,
                                  const LoadPathOptions& options)
 {

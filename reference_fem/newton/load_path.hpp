@@ -31,6 +31,7 @@ struct LoadPathSummary {
     bool converged() const { return reached >= 1.0; }  // the end was reached
     int newton_steps() const;                          // linear solves, of failed steps too
     int halvings() const;                              // attempts that did not converge
+    pbs::WorkCounters work() const;                    // of all attempts
 };
 
 // `attempt` moves `displacement` to the state at a fraction. After a failure the displacement is put back to the last converged state,

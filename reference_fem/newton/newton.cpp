@@ -15,13 +15,6 @@ constexpr double energy_rounding = 1e-12;
 constexpr double truncation = 0.1;  // share of the first residual at which conjugate gradients end
 constexpr int most_gradients = 40;
 
-double energy_of(const Terms& terms, const Eigen::VectorXd& displacement)
-{
-    double energy = 0.0;
-    for (const Potential* term : terms) energy += term->value(displacement);
-    return energy;
-}
-
 bool all_quadratic(const Terms& terms)
 {
     return std::all_of(terms.begin(), terms.end(), [](const Potential* term) { return term->is_quadratic(); });
@@ -65,12 +58,28 @@ NewtonMinimiser::NewtonMinimiser(const SimplexSpace& space, const std::vector<bo
       solver_(solver),
       near_null_space_(solver == LinearSolver::cg_ml ? rigid_body_modes(space.node_positions()) : Eigen::MatrixXd()),
       extent_m_((space.node_positions().colwise().maxCoeff() - space.node_positions().colwise().minCoeff()).norm()),
+      tets_(space.tet_nodes().rows()),
       hessian_(space)
 {
 }
 
-NewtonMinimiser::State NewtonMinimiser::state_at(const Terms& terms, const Eigen::VectorXd& displacement) const
+double NewtonMinimiser::energy_at(const Terms& terms, const Eigen::VectorXd& displacement)
 {
+    work_.tet_visits += tets_;
+    double energy = 0.0;
+    for (const Potential* term : terms) energy += term->value(displacement);
+    return energy;
+}
+
+Eigen::VectorXd NewtonMinimiser::solution(const Eigen::VectorXd& force, const Eigen::VectorXd& prescribed_increment)
+{
+    ++work_.linear_solves;
+    return system_->solve(force, prescribed_increment).displacement;
+}
+
+NewtonMinimiser::State NewtonMinimiser::state_at(const Terms& terms, const Eigen::VectorXd& displacement)
+{
+    work_ += {.gradients = 1, .tet_visits = tets_};
     State state;
     state.gradient = Eigen::VectorXd::Zero(displacement.size());
     for (const Potential* term : terms) {
@@ -109,6 +118,7 @@ bool NewtonMinimiser::is_converged(const State& state, const NewtonOptions& opti
 
 void NewtonMinimiser::assemble(const Terms& terms, const Eigen::VectorXd& displacement, Definiteness definiteness)
 {
+    work_.tet_visits += tets_;
     hessian_.set_zero();
     for (const Potential* term : terms) term->add_hessian(displacement, definiteness, hessian_);
 }
@@ -120,6 +130,7 @@ bool NewtonMinimiser::factorise_assembled(NewtonSummary& summary)
     else
         system_ = std::make_unique<EliminatedSystem>(hessian_.matrix(), prescribed_, solver_, near_null_space_);
     ++summary.factorisations;
+    ++work_.factorisations;
     rounding_n_ = 4.0 * std::numeric_limits<double>::epsilon() * extent_m_ * hessian_.matrix().diagonal().norm();
     return system_->usable();
 }
@@ -152,7 +163,7 @@ bool NewtonMinimiser::may_reuse_factor(const NewtonSummary& summary, const Newto
 // The largest of 1, 1/2, 1/4, ... that lowers the energy by Armijo's share; where that is below rounding, that lowers the residual. 0:
 // none.
 double NewtonMinimiser::step_length(const Terms& terms, const State& state, const Eigen::VectorXd& displacement,
-                                    const Eigen::VectorXd& step, const NewtonOptions& options) const
+                                    const Eigen::VectorXd& step, const NewtonOptions& options)
 {
     const double slope = state.gradient.dot(step);
     const double rounding = energy_rounding * state.energy_scale_j;
@@ -160,7 +171,7 @@ double NewtonMinimiser::step_length(const Terms& terms, const State& state, cons
     for (int halving = 0; halving <= options.halvings; ++halving, length /= 2.0) {
         const Eigen::VectorXd trial = displacement + length * step;
         if (length * std::abs(slope) > rounding) {
-            if (slope < 0.0 && energy_of(terms, trial) <= state.energy_j + armijo * length * slope) return length;
+            if (slope < 0.0 && energy_at(terms, trial) <= state.energy_j + armijo * length * slope) return length;
         } else if (const State at_trial = state_at(terms, trial); at_trial.finite() && at_trial.residual_n < state.residual_n) {
             return length;
         }
@@ -173,7 +184,7 @@ double NewtonMinimiser::step_length(const Terms& terms, const State& state, cons
 Eigen::VectorXd NewtonMinimiser::truncated_step(const State& state)
 {
     const Eigen::VectorXd zero = Eigen::VectorXd::Zero(state.gradient.size());
-    const auto preconditioned = [&](const Eigen::VectorXd& residual) { return system_->solve(residual, zero).displacement; };
+    const auto preconditioned = [&](const Eigen::VectorXd& residual) { return solution(residual, zero); };
     Eigen::VectorXd step = zero, residual = -state.gradient, direction = preconditioned(residual);
     double product = residual.dot(direction);
     has_negative_curvature_ = false;
@@ -201,7 +212,7 @@ NewtonMinimiser::Step NewtonMinimiser::step_from(const Terms& terms, const State
                                                  const Eigen::VectorXd& increment, const NewtonOptions& options)
 {
     const bool truncates = indefinite_.size() > 0 && increment.isZero(0.0);
-    Step step{truncates ? truncated_step(state) : system_->solve(-state.gradient, increment).displacement, 0.0};
+    Step step{truncates ? truncated_step(state) : solution(-state.gradient, increment), 0.0};
     if (!step.direction.allFinite()) return step;
     const bool is_whole = !increment.isZero(0.0) || all_quadratic(terms);
     step.length = is_whole ? 1.0 : step_length(terms, state, displacement, step.direction, options);
@@ -216,10 +227,12 @@ NewtonSummary NewtonMinimiser::minimise(const Terms& terms, const Eigen::VectorX
     const auto end = [&](NewtonOutcome outcome) {
         summary.outcome = outcome;
         summary.seconds = stopwatch.seconds();
+        summary.work = work_;
         return summary;
     };
     Eigen::VectorXd increment = increment_to(prescribed_values, displacement);
     has_negative_curvature_ = false;
+    work_ = {};
     for (int k = 0; k <= options.iterations; ++k) {
         const State state = state_at(terms, displacement);
         const bool carries_increment = !increment.isZero(0.0);

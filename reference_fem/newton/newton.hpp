@@ -9,6 +9,7 @@
 // Journal 19, 1967).
 #pragma once
 
+#include "pbs/solver/work_counters.hpp"
 #include "reference_fem/eliminated_system.hpp"
 #include "reference_fem/potentials/potential.hpp"
 
@@ -50,6 +51,7 @@ struct NewtonSummary {
     NewtonOutcome outcome = NewtonOutcome::iterations_exhausted;  // why it ended
     std::vector<NewtonIteration> iterations;                      // one a state, the start first
     int factorisations = 0;                                       // numerical ones; 0 where a kept factor served
+    pbs::WorkCounters work;                                       // every tet for each energy, gradient and Hessian
     double seconds = 0.0;                                         // wall time
 
     bool converged() const { return outcome == NewtonOutcome::converged; }  // only then the displacement is a minimum
@@ -80,7 +82,9 @@ private:
         Eigen::VectorXd direction;
         double length = 0.0;
     };
-    State state_at(const Terms& terms, const Eigen::VectorXd& displacement) const;
+    double energy_at(const Terms& terms, const Eigen::VectorXd& displacement);
+    State state_at(const Terms& terms, const Eigen::VectorXd& displacement);
+    Eigen::VectorXd solution(const Eigen::VectorXd& force, const Eigen::VectorXd& prescribed_increment);
     Eigen::VectorXd increment_to(const Eigen::VectorXd& prescribed_values, const Eigen::VectorXd& displacement) const;
     bool is_converged(const State& state, const NewtonOptions& options) const;
     bool may_reuse_factor(const NewtonSummary& summary, const NewtonOptions& options) const;
@@ -92,12 +96,14 @@ private:
     Step step_from(const Terms& terms, const State& state, const Eigen::VectorXd& displacement, const Eigen::VectorXd& increment,
                    const NewtonOptions& options);
     double step_length(const Terms& terms, const State& state, const Eigen::VectorXd& displacement, const Eigen::VectorXd& step,
-                       const NewtonOptions& options) const;
+                       const NewtonOptions& options);
 
     std::vector<bool> prescribed_;
     LinearSolver solver_;
     Eigen::MatrixXd near_null_space_;  // of an iterative solver
     double extent_m_;                  // diagonal of the bounding box
+    std::int64_t tets_;
+    pbs::WorkCounters work_;  // of this minimisation
     NodalMatrix hessian_;
     std::unique_ptr<EliminatedSystem> system_;
     SparseMatrix indefinite_;              // the Hessian where the factor is that of the projected one; else empty

@@ -36,6 +36,7 @@ public:
         ((*skinning_).*blend_)(pose, positions_);
         pbs::StepSummary summary;
         summary.seconds = stopwatch.seconds();
+        summary.work.vertex_visits = positions_.rows();
         if (!positions_.allFinite()) summary.outcome = pbs::Outcome::not_finite;
         return summary;
     }

@@ -39,6 +39,7 @@ public:
         mush_->apply(lbs_, positions_);
         pbs::StepSummary summary;
         summary.seconds = stopwatch.seconds();
+        summary.work.vertex_visits = (options_.iterations + 2) * positions_.rows();  // blended, smoothed, rotated
         if (!positions_.allFinite()) summary.outcome = pbs::Outcome::not_finite;
         return summary;
     }

@@ -114,7 +114,11 @@ pbs::StepSummary ElasticFemDeformer::advance(const pbs::Pose& pose, double dt_s)
     is_started_ = true;
     pbs::StepSummary summary;
     summary.outcome = solve.converged() ? pbs::Outcome::finished : pbs::Outcome::not_converged;
-    for (const auto& stage : solve.stages) summary.iterations += stage.newton_steps();
+    for (const auto& stage : solve.stages) {
+        summary.iterations += stage.newton_steps();
+        summary.work += stage.work();
+    }
+    if (set_out_from_.deformer) summary.work += set_out_from_.step.work;
     summary.seconds = stopwatch.seconds();
 
     record_.add_frame(frame.pose());

@@ -44,6 +44,7 @@ pbs::StepSummary LinearFemDeformer::advance(const pbs::Pose& pose, double)
     pbs::StepSummary summary;
     summary.outcome = solve.finite && positions_.allFinite() ? pbs::Outcome::finished : pbs::Outcome::not_finite;
     summary.seconds = stopwatch.seconds();
+    summary.work.linear_solves = 1;
 
     record_.add_frame(frame.pose());
     largest_residual_ = std::max(largest_residual_, solve.residual);

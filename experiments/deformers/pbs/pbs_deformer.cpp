@@ -81,7 +81,10 @@ pbs::StepSummary PbsDeformer::advance_ahead(double dt_s)
             ahead_ = std::make_unique<pbs::PosesSolver>(character_->mesh, character_->binding.distance, std::vector<bool>{},
                                                         std::vector<pbs::PbsOptions>(lot, options_));
         steps_ahead_ = ahead_->advance(lbs, bind_points, dt_s);
-        for (pbs::StepSummary& step : steps_ahead_) step.seconds = stopwatch.seconds() / double(lot);
+        for (pbs::StepSummary& step : steps_ahead_) {
+            step.seconds = stopwatch.seconds() / double(lot);
+            step.work.vertex_visits += character_->mesh.rest.rows();
+        }
         done_ahead_ = 0;
     }
     ++next_;
@@ -96,6 +99,7 @@ pbs::StepSummary PbsDeformer::advance(const pbs::Pose& pose, double dt_s)
     skinning_->linear(pose, lbs_);
     pbs::StepSummary summary = solver_->advance(lbs_, pbs::posed_bind_points(character_->binding, pose), dt_s);
     summary.seconds = stopwatch.seconds();
+    summary.work.vertex_visits += lbs_.rows();
     return summary;
 }
 

@@ -48,9 +48,12 @@ PosesAlgorithm1<Scalar>::PosesAlgorithm1(const TetMesh& mesh, const Eigen::Vecto
         particles_.emplace_back(mesh.rest, jiggle_zone, pose);
     }
     const bool jiggle = options.front().jiggle.has_value();
+    const ConstraintSet<Scalar> constraints = make_constraint_set<Scalar>(mesh, bind_distance, jiggle_zone, of_any(options), held);
     program_ = std::make_unique<const PoseProgram<Scalar>>(
-        make_pose_program(make_constraint_set<Scalar>(mesh, bind_distance, jiggle_zone, of_any(options), held), mesh.tets,
-                          jiggle ? jiggle_zone : std::vector<bool>{}, options.front().order));
+        make_pose_program(constraints, mesh.tets, jiggle ? jiggle_zone : std::vector<bool>{}, options.front().order));
+    work_an_iteration_ = {
+        .tet_visits = static_cast<std::int64_t>(constraints.volume.size()),
+        .projections = static_cast<std::int64_t>(constraints.bind.size() + constraints.stretch.size() + constraints.volume.size())};
     for (std::size_t first = 0; first < options.size(); first += poses_a_block) {
         const std::size_t last = std::min(first + poses_a_block, options.size());
         blocks_.emplace_back(*program_, std::vector<PbsOptions>(options.begin() + first, options.begin() + last));
@@ -73,6 +76,8 @@ std::vector<StepSummary> PosesAlgorithm1<Scalar>::advance(const std::vector<Posi
     for (std::size_t i = 0; i < particles_.size(); ++i) {
         particles_[i].update(dt_s);  // (15)-(18)
         summaries[i].iterations = options_[i].iterations;
+        summaries[i].work = {.tet_visits = options_[i].iterations * work_an_iteration_.tet_visits,
+                             .projections = options_[i].iterations * work_an_iteration_.projections};
         if (!particles_[i].positions().allFinite()) summaries[i].outcome = Outcome::not_finite;
     }
     for (StepSummary& summary : summaries) summary.seconds = stopwatch.seconds() / double(summaries.size());

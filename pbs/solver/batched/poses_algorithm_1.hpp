@@ -26,6 +26,7 @@ private:
     void project_block(std::size_t block, const std::vector<Positions>& bind_points);
 
     std::vector<PbsOptions> options_;   // of each pose
+    WorkCounters work_an_iteration_;    // of a pose; constraints that any of the poses has
     std::vector<Particles> particles_;  // of each pose
     std::unique_ptr<const PoseProgram<Scalar>> program_;
     std::vector<PoseBlock<Scalar>> blocks_;  // sixteen poses each, the last maybe fewer

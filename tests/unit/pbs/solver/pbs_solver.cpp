@@ -3,6 +3,7 @@
 
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/tet_volume.hpp"
+#include "pbs/geometry/topology.hpp"
 #include "tests/support/projection_rounding.hpp"
 #include "tests/support/scalar_rounding.hpp"
 #include "tests/support/step_rounding.hpp"
@@ -159,6 +160,25 @@ TEST(PbsSolver, RecordsEachIteration)
     EXPECT_LT(summary.history.back().volume_rms, summary.history.front().volume_rms);
     EXPECT_GT(summary.seconds, 0.0);
     EXPECT_EQ(solver.positions(), stepped(bent, in_double()));
+}
+
+// Reference: one bind constraint per vertex, one stretch constraint per edge, one volume constraint per tet, in each iteration.
+TEST(PbsSolver, CountsItsProjections)
+{
+    const Eigen::Index tets = bent.mesh.tets.rows(), edges = pbs::edges_of(bent.mesh.tets).rows(), vertices = bent.mesh.rest.rows();
+    for (const pbs::Order order : {pbs::Order::plain, pbs::Order::ordered, pbs::Order::grouped}) {
+        PbsOptions options = in_double();
+        options.order = order;
+        PbsSolver solver(bent.mesh, bent.binding.distance, {}, options);
+        const pbs::WorkCounters expected{.tet_visits = 24 * tets, .projections = 24 * (vertices + edges + tets)};
+        EXPECT_EQ(solver.advance(bent.lbs, bent.bind_points, 0.01).work, expected);
+    }
+    PbsOptions options = in_double();
+    options.stop_residual = 0.2;
+    options.k_volume = 0.0;
+    PbsSolver solver(bent.mesh, bent.binding.distance, {}, options);
+    const StepSummary summary = solver.advance(bent.lbs, bent.bind_points, 0.01);
+    EXPECT_EQ(summary.work, (pbs::WorkCounters{.projections = summary.iterations * (vertices + edges)}));
 }
 
 TEST(PbsSolver, StopsAtTheResidual)

@@ -12,6 +12,7 @@ namespace {
 
 using pbs::Order;
 using pbs::PbsOptions;
+using pbs::PbsSolver;
 using pbs::PosesSolver;
 using pbs::Positions;
 using pbs::Precision;
@@ -58,6 +59,15 @@ TEST_P(Poses, OfManyParametersEqualEachAloneToTheBit)
     PosesSolver solver(limb.mesh, limb.binding.distance, {}, options);
     solver.advance({limb.lbs}, {limb.bind_points}, 0.01);
     for (int i = 0; i < 20; ++i) EXPECT_EQ(solver.positions(i), alone(options[i], limb.lbs)) << i;
+}
+
+TEST_P(Poses, CountTheWorkOfEachAlone)
+{
+    PosesSolver solver(limb.mesh, limb.binding.distance, {}, {base, base});
+    PbsSolver single(limb.mesh, limb.binding.distance, {}, base);
+    const pbs::WorkCounters work = single.advance(limb.lbs, limb.bind_points, 0.01).work;
+    EXPECT_GT(work.projections, work.tet_visits);
+    for (const pbs::StepSummary& step : solver.advance({limb.lbs}, {limb.bind_points}, 0.01)) EXPECT_EQ(step.work, work);
 }
 
 TEST_P(Poses, OfManyFramesEqualEachAloneToTheBit)

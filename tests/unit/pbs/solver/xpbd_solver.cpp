@@ -2,6 +2,7 @@
 
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/tet_volume.hpp"
+#include "pbs/geometry/topology.hpp"
 #include "tests/support/rounding_error.hpp"
 #include "tests/support/two_bone_limb.hpp"
 
@@ -35,6 +36,15 @@ TEST(XpbdSolver, RestoresTheVolumeThatBlendingLost)
         return (pbs::tet_volumes(positions, bent.mesh.tets) - pbs::tet_volumes(bent.mesh.rest, bent.mesh.tets)).cwiseAbs().sum();
     };
     EXPECT_LT(lost(stepped(bent.lbs, bent.bind_points, {.poisson = 0.49})), 0.5 * lost(bent.lbs));
+}
+
+// Reference: one bind constraint per vertex, one spring per edge, one volume constraint per tet, in each iteration of each substep.
+TEST(XpbdSolver, CountsItsProjections)
+{
+    XpbdSolver solver(bent.mesh, bent.binding.distance, {}, {.poisson = 0.45, .iterations = 3, .substeps = 2});
+    const Eigen::Index tets = bent.mesh.tets.rows(), edges = pbs::edges_of(bent.mesh.tets).rows(), vertices = bent.mesh.rest.rows();
+    const pbs::WorkCounters expected{.tet_visits = 6 * tets, .projections = 6 * (vertices + edges + tets)};
+    EXPECT_EQ(solver.advance(bent.lbs, bent.bind_points, 0.01).work, expected);
 }
 
 TEST(XpbdSolver, HeldVerticesStayToTheBit)

@@ -83,11 +83,14 @@ TEST(Newton, AQuadraticTakesOneStepAndKeepsItsFactor)
     EXPECT_TRUE(summary.converged());
     EXPECT_EQ(summary.steps(), 1);
     EXPECT_EQ(summary.factorisations, 1);
+    // The gradient at both states and the Hessian at the first one visit the 12 tets.
+    EXPECT_EQ(summary.work, (pbs::WorkCounters{.gradients = 2, .tet_visits = 3 * 12, .linear_solves = 1, .factorisations = 1}));
     const Eigen::VectorXd once = u;
 
     load.set(weight(space, 20.0));
     summary = newton.minimise({&flesh, &load}, u, u, {});
     EXPECT_EQ(summary.factorisations, 0);
+    EXPECT_EQ(summary.work, (pbs::WorkCounters{.gradients = 2, .tet_visits = 2 * 12, .linear_solves = 1}));
     // Two direct solves with one factor, each in error by rounding.
     const Spectrum of_flesh = spectrum(rest_stiffness(space, flesh).matrix(), held_end(space));
     EXPECT_LT((u - 2.0 * once).norm(), 2.0 * rounding_bound(of_flesh) * u.norm());

@@ -1,0 +1,78 @@
+// Reference: the definitions in pbs/solver/work_counters.hpp, counted by hand on a bar.
+#include "experiments/deformers/fem/fem_options.hpp"
+#include "experiments/deformers/registry.hpp"
+#include "pbs/geometry/topology.hpp"
+#include "pbs/skinning/delta_mush.hpp"
+#include "pbs/solver/options.hpp"
+#include "tests/support/bar_character.hpp"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace experiments;
+using pbs::WorkCounters;
+
+const pbs::Character& bar()
+{
+    static const pbs::Character character = test_support::bar_character({4, 2, 2});
+    return character;
+}
+
+pbs::StepSummary bent(const DeformerSpec& spec)
+{
+    const auto deformer = make_deformer(spec);
+    deformer->reset(bar());
+    return deformer->advance(pbs::joint_sweep(bar().skeleton, 1, pbs::Vec3::UnitZ(), 30.0, 2, 0.01).steps.back(), 0.01);
+}
+
+std::int64_t vertices()
+{
+    return bar().mesh.rest.rows();
+}
+
+TEST(CountedWork, BlendingVisitsEachVertexOnce)
+{
+    for (const char* kind : {"lbs", "dqs"}) EXPECT_EQ(bent(default_spec(kind)).work, WorkCounters{.vertex_visits = vertices()});
+}
+
+TEST(CountedWork, DeltaMushSmoothsEachVertexInEachIteration)
+{
+    DeformerSpec spec = default_spec("delta_mush");
+    options_of<pbs::DeltaMushOptions>(spec).iterations = 5;
+    EXPECT_EQ(bent(spec).work, WorkCounters{.vertex_visits = 7 * vertices()}) << "blended, smoothed five times, rotated";
+}
+
+TEST(CountedWork, PbsBlendsAndProjects)
+{
+    DeformerSpec spec = default_spec("pbs");
+    options_of<pbs::PbsOptions>(spec).iterations = 3;
+    const std::int64_t tets = bar().mesh.tets.rows(), edges = pbs::edges_of(bar().mesh.tets).rows();
+    EXPECT_EQ(bent(spec).work,
+              (WorkCounters{.vertex_visits = vertices(), .tet_visits = 3 * tets, .projections = 3 * (vertices() + edges + tets)}));
+}
+
+TEST(CountedWork, LinearFemSolvesOneSystem)
+{
+    DeformerSpec spec = default_spec("fem");
+    options_of<FemOptions>(spec) = {.model = reference_fem::Model::linear, .element_order = 1};
+    EXPECT_EQ(bent(spec).work, WorkCounters{.linear_solves = 1});
+}
+
+// Each state on the way has a gradient; each of Newton's steps has one solve or more, and none has more than two factorisations.
+TEST(CountedWork, NewtonsStepsAreCountedWithTheirSolves)
+{
+    DeformerSpec spec = default_spec("fem");
+    options_of<FemOptions>(spec) = {.model = reference_fem::Model::stable_neo_hookean, .element_order = 1};
+    const pbs::StepSummary step = bent(spec);
+    ASSERT_EQ(step.outcome, pbs::Outcome::finished);
+    ASSERT_GT(step.iterations, 1);
+    EXPECT_GT(step.work.gradients, step.iterations);
+    EXPECT_GE(step.work.linear_solves, step.iterations);
+    EXPECT_LE(step.work.factorisations, 2 * step.work.linear_solves);
+    EXPECT_GE(step.work.factorisations, 1);
+    EXPECT_EQ(step.work.tet_visits % bar().mesh.tets.rows(), 0);
+    EXPECT_GE(step.work.tet_visits, step.work.gradients * bar().mesh.tets.rows());
+}
+
+}  // namespace
