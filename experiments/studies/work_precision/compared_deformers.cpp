@@ -1,16 +1,5 @@
 #include "experiments/studies/work_precision/compared_deformers.hpp"
 
-#include "experiments/deformers/fem/fem_options.hpp"
-#include "experiments/deformers/registry.hpp"
-#include "experiments/scene/scene_keys.hpp"
-#include "experiments/settings/scene_values.hpp"
-#include "experiments/studies/shared/posed_reference.hpp"
-
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <stdexcept>
-
 namespace experiments {
 namespace {
 
@@ -30,28 +19,55 @@ std::vector<SettingChange> each_of(const std::string& key, const std::vector<std
     return grid;
 }
 
-std::vector<ComparedDeformer> geometric()
+// In the code of each precision.
+std::vector<KeyValues> precisions_of(const std::string& kind)
+{
+    return {set(kind, "precision", "f32"), set(kind, "precision", "f64")};
+}
+
+std::vector<ComparedDeformer> blending()
 {
     std::vector<ComparedDeformer> entries;
     for (const auto& [kind, words] : {std::pair{"lbs", "LBS"}, {"dqs", "DQS"}})
-        for (const char* weights : {"", "smooth"}) {
-            const std::string suffix = *weights ? "_smooth" : "";
-            entries.push_back({.name = kind + suffix,
+        for (const char* weights : {"paper", "smooth"}) {
+            const bool is_smooth = std::string(weights) == "smooth";
+            const std::string name = std::string(kind) + (is_smooth ? "_smooth" : "");
+            entries.push_back({.name = name,
                                .kind = kind,
-                               .group = kind + suffix,
-                               .words = std::string(words) + (*weights ? " with smooth weights" : ""),
-                               .weights = weights});
+                               .group = name,
+                               .words = std::string(words) + (is_smooth ? " with smooth weights" : ""),
+                               .weights = weights,
+                               .codes = precisions_of(kind)});
         }
-    entries.push_back({.name = "delta_mush",
-                       .kind = "delta_mush",
-                       .group = "delta_mush",
-                       .words = "delta mush",
-                       .iterations_key = "delta_mush.iterations",
-                       .iterations = {0, 1, 2, 5, 10, 20, 50, 100, 200},
-                       .few_iterations = {2, 10, 50},
-                       .grid = each_of("delta_mush.step", {"0.25", "0.9"})});
-    entries.push_back(
-        {.name = "direct_delta_mush", .kind = "direct_delta_mush", .group = "direct_delta_mush", .words = "direct delta mush"});
+    return entries;
+}
+
+// Direct delta mush smooths once for all poses, so that its iterations are a setting and no work of a frame.
+std::vector<ComparedDeformer> mushing()
+{
+    const ComparedDeformer mush = {.name = "delta_mush",
+                                   .kind = "delta_mush",
+                                   .group = "delta_mush",
+                                   .words = "delta mush",
+                                   .iterations_key = "delta_mush.iterations",
+                                   .iterations = {0, 1, 2, 5, 10, 20, 50, 100, 200},
+                                   .few_iterations = {2, 10, 50},
+                                   .grid = each_of("delta_mush.step", {"0.25", "0.9"}),
+                                   .codes = precisions_of("delta_mush")};
+    const ComparedDeformer direct = {.name = "direct_delta_mush",
+                                     .kind = "direct_delta_mush",
+                                     .group = "direct_delta_mush",
+                                     .words = "direct delta mush",
+                                     .grid = each_of("direct_delta_mush.iterations", {"5", "10", "40", "80"}),
+                                     .codes = precisions_of("direct_delta_mush")};
+    std::vector<ComparedDeformer> entries;
+    for (ComparedDeformer entry : {mush, direct}) {
+        entries.push_back(entry);
+        entry.fixed = set(entry.kind, "weights", "smooth");
+        entry.name = entry.group = entry.kind + "_smooth";
+        entry.words += " with smooth weights";
+        entries.push_back(entry);
+    }
     return entries;
 }
 
@@ -113,27 +129,10 @@ ComparedDeformer elastic(const std::string& kind, const std::string& words)
 
 std::vector<ComparedDeformer> elastic_ones()
 {
-    return {elastic("quasi_newton", "quasi-Newton"), elastic("vbd", "vertex block descent"),
-            elastic("xpbd_neo_hookean", "neo-Hookean XPBD"), elastic("projective_dynamics", "projective dynamics")};
-}
-
-const std::string& text_of_scene(const Scene& scene)
-{
-    for (const BuiltInScene& built_in : built_in_scenes())
-        if (built_in.name == scene.name) return built_in.text;
-    throw std::logic_error("deformers are compared in built-in scenes, not in " + scene.name);
-}
-
-std::string assigned(const std::string& key, double value)
-{
-    return fmt::format("{}={:.17g}", key, value);
-}
-
-SceneValues values_with(const ComparedDeformer& entry, const Scene& scene, const KeyValues& keys)
-{
-    std::string text = text_of_scene(scene);
-    if (!entry.weights.empty()) text += fmt::format("\n[[{}]]\nname = \"{}\"\nweights = \"{}\"\n", entry.kind, entry.name, entry.weights);
-    return SceneValues(text, scene.file, keys, scene_schema());
+    ComparedDeformer quasi_newton = elastic("quasi_newton", "quasi-Newton");
+    quasi_newton.grid = {{}, {{"quasi_newton.volume_share=0.3"}}, {{"quasi_newton.volume_share=1"}}, {{"quasi_newton.start=lbs"}}};
+    return {quasi_newton, elastic("vbd", "vertex block descent"), elastic("xpbd_neo_hookean", "neo-Hookean XPBD"),
+            elastic("projective_dynamics", "projective dynamics")};
 }
 
 }  // namespace
@@ -141,57 +140,11 @@ SceneValues values_with(const ComparedDeformer& entry, const Scene& scene, const
 const std::vector<ComparedDeformer>& compared_deformers()
 {
     static const std::vector<ComparedDeformer> entries = [] {
-        std::vector<ComparedDeformer> all = geometric();
-        for (const auto& more : {projecting(), elastic_ones()}) all.insert(all.end(), more.begin(), more.end());
+        std::vector<ComparedDeformer> all = blending();
+        for (const auto& more : {mushing(), projecting(), elastic_ones()}) all.insert(all.end(), more.begin(), more.end());
         return all;
     }();
     return entries;
-}
-
-bool is_registered(const ComparedDeformer& entry)
-{
-    return find_deformer_kind(entry.kind) != nullptr;
-}
-
-double stiffness_of(const ComparedDeformer& entry, const Scene& scene)
-{
-    const DeformerSpec flesh = reference_flesh(scene);
-    if (entry.stiffness_key == entry.young_key) return options_of<FemOptions>(flesh).young_pa;
-    return values_with(entry, scene, entry.fixed).number(entry.stiffness_key);
-}
-
-DeformerSpec spec_with(const ComparedDeformer& entry, const Scene& scene, const SettingChoice& choice)
-{
-    const DeformerSpec reference = reference_flesh(scene);
-    const auto& flesh = options_of<FemOptions>(reference);
-    KeyValues keys = entry.fixed;
-    for (const KeyValues& more : {choice.code, choice.change.keys}) keys.insert(keys.end(), more.begin(), more.end());
-    if (choice.iterations) keys.push_back(fmt::format("{}={}", entry.iterations_key, *choice.iterations));
-    if (!entry.young_key.empty()) keys.push_back(assigned(entry.young_key, flesh.young_pa));
-    if (!entry.poisson_key.empty()) keys.push_back(assigned(entry.poisson_key, flesh.poisson));
-    if (const double factor = choice.stiffness_factor * choice.change.stiffness_factor; factor != 1.0)
-        keys.push_back(assigned(entry.stiffness_key, std::min(factor * stiffness_of(entry, scene), entry.highest_stiffness)));
-    const SceneValues values = values_with(entry, scene, keys);
-    DeformerSpec spec = default_spec(entry.kind);
-    spec.name = spec.label = entry.name;
-    const std::string table = entry.weights.empty() ? entry.kind : fmt::format("{}.{}", entry.kind, values.tables(entry.kind) - 1);
-    const DeformerKind& kind = *find_deformer_kind(entry.kind);
-    if (kind.read) kind.read(values, table, spec);
-    spec.threads = 1;
-    return spec;
-}
-
-std::string name_of(const SettingChange& change)
-{
-    std::string name;
-    const auto add = [&](const std::string& part) { name += (name.empty() ? "" : "+") + part; };
-    for (std::string key : change.keys) {
-        const std::size_t equals = key.find('='), dot = key.rfind('.', equals);
-        key[equals] = '_';
-        add(key.substr(dot + 1));
-    }
-    if (change.stiffness_factor != 1.0) add(fmt::format("stiffness_factor_{:g}", change.stiffness_factor));
-    return name;
 }
 
 }  // namespace experiments

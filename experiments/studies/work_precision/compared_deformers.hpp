@@ -1,6 +1,6 @@
 // The deformers that are compared, one entry each: its ladder of iterations, which are the axis of its work, the grid of settings that are
 // tried at each of them, and its codes (packed f32, plain f64). An entry names keys of a scene (`pbskin explain KEY`), so that adding a
-// deformer is an entry. Entries whose kind is not registered are skipped.
+// deformer is an entry. Entries whose kind or keys do not exist in this program are skipped, and so are settings and codes.
 //   for (const ComparedDeformer& entry : compared_deformers())
 //       spec_with(entry, scene, {.iterations = 24, .change = entry.grid[0], .code = entry.codes[0]});
 // Finite elements have laws, element orders and meshes instead; point_setting.cpp adds them.
@@ -43,7 +43,9 @@ struct ComparedDeformer {
 };
 
 const std::vector<ComparedDeformer>& compared_deformers();
-bool is_registered(const ComparedDeformer& entry);
+bool is_available(const ComparedDeformer& entry);
+std::vector<SettingChange> grid_of(const ComparedDeformer& entry);  // whose keys exist; the default setting first
+std::vector<KeyValues> codes_of(const ComparedDeformer& entry);     // whose keys exist; an empty one if the deformer has one code
 
 struct SettingChoice {
     std::optional<int> iterations = {};

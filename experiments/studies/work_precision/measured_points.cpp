@@ -19,12 +19,16 @@
 namespace experiments {
 namespace {
 
+constexpr int frames_of_memory = 24;  // before the pose
+
 // The two poses of a timed frame, on the case's skeleton.
 PosePair poses_of(const WorkPrecisionCase& of, const pbs::Skeleton& skeleton)
 {
     const pbs::Motion motion = make_motion(of.scene.motion, skeleton, of.scene.file);
     const auto pose = [&](int frame) { return motion.steps.at(static_cast<std::size_t>(frame) * motion.steps_per_frame); };
-    return {pose(of.frame), pose(of.frame > 0 ? of.frame - 1 : of.frame + 1), motion.time_step_s};
+    PosePair poses{pose(of.frame), pose(of.frame > 0 ? of.frame - 1 : of.frame + 1), motion.time_step_s};
+    for (int frame = std::max(0, of.frame - frames_of_memory); frame < of.frame; ++frame) poses.way.push_back(pose(frame));
+    return poses;
 }
 
 class CaseMeasuring {

@@ -37,11 +37,12 @@ public:
     // All settings at all rungs of the case's own mesh, and the default setting at some rungs of the other meshes.
     void add(const ComparedDeformer& entry)
     {
-        const std::size_t grid = range_.in_short ? std::min(entry.grid.size(), grid_in_short) : entry.grid.size();
-        for (const KeyValues& code : entry.codes) {
-            for (std::size_t i = 0; i < grid; ++i)
-                add_ladder(entry, range_.in_short ? entry.few_iterations : entry.iterations, {{}, entry.grid[i], code}, 0);
-            for (const int vertices : range_.other_vertices) add_ladder(entry, entry.few_iterations, {{}, entry.grid[0], code}, vertices);
+        std::vector<SettingChange> grid = grid_of(entry);
+        if (range_.in_short) grid.resize(std::min(grid.size(), grid_in_short));
+        for (const KeyValues& code : codes_of(entry)) {
+            for (const SettingChange& change : grid)
+                add_ladder(entry, range_.in_short ? entry.few_iterations : entry.iterations, {{}, change, code}, 0);
+            for (const int vertices : range_.other_vertices) add_ladder(entry, entry.few_iterations, {{}, grid.front(), code}, vertices);
         }
     }
 
@@ -169,7 +170,7 @@ std::vector<PointSetting> point_settings(const Scene& scene, const SettingRange&
 {
     SettingList list(scene, range);
     for (const ComparedDeformer& entry : compared_deformers())
-        if (is_registered(entry)) list.add(entry);
+        if (is_available(entry)) list.add(entry);
     list.add_fem();
     return list.settings;
 }

@@ -14,6 +14,8 @@ PosedDeformer::PosedDeformer(const PointSetting& setting, const BodyMesh& mesh, 
 
 Shape PosedDeformer::reach()
 {
+    if (deformer_->has_memory())
+        for (const pbs::Pose& pose : poses_.way) advance(pose);
     const double start_s = process_cpu_s();
     const pbs::StepSummary step = advance(poses_.pose);
     is_there_ = true;

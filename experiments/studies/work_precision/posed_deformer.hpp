@@ -18,6 +18,7 @@ namespace experiments {
 struct PosePair {
     pbs::Pose pose, neighbour;  // neighbour: of the frame before
     double time_step_s = 0.01;
+    std::vector<pbs::Pose> way = {};  // the poses before, through which a deformer with memory goes to its first pose
 };
 
 class PosedDeformer {
@@ -25,7 +26,7 @@ public:
     // The mesh and the poses outlive it.
     PosedDeformer(const PointSetting& setting, const BodyMesh& mesh, const PosePair& poses);
 
-    Shape reach();  // on its own mesh
+    Shape reach();  // on its own mesh; a deformer with memory takes the way
     // One number, the processor time of the next frame [ms]. Not a number where the frame did not arrive, or the one before it did not.
     std::vector<double> turn();
     // The work of the first turn, which does not depend on the number of turns; before it, of reach().

@@ -10,8 +10,8 @@ std::vector<ThetaRow> sought_thetas(const WorkPrecisionCase& of, const BodyMesh&
 {
     std::vector<ThetaRow> rows;
     for (const ComparedDeformer& entry : compared_deformers()) {
-        if (!is_registered(entry) || entry.stiffness_key.empty()) continue;
-        SettingChoice choice{.code = entry.codes.front()};
+        if (!is_available(entry) || entry.stiffness_key.empty()) continue;
+        SettingChoice choice{.code = codes_of(entry).front()};
         if (!entry.few_iterations.empty()) choice.iterations = entry.few_iterations.back();
         const auto setting_at = [&](double factor) {
             choice.stiffness_factor = factor;

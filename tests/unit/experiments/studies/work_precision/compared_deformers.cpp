@@ -21,19 +21,25 @@ const ComparedDeformer& entry(const std::string& name)
     return *std::ranges::find(compared_deformers(), name, &ComparedDeformer::name);
 }
 
-// A key that a registered kind does not have is an InputError that names it.
-TEST(ComparedDeformers, NameKeysThatTheirKindsHave)
+TEST(ComparedDeformers, AreDeclaredOnceWithTheirDefaultSettingFirst)
 {
-    const Scene scene = read_scene("limb_twist", {});
     std::set<std::string> names;
     for (const ComparedDeformer& one : compared_deformers()) {
         EXPECT_TRUE(names.insert(one.name).second) << one.name;
         EXPECT_EQ(one.iterations.empty(), one.iterations_key.empty()) << one.name;
-        EXPECT_TRUE(one.grid.front() == SettingChange{}) << one.name << ": the default setting comes first";
+        EXPECT_TRUE(one.grid.front() == SettingChange{}) << one.name;
         for (const int few : one.few_iterations) EXPECT_EQ(std::ranges::count(one.iterations, few), 1) << one.name;
-        if (!is_registered(one)) continue;
-        for (const KeyValues& code : one.codes)
-            for (const SettingChange& change : one.grid) {
+    }
+}
+
+// Every setting in every code is accepted by the kind.
+TEST(ComparedDeformers, HaveSettingsThatTheirKindsAccept)
+{
+    const Scene scene = read_scene("limb_twist", {});
+    for (const ComparedDeformer& one : compared_deformers()) {
+        if (!is_available(one)) continue;
+        for (const KeyValues& code : codes_of(one))
+            for (const SettingChange& change : grid_of(one)) {
                 SettingChoice choice{.change = change, .code = code};
                 if (!one.iterations.empty()) choice.iterations = one.iterations.back();
                 EXPECT_EQ(spec_with(one, scene, choice).kind, one.kind);
@@ -41,15 +47,44 @@ TEST(ComparedDeformers, NameKeysThatTheirKindsHave)
     }
 }
 
+// Only what this program does not have may be skipped: the kinds of its registry take part.
+TEST(ComparedDeformers, AreAvailableWhereTheirKindIsRegistered)
+{
+    for (const char* name : {"lbs", "lbs_smooth", "dqs", "dqs_smooth", "delta_mush", "pbs", "xpbd", "xpbd_small_steps"})
+        EXPECT_TRUE(is_available(entry(name))) << name;
+    for (const char* name : {"pbs_author", "quasi_newton", "vbd", "xpbd_neo_hookean", "projective_dynamics", "direct_delta_mush"})
+        EXPECT_EQ(is_available(entry(name)), find_deformer_kind(name) != nullptr) << name;
+    const ComparedDeformer unknown = {.name = "wishful", .kind = "wishful"}, without_key = {.kind = "pbs", .fixed = {"pbs.wishes=3"}};
+    EXPECT_FALSE(is_available(unknown));
+    EXPECT_FALSE(is_available(without_key));
+}
+
+TEST(ComparedDeformers, SkipSettingsAndCodesWhoseKeysDoNotExist)
+{
+    const ComparedDeformer one = {
+        .kind = "pbs", .grid = {{}, {{"pbs.k_stretch=0.5"}}, {{"pbs.wishes=3"}}}, .codes = {{"pbs.wishes=f32"}, {"pbs.precision=f64"}}};
+    EXPECT_EQ(grid_of(one).size(), 2u);
+    EXPECT_EQ(codes_of(one), (std::vector<KeyValues>{{"pbs.precision=f64"}}));
+    EXPECT_EQ(codes_of({.kind = "pbs", .codes = {{"pbs.wishes=f32"}}}), std::vector<KeyValues>{{}});
+}
+
+// A kind whose precision or arithmetic can be chosen is compared in both.
 TEST(ComparedDeformers, PutTheirPackedCodeFirstAndThenPlainF64)
 {
     const Scene scene = read_scene("limb_twist", {});
     for (const ComparedDeformer& one : compared_deformers()) {
-        if (!is_registered(one) || one.codes.size() < 2) continue;
-        const DeformerTraits first = traits_of(spec_with(one, scene, {.code = one.codes[0]}));
-        const DeformerTraits second = traits_of(spec_with(one, scene, {.code = one.codes[1]}));
-        EXPECT_TRUE(first.packed && first.precision == "f32") << one.name;
-        EXPECT_TRUE(!second.packed && second.precision == "f64") << one.name;
+        if (!is_available(one)) continue;
+        const std::vector<SceneKey>& keys = find_deformer_kind(one.kind)->keys;
+        const bool may_choose =
+            std::ranges::any_of(keys, [](const SceneKey& key) { return key.name == "precision" || key.name == "arithmetic"; });
+        const std::vector<KeyValues> codes = codes_of(one);
+        EXPECT_EQ(codes.size(), may_choose ? 2u : 1u) << one.name;
+        if (codes.size() < 2) continue;
+        const DeformerTraits first = traits_of(spec_with(one, scene, {.code = codes[0]}));
+        const DeformerTraits second = traits_of(spec_with(one, scene, {.code = codes[1]}));
+        EXPECT_EQ(first.precision, "f32") << one.name;
+        EXPECT_EQ(second.precision, "f64") << one.name;
+        EXPECT_FALSE(second.packed) << one.name;
     }
 }
 
@@ -83,7 +118,7 @@ TEST(ComparedDeformers, MultiplyTheirStiffness)
 TEST(ComparedDeformers, BlendWithWeightsOfTheirOwn)
 {
     const Scene scene = read_scene("limb_twist", {});
-    EXPECT_EQ(spec_with(entry("lbs"), scene, {}).variant, "default");
+    EXPECT_EQ(spec_with(entry("lbs"), scene, {}).variant, "weights_paper");
     EXPECT_EQ(spec_with(entry("lbs_smooth"), scene, {}).variant, "weights_smooth");
 }
 

@@ -7,6 +7,8 @@
 #include "experiments/studies/work_precision/point_row.hpp"
 #include "experiments/studies/work_precision/posed_deformer.hpp"
 #include "experiments/deformers/registry.hpp"
+#include "pbs/skinning/pose.hpp"
+#include "pbs/solver/options.hpp"
 #include "tests/support/rounding_error.hpp"
 #include "tests/support/tet_rounding.hpp"
 
@@ -154,6 +156,22 @@ TEST(PosedDeformers, TellARoundThatDoesNotArriveAndTheOneThatSetsOutFromThere)
     EXPECT_TRUE(std::isnan(lost.turn().at(0)));
     EXPECT_TRUE(std::isnan(lost.turn().at(0)));  // it returns, but not from the other pose
     EXPECT_FALSE(PosedDeformer(setting, own, nowhere_and_back).reach().finished);
+}
+
+// Reference: the deformer, driven by hand. Particles that are integrated keep their state from pose to pose.
+TEST(PosedDeformers, WithMemoryTakeTheWayToTheirFirstPose)
+{
+    const BodyMesh own(limb(300));
+    DeformerSpec spec = default_spec("pbs");
+    options_of<pbs::PbsOptions>(spec).lbs_entry = pbs::LbsEntry::increment;
+    const std::vector<pbs::Pose> steps = pbs::joint_sweep(own.character().skeleton, 1, pbs::Vec3::UnitX(), 40.0, 3, 0.01).steps;
+    const PosePair poses{steps.back(), steps.front(), 0.01, {steps.begin(), steps.end() - 1}};
+    const auto by_hand = make_deformer(spec);
+    by_hand->reset(own.character());
+    for (const pbs::Pose& pose : steps) by_hand->advance(pose, 0.01);
+    EXPECT_EQ(PosedDeformer({"pbs", spec}, own, poses).reach().positions, by_hand->positions());
+    const PosePair at_once{steps.back(), steps.front(), 0.01};
+    EXPECT_NE(PosedDeformer({"pbs", spec}, own, at_once).reach().positions, by_hand->positions());
 }
 
 // Reference: the definition of the counters; a frame of LBS blends each vertex once.
