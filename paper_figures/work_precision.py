@@ -15,7 +15,7 @@ setting_columns = ("iterations", "k_stretch", "order", "precision", "substeps", 
                    "packed")
 point_numbers = ("deformer", *setting_columns, "ms_median", "error_joint_pct")
 front_columns = {"comparison", "case", "measure", "front", "reference_error_joint_pct", *point_numbers}
-point_columns = {*case_columns, *point_numbers, "outcome", "half", "reference_error_joint_pct"}
+point_columns = {*case_columns, *point_numbers, "outcome", "half", "reach_ms", "reference_error_joint_pct"}
 best_columns = {"comparison", "case", "budget_ms", "rank", "group", "decision", "error_joint_pct", "ms_median"}
 omission_columns = {"comparison", "case", "deformer", "why", "missing", "points"}
 budgets_ms = (0.1, 1.0, 10.0)
@@ -55,6 +55,12 @@ class Panel:
         self.omitted = of_case("omissions")
         bound = next((row["reference_error_joint_pct"] for row in self.fronts), "")
         self.bound_pct = float(bound) if bound else None
+        self.reference_s = next((float(row["reach_ms"]) / 1e3 for row in points if row["outcome"] == "reference"), None)
+
+    def heading(self):
+        of_reference = [f"reference {self.reference_s:.2g} s"] if self.reference_s else []
+        of_reference += [f"bound {self.bound_pct:.2g} %"] if self.bound_pct else []
+        return self.title + ("; " if of_reference else "") + ", ".join(of_reference)
 
 
 def draw_points(axes, panel):
@@ -128,7 +134,7 @@ def draw_panel(axes, panel):
     draw_bound(axes, panel.bound_pct)
     style.decades(axes.xaxis)
     style.log_scale(axes.yaxis)
-    axes.set_title(panel.title + (f"; bound {panel.bound_pct:.2g} %" if panel.bound_pct else ""), pad=32)
+    axes.set_title(panel.heading(), pad=32)
     axes.set_xlabel("processor time per frame [ms]")
     axes.set_ylabel("error at the joints [%]")
     draw_budgets(axes, panel)
@@ -181,6 +187,8 @@ def draw_comparison(comparison, results, figures):
     for axes_of_panel in axes.flat[len(shown):]:
         axes_of_panel.set_visible(False)
     axes.flat[0].plot([], [], linestyle="none", marker="o", color="#777777", markersize=2.2, alpha=0.4, label="small marks: all settings")
+    for note in ("name above a line: nearest within that time", "?: the references do not decide"):
+        axes.flat[0].plot([], [], linestyle="none", label=note)
     style.legend_above(figure, columns=4)
     name = figures_of[comparison]
     behind = [row for panel in shown for row in rows_behind(panel)]

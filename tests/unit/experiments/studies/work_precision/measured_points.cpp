@@ -197,6 +197,7 @@ TEST(MeasuredPoints, StopAtTheLimitOfTimeAndRecordTheSplit)
     of.range.quadratic = false;
     of.rounds = of.newton_rounds = {.seconds = 0.0, .fewest = 1, .most = 1};
     of.reference_is_refined = of.seeks_theta = false;
+    of.members = {family()[2]};
     of.converged_iterations = 0;
     of.longest_frame_ms = 1e-6;
     const MeasuredPoints points = measure_points(of);
@@ -207,10 +208,17 @@ TEST(MeasuredPoints, StopAtTheLimitOfTimeAndRecordTheSplit)
         if (row.key.deformer != "pbs") continue;
         EXPECT_EQ(row.outcome, row.key.iterations == 4 ? "finished" : "over_time_limit");
         EXPECT_EQ(row.error.has_value(), row.outcome == "finished");
+        for (std::size_t m = 0; m < row.members.size(); ++m) EXPECT_EQ(row.members[m].has_value(), m == 1 && row.error) << m;
+        if (row.error) {
+            EXPECT_NE(row.members[1], row.error->joint_pct) << "the bones are thinner";
+        }
         ++(row.outcome == "finished" ? finished : left_out);
         EXPECT_EQ(row.reason.ends_with("1e-06 ms allowed"), row.outcome != "finished") << row.reason;
         EXPECT_EQ(row.work && row.work->projections > 0, row.outcome == "finished");
     }
+    ASSERT_EQ(points.members.size(), 1u);
+    EXPECT_EQ(points.members[0].outcome, "reached");
+    EXPECT_FALSE(points.members[0].error_bound_pct) << "the first reference has no bound";
     EXPECT_EQ(finished, 2 * 3);      // codes, settings
     EXPECT_EQ(left_out, 2 * 3 * 2);  // and the rungs of 24 and 96 iterations
 }
