@@ -24,6 +24,7 @@ class SceneValues;
 struct DeformerTraits {
     std::string order = {};              // order of projection; empty: it projects nothing
     std::string precision = "f64";       // of its arithmetic
+    bool packed = false;                 // several constraints, vertices or tets per instruction, rather than one after the other
     std::optional<int> iterations = {};  // per frame
     int threads = 1;                     // the largest number of threads that a step uses
     bool sleeps = false;                 // its records have a share of sleeping constraints

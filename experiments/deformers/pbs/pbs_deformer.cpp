@@ -122,6 +122,7 @@ DeformerKind pbs_kind()
                 const auto& options = options_of<pbs::PbsOptions>(spec);
                 return {.order = name_of(options.order),
                         .precision = name_of(options.precision),
+                        .packed = options.order != pbs::Order::plain,
                         .iterations = options.iterations,
                         .threads = spec.threads,
                         .sleeps = options.sleep,

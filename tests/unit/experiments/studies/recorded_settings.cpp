@@ -81,7 +81,8 @@ TEST(RecordedSettings, OfWorkPrecision)
 {
     WorkPrecisionCase of;
     of.of = {.body = "limb", .motion = "bend", .angle_deg = 60.0}, of.scene = limb(), of.frame = 12;
-    of.range.coarser_vertices = {600};
+    of.range.other_vertices = {600};
+    of.members = {family().back()};
     EXPECT_GE(expect_each_change_repeats(of), 18);
 }
 
