@@ -8,8 +8,8 @@
 namespace pbs {
 
 // Order of projection within each class; the classes follow the order of Algorithm 1. plain: file order, as the paper reads. ordered:
-// sixteen constraints that share no vertex side by side. grouped: the same with neighbouring constraints in groups, quicker and farther
-// from `plain`.
+// colour by colour (projection_sequence.hpp), sixteen constraints that share no vertex side by side. grouped: the same with neighbouring
+// constraints in groups, quicker per iteration and with a larger volume change after 24 of them.
 enum class Order { plain, ordered, grouped };
 // Floating point of the projections; particles, their integration and sums of residuals are double in both. f32 projects relative to the
 // step's mean position, so that far from the origin no digits are lost.

@@ -86,6 +86,13 @@ DeformerTraits lbs_traits(const DeformerSpec& /*spec*/)
     return {.blends_linearly = true};
 }
 
+// Rest positions in and posed positions out. Operations are not counted.
+IterationWork work_of_blend(const DeformerSpec& /*spec*/, const BodyCounts& body)
+{
+    const double bytes = 2.0 * 3.0 * sizeof(double) * body.vertices;
+    return {.bytes = bytes, .working_set_bytes = bytes};
+}
+
 DeformerKind blend_kind(const std::string& name, const std::string& meaning, std::unique_ptr<Deformer> (*make)(const DeformerSpec& spec))
 {
     return {.name = name,
@@ -95,7 +102,8 @@ DeformerKind blend_kind(const std::string& name, const std::string& meaning, std
             .keys = blend_keys(name),
             .has_list = true,
             .read = read_blend,
-            .options_json = blend_json};
+            .options_json = blend_json,
+            .work = work_of_blend};
 }
 
 }  // namespace
