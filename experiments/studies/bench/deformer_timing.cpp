@@ -46,19 +46,28 @@ DeformerSpec spec_with(const DeformerKind& kind, const std::vector<Choice>& choi
     return spec;
 }
 
-// Seconds of one frame, away from rest and back.
+// Seconds of one frame, away from rest and back, repeated so often that reading the clock does not count.
 double frame_seconds(Deformer& deformer, const BenchBody& body)
 {
+    constexpr double shortest_sample_s = 2e-4;
     const pbs::Pose rest(body.pose.size(), Eigen::Isometry3d::Identity());
-    return cpu_seconds([&] {
-               deformer.advance(body.pose, time_step_s);
-               deformer.advance(rest, time_step_s);
-           }) /
-           2.0;
+    int frames = 0;
+    double took = 0.0;
+    while (took < shortest_sample_s) {
+        const int pairs = std::max(frames, 2) / 2;
+        took += cpu_seconds([&] {
+            for (int pair = 0; pair < pairs; ++pair) {
+                deformer.advance(body.pose, time_step_s);
+                deformer.advance(rest, time_step_s);
+            }
+        });
+        frames += 2 * pairs;
+    }
+    return took / frames;
 }
 
-// Both have been reset. The time of a further iteration is half the difference of two frames, since that of LBS and of the set-up of a
-// frame is in both.
+// Both have been reset and posed once. What LBS and the set-up of a frame take is in the frame with twice the iterations too, so that the
+// difference is that of further iterations. Without it, or where a disturbance hides it, an iteration is an equal share of the frame.
 struct Timed {
     const DeformerSetting* setting;
     std::unique_ptr<Deformer> once, twice;
@@ -67,8 +76,9 @@ struct Timed {
     std::vector<double> round(const BenchBody& body) const
     {
         const double frame = frame_seconds(*once, body);
-        if (!twice) return {frame, frame / std::max(iterations, 1)};
-        return {frame, (frame_seconds(*twice, body) - frame) / iterations};
+        const double share = frame / std::max(iterations, 1);
+        const double further = twice ? (frame_seconds(*twice, body) - frame) / iterations : share;
+        return {frame, further > 0.0 ? further : share};
     }
 };
 
