@@ -103,7 +103,7 @@ DeformerKind given_kind()
                 }};
 }
 
-// Every registered kind has a row, also one that is registered later, except the user's own programs.
+// Every registered kind has a row, also one that is registered later, except those that only a scene's tables define.
 TEST(DeformerTimings, TakeUpWhatIsRegistered)
 {
     add_deformer_kind(given_kind());
