@@ -98,6 +98,13 @@ DeformerTraits lbs_traits(const DeformerSpec& spec)
     return traits;
 }
 
+// Rest positions in and posed positions out. Operations are not counted.
+IterationWork work_of_blend(const DeformerSpec& /*spec*/, const BodyCounts& body)
+{
+    const double bytes = 2.0 * 3.0 * sizeof(double) * body.vertices;
+    return {.bytes = bytes, .working_set_bytes = bytes};
+}
+
 DeformerKind blend_kind(const std::string& name, const std::string& meaning, std::unique_ptr<Deformer> (*make)(const DeformerSpec& spec))
 {
     return {.name = name,
@@ -108,7 +115,8 @@ DeformerKind blend_kind(const std::string& name, const std::string& meaning, std
             .has_list = true,
             .read = read_blend,
             .options_json = blend_json,
-            .traits = blend_traits};
+            .traits = blend_traits,
+            .work = work_of_blend};
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "experiments/studies/bench/bench.hpp"
 #include "experiments/studies/convergence/convergence_case.hpp"
 #include "experiments/studies/ensemble/ensemble.hpp"
+#include "experiments/studies/equal_quality/equal_quality.hpp"
 #include "experiments/studies/error_split/error_split.hpp"
 #include "experiments/studies/features/feature_cost.hpp"
 #include "experiments/studies/fit/poisson_run.hpp"
@@ -66,6 +67,13 @@ TEST(RecordedSettings, OfErrorSplit)
     of.scene = limb(), of.frames = {3}, of.k_stretch = {0.2}, of.iterations = {24};
     of.pbs = default_spec("pbs");
     of.reference = default_spec("fem"), of.others = {default_spec("fem")};
+    EXPECT_GE(expect_each_change_repeats(of), 10);
+}
+
+TEST(RecordedSettings, OfEqualQuality)
+{
+    EqualQualityCase of;
+    of.of = {.body = "limb", .motion = "twist", .angle_deg = 150.0}, of.scene = limb(), of.frame = 1, of.random = {1};
     EXPECT_GE(expect_each_change_repeats(of), 10);
 }
 
