@@ -92,5 +92,6 @@ Study bench_study();
 Study features_study();
 Study scale_study();
 Study ensemble_study();
+Study improvements_study();
 
 }  // namespace experiments

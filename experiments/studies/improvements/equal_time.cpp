@@ -1,0 +1,235 @@
+#include "experiments/studies/improvements/equal_time.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <map>
+#include <set>
+#include <tuple>
+
+namespace experiments {
+namespace {
+
+using analysis::CaseKey;
+using analysis::Columns;
+using analysis::within;
+
+using Curve = std::vector<ChangePoint>;                          // one setting in one pose, by iterations
+using CurveKey = std::tuple<CaseKey, std::string, std::string>;  // pose, change, setting
+
+std::map<CurveKey, Curve> curves_of(const std::vector<ChangePoint>& points)
+{
+    std::map<CurveKey, Curve> curves;
+    for (const ChangePoint& point : points) curves[{point.of, point.change, point.setting}].push_back(point);
+    for (auto& [key, curve] : curves) std::ranges::sort(curve, {}, &ChangePoint::iterations);
+    return curves;
+}
+
+// What a setting reaches at a budget. Nothing where it is slower, or not finite there.
+std::optional<EqualTimeRow> value_at(const Curve& curve, int budget_iterations, double budget_ms)
+{
+    const auto slower = std::ranges::find_if(curve, [&](const ChangePoint& point) { return point.ms.median > budget_ms; });
+    if (slower == curve.begin()) return std::nullopt;
+    const ChangePoint &before = *(slower - 1), &after = slower == curve.end() ? before : *slower;
+    if (!before.error_joint_pct || !after.error_joint_pct) return std::nullopt;
+    const double share =
+        after.ms.median > before.ms.median ? std::log(budget_ms / before.ms.median) / std::log(after.ms.median / before.ms.median) : 0.0;
+    EqualTimeRow row;
+    row.of = before.of;
+    row.budget_iterations = budget_iterations;
+    row.budget_ms = budget_ms;
+    row.change = before.change;
+    row.setting = before.setting;
+    row.iterations = std::lerp(double(before.iterations), double(after.iterations), share);
+    row.error_pct = std::lerp(*before.error_joint_pct, *after.error_joint_pct, share);
+    const auto one = before.distance_from_baseline(budget_iterations), other = after.distance_from_baseline(budget_iterations);
+    if (one && other) row.distance_pct = std::max(*one, *other);
+    row.reference_error_pct = before.reference_error_joint_pct;
+    row.volume_change_pct = before.metrics.volume_change_pct;
+    return row;
+}
+
+using Reached = std::map<CaseKey, std::map<std::string, EqualTimeRow>>;  // of one change at one budget: by pose and setting
+
+// The setting with the least mean error over the other poses where the change has values. One that lacks a value there is not chosen, if
+// there is another one. With one pose alone it is the first setting.
+std::string chosen_setting(const Reached& reached, const CaseKey& pose)
+{
+    std::string best;
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto& [setting, own] : reached.at(pose)) {
+        double sum = 0.0;
+        for (const auto& [other, rows] : reached)
+            if (other != pose) sum += rows.contains(setting) ? rows.at(setting).error_pct : std::numeric_limits<double>::infinity();
+        if (best.empty() || sum < least) best = setting, least = sum;
+    }
+    return best;
+}
+
+}  // namespace
+
+const Columns<EqualTimeRow> equal_time_columns =
+    within(&EqualTimeRow::of, pose_columns()) +
+    Columns<EqualTimeRow>{
+        {"budget_iterations", &EqualTimeRow::budget_iterations, "", "iterations of the baseline whose time is the budget"},
+        {"budget_ms", &EqualTimeRow::budget_ms, "ms", "that time"},
+        {"change", &EqualTimeRow::change, "", "name of the change"},
+        {"setting", &EqualTimeRow::setting, "", "of its parameter, chosen on the other poses"},
+        {"iterations", &EqualTimeRow::iterations, "", "of the change that fit into the budget, interpolated"},
+        {"baseline_error_pct", &EqualTimeRow::baseline_error_pct, "%", "error of the baseline at the joints"},
+        {"error_pct", &EqualTimeRow::error_pct, "%", "error of the change at the joints"},
+        {"from_pbs_pct", &EqualTimeRow::distance_pct, "%", "distance of the two shapes at the joints"},
+        {"reference_error_pct", &EqualTimeRow::reference_error_pct, "%", "bound on the reference's own error at the joints"},
+        {"volume_change_pct", &EqualTimeRow::volume_change_pct, "%", "signed change of the volume of the change's shape"}};
+
+std::vector<EqualTimeRow> at_equal_time(const std::vector<ChangePoint>& points)
+{
+    const std::map<CurveKey, Curve> curves = curves_of(points);
+    std::vector<EqualTimeRow> rows;
+    for (const int budget : budget_iterations) {
+        std::map<CaseKey, ChangePoint> of_baseline;
+        for (const ChangePoint& point : points)
+            if (point.change == baseline && point.iterations == budget && point.error_joint_pct) of_baseline.emplace(point.of, point);
+        std::map<std::string, Reached> reached;  // by change
+        for (const auto& [key, curve] : curves) {
+            const auto& [pose, change, setting] = key;
+            if (change == baseline || !of_baseline.contains(pose)) continue;
+            const ChangePoint& base = of_baseline.at(pose);
+            auto row = value_at(curve, budget, base.ms.median);
+            if (!row) continue;
+            row->baseline_error_pct = *base.error_joint_pct;
+            reached[change][pose].emplace(setting, *row);
+        }
+        for (const auto& [change, of_change] : reached)
+            for (const auto& [pose, settings] : of_change) rows.push_back(settings.at(chosen_setting(of_change, pose)));
+    }
+    return rows;
+}
+
+std::optional<double> shift_of_difference(double one_error, double other_error, double distance, std::optional<double> bound)
+{
+    if (!bound || !std::isfinite(*bound)) return std::nullopt;
+    const double least_sum = one_error + other_error - 2.0 * *bound;  // of the distances to any point within the bound of the reference
+    const double slope = least_sum > 0.0 ? std::min(2.0, 2.0 * distance / least_sum) : 2.0;
+    return slope * *bound;
+}
+
+namespace {
+
+// One pose of a comparison.
+struct ComparedPose {
+    double error = 0.0, than_error = 0.0;
+    std::optional<double> shift = {};
+};
+
+GainRow gain_over(const std::vector<ComparedPose>& poses)
+{
+    GainRow row;
+    std::vector<double> gains;
+    double shift = 0.0;
+    bool is_known = true;
+    for (const ComparedPose& pose : poses) {
+        gains.push_back(pose.than_error - pose.error);
+        row.error_pct += pose.error / double(poses.size());
+        row.than_error_pct += pose.than_error / double(poses.size());
+        is_known = is_known && pose.shift;
+        shift += pose.shift.value_or(0.0) / double(poses.size());
+    }
+    row.poses = static_cast<int>(poses.size());
+    const analysis::Interval interval = analysis::bootstrap_mean(gains, {.block = 1});  // poses are no series
+    row.gain_pct = interval.estimate;
+    if (std::isfinite(interval.low)) row.gain_low_pct = interval.low, row.gain_high_pct = interval.high;
+    if (is_known) row.reference_error_pct = shift;
+    const bool excludes_zero = row.gain_low_pct && (*row.gain_low_pct > 0.0 || *row.gain_high_pct < 0.0);
+    if (!excludes_zero)
+        row.decision = GainDecision::few_poses;
+    else
+        row.decision = is_known && std::abs(row.gain_pct) > shift ? GainDecision::decided : GainDecision::reference_error;
+    return row;
+}
+
+using ByPose = std::map<CaseKey, EqualTimeRow>;
+
+GainRow over_baseline(const std::string& change, const ByPose& rows)
+{
+    std::vector<ComparedPose> poses;
+    std::set<std::string> settings;
+    double iterations = 0.0, volume = 0.0;
+    for (const auto& [pose, row] : rows) {
+        poses.push_back({row.error_pct, row.baseline_error_pct,
+                         shift_of_difference(row.error_pct, row.baseline_error_pct,
+                                             row.distance_pct.value_or(std::numeric_limits<double>::infinity()), row.reference_error_pct)});
+        if (!row.setting.empty()) settings.insert(row.setting);
+        iterations += row.iterations / double(rows.size());
+        volume += std::abs(row.volume_change_pct) / double(rows.size());
+    }
+    GainRow gain = gain_over(poses);
+    gain.change = change;
+    gain.than = baseline;
+    for (const std::string& setting : settings) gain.settings += (gain.settings.empty() ? "" : "; ") + setting;
+    gain.iterations = iterations;
+    gain.volume_abs_pct = volume;
+    return gain;
+}
+
+// Their distance is at most the sum of their distances from the baseline.
+GainRow over_other(const std::string& change, const ByPose& rows, const std::string& than, const ByPose& others)
+{
+    std::vector<ComparedPose> poses;
+    for (const auto& [pose, row] : rows) {
+        if (!others.contains(pose)) continue;
+        const EqualTimeRow& other = others.at(pose);
+        constexpr double unknown = std::numeric_limits<double>::infinity();
+        const double distance = row.distance_pct.value_or(unknown) + other.distance_pct.value_or(unknown);
+        poses.push_back(
+            {row.error_pct, other.error_pct, shift_of_difference(row.error_pct, other.error_pct, distance, row.reference_error_pct)});
+    }
+    GainRow gain = gain_over(poses);
+    gain.change = change;
+    gain.than = than;
+    return gain;
+}
+
+}  // namespace
+
+const Columns<GainRow> gain_columns = {
+    {"budget_iterations", &GainRow::budget_iterations, "", "iterations of the baseline whose time is the budget"},
+    {"change", &GainRow::change, "", "name of the change"},
+    {"than", &GainRow::than, "", "what it is compared with: pbs, the baseline, or another change"},
+    {"poses", &GainRow::poses, "", "number of poses"},
+    {"error_pct", &GainRow::error_pct, "%", "mean error of the change at the joints"},
+    {"than_error_pct", &GainRow::than_error_pct, "%", "mean error of what it is compared with"},
+    {"gain_pct", &GainRow::gain_pct, "%", "mean of the difference of the two errors, in percentage points"},
+    {"gain_low_pct", &GainRow::gain_low_pct, "%", "lower end of its 95 % interval over the poses (bootstrap)"},
+    {"gain_high_pct", &GainRow::gain_high_pct, "%", "upper end"},
+    {"reference_error_pct", &GainRow::reference_error_pct, "%", "by which the reference's own error may change the mean"},
+    {"decision", &GainRow::decision, "", "decided, few_poses (the interval includes zero), reference_error"},
+    {"settings", &GainRow::settings, "", "settings that were chosen on the other poses"},
+    {"iterations", &GainRow::iterations, "", "mean number of iterations within the budget"},
+    {"volume_abs_pct", &GainRow::volume_abs_pct, "%", "mean of the absolute change of the volume"}};
+
+std::vector<GainRow> gains_of(const std::vector<EqualTimeRow>& rows)
+{
+    std::vector<GainRow> gains;
+    for (const int budget : budget_iterations) {
+        std::map<std::string, ByPose> changes;
+        for (const EqualTimeRow& row : rows)
+            if (row.budget_iterations == budget) changes[row.change].emplace(row.of, row);
+        std::vector<GainRow> of_budget;
+        for (const auto& [change, by_pose] : changes) of_budget.push_back(over_baseline(change, by_pose));
+        std::ranges::stable_sort(of_budget, std::greater(), &GainRow::gain_pct);
+        const int most = of_budget.empty() ? 0 : std::ranges::max(of_budget, {}, &GainRow::poses).poses;
+        std::vector<std::string> ranked;  // those with a value in every pose
+        for (const GainRow& gain : of_budget)
+            if (gain.change != control && gain.poses == most) ranked.push_back(gain.change);
+        if (ranked.size() >= 2) of_budget.push_back(over_other(ranked[0], changes[ranked[0]], ranked[1], changes[ranked[1]]));
+        for (GainRow& gain : of_budget) {
+            gain.budget_iterations = budget;
+            gains.push_back(gain);
+        }
+    }
+    return gains;
+}
+
+}  // namespace experiments
