@@ -24,7 +24,7 @@ struct ChangeSetting {
 
 struct RangeOfChanges {
     std::vector<int> iterations = {1, 2, 4, 8, 16, 24, 48, 96};
-    std::vector<double> k_bind_to_blended = {0.01, 0.02, 0.05, 0.1, 0.2, 0.5};
+    std::vector<double> k_bind_to_blended = {0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2};
     std::vector<int> region_tets = {16, 64, 256, 1024};
     std::vector<double> edge_lengths = {0.5, 1.0, 2.0};  // at which k_stretch holds, over the mean edge
     std::vector<double> k_stretch = {0.05, 0.1, 0.5, 0.9};

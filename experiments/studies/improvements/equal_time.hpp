@@ -41,9 +41,11 @@ std::vector<EqualTimeRow> at_equal_time(const std::vector<ChangePoint>& points);
 // known.
 std::optional<double> shift_of_difference(double one_error, double other_error, double distance, std::optional<double> bound);
 
+inline constexpr int fewest_poses = 4;  // with fewer ones the bootstrap knows next to nothing about other poses
+
 enum class GainDecision {
     decided,          // the interval over the poses excludes zero, and the reference's own error cannot reverse the mean
-    few_poses,        // the interval over the poses includes zero
+    few_poses,        // the interval over the poses includes zero, or there are fewer poses than fewest_poses
     reference_error,  // the mean is within the reference's own error, or that is not known
 };
 

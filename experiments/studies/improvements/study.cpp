@@ -143,7 +143,8 @@ std::string remark_on(const GainRow& gain)
         case GainDecision::decided:
             return "decided";
         case GainDecision::few_poses:
-            return "undecided: the interval over the poses includes zero";
+            return gain.poses < fewest_poses ? fmt::format("undecided: fewer than {} poses", fewest_poses)
+                                             : "undecided: the interval over the poses includes zero";
         case GainDecision::reference_error:
             break;
     }

@@ -14,7 +14,8 @@ using namespace experiments;
 using analysis::CaseKey;
 
 const CaseKey twist = {.body = "limb", .motion = "twist", .angle_deg = 90.0}, bend = {.body = "limb", .motion = "bend", .angle_deg = 60.0},
-              crouch = {.body = "human", .motion = "01_01", .pose = "crouch"};
+              crouch = {.body = "human", .motion = "01_01", .pose = "crouch"},
+              standing = {.body = "human", .motion = "01_01", .pose = "standing"};
 
 ChangePoint point(const CaseKey& of, const std::string& change, const std::string& setting, int iterations, double ms, double error_pct,
                   std::optional<double> bound_pct = 0.01, double distance_pct = 1.0)
@@ -124,11 +125,11 @@ TEST(EqualTime, ShiftHoldsForEveryDirection)
     }
 }
 
-std::vector<ChangePoint> three_poses(const std::vector<double>& good, const std::vector<double>& better, double bound_pct)
+std::vector<ChangePoint> some_poses(const std::vector<double>& good, const std::vector<double>& better, double bound_pct)
 {
     std::vector<ChangePoint> points;
-    const std::vector<CaseKey> poses = {twist, bend, crouch};
-    for (std::size_t i = 0; i < poses.size(); ++i) {
+    const std::vector<CaseKey> poses = {twist, bend, crouch, standing};
+    for (std::size_t i = 0; i < good.size(); ++i) {
         add_baseline(points, poses[i]);
         points.push_back(point(poses[i], "good", "", 1, 0.5, good[i], bound_pct));
         points.push_back(point(poses[i], "better", "", 1, 0.5, better[i], bound_pct));
@@ -145,10 +146,10 @@ const GainRow& gain_of(const std::vector<GainRow>& gains, const std::string& cha
 
 TEST(Gains, AreMeansOverThePosesTheLargestFirst)
 {
-    const std::vector<GainRow> gains = gains_of(at_equal_time(three_poses({8.0, 7.0, 6.0}, {4.0, 5.0, 3.0}, 0.01)));
+    const std::vector<GainRow> gains = gains_of(at_equal_time(some_poses({8.0, 7.0, 6.0, 7.0}, {4.0, 5.0, 3.0, 4.0}, 0.01)));
     const GainRow& better = gain_of(gains, "better", baseline);
     EXPECT_NEAR(better.gain_pct, 6.0, test_support::rounding_error(10, 10.0));
-    EXPECT_EQ(better.poses, 3);
+    EXPECT_EQ(better.poses, 4);
     EXPECT_LE(*better.gain_low_pct, 6.0);
     EXPECT_GE(*better.gain_low_pct, 5.0);
     EXPECT_EQ(better.decision, GainDecision::decided);
@@ -160,27 +161,34 @@ TEST(Gains, AreMeansOverThePosesTheLargestFirst)
 
 TEST(Gains, AreUndecidedWithinTheReferencesOwnError)
 {
-    const std::vector<GainRow> gains = gains_of(at_equal_time(three_poses({8.0, 7.0, 6.0}, {4.0, 5.0, 3.0}, 4.0)));
+    const std::vector<GainRow> gains = gains_of(at_equal_time(some_poses({8.0, 7.0, 6.0, 7.0}, {4.0, 5.0, 3.0, 4.0}, 4.0)));
     EXPECT_EQ(gain_of(gains, "better", "good").decision, GainDecision::reference_error);
-    std::vector<ChangePoint> unknown = three_poses({8.0, 7.0, 6.0}, {4.0, 5.0, 3.0}, 0.01);
+    std::vector<ChangePoint> unknown = some_poses({8.0, 7.0, 6.0, 7.0}, {4.0, 5.0, 3.0, 4.0}, 0.01);
     for (ChangePoint& point : unknown) point.reference_error_joint_pct.reset();
     EXPECT_EQ(gain_of(gains_of(at_equal_time(unknown)), "better", baseline).decision, GainDecision::reference_error);
 }
 
 TEST(Gains, AreUndecidedWhereThePosesDisagree)
 {
-    const std::vector<GainRow> gains = gains_of(at_equal_time(three_poses({2.0, 18.0, 5.0}, {4.0, 17.0, 6.0}, 0.01)));
+    const std::vector<GainRow> gains = gains_of(at_equal_time(some_poses({2.0, 18.0, 5.0, 11.0}, {4.0, 17.0, 6.0, 12.0}, 0.01)));
     EXPECT_EQ(gain_of(gains, "good", baseline).decision, GainDecision::few_poses);
+}
+
+TEST(Gains, OfFewerThanFourPosesAreUndecided)
+{
+    const std::vector<GainRow> gains = gains_of(at_equal_time(some_poses({8.0, 7.0, 6.0}, {4.0, 5.0, 3.0}, 0.01)));
+    EXPECT_GT(*gain_of(gains, "better", baseline).gain_low_pct, 0.0);
+    EXPECT_EQ(gain_of(gains, "better", baseline).decision, GainDecision::few_poses);
 }
 
 TEST(Gains, ChangesThatAreTooSlowInSomePoseAreNotRanked)
 {
-    std::vector<ChangePoint> points = three_poses({8.0, 7.0, 6.0}, {4.0, 5.0, 3.0}, 0.01);
+    std::vector<ChangePoint> points = some_poses({8.0, 7.0, 6.0, 7.0}, {4.0, 5.0, 3.0, 4.0}, 0.01);
     points.push_back(point(twist, "in_one_pose", "", 1, 0.5, 0.1));
     const std::vector<GainRow> gains = gains_of(at_equal_time(points));
     EXPECT_EQ(gain_of(gains, "in_one_pose", baseline).poses, 1);
     EXPECT_FALSE(gain_of(gains, "in_one_pose", baseline).gain_low_pct) << "one pose has no interval";
-    EXPECT_EQ(gain_of(gains, "better", "good").poses, 3);
+    EXPECT_EQ(gain_of(gains, "better", "good").poses, 4);
 }
 
 }  // namespace
