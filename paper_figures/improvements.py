@@ -12,7 +12,7 @@ names = {"pbs": "PBS (baseline)", "smooth_weights": "smooth weights", "bind_to_b
 looks = dict(zip(names, [(style.black, "o"), (style.vermillion, "v"), (style.green, "^"), (style.purple, "D"), (style.orange, "s"),
                          (style.sky, "P"), (style.blue, "x"), ("#999999", "+")]))
 curve_columns = {"body", "change", "setting", "iterations", "poses", "mean_ms", "error_joint_pct"}
-gain_columns = {"budget_iterations", "change", "than", "poses", "gain_pct", "gain_low_pct", "gain_high_pct", "decision"}
+gain_columns = {"group", "budget_iterations", "change", "than", "poses", "gain_pct", "gain_low_pct", "gain_high_pct", "decision"}
 budget_looks = {"4": (style.orange, "v"), "24": (style.blue, "o"), "96": (style.vermillion, "s")}
 
 
@@ -23,7 +23,7 @@ def draw_curves(axes, body, rows):
             axes.plot(records.numbers(curve, "mean_ms"), records.numbers(curve, "error_joint_pct"), color=color, marker=marker,
                       markersize=2.8, linewidth=2.0 if change == "pbs" else 1.0, label=names[change])
     style.log_scale(axes.xaxis)
-    style.log_scale(axes.yaxis)
+    style.log_scale(axes.yaxis, [2, 3, 5, 7, 10, 15, 20, 30, 50, 70])
     axes.set_title(f"{case_words.of_field('body', body)}, mean of {rows[0]['poses']} poses")
     axes.set_xlabel("processor time per frame [ms]")
     axes.set_ylabel("error at the joints [%]")
@@ -53,7 +53,7 @@ def draw_gains(axes, rows):
 def draw(results, figures):
     folder = results / "improvements"
     curves = records.table(folder / "curves.csv", curve_columns)
-    gains = [row for row in records.table(folder / "gains.csv", gain_columns) if row["than"] == "pbs"]
+    gains = [row for row in records.table(folder / "gains.csv", gain_columns) if row["than"] == "pbs" and row["group"] == "all"]
     bodies = list(dict.fromkeys(row["body"] for row in curves))
     if not bodies:
         raise records.RecordsMissing(f"{folder}: no pose with a reference")

@@ -2,8 +2,12 @@
 
 #include "experiments/deformers/pbs/pbs_option_names.hpp"
 #include "experiments/settings/option_fields.hpp"
+#include "pbs/solver/constraint_set.hpp"
 
 #include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
 
 namespace experiments {
 namespace {
@@ -36,14 +40,29 @@ nlohmann::json to_json(const RangeOfChanges& range)
                                    .record("iterations", &RangeOfChanges::iterations)
                                    .record("k_bind_to_blended", &RangeOfChanges::k_bind_to_blended)
                                    .record("region_tets", &RangeOfChanges::region_tets)
-                                   .record("edge_lengths", &RangeOfChanges::edge_lengths)
                                    .record("k_stretch", &RangeOfChanges::k_stretch)
                                    .record("k_bind", &RangeOfChanges::k_bind)
                                    .complete();
     return fields.json(range);
 }
 
-std::vector<ChangeSetting> change_settings(const PbsOptions& scene, double mean_edge_m, const RangeOfChanges& range)
+double neutral_length(double k, const std::vector<double>& edge_lengths_m)
+{
+    const double longest = std::ranges::max(edge_lengths_m);
+    const auto mean_k = [&](double length_m) {
+        double sum = 0.0;
+        for (const double l : edge_lengths_m) sum += pbs::stiffness_at_length(k, l, length_m);
+        return sum / double(edge_lengths_m.size());
+    };
+    double low = std::ranges::min(edge_lengths_m), high = longest;  // all are at most k, at least k
+    while (high - low > 1e-12 * longest) {
+        const double middle = std::midpoint(low, high);
+        (mean_k(middle) < k ? low : high) = middle;
+    }
+    return high;
+}
+
+std::vector<ChangeSetting> change_settings(const PbsOptions& scene, const std::vector<double>& edge_lengths_m, const RangeOfChanges& range)
 {
     Settings settings(scene);
     settings.add(baseline, "", [](PbsOptions&) {});
@@ -61,9 +80,8 @@ std::vector<ChangeSetting> change_settings(const PbsOptions& scene, double mean_
                 options.volume_of = of;
                 options.region_tets = tets;
             });
-    for (const double length : range.edge_lengths)
-        settings.add("k_by_edge_length", fmt::format("length {:g} mean edges", length),
-                     [&](PbsOptions& options) { options.k_stretch_length_m = length * mean_edge_m; });
+    settings.add("k_by_edge_length", "",
+                 [&](PbsOptions& options) { options.k_stretch_length_m = neutral_length(scene.k_stretch, edge_lengths_m); });
     for (const auto& [order, name] : OptionNames<pbs::Order>::table)
         if (order != scene.order) settings.add("another_order", name, [&, order = order](PbsOptions& options) { options.order = order; });
     for (const double k : range.k_stretch)

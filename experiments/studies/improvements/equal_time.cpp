@@ -70,6 +70,7 @@ std::string chosen_setting(const Reached& reached, const CaseKey& pose)
 }  // namespace
 
 const Columns<EqualTimeRow> equal_time_columns =
+    Columns<EqualTimeRow>{{"group", &EqualTimeRow::group, "", "the poses on which settings are chosen: all, or those of a body"}} +
     within(&EqualTimeRow::of, pose_columns()) +
     Columns<EqualTimeRow>{
         {"budget_iterations", &EqualTimeRow::budget_iterations, "", "iterations of the baseline whose time is the budget"},
@@ -83,9 +84,12 @@ const Columns<EqualTimeRow> equal_time_columns =
         {"reference_error_pct", &EqualTimeRow::reference_error_pct, "%", "bound on the reference's own error at the joints"},
         {"volume_change_pct", &EqualTimeRow::volume_change_pct, "%", "signed change of the volume of the change's shape"}};
 
-std::vector<EqualTimeRow> at_equal_time(const std::vector<ChangePoint>& points)
+namespace {
+
+// The poses of a group: their curves but the baseline's, and the baseline after each budget's iterations.
+std::vector<EqualTimeRow> rows_of_group(const std::string& group, const std::map<CurveKey, Curve>& curves,
+                                        const std::vector<ChangePoint>& points)
 {
-    const std::map<CurveKey, Curve> curves = curves_of(points);
     std::vector<EqualTimeRow> rows;
     for (const int budget : budget_iterations) {
         std::map<CaseKey, ChangePoint> of_baseline;
@@ -94,16 +98,32 @@ std::vector<EqualTimeRow> at_equal_time(const std::vector<ChangePoint>& points)
         std::map<std::string, Reached> reached;  // by change
         for (const auto& [key, curve] : curves) {
             const auto& [pose, change, setting] = key;
-            if (change == baseline || !of_baseline.contains(pose)) continue;
+            if (change == baseline || !of_baseline.contains(pose) || (group != all_poses && pose.body != group)) continue;
             const ChangePoint& base = of_baseline.at(pose);
             auto row = value_at(curve, budget, base.ms.median);
             if (!row) continue;
+            row->group = group;
             row->baseline_error_pct = *base.error_joint_pct;
             reached[change][pose].emplace(setting, *row);
         }
         for (const auto& [change, of_change] : reached)
             for (const auto& [pose, settings] : of_change) rows.push_back(settings.at(chosen_setting(of_change, pose)));
     }
+    return rows;
+}
+
+}  // namespace
+
+std::vector<EqualTimeRow> at_equal_time(const std::vector<ChangePoint>& points)
+{
+    std::vector<std::string> groups = {all_poses};
+    std::set<std::string> bodies;
+    for (const ChangePoint& point : points) bodies.insert(point.of.body);
+    if (bodies.size() > 1) groups.insert(groups.end(), bodies.begin(), bodies.end());
+    const std::map<CurveKey, Curve> curves = curves_of(points);
+    std::vector<EqualTimeRow> rows;
+    for (const std::string& group : groups)
+        for (EqualTimeRow& row : rows_of_group(group, curves, points)) rows.push_back(std::move(row));
     return rows;
 }
 
@@ -194,6 +214,7 @@ GainRow over_other(const std::string& change, const ByPose& rows, const std::str
 }  // namespace
 
 const Columns<GainRow> gain_columns = {
+    {"group", &GainRow::group, "", "the poses: all, or those of a body"},
     {"budget_iterations", &GainRow::budget_iterations, "", "iterations of the baseline whose time is the budget"},
     {"change", &GainRow::change, "", "name of the change"},
     {"than", &GainRow::than, "", "what it is compared with: pbs, the baseline, or another change"},
@@ -209,27 +230,44 @@ const Columns<GainRow> gain_columns = {
     {"iterations", &GainRow::iterations, "", "mean number of iterations within the budget"},
     {"volume_abs_pct", &GainRow::volume_abs_pct, "%", "mean of the absolute change of the volume"}};
 
-std::vector<GainRow> gains_of(const std::vector<EqualTimeRow>& rows)
+namespace {
+
+// by change, at one budget
+std::vector<GainRow> gains_at(const std::map<std::string, ByPose>& changes)
 {
     std::vector<GainRow> gains;
-    for (const int budget : budget_iterations) {
-        std::map<std::string, ByPose> changes;
-        for (const EqualTimeRow& row : rows)
-            if (row.budget_iterations == budget) changes[row.change].emplace(row.of, row);
-        std::vector<GainRow> of_budget;
-        for (const auto& [change, by_pose] : changes) of_budget.push_back(over_baseline(change, by_pose));
-        std::ranges::stable_sort(of_budget, std::greater(), &GainRow::gain_pct);
-        const int most = of_budget.empty() ? 0 : std::ranges::max(of_budget, {}, &GainRow::poses).poses;
-        std::vector<std::string> ranked;  // those with a value in every pose
-        for (const GainRow& gain : of_budget)
-            if (gain.change != control && gain.poses == most) ranked.push_back(gain.change);
-        if (ranked.size() >= 2) of_budget.push_back(over_other(ranked[0], changes[ranked[0]], ranked[1], changes[ranked[1]]));
-        for (GainRow& gain : of_budget) {
-            gain.budget_iterations = budget;
-            gains.push_back(gain);
-        }
-    }
+    for (const auto& [change, by_pose] : changes) gains.push_back(over_baseline(change, by_pose));
+    std::ranges::stable_sort(gains, std::greater(), &GainRow::gain_pct);
+    const int most = gains.empty() ? 0 : std::ranges::max(gains, {}, &GainRow::poses).poses;
+    std::vector<std::string> ranked;  // those with a value in every pose
+    for (const GainRow& gain : gains)
+        if (gain.change != control && gain.poses == most) ranked.push_back(gain.change);
+    if (ranked.size() < 2) return gains;
+    for (const std::string& than : {ranked[1], control})
+        if (changes.contains(than)) gains.push_back(over_other(ranked[0], changes.at(ranked[0]), than, changes.at(than)));
     return gains;
+}
+
+}  // namespace
+
+std::vector<GainRow> gains_of(const std::vector<EqualTimeRow>& rows)
+{
+    std::vector<std::string> groups;
+    for (const EqualTimeRow& row : rows)
+        if (std::ranges::find(groups, row.group) == groups.end()) groups.push_back(row.group);
+    std::vector<GainRow> all;
+    for (const std::string& group : groups)
+        for (const int budget : budget_iterations) {
+            std::map<std::string, ByPose> changes;
+            for (const EqualTimeRow& row : rows)
+                if (row.group == group && row.budget_iterations == budget) changes[row.change].emplace(row.of, row);
+            for (GainRow& gain : gains_at(changes)) {
+                gain.group = group;
+                gain.budget_iterations = budget;
+                all.push_back(std::move(gain));
+            }
+        }
+    return all;
 }
 
 }  // namespace experiments

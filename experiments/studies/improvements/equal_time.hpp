@@ -3,10 +3,11 @@
 //   const std::vector<GainRow> gains = gains_of(rows);
 // Budget: the baseline's time after 4, 24 or 96 iterations in the same pose. The error of a setting at that time is interpolated between
 // its iterations, linearly in the logarithm of the time; after its last iterations it stays, and before its first it has none.
-// A change's setting in a pose is the one with the least mean error at the same budget over the other poses, so that no pose judges a
-// setting that was chosen on it. Whether the order of two shapes A and B could be reversed by the reference's own error U: the difference
-// of their errors changes at most by U times the largest distance of the two unit vectors from A and from B to the reference, which is at
-// most 2 |A - B| / (e_A + e_B) (C. Dunkl, K. Williams, A simple norm inequality, American Mathematical Monthly 71, 1964), and at most 2.
+// Poses are compared in groups: all of them, and those of each body where there are several. A change's setting in a pose is the one with
+// the least mean error at the same budget over the other poses of the group, so that no pose judges a setting that was chosen on it.
+// Whether the order of two shapes A and B could be reversed by the reference's own error U: the difference of their errors changes at most
+// by U times the largest distance of the two unit vectors from A and from B to the reference, which is at most 2 |A - B| / (e_A + e_B) (C.
+// Dunkl, K. Williams, A simple norm inequality, American Mathematical Monthly 71, 1964), and at most 2.
 #pragma once
 
 #include "analysis/bootstrap.hpp"
@@ -20,6 +21,7 @@ namespace experiments {
 
 // One change in one pose at one budget.
 struct EqualTimeRow {
+    std::string group;  // all, or a body
     analysis::CaseKey of;
     int budget_iterations = 0;
     double budget_ms = 0.0;
@@ -41,6 +43,7 @@ std::vector<EqualTimeRow> at_equal_time(const std::vector<ChangePoint>& points);
 // known.
 std::optional<double> shift_of_difference(double one_error, double other_error, double distance, std::optional<double> bound);
 
+inline const std::string all_poses = "all";
 inline constexpr int fewest_poses = 4;  // with fewer ones the bootstrap knows next to nothing about other poses
 
 enum class GainDecision {
@@ -51,6 +54,7 @@ enum class GainDecision {
 
 // The mean over the poses of the difference between two errors. one: of the first, less: of what is subtracted; by pose.
 struct GainRow {
+    std::string group;  // all, or a body
     int budget_iterations = 0;
     std::string change, than;  // than: the baseline, or another change
     int poses = 0;
@@ -64,7 +68,8 @@ struct GainRow {
 };
 extern const analysis::Columns<GainRow> gain_columns;
 
-// Per budget: each change relative to the baseline, the largest gain first; then the first change relative to the second one. The control
+// Per group and budget: each change relative to the baseline, the largest gain first; then the first change relative to the second one and
+// to the control. The control
 // (change_settings.hpp) is no change, and a change without a value in some pose has no such mean: they are not compared with the others.
 std::vector<GainRow> gains_of(const std::vector<EqualTimeRow>& rows);
 

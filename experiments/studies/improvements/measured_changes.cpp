@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <deque>
 
 namespace experiments {
@@ -38,12 +39,28 @@ Columns<ChangePoint> distance_columns()
     return columns;
 }
 
-double mean_edge_m(const pbs::TetMesh& mesh)
+std::vector<double> edge_lengths_m(const pbs::TetMesh& mesh)
 {
     const pbs::Edges edges = pbs::edges_of(mesh.tets);
-    double sum_m = 0.0;
-    for (const auto edge : edges.rowwise()) sum_m += (mesh.rest.row(edge(0)) - mesh.rest.row(edge(1))).norm();
-    return sum_m / double(edges.rows());
+    std::vector<double> lengths;
+    for (const auto edge : edges.rowwise()) lengths.push_back((mesh.rest.row(edge(0)) - mesh.rest.row(edge(1))).norm());
+    return lengths;
+}
+
+std::string name_of(const NestedSolution& solution)
+{
+    return std::string(solution.element_order == 2 ? "quadratic" : "linear") + (solution.refinements > 0 ? "_refined" : "");
+}
+
+// By the observed order, or from linear elements on the same tets; nothing where the reference is linear itself.
+std::optional<double> bound_of(const PosedReference& reference)
+{
+    if (reference.order() && std::isfinite(reference.bound().joint_pct)) return reference.bound().joint_pct;
+    if (!reference.is_reached() || reference.reference().element_order != 2) return std::nullopt;
+    for (const NestedSolution& solution : reference.solutions())
+        if (solution.finished && solution.element_order == 1 && solution.refinements == reference.reference().refinements)
+            return reference.error_of(solution.positions).joint_pct;
+    return std::nullopt;
 }
 
 // One setting at one number of iterations, moving back and forth between the pose and the one of the frame before.
@@ -71,7 +88,7 @@ public:
     {
         reach_all();
         const std::vector<Samples> samples = time_all();
-        const PosedReference reference(character_, reference_flesh(of_.scene), pose_, time_step_s_, false);
+        const PosedReference reference(character_, reference_flesh(of_.scene), pose_, time_step_s_, of_.refined_reference);
         MeasuredChanges measured;
         for (std::size_t i = 0; i < settings_.size(); ++i) {
             measured.rows.push_back(row_of(settings_[i], reference));
@@ -87,7 +104,7 @@ private:
     {
         pbs::PbsOptions options = options_of<pbs::PbsOptions>(spec_of(of_.scene, "pbs"));
         options.jiggle.reset();
-        for (const ChangeSetting& setting : change_settings(options, mean_edge_m(character_.mesh), of_.range))
+        for (const ChangeSetting& setting : change_settings(options, edge_lengths_m(character_.mesh), of_.range))
             for (const int iterations : of_.range.iterations) {
                 stop_if_interrupted();
                 TimedSetting& timed = settings_.emplace_back();
@@ -127,9 +144,8 @@ private:
         row.outcome = timed.finite ? "finished" : "not_finite";
         row.metrics = analysis::MeshMetrics(character_.mesh.rest, character_.mesh.tets).measure(timed.positions);
         row.masked_share_pct = reference.masked_share_pct();
-        row.reference = !reference.is_reached() ? "not_reached" : reference.reference().element_order == 2 ? "quadratic" : "linear";
-        if (row.reference == "quadratic" && reference.solutions().back().finished)
-            row.reference_error_joint_pct = reference.error_of(reference.solutions().back().positions).joint_pct;
+        row.reference = reference.is_reached() ? name_of(reference.reference()) : "not_reached";
+        row.reference_error_joint_pct = bound_of(reference);
         if (!timed.finite || !reference.is_reached()) return row;
         const analysis::ErrorNorms error = reference.error_of(timed.positions);
         row.error_joint_pct = error.joint_pct;
@@ -177,7 +193,8 @@ const Columns<ChangePoint> change_columns =
                          {"error_l2_pct", &ChangePoint::error_l2_pct, "%", "error over all vertices outside the overlap"}} +
     within(&ChangePoint::metrics, volume_columns) + distance_columns() +
     Columns<ChangePoint>{
-        {"reference", &ChangePoint::reference, "", "elements of the reference: quadratic, linear (then there is no bound), not_reached"},
+        {"reference", &ChangePoint::reference, "",
+         "elements of the reference: quadratic or linear, _refined: on the tets cut into eight; or not_reached"},
         {"reference_error_joint_pct", &ChangePoint::reference_error_joint_pct, "%", "bound on the reference's own error, at the joints"},
         {"masked_share_pct", &ChangePoint::masked_share_pct, "%", "share of the volume that is left out because the body overlaps itself"}};
 
@@ -199,6 +216,7 @@ nlohmann::json to_json(const ChangesCase& of)
                                    .record("scene", &ChangesCase::scene)
                                    .record("frame", &ChangesCase::frame)
                                    .record("range", &ChangesCase::range)
+                                   .record("refined_reference", &ChangesCase::refined_reference)
                                    .record("rounds", &ChangesCase::rounds)
                                    .complete();
     return fields.json(of);
