@@ -15,6 +15,7 @@ pbs_tests(unit pbs_geometry FOLDERS pbs/geometry
     LIBRARIES pbs_method)
 pbs_tests(unit pbs_skinning FOLDERS pbs/skinning pbs/constraints
     ALONE pbs/skinning/bone_binding pbs/skinning/pose_path pbs/skinning/root_frame pbs/constraints/volume_printed
+        pbs/constraints/region_volume
     LIBRARIES pbs_method)
 pbs_tests(unit pbs_solver FOLDERS pbs/solver pbs/author
     ALONE pbs/solver/batched/batched_constraints pbs/solver/batched/batched_projection pbs/solver/batched/constraint_groups

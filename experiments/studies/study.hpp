@@ -93,5 +93,6 @@ Study equal_quality_study();
 Study features_study();
 Study scale_study();
 Study ensemble_study();
+Study improvements_study();
 
 }  // namespace experiments

@@ -43,6 +43,16 @@ struct OptionNames<pbs::BindOnBone> {
         {{pbs::BindOnBone::pinned, "pinned"}, {pbs::BindOnBone::unbound, "unbound"}}};
 };
 template <>
+struct OptionNames<pbs::BindTo> {
+    static constexpr std::array<std::pair<pbs::BindTo, const char*>, 2> table{
+        {{pbs::BindTo::bone_distance, "bone_distance"}, {pbs::BindTo::blended_position, "blended_position"}}};
+};
+template <>
+struct OptionNames<pbs::VolumeOf> {
+    static constexpr std::array<std::pair<pbs::VolumeOf, const char*>, 3> table{
+        {{pbs::VolumeOf::tets, "tets"}, {pbs::VolumeOf::regions, "regions"}, {pbs::VolumeOf::tets_and_regions, "tets_and_regions"}}};
+};
+template <>
 struct OptionNames<pbs::VolumeForm> {
     static constexpr std::array<std::pair<pbs::VolumeForm, const char*>, 5> table{{{pbs::VolumeForm::derived, "derived"},
                                                                                    {pbs::VolumeForm::labels_relative, "labels_relative"},

@@ -49,7 +49,10 @@ private:
 
     BatchedConstraints<Scalar> batched_;
     Parallel parallel_;
-    std::size_t edges_, tets_;             // constraints of each class
+    std::size_t edges_, tets_;  // constraints of each class
+    // In the new order. Regions are projected one after the other by the scalar code of the order plain, after all batches of the tets.
+    std::vector<RegionVolumeConstraint<Scalar>> regions_;
+    std::vector<Scalar> inverse_mass_;     // #V
     std::vector<BindBatch<Scalar>> bind_;  // of all vertices in the new order; empty: no bind constraints
     std::vector<Block> vertices_;          // then dummies
 

@@ -9,6 +9,7 @@
 #include "experiments/studies/error_split/error_split.hpp"
 #include "experiments/studies/features/feature_cost.hpp"
 #include "experiments/studies/fit/poisson_run.hpp"
+#include "experiments/studies/improvements/gains.hpp"
 #include "experiments/studies/jiggle/jiggle_records.hpp"
 #include "experiments/studies/setup/body_setup.hpp"
 #include "experiments/studies/stability/cell_table.hpp"
@@ -151,6 +152,8 @@ TEST(KeptTables, ThatSumUpAStudy)
 {
     expect_same_sum(experiments::cell_columns, "stability/map_time_step_k_stretch.csv");
     expect_same_sum(experiments::cell_columns, "stability/map_iterations_twist.csv");
+    expect_same_sum(experiments::equal_time_columns, "improvements/equal_time.csv");
+    expect_same_sum(experiments::gain_columns, "improvements/gains.csv");
 }
 
 TEST(KeptTables, OfSetups)

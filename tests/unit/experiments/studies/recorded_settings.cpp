@@ -12,6 +12,7 @@
 #include "experiments/studies/error_split/error_split.hpp"
 #include "experiments/studies/features/feature_cost.hpp"
 #include "experiments/studies/fit/poisson_run.hpp"
+#include "experiments/studies/improvements/measured_changes.hpp"
 #include "experiments/studies/jiggle/jiggle_records.hpp"
 #include "experiments/studies/scale/scale_records.hpp"
 #include "experiments/studies/setup/body_setup.hpp"
@@ -83,6 +84,13 @@ TEST(RecordedSettings, OfEnsemble)
     of.of = {.body = "limb", .motion = "bend", .angle_deg = 60.0}, of.scene = limb(), of.frame = 1;
     of.flesh = default_spec("fem"), of.members = {family().front()}, of.deformers = {default_spec("lbs")};
     EXPECT_GE(expect_each_change_repeats(of), 10);
+}
+
+TEST(RecordedSettings, OfImprovements)
+{
+    ChangesCase of;
+    of.of = {.body = "limb", .motion = "bend", .angle_deg = 60.0}, of.scene = limb(), of.frame = 12;
+    EXPECT_GE(expect_each_change_repeats(of), 15);
 }
 
 TEST(RecordedSettings, OfWorkPrecision)
