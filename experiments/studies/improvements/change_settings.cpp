@@ -69,14 +69,14 @@ std::vector<ChangeSetting> change_settings(const PbsOptions& scene, const std::v
     settings.add("smooth_weights", "", [](PbsOptions&) {});
     settings.all.back().weights = pbs::WeightKind::smooth;
     for (const double k : range.k_bind_to_blended)
-        settings.add("bind_to_blended_position", fmt::format("k_bind {:g}", k), [&](PbsOptions& options) {
+        settings.add("bind_to_blended_position", fmt::format("k_bind_{:g}", k), [&](PbsOptions& options) {
             options.bind_to = pbs::BindTo::blended_position;
             options.k_bind = k;
         });
     for (const auto& [of, change] :
          {std::pair{pbs::VolumeOf::regions, "region_volumes"}, {pbs::VolumeOf::tets_and_regions, "tet_and_region_volumes"}})
         for (const int tets : range.region_tets)
-            settings.add(change, fmt::format("region_tets {}", tets), [&, of = of](PbsOptions& options) {
+            settings.add(change, fmt::format("region_tets_{}", tets), [&, of = of](PbsOptions& options) {
                 options.volume_of = of;
                 options.region_tets = tets;
             });
@@ -85,9 +85,9 @@ std::vector<ChangeSetting> change_settings(const PbsOptions& scene, const std::v
     for (const auto& [order, name] : OptionNames<pbs::Order>::table)
         if (order != scene.order) settings.add("another_order", name, [&, order = order](PbsOptions& options) { options.order = order; });
     for (const double k : range.k_stretch)
-        settings.add(control, fmt::format("k_stretch {:g}", k), [&](PbsOptions& options) { options.k_stretch = k; });
+        settings.add(control, fmt::format("k_stretch_{:g}", k), [&](PbsOptions& options) { options.k_stretch = k; });
     for (const double k : range.k_bind)
-        settings.add(control, fmt::format("k_bind {:g}", k), [&](PbsOptions& options) { options.k_bind = k; });
+        settings.add(control, fmt::format("k_bind_{:g}", k), [&](PbsOptions& options) { options.k_bind = k; });
     return settings.all;
 }
 

@@ -17,7 +17,7 @@ inline const std::string control = "other_stiffnesses";  // no change to the met
 
 struct ChangeSetting {
     std::string change;   // pbs, smooth_weights, bind_to_blended_position, region_volumes, k_by_edge_length, another_order, ...
-    std::string setting;  // of its parameter, as it is recorded; empty: it has none
+    std::string setting;  // of its parameter, as it is recorded: k_bind_0.02; empty: it has none
     pbs::WeightKind weights = pbs::WeightKind::paper;
     pbs::PbsOptions options;
 };

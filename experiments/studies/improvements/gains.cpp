@@ -71,7 +71,7 @@ GainRow over_baseline(const std::string& change, const ByPose& rows)
     GainRow gain = gain_over(poses);
     gain.change = change;
     gain.than = baseline;
-    for (const std::string& setting : settings) gain.settings += (gain.settings.empty() ? "" : "; ") + setting;
+    for (const std::string& setting : settings) gain.settings += (gain.settings.empty() ? "" : "+") + setting;
     gain.iterations = iterations;
     gain.volume_abs_pct = volume;
     return gain;
@@ -110,7 +110,7 @@ const analysis::Columns<GainRow> gain_columns = {
     {"gain_high_pct", &GainRow::gain_high_pct, "%", "upper end"},
     {"reference_error_pct", &GainRow::reference_error_pct, "%", "by which the reference's own error may change the mean"},
     {"decision", &GainRow::decision, "", "decided, few_poses (the interval includes zero, or fewer than four poses), reference_error"},
-    {"settings", &GainRow::settings, "", "settings that were chosen on the other poses"},
+    {"settings", &GainRow::settings, "", "settings that were chosen on the other poses, joined by +"},
     {"iterations", &GainRow::iterations, "", "mean number of iterations within the budget"},
     {"volume_abs_pct", &GainRow::volume_abs_pct, "%", "mean of the absolute change of the volume"}};
 

@@ -36,7 +36,7 @@ struct GainRow {
     std::optional<double> gain_low_pct = {}, gain_high_pct = {};
     std::optional<double> reference_error_pct = {};  // by which the reference's own error may change the mean
     GainDecision decision = GainDecision::few_poses;
-    std::string settings;                           // that were chosen, each once
+    std::string settings;                           // that were chosen, each once, joined by +
     double iterations = 0.0, volume_abs_pct = 0.0;  // means: iterations within the budget, |volume change|
 };
 extern const analysis::Columns<GainRow> gain_columns;

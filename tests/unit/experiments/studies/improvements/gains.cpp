@@ -52,7 +52,7 @@ std::vector<ChangePoint> some_poses(const std::vector<double>& good, const std::
         add_baseline(points, poses[i]);
         points.push_back(change_point(poses[i], "good", "", 1, 0.5, good[i], bound_pct));
         points.push_back(change_point(poses[i], "better", "", 1, 0.5, better[i], bound_pct));
-        points.push_back(change_point(poses[i], control, "k_bind 0.5", 1, 0.5, 0.5, bound_pct));
+        points.push_back(change_point(poses[i], control, "k_bind_0.5", 1, 0.5, 0.5, bound_pct));
     }
     return points;
 }
