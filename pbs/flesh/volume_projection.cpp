@@ -25,28 +25,28 @@ double larger_root(double s, double kappa)
 // it passes one for the first time below s_3, or above it.
 Vec3 nearest_unit_product(const Vec3& s)
 {
-    const auto others = [&](double y) {
+    const auto at = [&](double y) {
         const double kappa = y * (s(2) - y);
-        return std::pair(larger_root(s(0), kappa), larger_root(s(1), kappa));
-    };
-    const auto excess = [&](double y) {
-        const auto [a, b] = others(y);
-        return y * a * b - 1.0;
+        return Vec3(larger_root(s(0), kappa), larger_root(s(1), kappa), y);
     };
     double low = std::max(s(2), 0.0), high = low;
-    if (excess(low) < 0.0)  // volume must grow, y > s_3; y^3 <= y a b there
-        for (high = std::max(2.0 * low, 1.0); excess(high) < 0.0;) low = high, high *= 2.0;
+    if (at(low).prod() < 1.0)  // volume must grow: y > s_3
+        for (high = std::max(2.0 * low, 1.0); at(high).prod() < 1.0;) low = high, high *= 2.0;
     else
-        for (low = 0.5 * high; excess(low) > 0.0;) high = low, low *= 0.5;
-    for (int step = 0; step < 200 && high - low > std::numeric_limits<double>::epsilon() * high; ++step) {
-        const double f_low = excess(low), f_high = excess(high), width = high - low;
-        double y = low - f_low * width / (f_high - f_low);                   // false position,
-        if (step % 3 == 2 || !(y > low && y < high)) y = low + 0.5 * width;  // and bisection
-        if (!(y > low && y < high)) break;                                   // neighbouring numbers
-        (excess(y) < 0.0 ? low : high) = y;
+        for (low = 0.5 * high; at(low).prod() > 1.0;) high = low, low *= 0.5;
+    double y = high;
+    for (int step = 0; step < 100; ++step) {
+        const Vec3 now = at(y);
+        const double excess = now.prod() - 1.0, change = s(2) - 2.0 * y;  // d kappa / dy
+        (excess < 0.0 ? low : high) = y;
+        // The larger root r of r^2 - s r + kappa = 0 changes by -1 / (2 r - s) with kappa.
+        const double slope = now(0) * now(1) - y * change * (now(1) / (2.0 * now(0) - s(0)) + now(0) / (2.0 * now(1) - s(1)));
+        double next = y - excess / slope;                                   // Newton's method between
+        if (!(next > low && next < high)) next = low + 0.5 * (high - low);  // bounds
+        if (std::abs(next - y) <= std::numeric_limits<double>::epsilon() * y) break;
+        y = next;
     }
-    const auto [a, b] = others(high);
-    return {a, b, high};
+    return at(y);
 }
 
 LocalShapes local_shapes(const Eigen::Matrix3d& f)
