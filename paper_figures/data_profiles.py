@@ -5,7 +5,7 @@ import entries
 import records
 import style
 
-columns = {"comparison", "tolerance_pct", "group", "ms", "solved", "poses", "share_pct"}
+columns = ("comparison", "tolerance_pct", "group", "ms", "solved", "poses", "share_pct")
 comparisons = {"packed_f32": "packed f32 code", "plain_f64": "plain f64 code"}
 tolerances_pct = (10.0, 5.0, 2.0)
 
@@ -24,7 +24,7 @@ def draw_profiles(axes, rows, span_ms):
 
 def draw(results, figures):
     file = results / "work_precision" / "data_profiles.csv"
-    rows = records.table(file, columns)
+    rows = records.table(file, set(columns))
     times = records.numbers(rows, "ms")
     span_ms = (min(times) / 1.5, max(times) * 1.5)
     shown = [name for name in comparisons if any(row["comparison"] == name for row in rows)]
@@ -40,4 +40,4 @@ def draw(results, figures):
         line[0].set_ylabel(f"solved poses [% of {rows[0]['poses']}]")
     style.legend_above(figure, columns=4)
     style.save(figure, figures / "data_profiles", entries.origin_of(results, "data_profiles"),
-               [{name: row[name] for name in ("comparison", "tolerance_pct", "group", "ms", "solved", "poses", "share_pct")} for row in rows])
+               [{name: row[name] for name in columns} for row in rows])

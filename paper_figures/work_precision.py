@@ -1,6 +1,7 @@
 """Error against run time, one figure for packed f32 code and one for plain f64 code. One panel per evaluated pose, and one of their mean:
-every setting of every deformer, the front of each group of deformers with the settings that were chosen on other poses, the deformer that is
-nearest within 0.1, 1 and 10 ms, the bound on the reference's own error, below which differences have no meaning, and what is omitted."""
+every setting of every deformer, the front of each group of deformers with the settings that were chosen on other poses, the deformer that
+is nearest within 0.1, 1 and 10 ms, the bound on the reference's own error, below which differences have no meaning, and what is
+omitted."""
 import textwrap
 
 import case_words
@@ -73,8 +74,8 @@ def draw_points(axes, panel):
                       color=color, markersize=2.2, alpha=0.25, markeredgewidth=0.5)
         front = group_front([row for row in panel.fronts if row["front"] != "all" and compared_looks.group_of(row["front"]) == group])
         if front:
-            axes.plot(records.numbers(front, "ms_median"), records.numbers(front, "error_joint_pct"), color=color, marker=marker, label=name,
-                      linewidth=1.0)
+            axes.plot(records.numbers(front, "ms_median"), records.numbers(front, "error_joint_pct"), color=color, marker=marker,
+                      label=name, linewidth=1.0)
     front = [row for row in panel.fronts if row["front"] == "all"]
     if front:
         axes.step(records.numbers(front, "ms_median"), records.numbers(front, "error_joint_pct"), where="post", color=style.yellow,
@@ -96,7 +97,8 @@ def group_front(rows):
 def draw_bound(axes, bound_pct):
     low, high = axes.get_ylim()
     if bound_pct and bound_pct > low:
-        axes.axhspan(low, min(bound_pct, high), color="#EFEFEF", linewidth=0, zorder=-1, label="below the reference\u2019s own error (bound)")
+        axes.axhspan(low, min(bound_pct, high), color="#EFEFEF", linewidth=0, zorder=-1,
+                     label="below the reference\u2019s own error (bound)")
     axes.set_ylim(low, high)
 
 

@@ -27,11 +27,11 @@ struct SettingChange {
 };
 
 struct ComparedDeformer {
-    std::string name;          // in the records
-    std::string kind;          // that is registered
-    std::string group, words;  // the group of deformers that it is shown with, as a key and in sentences
-    std::string weights = {};  // of a [[kind]] table with weights of its own; empty: no such table
-    KeyValues fixed = {};      // of all its settings
+    std::string name = {};               // in the records
+    std::string kind = {};               // that is registered
+    std::string group = {}, words = {};  // the group of deformers that it is shown with, as a key and in sentences
+    std::string weights = {};            // of a [[kind]] table with weights of its own; empty: no such table
+    KeyValues fixed = {};                // of all its settings
     std::string iterations_key = {};
     std::vector<int> iterations = {};      // the ladder; empty: it does not iterate
     std::vector<int> few_iterations = {};  // part of it: on other meshes, and in the quick form

@@ -115,8 +115,8 @@ def write_fit(results):
 
 
 def write_work_precision(results):
-    """PBS in packed code: an error of 40 % / n after n iterations of a millisecond each; in plain code five times as long. LBS has one code.
-    The reference's own error is at most 15 %. In a second pose, which trains, nothing may be shown. XPBD diverges."""
+    """PBS in packed code: an error of 40 % / n after n iterations of a millisecond each; in plain code five times as long. LBS has one
+    code. The reference's own error is at most 15 %. In a second pose, which trains, nothing may be shown. XPBD diverges."""
     folder = results / "work_precision"
     case = {"body": "limb", "motion": "bend", "pose": "", "angle_deg": 90}
     unset = {name: "" for name in ("k_stretch", "order", "substeps", "element_order", "wanted_vertices", "refined", "tuned")}
