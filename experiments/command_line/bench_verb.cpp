@@ -1,5 +1,5 @@
-// pbskin bench [--mesh TETS] [--threads N] [--json]: times a step, and compares it with plain loops in the same run and with the limits of the
-// machine.
+// pbskin bench [--mesh TETS] [--threads N] [--json]: times a step and every deformer, and compares them with plain loops in the same run
+// and with the limits of the machine.
 #include "analysis/records/atomic_file.hpp"
 #include "experiments/command_line/verbs.hpp"
 #include "experiments/studies/bench/bench.hpp"

@@ -16,7 +16,7 @@ const std::vector<std::string> stated_in_every_scene = {"pbs.k_stretch=0.2", "pb
                                                         "pbs.gravity_m_s2=[0.0, 0.0, 0.0]"};
 
 // The values of one timed round, in this order.
-enum Sample { frame_s, iteration_s };
+enum FrameSample { frame_s, iteration_s };
 
 const SceneKey* key_of(const DeformerKind& kind, const std::string& name)
 {

@@ -92,8 +92,8 @@ class PlainIterations(program.ProgramTest):
         super().setUp()
         foreign_arm.write_msh(self.path("arm.msh"), *foreign_arm.mesh((10, 2, 2)))
         self.write("arm.skeleton.toml", foreign_arm.SKELETON)
-        self.succeeds("run", self.write("arm.toml", SCENE), "-o", self.path("out"), "--set", "pbs.order=plain", "--set", "pbs.precision=f64",
-                      "--set", f"pbs.iterations={ITERATIONS}")
+        settings = ("pbs.order=plain", "pbs.precision=f64", f"pbs.iterations={ITERATIONS}")
+        self.succeeds("run", self.write("arm.toml", SCENE), "-o", self.path("out"), *(word for one in settings for word in ("--set", one)))
         rest = self.frame("lbs", 0)
         self.rest = self.points(rest)
         self.tets = [tuple(map(int, tet)) for tet in vtk_to_numpy(rest.GetCells().GetConnectivityArray()).reshape(-1, 4)]
