@@ -19,7 +19,7 @@ DRAWN = ("bones.csv", "bones_rest.csv", "binding.csv", "embedding.csv")  # besid
 MOST_BYTES = 8_000_000
 RAW = ("points.csv",)  # the measured points of a run, from which the study's tables follow: kept whatever their length
 TABLE_BYTES = 60_000  # of a run's further tables; longer ones are made again by the run
-SUMMARY_BYTES = 100_000  # of a study's own files, which sum up its runs'
+SUMMARY_BYTES = 200_000  # of a study's own files, which sum up its runs'
 
 
 def rounded(text):
