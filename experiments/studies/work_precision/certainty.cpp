@@ -51,7 +51,7 @@ Decision decision_on(const Diagram& diagram, const DiagramPoint& nearer, const D
     } else if (orders.front() == PairOrder::undecided) {
         decision.reason = fmt::format("within the reference's own error of up to {:.2g} %", *diagram.reference_error_pct);
     } else if (!silent.empty()) {
-        decision.reason = "within the own error of the references " + joined(silent);
+        decision.reason = "not decided by " + joined(silent) + ", by their own error or because they were not reached";
     }
     return decision;
 }

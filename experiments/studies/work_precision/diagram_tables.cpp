@@ -184,7 +184,8 @@ std::vector<BudgetRow> best_within(const std::vector<Diagram>& diagrams)
     std::vector<BudgetRow> rows;
     for (const Diagram& diagram : diagrams)
         for (const double budget_ms : budgets_ms)
-            for (BudgetRow& row : best_within(diagram, budget_ms)) rows.push_back(std::move(row));
+            for (BudgetRow& row : best_within(diagram, budget_ms))
+                if (diagram.poses > 1 || row.rank <= ranks_of_a_pose) rows.push_back(std::move(row));
     return rows;
 }
 

@@ -16,6 +16,7 @@ analysis::CsvTable fronts_table(const std::vector<Diagram>& diagrams);
 // all times from there on at which both have points.
 analysis::CsvTable crossings_table(const std::vector<Diagram>& diagrams);
 
+inline constexpr int ranks_of_a_pose = 3;
 inline constexpr std::array<double, 5> budgets_ms = {0.1, 1.0, 3.0, 10.0, 100.0};
 
 // best_within.csv: the best point of each group within a budget, the nearest group first. `decision` is whether it is nearer than the next
@@ -32,6 +33,6 @@ struct BudgetRow {
 };
 extern const analysis::Columns<BudgetRow> budget_columns;
 std::vector<BudgetRow> best_within(const Diagram& diagram, double budget_ms);
-std::vector<BudgetRow> best_within(const std::vector<Diagram>& diagrams);  // all budgets
+std::vector<BudgetRow> best_within(const std::vector<Diagram>& diagrams);  // all budgets; of a single pose the first ranks alone
 
 }  // namespace experiments

@@ -23,6 +23,16 @@ std::vector<const Diagram*> shown(const ComparisonRecords& records, Comparison c
     return diagrams;
 }
 
+// Every diagram of packed_f32; of plain_f64 the means, if there are any.
+std::vector<const Diagram*> described(const ComparisonRecords& records, Comparison comparison)
+{
+    std::vector<const Diagram*> diagrams = shown(records, comparison);
+    const auto is_mean = [](const Diagram* diagram) { return diagram->poses > 1; };
+    if (comparison == Comparison::plain_f64 && std::ranges::any_of(diagrams, is_mean))
+        std::erase_if(diagrams, [&](const Diagram* diagram) { return !is_mean(diagram); });
+    return diagrams;
+}
+
 std::string split_text(const ComparisonRecords& records)
 {
     std::string training, evaluation;
@@ -159,7 +169,7 @@ std::string page_of(const ComparisonRecords& records)
     }
     page += tried_table(records) + "\n" + theta_table(records) + omission_table(records);
     for (const Comparison comparison : comparisons)
-        for (const Diagram* diagram : shown(records, comparison)) {
+        for (const Diagram* diagram : described(records, comparison)) {
             page += fmt::format("## {}: {}\n\n```\n{}```\n\n", diagram->name, words_of(comparison), front_text(*diagram));
             for (const std::string& line : findings(*diagram)) page += "- " + line + "\n";
             page += "\n";

@@ -57,7 +57,7 @@ TEST(Certainty, IsThatOfEveryReference)
     EXPECT_EQ(all.remark(), "");
     const Decision silent = of(with_members(two_points(33.0), {{1.0, 10.0, 13.0}, {3.0, 10.0, 15.0}}));  // 15 - 10 < 2 x 3
     EXPECT_EQ(silent.decision, PairDecision::reference_error);
-    EXPECT_EQ(silent.reason, "within the own error of the references thinner_bones");
+    EXPECT_EQ(silent.reason, "not decided by thinner_bones, by their own error or because they were not reached");
     const Decision contrary = of(with_members(two_points(33.0), {{1.0, 13.0, 10.0}}));
     EXPECT_EQ(contrary.decision, PairDecision::models_disagree);
     EXPECT_EQ(contrary.reason, "the order is the other way round for stiffer_springs");
@@ -67,7 +67,7 @@ TEST(Certainty, AReferenceThatWasNotReachedDecidesNothing)
 {
     Diagram unreached = two_points(33.0);
     unreached.members[4] = {true, std::nullopt};
-    EXPECT_EQ(of(unreached).reason, "within the own error of the references nu_0.49");
+    EXPECT_EQ(of(unreached).reason, "not decided by nu_0.49, by their own error or because they were not reached");
 }
 
 TEST(Certainty, FromATimeOnIsTheWorstOfAllLaterTimes)
