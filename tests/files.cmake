@@ -33,6 +33,10 @@ pbs_tests(unit pbs_rig FOLDERS pbs/rig EXCEPT ${left_out} LIBRARIES pbs_rig pbs_
 pbs_tests(unit pbs_character FOLDERS pbs/character EXCEPT ${left_out}
     ALONE pbs/character/overlap_mask pbs/character/refined_character pbs/character/retarget
     LIBRARIES pbs_character pbs_mesh_io)
+if(TARGET pbskin_cholmod)
+    pbs_tests(unit pbs_flesh FOLDERS pbs/flesh LIBRARIES pbs_flesh)
+    add_dependencies(test_unit_pbs_flesh pbskin_cholmod)
+endif()
 if(TARGET pbskin_gmsh)
     add_dependencies(test_unit_pbs_files pbskin_gmsh)
 endif()

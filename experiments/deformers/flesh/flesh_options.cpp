@@ -2,6 +2,8 @@
 
 #include "experiments/process/blas_kernels.hpp"
 
+#include <utility>
+
 namespace experiments {
 namespace {
 
@@ -25,7 +27,9 @@ PosedFlesh::PosedFlesh(const pbs::Character& character, const pbs::SmoothSpringO
 void PosedFlesh::pose(const pbs::Pose& pose)
 {
     flesh_.hold().centres(pose, centres_);
-    if (how_ == pbs::FleshStart::smooth_dqs)
+    if (next_start_)
+        start_ = *std::exchange(next_start_, {});
+    else if (how_ == pbs::FleshStart::smooth_dqs)
         skinning_.dual_quaternion(pose, start_);
     else
         skinning_.linear(pose, start_);

@@ -53,8 +53,9 @@ public:
     {
     }
 
-    // Sets the centres of the springs and the initial guess of a pose.
+    // Sets the centres of the springs and the initial guess of a pose: the shape of start_from, if there is one, or as the options say.
     void pose(const pbs::Pose& pose);
+    void start_from(const pbs::Positions& shape) { next_start_ = shape; }  // [m], #V x 3, for the next pose
 
     const pbs::HeldFlesh& flesh() const { return flesh_; }
     const pbs::Positions& centres() const { return centres_; }  // [m], #V x 3
@@ -69,6 +70,7 @@ private:
     pbs::FleshStart how_;
     pbs::BlendSkinning<double> skinning_;
     pbs::Positions centres_, start_;
+    std::optional<pbs::Positions> next_start_;
 };
 
 }  // namespace experiments

@@ -12,5 +12,6 @@ std::vector<StabilityCell> negative_controls(bool full);  // Eq. 12-20 as printe
 std::vector<StabilityCell> xpbd_cells(bool full);
 std::vector<StabilityCell> fem_static_cells(bool full);   // linear, corotational, stable neo-Hookean; in equilibrium
 std::vector<StabilityCell> fem_dynamic_cells(bool full);  // corotational, stable neo-Hookean; in time
+std::vector<StabilityCell> other_cells(bool full);  // the other deformers, on the limb
 
 }  // namespace experiments

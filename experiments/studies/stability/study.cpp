@@ -8,6 +8,7 @@
 //   pbs_human, ...    characters landing from a jump
 //   controls          Eq. 12-20 as printed, and teleports beyond the range of the numbers: here instability must be seen
 //   xpbd              the same limb with a material, also in small steps
+//   other_deformers   the same limb with the methods that minimise the energy of flesh, and with delta mush
 //   fem_static        linear, corotational and stable neo-Hookean in equilibrium
 //   fem_in_time       the last two by generalised-alpha
 // A broken initial state of the finite elements in equilibrium is the initial guess of Newton's method in the last pose, without a load
@@ -96,6 +97,7 @@ StudyPlan plan(bool full)
     add_characters(plan, full);
     plan.runs.push_back(stability_run("controls", negative_controls(full), 2.0));
     plan.runs.push_back(stability_run("xpbd", xpbd_cells(full), full ? 80.0 : 14.0));
+    plan.runs.push_back(stability_run("other_deformers", other_cells(full), full ? 30.0 : 5.0));
     plan.runs.push_back(stability_run("fem_static", fem_static_cells(full), full ? 208.0 : 40.0));
     plan.runs.push_back(stability_run("fem_in_time", fem_dynamic_cells(full), full ? 350.0 : 22.0));
     std::string counts;

@@ -1,0 +1,155 @@
+// Reference: the necessary conditions of a minimum, computed by the plain energy, and the decrease that the line search requires.
+#include "pbs/flesh/quasi_newton.hpp"
+
+#include "pbs/flesh/held_flesh.hpp"
+#include "pbs/geometry/input_error.hpp"
+#include "tests/support/held_bar.hpp"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using pbs::Arithmetic;
+using pbs::Positions;
+
+const test_support::TwoBoneLimb bent = test_support::two_bone_limb({12, 3, 3}, pbs::Vec3::UnitZ(), 70.0);
+const pbs::HeldFlesh& flesh()
+{
+    static const pbs::HeldFlesh held(bent.mesh, test_support::random_springs(60, 0.3), 2, {});
+    return held;
+}
+const Positions& centres()
+{
+    static const Positions positions = [] {
+        Positions of_pose;
+        flesh().hold().centres(bent.pose, of_pose);
+        return of_pose;
+    }();
+    return positions;
+}
+
+template <typename Scalar>
+pbs::QuasiNewtonSummary minimise(const pbs::QuasiNewtonOptions& options, Positions& x)
+{
+    return pbs::QuasiNewton<Scalar>(bent.mesh, flesh().energy(), flesh().factor(), options).minimise(centres(), x);
+}
+
+double gradient_norm(const Positions& x)
+{
+    Positions gradient;
+    flesh().energy().value_and_gradient(x, centres(), gradient);
+    return gradient.norm();
+}
+
+TEST(QuasiNewton, EndsWhereTheGradientVanishes)
+{
+    for (const Arithmetic arithmetic : {Arithmetic::plain_f64, Arithmetic::packed_f64}) {
+        Positions x = bent.lbs;
+        const double first = gradient_norm(x);
+        const auto summary = minimise<double>({.iterations = 500, .stop_gradient = 1e-9, .arithmetic = arithmetic}, x);
+        EXPECT_TRUE(summary.converged);
+        EXPECT_LT(gradient_norm(x), 1e-6 * first);
+    }
+}
+
+TEST(QuasiNewton, EveryIterationLowersTheEnergy)
+{
+    double last = flesh().energy().value(bent.lbs, centres());
+    for (const int iterations : {1, 2, 3, 5, 8, 13, 21}) {
+        Positions x = bent.lbs;
+        const auto summary = minimise<double>({.iterations = iterations, .arithmetic = Arithmetic::plain_f64}, x);
+        const double energy = flesh().energy().value(x, centres());
+        EXPECT_LT(energy, last) << iterations;
+        EXPECT_NEAR(energy, summary.energy, 1e-12 * energy);
+        EXPECT_EQ(summary.iterations, iterations);
+        EXPECT_EQ(summary.solves, iterations);
+        EXPECT_GE(summary.evaluations, iterations + 1);
+        last = energy;
+    }
+}
+
+// L-BFGS with pairs converges faster than linearly preconditioned descent: a history that is not used, or used in the wrong order, fails.
+TEST(QuasiNewton, HistorySavesIterations)
+{
+    const auto iterations = [](int history) {
+        Positions x = bent.lbs;
+        return minimise<double>({.iterations = 2000, .history = history, .stop_gradient = 1e-6, .arithmetic = Arithmetic::packed_f64}, x)
+            .iterations;
+    };
+    EXPECT_LT(2 * iterations(5), iterations(0));
+}
+
+// In float the minimum is that of energies with coefficients that are rounded to 2^-24.
+TEST(QuasiNewton, FloatEndsNearTheSameMinimum)
+{
+    Positions in_double = bent.lbs, in_float = bent.lbs;
+    minimise<double>({.iterations = 500, .stop_gradient = 1e-9, .arithmetic = Arithmetic::plain_f64}, in_double);
+    minimise<float>({.iterations = 200}, in_float);
+    EXPECT_LT((in_float - in_double).norm(), 1e-4 * (bent.lbs - in_double).norm());
+}
+
+TEST(QuasiNewton, TheMinimumDoesNotDependOnTheStart)
+{
+    Positions from_lbs = bent.lbs, from_rest = bent.mesh.rest;
+    minimise<double>({.iterations = 1000, .stop_gradient = 1e-10, .arithmetic = Arithmetic::packed_f64}, from_lbs);
+    minimise<double>({.iterations = 1000, .stop_gradient = 1e-10, .arithmetic = Arithmetic::packed_f64}, from_rest);
+    EXPECT_LT((from_lbs - from_rest).norm(), 1e-6 * (bent.lbs - bent.mesh.rest).norm());
+}
+
+TEST(QuasiNewton, CollapsedToAPointRecovers)
+{
+    Positions x = Positions::Zero(bent.mesh.rest.rows(), 3);
+    const auto summary = minimise<double>({.iterations = 1000, .stop_gradient = 1e-8, .arithmetic = Arithmetic::packed_f64}, x);
+    EXPECT_TRUE(summary.converged);
+    EXPECT_TRUE(x.allFinite());
+}
+
+TEST(QuasiNewton, MirroredStartStaysFinite)
+{
+    Positions x = bent.lbs;
+    x.col(2) *= -1.0;
+    minimise<double>({.iterations = 50, .arithmetic = Arithmetic::packed_f64}, x);
+    EXPECT_TRUE(x.allFinite());
+}
+
+TEST(QuasiNewton, AStartThatIsNotANumberIsNotHidden)
+{
+    Positions x = bent.lbs;
+    x(3, 1) = std::numeric_limits<double>::quiet_NaN();
+    minimise<double>({.iterations = 5, .arithmetic = Arithmetic::packed_f64}, x);
+    EXPECT_FALSE(x.allFinite());
+}
+
+TEST(QuasiNewton, NoIterationsLeaveTheStart)
+{
+    Positions x = bent.lbs;
+    const auto summary = minimise<double>({.iterations = 0, .arithmetic = Arithmetic::plain_f64}, x);
+    EXPECT_EQ(x, bent.lbs);
+    EXPECT_EQ(summary.evaluations, 1);
+}
+
+TEST(HeldFlesh, SmoothWeightsAddUpToOneAndFollowTheSprings)
+{
+    const pbs::Weights weights = flesh().smooth_weights(bent.weights);
+    ASSERT_EQ(weights.vertices(), bent.mesh.rest.rows());
+    for (int i = 0; i < weights.vertices(); ++i) {
+        double sum = 0.0, of_first = 0.0;
+        for (int k = weights.first[i]; k < weights.first[i + 1]; ++k) {
+            EXPECT_GE(weights.weight[k], 0.0);
+            sum += weights.weight[k];
+            if (weights.bone[k] == 0) of_first += weights.weight[k];
+        }
+        EXPECT_NEAR(sum, 1.0, 1e-14);
+        if (bent.mesh.rest(i, 0) < -0.6) EXPECT_GT(of_first, 0.9);
+        if (bent.mesh.rest(i, 0) > 0.6) EXPECT_LT(of_first, 0.1);
+    }
+}
+
+TEST(HeldFlesh, RefusesSpringsThatAreAllOutside)
+{
+    pbs::BoneSprings springs = test_support::random_springs(5, 1.0);
+    springs.points.rowwise() += Eigen::RowVector3d(0.0, 9.0, 0.0);
+    EXPECT_THROW(pbs::HeldFlesh(bent.mesh, springs, 2, {}), pbs::InputError);
+}
+
+}  // namespace
