@@ -10,7 +10,7 @@ std::vector<DeformerKind>& registered()
 {
     static std::vector<DeformerKind> kinds = {
         lbs_kind(), dqs_kind(), pbs_kind(), xpbd_kind(), xpbd_small_steps_kind(), delta_mush_kind(), quasi_newton_kind(),
-        fem_kind(), external_kind(),
+        vbd_kind(), fem_kind(), external_kind(),
     };
     return kinds;
 }

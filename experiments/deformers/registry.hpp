@@ -60,6 +60,7 @@ DeformerKind xpbd_kind();
 DeformerKind xpbd_small_steps_kind();
 DeformerKind delta_mush_kind();
 DeformerKind quasi_newton_kind();
+DeformerKind vbd_kind();
 DeformerKind fem_kind();
 DeformerKind external_kind();
 
