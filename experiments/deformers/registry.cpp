@@ -9,8 +9,8 @@ namespace {
 std::vector<DeformerKind>& registered()
 {
     static std::vector<DeformerKind> kinds = {
-        lbs_kind(), dqs_kind(), pbs_kind(), xpbd_kind(), xpbd_small_steps_kind(), delta_mush_kind(), quasi_newton_kind(),
-        vbd_kind(), fem_kind(), external_kind(),
+        lbs_kind(),        dqs_kind(),          pbs_kind(), xpbd_kind(), xpbd_small_steps_kind(),
+        delta_mush_kind(), quasi_newton_kind(), vbd_kind(), fem_kind(),  external_kind(),
     };
     return kinds;
 }

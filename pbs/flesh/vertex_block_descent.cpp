@@ -29,9 +29,7 @@ std::vector<double> chebyshev_weights(double rho, int count)
 
 template <typename Scalar>
 VertexBlockDescent<Scalar>::VertexBlockDescent(const TetMesh& mesh, const FleshEnergy& energy, const VertexBlockOptions& options)
-    : options_(checked(options)),
-      sweep_(make_vertex_sweep<Scalar>(mesh, energy, options.arithmetic, options.threads)),
-      x_(sweep_->rows())
+    : options_(checked(options)), sweep_(make_vertex_sweep<Scalar>(mesh, energy, options.arithmetic, options.threads)), x_(sweep_->rows())
 {
     if (options.acceleration == Acceleration::chebyshev) weights_ = chebyshev_weights(options.rho, options.iterations);
 }

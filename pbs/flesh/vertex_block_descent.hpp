@@ -10,15 +10,19 @@
 
 namespace pbs {
 
-// over_relaxation: each vertex moves by omega times the way to its minimum, which decreases the energy for 0 < omega < 2.
+// over_relaxation: each vertex moves by omega times the way to its minimum, which decreases the energy for 0 < omega < 2. The energy has
+// several minima; from a poor initial guess, a large omega may end in another one than a small omega.
 // chebyshev: sweeps with omega = 1, and after each one x_{k+1} = omega_{k+1} (x - x_{k-1}) + x_{k-1} with chebyshev_weights. The energy may
 // increase, and the method may diverge where rho is above the rate at which the sweeps converge.
 enum class Acceleration { over_relaxation, chebyshev };
 
+// The default omega has the smallest worst error after 48 and after 64 sweeps on two poses of the limb and two of the human, of 1.8, 1.85,
+// 1.88, 1.9, 1.92 and 1.95. On these and on eight other poses, 64 sweeps end within 0.5 % of the minimum: root mean square difference at
+// the joints over the mean distance to the bones (nu = 0.45, smooth initial guess).
 struct VertexBlockOptions {
-    int iterations = 24;  // sweeps over all vertices
+    int iterations = 64;  // sweeps over all vertices
     Acceleration acceleration = Acceleration::over_relaxation;
-    double omega = 1.85;
+    double omega = 1.88;
     double rho = 0.95;  // the estimated spectral radius of a sweep, from 0 inclusive to 1 exclusive
     Arithmetic arithmetic = Arithmetic::packed_f32;
     int threads = 1;

@@ -89,8 +89,7 @@ void move_vertices(const VertexBatch<Scalar>* batches, int count, const VertexIn
                    Scalar omega, Scalar* x)
 {
     for (int b = 0; b < count; ++b)
-        for (int first = 0; first < batch_size; first += lanes<Scalar>)
-            move_part(batches[b], first, incidences, centres, omega, x);
+        for (int first = 0; first < batch_size; first += lanes<Scalar>) move_part(batches[b], first, incidences, centres, omega, x);
 }
 
 template <typename Scalar>

@@ -3,7 +3,7 @@
 //   auto sweep = make_vertex_sweep<float>(mesh, energy, Arithmetic::packed_f32, threads);
 //   sweep->set_centres(centres);
 //   sweep->load(positions, x);
-//   sweep->move(1.85, x);   // x_i -= omega H_i^-1 g_i for each vertex, each with the latest positions of the others
+//   sweep->move(1.88, x);   // x_i -= omega H_i^-1 g_i for each vertex, each with the latest positions of the others
 #pragma once
 
 #include "pbs/flesh/arithmetic.hpp"

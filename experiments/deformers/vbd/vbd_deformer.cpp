@@ -23,7 +23,7 @@ struct VbdOptions {
     pbs::FleshStart start = pbs::FleshStart::smooth_dqs;
     pbs::Arithmetic arithmetic = pbs::Arithmetic::packed_f32;
     pbs::Acceleration acceleration = pbs::Acceleration::over_relaxation;
-    double omega = 1.85;
+    double omega = 1.88;
     double rho = 0.95;
 };
 
@@ -34,7 +34,9 @@ const OptionFields<VbdOptions>& vbd_fields()
             .add("acceleration", &VbdOptions::acceleration,
                  {.meaning = "over-relaxation of each vertex, or Chebyshev's weights after each sweep, which may diverge"})
             .add("omega", &VbdOptions::omega,
-                 {.lowest = above_zero, .highest = 1.999, .meaning = "each vertex moves by omega times the way to its minimum; 1 with chebyshev"})
+                 {.lowest = above_zero,
+                  .highest = 1.999,
+                  .meaning = "each vertex moves by omega times the way to its minimum; 1 with chebyshev"})
             .add("rho", &VbdOptions::rho,
                  {.lowest = 0.0, .highest = 0.9999, .meaning = "the spectral radius of a sweep that chebyshev assumes; unused otherwise"});
     return fields;

@@ -69,15 +69,16 @@ double step_rounding(const Body& body, const Positions& x, double unit)
 
 // How a sweep magnifies the roundings is measured: by moving each coordinate by as much.
 template <typename Scalar>
-void expect_equal_to_plain(const Body& body, const Positions& x)
+void expect_equal_to_plain(const Body& body, const Positions& x, const std::vector<int>& numbers_of_sweeps)
 {
     pbs::PlainVertexSweep plain(body.bent.mesh, body.energy);
     pbs::PackedVertexSweep<Scalar> packed(body.bent.mesh, body.energy, 1);
-    for (const int sweeps : {1, 3}) {
+    for (const int sweeps : numbers_of_sweeps) {
         const Positions expected = swept<double>(plain, body, x, sweeps);
         const double tolerance =
-            sweeps * test_support::value_rounding(x, step_rounding(body, x, double(std::numeric_limits<Scalar>::epsilon()) / 2.0),
-                                                  [&](const Positions& p) { return (swept<double>(plain, body, p, sweeps) - expected).norm(); });
+            sweeps *
+            test_support::value_rounding(x, step_rounding(body, x, double(std::numeric_limits<Scalar>::epsilon()) / 2.0),
+                                         [&](const Positions& p) { return (swept<double>(plain, body, p, sweeps) - expected).norm(); });
         const double difference = (swept<Scalar>(packed, body, x, sweeps) - expected).norm();
         EXPECT_LE(difference, tolerance) << sweeps << " sweeps";
         EXPECT_GT((expected - x).norm(), 20.0 * tolerance) << "the sweep moves the body by more than roundings";
@@ -87,20 +88,20 @@ void expect_equal_to_plain(const Body& body, const Positions& x)
 TEST(PackedVertexSweep, EqualsPlainInDouble)
 {
     const Body body({10, 3, 3});
-    expect_equal_to_plain<double>(body, body.bent.lbs);
-    expect_equal_to_plain<double>(body, test_support::jittered(body.bent.lbs, 0.02));
+    expect_equal_to_plain<double>(body, body.bent.lbs, {1, 3, 10});
+    expect_equal_to_plain<double>(body, test_support::jittered(body.bent.lbs, 0.02), {1, 3, 10});
 }
 
 TEST(PackedVertexSweep, EqualsPlainInFloat)
 {
     const Body body({10, 3, 3});
-    expect_equal_to_plain<float>(body, test_support::jittered(body.bent.lbs, 0.02));
+    expect_equal_to_plain<float>(body, test_support::jittered(body.bent.lbs, 0.02), {1});
 }
 
 TEST(PackedVertexSweep, EqualsPlainInFloatFarFromTheOrigin)
 {
     const Body body({10, 3, 3}, {1000.0, -500.0, 200.0});
-    expect_equal_to_plain<float>(body, test_support::jittered(body.bent.lbs, 0.02));
+    expect_equal_to_plain<float>(body, test_support::jittered(body.bent.lbs, 0.02), {1});
 }
 
 TEST(PackedVertexSweep, EqualsPlainOnInvertedTets)
@@ -108,7 +109,7 @@ TEST(PackedVertexSweep, EqualsPlainOnInvertedTets)
     const Body body({10, 3, 3});
     Positions mirrored = body.bent.lbs;
     mirrored.col(2) *= -1.0;
-    expect_equal_to_plain<double>(body, mirrored);
+    expect_equal_to_plain<double>(body, mirrored, {1, 3, 10});
 }
 
 TEST(PackedVertexSweep, EqualsPlainOnOneTet)
@@ -121,7 +122,7 @@ TEST(PackedVertexSweep, EqualsPlainOnOneTet)
     body.hold = pbs::BoneHold(body.bent.mesh, spring, 2);
     body.energy = pbs::FleshEnergy(body.bent.mesh, pbs::flesh_material(0.45), body.hold);
     body.hold.centres(body.bent.pose, body.centres);
-    expect_equal_to_plain<double>(body, body.bent.mesh.rest);
+    expect_equal_to_plain<double>(body, body.bent.mesh.rest, {1, 3, 10});
 }
 
 TEST(PackedVertexSweep, AVertexWithoutTetsStays)
@@ -158,7 +159,8 @@ TEST(PackedVertexSweep, ExtrapolatesAsPlainDoes)
     pbs::PlainVertexSweep plain(body.bent.mesh, body.energy);
     pbs::PackedVertexSweep<double> packed(body.bent.mesh, body.energy, 1);
     const Positions &before = body.bent.mesh.rest, &x = body.bent.lbs, expected = before + 1.5 * (x - before);
-    for (pbs::VertexSweep<double>* sweep : {static_cast<pbs::VertexSweep<double>*>(&plain), static_cast<pbs::VertexSweep<double>*>(&packed)}) {
+    for (pbs::VertexSweep<double>* sweep :
+         {static_cast<pbs::VertexSweep<double>*>(&plain), static_cast<pbs::VertexSweep<double>*>(&packed)}) {
         sweep->set_centres(body.centres);
         pbs::Rows<double> of_before = sweep->rows(), of_x = sweep->rows();
         sweep->load(before, of_before);

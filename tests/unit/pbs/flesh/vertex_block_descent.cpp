@@ -93,8 +93,8 @@ TEST(VertexBlockDescent, ASweepLowersTheEnergyAsTheoryStates)
                 x.row(i) -= omega * step.transpose();
             }
         const double before = energy.value(bent.lbs, centres);
-        const double after = energy.value(
-            minimised<double>({.iterations = 1, .omega = omega, .arithmetic = Arithmetic::plain_f64}, bent.lbs), centres);
+        const double after =
+            energy.value(minimised<double>({.iterations = 1, .omega = omega, .arithmetic = Arithmetic::plain_f64}, bent.lbs), centres);
         EXPECT_NEAR(before - after, decrease, test_support::rounding_error(4.0 * 40 * tets, before)) << omega;
         EXPECT_GT(decrease, 1e-3 * before);
     }
@@ -120,13 +120,22 @@ TEST(VertexBlockDescent, TheMinimumDependsNeitherOnTheStartNorOnOmegaNorOnTheAcc
 {
     const double size = (bent.lbs - bent.mesh.rest).norm();
     const Positions expected = minimised<double>({.iterations = 800, .arithmetic = Arithmetic::packed_f64}, bent.lbs);
-    for (const Positions& start : {bent.mesh.rest, mirrored(), collapsed})
-        EXPECT_LT((minimised<double>({.iterations = 800, .arithmetic = Arithmetic::packed_f64}, start) - expected).norm(), 1e-6 * size);
-    const pbs::VertexBlockOptions slow{.iterations = 3000, .omega = 1.5, .arithmetic = Arithmetic::packed_f64};
-    EXPECT_LT((minimised<double>(slow, bent.lbs) - expected).norm(), 1e-6 * size);
+    const Positions jittered = test_support::jittered(bent.lbs, 0.05);
+    EXPECT_LT((minimised<double>({.iterations = 800, .arithmetic = Arithmetic::packed_f64}, jittered) - expected).norm(), 1e-6 * size);
+    const pbs::VertexBlockOptions slow{.iterations = 2000, .omega = 1.5, .arithmetic = Arithmetic::packed_f64};
+    for (const Positions& start : {bent.lbs, bent.mesh.rest}) EXPECT_LT((minimised<double>(slow, start) - expected).norm(), 1e-6 * size);
     const pbs::VertexBlockOptions chebyshev{
         .iterations = 3000, .acceleration = Acceleration::chebyshev, .rho = 0.95, .arithmetic = Arithmetic::packed_f64};
     EXPECT_LT((minimised<double>(chebyshev, bent.lbs) - expected).norm(), 1e-6 * size);
+}
+
+// The energy has more than one minimum. From where the tets are inverted or have no volume, one of them is reached, not always the lowest.
+TEST(VertexBlockDescent, InvertedAndCollapsedStartsEndWhereTheGradientVanishes)
+{
+    for (const Positions& start : {mirrored(), collapsed}) {
+        const Positions x = minimised<double>({.iterations = 1500, .arithmetic = Arithmetic::packed_f64}, start);
+        EXPECT_LT(gradient_norm(x), 1e-6 * gradient_norm(start));
+    }
 }
 
 // In float the minimum is that of energies with coefficients that are rounded to 2^-24, magnified by the condition of the Hessian, below
