@@ -77,6 +77,7 @@ DeformerKind delta_mush_kind();
 DeformerKind direct_delta_mush_kind();
 DeformerKind quasi_newton_kind();
 DeformerKind projective_dynamics_kind();
+DeformerKind vbd_kind();
 DeformerKind fem_kind();
 DeformerKind external_kind();
 

@@ -1,0 +1,46 @@
+#include "pbs/flesh/plain_vertex_sweep.hpp"
+
+#include "pbs/flesh/vertex_colours.hpp"
+
+namespace pbs {
+
+PlainVertexSweep::PlainVertexSweep(const TetMesh& mesh, const FleshEnergy& energy)
+    : stars_(vertex_stars(energy)), colours_(vertex_colours(mesh.tets, static_cast<int>(mesh.rest.rows())))
+{
+}
+
+void PlainVertexSweep::load(const Positions& x, Rows<double>& rows) const
+{
+    for (int i = 0; i < static_cast<int>(x.rows()); ++i)
+        for (int axis = 0; axis < 3; ++axis) rows[i][axis] = x(i, axis);
+}
+
+void PlainVertexSweep::store(const Rows<double>& rows, Positions& x) const
+{
+    x.resize(static_cast<Eigen::Index>(stars_.size()), 3);
+    for (int i = 0; i < static_cast<int>(x.rows()); ++i)
+        for (int axis = 0; axis < 3; ++axis) x(i, axis) = rows[i][axis];
+}
+
+void PlainVertexSweep::move(double omega, Rows<double>& x)
+{
+    store(x, x_);
+    for (const std::vector<int>& colour : colours_)
+        for (const int i : colour) x_.row(i) -= omega * block_step(vertex_block(stars_[i], i, x_, centres_)).transpose();
+    load(x_, x);
+}
+
+void PlainVertexSweep::extrapolate(double omega, const Rows<double>& before, Rows<double>& x) const
+{
+    for (int i = 0; i < static_cast<int>(stars_.size()); ++i)
+        for (int axis = 0; axis < 3; ++axis) x[i][axis] = before[i][axis] + omega * (x[i][axis] - before[i][axis]);
+}
+
+std::size_t PlainVertexSweep::bytes() const
+{
+    std::size_t bytes = 2 * sizeof(double) * x_.size() + stars_.size() * sizeof(VertexStar);
+    for (const VertexStar& star : stars_) bytes += star.tets.size() * sizeof(IncidentTet);
+    return bytes;
+}
+
+}  // namespace pbs
