@@ -34,7 +34,7 @@ public:
         Eigen::Matrix4d sum;
     };
     const std::vector<TetMoment>& tet_moments() const { return tet_moments_; }
-    int left_out() const { return left_out_; }                              // springs outside every tet
+    int left_out() const { return left_out_; }  // springs outside every tet
 
     // c_i in a pose [m], #V x 3; zero where nothing holds the vertex.
     void centres(const Pose& pose, Positions& centres) const;

@@ -5,7 +5,7 @@
 namespace pbs {
 namespace {
 
-constexpr double negligible = 1e-12;
+constexpr double least_eigenvalue = 1e-12;  // over the largest one
 
 // sum_s k_s beta_s beta_s^T of a tet. The rows add up to sum_s k_s beta_s, since barycentric coordinates add up to 1.
 Eigen::Matrix4d stiffness_matrix(const BoneHold& hold, int tet, const Eigen::Vector4d& row_sums)
@@ -29,7 +29,7 @@ HoldModes::HoldModes(const BoneHold& hold)
         const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> eigen(stiffness_matrix(hold, tet, row_sums));
         for (int r = 0; r < 4; ++r) {
             const double sigma = eigen.eigenvalues()(r);
-            if (!(sigma > negligible * eigen.eigenvalues()(3))) continue;
+            if (!(sigma > least_eigenvalue * eigen.eigenvalues()(3))) continue;
             const Eigen::Vector4d v = eigen.eigenvectors().col(r);
             for (std::size_t m = begin; m < end; ++m) {
                 const Eigen::Vector4d share = moments[m].sum.transpose() * v / sigma;
