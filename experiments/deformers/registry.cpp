@@ -21,6 +21,7 @@ std::vector<DeformerKind>& registered()
         xpbd_kind(),
         xpbd_small_steps_kind(),
         quasi_newton_kind(),
+        xpbd_neo_hookean_kind(),
         projective_dynamics_kind(),
         fem_kind(),
         external_kind(),

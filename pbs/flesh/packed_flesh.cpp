@@ -7,6 +7,7 @@
 #include <numeric>
 
 namespace pbs {
+
 template <typename Scalar>
 PackedFlesh<Scalar>::PackedFlesh(const TetMesh& mesh, const FleshEnergy& energy, const CholeskyFactor& factor, int threads)
     : order_(order_vertices(mesh.tets, static_cast<int>(mesh.rest.rows()), vertices_a_slab(static_cast<int>(mesh.rest.rows())))),

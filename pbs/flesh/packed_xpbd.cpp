@@ -7,6 +7,7 @@
 #include <iterator>
 
 namespace pbs {
+
 template <typename Scalar>
 PackedXpbd<Scalar>::PackedXpbd(const TetMesh& mesh, const XpbdFlesh& flesh, int threads)
     : order_(order_vertices(mesh.tets, static_cast<int>(mesh.rest.rows()), vertices_a_slab(static_cast<int>(mesh.rest.rows())))),

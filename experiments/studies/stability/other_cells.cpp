@@ -17,7 +17,7 @@ struct Compared {
     const char* kind;
     bool minimises;
 };
-constexpr Compared compared[] = {{"quasi_newton", true}};
+constexpr Compared compared[] = {{"quasi_newton", true}, {"xpbd_neo_hookean", true}};
 
 // The deformer with one key of its table set, as a scene would set it.
 DeformerSpec with_setting(const std::string& kind, const std::string& key, double value)
