@@ -76,6 +76,7 @@ DeformerKind xpbd_small_steps_kind();
 DeformerKind delta_mush_kind();
 DeformerKind direct_delta_mush_kind();
 DeformerKind quasi_newton_kind();
+DeformerKind xpbd_neo_hookean_kind();
 DeformerKind projective_dynamics_kind();
 DeformerKind vbd_kind();
 DeformerKind fem_kind();

@@ -62,6 +62,7 @@ public:
         const pbs::Stopwatch stopwatch;
         mush_->apply(pose, positions_);
         pbs::StepSummary summary;
+        summary.work.vertex_visits = positions_.rows();
         summary.seconds = stopwatch.seconds();
         if (!positions_.allFinite()) summary.outcome = pbs::Outcome::not_finite;
         return summary;

@@ -76,6 +76,7 @@ public:
         return summary;
     }
 
+    void start_from(const pbs::Positions& shape) override { flesh_->start_from(shape); }
     const pbs::Positions& positions() const override { return positions_; }
     nlohmann::json record() const override { return flesh_ ? flesh_->record() : nullptr; }
 
