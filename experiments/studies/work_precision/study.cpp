@@ -34,25 +34,24 @@ struct PlannedPose {
     std::string body = {}, motion = {}, pose = {};  // pose: in a clip
     int angle_deg = 0;                              // of a sweep
     int frame = 0;                                  // of 01_01 at 100 Hz
-    bool in_quick = false;
-    bool refined = false;  // also solved on the tets cut into eight
-    double cost_s = 0.0;   // in full
+    bool refined = false;                           // also solved on the tets cut into eight
+    double cost_s = 0.0, quick_cost_s = 0.0;        // in full and in the quick form; 0: not in the quick form
 };
 
 // The limb is one body, twisted or bent. The human has four poses by name, and four that are not chosen: at 1/5, 2/5, 3/5 and 4/5 of the
 // clip. The order decides which poses train (case_split.hpp).
 std::vector<PlannedPose> limb_poses()
 {
-    return {{.body = "limb", .motion = "twist", .angle_deg = 90, .in_quick = true, .cost_s = 60.0},
-            {.body = "limb", .motion = "twist", .angle_deg = 150, .in_quick = true, .cost_s = 90.0},
-            {.body = "limb", .motion = "bend", .angle_deg = 60, .in_quick = true, .cost_s = 70.0},
+    return {{.body = "limb", .motion = "twist", .angle_deg = 90, .cost_s = 60.0, .quick_cost_s = 10.0},
+            {.body = "limb", .motion = "twist", .angle_deg = 150, .cost_s = 90.0, .quick_cost_s = 60.0},
+            {.body = "limb", .motion = "bend", .angle_deg = 60, .cost_s = 70.0, .quick_cost_s = 10.0},
             {.body = "limb", .motion = "bend", .angle_deg = 90, .cost_s = 600.0}};
 }
 
 std::vector<PlannedPose> human_poses()
 {
     std::vector<PlannedPose> poses = {{.pose = "standing", .frame = 0},
-                                      {.pose = "crouch", .frame = 164, .in_quick = true, .refined = true},
+                                      {.pose = "crouch", .frame = 164, .refined = true, .quick_cost_s = 20.0},
                                       {.pose = "in_the_air", .frame = 672, .refined = true},
                                       {.pose = "landing", .frame = 708}};
     const Scene scene = read_scene("human_01_01", {});
@@ -116,7 +115,7 @@ StudyRun run_of(const PlannedPose& pose, Half half, bool full)
     else
         set_clip(of, pose);
     set_extent(of, pose, full);
-    return work_run(case_name(of.of), of, full ? pose.cost_s : 30.0, measure_and_record);
+    return work_run(case_name(of.of), of, full ? pose.cost_s : pose.quick_cost_s, measure_and_record);
 }
 
 StudyPlan plan(bool full)
@@ -131,7 +130,7 @@ StudyPlan plan(bool full)
     const std::vector<Half> halves = halves_of(bodies);
     StudyPlan plan;
     for (std::size_t i = 0; i < poses.size(); ++i)
-        if (full || poses[i].in_quick) plan.runs.push_back(run_of(poses[i], halves[i], full));
+        if (full || poses[i].quick_cost_s > 0.0) plan.runs.push_back(run_of(poses[i], halves[i], full));
     for (const analysis::LeftOut& body : left_out)
         if (full || body.scene == "human") plan.left_out.push_back(body);
     return plan;
