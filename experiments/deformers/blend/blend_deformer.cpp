@@ -88,7 +88,7 @@ nlohmann::json blend_json(const DeformerSpec& spec)
 
 DeformerTraits blend_traits(const DeformerSpec& spec)
 {
-    return {.precision = name_of(options_of<BlendOptions>(spec).precision)};
+    return {.precision = name_of(options_of<BlendOptions>(spec).precision), .packed = true};
 }
 
 DeformerTraits lbs_traits(const DeformerSpec& spec)

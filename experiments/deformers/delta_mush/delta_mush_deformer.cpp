@@ -93,7 +93,8 @@ DeformerKind delta_mush_kind()
             .read = read_delta_mush,
             .options_json = [](const DeformerSpec& spec) { return delta_mush_fields().json(options_of<pbs::DeltaMushOptions>(spec)); },
             .traits = [](const DeformerSpec& spec) -> DeformerTraits {
-                return {.precision = name_of(options_of<pbs::DeltaMushOptions>(spec).precision)};
+                const pbs::Precision precision = options_of<pbs::DeltaMushOptions>(spec).precision;
+                return {.precision = name_of(precision), .packed = precision == pbs::Precision::f32};
             }};
 }
 

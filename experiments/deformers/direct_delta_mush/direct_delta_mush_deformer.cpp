@@ -113,7 +113,8 @@ DeformerKind direct_delta_mush_kind()
         .read = read_direct_delta_mush,
         .options_json = [](const DeformerSpec& spec) { return direct_delta_mush_fields().json(options_of<DirectDeltaMushOptions>(spec)); },
         .traits = [](const DeformerSpec& spec) -> DeformerTraits {
-            return {.precision = name_of(options_of<DirectDeltaMushOptions>(spec).precision)};
+            const pbs::Precision precision = options_of<DirectDeltaMushOptions>(spec).precision;
+            return {.precision = name_of(precision), .packed = precision == pbs::Precision::f32};
         }};
 }
 

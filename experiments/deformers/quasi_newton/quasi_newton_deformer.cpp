@@ -110,6 +110,7 @@ DeformerKind quasi_newton_kind()
         .traits = [](const DeformerSpec& spec) -> DeformerTraits {
             const auto& options = options_of<QuasiNewtonDeformerOptions>(spec);
             return {.precision = options.arithmetic == pbs::Arithmetic::packed_f32 ? "f32" : "f64",
+                    .packed = options.arithmetic != pbs::Arithmetic::plain_f64,
                     .iterations = options.iterations,
                     .threads = spec.threads};
         }};

@@ -29,13 +29,13 @@ std::vector<ComparedDeformer> blending()
 {
     std::vector<ComparedDeformer> entries;
     for (const auto& [kind, words] : {std::pair{"lbs", "LBS"}, {"dqs", "DQS"}})
-        for (const char* weights : {"paper", "smooth"}) {
-            const bool is_smooth = std::string(weights) == "smooth";
-            const std::string name = std::string(kind) + (is_smooth ? "_smooth" : "");
+        for (const char* weights : {"paper", "diffused"}) {
+            const bool is_diffused = std::string(weights) == "diffused";
+            const std::string name = std::string(kind) + (is_diffused ? "_diffused" : "");
             entries.push_back({.name = name,
                                .kind = kind,
                                .group = name,
-                               .words = std::string(words) + (is_smooth ? " with smooth weights" : ""),
+                               .words = std::string(words) + (is_diffused ? " with diffused weights" : ""),
                                .weights = weights,
                                .codes = precisions_of(kind)});
         }
@@ -63,9 +63,9 @@ std::vector<ComparedDeformer> mushing()
     std::vector<ComparedDeformer> entries;
     for (ComparedDeformer entry : {mush, direct}) {
         entries.push_back(entry);
-        entry.fixed = set(entry.kind, "weights", "smooth");
-        entry.name = entry.group = entry.kind + "_smooth";
-        entry.words += " with smooth weights";
+        entry.fixed = set(entry.kind, "weights", "diffused");
+        entry.name = entry.group = entry.kind + "_diffused";
+        entry.words += " with diffused weights";
         entries.push_back(entry);
     }
     return entries;

@@ -50,7 +50,7 @@ TEST(ComparedDeformers, HaveSettingsThatTheirKindsAccept)
 // Only what this program does not have may be skipped: the kinds of its registry take part.
 TEST(ComparedDeformers, AreAvailableWhereTheirKindIsRegistered)
 {
-    for (const char* name : {"lbs", "lbs_smooth", "dqs", "dqs_smooth", "delta_mush", "pbs", "xpbd", "xpbd_small_steps"})
+    for (const char* name : {"lbs", "lbs_diffused", "dqs", "dqs_diffused", "delta_mush", "pbs", "xpbd", "xpbd_small_steps"})
         EXPECT_TRUE(is_available(entry(name))) << name;
     for (const char* name : {"pbs_author", "quasi_newton", "vbd", "xpbd_neo_hookean", "projective_dynamics", "direct_delta_mush"})
         EXPECT_EQ(is_available(entry(name)), find_deformer_kind(name) != nullptr) << name;
@@ -119,7 +119,7 @@ TEST(ComparedDeformers, BlendWithWeightsOfTheirOwn)
 {
     const Scene scene = read_scene("limb_twist", {});
     EXPECT_EQ(spec_with(entry("lbs"), scene, {}).variant, "weights_paper");
-    EXPECT_EQ(spec_with(entry("lbs_smooth"), scene, {}).variant, "weights_smooth");
+    EXPECT_EQ(spec_with(entry("lbs_diffused"), scene, {}).variant, "weights_diffused");
 }
 
 TEST(SettingNames, AreIdentifiers)
