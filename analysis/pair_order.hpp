@@ -7,6 +7,8 @@
 // comparing the difference of the errors with 2 U, since |A - B| <= |A - x| + |B - x|.
 #pragma once
 
+#include "analysis/records/typed_table.hpp"
+
 #include <vector>
 
 namespace analysis {
@@ -33,5 +35,12 @@ enum class PairDecision {
 
 // One order per member of the ensemble; reference_error if there is none.
 PairDecision decide(const std::vector<PairOrder>& members);
+
+template <>
+struct EnumNames<PairDecision> {
+    static constexpr std::array<std::pair<PairDecision, const char*>, 3> table{{{PairDecision::decided, "decided"},
+                                                                                {PairDecision::reference_error, "reference_error"},
+                                                                                {PairDecision::models_disagree, "models_disagree"}}};
+};
 
 }  // namespace analysis

@@ -8,43 +8,17 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <utility>
-#include <vector>
-
 namespace analysis {
 namespace {
-
-using DirectedEdge = std::pair<int, int>;
-
-std::vector<DirectedEdge> directed_edges(const pbs::Triangles& triangles, bool reversed)
-{
-    std::vector<DirectedEdge> edges;
-    for (Eigen::Index f = 0; f < triangles.rows(); ++f)
-        for (int k = 0; k < 3; ++k) {
-            const int a = triangles(f, k), b = triangles(f, (k + 1) % 3);
-            edges.push_back(reversed ? DirectedEdge{b, a} : DirectedEdge{a, b});
-        }
-    std::sort(edges.begin(), edges.end());
-    return edges;
-}
 
 void require_closed(const pbs::Positions& points, const pbs::Triangles& triangles)
 {
     if (triangles.rows() == 0) throw pbs::InputError("", 0, "triangles", "0", "expected a closed surface");
     if (triangles.minCoeff() < 0 || triangles.maxCoeff() >= points.rows())
         throw pbs::InputError("", 0, "triangles", "", fmt::format("expected 0 <= vertex < {}", points.rows()));
-    const auto forward = directed_edges(triangles, false), backward = directed_edges(triangles, true);
-    const auto [open, other] = std::mismatch(forward.begin(), forward.end(), backward.begin());
-    if (open == forward.end()) return;
-    const DirectedEdge edge = std::min(*open, *other);
-    throw pbs::InputError("", 0, "edge", fmt::format("{}-{}", edge.first, edge.second), "expected a closed, oriented surface");
-}
-
-// Its edges occur equally often in both directions.
-bool is_closed(const pbs::Triangles& triangles)
-{
-    return triangles.rows() > 0 && directed_edges(triangles, false) == directed_edges(triangles, true);
+    const auto edge = pbs::open_edge(triangles);
+    if (!edge) return;
+    throw pbs::InputError("", 0, "edge", fmt::format("{}-{}", edge->first, edge->second), "expected a closed, oriented surface");
 }
 
 double volume_within(const pbs::Positions& points, const pbs::Triangles& triangles)
@@ -80,7 +54,7 @@ double SurfaceVolume::change_pct(const pbs::Positions& posed) const
 std::optional<SurfaceVolume> surface_volume_of(const pbs::Positions& rest, const pbs::Triangles& triangles)
 {
     const pbs::Triangles joined = pbs::joined_triangles(rest, triangles);
-    if (!is_closed(joined) || !(volume_within(rest, joined) > 0.0)) return std::nullopt;
+    if (!pbs::is_closed(joined) || !(volume_within(rest, joined) > 0.0)) return std::nullopt;
     return SurfaceVolume(rest, joined);
 }
 

@@ -24,8 +24,9 @@ function(pbs_install_headers component)
         endif()
         set(no_call_for_users  # headers internal to readers and meshers, to text and files, to solvers, and to parts of bodies
             "mesh_io_|meshing_|guarded_reading|isolated_reader|reading_limits|packed_bytes|assimp_|vtk_messages|surface_checks|own_folder"
-            "geometry/(atomic_file|file_limits|nearest_name|number_text|process|stopwatch|text_file|toml_text)"
-            "flesh/(cholmod_module|flesh_kernels|packed_|plain_|triangular_solve)"
+            "flesh/(cholmod_module|flesh_kernels|hold_modes|neo_hookean|packed_|plain_|projective|slabs_of|triangular|vertex_|volume_|xpbd_)"
+            "geometry/(atomic_file|content_format|file_limits|name_list|named_link|nearest_name|number_text|process|stopwatch)"
+            "geometry/(text_file|toml_text)"
             "solver/(algorithm_1|hand_over|parallel|plain_projection|project_plain|reordered_projection)"
             "rig/(assimp_|gltf_|rig_bytes|skin_weights|tiny_gltf)"
             "character/(bvh_header|clip_bytes|face_stream|folded_skeleton|input_file|json_file|making_lock|morph_targets|skeleton_order)")
@@ -36,7 +37,7 @@ function(pbs_install_headers component)
 endfunction()
 
 pbs_install_libraries(method pbs_settings=settings pbs_method=method)
-pbs_install_headers(method pbs/geometry pbs/skinning pbs/constraints pbs/solver)
+pbs_install_headers(method pbs/geometry pbs/skinning pbs/constraints pbs/solver pbs/author)
 pbs_install_libraries(mesh_io pbs_module=module pbs_meshing=meshing pbs_mesh_io=mesh_io)
 install(FILES pbs/geometry/mesh_io.hpp pbs/geometry/mesh_remarks.hpp pbs/geometry/meshing.hpp pbs/geometry/module.hpp
     DESTINATION include/pbs/geometry COMPONENT mesh_io)

@@ -7,7 +7,11 @@ limbs = {"twist": "limb twisted", "bend": "limb bent"}  # whole sweeps
 bodies_by = {"lbs": "LBS", "dqs": "DQS", "delta_mush": "delta mush", "pbs": "PBS", "reference": "reference",
              "pbs_exponent": "PBS, k by the exponent", "xpbd": "XPBD", "xpbd_small_steps": "XPBD in small steps",
              "xpbd_forgetting_multipliers": "XPBD that forgets its multipliers", "fem_linear": "linear FEM",
-             "fem_corotational": "corotational FEM", "fem_neo_hookean": "neo-Hookean FEM",
+             "lbs_smooth": "LBS, smooth weights", "dqs_smooth": "DQS, smooth weights", "delta_mush_smooth": "delta mush, smooth weights",
+             "direct_delta_mush": "direct delta mush", "direct_delta_mush_smooth": "direct delta mush, smooth weights",
+             "pbs_author": "first author\u2019s later code", "xpbd_neo_hookean": "neo-Hookean XPBD", "quasi_newton": "quasi-Newton",
+             "vbd": "vertex block descent", "projective_dynamics": "projective dynamics", "fem_corotational": "corotational FEM",
+             "fem_neo_hookean": "neo-Hookean FEM",
              "fem_stable_neo_hookean": "stable neo-Hookean FEM"}
 precisions = {"f32": "single precision", "f64": "double precision"}
 masses = {"equal": "equal masses", "unequal": "unequal masses", "unequal_by_eq_8_9": "unequal masses by Eq. 8\u20139, which are for m = 1",

@@ -23,6 +23,8 @@ def of_pbs(rows, k_stretch):
 def draw_case(axes, rows):
     behind = []
     for column, label, color, marker, line in error_split.parts:
+        if not any(row[column] for row in rows):  # a reference without a bound
+            continue
         iterations, values = records.numbers(rows, "iterations"), records.numbers(rows, column)
         axes.plot(iterations, values, color=color, marker=marker, linestyle=line, label=label)
         of_case = {name: rows[0][name] for name in case_columns}

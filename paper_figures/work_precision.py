@@ -1,18 +1,27 @@
-"""Error against run time, one panel per pose: every setting of every deformer, the front of each and the overall front, and the bound on
-the reference's own error, below which differences have no meaning."""
+"""Error against run time, one figure for packed f32 code and one for plain f64 code. One panel per evaluated pose, and one of their mean:
+every setting of every deformer, the front of each group of deformers with the settings that were chosen on other poses, the deformer that
+is nearest within 0.1, 1 and 10 ms, the bound on the reference's own error, below which differences have no meaning, and what is
+omitted."""
+import textwrap
+
 import case_words
+import compared_looks
 import entries
 import records
 import style
 
-looks = {"lbs": (style.vermillion, "v"), "dqs": (style.orange, "s"), "delta_mush": (style.green, "^"), "pbs": (style.blue, "o"),
-         "pbs_exponent": (style.sky, "p"), "xpbd": (style.purple, "D"), "xpbd_small_steps": ("#8B5A2B", "<"),
-         "fem_linear": ("#999999", "x"), "fem_corotational": (style.black, "+"), "fem_neo_hookean": (style.black, "P")}
+figures_of = {"packed_f32": "work_precision", "plain_f64": "work_precision_plain"}
 case_columns = ("body", "motion", "pose", "angle_deg")
-setting_columns = ("iterations", "k_stretch", "order", "precision", "substeps", "element_order", "wanted_vertices", "refined")
+setting_columns = ("iterations", "k_stretch", "order", "precision", "substeps", "element_order", "wanted_vertices", "refined", "tuned",
+                   "packed")
 point_numbers = ("deformer", *setting_columns, "ms_median", "error_joint_pct")
-front_columns = {"case", "measure", "front", *point_numbers}
-point_columns = {*case_columns, *point_numbers, "outcome", "reference_error_joint_pct"}
+front_columns = {"comparison", "case", "measure", "front", "reference_error_joint_pct", *point_numbers}
+point_columns = {*case_columns, *point_numbers, "outcome", "half", "reach_ms", "reference_error_joint_pct"}
+best_columns = {"comparison", "case", "budget_ms", "rank", "group", "decision", "error_joint_pct", "ms_median"}
+omission_columns = {"comparison", "case", "deformer", "why", "missing", "points"}
+budgets_ms = (0.1, 1.0, 10.0)
+reasons = {"not_finite": "diverged", "not_converged": "not converged", "over_time_limit": "over the time limit",
+           "not_applicable": "not applicable", "no_such_code": "no such code", "not_run": "not run", "no_reference": "no reference"}
 most_panels = 6
 
 
@@ -20,17 +29,54 @@ def measured(rows):
     return [row for row in rows if row["ms_median"] and row["error_joint_pct"]]
 
 
-def draw_deformers(axes, rows, fronts):
-    for deformer, (color, marker) in looks.items():
-        chosen = [row for row in measured(rows) if row["deformer"] == deformer]
-        if not chosen:
-            continue
-        axes.plot(records.numbers(chosen, "ms_median"), records.numbers(chosen, "error_joint_pct"), linestyle="none", marker=marker,
-                  color=color, markersize=2.6, alpha=0.45, markeredgewidth=0.6)
-        front = [row for row in fronts if row["front"] == deformer]
-        axes.plot(records.numbers(front, "ms_median"), records.numbers(front, "error_joint_pct"), color=color, marker=marker,
-                  label=case_words.of_field("deformer", deformer), linewidth=1.0)
-    front = [row for row in fronts if row["front"] == "all"]
+def is_plain(row):
+    return row["precision"] == "f64" and row["packed"] != "1"
+
+
+def taking_part(rows, comparison):
+    """The points of a comparison: in packed_f32 those of plain code too, where a deformer has no other."""
+    if comparison == "plain_f64":
+        return [row for row in rows if is_plain(row)]
+    with_other = {row["deformer"] for row in rows if not is_plain(row)}
+    return [row for row in rows if not is_plain(row) or row["deformer"] not in with_other]
+
+
+class Panel:
+    """One pose or mean in one comparison, with the rows behind it."""
+
+    def __init__(self, comparison, case, title, points, tables):
+        def of_case(table, **wanted):
+            wanted = {"comparison": comparison, "case": case, **wanted}
+            return [row for row in tables[table] if all(row[column] == value for column, value in wanted.items())]
+
+        self.is_mean = not points
+        self.title, self.points = title, taking_part(measured(points), comparison)
+        self.fronts = of_case("fronts", measure="error_joint_pct")
+        self.best = [row for row in of_case("best_within", rank="1") if float(row["budget_ms"]) in budgets_ms]
+        self.omitted = of_case("omissions")
+        bound = next((row["reference_error_joint_pct"] for row in self.fronts), "")
+        self.bound_pct = float(bound) if bound else None
+        self.reference_s = next((float(row["reach_ms"]) / 1e3 for row in points if row["outcome"] == "reference"), None)
+
+    def heading(self):
+        of_reference = [f"reference {self.reference_s:.2g} s"] if self.reference_s else []
+        of_reference += [f"bound {self.bound_pct:.2g} %"] if self.bound_pct else []
+        return self.title + ("; " if of_reference else "") + ", ".join(of_reference)
+
+
+def draw_points(axes, panel):
+    for group in compared_looks.in_order({compared_looks.group_of(row["deformer"]) for row in panel.points + panel.fronts
+                                          if row.get("front") != "all"}):
+        name, color, marker = compared_looks.of(group)
+        tried = [row for row in panel.points if compared_looks.group_of(row["deformer"]) == group]
+        if tried:
+            axes.plot(records.numbers(tried, "ms_median"), records.numbers(tried, "error_joint_pct"), linestyle="none", marker=marker,
+                      color=color, markersize=2.2, alpha=0.25, markeredgewidth=0.5)
+        front = group_front([row for row in panel.fronts if row["front"] != "all" and compared_looks.group_of(row["front"]) == group])
+        if front:
+            axes.plot(records.numbers(front, "ms_median"), records.numbers(front, "error_joint_pct"), color=color, marker=marker,
+                      label=name, linewidth=1.0)
+    front = [row for row in panel.fronts if row["front"] == "all"]
     if front:
         axes.step(records.numbers(front, "ms_median"), records.numbers(front, "error_joint_pct"), where="post", color=style.yellow,
                   linewidth=4.0, alpha=0.6, zorder=0, label="front of all")
@@ -38,51 +84,119 @@ def draw_deformers(axes, rows, fronts):
     axes.set_yscale("log")
 
 
-def draw_bound(axes, bound):
+def group_front(rows):
+    """The front of a group from those of its deformers."""
+    front, least = [], float("inf")
+    for row in sorted(rows, key=lambda row: (float(row["ms_median"]), float(row["error_joint_pct"]))):
+        if float(row["error_joint_pct"]) < least:
+            least = float(row["error_joint_pct"])
+            front.append(row)
+    return front
+
+
+def draw_bound(axes, bound_pct):
     low, high = axes.get_ylim()
-    if bound and float(bound) > low:
-        axes.axhspan(low, min(float(bound), high), color="#EFEFEF", linewidth=0, zorder=-1, label="below the reference's own error (bound)")
+    if bound_pct and bound_pct > low:
+        axes.axhspan(low, min(bound_pct, high), color="#EFEFEF", linewidth=0, zorder=-1,
+                     label="below the reference\u2019s own error (bound)")
     axes.set_ylim(low, high)
 
 
-def draw_case(axes, case, rows, fronts):
-    """Returns the rows behind it: points, fronts, and the bound on the reference's own error."""
-    fronts = [row for row in fronts if row["case"] == case]
-    bound = rows[0]["reference_error_joint_pct"]
-    draw_deformers(axes, rows, fronts)
-    draw_bound(axes, bound)
+def draw_budgets(axes, panel):
+    """A line at each budget, and above it the nearest deformer with its error. The least room between two names is a decade."""
+    for row in panel.best:
+        budget_ms = float(row["budget_ms"])
+        mark = "" if row["decision"] in ("decided", "") else "?"
+        name = textwrap.fill(compared_looks.short(row["group"]), 13)
+        axes.axvline(budget_ms, color="#777777", linewidth=0.7, linestyle=(0, (2, 2)), zorder=0)
+        axes.text(budget_ms, 1.01, f"{budget_ms:g} ms:\n{name}{mark}\n{float(row['error_joint_pct']):.3g} %",
+                  transform=axes.get_xaxis_transform(), ha="center", va="bottom", fontsize=5.6, color=compared_looks.of(row["group"])[1])
+
+
+def omission_lines(omitted):
+    """One line per reason: diverged: XPBD 2 of 9, ..."""
+    lines = {}
+    for row in omitted:
+        share = f" {row['missing']} of {row['points']}" if int(row["missing"]) else ""
+        lines.setdefault(row["why"], []).append(case_words.of_field("deformer", row["deformer"]) + share)
+    return [f"{reasons.get(why, why)}: {', '.join(names)}" for why, names in lines.items()]
+
+
+def draw_omissions(axes, panel):
+    lines = ["settings that are not in every pose"] if panel.is_mean else omission_lines(panel.omitted) or ["none"]
+    text = "\n".join(textwrap.fill(line, 46, subsequent_indent="  ") for line in ["Omissions:", *lines])
+    axes.text(0.015, 0.02, text, transform=axes.transAxes, ha="left", va="bottom", fontsize=4.6, linespacing=1.05,
+              bbox={"boxstyle": "round,pad=0.25", "facecolor": "white", "edgecolor": "#999999", "linewidth": 0.4, "alpha": 0.9})
+
+
+def draw_panel(axes, panel):
+    draw_points(axes, panel)
+    low, high = axes.get_ylim()
+    axes.set_ylim(low / (high / low) ** 0.28, high)  # room for the omissions
+    draw_bound(axes, panel.bound_pct)
+    style.decades(axes.xaxis)
     style.log_scale(axes.yaxis)
-    axes.set_title(case_words.posed(rows[0]) + (f"; bound {float(bound):.3g} %" if bound else ""))
+    axes.set_title(panel.heading(), pad=32)
     axes.set_xlabel("processor time per frame [ms]")
     axes.set_ylabel("error at the joints [%]")
-    points = [{"shown": "point"} | {name: row[name] for name in point_numbers} for row in measured(rows)]
-    of_fronts = [{"shown": f"front of {row['front']}"} | {name: row[name] for name in point_numbers} for row in fronts]
-    levels = [{"shown": "bound", "error_joint_pct": bound}] if bound else []
-    of_case = {name: rows[0][name] for name in case_columns}
-    return [of_case | row for row in points + of_fronts + levels]
+    draw_budgets(axes, panel)
+    draw_omissions(axes, panel)
 
 
-def place(rows):
-    """The limb first, then the poses that the quick study also has, then the rest."""
-    body, pose = rows[0]["body"], rows[0]["pose"]
-    return body != "limb", (body, pose) not in (("human", "crouch"), ("human", "in_the_air"))
+def rows_behind(panel):
+    """Points, fronts, the nearest within each budget, omissions and the bound, as rows of one table."""
+    def taken(row, names):
+        return {name: row[name] for name in names}
+
+    rows = [{"shown": "point"} | taken(row, point_numbers) for row in panel.points]
+    rows += [{"shown": f"front of {row['front']}"} | taken(row, point_numbers) for row in panel.fronts]
+    rows += [{"shown": "nearest"} | taken(row, ("budget_ms", "group", "decision", "ms_median", "error_joint_pct")) for row in panel.best]
+    rows += [{"shown": "omission"} | taken(row, ("deformer", "why", "missing", "points")) for row in panel.omitted]
+    if panel.bound_pct:
+        rows.append({"shown": "bound", "error_joint_pct": panel.bound_pct})
+    return [{"panel": panel.title} | row for row in rows]
+
+
+def place(title):
+    """The mean over all evaluated poses first, then the limb, then the rest."""
+    return "evaluated" not in title, not title.startswith("limb"), "mean" in title
+
+
+def panels_of(comparison, results):
+    folder = results / "work_precision"
+    tables = {name: records.table(folder / f"{name}.csv", columns) for name, columns in
+              (("fronts", front_columns), ("best_within", best_columns))}
+    tables["omissions"] = records.read_rows(folder / "omissions.csv")
+    cases = {file.parent.name: records.table(file, point_columns) for file in sorted(folder.glob("*/points.csv"))}
+    shown = []
+    for case in dict.fromkeys(row["case"] for row in tables["fronts"] if row["comparison"] == comparison):
+        rows = cases.get(case, [])
+        if rows and rows[0]["half"] == "training":
+            continue
+        shown.append(Panel(comparison, case, case_words.posed(rows[0]) if rows else case.replace("_", " "), rows, tables))
+    shown = [panel for panel in shown if panel.fronts]
+    if not shown:
+        raise records.RecordsMissing(f"{folder}: no evaluated pose with a reference in {comparison}")
+    return sorted(shown, key=lambda panel: place(panel.title))[:most_panels]
+
+
+def draw_comparison(comparison, results, figures):
+    shown = panels_of(comparison, results)
+    columns = min(2, len(shown))
+    figure, axes = style.panels(-(-len(shown) // columns), columns, height_in=3.2, width_in=style.page_in)
+    for axes_of_panel, panel in zip(axes.flat, shown):
+        draw_panel(axes_of_panel, panel)
+    for axes_of_panel in axes.flat[len(shown):]:
+        axes_of_panel.set_visible(False)
+    axes.flat[0].plot([], [], linestyle="none", marker="o", color="#777777", markersize=2.2, alpha=0.4, label="small marks: all settings")
+    for note in ("name above a line: nearest within that time", "?: the references do not decide"):
+        axes.flat[0].plot([], [], linestyle="none", label=note)
+    style.legend_above(figure, columns=4)
+    name = figures_of[comparison]
+    behind = [row for panel in shown for row in rows_behind(panel)]
+    style.save(figure, figures / name, entries.origin_of(results, name), style.aligned(behind))
 
 
 def draw(results, figures):
-    folder = results / "work_precision"
-    cases = [(file.parent.name, records.table(file, point_columns)) for file in sorted(folder.glob("*/points.csv"))]
-    cases = [(case, rows) for case, rows in cases if measured(rows)]
-    if not cases:
-        raise records.RecordsMissing(f"{folder}: no case with a reference")
-    cases.sort(key=lambda case: place(case[1]))
-    fronts = [row for row in records.table(folder / "fronts.csv", front_columns) if row["measure"] == "error_joint_pct"]
-    shown = cases[:most_panels]
-    columns = 2
-    figure, axes = style.panels(-(-len(shown) // columns), columns, height_in=2.4)
-    behind = [row for panel, (case, rows) in zip(axes.flat, shown) for row in draw_case(panel, case, rows, fronts)]
-    for panel in axes.flat[len(shown):]:
-        panel.set_visible(False)
-    axes.flat[0].plot([], [], linestyle="none", marker="o", color="#777777", markersize=2.6, alpha=0.45,
-                      label="small marks: all settings; lines: the front of each deformer")
-    style.legend_above(figure, columns=3)
-    style.save(figure, figures / "work_precision", entries.origin_of(results, "work_precision"), style.aligned(behind))
+    for comparison in figures_of:
+        draw_comparison(comparison, results, figures)

@@ -74,6 +74,7 @@ if(PBS_WITH_FEM)
     pbs_program_test(properties experiments/same_records)
 endif()
 pbs_program_test(verification experiments/recomputed_frames)
+pbs_program_test(verification experiments/plain_iterations)
 if(PBS_WITH_FEM)
     pbs_program_test(verification experiments/reference_error_bar)
     set_tests_properties(verification/experiments/reference_error_bar verification/experiments/recomputed_frames

@@ -4,10 +4,11 @@ set(left_out)
 if(PBS_WITH_MESH_IO)
     list(APPEND left_out pbs/geometry/mesh_io_unavailable)
 else()
-    list(APPEND left_out pbs/geometry/isolated_reader pbs/geometry/mesh_io pbs/geometry/mesh_io_checks pbs/geometry/module
-        pbs/geometry/own_folder pbs/geometry/read_by_content pbs/geometry/surface_formats pbs/geometry/surface_reader
-        pbs/geometry/tobj_reader pbs/geometry/damaged_meshes pbs/geometry/decimal_comma pbs/geometry/referred_files
-        pbs/character/bodies_from_files pbs/character/body_cache pbs/character/input_file)
+    list(APPEND left_out pbs/geometry/content_format pbs/geometry/isolated_reader pbs/geometry/mesh_io pbs/geometry/mesh_io_checks
+        pbs/geometry/module pbs/geometry/named_link pbs/geometry/own_folder pbs/geometry/read_by_content
+        pbs/geometry/surface_formats pbs/geometry/surface_reader pbs/geometry/tobj_reader pbs/geometry/damaged_meshes
+        pbs/geometry/decimal_comma pbs/geometry/referred_files pbs/character/bodies_from_files pbs/character/body_cache
+        pbs/character/input_file)
 endif()
 if(PBS_WITH_CGAL)
     list(APPEND left_out pbs/geometry/meshing_unavailable)
@@ -22,7 +23,8 @@ if(NOT PBS_WITH_RIG_IMPORT)
 endif()
 
 pbs_tests(unit pbs_files
-    FILES pbs/geometry/isolated_reader pbs/geometry/mesh_io pbs/geometry/mesh_io_checks pbs/geometry/mesh_io_unavailable
+    FILES pbs/geometry/content_format pbs/geometry/isolated_reader pbs/geometry/mesh_io pbs/geometry/mesh_io_checks
+        pbs/geometry/mesh_io_unavailable pbs/geometry/named_link
         pbs/geometry/meshing_builtin pbs/geometry/meshing_count pbs/geometry/meshing_surface pbs/geometry/meshing_unavailable
         pbs/geometry/module pbs/geometry/own_folder pbs/geometry/read_by_content pbs/geometry/self_intersection
         pbs/geometry/surface_formats pbs/geometry/surface_reader pbs/geometry/tobj_reader

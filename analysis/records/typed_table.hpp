@@ -4,7 +4,8 @@
 //                                               {"rms_mm", &Distance::rms_mm, "mm", "root mean square over the points"}};
 //   table_of(distance_columns, rows).write("distances.csv");
 //   const std::vector<Distance> rows = rows_of(distance_columns, read_csv("distances.csv"));
-// A member is a double, int, long long, bool (0 or 1), std::string, an enum with EnumNames, or std::optional of one (nothing: empty cell).
+// A member is a double, int, long, long long, bool (0 or 1), std::string, an enum with EnumNames, or std::optional of one (nothing: an
+// empty cell).
 #pragma once
 
 #include "analysis/records/csv_table.hpp"
@@ -39,6 +40,12 @@ template <>
 struct CellOf<long long> {
     static CsvTable::Cell cell(long long value) { return value; }
     static long long read(const CsvTable& table, int row, const std::string& column) { return table.integer(row, column); }
+};
+
+template <>
+struct CellOf<long> {  // std::int64_t
+    static CsvTable::Cell cell(long value) { return static_cast<long long>(value); }
+    static long read(const CsvTable& table, int row, const std::string& column) { return table.integer(row, column); }
 };
 
 template <>

@@ -1,5 +1,5 @@
-// pbskin bench [--mesh TETS] [--threads N] [--json]: times a step, and compares it with `plain` in the same run and with the limits of the
-// machine.
+// pbskin bench [--mesh TETS] [--threads N] [--json]: times a step and every deformer, and compares them with plain loops in the same run
+// and with the limits of the machine.
 #include "analysis/records/atomic_file.hpp"
 #include "experiments/command_line/verbs.hpp"
 #include "experiments/studies/bench/bench.hpp"
@@ -51,7 +51,7 @@ int bench(BenchArguments arguments)
 void add_bench_verb(CLI::App& app, CommonOptions& common, VerbAction& action)
 {
     CLI::App* verb =
-        add_verb(app, common, "bench", "times projections, steps, LBS, DQS and FEM, each as a ratio to `plain` in the same run");
+        add_verb(app, common, "bench", "times projections, steps, all deformers and FEM, as ratios to plain loops in the same run");
     auto arguments = std::make_shared<BenchArguments>();
     auto* mesh = verb->add_option("--mesh", arguments->options.mesh, "a tet mesh; by default bars of about 2,200 and 19,500 vertices");
     verb->add_option("--sizes", arguments->sizes, "bars with these numbers of tets, e.g. 1K,10K,100K,1M, and the growth of the cost")

@@ -21,7 +21,7 @@
 namespace experiments {
 namespace {
 
-// The README.md of a study or the page of a claim.
+// The README.md of a study or a deformer, or the page of a claim.
 std::string page_of(const std::string& name)
 {
     return analysis::plain_text(*pages::by_name.at(name), terminal_width());
@@ -115,6 +115,7 @@ bool explain_deformer_or_scene(const std::string& name)
         if (kind.name != name) continue;
         fmt::print("{} (deformer)\n", kind.name);
         line("meaning", kind.meaning);
+        if (pages::by_name.contains(name)) fmt::print("\n{}\n", page_of(name));
         return true;
     }
     for (const auto& scene : built_in_scenes())

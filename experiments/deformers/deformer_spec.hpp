@@ -1,10 +1,14 @@
 // A deformer to be made: its kind, its options, and its name in the records.
 //   DeformerSpec spec = default_spec("fem");                       of registry.hpp: with the default options of the kind
 //   options_of<FemOptions>(spec).element_order = 1;                if the caller knows the kind
+//   spec.weights = pbs::WeightKind::diffused;                      LBS, delta mush ... with smooth weights on the same character
 //   if (const auto* pbs = options_if<pbs::PbsOptions>(spec)) ...   for a deformer of any kind
 #pragma once
 
+#include "pbs/character/character.hpp"
+
 #include <any>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -17,6 +21,8 @@ struct DeformerSpec {
     std::string variant = "default";  // e.g. jiggle, labels_relative
     std::any options = {};            // the struct of options of the kind; empty: the kind has none
     int threads = 1;                  // that a step may use; results do not depend on their number
+    // Weights by this rule instead of the character's, for a deformer of any kind (own_weights.hpp). Null: the character's.
+    std::optional<pbs::WeightKind> weights = {};
 };
 
 // The options if they are of this type; null otherwise.

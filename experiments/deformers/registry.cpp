@@ -1,5 +1,8 @@
 #include "experiments/deformers/registry.hpp"
 
+#include "experiments/deformers/own_weights.hpp"
+#include "pbs/character/skinning_weights.hpp"
+
 #include <algorithm>
 #include <stdexcept>
 
@@ -9,8 +12,20 @@ namespace {
 std::vector<DeformerKind>& registered()
 {
     static std::vector<DeformerKind> kinds = {
-        lbs_kind(),        dqs_kind(),          pbs_kind(), xpbd_kind(), xpbd_small_steps_kind(),
-        delta_mush_kind(), quasi_newton_kind(), vbd_kind(), fem_kind(),  external_kind(),
+        lbs_kind(),
+        dqs_kind(),
+        delta_mush_kind(),
+        direct_delta_mush_kind(),
+        pbs_kind(),
+        pbs_author_kind(),
+        xpbd_kind(),
+        xpbd_small_steps_kind(),
+        quasi_newton_kind(),
+        vbd_kind(),
+        xpbd_neo_hookean_kind(),
+        projective_dynamics_kind(),
+        fem_kind(),
+        external_kind(),
     };
     return kinds;
 }
@@ -48,7 +63,8 @@ DeformerSpec default_spec(const std::string& kind)
 
 std::unique_ptr<Deformer> make_deformer(const DeformerSpec& spec)
 {
-    return kind_of(spec.kind).make(spec);
+    std::unique_ptr<Deformer> deformer = kind_of(spec.kind).make(spec);
+    return spec.weights ? with_own_weights(std::move(deformer), *spec.weights) : std::move(deformer);
 }
 
 DeformerTraits traits_of(const DeformerSpec& spec)
@@ -61,6 +77,7 @@ nlohmann::json to_json(const DeformerSpec& spec)
 {
     nlohmann::json json = {{"name", spec.name}, {"label", spec.label}, {"kind", spec.kind}, {"variant", spec.variant}};
     if (const DeformerKind& kind = kind_of(spec.kind); kind.options_json) json["options"] = kind.options_json(spec);
+    if (spec.weights) json["weights"] = pbs::name_of(*spec.weights);
     return json;
 }
 

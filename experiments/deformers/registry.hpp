@@ -24,6 +24,7 @@ class SceneValues;
 struct DeformerTraits {
     std::string order = {};              // order of projection; empty: it projects nothing
     std::string precision = "f64";       // of its arithmetic
+    bool packed = false;                 // several constraints, vertices or tets per instruction, rather than one after the other
     std::optional<int> iterations = {};  // per frame
     int threads = 1;                     // the largest number of threads that a step uses
     bool sleeps = false;                 // its records have a share of sleeping constraints
@@ -31,6 +32,18 @@ struct DeformerTraits {
     bool is_negative_control = false;    // its breakdown is an expected result and no failure
     bool blends_linearly = false;        // inverted tets in the first frame point to its weights or its bind pose
     bool solves_equations = false;       // a frame that has inverted tets or did not converge is no solution
+};
+
+// The size of a body, on which the work of an iteration depends.
+struct BodyCounts {
+    double vertices = 0.0, edges = 0.0, tets = 0.0;
+};
+
+// The work of one iteration, or of one frame of a deformer without iterations, counted by hand. A loop is no faster than either allows.
+struct IterationWork {
+    double flops = 0.0;              // useful operations; 0: not counted
+    double bytes = 0.0;              // that must pass between the core and the level that holds the working set; 0: not counted
+    double working_set_bytes = 0.0;  // which decides the level
 };
 
 struct DeformerKind {
@@ -46,7 +59,8 @@ struct DeformerKind {
     // Sets options and variant from a table of a scene (pbs, fem.0). InputError for keys that contradict each other.
     void (*read)(const SceneValues& values, const std::string& table, DeformerSpec& spec) = nullptr;
     nlohmann::json (*options_json)(const DeformerSpec& spec) = nullptr;
-    DeformerTraits (*traits)(const DeformerSpec& spec) = nullptr;  // null: the default ones
+    DeformerTraits (*traits)(const DeformerSpec& spec) = nullptr;                       // null: the default ones
+    IterationWork (*work)(const DeformerSpec& spec, const BodyCounts& body) = nullptr;  // for `pbskin bench`; null: not counted
 };
 
 const std::vector<DeformerKind>& deformer_kinds();
@@ -56,10 +70,14 @@ void add_deformer_kind(DeformerKind kind);  // for programs with deformers of th
 DeformerKind lbs_kind();
 DeformerKind dqs_kind();
 DeformerKind pbs_kind();
+DeformerKind pbs_author_kind();
 DeformerKind xpbd_kind();
 DeformerKind xpbd_small_steps_kind();
 DeformerKind delta_mush_kind();
+DeformerKind direct_delta_mush_kind();
 DeformerKind quasi_newton_kind();
+DeformerKind xpbd_neo_hookean_kind();
+DeformerKind projective_dynamics_kind();
 DeformerKind vbd_kind();
 DeformerKind fem_kind();
 DeformerKind external_kind();

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Keeps what the verdicts rest on: from the records of `pbskin reproduce --full -o DIR` the values by which claims are judged, those that
-they show for comparison, the studies' own tables and the provenance, below 6 MB, in experiments/records/full. `pbskin reproduce --judge -o
+they show for comparison, the studies' own tables and the provenance, below 10 MB, in experiments/records/full. `pbskin reproduce --judge -o
 experiments/records/full` judges them again.
 
     python3 experiments/records/keep.py results/full [FOLDER]
@@ -16,9 +16,10 @@ JUDGED = ["scene", "deformer", "variant", "order", "precision", "iterations", "t
           "volume_change_pct", "volume_abs_change_pct", "inverted_tets"]
 PROVENANCE = ["version", "git_revision", "git_dirty", "compiler", "flags", "build_type", "cpu_model", "logical_cpus"]
 DRAWN = ("bones.csv", "bones_rest.csv", "binding.csv", "embedding.csv")  # beside frames, which are not kept
-MOST_BYTES = 6_000_000
+MOST_BYTES = 10_000_000
+RAW = ("points.csv",)  # the measured points of a run, from which the study's tables follow: kept whatever their length
 TABLE_BYTES = 60_000  # of a run's further tables; longer ones are made again by the run
-SUMMARY_BYTES = 100_000  # of a study's own files, which sum up its runs'
+SUMMARY_BYTES = 200_000  # of a study's own files, which sum up its runs'
 
 
 def rounded(text):
@@ -70,7 +71,7 @@ def keep_run(source, target):
             continue
         elif table.name in ("measurements.csv", "printed.csv"):
             shutil.copyfile(table, target / table.name)
-        elif table.stat().st_size <= TABLE_BYTES:
+        elif table.name in RAW or table.stat().st_size <= TABLE_BYTES:
             keep_table(table, target / table.name)
 
 

@@ -3,6 +3,7 @@
 #include "pbs/character/clip_match.hpp"
 #include "pbs/character/model_character.hpp"
 #include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/name_list.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -28,13 +29,6 @@ pbs::ClipSampling clip_sampling(const MotionSpec& spec)
     return sampling;
 }
 
-std::string a_few(const std::vector<std::string>& names)
-{
-    constexpr std::size_t most = 6;
-    if (names.size() <= most) return fmt::format("{}", fmt::join(names, ", "));
-    return fmt::format("{} and {} others", fmt::join(names.begin(), names.begin() + most, ", "), names.size() - most);
-}
-
 CaseMotion motion_of_clip(const MotionSpec& spec, const pbs::Character& character)
 {
     const pbs::Clip clip = pbs::read_clip(spec.clip);
@@ -48,9 +42,10 @@ CaseMotion motion_of_clip(const MotionSpec& spec, const pbs::Character& characte
         throw pbs::InputError(spec.clip, 0, "joints", share,
                               "expected at least one half to match a bone of the character (motion.allow_partial = true in the scene, or "
                               "--allow-partial of `pbskin try`, accepts fewer); without a bone: " +
-                                  a_few(match.unmatched));
+                                  pbs::name_list(match.unmatched));
     if (match.matched < match.moving)
-        made.partial_match = fmt::format("{}: {} of the clip match a bone; without a bone: {}", spec.clip, share, a_few(match.unmatched));
+        made.partial_match =
+            fmt::format("{}: {} of the clip match a bone; without a bone: {}", spec.clip, share, pbs::name_list(match.unmatched));
     return made;
 }
 

@@ -75,8 +75,8 @@ std::vector<SceneKey> character_and_motion_keys()
                    "time step of Algorithm 1; by default the longest one of at most 10 ms that divides a frame of a clip or an animation"),
                1e-9, 1e3),
         key("skinning", "weights", text, "\"\"", "",
-            "paper (Eq. 2), rigid (nearest bone), smooth (Eq. 2 with smooth transitions, a control), artist (of character.model), or a CSV "
-            "file vertex,joint,weight; empty: artist for a model with joints, paper for all others"),
+            "paper (Eq. 2), rigid (nearest bone), smooth (Eq. 2 with smooth transitions), diffused (Eq. 2 smoothed over the mesh's edges), "
+            "artist (of character.model), or a CSV file vertex,joint,weight; empty: artist for a model with joints, paper for all others"),
     };
 }
 

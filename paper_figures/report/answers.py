@@ -48,14 +48,13 @@ def with_symbols_named(text):
 
 
 class Pose:
-    """A case of the study work_precision: LBS, PBS as the paper sets it, and the reference, on the same tets."""
+    """A case of the study work_precision: LBS and PBS as the paper sets it, on the same tets, and the reference."""
 
     def __init__(self, rows, k_stretch):
         self.name, self.body = case_words.posed(rows[0]), rows[0]["body"]
         self.reference = next((row for row in rows if row["outcome"] == "reference"), None)
-        vertices = self.reference and self.reference["vertices"]
-        own = [row for row in rows if row["vertices"] == vertices]
-        self.lbs = next((row for row in own if row["deformer"] == "lbs"), None)
+        self.lbs = next((row for row in rows if row["deformer"] == "lbs"), None)  # on the case's own mesh, which comes first
+        own = [row for row in rows if self.lbs and row["vertices"] == self.lbs["vertices"]]
         self.pbs = next((row for row in own if row["deformer"] == "pbs" and row["iterations"] == "24" and row["order"] == "ordered"
                          and row["precision"] == "f32" and number(row, "k_stretch") == k_stretch and row["substeps"] in ("", "1")), None)
 

@@ -13,6 +13,7 @@
 #include "pbs/character/skeleton_from_clip.hpp"
 #include "pbs/character/skinning_weights.hpp"
 #include "pbs/character/weights_file.hpp"
+#include "pbs/geometry/content_format.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/mesh_remarks.hpp"
 #include "pbs/geometry/meshing.hpp"
@@ -69,10 +70,15 @@ Skeleton skeleton_of_rig(const CharacterSource& source, Character& character)
 // And its hash into the character's inputs.
 Skeleton read_skeleton_of(const CharacterSource& source, Character& character)
 {
-    const std::string extension = std::filesystem::path(source.skeleton_file).extension().string();
     if (is_rig_file(source.skeleton_file) && rig_has_skin(source.skeleton_file)) return skeleton_of_rig(source, character);
+    const std::string format = format_extension(source.skeleton_file);
+    if (format == ".dae" || format == ".zae")
+        throw InputError(
+            source.skeleton_file, 0, "skins", "0",
+            "expected a skin, which states the joints: a COLLADA file without one is no skeleton; others are .bvh, .gltf, .glb, "
+            ".fbx and skeletons in TOML");
     for (const char* clip : {".bvh", ".gltf", ".glb", ".fbx"})
-        if (extension == clip) return skeleton_of_clip(source, character);
+        if (format == clip) return skeleton_of_clip(source, character);
     const std::string text = read_text_file(source.skeleton_file, most_settings_bytes);
     Skeleton skeleton = parse_skeleton(text, source.skeleton_file);
     for (Bone& bone : skeleton.bones) {

@@ -122,7 +122,7 @@ const aiScene& import(Assimp::Importer& importer, const std::string& path)
     importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
     const OwnFolder& files = only_own_folder(importer, path);
-    const aiScene* scene = importer.ReadFile(path, 0);
+    const aiScene* scene = importer.ReadFile(files.name_by_content(), 0);
     if (!scene) files.refuse_what_was_referred_to();
     if (!scene) throw InputError(path, 0, "", "", std::string("no clip that assimp can read: ") + importer.GetErrorString());
     if (!scene->mRootNode || scene->mNumAnimations == 0 || scene->mAnimations[0]->mNumChannels == 0)

@@ -2,6 +2,7 @@
 
 #include "pbs/character/transferred_weights.hpp"
 #include "pbs/geometry/meshing.hpp"
+#include "pbs/geometry/name_list.hpp"
 #include "pbs/geometry/number_text.hpp"
 #include "pbs/geometry/topology.hpp"
 
@@ -11,14 +12,6 @@ namespace {
 constexpr double smallest_m = 0.05, largest_m = 20.0;  // of a body whose unit is believed
 constexpr double far_from_tets = 0.01;                 // over the diagonal of the body; the wrap alone takes up to 0.008
 constexpr int samples_per_bone = 5;                    // on its middle, the part that Eq. 2 gives to it alone
-
-std::string listed(const std::vector<std::string>& names)
-{
-    constexpr std::size_t most = 8;
-    std::string text;
-    for (std::size_t n = 0; n < names.size() && n < most; ++n) text += (n ? ", " : "") + names[n];
-    return names.size() > most ? text + " and " + std::to_string(names.size() - most) + " others" : text;
-}
 
 void add_size(const RiggedBody& body, const std::string& file, std::vector<std::string>& remarks)
 {
@@ -51,7 +44,7 @@ void add_bones_outside(const RiggedBody& body, const TetMesh& mesh, const std::s
     }
     if (!outside.empty())
         remarks.push_back(file + ": " + std::to_string(outside.size()) + " of " + std::to_string(body.skeleton.bones.size()) +
-                          " bones lie outside the body: " + listed(outside));
+                          " bones lie outside the body: " + name_list(outside));
 }
 
 void add_distance(const RiggedBody& body, double distance_m, const std::string& file, std::vector<std::string>& remarks)
@@ -73,7 +66,7 @@ void add_joints_without_flesh(const RiggedBody& body, const Character& character
         if (weight.carried[b] <= 0.5 * weight.of_artist[b]) without.push_back(bones[b].name);
     if (!without.empty())
         remarks.push_back(file + ": " + std::to_string(without.size()) + " of " + std::to_string(bones.size()) +
-                          " joints are without flesh: the tets are too coarse for what they move: " + listed(without));
+                          " joints are without flesh: the tets are too coarse for what they move: " + name_list(without));
 }
 
 }  // namespace

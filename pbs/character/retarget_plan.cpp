@@ -2,6 +2,7 @@
 
 #include "pbs/character/joint_map.hpp"
 #include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/name_list.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -58,18 +59,11 @@ BoneFollowing follow(const Bone& bone, const JointMapping& mapping, const Clip& 
     return following;
 }
 
-std::string a_few(const std::vector<std::string>& names)
-{
-    std::string text;
-    for (std::size_t n = 0; n < names.size() && n < 4; ++n) text += (n ? ", " : "") + names[n];
-    return names.size() > 4 ? text + ", ..." : text;
-}
-
 [[noreturn]] void refuse(const Clip& clip, const Skeleton& skeleton, const std::string& why)
 {
     std::vector<std::string> bones;
     for (const Bone& bone : skeleton.bones) bones.push_back(bone.name);
-    throw InputError(clip.name, 0, "joints", a_few(clip.joints), why + " (bones: " + a_few(bones) + ")");
+    throw InputError(clip.name, 0, "joints", name_list(clip.joints), why + " (bones: " + name_list(bones) + ")");
 }
 
 // Bone lengths over limb lengths: of the legs where the map knows them, else of all bones that follow.

@@ -1,6 +1,7 @@
 #include "pbs/character/skinning_weights.hpp"
 
 #include "pbs/geometry/input_error.hpp"
+#include "pbs/skinning/diffused_weights.hpp"
 #include "pbs/skinning/harmonic_weights.hpp"
 
 namespace pbs {
@@ -29,6 +30,8 @@ const char* name_of(WeightKind kind)
             return "rigid";
         case WeightKind::smooth:
             return "smooth";
+        case WeightKind::diffused:
+            return "diffused";
         case WeightKind::artist:
             return "artist";
         case WeightKind::file:
@@ -46,6 +49,8 @@ Weights weights_by(WeightKind kind, const Character& character)
             return rigid_weights(character.binding);
         case WeightKind::smooth:
             return smooth_weights(character);
+        case WeightKind::diffused:
+            return diffused_weights(character.mesh, paper_weights(character.binding, character.skeleton));
         case WeightKind::artist:
             if (has_artist_weights(character)) return character.artist->weights;
             break;
@@ -54,6 +59,13 @@ Weights weights_by(WeightKind kind, const Character& character)
             break;
     }
     throw InputError(character.name, 0, "skinning.weights", name_of(kind), "expected a character that brings such weights");
+}
+
+Character with_weights(WeightKind kind, Character character)
+{
+    character.weights = weights_by(kind, character);
+    character.weight_kind = kind;
+    return character;
 }
 
 }  // namespace pbs

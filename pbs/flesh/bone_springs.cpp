@@ -14,7 +14,8 @@ BoneHold::BoneHold(const TetMesh& mesh, const BoneSprings& springs, int bones)
       moments_(bones)
 {
     const PointLocation where(mesh);
-    std::map<std::pair<int, int>, Eigen::Vector4d> shares;  // of a vertex and a bone: first and zeroth
+    std::map<std::pair<int, int>, Eigen::Vector4d> shares;   // of a vertex and a bone: first and zeroth
+    std::map<std::pair<int, int>, Eigen::Matrix4d> in_tets;  // of a tet and a bone
     for (Eigen::Index s = 0; s < springs.points.rows(); ++s) {
         const double k = springs.stiffness(s);
         if (k == 0.0) continue;
@@ -26,10 +27,11 @@ BoneHold::BoneHold(const TetMesh& mesh, const BoneSprings& springs, int bones)
         }
         Eigen::Vector4d beta;
         beta << 1.0 - location.barycentric.sum(), location.barycentric;
+        Eigen::Vector4d moment;
+        moment << point, 1.0;
+        in_tets.try_emplace({location.tet, springs.bone[s]}, Eigen::Matrix4d::Zero()).first->second += k * beta * moment.transpose();
         for (int i = 0, edge = 0; i < 4; ++i) {
             const int vertex = mesh.tets(location.tet, i);
-            Eigen::Vector4d moment;
-            moment << point, 1.0;
             shares.try_emplace({vertex, springs.bone[s]}, Eigen::Vector4d::Zero()).first->second += k * beta(i) * moment;
             for (int j = i + 1; j < 4; ++j) edge_stiffness_(location.tet, edge++) -= k * beta(i) * beta(j);
         }
@@ -38,6 +40,7 @@ BoneHold::BoneHold(const TetMesh& mesh, const BoneSprings& springs, int bones)
         moments.first += k * point;
         moments.second += k * point.squaredNorm();
     }
+    for (const auto& [of, sum] : in_tets) tet_moments_.push_back({of.first, of.second, sum});
     for (const auto& [of, moment] : shares) {
         shares_.push_back({of.first, of.second, moment.head<3>(), moment(3)});
         stiffness_(of.first) += moment(3);

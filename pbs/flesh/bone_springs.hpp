@@ -28,7 +28,13 @@ public:
     // -k beta_i beta_j, summed over the springs in each tet, of its edges 01 02 03 12 13 23 [m], #T x 6.
     const Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>& edge_stiffness() const { return edge_stiffness_; }
     const Eigen::MatrixXd& stiffness_of_bones() const { return of_bone_; }  // the part of a_i that each bone contributes [m], #V x #bones
-    int left_out() const { return left_out_; }                              // springs outside every tet
+    // Of each tet and bone, sum_s k_s beta (X_s, 1)^T, row i belongs to vertex i of the tet [m^2, m]; by tet, then by bone.
+    struct TetMoment {
+        int tet, bone;
+        Eigen::Matrix4d sum;
+    };
+    const std::vector<TetMoment>& tet_moments() const { return tet_moments_; }
+    int left_out() const { return left_out_; }  // springs outside every tet
 
     // c_i in a pose [m], #V x 3; zero where nothing holds the vertex.
     void centres(const Pose& pose, Positions& centres) const;
@@ -50,6 +56,7 @@ private:
     Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor> edge_stiffness_;
     Eigen::MatrixXd of_bone_;
     std::vector<Share> shares_;  // by vertex, then by bone
+    std::vector<TetMoment> tet_moments_;
     std::vector<Moments> moments_;
     int left_out_ = 0;
 };

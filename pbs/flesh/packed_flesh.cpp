@@ -1,40 +1,12 @@
 #include "pbs/flesh/packed_flesh.hpp"
 
+#include "pbs/flesh/slabs_of_tets.hpp"
 #include "pbs/solver/batched/batch_schedule.hpp"
 #include "pbs/solver/batched/batched_constraints.hpp"
 
-#include <algorithm>
 #include <numeric>
 
 namespace pbs {
-namespace {
-
-constexpr int dummies_a_slab = 4 * batch_size;
-
-int whole_blocks(int rows)
-{
-    return (rows + batch_size - 1) / batch_size * batch_size;
-}
-
-// Tets of each slab by the first of their vertices.
-std::vector<std::vector<const FleshTet*>> by_slab(const std::vector<FleshTet>& tets, const VertexOrder& order)
-{
-    const auto first = [&](const FleshTet& tet) {
-        int lowest = order.new_of_old[tet.vertex[0]];
-        for (const int v : tet.vertex) lowest = std::min(lowest, order.new_of_old[v]);
-        return lowest;
-    };
-    std::vector<int> sorted(tets.size()), first_vertex;
-    for (const FleshTet& tet : tets) first_vertex.push_back(first(tet));
-    std::iota(sorted.begin(), sorted.end(), 0);
-    std::stable_sort(sorted.begin(), sorted.end(), [&](int a, int b) { return first_vertex[a] < first_vertex[b]; });
-    const std::vector<int> slab_of = order.slab_of_new();
-    std::vector<std::vector<const FleshTet*>> slabs(order.slabs());
-    for (const int t : sorted) slabs[slab_of[first_vertex[t]]].push_back(&tets[t]);
-    return slabs;
-}
-
-}  // namespace
 
 template <typename Scalar>
 PackedFlesh<Scalar>::PackedFlesh(const TetMesh& mesh, const FleshEnergy& energy, const CholeskyFactor& factor, int threads)
@@ -44,9 +16,15 @@ PackedFlesh<Scalar>::PackedFlesh(const TetMesh& mesh, const FleshEnergy& energy,
       solve_(factor, order_.new_of_old)
 {
     const int vertices = static_cast<int>(mesh.rest.rows());
-    rows_ = whole_blocks(vertices) + order_.slabs() * dummies_a_slab;
-    const auto slabs = by_slab(energy.tets(), order_);
-    for (int slab = 0; slab < order_.slabs(); ++slab) fill_slab(slab, slabs[slab]);
+    rows_ = rows_with_dummies(vertices, order_.slabs());
+    std::vector<std::array<int, 4>> vertex;
+    for (const FleshTet& tet : energy.tets()) vertex.push_back(tet.vertex);
+    const auto slabs = slabs_of_tets(vertex, order_);
+    for (int slab = 0; slab < order_.slabs(); ++slab) {
+        std::vector<const FleshTet*> tets;
+        for (const int t : slabs[slab]) tets.push_back(&energy.tets()[t]);
+        fill_slab(slab, tets);
+    }
     centres_ = rows();
     for (int i = 0; i < vertices; ++i) centres_[i][3] = Scalar(energy.hold()(order_.old_of_new[i]));
 }
@@ -57,7 +35,7 @@ void PackedFlesh<Scalar>::fill_slab(int slab, const std::vector<const FleshTet*>
     std::vector<ConstraintGroup> groups;
     for (const FleshTet* tet : tets)
         groups.push_back({GroupKind::tet, {tet->vertex[0], tet->vertex[1], tet->vertex[2], tet->vertex[3]}, {}});
-    const int dummies = rows_ - (order_.slabs() - slab) * dummies_a_slab;
+    const int dummies = rows_ - (order_.slabs() - slab) * dummies_of_slab;
     BatchScheduler scheduler(static_cast<int>(order_.new_of_old.size()));
     std::vector<FleshBatch<Scalar>>& batches = batches_.emplace_back();
     for (const std::vector<int>& members : scheduler.schedule(groups)) {

@@ -1,9 +1,11 @@
-// assimp opens only files that own_folder.hpp allows: the file itself and regular files below its folder.
+// assimp opens only files that own_folder.hpp allows: the file itself and regular files below its folder. It chooses its reader by the
+// file's name, so that it is given a name whose extension fits the content.
 //   Assimp::Importer importer;
 //   const OwnFolder& files = only_own_folder(importer, path);
-//   if (!importer.ReadFile(path, 0)) files.refuse_what_was_referred_to();
+//   if (!importer.ReadFile(files.name_by_content(), 0)) files.refuse_what_was_referred_to();
 #pragma once
 
+#include "pbs/geometry/content_format.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/own_folder.hpp"
 
@@ -19,15 +21,23 @@ namespace pbs {
 class OwnFolder : public Assimp::DefaultIOSystem {
 public:
     // path: the file that is read; it may lie anywhere.
-    explicit OwnFolder(const std::string& path) : path_(path) {}
+    explicit OwnFolder(const std::string& path) : path_(path), name_(path_by_content(path)) {}
+
+    // The path, or one of no file with another extension, in whose place the file is opened.
+    const std::string& name_by_content() const { return name_; }
 
     // False, too, for what may not be opened.
-    bool Exists(const char* file) const override { return allows(file) && DefaultIOSystem::Exists(file); }
+    bool Exists(const char* named) const override
+    {
+        const std::string file = file_of(named);
+        return allows(file) && DefaultIOSystem::Exists(file.c_str());
+    }
 
     // Null for what may not be opened; the first such file that is there is remembered.
-    Assimp::IOStream* Open(const char* file, const char* mode) override
+    Assimp::IOStream* Open(const char* named, const char* mode) override
     {
-        if (allows(file)) return DefaultIOSystem::Open(file, mode);
+        const std::string file = file_of(named);
+        if (allows(file)) return DefaultIOSystem::Open(file.c_str(), mode);
         std::error_code ignored;
         if (refused_.empty() && std::filesystem::exists(file, ignored)) refused_ = file;
         return nullptr;
@@ -43,7 +53,9 @@ public:
 private:
     bool allows(const std::string& file) const { return may_be_opened_for(path_, file); }
 
-    std::string path_, refused_;
+    std::string file_of(const std::string& named) const { return named == name_ ? path_ : named; }
+
+    std::string path_, name_, refused_;
 };
 
 // The importer owns it.

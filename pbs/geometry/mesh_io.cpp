@@ -1,30 +1,45 @@
 #include "pbs/geometry/mesh_io.hpp"
 
+#include "pbs/geometry/content_format.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/mesh_io_checks.hpp"
 #include "pbs/geometry/mesh_io_formats.hpp"
+#include "pbs/geometry/named_link.hpp"
 
 namespace pbs {
 namespace {
 
 enum class TetFormat { vtk, gmsh, tetgen, tobj };
 
-// By what the file holds; TetGen's files, which begin with plain numbers, by their extension. Gmsh chooses its own reader by the extension.
+// By what the file holds; files of TetGen and HOBAK, which begin with plain numbers or vertices, by their extension.
 TetFormat format_of(const std::string& path)
 {
     const std::string beginning = beginning_of(path), extension = lower_extension(path);
     const auto holds = [&](const char* text) { return beginning.find(text) != std::string::npos; };
-    const bool is_gmsh = extension == ".msh" || extension == ".mesh";
     if (holds("# vtk DataFile") || holds("<VTKFile")) return TetFormat::vtk;
-    if (!is_gmsh && (holds("$MeshFormat") || holds("$NOD") || holds("MeshVersionFormatted")))
-        throw InputError(
-            path, 0, "extension", extension,
-            holds("MeshVersionFormatted") ? "the file is a MEDIT mesh: rename it to .mesh" : "the file is a Gmsh mesh: rename it to .msh");
+    const std::string format = format_extension(path);
+    if (format == ".msh" || format == ".mesh") return TetFormat::gmsh;
     if (extension == ".vtu" || extension == ".vtk") return TetFormat::vtk;
-    if (is_gmsh) return TetFormat::gmsh;
     if (extension == ".node" || extension == ".ele") return TetFormat::tetgen;
     if (extension == ".tobj") return TetFormat::tobj;
     throw InputError(path, 0, "extension", extension, "expected a tet mesh: .msh, .vtu, .vtk, .mesh, .tobj, .node or .ele");
+}
+
+TetMesh tets_of(const IndexedPoints& read)
+{
+    return {read.points, read.cells};
+}
+
+// Gmsh chooses its own reader by the extension.
+TetMesh read_by_gmsh(const std::string& path)
+{
+    const long long named = check_gmsh_file(path);
+    const NamedLink link(path, format_extension(path));
+    const IndexedPoints read = read_guarded(path, [&](const std::string& file) { return read_gmsh(file, link.path()); });
+    if (read.cells.rows() > 0 && named >= 0 && named != read.points.rows())  // it leaves out vertices that no element uses
+        throw InputError(path, 0, "vertices", std::to_string(named),
+                         "expected all in elements; Gmsh reads " + std::to_string(read.points.rows()));
+    return tets_of(read);
 }
 
 TetMesh read_by_content(const std::string& path)
@@ -33,13 +48,8 @@ TetMesh read_by_content(const std::string& path)
     require_readable(path, format == TetFormat::vtk ? most_mesh_bytes : most_text_bytes);
     if (format == TetFormat::tetgen) return read_tetgen(path);
     if (format == TetFormat::tobj) return read_tobj(path);
-    const bool is_gmsh = format == TetFormat::gmsh;
-    const long long named = is_gmsh ? check_gmsh_file(path) : -1;
-    const IndexedPoints read = read_guarded(path, is_gmsh ? read_gmsh : read_vtk);
-    if (read.cells.rows() > 0 && named >= 0 && named != read.points.rows())  // it leaves out vertices that no element uses
-        throw InputError(path, 0, "vertices", std::to_string(named),
-                         "expected all in elements; Gmsh reads " + std::to_string(read.points.rows()));
-    return {read.points, read.cells};
+    if (format == TetFormat::vtk) return tets_of(read_guarded(path, read_vtk));
+    return read_by_gmsh(path);
 }
 
 }  // namespace
@@ -53,7 +63,9 @@ TetMesh read_tet_frame(const std::string& path)
 
 MeshReading read_tet_mesh(const std::string& path)
 {
-    return check_rest(path, read_by_content(path));
+    MeshReading reading = check_rest(path, read_by_content(path));
+    if (format_of(path) == TetFormat::gmsh && format_extension(path) != lower_extension(path)) reading.read_as = format_extension(path);
+    return reading;
 }
 
 void require_tet_mesh_format(const std::string& path)

@@ -19,8 +19,11 @@ struct MeshReading {
     std::vector<int> file_vertex;      // the file's number of each vertex, from 0, #V
     std::vector<int> unused_vertices;  // of the file, left out because no tet uses them
     std::vector<int> split_vertices;   // of the file, at which parts touch without a common face: each part got a vertex of its own
+    std::string read_as;               // the usual extension of the file's format, if its own is another one; empty: as it is named
 };
 
+// The reader is chosen by the content of a file where it shows the format, otherwise by the extension. For TetGen and .tobj it does not.
+//
 // A tet mesh to compute on: finite, not empty, indices in range, no tet without volume, no face in three tets, no neighbours that
 // overlap, boundary manifold and not self-intersecting (checked in builds with CGAL), no two vertices in one place. Unused vertices are
 // left out, parts that touch in a vertex are separated there, and the orientation is normalised.
@@ -42,9 +45,10 @@ struct SurfaceMesh {
     Triangles triangles;  // #F x 3
 };
 
-// .obj, .ply, .off, .stl, .gltf, .glb, .dae, .zae, .fbx. Polygons are triangulated, points split at texture seams are joined (equal
-// coordinates, to the bit), nodes' transforms and the file's unit applied. mesh_name: the mesh or node of that name alone.
-// InputError where there is none of that name, no triangle, or a coordinate that is not finite or beyond 1e9 m; a surface may be open.
+// .obj, .ply, .off, .stl, .gltf, .glb, .dae, .zae, .fbx, by content where it shows the format and otherwise by extension. Polygons are
+// triangulated, points split at texture seams are joined (equal coordinates, to the bit), nodes' transforms and the file's unit applied.
+// mesh_name: the mesh or node of that name alone. InputError where there is none of that name, no triangle, or a coordinate that is not
+// finite or beyond 1e9 m; a surface may be open.
 SurfaceMesh read_surface(const std::string& path, const std::string& mesh_name = "");
 
 // One deformed frame as VTK XML: Float64, compressed, atomic. Fields have one entry per point (or 3, or one per cell).

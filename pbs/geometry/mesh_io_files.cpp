@@ -4,8 +4,6 @@
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/number_text.hpp"
 
-#include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <system_error>
@@ -19,24 +17,6 @@ namespace {
 constexpr double least_extent_m = 1e-9;
 
 }  // namespace
-
-std::string lower_extension(const std::string& path)
-{
-    std::string extension = fs::path(path).extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });
-    return extension;
-}
-
-std::string beginning_of(const std::string& path)
-{
-    std::error_code code;
-    if (!fs::is_regular_file(path, code)) return "";
-    std::ifstream file(path, std::ios::binary);
-    std::string beginning(4096, '\0');
-    file.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
-    beginning.resize(static_cast<std::size_t>(file.gcount()));
-    return beginning;
-}
 
 void require_readable(const std::string& path, std::uintmax_t most_bytes)
 {

@@ -2,6 +2,7 @@
 // unchecked. Cells of lower dimension are left out; volume cells that are not four-node tets are InputErrors.
 #pragma once
 
+#include "pbs/geometry/content_format.hpp"
 #include "pbs/geometry/file_limits.hpp"
 #include "pbs/geometry/guarded_reading.hpp"
 #include "pbs/geometry/mesh_io.hpp"
@@ -10,10 +11,11 @@
 
 namespace pbs {
 
-IndexedPoints read_vtk(const std::string& path);   // .vtu, .vtk, by VTK
-IndexedPoints read_gmsh(const std::string& path);  // .msh 2.2 and 4.1, .mesh, by Gmsh, in a module
-TetMesh read_tobj(const std::string& path);        // .tobj
-TetMesh read_tetgen(const std::string& path);      // .node or .ele; the other file is in the same folder
+IndexedPoints read_vtk(const std::string& path);  // .vtu, .vtk, by VTK
+// .msh 2.2 and 4.1, .mesh, by Gmsh, in a module. named: the path, or a link to it, with the extension that fits the content.
+IndexedPoints read_gmsh(const std::string& path, const std::string& named);
+TetMesh read_tobj(const std::string& path);    // .tobj
+TetMesh read_tetgen(const std::string& path);  // .node or .ele; the other file is in the same folder
 
 // Surfaces: points and triangles.
 IndexedPoints read_assimp(const std::string& path, const std::string& mesh_name);  // .obj, .gltf, .glb, .dae, .zae
@@ -26,12 +28,6 @@ long long check_gmsh_file(const std::string& path);
 // Written by our own code, with 17 digits: Gmsh's own writer prints 16 (.msh) or 14 (.mesh), which does not read back to the bit.
 void write_msh(const std::string& path, const TetMesh& mesh);    // 4.1 ASCII
 void write_medit(const std::string& path, const TetMesh& mesh);  // .mesh, version 2
-
-// The first bytes of a file, at most 4,096; empty where it cannot be read.
-std::string beginning_of(const std::string& path);
-
-// ".msh" of "a/B.MSH".
-std::string lower_extension(const std::string& path);
 
 // An InputError unless the file is there, can be read, is not empty and not larger.
 void require_readable(const std::string& path, std::uintmax_t most_bytes);

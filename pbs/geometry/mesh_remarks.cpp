@@ -85,9 +85,15 @@ double signed_volume(const SurfaceMesh& surface)
 
 }  // namespace
 
+std::string remark_on_name(const std::string& path, const std::string& content_extension)
+{
+    return remark(path, "format of the content", content_extension, "read as such, whatever the file is called");
+}
+
 std::vector<std::string> remarks_on(const std::string& path, const MeshReading& reading)
 {
     std::vector<std::string> remarks;
+    if (!reading.read_as.empty()) remarks.push_back(remark_on_name(path, reading.read_as));
     if (reading.flipped_tets > 0)
         remarks.push_back(remark(path, "inverted tets", reading.flipped_tets, "turned, so that every rest volume is positive"));
     add_vertices(path, "unused vertices", reading.unused_vertices, "left out; no tet uses them", remarks);

@@ -19,11 +19,12 @@ TetMesh mesh_bar(int vertices);  // InputError, as of the limb, for fewer vertic
 
 // A closed or nearly closed surface [m] -> tets of about the wanted number of vertices: wrapped (alpha_wrap_3), meshed with a cell
 // size proportional to the local thickness, perturbed and exuded, checked, tried again with another facet distance where the check fails.
-// The tets' boundary lies up to about wrap_offset_m + wrap_alpha_m from the surface.
+// The tets' boundary lies up to about wrap_offset_m + wrap_alpha_m from the surface. If no offset is requested and the surface is not
+// watertight, a wrap that cannot be meshed is repeated with 3 times and then with 6 times the offset, so that the distance grows likewise.
 struct SurfaceMeshing {
     int vertices = 2000;                    // wanted, 150 or more
     double wrap_alpha_m = 0.0;              // smallest gap the wrap enters; 0: the bounding box's diagonal / 170
-    double wrap_offset_m = 0.0;             // 0: alpha / 3; more for sheets that are too thin to be meshed otherwise
+    double wrap_offset_m = 0.0;             // 0: alpha / 3; 3 or 6 times that where open surfaces need it
     double min_dihedral_deg = 5.0;          // required of every tet
     std::optional<int> boundary_euler = 2;  // required of the boundary; 2: a ball, 0: a body with one handle; null: any
     bool is_closed = true;                  // required of the surface: its wrap holds about what it encloses

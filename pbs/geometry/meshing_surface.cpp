@@ -6,6 +6,7 @@
 #include "pbs/geometry/meshing_cgal.hpp"
 #include "pbs/geometry/meshing_count.hpp"
 #include "pbs/geometry/meshing_verdict.hpp"
+#include "pbs/geometry/topology.hpp"
 
 #include <CGAL/AABB_face_graph_triangle_primitive.h>
 #include <CGAL/AABB_traits.h>
@@ -299,7 +300,8 @@ TetMesh mesh_surface(const SurfaceMesh& surface, const SurfaceMeshing& options)
     // A sheet of the surface, such as hair or a cape, becomes a layer between the offsets on both sides. Where that is too thin to be
     // meshed, the offset grows.
     std::vector<double> offsets = {offset};
-    if (options.wrap_offset_m == 0.0 && !is_watertight(surface)) offsets.insert(offsets.end(), {3.0 * offset, 6.0 * offset});
+    if (options.wrap_offset_m == 0.0 && !is_watertight(joined_triangles(surface.points, surface.triangles)))
+        offsets.insert(offsets.end(), {3.0 * offset, 6.0 * offset});
     std::string breach;
     for (const double grown : offsets)
         if (const auto mesh = mesh_wrapped(surface, alpha, grown, grown < offsets.back(), options, breach)) return *mesh;

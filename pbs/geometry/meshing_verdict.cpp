@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 namespace pbs {
 namespace {
@@ -51,18 +50,6 @@ double enclosed_volume(const SurfaceMesh& surface)
         volume += tet_volume(middle, surface.points.row(surface.triangles(f, 0)), surface.points.row(surface.triangles(f, 1)),
                              surface.points.row(surface.triangles(f, 2)));
     return volume;
-}
-
-bool is_watertight(const SurfaceMesh& surface)
-{
-    const Triangles triangles = joined_triangles(surface.points, surface.triangles);
-    std::map<std::pair<int, int>, int> uses;
-    for (const auto& triangle : triangles.rowwise())
-        for (int k = 0; k < 3; ++k) ++uses[{triangle(k), triangle((k + 1) % 3)}];
-    return std::all_of(uses.begin(), uses.end(), [&](const auto& use) {
-        const auto back = uses.find({use.first.second, use.first.first});
-        return use.second == 1 && back != uses.end() && back->second == 1;
-    });
 }
 
 std::string breach_of(const TetMesh& mesh, const SurfaceMeshing& options)

@@ -14,9 +14,6 @@ void check_surface(const SurfaceMesh& surface, const SurfaceMeshing& options);
 // The signed volume inside the triangles [m^3], as if closed by a fan from the points' mean.
 double enclosed_volume(const SurfaceMesh& surface);
 
-// Whether each edge belongs to two triangles, once in each direction; points at the same place are one.
-bool is_watertight(const SurfaceMesh& surface);
-
 // The first thing wrong with the mesh; empty when it is boundary-manifold, in one piece, of the wanted Euler number and dihedral
 // angle, free of self-intersections, and all points lie inside.
 inline constexpr const char* boundary_not_manifold = "the boundary is not manifold";

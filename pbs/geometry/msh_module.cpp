@@ -86,11 +86,13 @@ IndexedPoints current_tets(const std::string& path, std::vector<std::size_t>& ta
 }  // namespace
 }  // namespace pbs
 
-extern "C" void pbskin_gmsh_read(const std::string& path, pbs::IndexedPoints& mesh, std::vector<std::size_t>& tags)
+// named: what Gmsh opens; path: what errors name.
+extern "C" void pbskin_gmsh_read(const std::string& path, const std::string& named, pbs::IndexedPoints& mesh,
+                                 std::vector<std::size_t>& tags)
 {
     const pbs::GmshSession session;
     try {
-        gmsh::open(path);
+        gmsh::open(named);
         pbs::refuse_other_volumes(path);
         mesh = pbs::current_tets(path, tags);
     } catch (const std::string& words) {

@@ -1,6 +1,7 @@
 // The door of the Gmsh module.
 #include "pbs/geometry/mesh_io_formats.hpp"
 
+#include "pbs/geometry/content_format.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/module.hpp"
 
@@ -157,9 +158,14 @@ std::string text_of(const std::string& path)
     return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
+bool is_msh(const std::string& path)
+{
+    return format_extension(path) == ".msh";
+}
+
 long long named_nodes(const std::string& path, const std::string& text)
 {
-    return lower_extension(path) == ".msh" ? nodes_in_msh(text) : vertices_in_medit(text);
+    return is_msh(path) ? nodes_in_msh(text) : vertices_in_medit(text);
 }
 
 }  // namespace
@@ -167,7 +173,7 @@ long long named_nodes(const std::string& path, const std::string& text)
 long long check_gmsh_file(const std::string& path)
 {
     const std::string text = text_of(path);
-    if (lower_extension(path) == ".msh")
+    if (is_msh(path))
         check_msh(path, text);
     else
         check_medit(path, text);
@@ -175,16 +181,16 @@ long long check_gmsh_file(const std::string& path)
     return named_nodes(path, text);
 }
 
-IndexedPoints read_gmsh(const std::string& path)
+IndexedPoints read_gmsh(const std::string& path, const std::string& named)
 {
     IndexedPoints mesh;
     std::vector<std::size_t> tags;
     load_module(module_name)
-        .function<void(const std::string&, IndexedPoints&, std::vector<std::size_t>&)>("pbskin_gmsh_read")(path, mesh, tags);
+        .function<void(const std::string&, const std::string&, IndexedPoints&, std::vector<std::size_t>&)>("pbskin_gmsh_read")(path, named,
+                                                                                                                               mesh, tags);
     const std::string text = text_of(path);
     const long long nodes = named_nodes(path, text);
-    const bool is_msh = lower_extension(path) == ".msh";
-    if (nodes > mesh.points.rows() && (is_msh ? has_all_nodes(text, nodes) : has_all_vertices(text, nodes)))
+    if (nodes > mesh.points.rows() && (is_msh(path) ? has_all_nodes(text, nodes) : has_all_vertices(text, nodes)))
         restore_unused(tags, nodes, mesh);
     return mesh;
 }

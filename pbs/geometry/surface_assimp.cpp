@@ -113,12 +113,12 @@ void add_node(const aiScene& scene, const aiNode& node, const aiMatrix4x4& paren
 
 IndexedPoints read_assimp(const std::string& path, const std::string& mesh_name)
 {
-    if (lower_extension(path) == ".dae") refuse_negative_indices(path);
+    if (format_extension(path) == ".dae") refuse_negative_indices(path);
     Assimp::Importer importer;
     const OwnFolder& files = only_own_folder(importer, path);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);
     const LeftOut left_out;
-    const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate);
+    const aiScene* scene = importer.ReadFile(files.name_by_content(), aiProcess_Triangulate);
     if (!scene) files.refuse_what_was_referred_to();
     if (importer.GetErrorString() == std::string("std::bad_alloc")) throw std::bad_alloc();  // which assimp catches
     if (!scene || !scene->mRootNode) throw InputError(path, 0, "", "", std::string("assimp: ") + importer.GetErrorString());

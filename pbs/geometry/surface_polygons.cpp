@@ -1,6 +1,7 @@
 // .ply, .off and .stl by CGAL, in double precision; assimp's readers accept truncated files of these, hang or end the process.
 #include "pbs/geometry/mesh_io_formats.hpp"
 
+#include "pbs/geometry/content_format.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/number_text.hpp"
 
@@ -56,7 +57,7 @@ std::vector<Triangle> triangulated(const std::string& path, const std::vector<Po
 bool read_soup(const std::string& path, std::vector<Point>& points, std::vector<Polygon>& polygons)
 {
     std::ifstream file(path, std::ios::binary);
-    const std::string extension = lower_extension(path);
+    const std::string extension = format_extension(path);
     if (extension == ".ply") return CGAL::IO::read_PLY(file, points, polygons);
     if (extension == ".stl") return CGAL::IO::read_STL(file, points, polygons);
     return CGAL::IO::read_OFF(file, points, polygons);

@@ -1,7 +1,8 @@
-// Surfaces: which library reads them, and what is made of its points and triangles. Points are joined where their coordinates are equal;
-// assimp's own joining has an absolute tolerance of 1e-5, which would merge a small body.
+// Surfaces: which library reads them, by content, and what is made of its points and triangles. Points are joined where their coordinates
+// are equal; assimp's own joining has an absolute tolerance of 1e-5, which would merge a small body.
 #include "pbs/geometry/mesh_io.hpp"
 
+#include "pbs/geometry/content_format.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/mesh_io_formats.hpp"
 #include "pbs/geometry/mesh_remarks.hpp"
@@ -20,7 +21,7 @@ constexpr std::array<std::string_view, 9> extensions = {".obj", ".ply", ".off", 
 
 IndexedPoints read_by_library(const std::string& path, const std::string& mesh_name)
 {
-    const std::string extension = lower_extension(path);
+    const std::string extension = format_extension(path);
     if (extension != ".ply" && extension != ".off" && extension != ".stl") return read_assimp(path, mesh_name);
     if (!mesh_name.empty()) throw InputError(path, 0, "mesh", mesh_name, "expected no name: such a file holds one mesh");
 #ifdef PBS_WITH_CGAL
@@ -63,9 +64,10 @@ SurfaceMesh joined(const std::string& path, const IndexedPoints& mesh)
 IndexedPoints checked_points(const std::string& path, const std::string& mesh_name)
 {
     require_readable(path, most_mesh_bytes);
-    const std::string extension = lower_extension(path);
+    const std::string content = content_extension(path), extension = format_extension(path);
     if (std::find(extensions.begin(), extensions.end(), extension) == extensions.end())
-        throw InputError(path, 0, "extension", extension, "expected a surface: .obj, .ply, .off, .stl, .gltf, .glb, .dae, .zae or .fbx");
+        throw InputError(path, 0, content.empty() ? "extension" : "format of the content", extension,
+                         "expected a surface: .obj, .ply, .off, .stl, .gltf, .glb, .dae, .zae or .fbx");
     IndexedPoints read = read_guarded(path, [&](const std::string& file) { return read_by_library(file, mesh_name); });
     check_raw_surface(path, read);
     return read;
@@ -84,6 +86,8 @@ SurfaceMesh read_surface(const std::string& path, std::vector<std::string>& rema
     SurfaceMesh surface = joined(path, read);
     surface.points *= scale;
     remarks = remarks_on(path, surface, unused_points(read), static_cast<int>(read.cells.rows() - surface.triangles.rows()));
+    if (const std::string content = content_extension(path); !content.empty() && content != lower_extension(path))
+        remarks.insert(remarks.begin(), remark_on_name(path, content));
     return surface;
 }
 

@@ -163,6 +163,19 @@ std::vector<bool> vertices_of(const Triangles& triangles, Eigen::Index vertices)
     return used;
 }
 
+// Of all triangles, sorted.
+std::vector<DirectedEdge> directed_edges(const Triangles& triangles, bool reversed)
+{
+    std::vector<DirectedEdge> edges;
+    for (Eigen::Index f = 0; f < triangles.rows(); ++f)
+        for (int k = 0; k < 3; ++k) {
+            const int a = triangles(f, k), b = triangles(f, (k + 1) % 3);
+            edges.push_back(reversed ? DirectedEdge{b, a} : DirectedEdge{a, b});
+        }
+    std::sort(edges.begin(), edges.end());
+    return edges;
+}
+
 }  // namespace
 
 Edges edges_of(const Tets& tets)
@@ -213,6 +226,25 @@ Triangles joined_triangles(const Positions& points, const Triangles& triangles)
     for (int p = 0; p < points.rows(); ++p)
         first[p] = first_at.emplace(std::array{points(p, 0), points(p, 1), points(p, 2)}, p).first->second;
     return triangles.unaryExpr([&](int p) { return first[p]; });
+}
+
+std::optional<DirectedEdge> open_edge(const Triangles& triangles)
+{
+    const std::vector<DirectedEdge> forward = directed_edges(triangles, false), backward = directed_edges(triangles, true);
+    const auto [one, other] = std::mismatch(forward.begin(), forward.end(), backward.begin());
+    if (one == forward.end()) return std::nullopt;
+    return std::min(*one, *other);
+}
+
+bool is_closed(const Triangles& triangles)
+{
+    return triangles.rows() > 0 && !open_edge(triangles);
+}
+
+bool is_watertight(const Triangles& triangles)
+{
+    const std::vector<DirectedEdge> edges = directed_edges(triangles, false);
+    return is_closed(triangles) && std::adjacent_find(edges.begin(), edges.end()) == edges.end();
 }
 
 Topology topology_of(const Tets& tets, Eigen::Index vertices)

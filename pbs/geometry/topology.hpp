@@ -4,6 +4,8 @@
 
 #include "pbs/geometry/types.hpp"
 
+#include <optional>
+#include <utility>
 #include <vector>
 
 namespace pbs {
@@ -22,6 +24,13 @@ Adjacency adjacency_of(const Tets& tets, int vertices);
 
 // The triangles with each corner replaced by the first point at its place. Files of models repeat points along texture seams.
 Triangles joined_triangles(const Positions& points, const Triangles& triangles);
+
+// An edge with its direction in a triangle.
+using DirectedEdge = std::pair<int, int>;
+// The smallest edge, sorted by vertices, that the triangles do not use equally often in both directions; nothing: there is none.
+std::optional<DirectedEdge> open_edge(const Triangles& triangles);
+bool is_closed(const Triangles& triangles);      // has a triangle and no open edge; several parts may touch in an edge
+bool is_watertight(const Triangles& triangles);  // closed, and each edge belongs to two triangles
 
 // Topology of the tets and their boundary; one manifold component with Euler number 2 is a ball.
 struct Topology {

@@ -1,5 +1,7 @@
 #include "pbs/near_rest/step_near_rest.hpp"
 
+#include "pbs/geometry/input_error.hpp"
+
 #include <unsupported/Eigen/IterativeSolvers>
 
 #include <algorithm>
@@ -154,6 +156,7 @@ RestingState rest_of(StepNearRest& step, const std::vector<bool>& moves, const V
 
 RestingState settle(const TetMesh& mesh, const std::vector<bool>& held, const PbsOptions& options, const Vec3& acceleration_m_s2)
 {
+    if (options.volume_of != VolumeOf::tets) throw InputError("pbs", 0, "volume_of", "", "expected tets near rest");
     PbsOptions unbound = options;
     unbound.k_bind = 0.0;
     unbound.jiggle.reset();

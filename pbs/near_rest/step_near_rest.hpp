@@ -65,7 +65,8 @@ struct KrylovSpace {
 RestingState rest_of(StepNearRest& step, const std::vector<bool>& moves, const Vec3& acceleration_m_s2, const KrylovSpace& space = {});
 
 // The paper's solver with a time step of 1 s; a displacement scales with dt^2. Bind constraints are left out, as they would hold the axis.
-// The result depends on the iterations, stiffnesses and masses in the options. held: #V, vertices that do not move.
+// The result depends on the iterations, stiffnesses and masses in the options; InputError where they constrain regions. held: #V, vertices
+// that do not move.
 RestingState settle(const TetMesh& mesh, const std::vector<bool>& held, const PbsOptions& options, const Vec3& acceleration_m_s2);
 
 }  // namespace pbs

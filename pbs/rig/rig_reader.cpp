@@ -1,5 +1,6 @@
 #include "pbs/rig/rig_reader.hpp"
 
+#include "pbs/geometry/content_format.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/isolated_reader.hpp"
 #include "pbs/geometry/mesh_io_formats.hpp"
@@ -14,23 +15,19 @@ namespace {
 
 enum class RigFormat { none, gltf, fbx, collada };
 
-// A zip archive is taken for COLLADA's .zae: the only one of these formats that is packed.
-RigFormat format_of(const std::string& beginning)
+RigFormat format_of(const std::string& path)
 {
-    const auto begins = [&](const char* text) { return beginning.rfind(text, 0) == 0; };
-    const auto contains = [&](const char* text) { return beginning.find(text) != std::string::npos; };
-    if (begins("glTF")) return RigFormat::gltf;
-    if (begins("Kaydara FBX Binary") || contains("; FBX ") || contains("FBXHeaderExtension")) return RigFormat::fbx;
-    if (contains("<COLLADA") || begins("PK\x03\x04")) return RigFormat::collada;
-    const std::size_t first = beginning.find_first_not_of(" \t\r\n\xef\xbb\xbf");
-    return first != std::string::npos && beginning[first] == '{' ? RigFormat::gltf : RigFormat::none;
+    const std::string extension = content_extension(path);
+    if (extension == ".glb" || extension == ".gltf") return RigFormat::gltf;
+    if (extension == ".fbx") return RigFormat::fbx;
+    return extension == ".dae" || extension == ".zae" ? RigFormat::collada : RigFormat::none;
 }
 
 // With or without a mesh.
 Rig read_any_rig(const std::string& path)
 {
     require_readable(path, most_mesh_bytes);
-    const RigFormat format = format_of(beginning_of(path));
+    const RigFormat format = format_of(path);
     if (format == RigFormat::none)
         throw InputError(path, 0, "", "", "no rig: expected glTF 2.0 (.glb, .gltf), FBX (.fbx) or COLLADA (.dae, .zae)");
     const auto read = [&](const std::string& file) {
@@ -43,7 +40,7 @@ Rig read_any_rig(const std::string& path)
 
 bool is_rig_file(const std::string& path)
 {
-    return format_of(beginning_of(path)) != RigFormat::none;
+    return format_of(path) != RigFormat::none;
 }
 
 Rig read_rig(const std::string& path)

@@ -1,9 +1,6 @@
 #include "pbs/skinning/delta_mush.hpp"
 
-#include <Eigen/LU>
-#include <Eigen/SVD>
-
-#include <limits>
+#include "pbs/geometry/nearest_rotation.hpp"
 
 namespace pbs {
 
@@ -43,11 +40,7 @@ Eigen::Matrix3d DeltaMush::rotation(const Positions& smoothed_posed, int vertex)
     for (int k = neighbours_.first[vertex]; k < neighbours_.first[vertex + 1]; ++k)
         covariance += (smoothed_posed.row(neighbours_.neighbour[k]) - smoothed_posed.row(vertex)).transpose() *
                       (smoothed_rest_.row(neighbours_.neighbour[k]) - smoothed_rest_.row(vertex));
-    if (!covariance.allFinite()) return Eigen::Matrix3d::Constant(std::numeric_limits<double>::quiet_NaN());
-    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    Eigen::Matrix3d u = svd.matrixU();
-    if ((u * svd.matrixV().transpose()).determinant() < 0.0) u.col(2) *= -1.0;
-    return u * svd.matrixV().transpose();
+    return nearest_rotation(covariance);
 }
 
 }  // namespace pbs

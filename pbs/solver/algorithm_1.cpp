@@ -46,6 +46,7 @@ StepSummary Algorithm1<Scalar>::advance(const Positions& lbs_positions, const Po
 {
     particles_.check_input(lbs_positions, bind_points, dt_s);
     const Stopwatch stopwatch;
+    const Positions& bound_to = options_.bind_to == BindTo::blended_position ? lbs_positions : bind_points;
     StepSummary summary;
 
     particles_.predict(lbs_positions, dt_s);  // (2)-(9)
@@ -53,7 +54,7 @@ StepSummary Algorithm1<Scalar>::advance(const Positions& lbs_positions, const Po
     bool converged;
     do {
         converged = false;
-        projection_->load(particles_.predicted(), bind_points, origin);
+        projection_->load(particles_.predicted(), bound_to, origin);
         if (options_.sleep && summary.wakings == 0) projection_->sleep(sleep_tolerance_);
         // (10)
         for (summary.iterations = 0; summary.iterations < options_.iterations && !converged; ++summary.iterations) {

@@ -2,6 +2,7 @@
 
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/number_text.hpp"
+#include "pbs/geometry/tet_regions.hpp"
 #include "pbs/geometry/tet_volume.hpp"
 #include "pbs/geometry/topology.hpp"
 
@@ -23,6 +24,26 @@ double share_removed(double k, const PbsOptions& options)
     return 1.0 - std::pow(1.0 - k, 1.0 / options.iterations);
 }
 
+double stiffness_at_length(double k, double l0_m, double length_m)
+{
+    if (length_m == 0.0 || k == 0.0) return k;
+    const double ratio = l0_m / length_m;
+    return k / (k + (1.0 - k) * ratio * ratio);
+}
+
+namespace {
+
+void check_volume_of(const PbsOptions& options)
+{
+    if (options.region_tets < 1) throw InputError("pbs", 0, "region_tets", std::to_string(options.region_tets), "expected 1 or more");
+    if (options.volume_of == VolumeOf::tets) return;
+    if (options.sleep) throw InputError("pbs", 0, "sleep", "true", "expected false with the volumes of regions, which do not sleep");
+    if (options.volume_form != VolumeForm::derived)
+        throw InputError("pbs", 0, "volume_form", "", "expected derived with the volumes of regions");
+}
+
+}  // namespace
+
 void check_options(const PbsOptions& options)
 {
     if (options.iterations < 0) throw InputError("pbs", 0, "iterations", std::to_string(options.iterations), "expected 0 or more");
@@ -36,6 +57,9 @@ void check_options(const PbsOptions& options)
     if (options.threads < 1) throw InputError("pbs", 0, "threads", std::to_string(options.threads), "expected 1 or more");
     if (!(options.sleep_tolerance >= 0.0))
         throw InputError("pbs", 0, "sleep_tolerance", std::to_string(options.sleep_tolerance), "expected 0 or more");
+    if (!(options.k_stretch_length_m >= 0.0) || !std::isfinite(options.k_stretch_length_m))
+        throw InputError("pbs", 0, "k_stretch_length_m", std::to_string(options.k_stretch_length_m), "expected 0 or more, finite");
+    check_volume_of(options);
 }
 
 namespace {
@@ -83,7 +107,8 @@ std::vector<StretchConstraint<Scalar>> stretch_constraints(const TetMesh& mesh, 
         const bool jiggles = options.jiggle && !jiggle_zone.empty() && jiggle_zone[first] && jiggle_zone[second];
         const double k = jiggles ? options.jiggle->k_stretch : options.k_stretch;
         const double rest_length = value<double>(StretchConstraint<double>{}, mesh.rest.row(first), mesh.rest.row(second));  // Eq. 10
-        if (k > 0.0) constraints.push_back({{first, second}, Scalar(rest_length), Scalar(share_removed(k, options))});
+        const double k_edge = stiffness_at_length(k, rest_length, options.k_stretch_length_m);
+        if (k > 0.0) constraints.push_back({{first, second}, Scalar(rest_length), Scalar(share_removed(k_edge, options))});
     }
     return constraints;
 }
@@ -103,6 +128,17 @@ std::vector<VolumeConstraint<Scalar>> volume_constraints(const TetMesh& mesh, do
 }
 
 template <typename Scalar>
+std::vector<RegionVolumeConstraint<Scalar>> region_constraints(const TetMesh& mesh, int region_tets, double k)
+{
+    std::vector<RegionVolumeConstraint<Scalar>> constraints;
+    if (!(k > 0.0)) return constraints;
+    const std::vector<int> region = tet_regions(mesh.tets, region_tets);
+    for (const Triangles& surface : region_surfaces(mesh.tets, region))
+        constraints.push_back(make_region_volume_constraint<Scalar>(surface, mesh.rest, k));
+    return constraints;
+}
+
+template <typename Scalar>
 std::vector<BindConstraint<Scalar>> bind_constraints(const Eigen::VectorXd& distance, const std::vector<bool>& jiggle_zone,
                                                      const PbsOptions& options)
 {
@@ -111,7 +147,8 @@ std::vector<BindConstraint<Scalar>> bind_constraints(const Eigen::VectorXd& dist
         const bool jiggles = options.jiggle && !jiggle_zone.empty() && jiggle_zone[i];
         const double k = jiggles ? options.jiggle->k_bind.value_or(options.k_bind) : options.k_bind;
         const bool unbound = distance(i) == 0.0 && options.bind_on_bone == BindOnBone::unbound;
-        if (k > 0.0 && !unbound) constraints.push_back({i, Scalar(distance(i)), Scalar(share_removed(k, options))});
+        const double rest_distance = options.bind_to == BindTo::blended_position ? 0.0 : distance(i);
+        if (k > 0.0 && !unbound) constraints.push_back({i, Scalar(rest_distance), Scalar(share_removed(k, options))});
     }
     return constraints;
 }
@@ -140,8 +177,11 @@ ConstraintSet<Scalar> make_constraint_set(const TetMesh& mesh, const Eigen::Vect
     check_options(options);
     check_mesh(mesh, bind_distance, jiggle_zone, held);
     check_held(held, jiggle_zone, options);
+    const double share = share_removed(options.k_volume, options);
+    const bool of_tets = options.volume_of != VolumeOf::regions, of_regions = options.volume_of != VolumeOf::tets;
     return {bind_constraints<Scalar>(bind_distance, jiggle_zone, options), stretch_constraints<Scalar>(mesh, jiggle_zone, options),
-            volume_constraints<Scalar>(mesh, share_removed(options.k_volume, options)), inverse_masses<Scalar>(mesh, options.masses, held)};
+            volume_constraints<Scalar>(mesh, of_tets ? share : 0.0), inverse_masses<Scalar>(mesh, options.masses, held),
+            of_regions ? region_constraints<Scalar>(mesh, options.region_tets, share) : std::vector<RegionVolumeConstraint<Scalar>>{}};
 }
 
 template ConstraintSet<float> make_constraint_set(const TetMesh&, const Eigen::VectorXd&, const std::vector<bool>&, const PbsOptions&,

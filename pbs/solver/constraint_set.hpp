@@ -3,6 +3,7 @@
 #pragma once
 
 #include "pbs/constraints/bind.hpp"
+#include "pbs/constraints/region_volume.hpp"
 #include "pbs/constraints/stretch.hpp"
 #include "pbs/constraints/volume.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
@@ -21,6 +22,7 @@ struct ConstraintSet {
     std::vector<VolumeConstraint<Scalar>> volume;    // one per tet, or none
     // unit: 1; lumped: mean lumped volume / lumped volume of the vertex, so that no unit enters; held: 0, #V
     std::vector<Scalar> inverse_mass;
+    std::vector<RegionVolumeConstraint<Scalar>> regions = {};  // by the numbers of tet_regions; none unless VolumeOf asks for them
 };
 
 // InputError for stiffnesses outside [0, 1], iterations below 0, threads below 1, and a stop_residual or sleep_tolerance that is negative
@@ -29,6 +31,15 @@ void check_options(const PbsOptions& options);
 
 // The share of its error that a projection of a constraint of stiffness k removes, by options.stiffness_form.
 double share_removed(double k, const PbsOptions& options);
+
+// The stiffness of an edge of rest length l0 [m] so that the stiffness of the material does not depend on the edges' lengths, where k is
+// that of an edge of `length_m`:  k_e / (1 - k_e) = k / (1 - k) (length_m / l0)^2.
+// Derivation: a projection removes the share w / (w + alpha / dt^2) of C, with w the inverse masses and alpha the compliance (M. Macklin,
+// M. Mueller, N. Chentanez, XPBD, MIG 2016, Eq. 18). In a mesh of edges h, masses are in proportion to h^3, and an edge stands for a bar of
+// section h^2 and length h, so that 1 / alpha is in proportion to h. Hence k / (1 - k) = w dt^2 / alpha is in proportion to 1 / h^2. For
+// small k the same follows from the diffusion of displacements by k h^2 / 2 per iteration, which is kept. 0 and 1 stay as they are.
+// length_m = 0: k for edges of every length.
+double stiffness_at_length(double k, double l0_m, double length_m);
 
 // bind_distance [m], #V; jiggle_zone: #V, or empty: nothing jiggles; held: #V, or empty: nothing is held. InputErrors: as check_options,
 // wrong sizes, vertex indices out of range, tets without a positive rest volume, and vertices held although they jiggle, all are integrated

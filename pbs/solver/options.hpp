@@ -1,6 +1,7 @@
 // Options of a position based skinning step. Stiffnesses are dimensionless, in [0, 1]; zero leaves the class out.
 #pragma once
 
+#include "pbs/geometry/precision.hpp"
 #include "pbs/geometry/types.hpp"
 
 #include <optional>
@@ -8,12 +9,9 @@
 namespace pbs {
 
 // Order of projection within each class; the classes follow the order of Algorithm 1. plain: file order, as the paper reads. ordered:
-// sixteen constraints that share no vertex side by side. grouped: the same with neighbouring constraints in groups, quicker and farther
-// from `plain`.
+// colour by colour (projection_sequence.hpp), sixteen constraints that share no vertex side by side. grouped: the same with neighbouring
+// constraints in groups, quicker per iteration and with a larger volume change after 24 of them.
 enum class Order { plain, ordered, grouped };
-// Floating point of the projections; particles, their integration and sums of residuals are double in both. f32 projects relative to the
-// step's mean position, so that far from the origin no digits are lost.
-enum class Precision { f32, f64 };
 // m_i = 1 (the paper), or in proportion to the lumped rest volume; only their ratios count.
 enum class Masses { unit, lumped };
 // The volume correction: derived from Eq. 11 (default), or with one error of Eq. 12-20 at a time, or all of them:
@@ -45,6 +43,15 @@ enum class LbsEntry { start, increment };
 // A vertex on its bone (d_i = 0) is pinned to its material point, or has no bind constraint.
 enum class BindOnBone { pinned, unbound };
 
+// What the bind constraint holds a vertex to. bone_distance: its rest distance from its material point on the bone (Sec. 3.6), which leaves
+// the turn about the bone free. blended_position: its position by LBS in this step, at distance zero, which resists that turn too. With
+// k_bind = 1 nothing but the last iteration is left of the other constraints then, so that a small k_bind is meant.
+enum class BindTo { bone_distance, blended_position };
+
+// Whose volumes are constrained. tets: each tet's (Sec. 3.5). regions: the sum over each region of about region_tets tets
+// (pbs/geometry/tet_regions.hpp). tets_and_regions: the tets', then the regions'.
+enum class VolumeOf { tets, regions, tets_and_regions };
+
 // Stiffnesses of the jiggling zone, in [0, 1]. A zone that a solver is given jiggles only where options have one of these.
 struct Jiggle {
     double k_stretch = 0.1;             // of edges with both ends in the jiggling zone
@@ -53,7 +60,8 @@ struct Jiggle {
 
 // The paper states 24 iterations and m_i = 1; it leaves k_volume, k_bind, gravity and k_stretch outside the jiggling zone unstated.
 // A solver refuses with an InputError: iterations below 0, threads below 1, a stiffness outside [0, 1], a negative or NaN stop_residual or
-// sleep_tolerance, sleep with order plain, a volume_form other than derived with another order than plain.
+// sleep_tolerance, sleep with order plain, a volume_form other than derived with another order than plain; a k_stretch_length_m that is
+// negative or not finite, region_tets below 1, and volume_of other than tets with sleep or with another volume_form than derived.
 struct PbsOptions {
     int iterations = 24;  // at most, of lines 11-13 of Algorithm 1; 0: LBS as it is given (and integrated particles as predicted)
     // Stiffness of edges (k_stretch, Eq. 10), tets (k_volume, Eq. 11) and binds to the bones (k_bind, Sec. 3.6): the share of its error
@@ -76,6 +84,14 @@ struct PbsOptions {
     double stop_residual = 0.0;      // stop when the largest of the three residuals is below, else not_converged; 0: all iterations
     bool record_iterations = false;  // keep residuals of every iteration
     std::optional<Jiggle> jiggle;    // nothing: the zone is as all else
+
+    // Changes to the paper's method; the defaults are the paper's.
+    BindTo bind_to = BindTo::bone_distance;
+    VolumeOf volume_of = VolumeOf::tets;
+    int region_tets = 256;  // tets in a region, 1 or more; see volume_of
+    // The edge length at which a stretch constraint has the stiffness k as stated [m]; others have that of stiffness_at_length
+    // (constraint_set.hpp). 0: all have k.
+    double k_stretch_length_m = 0.0;
 };
 
 }  // namespace pbs

@@ -40,7 +40,8 @@ void PlainProjection<Scalar>::project_volume_constraints()
 {
     switch (volume_form_) {
         case VolumeForm::derived:
-            return pbs::project_volume_constraints(constraints_, p_);
+            pbs::project_volume_constraints(constraints_, p_);
+            return pbs::project_region_constraints(constraints_, p_);
         case VolumeForm::labels_relative:
             return project_volume_constraints_printed<Printed::labels_relative>(constraints_, p_);
         case VolumeForm::labels_absolute:

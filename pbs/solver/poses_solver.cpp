@@ -29,6 +29,8 @@ void check_poses(const std::vector<PbsOptions>& options)
         if (pose.class_order != ClassOrder::bind_stretch_volume || pose.lbs_entry != LbsEntry::start ||
             pose.bind_on_bone != BindOnBone::pinned || (pose.jiggle && pose.jiggle->k_bind))
             refuse("poses", "expected Algorithm 1's own reading (class_order, lbs_entry, bind_on_bone, jiggle.k_bind) for many at once");
+        if (pose.bind_to != BindTo::bone_distance || pose.volume_of != VolumeOf::tets || pose.k_stretch_length_m != 0.0)
+            refuse("poses", "expected the paper's constraints (bind_to, volume_of, k_stretch_length_m) for many at once");
         if (pose.stop_residual > 0.0 || pose.record_iterations || pose.sleep)
             refuse("poses", "expected no stop_residual, record_iterations or sleep for many at once");
     }

@@ -1,5 +1,7 @@
 #include "pbs/solver/project_plain.hpp"
 
+#include "pbs/solver/project_regions.hpp"
+
 namespace pbs {
 
 template <typename Scalar>
@@ -30,6 +32,12 @@ void project_volume_constraints(const ConstraintSet<Scalar>& constraints, std::v
     }
 }
 
+template <typename Scalar>
+void project_region_constraints(const ConstraintSet<Scalar>& constraints, std::vector<Vector3<Scalar>>& p)
+{
+    project_regions(constraints.regions, constraints.inverse_mass, [&](int i) -> Vector3<Scalar>& { return p[i]; });
+}
+
 template <Printed form, typename Scalar>
 void project_volume_constraints_printed(const ConstraintSet<Scalar>& constraints, std::vector<Vector3<Scalar>>& p)
 {
@@ -42,6 +50,7 @@ void project_volume_constraints_printed(const ConstraintSet<Scalar>& constraints
 template void project_bind_constraints(const ConstraintSet<float>&, const std::vector<Vector3<float>>&, std::vector<Vector3<float>>&);
 template void project_stretch_constraints(const ConstraintSet<float>&, std::vector<Vector3<float>>&);
 template void project_volume_constraints(const ConstraintSet<float>&, std::vector<Vector3<float>>&);
+template void project_region_constraints(const ConstraintSet<float>&, std::vector<Vector3<float>>&);
 template void project_volume_constraints_printed<Printed::labels_relative>(const ConstraintSet<float>&, std::vector<Vector3<float>>&);
 template void project_volume_constraints_printed<Printed::labels_absolute>(const ConstraintSet<float>&, std::vector<Vector3<float>>&);
 template void project_volume_constraints_printed<Printed::sign>(const ConstraintSet<float>&, std::vector<Vector3<float>>&);
@@ -49,6 +58,7 @@ template void project_volume_constraints_printed<Printed::as_printed>(const Cons
 template void project_bind_constraints(const ConstraintSet<double>&, const std::vector<Vector3<double>>&, std::vector<Vector3<double>>&);
 template void project_stretch_constraints(const ConstraintSet<double>&, std::vector<Vector3<double>>&);
 template void project_volume_constraints(const ConstraintSet<double>&, std::vector<Vector3<double>>&);
+template void project_region_constraints(const ConstraintSet<double>&, std::vector<Vector3<double>>&);
 template void project_volume_constraints_printed<Printed::labels_relative>(const ConstraintSet<double>&, std::vector<Vector3<double>>&);
 template void project_volume_constraints_printed<Printed::labels_absolute>(const ConstraintSet<double>&, std::vector<Vector3<double>>&);
 template void project_volume_constraints_printed<Printed::sign>(const ConstraintSet<double>&, std::vector<Vector3<double>>&);

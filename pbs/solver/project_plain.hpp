@@ -20,6 +20,10 @@ void project_stretch_constraints(const ConstraintSet<Scalar>& constraints, std::
 template <typename Scalar>
 void project_volume_constraints(const ConstraintSet<Scalar>& constraints, std::vector<Vector3<Scalar>>& p);
 
+// The volumes of regions, one region after the other; after those of tets in line 13.
+template <typename Scalar>
+void project_region_constraints(const ConstraintSet<Scalar>& constraints, std::vector<Vector3<Scalar>>& p);
+
 // Eq. 12-20 as printed; masses are one there.
 template <Printed form, typename Scalar>
 void project_volume_constraints_printed(const ConstraintSet<Scalar>& constraints, std::vector<Vector3<Scalar>>& p);

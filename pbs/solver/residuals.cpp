@@ -1,5 +1,7 @@
 #include "pbs/solver/residuals.hpp"
 
+#include "pbs/solver/project_regions.hpp"
+
 #include <cmath>
 
 namespace pbs {
@@ -27,9 +29,13 @@ Residuals residuals_of(const ConstraintSet<Scalar>& constraints, const std::vect
     residuals.stretch_rms = rms(constraints.stretch, [&](const StretchConstraint<Scalar>& c) {
         return value(c, p[c.vertex[0]], p[c.vertex[1]]) / double(c.rest_length);
     });
-    residuals.volume_rms = rms(constraints.volume, [&](const VolumeConstraint<Scalar>& c) {
-        return value(c, p[c.vertex[0]], p[c.vertex[1]], p[c.vertex[2]], p[c.vertex[3]]) / double(c.rest_volume);
-    });
+    residuals.volume_rms =
+        joint_rms(rms(constraints.volume,
+                      [&](const VolumeConstraint<Scalar>& c) {
+                          return value(c, p[c.vertex[0]], p[c.vertex[1]], p[c.vertex[2]], p[c.vertex[3]]) / double(c.rest_volume);
+                      }),
+                  constraints.volume.size(), rms_of_regions(constraints.regions, [&](int i) -> const Vector3<Scalar>& { return p[i]; }),
+                  constraints.regions.size());
     residuals.bind_rms_m =
         rms(constraints.bind, [&](const BindConstraint<Scalar>& c) { return double(value(c, p[c.vertex], q[c.vertex])); });
     return residuals;

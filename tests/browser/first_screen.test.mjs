@@ -31,16 +31,16 @@ test("all four answers are seen before anything is scrolled", async () => {
     for (const [name, bottom, hidden] of ends) assert.ok(bottom <= 900 && hidden <= 0, `${name} ends at ${bottom} px, ${hidden} px hidden`);
 });
 
-// The rows that the first screen states for a pose: LBS, the paper's PBS and the reference on the same tets.
+// The rows that the first screen states for a pose: LBS and the paper's PBS on the same tets, and the reference.
 function pose_on_record(run) {
     const rows = table(`work_precision/${run}/points.csv`), reference = rows.find((row) => row.outcome === "reference");
     const k_stretch = json(`work_precision/${run}/run.json`).work?.settings?.scene?.pbs?.k_stretch ?? 0.2;
-    const own = rows.filter((row) => row.vertices === reference?.vertices);
+    const lbs = rows.find((row) => row.deformer === "lbs"), own = rows.filter((row) => row.vertices === lbs?.vertices);
     const pbs = own.find((row) => row.deformer === "pbs" && row.iterations === "24" && row.order === "ordered" && row.precision === "f32"
         && Number(row.k_stretch) === k_stretch && ["", "1"].includes(row.substeps));
     const { body, motion, pose, angle_deg } = rows[0];
     const place = angle_deg ? `${motion} ${Number(angle_deg)}\u00b0` : `clip ${motion}, ${pose.replaceAll("_", " ")}`;
-    return { name: `${body}, ${place}`, reference, lbs: own.find((row) => row.deformer === "lbs"), pbs };
+    return { name: `${body}, ${place}`, reference, lbs, pbs };
 }
 
 function poses_on_record() {

@@ -1,5 +1,6 @@
 """Every study and every claim has its page, with the required sections, whose generated part is current. `pbskin explain` prints each page,
-and the files and columns that the pages quote are those of the kept records. Reference: the kept records, claims.toml and figures.toml."""
+and those of deformers. The files and columns that the pages quote are those of the kept records. Reference: the kept records, claims.toml
+and figures.toml."""
 import csv
 import fnmatch
 import pathlib
@@ -82,6 +83,14 @@ class Pages(program.ProgramTest):
             for section in sections(page.read_text(encoding="utf-8")):
                 self.assertIn(section, printed, name)
         self.assertIn("reproduce --full:", self.explained("volume"))
+
+    def test_the_program_prints_the_page_of_each_deformer_that_has_one(self):
+        pages = sorted(SOURCE.joinpath("experiments", "deformers").glob("*/README.md"))
+        self.assertIn("pbs_author", [page.parent.name for page in pages])
+        for page in pages:
+            printed = self.explained(page.parent.name)
+            for section in sections(page.read_text(encoding="utf-8")):
+                self.assertIn(section, printed, page.parent.name)
 
     def test_quoted_files_and_columns_are_on_record(self):
         for study in self.studies():

@@ -13,7 +13,15 @@ head_m = [0.5, 0.0, 0.0]
 tail_m = [1.0, 0.0, 0.0]
 """
 
-SCENE = """schema = 1
+# What the paper leaves unstated, so that each scene with PBS states it.
+PBS = """[pbs]
+k_stretch = 0.2
+k_volume = 1.0
+k_bind = 1.0
+gravity_m_s2 = [0.0, 0.0, 0.0]
+"""
+
+SCENE = f"""schema = 1
 [character]
 mesh = "arm.msh"
 skeleton = "arm.skeleton.toml"
@@ -22,12 +30,7 @@ joint = "elbow"
 axis = [0.0, 0.0, 1.0]
 angle_deg = 120.0
 frames = 5
-[pbs]
-k_stretch = 0.2
-k_volume = 1.0
-k_bind = 1.0
-gravity_m_s2 = [0.0, 0.0, 0.0]
-[deformers]
+{PBS}[deformers]
 use = ["lbs", "dqs", "pbs"]
 """
 

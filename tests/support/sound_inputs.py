@@ -83,6 +83,10 @@ def told():
                                 ("bodies along an edge", [*CORNERS, (0, -1, 0), (0, 0, -1)], [*FACES, *BELOW])):
         yield surface(f"surface with {name}", "x.off", bad_surfaces.off(points, faces),
                       "not manifold there, first from (0, 0, 0) to (1, 0, 0); the surface is wrapped")
+    for content, file in ((".msh", "x.vtu"), (".mesh", "x.txt")):
+        yield measured(f"tets, {content} called {file}", file, tet_texts.FORMATS[content](POINTS, TETS),
+                       f"warning: {file}: format of the content = {content}: read as such")
+    yield surface("surface, .ply called x.obj", "x.obj", binary_bytes.ply(CORNERS, FACES), "format of the content = .ply: read as such")
     for extension in (".vtk", ".vtu"):
         content = tet_texts.FORMATS[extension]([*POINTS, (9, 9, 9)], TETS)
         yield measured(f"tets with an unused vertex{extension}", "x" + extension, content, "unused vertices = 1 (45): left out")

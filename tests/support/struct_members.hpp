@@ -50,16 +50,22 @@ auto members_of(Struct& of)
     } else if constexpr (count == 11) {
         auto& [a, b, c, d, e, f, g, h, i, j, k] = of;
         return std::tie(a, b, c, d, e, f, g, h, i, j, k);
+    } else if constexpr (count == 12) {
+        auto& [a, b, c, d, e, f, g, h, i, j, k, l] = of;
+        return std::tie(a, b, c, d, e, f, g, h, i, j, k, l);
     } else if constexpr (count == 16) {
         auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p] = of;
         return std::tie(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p);
     } else if constexpr (count == 18) {
         auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r] = of;
         return std::tie(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r);
-    } else {
-        static_assert(count == 19, "add this number of members");
+    } else if constexpr (count == 19) {
         auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s] = of;
         return std::tie(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s);
+    } else {
+        static_assert(count == 23, "add this number of members");
+        auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w] = of;
+        return std::tie(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w);
     }
 }
 

@@ -20,6 +20,8 @@ tables = {
     "pbs": "Position based skinning, as in Algorithm 1 of the paper.",
     "pbs.jiggle": "The jiggling zone. It is off unless this table is present.",
     "pbs.variant": "Other readings and the printed forms of the paper's equations.",
+    "pbs.improved": "Changes to the paper's method, which the study `improvements` compares; the defaults are the paper's.",
+    "pbs_author": "Position based skinning as in the code that the paper's first author published in 2018.",
     "xpbd": "Extended position based dynamics: the deformers `xpbd` and `xpbd_small_steps`.",
     "delta_mush": "Delta mush: smoothing after linear blend skinning.",
     "fem": "A finite element reference. Each `[[fem]]` table adds a deformer of that name.",
@@ -38,6 +40,8 @@ further = {
     "Meshes and surfaces": (
         "Tet meshes are read from .msh (Gmsh 2.2 and 4.1), .vtu, .vtk, .mesh (MEDIT) and .node with .ele (TetGen).",
         "`pbskin mesh` makes one from a surface (.obj, .ply, .off, .stl, .gltf).",
+        "The reader is chosen by the content of a file where it shows the format. A file with the extension of another format gets a "
+        "warning.",
         "Coordinates are in metres. A body of less than 1 mm or more than 100 m gets a warning, for files do not state a unit.",
         "Accepted with a warning: a tet mesh of several parts (each is skinned by itself); inverted tets (they are turned back); "
         "a surface with unused points or triangles without area (they are left out), with holes or crossing triangles (it is wrapped), "

@@ -1,39 +1,39 @@
 // LBS and DQS as deformers: no state but the last pose's positions. They blend with the scene's weights; a table [[lbs]] or [[dqs]] adds
-// one with weights of its own.
+// one with weights or a precision of its own.
+#include "experiments/deformers/blend/blend_options.hpp"
+#include "experiments/deformers/own_weights.hpp"
+#include "experiments/deformers/precision_names.hpp"
 #include "experiments/deformers/registry.hpp"
-#include "experiments/settings/scene_values.hpp"
+#include "experiments/settings/option_fields.hpp"
 #include "pbs/character/skinning_weights.hpp"
 #include "pbs/geometry/stopwatch.hpp"
 #include "pbs/skinning/blend_skinning.hpp"
 
-#include <array>
 #include <optional>
 
 namespace experiments {
 namespace {
 
-struct BlendOptions {
-    std::optional<pbs::WeightKind> weights;  // null: the scene's
-};
+enum class Blend { linear, dual_quaternion };
 
-constexpr std::array<pbs::WeightKind, 4> own_weights = {pbs::WeightKind::paper, pbs::WeightKind::rigid, pbs::WeightKind::smooth,
-                                                        pbs::WeightKind::artist};
-
+template <class Scalar>
 class BlendDeformer : public Deformer {
 public:
-    using Blend = void (pbs::BlendSkinning<double>::*)(const pbs::Pose& pose, pbs::Positions& posed);
-    BlendDeformer(Blend blend, const BlendOptions& options) : blend_(blend), options_(options) {}
+    explicit BlendDeformer(Blend blend) : blend_(blend) {}
 
     void reset(const pbs::Character& character) override
     {
-        skinning_.emplace(character.mesh.rest, options_.weights ? pbs::weights_by(*options_.weights, character) : character.weights);
+        skinning_.emplace(character.mesh.rest, character.weights);
         positions_ = character.mesh.rest;
     }
 
     pbs::StepSummary advance(const pbs::Pose& pose, double /*dt_s*/) override
     {
         const pbs::Stopwatch stopwatch;
-        ((*skinning_).*blend_)(pose, positions_);
+        if (blend_ == Blend::linear)
+            skinning_->linear(pose, positions_);
+        else
+            skinning_->dual_quaternion(pose, positions_);
         pbs::StepSummary summary;
         summary.seconds = stopwatch.seconds();
         summary.work.vertex_visits = positions_.rows();
@@ -45,46 +45,64 @@ public:
 
 private:
     Blend blend_;
-    BlendOptions options_;
-    std::optional<pbs::BlendSkinning<double>> skinning_;
+    std::optional<pbs::BlendSkinning<Scalar>> skinning_;
     pbs::Positions positions_;
 };
 
+std::unique_ptr<Deformer> make_blend(Blend blend, const DeformerSpec& spec)
+{
+    if (options_of<BlendOptions>(spec).precision == pbs::Precision::f32) return std::make_unique<BlendDeformer<float>>(blend);
+    return std::make_unique<BlendDeformer<double>>(blend);
+}
+
+OptionFields<BlendOptions> blend_fields(const std::string& kind)
+{
+    return OptionFields<BlendOptions>(kind, true).add("precision", &BlendOptions::precision, {.meaning = "floating point of the blend"});
+}
+
 std::vector<SceneKey> blend_keys(const std::string& kind)
 {
-    std::vector<std::string> choices;
-    for (const pbs::WeightKind weights : own_weights) choices.push_back(pbs::name_of(weights));
-    return {{.table = kind,
-             .name = "name",
-             .type = KeyType::text,
-             .meaning = "the name of this deformer in deformers.use and in the records",
-             .in_list = true},
-            {.table = kind,
-             .name = "weights",
-             .type = KeyType::text,
-             .choices = choices,
-             .meaning = "the weights that it blends with, instead of skinning.weights",
-             .in_list = true}};
+    std::vector<SceneKey> keys = blend_fields(kind).keys();
+    keys.insert(keys.begin(), {{.table = kind,
+                                .name = "name",
+                                .type = KeyType::text,
+                                .meaning = "the name of this deformer in deformers.use and in the records",
+                                .in_list = true},
+                               own_weights_key(kind, true)});
+    return keys;
 }
 
 void read_blend(const SceneValues& values, const std::string& table, DeformerSpec& spec)
 {
-    if (table == spec.kind) return;  // not from a list: the scene's weights
-    const std::string weights = values.text(table + ".weights");
-    for (const pbs::WeightKind kind : own_weights)
-        if (weights == pbs::name_of(kind)) spec.options = BlendOptions{kind};
-    spec.variant = "weights_" + weights;
+    if (table == spec.kind) return;  // not from a list: the scene's weights, in double
+    spec.options = blend_fields(spec.kind).read(values, table);
+    read_own_weights(values, table, spec);
 }
 
 nlohmann::json blend_json(const DeformerSpec& spec)
 {
-    const auto& weights = options_of<BlendOptions>(spec).weights;
-    return {{"weights", weights ? pbs::name_of(*weights) : "of the scene"}};
+    nlohmann::json json = blend_fields(spec.kind).json(options_of<BlendOptions>(spec));
+    json["weights"] = spec.weights ? pbs::name_of(*spec.weights) : "of the scene";
+    return json;
 }
 
-DeformerTraits lbs_traits(const DeformerSpec& /*spec*/)
+DeformerTraits blend_traits(const DeformerSpec& spec)
 {
-    return {.blends_linearly = true};
+    return {.precision = name_of(options_of<BlendOptions>(spec).precision)};
+}
+
+DeformerTraits lbs_traits(const DeformerSpec& spec)
+{
+    DeformerTraits traits = blend_traits(spec);
+    traits.blends_linearly = true;
+    return traits;
+}
+
+// Rest positions in and posed positions out. Operations are not counted.
+IterationWork work_of_blend(const DeformerSpec& /*spec*/, const BodyCounts& body)
+{
+    const double bytes = 2.0 * 3.0 * sizeof(double) * body.vertices;
+    return {.bytes = bytes, .working_set_bytes = bytes};
 }
 
 DeformerKind blend_kind(const std::string& name, const std::string& meaning, std::unique_ptr<Deformer> (*make)(const DeformerSpec& spec))
@@ -96,26 +114,25 @@ DeformerKind blend_kind(const std::string& name, const std::string& meaning, std
             .keys = blend_keys(name),
             .has_list = true,
             .read = read_blend,
-            .options_json = blend_json};
+            .options_json = blend_json,
+            .traits = blend_traits,
+            .work = work_of_blend};
 }
 
 }  // namespace
 
 DeformerKind lbs_kind()
 {
-    DeformerKind kind = blend_kind("lbs", "linear blend skinning, Eq. 1", [](const DeformerSpec& spec) -> std::unique_ptr<Deformer> {
-        return std::make_unique<BlendDeformer>(&pbs::BlendSkinning<double>::linear, options_of<BlendOptions>(spec));
-    });
+    DeformerKind kind =
+        blend_kind("lbs", "linear blend skinning, Eq. 1", [](const DeformerSpec& spec) { return make_blend(Blend::linear, spec); });
     kind.traits = lbs_traits;
     return kind;
 }
 
 DeformerKind dqs_kind()
 {
-    return blend_kind(
-        "dqs", "dual quaternion skinning (Kavan 2007), the paper's comparison", [](const DeformerSpec& spec) -> std::unique_ptr<Deformer> {
-            return std::make_unique<BlendDeformer>(&pbs::BlendSkinning<double>::dual_quaternion, options_of<BlendOptions>(spec));
-        });
+    return blend_kind("dqs", "dual quaternion skinning (Kavan 2007), the paper's comparison",
+                      [](const DeformerSpec& spec) { return make_blend(Blend::dual_quaternion, spec); });
 }
 
 }  // namespace experiments

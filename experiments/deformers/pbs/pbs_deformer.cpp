@@ -3,6 +3,7 @@
 #include "experiments/deformers/registry.hpp"
 #include "pbs/geometry/stopwatch.hpp"
 #include "pbs/skinning/blend_skinning.hpp"
+#include "pbs/solver/batched/projection_work.hpp"
 #include "pbs/solver/pbs_solver.hpp"
 #include "pbs/solver/poses_solver.hpp"
 
@@ -53,8 +54,10 @@ bool PbsDeformer::works_ahead() const
 {
     const bool another_reading = options_.class_order != pbs::ClassOrder::bind_stretch_volume ||
                                  options_.lbs_entry != pbs::LbsEntry::start || options_.bind_on_bone != pbs::BindOnBone::pinned;
-    const bool each_its_own =
-        another_reading || options_.jiggle || options_.sleep || options_.stop_residual > 0.0 || options_.record_iterations;
+    const bool other_constraints =
+        options_.bind_to != pbs::BindTo::bone_distance || options_.volume_of != pbs::VolumeOf::tets || options_.k_stretch_length_m != 0.0;
+    const bool each_its_own = another_reading || other_constraints || options_.jiggle || options_.sleep || options_.stop_residual > 0.0 ||
+                              options_.record_iterations;
     return options_.threads > 1 && options_.order != pbs::Order::plain && !each_its_own &&
            !pbs::shared_among_threads(static_cast<int>(character_->mesh.rest.rows()));
 }
@@ -103,6 +106,17 @@ pbs::StepSummary PbsDeformer::advance(const pbs::Pose& pose, double dt_s)
     return summary;
 }
 
+// Each class of constraints is projected once.
+IterationWork work_of_pbs(const DeformerSpec& spec, const BodyCounts& body)
+{
+    const pbs::ProjectionLayout layout{options_of<pbs::PbsOptions>(spec).precision == pbs::Precision::f32 ? 4.0 : 8.0, 1};
+    const pbs::BodySize size{body.vertices, body.edges, body.tets};
+    double flops = 0.0;
+    for (const auto of : {pbs::ConstraintClass::stretch, pbs::ConstraintClass::volume, pbs::ConstraintClass::bind})
+        flops += size.constraints(of) * pbs::flops_of(of);
+    return {flops, pbs::bytes_per_iteration(layout, size), pbs::working_set_bytes(layout, size)};
+}
+
 }  // namespace
 
 DeformerKind pbs_kind()
@@ -122,11 +136,13 @@ DeformerKind pbs_kind()
                 const auto& options = options_of<pbs::PbsOptions>(spec);
                 return {.order = name_of(options.order),
                         .precision = name_of(options.precision),
+                        .packed = options.order != pbs::Order::plain,
                         .iterations = options.iterations,
                         .threads = spec.threads,
                         .sleeps = options.sleep,
                         .is_negative_control = options.volume_form != pbs::VolumeForm::derived};
-            }};
+            },
+            .work = work_of_pbs};
 }
 
 }  // namespace experiments

@@ -1,6 +1,7 @@
 // The names of the options of PBS in scenes and records.
 #pragma once
 
+#include "experiments/deformers/precision_names.hpp"
 #include "experiments/settings/option_names.hpp"
 #include "pbs/solver/options.hpp"
 
@@ -10,11 +11,6 @@ template <>
 struct OptionNames<pbs::Order> {
     static constexpr std::array<std::pair<pbs::Order, const char*>, 3> table{
         {{pbs::Order::plain, "plain"}, {pbs::Order::ordered, "ordered"}, {pbs::Order::grouped, "grouped"}}};
-};
-template <>
-struct OptionNames<pbs::Precision> {
-    static constexpr std::array<std::pair<pbs::Precision, const char*>, 2> table{
-        {{pbs::Precision::f32, "f32"}, {pbs::Precision::f64, "f64"}}};
 };
 template <>
 struct OptionNames<pbs::Masses> {
@@ -45,6 +41,16 @@ template <>
 struct OptionNames<pbs::BindOnBone> {
     static constexpr std::array<std::pair<pbs::BindOnBone, const char*>, 2> table{
         {{pbs::BindOnBone::pinned, "pinned"}, {pbs::BindOnBone::unbound, "unbound"}}};
+};
+template <>
+struct OptionNames<pbs::BindTo> {
+    static constexpr std::array<std::pair<pbs::BindTo, const char*>, 2> table{
+        {{pbs::BindTo::bone_distance, "bone_distance"}, {pbs::BindTo::blended_position, "blended_position"}}};
+};
+template <>
+struct OptionNames<pbs::VolumeOf> {
+    static constexpr std::array<std::pair<pbs::VolumeOf, const char*>, 3> table{
+        {{pbs::VolumeOf::tets, "tets"}, {pbs::VolumeOf::regions, "regions"}, {pbs::VolumeOf::tets_and_regions, "tets_and_regions"}}};
 };
 template <>
 struct OptionNames<pbs::VolumeForm> {

@@ -85,10 +85,34 @@ void add_variant_keys(OptionFields<PbsOptions>& fields)
                          "12-14 with the printed particles; sign: Eq. 17-20; as_printed: all)"});
 }
 
+void add_improvement_keys(OptionFields<PbsOptions>& fields)
+{
+    fields.in_table("improved")
+        .add(
+            "bind_to", &PbsOptions::bind_to,
+            {.meaning = "what a vertex is bound to: bone_distance: its rest distance from its bone, as in the paper, which leaves the turn "
+                        "about the bone free; blended_position: its position by LBS, which resists that turn, for a k_bind well below 1"})
+        .add("volume_of", &PbsOptions::volume_of,
+             {.meaning = "whose volumes are constrained: tets: each tet's, as in the paper; regions: the sum over each region of the mesh; "
+                         "tets_and_regions: both, in this order; only tets with sleep, and with a printed volume_form"})
+        .add("region_tets", &PbsOptions::region_tets,
+             {.lowest = 1, .highest = 1e6, .meaning = "tets in a region of volume_of, about; regions grow over shared faces"})
+        .add("k_stretch_length_m", &PbsOptions::k_stretch_length_m,
+             {.unit = "m",
+              .lowest = 0,
+              .highest = 1e6,
+              .meaning = "the edge length at which k_stretch holds; an edge of rest length l has k_e with k_e / (1 - k_e) = k / (1 - k) "
+                         "(k_stretch_length_m / l)^2, so that the stiffness does not depend on the mesh; 0: k_stretch for every edge, as "
+                         "in the paper"});
+}
+
 // The last option that differs from the paper's Algorithm 1 names the variant.
 std::string variant_of(const PbsOptions& options)
 {
     const PbsOptions paper;
+    if (options.k_stretch_length_m != paper.k_stretch_length_m) return "k_by_edge_length";
+    if (options.volume_of != paper.volume_of) return std::string("volume_of_") + name_of(options.volume_of);
+    if (options.bind_to != paper.bind_to) return name_of(options.bind_to);
     if (options.volume_form != paper.volume_form) return name_of(options.volume_form);
     if (options.bind_on_bone != paper.bind_on_bone) return name_of(options.bind_on_bone);
     if (options.lbs_entry != paper.lbs_entry) return name_of(options.lbs_entry);
@@ -106,6 +130,7 @@ const OptionFields<PbsOptions>& pbs_fields()
         add_keys(declared);
         add_jiggle_keys(declared);
         add_variant_keys(declared);
+        add_improvement_keys(declared);
         return declared;
     }();
     return fields;
@@ -121,6 +146,8 @@ void read_pbs(const SceneValues& values, const std::string& table, DeformerSpec&
             values.refuse(table + ".order", "expected plain with a printed volume_form");
         options.order = pbs::Order::plain;
     }
+    if (options.volume_of != pbs::VolumeOf::tets && (options.sleep || options.volume_form != pbs::VolumeForm::derived))
+        values.refuse(table + ".improved.volume_of", "expected tets with sleep or a printed volume_form");
     spec.variant = variant_of(options);
     spec.options = options;
 }

@@ -34,6 +34,7 @@ json context_of(const BenchRecord& record)
             {"kernel_flags", PBS_KERNEL_FLAGS},
             {"iterations", iterations_per_step},
             {"quick", record.options.quick},
+            {"headline_ratio", "ratio_to_plain_spread"},
             {"limits_of_one_core", json_of(record.limits)},
             {"load", {record.load_before, record.load_after}},
             {"provenance", provenance}};
@@ -65,9 +66,9 @@ json json_of(const ProjectionTiming& timing)
                                     {"share_of_limit", of->roofline->share_of_limit}};
     }
     put_spread(result, "ms_step", timing.ms_step);
+    put_spread(result, "ratio_to_plain_spread", timing.ratio_to_plain_spread);
     put_spread(result, "ratio_to_plain", timing.ratio_to_plain);
     put_spread(result, "ratio_to_plain_native", timing.ratio_to_plain_native);
-    put_spread(result, "ratio_to_plain_spread", timing.ratio_to_plain_spread);
     if (timing.speedup_by_threads) put_spread(result, "speedup_by_threads", *timing.speedup_by_threads);
     if (timing.best_speedup_by_threads) result["best_speedup_by_threads"] = *timing.best_speedup_by_threads;
     if (timing.ms_floor) result["ms_floor"] = *timing.ms_floor;
@@ -84,7 +85,22 @@ json json_of(const SkinningTiming& timing)
     return result;
 }
 
-json json_of(const FemTiming& timing, double plain_step_ms)
+json json_of(const DeformerTiming& timing)
+{
+    json result = {{"deformer", timing.deformer}, {"order", timing.order}, {"precision", timing.precision}, {"threads", 1}};
+    if (!timing.left_out.empty()) result["left_out"] = timing.left_out;
+    if (timing.iterations) result["iterations"] = *timing.iterations;
+    for (const auto& [name, spread] :
+         {std::pair("ms_frame", &timing.ms_frame), std::pair("ms_iteration", &timing.ms_iteration), std::pair("ns_tet", &timing.ns_tet),
+          std::pair("ns_vertex", &timing.ns_vertex), std::pair("ratio_to_plain", &timing.ratio_to_plain)})
+        if (*spread) put_spread(result, name, **spread);
+    for (const auto& [name, value] :
+         {std::pair("gflops", timing.gflops), std::pair("gb_s", timing.gb_s), std::pair("share_of_limit", timing.share_of_limit)})
+        if (value) result[name] = *value;
+    return result;
+}
+
+json json_of(const FemTiming& timing, double plain_step_ms, double plain_spread_step_ms)
 {
     json result = {{"variant", "fem"},
                    {"model", "linear"},
@@ -93,6 +109,7 @@ json json_of(const FemTiming& timing, double plain_step_ms)
                    {"threads", 1},
                    {"clock", "thread_cpu"},
                    {"further_to_first", timing.further_to_first},
+                   {"ratio_to_plain_spread", plain_spread_step_ms / timing.ms_further_frame.median},
                    {"ratio_to_plain", plain_step_ms / timing.ms_further_frame.median}};
     put_spread(result, "ms_first_solve", timing.ms_first_solve);
     put_spread(result, "ms_further_frame", timing.ms_further_frame);
@@ -103,14 +120,16 @@ json json_of(const MeshTimings& timings)
 {
     json result = {{"mesh", {{"name", timings.name}, {"vertices", timings.vertices}, {"edges", timings.edges}, {"tets", timings.tets}}},
                    {"memory", {{"peak_bytes", timings.memory.peak_bytes}, {"growth_bytes", timings.memory.growth_bytes()}}}};
-    for (const char* list : {"results", "yardsticks", "skinning", "fem"}) result[list] = json::array();
-    double plain_f64_step_ms = 0.0;
+    for (const char* list : {"results", "yardsticks", "skinning", "fem", "deformers"}) result[list] = json::array();
+    double plain_step_ms = 0.0, plain_spread_step_ms = 0.0;  // in f64
     for (const ProjectionTiming& timing : timings.projections) {
         result[timing.is_baseline() ? "yardsticks" : "results"].push_back(json_of(timing));
-        if (timing == ProjectionKind{"plain", "f64", 1}) plain_f64_step_ms = timing.ms_step.median;
+        if (timing == ProjectionKind{"plain", "f64", 1}) plain_step_ms = timing.ms_step.median;
+        if (timing == ProjectionKind{"plain_spread", "f64", 1}) plain_spread_step_ms = timing.ms_step.median;
     }
     for (const SkinningTiming& timing : timings.skinning) result["skinning"].push_back(json_of(timing));
-    if (timings.fem) result["fem"].push_back(json_of(*timings.fem, plain_f64_step_ms));
+    if (timings.fem) result["fem"].push_back(json_of(*timings.fem, plain_step_ms, plain_spread_step_ms));
+    for (const DeformerTiming& timing : timings.deformers) result["deformers"].push_back(json_of(timing));
     if (!timings.fem_left_out.empty()) result["fem_left_out"] = timings.fem_left_out;
     return result;
 }

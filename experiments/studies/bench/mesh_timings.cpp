@@ -13,8 +13,9 @@
 namespace experiments {
 namespace {
 
-constexpr int most_fem_tets = 150'000;  // for the reference, whose first solve takes seconds there
-constexpr int further_frames = 5;       // per sample
+constexpr int most_fem_tets = 150'000;      // for the reference, whose first solve takes seconds there
+constexpr int most_deformer_tets = 30'000;  // for all deformers: the scalar ones take more than a tenth of a second per frame beyond
+constexpr int further_frames = 5;           // per sample
 
 constexpr double shortest_sample_s = 2e-4;  // several poses per sample, so that reading the clock does not count
 
@@ -130,6 +131,11 @@ MeshTimings time_mesh(const BenchBody& body, const MachineLimits& limits, const 
     Rounds rounds = options.rounds;
     rounds.seconds /= 4.0;
     timings.skinning = time_skinning(body, limits, rounds);
+    if (options.fem && timings.tets <= most_deformer_tets) {
+        Rounds of_a_kind = rounds;
+        of_a_kind.seconds /= 4.0;
+        timings.deformers = time_deformers(body, limits, of_a_kind);
+    }
     if (!options.fem || timings.tets > most_fem_tets) return timings;
     rounds.fewest = std::min(rounds.fewest, 2);
     rounds.most = std::min(rounds.most, 11);

@@ -1,6 +1,7 @@
 #include "experiments/studies/bench/step_loops.hpp"
 
 #include "experiments/studies/bench/plain_loops.hpp"
+#include "experiments/studies/shared/constraint_sequence.hpp"
 #include "pbs/geometry/module.hpp"
 #include "pbs/solver/batched/batched_projection.hpp"
 #include "pbs/solver/batched/pose_projection.hpp"
@@ -70,18 +71,6 @@ ProjectionVariant of_native_loops(const BenchBody& body, const char* name, pbs::
                      [] {},
                      [state] { return pbs::residuals_of(state->constraints, state->p, state->q); }};
     return variant;
-}
-
-// Neighbours in the list come from eight distant parts of the old list in turn.
-template <typename Constraint>
-std::vector<Constraint> spread(const std::vector<Constraint>& constraints)
-{
-    constexpr std::size_t parts = 8;
-    std::vector<Constraint> result;
-    const std::size_t length = (constraints.size() + parts - 1) / parts;
-    for (std::size_t i = 0; i < length; ++i)
-        for (std::size_t k = i; k < constraints.size(); k += length) result.push_back(constraints[k]);
-    return result;
 }
 
 template <typename Scalar>
@@ -166,8 +155,7 @@ void append(const BenchBody& body, const std::vector<int>& threads, std::vector<
     variants.push_back(of_order<Scalar>(body, "plain", pbs::Order::plain, 1));
     pbs::ConstraintSet<Scalar> constraints = bench_constraints<Scalar>(body);
     variants.push_back(of_native_loops<Scalar>(body, "plain_native", constraints));
-    constraints.stretch = spread(constraints.stretch);
-    constraints.volume = spread(constraints.volume);
+    in_spread_sequence(constraints);
     variants.push_back(of_native_loops<Scalar>(body, "plain_spread", std::move(constraints)));
     for (const int count : threads) {
         variants.push_back(of_order<Scalar>(body, "ordered", pbs::Order::ordered, count));

@@ -1,6 +1,5 @@
 #include "experiments/studies/ensemble/ensemble.hpp"
 
-#include "experiments/deformers/fem/fem_option_names.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/scene/motion_case.hpp"
 #include "experiments/settings/option_fields.hpp"
@@ -8,17 +7,6 @@
 #include "analysis/frame_metrics.hpp"
 
 #include <algorithm>
-
-namespace analysis {
-
-template <>
-struct EnumNames<PairDecision> {
-    static constexpr std::array<std::pair<PairDecision, const char*>, 3> table{{{PairDecision::decided, "decided"},
-                                                                                {PairDecision::reference_error, "reference_error"},
-                                                                                {PairDecision::models_disagree, "models_disagree"}}};
-};
-
-}  // namespace analysis
 
 namespace experiments {
 namespace {
@@ -31,18 +19,6 @@ const Columns<CaseKey> case_columns = {{"body", &CaseKey::body, "", "name of the
                                        {"motion", &CaseKey::motion, "", "twist, bend, or the name of a clip"},
                                        {"pose", &CaseKey::pose, "", "name of a pose in a clip"},
                                        {"angle_deg", &CaseKey::angle_deg, "deg", "angle of a joint that is twisted or bent"}};
-
-DeformerSpec flesh_of(const EnsembleCase& of, const EnsembleMember& member)
-{
-    DeformerSpec flesh = of.flesh;
-    auto& options = options_of<FemOptions>(flesh);
-    options.attachment = FemAttachment::smooth;
-    options.spring_factor = member.spring_factor;
-    options.core_radius = member.core_radius;
-    options.poisson = member.poisson;
-    options.formulation = member.formulation;
-    return flesh;
-}
 
 struct DeformedShape {
     std::string deformer;
@@ -195,28 +171,6 @@ const Columns<PairRow> pair_columns =
         {"second_is_closer", &PairRow::second_is_closer, "", "members for which the second is"},
         {"decision", &PairRow::decision, "", "decided, reference_error (a member does not decide or was not reached) or models_disagree"}};
 
-std::vector<EnsembleMember> family()
-{
-    return {{.name = "smooth"},
-            {.name = "stiffer_springs", .spring_factor = 100.0},
-            {.name = "thinner_bones", .core_radius = 0.5},
-            {.name = "stiffer_springs_thinner_bones", .spring_factor = 100.0, .core_radius = 0.5},
-            {.name = "nu_0.3", .poisson = 0.3},
-            {.name = "nu_0.49", .poisson = 0.49, .formulation = reference_fem::Formulation::mean_dilatation}};
-}
-
-nlohmann::json to_json(const EnsembleMember& member)
-{
-    static const auto fields = OptionFields<EnsembleMember>("member")
-                                   .record("name", &EnsembleMember::name)
-                                   .record("spring_factor", &EnsembleMember::spring_factor)
-                                   .record("core_radius", &EnsembleMember::core_radius)
-                                   .record("poisson", &EnsembleMember::poisson)
-                                   .record("formulation", &EnsembleMember::formulation)
-                                   .complete();
-    return fields.json(member);
-}
-
 nlohmann::json to_json(const EnsembleCase& of)
 {
     static const auto fields = OptionFields<EnsembleCase>("ensemble")
@@ -240,7 +194,7 @@ EnsembleRecords measure_ensemble(const EnsembleCase& of)
     const std::vector<DeformedShape> shapes = deformed(of, character, motion, pose, records.breakdown);
     Ordering ordering(shapes);
     for (const EnsembleMember& member : of.members) {
-        const PosedReference reference(character, flesh_of(of, member), pose, motion.time_step_s);
+        const PosedReference reference(character, flesh_of(of.flesh, member), pose, motion.time_step_s);
         records.members.push_back(member_row(of, member, reference, metrics));
         ordering.add(reference);
         if (!reference.is_reached()) continue;

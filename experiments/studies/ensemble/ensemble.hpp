@@ -9,18 +9,11 @@
 #include "analysis/pair_order.hpp"
 #include "analysis/records/typed_table.hpp"
 #include "experiments/studies/shared/posed_reference.hpp"
+#include "experiments/studies/shared/reference_family.hpp"
 
-#include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/scene/scene.hpp"
 
 namespace experiments {
-
-struct EnsembleMember {
-    std::string name;  // smooth, stiffer_springs, ...
-    double spring_factor = 10.0, core_radius = 0.7, poisson = 0.45;
-    reference_fem::Formulation formulation = reference_fem::Formulation::displacement;
-};
-nlohmann::json to_json(const EnsembleMember& member);
 
 struct EnsembleCase {
     analysis::CaseKey of;  // body, motion, and the pose or the angle
@@ -31,9 +24,6 @@ struct EnsembleCase {
     std::vector<DeformerSpec> deformers;  // that are ordered
 };
 nlohmann::json to_json(const EnsembleCase& of);
-
-// The family: q 10 and 100 with a core radius of 0.5 and 0.7; and, with 10 and 0.7, Poisson's ratio 0.3 and (with mean dilatation) 0.49.
-std::vector<EnsembleMember> family();
 
 struct MemberRow {
     analysis::CaseKey of;

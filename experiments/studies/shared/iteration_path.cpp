@@ -16,51 +16,13 @@ namespace experiments {
 namespace {
 
 template <typename Scalar>
-class IteratedProjection {
-public:
-    IteratedProjection(const pbs::Character& character, const pbs::PbsOptions& options)
-        : projection_(pbs::make_projection<Scalar>(
-              pbs::make_constraint_set<Scalar>(character.mesh, character.binding.distance, {}, options), character.mesh.tets, options))
-    {
-    }
-
-    IterationPath follow(const pbs::Positions& start, const pbs::Positions& bind_points, const std::vector<int>& looks,
-                         const IterationMetrics& iteration_metrics)
-    {
-        IterationPath path{{}, start, true};
-        const pbs::Vec3 origin = pbs::local_origin<Scalar>(start);
-        projection_->load(start, bind_points, origin);
-        int iteration = 0;
-        double seconds = 0.0;
-        for (const int look : looks) {
-            stop_if_interrupted();
-            const double start_s = process_cpu_s();
-            for (; iteration < look; ++iteration) {
-                projection_->project_bind_constraints();     // (11)
-                projection_->project_stretch_constraints();  // (12)
-                projection_->project_volume_constraints();   // (13)
-            }
-            seconds += process_cpu_s() - start_s;
-            if (look > 0) projection_->store(origin, path.last);
-            path.finite = path.last.allFinite();
-            path.looks.push_back(iteration_metrics.measure(look, path.last));
-            if (!path.finite) break;
-        }
-        path.iteration_ms = 1e3 * seconds / std::max(iteration, 1);
-        return path;
-    }
-
-private:
-    std::unique_ptr<pbs::Projection<Scalar>> projection_;
-};
-
-template <typename Scalar>
 std::vector<IterationPath> iterate_in(const pbs::Character& character, const pbs::PbsOptions& options, const pbs::Positions& bind_points,
                                       const std::vector<pbs::Positions>& starts, int most, const IterationMetrics& iteration_metrics)
 {
-    IteratedProjection<Scalar> projection(character, options);
+    const auto projection = pbs::make_projection<Scalar>(
+        pbs::make_constraint_set<Scalar>(character.mesh, character.binding.distance, {}, options), character.mesh.tets, options);
     std::vector<IterationPath> paths;
-    for (const pbs::Positions& start : starts) paths.push_back(projection.follow(start, bind_points, looked_at(most), iteration_metrics));
+    for (const pbs::Positions& start : starts) paths.push_back(follow(*projection, start, bind_points, most, iteration_metrics));
     return paths;
 }
 
@@ -112,6 +74,36 @@ std::vector<int> looked_at(int most)
     looks.push_back(most);
     return looks;
 }
+
+template <typename Scalar>
+IterationPath follow(pbs::Projection<Scalar>& projection, const pbs::Positions& start, const pbs::Positions& bind_points, int most,
+                     const IterationMetrics& iteration_metrics)
+{
+    IterationPath path{{}, start, true};
+    const pbs::Vec3 origin = pbs::local_origin<Scalar>(start);
+    projection.load(start, bind_points, origin);
+    int iteration = 0;
+    double seconds = 0.0;
+    for (const int look : looked_at(most)) {
+        stop_if_interrupted();
+        const double start_s = process_cpu_s();
+        for (; iteration < look; ++iteration) {
+            projection.project_bind_constraints();     // (11)
+            projection.project_stretch_constraints();  // (12)
+            projection.project_volume_constraints();   // (13)
+        }
+        seconds += process_cpu_s() - start_s;
+        if (look > 0) projection.store(origin, path.last);
+        path.finite = path.last.allFinite();
+        path.looks.push_back(iteration_metrics.measure(look, path.last));
+        if (!path.finite) break;
+    }
+    path.iteration_ms = 1e3 * seconds / std::max(iteration, 1);
+    return path;
+}
+
+template IterationPath follow(pbs::Projection<float>&, const pbs::Positions&, const pbs::Positions&, int, const IterationMetrics&);
+template IterationPath follow(pbs::Projection<double>&, const pbs::Positions&, const pbs::Positions&, int, const IterationMetrics&);
 
 std::vector<IterationPath> iterate(const pbs::Character& character, const pbs::PbsOptions& options, const pbs::Positions& bind_points,
                                    const std::vector<pbs::Positions>& starts, int most, const IterationMetrics& iteration_metrics)

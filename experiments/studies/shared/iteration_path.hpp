@@ -15,6 +15,7 @@
 #include "analysis/frame_metrics.hpp"
 #include "pbs/character/character.hpp"
 #include "pbs/solver/options.hpp"
+#include "pbs/solver/projection.hpp"
 
 #include <optional>
 #include <vector>
@@ -61,6 +62,11 @@ std::vector<int> looked_at(int most);
 // One path per initial guess. options.iterations and options.jiggle are ignored.
 std::vector<IterationPath> iterate(const pbs::Character& character, const pbs::PbsOptions& options, const pbs::Positions& bind_points,
                                    const std::vector<pbs::Positions>& starts, int most, const IterationMetrics& iteration_metrics);
+
+// The path of one initial guess by a projection of the caller's, for example of constraints in a sequence of his own.
+template <typename Scalar>
+IterationPath follow(pbs::Projection<Scalar>& projection, const pbs::Positions& start, const pbs::Positions& bind_points, int most,
+                     const IterationMetrics& iteration_metrics);
 
 inline constexpr double residual_tolerance = 0.05;  // of the floor
 inline constexpr double satisfied_residual = 1e-4;

@@ -17,7 +17,9 @@ struct Compared {
     const char* kind;
     bool minimises;
 };
-constexpr Compared compared[] = {{"quasi_newton", true}, {"vbd", true}};
+constexpr Compared compared[] = {{"quasi_newton", true},        {"vbd", true},         {"xpbd_neo_hookean", true},
+                                 {"projective_dynamics", true}, {"delta_mush", false}, {"direct_delta_mush", false},
+                                 {"pbs_author", false}};
 
 // The deformer with one key of its table set, as a scene would set it.
 DeformerSpec with_setting(const std::string& kind, const std::string& key, double value)

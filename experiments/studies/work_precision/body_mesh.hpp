@@ -26,6 +26,7 @@ public:
     static BodyMesh refined(const pbs::Character& base);
 
     const pbs::Character& character() const { return *character_; }
+    bool has_base_vertices() const { return !points_; }  // its first vertices are those of the base: nothing has to be transferred
     // The positions of the base's vertices [m], #V_base x 3, from those of its own vertices, #V x 3.
     pbs::Positions on_base(const pbs::Positions& positions) const;
     // The largest distance of a vertex of the base from its tets [m].

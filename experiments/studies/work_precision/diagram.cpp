@@ -1,36 +1,50 @@
 #include "experiments/studies/work_precision/diagram.hpp"
 
-#include "experiments/deformers/registry.hpp"
-#include "experiments/studies/work_precision/point_setting.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <limits>
-#include <stdexcept>
 
 namespace experiments {
 namespace {
 
 constexpr std::size_t fewest_for_a_mean = 3;
 
+void add_members(Diagram& diagram, const std::vector<FamilyRow>& members)
+{
+    const std::vector<EnsembleMember> all = family();
+    for (const FamilyRow& row : members) {
+        const auto place = std::ranges::find(all, row.member.name, &EnsembleMember::name) - all.begin();
+        diagram.members.at(place - 1) = {true, row.outcome == "reached" ? row.error_bound_pct : std::nullopt};
+    }
+}
+
+bool is_chosen(const std::vector<ChosenSetting>& chosen, Comparison comparison, const SettingKey& key)
+{
+    return std::ranges::any_of(chosen, [&](const auto& one) { return one.comparison == comparison && one.key == key; });
+}
+
 // One pose of one body.
-Diagram diagram_of(const std::vector<PointRow>& rows)
+Diagram diagram_of(const CaseRecords& records, Comparison comparison, const std::vector<ChosenSetting>& chosen)
 {
     Diagram diagram;
-    diagram.pose = rows.front().of;
+    diagram.comparison = comparison;
+    diagram.half = records.rows.front().half;
+    diagram.pose = records.rows.front().of;
     diagram.key = case_name(diagram.pose);
     diagram.name = text_of(diagram.pose);
-    for (const PointRow& row : rows) {
+    add_members(diagram, records.members);
+    for (const PointRow& row : records.rows) {
         if (row.outcome == "reference") {
             diagram.reference = text_of(row.key);
             diagram.reference_ms = row.reach_ms;
             diagram.reference_error_pct = row.reference_error_joint_pct;
             diagram.masked_share_pct = row.masked_share_pct.value_or(0.0);
         }
-        if (row.ms_median && row.error)
+        if (row.ms_median && row.error && is_chosen(chosen, comparison, row.key))
             diagram.points.push_back({row.key, *row.ms_median, row.ms_q1, row.ms_q3, row.error->joint_pct, row.error->l2_pct,
-                                      row.error->linf_m, row.metrics.volume_abs_change_pct, row.below_reference_error.value_or(false)});
+                                      row.error->linf_m, row.metrics ? std::optional(row.metrics->volume_abs_change_pct) : std::nullopt,
+                                      row.below_reference_error.value_or(false), row.members});
     }
     return diagram;
 }
@@ -52,6 +66,7 @@ std::optional<DiagramPoint> mean_of(const std::vector<Diagram>& poses, const Dia
                                                                      &DiagramPoint::linf_m, &DiagramPoint::volume_abs_change_pct};
     DiagramPoint mean{setting.key};
     for (const auto value : known_or_not) mean.*value = 0.0;
+    mean.members.fill(0.0);
     const double share = 1.0 / double(poses.size());
     for (const Diagram& pose : poses) {
         const auto same = [&](const DiagramPoint& point) { return point.key == setting.key; };
@@ -63,15 +78,35 @@ std::optional<DiagramPoint> mean_of(const std::vector<Diagram>& poses, const Dia
             const std::optional<double>& more = (*found).*value;
             sum = sum && more ? std::optional(*sum + share * *more) : std::nullopt;
         }
+        for (std::size_t m = 0; m < mean.members.size(); ++m) {
+            const std::optional<double>& more = found->members[m];
+            std::optional<double>& sum = mean.members[m];
+            sum = sum && more ? std::optional(*sum + share * *more) : std::nullopt;
+        }
     }
     return mean;
 }
 
-Diagram mean_diagram(const std::string& what, const std::string& over, const std::vector<Diagram>& poses)
+// A further reference takes part in a mean if it takes part in each pose.
+DiagramMember mean_member(const std::vector<Diagram>& poses, std::size_t place)
+{
+    DiagramMember mean{true, 0.0};
+    for (const Diagram& pose : poses) {
+        const DiagramMember& one = pose.members[place];
+        mean.takes_part = mean.takes_part && one.takes_part;
+        mean.bound_pct =
+            mean.bound_pct && one.bound_pct ? std::optional(*mean.bound_pct + *one.bound_pct / double(poses.size())) : std::nullopt;
+    }
+    return mean;
+}
+
+Diagram mean_diagram(const std::string& key, const std::string& name, const std::vector<Diagram>& poses)
 {
     Diagram mean;
-    mean.key = fmt::format("{}_mean_of_{}_{}", what, poses.size(), over);
-    mean.name = fmt::format("{}, mean of {} {}", what, poses.size(), over);
+    mean.comparison = poses.front().comparison;
+    mean.key = key;
+    mean.name = name;
+    for (std::size_t m = 0; m < mean.members.size(); ++m) mean.members[m] = mean_member(poses, m);
     mean.poses = static_cast<int>(poses.size());
     for (const Diagram& pose : poses) mean.masked_share_pct += pose.masked_share_pct / double(poses.size());
     const bool same = std::all_of(poses.begin(), poses.end(), [&](const Diagram& pose) { return pose.reference == poses[0].reference; });
@@ -125,35 +160,31 @@ std::vector<analysis::WorkPrecision> Diagram::of(const std::vector<std::string>&
     return chosen;
 }
 
-std::vector<Diagram> diagrams_of(const std::vector<std::vector<PointRow>>& points)
+std::vector<Diagram> diagrams_of(const std::vector<CaseRecords>& cases, const std::vector<ChosenSetting>& chosen)
 {
     std::vector<Diagram> diagrams;
-    std::vector<Family> bodies, poses;  // in the order of the records
-    for (const std::vector<PointRow>& rows : points) {
-        if (rows.empty()) continue;
-        diagrams.push_back(diagram_of(rows));
-        if (diagrams.back().reference.empty()) continue;
-        const analysis::CaseKey of = diagrams.back().pose;
-        add_to(bodies, of.body, diagrams.back());
-        if (!of.pose.empty()) add_to(poses, of.pose, diagrams.back());
+    for (const Comparison comparison : comparisons) {
+        std::vector<Family> bodies, poses;  // in the order of the records
+        std::vector<Diagram> evaluated;
+        for (const CaseRecords& records : cases) {
+            if (records.rows.empty()) continue;
+            const Diagram diagram = diagram_of(records, comparison, chosen);
+            diagrams.push_back(diagram);
+            if (diagram.reference.empty() || diagram.half == Half::training) continue;
+            evaluated.push_back(diagram);
+            add_to(bodies, diagram.pose.body, diagram);
+            if (!diagram.pose.pose.empty()) add_to(poses, diagram.pose.pose, diagram);
+        }
+        for (const auto& [over, families] : {std::pair{"poses", bodies}, {"bodies", poses}})
+            for (const auto& [name, of] : families)
+                if (of.size() >= fewest_for_a_mean)
+                    diagrams.push_back(mean_diagram(fmt::format("{}_mean_of_{}_{}", name, of.size(), over),
+                                                    fmt::format("{}, mean of {} {}", name, of.size(), over), of));
+        if (evaluated.size() > 1)
+            diagrams.push_back(mean_diagram(fmt::format("mean_of_{}_evaluated_poses", evaluated.size()),
+                                            fmt::format("mean of the {} evaluated poses", evaluated.size()), evaluated));
     }
-    for (const auto& [over, families] : {std::pair{"poses", bodies}, {"bodies", poses}})
-        for (const auto& [name, of] : families)
-            if (of.size() >= fewest_for_a_mean) diagrams.push_back(mean_diagram(name, over, of));
     return diagrams;
-}
-
-std::vector<DiagramPoint> budgets_of(const Diagram& diagram)
-{
-    std::vector<DiagramPoint> budgets;
-    for (const int iterations : {1, 4, 24, 96}) {
-        PointSetting setting{"pbs", default_spec("pbs")};
-        options_of<pbs::PbsOptions>(setting.spec).iterations = iterations;
-        const SettingKey key = key_of(setting);
-        for (const DiagramPoint& point : diagram.points)
-            if (point.key == key) budgets.push_back(point);
-    }
-    return budgets;
 }
 
 const DiagramPoint* best_of(const Diagram& diagram, const DeformerGroup& group, double budget_ms)
@@ -161,33 +192,6 @@ const DiagramPoint* best_of(const Diagram& diagram, const DeformerGroup& group, 
     std::vector<std::size_t> indices;
     const auto best = analysis::best_within(diagram.of(group.deformers, indices), budget_ms);
     return best ? &diagram.points[indices[*best]] : nullptr;
-}
-
-const std::vector<DeformerGroup>& deformer_groups()
-{
-    static const std::vector<DeformerGroup> groups = {{"lbs", "LBS", {"lbs"}},
-                                                      {"dqs", "DQS", {"dqs"}},
-                                                      {"delta_mush", "delta mush", {"delta_mush"}},
-                                                      {"pbs", "PBS", {"pbs"}},
-                                                      {"pbs_exponent", "PBS with exponent", {"pbs_exponent"}},
-                                                      {"xpbd", "XPBD", {"xpbd", "xpbd_small_steps"}},
-                                                      {"linear_fem", "linear FEM", {"fem_linear"}},
-                                                      {"nonlinear_fem", "nonlinear FEM", {"fem_corotational", "fem_neo_hookean"}}};
-    return groups;
-}
-
-const DeformerGroup& group_of(const std::string& deformer)
-{
-    for (const DeformerGroup& group : deformer_groups())
-        if (std::count(group.deformers.begin(), group.deformers.end(), deformer)) return group;
-    throw std::logic_error("a deformer of no group: " + deformer);
-}
-
-const DeformerGroup& group_named(const std::string& key)
-{
-    for (const DeformerGroup& group : deformer_groups())
-        if (group.key == key) return group;
-    throw std::logic_error("no group of deformers: " + key);
 }
 
 }  // namespace experiments

@@ -1,12 +1,13 @@
-// Work-precision diagrams from the recorded points. There is one per pose. There is also one of the mean over the poses of a body, if these
-// are three or more (the limb is one body, twisted or bent); it shows what a setting is worth that is not chosen anew for each pose.
-// Likewise there is one of the mean over the bodies in a pose, if these are three or more.
-//   for (const Diagram& diagram : diagrams_of({points_of_a, points_of_b})) ...
+// Work-precision diagrams from the recorded points: one per comparison and pose, with the settings that were chosen on other poses. There
+// is also one of the mean over the evaluated poses of a body, if these are three or more (the limb is one body, twisted or bent), one of
+// the mean over the bodies in a pose, if these are three or more, and one of the mean over all evaluated poses.
+//   for (const Diagram& diagram : diagrams_of(cases, choose_settings(rows_of(cases)))) ...
 // The recorded error of a point is error_joint_pct: the root mean square over the blended vertices, over their mean distance to the bone.
 #pragma once
 
 #include "analysis/pareto_front.hpp"
-#include "experiments/studies/work_precision/point_row.hpp"
+#include "experiments/studies/work_precision/chosen_settings.hpp"
+#include "experiments/studies/work_precision/deformer_groups.hpp"
 
 #include <optional>
 #include <string>
@@ -21,6 +22,7 @@ struct DiagramPoint {
     double error_pct = 0.0;
     std::optional<double> l2_pct = {}, linf_m = {}, volume_abs_change_pct = {};
     bool below_reference_error = false;
+    MemberErrors members = {};  // against the further references
 };
 
 // The measures of fronts, named as the points' columns: error_joint_pct, which all sentences use, error_l2_pct, error_linf_m and
@@ -28,7 +30,15 @@ struct DiagramPoint {
 const analysis::Columns<DiagramPoint>& measures();
 double value_of(const DiagramPoint& point, const std::string& measure);  // not a number where it is not recorded
 
+// A further reference in a diagram.
+struct DiagramMember {
+    bool takes_part = false;
+    std::optional<double> bound_pct = {};
+};
+
 struct Diagram {
+    Comparison comparison = Comparison::packed_f32;
+    Half half = Half::evaluation;
     analysis::CaseKey pose;                     // of one case; a mean of several has none
     std::string key;                            // limb_twist_90, or limb_mean_of_4_poses
     std::string name;                           // for readers: limb, twist, 90 deg
@@ -36,7 +46,8 @@ struct Diagram {
     std::string reference;                      // its name for readers; empty: none was reached
     std::optional<double> reference_ms;         // wall time of its solutions
     std::optional<double> reference_error_pct;  // bound at the joints
-    double masked_share_pct = 0.0;              // of the volume, which overlaps itself and is left out
+    std::array<DiagramMember, 5> members = {};
+    double masked_share_pct = 0.0;  // of the volume, which overlaps itself and is left out
     int poses = 1;
 
     // The points of these deformers with their cost and measure. indices[k] is the place of the k-th in `points`.
@@ -44,20 +55,14 @@ struct Diagram {
                                             const std::string& measure = "error_joint_pct") const;
 };
 
-// The times and errors of a mean are means over the poses. It has those settings that have an error in each pose.
-std::vector<Diagram> diagrams_of(const std::vector<std::vector<PointRow>>& points);
-
-// The points of PBS with 1, 4, 24 and 96 iterations and defaults otherwise. Their times are the budgets of the other deformers.
-std::vector<DiagramPoint> budgets_of(const Diagram& diagram);
-
-// Deformers that are one entry in sentences and tables.
-struct DeformerGroup {
-    std::string key, words;  // linear_fem, linear FEM
-    std::vector<std::string> deformers;
+struct CaseRecords {
+    CaseRows rows;
+    std::vector<FamilyRow> members = {};
 };
-const std::vector<DeformerGroup>& deformer_groups();
-const DeformerGroup& group_of(const std::string& deformer);
-const DeformerGroup& group_named(const std::string& key);
+
+// Of all cases, the training ones too, and of the means, which are of evaluated poses alone. The times and errors of a mean are means over
+// the poses. It has those settings that have an error in each pose.
+std::vector<Diagram> diagrams_of(const std::vector<CaseRecords>& cases, const std::vector<ChosenSetting>& chosen);
 
 // The best of the group's points within a budget of time. Null where none is as fast.
 const DiagramPoint* best_of(const Diagram& diagram, const DeformerGroup& group, double budget_ms);

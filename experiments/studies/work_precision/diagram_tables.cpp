@@ -1,9 +1,6 @@
 #include "experiments/studies/work_precision/diagram_tables.hpp"
 
-#include "experiments/studies/work_precision/certainty.hpp"
-
-#include <fmt/format.h>
-
+#include <algorithm>
 #include <cmath>
 
 namespace experiments {
@@ -22,31 +19,44 @@ const Columns<DiagramPoint> point_error_columns = {measures().front()};
 const Columns<DiagramPoint> below_columns = {
     {"below_reference_error", &DiagramPoint::below_reference_error, "", "the error is not above the reference's own bound"}};
 
+const char* const comparison_meaning = "packed_f32 or plain_f64";
+const char* const decision_meaning = "decided, reference_error (a reference does not decide) or models_disagree";
+
 struct FrontRow {
+    Comparison comparison;
     std::string diagram, measure, front;
     DiagramPoint point;
     double value = 0.0;
     std::optional<double> reference_error_pct;
+    std::optional<analysis::PairDecision> decision = {};
+    std::string reason = {};
 };
 const Columns<FrontRow> front_columns =
-    Columns<FrontRow>{{"case", &FrontRow::diagram, "", "name of the case's run, or of the mean over several"},
+    Columns<FrontRow>{{"comparison", &FrontRow::comparison, "", comparison_meaning},
+                      {"case", &FrontRow::diagram, "", "name of the case's run, or of the mean over several"},
                       {"measure", &FrontRow::measure, "", "what the front is the best of: a column of points.csv"},
                       {"front", &FrontRow::front, "", "whose front it is: a deformer's, or all"}} +
     within(&FrontRow::point, timed_columns + quartile_columns) +
     Columns<FrontRow>{{"value", &FrontRow::value, "", "the point's value of the measure, in the measure's unit"}} +
     within(&FrontRow::point, point_error_columns + below_columns) +
     Columns<FrontRow>{
-        {"reference_error_joint_pct", &FrontRow::reference_error_pct, "%", "bound of the reference's own error at the joints"}};
+        {"reference_error_joint_pct", &FrontRow::reference_error_pct, "%", "bound of the reference's own error at the joints"},
+        {"decision", &FrontRow::decision, "",
+         std::string("whether it is nearer than any other group within its time: ") + decision_meaning},
+        {"reason", &FrontRow::reason, "", "why it is not decided, for readers"}};
 
 struct CrossingRow {
+    Comparison comparison;
     std::string diagram, deformer, other, outcome = "never";
     std::optional<double> from_ms = {}, from_ms_q1 = {}, from_ms_q3 = {};
     std::optional<SettingKey> setting = {};
     std::optional<double> error_pct = {}, other_error_pct = {}, reference_error_pct = {};
-    std::optional<bool> decided = {};
+    std::optional<analysis::PairDecision> decision = {};
+    std::string reason = {};
 };
 const Columns<CrossingRow> crossing_columns =
-    Columns<CrossingRow>{{"case", &CrossingRow::diagram, "", "name of the case's run, or of the mean over several"},
+    Columns<CrossingRow>{{"comparison", &CrossingRow::comparison, "", comparison_meaning},
+                         {"case", &CrossingRow::diagram, "", "name of the case's run, or of the mean over several"},
                          {"deformer", &CrossingRow::deformer, "", "key of a group of deformers"},
                          {"other", &CrossingRow::other, "", "another group"},
                          {"outcome", &CrossingRow::outcome, "",
@@ -59,17 +69,20 @@ const Columns<CrossingRow> crossing_columns =
         {"error_joint_pct", &CrossingRow::error_pct, "%", "error of that point"},
         {"other_error_joint_pct", &CrossingRow::other_error_pct, "%", "least error of the other group within that time"},
         {"reference_error_joint_pct", &CrossingRow::reference_error_pct, "%", "bound of the reference's own error at the joints"},
-        {"decided", &CrossingRow::decided, "", "the two errors differ by more than twice that bound, from that time on"}};
+        {"decision", &CrossingRow::decision, "", std::string("the worst from that time on: ") + decision_meaning},
+        {"reason", &CrossingRow::reason, "", "why it is not decided, for readers"}};
 
 }  // namespace
 
 const Columns<BudgetRow> budget_columns =
-    Columns<BudgetRow>{
-        {"case", &BudgetRow::diagram, "", "name of the case's run, or of the mean over several"},
-        {"budget_iterations", &BudgetRow::budget_iterations, "", "PBS with its defaults and these iterations has the budget"},
-        {"budget_ms", &BudgetRow::budget_ms, "ms", "that time per frame"},
-        {"group", &BudgetRow::group, "", "key of a group of deformers"}} +
-    within(&BudgetRow::point, timed_columns + point_error_columns);
+    Columns<BudgetRow>{{"comparison", &BudgetRow::comparison, "", comparison_meaning},
+                       {"case", &BudgetRow::diagram, "", "name of the case's run, or of the mean over several"},
+                       {"budget_ms", &BudgetRow::budget_ms, "ms", "time per frame"},
+                       {"rank", &BudgetRow::rank, "", "1: the group that is nearest to the reference within the budget"},
+                       {"group", &BudgetRow::group, "", "key of a group of deformers"}} +
+    within(&BudgetRow::point, timed_columns + point_error_columns) +
+    Columns<BudgetRow>{{"decision", &BudgetRow::decision, "", std::string("whether it is nearer than the next group: ") + decision_meaning},
+                       {"reason", &BudgetRow::reason, "", "why it is not decided, for readers"}};
 
 namespace {
 
@@ -77,6 +90,8 @@ std::optional<double> known(double value)
 {
     return std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
+
+const std::string all_name = "all";
 
 std::vector<std::string> all_deformers()
 {
@@ -91,7 +106,13 @@ void add_front(std::vector<FrontRow>& rows, const Diagram& diagram, const std::s
     std::vector<std::size_t> indices;
     for (const std::size_t on_front : analysis::pareto_front(diagram.of(deformers, indices, measure))) {
         const DiagramPoint& point = diagram.points[indices[on_front]];
-        rows.push_back({diagram.key, measure, name, point, value_of(point, measure), diagram.reference_error_pct});
+        FrontRow& row = rows.emplace_back(
+            FrontRow{diagram.comparison, diagram.key, measure, name, point, value_of(point, measure), diagram.reference_error_pct});
+        if (name != all_name || measure != measures().front().name) continue;
+        const std::vector<BudgetRow> ranked = best_within(diagram, point.ms);
+        if (ranked.size() < 2) continue;
+        row.decision = ranked.front().decision;
+        row.reason = ranked.front().reason;
     }
 }
 
@@ -100,7 +121,7 @@ void add_crossing(std::vector<CrossingRow>& rows, const Diagram& diagram, const 
     std::vector<std::size_t> of_one, of_other;
     const auto ones = diagram.of(one.deformers, of_one), others = diagram.of(other.deformers, of_other);
     if (ones.empty() || others.empty()) return;
-    CrossingRow& row = rows.emplace_back(CrossingRow{diagram.key, one.key, other.key});
+    CrossingRow& row = rows.emplace_back(CrossingRow{diagram.comparison, diagram.key, one.key, other.key});
     row.reference_error_pct = diagram.reference_error_pct;
     const auto crossing = analysis::nearer_from(ones, others);
     if (!crossing) return;
@@ -112,7 +133,10 @@ void add_crossing(std::vector<CrossingRow>& rows, const Diagram& diagram, const 
     row.setting = point.key;
     row.error_pct = point.error_pct;
     row.other_error_pct = known(crossing->other_error);
-    row.decided = is_certain_from(diagram, one, other, crossing->from);
+    const std::optional<Decision> decision = decision_from(diagram, one, other, crossing->from);
+    if (!decision) return;
+    row.decision = decision->decision;
+    row.reason = decision->reason;
 }
 
 }  // namespace
@@ -122,7 +146,7 @@ analysis::CsvTable fronts_table(const std::vector<Diagram>& diagrams)
     std::vector<FrontRow> rows;
     for (const Diagram& diagram : diagrams)
         for (const std::string& measure : measures().names()) {
-            add_front(rows, diagram, measure, "all", all_deformers());
+            add_front(rows, diagram, measure, all_name, all_deformers());
             for (const std::string& deformer : all_deformers()) add_front(rows, diagram, measure, deformer, {deformer});
         }
     return table_of(front_columns, rows);
@@ -138,14 +162,30 @@ analysis::CsvTable crossings_table(const std::vector<Diagram>& diagrams)
     return table_of(crossing_columns, rows);
 }
 
-std::vector<BudgetRow> equal_cost(const std::vector<Diagram>& diagrams)
+std::vector<BudgetRow> best_within(const Diagram& diagram, double budget_ms)
+{
+    std::vector<BudgetRow> rows;
+    for (const DeformerGroup& group : deformer_groups())
+        if (const DiagramPoint* point = best_of(diagram, group, budget_ms))
+            rows.push_back({diagram.comparison, diagram.key, budget_ms, 0, group.key, *point});
+    std::ranges::stable_sort(rows, {}, [](const BudgetRow& row) { return row.point.error_pct; });
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        rows[i].rank = static_cast<int>(i + 1);
+        if (i + 1 == rows.size()) break;
+        const Decision decision = decision_on(diagram, rows[i].point, rows[i + 1].point);
+        rows[i].decision = decision.decision;
+        rows[i].reason = decision.reason;
+    }
+    return rows;
+}
+
+std::vector<BudgetRow> best_within(const std::vector<Diagram>& diagrams)
 {
     std::vector<BudgetRow> rows;
     for (const Diagram& diagram : diagrams)
-        for (const DiagramPoint& budget : budgets_of(diagram))
-            for (const DeformerGroup& group : deformer_groups())
-                if (const DiagramPoint* point = best_of(diagram, group, budget.ms))
-                    rows.push_back({diagram.key, budget.key.iterations, budget.ms, group.key, *point});
+        for (const double budget_ms : budgets_ms)
+            for (BudgetRow& row : best_within(diagram, budget_ms))
+                if (diagram.poses > 1 || row.rank <= ranks_of_a_pose) rows.push_back(std::move(row));
     return rows;
 }
 

@@ -1,30 +1,38 @@
-// The results of work-precision diagrams as tables: the fronts, which group of deformers is nearer from which time on, and how near
-// each group is at equal cost.
+// The results of work-precision diagrams as tables: the fronts, which group of deformers is nearer from which time on, and the best point
+// of each group within a time. Every order is marked as decided or with the reason why not (certainty.hpp).
 #pragma once
 
-#include "experiments/studies/work_precision/diagram.hpp"
+#include "experiments/studies/work_precision/certainty.hpp"
 
 namespace experiments {
 
 // fronts.csv: the Pareto front of all points of each diagram (front "all") and of each deformer's own points, by each measure. `value` is
-// that of the measure. The reference is not a candidate.
+// that of the measure. The reference is not a candidate. On the front of all by error_joint_pct, `decision` states whether the point is
+// nearer than the best point of any other group within its time.
 analysis::CsvTable fronts_table(const std::vector<Diagram>& diagrams);
 
 // crossings.csv: for each group of deformers and each other one, the time per frame [ms] from which on its best point is nearer to the
-// reference, with the quartiles of the point at which this happens. The outcome is always, from or never. The last column,
-// decided, holds for all times from there on at which both have points: the two errors differ by more than twice the bound of the
-// reference's own error (certainty.hpp).
+// reference, with the quartiles of the point at which this happens. The outcome is always, from or never. `decision` is the worst one at
+// all times from there on at which both have points.
 analysis::CsvTable crossings_table(const std::vector<Diagram>& diagrams);
 
-// equal_cost.csv: the best point of each group within the time of PBS with 1, 4, 24 and 96 iterations at the scene's k_stretch.
+inline constexpr int ranks_of_a_pose = 3;
+inline constexpr std::array<double, 5> budgets_ms = {0.1, 1.0, 3.0, 10.0, 100.0};
+
+// best_within.csv: the best point of each group within a budget, the nearest group first. `decision` is whether it is nearer than the next
+// group.
 struct BudgetRow {
+    Comparison comparison = Comparison::packed_f32;
     std::string diagram;
-    std::optional<int> budget_iterations;
     double budget_ms = 0.0;
+    int rank = 0;  // from 1
     std::string group;
     DiagramPoint point;
+    std::optional<analysis::PairDecision> decision = {};  // nothing: there is no next group
+    std::string reason = {};
 };
 extern const analysis::Columns<BudgetRow> budget_columns;
-std::vector<BudgetRow> equal_cost(const std::vector<Diagram>& diagrams);
+std::vector<BudgetRow> best_within(const Diagram& diagram, double budget_ms);
+std::vector<BudgetRow> best_within(const std::vector<Diagram>& diagrams);  // all budgets; of a single pose the first ranks alone
 
 }  // namespace experiments

@@ -1,6 +1,6 @@
 #include "experiments/studies/work_precision/findings.hpp"
 
-#include "experiments/studies/work_precision/certainty.hpp"
+#include "experiments/studies/work_precision/diagram_tables.hpp"
 
 #include <fmt/format.h>
 
@@ -10,11 +10,6 @@
 
 namespace experiments {
 namespace {
-
-std::string ms_text(double ms)
-{
-    return ms < 100.0 ? fmt::format("{:.2g} ms", ms) : fmt::format("{:.0f} ms", ms);
-}
 
 std::vector<const DiagramPoint*> front_of(const Diagram& diagram)
 {
@@ -47,7 +42,7 @@ std::string who_stays_behind(const Diagram& diagram, const DeformerGroup& one, c
     const double any_ms = std::numeric_limits<double>::infinity();
     const DiagramPoint *behind = best_of(diagram, one, any_ms), *nearer = best_of(diagram, other, any_ms);
     return fmt::format("{} does not remain nearer than {} at any time ({:.1f} and {:.1f} % at best){}", one.words, other.words,
-                       behind->error_pct, nearer->error_pct, remark_on(is_certain(diagram, *nearer, *behind), diagram));
+                       behind->error_pct, nearer->error_pct, decision_on(diagram, *nearer, *behind).remark());
 }
 
 std::string who_passes(const Diagram& diagram, const DeformerGroup& one, const DeformerGroup& other)
@@ -60,30 +55,38 @@ std::string who_passes(const Diagram& diagram, const DeformerGroup& one, const D
     const DiagramPoint& point = diagram.points[of_one[crossing->one]];
     const std::string when = crossing->from_the_start ? "at all times" : fmt::format("from {} on", ms_text(crossing->from));
     return fmt::format("{} is nearer than {} {} ({}: {:.1f} %){}", one.words, other.words, when, text_of(point.key), point.error_pct,
-                       remark_on(is_certain_from(diagram, one, other, crossing->from), diagram));
+                       decision_from(diagram, one, other, crossing->from).value_or(Decision{}).remark());
 }
 
-// Delta mush, which is pure geometry, against PBS and XPBD within the time of `whose`.
-std::string is_physics_worth_it(const Diagram& diagram, double budget_ms, const std::string& whose)
+// The nearest group within a budget, and the next one.
+std::string who_is_nearest(const Diagram& diagram, double budget_ms)
+{
+    const std::vector<BudgetRow> ranked = best_within(diagram, budget_ms);
+    if (ranked.empty()) return fmt::format("within {} per frame there is no deformer", ms_text(budget_ms));
+    const auto described = [](const BudgetRow& row) {
+        return fmt::format("{} ({}: {:.1f} %)", group_named(row.group).words, text_of(row.point.key), row.point.error_pct);
+    };
+    std::string text = fmt::format("within {} per frame {} is nearest", ms_text(budget_ms), described(ranked[0]));
+    if (ranked.size() == 1) return text + ", as the only one";
+    const Decision decision = decision_on(diagram, ranked[0].point, ranked[1].point);
+    text += fmt::format("; next is {}", described(ranked[1]));
+    return text + (decision.is_decided() ? fmt::format(" [decided by {} {}]", decision.references,
+                                                       decision.references == 1 ? "reference" : "references, which agree")
+                                         : decision.remark());
+}
+
+// Delta mush, which is pure geometry, against PBS and XPBD within a budget.
+std::string is_physics_worth_it(const Diagram& diagram, double budget_ms)
 {
     const DiagramPoint *mush = best_of(diagram, group_named("delta_mush"), budget_ms),
                        *pbs = best_of(diagram, group_named("pbs"), budget_ms), *xpbd = best_of(diagram, group_named("xpbd"), budget_ms);
-    const auto error = [](const DiagramPoint* point) { return point ? fmt::format("{:.1f} %", point->error_pct) : "none as fast"; };
-    std::string text = fmt::format("within the {} of {} the errors are: delta mush {}, PBS {}, XPBD {}", ms_text(budget_ms), whose,
-                                   error(mush), error(pbs), error(xpbd));
-    if (!mush || (!pbs && !xpbd)) return text;
+    if (!mush || (!pbs && !xpbd)) return "";
     const DiagramPoint& physics = pbs && (!xpbd || pbs->error_pct <= xpbd->error_pct) ? *pbs : *xpbd;
     const double gain_pct = 100.0 * (1.0 - physics.error_pct / mush->error_pct);
-    text += fmt::format("; the physics {} the error of geometry alone by {:.0f} %", gain_pct > 0.0 ? "reduces" : "increases",
-                        std::abs(gain_pct));
-    return text + remark_on(gain_pct > 0.0 ? is_certain(diagram, physics, *mush) : is_certain(diagram, *mush, physics), diagram);
-}
-
-// The same within the time of delta mush at its best, a setting that is chosen in hindsight.
-std::string is_physics_worth_it(const Diagram& diagram)
-{
-    const DiagramPoint* mush = best_of(diagram, group_named("delta_mush"), std::numeric_limits<double>::infinity());
-    return mush ? is_physics_worth_it(diagram, mush->ms, fmt::format("delta mush at its best ({})", text_of(mush->key))) : "";
+    const Decision decision = gain_pct > 0.0 ? decision_on(diagram, physics, *mush) : decision_on(diagram, *mush, physics);
+    return fmt::format("within {} the physics of {} {} the error of delta mush, geometry alone, by {:.0f} %{}", ms_text(budget_ms),
+                       group_of(physics.key.deformer).words, gain_pct > 0.0 ? "reduces" : "increases", std::abs(gain_pct),
+                       decision.remark());
 }
 
 std::string how_certain_the_reference_is(const Diagram& diagram)
@@ -100,8 +103,10 @@ std::string how_certain_the_reference_is(const Diagram& diagram)
 std::string what_refinement_does(const Diagram& diagram)
 {
     const auto with = [&](bool refined) {
-        const SettingKey key{.deformer = "fem_neo_hookean", .element_order = 1, .refined = refined};
-        return std::find_if(diagram.points.begin(), diagram.points.end(), [&](const auto& point) { return point.key == key; });
+        return std::ranges::find_if(diagram.points, [&](const DiagramPoint& point) {
+            const SettingKey& key = point.key;
+            return key.deformer == "fem_neo_hookean" && key.element_order == 1 && key.refined == refined && !key.wanted_vertices;
+        });
     };
     const auto own = with(false), refined = with(true);
     if (own == diagram.points.end() || refined == diagram.points.end()) return "";
@@ -120,14 +125,20 @@ std::string what_is_left_out(const Diagram& diagram)
 
 }  // namespace
 
+std::string ms_text(double ms)
+{
+    return ms < 100.0 ? fmt::format("{:.2g} ms", ms) : fmt::format("{:.0f} ms", ms);
+}
+
 std::vector<std::string> findings(const Diagram& diagram)
 {
     if (diagram.points.empty()) return {"no reference was reached: there is no error to show"};
-    std::vector<std::string> lines = {who_is_quickest(diagram)};
+    std::vector<std::string> lines;
+    for (const double budget_ms : budgets_ms) lines.push_back(who_is_nearest(diagram, budget_ms));
+    lines.push_back(who_is_quickest(diagram));
     for (const auto& [one, other] : {std::pair{"pbs", "delta_mush"}, {"pbs", "xpbd"}, {"linear_fem", "pbs"}, {"nonlinear_fem", "pbs"}})
         lines.push_back(who_passes(diagram, group_named(one), group_named(other)));
-    for (const DiagramPoint& budget : budgets_of(diagram)) lines.push_back(is_physics_worth_it(diagram, budget.ms, text_of(budget.key)));
-    lines.push_back(is_physics_worth_it(diagram));
+    for (const double budget_ms : {1.0, 10.0}) lines.push_back(is_physics_worth_it(diagram, budget_ms));
     lines.push_back(how_certain_the_reference_is(diagram));
     lines.push_back(what_refinement_does(diagram));
     lines.push_back(what_is_left_out(diagram));
@@ -143,28 +154,6 @@ std::string front_text(const Diagram& diagram)
     for (const DiagramPoint* point : front_of(diagram))
         text += fmt::format("     {:>12.4g} {:>10} {:>10} {:>8.2f}{} {}\n", point->ms, known(point->ms_q1), known(point->ms_q3),
                             point->error_pct, point->below_reference_error ? "*" : " ", text_of(point->key));
-    return text;
-}
-
-std::string best_text(const std::vector<Diagram>& diagrams)
-{
-    std::size_t width = 25;
-    for (const Diagram& diagram : diagrams) width = std::max(width, diagram.name.size());
-    std::string text = fmt::format("     {:<{}}", "least error [%], after ms", width);
-    for (const DeformerGroup& group : deformer_groups()) text += fmt::format(" {:>17}", group.words);
-    text += fmt::format(" {:>14} {:>12}\n", "reference bar", "left out [%]");
-    for (const Diagram& diagram : diagrams) {
-        text += fmt::format("     {:<{}}", diagram.name, width);
-        for (const DeformerGroup& group : deformer_groups()) {
-            const DiagramPoint* best = best_of(diagram, group, std::numeric_limits<double>::infinity());
-            text += fmt::format(
-                " {:>17}",
-                best ? fmt::format("{:.1f}{} {}", best->error_pct, best->below_reference_error ? "*" : "", ms_text(best->ms)) : "");
-        }
-        text += fmt::format(" {:>14} {:>12.2g}\n",
-                            diagram.reference_error_pct ? fmt::format("{:.2g}", *diagram.reference_error_pct) : "not known",
-                            diagram.masked_share_pct);
-    }
     return text;
 }
 

@@ -1,11 +1,17 @@
 #include "experiments/studies/work_precision/measured_points.hpp"
 
 #include "experiments/deformers/fem/fem_options.hpp"
+#include "experiments/deformers/registry.hpp"
 #include "experiments/process/interruption.hpp"
 #include "experiments/scene/motion_case.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "experiments/studies/work_precision/posed_deformer.hpp"
+#include "experiments/studies/work_precision/reference_set.hpp"
+#include "experiments/studies/work_precision/sought_theta.hpp"
+#include "pbs/geometry/input_error.hpp"
 #include "pbs/solver/options.hpp"
+
+#include <fmt/format.h>
 
 #include <deque>
 #include <map>
@@ -13,12 +19,16 @@
 namespace experiments {
 namespace {
 
+constexpr int frames_of_memory = 24;  // before the pose
+
 // The two poses of a timed frame, on the case's skeleton.
 PosePair poses_of(const WorkPrecisionCase& of, const pbs::Skeleton& skeleton)
 {
     const pbs::Motion motion = make_motion(of.scene.motion, skeleton, of.scene.file);
     const auto pose = [&](int frame) { return motion.steps.at(static_cast<std::size_t>(frame) * motion.steps_per_frame); };
-    return {pose(of.frame), pose(of.frame > 0 ? of.frame - 1 : of.frame + 1), motion.time_step_s};
+    PosePair poses{pose(of.frame), pose(of.frame > 0 ? of.frame - 1 : of.frame + 1), motion.time_step_s};
+    for (int frame = std::max(0, of.frame - frames_of_memory); frame < of.frame; ++frame) poses.way.push_back(pose(frame));
+    return poses;
 }
 
 class CaseMeasuring {
@@ -28,33 +38,53 @@ public:
           base_(std::make_shared<pbs::Character>(pbs::make_character(of.scene.character))),
           poses_(poses_of(of, base_->skeleton)),
           settings_(point_settings(of.scene, of.range)),
-          reference_(*base_, reference_flesh(of.scene), poses_.pose, poses_.time_step_s)
+          references_(of, *base_, poses_)
     {
         meshes_.emplace(0, BodyMesh(base_));
         if (of.range.refined) meshes_.emplace(refined, BodyMesh::refined(*base_));
-        for (const auto* sizes : {&of.range.coarser_vertices, &of.range.finer_vertices})
-            for (const int vertices : *sizes) meshes_.emplace(vertices, BodyMesh(of.scene.character, vertices, *base_));
+        for (const int vertices : of.range.other_vertices) meshes_.emplace(vertices, BodyMesh(of.scene.character, vertices, *base_));
     }
 
     MeasuredPoints measure()
     {
         for (const PointSetting& setting : settings_) reach(setting);
         const std::vector<FrameTime> times = time_all();
-        for (std::size_t i = 0; i < points_.size(); ++i) measured_.rows.push_back(row_of(points_[i], times[i]));
-        measured_.rows.push_back(reference_row(of_.of, base_->mesh, reference_));
+        for (std::size_t i = 0; i < points_.size(); ++i) add_row(points_[i], deformers_[i], times[i]);
+        add_row_of_case(reference_row(base_->mesh, references_.first()));
+        measured_.members = references_.member_rows();
+        if (of_.seeks_theta && references_.first().is_reached())
+            measured_.thetas = sought_thetas(of_, meshes_.at(0), poses_, references_.first());
         return measured_;
     }
 
 private:
+    // Later rungs of a ladder of which a rung took too long are not tried.
     void reach(const PointSetting& setting)
     {
         stop_if_interrupted();
         const BodyMesh& mesh = meshes_.at(setting.refined ? refined : setting.vertices);
-        PosedDeformer& deformer = deformers_.emplace_back(setting, mesh.character(), poses_);
-        ReachedPoint point{&setting, &mesh, deformer.reach(), {}};
-        point.on_base = mesh.on_base(point.shape.positions);
-        if (!point.shape.finished && !options_if<FemOptions>(setting.spec)) measured_.breakdown += setting.deformer + " is not finite. ";
-        points_.push_back(std::move(point));
+        SettingKey ladder = key_of(setting);
+        ladder.iterations.reset();
+        ladder.substeps.reset();
+        if (const auto slow = too_slow_.find(ladder); slow != too_slow_.end()) {
+            add_row_of_case(
+                row_without_answer(setting, mesh, "over_time_limit",
+                                   fmt::format("{:.0f} ms on the rung before, {:g} ms allowed", slow->second, of_.longest_frame_ms)));
+            return;
+        }
+        try {
+            PosedDeformer& deformer = deformers_.emplace_back(setting, mesh, poses_);
+            ReachedPoint point{&setting, &mesh, deformer.reach(), {}};
+            point.on_base = mesh.on_base(point.shape.positions);
+            const bool is_fem = options_if<FemOptions>(setting.spec) != nullptr;
+            const bool is_of_the_paper = options_if<pbs::PbsOptions>(setting.spec) || traits_of(setting.spec).blends_linearly;
+            if (!point.shape.finished && is_of_the_paper) measured_.breakdown += setting.deformer + " is not finite. ";
+            if (!is_fem && 1e3 * point.shape.seconds > of_.longest_frame_ms) too_slow_[ladder] = 1e3 * point.shape.seconds;
+            points_.push_back(std::move(point));
+        } catch (const pbs::InputError& error) {
+            if (deformers_.size() > points_.size()) deformers_.pop_back();
+            add_row_of_case(row_without_answer(setting, mesh, "not_applicable", error.what()));
+        }
     }
 
     // The times of those that reached the pose. The nonlinear laws take turns among themselves, and so do the others.
@@ -78,52 +108,56 @@ private:
         return times;
     }
 
-    PointRow row_of(const ReachedPoint& point, const FrameTime& time)
+    void add_row(const ReachedPoint& point, const PosedDeformer& deformer, const FrameTime& time)
     {
-        PointValues values{.of = of_.of, .time = time};
-        if (point.shape.finished && reference_.is_reached()) {
-            values.error = reference_.error_of(point.on_base);
-            values.whole_joint_pct = reference_.error_on_whole_body(point.on_base).joint_pct;
-            if (point.setting->deformer == "pbs" && point.setting->on_own_mesh()) values.parts = parts_of(point);
-        }
-        return point_row(point, &reference_, values);
+        PointRow row = point_row(point);
+        add_time(row, time);
+        row.work = deformer.work();
+        if (point.shape.finished) references_.add_errors(row, point.on_base);
+        const bool has_parts = of_.converged_iterations > 0 && options_if<pbs::PbsOptions>(point.setting->spec) &&
+                               point.setting->on_own_mesh() && point.setting->tuned.empty() && row.error;
+        if (has_parts) row.parts = parts_of(point);
+        add_reference(row, references_.first());
+        add_row_of_case(std::move(row));
+    }
+
+    void add_row_of_case(PointRow row)
+    {
+        row.of = of_.of;
+        row.half = of_.half;
+        measured_.rows.push_back(std::move(row));
     }
 
     PbsParts parts_of(const ReachedPoint& point)
     {
-        const auto& [whole, half] = converged(*point.setting);
-        return {reference_.distance(point.on_base, whole).joint_pct, reference_.error_of(whole).joint_pct,
-                reference_.distance(whole, half).joint_pct};
+        if (converged_.empty())
+            for (const int iterations : {of_.converged_iterations, of_.converged_iterations / 2})
+                converged_.push_back(converged(*point.setting, iterations));
+        const PosedReference& reference = references_.first();
+        return {reference.distance(point.on_base, converged_[0]).joint_pct, reference.error_of(converged_[0]).joint_pct,
+                reference.distance(converged_[0], converged_[1]).joint_pct};
     }
 
-    // After all of the iterations and after half of them.
-    const std::pair<pbs::Positions, pbs::Positions>& converged(PointSetting setting)
+    pbs::Positions converged(PointSetting setting, int iterations) const
     {
         auto& options = options_of<pbs::PbsOptions>(setting.spec);
-        const double k_stretch = options.k_stretch;
-        const auto found = converged_.find(k_stretch);
-        if (found != converged_.end()) return found->second;
         options.precision = pbs::Precision::f64;
         options.order = pbs::Order::ordered;
-        setting.substeps = 1;
-        const auto after = [&](int iterations) {
-            options.iterations = iterations;
-            return PosedDeformer(setting, *base_, poses_).reach().positions;
-        };
-        return converged_.emplace(k_stretch, std::make_pair(after(of_.converged_iterations), after(of_.converged_iterations / 2)))
-            .first->second;
+        options.iterations = iterations;
+        return PosedDeformer(setting, meshes_.at(0), poses_).reach().positions;
     }
 
     const WorkPrecisionCase& of_;
     std::shared_ptr<const pbs::Character> base_;
     PosePair poses_;
     std::vector<PointSetting> settings_;
-    PosedReference reference_;
+    ReferenceSet references_;
     static constexpr int refined = -1;
     std::map<int, BodyMesh> meshes_;  // by wanted size; 0: the case's own
     std::deque<PosedDeformer> deformers_;
-    std::vector<ReachedPoint> points_;
-    std::map<double, std::pair<pbs::Positions, pbs::Positions>> converged_;  // by k_stretch
+    std::vector<ReachedPoint> points_;       // of each of these deformers
+    std::map<SettingKey, double> too_slow_;  // ladders, and the time of the rung that exceeded the limit [ms]
+    std::vector<pbs::Positions> converged_;  // PBS with its default setting, after all of the iterations and after half of them
     MeasuredPoints measured_;
 };
 
@@ -136,10 +170,15 @@ nlohmann::json to_json(const WorkPrecisionCase& of)
             .record("of", &WorkPrecisionCase::of)
             .record("scene", &WorkPrecisionCase::scene)
             .record("frame", &WorkPrecisionCase::frame)
+            .record("half", &WorkPrecisionCase::half)
             .record("range", &WorkPrecisionCase::range)
             .record("rounds", &WorkPrecisionCase::rounds)
             .record("newton_rounds", &WorkPrecisionCase::newton_rounds)
+            .record("reference_is_refined", &WorkPrecisionCase::reference_is_refined)
+            .record("members", &WorkPrecisionCase::members)
             .record("converged_iterations", &WorkPrecisionCase::converged_iterations)
+            .record("longest_frame_ms", &WorkPrecisionCase::longest_frame_ms)
+            .record("seeks_theta", &WorkPrecisionCase::seeks_theta)
             .derived("points",
                      [](const WorkPrecisionCase& one) -> nlohmann::json { return digest_of(point_settings(one.scene, one.range)); })
             .derived("reference", [](const WorkPrecisionCase& one) { return to_json(reference_flesh(one.scene)); })

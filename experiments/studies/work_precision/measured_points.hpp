@@ -1,8 +1,11 @@
-// The points of one case of the work-precision study: the time per frame and the error of every setting in one pose.
-//   table_of(point_columns, measure_points(of).rows).write("points.csv");
+// The points of one case of the work-precision study: the time and the work per frame and the error of every setting in one pose.
+//   const MeasuredPoints points = measure_points(of);
+//   table_of(point_columns, points.rows).write("points.csv");
 // The reference is that of every study (shared/posed_reference.hpp), with its bound. Errors are measured outside the part of the body that
 // overlaps itself and, as one more column, on the whole body. A point whose error is not above the bound may be as good as the reference
-// and is marked. The error of PBS is split into solver, model and discretisation (error_split/error_split.hpp).
+// and is marked. Further references of the family (shared/reference_family.hpp) decide how far an order of deformers depends on the
+// choice of the reference. The error of PBS is split into solver, model and discretisation (error_split/error_split.hpp). A ladder of
+// iterations ends where a frame takes longer than the limit.
 #pragma once
 
 #include "experiments/studies/shared/timed_rounds.hpp"
@@ -14,15 +17,22 @@ struct WorkPrecisionCase {
     analysis::CaseKey of;  // body, motion, and the pose or the angle
     Scene scene;           // its character and motion
     int frame = 0;         // of its motion; a timed frame begins in the one before it
+    Half half = Half::evaluation;
     SettingRange range;
-    Rounds rounds, newton_rounds;  // newton_rounds: of the nonlinear laws, which take seconds per frame; a failed round is dropped
-    int converged_iterations = 8000;
+    Rounds rounds, newton_rounds;      // newton_rounds: of the nonlinear laws, which take seconds per frame; a failed round is dropped
+    bool reference_is_refined = true;  // solved on tets cut into eight too, without which there is no bound
+    std::vector<EnsembleMember> members = {};  // further references of the family
+    int converged_iterations = 8000;           // of PBS for the parts of its error; 0: no parts
+    double longest_frame_ms = 300.0;           // of a ladder of iterations
+    bool seeks_theta = true;
 };
 
 nlohmann::json to_json(const WorkPrecisionCase& of);  // everything that a run of the study depends on
 
 struct MeasuredPoints {
     std::vector<PointRow> rows;
+    std::vector<FamilyRow> members;
+    std::vector<ThetaRow> thetas;
     std::string breakdown;  // PBS or LBS that is not finite; a reference that is not reached is recorded as an outcome
 };
 

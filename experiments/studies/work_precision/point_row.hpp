@@ -1,12 +1,17 @@
-// points.csv: one row per setting, with its time, its error, its volume and the reference that it is compared with.
+// points.csv: one row per setting, with its time, its work, its error, its volume and the reference that it is compared with. members.csv:
+// the other references of the family. theta.csv: the factor on each deformer's stiffness at which it is nearest to the reference.
 #pragma once
 
 #include "analysis/case_key.hpp"
 #include "analysis/frame_metrics.hpp"
 #include "analysis/records/typed_table.hpp"
-#include "experiments/studies/shared/timed_rounds.hpp"
 #include "experiments/studies/shared/posed_reference.hpp"
+#include "experiments/studies/shared/reference_family.hpp"
+#include "experiments/studies/shared/timed_rounds.hpp"
 #include "experiments/studies/work_precision/body_mesh.hpp"
+#include "experiments/studies/work_precision/case_split.hpp"
+#include "experiments/studies/work_precision/stiffness_factor.hpp"
+#include "pbs/geometry/work_counters.hpp"
 
 namespace experiments {
 
@@ -28,25 +33,20 @@ FrameTime frame_time(std::vector<double> samples);
 
 constexpr int fewest_for_quartiles = 3;  // rounds
 
-struct PointValues {
-    analysis::CaseKey of;
-    FrameTime time = {};
-    std::optional<analysis::ErrorNorms> error = {};  // outside the part that overlaps; nothing where there is no reference
-    std::optional<double> whole_joint_pct = {};      // error at the joints, with the part where the body overlaps itself
-    std::optional<PbsParts> parts = {};
-};
+// The errors against the members of the family after the first one, in their order.
+using MemberErrors = std::array<std::optional<double>, 5>;
 
 struct PointRow {
-    analysis::CaseKey of;  // body, motion, and the pose or the angle
+    analysis::CaseKey of = {};  // body, motion, and the pose or the angle
     SettingKey key;
-    std::string setting;  // as a text
+    std::string setting = {};  // as a text
     int vertices = 0, tets = 0;
     std::string outcome = {};
     double reach_ms = 0.0;
     int rounds = 0, failed_rounds = 0;
     std::optional<double> ms_median = {}, ms_q1 = {}, ms_q3 = {};
-    std::optional<analysis::ErrorNorms> error = {};
-    analysis::FrameMetrics metrics = {};
+    std::optional<analysis::ErrorNorms> error = {};  // outside the part that overlaps; nothing where there is no reference
+    std::optional<analysis::FrameMetrics> metrics = {};
     std::string reference = {};
     std::optional<double> reference_error_joint_pct = {}, reference_error_l2_pct = {};
     std::optional<double> reference_order = {};
@@ -55,12 +55,38 @@ struct PointRow {
     std::optional<double> error_whole_joint_pct = {}, masked_share_pct = {};
     std::optional<PbsParts> parts = {};
     std::optional<double> discretisation_pct = {};
+    Half half = Half::evaluation;
+    std::string reason = {};  // why the outcome is not_applicable or over_time_limit
+    std::optional<pbs::WorkCounters> work = {};
+    MemberErrors members = {};
 };
 extern const analysis::Columns<PointRow> point_columns;
 
-// reference: null where none is compared with.
-PointRow point_row(const ReachedPoint& point, const PosedReference* reference, const PointValues& values);
+// A setting without an answer: outcome is over_time_limit or not_applicable.
+PointRow row_without_answer(const PointSetting& setting, const BodyMesh& mesh, const std::string& outcome, const std::string& reason);
+PointRow point_row(const ReachedPoint& point);
+void add_time(PointRow& row, const FrameTime& time);
+void add_reference(PointRow& row, const PosedReference& reference);  // and whether the error, if there is one, is below its bound
 // The row of the reference itself. Its outcome is reference, or not_reached.
-PointRow reference_row(const analysis::CaseKey& of, const pbs::TetMesh& mesh, const PosedReference& reference);
+PointRow reference_row(const pbs::TetMesh& mesh, const PosedReference& reference);
+
+// A further reference of the family, solved with quadratic elements on the case's own tets alone. Its bound is that of the first member's
+// own solution on these tets, which is an assumption: the same elements have a similar error.
+struct FamilyRow {
+    analysis::CaseKey of;
+    EnsembleMember member;
+    std::string outcome;  // reached, not_reached
+    std::optional<double> error_bound_pct = {};
+    double masked_share_pct = 0.0;
+    double solve_s = 0.0;
+};
+extern const analysis::Columns<FamilyRow> family_columns;
+
+struct ThetaRow {
+    analysis::CaseKey of;
+    SettingKey key;
+    StiffnessFactor found;
+};
+extern const analysis::Columns<ThetaRow> theta_columns;
 
 }  // namespace experiments

@@ -6,18 +6,20 @@
 
 namespace experiments {
 
-PosedDeformer::PosedDeformer(const PointSetting& setting, const pbs::Character& character, const PosePair& poses)
-    : substeps_(setting.substeps), poses_(poses), deformer_(make_deformer(setting.spec))
+PosedDeformer::PosedDeformer(const PointSetting& setting, const BodyMesh& mesh, const PosePair& poses)
+    : mesh_(mesh), poses_(poses), deformer_(make_deformer(setting.spec))
 {
-    deformer_->reset(character);
+    deformer_->reset(mesh.character());
 }
 
 Shape PosedDeformer::reach()
 {
+    if (deformer_->has_memory())
+        for (const pbs::Pose& pose : poses_.way) advance(pose);
     const double start_s = process_cpu_s();
     const pbs::StepSummary step = advance(poses_.pose);
     is_there_ = true;
-    has_arrived_ = step.outcome == pbs::Outcome::finished;
+    work_ = step.work;
     return {deformer_->positions(), has_arrived_ && deformer_->positions().allFinite(), process_cpu_s() - start_s};
 }
 
@@ -26,21 +28,18 @@ std::vector<double> PosedDeformer::turn()
     const bool had_arrived = has_arrived_;
     const double start_s = process_cpu_s();
     const pbs::StepSummary step = advance(is_there_ ? poses_.neighbour : poses_.pose);
+    if (!mesh_.has_base_vertices()) on_base_ = mesh_.on_base(deformer_->positions());
     const double end_s = process_cpu_s();
     is_there_ = !is_there_;
-    has_arrived_ = step.outcome == pbs::Outcome::finished;
+    if (turns_++ == 0) work_ = step.work;
     return {had_arrived && has_arrived_ ? 1e3 * (end_s - start_s) : std::numeric_limits<double>::quiet_NaN()};
 }
 
-// Its outcome is that of the first substep that did not finish.
 pbs::StepSummary PosedDeformer::advance(const pbs::Pose& pose)
 {
-    pbs::StepSummary whole;
-    for (int substep = 0; substep < substeps_; ++substep) {
-        const pbs::StepSummary step = deformer_->advance(pose, poses_.time_step_s / substeps_);
-        if (whole.outcome == pbs::Outcome::finished) whole = step;
-    }
-    return whole;
+    const pbs::StepSummary step = deformer_->advance(pose, poses_.time_step_s);
+    has_arrived_ = step.outcome == pbs::Outcome::finished;
+    return step;
 }
 
 }  // namespace experiments

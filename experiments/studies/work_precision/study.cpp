@@ -1,18 +1,20 @@
 // Error against run time: which deformer is nearest to the reference for the time that a frame may take.
 //
-//   limb twist  90 deg (--full: and 150)     o=======o~~~~~~~o)
-//   limb bend   60 deg (--full: and 90)      o=======o
-//   human       crouch (--full: crouch and in the air, both also on tets cut into eight; standing, landing and the poses at 1/5 to 4/5 of
-//               01_01; and the crouch of every other installed body)
+//   limb twist  90 and 150 deg                      o=======o~~~~~~~o)   (settings are chosen on the first of each pair,
+//   limb bend   60 deg (--full: and 90)             o=======o             and shown on the second)
+//   human       crouch (--full: standing, crouch, in the air, landing and the poses at 1/5 to 4/5 of 01_01; crouch and in the air also on
+//               tets cut into eight; and the crouch of every other installed body)
 //
-// Writes DIR/work_precision/CASE/points.csv and, over all cases, points.csv, fronts.csv, crossings.csv, equal_cost.csv, work_precision.md.
+// Writes DIR/work_precision/CASE/{points,members,theta}.csv and, over all cases, points.csv, theta.csv, settings.csv, fronts.csv,
+// crossings.csv, best_within.csv, data_profiles.csv, omissions.csv, work_precision.md.
 #include "analysis/records/folder_files.hpp"
 #include "experiments/scene/motion_case.hpp"
 #include "experiments/studies/shared/real_bodies.hpp"
 #include "experiments/studies/study.hpp"
+#include "experiments/studies/work_precision/data_profile.hpp"
 #include "experiments/studies/work_precision/diagram_tables.hpp"
-#include "experiments/studies/work_precision/findings.hpp"
 #include "experiments/studies/work_precision/measured_points.hpp"
+#include "experiments/studies/work_precision/report_page.hpp"
 
 #include <fmt/format.h>
 
@@ -23,102 +25,148 @@ std::string measure_and_record(const WorkPrecisionCase& of, const std::string& f
 {
     const MeasuredPoints points = measure_points(of);
     table_of(point_columns, points.rows).write(analysis::path_in(folder, "points.csv"));
+    table_of(family_columns, points.members).write(analysis::path_in(folder, "members.csv"));
+    table_of(theta_columns, points.thetas).write(analysis::path_in(folder, "theta.csv"));
     return points.breakdown;
 }
 
-// 5 degrees per frame, which is the step that is timed.
-StudyRun limb_run(const std::string& motion, int angle_deg, bool full, double cost_s)
+struct PlannedPose {
+    std::string body = {}, motion = {}, pose = {};  // pose: in a clip
+    int angle_deg = 0;                              // of a sweep
+    int frame = 0;                                  // of 01_01 at 100 Hz
+    bool in_quick = false;
+    bool refined = false;  // also solved on the tets cut into eight
+    double cost_s = 0.0;   // in full
+};
+
+// The limb is one body, twisted or bent. The human has four poses by name, and four that are not chosen: at 1/5, 2/5, 3/5 and 4/5 of the
+// clip. The order decides which poses train (case_split.hpp).
+std::vector<PlannedPose> limb_poses()
 {
-    const std::string scene = "limb_" + motion;
-    WorkPrecisionCase of;
-    of.of = {.body = "limb", .motion = motion, .angle_deg = angle_deg};
-    of.scene = read_scene(scene, {fmt::format("motion.angle_deg={}", angle_deg), fmt::format("motion.frames={}", angle_deg / 5 + 1)});
-    of.frame = angle_deg / 5;
-    of.range.quadratic_corotational = full;
-    of.range.coarser_vertices = {300, 400, 500, 600};
-    if (full && motion == "twist")
-        of.range.finer_vertices = {5000};  // in the fine creases of a bend Newton's method takes minutes per frame
-    of.rounds = {.seconds = full ? 10.0 : 3.0, .fewest = 5, .most = 31};
-    of.newton_rounds = {.seconds = full ? 10.0 : 0.0, .fewest = full ? 3 : 1, .most = 9};
-    return work_run(case_name(of.of), of, cost_s, measure_and_record);
+    return {{.body = "limb", .motion = "twist", .angle_deg = 90, .in_quick = true, .cost_s = 60.0},
+            {.body = "limb", .motion = "twist", .angle_deg = 150, .in_quick = true, .cost_s = 90.0},
+            {.body = "limb", .motion = "bend", .angle_deg = 60, .in_quick = true, .cost_s = 70.0},
+            {.body = "limb", .motion = "bend", .angle_deg = 90, .cost_s = 600.0}};
 }
 
-struct BodyPose {
-    std::string name;
-    int frame = 0;         // of 01_01 at 100 Hz
-    bool refined = false;  // also solved on the tets cut into eight
-};
-// Four poses by name, and four that are not chosen: at 1/5, 2/5, 3/5 and 4/5 of the clip.
-std::vector<BodyPose> human_poses(bool full)
+std::vector<PlannedPose> human_poses()
 {
-    if (!full) return {{"crouch", 164}};
-    std::vector<BodyPose> poses = {{"standing", 0}, {"crouch", 164, true}, {"in_the_air", 672, true}, {"landing", 708}};
+    std::vector<PlannedPose> poses = {{.pose = "standing", .frame = 0},
+                                      {.pose = "crouch", .frame = 164, .in_quick = true, .refined = true},
+                                      {.pose = "in_the_air", .frame = 672, .refined = true},
+                                      {.pose = "landing", .frame = 708}};
     const Scene scene = read_scene("human_01_01", {});
     const pbs::Motion motion = make_motion(scene.motion, pbs::make_character(scene.character).skeleton, scene.file);
     const int last = static_cast<int>(motion.steps.size()) / motion.steps_per_frame - 1;
-    for (const int fifths : {1, 2, 3, 4}) poses.push_back({fmt::format("{}_5_of_the_clip", fifths), last * fifths / 5});
+    for (const int fifths : {1, 2, 3, 4}) poses.push_back({.pose = fmt::format("{}_5_of_the_clip", fifths), .frame = last * fifths / 5});
+    for (PlannedPose& pose : poses) pose.body = "human", pose.motion = "01_01", pose.cost_s = 200.0;
     return poses;
 }
 
-StudyRun body_run(const std::string& body, const BodyPose& pose, bool full, double cost_s)
+std::vector<PlannedPose> poses_of(const std::string& body)
+{
+    if (body == "human") return human_poses();
+    return {{.body = body, .motion = "01_01", .pose = "crouch", .frame = 164, .cost_s = 300.0}};
+}
+
+// 5 degrees per frame, which is the step that is timed.
+void set_sweep(WorkPrecisionCase& of, const PlannedPose& pose)
+{
+    of.of = {.body = pose.body, .motion = pose.motion, .angle_deg = pose.angle_deg};
+    of.scene = read_scene("limb_" + pose.motion,
+                          {fmt::format("motion.angle_deg={}", pose.angle_deg), fmt::format("motion.frames={}", pose.angle_deg / 5 + 1)});
+    of.frame = pose.angle_deg / 5;
+}
+
+void set_clip(WorkPrecisionCase& of, const PlannedPose& pose)
+{
+    of.of = {.body = pose.body, .motion = pose.motion, .pose = pose.pose};
+    of.scene = read_scene("human_01_01", {"character.body=" + pose.body});
+    of.frame = pose.frame;
+}
+
+// In full: all rungs and settings, meshes of other sizes, a bound on the error of each reference, and on the evaluated poses the other
+// references of the family. In the fine creases of a bend Newton's method takes minutes per frame on a finer mesh.
+void set_extent(WorkPrecisionCase& of, const PlannedPose& pose, bool full)
+{
+    const bool is_limb = pose.angle_deg > 0;
+    of.range.in_short = !full;
+    of.range.quadratic = full;
+    of.range.refined = full && pose.refined;
+    of.range.quadratic_up_to = is_limb ? 600 : 1000;
+    of.range.other_vertices = {600};
+    if (full) of.range.other_vertices = is_limb ? std::vector{300, 600} : std::vector{600, 1000, 4650};
+    if (full && pose.motion == "twist") of.range.other_vertices.push_back(5000);
+    of.rounds = {.seconds = full ? 10.0 : 1.0, .fewest = full ? 5 : 3, .most = 31};
+    of.newton_rounds = {.seconds = full ? 5.0 : 0.0, .fewest = 1, .most = 9};
+    of.converged_iterations = full ? 8000 : 2000;
+    of.reference_is_refined = full || (is_limb && of.half == Half::evaluation);
+    of.seeks_theta = full || of.half == Half::evaluation;
+    if (!full || of.half == Half::training) return;
+    of.members = family();
+    of.members.erase(of.members.begin());
+}
+
+StudyRun run_of(const PlannedPose& pose, Half half, bool full)
 {
     WorkPrecisionCase of;
-    of.of = {.body = body, .motion = "01_01", .pose = pose.name};
-    of.scene = read_scene("human_01_01", {"character.body=" + body});
-    of.frame = pose.frame;
-    of.range.quadratic_corotational = false;
-    of.range.quadratic_up_to = 1200;
-    of.range.refined = pose.refined;
-    of.range.coarser_vertices = full ? std::vector<int>{500, 600, 700, 800, 900, 1000, 1200} : std::vector<int>{800, 1200};
-    if (full) of.range.finer_vertices = {4650};
-    of.rounds = {.seconds = full ? 10.0 : 3.0, .fewest = 5, .most = 31};
-    of.newton_rounds = {.seconds = full ? 10.0 : 0.0, .fewest = 1, .most = 9};
-    return work_run(case_name(of.of), of, cost_s, measure_and_record);
+    of.half = half;
+    if (pose.angle_deg > 0)
+        set_sweep(of, pose);
+    else
+        set_clip(of, pose);
+    set_extent(of, pose, full);
+    return work_run(case_name(of.of), of, full ? pose.cost_s : 30.0, measure_and_record);
 }
 
 StudyPlan plan(bool full)
 {
-    StudyPlan plan;
-    plan.runs.push_back(limb_run("twist", 90, full, full ? 70.0 : 28.0));
-    plan.runs.push_back(limb_run("bend", 60, full, full ? 65.0 : 31.0));
-    if (full) {
-        plan.runs.push_back(limb_run("twist", 150, full, 80.0));
-        plan.runs.push_back(limb_run("bend", 90, full, 440.0));
-    }
+    std::vector<PlannedPose> poses = limb_poses();
     std::vector<analysis::LeftOut> left_out;
     for_each_installed_body(left_out, [&](const std::string& body) {
-        if (body == "human")
-            for (const BodyPose& pose : human_poses(full)) plan.runs.push_back(body_run(body, pose, full, full ? 145.0 : 50.0));
-        else if (full)
-            plan.runs.push_back(body_run(body, {"crouch", 164}, full, 350.0));
+        for (const PlannedPose& pose : poses_of(body)) poses.push_back(pose);
     });
+    std::vector<std::string> bodies;
+    for (const PlannedPose& pose : poses) bodies.push_back(pose.body);
+    const std::vector<Half> halves = halves_of(bodies);
+    StudyPlan plan;
+    for (std::size_t i = 0; i < poses.size(); ++i)
+        if (full || poses[i].in_quick) plan.runs.push_back(run_of(poses[i], halves[i], full));
     for (const analysis::LeftOut& body : left_out)
         if (full || body.scene == "human") plan.left_out.push_back(body);
     return plan;
 }
 
+ComparisonRecords records_of(const FinishedRuns& finished)
+{
+    ComparisonRecords records;
+    std::vector<CaseRows> rows;
+    for (const std::string& folder : finished.folders) {
+        const auto read = [&](const char* file) { return analysis::read_csv(analysis::path_in(folder, file)); };
+        rows.push_back(rows_of(point_columns, read("points.csv")));
+        records.cases.push_back({rows.back(), rows_of(family_columns, read("members.csv"))});
+        for (const ThetaRow& theta : rows_of(theta_columns, read("theta.csv"))) records.thetas.push_back(theta);
+    }
+    records.chosen = choose_settings(rows);
+    records.diagrams = diagrams_of(records.cases, records.chosen);
+    records.omissions = omissions_of(rows);
+    return records;
+}
+
 StudyConclusion conclude(const FinishedRuns& finished)
 {
-    std::vector<std::vector<PointRow>> points;
-    for (const std::string& file : finished.files("points.csv")) points.push_back(rows_of(point_columns, analysis::read_csv(file)));
-    if (points.empty()) return {"", false};
+    if (finished.none()) return {"", false};
+    const ComparisonRecords records = records_of(finished);
     finished.write("points.csv", point_columns, finished.rows(point_columns, "points.csv"));
-    const std::vector<Diagram> diagrams = diagrams_of(points);
-    finished.write("fronts.csv", fronts_table(diagrams));
-    finished.write("crossings.csv", crossings_table(diagrams));
-    finished.write("equal_cost.csv", budget_columns, equal_cost(diagrams));
-    std::string text =
-        best_text(diagrams) +
-        "     error: distance to the reference at the joints, outside the overlap, % of the mean bone distance; *: not above "
-        "the reference's own error (bound)\n";
-    std::string page;
-    for (const Diagram& diagram : diagrams) {
-        page += fmt::format("## {}\n\n```\n{}```\n\n", diagram.name, front_text(diagram));
-        for (const std::string& line : findings(diagram)) page += "- " + line + "\n";
-        page += "\n";
-    }
-    finished.write("work_precision.md", page);
-    return {text, !finished.none()};
+    finished.write("theta.csv", theta_columns, records.thetas);
+    finished.write("settings.csv", chosen_columns, records.chosen);
+    finished.write("fronts.csv", fronts_table(records.diagrams));
+    finished.write("crossings.csv", crossings_table(records.diagrams));
+    finished.write("best_within.csv", budget_columns, best_within(records.diagrams));
+    finished.write("data_profiles.csv", data_profile_columns, data_profiles(records.diagrams));
+    finished.write("omissions.csv", omission_columns, records.omissions);
+    finished.write("work_precision.md", page_of(records));
+    return {terminal_text(records), true};
 }
 
 }  // namespace

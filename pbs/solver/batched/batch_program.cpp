@@ -2,6 +2,7 @@
 
 #include "pbs/solver/batched/batch_kernels.hpp"
 #include "pbs/solver/batched/batch_schedule.hpp"
+#include "pbs/solver/batched/projection_sequence.hpp"
 
 #include <algorithm>
 #include <new>
@@ -21,8 +22,11 @@ int first_vertex(const ConstraintGroup& group, const VertexOrder& order)
     return first;
 }
 
+// Indices of groups.
+using Groups = std::vector<int>;
+
 // Groups of each slab by the first of their vertices.
-std::vector<std::vector<ConstraintGroup>> by_slab(const std::vector<ConstraintGroup>& groups, const VertexOrder& order)
+std::vector<Groups> by_slab(const std::vector<ConstraintGroup>& groups, const VertexOrder& order)
 {
     std::vector<int> first(groups.size()), sorted(groups.size());
     for (std::size_t g = 0; g < groups.size(); ++g) first[g] = first_vertex(groups[g], order);
@@ -30,8 +34,8 @@ std::vector<std::vector<ConstraintGroup>> by_slab(const std::vector<ConstraintGr
     std::stable_sort(sorted.begin(), sorted.end(), [&](int a, int b) { return first[a] < first[b]; });
 
     const std::vector<int> slab_of = order.slab_of_new();
-    std::vector<std::vector<ConstraintGroup>> slabs(order.slabs());
-    for (const int g : sorted) slabs[slab_of[first[g]]].push_back(groups[g]);
+    std::vector<Groups> slabs(order.slabs());
+    for (const int g : sorted) slabs[slab_of[first[g]]].push_back(g);
     return slabs;
 }
 
@@ -43,15 +47,18 @@ BatchProgram<Scalar>::BatchProgram(const std::vector<ConstraintGroup>& groups, c
     : runs_(order.slabs()), groups_(groups.size())
 {
     BatchScheduler scheduler(static_cast<int>(order.new_of_old.size()));
-    const std::vector<std::vector<ConstraintGroup>> slabs = by_slab(groups, order);
+    const std::vector<int> place = projection_sequence(groups, static_cast<int>(order.new_of_old.size()));
+    std::vector<Groups> slabs = by_slab(groups, order);
     for (int slab = 0; slab < order.slabs(); ++slab)
         for (std::size_t begin = 0; begin < slabs[slab].size();) {
             const std::size_t left = slabs[slab].size() - begin;
             const std::size_t size = left < 3 * groups_a_cluster / 2 ? left : groups_a_cluster;  // no small last one
+            const auto first = slabs[slab].begin() + static_cast<std::ptrdiff_t>(begin), last = first + static_cast<std::ptrdiff_t>(size);
+            std::sort(first, last, [&](int a, int b) { return place[a] < place[b]; });
             for (const GroupKind kind : kinds_in_order) {
                 std::vector<ConstraintGroup> cluster;
-                std::copy_if(slabs[slab].begin() + begin, slabs[slab].begin() + begin + size, std::back_inserter(cluster),
-                             [&](const ConstraintGroup& group) { return group.kind == kind; });
+                for (auto g = first; g != last; ++g)
+                    if (groups[*g].kind == kind) cluster.push_back(groups[*g]);
                 with_kind(kind, [&](auto of_kind) {
                     append<of_kind()>(cluster, scheduler.schedule(cluster), values, order, slab, dummy_begin + slab * dummies_a_slab);
                 });

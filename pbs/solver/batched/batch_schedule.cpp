@@ -1,7 +1,6 @@
 #include "pbs/solver/batched/batch_schedule.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 namespace pbs {
@@ -9,26 +8,29 @@ namespace pbs {
 std::vector<std::vector<int>> BatchScheduler::schedule(const std::vector<ConstraintGroup>& groups)
 {
     if (groups.empty()) return {};
-    constexpr int batches_a_ranking = 8;  // how long a ranking is good enough
-    vertices_of_group_ = vertices_of(groups.front().kind);
-    for (const ConstraintGroup& group : groups)
-        for (int v = 0; v < vertices_of_group_; ++v) ++uses_[group.vertex[v]];
+    const auto is_earlier = [&](int a, int b) {
+        return chain_of_group_[a] != chain_of_group_[b] ? chain_of_group_[a] > chain_of_group_[b] : a < b;
+    };
+    std::vector<int> ready, freed = begin(groups);
 
-    std::vector<int> left(groups.size());
-    std::iota(left.begin(), left.end(), 0);
     std::vector<std::vector<int>> batches;
-    while (!left.empty()) {
+    for (std::size_t scheduled = 0; scheduled < groups.size();) {
+        std::sort(freed.begin(), freed.end(), is_earlier);
+        const auto before = static_cast<std::ptrdiff_t>(ready.size());
+        ready.insert(ready.end(), freed.begin(), freed.end());
+        std::inplace_merge(ready.begin(), ready.begin() + before, ready.end(), is_earlier);
+        freed.clear();
+
         const int now = static_cast<int>(batches.size());
-        const bool last_quarter = 4 * left.size() < groups.size();
-        if (last_quarter && now % batches_a_ranking == 0) rank_by_use(groups, left);
         std::vector<int> batch;
         for (int since = now - 2; since < now && batch.empty(); ++since)
-            std::erase_if(left, [&](int g) {
-                if (static_cast<int>(batch.size()) == batch_size || touched_since(groups[g], since)) return false;
-                touch(groups[g], now);
+            std::erase_if(ready, [&](int g) {
+                if (static_cast<int>(batch.size()) == batch_size || !rests(groups[g], since)) return false;
                 batch.push_back(g);
                 return true;
             });
+        for (const int g : batch) finish(groups[g], now, freed);
+        scheduled += batch.size();
         batches.push_back(std::move(batch));
     }
     for (const ConstraintGroup& group : groups)
@@ -36,29 +38,48 @@ std::vector<std::vector<int>> BatchScheduler::schedule(const std::vector<Constra
     return batches;
 }
 
-void BatchScheduler::rank_by_use(const std::vector<ConstraintGroup>& groups, std::vector<int>& left)
+// From the last group to the first, so that the next one at each vertex is at the end of its list. Returns those that wait for none.
+std::vector<int> BatchScheduler::begin(const std::vector<ConstraintGroup>& groups)
 {
-    rank_.resize(groups.size());
-    for (const int g : left) {
-        rank_[g] = 0;
-        for (int v = 0; v < vertices_of_group_; ++v) rank_[g] = std::max(rank_[g], uses_[groups[g].vertex[v]]);
+    vertices_of_group_ = vertices_of(groups.front().kind);
+    chain_of_group_.assign(groups.size(), 0);
+    turns_.assign(groups.size(), 0);
+    for (int g = static_cast<int>(groups.size()) - 1; g >= 0; --g) {
+        const auto& vertex = groups[g].vertex;
+        for (int v = 0; v < vertices_of_group_; ++v) {
+            chain_of_group_[g] = std::max(chain_of_group_[g], chain_at_vertex_[vertex[v]] + 1);
+            waiting_[vertex[v]].push_back(g);
+        }
+        for (int v = 0; v < vertices_of_group_; ++v) chain_at_vertex_[vertex[v]] = chain_of_group_[g];
     }
-    std::stable_sort(left.begin(), left.end(), [&](int a, int b) { return rank_[a] > rank_[b]; });
+    std::vector<int> free;
+    for (std::size_t g = 0; g < groups.size(); ++g)
+        for (int v = 0; v < vertices_of_group_; ++v) {
+            chain_at_vertex_[groups[g].vertex[v]] = 0;
+            if (waiting_[groups[g].vertex[v]].back() == static_cast<int>(g)) take_turn(static_cast<int>(g), free);
+        }
+    return free;
 }
 
-bool BatchScheduler::touched_since(const ConstraintGroup& group, int batch) const
+void BatchScheduler::take_turn(int group, std::vector<int>& freed)
 {
-    for (int v = 0; v < vertices_of_group_; ++v)
-        if (last_batch_[group.vertex[v]] >= batch) return true;
-    return false;
+    if (++turns_[group] == vertices_of_group_) freed.push_back(group);
 }
 
-void BatchScheduler::touch(const ConstraintGroup& group, int batch)
+// Its vertices go on to their next groups.
+void BatchScheduler::finish(const ConstraintGroup& group, int batch, std::vector<int>& freed)
 {
     for (int v = 0; v < vertices_of_group_; ++v) {
         last_batch_[group.vertex[v]] = batch;
-        --uses_[group.vertex[v]];
+        std::vector<int>& waiting = waiting_[group.vertex[v]];
+        waiting.pop_back();
+        if (!waiting.empty()) take_turn(waiting.back(), freed);
     }
+}
+
+bool BatchScheduler::rests(const ConstraintGroup& group, int since) const
+{
+    return std::all_of(group.vertex.begin(), group.vertex.begin() + vertices_of_group_, [&](int v) { return last_batch_[v] < since; });
 }
 
 }  // namespace pbs

@@ -2,6 +2,7 @@
 
 #include "pbs/solver/batched/batch_kernels.hpp"
 #include "pbs/solver/parallel.hpp"
+#include "pbs/solver/project_regions.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -32,8 +33,12 @@ BatchedProjection<Scalar>::BatchedProjection(const ConstraintSet<Scalar>& constr
     : batched_(make_batched_constraints(constraints, tets, options.order)),
       parallel_(batched_.order.slabs() >= slabs_worth_threads ? options.threads : 1),
       edges_(constraints.stretch.size()),
-      tets_(constraints.volume.size())
+      tets_(constraints.volume.size()),
+      regions_(constraints.regions)
 {
+    for (RegionVolumeConstraint<Scalar>& region : regions_)
+        for (int& vertex : region.vertex) vertex = batched_.order.new_of_old[vertex];
+    for (const int old : batched_.order.old_of_new) inverse_mass_.push_back(constraints.inverse_mass[old]);
     const int vertices = batched_.vertices();
     vertices_.resize(blocks_of(batched_.dummy_begin + batched_.order.slabs() * BatchProgram<Scalar>::dummies_a_slab), Block{});
     for (int i = 0; i < vertices; ++i) this->vertices()[4 * i + 3] = constraints.inverse_mass[batched_.order.old_of_new[i]];
@@ -101,6 +106,7 @@ template <typename Scalar>
 void BatchedProjection<Scalar>::project_volume_constraints()
 {
     project(batched_.volume, volume_runs_);
+    project_regions(regions_, inverse_mass_, [this](int i) { return Eigen::Map<Vector3<Scalar>>(vertices() + 4 * i); });
 }
 
 template <typename Scalar>
@@ -125,7 +131,8 @@ Residuals BatchedProjection<Scalar>::residuals() const
     };
     const auto rms = [](double sum, std::size_t count) { return count == 0 ? 0.0 : std::sqrt(sum / double(count)); };
     const double bind = sum_squared_bind_errors(bind_.data(), static_cast<int>(bind_.size()), vertices());
-    return {rms(sum(batched_.stretch), edges_), rms(sum(batched_.volume), tets_),
+    const double of_regions = rms_of_regions(regions_, [this](int i) { return Eigen::Map<const Vector3<Scalar>>(vertices() + 4 * i); });
+    return {rms(sum(batched_.stretch), edges_), joint_rms(rms(sum(batched_.volume), tets_), tets_, of_regions, regions_.size()),
             rms(bind, bind_.empty() ? 0 : batched_.order.old_of_new.size())};
 }
 

@@ -1,7 +1,7 @@
 // Orders `ordered` and `grouped` as a Projection: constraints in batches of sixteen that share no vertex (batch.hpp), vertices reordered
 // for locality, slabs of the mesh in parallel (vertex_order.hpp). The order of projection belongs to the mesh: any machine and any number
 // of threads project alike, and threads give the same bits. It is another order than `plain`; stretch, volume and bind contradict each
-// other, so the two settle on slightly different limits.
+// other, so the two settle on different limits (the study `equal_quality`).
 #pragma once
 
 #include "pbs/geometry/topology.hpp"
@@ -49,7 +49,10 @@ private:
 
     BatchedConstraints<Scalar> batched_;
     Parallel parallel_;
-    std::size_t edges_, tets_;             // constraints of each class
+    std::size_t edges_, tets_;  // constraints of each class
+    // In the new order. Regions are projected one after the other by the scalar code of the order plain, after all batches of the tets.
+    std::vector<RegionVolumeConstraint<Scalar>> regions_;
+    std::vector<Scalar> inverse_mass_;     // #V
     std::vector<BindBatch<Scalar>> bind_;  // of all vertices in the new order; empty: no bind constraints
     std::vector<Block> vertices_;          // then dummies
 

@@ -47,11 +47,15 @@ TEST(FramesAhead, AreThoseOfOneByOneToTheBit)
 // Deformers that depend on the previous frame, or are called frame by frame, do not work ahead; for them nothing changes either.
 TEST(FramesAhead, LeaveOthersAlone)
 {
-    pbs::PbsOptions plain, sleeping, stopping;
+    pbs::PbsOptions plain, sleeping, stopping, bound, of_regions, by_length;
+    bound.bind_to = pbs::BindTo::blended_position;
+    bound.k_bind = 0.1;
+    of_regions.volume_of = pbs::VolumeOf::regions;
+    by_length.k_stretch_length_m = 0.1;
     plain.order = pbs::Order::plain;
     sleeping.sleep = true;
     stopping.stop_residual = 0.2;
-    for (pbs::PbsOptions options : {plain, sleeping, stopping}) {
+    for (pbs::PbsOptions options : {plain, sleeping, stopping, bound, of_regions, by_length}) {
         const auto one_by_one = played(options, false);
         options.threads = 2;
         EXPECT_EQ(played(options, true), one_by_one);

@@ -8,7 +8,7 @@ import unittest
 import foreign_arm
 import program
 
-RESULT = {"variant", "precision", "threads", "ns_stretch", "ns_volume", "ns_bind", "ms_step", "ratio_to_plain"}
+RESULT = {"variant", "precision", "threads", "ns_stretch", "ns_volume", "ns_bind", "ms_step", "ratio_to_plain_spread", "ratio_to_plain"}
 
 
 def numbers(value, path=""):
@@ -41,7 +41,8 @@ class Bench(program.ProgramTest):
 
     def test_the_fields_of_the_contract(self):
         record = self.record("--mesh", self.arm(), "--threads", "2")
-        self.assertLessEqual({"context", "mesh", "results", "skinning", "fem", "meshes"}, record.keys())
+        self.assertLessEqual({"context", "mesh", "results", "skinning", "fem", "deformers", "meshes"}, record.keys())
+        self.assertEqual(record["context"]["headline_ratio"], "ratio_to_plain_spread")
         self.assertEqual(record["mesh"]["vertices"], 11 * 3 * 3)
         self.assertLessEqual({"edges", "tets"}, record["mesh"].keys())
         for result in record["results"]:
@@ -58,7 +59,7 @@ class Bench(program.ProgramTest):
     def test_every_number_is_finite_and_every_time_positive(self):
         for path, value in numbers(self.record("--mesh", self.arm())):
             self.assertTrue(math.isfinite(value), path)
-            if any(name in path for name in ("/ns_", "/ms_step", "/ratio_to_", "gflops", "gb_s", "share_of_limit")):
+            if any(name in path for name in ("/ns_", "/ms_frame", "/ms_step", "/ratio_to_", "gflops", "gb_s", "share_of_limit")):
                 self.assertGreater(value, 0, path)
 
     def test_ratios_are_to_plain_of_the_same_precision(self):
@@ -66,11 +67,27 @@ class Bench(program.ProgramTest):
             if result["variant"] == "plain":
                 self.assertEqual(result["ratio_to_plain"], 1)
 
+    def test_the_headline_ratio_is_to_plain_on_spread_constraints(self):
+        for baseline in self.record("--mesh", self.arm())["yardsticks"]:
+            if baseline["variant"] == "plain_spread":
+                self.assertEqual(baseline["ratio_to_plain_spread"], 1)
+
+    def test_every_listed_deformer_is_timed(self):
+        listed = {line.split()[0] for line in self.succeeds("list", "deformers").stdout.splitlines() if line.startswith("  ")}
+        timed = self.record("--mesh", self.arm())["deformers"]
+        defined_by_scenes = {"external", "fem"}  # fem has a table of its own
+        self.assertEqual({timing["deformer"] for timing in timed}, listed - defined_by_scenes)
+        for timing in timed:
+            if "left_out" not in timing:
+                self.assertLessEqual({"ms_frame", "ns_tet", "ns_vertex", "ratio_to_plain", "precision"}, timing.keys(), timing["deformer"])
+        pbs = {(timing["order"], timing["precision"]) for timing in timed if timing["deformer"] == "pbs"}
+        self.assertEqual(pbs, {(order, precision) for order in ("plain", "ordered", "grouped") for precision in ("f32", "f64")})
+
     def test_the_record_goes_into_a_folder(self):
         process = self.succeeds("bench", "--quick", "--mesh", self.arm(), "-o", self.path("out"))
         with open(self.path("out", "bench.json"), encoding="utf-8") as file:
             self.assertIn("results", json.load(file))
-        for word in ("ordered", "grouped", "poses", "ratio_to_plain", "lbs", "GFLOP/s"):
+        for word in ("ordered", "grouped", "poses", "ratio_to_plain_spread", "ratio_to_plain", "lbs", "xpbd", "GFLOP/s"):
             self.assertIn(word, process.stdout)
 
     def test_sizes_tell_how_the_cost_grows(self):

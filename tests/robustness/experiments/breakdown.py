@@ -6,6 +6,7 @@ import unittest
 
 import foreign_arm
 import program
+import rig_files
 
 SOLID = '[[fem]]\nname = "snh"\nmodel = "stable_neo_hookean"\nelement_order = 1\nattachment = "embedded"\n'
 LINEAR = '[[fem]]\nname = "linear"\nmodel = "linear"\nattachment = "embedded"\n'
@@ -88,6 +89,19 @@ class Breakdown(program.ProgramTest):
         process = program.run("measure", self.path("arm.msh"), self.path("out", "frames", "linear_000004.vtu"))
         self.assertIn(f"worst tet {last['worst_tet']} of volume ratio {last['volume_ratio']:.3g}, {last['inverted_tets']} inverted",
                       process.stderr)
+
+    def test_a_trial_whose_reference_is_not_reached(self):
+        """The elbow moves 1e8 m away, so that Newton's method does not converge. All files of the trial are written nevertheless."""
+        slide = [(2, "translation", [0.0, 1.0], [[0.35, 0.0, 0.0], [1e8, 0.0, 0.0]], "LINEAR")]
+        with open(self.path("far.glb"), "wb") as file:
+            file.write(rig_files.rig(**{**rig_files.VARIANTS["plain"], "animations": (), "extra": [("Slide", slide)]}))
+        process = program.run("try", self.path("far.glb"), "-o", self.path("out"), "--frames", "3", "--vertices", "300")
+        self.assertEqual(process.returncode, 3, process.stderr)
+        self.assertEqual(self.outcome()["not_converged"], {"nh_p1": [1, 2]})
+        self.assertIn("pose not reached: nh_p1 is not converged in frame 1: worst tet", process.stderr)
+        self.assertTrue(json.loads(self.read("out", "try.json"))["summary"])
+        for name in ("scene.toml", "report.html"):
+            self.assertTrue(self.read("out", name), name)
 
     def test_a_run_that_holds_names_nothing(self):
         self.assertEqual(self.run_scene(use='["lbs", "pbs"]').returncode, 0)

@@ -8,6 +8,7 @@ import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
+import foreign_arm
 import program
 import rig_files
 import skin_formula
@@ -170,19 +171,14 @@ class OwnCharacter(program.ProgramTest):
 
     @unittest.skipUnless(os.path.exists("/usr/share/assimp/models/BVH/01_01.bvh"), "assimp-testmodels is not installed")
     def test_a_body_by_name_may_use_few_joints_of_a_clip(self):
-        scene = """schema = 1
+        scene = f"""schema = 1
 [character]
 body = "ring"
 [motion]
 clip = "01_01.bvh"
 duration_s = 0.1
 rate_hz = 20.0
-[pbs]
-k_stretch = 0.2
-k_volume = 1.0
-k_bind = 1.0
-gravity_m_s2 = [0.0, 0.0, 0.0]
-[deformers]
+{foreign_arm.PBS}[deformers]
 use = ["lbs"]
 """
         process = self.succeeds("run", self.write("ring.toml", scene), "-o", self.path("run"))

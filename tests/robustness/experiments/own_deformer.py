@@ -13,6 +13,7 @@ import numpy
 import vtk
 from vtk.util.numpy_support import vtk_to_numpy
 
+import foreign_arm
 import program
 
 FOLDER = pathlib.Path(program.SOURCE) / "experiments/deformers/external"
@@ -20,7 +21,7 @@ TABLES = re.findall(r"```toml\n(.*?)```", (FOLDER / "README.md").read_text(), re
 COMPILE = re.search(r"^cc .*$", (FOLDER / "README.md").read_text(), re.MULTILINE)[0]
 LIMB = 'body = "limb"\nvertices = 300\n[motion]\njoint = "forearm"\naxis = [0.0, 0.0, 1.0]\nangle_deg = 90.0\nframes = 4\n'
 HUMAN = 'body = "human"\nvertices = 600\n[motion]\nclip = "01_01.bvh"\nrate_hz = 25.0\nduration_s = 0.2\n'
-SETTINGS = "[pbs]\nk_stretch = 0.2\nk_volume = 1.0\nk_bind = 1.0\ngravity_m_s2 = [0.0, 0.0, 0.0]\n[output]\nframes_every = 1\n"
+SETTINGS = foreign_arm.PBS + "[output]\nframes_every = 1\n"
 ENVIRONMENT = {**os.environ, "PATH": "/usr/bin:" + os.environ["PATH"]}  # Debian's python3 has numpy
 KEEP = "\nimport shutil\nshutil.copytree(folder, %r)\n"  # for the end of a Python deformer
 TOLERANCE = 1000 * numpy.finfo(float).eps

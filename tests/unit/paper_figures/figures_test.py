@@ -136,20 +136,31 @@ class Figures(unittest.TestCase):
                     self.assertEqual(make_all.main(results), 1)
             self.assertIn("valley.csv: does not exist", said.getvalue())
 
-    def test_work_precision_shows_every_point_with_a_time_and_an_error(self):
+    def test_work_precision_shows_each_comparison_with_its_nearest_and_its_omissions(self):
         with tempfile.TemporaryDirectory() as folder:
             results = pathlib.Path(folder)
             synthetic_records.write_work_precision(results)
-            with contextlib.redirect_stdout(io.StringIO()):
-                self.assertEqual(make_all.main(results, "work_precision"), 0)
-            self.assertIn(synthetic_records.revision.encode(), (results / "figures" / "work_precision.png").read_bytes())
-            with open(results / "figures" / "work_precision.csv", newline="") as stream:
-                rows = list(csv.DictReader(stream))
-            points = [("lbs", 0.1, 50.0), ("pbs", 1.0, 40.0), ("pbs", 2.0, 20.0), ("pbs", 4.0, 10.0)]  # not the reference
-            found = {shown: [(row["deformer"], float(row["ms_median"] or 0), float(row["error_joint_pct"])) for row in rows
-                             if row["shown"] == shown] for shown in {row["shown"]: 0 for row in rows}}
-            self.assertEqual(found, {"point": points, "front of all": points, "front of lbs": points[:1], "front of pbs": points[1:],
-                                     "bound": [("", 0.0, 15.0)]})
+            for name in ("work_precision", "work_precision_plain", "data_profiles"):
+                with contextlib.redirect_stdout(io.StringIO()):
+                    self.assertEqual(make_all.main(results, name), 0)
+            lbs = ("lbs", 0.1, 50.0)
+            for name, ms in (("work_precision", 1.0), ("work_precision_plain", 5.0)):
+                self.assertIn(synthetic_records.revision.encode(), (results / "figures" / f"{name}.png").read_bytes())
+                rows = records.read_rows(results / "figures" / f"{name}.csv")
+                self.assertEqual({row["panel"] for row in rows}, {"limb, bend 90\u00b0"})  # not the pose that trains
+                found = {shown: [(row["deformer"], float(row["ms_median"] or 0), float(row["error_joint_pct"] or 0)) for row in rows
+                                 if row["shown"] == shown] for shown in {row["shown"]: 0 for row in rows}}
+                pbs = [("pbs", ms, 40.0), ("pbs", 2 * ms, 20.0), ("pbs", 4 * ms, 10.0)]
+                nearest = [("", 0.1, 50.0), ("", 1.0, 40.0) if ms == 1.0 else ("", 0.1, 50.0), ("", 4 * ms, 10.0)]
+                expected = {"point": [lbs, *pbs], "front of all": [lbs, *pbs], "front of lbs": [lbs], "front of pbs": pbs,
+                            "nearest": nearest, "bound": [("", 0.0, 15.0)]}
+                self.assertEqual(found, expected | ({"omission": [("xpbd", 0.0, 0.0)]} if ms == 1.0 else {}))
+            drawn = (results / "figures" / "work_precision.svg").read_text()
+            for text in ("0.1 ms:", "LBS", "PBS?", "diverged: XPBD 2 of 9", "reference 90 s, bound 15 %"):  # a question mark: not decided
+                self.assertIn(text, drawn)
+            self.assertNotIn("diverged", (results / "figures" / "work_precision_plain.svg").read_text())
+            profiles = records.read_rows(results / "figures" / "data_profiles.csv")
+            self.assertEqual([(row["comparison"], row["ms"]) for row in profiles], [("packed_f32", "4.0"), ("plain_f64", "20.0")])
             (results / "work_precision" / "fronts.csv").unlink()
             with contextlib.redirect_stderr(io.StringIO()) as said:
                 with contextlib.redirect_stdout(io.StringIO()):

@@ -84,6 +84,15 @@ class Plots(unittest.TestCase):
         self.assertEqual(len(rows), 4 * 3)  # parts, iterations: neither another order nor another stiffness nor substeps
         self.assertEqual(parts["solver_pct", 24.0], 1.25)
 
+    def test_improvements(self):
+        synthetic_tables.write_improvements(self.results / "improvements")
+        rows = self.drawn("improvements")
+        self.assertEqual(len([row for row in rows if row["shown"] == "curve"]), 2 * 4)
+        gains = {row["budget_iterations"]: row for row in rows if row["shown"] == "gain"}
+        self.assertEqual(len([row for row in rows if row["shown"] == "gain"]), 3)  # relative to PBS, and to no other change
+        self.assertAlmostEqual(float(gains["4"]["gain_pct"]), 5.0)
+        self.assertEqual([gains[n]["decision"] for n in ("4", "24", "96")], ["few_poses", "decided", "few_poses"])
+
     def test_an_attachment_that_was_not_reached_keeps_its_place_and_says_so(self):
         synthetic_tables.write_error_split(self.results / "error_split")
         axes, save = [], style.save

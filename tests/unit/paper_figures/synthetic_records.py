@@ -115,26 +115,43 @@ def write_fit(results):
 
 
 def write_work_precision(results):
-    """PBS: an error of 40 % / n after n iterations of a millisecond each; the reference's own error is at most 15 %."""
+    """PBS in packed code: an error of 40 % / n after n iterations of a millisecond each; in plain code five times as long. LBS has one
+    code. The reference's own error is at most 15 %. In a second pose, which trains, nothing may be shown. XPBD diverges."""
     folder = results / "work_precision"
-    (folder / "limb_bend_90").mkdir(parents=True)
-    (folder / "limb_bend_90" / "run.json").write_text(json.dumps(origin))
     case = {"body": "limb", "motion": "bend", "pose": "", "angle_deg": 90}
-    unset = ["k_stretch", "order", "precision", "substeps", "element_order", "wanted_vertices", "refined"]
-    of_point = ["deformer", "iterations", "ms_median", "error_joint_pct", *unset]
-    points = [("lbs", "", 0.1, 50.0), *(("pbs", n, float(n), 40.0 / n) for n in (1, 2, 4))]
-    with open(folder / "limb_bend_90" / "points.csv", "w", newline="") as stream:
-        writer = csv.DictWriter(stream, [*case, *of_point, "outcome", "reference_error_joint_pct"])
-        writer.writeheader()
-        for point in points:
-            writer.writerow({**case, **dict(zip(of_point, point)), "outcome": "finished", "reference_error_joint_pct": 15.0})
-        writer.writerow({**case, "deformer": "reference", "outcome": "reference", "reference_error_joint_pct": 15.0})
-    with open(folder / "fronts.csv", "w", newline="") as stream:
-        writer = csv.DictWriter(stream, ["case", "measure", "front", *of_point])
-        writer.writeheader()
-        for point in points:
-            for front in ("all", point[0]):
-                writer.writerow({"case": "limb_bend_90", "measure": "error_joint_pct", "front": front, **dict(zip(of_point, point))})
+    unset = {name: "" for name in ("k_stretch", "order", "substeps", "element_order", "wanted_vertices", "refined", "tuned")}
+
+    def point(deformer, n, ms, error, precision, packed):
+        return {"deformer": deformer, "iterations": n, "ms_median": ms, "error_joint_pct": error, **unset, "precision": precision,
+                "packed": packed}
+
+    lbs = point("lbs", "", 0.1, 50.0, "f64", 0)
+    packed = [point("pbs", n, float(n), 40.0 / n, "f32", 1) for n in (1, 2, 4)]
+    plain = [point("pbs", n, 5.0 * n, 40.0 / n, "f64", 0) for n in (1, 2, 4)]
+    rest = {"outcome": "finished", "half": "evaluation", "reach_ms": 1.0, "reference_error_joint_pct": 15.0}
+    reference = {**lbs, "deformer": "reference", "ms_median": "", "error_joint_pct": "", "outcome": "reference"}
+    for name, half in (("limb_bend_90", "evaluation"), ("limb_bend_60", "training")):
+        (folder / name).mkdir(parents=True)
+        (folder / name / "run.json").write_text(json.dumps(origin))
+        write_table(folder / name / "points.csv", [{**case, **row, **rest, "half": half} for row in (lbs, *packed, *plain)]
+                    + [{**case, **reference, "half": half, "reach_ms": 90000.0, "reference_error_joint_pct": 15.0}])
+    fronts, best, profiles = [], [], []
+    for comparison, rows in (("packed_f32", [lbs, *packed]), ("plain_f64", [lbs, *plain])):
+        common = {"comparison": comparison, "case": "limb_bend_90"}
+        fronts += [{**common, "measure": "error_joint_pct", "front": front, **row, "reference_error_joint_pct": 15.0}
+                   for row in rows for front in ("all", row["deformer"])]
+        fronts += [{**fronts[-1], "case": "limb_bend_60"}]
+        for budget_ms, nearest in ((0.1, rows[0]), (1, rows[1 if comparison == "packed_f32" else 0]), (3, rows[2]), (10, rows[3])):
+            best += [{**common, "budget_ms": budget_ms, "rank": rank, "group": nearest["deformer"], "ms_median": nearest["ms_median"],
+                      "error_joint_pct": nearest["error_joint_pct"], "decision": "decided" if budget_ms < 10 else "reference_error"}
+                     for rank in (1, 2)]
+        profiles += [{"comparison": comparison, "tolerance_pct": 10, "group": "pbs", "ms": rows[3]["ms_median"], "solved": 1, "poses": 1,
+                      "share_pct": 100}]
+    write_table(folder / "fronts.csv", fronts)
+    write_table(folder / "best_within.csv", best)
+    write_table(folder / "data_profiles.csv", profiles)
+    write_table(folder / "omissions.csv", [{"comparison": "packed_f32", "case": "limb_bend_90", "deformer": "xpbd", "why": "not_finite",
+                                            "missing": 2, "points": 9, "reason": ""}])
 
 
 def write_bench(results):

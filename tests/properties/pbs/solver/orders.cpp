@@ -1,9 +1,9 @@
 // Reference: order `plain`. Stretch, volume and bind contradict each other, so every order of projection converges to a limit of its own.
-// The test measures how far those lie from plain's on a limb twisted by 90 and bent by 60 degrees, after the paper's 24 iterations. The
-// bounds of `ordered`, 3 % and 8 %, are the differences between random orders of the plain loops, some 1 % in stretch and 1 to 7 % in
-// volume residual, with a small margin. The bounds of `grouped`, 9 % and 19 %, are regression values, not theory: its bias as once measured
-// on a bar of 20,000 vertices. Meshes are irregular: on a regular grid the file order itself is special, 20 to 30 % below random orders of
-// the same loops.
+// The test measures how far those lie from plain's on a limb twisted by 90 and bent by 60 degrees, after the paper's 24 iterations.
+// `ordered` must not be worse than plain by more than random orders of the plain loops differ among themselves, some 1 % in stretch; in
+// volume, its colours leave less than plain (projection_sequence.hpp), and it must not be worse at all. The bounds of `grouped`, 9 % and
+// 19 %, are regression values, not theory: its bias as once measured on a bar of 20,000 vertices. Meshes are irregular: on a regular grid
+// the file order itself is special, 20 to 30 % below random orders of the same loops.
 #include "pbs/solver/pbs_solver.hpp"
 
 #include "pbs/geometry/meshing.hpp"
@@ -68,52 +68,49 @@ const TwoBoneLimb& limb()
     return limb;
 }
 
-void expect_bias_below(const TwoBoneLimb& body, Order order, Precision precision, const Bias& bound)
+Bias measured_bias(const TwoBoneLimb& body, Order order, Precision precision)
 {
     const Bias bias = bias_of(body, order, precision);
     const std::string name = order == Order::ordered ? "ordered" : "grouped";
     put_on_record(name + (precision == Precision::f32 ? "_f32" : "_f64"), bias, body.lbs.rows());
-    EXPECT_LT(std::abs(bias.stretch), bound.stretch);
-    EXPECT_LT(std::abs(bias.volume), bound.volume);
+    return bias;
 }
 
-void expect_bias_below(Order order, const Bias& bound)
+void expect_no_worse_than_plain(const TwoBoneLimb& body, Precision precision)
+{
+    const Bias bias = measured_bias(body, Order::ordered, precision);
+    EXPECT_LT(bias.stretch, 0.01);
+    EXPECT_LT(bias.volume, 0.0);
+}
+
+const TwoBoneLimb& bar()
 {
     static const TwoBoneLimb bar = twisted_and_bent(pbs::mesh_bar(2000));
-    for (const TwoBoneLimb* body : {&limb(), &bar})
-        for (const Precision precision : {Precision::f32, Precision::f64}) expect_bias_below(*body, order, precision, bound);
+    return bar;
 }
 
-const Bias ordered_bound{0.03, 0.08};
-
-TEST(Orders, OrderedSettlesNearPlain)
+TEST(Orders, OrderedIsNoWorseThanPlain)
 {
-    expect_bias_below(Order::ordered, ordered_bound);
+    for (const TwoBoneLimb* body : {&limb(), &bar()})
+        for (const Precision precision : {Precision::f32, Precision::f64}) expect_no_worse_than_plain(*body, precision);
 }
 
 // Bodies of some 20,000 vertices with several slabs, each projected by itself. They are refined, which takes 1 s, while meshing takes 19 s.
-TwoBoneLimb twisted_and_bent_fine(const pbs::TetMesh& coarse)
+TEST(Orders, OrderedIsNoWorseThanPlainOnFineBodies)
 {
-    return twisted_and_bent(pbs::refine(coarse).mesh);
-}
-
-TEST(Orders, OrderedSettlesNearPlainOnAFineLimb)
-{
-    expect_bias_below(twisted_and_bent_fine(pbs::mesh_limb(2900)), Order::ordered, Precision::f32, ordered_bound);
-}
-
-// The bound of 8 % does not hold in volume: the difference is -11.4 % here and +8.5 % on mesh_bar(19500), where shuffled tets change plain
-// itself by less than 2 %. The test requires an earlier value of this code with a small margin instead.
-TEST(Orders, OrderedOnAFineBarIsFartherFromPlainInVolumeThanAsked)
-{
-    const Bias past{ordered_bound.stretch, 0.12};
-    expect_bias_below(twisted_and_bent_fine(pbs::mesh_bar(2900)), Order::ordered, Precision::f32, past);
+    for (const pbs::TetMesh& coarse : {pbs::mesh_limb(2900), pbs::mesh_bar(2900)})
+        expect_no_worse_than_plain(twisted_and_bent(pbs::refine(coarse).mesh), Precision::f32);
 }
 
 // The order is offered with its bias, which is documented.
 TEST(Orders, GroupedHasABiasOfItsOwn)
 {
-    expect_bias_below(Order::grouped, {0.09, 0.19});
+    for (const TwoBoneLimb* body : {&limb(), &bar()})
+        for (const Precision precision : {Precision::f32, Precision::f64}) {
+            const Bias bias = measured_bias(*body, Order::grouped, precision);
+            EXPECT_LT(std::abs(bias.stretch), 0.09);
+            EXPECT_LT(std::abs(bias.volume), 0.19);
+        }
 }
 
 // Precision is not an order: in each order, residuals in float and double differ by rounding alone.

@@ -82,7 +82,7 @@ TEST_P(Sleep, WithoutToleranceNothingThatIsOffSleeps)
     options.sleep_tolerance = 0.0;
     const Positions lbs = 1.01 * bar.rest;
     const Step asleep = step_from(lbs, options), awake = step_from(lbs, options_of(GetParam(), false));
-    EXPECT_LT(asleep.summary.sleeping_share, 0.01);  // only batches of padding
+    EXPECT_LT(asleep.summary.sleeping_share, 0.02);  // only empty batches: pauses at the end of a class, some five of four hundred
     EXPECT_EQ(asleep.positions, awake.positions);
 }
 

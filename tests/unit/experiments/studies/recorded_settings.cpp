@@ -1,4 +1,5 @@
 // --resume repeats a run when anything changed that its work depends on. Reference: the members of the cases, each changed in turn.
+#include "experiments/deformers/blend/blend_options.hpp"
 #include "experiments/deformers/fem/fem_option_names.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/studies/ambiguity/reading_values.hpp"
@@ -7,9 +8,11 @@
 #include "experiments/studies/bench/bench.hpp"
 #include "experiments/studies/convergence/convergence_case.hpp"
 #include "experiments/studies/ensemble/ensemble.hpp"
+#include "experiments/studies/equal_quality/equal_quality.hpp"
 #include "experiments/studies/error_split/error_split.hpp"
 #include "experiments/studies/features/feature_cost.hpp"
 #include "experiments/studies/fit/poisson_run.hpp"
+#include "experiments/studies/improvements/measured_changes.hpp"
 #include "experiments/studies/jiggle/jiggle_records.hpp"
 #include "experiments/studies/scale/scale_records.hpp"
 #include "experiments/studies/setup/body_setup.hpp"
@@ -18,7 +21,9 @@
 #include "experiments/studies/study_run.hpp"
 #include "experiments/studies/timing/timing_records.hpp"
 #include "experiments/studies/work_precision/measured_points.hpp"
+#include "pbs/author/author_options.hpp"
 #include "pbs/skinning/delta_mush.hpp"
+#include "pbs/skinning/direct_delta_mush.hpp"
 #include "pbs/solver/xpbd_options.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/struct_members.hpp"
@@ -66,6 +71,13 @@ TEST(RecordedSettings, OfErrorSplit)
     EXPECT_GE(expect_each_change_repeats(of), 10);
 }
 
+TEST(RecordedSettings, OfEqualQuality)
+{
+    EqualQualityCase of;
+    of.of = {.body = "limb", .motion = "twist", .angle_deg = 150.0}, of.scene = limb(), of.frame = 1, of.random = {1};
+    EXPECT_GE(expect_each_change_repeats(of), 10);
+}
+
 TEST(RecordedSettings, OfEnsemble)
 {
     EnsembleCase of;
@@ -74,11 +86,19 @@ TEST(RecordedSettings, OfEnsemble)
     EXPECT_GE(expect_each_change_repeats(of), 10);
 }
 
+TEST(RecordedSettings, OfImprovements)
+{
+    ChangesCase of;
+    of.of = {.body = "limb", .motion = "bend", .angle_deg = 60.0}, of.scene = limb(), of.frame = 12;
+    EXPECT_GE(expect_each_change_repeats(of), 15);
+}
+
 TEST(RecordedSettings, OfWorkPrecision)
 {
     WorkPrecisionCase of;
     of.of = {.body = "limb", .motion = "bend", .angle_deg = 60.0}, of.scene = limb(), of.frame = 12;
-    of.range.coarser_vertices = {600};
+    of.range.other_vertices = {600};
+    of.members = {family().back()};
     EXPECT_GE(expect_each_change_repeats(of), 18);
 }
 
@@ -188,7 +208,10 @@ TEST(RecordedSettings, OfDeformers)
 {
     expect_each_option_is_recorded("fem", FemOptions{});
     expect_each_option_is_recorded("xpbd", pbs::XpbdOptions{});
+    expect_each_option_is_recorded("lbs", BlendOptions{});
     expect_each_option_is_recorded("delta_mush", pbs::DeltaMushOptions{});
+    expect_each_option_is_recorded("pbs_author", pbs::AuthorOptions{});
+    expect_each_option_is_recorded("direct_delta_mush", pbs::DirectDeltaMushOptions{});
     const int threads = 6;  // the member on which results do not depend
     expect_each_option_is_recorded("pbs", pbs::PbsOptions{}, threads);
 }

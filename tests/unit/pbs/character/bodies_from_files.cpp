@@ -3,8 +3,10 @@
 #include "pbs/character/body_cache.hpp"
 #include "pbs/geometry/mesh_io.hpp"
 
+#include "tests/support/arm_in_formats.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/structured_bar.hpp"
+#include "tests/unit/pbs/character/expect_input_error.hpp"
 
 #include <gtest/gtest.h>
 
@@ -34,6 +36,22 @@ TEST(Bodies, FromFiles)
     EXPECT_EQ(bar.inputs[1], std::pair(std::string("bar.skeleton.toml"), content_hash(bones)));
     EXPECT_EQ(bar.inputs[2].first, "tets");
     EXPECT_EQ(bar.inputs[3], std::pair(std::string("bar.csv"), content_hash(rows)));
+}
+
+// A COLLADA file whose body has no skin.
+TEST(Bodies, AColladaFileWithoutASkinIsNoSkeleton)
+{
+    const test_support::ScratchFolder folder;
+    const std::string mesh = folder / "bar.vtu";
+    write_tet_mesh(mesh, test_support::structured_bar(Vec3(-1, -0.1, -0.1), Vec3(1, 0.1, 0.1), {2, 1, 1}));
+    std::string text = test_support::collada_arm();
+    const std::string skinned = R"(<instance_controller url="#skin"><skeleton>#root</skeleton></instance_controller>)";
+    text.replace(text.find(skinned), skinned.size(), R"(<instance_geometry url="#arm"/>)");
+    for (const char* name : {"arm.dae", "arm.toml"}) {
+        const std::string skeleton = folder.file(name, text);
+        expect_input_error([&] { make_character({.mesh_file = mesh, .skeleton_file = skeleton}); },
+                           skeleton + ": skins = 0: ", "a COLLADA file without one is no skeleton");
+    }
 }
 
 }  // namespace

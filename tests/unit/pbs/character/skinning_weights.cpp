@@ -92,6 +92,7 @@ TEST(SkinningWeights, HaveNames)
     EXPECT_STREQ(name_of(WeightKind::paper), "paper");
     EXPECT_STREQ(name_of(WeightKind::rigid), "rigid");
     EXPECT_STREQ(name_of(WeightKind::smooth), "smooth");
+    EXPECT_STREQ(name_of(WeightKind::diffused), "diffused");
     EXPECT_STREQ(name_of(WeightKind::artist), "artist");
     EXPECT_STREQ(name_of(WeightKind::file), "file");
 }

@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace {
 
 using pbs::BindConstraint;
@@ -29,6 +31,26 @@ TEST(BindConstraint, GradientByEpsSweep)
         const auto at = [](const Eigen::VectorXd& x) { return value(tether, Vec3(x), q); };
         test_support::expect_slope_by_eps_sweep(at, p, direction, gradient(tether, p, q).dot(direction), 1.0);
     }
+}
+
+// A constraint to a position, as BindTo::blended_position has it, is one of distance zero: its gradient feels a turn about any axis that
+// does not go through the position, where that of a distance to a bone is zero.
+TEST(BindConstraint, ToAPositionResistsTurnsThatADistanceLeavesFree)
+{
+    const BindConstraint<double> to_position{0, 0.0, 0.25}, to_bone{0, 2.0, 0.25};
+    test_support::RandomPoints random(11);
+    for (int trial = 0; trial < 20; ++trial) {
+        const Vec3 p = q + Vec3(2, 0, 0) + random.point(1.0), direction = random.point(1.0);
+        const auto at = [&](const Eigen::VectorXd& x) { return value(to_position, Vec3(x), q); };
+        test_support::expect_slope_by_eps_sweep(at, p, direction, gradient(to_position, p, q).dot(direction), 1.0);
+    }
+    const Vec3 at_rest = q + Vec3(0, 2, 0), turned = q + Vec3(0, 0, 2);  // by a right angle about the bone through q along x
+    EXPECT_EQ(value(to_bone, turned, q), 0.0);
+    EXPECT_DOUBLE_EQ(value(to_position, turned, at_rest), std::sqrt(8.0));
+    Vec3 p = turned;
+    const double rounding_m = test_support::rounding_of(to_position, at_rest, p).step;
+    project(to_position, 1.0, at_rest, p);
+    EXPECT_LT((p - (0.75 * turned + 0.25 * at_rest)).norm(), 2.0 * rounding_m) << "a quarter of the way, and the same sum by hand";
 }
 
 TEST(BindConstraint, ProjectionRestoresTheDistance)

@@ -27,17 +27,37 @@ TEST(ReadByContent, BothFormatsOfVtkUnderEitherName)
         EXPECT_EQ(pbs::read_tet_mesh(path).mesh.rest, unit_tet().rest) << path;
 }
 
-TEST(ReadByContent, AMeshOfGmshOrMeditUnderAnotherNameIsRefusedWithTheNameItNeeds)
+TEST(ReadByContent, GmshAndMeditUnderAnotherNameWithARemark)
 {
     const ScratchFolder folder;
-    pbs::write_tet_mesh(folder / "a.msh", unit_tet());
-    pbs::write_tet_mesh(folder / "a.mesh", unit_tet());
-    std::filesystem::copy_file(folder / "a.msh", folder / "gmsh.vtk");
-    std::filesystem::copy_file(folder / "a.mesh", folder / "medit.txt");
-    expect_input_error([&] { pbs::read_tet_mesh(folder / "gmsh.vtk"); },
-                       (folder / "gmsh.vtk") + ": extension = .vtk: ", "rename it to .msh");
-    expect_input_error([&] { pbs::read_tet_mesh(folder / "medit.txt"); },
-                       (folder / "medit.txt") + ": extension = .txt: ", "rename it to .mesh");
+    for (const auto& [extension, name] :
+         {std::pair{".msh", "gmsh.vtk"}, {".msh", "gmsh.mesh"}, {".mesh", "medit.txt"}, {".mesh", "medit"}}) {
+        pbs::write_tet_mesh(folder / (std::string("a") + extension), unit_tet());
+        const std::string path = folder / name;
+        std::filesystem::rename(folder / (std::string("a") + extension), path);
+        const pbs::MeshReading reading = pbs::read_tet_mesh(path);
+        EXPECT_EQ(reading.mesh.rest, unit_tet().rest) << path;
+        EXPECT_EQ(reading.read_as, extension) << path;
+        EXPECT_EQ(pbs::remarks_on(path, reading),
+                  std::vector{path + ": format of the content = " + extension + ": read as such, whatever the file is called"});
+    }
+}
+
+// Nodes that no element uses are counted in the file's own format.
+TEST(ReadByContent, GmshUnderAnotherNameKeepsItsNumbers)
+{
+    const ScratchFolder folder;
+    const std::string path = folder.file("2.txt",
+                                         "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n5\n1 0 0 0\n2 1 0 0\n3 9 9 9\n4 0 1 0\n5 0 0 1\n"
+                                         "$EndNodes\n$Elements\n1\n1 4 2 0 1 1 2 4 5\n$EndElements\n");
+    EXPECT_EQ(pbs::read_tet_mesh(path).unused_vertices, std::vector<int>{2});
+}
+
+TEST(ReadByContent, ADamagedGmshFileUnderAnotherNameIsRefusedByItsOwnName)
+{
+    const ScratchFolder folder;
+    const std::string path = folder.file("a.vtk", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n");
+    expect_input_error([&] { pbs::read_tet_mesh(path); }, path + ": ", "$EndNodes is missing");
 }
 
 TEST(ReadByContent, AnUnknownFormatIsRefusedByItsExtension)

@@ -154,4 +154,58 @@ TEST(Topology, OfNothingCountsUnusedVertices)
     EXPECT_EQ(topology.unused_vertices, 5);
 }
 
+// Faces of a tet on these corners, outward if it is positively oriented.
+Triangles faces_of(int a, int b, int c, int d)
+{
+    Triangles faces(4, 3);
+    faces << b, c, d, a, d, c, a, b, d, a, c, b;
+    return faces;
+}
+
+Triangles together(const Triangles& one, const Triangles& other)
+{
+    Triangles all(one.rows() + other.rows(), 3);
+    all << one, other;
+    return all;
+}
+
+TEST(ClosedTriangles, OfATetAreWatertight)
+{
+    const Triangles tet = faces_of(0, 1, 2, 3);
+    EXPECT_TRUE(pbs::is_closed(tet));
+    EXPECT_TRUE(pbs::is_watertight(tet));
+    EXPECT_FALSE(pbs::open_edge(tet));
+}
+
+TEST(ClosedTriangles, OfTetsThatTouchInAnEdgeAreClosedButNotWatertight)
+{
+    const Triangles two = together(faces_of(0, 1, 2, 3), faces_of(0, 1, 4, 5));
+    EXPECT_TRUE(pbs::is_closed(two));
+    EXPECT_FALSE(pbs::is_watertight(two));
+}
+
+TEST(ClosedTriangles, WithAHoleAFinOrATurnedTriangleAreOpenAtTheirFirstEdge)
+{
+    const Triangles tet = faces_of(0, 1, 2, 3);
+    const Triangles fin = together(tet, (Triangles(1, 3) << 0, 1, 4).finished());
+    Triangles turned = tet;
+    turned.row(0) = turned.row(0).reverse().eval();
+    for (const auto& [triangles, edge] : {std::pair(Triangles(tet.topRows(3)), pbs::DirectedEdge(0, 1)),
+                                          {fin, pbs::DirectedEdge(0, 1)},
+                                          {turned, pbs::DirectedEdge(1, 2)}}) {
+        EXPECT_FALSE(pbs::is_closed(triangles));
+        EXPECT_FALSE(pbs::is_watertight(triangles));
+        const auto open = pbs::open_edge(triangles);
+        ASSERT_TRUE(open);
+        EXPECT_EQ(std::minmax(open->first, open->second), std::minmax(edge.first, edge.second));
+    }
+}
+
+TEST(ClosedTriangles, NoneEncloseNothing)
+{
+    EXPECT_FALSE(pbs::is_closed(Triangles(0, 3)));
+    EXPECT_FALSE(pbs::is_watertight(Triangles(0, 3)));
+    EXPECT_FALSE(pbs::open_edge(Triangles(0, 3)));
+}
+
 }  // namespace

@@ -3,13 +3,12 @@
 #include "pbs/skinning/delta_mush.hpp"
 
 #include "pbs/geometry/tet_volume.hpp"
+#include "tests/support/mush_rounding.hpp"
 #include "tests/support/rounding_error.hpp"
 #include "tests/support/two_bone_limb.hpp"
 
-#include <Eigen/SVD>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace {
@@ -27,58 +26,9 @@ Positions mushed(const Positions& blended, const pbs::DeltaMushOptions& options 
     return posed;
 }
 
-const pbs::Adjacency neighbours = pbs::adjacency_of(bent.mesh.tets, static_cast<int>(bent.mesh.rest.rows()));
-
-int neighbours_of(int vertex)
-{
-    return neighbours.first[vertex + 1] - neighbours.first[vertex];
-}
-
-// Mean positions of the neighbours, again and again, half-way: the default options.
-Positions smoothed(Positions positions)
-{
-    for (int iteration = 0; iteration < pbs::DeltaMushOptions().iterations; ++iteration) {
-        const Positions last = positions;
-        for (int i = 0; i < last.rows(); ++i) {
-            positions.row(i) *= 0.5;
-            for (int k = neighbours.first[i]; k < neighbours.first[i + 1]; ++k)
-                positions.row(i) += 0.5 / neighbours_of(i) * last.row(neighbours.neighbour[k]);
-        }
-    }
-    return positions;
-}
-
-// How far rounding may move a mushed position [m] of coordinates up to `farthest`.
-//   Smoothing: each mean of n neighbours goes through n + 4 roundings, and means do not amplify those before. Without a motion, the blend
-//   and the rest shape are smoothed in the same roundings.
-//   Rotation: the covariance is a sum of n products of smoothed edges, whose ends are in error by smoothing on both sides, and its
-//   decomposition rounds some 30 times. An error E of the covariance turns its rotation by at most 2 |E| / (s2 + s3), with s2 and s3 its
-//   smaller singular values (C. Kenney, A. J. Laub, SIAM J. Matrix Anal. Appl. 12, 1991), which moves the vertex by that share of its
-//   detail. Sum: the detail, its rotated coordinates and their sum go through six roundings.
 double mush_error(const Positions& blended, bool moved, double farthest)
 {
-    const Positions rest = smoothed(bent.mesh.rest), posed = smoothed(blended);
-    int most = 0;
-    for (int i = 0; i < rest.rows(); ++i) most = std::max(most, neighbours_of(i));
-    const double of_smoothing =
-        moved ? std::sqrt(3.0) * test_support::rounding_error(pbs::DeltaMushOptions().iterations * (most + 4), farthest) : 0.0;
-    double largest = 0.0;
-    for (int i = 0; i < rest.rows(); ++i) {
-        Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-        double magnitude = 0.0, lengths = 0.0;
-        for (int k = neighbours.first[i]; k < neighbours.first[i + 1]; ++k) {
-            const int j = neighbours.neighbour[k];
-            const Eigen::RowVector3d to = posed.row(j) - posed.row(i), from = rest.row(j) - rest.row(i);
-            covariance += to.transpose() * from;
-            magnitude += to.norm() * from.norm();
-            lengths += to.norm() + from.norm();
-        }
-        const Vec3 s = Eigen::JacobiSVD<Eigen::Matrix3d>(covariance).singularValues();
-        const double of_covariance = test_support::rounding_error(neighbours_of(i) + 3 + 30, magnitude) + 2.0 * of_smoothing * lengths;
-        const double of_rotation = 2.0 * of_covariance / (s(1) + s(2));
-        largest = std::max(largest, of_rotation * (bent.mesh.rest.row(i) - rest.row(i)).norm());
-    }
-    return largest + of_smoothing + std::sqrt(3.0) * test_support::rounding_error(6, farthest);
+    return test_support::mush_error<double>(bent.mesh, blended, moved, farthest);
 }
 
 TEST(DeltaMush, RestComesBack)

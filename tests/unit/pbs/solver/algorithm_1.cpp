@@ -89,6 +89,29 @@ TEST(Algorithm1, JigglingParticlesLagBehindAndFollow)
     EXPECT_NE(algorithm.positions(), once);  // it still has a velocity
 }
 
+// In Scalar a target is rounded once, and a correction of the whole distance some ten times (projection_rounding.hpp).
+TEST(Algorithm1, BindToTheBlendedPositionOfStiffnessOneGoesBackToIt)
+{
+    PbsOptions options;
+    options.k_stretch = options.k_volume = 0.0;
+    options.bind_to = pbs::BindTo::blended_position;
+    options.iterations = 1;
+    const Positions blend = 1.1 * limb.lbs;
+    for (const pbs::Order order : {pbs::Order::plain, pbs::Order::ordered, pbs::Order::grouped}) {
+        options.order = order;
+        options.jiggle = pbs::Jiggle{0.0};
+        options.gravity_m_s2 = Vec3(0, 0, -9.81);
+        Algorithm1<double> algorithm(limb.mesh, limb.binding.distance, all, options);
+        for (int step = 0; step < 3; ++step) algorithm.advance(blend, limb.bind_points, dt);
+        EXPECT_LE((algorithm.positions() - blend).cwiseAbs().maxCoeff(), test_support::rounding_error_in<double>(2 * 11, 1.1));
+        options.bind_to = pbs::BindTo::bone_distance;
+        Algorithm1<double> free(limb.mesh, limb.binding.distance, all, options);
+        for (int step = 0; step < 3; ++step) free.advance(blend, limb.bind_points, dt);
+        EXPECT_GT((free.positions() - blend).cwiseAbs().maxCoeff(), 1e-3) << "the distances alone leave it elsewhere";
+        options.bind_to = pbs::BindTo::blended_position;
+    }
+}
+
 TEST(Algorithm1, TimeStepMattersOnlyWhereParticlesAreIntegrated)
 {
     Algorithm1<double> jiggling(limb.mesh, limb.binding.distance, all, jiggling_freely());

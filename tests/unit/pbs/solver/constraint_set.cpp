@@ -93,6 +93,92 @@ TEST(ConstraintSet, MuellersExponentLeavesTheSameWhateverTheIterations)
     EXPECT_EQ(softer.volume.front().stiffness, 1.0);
 }
 
+TEST(ConstraintSet, BindToTheBlendedPositionHasNoDistance)
+{
+    PbsOptions options;
+    options.bind_to = pbs::BindTo::blended_position;
+    options.bind_on_bone = pbs::BindOnBone::unbound;
+    const auto bind = constraints_of(options).bind;
+    ASSERT_EQ(bind.size(), 11u) << "a vertex on its bone is recognised by its distance from the bone";
+    for (const auto& constraint : bind) EXPECT_EQ(constraint.rest_distance, 0.0);
+}
+
+TEST(ConstraintSet, RegionsTakeThePlaceOfTetsOrFollowThem)
+{
+    PbsOptions options;
+    options.k_volume = 0.5;
+    options.region_tets = 6;
+    EXPECT_TRUE(constraints_of(options).regions.empty());
+    options.volume_of = pbs::VolumeOf::regions;
+    const ConstraintSet<double> of_regions = constraints_of(options);
+    EXPECT_TRUE(of_regions.volume.empty());
+    double volume = 0.0;
+    for (const auto& region : of_regions.regions) {
+        EXPECT_EQ(region.stiffness, 0.5);
+        volume += region.rest_volume;
+    }
+    EXPECT_NEAR(volume, 2.0, test_support::rounding_error(12 * 20, 2.0));  // of twelve tets' faces, some twenty roundings each
+    options.volume_of = pbs::VolumeOf::tets_and_regions;
+    EXPECT_EQ(constraints_of(options).volume.size(), 12u);
+    EXPECT_EQ(constraints_of(options).regions.size(), of_regions.regions.size());
+    options.k_volume = 0.0;
+    EXPECT_TRUE(constraints_of(options).regions.empty());
+}
+
+// 1 / (1 + 4 (2 / 1)^2) at twice the length of an edge of k = 1 / 5, by hand; the formula goes through five roundings.
+TEST(ConstraintSet, StiffnessByLengthFallsWithTheSquareOfTheLength)
+{
+    EXPECT_EQ(pbs::stiffness_at_length(0.2, 0.7, 0.0), 0.2) << "a length of zero asks for no scaling";
+    const double rounding = test_support::rounding_error(5, 1.0);
+    EXPECT_NEAR(pbs::stiffness_at_length(0.2, 1.0, 1.0), 0.2, rounding);
+    EXPECT_NEAR(pbs::stiffness_at_length(0.2, 2.0, 1.0), 1.0 / 17.0, rounding);
+    EXPECT_NEAR(pbs::stiffness_at_length(0.2, 0.5, 1.0), 0.5, rounding);
+    for (const double k : {0.0, 1.0}) EXPECT_EQ(pbs::stiffness_at_length(k, 3.0, 1.0), k);
+
+    PbsOptions options;
+    options.k_stretch_length_m = 1.0;
+    for (const auto& edge : constraints_of(options).stretch)
+        EXPECT_EQ(edge.stiffness, pbs::stiffness_at_length(0.2, edge.rest_length, 1.0));
+}
+
+// A chain of length 1 m between two held points, displaced along itself by a sine: the mode decays at the rate k h^2 pi^2 / 2 per sweep,
+// the diffusion that the formula keeps. A sweep moves every point by two shares one after the other, whose product, of relative size k,
+// and the mode's (pi h)^2 / 12 are left out of that rate.
+double decay_per_sweep(int edges, double k_stretch_length_m)
+{
+    const double h = 1.0 / edges, k = pbs::stiffness_at_length(0.02, h, k_stretch_length_m);
+    constexpr double amplitude = 1e-6;
+    std::vector<pbs::Vec3> p;
+    for (int i = 0; i <= edges; ++i) p.emplace_back(i * h + amplitude * std::sin(M_PI * i * h), 0, 0);
+    const auto middle = [&] { return p[edges / 2].x() - 0.5; };
+    constexpr int sweeps = 100;
+    for (int sweep = 0; sweep < sweeps; ++sweep)
+        for (int e = 0; e < edges; ++e)
+            project(pbs::StretchConstraint<double>{{e, e + 1}, h, k}, e == 0 ? 0.0 : 1.0, e + 1 == edges ? 0.0 : 1.0, p[e], p[e + 1]);
+    return -std::log(middle() / amplitude) / sweeps;
+}
+
+TEST(ConstraintSet, StiffnessByLengthGivesTheSameMaterialOnAFinerMesh)
+{
+    const double coarse = decay_per_sweep(8, 1.0 / 8), fine = decay_per_sweep(16, 1.0 / 8), unscaled = decay_per_sweep(16, 0.0);
+    const double larger_share = pbs::stiffness_at_length(0.02, 1.0 / 16, 1.0 / 8);
+    EXPECT_NEAR(fine / coarse, 1.0, larger_share + std::pow(M_PI / 8, 2) / 12.0 + 2.0 / 8) << "2 / 8: the end edges move one point alone";
+    EXPECT_NEAR(unscaled / coarse, 0.25, 0.1) << "the control: k alone makes the finer mesh four times softer";
+}
+
+TEST(ConstraintSet, RefusesBadChangesToTheMethod)
+{
+    const auto refused = [](auto change) {
+        PbsOptions options;
+        change(options);
+        EXPECT_THROW(constraints_of(options), pbs::InputError);
+    };
+    refused([](PbsOptions& o) { o.region_tets = 0; });
+    for (const double length : {-1.0, std::nan(""), double(INFINITY)}) refused([&](PbsOptions& o) { o.k_stretch_length_m = length; });
+    refused([](PbsOptions& o) { o.volume_of = pbs::VolumeOf::regions, o.sleep = true; });
+    refused([](PbsOptions& o) { o.volume_of = pbs::VolumeOf::regions, o.volume_form = pbs::VolumeForm::sign; });
+}
+
 TEST(ConstraintSet, LumpedMassesAreRelativeToTheirMean)
 {
     PbsOptions options;

@@ -156,6 +156,9 @@ TEST(PosesSolver, RefusesWhatPosesCannotDifferIn)
     EXPECT_THROW(build([](PbsOptions& o) { o.class_order = pbs::ClassOrder::volume_stretch_bind; }), pbs::InputError);
     EXPECT_THROW(build([](PbsOptions& o) { o.lbs_entry = pbs::LbsEntry::increment; }), pbs::InputError);
     EXPECT_THROW(build([](PbsOptions& o) { o.bind_on_bone = pbs::BindOnBone::unbound; }), pbs::InputError);
+    EXPECT_THROW(build([](PbsOptions& o) { o.bind_to = pbs::BindTo::blended_position; }), pbs::InputError);
+    EXPECT_THROW(build([](PbsOptions& o) { o.volume_of = pbs::VolumeOf::regions; }), pbs::InputError);
+    EXPECT_THROW(build([](PbsOptions& o) { o.k_stretch_length_m = 0.1; }), pbs::InputError);
     EXPECT_THROW(build([](PbsOptions& o) { o.k_volume = 2.0; }), pbs::InputError);
     EXPECT_THROW(PosesSolver(limb.mesh, limb.binding.distance, {}, {}), pbs::InputError);
 }

@@ -6,6 +6,9 @@
 #include "experiments/studies/work_precision/measured_points.hpp"
 #include "experiments/studies/work_precision/point_row.hpp"
 #include "experiments/studies/work_precision/posed_deformer.hpp"
+#include "experiments/deformers/registry.hpp"
+#include "pbs/skinning/pose.hpp"
+#include "pbs/solver/options.hpp"
 #include "tests/support/rounding_error.hpp"
 #include "tests/support/tet_rounding.hpp"
 
@@ -63,26 +66,40 @@ TEST(BodyMesh, OfTheBaseItselfAndCutIntoEightKeepsTheBasesVertices)
     for (const BodyMesh* mesh : {&own, &fine}) EXPECT_EQ(mesh->on_base(mesh->character().mesh.rest), base->mesh.rest);
 }
 
-TEST(PointSettings, AreEachOnceInWordsAndKeysAndEightOrMoreOfEachDeformerWithSomethingToSet)
+TEST(PointSettings, AreEachOnceInWordsAndKeys)
 {
     SettingRange range;
-    range.coarser_vertices = {300, 400, 500, 600};
+    range.other_vertices = {300, 600};
     range.refined = true;
-    range.quadratic = range.quadratic_corotational = false;
     range.quadratic_up_to = 500;
     const std::vector<PointSetting> settings = point_settings(read_scene("limb_twist", {}), range);
     std::set<std::string> words;
-    std::vector<SettingKey> keys;
+    std::set<SettingKey> keys;
     std::map<std::string, int> of_deformer;
     for (const PointSetting& setting : settings) {
         EXPECT_TRUE(words.insert(text_of(key_of(setting))).second) << text_of(key_of(setting));
-        EXPECT_EQ(std::count(keys.begin(), keys.end(), key_of(setting)), 0) << text_of(key_of(setting));
-        keys.push_back(key_of(setting));
+        EXPECT_TRUE(keys.insert(key_of(setting)).second) << text_of(key_of(setting));
         ++of_deformer[setting.deformer];
     }
-    for (const auto& [deformer, count] : of_deformer) EXPECT_GE(count, deformer == "lbs" || deformer == "dqs" ? 1 : 8) << deformer;
-    EXPECT_EQ(of_deformer["lbs"], 5);  // and those on the other meshes
-    EXPECT_EQ(of_deformer.size(), 10u);
+    EXPECT_EQ(of_deformer["lbs"], 3);                      // one mesh and two others
+    EXPECT_EQ(of_deformer["pbs"], 2 * (6 * 9 + 2 * 3));    // codes, settings, rungs; and three rungs on each other mesh
+    EXPECT_EQ(of_deformer["fem_linear"], 2 * 1 + 2);       // orders 1 and 2; order 1 on each other mesh
+    EXPECT_EQ(of_deformer["fem_neo_hookean"], 2 + 3 + 1);  // quadratic on the mesh of 300 too; and on the tets cut into eight
+    SettingRange in_short = range;
+    in_short.in_short = true;
+    EXPECT_LT(point_settings(read_scene("limb_twist", {}), in_short).size(), settings.size() / 2);
+}
+
+// A ladder takes one rung for all of its settings: neither k_stretch nor the rest of the grid belongs to it.
+TEST(PointSettings, OfOneRungDifferInTheirSettingAlone)
+{
+    std::map<SettingKey, std::set<std::string>> of_rung;
+    for (const PointSetting& setting : point_settings(read_scene("limb_twist", {}), {}))
+        EXPECT_TRUE(of_rung[rung_of(key_of(setting))].insert(setting.tuned).second);
+    for (const auto& [rung, settings] : of_rung)
+        if (rung.deformer == "pbs") {
+            EXPECT_EQ(settings.size(), 6u) << text_of(rung);
+        }
 }
 
 TEST(PointSettings, HaveADigestOfAllTheyHangOn)
@@ -111,27 +128,99 @@ TEST(PointRows, QuartilesAreOfThreeRoundsOrMore)
     const PointSetting setting{"lbs", default_spec("lbs")};
     const ReachedPoint point{&setting, &own, {own.character().mesh.rest, true}, own.character().mesh.rest};
     for (const std::vector<double>& samples : {std::vector{1.0, 2.0}, {1.0, 2.0, 4.0}}) {
-        const PointRow row = point_row(point, nullptr, {.of = {}, .time = frame_time(samples)});
+        PointRow row = point_row(point);
+        add_time(row, frame_time(samples));
         EXPECT_EQ(row.ms_q1.has_value(), samples.size() == 3u);
         EXPECT_EQ(row.ms_q3.has_value(), samples.size() == 3u);
         EXPECT_EQ(row.rounds, static_cast<int>(samples.size()));
     }
 }
 
+pbs::Pose at_rest(const pbs::Character& character)
+{
+    return pbs::Pose(character.skeleton.bones.size(), Eigen::Isometry3d::Identity());
+}
+
 TEST(PosedDeformers, TellARoundThatDoesNotArriveAndTheOneThatSetsOutFromThere)
 {
-    const auto body = limb(300);
-    const PointSetting setting{"pbs", default_spec("pbs"), 2};
-    pbs::Pose rest(body->skeleton.bones.size(), Eigen::Isometry3d::Identity()), nowhere = rest;
+    const BodyMesh own(limb(300));
+    const PointSetting setting{"pbs", default_spec("pbs")};
+    const pbs::Pose rest = at_rest(own.character());
+    pbs::Pose nowhere = rest;
     for (Eigen::Isometry3d& bone : nowhere) bone.translation().setConstant(std::nan(""));
     const PosePair there_and_back{rest, rest}, there_and_nowhere{rest, nowhere}, nowhere_and_back{nowhere, rest};
-    PosedDeformer good(setting, *body, there_and_back), lost(setting, *body, there_and_nowhere);
+    PosedDeformer good(setting, own, there_and_back), lost(setting, own, there_and_nowhere);
     EXPECT_TRUE(good.reach().finished);
     EXPECT_GT(good.turn().at(0), 0.0);
     EXPECT_TRUE(lost.reach().finished);
     EXPECT_TRUE(std::isnan(lost.turn().at(0)));
     EXPECT_TRUE(std::isnan(lost.turn().at(0)));  // it returns, but not from the other pose
-    EXPECT_FALSE(PosedDeformer(setting, *body, nowhere_and_back).reach().finished);
+    EXPECT_FALSE(PosedDeformer(setting, own, nowhere_and_back).reach().finished);
+}
+
+// Reference: the deformer, driven by hand. Particles that are integrated keep their state from pose to pose.
+TEST(PosedDeformers, WithMemoryTakeTheWayToTheirFirstPose)
+{
+    const BodyMesh own(limb(300));
+    DeformerSpec spec = default_spec("pbs");
+    options_of<pbs::PbsOptions>(spec).lbs_entry = pbs::LbsEntry::increment;
+    const std::vector<pbs::Pose> steps = pbs::joint_sweep(own.character().skeleton, 1, pbs::Vec3::UnitX(), 40.0, 3, 0.01).steps;
+    const PosePair poses{steps.back(), steps.front(), 0.01, {steps.begin(), steps.end() - 1}};
+    const auto by_hand = make_deformer(spec);
+    by_hand->reset(own.character());
+    for (const pbs::Pose& pose : steps) by_hand->advance(pose, 0.01);
+    EXPECT_EQ(PosedDeformer({"pbs", spec}, own, poses).reach().positions, by_hand->positions());
+    const PosePair at_once{steps.back(), steps.front(), 0.01};
+    EXPECT_NE(PosedDeformer({"pbs", spec}, own, at_once).reach().positions, by_hand->positions());
+}
+
+// Reference: the definition of the counters; a frame of LBS blends each vertex once.
+TEST(PosedDeformers, CountTheWorkOfOneFrame)
+{
+    const BodyMesh own(limb(300));
+    const PosePair poses{at_rest(own.character()), at_rest(own.character())};
+    PosedDeformer lbs({"lbs", default_spec("lbs")}, own, poses);
+    lbs.reach();
+    for (int turn = 0; turn < 3; ++turn) lbs.turn();
+    EXPECT_EQ(lbs.work(), pbs::WorkCounters{.vertex_visits = own.character().mesh.rest.rows()});
+}
+
+// A ladder ends at the rung that takes too long, and the reason names the limit.
+TEST(MeasuredPoints, StopAtTheLimitOfTimeAndRecordTheSplit)
+{
+    WorkPrecisionCase of;
+    of.of = {.body = "limb", .motion = "twist", .angle_deg = 30.0};
+    of.scene = read_scene("limb_twist", {"character.vertices=300", "motion.angle_deg=30", "motion.frames=7"});
+    of.frame = 6;
+    of.half = Half::training;
+    of.range.in_short = true;
+    of.range.quadratic = false;
+    of.rounds = of.newton_rounds = {.seconds = 0.0, .fewest = 1, .most = 1};
+    of.reference_is_refined = of.seeks_theta = false;
+    of.members = {family()[2]};
+    of.converged_iterations = 0;
+    of.longest_frame_ms = 1e-6;
+    const MeasuredPoints points = measure_points(of);
+    int finished = 0, left_out = 0;
+    for (const PointRow& row : points.rows) {
+        EXPECT_EQ(row.half, Half::training);
+        EXPECT_EQ(row.of, of.of);
+        if (row.key.deformer != "pbs") continue;
+        EXPECT_EQ(row.outcome, row.key.iterations == 4 ? "finished" : "over_time_limit");
+        EXPECT_EQ(row.error.has_value(), row.outcome == "finished");
+        for (std::size_t m = 0; m < row.members.size(); ++m) EXPECT_EQ(row.members[m].has_value(), m == 1 && row.error) << m;
+        if (row.error) {
+            EXPECT_NE(row.members[1], row.error->joint_pct) << "the bones are thinner";
+        }
+        ++(row.outcome == "finished" ? finished : left_out);
+        EXPECT_EQ(row.reason.ends_with("1e-06 ms allowed"), row.outcome != "finished") << row.reason;
+        EXPECT_EQ(row.work && row.work->projections > 0, row.outcome == "finished");
+    }
+    ASSERT_EQ(points.members.size(), 1u);
+    EXPECT_EQ(points.members[0].outcome, "reached");
+    EXPECT_FALSE(points.members[0].error_bound_pct) << "the first reference has no bound";
+    EXPECT_EQ(finished, 2 * 3);      // codes, settings
+    EXPECT_EQ(left_out, 2 * 3 * 2);  // and the rungs of 24 and 96 iterations
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // Reference: the conditions on which the kernels rely, checked for every batch: at most sixteen groups, no vertex twice, none of the
-// previous batch.
+// previous batch; and the order given, which groups that share a vertex keep.
 #include "pbs/solver/batched/batch_schedule.hpp"
 
 #include "pbs/geometry/topology.hpp"
@@ -7,6 +7,7 @@
 #include "tests/support/structured_bar.hpp"
 #include "tests/support/tet_rings.hpp"
 
+#include <map>
 #include <set>
 
 namespace {
@@ -21,6 +22,7 @@ Batches expect_sound(BatchScheduler& scheduler, const std::vector<ConstraintGrou
     const Batches batches = scheduler.schedule(groups);
     std::vector<int> uses(groups.size(), 0);
     std::set<int> before;
+    std::map<int, int> last_at;  // group that each vertex belonged to last
     for (const std::vector<int>& batch : batches) {
         EXPECT_LE(batch.size(), std::size_t(pbs::batch_size));
         std::set<int> touched;
@@ -29,6 +31,9 @@ Batches expect_sound(BatchScheduler& scheduler, const std::vector<ConstraintGrou
             for (int v = 0; v < pbs::vertices_of(groups[g].kind); ++v) {
                 EXPECT_TRUE(touched.insert(groups[g].vertex[v]).second) << "twice in a batch: " << groups[g].vertex[v];
                 EXPECT_FALSE(before.contains(groups[g].vertex[v])) << "in the batch before: " << groups[g].vertex[v];
+                const auto [last, is_first] = last_at.try_emplace(groups[g].vertex[v], g);
+                EXPECT_TRUE(is_first || last->second < g) << "group " << g << " follows " << last->second;
+                last->second = g;
             }
         }
         before = touched;
@@ -83,11 +88,35 @@ TEST(BatchSchedule, TwoGroupsOnTheSameVertices)
     EXPECT_EQ(expect_sound(2, edges_between({{0, 1}, {1, 0}})).size(), 3u);
 }
 
-TEST(BatchSchedule, AChainOfEdges)
+// Each edge waits for the one before, and pauses for one batch: the only possible schedule that keeps the order.
+TEST(BatchSchedule, AChainOfEdgesKeepsItsOrder)
 {
     std::vector<std::array<int, 2>> edges;
-    for (int i = 0; i < 400; ++i) edges.push_back({i, i + 1});
-    EXPECT_LE(expect_sound(401, edges_between(edges)).size(), 32u);  // 25 full batches, and a few more at the end
+    for (int i = 0; i < 40; ++i) edges.push_back({i, i + 1});
+    const Batches batches = expect_sound(41, edges_between(edges));
+    ASSERT_EQ(batches.size(), 79u);
+    for (std::size_t b = 0; b < batches.size(); ++b) EXPECT_EQ(batches[b], b % 2 == 0 ? std::vector<int>{int(b) / 2} : std::vector<int>{});
+}
+
+// The chain in two colours: first every other edge, then those between. Each half has 200 edges in 13 batches.
+TEST(BatchSchedule, AChainOfEdgesByColours)
+{
+    std::vector<std::array<int, 2>> edges;
+    for (const int colour : {0, 1})
+        for (int i = colour; i < 400; i += 2) edges.push_back({i, i + 1});
+    EXPECT_LE(expect_sound(401, edges_between(edges)).size(), 2u * 13);
+}
+
+// Thirty edges without neighbours come before a chain in the order given, and fill its lanes nevertheless.
+TEST(BatchSchedule, TheLongestChainComesFirst)
+{
+    std::vector<std::array<int, 2>> edges;
+    for (int i = 0; i < 30; ++i) edges.push_back({100 + 2 * i, 101 + 2 * i});
+    for (int i = 0; i < 10; ++i) edges.push_back({i, i + 1});
+    const Batches batches = expect_sound(160, edges_between(edges));
+    ASSERT_EQ(batches.size(), 19u);
+    EXPECT_EQ(batches[0].front(), 30);
+    EXPECT_EQ(batches[0].size(), 16u);
 }
 
 TEST(BatchSchedule, EveryKindOfGroupOnABar)

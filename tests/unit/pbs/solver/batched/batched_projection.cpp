@@ -1,7 +1,9 @@
 // Reference: the input comes out again, the residuals equal those of the plain form, and nothing exists that a scene does not need.
 #include "pbs/solver/batched/batched_projection.hpp"
 
+#include "pbs/solver/project_plain.hpp"
 #include "pbs/solver/residuals.hpp"
+#include "tests/support/projection_rounding.hpp"
 #include "tests/support/random_points.hpp"
 #include "tests/support/scalar_rounding.hpp"
 #include "tests/support/two_bone_limb.hpp"
@@ -98,6 +100,70 @@ TYPED_TEST(BatchedProjections, ResidualsAreThoseOfThePlainForm)
             EXPECT_NEAR(found.volume_rms, expected.volume_rms, tolerance * (1.0 + expected.volume_rms));
             EXPECT_NEAR(found.bind_rms_m, expected.bind_rms_m, tolerance * (1.0 + expected.bind_rms_m));
         }
+}
+
+// A bind constraint moves its own vertex alone, so that the order changes no more than the rounding of one projection.
+template <typename Scalar>
+void expect_binds_as_plain(PbsOptions options)
+{
+    const auto constraints = pbs::make_constraint_set<Scalar>(limb.mesh, limb.binding.distance, {}, options);
+    const auto projected = [&](pbs::Projection<Scalar>& projection) {
+        Positions p = limb.lbs;
+        projection.load(limb.mesh.rest, limb.lbs, Vec3::Zero());
+        projection.project_bind_constraints();
+        projection.store(Vec3::Zero(), p);
+        return p;
+    };
+    BatchedProjection<Scalar> batched(constraints, limb.mesh.tets, options);
+    options.order = Order::plain;
+    const Positions plain = projected(*pbs::make_projection<Scalar>(constraints, limb.mesh.tets, options));
+    const double off = (projected(batched) - plain).cwiseAbs().maxCoeff();
+    EXPECT_GT((plain - limb.mesh.rest).cwiseAbs().maxCoeff(), 1e-4) << "nothing was projected";
+    double rounding = 0.0;
+    for (const auto& bind : constraints.bind) {
+        const pbs::Vector3<Scalar> q = limb.lbs.row(bind.vertex).template cast<Scalar>();
+        const pbs::Vector3<Scalar> p = limb.mesh.rest.row(bind.vertex).template cast<Scalar>();
+        rounding = std::max(rounding, rounding_of(bind, q, p).step);
+    }
+    EXPECT_LE(off, rounding);
+}
+
+TYPED_TEST(BatchedProjections, BindToTheBlendedPositionIsThatOfThePlainForm)
+{
+    for (const Order order : orders)
+        for (const double k : {0.1, 1.0}) {
+            PbsOptions options = options_of(order);
+            options.k_stretch = options.k_volume = 0.0;
+            options.k_bind = k;
+            options.bind_to = pbs::BindTo::blended_position;
+            expect_binds_as_plain<TypeParam>(options);
+        }
+}
+
+// Regions are projected one after the other by the same code in every order: the same bits.
+TYPED_TEST(BatchedProjections, RegionsAreThoseOfThePlainForm)
+{
+    for (const Order order : orders) {
+        PbsOptions options = options_of(order);
+        options.volume_of = pbs::VolumeOf::regions;
+        options.region_tets = 40;
+        options.k_bind = 0.0;
+        auto projection = projection_of<TypeParam>(options);
+        const auto constraints = pbs::make_constraint_set<TypeParam>(limb.mesh, limb.binding.distance, {}, options);
+        ASSERT_GT(constraints.regions.size(), 5u);
+        std::vector<pbs::Vector3<TypeParam>> p, q;
+        for (Eigen::Index i = 0; i < limb.lbs.rows(); ++i) {
+            p.push_back(limb.lbs.row(i).transpose().template cast<TypeParam>());
+            q.push_back(limb.bind_points.row(i).transpose().template cast<TypeParam>());
+        }
+        projection.load(limb.lbs, limb.bind_points, Vec3::Zero());
+        EXPECT_EQ(projection.residuals().volume_rms, residuals_of(constraints, p, q).volume_rms);
+        EXPECT_GT(projection.residuals().volume_rms, 1e-3);
+        project_region_constraints(constraints, p);
+        projection.project_volume_constraints();
+        const Positions after = stored(projection, Vec3::Zero());
+        for (Eigen::Index i = 0; i < after.rows(); ++i) EXPECT_EQ(after.row(i).transpose(), p[i].template cast<double>()) << i;
+    }
 }
 
 TYPED_TEST(BatchedProjections, ClassesOfStiffnessZeroAreNotThere)

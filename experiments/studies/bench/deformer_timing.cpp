@@ -1,0 +1,189 @@
+#include "experiments/studies/bench/deformer_timing.hpp"
+
+#include "experiments/deformers/registry.hpp"
+#include "experiments/scene/scene_keys.hpp"
+#include "experiments/settings/scene_values.hpp"
+#include "pbs/geometry/input_error.hpp"
+
+#include <algorithm>
+
+namespace experiments {
+namespace {
+
+constexpr double time_step_s = 0.01;
+// What the paper leaves unstated has no default. The values are those of the built-in scenes of the limb.
+const std::vector<std::string> stated_in_every_scene = {"pbs.k_stretch=0.2", "pbs.k_volume=1.0", "pbs.k_bind=1.0",
+                                                        "pbs.gravity_m_s2=[0.0, 0.0, 0.0]"};
+
+// The values of one timed round, in this order.
+enum FrameSample { frame_s, iteration_s };
+
+const SceneKey* key_of(const DeformerKind& kind, const std::string& name)
+{
+    const auto found =
+        std::find_if(kind.keys.begin(), kind.keys.end(), [&](const SceneKey& key) { return key.table == kind.name && key.name == name; });
+    return found == kind.keys.end() ? nullptr : &*found;
+}
+
+// {""} for a key that the kind does not have: it is not set.
+std::vector<std::string> choices_of(const DeformerKind& kind, const std::string& name)
+{
+    const SceneKey* key = key_of(kind, name);
+    return key && !key->choices.empty() ? key->choices : std::vector<std::string>{""};
+}
+
+struct Choice {
+    std::string key, value;  // value: in TOML
+};
+
+// As a scene would set it. A kind without keys for any choice has its defaults.
+DeformerSpec spec_with(const DeformerKind& kind, const std::vector<Choice>& choices)
+{
+    DeformerSpec spec = default_spec(kind.name);
+    if (choices.empty() || !kind.read) return spec;
+    const bool in_list = std::any_of(choices.begin(), choices.end(), [&](const Choice& one) { return key_of(kind, one.key)->in_list; });
+    std::string list = in_list ? "[[" + kind.name + "]]\nname = \"" + kind.name + "\"\n" : "";
+    std::vector<std::string> overrides = stated_in_every_scene;
+    for (const Choice& choice : choices)
+        if (in_list)
+            list += choice.key + " = " + choice.value + "\n";
+        else
+            overrides.push_back(kind.name + "." + choice.key + "=" + choice.value);
+    const SceneValues values("schema = 1\n" + list, "bench", overrides, scene_schema());
+    kind.read(values, in_list ? kind.name + ".0" : kind.name, spec);
+    return spec;
+}
+
+// Seconds of one frame, away from rest and back, repeated so often that reading the clock does not count.
+double frame_seconds(Deformer& deformer, const BenchBody& body)
+{
+    constexpr double shortest_sample_s = 2e-4;
+    const pbs::Pose rest(body.pose.size(), Eigen::Isometry3d::Identity());
+    int frames = 0;
+    double took = 0.0;
+    while (took < shortest_sample_s) {
+        const int pairs = std::max(frames, 2) / 2;
+        took += cpu_seconds([&] {
+            for (int pair = 0; pair < pairs; ++pair) {
+                deformer.advance(body.pose, time_step_s);
+                deformer.advance(rest, time_step_s);
+            }
+        });
+        frames += 2 * pairs;
+    }
+    return took / frames;
+}
+
+// Both have been reset and posed once. What LBS and the set-up of a frame take is in the frame with twice the iterations too, so that the
+// difference is that of further iterations. Without it, or where a disturbance hides it, an iteration is an equal share of the frame.
+struct Timed {
+    const DeformerSetting* setting;
+    std::unique_ptr<Deformer> once, twice;
+    int iterations = 0;
+
+    std::vector<double> round(const BenchBody& body) const
+    {
+        const double frame = frame_seconds(*once, body);
+        const double share = frame / std::max(iterations, 1);
+        const double further = twice ? (frame_seconds(*twice, body) - frame) / iterations : share;
+        return {frame, further > 0.0 ? further : share};
+    }
+};
+
+std::unique_ptr<Deformer> reset(const DeformerSpec& spec, const BenchBody& body)
+{
+    std::unique_ptr<Deformer> deformer = make_deformer(spec);
+    deformer->reset(body.character);
+    deformer->advance(body.pose, time_step_s);
+    return deformer;
+}
+
+void add_limits(DeformerTiming& timing, const IterationWork& work, const MachineLimits& limits, double seconds)
+{
+    const double peak = 1e9 * (timing.precision == "f32" ? limits.gflops_f32 : limits.gflops_f64);
+    const double bandwidth = 1e9 * bandwidth_at(limits, work.working_set_bytes);
+    if (work.flops > 0.0) timing.gflops = 1e-9 * work.flops / seconds;
+    if (work.bytes > 0.0) timing.gb_s = 1e-9 * work.bytes / seconds;
+    timing.share_of_limit = std::max(work.flops / peak, work.bytes / bandwidth) / seconds;
+}
+
+DeformerTiming summed_up(const Timed& timed, const Samples& own, const Samples& plain, const BenchBody& body, const MachineLimits& limits)
+{
+    const DeformerSetting& setting = *timed.setting;
+    const BodyCounts counts{double(body.mesh().rest.rows()), double(body.edges), double(body.mesh().tets.rows())};
+    const Spread step = spread_of(own[iteration_s]);
+    DeformerTiming timing{setting.spec.kind, setting.order, setting.precision};
+    timing.iterations = traits_of(setting.spec).iterations;
+    timing.ms_frame = scaled(spread_of(own[frame_s]), 1e3);
+    if (timed.iterations > 0) timing.ms_iteration = scaled(step, 1e3);
+    timing.ns_tet = scaled(step, 1e9 / counts.tets);
+    timing.ns_vertex = scaled(step, 1e9 / counts.vertices);
+    timing.ratio_to_plain = spread_of_ratios(plain[iteration_s], own[iteration_s]);
+    const DeformerKind& kind = *find_deformer_kind(setting.spec.kind);
+    if (kind.work) add_limits(timing, kind.work(setting.spec, counts), limits, step.median);
+    return timing;
+}
+
+std::vector<DeformerTiming> time_settings(const std::vector<DeformerSetting>& settings, const BenchBody& body, const MachineLimits& limits,
+                                          const Rounds& rounds)
+{
+    std::vector<Timed> timed;
+    for (const DeformerSetting& setting : settings) {
+        timed.push_back({&setting, reset(setting.spec, body), nullptr, traits_of(setting.spec).iterations.value_or(0)});
+        if (setting.twice && timed.back().iterations > 0) timed.back().twice = reset(*setting.twice, body);
+    }
+    std::vector<TimedVariant> turns;
+    for (const Timed& one : timed) turns.push_back([&one, &body] { return one.round(body); });
+    const std::vector<Samples> samples = take_turns(turns, rounds);
+    std::vector<DeformerTiming> timings;
+    for (std::size_t i = 0; i < timed.size(); ++i)
+        timings.push_back(summed_up(timed[i], samples[i], samples[settings[i].plain], body, limits));
+    return timings;
+}
+
+}  // namespace
+
+std::vector<DeformerSetting> deformer_settings(const DeformerKind& kind)
+{
+    std::vector<DeformerSetting> settings;
+    for (const std::string& order : choices_of(kind, "order"))
+        for (const std::string& precision : choices_of(kind, "precision")) {
+            std::vector<Choice> choices;
+            if (!order.empty()) choices.push_back({"order", '"' + order + '"'});
+            if (!precision.empty()) choices.push_back({"precision", '"' + precision + '"'});
+            DeformerSetting setting{spec_with(kind, choices), {}, order, precision};
+            const DeformerTraits traits = traits_of(setting.spec);
+            if (precision.empty()) setting.precision = traits.precision;
+            if (key_of(kind, "iterations") && traits.iterations.value_or(0) > 0) {
+                choices.push_back({"iterations", std::to_string(2 * *traits.iterations)});
+                setting.twice = spec_with(kind, choices);
+            }
+            settings.push_back(std::move(setting));
+        }
+    // In the same precision where there is an order `plain`; in f64 otherwise.
+    const bool has_orders = key_of(kind, "order") != nullptr;
+    for (DeformerSetting& setting : settings) {
+        const auto plain = std::find_if(settings.begin(), settings.end(), [&](const DeformerSetting& one) {
+            return has_orders ? one.order == "plain" && one.precision == setting.precision : one.precision == "f64";
+        });
+        setting.plain = static_cast<std::size_t>((plain == settings.end() ? settings.begin() : plain) - settings.begin());
+    }
+    return settings;
+}
+
+std::vector<DeformerTiming> time_deformers(const BenchBody& body, const MachineLimits& limits, const Rounds& rounds)
+{
+    std::vector<DeformerTiming> timings;
+    for (const DeformerKind& kind : deformer_kinds()) {
+        if (kind.needs_list) continue;  // there is none without a table in a scene
+        try {
+            for (DeformerTiming& timing : time_settings(deformer_settings(kind), body, limits, rounds))
+                timings.push_back(std::move(timing));
+        } catch (const pbs::InputError& error) {
+            timings.push_back({.deformer = kind.name, .left_out = error.what()});
+        }
+    }
+    return timings;
+}
+
+}  // namespace experiments

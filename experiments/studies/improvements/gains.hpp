@@ -1,0 +1,57 @@
+// The gain of each change over the baseline in equal time, in the mean over the poses of a group, and whether it is decided.
+//   const std::vector<GainRow> gains = gains_of(at_equal_time(points));
+// Whether the order of two shapes A and B could be reversed by the reference's own error U: the difference of their errors changes at most
+// by U times the largest distance of the two unit vectors from A and from B to the reference, which is at most 2 |A - B| / (e_A + e_B) (C.
+// Dunkl, K. Williams, A simple norm inequality, American Mathematical Monthly 71, 1964), and at most 2.
+#pragma once
+
+#include "experiments/studies/improvements/equal_time.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace experiments {
+
+// By how much the reference's own error may change the difference between the errors of two shapes (above). Nothing where the bound is not
+// known.
+std::optional<double> shift_of_difference(double one_error, double other_error, double distance, std::optional<double> bound);
+
+inline constexpr int fewest_poses = 4;  // with fewer ones the bootstrap knows next to nothing about other poses
+
+enum class GainDecision {
+    decided,          // the interval over the poses excludes zero, and the reference's own error cannot reverse the mean
+    few_poses,        // the interval over the poses includes zero, or there are fewer poses than fewest_poses
+    reference_error,  // the mean is within the reference's own error, or that is not known
+};
+
+// The mean over the poses of the difference between two errors. one: of the first, less: of what is subtracted; by pose.
+struct GainRow {
+    std::string group;  // all, or a body
+    int budget_iterations = 0;
+    std::string change, than;  // than: the baseline, or another change
+    int poses = 0;
+    double error_pct = 0.0, than_error_pct = 0.0;  // means
+    double gain_pct = 0.0;                         // the mean of than_error - error
+    std::optional<double> gain_low_pct = {}, gain_high_pct = {};
+    std::optional<double> reference_error_pct = {};  // by which the reference's own error may change the mean
+    GainDecision decision = GainDecision::few_poses;
+    std::string settings;                           // that were chosen, each once, joined by +
+    double iterations = 0.0, volume_abs_pct = 0.0;  // means: iterations within the budget, |volume change|
+};
+extern const analysis::Columns<GainRow> gain_columns;
+
+// Per group and budget: each change relative to the baseline, the largest gain first; then the first change relative to the second one and
+// to the control. The control
+// (change_settings.hpp) is no change, and a change without a value in some pose has no such mean: they are not compared with the others.
+std::vector<GainRow> gains_of(const std::vector<EqualTimeRow>& rows);
+
+}  // namespace experiments
+
+template <>
+struct analysis::EnumNames<experiments::GainDecision> {
+    static constexpr std::array<std::pair<experiments::GainDecision, const char*>, 3> table{
+        {{experiments::GainDecision::decided, "decided"},
+         {experiments::GainDecision::few_poses, "few_poses"},
+         {experiments::GainDecision::reference_error, "reference_error"}}};
+};

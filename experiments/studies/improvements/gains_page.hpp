@@ -1,0 +1,12 @@
+// improvements.md: which change helps most in each group of poses at each budget, in sentences and tables.
+//   finished.write("improvements.md", gains_page(gains_of(rows)));
+#pragma once
+
+#include "experiments/studies/improvements/gains.hpp"
+
+namespace experiments {
+
+// gains: as gains_of returns them.
+std::string gains_page(const std::vector<GainRow>& gains);
+
+}  // namespace experiments

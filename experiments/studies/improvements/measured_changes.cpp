@@ -1,0 +1,230 @@
+#include "experiments/studies/improvements/measured_changes.hpp"
+
+#include "experiments/deformers/registry.hpp"
+#include "experiments/process/cpu_clock.hpp"
+#include "experiments/process/interruption.hpp"
+#include "experiments/scene/motion_case.hpp"
+#include "experiments/settings/option_fields.hpp"
+#include "experiments/studies/shared/posed_character.hpp"
+#include "experiments/studies/shared/posed_reference.hpp"
+#include "pbs/character/skinning_weights.hpp"
+#include "pbs/geometry/topology.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+
+namespace experiments {
+namespace {
+
+using analysis::CaseKey;
+using analysis::Columns;
+using analysis::FrameMetrics;
+using analysis::within;
+
+const Columns<FrameMetrics> volume_columns = {
+    {"volume_change_pct", &FrameMetrics::volume_change_pct, "%", "signed change of the whole volume"},
+    {"volume_abs_change_pct", &FrameMetrics::volume_abs_change_pct, "%", "sum of the absolute changes of each tet"},
+    {"inverted", &FrameMetrics::inverted_tets, "", "number of inverted tets"}};
+
+Columns<ChangePoint> distance_columns()
+{
+    Columns<ChangePoint> columns;
+    for (std::size_t b = 0; b < budget_iterations.size(); ++b)
+        columns.emplace_back(
+            fmt::format("from_pbs_{}_pct", budget_iterations[b]), [b](auto& row) -> auto& { return row.distance_pct[b]; }, "%",
+            fmt::format("distance from the baseline after {} iterations, at the joints outside the overlap", budget_iterations[b]));
+    return columns;
+}
+
+std::vector<double> edge_lengths_m(const pbs::TetMesh& mesh)
+{
+    const pbs::Edges edges = pbs::edges_of(mesh.tets);
+    std::vector<double> lengths;
+    for (const auto edge : edges.rowwise()) lengths.push_back((mesh.rest.row(edge(0)) - mesh.rest.row(edge(1))).norm());
+    return lengths;
+}
+
+std::string name_of(const NestedSolution& solution)
+{
+    return std::string(solution.element_order == 2 ? "quadratic" : "linear") + (solution.refinements > 0 ? "_refined" : "");
+}
+
+// By the observed order, or from linear elements on the same tets; nothing where the reference is linear itself.
+std::optional<double> bound_of(const PosedReference& reference)
+{
+    if (reference.order() && std::isfinite(reference.bound().joint_pct)) return reference.bound().joint_pct;
+    if (!reference.is_reached() || reference.reference().element_order != 2) return std::nullopt;
+    for (const NestedSolution& solution : reference.solutions())
+        if (solution.finished && solution.element_order == 1 && solution.refinements == reference.reference().refinements)
+            return reference.error_of(solution.positions).joint_pct;
+    return std::nullopt;
+}
+
+// One setting at one number of iterations, moving back and forth between the pose and the one of the frame before.
+struct TimedSetting {
+    ChangeSetting setting;
+    std::unique_ptr<Deformer> deformer;
+    pbs::Positions positions;  // in the pose [m]
+    bool finite = false;
+    bool is_in_pose = true;
+};
+
+class PoseMeasuring {
+public:
+    explicit PoseMeasuring(const ChangesCase& of) : of_(of), character_(pbs::make_character(of.scene.character)), smooth_(character_)
+    {
+        smooth_.weights = pbs::weights_by(pbs::WeightKind::smooth, character_);
+        const pbs::Motion motion = make_motion(of.scene.motion, character_.skeleton, of.scene.file);
+        const auto pose = [&](int frame) { return motion.steps.at(static_cast<std::size_t>(frame) * motion.steps_per_frame); };
+        pose_ = pose(of.frame);
+        neighbour_ = pose(of.frame > 0 ? of.frame - 1 : of.frame + 1);
+        time_step_s_ = motion.time_step_s;
+    }
+
+    MeasuredChanges measure()
+    {
+        reach_all();
+        const std::vector<Samples> samples = time_all();
+        const PosedReference reference(character_, reference_flesh(of_.scene), pose_, time_step_s_, of_.refined_reference);
+        MeasuredChanges measured;
+        for (std::size_t i = 0; i < settings_.size(); ++i) {
+            measured.rows.push_back(row_of(settings_[i], reference));
+            measured.rows.back().ms = spread_of(samples[i].front());
+            if (!settings_[i].finite)
+                measured.breakdown += settings_[i].setting.change + " " + settings_[i].setting.setting + " is not finite. ";
+        }
+        return measured;
+    }
+
+private:
+    void reach_all()
+    {
+        pbs::PbsOptions options = options_of<pbs::PbsOptions>(spec_of(of_.scene, "pbs"));
+        options.jiggle.reset();
+        for (const ChangeSetting& setting : change_settings(options, edge_lengths_m(character_.mesh), of_.range))
+            for (const int iterations : of_.range.iterations) {
+                stop_if_interrupted();
+                TimedSetting& timed = settings_.emplace_back();
+                timed.setting = setting;
+                timed.setting.options.iterations = iterations;
+                DeformerSpec spec = default_spec("pbs");
+                spec.options = timed.setting.options;
+                timed.deformer = make_deformer(spec);
+                timed.deformer->reset(setting.weights == pbs::WeightKind::smooth ? smooth_ : character_);
+                timed.finite = timed.deformer->advance(pose_, time_step_s_).outcome == pbs::Outcome::finished;
+                timed.positions = timed.deformer->positions();
+            }
+    }
+
+    std::vector<Samples> time_all()
+    {
+        std::vector<TimedVariant> turns;
+        for (TimedSetting& timed : settings_)
+            turns.push_back([this, &timed] {
+                stop_if_interrupted();
+                const double start_s = process_cpu_s();
+                timed.deformer->advance(timed.is_in_pose ? neighbour_ : pose_, time_step_s_);
+                const double end_s = process_cpu_s();
+                timed.is_in_pose = !timed.is_in_pose;
+                return std::vector<double>{1e3 * (end_s - start_s)};
+            });
+        return take_turns(turns, of_.rounds);
+    }
+
+    ChangePoint row_of(const TimedSetting& timed, const PosedReference& reference) const
+    {
+        ChangePoint row;
+        row.of = of_.of;
+        row.change = timed.setting.change;
+        row.setting = timed.setting.setting;
+        row.iterations = timed.setting.options.iterations;
+        row.outcome = timed.finite ? "finished" : "not_finite";
+        row.metrics = analysis::MeshMetrics(character_.mesh.rest, character_.mesh.tets).measure(timed.positions);
+        row.masked_share_pct = reference.masked_share_pct();
+        row.reference = reference.is_reached() ? name_of(reference.reference()) : "not_reached";
+        row.reference_error_joint_pct = bound_of(reference);
+        if (!timed.finite || !reference.is_reached()) return row;
+        const analysis::ErrorNorms error = reference.error_of(timed.positions);
+        row.error_joint_pct = error.joint_pct;
+        row.error_l2_pct = error.l2_pct;
+        for (std::size_t b = 0; b < budget_iterations.size(); ++b)
+            row.distance_pct[b] = reference.distance(timed.positions, baseline_after(budget_iterations[b])).joint_pct;
+        return row;
+    }
+
+    const pbs::Positions& baseline_after(int iterations) const
+    {
+        return std::ranges::find_if(settings_,
+                                    [&](const TimedSetting& timed) {
+                                        return timed.setting.change == baseline && timed.setting.options.iterations == iterations;
+                                    })
+            ->positions;
+    }
+
+    const ChangesCase& of_;
+    pbs::Character character_, smooth_;  // smooth_: with smooth weights
+    pbs::Pose pose_, neighbour_;
+    double time_step_s_ = 0.0;
+    std::deque<TimedSetting> settings_;
+};
+
+}  // namespace
+
+const Columns<CaseKey>& pose_columns()
+{
+    static const Columns<CaseKey> columns = {{"body", &CaseKey::body, "", "name of the body"},
+                                             {"motion", &CaseKey::motion, "", "twist, bend, or the name of a clip"},
+                                             {"pose", &CaseKey::pose, "", "name of a pose in a clip"},
+                                             {"angle_deg", &CaseKey::angle_deg, "deg", "angle of a joint that is twisted or bent"}};
+    return columns;
+}
+
+const Columns<ChangePoint> change_columns =
+    within(&ChangePoint::of, pose_columns()) +
+    Columns<ChangePoint>{{"change", &ChangePoint::change, "", "pbs, which is the baseline, or the name of a change to it"},
+                         {"setting", &ChangePoint::setting, "", "value of the change's own parameter"},
+                         {"iterations", &ChangePoint::iterations, "", "of Algorithm 1"},
+                         {"outcome", &ChangePoint::outcome, "", "finished or not_finite"}} +
+    within(&ChangePoint::ms, spread_columns("ms_median", "ms", "processor time per frame", {"_q1", "_q3"})) +
+    Columns<ChangePoint>{{"error_joint_pct", &ChangePoint::error_joint_pct, "%", "error over the blended vertices outside the overlap"},
+                         {"error_l2_pct", &ChangePoint::error_l2_pct, "%", "error over all vertices outside the overlap"}} +
+    within(&ChangePoint::metrics, volume_columns) + distance_columns() +
+    Columns<ChangePoint>{
+        {"reference", &ChangePoint::reference, "",
+         "elements of the reference: quadratic or linear, _refined: on the tets cut into eight; or not_reached"},
+        {"reference_error_joint_pct", &ChangePoint::reference_error_joint_pct, "%", "bound on the reference's own error, at the joints"},
+        {"masked_share_pct", &ChangePoint::masked_share_pct, "%", "share of the volume that is left out because the body overlaps itself"}};
+
+std::optional<double> ChangePoint::distance_from_baseline(int budget) const
+{
+    return distance_pct.at(std::ranges::find(budget_iterations, budget) - budget_iterations.begin());
+}
+
+std::string case_name(const ChangesCase& of)
+{
+    if (!of.of.pose.empty()) return of.of.body + "_" + of.of.pose;
+    return fmt::format("{}_{}_{:g}", of.of.body, of.of.motion, of.of.angle_deg.value());
+}
+
+nlohmann::json to_json(const ChangesCase& of)
+{
+    static const auto fields = OptionFields<ChangesCase>("improvements")
+                                   .record("of", &ChangesCase::of)
+                                   .record("scene", &ChangesCase::scene)
+                                   .record("frame", &ChangesCase::frame)
+                                   .record("range", &ChangesCase::range)
+                                   .record("refined_reference", &ChangesCase::refined_reference)
+                                   .record("rounds", &ChangesCase::rounds)
+                                   .complete();
+    return fields.json(of);
+}
+
+MeasuredChanges measure_changes(const ChangesCase& of)
+{
+    return PoseMeasuring(of).measure();
+}
+
+}  // namespace experiments

@@ -1,0 +1,48 @@
+// The setting of each rung: chosen on the training poses, shown on the others. There are two comparisons. packed_f32 has each deformer in
+// its packed f32 code, or in the only code that it has. plain_f64 has each deformer in plain f64 code.
+//   const std::vector<ChosenSetting> chosen = choose_settings(rows_of_all_cases);
+// Of the settings of a rung that have an answer in every training pose with that rung, the one with the least geometric mean of
+// error_joint_pct is chosen. A single setting is no choice and needs no training. Where no training pose has the rung, it is the default.
+#pragma once
+
+#include "experiments/studies/work_precision/point_row.hpp"
+
+#include <set>
+#include <string>
+#include <vector>
+
+namespace experiments {
+
+enum class Comparison { packed_f32, plain_f64 };
+inline constexpr std::array<Comparison, 2> comparisons = {Comparison::packed_f32, Comparison::plain_f64};
+std::string name_of(Comparison comparison);
+std::string words_of(Comparison comparison);  // for headings
+
+using CaseRows = std::vector<PointRow>;  // of one case
+
+// The deformers with code that is not plain f64. In packed_f32 only that code of theirs takes part.
+std::set<std::string> with_other_code(const std::vector<CaseRows>& cases);
+bool takes_part(Comparison comparison, const SettingKey& key, const std::set<std::string>& with_other_code);
+
+struct ChosenSetting {
+    Comparison comparison;
+    SettingKey key;
+    int tried = 0;           // settings of this rung
+    int training_poses = 0;  // that decided; 0: there was no choice, or no training pose has the rung
+    std::optional<double> training_error_pct = {};
+};
+extern const analysis::Columns<ChosenSetting> chosen_columns;  // settings.csv
+
+std::vector<ChosenSetting> choose_settings(const std::vector<CaseRows>& cases);
+
+}  // namespace experiments
+
+namespace analysis {
+
+template <>
+struct EnumNames<experiments::Comparison> {
+    static constexpr std::array<std::pair<experiments::Comparison, const char*>, 2> table{
+        {{experiments::Comparison::packed_f32, "packed_f32"}, {experiments::Comparison::plain_f64, "plain_f64"}}};
+};
+
+}  // namespace analysis

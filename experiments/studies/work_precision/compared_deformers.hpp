@@ -1,0 +1,66 @@
+// The deformers that are compared, one entry each: its ladder of iterations, which are the axis of its work, the grid of settings that are
+// tried at each of them, and its codes (packed f32, plain f64). An entry names keys of a scene (`pbskin explain KEY`), so that adding a
+// deformer is an entry. Entries whose kind or keys do not exist in this program are skipped, and so are settings and codes.
+//   for (const ComparedDeformer& entry : compared_deformers())
+//       spec_with(entry, scene, {.iterations = 24, .change = entry.grid[0], .code = entry.codes[0]});
+// Finite elements have laws, element orders and meshes instead; point_setting.cpp adds them.
+#pragma once
+
+#include "experiments/scene/scene.hpp"
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace experiments {
+
+// Keys of a scene with their values, as for --set: "pbs.k_stretch=0.5".
+using KeyValues = std::vector<std::string>;
+
+// One place of the grid of settings. Empty: the deformer as the scene or the default sets it.
+struct SettingChange {
+    KeyValues keys = {};
+    double stiffness_factor = 1.0;  // on the value of stiffness_key
+
+    bool operator==(const SettingChange&) const = default;
+};
+
+struct ComparedDeformer {
+    std::string name = {};               // in the records
+    std::string kind = {};               // that is registered
+    std::string group = {}, words = {};  // the group of deformers that it is shown with, as a key and in sentences
+    std::string weights = {};            // of a [[kind]] table with weights of its own; empty: no such table
+    KeyValues fixed = {};                // of all its settings
+    std::string iterations_key = {};
+    std::vector<int> iterations = {};      // the ladder; empty: it does not iterate
+    std::vector<int> few_iterations = {};  // part of it: on other meshes, and in the quick form
+    std::vector<SettingChange> grid = {{}};
+    std::vector<KeyValues> codes = {{}};           // packed first; one: it has no other code
+    std::string young_key = {}, poisson_key = {};  // take the reference's material
+    std::string stiffness_key = {};                // that a factor is sought on (theta); empty: it has no stiffness
+    double highest_stiffness = std::numeric_limits<double>::infinity();
+};
+
+const std::vector<ComparedDeformer>& compared_deformers();
+bool is_available(const ComparedDeformer& entry);
+std::vector<SettingChange> grid_of(const ComparedDeformer& entry);  // whose keys exist; the default setting first
+std::vector<KeyValues> codes_of(const ComparedDeformer& entry);     // whose keys exist; an empty one if the deformer has one code
+
+struct SettingChoice {
+    std::optional<int> iterations = {};
+    SettingChange change = {};
+    KeyValues code = {};
+    double stiffness_factor = 1.0;  // besides that of the change
+};
+
+// The entry's deformer with these settings and the others of the scene, which is a built-in one. InputError for a key that does not exist.
+DeformerSpec spec_with(const ComparedDeformer& entry, const Scene& scene, const SettingChoice& choice);
+
+// The value of the entry's stiffness_key without a factor: of Young's modulus that of the reference.
+double stiffness_of(const ComparedDeformer& entry, const Scene& scene);
+
+// An identifier: k_stretch_0.9+stiffness_exponent, stiffness_factor_4. Empty: no change.
+std::string name_of(const SettingChange& change);
+
+}  // namespace experiments

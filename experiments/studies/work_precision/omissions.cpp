@@ -1,0 +1,83 @@
+#include "experiments/studies/work_precision/omissions.hpp"
+
+#include <algorithm>
+
+namespace experiments {
+namespace {
+
+bool is_reference(const PointRow& row)
+{
+    return row.outcome == "reference" || row.outcome == "not_reached";
+}
+
+std::string why_missing(const PointRow& row, bool has_reference)
+{
+    if (row.outcome != "finished") return row.outcome;
+    if (!row.ms_median) return "not_converged";  // from one pose to the other
+    return has_reference ? "" : "no_reference";
+}
+
+// Those of one deformer in one case; points: its points that take part.
+std::vector<Omission> omissions_in(const std::vector<const PointRow*>& points, bool has_reference, const Omission& blank)
+{
+    std::vector<Omission> omissions;
+    for (const PointRow* row : points) {
+        const std::string why = why_missing(*row, has_reference);
+        if (why.empty()) continue;
+        auto found = std::ranges::find(omissions, why, &Omission::why);
+        if (found == omissions.end()) {
+            found = omissions.insert(omissions.end(), blank);
+            found->why = why;
+            found->reason = row->reason;
+        }
+        ++found->missing;
+        found->points = static_cast<int>(points.size());
+    }
+    return omissions;
+}
+
+}  // namespace
+
+const analysis::Columns<Omission> omission_columns = {
+    {"comparison", &Omission::comparison, "", "packed_f32 or plain_f64"},
+    {"case", &Omission::of, "", "name of the case's run"},
+    {"deformer", &Omission::deformer, "", "name of the deformer"},
+    {"why", &Omission::why, "", "not_finite, not_converged, over_time_limit, not_applicable, no_such_code, not_run or no_reference"},
+    {"missing", &Omission::missing, "", "number of its points that are missing for this reason"},
+    {"points", &Omission::points, "", "number of its points in this case"},
+    {"reason", &Omission::reason, "", "of the first of them, for readers"}};
+
+std::vector<Omission> omissions_of(const std::vector<CaseRows>& cases)
+{
+    const std::set<std::string> others = with_other_code(cases);
+    std::vector<std::string> deformers;  // of any case, in the order of the records
+    for (const CaseRows& rows : cases)
+        for (const PointRow& row : rows)
+            if (!is_reference(row) && std::ranges::find(deformers, row.key.deformer) == deformers.end())
+                deformers.push_back(row.key.deformer);
+    std::vector<Omission> omissions;
+    for (const Comparison comparison : comparisons)
+        for (const CaseRows& rows : cases) {
+            if (rows.empty()) continue;
+            const bool has_reference = std::ranges::find(rows, "reference", &PointRow::outcome) != rows.end();
+            for (const std::string& deformer : deformers) {
+                std::vector<const PointRow*> points;
+                bool is_run = false;
+                for (const PointRow& row : rows) {
+                    if (row.key.deformer != deformer) continue;
+                    is_run = true;
+                    if (takes_part(comparison, row.key, others)) points.push_back(&row);
+                }
+                Omission blank{comparison, case_name(rows.front().of), deformer};
+                if (points.empty()) {
+                    blank.why = is_run ? "no_such_code" : "not_run";
+                    omissions.push_back(blank);
+                    continue;
+                }
+                for (const Omission& omission : omissions_in(points, has_reference, blank)) omissions.push_back(omission);
+            }
+        }
+    return omissions;
+}
+
+}  // namespace experiments

@@ -1,0 +1,133 @@
+// The columns of points.csv, members.csv and theta.csv.
+#include "experiments/studies/work_precision/point_row.hpp"
+
+namespace experiments {
+namespace {
+
+using analysis::CaseKey;
+using analysis::Columns;
+using analysis::ErrorNorms;
+using analysis::FrameMetrics;
+using analysis::within;
+using pbs::WorkCounters;
+
+const Columns<CaseKey> case_columns = {{"body", &CaseKey::body, "", "name of the body"},
+                                       {"motion", &CaseKey::motion, "", "twist, bend, or the name of a clip"},
+                                       {"pose", &CaseKey::pose, "", "name of a pose in a clip"},
+                                       {"angle_deg", &CaseKey::angle_deg, "deg", "angle of a joint that is twisted or bent"}};
+
+const Columns<SettingKey> deformer_columns = {{"deformer", &SettingKey::deformer, "", "name of the deformer"}};
+
+const Columns<ErrorNorms> error_columns = {
+    {"error_joint_pct", &ErrorNorms::joint_pct, "%", "error over the blended vertices outside the overlap"},
+    {"error_l2_pct", &ErrorNorms::l2_pct, "%", "error over all vertices outside the overlap"},
+    {"error_linf_m", &ErrorNorms::linf_m, "m", "largest distance from the reference outside the overlap"}};
+
+const Columns<FrameMetrics> volume_columns = {
+    {"volume_change_pct", &FrameMetrics::volume_change_pct, "%", "signed change of the whole volume"},
+    {"volume_abs_change_pct", &FrameMetrics::volume_abs_change_pct, "%", "sum of the absolute changes of each tet"},
+    {"inverted", &FrameMetrics::inverted_tets, "", "number of inverted tets"}};
+
+const Columns<PbsParts> before_discretisation = {
+    {"solver_pct", &PbsParts::solver_pct, "%", "PBS: distance from its own converged shape, at the joints"},
+    {"model_pct", &PbsParts::model_pct, "%", "PBS: distance of its converged shape from the reference, at the joints"}};
+const Columns<PbsParts> after_discretisation = {{"not_converged_pct", &PbsParts::not_converged_pct, "%",
+                                                 "PBS: distance of its converged shape from that after half of the iterations"}};
+
+const Columns<WorkCounters> work_columns = {
+    {"gradients", &WorkCounters::gradients, "", "gradients of an energy of the whole body, per frame"},
+    {"vertex_visits", &WorkCounters::vertex_visits, "", "blends, smoothings, rotations and block solves of a vertex, per frame"},
+    {"tet_visits", &WorkCounters::tet_visits, "", "energies, derivatives, rotations and volume constraints of a tet, per frame"},
+    {"projections", &WorkCounters::projections, "", "constraints projected, per frame"},
+    {"linear_solves", &WorkCounters::linear_solves, "", "systems of the whole body solved, per frame"},
+    {"factorisations", &WorkCounters::factorisations, "", "numerical factorisations of such a system, per frame"}};
+
+Columns<PointRow> member_error_columns()
+{
+    Columns<PointRow> columns;
+    const std::vector<EnsembleMember> members = family();
+    for (std::size_t i = 1; i < members.size(); ++i)
+        columns.push_back({"error_" + members[i].name + "_pct", [i](auto& row) -> auto& { return row.members[i - 1];
+}
+, "%", "error over the blended vertices against this further reference"
+}  // namespace
+);
+return columns;
+}  // namespace experiments
+
+using Points = Columns<PointRow>;
+
+Points own_columns()
+{
+    return Points{{"vertices", &PointRow::vertices, "", "vertices of the mesh that it is solved on"},
+                  {"tets", &PointRow::tets, "", "tets of that mesh"},
+                  {"outcome", &PointRow::outcome, "",
+                   "finished, not_converged, not_finite, over_time_limit or not_applicable; reference, or not_reached"},
+                  {"reach_ms", &PointRow::reach_ms, "ms", "wall time from rest to the pose; of the reference: that of all its solutions"},
+                  {"rounds", &PointRow::rounds, "", "number of timed frames"},
+                  {"failed_rounds", &PointRow::failed_rounds, "", "frames that did not reach their pose and are left out"},
+                  {"ms_median", &PointRow::ms_median, "ms",
+                   "median of the processor time per frame, with the transfer from another mesh to the case's own"},
+                  {"ms_q1", &PointRow::ms_q1, "ms", "its lower quartile"},
+                  {"ms_q3", &PointRow::ms_q3, "ms", "its upper quartile"}};
+}
+
+Points reference_columns()
+{
+    return Points{
+        {"reference", &PointRow::reference, "", "name of the reference; empty where none was reached"},
+        {"reference_error_joint_pct", &PointRow::reference_error_joint_pct, "%", "bound of the reference's own error at the joints"},
+        {"reference_error_l2_pct", &PointRow::reference_error_l2_pct, "%", "bound of the reference's own error over all vertices"},
+        {"reference_order", &PointRow::reference_order, "", "order of convergence that is observed"},
+        {"reference_order_is_reliable", &PointRow::reference_order_is_reliable, "",
+         "that order is credible, and the bound has the safety factor 1.25 instead of 3"},
+        {"below_reference_error", &PointRow::below_reference_error, "", "the error is not above the reference's own bound"},
+        {"error_whole_joint_pct", &PointRow::error_whole_joint_pct, "%", "error over the blended vertices, those that overlap included"},
+        {"masked_share_pct", &PointRow::masked_share_pct, "%",
+         "share of the volume that the other errors leave out because the reference overlaps itself there"}};
+}
+
+// Later columns, in one group: older records do not have them.
+Points columns_of_comparison()
+{
+    const Points of_point = {{"half", &PointRow::half, "", "training: settings are chosen on this pose; evaluation: they are shown on it"},
+                             {"reason", &PointRow::reason, "", "why there is no answer, for readers"}};
+    return (of_point + within(&PointRow::work, work_columns) + member_error_columns()).in_group("comparison");
+}
+
+}  // namespace
+
+const Points point_columns =
+    within(&PointRow::of, case_columns) + within(&PointRow::key, deformer_columns) +
+    Points{{"setting", &PointRow::setting, "",
+            "the deformer and its setting as a text, which repeats the columns from iterations to packed"}} +
+    within(&PointRow::key, setting_columns()) + own_columns() + within(&PointRow::error, error_columns) +
+    within(&PointRow::metrics, volume_columns) + reference_columns() + within(&PointRow::parts, before_discretisation) +
+    Points{{"discretisation_pct", &PointRow::discretisation_pct, "%", "PBS: bound of the reference's distance from its limit"}} +
+    within(&PointRow::parts, after_discretisation) + columns_of_comparison();
+
+const Columns<FamilyRow> family_columns =
+    within(&FamilyRow::of, case_columns) +
+    within(&FamilyRow::member,
+           Columns<EnsembleMember>{{"member", &EnsembleMember::name, "", "name of the further reference"},
+                                   {"spring_factor", &EnsembleMember::spring_factor, "", "q of the attachment"},
+                                   {"core_radius", &EnsembleMember::core_radius, "", "radius of the bones' capsules over the limb's"},
+                                   {"poisson", &EnsembleMember::poisson, "", "Poisson's ratio"}}) +
+    Columns<FamilyRow>{{"outcome", &FamilyRow::outcome, "", "reached or not_reached"},
+                       {"error_bound_pct", &FamilyRow::error_bound_pct, "%",
+                        "bound of its own error at the joints, taken from that of the first reference on the same elements"},
+                       {"masked_share_pct", &FamilyRow::masked_share_pct, "%", "share of the volume that is left out"},
+                       {"solve_s", &FamilyRow::solve_s, "s", "wall time of its solutions"}};
+
+const Columns<ThetaRow> theta_columns =
+    within(&ThetaRow::of, case_columns) + within(&ThetaRow::key, deformer_columns) + within(&ThetaRow::key, setting_columns()) +
+    within(&ThetaRow::found,
+           Columns<StiffnessFactor>{
+               {"outcome", &StiffnessFactor::outcome, "",
+                "found, end_of_grid, insensitive (the errors at all factors differ by less than 1 %) or not_finite"},
+               {"theta", &StiffnessFactor::theta, "", "factor on the stiffness at which the deformer is nearest to the reference"},
+               {"error_joint_pct", &StiffnessFactor::error_pct, "%", "error at the joints with that factor"},
+               {"error_at_1_joint_pct", &StiffnessFactor::error_at_1_pct, "%", "error at the joints with the stiffness as it is"},
+               {"tried", &StiffnessFactor::tried, "", "number of factors tried"}});
+
+}  // namespace experiments

@@ -1,0 +1,199 @@
+#include "experiments/studies/work_precision/report_page.hpp"
+
+#include "analysis/report_table.hpp"
+#include "experiments/studies/work_precision/data_profile.hpp"
+#include "experiments/studies/work_precision/diagram_tables.hpp"
+#include "experiments/studies/work_precision/findings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace experiments {
+namespace {
+
+constexpr double goal_pct = 5.0, goal_ms = 3.0;
+
+std::vector<const Diagram*> shown(const ComparisonRecords& records, Comparison comparison)
+{
+    std::vector<const Diagram*> diagrams;
+    for (const Diagram& diagram : records.diagrams)
+        if (diagram.comparison == comparison && diagram.half == Half::evaluation) diagrams.push_back(&diagram);
+    return diagrams;
+}
+
+// Every diagram of packed_f32; of plain_f64 the means, if there are any.
+std::vector<const Diagram*> described(const ComparisonRecords& records, Comparison comparison)
+{
+    std::vector<const Diagram*> diagrams = shown(records, comparison);
+    const auto is_mean = [](const Diagram* diagram) { return diagram->poses > 1; };
+    if (comparison == Comparison::plain_f64 && std::ranges::any_of(diagrams, is_mean))
+        std::erase_if(diagrams, [&](const Diagram* diagram) { return !is_mean(diagram); });
+    return diagrams;
+}
+
+std::string split_text(const ComparisonRecords& records)
+{
+    std::string training, evaluation;
+    for (const CaseRecords& of : records.cases) {
+        std::string& list = of.rows.front().half == Half::training ? training : evaluation;
+        list += (list.empty() ? "" : ", ") + case_name(of.rows.front().of);
+    }
+    return fmt::format(
+        "Settings are chosen on the training poses ({}) and shown on the evaluated poses ({}). The poses of each body alternate, and a "
+        "body "
+        "with one pose is only evaluated.\n\n",
+        training.empty() ? "none" : training, evaluation.empty() ? "none" : evaluation);
+}
+
+struct TriedRow {
+    Comparison comparison;
+    std::string deformer;
+    int rungs = 0, tried = 0;
+};
+
+std::vector<TriedRow> settings_tried(const ComparisonRecords& records)
+{
+    std::vector<TriedRow> rows;
+    for (const ChosenSetting& chosen : records.chosen) {
+        auto found = std::ranges::find_if(
+            rows, [&](const TriedRow& row) { return row.comparison == chosen.comparison && row.deformer == chosen.key.deformer; });
+        if (found == rows.end()) found = rows.insert(rows.end(), {chosen.comparison, chosen.key.deformer});
+        ++found->rungs;
+        found->tried += chosen.tried;
+    }
+    return rows;
+}
+
+std::string tried_table(const ComparisonRecords& records)
+{
+    std::string page =
+        "## Settings tried\n\nA rung is a number of iterations on a mesh, or an element order on a mesh.\n\n"
+        "| comparison | deformer | rungs | settings tried at all rungs |\n|---|---|---|---|\n";
+    for (const TriedRow& row : settings_tried(records))
+        page += fmt::format("| {} | {} | {} | {} |\n", name_of(row.comparison), row.deformer, row.rungs, row.tried);
+    return page;
+}
+
+std::string cell_of(const Solved& solved)
+{
+    return solved.poses ? fmt::format("{} of {}", solved.solved, solved.poses) : "";
+}
+
+// One row per group that solves a pose; the columns are tolerances and budgets.
+std::string profile_table(const ComparisonRecords& records, Comparison comparison)
+{
+    constexpr double any_ms = std::numeric_limits<double>::infinity();
+    std::string header = "| group |", line = "|---|", rows;
+    for (const double tolerance_pct : profile_tolerances_pct)
+        for (const double ms : {1.0, 10.0, 100.0, any_ms}) {
+            header += fmt::format(" {:g} %{} |", tolerance_pct, ms < any_ms ? ", " + ms_text(ms) : "");
+            line += "---|";
+        }
+    for (const DeformerGroup& group : deformer_groups()) {
+        if (solved_within(records.diagrams, comparison, group, profile_tolerances_pct.front(), any_ms).solved == 0) continue;
+        rows += fmt::format("| {} |", group.words);
+        for (const double tolerance_pct : profile_tolerances_pct)
+            for (const double ms : {1.0, 10.0, 100.0, any_ms})
+                rows += " " + cell_of(solved_within(records.diagrams, comparison, group, tolerance_pct, ms)) + " |";
+        rows += "\n";
+    }
+    return header + "\n" + line + "\n" + rows + "\n";
+}
+
+// Over all poses of a body, the training ones too.
+std::string goal_table(const ComparisonRecords& records, Comparison comparison)
+{
+    std::vector<std::string> bodies;
+    for (const CaseRecords& of : records.cases)
+        if (std::ranges::find(bodies, of.rows.front().of.body) == bodies.end()) bodies.push_back(of.rows.front().of.body);
+    std::string header = "| group |", line = "|---|", rows;
+    for (const std::string& body : bodies) header += " " + body + " |", line += "---|";
+    for (const DeformerGroup& group : deformer_groups()) {
+        std::string cells;
+        bool solves = false;
+        for (const std::string& body : bodies) {
+            const Solved solved = solved_within(records.diagrams, comparison, group, goal_pct, goal_ms, body, true);
+            solves = solves || solved.solved > 0;
+            cells += " " + cell_of(solved) + " |";
+        }
+        if (solves) rows += fmt::format("| {} |{}\n", group.words, cells);
+    }
+    if (rows.empty()) return fmt::format("No deformer has an error of at most {:g} % within {:g} ms.\n\n", goal_pct, goal_ms);
+    return fmt::format("Poses solved to {:g} % within {:g} ms, the training poses included:\n\n", goal_pct, goal_ms) + header + "\n" +
+           line + "\n" + rows + "\n";
+}
+
+std::string theta_table(const ComparisonRecords& records)
+{
+    std::string rows;
+    for (const ThetaRow& row : records.thetas) {
+        const auto percent = [](const std::optional<double>& error) { return error ? fmt::format("{:.1f}", *error) : ""; };
+        rows += fmt::format("| {} | {} | {} | {} | {} | {} |\n", case_name(row.of), text_of(row.key),
+                            row.found.theta ? fmt::format("{:.2g}", *row.found.theta) : "",
+                            analysis::CellOf<ThetaOutcome>::cell(row.found.outcome).text, percent(row.found.error_pct),
+                            percent(row.found.error_at_1_pct));
+    }
+    if (rows.empty()) return "";
+    return "## theta\n\nThe factor on the stiffness at which a deformer is nearest to the reference.\n\n"
+           "| case | deformer | theta | outcome | error with it [%] | error without it [%] |\n|---|---|---|---|---|---|\n" +
+           rows + "\n";
+}
+
+std::string omission_table(const ComparisonRecords& records)
+{
+    if (records.omissions.empty()) return "";
+    return "## Omissions\n\n" +
+           markdown_table(table_of(omission_columns, records.omissions), {{"comparison", "comparison"},
+                                                                          {"case", "case"},
+                                                                          {"deformer", "deformer"},
+                                                                          {"why", "why"},
+                                                                          {"points missing", "missing"},
+                                                                          {"of", "points"},
+                                                                          {"reason", "reason"}}) +
+           "\n";
+}
+
+}  // namespace
+
+std::string page_of(const ComparisonRecords& records)
+{
+    std::string page = "# Error against run time\n\n" + split_text(records);
+    for (const Comparison comparison : comparisons) {
+        page += fmt::format(
+            "## Poses solved: {}\n\nEvaluated poses with an error of at most 10, 5 and 2 % at the joints, within 1, 10 and "
+            "100 ms per frame and at any time. Groups that solve no pose are not listed.\n\n",
+            words_of(comparison));
+        page += profile_table(records, comparison) + goal_table(records, comparison);
+    }
+    page += tried_table(records) + "\n" + theta_table(records) + omission_table(records);
+    for (const Comparison comparison : comparisons)
+        for (const Diagram* diagram : described(records, comparison)) {
+            page += fmt::format("## {}: {}\n\n```\n{}```\n\n", diagram->name, words_of(comparison), front_text(*diagram));
+            for (const std::string& line : findings(*diagram)) page += "- " + line + "\n";
+            page += "\n";
+        }
+    return page;
+}
+
+std::string terminal_text(const ComparisonRecords& records)
+{
+    std::string text;
+    for (const Comparison comparison : comparisons) {
+        const std::vector<const Diagram*> diagrams = shown(records, comparison);
+        if (diagrams.empty()) continue;
+        text += fmt::format("     {}, {}:\n", diagrams.back()->name, words_of(comparison));
+        for (const std::string& line : findings(*diagrams.back())) text += "       " + line + "\n";
+    }
+    for (const Comparison comparison : comparisons) {
+        std::string counts;
+        for (const TriedRow& row : settings_tried(records))
+            if (row.comparison == comparison)
+                counts += fmt::format("{}{} {} at {}", counts.empty() ? "" : ", ", row.deformer, row.tried, row.rungs);
+        if (!counts.empty()) text += fmt::format("     settings tried at rungs, {}: {}\n", words_of(comparison), counts);
+    }
+    return text + "     error: distance to the reference at the joints, outside the overlap, % of the mean bone distance\n";
+}
+
+}  // namespace experiments

@@ -1,0 +1,35 @@
+"""The colour, marker and name of each group of deformers in the figures of error against run time."""
+import style
+
+brown, grey, olive = "#8B5A2B", "#999999", "#7F7F00"
+groups = {"lbs": ("LBS", style.vermillion, "v"), "lbs_smooth": ("LBS, smooth weights", style.vermillion, "1"),
+          "dqs": ("DQS", style.orange, "s"), "dqs_smooth": ("DQS, smooth weights", style.orange, "2"),
+          "delta_mush": ("delta mush", style.green, "^"), "delta_mush_smooth": ("delta mush, smooth weights", style.green, "3"),
+          "direct_delta_mush": ("direct delta mush", "#4B9B00", "<"),
+          "direct_delta_mush_smooth": ("direct delta mush, smooth weights", "#4B9B00", "4"),
+          "pbs": ("PBS", style.blue, "o"), "pbs_author": ("first author\u2019s later code", style.sky, "p"),
+          "xpbd": ("XPBD", style.purple, "D"), "xpbd_neo_hookean": ("neo-Hookean XPBD", style.purple, "d"),
+          "quasi_newton": ("quasi-Newton", brown, "P"), "vbd": ("vertex block descent", olive, "*"),
+          "projective_dynamics": ("projective dynamics", style.sky, "h"), "linear_fem": ("linear FEM", grey, "x"),
+          "nonlinear_fem": ("nonlinear FEM", style.black, "+")}
+group_of_deformer = {"xpbd_small_steps": "xpbd", "fem_linear": "linear_fem", "fem_corotational": "nonlinear_fem",
+                     "fem_neo_hookean": "nonlinear_fem"}
+
+
+def of(group):
+    """Name, colour and marker; a group that is not listed here has its own name in black."""
+    return groups.get(group, (group.replace("_", " "), style.black, "."))
+
+
+def short(group):
+    """The name on one or two short lines."""
+    return of(group)[0].replace(", smooth weights", " smooth")
+
+
+def group_of(deformer):
+    return group_of_deformer.get(deformer, deformer)
+
+
+def in_order(names):
+    """The groups that occur, in the order of the list."""
+    return [name for name in groups if name in names] + sorted(set(names) - set(groups))

@@ -1,0 +1,118 @@
+#include "pbs/author/author_solver.hpp"
+
+#include "pbs/author/author_weights.hpp"
+#include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/stopwatch.hpp"
+
+namespace pbs {
+namespace {
+
+void check_within(const char* field, double value, double highest)
+{
+    if (!(value >= 0.0 && value <= highest))
+        throw InputError("pbs_author", 0, field, std::to_string(value), "expected 0 <= k <= " + std::to_string(static_cast<int>(highest)));
+}
+
+void check_sizes(const TetMesh& mesh, const BoneBinding& binding)
+{
+    if (static_cast<Eigen::Index>(binding.bone.size()) != mesh.rest.rows())
+        throw InputError("pbs_author", 0, "binding", std::to_string(binding.bone.size()) + " vertices", "expected those of the mesh");
+}
+
+AuthorOptions checked(const AuthorOptions& options, const TetMesh& mesh, const BoneBinding& binding)
+{
+    check_sizes(mesh, binding);
+    check_within("k_compression", options.k_compression, 1.0);
+    check_within("k_stretch", options.k_stretch, 1.0);
+    check_within("k_volume_inverted", options.k_volume_inverted, 6.0);
+    check_within("k_volume", options.k_volume, 6.0);
+    if (options.iterations < 0) throw InputError("pbs_author", 0, "iterations", std::to_string(options.iterations), "expected 0 or more");
+    if (!(options.time_step_s > 0.0))
+        throw InputError("pbs_author", 0, "time_step_s", std::to_string(options.time_step_s), "expected a positive time step");
+    if (!(options.length_unit_m > 0.0))
+        throw InputError("pbs_author", 0, "length_unit_m", std::to_string(options.length_unit_m), "expected a positive length");
+    return options;
+}
+
+AuthorStiffness stiffness_of(const AuthorOptions& options)
+{
+    const double unit2_m2 = options.length_unit_m * options.length_unit_m;
+    return {options.k_compression, options.k_stretch, options.k_volume_inverted, options.k_volume,
+            smallest_gradient2 * unit2_m2 * unit2_m2};
+}
+
+bool is_same_pose(const Pose& one, const Pose& other)
+{
+    return std::equal(one.begin(), one.end(), other.begin(), other.end(),
+                      [](const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) { return a.matrix() == b.matrix(); });
+}
+
+}  // namespace
+
+AuthorSolver::AuthorSolver(const TetMesh& mesh, const Skeleton& skeleton, const BoneBinding& binding, const AuthorOptions& options)
+    : options_(checked(options, mesh, binding)),
+      stiffness_(stiffness_of(options)),
+      skeleton_(skeleton),
+      skinning_(mesh.rest, author_weights(binding, skeleton)),
+      groups_(author_groups(mesh, binding)),
+      positions_(mesh.rest),
+      x_(mesh.rest.rows()),
+      v_(mesh.rest.rows(), Vector3<double>::Zero())
+{
+}
+
+StepSummary AuthorSolver::advance(const Pose& pose)
+{
+    const Stopwatch stopwatch;
+    StepSummary summary;
+    if (!last_pose_ || !is_same_pose(*last_pose_, pose)) {
+        predict(pose);
+        const std::vector<BoneSegment> bones = posed_bones(pose);
+        for (; summary.iterations < options_.iterations; ++summary.iterations) project(bones);
+        update();
+        last_pose_ = pose;
+    }
+    if (!positions_.allFinite()) summary.outcome = Outcome::not_finite;
+    summary.seconds = stopwatch.seconds();
+    return summary;
+}
+
+// x <- LBS, v <- v + h g, x <- x + h v, for every particle. v holds the bones' own motion of the last frame, which LBS contains already.
+void AuthorSolver::predict(const Pose& pose)
+{
+    skinning_.linear(pose, lbs_);
+    const double h = options_.time_step_s;
+    for (std::size_t i = 0; i < x_.size(); ++i) {
+        v_[i] += h * options_.gravity_m_s2;
+        x_[i] = lbs_.row(i).transpose() + h * v_[i];
+    }
+}
+
+// One iteration.
+void AuthorSolver::project(const std::vector<BoneSegment>& bones)
+{
+    for (const AuthorGroup& group : groups_) {
+        for (const AuthorVolume& constraint : group.volume) pbs::project(constraint, stiffness_, x_);
+        for (const AuthorBind& constraint : group.bind) pbs::project(constraint, bones, stiffness_, x_);
+        for (const AuthorStretch& constraint : group.stretch) pbs::project(constraint, stiffness_, x_);
+    }
+}
+
+// v <- (x - x of the last frame) / h.
+void AuthorSolver::update()
+{
+    for (std::size_t i = 0; i < x_.size(); ++i) {
+        v_[i] = (x_[i] - positions_.row(i).transpose()) / options_.time_step_s;
+        positions_.row(i) = x_[i];
+    }
+}
+
+std::vector<BoneSegment> AuthorSolver::posed_bones(const Pose& pose) const
+{
+    std::vector<BoneSegment> bones;
+    for (std::size_t j = 0; j < skeleton_.bones.size(); ++j)
+        bones.push_back({pose[j] * skeleton_.bones[j].head, pose[j] * skeleton_.bones[j].tail});
+    return bones;
+}
+
+}  // namespace pbs

@@ -1,0 +1,20 @@
+// What the packed solvers of this folder have in common: the tets of each slab of the mesh, and where rows of vertices and dummies lie.
+#pragma once
+
+#include "pbs/solver/batched/batch.hpp"
+#include "pbs/solver/batched/vertex_order.hpp"
+
+#include <array>
+#include <vector>
+
+namespace pbs {
+
+inline constexpr int dummies_of_slab = 4 * batch_size;
+
+// Rows of `vertices` in whole batches and, behind them, of the dummies of each slab.
+int rows_with_dummies(int vertices, int slabs);
+
+// vertex: of each tet. Returns indices of the tets of each slab, by the first of their vertices in memory.
+std::vector<std::vector<int>> slabs_of_tets(const std::vector<std::array<int, 4>>& vertex, const VertexOrder& order);
+
+}  // namespace pbs

@@ -1,0 +1,61 @@
+// Inner loops of delta mush and direct delta mush on raw arrays, compiled for the present machine; packed_delta_mush.hpp and
+// packed_direct_mush.hpp call them. Scalar is float or double. Points are rows x, y, z, 0 [m], relative to any origin near the body.
+#pragma once
+
+#include "pbs/skinning/blend_kernels.hpp"
+
+namespace pbs {
+
+// The neighbours of vertex i are neighbour[k], first[i] <= k < first[i + 1].
+template <class Scalar>
+struct NeighbourRows {
+    int n;                   // vertices, 0 or more
+    const int* first;        // n + 1
+    const int* neighbour;    // #entries
+    const Scalar* one_over;  // the number of neighbours; zero: there is none, n
+};
+
+// Vertices whose covariance the formulae for the nearest rotation refuse (rotation_formula.hpp). The caller decomposes it and moves them.
+template <class Scalar>
+struct RefusedRotations {
+    int n = 0;
+    int* vertex;              // room for every vertex
+    Scalar (*covariance)[9];  // from row to row, as many
+};
+
+// One step of Laplacian smoothing: each point goes the share `step` of the way to the mean of its neighbours.
+template <class Scalar>
+void smooth_points(const NeighbourRows<Scalar>& rows, Scalar step, const Scalar* from, Scalar* to);
+
+// posed = smooth + R detail, R being the rotation that best maps the edges of `smooth_rest` to those of `smooth`. Refused vertices get
+// posed = smooth. posed: n rows of x, y, z.
+template <class Scalar>
+void add_detail(const NeighbourRows<Scalar>& rows, const Scalar* smooth_rest, const Scalar* smooth, const Scalar* detail, Scalar* posed,
+                RefusedRotations<Scalar>& refused);
+
+// What direct delta mush has precomputed for a vertex and a bone, moments of the rest shape about the vertex's own centre.
+template <class Scalar>
+struct BoneMoments {
+    Scalar second[6];  // xx, xy, xz, yy, yz, zz [m^2]
+    Scalar first[3];   // x, y, z [m]
+    Scalar share[3];   // first moment times 1 - alpha [m]
+    Scalar weight;     // of the bone
+    int bone;          // index of its matrix
+};
+
+// The entries of vertex i are moments[k], first[i] <= k < first[i + 1], at least one.
+template <class Scalar>
+struct MomentRows {
+    int n;                               // vertices, 0 or more
+    const int* first;                    // n + 1
+    const BoneMoments<Scalar>* moments;  // #entries
+    const Scalar* centre;                // n rows x, y, z, 1
+    const Scalar* detail;                // rest position - centre, n rows x, y, z, 0
+};
+
+// posed = q + R detail, with the blended centre q and the rotation R of direct_delta_mush.hpp. Refused vertices get posed = q. posed: n
+// rows of x, y, z.
+template <class Scalar>
+void move_by_moments(const MomentRows<Scalar>& rows, const PaddedMatrix<Scalar>* bones, Scalar* posed, RefusedRotations<Scalar>& refused);
+
+}  // namespace pbs

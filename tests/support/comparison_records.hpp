@@ -1,0 +1,55 @@
+// Records of the study work_precision with a few points, made by hand.
+#pragma once
+
+#include "experiments/studies/work_precision/diagram.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace test_support {
+
+struct HandPoint {
+    experiments::SettingKey key;
+    double ms;
+    std::optional<double> error_pct;
+    std::string outcome = "finished";
+};
+
+// A case whose reference has an own error of up to bar_pct.
+inline experiments::CaseRows hand_case(const analysis::CaseKey& of, const std::vector<HandPoint>& points,
+                                       experiments::Half half = experiments::Half::evaluation, double bar_pct = 6.0)
+{
+    experiments::CaseRows rows;
+    for (const HandPoint& point : points) {
+        experiments::PointRow& row = rows.emplace_back();
+        row.of = of;
+        row.key = point.key;
+        row.half = half;
+        row.outcome = point.outcome;
+        if (point.outcome == "finished") row.ms_median = row.ms_q1 = point.ms;
+        if (point.error_pct) row.error = {.l2_pct = *point.error_pct, .joint_pct = *point.error_pct, .linf_m = std::nan("")};
+        row.reach_ms = 10.0 * point.ms;
+        row.reference = "neo_hookean";
+        row.reference_error_joint_pct = bar_pct;
+        row.below_reference_error = point.error_pct.value_or(99.0) <= bar_pct;
+        row.metrics.emplace().volume_abs_change_pct = 10.0 / point.ms;
+        row.masked_share_pct = of.pose == "folded" ? 12.0 : 0.0;
+    }
+    return rows;
+}
+
+inline HandPoint hand_reference()
+{
+    return {{.deformer = "reference", .element_order = 2, .refined = true}, 900.0, std::nullopt, "reference"};
+}
+
+// Every point is chosen, in the comparison that it takes part in.
+inline std::vector<experiments::Diagram> hand_diagrams(const std::vector<experiments::CaseRows>& cases)
+{
+    std::vector<experiments::CaseRecords> records;
+    for (const experiments::CaseRows& rows : cases) records.push_back({rows});
+    return experiments::diagrams_of(records, experiments::choose_settings(cases));
+}
+
+}  // namespace test_support

@@ -1,0 +1,141 @@
+// Reference: the registry, whose kinds and keys are counted here once more, and a deformer whose time and work are given.
+#include "experiments/studies/bench/deformer_timing.hpp"
+
+#include "experiments/deformers/pbs/pbs_option_names.hpp"
+#include "experiments/deformers/registry.hpp"
+#include "experiments/process/cpu_clock.hpp"
+#include "experiments/settings/scene_values.hpp"
+#include "pbs/geometry/input_error.hpp"
+#include "pbs/solver/options.hpp"
+#include "tests/support/structured_bar.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+namespace {
+
+using namespace experiments;
+
+const BenchBody& bar()
+{
+    static const BenchBody body = make_bench_body("bar", test_support::structured_bar({-1, -0.15, -0.15}, {1, 0.15, 0.15}, {6, 2, 2}));
+    return body;
+}
+
+constexpr Rounds two_rounds = {.seconds = 0.0, .fewest = 2, .most = 2};
+const MachineLimits limits = {100.0, 50.0, {{1e3, 80.0}, {1e9, 20.0}}};
+
+// PBS has three orders in two precisions.
+TEST(DeformerSettings, EveryOrderAndPrecision)
+{
+    const std::vector<DeformerSetting> settings = deformer_settings(*find_deformer_kind("pbs"));
+    ASSERT_EQ(settings.size(), 6u);
+    std::set<std::pair<std::string, std::string>> different;
+    for (const DeformerSetting& setting : settings) {
+        different.insert({setting.order, setting.precision});
+        const auto& options = options_of<pbs::PbsOptions>(setting.spec);
+        EXPECT_EQ(name_of(options.order), setting.order);
+        EXPECT_EQ(name_of(options.precision), setting.precision);
+        EXPECT_EQ(settings[setting.plain].order, "plain");
+        EXPECT_EQ(settings[setting.plain].precision, setting.precision);
+        ASSERT_TRUE(setting.twice);
+        EXPECT_EQ(options_of<pbs::PbsOptions>(*setting.twice).iterations, 2 * options.iterations);
+        EXPECT_EQ(options_of<pbs::PbsOptions>(*setting.twice).order, options.order);
+    }
+    EXPECT_EQ(different.size(), 6u);
+}
+
+TEST(DeformerSettings, WithoutKeysThereIsOneWithItsDefaults)
+{
+    const std::vector<DeformerSetting> settings = deformer_settings(*find_deformer_kind("lbs"));
+    ASSERT_EQ(settings.size(), 1u);
+    EXPECT_EQ(settings[0].plain, 0u);
+    EXPECT_EQ(settings[0].order, "");
+    EXPECT_EQ(settings[0].precision, "f64");
+    EXPECT_FALSE(settings[0].twice);
+}
+
+struct GivenOptions {
+    std::string precision = "f64";
+};
+
+// A deformer that works for 2 ms in f64 and 1 ms in f32.
+class GivenTime : public Deformer {
+public:
+    explicit GivenTime(double seconds) : seconds_(seconds) {}
+    void reset(const pbs::Character& character) override { positions_ = character.mesh.rest; }
+    pbs::StepSummary advance(const pbs::Pose&, double) override
+    {
+        const double start = thread_cpu_s();
+        while (thread_cpu_s() - start < seconds_) {
+        }
+        return {};
+    }
+    const pbs::Positions& positions() const override { return positions_; }
+
+private:
+    double seconds_;
+    pbs::Positions positions_;
+};
+
+DeformerKind given_kind()
+{
+    return {.name = "given_time",
+            .meaning = "works for a given time",
+            .make = [](const DeformerSpec& spec) -> std::unique_ptr<Deformer> {
+                return std::make_unique<GivenTime>(options_of<GivenOptions>(spec).precision == "f32" ? 1e-3 : 2e-3);
+            },
+            .options = GivenOptions{},
+            .keys = {{.table = "given_time",
+                      .name = "precision",
+                      .type = KeyType::text,
+                      .default_json = "\"f64\"",
+                      .choices = {"f32", "f64"},
+                      .meaning = "floating point"}},
+            .read = [](const SceneValues& values, const std::string& table,
+                       DeformerSpec& spec) { options_of<GivenOptions>(spec).precision = values.text(table + ".precision"); },
+            .traits = [](const DeformerSpec& spec) -> DeformerTraits { return {.precision = options_of<GivenOptions>(spec).precision}; },
+            .work =
+                [](const DeformerSpec&, const BodyCounts& body) {
+                    return IterationWork{1e6 * body.tets, 1e3, 1e3};
+                }};
+}
+
+// Every registered kind has a row, also one that is registered later, except those that only a scene's tables define.
+TEST(DeformerTimings, TakeUpWhatIsRegistered)
+{
+    add_deformer_kind(given_kind());
+    const std::vector<DeformerTiming> timings = time_deformers(bar(), limits, two_rounds);
+    std::set<std::string> timed;
+    for (const DeformerTiming& timing : timings) {
+        timed.insert(timing.deformer);
+        EXPECT_EQ(timing.ms_frame.has_value(), timing.left_out.empty()) << timing.deformer;
+        if (timing.ms_frame) {
+            EXPECT_GT(timing.ms_frame->median, 0.0) << timing.deformer;
+        }
+        if (timing.ratio_to_plain && timing.order == "plain") {
+            EXPECT_EQ(timing.ratio_to_plain->median, 1.0);
+        }
+    }
+    for (const DeformerKind& kind : deformer_kinds()) EXPECT_EQ(timed.contains(kind.name), !kind.needs_list) << kind.name;
+
+    std::vector<DeformerTiming> given;
+    std::copy_if(timings.begin(), timings.end(), std::back_inserter(given),
+                 [](const DeformerTiming& one) { return one.deformer == "given_time"; });
+    ASSERT_EQ(given.size(), 2u);
+    EXPECT_EQ(given[0].precision, "f32");
+    // A frame takes at least its time, and little more: a reading of the clock takes less than a tenth of a millisecond.
+    EXPECT_GE(given[0].ms_frame->median, 1.0);
+    EXPECT_LE(given[0].ms_frame->median, 1.1);
+    EXPECT_NEAR(given[0].ratio_to_plain->median, 2.0, 0.2);
+    EXPECT_EQ(given[1].ratio_to_plain->median, 1.0);
+    EXPECT_FALSE(given[0].ms_iteration);
+    const double tets = double(bar().mesh().tets.rows());
+    EXPECT_NEAR(given[0].ns_tet->median * tets, 1e6 * given[0].ms_frame->median, 1e-6 * 1e6);
+    // 1e6 operations per tet: the peak of 100 GFLOP/s in f32 allows tets / 1e5 s, of which the frame takes a multiple.
+    EXPECT_NEAR(*given[0].share_of_limit, tets * 1e6 / 100e9 / (1e-3 * given[0].ms_frame->median), 1e-9 * tets);
+}
+
+}  // namespace

@@ -1,0 +1,63 @@
+// Reference: the list of reasons in omissions.hpp, by hand.
+#include "experiments/studies/work_precision/omissions.hpp"
+
+#include "tests/support/comparison_records.hpp"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace experiments;
+using test_support::hand_case;
+using test_support::hand_reference;
+
+using Found = std::tuple<Comparison, std::string, std::string, std::string, int, int>;
+
+std::vector<Found> found_in(const std::vector<CaseRows>& cases)
+{
+    std::vector<Found> found;
+    for (const Omission& one : omissions_of(cases))
+        found.emplace_back(one.comparison, one.of, one.deformer, one.why, one.missing, one.points);
+    return found;
+}
+
+TEST(Omissions, NameEachReasonWithItsPoints)
+{
+    const auto vbd = [](int iterations) { return SettingKey{.deformer = "vbd", .iterations = iterations, .precision = "f32"}; };
+    const SettingKey lbs = {.deformer = "lbs", .precision = "f64"}, fem = {.deformer = "fem_linear", .precision = "f64"};
+    CaseRows first = hand_case({.body = "limb", .pose = "a"}, {{lbs, 0.1, 9.0},
+                                                               {vbd(1), 1.0, 9.0},
+                                                               {vbd(4), 4.0, {}, "not_finite"},
+                                                               {vbd(8), 8.0, {}, "over_time_limit"},
+                                                               {vbd(16), 16.0, {}, "over_time_limit"},
+                                                               {fem, 9.0, {}, "not_converged"},
+                                                               hand_reference()});
+    first[3].reason = "900 ms on the rung before, 300 ms allowed";
+    const CaseRows second = hand_case({.body = "limb", .pose = "b"}, {{vbd(1), 1.0, 9.0}, hand_reference()});
+    const std::vector<Found> expected = {{Comparison::packed_f32, "limb_a", "vbd", "not_finite", 1, 4},
+                                         {Comparison::packed_f32, "limb_a", "vbd", "over_time_limit", 2, 4},
+                                         {Comparison::packed_f32, "limb_a", "fem_linear", "not_converged", 1, 1},
+                                         {Comparison::packed_f32, "limb_b", "lbs", "not_run", 0, 0},
+                                         {Comparison::packed_f32, "limb_b", "fem_linear", "not_run", 0, 0},
+                                         {Comparison::plain_f64, "limb_a", "vbd", "no_such_code", 0, 0},
+                                         {Comparison::plain_f64, "limb_a", "fem_linear", "not_converged", 1, 1},
+                                         {Comparison::plain_f64, "limb_b", "lbs", "not_run", 0, 0},
+                                         {Comparison::plain_f64, "limb_b", "vbd", "no_such_code", 0, 0},
+                                         {Comparison::plain_f64, "limb_b", "fem_linear", "not_run", 0, 0}};
+    EXPECT_EQ(found_in({first, second}), expected);
+    EXPECT_EQ(omissions_of({first})[1].reason, "900 ms on the rung before, 300 ms allowed");
+}
+
+TEST(Omissions, NameAPoseWithoutAReference)
+{
+    CaseRows rows = hand_case({.body = "limb", .pose = "a"}, {{{.deformer = "lbs", .precision = "f64"}, 0.1, {}}, hand_reference()});
+    rows.back().outcome = "not_reached";
+    EXPECT_EQ(found_in({rows}).front(), Found(Comparison::packed_f32, "limb_a", "lbs", "no_reference", 1, 1));
+}
+
+TEST(Omissions, AreNoneWhereEachPointHasATimeAndAnError)
+{
+    EXPECT_TRUE(omissions_of({hand_case({.pose = "a"}, {{{.deformer = "lbs", .precision = "f64"}, 0.1, 5.0}, hand_reference()})}).empty());
+}
+
+}  // namespace

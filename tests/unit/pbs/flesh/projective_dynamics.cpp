@@ -1,0 +1,231 @@
+// Reference: the energy's own value (descent, gradient), and linear elasticity where strains are small.
+#include "pbs/flesh/projective_dynamics.hpp"
+
+#include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/tet_volume.hpp"
+#include "tests/support/eps_sweep.hpp"
+#include "tests/support/random_points.hpp"
+#include "tests/support/rounding_error.hpp"
+#include "tests/support/two_bone_limb.hpp"
+
+#include <Eigen/LU>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace {
+
+using pbs::Positions;
+using pbs::ProjectiveDynamics;
+using pbs::ProjectiveOptions;
+using pbs::ProjectiveSummary;
+using pbs::Vec3;
+
+// Springs along both bones, up to 0.2 m from the joint.
+pbs::BoneSprings springs_along_bones()
+{
+    std::vector<Vec3> points;
+    for (int i = 0; i <= 16; ++i)
+        for (const double x : {-0.95 + 0.75 * i / 16, 0.2 + 0.75 * i / 16})
+            for (const Vec3& across : {Vec3(0, 0.04, 0.02), Vec3(0, -0.03, 0.04), Vec3(0, -0.01, -0.05)})
+                points.push_back(Vec3(x, 0, 0) + across);
+    pbs::BoneSprings springs;
+    springs.points.resize(static_cast<Eigen::Index>(points.size()), 3);
+    springs.stiffness = Eigen::VectorXd::Constant(static_cast<Eigen::Index>(points.size()), 0.05);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        springs.points.row(static_cast<Eigen::Index>(i)) = points[i].transpose();
+        springs.bone.push_back(points[i].x() > 0.0);
+    }
+    return springs;
+}
+
+struct HeldLimb {
+    test_support::TwoBoneLimb limb = test_support::two_bone_limb({8, 2, 2}, Vec3(1, 1, 2).normalized(), 60.0);
+    pbs::BoneHold hold{limb.mesh, springs_along_bones(), 2};
+    Positions centres;
+
+    HeldLimb() { hold.centres(limb.pose, centres); }
+};
+
+const HeldLimb& held()
+{
+    static const HeldLimb limb;
+    return limb;
+}
+
+ProjectiveDynamics solver_of(const ProjectiveOptions& options)
+{
+    return {held().limb.mesh, held().hold, options};
+}
+
+Positions mirrored(Positions positions)
+{
+    positions.col(2) *= -1.0;
+    return positions;
+}
+
+// Each step minimises E over the shapes and then over the positions: it cannot grow, but for the rounding of its terms, which add up to the
+// sum of the springs' parts of either sign.
+TEST(ProjectiveDynamics, TheEnergyDecreasesInEachIteration)
+{
+    const double magnitude = held().hold.stiffness().sum() * 4.0;  // [m^3]: a_i |x_i - c_i|^2 of a body of 2 m
+    for (const double poisson : {0.0, 0.3, 0.45})
+        for (const Positions& start : {held().limb.lbs, held().limb.mesh.rest, mirrored(held().limb.lbs)}) {
+            ProjectiveDynamics solver = solver_of({.poisson = poisson, .iterations = 40});
+            Positions x = start;
+            const ProjectiveSummary summary = solver.minimise(held().centres, x);
+            ASSERT_EQ(summary.energies.size(), 40u);
+            for (std::size_t i = 1; i < summary.energies.size(); ++i)
+                EXPECT_LE(summary.energies[i], summary.energies[i - 1] + test_support::rounding_error(100, magnitude)) << i;
+            EXPECT_LT(summary.energies.back(), summary.energies.front());
+        }
+}
+
+// The fixed point has no gradient. A step is H^-1 times the gradient, so that both vanish together; the error of a step falls linearly.
+TEST(ProjectiveDynamics, EndsAtAStationaryPointOfItsEnergy)
+{
+    ProjectiveDynamics solver = solver_of({.poisson = 0.3, .iterations = 3000, .stop_step = 1e-11});
+    Positions x = held().limb.lbs, first, last;
+    solver.value_and_gradient(x, held().centres, first);
+    const ProjectiveSummary summary = solver.minimise(held().centres, x);
+    EXPECT_TRUE(summary.converged) << summary.steps.back() / summary.steps.front();
+    solver.value_and_gradient(x, held().centres, last);
+    EXPECT_LT(last.norm(), 1e-9 * first.norm());
+}
+
+// At the start of a pose and at its end.
+TEST(ProjectiveDynamics, ItsGradientIsThatOfItsEnergy)
+{
+    test_support::RandomPoints random(71);
+    for (const double poisson : {0.0, 0.45}) {
+        ProjectiveDynamics solver = solver_of({.poisson = poisson, .iterations = 30});
+        Positions x = held().limb.lbs;
+        for (int time = 0; time < 2; ++time) {
+            Positions gradient, unused, direction(x.rows(), 3);
+            for (auto row : direction.rowwise()) row = random.point(1.0).transpose();
+            solver.value_and_gradient(x, held().centres, gradient);
+            const auto value = [&](const Eigen::VectorXd& at) {
+                return solver.value_and_gradient(Eigen::Map<const Positions>(at.data(), x.rows(), 3), held().centres, unused);
+            };
+            test_support::expect_slope_by_eps_sweep(value, Eigen::Map<const Eigen::VectorXd>(x.data(), x.size()),
+                                                    Eigen::Map<const Eigen::VectorXd>(direction.data(), x.size()),
+                                                    gradient.cwiseProduct(direction).sum(), 0.02);
+            solver.minimise(held().centres, x);
+        }
+    }
+}
+
+// Forces of linear elasticity over Young's modulus [m^2], and of the springs.
+Positions linear_forces(const Positions& displacement, double poisson)
+{
+    const pbs::TetMesh& mesh = held().limb.mesh;
+    const double mu = 0.5 / (1.0 + poisson), lambda = poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson));
+    Positions forces = Positions::Zero(mesh.rest.rows(), 3);
+    for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t) {
+        Eigen::Matrix3d rest, moved;
+        for (int k = 0; k < 3; ++k) {
+            rest.col(k) = (mesh.rest.row(mesh.tets(t, k + 1)) - mesh.rest.row(mesh.tets(t, 0))).transpose();
+            moved.col(k) = (displacement.row(mesh.tets(t, k + 1)) - displacement.row(mesh.tets(t, 0))).transpose();
+        }
+        const Eigen::Matrix3d h = moved * rest.inverse(), strain = 0.5 * (h + h.transpose());
+        const Eigen::Matrix3d stress = 2.0 * mu * strain + lambda * strain.trace() * Eigen::Matrix3d::Identity();
+        const Eigen::Matrix3d columns = rest.determinant() / 6.0 * stress * rest.inverse().transpose();
+        for (int k = 0; k < 3; ++k) forces.row(mesh.tets(t, k + 1)) += columns.col(k).transpose();
+        forces.row(mesh.tets(t, 0)) -= columns.rowwise().sum().transpose();
+    }
+    return forces;
+}
+
+// The share of the forces of linear elasticity by which those of a displacement eps u from rest differ. Springs do not count: they are
+// quadratic, and their centres are placed where they do not pull.
+double difference_to_linear(const ProjectiveOptions& options, double eps)
+{
+    const HeldLimb& limb = held();
+    test_support::RandomPoints random(72);
+    Positions displacement(limb.limb.mesh.rest.rows(), 3), gradient, at_rest;
+    for (auto row : displacement.rowwise()) row = 0.1 * random.point(1.0).transpose();  // edges are 0.1 m
+    const pbs::BoneHold none(
+        limb.limb.mesh,
+        [] {
+            pbs::BoneSprings springs = springs_along_bones();
+            springs.stiffness *= 1e-12;
+            return springs;
+        }(),
+        2);
+    const ProjectiveDynamics solver(limb.limb.mesh, none, options);
+    const Positions moved = limb.limb.mesh.rest + eps * displacement;
+    solver.value_and_gradient(moved, moved, gradient);
+    const Positions linear = linear_forces(displacement, options.poisson);
+    return (gradient / eps - linear).norm() / linear.norm();
+}
+
+// Weights of 2 mu and 3 lambda. Other weights leave a difference that does not fall with eps; the last case is such a mutant.
+TEST(ProjectiveDynamics, IsLinearElasticityForSmallStrains)
+{
+    for (const double poisson : {0.0, 0.3, 0.45}) {
+        const double coarse = difference_to_linear({.poisson = poisson}, 1e-3), fine = difference_to_linear({.poisson = poisson}, 1e-4);
+        EXPECT_NEAR(std::log10(coarse / fine), 1.0, 0.1) << poisson;
+        EXPECT_LT(fine, 1e-2);
+    }
+    const ProjectiveOptions mutant{.poisson = 0.3, .keeps_volume = false};
+    EXPECT_GT(difference_to_linear(mutant, 1e-4), 0.1);
+    EXPECT_NEAR(difference_to_linear(mutant, 1e-3), difference_to_linear(mutant, 1e-4), 0.01);
+}
+
+TEST(ProjectiveDynamics, RestsWhereItsBonesRest)
+{
+    Positions centres, x = held().limb.mesh.rest;
+    held().hold.centres(pbs::Pose(2, Eigen::Isometry3d::Identity()), centres);
+    ProjectiveDynamics solver = solver_of({.iterations = 5});
+    const ProjectiveSummary summary = solver.minimise(centres, x);
+    EXPECT_LT((x - held().limb.mesh.rest).cwiseAbs().maxCoeff(), 1e-12);
+    EXPECT_LT(summary.steps.front(), 1e-12);
+}
+
+TEST(ProjectiveDynamics, TurnsWithARigidMotionOfAllBones)
+{
+    test_support::RandomPoints random(73);
+    const Eigen::Isometry3d motion = random.rigid_motion(0.5);
+    pbs::Pose pose = held().limb.pose;
+    for (Eigen::Isometry3d& bone : pose) bone = motion * bone;
+    Positions centres, here = held().limb.lbs, there = test_support::transformed(here, motion);
+    held().hold.centres(pose, centres);
+    ProjectiveDynamics solver = solver_of({.iterations = 20});
+    solver.minimise(held().centres, here);
+    solver.minimise(centres, there);
+    EXPECT_LT((there - test_support::transformed(here, motion)).rowwise().norm().maxCoeff(), 1e-10);
+}
+
+TEST(ProjectiveDynamics, VolumesAreCloserToRestWithTheirTerm)
+{
+    const auto volume_change = [](bool keeps_volume) {
+        ProjectiveDynamics solver = solver_of({.poisson = 0.45, .iterations = 100, .keeps_volume = keeps_volume});
+        Positions x = held().limb.lbs;
+        solver.minimise(held().centres, x);
+        return (pbs::tet_volumes(x, held().limb.mesh.tets) - pbs::tet_volumes(held().limb.mesh.rest, held().limb.mesh.tets))
+            .cwiseAbs()
+            .sum();
+    };
+    EXPECT_LT(volume_change(true), 0.5 * volume_change(false));
+}
+
+TEST(ProjectiveDynamics, NotFiniteIsAnOutcome)
+{
+    Positions centres = held().centres, x = held().limb.lbs;
+    centres(0, 0) = std::nan("");
+    x(3, 1) = std::nan("");
+    ProjectiveDynamics solver = solver_of({.iterations = 10});
+    EXPECT_EQ(solver.minimise(centres, x).iterations, 0);
+    EXPECT_FALSE(x.allFinite());
+}
+
+TEST(ProjectiveDynamics, BadInputIsRefused)
+{
+    EXPECT_THROW(solver_of({.poisson = 0.5}), pbs::InputError);
+    EXPECT_THROW(solver_of({.poisson = -0.1}), pbs::InputError);
+    pbs::TetMesh inverted = held().limb.mesh;
+    std::swap(inverted.tets(4, 0), inverted.tets(4, 1));
+    EXPECT_THROW(ProjectiveDynamics(inverted, held().hold, {}), pbs::InputError);
+}
+
+}  // namespace

@@ -1,0 +1,126 @@
+// Reference: the first bytes by which each format is defined, and one body written in each of them.
+#include "pbs/geometry/content_format.hpp"
+
+#include "pbs/geometry/mesh_io.hpp"
+#include "pbs/geometry/mesh_remarks.hpp"
+#include "tests/support/arm_in_formats.hpp"
+#include "tests/support/rigged_gltf.hpp"
+#include "tests/unit/pbs/character/expect_input_error.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+
+namespace {
+
+using test_support::ScratchFolder;
+
+const std::string ply =
+    "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
+    "property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+const std::string off = "# a triangle\nOFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+const std::string obj = "# a triangle\n\nmtllib none.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+const std::string stl =
+    "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid x\n";
+
+// One triangle. Some programs begin the header of a binary file with the word of a text file.
+std::string binary_stl()
+{
+    const float numbers[12] = {0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0};
+    const std::uint32_t triangles = 1;
+    std::string bytes = "solid by some program" + std::string(80 - 21, ' ');
+    bytes.append(reinterpret_cast<const char*>(&triangles), sizeof triangles);
+    bytes.append(reinterpret_cast<const char*>(numbers), sizeof numbers);
+    return bytes + std::string(2, '\0');
+}
+
+TEST(ContentFormat, IsThatOfTheFirstBytesWhateverTheName)
+{
+    const ScratchFolder folder;
+    const auto content = [&](const std::string& text) { return pbs::content_extension(folder.file("a.step", text)); };
+    EXPECT_EQ(content("glTF\x02"), ".glb");
+    EXPECT_EQ(content(" \n{\"asset\": {}}"), ".gltf");
+    EXPECT_EQ(content("Kaydara FBX Binary  \x1a"), ".fbx");
+    EXPECT_EQ(content("; FBX 7.3.0 project file\n"), ".fbx");
+    EXPECT_EQ(content("<?xml version=\"1.0\"?>\n<COLLADA>"), ".dae");
+    EXPECT_EQ(content("PK\x03\x04"), ".zae");
+    EXPECT_EQ(content(ply), ".ply");
+    EXPECT_EQ(content(off), ".off");
+    EXPECT_EQ(content("COFF\n"), ".off");
+    EXPECT_EQ(content(obj), ".obj");
+    EXPECT_EQ(content(stl), ".stl");
+    EXPECT_EQ(content(binary_stl()), ".stl");
+    EXPECT_EQ(content("$MeshFormat\n2.2 0 8\n"), ".msh");
+    EXPECT_EQ(content("$NOD\n"), ".msh");
+    EXPECT_EQ(content("# by hand\nMeshVersionFormatted 2\n"), ".mesh");
+}
+
+TEST(ContentFormat, OfOtherContentIsThatOfTheName)
+{
+    const ScratchFolder folder;
+    for (const std::string& text : {"", "ISO-10303-21;", "solid rock\n", "plywood\n", "SCOFFS\n", "v\n", "# only a comment\n"}) {
+        const std::string path = folder.file("A.STL", text);
+        EXPECT_EQ(pbs::content_extension(path), "") << text;
+        EXPECT_EQ(pbs::format_extension(path), ".stl") << text;
+        EXPECT_EQ(pbs::path_by_content(path), path) << text;
+    }
+    EXPECT_EQ(pbs::content_extension(folder / "none.ply"), "");
+    EXPECT_EQ(pbs::format_extension(folder / "none.ply"), ".ply");
+}
+
+TEST(ContentFormat, GivesANameWithItsExtension)
+{
+    const ScratchFolder folder;
+    const std::string path = folder.file("a.obj", ply);
+    EXPECT_EQ(pbs::path_by_content(path), path + ".ply");
+}
+
+// The surfaces of the body under its own name and under each of the others.
+void expect_read_under_any_name(const std::string& own_extension, const std::string& text)
+{
+    const ScratchFolder folder;
+    const pbs::SurfaceMesh expected = pbs::read_surface(folder.file("own" + own_extension, text));
+    for (const char* extension : {".obj", ".ply", ".off", ".stl", ".gltf", ".glb", ".dae", ".zae", ".fbx", ".step", ".vtk", ""}) {
+        const std::string path = folder.file(std::string("arm") + extension, text);
+        std::vector<std::string> remarks;
+        const pbs::SurfaceMesh surface = pbs::read_surface(path, remarks);
+        EXPECT_EQ(surface.points, expected.points) << path;
+        EXPECT_EQ(surface.triangles, expected.triangles) << path;
+        const std::string remark = path + ": format of the content = " + own_extension + ": read as such, whatever the file is called";
+        EXPECT_EQ(std::count(remarks.begin(), remarks.end(), remark), extension == own_extension ? 0 : 1) << path;
+    }
+}
+
+TEST(ContentFormat, ChoosesTheReaderOfASurface)
+{
+    expect_read_under_any_name(".obj", obj);
+    expect_read_under_any_name(".dae", test_support::collada_arm());
+    expect_read_under_any_name(".fbx", test_support::fbx_arm());
+#ifdef PBS_WITH_CGAL
+    expect_read_under_any_name(".ply", ply);
+    expect_read_under_any_name(".off", off);
+    expect_read_under_any_name(".stl", stl);
+    expect_read_under_any_name(".stl", binary_stl());
+#endif
+}
+
+// The numbers of this .gltf file are in another file in its folder.
+TEST(ContentFormat, AGltfUnderAnotherNameFindsItsNumbers)
+{
+    const ScratchFolder folder;
+    const std::string own = test_support::write_rigged_gltf(folder, "arm.gltf", {});
+    const pbs::SurfaceMesh expected = pbs::read_surface(own);
+    std::filesystem::rename(own, folder / "arm.fbx");
+    EXPECT_EQ(pbs::read_surface(folder / "arm.fbx").points, expected.points);
+}
+
+TEST(ContentFormat, OfTetsIsRefusedAsASurface)
+{
+    const ScratchFolder folder;
+    const std::string path = folder.file("arm.obj", "$MeshFormat\n2.2 0 8\n");
+    expect_input_error([&] { pbs::read_surface(path); }, path + ": format of the content = .msh: ", "expected a surface");
+}
+
+}  // namespace
