@@ -36,7 +36,10 @@ pbs_tests(unit pbs_character FOLDERS pbs/character EXCEPT ${left_out}
     ALONE pbs/character/overlap_mask pbs/character/refined_character pbs/character/retarget
     LIBRARIES pbs_character pbs_mesh_io)
 if(TARGET pbskin_cholmod)
-    pbs_tests(unit pbs_flesh FOLDERS pbs/flesh LIBRARIES pbs_flesh)
+    pbs_tests(unit pbs_flesh FOLDERS pbs/flesh
+        ALONE pbs/flesh/bone_springs pbs/flesh/flesh_energy pbs/flesh/packed_vertex_sweep pbs/flesh/quasi_newton pbs/flesh/vertex_block
+            pbs/flesh/vertex_block_descent
+        LIBRARIES pbs_flesh)
     add_dependencies(test_unit_pbs_flesh pbskin_cholmod)
 endif()
 if(TARGET pbskin_gmsh)

@@ -24,7 +24,8 @@ constexpr Compared compared[] = {{"quasi_newton", true},        {"vbd", true},  
 // The deformer with one key of its table set, as a scene would set it.
 DeformerSpec with_setting(const std::string& kind, const std::string& key, double value)
 {
-    return spec_of(read_scene("limb_bend", {fmt::format("deformers.use=[\"{}\"]", kind), fmt::format("{}.{}={:.17g}", kind, key, value)}),
+    return spec_of(read_scene("limb_bend", {"reference.name=\"\"", fmt::format("deformers.use=[\"{}\"]", kind),
+                                            fmt::format("{}.{}={:.17g}", kind, key, value)}),
                    kind);
 }
 

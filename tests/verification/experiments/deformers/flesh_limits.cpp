@@ -12,7 +12,7 @@ using test_support::FleshReference;
 DeformerSpec spec_of(const std::string& kind, const std::vector<std::string>& settings)
 {
     std::vector<std::string> all = settings;
-    all.push_back("deformers.use=[\"" + kind + "\"]");
+    all.insert(all.end(), {"deformers.use=[\"" + kind + "\"]", "reference.name=\"\""});
     return experiments::spec_of(experiments::read_scene("limb_twist", all), kind);
 }
 
