@@ -14,7 +14,9 @@ inline constexpr int dummies_of_slab = 4 * batch_size;
 // Rows of `vertices` in whole batches and, behind them, of the dummies of each slab.
 int rows_with_dummies(int vertices, int slabs);
 
-// vertex: of each tet. Returns indices of the tets of each slab, by the first of their vertices in memory.
+// vertex: of each tet. Returns indices of the tets of each slab; a tet belongs to the slab of the first of its vertices in memory. Within a
+// slab, clusters of neighbours follow each other, and each cluster goes colour by colour (projection_sequence.hpp), so that BatchScheduler
+// fills its batches.
 std::vector<std::vector<int>> slabs_of_tets(const std::vector<std::array<int, 4>>& vertex, const VertexOrder& order);
 
 }  // namespace pbs
