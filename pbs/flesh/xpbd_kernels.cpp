@@ -53,6 +53,25 @@ template <typename Scalar>
     from.copy_to(to, std::experimental::vector_aligned);
 }
 
+template <typename Scalar>
+[[gnu::always_inline]] inline LaneMatrix<Scalar> load_matrix(const Scalar (&columns)[9][batch_size], int first)
+{
+    LaneMatrix<Scalar> result;
+    for (int j = 0; j < 3; ++j)
+        result.column[j] = {load(columns[3 * j] + first), load(columns[3 * j + 1] + first), load(columns[3 * j + 2] + first)};
+    return result;
+}
+
+template <typename Scalar>
+[[gnu::always_inline]] inline void store_matrix(const LaneMatrix<Scalar>& from, Scalar (&columns)[9][batch_size], int first)
+{
+    for (int j = 0; j < 3; ++j) {
+        store(from.column[j].x, columns[3 * j] + first);
+        store(from.column[j].y, columns[3 * j + 1] + first);
+        store(from.column[j].z, columns[3 * j + 2] + first);
+    }
+}
+
 // As many tets as there are lanes: PlainXpbd::visit_tet, line by line.
 template <typename Scalar, bool with_residual>
 [[gnu::always_inline]] inline void visit_part(NeoHookeanBatch<Scalar>& batch, int first, const Lanes<Scalar>& alpha, Scalar* x)
@@ -76,15 +95,10 @@ template <typename Scalar, bool with_residual>
 
     L multiplier_H = load(batch.multiplier[0] + first), multiplier_D = load(batch.multiplier[1] + first);
     L right_H = -k_H * (dot(F.column[0], H.column[0]) - alpha) - multiplier_H, right_D = -k_D * size - multiplier_D;
-    LaneMatrix<Scalar> residual;
+    LaneMatrix<Scalar> applied, residual;
     if constexpr (with_residual) {
-        residual = sum(multiplier_H, H, multiplier_D, D);
-        for (int j = 0; j < 3; ++j) {
-            LaneVector<Scalar>& column = residual.column[j];
-            column.x = load(batch.applied[3 * j] + first) - column.x;
-            column.y = load(batch.applied[3 * j + 1] + first) - column.y;
-            column.z = load(batch.applied[3 * j + 2] + first) - column.z;
-        }
+        applied = load_matrix(batch.applied, first);
+        residual = sum(one, applied, L(-one), sum(multiplier_H, H, multiplier_D, D));
         right_H += k_H * inner(HS, residual);
         right_D += k_D * inner(DS, residual);
     }
@@ -99,13 +113,8 @@ template <typename Scalar, bool with_residual>
 
     LaneMatrix<Scalar> more = sum(change_H, H, change_D, D);
     if constexpr (with_residual) {
-        for (int j = 0; j < 3; ++j) {
-            LaneVector<Scalar>& column = more.column[j];
-            column.x -= residual.column[j].x, column.y -= residual.column[j].y, column.z -= residual.column[j].z;
-            store(L(load(batch.applied[3 * j] + first) + column.x), batch.applied[3 * j] + first);
-            store(L(load(batch.applied[3 * j + 1] + first) + column.y), batch.applied[3 * j + 1] + first);
-            store(L(load(batch.applied[3 * j + 2] + first) + column.z), batch.applied[3 * j + 2] + first);
-        }
+        more = sum(one, more, L(-one), residual);
+        store_matrix(sum(one, applied, one, more), batch.applied, first);
     }
     LaneVector<Scalar> on_first{Scalar(0), Scalar(0), Scalar(0)};
     for (int i = 1; i < 4; ++i) {

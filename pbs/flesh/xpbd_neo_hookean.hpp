@@ -21,7 +21,7 @@ namespace pbs {
 enum class XpbdMultipliers { kept, of_step, reset };
 
 struct XpbdNeoHookeanOptions {
-    int iterations = 64;          // passes over all constraints
+    int iterations = 48;          // passes over all constraints
     int iterations_per_step = 1;  // the last step may have fewer
     XpbdMultipliers multipliers = XpbdMultipliers::kept;
     bool momentum = true;  // false: b = 0

@@ -7,7 +7,7 @@
 namespace test_support {
 
 struct HeldXpbd {
-    explicit HeldXpbd(const std::array<int, 3>& cells, double time_step = 0.85, const pbs::Vec3& joint = pbs::Vec3::Zero())
+    explicit HeldXpbd(const std::array<int, 3>& cells, double time_step = 0.8, const pbs::Vec3& joint = pbs::Vec3::Zero())
         : HeldXpbd(two_bone_limb(cells, pbs::Vec3::UnitZ(), 70.0, joint), time_step, joint)
     {
     }

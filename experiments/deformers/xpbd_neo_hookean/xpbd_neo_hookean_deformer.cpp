@@ -23,7 +23,7 @@ struct XpbdNeoHookeanDeformerOptions {
     pbs::FleshStart start = pbs::FleshStart::smooth_dqs;
     pbs::Arithmetic arithmetic = pbs::Arithmetic::packed_f32;
     int iterations_per_step = 1;
-    double time_step = 0.85;
+    double time_step = 0.8;
     pbs::XpbdMultipliers multipliers = pbs::XpbdMultipliers::kept;
     bool momentum = true;
 };
@@ -38,7 +38,7 @@ const OptionFields<XpbdNeoHookeanDeformerOptions>& xpbd_neo_hookean_fields()
             .add("time_step", &Options::time_step,
                  {.lowest = above_zero,
                   .highest = 1e6,
-                  .meaning = "time step over the time in which the stiffness of a vertex moves its mass; above about 0.9 the steps diverge "
+                  .meaning = "time step over the time in which the stiffness of a vertex moves its mass; above 0.8 the steps diverge "
                              "on small tets, and far below they are slow. With multipliers kept it changes the way, not the limit"})
             .add(
                 "multipliers", &Options::multipliers,

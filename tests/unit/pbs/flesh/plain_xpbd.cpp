@@ -21,7 +21,7 @@ HeldXpbd one_tet(const pbs::BoneSprings& springs)
 {
     test_support::TwoBoneLimb limb = test_support::two_bone_limb({8, 2, 2}, pbs::Vec3::UnitZ(), 70.0);
     limb.mesh.tets = pbs::Tets(limb.mesh.tets.topRows(1));
-    return {limb, 0.85, springs};
+    return {limb, 0.8, springs};
 }
 
 Matrix3d deformation(const pbs::NeoHookeanTet& tet, const Positions& x)

@@ -9,9 +9,9 @@ using test_support::FleshReference;
 
 DeformerSpec xpbd(int iterations, double poisson, const std::vector<std::string>& more = {})
 {
-    std::vector<std::string> settings{"deformers.use=[\"xpbd_neo_hookean\"]", "xpbd_neo_hookean.arithmetic=\"packed_f64\"",
-                                      "xpbd_neo_hookean.iterations=" + std::to_string(iterations),
-                                      "xpbd_neo_hookean.poisson=" + std::to_string(poisson)};
+    std::vector<std::string> settings{
+        "deformers.use=[\"xpbd_neo_hookean\"]", "reference.name=\"\"", "xpbd_neo_hookean.arithmetic=\"packed_f64\"",
+        "xpbd_neo_hookean.iterations=" + std::to_string(iterations), "xpbd_neo_hookean.poisson=" + std::to_string(poisson)};
     settings.insert(settings.end(), more.begin(), more.end());
     return experiments::spec_of(experiments::read_scene("limb_twist", settings), "xpbd_neo_hookean");
 }
@@ -56,7 +56,7 @@ TEST(XpbdNeoHookeanControls, AsPublishedOrWithResetMultipliersItStopsElsewhere)
     for (const std::string multipliers : {"of_step", "reset"}) {
         const std::vector<std::string> control{"xpbd_neo_hookean.multipliers=\"" + multipliers + "\"",
                                                "xpbd_neo_hookean.iterations_per_step=4"};
-        EXPECT_GT(reference.difference(xpbd(4096, 0.45, control)), 1e-2) << multipliers;
+        EXPECT_GT(reference.difference(xpbd(1024, 0.45, control)), 1e-3) << multipliers;
     }
 }
 
