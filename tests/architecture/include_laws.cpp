@@ -21,6 +21,7 @@ const std::vector<Law> laws = {
     {"pbs/solver/", {"pbs/geometry/", "pbs/constraints/", "pbs/solver/"}},
     {"pbs/near_rest/", {"pbs/geometry/", "pbs/constraints/", "pbs/solver/", "pbs/near_rest/"}},
     {"pbs/author/", {"pbs/geometry/", "pbs/skinning/", "pbs/constraints/", "pbs/solver/", "pbs/author/"}},
+    {"pbs/flesh/", {"pbs/geometry/", "pbs/skinning/", "pbs/solver/", "pbs/flesh/"}},
     {"pbs/rig/", {"pbs/geometry/", "pbs/skinning/", "pbs/rig/"}},
     {"pbs/character/", {"pbs/"}},
     {"reference_fem/verification/", {"pbs/geometry/", "reference_fem/", "analysis/records/"}},

@@ -1,5 +1,6 @@
 // Direct delta mush, variant 0: all smoothing at reset, one blend and one rotation per vertex in a pose.
 #include "experiments/deformers/own_weights.hpp"
+#include "experiments/deformers/direct_delta_mush/mush_smoothing_names.hpp"
 #include "experiments/deformers/precision_names.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/settings/option_fields.hpp"
@@ -9,12 +10,6 @@
 #include <optional>
 
 namespace experiments {
-
-template <>
-struct OptionNames<pbs::MushSmoothing> {
-    static constexpr std::array<std::pair<pbs::MushSmoothing, const char*>, 2> table{
-        {{pbs::MushSmoothing::implicit_steps, "implicit"}, {pbs::MushSmoothing::explicit_steps, "explicit"}}};
-};
 
 namespace {
 

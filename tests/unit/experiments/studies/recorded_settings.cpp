@@ -1,5 +1,6 @@
 // --resume repeats a run when anything changed that its work depends on. Reference: the members of the cases, each changed in turn.
 #include "experiments/deformers/blend/blend_options.hpp"
+#include "experiments/deformers/direct_delta_mush/mush_smoothing_names.hpp"
 #include "experiments/deformers/fem/fem_option_names.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/studies/ambiguity/reading_values.hpp"
