@@ -224,7 +224,8 @@ TEST(DamagedSurface, EmptyMissingNoiseAndTruncated)
     for (const std::size_t cut : {30u, 50u}) expect_surface_refused(folder.file("cut.stl", stl.substr(0, stl.size() - cut)));
     expect_surface_refused(folder.file("a.ply", replaced(ply, "3 1 2 3", "3 1 2 9")));
     expect_surface_refused(folder.file("a.off", replaced(off, "1 0 0", "nan 0 0")));
-    expect_surface_refused(folder.file("a.txt", off));
+    expect_surface_read(folder.file("a.txt", off));  // by its content
+    expect_surface_refused(folder.file("b.txt", "4 vertices and 4 triangles\n"));
 }
 
 }  // namespace
