@@ -5,7 +5,7 @@
 
 namespace pbs {
 
-class PlainXpbd : public XpbdSystem<double> {
+class PlainXpbd final : public XpbdSystem<double> {
 public:
     explicit PlainXpbd(const XpbdFlesh& flesh);
     PlainXpbd(const XpbdFlesh& flesh, const std::vector<XpbdVisit>& visits);  // in another order

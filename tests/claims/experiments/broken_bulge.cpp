@@ -58,10 +58,12 @@ const BentLimb& limb()
     return limb;
 }
 
-Shapes solved(Broken how)
+Shapes solved(Broken how, pbs::Order order = pbs::Order::ordered)
 {
     experiments::DeformerSpec spec = spec_of(limb().of.scene, "pbs");
-    experiments::options_of<pbs::PbsOptions>(spec) = broken(experiments::options_of<pbs::PbsOptions>(spec), how);
+    auto& options = experiments::options_of<pbs::PbsOptions>(spec);
+    options.order = order;
+    options = broken(options, how);
     return limb().body.posed.shapes(spec);
 }
 
@@ -230,7 +232,7 @@ TEST(BrokenBulge, WithoutOneClassTheOthersStillTakeItBack)
 {
     const auto lbs = values_of(measure(limb().shapes("lbs")), radius);
     for (const Broken how : {Broken::bind_dropped, Broken::stretch_dropped, Broken::volume_dropped}) {
-        const auto measured = measure(solved(how));
+        const auto measured = measure(solved(how, pbs::Order::plain));  // the paper's: without volumes, the sequence of the edges matters
         EXPECT_EQ(verdict(measured), VerdictKind::reproduced) << name_of(how);
         for (std::size_t pose = 0; pose < lbs.size(); ++pose) EXPECT_LT(values_of(measured, radius).at(pose).value, lbs[pose].value);
     }

@@ -47,14 +47,27 @@ TEST(DeformerSettings, EveryOrderAndPrecision)
     EXPECT_EQ(different.size(), 6u);
 }
 
-TEST(DeformerSettings, WithoutKeysThereIsOneWithItsDefaults)
+TEST(DeformerSettings, OfABlendAreItsPrecisions)
 {
     const std::vector<DeformerSetting> settings = deformer_settings(*find_deformer_kind("lbs"));
+    std::set<std::string> precisions;
+    for (const DeformerSetting& setting : settings) {
+        EXPECT_EQ(setting.order, "");
+        EXPECT_FALSE(setting.twice);
+        precisions.insert(setting.precision);
+    }
+    EXPECT_EQ(settings.size(), 2u);
+    EXPECT_EQ(precisions, (std::set<std::string>{"f32", "f64"}));
+}
+
+TEST(DeformerSettings, WithoutKeysOfItsCodeThereIsOneWithItsDefaults)
+{
+    const std::vector<DeformerSetting> settings = deformer_settings(*find_deformer_kind("pbs_author"));
     ASSERT_EQ(settings.size(), 1u);
     EXPECT_EQ(settings[0].plain, 0u);
     EXPECT_EQ(settings[0].order, "");
     EXPECT_EQ(settings[0].precision, "f64");
-    EXPECT_FALSE(settings[0].twice);
+    EXPECT_TRUE(settings[0].twice);
 }
 
 struct GivenOptions {

