@@ -3,7 +3,8 @@
 // - nothing projected: LBS remains, whose crease bulges to the sides: wider than the reference.
 // - DQS in its place: the bulge of the claim, a ridge across the joint, which the radius detects. Its sections are hardly larger than those
 //   of the reference, so the bound on areas alone accepts it.
-// - one class dropped: the crease of LBS stretches edges, moves skin off the bone and changes tets; the other two classes reverse it.
+// - bind or stretch dropped: the crease of LBS changes tets, and the volume constraints reverse it with the class that is left. Without
+//   volume constraints nothing is expected: edges alone do not determine a section, and its radius depends on the sequence of projections.
 // - volume sign: every projection doubles the error that it should remove, so nothing keeps its size.
 // - flesh too thick: the solver's own rest state is 1.2 times as thick around the joint, and its tets are 1.44 times as large there, as all
 //   constraints require. By geometry, sections are 1.2 times as wide and 1.44 times as large at rest, and bending changes a section of the
@@ -228,14 +229,15 @@ TEST(BrokenBulge, TheSignTurnedRoundTurnsBothBounds)
     for (const std::string& quantity : {radius, area}) EXPECT_EQ(verdict(measured, quantity), VerdictKind::not_reproduced) << quantity;
 }
 
-TEST(BrokenBulge, WithoutOneClassTheOthersStillTakeItBack)
+TEST(BrokenBulge, WithoutBindOrStretchTheOthersStillTakeItBack)
 {
     const auto lbs = values_of(measure(limb().shapes("lbs")), radius);
-    for (const Broken how : {Broken::bind_dropped, Broken::stretch_dropped, Broken::volume_dropped}) {
-        const auto measured = measure(solved(how, pbs::Order::plain));  // the paper's: without volumes, the sequence of the edges matters
-        EXPECT_EQ(verdict(measured), VerdictKind::reproduced) << name_of(how);
-        for (std::size_t pose = 0; pose < lbs.size(); ++pose) EXPECT_LT(values_of(measured, radius).at(pose).value, lbs[pose].value);
-    }
+    for (const Broken how : {Broken::bind_dropped, Broken::stretch_dropped})
+        for (const pbs::Order order : {pbs::Order::ordered, pbs::Order::plain}) {
+            const auto measured = measure(solved(how, order));
+            EXPECT_EQ(verdict(measured), VerdictKind::reproduced) << name_of(how);
+            for (std::size_t pose = 0; pose < lbs.size(); ++pose) EXPECT_LT(values_of(measured, radius).at(pose).value, lbs[pose].value);
+        }
 }
 
 }  // namespace
