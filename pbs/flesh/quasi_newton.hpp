@@ -11,7 +11,7 @@
 namespace pbs {
 
 struct QuasiNewtonOptions {
-    int iterations = 16;         // at most
+    int iterations = 24;         // at most
     int history = 5;             // pairs of steps and changes of the gradient that L-BFGS keeps
     double stop_gradient = 0.0;  // stop where the norm of H^-1 g is below this share of its first value; 0: never
     Arithmetic arithmetic = Arithmetic::packed_f32;

@@ -11,7 +11,7 @@ namespace experiments {
 namespace {
 
 struct QuasiNewtonDeformerOptions {
-    int iterations = 16;
+    int iterations = 24;
     double poisson = 0.45, core_radius = 0.7, spring_factor = 10.0;
     pbs::FleshStart start = pbs::FleshStart::smooth_dqs;
     pbs::Arithmetic arithmetic = pbs::Arithmetic::packed_f32;
