@@ -2,11 +2,11 @@
 import style
 
 brown, grey, olive = "#8B5A2B", "#999999", "#7F7F00"
-groups = {"lbs": ("LBS", style.vermillion, "v"), "lbs_smooth": ("LBS, smooth weights", style.vermillion, "1"),
-          "dqs": ("DQS", style.orange, "s"), "dqs_smooth": ("DQS, smooth weights", style.orange, "2"),
-          "delta_mush": ("delta mush", style.green, "^"), "delta_mush_smooth": ("delta mush, smooth weights", style.green, "3"),
+groups = {"lbs": ("LBS", style.vermillion, "v"), "lbs_diffused": ("LBS, diffused weights", style.vermillion, "1"),
+          "dqs": ("DQS", style.orange, "s"), "dqs_diffused": ("DQS, diffused weights", style.orange, "2"),
+          "delta_mush": ("delta mush", style.green, "^"), "delta_mush_diffused": ("delta mush, diffused weights", style.green, "3"),
           "direct_delta_mush": ("direct delta mush", "#4B9B00", "<"),
-          "direct_delta_mush_smooth": ("direct delta mush, smooth weights", "#4B9B00", "4"),
+          "direct_delta_mush_diffused": ("direct delta mush, diffused weights", "#4B9B00", "4"),
           "pbs": ("PBS", style.blue, "o"), "pbs_author": ("first author\u2019s later code", style.sky, "p"),
           "xpbd": ("XPBD", style.purple, "D"), "xpbd_neo_hookean": ("neo-Hookean XPBD", style.purple, "d"),
           "quasi_newton": ("quasi-Newton", brown, "P"), "vbd": ("vertex block descent", olive, "*"),
@@ -23,7 +23,7 @@ def of(group):
 
 def short(group):
     """The name on one or two short lines."""
-    return of(group)[0].replace(", smooth weights", " smooth")
+    return of(group)[0].replace(", diffused weights", " diffused")
 
 
 def group_of(deformer):

@@ -191,7 +191,7 @@ def draw_comparison(comparison, results, figures):
     axes.flat[0].plot([], [], linestyle="none", marker="o", color="#777777", markersize=2.2, alpha=0.4, label="small marks: all settings")
     for note in ("name above a line: nearest within that time", "?: the references do not decide"):
         axes.flat[0].plot([], [], linestyle="none", label=note)
-    style.legend_above(figure, columns=4)
+    style.legend_above(figure, columns=3)
     name = figures_of[comparison]
     behind = [row for panel in shown for row in rows_behind(panel)]
     style.save(figure, figures / name, entries.origin_of(results, name), style.aligned(behind))
