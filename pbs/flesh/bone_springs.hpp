@@ -28,7 +28,8 @@ public:
     // -k beta_i beta_j, summed over the springs in each tet, of its edges 01 02 03 12 13 23 [m], #T x 6.
     const Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>& edge_stiffness() const { return edge_stiffness_; }
     const Eigen::MatrixXd& stiffness_of_bones() const { return of_bone_; }  // the part of a_i that each bone contributes [m], #V x #bones
-    // Of each tet and bone, sum_s k_s beta (X_s, 1)^T, row i belongs to vertex i of the tet [m^2, m]; by tet, then by bone.
+    // The moments sum_s k_s beta (X_s, 1)^T of the springs of one tet and one bone [m^2, m]. Row i belongs to vertex i of the tet. They are
+    // sorted by tet, then by bone.
     struct TetMoment {
         int tet, bone;
         Eigen::Matrix4d sum;

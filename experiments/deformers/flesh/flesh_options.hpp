@@ -1,4 +1,4 @@
-// What the deformers that minimise the energy of elastic flesh have in common: the material, the springs of the bones, the initial guess.
+// The shared options of the deformers that minimise the energy of elastic flesh: material, springs of the bones and initial guess.
 // The options of such a deformer are a struct with these members and its own; its keys begin with flesh_fields<Options>(kind).
 #pragma once
 

@@ -11,7 +11,7 @@ namespace experiments {
 namespace {
 
 constexpr double time_step_s = 0.01;
-// What the paper leaves unstated has no default. The values are those of the built-in scenes of the limb.
+// The keys without a default, because the paper does not state their values. These values are those of the built-in scenes of the limb.
 const std::vector<std::string> stated_in_every_scene = {"pbs.k_stretch=0.2", "pbs.k_volume=1.0", "pbs.k_bind=1.0",
                                                         "pbs.gravity_m_s2=[0.0, 0.0, 0.0]"};
 

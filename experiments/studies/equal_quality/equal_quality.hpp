@@ -1,5 +1,5 @@
-// What each order of projection reaches, and how long it takes to get there: a body in one pose, from LBS, by every order, precision and
-// sequence of the constraints.
+// Measures the residuals and volume changes of every order of projection, in both precisions and for several sequences of the constraints,
+// and the time until they are reached. The case is one body in one pose, and the initial guess is LBS.
 //   const std::vector<MeasuredOrder> measured = measure_orders(of);
 // The sequences: file order, spread (bench's fast baseline for plain loops) and random ones. `poses` projects sixteen poses side by side,
 // each of which gets the very bits of `ordered`, so that only its time is its own.

@@ -1,4 +1,4 @@
-// What the study concludes from its rows: how each order stands to `plain`, at 24 iterations and at equal answers.
+// The conclusion of the study: each order is compared with `plain` after 24 iterations and at equal residuals and volume changes.
 #pragma once
 
 #include "experiments/studies/equal_quality/order_rows.hpp"

@@ -25,7 +25,7 @@ std::map<CurveKey, Curve> curves_of(const std::vector<ChangePoint>& points)
     return curves;
 }
 
-// What a setting reaches at a budget. Nothing where it is slower, or not finite there.
+// The error of a setting at a budget. The result is empty if the setting takes longer or is not finite at this budget.
 std::optional<EqualTimeRow> value_at(const Curve& curve, int budget_iterations, double budget_ms)
 {
     const auto slower = std::ranges::find_if(curve, [&](const ChangePoint& point) { return point.ms.median > budget_ms; });

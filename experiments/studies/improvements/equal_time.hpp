@@ -1,4 +1,4 @@
-// What each change to PBS gains when it may take the time that the baseline takes.
+// The gain of each change to PBS in the same time as the baseline.
 //   const std::vector<EqualTimeRow> rows = at_equal_time(points);
 // Budget: the baseline's time after 4, 24 or 96 iterations in the same pose. The error of a setting at that time is interpolated between
 // its iterations, linearly in the logarithm of the time; after its last iterations it stays, and before its first it has none.

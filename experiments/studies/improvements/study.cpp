@@ -87,8 +87,8 @@ StudyPlan plan(bool full)
     return plan;
 }
 
-// What the figure draws: the mean over the poses of a body at each number of iterations, with the setting that was chosen for most of its
-// poses at the budget of 96 iterations.
+// A point of a curve in the figure: the mean over the poses of a body at one number of iterations. The setting is the one that was chosen
+// for most of these poses at the budget of 96 iterations.
 struct CurveRow {
     std::string body, change, setting;
     int iterations = 0, poses = 0;

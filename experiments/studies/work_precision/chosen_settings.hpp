@@ -1,8 +1,9 @@
 // The setting of each rung: chosen on the training poses, shown on the others. There are two comparisons. packed_f32 has each deformer in
 // its packed f32 code, or in the only code that it has. plain_f64 has each deformer in plain f64 code.
 //   const std::vector<ChosenSetting> chosen = choose_settings(rows_of_all_cases);
-// Of the settings of a rung that have an answer in every training pose with that rung, the one with the least geometric mean of
-// error_joint_pct is chosen. A single setting is no choice and needs no training. Where no training pose has the rung, it is the default.
+// The chosen setting of a rung has the least geometric mean of error_joint_pct over the training poses with that rung. Only settings
+// that finished in all of these poses are candidates. A single setting is no choice and needs no training. Where no training pose has the
+// rung, the default setting is chosen.
 #pragma once
 
 #include "experiments/studies/work_precision/point_row.hpp"

@@ -60,8 +60,8 @@ struct CaseRecords {
     std::vector<FamilyRow> members = {};
 };
 
-// Of all cases, the training ones too, and of the means, which are of evaluated poses alone. The times and errors of a mean are means over
-// the poses. It has those settings that have an error in each pose.
+// Returns a diagram for each case, training cases included, and one for each mean over evaluated poses. The times and errors of a mean are
+// means over its poses. A mean has only those settings that have an error in each of its poses.
 std::vector<Diagram> diagrams_of(const std::vector<CaseRecords>& cases, const std::vector<ChosenSetting>& chosen);
 
 // The best of the group's points within a budget of time. Null where none is as fast.

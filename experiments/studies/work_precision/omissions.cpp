@@ -17,7 +17,7 @@ std::string why_missing(const PointRow& row, bool has_reference)
     return has_reference ? "" : "no_reference";
 }
 
-// Those of one deformer in one case; points: its points that take part.
+// Returns the omissions of one deformer in one case. `points` are its points that take part in the comparison.
 std::vector<Omission> omissions_in(const std::vector<const PointRow*>& points, bool has_reference, const Omission& blank)
 {
     std::vector<Omission> omissions;
