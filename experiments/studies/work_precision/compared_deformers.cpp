@@ -42,6 +42,15 @@ std::vector<ComparedDeformer> blending()
     return entries;
 }
 
+// Numbers of steps, and sizes of a step for the rotations (lambda) and the translations (kappa, of which alpha is the share).
+std::vector<SettingChange> direct_settings()
+{
+    std::vector<SettingChange> grid = each_of("direct_delta_mush.iterations", {"5", "40", "80"});
+    grid.push_back({{"direct_delta_mush.lambda=1", "direct_delta_mush.kappa=1", "direct_delta_mush.alpha=0.5"}});
+    grid.push_back({{"direct_delta_mush.lambda=2", "direct_delta_mush.kappa=2", "direct_delta_mush.alpha=0"}});
+    return grid;
+}
+
 // Direct delta mush smooths once for all poses, so that its iterations are a setting and no work of a frame.
 std::vector<ComparedDeformer> mushing()
 {
@@ -58,7 +67,7 @@ std::vector<ComparedDeformer> mushing()
                                      .kind = "direct_delta_mush",
                                      .group = "direct_delta_mush",
                                      .words = "direct delta mush",
-                                     .grid = each_of("direct_delta_mush.iterations", {"5", "10", "40", "80"}),
+                                     .grid = direct_settings(),
                                      .codes = precisions_of("direct_delta_mush")};
     std::vector<ComparedDeformer> entries;
     for (ComparedDeformer entry : {mush, direct}) {
@@ -131,8 +140,10 @@ std::vector<ComparedDeformer> elastic_ones()
 {
     ComparedDeformer quasi_newton = elastic("quasi_newton", "quasi-Newton");
     quasi_newton.grid = {{}, {{"quasi_newton.volume_share=0.3"}}, {{"quasi_newton.volume_share=1"}}, {{"quasi_newton.start=lbs"}}};
-    return {quasi_newton, elastic("vbd", "vertex block descent"), elastic("xpbd_neo_hookean", "neo-Hookean XPBD"),
-            elastic("projective_dynamics", "projective dynamics")};
+    ComparedDeformer vbd = elastic("vbd", "vertex block descent");
+    vbd.grid = each_of("vbd.omega", {"1", "1.5", "1.75"});
+    vbd.grid.push_back({{"vbd.acceleration=chebyshev", "vbd.omega=1", "vbd.rho=0.9"}});
+    return {quasi_newton, vbd, elastic("xpbd_neo_hookean", "neo-Hookean XPBD"), elastic("projective_dynamics", "projective dynamics")};
 }
 
 }  // namespace

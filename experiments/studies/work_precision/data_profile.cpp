@@ -5,9 +5,9 @@
 namespace experiments {
 namespace {
 
-bool is_a_pose(const Diagram& diagram, bool with_training)
+bool counts(const Diagram& diagram, bool with_training)
 {
-    return diagram.poses == 1 && !diagram.reference.empty() && (with_training || diagram.half == Half::evaluation);
+    return is_pose(diagram) && (with_training || diagram.half == Half::evaluation);
 }
 
 void add_steps(std::vector<ProfileStep>& steps, const std::vector<const Diagram*>& poses, const DeformerGroup& group, double tolerance_pct)
@@ -51,7 +51,7 @@ std::vector<ProfileStep> data_profiles(const std::vector<Diagram>& diagrams)
     for (const Comparison comparison : comparisons) {
         std::vector<const Diagram*> poses;
         for (const Diagram& diagram : diagrams)
-            if (diagram.comparison == comparison && is_a_pose(diagram, false)) poses.push_back(&diagram);
+            if (diagram.comparison == comparison && counts(diagram, false)) poses.push_back(&diagram);
         for (const double tolerance_pct : profile_tolerances_pct)
             for (const DeformerGroup& group : deformer_groups()) add_steps(steps, poses, group, tolerance_pct);
     }
@@ -63,7 +63,7 @@ Solved solved_within(const std::vector<Diagram>& diagrams, Comparison comparison
 {
     Solved count;
     for (const Diagram& diagram : diagrams) {
-        if (diagram.comparison != comparison || !is_a_pose(diagram, with_training)) continue;
+        if (diagram.comparison != comparison || !counts(diagram, with_training)) continue;
         if (!body.empty() && diagram.pose.body != body) continue;
         ++count.poses;
         const std::optional<double> least_ms = time_to_solve(diagram, group, tolerance_pct);

@@ -141,6 +141,21 @@ const analysis::Columns<DiagramPoint>& measures()
     return columns;
 }
 
+const analysis::Columns<DiagramPoint>& diagram_point_columns()
+{
+    using analysis::Columns;
+    static const Columns<DiagramPoint> columns =
+        within(&DiagramPoint::key, Columns<SettingKey>{{"deformer", &SettingKey::deformer, "", "name of the deformer"}}) +
+        within(&DiagramPoint::key, setting_columns()) +
+        Columns<DiagramPoint>{{"ms_median", &DiagramPoint::ms, "ms", "median of the processor time per frame"}};
+    return columns;
+}
+
+bool is_pose(const Diagram& diagram)
+{
+    return diagram.poses == 1 && !diagram.reference.empty();
+}
+
 double value_of(const DiagramPoint& point, const std::string& measure)
 {
     const analysis::CsvTable::Cell cell = measures().named(measure).cell(point);

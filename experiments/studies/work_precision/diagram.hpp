@@ -29,6 +29,7 @@ struct DiagramPoint {
 // volume_abs_change_pct.
 const analysis::Columns<DiagramPoint>& measures();
 double value_of(const DiagramPoint& point, const std::string& measure);  // not a number where it is not recorded
+const analysis::Columns<DiagramPoint>& diagram_point_columns();          // deformer, its setting, ms_median
 
 // A further reference in a diagram.
 struct DiagramMember {
@@ -54,6 +55,8 @@ struct Diagram {
     std::vector<analysis::WorkPrecision> of(const std::vector<std::string>& deformers, std::vector<std::size_t>& indices,
                                             const std::string& measure = "error_joint_pct") const;
 };
+
+bool is_pose(const Diagram& diagram);  // with a reference; a mean over several poses is none
 
 struct CaseRecords {
     CaseRows rows;

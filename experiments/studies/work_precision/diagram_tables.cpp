@@ -9,10 +9,6 @@ namespace {
 using analysis::Columns;
 using analysis::within;
 
-const Columns<SettingKey> point_deformer_columns = {{"deformer", &SettingKey::deformer, "", "name of the deformer"}};
-const Columns<DiagramPoint> timed_columns =
-    within(&DiagramPoint::key, point_deformer_columns) + within(&DiagramPoint::key, setting_columns()) +
-    Columns<DiagramPoint>{{"ms_median", &DiagramPoint::ms, "ms", "median of the processor time per frame"}};
 const Columns<DiagramPoint> quartile_columns = {{"ms_q1", &DiagramPoint::ms_q1, "ms", "its lower quartile"},
                                                 {"ms_q3", &DiagramPoint::ms_q3, "ms", "its upper quartile"}};
 const Columns<DiagramPoint> point_error_columns = {measures().front()};
@@ -36,7 +32,7 @@ const Columns<FrontRow> front_columns =
                       {"case", &FrontRow::diagram, "", "name of the case's run, or of the mean over several"},
                       {"measure", &FrontRow::measure, "", "what the front is the best of: a column of points.csv"},
                       {"front", &FrontRow::front, "", "whose front it is: a deformer's, or all"}} +
-    within(&FrontRow::point, timed_columns + quartile_columns) +
+    within(&FrontRow::point, diagram_point_columns() + quartile_columns) +
     Columns<FrontRow>{{"value", &FrontRow::value, "", "the point's value of the measure, in the measure's unit"}} +
     within(&FrontRow::point, point_error_columns + below_columns) +
     Columns<FrontRow>{
@@ -80,7 +76,7 @@ const Columns<BudgetRow> budget_columns =
                        {"budget_ms", &BudgetRow::budget_ms, "ms", "time per frame"},
                        {"rank", &BudgetRow::rank, "", "1: the group that is nearest to the reference within the budget"},
                        {"group", &BudgetRow::group, "", "key of a group of deformers"}} +
-    within(&BudgetRow::point, timed_columns + point_error_columns) +
+    within(&BudgetRow::point, diagram_point_columns() + point_error_columns) +
     Columns<BudgetRow>{{"decision", &BudgetRow::decision, "", std::string("whether it is nearer than the next group: ") + decision_meaning},
                        {"reason", &BudgetRow::reason, "", "why it is not decided, for readers"}};
 

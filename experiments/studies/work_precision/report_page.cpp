@@ -4,6 +4,7 @@
 #include "experiments/studies/work_precision/data_profile.hpp"
 #include "experiments/studies/work_precision/diagram_tables.hpp"
 #include "experiments/studies/work_precision/findings.hpp"
+#include "experiments/studies/work_precision/goal.hpp"
 
 #include <fmt/format.h>
 
@@ -12,8 +13,6 @@
 
 namespace experiments {
 namespace {
-
-constexpr double goal_pct = 5.0, goal_ms = 3.0;
 
 std::vector<const Diagram*> shown(const ComparisonRecords& records, Comparison comparison)
 {
@@ -42,8 +41,7 @@ std::string split_text(const ComparisonRecords& records)
     }
     return fmt::format(
         "Settings are chosen on the training poses ({}) and shown on the evaluated poses ({}). The poses of each body alternate, and a "
-        "body "
-        "with one pose is only evaluated.\n\n",
+        "body with one pose is only evaluated.\n\n",
         training.empty() ? "none" : training, evaluation.empty() ? "none" : evaluation);
 }
 
@@ -102,29 +100,6 @@ std::string profile_table(const ComparisonRecords& records, Comparison compariso
     return header + "\n" + line + "\n" + rows + "\n";
 }
 
-// Over all poses of a body, the training ones too.
-std::string goal_table(const ComparisonRecords& records, Comparison comparison)
-{
-    std::vector<std::string> bodies;
-    for (const CaseRecords& of : records.cases)
-        if (std::ranges::find(bodies, of.rows.front().of.body) == bodies.end()) bodies.push_back(of.rows.front().of.body);
-    std::string header = "| group |", line = "|---|", rows;
-    for (const std::string& body : bodies) header += " " + body + " |", line += "---|";
-    for (const DeformerGroup& group : deformer_groups()) {
-        std::string cells;
-        bool solves = false;
-        for (const std::string& body : bodies) {
-            const Solved solved = solved_within(records.diagrams, comparison, group, goal_pct, goal_ms, body, true);
-            solves = solves || solved.solved > 0;
-            cells += " " + cell_of(solved) + " |";
-        }
-        if (solves) rows += fmt::format("| {} |{}\n", group.words, cells);
-    }
-    if (rows.empty()) return fmt::format("No deformer has an error of at most {:g} % within {:g} ms.\n\n", goal_pct, goal_ms);
-    return fmt::format("Poses solved to {:g} % within {:g} ms, the training poses included:\n\n", goal_pct, goal_ms) + header + "\n" +
-           line + "\n" + rows + "\n";
-}
-
 std::string theta_table(const ComparisonRecords& records)
 {
     std::string rows;
@@ -165,7 +140,7 @@ std::string page_of(const ComparisonRecords& records)
             "## Poses solved: {}\n\nEvaluated poses with an error of at most 10, 5 and 2 % at the joints, within 1, 10 and "
             "100 ms per frame and at any time. Groups that solve no pose are not listed.\n\n",
             words_of(comparison));
-        page += profile_table(records, comparison) + goal_table(records, comparison);
+        page += profile_table(records, comparison) + goal_text(records.diagrams, comparison);
     }
     page += tried_table(records) + "\n" + theta_table(records) + omission_table(records);
     for (const Comparison comparison : comparisons)

@@ -6,13 +6,14 @@
 //               tets cut into eight; and the crouch of every other installed body)
 //
 // Writes DIR/work_precision/CASE/{points,members,theta}.csv and, over all cases, points.csv, theta.csv, settings.csv, fronts.csv,
-// crossings.csv, best_within.csv, data_profiles.csv, omissions.csv, work_precision.md.
+// crossings.csv, best_within.csv, data_profiles.csv, goal.csv, omissions.csv, work_precision.md.
 #include "analysis/records/folder_files.hpp"
 #include "experiments/scene/motion_case.hpp"
 #include "experiments/studies/shared/real_bodies.hpp"
 #include "experiments/studies/study.hpp"
 #include "experiments/studies/work_precision/data_profile.hpp"
 #include "experiments/studies/work_precision/diagram_tables.hpp"
+#include "experiments/studies/work_precision/goal.hpp"
 #include "experiments/studies/work_precision/measured_points.hpp"
 #include "experiments/studies/work_precision/report_page.hpp"
 
@@ -163,6 +164,7 @@ StudyConclusion conclude(const FinishedRuns& finished)
     finished.write("crossings.csv", crossings_table(records.diagrams));
     finished.write("best_within.csv", budget_columns, best_within(records.diagrams));
     finished.write("data_profiles.csv", data_profile_columns, data_profiles(records.diagrams));
+    finished.write("goal.csv", goal_columns, goal_rows(records.diagrams));
     finished.write("omissions.csv", omission_columns, records.omissions);
     finished.write("work_precision.md", page_of(records));
     return {terminal_text(records), true};
