@@ -117,10 +117,13 @@ std::string page_of(const std::vector<PairRow>& pairs, const std::vector<MemberR
     for (const PairRow& pair : pairs)
         if (is_notable(pair) && pair.decision != analysis::PairDecision::decided) undecided.push_back(pair);
     const auto reached = std::ranges::count(members, std::string("reached"), &MemberRow::outcome);
+    const auto without_bound = std::ranges::count_if(
+        members, [](const MemberRow& member) { return member.outcome == "reached" && !member.error_bound_pct; });
     std::string page = fmt::format(
-        "{} of {} references were reached.\n\n{} of {} pairs of deformers whose errors differ by more than {:g} percentage points are "
+        "{} of {} references were reached. {} of these have no bound on their own error and decide nothing, because too few of their "
+        "solutions converged without inverted tets.\n\n{} of {} pairs of deformers whose errors differ by more than {:g} percentage points are "
         "decided. Without linear finite elements, these are {} of {} pairs.\n",
-        reached, members.size(), all.decided, all.notable, notable_pct, skinning.decided, skinning.notable);
+        reached, members.size(), without_bound, all.decided, all.notable, notable_pct, skinning.decided, skinning.notable);
     if (!undecided.empty())
         page += "\n" + markdown_table(table_of(pair_columns, undecided), {{"body", "body"},
                                                                           {"motion", "motion"},
