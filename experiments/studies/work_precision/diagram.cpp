@@ -44,7 +44,7 @@ Diagram diagram_of(const CaseRecords& records, Comparison comparison, const std:
         if (row.ms_median && row.error && is_chosen(chosen, comparison, row.key))
             diagram.points.push_back({row.key, *row.ms_median, row.ms_q1, row.ms_q3, row.error->joint_pct, row.error->l2_pct,
                                       row.error->linf_m, row.metrics ? std::optional(row.metrics->volume_abs_change_pct) : std::nullopt,
-                                      row.below_reference_error.value_or(false), row.members});
+                                      row.below_reference_error.value_or(false), row.members, row.to_linear_elements_pct});
     }
     return diagram;
 }
@@ -62,8 +62,12 @@ std::optional<double> mean_of(const std::vector<Diagram>& poses, std::optional<d
 // The same setting in every pose; nothing where it has no error in one of them.
 std::optional<DiagramPoint> mean_of(const std::vector<Diagram>& poses, const DiagramPoint& setting)
 {
-    constexpr std::optional<double> DiagramPoint::*known_or_not[] = {&DiagramPoint::ms_q1, &DiagramPoint::ms_q3, &DiagramPoint::l2_pct,
-                                                                     &DiagramPoint::linf_m, &DiagramPoint::volume_abs_change_pct};
+    constexpr std::optional<double> DiagramPoint::*known_or_not[] = {&DiagramPoint::ms_q1,
+                                                                     &DiagramPoint::ms_q3,
+                                                                     &DiagramPoint::l2_pct,
+                                                                     &DiagramPoint::linf_m,
+                                                                     &DiagramPoint::volume_abs_change_pct,
+                                                                     &DiagramPoint::to_linear_elements_pct};
     DiagramPoint mean{setting.key};
     for (const auto value : known_or_not) mean.*value = 0.0;
     mean.members.fill(0.0);

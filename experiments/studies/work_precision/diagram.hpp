@@ -23,6 +23,7 @@ struct DiagramPoint {
     std::optional<double> l2_pct = {}, linf_m = {}, volume_abs_change_pct = {};
     bool below_reference_error = false;
     MemberErrors members = {};  // against the further references
+    std::optional<double> to_linear_elements_pct = {};
 };
 
 // The measures of fronts, named as the points' columns: error_joint_pct, which all sentences use, error_l2_pct, error_linf_m and

@@ -114,6 +114,8 @@ private:
         add_time(row, time);
         row.work = deformer.work();
         if (point.shape.finished) references_.add_errors(row, point.on_base);
+        if (point.shape.finished && point.setting->on_own_mesh())
+            row.to_linear_elements_pct = references_.to_linear_elements_pct(point.on_base);
         const bool has_parts = of_.converged_iterations > 0 && options_if<pbs::PbsOptions>(point.setting->spec) &&
                                point.setting->on_own_mesh() && point.setting->tuned.empty() && row.error;
         if (has_parts) row.parts = parts_of(point);

@@ -46,14 +46,16 @@ Columns<PointRow> member_error_columns()
 {
     Columns<PointRow> columns;
     const std::vector<EnsembleMember> members = family();
-    for (std::size_t i = 1; i < members.size(); ++i)
-        columns.push_back({"error_" + members[i].name + "_pct", [i](auto& row) -> auto& { return row.members[i - 1];
+    for (std::size_t i = 1; i < members.size(); ++i) {
+        const auto error = [i](auto& row) -> auto&
+        {
+            return row.members[i - 1];
+        };
+        columns.push_back(
+            {"error_" + members[i].name + "_pct", error, "%", "error over the blended vertices against this further reference"});
+    }
+    return columns;
 }
-, "%", "error over the blended vertices against this further reference"
-}  // namespace
-);
-return columns;
-}  // namespace experiments
 
 using Points = Columns<PointRow>;
 
@@ -92,7 +94,9 @@ Points columns_of_comparison()
 {
     const Points of_point = {{"half", &PointRow::half, "", "training: settings are chosen on this pose; evaluation: they are shown on it"},
                              {"reason", &PointRow::reason, "", "why there is no answer, for readers"}};
-    return (of_point + within(&PointRow::work, work_columns) + member_error_columns()).in_group("comparison");
+    const Points from_limit = {{"to_linear_elements_joint_pct", &PointRow::to_linear_elements_pct, "%",
+                                "distance at the joints from the reference's law with linear elements on the case's own tets"}};
+    return (of_point + within(&PointRow::work, work_columns) + from_limit + member_error_columns()).in_group("comparison");
 }
 
 }  // namespace

@@ -58,6 +58,7 @@ struct PointRow {
     Half half = Half::evaluation;
     std::string reason = {};  // why the outcome is not_applicable or over_time_limit
     std::optional<pbs::WorkCounters> work = {};
+    std::optional<double> to_linear_elements_pct = {};  // of a point on the case's own tets
     MemberErrors members = {};
 };
 extern const analysis::Columns<PointRow> point_columns;

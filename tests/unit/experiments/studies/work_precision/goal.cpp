@@ -80,4 +80,21 @@ TEST(Goal, HasNoRowWhereNoPointFulfilsTheCondition)
     EXPECT_NE(text.find("| PBS | 1 of 3 |"), std::string::npos) << text;
 }
 
+// The rows of points have no distance from linear elements unless the study measured one: here 2, 0.9 and 0.1 %.
+TEST(Goal, OfTheSolverIsTheDistanceFromLinearElements)
+{
+    CaseRows rows = hand_case({.body = "limb", .pose = "a"},
+                              {{pbs_after(1), 1.0, 9.0}, {pbs_after(4), 6.0, 9.0}, {linear_tets, 500.0, 7.0}, hand_reference()});
+    rows[0].to_linear_elements_pct = 2.0;
+    rows[1].to_linear_elements_pct = 0.9;
+    rows[2].to_linear_elements_pct = 0.1;
+    const std::vector<GoalRow> found = goal_rows(hand_diagrams({rows}));
+    const GoalRow* solver = row_of(found, "a", GoalPoint::fastest_to_linear_elements);
+    ASSERT_TRUE(solver);
+    EXPECT_EQ(solver->point.key, pbs_after(4));
+    EXPECT_EQ(solver->newton_ms, std::optional(500.0));
+    EXPECT_TRUE(solver->reaches_goal) << "6 ms are within the goal";
+    EXPECT_EQ(row_of(found, "a", GoalPoint::fastest_within_error), nullptr);
+}
+
 }  // namespace
