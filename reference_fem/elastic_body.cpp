@@ -53,7 +53,7 @@ public:
         stepper_ = std::make_unique<TimeStepper>(held_.space(), held_.prescribed(), flesh_, stepper_options(options), newton_);
     }
 
-    LoadPathSummary solve(const TargetsAt& targets_at, const pbs::Vec3& gravity_m_s2)
+    LoadPathSummary solve(const TargetsAt& targets_at, const pbs::Vec3& gravity_m_s2, const LoadPathOptions& options)
     {
         const Eigen::VectorXd weight_before = gravity_.force(), weight = held_.gravity_load(gravity_m_s2);
         if (stepper_) newton_.forget_factor();
@@ -67,7 +67,7 @@ public:
                 if (summary.converged()) guide = targets.guide;
                 return summary;
             },
-            displacement_, options_.path);
+            displacement_, options);
         gravity_.set(weight_before + path.reached * (weight - weight_before));
         if (stepper_) {
             stepper_->forget_factor();
@@ -153,7 +153,13 @@ ElasticBody::~ElasticBody() = default;
 LoadPathSummary ElasticBody::solve(const TargetsAt& targets_at, const pbs::Vec3& gravity_m_s2)
 {
     require(gravity_m_s2.allFinite(), "gravity_m_s2", gravity_m_s2.transpose(), "expected finite components");
-    return implementation_->solve(targets_at, gravity_m_s2);
+    return implementation_->solve(targets_at, gravity_m_s2, implementation_->options_.path);
+}
+
+LoadPathSummary ElasticBody::solve_here(const Targets& targets, const pbs::Vec3& gravity_m_s2)
+{
+    require(gravity_m_s2.allFinite(), "gravity_m_s2", gravity_m_s2.transpose(), "expected finite components");
+    return implementation_->solve([&](double) { return targets; }, gravity_m_s2, {.smallest_step = 1.0});
 }
 
 LoadPathSummary ElasticBody::advance(const TargetsAt& targets_at, const pbs::Vec3& gravity_m_s2, double time_step_s)

@@ -56,6 +56,8 @@ public:
     // Equilibrium, along a path on which targets and gravity go from the last state's to these. pbs::InputError for gravity that is not
     // finite and targets of the wrong number.
     LoadPathSummary solve(const TargetsAt& targets_at, const pbs::Vec3& gravity_m_s2);
+    // As solve(), but in a single attempt from the last state or start_from(): for an initial guess that already has these targets.
+    LoadPathSummary solve_here(const Targets& targets, const pbs::Vec3& gravity_m_s2);
     // One step of options.dynamics from rest or the last state, whose targets are those at fraction 0; in between, targets and gravity move
     // linearly in time. A step whose Newton fails is taken in halves, which ask for targets at their own fractions; where fraction 1 is not
     // reached, nothing of the step is kept. After solve() the body is at rest. The frame of reference is taken to be inertial: a skeleton

@@ -17,7 +17,10 @@ constexpr double far_turn_deg = 15.0;      // beyond it the solution with fewer 
 reference_fem::NewtonOptions newton_options(const FemOptions& options)
 {
     reference_fem::NewtonOptions newton;
-    if (options.most_newton_steps > 0) newton.iterations = std::min(newton.iterations, options.most_newton_steps);
+    // Quadratic elements start at the solution of linear ones, so that there is no way to halve where they need many steps.
+    const bool has_no_way = options.nested_start && options.element_order == 2;
+    if (options.most_newton_steps > 0)
+        newton.iterations = has_no_way ? options.most_newton_steps : std::min(newton.iterations, options.most_newton_steps);
     if (options.dynamics == reference_fem::Dynamics::quasi_static) newton.reuse_contraction = 0.1;
     return newton;
 }
@@ -155,7 +158,8 @@ void ElasticFemDeformer::follow(const pbs::PosePath& way, const Eigen::Isometry3
 bool ElasticFemDeformer::may_go_the_way(const FrameSolve& solve) const
 {
     if (options_.most_newton_steps == 0) return true;
-    const bool has_spent_its_steps = !solve.stages.empty() && solve.stages.back().newton_steps() >= options_.most_newton_steps;
+    const bool has_spent_its_steps =
+        !solve.stages.empty() && solve.stages.back().steps.back().newton.outcome == reference_fem::NewtonOutcome::iterations_exhausted;
     const bool fewer_nodes_failed = set_out_from_.deformer && set_out_from_.step.outcome != pbs::Outcome::finished;
     return !has_spent_its_steps && !fewer_nodes_failed;
 }
@@ -170,17 +174,16 @@ bool ElasticFemDeformer::settle_from_fewer_nodes(const pbs::Pose& pose, const pb
     if (set_out_from_.step.outcome != pbs::Outcome::finished) return false;
     const pbs::Positions& rest = body_->nodes_at_rest();
     const pbs::Positions before = rest + Eigen::Map<const pbs::Positions>(body_->displacement().data(), rest.rows(), 3);
-    const pbs::Pose pose_before = reached_pose_;
     body_->start_from_nodes(fewer_nodes_->body_->moved(rest));
-    const pbs::PosePath no_way(character_->skeleton, frame.pose(), frame.pose());
-    follow(no_way, Eigen::Isometry3d::Identity(), frame.from_world(options_.gravity_m_s2), solve);
-    if (solve.converged()) {
-        failures_in_a_row_ = 0;
-        return true;
+    solve.stages.push_back(body_->solve_here(targets_of(frame.pose()), frame.from_world(options_.gravity_m_s2)));
+    solve.reached = solve.stages.back().reached;
+    if (!solve.converged()) {
+        body_->start_from_nodes(before);
+        return false;
     }
-    body_->start_from_nodes(before);
-    reached_pose_ = pose_before;
-    return false;
+    reached_pose_ = frame.pose();
+    failures_in_a_row_ = 0;
+    return true;
 }
 
 FrameSolve ElasticFemDeformer::settle(const pbs::RootFrame& frame)

@@ -19,7 +19,7 @@
 namespace experiments {
 namespace {
 
-constexpr int most_newton_steps = 25;  // about 20 s and 5 GB each on tets cut into eight; a fold without contact may take any number
+constexpr int most_newton_steps = 60;  // about 15 s and 5 GB each on tets cut into eight; a fold without contact may take any number
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
 // Computes the volume ratios of the tets, counts the inverted ones and returns them.
