@@ -60,12 +60,13 @@ double QuasiNewton<Scalar>::set_direction()
     return -system_->dot(direction_, gradient_);
 }
 
-// Halves the step until the energy decreases as it should (Armijo), or, where its change is below its rounding, the slope does (W. Hager,
-// H. Zhang, SIAM J. Optim. 16, 2005, approximate Wolfe condition). False: no step does.
+// Halves the step until the energy decreases as it should (Armijo) or, where its change is below its rounding, the slope at the end of the
+// step fulfils the approximate Wolfe conditions (W. Hager, H. Zhang, SIAM J. Optim. 16, 2005): with delta = sufficient and sigma =
+// 1 - 2 delta it lies between sigma * slope and -sigma * slope. False: no step does.
 template <typename Scalar>
 bool QuasiNewton<Scalar>::search(double slope, QuasiNewtonSummary& summary)
 {
-    constexpr double sufficient = 1e-4;
+    constexpr double sufficient = 1e-4, sigma = 1.0 - 2.0 * sufficient;
     constexpr int halvings = 20;
     const double rounding = 16.0 * std::numeric_limits<Scalar>::epsilon() * std::abs(summary.energy);
     double length = 1.0;
@@ -76,8 +77,7 @@ bool QuasiNewton<Scalar>::search(double slope, QuasiNewtonSummary& summary)
         ++summary.evaluations;
         const bool is_lower = energy <= summary.energy + sufficient * length * slope;
         const bool is_equal = std::abs(energy - summary.energy) <= rounding;
-        const bool is_flatter = is_equal && -system_->dot(direction_, next_gradient_) >= (1.0 - 2.0 * sufficient) * slope &&
-                                std::abs(system_->dot(direction_, next_gradient_)) < std::abs(slope);
+        const bool is_flatter = is_equal && std::abs(system_->dot(direction_, next_gradient_)) <= sigma * std::abs(slope);
         if (!is_lower && !is_flatter) continue;
         remember();
         std::swap(x_, next_x_);
