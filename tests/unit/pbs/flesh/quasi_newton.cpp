@@ -140,8 +140,12 @@ TEST(HeldFlesh, SmoothWeightsAddUpToOneAndFollowTheSprings)
             if (weights.bone[k] == 0) of_first += weights.weight[k];
         }
         EXPECT_NEAR(sum, 1.0, 1e-14);
-        if (bent.mesh.rest(i, 0) < -0.6) EXPECT_GT(of_first, 0.9);
-        if (bent.mesh.rest(i, 0) > 0.6) EXPECT_LT(of_first, 0.1);
+        if (bent.mesh.rest(i, 0) < -0.6) {
+            EXPECT_GT(of_first, 0.9);
+        }
+        if (bent.mesh.rest(i, 0) > 0.6) {
+            EXPECT_LT(of_first, 0.1);
+        }
     }
 }
 
