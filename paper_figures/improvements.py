@@ -1,4 +1,4 @@
-"""What single changes to PBS gain: the mean error over the poses of each body against the time per frame, with marks at the numbers of
+"""The gains of single changes to PBS: the mean error over the poses of each body against the time per frame, with marks at the numbers of
 iterations, and the gain of each change in the time of 4, 24 and 96 iterations of PBS, with its interval over the poses. A gain that is
 decided is drawn filled."""
 import case_words

@@ -220,8 +220,9 @@ const json& SceneValues::value(const std::string& path) const
     const auto found = values_.find(path);
     if (found != values_.end()) return found->second.value;
     const SceneKey* key = schema_.find(schema_path(path));
-    throw pbs::InputError(file_, 0, path, "",
-                          "missing: the paper leaves it unstated, so every scene states it; " + (key ? key->rule() : ""));
+    const std::string who =
+        key && key->in_list ? "every [[" + key->table + "]] table states it; " : "the paper leaves it unstated, so every scene states it; ";
+    throw pbs::InputError(file_, 0, path, "", "missing: " + who + (key ? key->rule() : ""));
 }
 
 void SceneValues::refuse(const std::string& path, const std::string& rule) const

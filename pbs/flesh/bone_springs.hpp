@@ -16,6 +16,9 @@ struct BoneSprings {
     std::vector<int> bone;      // #springs
 };
 
+// The edges of a tet between its corners, in the order of all values per edge of a tet in this folder.
+inline constexpr int edges_of_tet[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
+
 // The springs summed over tets and vertices. The barycentric coordinates beta of a point in its tet add up to 1, so that
 //   |sum_i beta_i x_i - q|^2 = sum_i beta_i |x_i - q|^2 - sum_{i<j} beta_i beta_j |x_i - x_j|^2.
 // The first sum is a spring of each vertex to a centre c_i, of stiffness a_i; the second one does not depend on the pose.

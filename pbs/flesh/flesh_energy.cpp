@@ -11,8 +11,6 @@
 namespace pbs {
 namespace {
 
-constexpr int edges_of_tet[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
-
 // Gradients of the barycentric coordinates [1/m], one per column.
 Eigen::Matrix<double, 3, 4> barycentric_gradients(const TetMesh& mesh, Eigen::Index tet)
 {

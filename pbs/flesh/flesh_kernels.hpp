@@ -31,8 +31,8 @@ double dot(const Scalar* a, const Scalar* b, int rows);
 template <typename Scalar>
 void add(Scalar factor, const Scalar* a, int rows, Scalar* to);  // to += factor * a
 
-// Columns of a Cholesky factor with the same rows below them. Of its values: the triangle by rows, with the reciprocal of each diagonal
-// entry, then `width` values for each row below.
+// Columns of a Cholesky factor with the same rows below them. Its values are the triangle by rows, with the reciprocal of each diagonal
+// entry, and then `width` values for each row below.
 inline constexpr int widest_supernode = 8;
 struct Supernode {
     int column, width, rows_below;

@@ -22,7 +22,7 @@ public:
     virtual ~FleshSystem() = default;
 
     virtual Rows<Scalar> rows() const = 0;                   // of a vector, zeros
-    virtual void set_centres(const Positions& centres) = 0;  // c_i [m], #V x 3; their mean becomes the origin of the rows
+    virtual void set_centres(const Positions& centres) = 0;  // c_i [m], #V x 3; packed: their mean becomes the origin of the rows
     virtual void load(const Positions& x, Rows<Scalar>& rows) const = 0;
     virtual void store(const Rows<Scalar>& rows, Positions& x) const = 0;
     virtual double value_and_gradient(const Rows<Scalar>& x, Rows<Scalar>& gradient) = 0;  // over Young's modulus [m^3], [m^2]

@@ -3,7 +3,9 @@
 #include "pbs/flesh/triangular_solve.hpp"
 #include "pbs/geometry/input_error.hpp"
 
+#include <algorithm>
 #include <numeric>
+#include <string>
 
 namespace pbs {
 namespace {

@@ -28,9 +28,9 @@ public:
     const BoneHold& hold() const { return hold_; }
     const CholeskyFactor& factor() const { return factor_; }
 
-    // Of each bone, the minimum of the same quadratic energy for one number per vertex that the springs pull to 1 at this bone and to 0 at
-    // the others. They add up to 1 and vary smoothly. Weights below 1e-3 are left out. A vertex that no spring reaches has those of
-    // `otherwise`.
+    // The weights of a bone minimise the same quadratic energy of one number per vertex, which the springs pull to 1 at this bone and to 0
+    // at the others. The weights of a vertex add up to 1 and vary smoothly. Those below 1e-3 are left out. A vertex that no spring reaches
+    // has the weights of `otherwise`.
     Weights smooth_weights(const Weights& otherwise) const;
 
 private:

@@ -1,5 +1,6 @@
 #include "pbs/flesh/packed_flesh.hpp"
 
+#include "pbs/flesh/positions_in_rows.hpp"
 #include "pbs/flesh/slabs_of_tets.hpp"
 #include "pbs/solver/batched/batch_schedule.hpp"
 #include "pbs/solver/batched/batched_constraints.hpp"
@@ -54,31 +55,20 @@ void PackedFlesh<Scalar>::fill_slab(int slab, const std::vector<const FleshTet*>
 template <typename Scalar>
 void PackedFlesh<Scalar>::set_centres(const Positions& centres)
 {
-    origin_.setZero();
-    double hold = 0.0;
-    for (Eigen::Index i = 0; i < centres.rows(); ++i) {
-        const double a = double(centres_[order_.new_of_old[i]][3]);
-        origin_ += a * centres.row(i).transpose();
-        hold += a;
-    }
-    if (hold > 0.0) origin_ /= hold;
-    for (Eigen::Index i = 0; i < centres.rows(); ++i)
-        for (int axis = 0; axis < 3; ++axis) centres_[order_.new_of_old[i]][axis] = Scalar(centres(i, axis) - origin_(axis));
+    origin_ = mean_centre(centres, order_.new_of_old, centres_);
+    load(centres, centres_);
 }
 
 template <typename Scalar>
 void PackedFlesh<Scalar>::load(const Positions& x, Rows<Scalar>& rows) const
 {
-    for (Eigen::Index i = 0; i < x.rows(); ++i)
-        for (int axis = 0; axis < 3; ++axis) rows[order_.new_of_old[i]][axis] = Scalar(x(i, axis) - origin_(axis));
+    load_rows(x, order_.new_of_old, origin_, rows);
 }
 
 template <typename Scalar>
 void PackedFlesh<Scalar>::store(const Rows<Scalar>& rows, Positions& x) const
 {
-    x.resize(static_cast<Eigen::Index>(order_.new_of_old.size()), 3);
-    for (Eigen::Index i = 0; i < x.rows(); ++i)
-        for (int axis = 0; axis < 3; ++axis) x(i, axis) = double(rows[order_.new_of_old[i]][axis]) + origin_(axis);
+    store_rows(rows, order_.new_of_old, origin_, x);
 }
 
 template <typename Scalar>

@@ -1,5 +1,5 @@
 // The packed implementation of FleshSystem: sixteen tets that share no vertex side by side, in the order of memory of the solvers of
-// Algorithm 1 (batched/vertex_order.hpp). Slabs of the mesh are worked off in parallel; the number of threads changes no bit.
+// Algorithm 1 (batched/vertex_order.hpp). Threads share the slabs of the mesh; their number changes no bit.
 #pragma once
 
 #include "pbs/flesh/flesh_kernels.hpp"

@@ -1,6 +1,6 @@
 // The packed implementation of XpbdSystem: sixteen tets that share no vertex side by side, in the order of memory of the solvers of
-// Algorithm 1 (batched/vertex_order.hpp). Of each slab of the mesh, first the springs and then the tets are visited. Slabs are worked off
-// in parallel; the number of threads changes no bit.
+// Algorithm 1 (batched/vertex_order.hpp). In each slab of the mesh, first the springs and then the tets are visited. Threads share the
+// slabs; their number changes no bit.
 #pragma once
 
 #include "pbs/flesh/xpbd_kernels.hpp"

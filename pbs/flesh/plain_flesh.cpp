@@ -1,5 +1,6 @@
 #include "pbs/flesh/plain_flesh.hpp"
 
+#include "pbs/flesh/positions_in_rows.hpp"
 #include "pbs/flesh/triangular_solve.hpp"
 
 #include <numeric>
@@ -14,15 +15,12 @@ PlainFlesh::PlainFlesh(const FleshEnergy& energy, const CholeskyFactor& factor)
 
 void PlainFlesh::load(const Positions& x, Rows<double>& rows) const
 {
-    for (Eigen::Index i = 0; i < x.rows(); ++i)
-        for (int axis = 0; axis < 3; ++axis) rows[static_cast<int>(i)][axis] = x(i, axis);
+    load_rows(x, rows);
 }
 
 void PlainFlesh::store(const Rows<double>& rows, Positions& x) const
 {
-    x.resize(static_cast<Eigen::Index>(place_.size()), 3);
-    for (Eigen::Index i = 0; i < x.rows(); ++i)
-        for (int axis = 0; axis < 3; ++axis) x(i, axis) = rows[static_cast<int>(i)][axis];
+    store_rows(rows, static_cast<Eigen::Index>(place_.size()), x);
 }
 
 double PlainFlesh::value_and_gradient(const Rows<double>& x, Rows<double>& gradient)

@@ -1,5 +1,6 @@
 #include "pbs/flesh/plain_vertex_sweep.hpp"
 
+#include "pbs/flesh/positions_in_rows.hpp"
 #include "pbs/flesh/vertex_colours.hpp"
 
 namespace pbs {
@@ -11,15 +12,12 @@ PlainVertexSweep::PlainVertexSweep(const TetMesh& mesh, const FleshEnergy& energ
 
 void PlainVertexSweep::load(const Positions& x, Rows<double>& rows) const
 {
-    for (int i = 0; i < static_cast<int>(x.rows()); ++i)
-        for (int axis = 0; axis < 3; ++axis) rows[i][axis] = x(i, axis);
+    load_rows(x, rows);
 }
 
 void PlainVertexSweep::store(const Rows<double>& rows, Positions& x) const
 {
-    x.resize(static_cast<Eigen::Index>(stars_.size()), 3);
-    for (int i = 0; i < static_cast<int>(x.rows()); ++i)
-        for (int axis = 0; axis < 3; ++axis) x(i, axis) = rows[i][axis];
+    store_rows(rows, static_cast<Eigen::Index>(stars_.size()), x);
 }
 
 void PlainVertexSweep::move(double omega, Rows<double>& x)

@@ -1,5 +1,7 @@
 #include "pbs/flesh/plain_xpbd.hpp"
 
+#include "pbs/flesh/positions_in_rows.hpp"
+
 namespace pbs {
 namespace {
 
@@ -44,15 +46,12 @@ Rows<double> PlainXpbd::rows() const
 
 void PlainXpbd::load(const Positions& x, Rows<double>& rows) const
 {
-    for (Eigen::Index i = 0; i < x.rows(); ++i)
-        for (int axis = 0; axis < 3; ++axis) rows[static_cast<int>(i)][axis] = x(i, axis);
+    load_rows(x, rows);
 }
 
 void PlainXpbd::store(const Rows<double>& rows, Positions& x) const
 {
-    x.resize(flesh_.w.size(), 3);
-    for (Eigen::Index i = 0; i < x.rows(); ++i)
-        for (int axis = 0; axis < 3; ++axis) x(i, axis) = rows[static_cast<int>(i)][axis];
+    store_rows(rows, flesh_.w.size(), x);
 }
 
 void PlainXpbd::forget()

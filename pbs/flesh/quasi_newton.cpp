@@ -34,12 +34,22 @@ QuasiNewtonSummary QuasiNewton<Scalar>::minimise(const Positions& centres, Posit
         ++summary.solves;
         summary.steps.push_back(std::sqrt(system_->dot(direction_, direction_)));
         if (!std::isfinite(slope)) break;
-        const bool is_below = summary.steps.back() <= options_.stop_gradient * summary.steps.front();
+        const bool is_below = options_.stop_gradient > 0.0 && summary.steps.back() <= largest_step(summary.steps.front());
         summary.converged = is_below || !search(slope, summary);
         if (!summary.converged) ++summary.iterations;
     }
     system_->store(x_, x);
     return summary;
+}
+
+// The norm of H^-1 g that stops the iteration [m]: the share of its first value, or a few roundings of the positions. At rest, where all
+// steps are rounding, it is 0.4 roundings of a bar of 208 vertices in every arithmetic.
+template <typename Scalar>
+double QuasiNewton<Scalar>::largest_step(double first) const
+{
+    constexpr double roundings = 4.0;
+    const double rounding = roundings * std::numeric_limits<Scalar>::epsilon() * std::sqrt(system_->dot(x_, x_));
+    return std::max(options_.stop_gradient * first, rounding);
 }
 
 // The direction is -H_k g by the two loops of L-BFGS (J. Nocedal, S. Wright, Numerical Optimization, algorithm 7.4). Returns the slope.
@@ -60,12 +70,13 @@ double QuasiNewton<Scalar>::set_direction()
     return -system_->dot(direction_, gradient_);
 }
 
-// Halves the step until the energy decreases as it should (Armijo), or, where its change is below its rounding, the slope does (W. Hager,
-// H. Zhang, SIAM J. Optim. 16, 2005, approximate Wolfe condition). False: no step does.
+// Halves the step until the energy decreases as it should (Armijo) or, where its change is below its rounding, the slope at the end of the
+// step fulfils the approximate Wolfe conditions (W. Hager, H. Zhang, SIAM J. Optim. 16, 2005): with delta = sufficient and sigma =
+// 1 - 2 delta it lies between sigma * slope and -sigma * slope. False: no step does.
 template <typename Scalar>
 bool QuasiNewton<Scalar>::search(double slope, QuasiNewtonSummary& summary)
 {
-    constexpr double sufficient = 1e-4;
+    constexpr double sufficient = 1e-4, sigma = 1.0 - 2.0 * sufficient;
     constexpr int halvings = 20;
     const double rounding = 16.0 * std::numeric_limits<Scalar>::epsilon() * std::abs(summary.energy);
     double length = 1.0;
@@ -76,8 +87,7 @@ bool QuasiNewton<Scalar>::search(double slope, QuasiNewtonSummary& summary)
         ++summary.evaluations;
         const bool is_lower = energy <= summary.energy + sufficient * length * slope;
         const bool is_equal = std::abs(energy - summary.energy) <= rounding;
-        const bool is_flatter = is_equal && -system_->dot(direction_, next_gradient_) >= (1.0 - 2.0 * sufficient) * slope &&
-                                std::abs(system_->dot(direction_, next_gradient_)) < std::abs(slope);
+        const bool is_flatter = is_equal && std::abs(system_->dot(direction_, next_gradient_)) <= sigma * std::abs(slope);
         if (!is_lower && !is_flatter) continue;
         remember();
         std::swap(x_, next_x_);

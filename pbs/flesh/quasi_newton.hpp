@@ -13,7 +13,7 @@ namespace pbs {
 struct QuasiNewtonOptions {
     int iterations = 24;         // at most
     int history = 5;             // pairs of steps and changes of the gradient that L-BFGS keeps
-    double stop_gradient = 0.0;  // stop where the norm of H^-1 g is below this share of its first value; 0: never
+    double stop_gradient = 0.0;  // stop where the norm of H^-1 g is below this share of its first value, or is rounding; 0: never
     Arithmetic arithmetic = Arithmetic::packed_f32;
     int threads = 1;
 };
@@ -42,6 +42,7 @@ private:
         double product;             // their inner product, above 0
     };
 
+    double largest_step(double first) const;
     double set_direction();
     bool search(double slope, QuasiNewtonSummary& summary);
     void remember();

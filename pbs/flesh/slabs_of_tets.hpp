@@ -1,4 +1,5 @@
-// What the packed solvers of this folder have in common: the tets of each slab of the mesh, and where rows of vertices and dummies lie.
+// The layout that the packed solvers of this folder have in common: the tets of each slab of the mesh, and the rows of vertices and
+// dummies.
 #pragma once
 
 #include "pbs/solver/batched/batch.hpp"

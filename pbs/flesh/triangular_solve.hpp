@@ -1,7 +1,7 @@
 // Solves L L^T x = b with a kept factor, for x, y and z side by side.
 //   const TriangularSolve<float> solve(factor, place);
 //   solve.apply(rows);   // b in, x out
-// Columns of L with the same rows below (supernodes) are worked off together, so that each row is read and written once for all of them.
+// Columns of L with the same rows below (supernodes) are processed together, so that each row is read and written once for all of them.
 #pragma once
 
 #include "pbs/flesh/cholesky.hpp"

@@ -5,7 +5,7 @@
 namespace pbs {
 namespace {
 
-// Of the edges 01 02 03 12 13 23, the one between two corners.
+// The edge between two corners, as its number in 01 02 03 12 13 23.
 constexpr int edge_between[4][4] = {{-1, 0, 1, 2}, {0, -1, 3, 4}, {1, 3, -1, 5}, {2, 4, 5, -1}};
 // The other corners, so that n points to the corner where V > 0.
 constexpr int others_of_corner[4][3] = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}};

@@ -20,7 +20,7 @@ public:
     virtual ~VertexSweep() = default;
 
     virtual Rows<Scalar> rows() const = 0;                   // of positions, zeros
-    virtual void set_centres(const Positions& centres) = 0;  // c_i [m], #V x 3; their mean becomes the origin of the rows
+    virtual void set_centres(const Positions& centres) = 0;  // c_i [m], #V x 3; packed: their mean becomes the origin of the rows
     virtual void load(const Positions& x, Rows<Scalar>& rows) const = 0;
     virtual void store(const Rows<Scalar>& rows, Positions& x) const = 0;
     virtual void move(double omega, Rows<Scalar>& x) = 0;

@@ -14,7 +14,6 @@ XpbdFlesh::XpbdFlesh(const TetMesh& mesh, const FleshEnergy& energy, const BoneH
     if (!(time_step > 0.0)) throw InputError("flesh", 0, "time_step", std::to_string(time_step), "expected a value above 0");
     for (const HoldMode& mode : hold.modes()) ++first_mode[mode.tet + 1];
     for (std::size_t t = 0; t < tets.size(); ++t) first_mode[t + 1] += first_mode[t];
-    constexpr int edges_of_tet[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
     for (const FleshTet& tet : energy.tets())
         for (int e = 0; e < 6; ++e)
             for (const int end : edges_of_tet[e]) w(tet.vertex[end]) += tet.w[e];

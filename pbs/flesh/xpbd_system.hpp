@@ -51,7 +51,7 @@ public:
     virtual ~XpbdSystem() = default;
 
     virtual Rows<Scalar> rows() const = 0;                   // of positions and w; in places without a vertex w is 1
-    virtual void set_targets(const Positions& targets) = 0;  // of the hold's modes [m]; their mean becomes the origin of the rows
+    virtual void set_targets(const Positions& targets) = 0;  // of the hold's modes [m]; packed: their mean becomes the origin of the rows
     virtual void load(const Positions& x, Rows<Scalar>& rows) const = 0;
     virtual void store(const Rows<Scalar>& rows, Positions& x) const = 0;
     virtual void forget() = 0;  // sets all multipliers, and the forces that tets have applied, to zero

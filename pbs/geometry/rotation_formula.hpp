@@ -19,7 +19,8 @@
 
 namespace pbs {
 
-// What the formulae need of a type of numbers that is not built in, such as a register: a specialisation has the same functions.
+// The functions that the formulae need. A type of numbers that is not built in, such as a register, has a specialisation with the same
+// functions.
 template <class Number>
 struct NumberFunctions {
     static Number of(double a) { return static_cast<Number>(a); }

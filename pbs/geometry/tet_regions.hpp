@@ -3,7 +3,7 @@
 //   const std::vector<Triangles> surfaces = region_surfaces(tets, region);
 // Greedy growing (C. Farhat, A simple and efficient automatic FEM domain decomposer, Computers and Structures 28, 1988): a region begins at
 // the first tet, in breadth-first order over shared faces, that has no region yet, and takes neighbours breadth-first until it is full.
-// What is cut off with less than half of the size joins the region to which it has most faces, so that a region may be larger.
+// A part that is cut off with less than half of the size joins the region to which it has most faces, so that a region may be larger.
 #pragma once
 
 #include "pbs/geometry/types.hpp"

@@ -163,7 +163,7 @@ std::vector<bool> vertices_of(const Triangles& triangles, Eigen::Index vertices)
     return used;
 }
 
-// Of all triangles, sorted.
+// The edges of all triangles, sorted.
 std::vector<DirectedEdge> directed_edges(const Triangles& triangles, bool reversed)
 {
     std::vector<DirectedEdge> edges;

@@ -26,7 +26,7 @@ public:
 
     void apply(const Positions& blended, Positions& posed) const;  // [m], #V x 3
 
-    // What does not depend on the pose: the smoothed rest shape, and the detail that smoothing removes from it [m], #V x 3.
+    // These do not depend on the pose: the smoothed rest shape, and the detail that smoothing removes from it [m], #V x 3.
     const Positions& smoothed_rest() const { return smoothed_rest_; }
     const Positions& detail() const { return delta_; }
     const Adjacency& neighbours() const { return neighbours_; }

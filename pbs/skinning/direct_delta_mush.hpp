@@ -1,5 +1,5 @@
 // Direct delta mush, variant 0 (B. H. Le, J. P. Lewis: Direct delta mush skinning and variants, ACM Transactions on Graphics 38(4), 2019).
-// What delta mush smooths in every pose is smoothed once, in the rest pose; a pose then costs one blend and one rotation per vertex.
+// It smooths once, in the rest pose, where delta mush smooths in every pose; a pose then costs one blend and one rotation per vertex.
 //   const DirectDeltaMush mush(mesh, weights, {.iterations = 10});
 //   mush.apply(pose, posed);
 // With rest positions u_k, in homogeneous coordinates, weights w_kj and rigid transforms M_j:
@@ -41,7 +41,7 @@ public:
 
     void apply(const Pose& pose, Positions& posed) const;  // [m], #V x 3; the pose has every bone of the weights
 
-    // Omega_ij about p_i, but for a factor of the second moments.
+    // Omega_ij about p_i, except for a factor of the second moments.
     struct Moments {
         int bone;
         double weight;           // (1 - alpha) Psi + alpha w'

@@ -33,7 +33,7 @@ template <class Scalar>
 void add_detail(const NeighbourRows<Scalar>& rows, const Scalar* smooth_rest, const Scalar* smooth, const Scalar* detail, Scalar* posed,
                 RefusedRotations<Scalar>& refused);
 
-// What direct delta mush has precomputed for a vertex and a bone, moments of the rest shape about the vertex's own centre.
+// The moments of the rest shape about a vertex's own centre that direct delta mush has precomputed for this vertex and a bone.
 template <class Scalar>
 struct BoneMoments {
     Scalar second[6];  // xx, xy, xz, yy, yz, zz [m^2]

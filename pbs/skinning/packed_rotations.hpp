@@ -1,5 +1,5 @@
-// What the deformers in packed code share: rows of four numbers, the vertices whose rotation the formulae refuse, and the way back to
-// positions in the world.
+// The parts that the deformers in packed code share: rows of four numbers, the vertices whose rotation the formulae refuse, and the way
+// back to positions in the world.
 #pragma once
 
 #include "pbs/skinning/mush_kernels.hpp"

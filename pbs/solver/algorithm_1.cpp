@@ -84,7 +84,7 @@ Vec3 Algorithm1<Scalar>::local_origin() const
     return of_absolute_positions ? Vec3(Vec3::Zero()) : pbs::local_origin<Scalar>(particles_.predicted());
 }
 
-// Of these iterations. Sleeping constraints are counted by their share, which is that of both classes.
+// The work of these iterations. Sleeping constraints are counted by their share, which is that of both classes.
 template <typename Scalar>
 WorkCounters Algorithm1<Scalar>::work_of(int iterations) const
 {

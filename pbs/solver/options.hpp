@@ -43,12 +43,12 @@ enum class LbsEntry { start, increment };
 // A vertex on its bone (d_i = 0) is pinned to its material point, or has no bind constraint.
 enum class BindOnBone { pinned, unbound };
 
-// What the bind constraint holds a vertex to. bone_distance: its rest distance from its material point on the bone (Sec. 3.6), which leaves
-// the turn about the bone free. blended_position: its position by LBS in this step, at distance zero, which resists that turn too. With
-// k_bind = 1 nothing but the last iteration is left of the other constraints then, so that a small k_bind is meant.
+// The bind constraint holds a vertex to one of these. bone_distance: its rest distance from its material point on the bone (Sec. 3.6),
+// which leaves the turn about the bone free. blended_position: its position by LBS in this step, at distance zero, which resists that turn
+// too. With k_bind = 1 it undoes the other constraints in each iteration, so that it needs a small k_bind.
 enum class BindTo { bone_distance, blended_position };
 
-// Whose volumes are constrained. tets: each tet's (Sec. 3.5). regions: the sum over each region of about region_tets tets
+// The volumes that are constrained. tets: each tet's (Sec. 3.5). regions: the sum over each region of about region_tets tets
 // (pbs/geometry/tet_regions.hpp). tets_and_regions: the tets', then the regions'.
 enum class VolumeOf { tets, regions, tets_and_regions };
 

@@ -48,7 +48,7 @@ public:
 
     void reset(const pbs::Character& character) override
     {
-        flesh_.emplace(character, options_, 0.6);  // of lambda in the Laplacian that determines the weights of the initial guess
+        flesh_.emplace(character, options_);
         positions_ = character.mesh.rest;
         tets_ = character.mesh.tets.rows();
         const pbs::VertexBlockOptions options{.iterations = options_.iterations,

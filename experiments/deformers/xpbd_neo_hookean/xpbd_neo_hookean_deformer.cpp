@@ -54,8 +54,7 @@ public:
 
     void reset(const pbs::Character& character) override
     {
-        constexpr double volume_share = 0.6;  // of the Laplacian that determines the weights of the initial guess
-        flesh_.emplace(character, options_, volume_share);
+        flesh_.emplace(character, options_);
         positions_ = character.mesh.rest;
         constraints_.emplace(character.mesh, flesh_->flesh().energy(), flesh_->flesh().hold(), pbs::flesh_material(options_.poisson),
                              options_.time_step);

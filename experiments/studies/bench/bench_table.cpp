@@ -12,17 +12,14 @@ using nlohmann::json;
 constexpr double quiet_load = 0.5;
 
 constexpr const char* legend =
-    "\nRead ratios, not times. A step is 24 iterations; ns_stretch, ns_volume and ns_bind are per constraint. ratio_to_plain_spread: "
-    "times\n"
-    "faster than plain loops, with all that this compiler offers, on constraints whose neighbours in the list share no vertex, which is "
-    "the\n"
-    "best that plain loops can do; ratio_to_plain: than order `plain`, which is built for the same bits on every machine and whose\n"
-    "projections wait for each other's stores; ratio_to_plain_native: than the loops of `plain` with all that this compiler offers. "
-    "Orders\n"
-    "give different answers: the study equal_quality compares them at equal ones. ms_floor: the time that moving the bytes takes.\n"
-    "share_of_limit: of min(peak, operations per byte x copy bandwidth at that working set). exponent: the cost of a step is ~\n"
-    "constraints^exponent. Deformers: ns_tet and ns_vertex are per iteration, or per frame of a deformer without iterations;\n"
-    "ratio_to_plain: to the plain implementation of the same deformer.\n";
+    "\nRead ratios, not times. A step is 24 iterations; ns_stretch, ns_volume and ns_bind are per constraint. ratio_to_plain_spread:\n"
+    "times faster than plain loops, with all that this compiler offers, on constraints whose neighbours in the list share no vertex, so\n"
+    "that none waits for the stores of the one before; ratio_to_plain: than order `plain`, which is built for the same bits on every\n"
+    "machine and whose projections wait for each other's stores; ratio_to_plain_native: than the loops of `plain` with all that this\n"
+    "compiler offers. Orders give different answers: the study equal_quality compares them at equal ones. ms_floor: the time that\n"
+    "moving the bytes takes. share_of_limit: of min(peak, operations per byte x copy bandwidth at that working set). exponent: the cost\n"
+    "of a step is ~ constraints^exponent. Deformers: ns_tet and ns_vertex are per iteration, or per frame of a deformer without\n"
+    "iterations; ratio_to_plain: to the plain implementation of the same deformer.\n";
 
 // One line per entry of bench.json. Each column is a place inside the entry, with a format for a number.
 std::string table(const json& entries, const std::string& places)

@@ -1,7 +1,7 @@
 // Measures the residuals and volume changes of every order of projection, in both precisions and for several sequences of the constraints,
 // and the time until they are reached. The case is one body in one pose, and the initial guess is LBS.
 //   const std::vector<MeasuredOrder> measured = measure_orders(of);
-// The sequences: file order, spread (bench's fast baseline for plain loops) and random ones. `poses` projects sixteen poses side by side,
+// The sequences: file order, spread (that of bench's plain_spread) and random ones. `poses` projects sixteen poses side by side,
 // each of which gets the very bits of `ordered`, so that only its time is its own.
 #pragma once
 

@@ -150,9 +150,11 @@ std::string order_report(const std::vector<OrderSummary>& orders, const std::vec
         more.insert(more.begin(), of.begin(), of.end());
         return more;
     };
-    return "After 24 iterations, and in the limit. A ratio above 1 to the random sequences of plain is a loss.\n\n" +
+    return "The first table has the volume change after 24 iterations and in the limit. A ratio above 1 to the random sequences of plain "
+           "is "
+           "a loss. Every time of plain is that of the order `plain`, which is built for the same bits on every machine.\n\n" +
            markdown_table(table_of(summary_columns, orders), with({{"ms per iteration", "iteration_ms", "{:.4f}"},
-                                                                   {"times faster than plain_spread", "ratio_to_plain_spread", "{:.1f}"},
+                                                                   {"times faster than plain, spread", "ratio_to_plain_spread", "{:.1f}"},
                                                                    {"volume change [%]", "volume_abs_change_24_pct", "{:.3f}"},
                                                                    {"random: least", "random_low_pct", "{:.3f}"},
                                                                    {"median", "random_median_pct", "{:.3f}"},
@@ -160,7 +162,8 @@ std::string order_report(const std::vector<OrderSummary>& orders, const std::vec
                                                                    {"to random plain", "volume_to_random_plain", "{:.3f}"},
                                                                    {"residual to random plain", "residual_to_random_plain", "{:.3f}"},
                                                                    {"limit [%]", "volume_abs_change_limit_pct", "{:.3f}"}})) +
-           "\nTime to an equal answer. A dash: never reached, so that no speed-up exists.\n\n" +
+           "\nThe second table has the time to an equal answer. A dash states that the target is never reached, so that no speed-up "
+           "exists.\n\n" +
            markdown_table(table_of(answer_columns, answers),
                           with({{"target", "target"},
                                 {"bound", "bound", "{:.4g}"},
@@ -170,7 +173,7 @@ std::string order_report(const std::vector<OrderSummary>& orders, const std::vec
                                 {"random: reached", "random_reached", "{:.0f}"},
                                 {"ms", "random_median_ms", "{:.2f}", 1.0, none},
                                 {"times faster than plain", "speedup_to_plain", "{:.2f}", 1.0, none},
-                                {"than plain_spread", "speedup_to_plain_spread", "{:.2f}", 1.0, none},
+                                {"than plain, spread", "speedup_to_plain_spread", "{:.2f}", 1.0, none},
                                 {"random: than plain", "random_speedup_to_plain", "{:.2f}", 1.0, none}}));
 }
 

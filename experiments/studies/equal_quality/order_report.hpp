@@ -31,7 +31,7 @@ struct EqualAnswer {
     int random_reached = 0, random = 0;                  // random sequences that reach it
     std::optional<double> random_median_ms = {};         // of all random sequences, if all reach it
     std::optional<double> speedup_to_plain = {};         // plain in file order
-    std::optional<double> speedup_to_plain_spread = {};  // the fast scalar baseline
+    std::optional<double> speedup_to_plain_spread = {};  // plain in the spread sequence
     std::optional<double> random_speedup_to_plain = {};  // medians of random sequences
 };
 extern const analysis::Columns<EqualAnswer> answer_columns;

@@ -1,5 +1,5 @@
 // The changes to PBS that the study compares, each with a few settings of its own parameter. Everything else is that of the scene.
-//   for (const ChangeSetting& setting : change_settings(options, mean_edge_m, RangeOfChanges{})) ...
+//   for (const ChangeSetting& setting : change_settings(options, edge_lengths_m, RangeOfChanges{})) ...
 #pragma once
 
 #include "pbs/character/character.hpp"

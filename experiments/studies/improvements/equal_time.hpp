@@ -3,8 +3,8 @@
 // Budget: the baseline's time after 4, 24 or 96 iterations in the same pose. The error of a setting at that time is interpolated between
 // its iterations, linearly in the logarithm of the time; after its last iterations it stays, and before its first it has none.
 // Poses are compared in groups: all of them, and those of each body where there are several. A change's setting in a pose is the one with
-// the least mean error at the same budget over the other poses of the group, so that no pose judges a setting that was chosen on it.
-//
+// the least mean error at the same budget over the other poses of the group, so that no setting is evaluated on a pose on which it was
+// chosen.
 #pragma once
 
 #include "experiments/studies/improvements/measured_changes.hpp"

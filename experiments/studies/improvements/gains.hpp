@@ -42,8 +42,8 @@ struct GainRow {
 extern const analysis::Columns<GainRow> gain_columns;
 
 // Per group and budget: each change relative to the baseline, the largest gain first; then the first change relative to the second one and
-// to the control. The control
-// (change_settings.hpp) is no change, and a change without a value in some pose has no such mean: they are not compared with the others.
+// to the control. The control (change_settings.hpp) is no change, and a change without a value in some pose has no such mean: they are not
+// compared with the others.
 std::vector<GainRow> gains_of(const std::vector<EqualTimeRow>& rows);
 
 }  // namespace experiments

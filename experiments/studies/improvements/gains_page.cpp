@@ -57,8 +57,8 @@ std::string answer(const std::vector<GainRow>& gains)
             "[{}].{}\n",
             best->poses, best->than_error_pct, spoken(best->change), interval_of(*best), remark_on(*best), of_the_control(gains));
     return fmt::format(
-        "The change that helps most is {}: over {} poses the mean error at the joints is {:.2f} % instead of {:.2f} %, a gain of {} "
-        "percentage points [{}]. Relative to the second one, {}, it gains {} [{}].{}\n",
+        "The change with the largest mean gain is {}: over {} poses the mean error at the joints is {:.2f} % instead of {:.2f} %, a gain "
+        "of {} percentage points [{}]. Relative to the second one, {}, it gains {} [{}].{}\n",
         spoken(best->change), best->poses, best->error_pct, best->than_error_pct, interval_of(*best), remark_on(*best),
         spoken(versus->than), interval_of(*versus), remark_on(*versus), of_the_control(gains));
 }

@@ -1,4 +1,4 @@
-// improvements.md: which change helps most in each group of poses at each budget, in sentences and tables.
+// improvements.md: which change has the largest mean gain in each group of poses at each budget, in sentences and tables.
 //   finished.write("improvements.md", gains_page(gains_of(rows)));
 #pragma once
 

@@ -63,7 +63,7 @@ std::vector<int> looked_at(int most);
 std::vector<IterationPath> iterate(const pbs::Character& character, const pbs::PbsOptions& options, const pbs::Positions& bind_points,
                                    const std::vector<pbs::Positions>& starts, int most, const IterationMetrics& iteration_metrics);
 
-// The path of one initial guess by a projection of the caller's, for example of constraints in a sequence of his own.
+// The path of one initial guess by a projection of the caller's, for example of constraints in a sequence of its own.
 template <typename Scalar>
 IterationPath follow(pbs::Projection<Scalar>& projection, const pbs::Positions& start, const pbs::Positions& bind_points, int most,
                      const IterationMetrics& iteration_metrics);

@@ -45,7 +45,7 @@ public:
 
 private:
     std::vector<int> colour_;    // of each group
-    std::vector<int> taken_by_;  // of each colour, the last group beside which it was found
+    std::vector<int> taken_by_;  // of each colour, the last group next to which it was found
 };
 
 }  // namespace

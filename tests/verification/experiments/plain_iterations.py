@@ -6,7 +6,7 @@ Algorithm 1's order: all binds, all edges, all tets, 24 times. File order: verti
 Only the initial state is the program's: the LBS positions of the same frame.
 
 Tolerance: both compute in double precision. A vertex is moved by its bind, edges and tets, each a sum of at most `ROUNDINGS` rounded terms
-that are no larger than the body. What later projections make of a rounding is measured: initial positions that differ by 1e-9 m."""
+that are no larger than the body. The growth of a rounding in later projections is measured: initial positions that differ by 1e-9 m."""
 import itertools
 import unittest
 

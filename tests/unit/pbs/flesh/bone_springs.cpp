@@ -77,7 +77,9 @@ TEST(BoneHold, AVertexWithoutSpringsHasNoCentre)
     Positions centres;
     hold.centres(bent.pose, centres);
     for (Eigen::Index i = 0; i < centres.rows(); ++i)
-        if (hold.stiffness()(i) == 0.0) EXPECT_EQ(centres.row(i), Eigen::RowVector3d::Zero());
+        if (hold.stiffness()(i) == 0.0) {
+            EXPECT_EQ(centres.row(i), Eigen::RowVector3d::Zero());
+        }
     EXPECT_EQ((hold.stiffness().array() > 0.0).count(), 4);
 }
 

@@ -26,8 +26,8 @@ Positions iterated(pbs::XpbdSystem<Scalar>& system, const HeldXpbd& held, const 
     return x;
 }
 
-// A visit rounds each of its quantities some 100 times, and moves vertices of at most 2 m by sums of them. Of the some 25 tets and springs
-// at a vertex, each passes errors on, enlarged by at most the condition number of its 2 x 2 system, which is below 10 here.
+// A visit rounds each of its quantities some 100 times, and moves vertices of at most 2 m by sums of them. Each of the some 25 tets and
+// springs at a vertex passes errors on, enlarged by at most the condition number of its 2 x 2 system, which is below 10 here.
 template <typename Scalar>
 void expect_equal_to_plain(const HeldXpbd& held)
 {

@@ -41,7 +41,9 @@ TEST(TimeStepFor, IsTheLongestSuchStep)
             const double steps = 1.0 / (rate_hz * time_step_s);
             EXPECT_NEAR(steps, std::round(steps), 1e-9 * steps);
             EXPECT_LE(time_step_s, longest_s * (1.0 + 1e-6));
-            if (std::round(steps) > 1.0) EXPECT_GT(1.0 / (rate_hz * (std::round(steps) - 1.0)), longest_s);
+            if (std::round(steps) > 1.0) {
+                EXPECT_GT(1.0 / (rate_hz * (std::round(steps) - 1.0)), longest_s);
+            }
         }
     }
 }

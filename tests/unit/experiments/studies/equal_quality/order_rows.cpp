@@ -97,7 +97,7 @@ TEST(OrderRows, ValuesAfter24AndInTheLimit)
     EXPECT_EQ(rows[0].of.order, "plain");
 }
 
-// What is written is what is read.
+// A table is read as it was written.
 TEST(OrderRows, TablesAreReadBack)
 {
     const std::vector<MeasuredOrder> all = {measured("plain", file_sequence, falling(30), 2.0)};

@@ -119,7 +119,7 @@ double median_of_random_sequences(const TwoBoneLimb& limb, const pbs::Constraint
     return changes[2];
 }
 
-// What the sequence is for. Random sequences differ by 2 to 4 % among themselves; a sweep along the bar is behind their median.
+// This is the purpose of the sequence. Random sequences differ by 2 to 4 % among themselves; a sweep along the bar is behind their median.
 TEST(ProjectionSequence, LeavesNoMoreVolumeChangeThanRandomSequences)
 {
     for (const auto& [axis, angle_deg] : {std::pair(pbs::Vec3(pbs::Vec3::UnitX()), 150.0), {pbs::Vec3(pbs::Vec3::UnitZ()), 90.0}}) {
