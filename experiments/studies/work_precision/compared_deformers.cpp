@@ -95,6 +95,8 @@ std::vector<ComparedDeformer> projecting()
                                 {{"pbs.k_stretch=0.5"}},
                                 {{"pbs.k_stretch=0.9"}},
                                 {{"pbs.k_stretch=0.05"}},
+                                {{"pbs.k_bind=0.1"}},
+                                {{"pbs.k_bind=0.3"}},
                                 {{exponent}},
                                 {{"pbs.k_stretch=0.9", exponent}}},
                        .codes = {{"pbs.order=ordered", "pbs.precision=f32"}, {"pbs.order=plain", "pbs.precision=f64"}},
@@ -143,7 +145,9 @@ std::vector<ComparedDeformer> elastic_ones()
     ComparedDeformer vbd = elastic("vbd", "vertex block descent");
     vbd.grid = each_of("vbd.omega", {"1", "1.5", "1.75"});
     vbd.grid.push_back({{"vbd.acceleration=chebyshev", "vbd.omega=1", "vbd.rho=0.9"}});
-    return {quasi_newton, vbd, elastic("xpbd_neo_hookean", "neo-Hookean XPBD"), elastic("projective_dynamics", "projective dynamics")};
+    ComparedDeformer xpbd = elastic("xpbd_neo_hookean", "neo-Hookean XPBD");
+    xpbd.grid = each_of("xpbd_neo_hookean.time_step", {"0.4", "0.6"});
+    return {quasi_newton, vbd, xpbd, elastic("projective_dynamics", "projective dynamics")};
 }
 
 }  // namespace

@@ -105,10 +105,10 @@ void add_front(std::vector<FrontRow>& rows, const Diagram& diagram, const std::s
         FrontRow& row = rows.emplace_back(
             FrontRow{diagram.comparison, diagram.key, measure, name, point, value_of(point, measure), diagram.reference_error_pct});
         if (name != all_name || measure != measures().front().name) continue;
-        const std::vector<BudgetRow> ranked = best_within(diagram, point.ms);
-        if (ranked.size() < 2) continue;
-        row.decision = ranked.front().decision;
-        row.reason = ranked.front().reason;
+        const std::optional<Decision> decision = decision_on_first(diagram, best_within(diagram, point.ms));
+        if (!decision) continue;
+        row.decision = decision->decision;
+        row.reason = decision->reason;
     }
 }
 
@@ -173,6 +173,16 @@ std::vector<BudgetRow> best_within(const Diagram& diagram, double budget_ms)
         rows[i].reason = decision.reason;
     }
     return rows;
+}
+
+std::optional<Decision> decision_on_first(const Diagram& diagram, const std::vector<BudgetRow>& ranked)
+{
+    std::optional<Decision> worst;
+    for (std::size_t i = 1; i < ranked.size(); ++i) {
+        const Decision decision = decision_on(diagram, ranked.front().point, ranked[i].point);
+        if (!worst || decision.decision > worst->decision) worst = decision;
+    }
+    return worst;
 }
 
 std::vector<BudgetRow> best_within(const std::vector<Diagram>& diagrams)

@@ -32,6 +32,9 @@ struct BudgetRow {
     std::string reason = {};
 };
 extern const analysis::Columns<BudgetRow> budget_columns;
+
+// Whether the first of the ranked rows is nearer than each of the others: the worst decision. Nothing where there is no other one.
+std::optional<Decision> decision_on_first(const Diagram& diagram, const std::vector<BudgetRow>& ranked);
 std::vector<BudgetRow> best_within(const Diagram& diagram, double budget_ms);
 std::vector<BudgetRow> best_within(const std::vector<Diagram>& diagrams);  // all budgets; of a single pose the first ranks alone
 

@@ -68,7 +68,7 @@ std::string who_is_nearest(const Diagram& diagram, double budget_ms)
     };
     std::string text = fmt::format("within {} per frame {} is nearest", ms_text(budget_ms), described(ranked[0]));
     if (ranked.size() == 1) return text + ", as the only one";
-    const Decision decision = decision_on(diagram, ranked[0].point, ranked[1].point);
+    const Decision decision = decision_on_first(diagram, ranked).value();
     text += fmt::format("; next is {}", described(ranked[1]));
     return text + (decision.is_decided() ? fmt::format(" [decided by {} {}]", decision.references,
                                                        decision.references == 1 ? "reference" : "references, which agree")

@@ -84,8 +84,8 @@ TEST(ComparedDeformers, PutTheirPackedCodeFirstAndThenPlainF64)
         const DeformerTraits second = traits_of(spec_with(one, scene, {.code = codes[1]}));
         EXPECT_EQ(first.precision, "f32") << one.name;
         EXPECT_EQ(second.precision, "f64") << one.name;
-        if (one.kind != "lbs" && one.kind != "dqs")
-            EXPECT_FALSE(second.packed) << one.name;  // the kernels of LBS and DQS are packed in both precisions
+        const bool is_packed_in_both = one.kind == "lbs" || one.kind == "dqs";  // their kernels
+        EXPECT_EQ(second.packed, is_packed_in_both) << one.name;
     }
 }
 
@@ -100,6 +100,20 @@ TEST(ComparedDeformers, TakeTheirOptionsFromTheEntryAndTheScene)
     EXPECT_EQ(options.order, pbs::Order::plain);
     EXPECT_EQ(options.precision, pbs::Precision::f64);
     EXPECT_EQ(options.k_bind, 1.0);
+}
+
+// Those that minimise the reference's energy: their limit is the reference's only with its springs.
+TEST(ComparedDeformers, HaveTheSpringsOfTheReference)
+{
+    const Scene scene = read_scene("limb_twist", {});
+    const DeformerSpec reference = reference_flesh(scene);
+    const auto& flesh = options_of<FemOptions>(reference);
+    for (const char* name : {"quasi_newton", "vbd", "xpbd_neo_hookean", "projective_dynamics"}) {
+        const nlohmann::json options = to_json(spec_with(entry(name), scene, {})).at("options");
+        EXPECT_EQ(options.at("core_radius"), flesh.core_radius) << name;
+        EXPECT_EQ(options.at("spring_factor"), flesh.spring_factor) << name;
+        EXPECT_EQ(options.at("poisson"), flesh.poisson) << name;
+    }
 }
 
 TEST(ComparedDeformers, MultiplyTheirStiffness)
