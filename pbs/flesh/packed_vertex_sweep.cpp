@@ -1,5 +1,6 @@
 #include "pbs/flesh/packed_vertex_sweep.hpp"
 
+#include "pbs/flesh/row_positions.hpp"
 #include "pbs/flesh/vertex_colours.hpp"
 
 #include <algorithm>
@@ -66,30 +67,19 @@ void PackedVertexSweep<Scalar>::add_batch(const std::vector<VertexStar>& stars, 
 template <typename Scalar>
 void PackedVertexSweep<Scalar>::set_centres(const Positions& centres)
 {
-    origin_.setZero();
-    double hold = 0.0;
-    for (Eigen::Index i = 0; i < centres.rows(); ++i) {
-        const double a = double(centres_[order_.new_of_old[i]][3]);
-        origin_ += a * centres.row(i).transpose();
-        hold += a;
-    }
-    if (hold > 0.0) origin_ /= hold;
-    load(centres, centres_);
+    origin_ = load_held_centres(centres, order_.new_of_old, centres_);
 }
 
 template <typename Scalar>
 void PackedVertexSweep<Scalar>::load(const Positions& x, Rows<Scalar>& rows) const
 {
-    for (Eigen::Index i = 0; i < x.rows(); ++i)
-        for (int axis = 0; axis < 3; ++axis) rows[order_.new_of_old[i]][axis] = Scalar(x(i, axis) - origin_(axis));
+    load_rows(x, order_.new_of_old, origin_, rows);
 }
 
 template <typename Scalar>
 void PackedVertexSweep<Scalar>::store(const Rows<Scalar>& rows, Positions& x) const
 {
-    x.resize(static_cast<Eigen::Index>(order_.new_of_old.size()), 3);
-    for (Eigen::Index i = 0; i < x.rows(); ++i)
-        for (int axis = 0; axis < 3; ++axis) x(i, axis) = double(rows[order_.new_of_old[i]][axis]) + origin_(axis);
+    store_rows(rows, order_.new_of_old, origin_, x);
 }
 
 template <typename Scalar>

@@ -1,5 +1,6 @@
 #include "pbs/flesh/packed_xpbd.hpp"
 
+#include "pbs/flesh/row_positions.hpp"
 #include "pbs/flesh/slabs_of_tets.hpp"
 #include "pbs/solver/batched/batched_constraints.hpp"
 
@@ -130,16 +131,13 @@ void PackedXpbd<Scalar>::set_targets(const Positions& targets)
 template <typename Scalar>
 void PackedXpbd<Scalar>::load(const Positions& x, Rows<Scalar>& rows) const
 {
-    for (Eigen::Index i = 0; i < x.rows(); ++i)
-        for (int axis = 0; axis < 3; ++axis) rows[order_.new_of_old[i]][axis] = Scalar(x(i, axis) - origin_(axis));
+    load_rows(x, order_.new_of_old, origin_, rows);
 }
 
 template <typename Scalar>
 void PackedXpbd<Scalar>::store(const Rows<Scalar>& rows, Positions& x) const
 {
-    x.resize(w_.size(), 3);
-    for (Eigen::Index i = 0; i < x.rows(); ++i)
-        for (int axis = 0; axis < 3; ++axis) x(i, axis) = double(rows[order_.new_of_old[i]][axis]) + origin_(axis);
+    store_rows(rows, order_.new_of_old, origin_, x);
 }
 
 template <typename Scalar>

@@ -1,0 +1,43 @@
+// Positions of the mesh as rows of the kernels (rows.hpp), relative to an origin, and back. place: the row of each vertex, #V.
+#pragma once
+
+#include "pbs/flesh/rows.hpp"
+#include "pbs/geometry/types.hpp"
+
+#include <vector>
+
+namespace pbs {
+
+template <typename Scalar>
+void load_rows(const Positions& x, const std::vector<int>& place, const Vec3& origin, Rows<Scalar>& rows)
+{
+    for (Eigen::Index i = 0; i < x.rows(); ++i)
+        for (int axis = 0; axis < 3; ++axis) rows[place[i]][axis] = Scalar(x(i, axis) - origin(axis));
+}
+
+template <typename Scalar>
+void store_rows(const Rows<Scalar>& rows, const std::vector<int>& place, const Vec3& origin, Positions& x)
+{
+    x.resize(static_cast<Eigen::Index>(place.size()), 3);
+    for (Eigen::Index i = 0; i < x.rows(); ++i)
+        for (int axis = 0; axis < 3; ++axis) x(i, axis) = double(rows[place[i]][axis]) + origin(axis);
+}
+
+// Loads the centres c_i of the hold, whose stiffness a_i is the fourth number of each row already, relative to their mean weighted by a_i.
+// Returns that mean [m]; zero where nothing is held.
+template <typename Scalar>
+Vec3 load_held_centres(const Positions& centres, const std::vector<int>& place, Rows<Scalar>& rows)
+{
+    Vec3 origin = Vec3::Zero();
+    double hold = 0.0;
+    for (Eigen::Index i = 0; i < centres.rows(); ++i) {
+        const double a = double(rows[place[i]][3]);
+        origin += a * centres.row(i).transpose();
+        hold += a;
+    }
+    if (hold > 0.0) origin /= hold;
+    load_rows(centres, place, origin, rows);
+    return origin;
+}
+
+}  // namespace pbs
