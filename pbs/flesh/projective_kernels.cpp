@@ -1,7 +1,7 @@
 #include "pbs/flesh/projective_kernels.hpp"
 
 #include "pbs/flesh/local_shape_formula.hpp"
-#include "pbs/solver/batched/lane_functions.hpp"
+#include "pbs/geometry/lane_functions.hpp"
 #include "pbs/solver/batched/project_lanes.hpp"
 
 namespace pbs {
