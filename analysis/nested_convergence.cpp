@@ -23,6 +23,14 @@ NestedOrder nested_order(const NestedDistances& distances, double formal_order)
     return order;
 }
 
+NestedOrder order_without_finest(double linear, double linear_refined, double formal_order)
+{
+    NestedOrder order = nested_order({linear, linear_refined, 0.0}, formal_order);
+    order.reliable = false;
+    order.safety_factor = other_factor;
+    return order;
+}
+
 double NestedOrder::bound(double quadratic) const
 {
     return safety_factor * quadratic / (std::exp2(order) - 1.0);

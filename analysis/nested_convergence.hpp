@@ -8,6 +8,7 @@
 //   const NestedOrder order = nested_order({.linear = 2.0, .linear_refined = 0.6, .quadratic = 0.1}, 2.0);
 //   order.bound(0.1);         // of the quadratic solution on the refined tets
 //   2.0 + order.bound(0.1);   // of any other one, by the triangle inequality
+// Where the finest solution was not reached, the other three give a wider bound (order_without_finest).
 #pragma once
 
 #include "pbs/geometry/types.hpp"
@@ -36,6 +37,12 @@ struct NestedOrder {
 
 // formal_order: of linear elements, > 0. Distances are >= 0.
 NestedOrder nested_order(const NestedDistances& distances, double formal_order);
+
+// Where the quadratic solution on the refined tets was not reached, the quadratic one on the unrefined tets stands for the limit in the
+// observed order of the linear ones. The refined linear solution is then at most bound(|linear - linear, refined|) from the limit, and the
+// quadratic one at most |quadratic - linear, refined| more. The order is never reliable: no finer solution confirms it.
+// linear, linear_refined: the distances of these solutions from the quadratic one on the unrefined tets.
+NestedOrder order_without_finest(double linear, double linear_refined, double formal_order);
 
 // Richardson's extrapolation from two nested solutions of one method that converges with this order > 0, #V x 3.
 pbs::Positions extrapolated(const pbs::Positions& refined, const pbs::Positions& unrefined, double order);

@@ -24,10 +24,10 @@ function(pbs_install_headers component)
         endif()
         set(no_call_for_users  # headers internal to readers and meshers, to text and files, to solvers, and to parts of bodies
             "mesh_io_|meshing_|guarded_reading|isolated_reader|reading_limits|packed_bytes|assimp_|vtk_messages|surface_checks|own_folder"
-            "flesh/(cholmod_module|flesh_kernels|hold_modes|neo_hookean|packed_|plain_|positions_in_rows)"
-            "flesh/(projective|slabs_of|triangular|vertex_|volume_|xpbd_)"
-            "geometry/(atomic_file|content_format|file_limits|name_list|named_link|nearest_name|number_text|process|stopwatch)"
-            "geometry/(text_file|toml_text)"
+            "flesh/(cholmod_module|flesh_kernels|hold_modes|local_shape|neo_hookean|packed_|plain_|projective_(dyn|ker)|row_|slabs_of)"
+            "flesh/(triangular|vertex_|volume_|xpbd_)"
+            "geometry/(atomic_file|content_format|file_limits|lane_functions|name_list|named_link|nearest_name|number_text|process)"
+            "geometry/(stopwatch|text_file|toml_text)"
             "solver/(algorithm_1|hand_over|parallel|plain_projection|project_plain|reordered_projection)"
             "rig/(assimp_|gltf_|rig_bytes|skin_weights|tiny_gltf)"
             "character/(bvh_header|clip_bytes|face_stream|folded_skeleton|input_file|json_file|making_lock|morph_targets|skeleton_order)")

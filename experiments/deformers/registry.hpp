@@ -9,6 +9,7 @@
 #include "experiments/deformers/deformer.hpp"
 #include "experiments/deformers/deformer_spec.hpp"
 #include "experiments/settings/scene_schema.hpp"
+#include "pbs/geometry/iteration_work.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -34,17 +35,8 @@ struct DeformerTraits {
     bool solves_equations = false;       // a frame that has inverted tets or did not converge is no solution
 };
 
-// The size of a body, on which the work of an iteration depends.
-struct BodyCounts {
-    double vertices = 0.0, edges = 0.0, tets = 0.0;
-};
-
-// The work of one iteration, or of one frame of a deformer without iterations, counted by hand. A loop is no faster than either allows.
-struct IterationWork {
-    double flops = 0.0;              // useful operations; 0: not counted
-    double bytes = 0.0;              // that must pass between the core and the level that holds the working set; 0: not counted
-    double working_set_bytes = 0.0;  // which decides the level
-};
+using pbs::BodyCounts;
+using pbs::IterationWork;
 
 struct DeformerKind {
     std::string name;     // in scenes and records
@@ -59,8 +51,10 @@ struct DeformerKind {
     // Sets options and variant from a table of a scene (pbs, fem.0). InputError for keys that contradict each other.
     void (*read)(const SceneValues& values, const std::string& table, DeformerSpec& spec) = nullptr;
     nlohmann::json (*options_json)(const DeformerSpec& spec) = nullptr;
-    DeformerTraits (*traits)(const DeformerSpec& spec) = nullptr;                       // null: the default ones
-    IterationWork (*work)(const DeformerSpec& spec, const BodyCounts& body) = nullptr;  // for `pbskin bench`; null: not counted
+    DeformerTraits (*traits)(const DeformerSpec& spec) = nullptr;  // null: the default ones
+    // The work of one iteration, or of one frame of a deformer without iterations, counted as pbs/geometry/iteration_work.hpp says.
+    // body.kept is that of Deformer::kept. For `pbskin bench`; null: not counted.
+    IterationWork (*work)(const DeformerSpec& spec, const BodyCounts& body) = nullptr;
 };
 
 const std::vector<DeformerKind>& deformer_kinds();

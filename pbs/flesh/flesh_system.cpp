@@ -3,21 +3,24 @@
 #include "pbs/flesh/packed_flesh.hpp"
 #include "pbs/flesh/plain_flesh.hpp"
 
+#include <type_traits>
+
 namespace pbs {
 
-template <>
-std::unique_ptr<FleshSystem<float>> make_flesh_system(const TetMesh& mesh, const FleshEnergy& energy, const CholeskyFactor& factor,
-                                                      Arithmetic, int threads)
-{
-    return std::make_unique<PackedFlesh<float>>(mesh, energy, factor, threads);
-}
-
-template <>
-std::unique_ptr<FleshSystem<double>> make_flesh_system(const TetMesh& mesh, const FleshEnergy& energy, const CholeskyFactor& factor,
+template <typename Scalar, typename Energy>
+std::unique_ptr<FleshSystem<Scalar>> make_flesh_system(const TetMesh& mesh, const Energy& energy, const CholeskyFactor& factor,
                                                        Arithmetic arithmetic, int threads)
 {
-    if (arithmetic == Arithmetic::plain_f64) return std::make_unique<PlainFlesh>(energy, factor);
-    return std::make_unique<PackedFlesh<double>>(mesh, energy, factor, threads);
+    if constexpr (std::is_same_v<Scalar, double>)
+        if (arithmetic == Arithmetic::plain_f64) return std::make_unique<PlainSystem<Energy>>(energy, factor);
+    return std::make_unique<PackedSystem<Scalar, Energy>>(mesh, energy, factor, threads);
 }
+
+template std::unique_ptr<FleshSystem<float>> make_flesh_system(const TetMesh&, const FleshEnergy&, const CholeskyFactor&, Arithmetic, int);
+template std::unique_ptr<FleshSystem<double>> make_flesh_system(const TetMesh&, const FleshEnergy&, const CholeskyFactor&, Arithmetic, int);
+template std::unique_ptr<FleshSystem<float>> make_flesh_system(const TetMesh&, const ProjectiveEnergy&, const CholeskyFactor&, Arithmetic,
+                                                               int);
+template std::unique_ptr<FleshSystem<double>> make_flesh_system(const TetMesh&, const ProjectiveEnergy&, const CholeskyFactor&, Arithmetic,
+                                                                int);
 
 }  // namespace pbs

@@ -1,5 +1,5 @@
-// The energy of the flesh (flesh_energy.hpp) as a minimiser needs it: values, gradients and steps of a quasi-Newton method, on rows of
-// numbers. One implementation is plain, the other one packed; both have the same constants.
+// The energy of the flesh (flesh_energy.hpp, or projective_energy.hpp) as a minimiser needs it: values, gradients and steps of a
+// quasi-Newton method, on rows of numbers. One implementation is plain, the other one packed; both have the same constants.
 //   auto system = make_flesh_system<float>(mesh, energy, factor, Arithmetic::packed_f32, threads);
 //   system->set_centres(centres);
 //   system->load(positions, x);
@@ -10,6 +10,7 @@
 #include "pbs/flesh/arithmetic.hpp"
 #include "pbs/flesh/cholesky.hpp"
 #include "pbs/flesh/flesh_energy.hpp"
+#include "pbs/flesh/projective_energy.hpp"
 #include "pbs/flesh/rows.hpp"
 
 #include <memory>
@@ -32,9 +33,9 @@ public:
     virtual std::size_t bytes() const = 0;  // that an evaluation and a preconditioning read from memory
 };
 
-// factor: of flesh_laplacian. Scalar is that of `arithmetic` (unchecked).
-template <typename Scalar>
-std::unique_ptr<FleshSystem<Scalar>> make_flesh_system(const TetMesh& mesh, const FleshEnergy& energy, const CholeskyFactor& factor,
+// Energy: FleshEnergy or ProjectiveEnergy. factor: of flesh_laplacian. Scalar is that of `arithmetic` (unchecked).
+template <typename Scalar, typename Energy>
+std::unique_ptr<FleshSystem<Scalar>> make_flesh_system(const TetMesh& mesh, const Energy& energy, const CholeskyFactor& factor,
                                                        Arithmetic arithmetic, int threads);
 
 }  // namespace pbs

@@ -1,6 +1,6 @@
 #include "pbs/flesh/packed_flesh.hpp"
 
-#include "pbs/flesh/positions_in_rows.hpp"
+#include "pbs/flesh/row_positions.hpp"
 #include "pbs/flesh/slabs_of_tets.hpp"
 #include "pbs/solver/batched/batch_schedule.hpp"
 #include "pbs/solver/batched/batched_constraints.hpp"
@@ -9,8 +9,8 @@
 
 namespace pbs {
 
-template <typename Scalar>
-PackedFlesh<Scalar>::PackedFlesh(const TetMesh& mesh, const FleshEnergy& energy, const CholeskyFactor& factor, int threads)
+template <typename Scalar, typename Energy>
+PackedSystem<Scalar, Energy>::PackedSystem(const TetMesh& mesh, const Energy& energy, const CholeskyFactor& factor, int threads)
     : order_(order_vertices(mesh.tets, static_cast<int>(mesh.rest.rows()), vertices_a_slab(static_cast<int>(mesh.rest.rows())))),
       parallel_(order_.slabs() >= 3 ? threads : 1),
       slab_energy_(order_.slabs()),
@@ -19,81 +19,81 @@ PackedFlesh<Scalar>::PackedFlesh(const TetMesh& mesh, const FleshEnergy& energy,
     const int vertices = static_cast<int>(mesh.rest.rows());
     rows_ = rows_with_dummies(vertices, order_.slabs());
     std::vector<std::array<int, 4>> vertex;
-    for (const FleshTet& tet : energy.tets()) vertex.push_back(tet.vertex);
+    for (const auto& tet : energy.tets()) vertex.push_back(tet.vertex);
     const auto slabs = slabs_of_tets(vertex, order_);
-    for (int slab = 0; slab < order_.slabs(); ++slab) {
-        std::vector<const FleshTet*> tets;
-        for (const int t : slabs[slab]) tets.push_back(&energy.tets()[t]);
-        fill_slab(slab, tets);
-    }
+    for (int slab = 0; slab < order_.slabs(); ++slab) fill_slab(slab, slabs[slab], energy);
     centres_ = rows();
     for (int i = 0; i < vertices; ++i) centres_[i][3] = Scalar(energy.hold()(order_.old_of_new[i]));
 }
 
-template <typename Scalar>
-void PackedFlesh<Scalar>::fill_slab(int slab, const std::vector<const FleshTet*>& tets)
+template <typename Scalar, typename Energy>
+void PackedSystem<Scalar, Energy>::fill_slab(int slab, const std::vector<int>& tets, const Energy& energy)
 {
     std::vector<ConstraintGroup> groups;
-    for (const FleshTet* tet : tets)
-        groups.push_back({GroupKind::tet, {tet->vertex[0], tet->vertex[1], tet->vertex[2], tet->vertex[3]}, {}});
+    for (const int t : tets) {
+        const std::array<int, 4>& vertex = energy.tets()[t].vertex;
+        groups.push_back({GroupKind::tet, {vertex[0], vertex[1], vertex[2], vertex[3]}, {}});
+    }
     const int dummies = rows_ - (order_.slabs() - slab) * dummies_of_slab;
     BatchScheduler scheduler(static_cast<int>(order_.new_of_old.size()));
-    std::vector<FleshBatch<Scalar>>& batches = batches_.emplace_back();
+    PackedTets<Scalar, Energy>& packed = tets_.emplace_back(energy);
     for (const std::vector<int>& members : scheduler.schedule(groups)) {
-        FleshBatch<Scalar>& batch = batches.emplace_back();
+        packed.add_batch();
         for (int lane = 0; lane < batch_size; ++lane) {
-            const FleshTet* tet = lane < static_cast<int>(members.size()) ? tets[members[lane]] : nullptr;
-            for (int i = 0; i < 4; ++i) batch.offset[i][lane] = 4u * (tet ? order_.new_of_old[tet->vertex[i]] : dummies + 4 * lane + i);
-            if (!tet) continue;
-            for (int e = 0; e < 6; ++e) batch.w[e][lane] = Scalar(tet->w[e]);
-            batch.kappa[lane] = Scalar(tet->kappa);
-            batch.d[lane] = Scalar(tet->d);
+            const bool is_tet = lane < static_cast<int>(members.size());
+            TetOffsets offset;
+            for (int i = 0; i < 4; ++i)
+                offset[i] = 4u * (is_tet ? order_.new_of_old[energy.tets()[tets[members[lane]]].vertex[i]] : dummies + 4 * lane + i);
+            if (is_tet)
+                packed.set_tet(lane, tets[members[lane]], offset);
+            else
+                packed.set_dummy(lane, offset);
         }
     }
 }
 
-template <typename Scalar>
-void PackedFlesh<Scalar>::set_centres(const Positions& centres)
+template <typename Scalar, typename Energy>
+void PackedSystem<Scalar, Energy>::set_centres(const Positions& centres)
 {
-    origin_ = mean_centre(centres, order_.new_of_old, centres_);
-    load(centres, centres_);
+    origin_ = load_held_centres(centres, order_.new_of_old, centres_);
 }
 
-template <typename Scalar>
-void PackedFlesh<Scalar>::load(const Positions& x, Rows<Scalar>& rows) const
+template <typename Scalar, typename Energy>
+void PackedSystem<Scalar, Energy>::load(const Positions& x, Rows<Scalar>& rows) const
 {
     load_rows(x, order_.new_of_old, origin_, rows);
 }
 
-template <typename Scalar>
-void PackedFlesh<Scalar>::store(const Rows<Scalar>& rows, Positions& x) const
+template <typename Scalar, typename Energy>
+void PackedSystem<Scalar, Energy>::store(const Rows<Scalar>& rows, Positions& x) const
 {
     store_rows(rows, order_.new_of_old, origin_, x);
 }
 
-template <typename Scalar>
-double PackedFlesh<Scalar>::value_and_gradient(const Rows<Scalar>& x, Rows<Scalar>& gradient)
+template <typename Scalar, typename Energy>
+double PackedSystem<Scalar, Energy>::value_and_gradient(const Rows<Scalar>& x, Rows<Scalar>& gradient)
 {
     const double of_hold = set_gradient_of_hold(centres_.data(), centres_.size(), x.data(), gradient.data());
     for (const int parity : {0, 1})
         parallel_.for_each((order_.slabs() + 1 - parity) / 2, [&](int pair) {
-            const auto& batches = batches_[2 * pair + parity];
-            slab_energy_[2 * pair + parity] =
-                add_gradient_of_tets(batches.data(), static_cast<int>(batches.size()), x.data(), gradient.data());
+            const int slab = 2 * pair + parity;
+            slab_energy_[slab] = tets_[slab].add_gradient(x.data(), gradient.data());
         });
     return std::accumulate(slab_energy_.begin(), slab_energy_.end(), of_hold);
 }
 
-template <typename Scalar>
-std::size_t PackedFlesh<Scalar>::bytes() const
+template <typename Scalar, typename Energy>
+std::size_t PackedSystem<Scalar, Energy>::bytes() const
 {
-    std::size_t batches = 0;
-    for (const auto& slab : batches_) batches += slab.size();
     const std::size_t of_rows = 4 * sizeof(Scalar) * rows_;
-    return batches * sizeof(FleshBatch<Scalar>) + 3 * of_rows + 2 * (solve_.bytes() + of_rows);
+    std::size_t of_tets = 0;
+    for (const auto& slab : tets_) of_tets += slab.bytes();
+    return of_tets + 3 * of_rows + 2 * (solve_.bytes() + of_rows);
 }
 
-template class PackedFlesh<float>;
-template class PackedFlesh<double>;
+template class PackedSystem<float, FleshEnergy>;
+template class PackedSystem<double, FleshEnergy>;
+template class PackedSystem<float, ProjectiveEnergy>;
+template class PackedSystem<double, ProjectiveEnergy>;
 
 }  // namespace pbs

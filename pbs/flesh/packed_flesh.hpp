@@ -2,18 +2,19 @@
 // Algorithm 1 (batched/vertex_order.hpp). Threads share the slabs of the mesh; their number changes no bit.
 #pragma once
 
-#include "pbs/flesh/flesh_kernels.hpp"
 #include "pbs/flesh/flesh_system.hpp"
+#include "pbs/flesh/packed_tets.hpp"
 #include "pbs/flesh/triangular_solve.hpp"
 #include "pbs/solver/batched/vertex_order.hpp"
 #include "pbs/solver/parallel.hpp"
 
 namespace pbs {
 
-template <typename Scalar>
-class PackedFlesh : public FleshSystem<Scalar> {
+// Energy: FleshEnergy or ProjectiveEnergy. It is read in the constructor alone.
+template <typename Scalar, typename Energy>
+class PackedSystem : public FleshSystem<Scalar> {
 public:
-    PackedFlesh(const TetMesh& mesh, const FleshEnergy& energy, const CholeskyFactor& factor, int threads);
+    PackedSystem(const TetMesh& mesh, const Energy& energy, const CholeskyFactor& factor, int threads);
 
     Rows<Scalar> rows() const override { return Rows<Scalar>(rows_); }
     void set_centres(const Positions& centres) override;
@@ -27,18 +28,24 @@ public:
         pbs::add(Scalar(factor), a.data(), a.size(), to.data());
     }
     std::size_t bytes() const override;
+    const std::vector<PackedTets<Scalar, Energy>>& tets() const { return tets_; }  // of each slab
 
 private:
-    void fill_slab(int slab, const std::vector<const FleshTet*>& tets);
+    void fill_slab(int slab, const std::vector<int>& tets, const Energy& energy);
 
     VertexOrder order_;
     int rows_ = 0;  // of vertices and, behind them, of the dummies of each slab
     Parallel parallel_;
-    std::vector<std::vector<FleshBatch<Scalar>>> batches_;  // of each slab
+    std::vector<PackedTets<Scalar, Energy>> tets_;
     std::vector<double> slab_energy_;
     Rows<Scalar> centres_;  // c_i - origin, a_i
     Vec3 origin_ = Vec3::Zero();
     TriangularSolve<Scalar> solve_;
 };
+
+template <typename Scalar>
+using PackedFlesh = PackedSystem<Scalar, FleshEnergy>;
+template <typename Scalar>
+using PackedProjective = PackedSystem<Scalar, ProjectiveEnergy>;
 
 }  // namespace pbs

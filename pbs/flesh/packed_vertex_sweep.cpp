@@ -1,6 +1,6 @@
 #include "pbs/flesh/packed_vertex_sweep.hpp"
 
-#include "pbs/flesh/positions_in_rows.hpp"
+#include "pbs/flesh/row_positions.hpp"
 #include "pbs/flesh/vertex_colours.hpp"
 
 #include <algorithm>
@@ -67,8 +67,7 @@ void PackedVertexSweep<Scalar>::add_batch(const std::vector<VertexStar>& stars, 
 template <typename Scalar>
 void PackedVertexSweep<Scalar>::set_centres(const Positions& centres)
 {
-    origin_ = mean_centre(centres, order_.new_of_old, centres_);
-    load(centres, centres_);
+    origin_ = load_held_centres(centres, order_.new_of_old, centres_);
 }
 
 template <typename Scalar>

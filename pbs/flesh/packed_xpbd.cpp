@@ -1,6 +1,6 @@
 #include "pbs/flesh/packed_xpbd.hpp"
 
-#include "pbs/flesh/positions_in_rows.hpp"
+#include "pbs/flesh/row_positions.hpp"
 #include "pbs/flesh/slabs_of_tets.hpp"
 #include "pbs/solver/batched/batched_constraints.hpp"
 

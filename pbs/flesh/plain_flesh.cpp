@@ -1,29 +1,33 @@
 #include "pbs/flesh/plain_flesh.hpp"
 
-#include "pbs/flesh/positions_in_rows.hpp"
+#include "pbs/flesh/row_positions.hpp"
 #include "pbs/flesh/triangular_solve.hpp"
 
 #include <numeric>
 
 namespace pbs {
 
-PlainFlesh::PlainFlesh(const FleshEnergy& energy, const CholeskyFactor& factor)
+template <typename Energy>
+PlainSystem<Energy>::PlainSystem(const Energy& energy, const CholeskyFactor& factor)
     : energy_(energy), factor_(factor), place_(static_cast<std::size_t>(energy.hold().size()))
 {
     std::iota(place_.begin(), place_.end(), 0);
 }
 
-void PlainFlesh::load(const Positions& x, Rows<double>& rows) const
+template <typename Energy>
+void PlainSystem<Energy>::load(const Positions& x, Rows<double>& rows) const
 {
-    load_rows(x, rows);
+    load_rows(x, place_, Vec3::Zero(), rows);
 }
 
-void PlainFlesh::store(const Rows<double>& rows, Positions& x) const
+template <typename Energy>
+void PlainSystem<Energy>::store(const Rows<double>& rows, Positions& x) const
 {
-    store_rows(rows, static_cast<Eigen::Index>(place_.size()), x);
+    store_rows(rows, place_, Vec3::Zero(), x);
 }
 
-double PlainFlesh::value_and_gradient(const Rows<double>& x, Rows<double>& gradient)
+template <typename Energy>
+double PlainSystem<Energy>::value_and_gradient(const Rows<double>& x, Rows<double>& gradient)
 {
     store(x, x_);
     const double value = energy_.value_and_gradient(x_, centres_, gradient_);
@@ -31,12 +35,14 @@ double PlainFlesh::value_and_gradient(const Rows<double>& x, Rows<double>& gradi
     return value;
 }
 
-void PlainFlesh::precondition(Rows<double>& residual)
+template <typename Energy>
+void PlainSystem<Energy>::precondition(Rows<double>& residual)
 {
     solve_plainly(factor_, place_, residual.data(), work_);
 }
 
-double PlainFlesh::dot(const Rows<double>& a, const Rows<double>& b) const
+template <typename Energy>
+double PlainSystem<Energy>::dot(const Rows<double>& a, const Rows<double>& b) const
 {
     double sum = 0.0;
     for (int i = 0; i < static_cast<int>(place_.size()); ++i)
@@ -44,15 +50,20 @@ double PlainFlesh::dot(const Rows<double>& a, const Rows<double>& b) const
     return sum;
 }
 
-void PlainFlesh::add(double factor, const Rows<double>& a, Rows<double>& to) const
+template <typename Energy>
+void PlainSystem<Energy>::add(double factor, const Rows<double>& a, Rows<double>& to) const
 {
     for (int i = 0; i < static_cast<int>(place_.size()); ++i)
         for (int axis = 0; axis < 3; ++axis) to[i][axis] += factor * a[i][axis];
 }
 
-std::size_t PlainFlesh::bytes() const
+template <typename Energy>
+std::size_t PlainSystem<Energy>::bytes() const
 {
-    return energy_.tets().size() * sizeof(FleshTet) + 2 * (sizeof(double) + sizeof(int)) * factor_.value.size();
+    return energy_.tets().size() * sizeof(energy_.tets()[0]) + 2 * (sizeof(double) + sizeof(int)) * factor_.value.size();
 }
+
+template class PlainSystem<FleshEnergy>;
+template class PlainSystem<ProjectiveEnergy>;
 
 }  // namespace pbs

@@ -1,13 +1,15 @@
-// The plain implementation of FleshSystem: FleshEnergy in file order and a loop per entry of the factor, in double.
+// The plain implementation of FleshSystem: the energy in file order and a loop per entry of the factor, in double.
 #pragma once
 
 #include "pbs/flesh/flesh_system.hpp"
 
 namespace pbs {
 
-class PlainFlesh : public FleshSystem<double> {
+// Energy: FleshEnergy or ProjectiveEnergy.
+template <typename Energy>
+class PlainSystem : public FleshSystem<double> {
 public:
-    PlainFlesh(const FleshEnergy& energy, const CholeskyFactor& factor);
+    PlainSystem(const Energy& energy, const CholeskyFactor& factor);
 
     Rows<double> rows() const override { return Rows<double>(static_cast<int>(place_.size())); }
     void set_centres(const Positions& centres) override { centres_ = centres; }
@@ -20,11 +22,14 @@ public:
     std::size_t bytes() const override;
 
 private:
-    FleshEnergy energy_;
+    Energy energy_;
     CholeskyFactor factor_;
     std::vector<int> place_;  // the identity, #V
     Positions centres_, x_, gradient_;
     std::vector<double> work_;
 };
+
+using PlainFlesh = PlainSystem<FleshEnergy>;
+using PlainProjective = PlainSystem<ProjectiveEnergy>;
 
 }  // namespace pbs

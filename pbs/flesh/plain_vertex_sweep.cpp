@@ -1,6 +1,6 @@
 #include "pbs/flesh/plain_vertex_sweep.hpp"
 
-#include "pbs/flesh/positions_in_rows.hpp"
+#include "pbs/flesh/row_positions.hpp"
 #include "pbs/flesh/vertex_colours.hpp"
 
 namespace pbs {

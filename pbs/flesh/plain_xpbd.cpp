@@ -1,6 +1,6 @@
 #include "pbs/flesh/plain_xpbd.hpp"
 
-#include "pbs/flesh/positions_in_rows.hpp"
+#include "pbs/flesh/row_positions.hpp"
 
 namespace pbs {
 namespace {

@@ -28,6 +28,7 @@ struct NumberFunctions {
     static Number magnitude(Number a) { return std::abs(a); }
     static Number larger(Number a, Number b) { return a < b ? b : a; }
     static Number where_less(Number a, Number b, Number then, Number otherwise) { return a < b ? then : otherwise; }
+    static bool any_less(Number a, Number b) { return a < b; }
 };
 
 namespace rotation_formula {

@@ -1,8 +1,6 @@
 #include "pbs/skinning/mush_kernels.hpp"
 
-#include "pbs/geometry/rotation_formula.hpp"
-
-#include <experimental/simd>
+#include "pbs/geometry/lane_functions.hpp"
 
 #pragma GCC diagnostic ignored "-Wpsabi"  // wide vectors never pass from here to another file
 
@@ -14,24 +12,6 @@ namespace {
 namespace simd = std::experimental;
 
 constexpr int tile = 64;  // vertices whose covariances wait in the nearest cache, to be decomposed side by side
-
-}  // namespace
-
-template <class Scalar>
-struct NumberFunctions<simd::native_simd<Scalar>> {
-    using Number = simd::native_simd<Scalar>;
-    PBS_INLINE static Number of(double a) { return Number(static_cast<Scalar>(a)); }
-    PBS_INLINE static Number root(Number a) { return simd::sqrt(a); }
-    PBS_INLINE static Number magnitude(Number a) { return simd::abs(a); }
-    PBS_INLINE static Number larger(Number a, Number b) { return where_less(a, b, b, a); }
-    PBS_INLINE static Number where_less(Number a, Number b, Number then, Number otherwise)
-    {
-        simd::where(a < b, otherwise) = then;
-        return otherwise;
-    }
-};
-
-namespace {
 
 template <class Scalar>
 struct Rows4 {

@@ -22,6 +22,7 @@ public:
 
     // The same without conversion: posed position - origin [m], #V rows x, y, z.
     const std::vector<Scalar>& apply_rows(const Pose& pose, const Vec3& origin);
+    const std::vector<BoneMoments<Scalar>>& moments() const { return moments_; }  // of all pairs of a vertex and a bone
 
 private:
     std::vector<int> first_;

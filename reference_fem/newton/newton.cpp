@@ -15,6 +15,14 @@ constexpr double energy_rounding = 1e-12;
 constexpr double truncation = 0.1;  // share of the first residual at which conjugate gradients end
 constexpr int most_gradients = 40;
 
+// The last of the iterations is the present state, whose Hessian is not known yet.
+bool is_far_from_convex(const NewtonSummary& summary, const NewtonOptions& options)
+{
+    const auto last = summary.iterations.rbegin() + 1;
+    const auto convex = std::find_if(last, summary.iterations.rend(), [](const NewtonIteration& it) { return !it.projected; });
+    return options.indefinite_in_a_row > 0 && convex - last >= options.indefinite_in_a_row;
+}
+
 bool all_quadratic(const Terms& terms)
 {
     return std::all_of(terms.begin(), terms.end(), [](const Potential* term) { return term->is_quadratic(); });
@@ -239,7 +247,7 @@ NewtonSummary NewtonMinimiser::minimise(const Terms& terms, const Eigen::VectorX
         summary.iterations.push_back({state.residual_n, state.force_scale_n, state.energy_j, 0.0, false, carries_increment});
         if (!state.finite()) return end(NewtonOutcome::not_finite);
         if (!carries_increment && is_converged(state, options)) return end(NewtonOutcome::converged);
-        if (k == options.iterations) break;
+        if (k == options.iterations || is_far_from_convex(summary, options)) break;
         Step step;
         if (may_reuse_factor(summary, options)) step = step_from(terms, state, displacement, increment, options);
         summary.iterations.back().reuses_factor = step.length > 0.0;

@@ -24,7 +24,10 @@ struct NewtonOptions {
     // rounding of positions makes of forces.
     double relative_tolerance = 1e-8;
     int iterations = 40;  // linear solves at most
-    int halvings = 25;    // of one step; then no_descent
+    // iterations_exhausted after so many Hessians in a row that are not positive definite: the energy still falls far from any minimum. 0:
+    // no limit.
+    int indefinite_in_a_row = 0;
+    int halvings = 25;  // of one step; then no_descent
     // The factor serves again after a whole step that reduced the residual to at most this share of the one before; 0: for no second step.
     // Steps then converge linearly, at least at this rate, and cost a small part of a factorisation where the body has many nodes.
     double reuse_contraction = 0.0;

@@ -8,6 +8,7 @@
 #include "pbs/character/skinning_weights.hpp"
 #include "pbs/geometry/stopwatch.hpp"
 #include "pbs/skinning/blend_skinning.hpp"
+#include "pbs/skinning/skinning_work.hpp"
 
 #include <optional>
 
@@ -42,6 +43,12 @@ public:
     }
 
     const pbs::Positions& positions() const override { return positions_; }
+    pbs::KeptEntries kept() const override
+    {
+        if (!skinning_) return {};
+        const auto& own = skinning_->packed_weights().own;
+        return {double(own.bone.size()), double(own.rows())};
+    }
 
 private:
     Blend blend_;
@@ -98,11 +105,10 @@ DeformerTraits lbs_traits(const DeformerSpec& spec)
     return traits;
 }
 
-// Rest positions in and posed positions out. Operations are not counted.
-IterationWork work_of_blend(const DeformerSpec& /*spec*/, const BodyCounts& body)
+template <IterationWork (*work_of)(const BodyCounts& body, double scalar_bytes)>
+IterationWork work_of_blend(const DeformerSpec& spec, const BodyCounts& body)
 {
-    const double bytes = 2.0 * 3.0 * sizeof(double) * body.vertices;
-    return {.bytes = bytes, .working_set_bytes = bytes};
+    return work_of(body, options_of<BlendOptions>(spec).precision == pbs::Precision::f32 ? sizeof(float) : sizeof(double));
 }
 
 DeformerKind blend_kind(const std::string& name, const std::string& meaning, std::unique_ptr<Deformer> (*make)(const DeformerSpec& spec))
@@ -116,7 +122,7 @@ DeformerKind blend_kind(const std::string& name, const std::string& meaning, std
             .read = read_blend,
             .options_json = blend_json,
             .traits = blend_traits,
-            .work = work_of_blend};
+            .work = work_of_blend<pbs::work_of_dual_quaternion_blend>};
 }
 
 }  // namespace
@@ -126,6 +132,7 @@ DeformerKind lbs_kind()
     DeformerKind kind =
         blend_kind("lbs", "linear blend skinning, Eq. 1", [](const DeformerSpec& spec) { return make_blend(Blend::linear, spec); });
     kind.traits = lbs_traits;
+    kind.work = work_of_blend<pbs::work_of_linear_blend>;
     return kind;
 }
 

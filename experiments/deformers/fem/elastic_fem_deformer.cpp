@@ -11,8 +11,9 @@
 namespace experiments {
 namespace {
 
-constexpr double largest_turn_deg = 45.0;  // of a bone in one solve
-constexpr double far_turn_deg = 15.0;      // beyond it the solution with fewer nodes is a better initial guess than the last pose's
+constexpr double largest_turn_deg = 45.0;     // of a bone in one solve
+constexpr int most_indefinite_in_a_row = 25;  // where Newton's steps are limited
+constexpr double far_turn_deg = 15.0;         // beyond it the solution with fewer nodes is a better initial guess than the last pose's
 
 reference_fem::NewtonOptions newton_options(const FemOptions& options)
 {
@@ -21,6 +22,7 @@ reference_fem::NewtonOptions newton_options(const FemOptions& options)
     const bool has_no_way = options.nested_start && options.element_order == 2;
     if (options.most_newton_steps > 0)
         newton.iterations = has_no_way ? options.most_newton_steps : std::min(newton.iterations, options.most_newton_steps);
+    if (options.most_newton_steps > 0) newton.indefinite_in_a_row = most_indefinite_in_a_row;
     if (options.dynamics == reference_fem::Dynamics::quasi_static) newton.reuse_contraction = 0.1;
     return newton;
 }

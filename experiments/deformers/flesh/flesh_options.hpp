@@ -30,7 +30,8 @@ OptionFields<Options> flesh_fields(const std::string& kind)
 {
     return OptionFields<Options>(kind)
         .add("iterations", &Options::iterations, {.lowest = 0, .highest = 1e6, .meaning = "iterations per frame"})
-        .add("poisson", &Options::poisson, {.lowest = 0.0, .highest = 0.4999, .meaning = "Poisson's ratio of the neo-Hookean flesh"})
+        .add("poisson", &Options::poisson,
+             {.lowest = 0.0, .highest = 0.4999, .meaning = "Poisson's ratio of the flesh where strains are small"})
         .add("core_radius", &Options::core_radius,
              {.lowest = above_zero,
               .highest = 1.0,

@@ -1,11 +1,7 @@
-// Elastic flesh in equilibrium by a quasi-Newton method whose matrix is factored once (pbs/flesh/quasi_newton.hpp). Every frame begins at
-// the initial guess anew, so that it does not depend on the frames before.
-#include "experiments/deformers/flesh/flesh_options.hpp"
-#include "experiments/deformers/registry.hpp"
+// Elastic flesh in equilibrium by a quasi-Newton method whose matrix is factored once (pbs/flesh/quasi_newton.hpp).
+#include "experiments/deformers/flesh/flesh_deformer.hpp"
+#include "pbs/flesh/flesh_work.hpp"
 #include "pbs/flesh/quasi_newton.hpp"
-#include "pbs/geometry/stopwatch.hpp"
-
-#include <variant>
 
 namespace experiments {
 namespace {
@@ -36,60 +32,39 @@ const OptionFields<QuasiNewtonDeformerOptions>& quasi_newton_fields()
     return fields;
 }
 
-class QuasiNewtonDeformer : public Deformer {
+class QuasiNewtonDeformer : public FleshDeformer {
 public:
     QuasiNewtonDeformer(const QuasiNewtonDeformerOptions& options, int threads) : options_(options), threads_(threads) {}
 
-    void reset(const pbs::Character& character) override
+private:
+    PosedFlesh make_flesh(const pbs::Character& character) const override { return {character, options_, options_.volume_share}; }
+
+    void make_solver(const pbs::Character& character, const pbs::HeldFlesh& flesh) override
     {
-        flesh_.emplace(character, options_, options_.volume_share);
-        positions_ = character.mesh.rest;
-        tets_ = character.mesh.tets.rows();
         const pbs::QuasiNewtonOptions options{.iterations = options_.iterations,
                                               .history = options_.history,
                                               .stop_gradient = options_.stop_gradient,
                                               .arithmetic = options_.arithmetic,
                                               .threads = threads_};
-        const pbs::HeldFlesh& flesh = flesh_->flesh();
-        if (options_.arithmetic == pbs::Arithmetic::packed_f32)
-            solver_.emplace<pbs::QuasiNewton<float>>(character.mesh, flesh.energy(), flesh.factor(), options);
-        else
-            solver_.emplace<pbs::QuasiNewton<double>>(character.mesh, flesh.energy(), flesh.factor(), options);
+        solver_.make(options_.arithmetic, character.mesh, flesh.energy(), flesh.factor(), options);
     }
 
-    pbs::StepSummary advance(const pbs::Pose& pose, double /*dt_s*/) override
+    pbs::StepSummary minimise(const PosedFlesh& flesh, const pbs::Pose& /*pose*/, pbs::Positions& x) override
     {
-        const pbs::Stopwatch stopwatch;
-        flesh_->pose(pose);
-        positions_ = flesh_->start();
-        pbs::QuasiNewtonSummary newton;
-        if (auto* in_float = std::get_if<pbs::QuasiNewton<float>>(&solver_)) newton = in_float->minimise(flesh_->centres(), positions_);
-        if (auto* in_double = std::get_if<pbs::QuasiNewton<double>>(&solver_)) newton = in_double->minimise(flesh_->centres(), positions_);
+        const pbs::QuasiNewtonSummary newton = solver_.minimise(flesh.centres(), x);
         pbs::StepSummary summary;
         summary.iterations = newton.iterations;
         summary.work = {.gradients = newton.evaluations,
-                        .vertex_visits = positions_.rows(),
-                        .tet_visits = newton.evaluations * tets_,
+                        .vertex_visits = x.rows(),
+                        .tet_visits = newton.evaluations * tets(),
                         .linear_solves = newton.solves};
-        summary.seconds = stopwatch.seconds();
-        if (!positions_.allFinite())
-            summary.outcome = pbs::Outcome::not_finite;
-        else if (options_.stop_gradient > 0.0 && !newton.converged)
-            summary.outcome = pbs::Outcome::not_converged;
+        if (options_.stop_gradient > 0.0 && !newton.converged) summary.outcome = pbs::Outcome::not_converged;
         return summary;
     }
 
-    void start_from(const pbs::Positions& shape) override { flesh_->start_from(shape); }
-    const pbs::Positions& positions() const override { return positions_; }
-    nlohmann::json record() const override { return flesh_ ? flesh_->record() : nullptr; }
-
-private:
     QuasiNewtonDeformerOptions options_;
     int threads_;
-    std::int64_t tets_ = 0;
-    std::optional<PosedFlesh> flesh_;
-    std::variant<std::monostate, pbs::QuasiNewton<float>, pbs::QuasiNewton<double>> solver_;
-    pbs::Positions positions_;
+    InArithmetic<pbs::QuasiNewton> solver_;
 };
 
 }  // namespace
@@ -107,13 +82,12 @@ DeformerKind quasi_newton_kind()
         .read = [](const SceneValues& values, const std::string& table,
                    DeformerSpec& spec) { spec.options = quasi_newton_fields().read(values, table); },
         .options_json = [](const DeformerSpec& spec) { return quasi_newton_fields().json(options_of<QuasiNewtonDeformerOptions>(spec)); },
-        .traits = [](const DeformerSpec& spec) -> DeformerTraits {
-            const auto& options = options_of<QuasiNewtonDeformerOptions>(spec);
-            return {.precision = options.arithmetic == pbs::Arithmetic::packed_f32 ? "f32" : "f64",
-                    .packed = options.arithmetic != pbs::Arithmetic::plain_f64,
-                    .iterations = options.iterations,
-                    .threads = spec.threads};
-        }};
+        .traits = flesh_traits<QuasiNewtonDeformerOptions>,
+        .work =
+            [](const DeformerSpec& spec, const BodyCounts& body) {
+                return pbs::work_of_quasi_newton(body, scalar_bytes_of<QuasiNewtonDeformerOptions>(spec),
+                                                 options_of<QuasiNewtonDeformerOptions>(spec).history);
+            }};
 }
 
 }  // namespace experiments

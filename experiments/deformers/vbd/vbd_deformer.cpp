@@ -1,11 +1,7 @@
-// Elastic flesh in equilibrium by vertex block descent (pbs/flesh/vertex_block_descent.hpp). Every frame begins at the initial guess anew,
-// so that it does not depend on the frames before.
-#include "experiments/deformers/flesh/flesh_options.hpp"
-#include "experiments/deformers/registry.hpp"
+// Elastic flesh in equilibrium by vertex block descent (pbs/flesh/vertex_block_descent.hpp).
+#include "experiments/deformers/flesh/flesh_deformer.hpp"
+#include "pbs/flesh/flesh_work.hpp"
 #include "pbs/flesh/vertex_block_descent.hpp"
-#include "pbs/geometry/stopwatch.hpp"
-
-#include <variant>
 
 namespace experiments {
 
@@ -42,57 +38,37 @@ const OptionFields<VbdOptions>& vbd_fields()
     return fields;
 }
 
-class VbdDeformer : public Deformer {
+class VbdDeformer : public FleshDeformer {
 public:
     VbdDeformer(const VbdOptions& options, int threads) : options_(options), threads_(threads) {}
 
-    void reset(const pbs::Character& character) override
+private:
+    PosedFlesh make_flesh(const pbs::Character& character) const override { return {character, options_, volume_share_of_guess}; }
+
+    void make_solver(const pbs::Character& character, const pbs::HeldFlesh& flesh) override
     {
-        flesh_.emplace(character, options_);
-        positions_ = character.mesh.rest;
-        tets_ = character.mesh.tets.rows();
         const pbs::VertexBlockOptions options{.iterations = options_.iterations,
                                               .acceleration = options_.acceleration,
                                               .omega = options_.omega,
                                               .rho = options_.rho,
                                               .arithmetic = options_.arithmetic,
                                               .threads = threads_};
-        if (options_.arithmetic == pbs::Arithmetic::packed_f32)
-            solver_.emplace<pbs::VertexBlockDescent<float>>(character.mesh, flesh_->flesh().energy(), options);
-        else
-            solver_.emplace<pbs::VertexBlockDescent<double>>(character.mesh, flesh_->flesh().energy(), options);
+        solver_.make(options_.arithmetic, character.mesh, flesh.energy(), options);
     }
 
-    pbs::StepSummary advance(const pbs::Pose& pose, double /*dt_s*/) override
+    pbs::StepSummary minimise(const PosedFlesh& flesh, const pbs::Pose& /*pose*/, pbs::Positions& x) override
     {
-        const pbs::Stopwatch stopwatch;
-        flesh_->pose(pose);
-        positions_ = flesh_->start();
-        pbs::VertexBlockSummary descent;
-        if (auto* in_float = std::get_if<pbs::VertexBlockDescent<float>>(&solver_))
-            descent = in_float->minimise(flesh_->centres(), positions_);
-        if (auto* in_double = std::get_if<pbs::VertexBlockDescent<double>>(&solver_))
-            descent = in_double->minimise(flesh_->centres(), positions_);
+        const pbs::VertexBlockSummary descent = solver_.minimise(flesh.centres(), x);
         pbs::StepSummary summary;
         summary.iterations = descent.iterations;
-        summary.work = {.vertex_visits = (1 + descent.iterations) * positions_.rows(),  // blended once, then moved
-                        .tet_visits = 4 * descent.iterations * tets_};                  // once for each of its vertices
-        summary.seconds = stopwatch.seconds();
-        if (!descent.is_finite) summary.outcome = pbs::Outcome::not_finite;
+        summary.work = {.vertex_visits = (1 + descent.iterations) * x.rows(),  // blended once, then moved
+                        .tet_visits = 4 * descent.iterations * tets()};        // once for each of its vertices
         return summary;
     }
 
-    void start_from(const pbs::Positions& shape) override { flesh_->start_from(shape); }
-    const pbs::Positions& positions() const override { return positions_; }
-    nlohmann::json record() const override { return flesh_ ? flesh_->record() : nullptr; }
-
-private:
     VbdOptions options_;
     int threads_;
-    std::int64_t tets_ = 0;
-    std::optional<PosedFlesh> flesh_;
-    std::variant<std::monostate, pbs::VertexBlockDescent<float>, pbs::VertexBlockDescent<double>> solver_;
-    pbs::Positions positions_;
+    InArithmetic<pbs::VertexBlockDescent> solver_;
 };
 
 }  // namespace
@@ -109,13 +85,12 @@ DeformerKind vbd_kind()
             .read = [](const SceneValues& values, const std::string& table,
                        DeformerSpec& spec) { spec.options = vbd_fields().read(values, table); },
             .options_json = [](const DeformerSpec& spec) { return vbd_fields().json(options_of<VbdOptions>(spec)); },
-            .traits = [](const DeformerSpec& spec) -> DeformerTraits {
-                const auto& options = options_of<VbdOptions>(spec);
-                return {.precision = options.arithmetic == pbs::Arithmetic::packed_f32 ? "f32" : "f64",
-                        .packed = options.arithmetic != pbs::Arithmetic::plain_f64,
-                        .iterations = options.iterations,
-                        .threads = spec.threads};
-            }};
+            .traits = flesh_traits<VbdOptions>,
+            .work =
+                [](const DeformerSpec& spec, const BodyCounts& body) {
+                    const bool chebyshev = options_of<VbdOptions>(spec).acceleration == pbs::Acceleration::chebyshev;
+                    return pbs::work_of_vertex_sweep(body, scalar_bytes_of<VbdOptions>(spec), chebyshev);
+                }};
 }
 
 }  // namespace experiments

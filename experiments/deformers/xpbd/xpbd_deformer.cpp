@@ -5,6 +5,7 @@
 #include "pbs/geometry/stopwatch.hpp"
 #include "pbs/skinning/blend_skinning.hpp"
 #include "pbs/solver/xpbd_solver.hpp"
+#include "pbs/solver/xpbd_work.hpp"
 
 #include <algorithm>
 #include <optional>
@@ -90,7 +91,9 @@ DeformerKind xpbd_kind()
             .traits = [](const DeformerSpec& spec) -> DeformerTraits {
                 const auto& options = options_of<pbs::XpbdOptions>(spec);
                 return {.iterations = options.iterations * options.substeps};
-            }};
+            },
+            .work = [](const DeformerSpec& spec,
+                       const BodyCounts& body) { return pbs::work_of_xpbd(body, options_of<pbs::XpbdOptions>(spec).poisson > 0.25); }};
 }
 
 DeformerKind xpbd_small_steps_kind()

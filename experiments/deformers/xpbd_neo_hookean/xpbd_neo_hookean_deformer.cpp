@@ -1,11 +1,7 @@
-// Elastic flesh in equilibrium by XPBD with the neo-Hookean constraints of Macklin and Mueller (pbs/flesh/xpbd_neo_hookean.hpp). Every
-// frame begins at the initial guess anew, so that it does not depend on the frames before.
-#include "experiments/deformers/flesh/flesh_options.hpp"
-#include "experiments/deformers/registry.hpp"
+// Elastic flesh in equilibrium by XPBD with the neo-Hookean constraints of Macklin and Mueller (pbs/flesh/xpbd_neo_hookean.hpp).
+#include "experiments/deformers/flesh/flesh_deformer.hpp"
+#include "pbs/flesh/flesh_work.hpp"
 #include "pbs/flesh/xpbd_neo_hookean.hpp"
-#include "pbs/geometry/stopwatch.hpp"
-
-#include <variant>
 
 namespace experiments {
 
@@ -48,65 +44,51 @@ const OptionFields<XpbdNeoHookeanDeformerOptions>& xpbd_neo_hookean_fields()
     return fields;
 }
 
-class XpbdNeoHookeanDeformer : public Deformer {
+class XpbdNeoHookeanDeformer : public FleshDeformer {
 public:
     XpbdNeoHookeanDeformer(const XpbdNeoHookeanDeformerOptions& options, int threads) : options_(options), threads_(threads) {}
 
-    void reset(const pbs::Character& character) override
+    pbs::KeptEntries kept() const override { return {.entries = constraints_ ? double(constraints_->hold.modes().size()) : 0.0}; }
+
+    nlohmann::json record() const override
     {
-        flesh_.emplace(character, options_);
-        positions_ = character.mesh.rest;
-        constraints_.emplace(character.mesh, flesh_->flesh().energy(), flesh_->flesh().hold(), pbs::flesh_material(options_.poisson),
-                             options_.time_step);
+        nlohmann::json record = FleshDeformer::record();
+        if (constraints_) record["linear_constraints_of_the_bones"] = 3 * constraints_->hold.modes().size();
+        return record;
+    }
+
+private:
+    PosedFlesh make_flesh(const pbs::Character& character) const override { return {character, options_, volume_share_of_guess}; }
+
+    void make_solver(const pbs::Character& character, const pbs::HeldFlesh& flesh) override
+    {
+        constraints_.emplace(character.mesh, flesh.energy(), flesh.hold(), pbs::flesh_material(options_.poisson), options_.time_step);
         const pbs::XpbdNeoHookeanOptions options{.iterations = options_.iterations,
                                                  .iterations_per_step = options_.iterations_per_step,
                                                  .multipliers = options_.multipliers,
                                                  .momentum = options_.momentum,
                                                  .arithmetic = options_.arithmetic,
                                                  .threads = threads_};
-        if (options_.arithmetic == pbs::Arithmetic::packed_f32)
-            solver_.emplace<pbs::XpbdNeoHookean<float>>(character.mesh, *constraints_, options);
-        else
-            solver_.emplace<pbs::XpbdNeoHookean<double>>(character.mesh, *constraints_, options);
+        solver_.make(options_.arithmetic, character.mesh, *constraints_, options);
     }
 
-    pbs::StepSummary advance(const pbs::Pose& pose, double /*dt_s*/) override
+    pbs::StepSummary minimise(const PosedFlesh& /*flesh*/, const pbs::Pose& pose, pbs::Positions& x) override
     {
-        const pbs::Stopwatch stopwatch;
-        flesh_->pose(pose);
         constraints_->hold.targets(pose, targets_);
-        positions_ = flesh_->start();
-        pbs::XpbdNeoHookeanSummary done;
-        if (auto* in_float = std::get_if<pbs::XpbdNeoHookean<float>>(&solver_)) done = in_float->minimise(targets_, positions_);
-        if (auto* in_double = std::get_if<pbs::XpbdNeoHookean<double>>(&solver_)) done = in_double->minimise(targets_, positions_);
+        const pbs::XpbdNeoHookeanSummary done = solver_.minimise(targets_, x);
         pbs::StepSummary summary;
         summary.iterations = done.iterations;
-        const auto tets = static_cast<std::int64_t>(constraints_->tets.size()), modes = static_cast<std::int64_t>(targets_.rows());
-        summary.work = {.vertex_visits = positions_.rows(),
-                        .tet_visits = done.iterations * tets,
-                        .projections = done.iterations * (2 * tets + 3 * modes)};
-        summary.seconds = stopwatch.seconds();
-        if (!positions_.allFinite()) summary.outcome = pbs::Outcome::not_finite;
+        const auto modes = static_cast<std::int64_t>(targets_.rows());
+        summary.work = {
+            .vertex_visits = x.rows(), .tet_visits = done.iterations * tets(), .projections = done.iterations * (2 * tets() + 3 * modes)};
         return summary;
     }
 
-    void start_from(const pbs::Positions& shape) override { flesh_->start_from(shape); }
-    const pbs::Positions& positions() const override { return positions_; }
-    nlohmann::json record() const override
-    {
-        if (!flesh_) return nullptr;
-        nlohmann::json record = flesh_->record();
-        record["linear_constraints_of_the_bones"] = 3 * constraints_->hold.modes().size();
-        return record;
-    }
-
-private:
     XpbdNeoHookeanDeformerOptions options_;
     int threads_;
-    std::optional<PosedFlesh> flesh_;
     std::optional<pbs::XpbdFlesh> constraints_;
-    std::variant<std::monostate, pbs::XpbdNeoHookean<float>, pbs::XpbdNeoHookean<double>> solver_;
-    pbs::Positions targets_, positions_;
+    InArithmetic<pbs::XpbdNeoHookean> solver_;
+    pbs::Positions targets_;
 };
 
 }  // namespace
@@ -126,13 +108,13 @@ DeformerKind xpbd_neo_hookean_kind()
                        DeformerSpec& spec) { spec.options = xpbd_neo_hookean_fields().read(values, table); },
             .options_json =
                 [](const DeformerSpec& spec) { return xpbd_neo_hookean_fields().json(options_of<XpbdNeoHookeanDeformerOptions>(spec)); },
-            .traits = [](const DeformerSpec& spec) -> DeformerTraits {
-                const auto& options = options_of<XpbdNeoHookeanDeformerOptions>(spec);
-                return {.precision = options.arithmetic == pbs::Arithmetic::packed_f32 ? "f32" : "f64",
-                        .packed = options.arithmetic != pbs::Arithmetic::plain_f64,
-                        .iterations = options.iterations,
-                        .threads = spec.threads};
-            }};
+            .traits = flesh_traits<XpbdNeoHookeanDeformerOptions>,
+            .work =
+                [](const DeformerSpec& spec, const BodyCounts& body) {
+                    const auto& options = options_of<XpbdNeoHookeanDeformerOptions>(spec);
+                    return pbs::work_of_neo_hookean_xpbd(body, scalar_bytes_of<XpbdNeoHookeanDeformerOptions>(spec),
+                                                         options.multipliers == pbs::XpbdMultipliers::kept, options.iterations_per_step);
+                }};
 }
 
 }  // namespace experiments

@@ -110,7 +110,7 @@ void add_limits(DeformerTiming& timing, const IterationWork& work, const Machine
 DeformerTiming summed_up(const Timed& timed, const Samples& own, const Samples& plain, const BenchBody& body, const MachineLimits& limits)
 {
     const DeformerSetting& setting = *timed.setting;
-    const BodyCounts counts{double(body.mesh().rest.rows()), double(body.edges), double(body.mesh().tets.rows())};
+    const BodyCounts counts{double(body.mesh().rest.rows()), double(body.edges), double(body.mesh().tets.rows()), timed.once->kept()};
     const Spread step = spread_of(own[iteration_s]);
     DeformerTiming timing{setting.spec.kind, setting.order, setting.precision};
     timing.iterations = traits_of(setting.spec).iterations;
@@ -141,33 +141,44 @@ std::vector<DeformerTiming> time_settings(const std::vector<DeformerSetting>& se
     return timings;
 }
 
+// The order `plain` in the same precision where there is one; else plain code in f64; else code in f64; else the first.
+std::size_t place_of_plain(const std::vector<DeformerSetting>& settings, const std::string& precision)
+{
+    const auto place_where = [&](const auto& is_plain) {
+        return static_cast<std::size_t>(std::find_if(settings.begin(), settings.end(), is_plain) - settings.begin());
+    };
+    const std::size_t candidates[] = {
+        place_where([&](const DeformerSetting& one) { return one.order == "plain" && one.precision == precision; }),
+        place_where([](const DeformerSetting& one) { return one.order == "plain" && one.precision == "f64"; }),
+        place_where([](const DeformerSetting& one) { return one.precision == "f64"; })};
+    for (const std::size_t place : candidates)
+        if (place < settings.size()) return place;
+    return 0;
+}
+
 }  // namespace
 
 std::vector<DeformerSetting> deformer_settings(const DeformerKind& kind)
 {
     std::vector<DeformerSetting> settings;
     for (const std::string& order : choices_of(kind, "order"))
-        for (const std::string& precision : choices_of(kind, "precision")) {
-            std::vector<Choice> choices;
-            if (!order.empty()) choices.push_back({"order", '"' + order + '"'});
-            if (!precision.empty()) choices.push_back({"precision", '"' + precision + '"'});
-            DeformerSetting setting{spec_with(kind, choices), {}, order, precision};
-            const DeformerTraits traits = traits_of(setting.spec);
-            if (precision.empty()) setting.precision = traits.precision;
-            if (key_of(kind, "iterations") && traits.iterations.value_or(0) > 0) {
-                choices.push_back({"iterations", std::to_string(2 * *traits.iterations)});
-                setting.twice = spec_with(kind, choices);
+        for (const std::string& precision : choices_of(kind, "precision"))
+            for (const std::string& arithmetic : choices_of(kind, "arithmetic")) {
+                std::vector<Choice> choices;
+                if (!order.empty()) choices.push_back({"order", '"' + order + '"'});
+                if (!precision.empty()) choices.push_back({"precision", '"' + precision + '"'});
+                if (!arithmetic.empty()) choices.push_back({"arithmetic", '"' + arithmetic + '"'});
+                DeformerSetting setting{spec_with(kind, choices), {}, order, precision};
+                const DeformerTraits traits = traits_of(setting.spec);
+                if (precision.empty()) setting.precision = traits.precision;
+                if (!arithmetic.empty()) setting.order = traits.packed ? "packed" : "plain";
+                if (key_of(kind, "iterations") && traits.iterations.value_or(0) > 0) {
+                    choices.push_back({"iterations", std::to_string(2 * *traits.iterations)});
+                    setting.twice = spec_with(kind, choices);
+                }
+                settings.push_back(std::move(setting));
             }
-            settings.push_back(std::move(setting));
-        }
-    // In the same precision where there is an order `plain`; in f64 otherwise.
-    const bool has_orders = key_of(kind, "order") != nullptr;
-    for (DeformerSetting& setting : settings) {
-        const auto plain = std::find_if(settings.begin(), settings.end(), [&](const DeformerSetting& one) {
-            return has_orders ? one.order == "plain" && one.precision == setting.precision : one.precision == "f64";
-        });
-        setting.plain = static_cast<std::size_t>((plain == settings.end() ? settings.begin() : plain) - settings.begin());
-    }
+    for (DeformerSetting& setting : settings) setting.plain = place_of_plain(settings, setting.precision);
     return settings;
 }
 

@@ -1,7 +1,8 @@
 // How long a frame and an iteration of every registered deformer take, in each precision and order that it offers, relative to the plain
 // implementation of the same method in the same run, and to the machine's limit.
 //   for (const DeformerTiming& timing : time_deformers(body, limits, rounds)) ...
-// The list is the registry's: a deformer with a key `precision` or `order` is timed for each of its values. Processor time of one thread.
+// The list is the registry's: a deformer with a key `precision`, `order` or `arithmetic` is timed for each of its values. Processor time of
+// one thread.
 #pragma once
 
 #include "experiments/deformers/deformer_spec.hpp"
@@ -21,11 +22,13 @@ struct DeformerKind;
 struct DeformerSetting {
     DeformerSpec spec;
     std::optional<DeformerSpec> twice;  // with twice the iterations; nothing if it has no key `iterations`
-    std::string order, precision;       // empty: it has no such key, and its arithmetic is that of its traits
-    std::size_t plain = 0;              // its place in the list of the kind's settings
+    // order: `packed` or `plain` of a kind with the key `arithmetic`; empty without either key. precision: that of its traits without a
+    // key.
+    std::string order, precision;
+    std::size_t plain = 0;  // its place in the list of the kind's settings
 };
 
-// One per value of `order` and `precision`. The key of a list counts as that of its first table.
+// One per value of `order`, `precision` and `arithmetic`. The key of a list counts as that of its first table.
 std::vector<DeformerSetting> deformer_settings(const DeformerKind& kind);
 
 struct DeformerTiming {

@@ -66,12 +66,13 @@ public:
     analysis::ErrorNorms error_of(const pbs::Positions& positions) const { return distance(positions, reference().positions); }
     analysis::ErrorNorms error_on_whole_body(const pbs::Positions& positions) const;
 
-    // The observed order is empty unless all four solutions finished.
+    // The observed order is empty unless the three coarser solutions finished. Where the finest one did not, the order is that of the other
+    // three (analysis::order_without_finest), and the reference is the quadratic solution on the character's own tets.
     const std::optional<analysis::NestedOrder>& order() const { return order_; }
     // Bounds the distance of the reference from the limit, outside the masked part. The bound is NaN where there is no order.
     analysis::ErrorNorms bound() const { return bound_; }
     // Richardson's extrapolation of the quadratic solutions. Their order is taken as one more than that of the linear ones; where they
-    // converge more slowly, the limit is farther away in the same direction. std::bad_optional_access where there is no order.
+    // converge more slowly, the limit is farther away in the same direction. std::bad_optional_access where a solution did not finish.
     pbs::Positions limit() const;
 
 private:
@@ -82,6 +83,7 @@ private:
     void solve(const DeformerSpec& spec, const pbs::Pose& pose, double time_step_s, const std::vector<Level>& levels);
     void add(const Deformer::FewerNodes& of, const Level& level);
     void observe_order(double formal_order);
+    void observe_order_without_finest(double formal_order);
 
     const pbs::Character& character_;
     std::string label_;

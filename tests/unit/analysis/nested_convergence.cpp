@@ -70,6 +70,17 @@ TEST(NestedConvergence, UsesNoHigherOrderThanTheFormalOne)
     EXPECT_TRUE(nested_order({8.0, 4.0, 0.3}, 1.0).reliable);
 }
 
+// By hand: the linear solutions are 8 and 4 from the quadratic one, which is order 1, and 5 from each other. The refined linear one is then
+// at most 3 * 5 from the limit.
+TEST(NestedConvergence, WithoutTheFinestSolutionIsNeverReliable)
+{
+    const auto found = analysis::order_without_finest(8.0, 4.0, 2.0);
+    EXPECT_DOUBLE_EQ(found.observed, 1.0);
+    EXPECT_FALSE(found.reliable);
+    EXPECT_DOUBLE_EQ(found.bound(5.0), 15.0);
+    EXPECT_EQ(analysis::order_without_finest(8.0, 1.0, 2.0).order, 2.0) << "not above the formal order";
+}
+
 // x_0 + e h^p on h = 1 and 2.
 TEST(NestedConvergence, ExtrapolatesToTheLimit)
 {

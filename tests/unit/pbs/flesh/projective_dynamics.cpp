@@ -1,6 +1,7 @@
 // Reference: the energy's own value (descent, gradient), and linear elasticity where strains are small.
 #include "pbs/flesh/projective_dynamics.hpp"
 
+#include "pbs/flesh/held_flesh.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/tet_volume.hpp"
 #include "tests/support/eps_sweep.hpp"
@@ -17,6 +18,7 @@ namespace {
 
 using pbs::Positions;
 using pbs::ProjectiveDynamics;
+using pbs::ProjectiveEnergy;
 using pbs::ProjectiveOptions;
 using pbs::ProjectiveSummary;
 using pbs::Vec3;
@@ -53,9 +55,24 @@ const HeldLimb& held()
     return limb;
 }
 
-ProjectiveDynamics solver_of(const ProjectiveOptions& options)
+struct Material {
+    double poisson = 0.45;
+    bool keeps_volume = true;
+};
+
+ProjectiveEnergy energy_of(const Material& material)
 {
-    return {held().limb.mesh, held().hold, options};
+    return {held().limb.mesh, pbs::projective_weights(material.poisson, material.keeps_volume), held().hold};
+}
+
+// In plain code.
+ProjectiveDynamics<double> solver_of(const Material& material, ProjectiveOptions options)
+{
+    options.arithmetic = pbs::Arithmetic::plain_f64;
+    const pbs::HeldFlesh flesh(
+        held().limb.mesh, springs_along_bones(), 2,
+        {.poisson = material.poisson, .volume_share = pbs::volume_share_of_projective(material.poisson, material.keeps_volume)});
+    return {held().limb.mesh, energy_of(material), flesh.factor(), options};
 }
 
 Positions mirrored(Positions positions)
@@ -71,7 +88,7 @@ TEST(ProjectiveDynamics, TheEnergyDecreasesInEachIteration)
     const double magnitude = held().hold.stiffness().sum() * 4.0;  // [m^3]: a_i |x_i - c_i|^2 of a body of 2 m
     for (const double poisson : {0.0, 0.3, 0.45})
         for (const Positions& start : {held().limb.lbs, held().limb.mesh.rest, mirrored(held().limb.lbs)}) {
-            ProjectiveDynamics solver = solver_of({.poisson = poisson, .iterations = 40});
+            ProjectiveDynamics<double> solver = solver_of({.poisson = poisson}, {.iterations = 40});
             Positions x = start;
             const ProjectiveSummary summary = solver.minimise(held().centres, x);
             ASSERT_EQ(summary.energies.size(), 40u);
@@ -84,12 +101,13 @@ TEST(ProjectiveDynamics, TheEnergyDecreasesInEachIteration)
 // The fixed point has no gradient. A step is H^-1 times the gradient, so that both vanish together; the error of a step falls linearly.
 TEST(ProjectiveDynamics, EndsAtAStationaryPointOfItsEnergy)
 {
-    ProjectiveDynamics solver = solver_of({.poisson = 0.3, .iterations = 3000, .stop_step = 1e-11});
+    const ProjectiveEnergy energy = energy_of({.poisson = 0.3});
+    ProjectiveDynamics<double> solver = solver_of({.poisson = 0.3}, {.iterations = 3000, .stop_step = 1e-11});
     Positions x = held().limb.lbs, first, last;
-    solver.value_and_gradient(x, held().centres, first);
+    energy.value_and_gradient(x, held().centres, first);
     const ProjectiveSummary summary = solver.minimise(held().centres, x);
     EXPECT_TRUE(summary.converged) << summary.steps.back() / summary.steps.front();
-    solver.value_and_gradient(x, held().centres, last);
+    energy.value_and_gradient(x, held().centres, last);
     EXPECT_LT(last.norm(), 1e-9 * first.norm());
 }
 
@@ -98,14 +116,15 @@ TEST(ProjectiveDynamics, ItsGradientIsThatOfItsEnergy)
 {
     test_support::RandomPoints random(71);
     for (const double poisson : {0.0, 0.45}) {
-        ProjectiveDynamics solver = solver_of({.poisson = poisson, .iterations = 30});
+        const ProjectiveEnergy energy = energy_of({.poisson = poisson});
+        ProjectiveDynamics<double> solver = solver_of({.poisson = poisson}, {.iterations = 30});
         Positions x = held().limb.lbs;
         for (int time = 0; time < 2; ++time) {
             Positions gradient, unused, direction(x.rows(), 3);
             for (auto row : direction.rowwise()) row = random.point(1.0).transpose();
-            solver.value_and_gradient(x, held().centres, gradient);
+            energy.value_and_gradient(x, held().centres, gradient);
             const auto value = [&](const Eigen::VectorXd& at) {
-                return solver.value_and_gradient(Eigen::Map<const Positions>(at.data(), x.rows(), 3), held().centres, unused);
+                return energy.value_and_gradient(Eigen::Map<const Positions>(at.data(), x.rows(), 3), held().centres, unused);
             };
             test_support::expect_slope_by_eps_sweep(value, Eigen::Map<const Eigen::VectorXd>(x.data(), x.size()),
                                                     Eigen::Map<const Eigen::VectorXd>(direction.data(), x.size()),
@@ -138,7 +157,7 @@ Positions linear_forces(const Positions& displacement, double poisson)
 
 // The share of the forces of linear elasticity by which those of a displacement eps u from rest differ. Springs do not count: they are
 // quadratic, and their centres are placed where they do not pull.
-double difference_to_linear(const ProjectiveOptions& options, double eps)
+double difference_to_linear(const Material& material, double eps)
 {
     const HeldLimb& limb = held();
     test_support::RandomPoints random(72);
@@ -152,10 +171,10 @@ double difference_to_linear(const ProjectiveOptions& options, double eps)
             return springs;
         }(),
         2);
-    const ProjectiveDynamics solver(limb.limb.mesh, none, options);
+    const ProjectiveEnergy energy(limb.limb.mesh, pbs::projective_weights(material.poisson, material.keeps_volume), none);
     const Positions moved = limb.limb.mesh.rest + eps * displacement;
-    solver.value_and_gradient(moved, moved, gradient);
-    const Positions linear = linear_forces(displacement, options.poisson);
+    energy.value_and_gradient(moved, moved, gradient);
+    const Positions linear = linear_forces(displacement, material.poisson);
     return (gradient / eps - linear).norm() / linear.norm();
 }
 
@@ -167,7 +186,7 @@ TEST(ProjectiveDynamics, IsLinearElasticityForSmallStrains)
         EXPECT_NEAR(std::log10(coarse / fine), 1.0, 0.1) << poisson;
         EXPECT_LT(fine, 1e-2);
     }
-    const ProjectiveOptions mutant{.poisson = 0.3, .keeps_volume = false};
+    const Material mutant{.poisson = 0.3, .keeps_volume = false};
     EXPECT_GT(difference_to_linear(mutant, 1e-4), 0.1);
     EXPECT_NEAR(difference_to_linear(mutant, 1e-3), difference_to_linear(mutant, 1e-4), 0.01);
 }
@@ -176,7 +195,7 @@ TEST(ProjectiveDynamics, RestsWhereItsBonesRest)
 {
     Positions centres, x = held().limb.mesh.rest;
     held().hold.centres(pbs::Pose(2, Eigen::Isometry3d::Identity()), centres);
-    ProjectiveDynamics solver = solver_of({.iterations = 5});
+    ProjectiveDynamics<double> solver = solver_of({}, {.iterations = 5});
     const ProjectiveSummary summary = solver.minimise(centres, x);
     EXPECT_LT((x - held().limb.mesh.rest).cwiseAbs().maxCoeff(), 1e-12);
     EXPECT_LT(summary.steps.front(), 1e-12);
@@ -190,7 +209,7 @@ TEST(ProjectiveDynamics, TurnsWithARigidMotionOfAllBones)
     for (Eigen::Isometry3d& bone : pose) bone = motion * bone;
     Positions centres, here = held().limb.lbs, there = test_support::transformed(here, motion);
     held().hold.centres(pose, centres);
-    ProjectiveDynamics solver = solver_of({.iterations = 20});
+    ProjectiveDynamics<double> solver = solver_of({}, {.iterations = 20});
     solver.minimise(held().centres, here);
     solver.minimise(centres, there);
     EXPECT_LT((there - test_support::transformed(here, motion)).rowwise().norm().maxCoeff(), 1e-10);
@@ -199,7 +218,7 @@ TEST(ProjectiveDynamics, TurnsWithARigidMotionOfAllBones)
 TEST(ProjectiveDynamics, VolumesAreCloserToRestWithTheirTerm)
 {
     const auto volume_change = [](bool keeps_volume) {
-        ProjectiveDynamics solver = solver_of({.poisson = 0.45, .iterations = 100, .keeps_volume = keeps_volume});
+        ProjectiveDynamics<double> solver = solver_of({.keeps_volume = keeps_volume}, {.iterations = 100});
         Positions x = held().limb.lbs;
         solver.minimise(held().centres, x);
         return (pbs::tet_volumes(x, held().limb.mesh.tets) - pbs::tet_volumes(held().limb.mesh.rest, held().limb.mesh.tets))
@@ -214,18 +233,18 @@ TEST(ProjectiveDynamics, NotFiniteIsAnOutcome)
     Positions centres = held().centres, x = held().limb.lbs;
     centres(0, 0) = std::nan("");
     x(3, 1) = std::nan("");
-    ProjectiveDynamics solver = solver_of({.iterations = 10});
+    ProjectiveDynamics<double> solver = solver_of({}, {.iterations = 10});
     EXPECT_EQ(solver.minimise(centres, x).iterations, 0);
     EXPECT_FALSE(x.allFinite());
 }
 
 TEST(ProjectiveDynamics, BadInputIsRefused)
 {
-    EXPECT_THROW(solver_of({.poisson = 0.5}), pbs::InputError);
-    EXPECT_THROW(solver_of({.poisson = -0.1}), pbs::InputError);
+    EXPECT_THROW(pbs::projective_weights(0.5, true), pbs::InputError);
+    EXPECT_THROW(pbs::projective_weights(-0.1, true), pbs::InputError);
     pbs::TetMesh inverted = held().limb.mesh;
     std::swap(inverted.tets(4, 0), inverted.tets(4, 1));
-    EXPECT_THROW(ProjectiveDynamics(inverted, held().hold, {}), pbs::InputError);
+    EXPECT_THROW(ProjectiveEnergy(inverted, pbs::projective_weights(0.3, true), held().hold), pbs::InputError);
 }
 
 }  // namespace

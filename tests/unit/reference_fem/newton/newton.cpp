@@ -232,6 +232,23 @@ TEST(Newton, LeavesASaddleAlongNegativeCurvature)
     for (int d = 0; d < space.dofs(); ++d) EXPECT_NEAR(u(d), 1.0, rounding_n) << d;
 }
 
+// At u_0 = 0 every Hessian of the saddle is indefinite.
+TEST(Newton, EndsAfterSoManyIndefiniteHessiansInARow)
+{
+    const SimplexSpace space(bar, 1);
+    const Saddle saddle;
+    const Eigen::VectorXd zero = Eigen::VectorXd::Zero(space.dofs());
+    const auto minimised = [&](int in_a_row) {
+        NewtonMinimiser newton(space, std::vector<bool>(space.dofs(), false), LinearSolver::cholmod);
+        Eigen::VectorXd u = zero;
+        return newton.minimise({&saddle}, zero, u, {.indefinite_in_a_row = in_a_row});
+    };
+    const NewtonSummary ended = minimised(3), allowed = minimised(15);
+    EXPECT_EQ(ended.outcome, NewtonOutcome::iterations_exhausted);
+    EXPECT_EQ(ended.steps(), 3);
+    EXPECT_TRUE(allowed.converged()) << "fewer than 15 steps lead to the saddle";
+}
+
 TEST(Newton, OutcomesOfFailure)
 {
     const SimplexSpace space(bar, 1);

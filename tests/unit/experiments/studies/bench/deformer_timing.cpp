@@ -70,6 +70,54 @@ TEST(DeformerSettings, WithoutKeysOfItsCodeThereIsOneWithItsDefaults)
     EXPECT_TRUE(settings[0].twice);
 }
 
+// The arithmetic is order and precision in one key: packed in both precisions, and plain in f64, the baseline of both.
+TEST(DeformerSettings, EveryArithmetic)
+{
+    for (const char* kind : {"quasi_newton", "vbd", "xpbd_neo_hookean", "projective_dynamics"}) {
+        const std::vector<DeformerSetting> settings = deformer_settings(*find_deformer_kind(kind));
+        ASSERT_EQ(settings.size(), 3u) << kind;
+        std::set<std::pair<std::string, std::string>> different;
+        for (const DeformerSetting& setting : settings) {
+            different.insert({setting.order, setting.precision});
+            EXPECT_EQ(setting.precision, traits_of(setting.spec).precision);
+            EXPECT_EQ(setting.order == "packed", traits_of(setting.spec).packed);
+            EXPECT_EQ(settings[setting.plain].order, "plain");
+            ASSERT_TRUE(setting.twice);
+            EXPECT_EQ(*traits_of(*setting.twice).iterations, 2 * *traits_of(setting.spec).iterations);
+        }
+        EXPECT_EQ(different, (std::set<std::pair<std::string, std::string>>{{"packed", "f32"}, {"packed", "f64"}, {"plain", "f64"}}));
+    }
+}
+
+// Every one of them that has loops over vertices or elements of its own; the tets of a bar determine its work, and what it keeps.
+TEST(DeformerSettings, TheWorkIsCounted)
+{
+    for (const char* kind : {"lbs", "dqs", "delta_mush", "direct_delta_mush", "pbs", "xpbd", "xpbd_small_steps", "quasi_newton", "vbd",
+                             "xpbd_neo_hookean", "projective_dynamics"}) {
+        const DeformerSpec spec = default_spec(kind);
+        const auto deformer = make_deformer(spec);
+        deformer->reset(bar().character);
+        ASSERT_NE(find_deformer_kind(kind)->work, nullptr) << kind;
+        const BodyCounts body{double(bar().mesh().rest.rows()), double(bar().edges), double(bar().mesh().tets.rows()), deformer->kept()};
+        const IterationWork work = find_deformer_kind(kind)->work(spec, body);
+        EXPECT_GT(work.flops, body.vertices) << kind;
+        EXPECT_GT(work.bytes, 0.0) << kind;
+        EXPECT_GT(work.working_set_bytes, 0.0) << kind;
+    }
+}
+
+// The factor has the entries of its matrix at least: an edge each, and the diagonal. Of weights that several vertices share none are kept.
+TEST(DeformerSettings, AFactorIsKept)
+{
+    const double least = double(bar().edges) + double(bar().mesh().rest.rows());
+    for (const char* kind : {"quasi_newton", "projective_dynamics"}) {
+        const auto deformer = make_deformer(default_spec(kind));
+        deformer->reset(bar().character);
+        EXPECT_GE(deformer->kept().entries, least) << kind;
+        EXPECT_EQ(deformer->kept().entries, deformer->record()["entries_of_factor"].get<double>());
+    }
+}
+
 struct GivenOptions {
     std::string precision = "f64";
 };

@@ -72,6 +72,28 @@ TEST(PosedReference, IsTheFinestOfFourSolutionsAndItsBoundCoversAFinerOne)
     RecordProperty("to_a_finer_one_pct", std::to_string(to_a_finer_one));
 }
 
+// With as many Newton steps as the quadratic elements on the bar's own tets need, those on the refined tets do not arrive. The reference of
+// the same pose with enough steps is the truth.
+TEST(PosedReference, HasABoundOfThreeSolutionsWhereTheFinestDoesNotArrive)
+{
+    const pbs::Character bar = test_support::bar_character({12, 2, 2});
+    const pbs::Pose pose = bent(bar, 100.0);
+    const PosedReference whole(bar, flesh(), pose, time_step_s);
+    ASSERT_TRUE(whole.solutions().front().finished);
+    DeformerSpec hurried = flesh();
+    options_of<FemOptions>(hurried).most_newton_steps = whole.solutions()[1].newton_steps;
+    ASSERT_GT(whole.solutions()[0].newton_steps, whole.solutions()[1].newton_steps);
+    const PosedReference reference(bar, hurried, pose, time_step_s);
+    ASSERT_FALSE(reference.solutions().front().finished);
+    ASSERT_TRUE(reference.is_reached());
+    EXPECT_EQ(&reference.reference(), &reference.solutions()[1]);
+    ASSERT_TRUE(reference.order());
+    EXPECT_FALSE(reference.order()->reliable);
+    EXPECT_GT(reference.bound().joint_pct, whole.distance(reference.reference().positions, whole.reference().positions).joint_pct);
+    EXPECT_GT(reference.bound().joint_pct, whole.bound().joint_pct);
+    EXPECT_THROW(reference.limit(), std::bad_optional_access);
+}
+
 // The ends of a bar that is bent this far lie inside each other.
 TEST(PosedReference, LeavesOutTheVerticesWhereTheBodyOverlapsItself)
 {

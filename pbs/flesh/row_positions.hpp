@@ -1,14 +1,13 @@
-// Positions as the rows of a solver: in its order of memory and relative to an origin, or as they are.
-//   load_rows(x, order.new_of_old, origin, rows);
-//   store_rows(rows, order.new_of_old, origin, x);
+// Positions of the mesh as rows of the kernels (rows.hpp), relative to an origin, and back. place: the row of each vertex, #V.
 #pragma once
 
 #include "pbs/flesh/rows.hpp"
 #include "pbs/geometry/types.hpp"
 
+#include <vector>
+
 namespace pbs {
 
-// place: the row of each vertex, #V. x [m], #V x 3. The fourth number of a row stays.
 template <typename Scalar>
 void load_rows(const Positions& x, const std::vector<int>& place, const Vec3& origin, Rows<Scalar>& rows)
 {
@@ -38,19 +37,21 @@ inline void store_rows(const Rows<double>& rows, Eigen::Index vertices, Position
         for (int axis = 0; axis < 3; ++axis) x(i, axis) = rows[static_cast<int>(i)][axis];
 }
 
-// The mean of the centres c_i, weighted by a_i, the fourth number of each row: an origin near the body. Zero where nothing holds it.
+// Loads the centres c_i of the hold, whose stiffness a_i is the fourth number of each row already, relative to their mean weighted by a_i.
+// Returns that mean [m]; zero where nothing is held.
 template <typename Scalar>
-Vec3 mean_centre(const Positions& centres, const std::vector<int>& place, const Rows<Scalar>& held)
+Vec3 load_held_centres(const Positions& centres, const std::vector<int>& place, Rows<Scalar>& rows)
 {
-    Vec3 mean = Vec3::Zero();
+    Vec3 origin = Vec3::Zero();
     double hold = 0.0;
     for (Eigen::Index i = 0; i < centres.rows(); ++i) {
-        const double a = double(held[place[i]][3]);
-        mean += a * centres.row(i).transpose();
+        const double a = double(rows[place[i]][3]);
+        origin += a * centres.row(i).transpose();
         hold += a;
     }
-    if (hold > 0.0) mean /= hold;
-    return mean;
+    if (hold > 0.0) origin /= hold;
+    load_rows(centres, place, origin, rows);
+    return origin;
 }
 
 }  // namespace pbs

@@ -1,0 +1,12 @@
+// The work of one iteration of XPBD, counted by hand from xpbd_solver.cpp by the rules of iteration_work.hpp, all in double. What the code
+// computes twice, once for the value and once for the gradient, counts once.
+#pragma once
+
+#include "pbs/geometry/iteration_work.hpp"
+
+namespace pbs {
+
+// has_volumes: false where Poisson's ratio is 1/4, which needs no volume constraints.
+IterationWork work_of_xpbd(const BodyCounts& body, bool has_volumes);
+
+}  // namespace pbs
