@@ -4,6 +4,7 @@
 #include "pbs/geometry/assimp_unit.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/rig/assimp_animations.hpp"
+#include "pbs/rig/collada_weights.hpp"
 #include "pbs/rig/skin_weights.hpp"
 
 #include <assimp/config.h>
@@ -110,9 +111,10 @@ RigMesh mesh_of(const aiMesh& source, int node, const Nodes& nodes, Rig& rig)
 
 }  // namespace
 
-Rig read_assimp_rig(const std::string& path)
+const aiScene& read_assimp_scene(Assimp::Importer& importer, const std::string& path)
 {
-    Assimp::Importer importer;
+    const std::string format = content_extension(path);
+    if (format == ".dae" || format == ".zae") check_collada_weights(path);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
     const OwnFolder& files = only_own_folder(importer, path);
@@ -120,19 +122,29 @@ Rig read_assimp_rig(const std::string& path)
     if (!scene) files.refuse_what_was_referred_to();
     if (importer.GetErrorString() == std::string("std::bad_alloc")) throw std::bad_alloc();  // which assimp catches
     if (!scene || !scene->mRootNode) throw InputError(path, 0, "", "", std::string("assimp: ") + importer.GetErrorString());
+    return *scene;
+}
 
+Rig rig_of_scene(const aiScene& scene, const std::string& path)
+{
     Rig rig;
     rig.file = path;
-    rig.unit_m = metres_per_unit(*scene);
+    rig.unit_m = metres_per_unit(scene);
     Nodes nodes;
-    add_node(*scene->mRootNode, -1, nodes, rig);
+    add_node(*scene.mRootNode, -1, nodes, rig);
     for (std::size_t n = 0; n < nodes.size(); ++n)
         for (unsigned m = 0; m < nodes[n]->mNumMeshes; ++m) {
-            RigMesh mesh = mesh_of(*scene->mMeshes[nodes[n]->mMeshes[m]], static_cast<int>(n), nodes, rig);
+            RigMesh mesh = mesh_of(*scene.mMeshes[nodes[n]->mMeshes[m]], static_cast<int>(n), nodes, rig);
             if (mesh.triangles.rows() > 0) rig.meshes.push_back(std::move(mesh));
         }
-    add_assimp_animations(*scene, rig);
+    add_assimp_animations(scene, rig);
     return rig;
+}
+
+Rig read_assimp_rig(const std::string& path)
+{
+    Assimp::Importer importer;
+    return rig_of_scene(read_assimp_scene(importer, path), path);
 }
 
 }  // namespace pbs
