@@ -80,6 +80,14 @@ TEST(MalformedCollada, WeightsThatAreNegativeOrNotNumbersAreRefused)
                            "controller skin, weight of point 3 = " + weight + ": expected a finite number of 0 or more");
 }
 
+// On these files assimp 5.2.5 reads beyond its memory, recurses without end, and calls abort(). Its own process contains that.
+TEST(FilesOnWhichAssimpBreaksDown, AreRefusedByName)
+{
+    expect_arm_refused(test_support::collada_arm(), "stride='3'", "stride='2147483647'", "a.dae", "");
+    expect_arm_refused(test_support::fbx_arm(), "C: \"OO\",4,3", "C: \"OO\",4,4\nC: \"OO\",4,3", "a.fbx", "");
+    expect_arm_refused(test_support::fbx_arm(), "a: 1,2,3", "a: 1,1003,3", "a.fbx", "");
+}
+
 TEST(MalformedFbx, IsRefusedByName)
 {
     const std::string arm = test_support::fbx_arm();
