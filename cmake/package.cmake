@@ -29,8 +29,8 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libpbs-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libeigen3-dev, libtbb-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS
-    "libvtk9-dev, libassimp-dev, libcgal-dev, libpugixml-dev, libtomlplusplus-dev, nlohmann-json3-dev, libgsl-dev, libfmt-dev, \
-libxxhash-dev, libdeal.ii-dev, libsuitesparse-dev, libopenmpi-dev, libtrilinos-ml-dev")
+    "libvtk9-dev, libassimp-dev, libminizip-dev, libcgal-dev, libpugixml-dev, libtomlplusplus-dev, nlohmann-json3-dev, libgsl-dev, \
+libfmt-dev, libxxhash-dev, libdeal.ii-dev, libsuitesparse-dev, libopenmpi-dev, libtrilinos-ml-dev")
 
 # cpack refuses kernels that are built for the instructions of one machine.
 set(CPACK_PBS_NATIVE ${PBS_NATIVE})

@@ -18,7 +18,8 @@ else()
 endif()
 if(NOT PBS_WITH_RIG_IMPORT)
     list(APPEND left_out pbs/character/skeleton_file pbs/character/bvh_header pbs/character/retarget_plan pbs/character/bodies_from_files
-        pbs/rig/assimp_rig pbs/rig/glb_writer pbs/rig/gltf_animations pbs/rig/gltf_meshes pbs/rig/gltf_numbers pbs/rig/gltf_rig
+        pbs/rig/assimp_rig pbs/rig/collada_weights pbs/rig/fbx_curves pbs/rig/glb_writer pbs/rig/gltf_animations pbs/rig/gltf_meshes
+        pbs/rig/gltf_numbers pbs/rig/gltf_rig
         pbs/rig/rig_bytes pbs/rig/rig_reader pbs/rig/skin_weights)
 endif()
 

@@ -7,9 +7,14 @@ endif()
 find_package(fmt REQUIRED)
 find_package(tomlplusplus REQUIRED)
 find_package(nlohmann_json REQUIRED)
+find_package(assimp REQUIRED)
+find_package(pugixml REQUIRED)
+find_package(ZLIB REQUIRED)
+find_package(VTK REQUIRED COMPONENTS CommonCore CommonDataModel CommonMisc IOLegacy IOXML)
 
 # fuzz_target(fuzz/NAME.cpp LIBRARY SOURCE...): a target and the sources that it tests. The replay links the library. libFuzzer's program
-# compiles the sources itself, so that all of them are instrumented, without those that use CGAL.
+# compiles the sources itself, so that all of them are instrumented, without those that use CGAL. Libraries from elsewhere, which are not
+# instrumented, are linked by fuzz_libraries(NAME LIBRARY...).
 function(fuzz_target target library)
     cmake_path(GET target STEM name)
     set(folders ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/corpus/${name})
@@ -28,6 +33,13 @@ function(fuzz_target target library)
         set_target_properties(fuzz_${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
         target_compile_options(fuzz_${name} PRIVATE -UPBS_WITH_CGAL -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=undefined)
         target_link_options(fuzz_${name} PRIVATE -fsanitize=fuzzer,address,undefined)
+    endif()
+endfunction()
+
+function(fuzz_libraries name)
+    target_link_libraries(replay_${name} PRIVATE ${ARGN})
+    if(PBS_WITH_FUZZ)
+        target_link_libraries(fuzz_${name} PRIVATE ${ARGN})
     endif()
 endfunction()
 
@@ -62,9 +74,25 @@ fuzz_target(fuzz/files.cpp pbs_character
     pbs/geometry/tobj_reader.cpp
     pbs/geometry/msh_reader.cpp pbs/geometry/mesh_io_files.cpp pbs/geometry/text_file.cpp pbs/geometry/nearest_name.cpp
     pbs/geometry/input_error.cpp)
+fuzz_target(fuzz/assimp.cpp pbs_rig
+    pbs/rig/assimp_animations.cpp pbs/rig/assimp_rig.cpp pbs/rig/bone_tails.cpp pbs/rig/collada_weights.cpp pbs/rig/fbx_curves.cpp
+    pbs/rig/rig_binding.cpp pbs/rig/rig_bytes.cpp pbs/rig/rig_motion.cpp pbs/rig/rig_pose.cpp pbs/rig/rigged_body.cpp
+    pbs/rig/skin_weights.cpp pbs/skinning/motion_sampling.cpp
+    pbs/skinning/skeleton.cpp pbs/geometry/content_format.cpp pbs/geometry/own_folder.cpp
+    pbs/geometry/text_file.cpp pbs/geometry/input_error.cpp)
+fuzz_libraries(assimp assimp::assimp pugixml::pugixml ${MINIZIP_LIBRARY} ZLIB::ZLIB)
+fuzz_target(fuzz/content.cpp pbs_mesh_io
+    pbs/geometry/content_format.cpp pbs/geometry/guarded_reading.cpp pbs/geometry/mesh_io.cpp pbs/geometry/mesh_io_checks.cpp
+    pbs/geometry/mesh_io_files.cpp pbs/geometry/mesh_remarks.cpp pbs/geometry/mesh_repair.cpp pbs/geometry/msh_reader.cpp
+    pbs/geometry/atomic_file.cpp pbs/geometry/msh_writer.cpp pbs/geometry/vtk_writer.cpp
+    pbs/geometry/named_link.cpp pbs/geometry/own_folder.cpp pbs/geometry/surface_assimp.cpp pbs/geometry/surface_checks.cpp
+    pbs/geometry/surface_reader.cpp pbs/geometry/tet_volume.cpp pbs/geometry/tetgen_reader.cpp pbs/geometry/text_file.cpp
+    pbs/geometry/tobj_reader.cpp pbs/geometry/topology.cpp pbs/geometry/vtk_messages.cpp pbs/geometry/vtk_reader.cpp
+    pbs/geometry/input_error.cpp)
+fuzz_libraries(content assimp::assimp ${VTK_LIBRARIES})
 if(PBS_WITH_FUZZ)
     set(settings PBS_SOURCE=${PROJECT_SOURCE_DIR} PBS_FUZZ_PROGRAMS=${CMAKE_BINARY_DIR}/tests PBS_FUZZ_FOLDER=${CMAKE_BINARY_DIR}/fuzz
         PYTHONPATH=${CMAKE_CURRENT_SOURCE_DIR}/support)
     add_test(NAME fuzz/targets COMMAND ${PBS_TEST_PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/targets.py)
-    set_tests_properties(fuzz/targets PROPERTIES LABELS fuzz TIMEOUT 460 ENVIRONMENT "${settings}")
+    set_tests_properties(fuzz/targets PROPERTIES LABELS fuzz TIMEOUT 600 ENVIRONMENT "${settings}")
 endif()

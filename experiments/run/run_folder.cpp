@@ -14,7 +14,6 @@
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/mesh_io.hpp"
 #include "pbs/geometry/quality.hpp"
-#include "pbs/rig/glb_writer.hpp"
 
 #include <fmt/format.h>
 
@@ -139,10 +138,8 @@ void RunFolder::write_frame(const DeformerSpec& spec, int frame, double time_s, 
         pbs::write_vtp((frames / frame_file(name + "_surface", frame, ".vtp")).string(), rendered, character.surface->triangles);
         distances_.add(frame, time_s, name, "rendered surface", rendered);
         if (scene_.output.glb) {
-            MovingSurface& moving = surfaces_[name];
-            moving.triangles = character.surface->triangles;
-            moving.times_s.push_back(time_s);
-            moving.frames.push_back(rendered);
+            surfaces_.try_emplace(name, (frames / (name + ".glb")).string(), name, character.surface->triangles);
+            surfaces_.at(name).add_frame(time_s, rendered);
         }
     } else {
         distances_.add(frame, time_s, name, "mesh", positions);
@@ -170,7 +167,7 @@ void RunFolder::add_state(const DeformerSpec& spec, const pbs::Positions& positi
     hashes_[spec.label].add(positions);
 }
 
-void RunFolder::write_tables() const
+void RunFolder::write_tables()
 {
     const fs::path folder(folder_);
     metrics_.write((folder / "metrics.csv").string());
@@ -181,8 +178,7 @@ void RunFolder::write_tables() const
     if (!bones_.empty()) table_of(posed_bone_columns, bones_).write((folder / "bones.csv").string());
     for (const auto& [name, frames] : collections_) pbs::write_pvd((folder / "frames" / (name + ".pvd")).string(), frames);
     if (!artist_frames_.empty()) pbs::write_pvd((folder / "skin" / "artist.pvd").string(), artist_frames_);
-    for (const auto& [name, moving] : surfaces_)
-        pbs::write_glb((folder / "frames" / (name + ".glb")).string(), name, moving.triangles, moving.times_s, moving.frames);
+    for (auto& [name, surface] : surfaces_) surface.write();
 }
 
 void RunFolder::write_what_frames_depend_on(const pbs::Character& character) const

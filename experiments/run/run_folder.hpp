@@ -13,6 +13,7 @@
 #include "experiments/run/frame_measurement.hpp"
 #include "experiments/run/region_record.hpp"
 #include "experiments/scene/scene.hpp"
+#include "pbs/rig/glb_writer.hpp"
 
 #include <map>
 #include <string>
@@ -34,7 +35,7 @@ public:
 
     void add_regions(const std::string& label, const pbs::Positions& positions) { regions_.add(label, positions); }
 
-    void write_tables() const;  // all CSV files of the frames so far, and the collections; of an interrupted run, these are all records
+    void write_tables();  // all CSV files of the frames so far, and the collections; of an interrupted run, these are all records
 
     // Writes the tables and, last, run.json with the cost. A method of the reference's error bar that is null is left out.
     void finish(const pbs::Character& character, const std::map<std::string, nlohmann::json>& deformer_records,
@@ -42,12 +43,6 @@ public:
 
 private:
     void write_what_frames_depend_on(const pbs::Character& character) const;
-
-    struct MovingSurface {
-        pbs::Triangles triangles;
-        std::vector<double> times_s;
-        std::vector<pbs::Positions> frames;
-    };
 
     const Scene& scene_;
     std::string folder_;
@@ -58,7 +53,7 @@ private:
     std::map<std::string, analysis::StateHash> hashes_;
     std::map<std::string, std::vector<std::pair<double, std::string>>> collections_;  // label -> time and file of each frame, for its .pvd
     std::vector<std::pair<double, std::string>> artist_frames_;
-    std::map<std::string, MovingSurface> surfaces_;  // by label, for output.glb
+    std::map<std::string, pbs::GlbWriter> surfaces_;  // by label, for output.glb
 };
 
 }  // namespace experiments

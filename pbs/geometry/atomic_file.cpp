@@ -11,6 +11,7 @@
 #include <random>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 namespace pbs {
 namespace {
@@ -45,17 +46,6 @@ int open_new(const std::string& beginning, std::string& name)
     return -1;
 }
 
-bool write_and_flush(int file, const std::string& bytes)
-{
-    for (std::size_t at = 0; at < bytes.size();) {
-        const ssize_t count = ::write(file, bytes.data() + at, bytes.size() - at);
-        if (count < 0 && errno == EINTR) continue;
-        if (count < 0) return false;
-        at += static_cast<std::size_t>(count);
-    }
-    return ::fsync(file) == 0;  // a full disk may say so no earlier
-}
-
 // The new name survives a loss of power, too. File systems that cannot flush a folder keep no such promise.
 void flush_folder_of(const std::string& path)
 {
@@ -64,11 +54,6 @@ void flush_folder_of(const std::string& path)
     if (folder < 0) return;
     ::fsync(folder);
     ::close(folder);
-}
-
-[[noreturn]] void refuse(const std::string& path, int reason)
-{
-    throw InputError(path, 0, "", "", "cannot be written: " + std::generic_category().message(reason));
 }
 
 }  // namespace
@@ -82,18 +67,47 @@ void require_no_device(const std::string& path)
         throw InputError(path, 0, "", "", "cannot be written: expected a file, or nothing there");
 }
 
-void write_atomically(const std::string& path, const std::string& bytes)
+AtomicFile::AtomicFile(const std::string& path) : path_(path)
 {
     require_no_device(path);
-    std::string temporary;
-    const int file = open_new(beginning_of_temporary(path), temporary);
-    if (file < 0) refuse(path, errno);
-    int reason = write_and_flush(file, bytes) ? 0 : errno;
-    if (::close(file) != 0 && reason == 0) reason = errno;
-    if (reason == 0 && std::rename(temporary.c_str(), path.c_str()) != 0) reason = errno;
-    if (reason == 0) return flush_folder_of(path);
-    ::unlink(temporary.c_str());
-    refuse(path, reason);
+    file_ = open_new(beginning_of_temporary(path), temporary_);
+    if (file_ < 0) refuse(errno);
+}
+
+AtomicFile::~AtomicFile()
+{
+    if (file_ >= 0) ::close(file_);
+    if (!temporary_.empty()) ::unlink(temporary_.c_str());
+}
+
+void AtomicFile::write(std::string_view bytes)
+{
+    while (!bytes.empty()) {
+        const ssize_t count = ::write(file_, bytes.data(), bytes.size());
+        if (count < 0 && errno == EINTR) continue;
+        if (count < 0) refuse(errno);
+        bytes.remove_prefix(static_cast<std::size_t>(count));
+    }
+}
+
+void AtomicFile::finish()
+{
+    if (::fsync(file_) != 0) refuse(errno);  // a full disk may say so no earlier
+    if (::close(std::exchange(file_, -1)) != 0 || std::rename(temporary_.c_str(), path_.c_str()) != 0) refuse(errno);
+    temporary_.clear();
+    flush_folder_of(path_);
+}
+
+void AtomicFile::refuse(int reason) const
+{
+    throw InputError(path_, 0, "", "", "cannot be written: " + std::generic_category().message(reason));
+}
+
+void write_atomically(const std::string& path, const std::string& bytes)
+{
+    AtomicFile file(path);
+    file.write(bytes);
+    file.finish();
 }
 
 }  // namespace pbs

@@ -3,7 +3,10 @@
 #include "pbs/geometry/assimp_files.hpp"
 #include "pbs/geometry/assimp_unit.hpp"
 #include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/text_file.hpp"
 #include "pbs/rig/assimp_animations.hpp"
+#include "pbs/rig/collada_weights.hpp"
+#include "pbs/rig/fbx_curves.hpp"
 #include "pbs/rig/skin_weights.hpp"
 
 #include <assimp/config.h>
@@ -108,11 +111,19 @@ RigMesh mesh_of(const aiMesh& source, int node, const Nodes& nodes, Rig& rig)
     return mesh;
 }
 
+void remark_on_curves(Rig& rig)
+{
+    if (rig.animations.empty() || content_extension(rig.file) != ".fbx") return;
+    const FbxCurves count = count_fbx_curves(read_text_file(rig.file, most_mesh_bytes));
+    if (count.not_linear > 0)
+        rig.remarks.push_back(std::to_string(count.not_linear) + " of the " + std::to_string(count.curves) +
+                              " curves of animations are constant or cubic between their keys; they are read as linear there");
+}
+
 }  // namespace
 
-Rig read_assimp_rig(const std::string& path)
+const aiScene& read_assimp_scene(Assimp::Importer& importer, const std::string& path)
 {
-    Assimp::Importer importer;
     importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
     const OwnFolder& files = only_own_folder(importer, path);
@@ -120,19 +131,32 @@ Rig read_assimp_rig(const std::string& path)
     if (!scene) files.refuse_what_was_referred_to();
     if (importer.GetErrorString() == std::string("std::bad_alloc")) throw std::bad_alloc();  // which assimp catches
     if (!scene || !scene->mRootNode) throw InputError(path, 0, "", "", std::string("assimp: ") + importer.GetErrorString());
+    return *scene;
+}
 
+Rig rig_of_scene(const aiScene& scene, const std::string& path)
+{
     Rig rig;
     rig.file = path;
-    rig.unit_m = metres_per_unit(*scene);
+    rig.unit_m = metres_per_unit(scene);
     Nodes nodes;
-    add_node(*scene->mRootNode, -1, nodes, rig);
+    add_node(*scene.mRootNode, -1, nodes, rig);
     for (std::size_t n = 0; n < nodes.size(); ++n)
         for (unsigned m = 0; m < nodes[n]->mNumMeshes; ++m) {
-            RigMesh mesh = mesh_of(*scene->mMeshes[nodes[n]->mMeshes[m]], static_cast<int>(n), nodes, rig);
+            RigMesh mesh = mesh_of(*scene.mMeshes[nodes[n]->mMeshes[m]], static_cast<int>(n), nodes, rig);
             if (mesh.triangles.rows() > 0) rig.meshes.push_back(std::move(mesh));
         }
-    add_assimp_animations(*scene, rig);
+    add_assimp_animations(scene, rig);
+    remark_on_curves(rig);
     return rig;
+}
+
+Rig read_assimp_rig(const std::string& path)
+{
+    const std::string format = content_extension(path);
+    if (format == ".dae" || format == ".zae") check_collada_weights(path);
+    Assimp::Importer importer;
+    return rig_of_scene(read_assimp_scene(importer, path), path);
 }
 
 }  // namespace pbs

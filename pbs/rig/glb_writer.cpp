@@ -1,17 +1,49 @@
 #include "pbs/rig/glb_writer.hpp"
 
-#include "pbs/geometry/atomic_file.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/rig/tiny_gltf.hpp"
 
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
 #include <cstdint>
-#include <cstring>
+#include <fstream>
 #include <sstream>
+#include <string_view>
 
 namespace pbs {
 namespace {
 
-// A glTF model whose numbers are all in one buffer.
+constexpr double most_glb_bytes = 4.2e9;  // its lengths have 32 bits; some room for the description
+constexpr std::uint32_t json_chunk = 0x4E4F534A, binary_chunk = 0x004E4942;
+constexpr std::size_t header_bytes = 12, chunk_header_bytes = 8, bytes_per_number = 4;
+
+template <typename Number>
+std::string_view bytes_of(const std::vector<Number>& numbers)
+{
+    return {reinterpret_cast<const char*>(numbers.data()), sizeof(Number) * numbers.size()};
+}
+
+std::string words(const std::vector<std::uint32_t>& numbers)
+{
+    return std::string(bytes_of(numbers));
+}
+
+// In frame f the weight of target f - 1 is one, and all others are zero.
+std::vector<float> weights_in(std::size_t frame, std::size_t frames)
+{
+    std::vector<float> weights(frames - 1, 0.0F);
+    if (frame > 0) weights[frame - 1] = 1.0F;
+    return weights;
+}
+
+std::vector<float> single(const std::vector<double>& numbers)
+{
+    return {numbers.begin(), numbers.end()};
+}
+
+// The description of a file whose numbers are all in one buffer, in the order in which they are added.
 class GlbModel {
 public:
     tinygltf::Model model;
@@ -20,47 +52,17 @@ public:
     {
         model.asset.version = "2.0";
         model.asset.generator = "pbskin";
-        model.buffers.emplace_back();
     }
 
-    // Points with their bounding box, which glTF requires of positions.
-    int add_points(const Positions& points)
-    {
-        const Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor> single = points.cast<float>();
-        const int accessor =
-            add(single.data(), sizeof(float) * static_cast<std::size_t>(single.size()), static_cast<std::size_t>(single.rows()),
-                TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3, TINYGLTF_TARGET_ARRAY_BUFFER);
-        for (int axis = 0; axis < 3; ++axis) {
-            model.accessors[accessor].minValues.push_back(static_cast<double>(single.col(axis).minCoeff()));
-            model.accessors[accessor].maxValues.push_back(static_cast<double>(single.col(axis).maxCoeff()));
-        }
-        return accessor;
-    }
-
-    int add_indices(const Triangles& triangles)
-    {
-        std::vector<std::uint32_t> indices(triangles.data(), triangles.data() + triangles.size());
-        return add(indices.data(), sizeof(std::uint32_t) * indices.size(), indices.size(), TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT,
-                   TINYGLTF_TYPE_SCALAR, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
-    }
-
-    int add_scalars(const std::vector<float>& scalars)
-    {
-        return add(scalars.data(), sizeof(float) * scalars.size(), scalars.size(), TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_SCALAR, 0);
-    }
-
-private:
     // All components have four bytes, so that every view begins at a multiple of four.
-    int add(const void* data, std::size_t bytes, std::size_t count, int component_type, int type, int target)
+    int add(std::size_t count, int component_type, int type, int target)
     {
-        auto& buffer = model.buffers.front().data;
         tinygltf::BufferView view;
         view.buffer = 0;
-        view.byteOffset = buffer.size();
-        view.byteLength = bytes;
+        view.byteOffset = bytes_;
+        view.byteLength = bytes_per_number * count * (type == TINYGLTF_TYPE_VEC3 ? 3 : 1);
         view.target = target;
-        buffer.resize(buffer.size() + bytes);
-        if (bytes > 0) std::memcpy(buffer.data() + view.byteOffset, data, bytes);
+        bytes_ += view.byteLength;
         model.bufferViews.push_back(view);
 
         tinygltf::Accessor accessor;
@@ -72,35 +74,35 @@ private:
         model.accessors.push_back(accessor);
         return static_cast<int>(model.accessors.size()) - 1;
     }
+
+    int add_scalars(std::size_t count) { return add(count, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_SCALAR, 0); }
+
+    std::size_t bytes() const { return bytes_; }  // of the buffer
+
+    // The description as JSON, padded with spaces to a multiple of four.
+    std::string text()
+    {
+        std::ostringstream stream;
+        tinygltf::TinyGLTF().WriteGltfSceneToStream(&model, stream, false, false);
+        nlohmann::json document = nlohmann::json::parse(stream.str());
+        document["buffers"] = {{{"byteLength", bytes_}}};
+        std::string text = document.dump();
+        text.resize((text.size() + 3) / 4 * 4, ' ');
+        return text;
+    }
+
+private:
+    std::size_t bytes_ = 0;
 };
 
-void add_mesh(const std::string& name, const Triangles& triangles, const std::vector<Positions>& frames, GlbModel& glb)
-{
-    tinygltf::Primitive primitive;
-    primitive.mode = TINYGLTF_MODE_TRIANGLES;
-    primitive.indices = glb.add_indices(triangles);
-    primitive.attributes["POSITION"] = glb.add_points(frames.front());
-    for (std::size_t f = 1; f < frames.size(); ++f) primitive.targets.push_back({{"POSITION", glb.add_points(frames[f] - frames.front())}});
-    tinygltf::Mesh mesh;
-    mesh.name = name;
-    mesh.primitives.push_back(primitive);
-    mesh.weights.assign(frames.size() - 1, 0.0);
-    glb.model.meshes.push_back(mesh);
-}
-
-// In frame f the weight of target f - 1 is one, and all others are zero.
 void add_animation(const std::vector<double>& times_s, GlbModel& glb)
 {
-    std::vector<float> times, weights;
-    for (std::size_t f = 0; f < times_s.size(); ++f) {
-        times.push_back(static_cast<float>(times_s[f]));
-        for (std::size_t target = 1; target < times_s.size(); ++target) weights.push_back(target == f ? 1.0F : 0.0F);
-    }
     tinygltf::AnimationSampler sampler;
-    sampler.input = glb.add_scalars(times);
+    sampler.input = glb.add_scalars(times_s.size());
+    const std::vector<float> times = single(times_s);
     glb.model.accessors[sampler.input].minValues = {static_cast<double>(times.front())};
     glb.model.accessors[sampler.input].maxValues = {static_cast<double>(times.back())};
-    sampler.output = glb.add_scalars(weights);
+    sampler.output = glb.add_scalars(times_s.size() * (times_s.size() - 1));
     sampler.interpolation = "LINEAR";
     tinygltf::AnimationChannel channel;
     channel.sampler = 0;
@@ -113,21 +115,8 @@ void add_animation(const std::vector<double>& times_s, GlbModel& glb)
     glb.model.animations.push_back(animation);
 }
 
-constexpr double most_glb_bytes = 4.2e9;  // its lengths have 32 bits; some room for the description
-
-}  // namespace
-
-void write_glb(const std::string& path, const std::string& name, const Triangles& triangles, const std::vector<double>& times_s,
-               const std::vector<Positions>& frames)
+void add_scene(const std::string& name, GlbModel& glb)
 {
-    const auto count = static_cast<double>(frames.size()), numbers = static_cast<double>(frames.front().size());
-    const double bytes_needed = 4.0 * count * (numbers + count);  // the points, and a weight per frame and target
-    if (bytes_needed > most_glb_bytes)
-        throw InputError(path, 0, "frames", std::to_string(frames.size()),
-                         "expected fewer: a .glb file is limited to 4 GiB (output.frames_every writes fewer frames)");
-    GlbModel glb;
-    add_mesh(name, triangles, frames, glb);
-    if (frames.size() > 1) add_animation(times_s, glb);
     tinygltf::Node node;
     node.name = name;
     node.mesh = 0;
@@ -136,11 +125,77 @@ void write_glb(const std::string& path, const std::string& name, const Triangles
     scene.nodes.push_back(0);
     glb.model.scenes.push_back(scene);
     glb.model.defaultScene = 0;
+}
 
-    std::ostringstream bytes;
-    tinygltf::TinyGLTF writer;
-    if (!writer.WriteGltfSceneToStream(&glb.model, bytes, false, true)) throw InputError(path, 0, "", "", "tinygltf cannot write it");
-    write_atomically(path, bytes.str());
+void copy(const std::string& from, AtomicFile& file)
+{
+    std::ifstream data(from, std::ios::binary);
+    std::vector<char> piece(1 << 20);
+    while (data.read(piece.data(), static_cast<std::streamsize>(piece.size())) || data.gcount() > 0)
+        file.write({piece.data(), static_cast<std::size_t>(data.gcount())});
+}
+
+}  // namespace
+
+GlbWriter::GlbWriter(std::string path, std::string name, const Triangles& triangles)
+    : path_(std::move(path)), name_(std::move(name)), data_(path_), corners_(static_cast<std::size_t>(triangles.size()))
+{
+    data_.write(bytes_of(std::vector<std::uint32_t>(triangles.data(), triangles.data() + triangles.size())));
+}
+
+void GlbWriter::add_frame(double time_s, const Positions& points)
+{
+    if (times_s_.empty()) first_frame_ = points;
+    const auto count = static_cast<double>(times_s_.size() + 1), numbers = static_cast<double>(points.size());
+    if (bytes_per_number * count * (numbers + count) > most_glb_bytes)  // the points, and a weight per frame and target
+        throw InputError(path_, 0, "frames", std::to_string(times_s_.size() + 1),
+                         "expected fewer: a .glb file is limited to 4 GiB (output.frames_every writes fewer frames)");
+    const Positions stored = times_s_.empty() ? points : Positions(points - first_frame_);
+    const Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor> single = stored.cast<float>();
+    data_.write({reinterpret_cast<const char*>(single.data()), sizeof(float) * static_cast<std::size_t>(single.size())});
+    Extent extent;
+    for (int axis = 0; axis < 3; ++axis) {
+        extent.smallest.push_back(static_cast<double>(single.col(axis).minCoeff()));
+        extent.largest.push_back(static_cast<double>(single.col(axis).maxCoeff()));
+    }
+    extents_.push_back(extent);
+    times_s_.push_back(time_s);
+}
+
+void GlbWriter::write()
+{
+    GlbModel glb;
+    tinygltf::Primitive primitive;
+    primitive.mode = TINYGLTF_MODE_TRIANGLES;
+    primitive.indices = glb.add(corners_, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, TINYGLTF_TYPE_SCALAR, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
+    for (std::size_t f = 0; f < times_s_.size(); ++f) {
+        const int accessor = glb.add(static_cast<std::size_t>(first_frame_.rows()), TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3,
+                                     TINYGLTF_TARGET_ARRAY_BUFFER);
+        glb.model.accessors[accessor].minValues = extents_[f].smallest;
+        glb.model.accessors[accessor].maxValues = extents_[f].largest;
+        if (f == 0)
+            primitive.attributes["POSITION"] = accessor;
+        else
+            primitive.targets.push_back({{"POSITION", accessor}});
+    }
+    tinygltf::Mesh mesh;
+    mesh.name = name_;
+    mesh.primitives.push_back(primitive);
+    mesh.weights.assign(times_s_.size() - 1, 0.0);
+    glb.model.meshes.push_back(mesh);
+    if (times_s_.size() > 1) add_animation(times_s_, glb);
+    add_scene(name_, glb);
+
+    const std::string text = glb.text();
+    const auto json_bytes = static_cast<std::uint32_t>(text.size()), data_bytes = static_cast<std::uint32_t>(glb.bytes());
+    const auto all_bytes = static_cast<std::uint32_t>(header_bytes + 2 * chunk_header_bytes) + json_bytes + data_bytes;
+    AtomicFile file(path_);
+    file.write("glTF" + words({2, all_bytes, json_bytes, json_chunk}) + text + words({data_bytes, binary_chunk}));
+    copy(data_.temporary(), file);
+    if (times_s_.size() > 1) file.write(bytes_of(single(times_s_)));
+    if (times_s_.size() > 1)
+        for (std::size_t f = 0; f < times_s_.size(); ++f) file.write(bytes_of(weights_in(f, times_s_.size())));
+    file.finish();
 }
 
 }  // namespace pbs

@@ -19,9 +19,17 @@ Rig read_rig(const std::string& path)
     throw InputError(path, 0, "", "", "rigs are left out of this build (PBS_WITH_RIG_IMPORT is off)");
 }
 
-void write_glb(const std::string& path, const std::string&, const Triangles&, const std::vector<double>&, const std::vector<Positions>&)
+GlbWriter::GlbWriter(std::string path, std::string name, const Triangles&) : path_(std::move(path)), name_(std::move(name)), data_(path_)
 {
-    throw InputError(path, 0, "", "", "glTF is left out of this build (PBS_WITH_RIG_IMPORT is off)");
+    throw InputError(path_, 0, "", "", "glTF is left out of this build (PBS_WITH_RIG_IMPORT is off)");
+}
+
+void GlbWriter::add_frame(double, const Positions&)
+{
+}
+
+void GlbWriter::write()
+{
 }
 
 }  // namespace pbs

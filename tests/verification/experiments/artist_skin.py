@@ -1,6 +1,6 @@
 """The artist's surface of a rigged model in every frame. Reference: the file format's own skinning formula, computed from the bytes of the
 file by skin_formula.py and fbx_formula.py. The tolerance of 1e-6 of the model's size covers the single precision in which the files store
-their numbers."""
+their numbers. Between the keys of an FBX file assimp turns the joints in another way than the format does, which slerp_bound bounds."""
 import glob
 import os
 import unittest
@@ -36,6 +36,7 @@ metrics = []
 FRAMES = 5
 INSTALLED = "/usr/share/assimp/models"
 SIMPLE_SKIN, FBX_SKIN = f"{INSTALLED}/glTF2/simple_skin/simple_skin.gltf", f"{INSTALLED}/FBX/animation_with_skeleton.fbx"
+FBX_THREE_ANGLES = f"{INSTALLED}/FBX/huesitos.fbx"
 HUMAN, CLIP = f"{INSTALLED}/Collada/human.zae", f"{INSTALLED}/BVH/01_01.bvh"
 
 
@@ -76,7 +77,12 @@ class SkinTest(program.ProgramTest):
         artist = self.artist(frame)
         self.assertEqual(artist.shape, expected.shape)
         self.assertLess(abs(artist - expected).max(), 1e-6 * size, f"frame {frame}")
+        self.check_carried(frame, expected)
+
+    def check_carried(self, frame, expected):
+        """The surface carried by the tets of lbs stays within 3 % of the size."""
         carried = points_of(self.path("run", "frames", f"lbs_surface_{frame:06}.vtp"))
+        size = numpy.linalg.norm(numpy.ptp(expected, axis=0))
         self.assertLess(numpy.linalg.norm(carried - expected, axis=1).max(), 0.03 * size, f"frame {frame}")
 
 
@@ -84,18 +90,46 @@ class ArtistSkin(SkinTest):
     def test_the_second_animation(self):
         self.compare(rig_files.write("two_animations", self.path("two.glb")), "Twist")
 
+    def compare_fbx(self, file, rate_hz, frames, between_keys):
+        """The artist's surface in so many frames; the number of frames whose difference is above single precision. between_keys: whether a
+        frame may differ by what assimp's interpolation between the keys differs from the format's."""
+        model = fbx_formula.Model(file)
+        begin, _ = model.span_s()
+        self.run_scene(file, model.animation(None)["name"], rate_hz)
+        formula = [model.metres_per_unit * model.points(None, begin + frame / rate_hz) for frame in range(frames)]
+        size = numpy.linalg.norm(numpy.ptp(formula[0], axis=0))
+        taken = nearest(formula[0], self.artist(0))
+        self.assertEqual(len(set(taken)), len(formula[0]))
+        above = 0
+        for frame, points in enumerate(formula):
+            difference = numpy.linalg.norm(self.artist(frame) - points[taken], axis=1).max()
+            bound = model.metres_per_unit * model.slerp_bound(begin + frame / rate_hz) if between_keys else 0.0
+            self.assertLess(difference, 1e-6 * size + bound, f"frame {frame}")
+            above += difference > 1e-6 * size
+        return above
+
     @unittest.skipUnless(os.path.exists(FBX_SKIN), "assimp-testmodels is not installed")
     def test_fbx(self):
         model = fbx_formula.Model(FBX_SKIN)
         begin, end = model.span_s()
         rate_hz = (FRAMES - 1) / (end - begin)  # each frame is a key of the file
-        self.run_scene(FBX_SKIN, model.animation(None)["name"], rate_hz)
-        formula = [model.metres_per_unit * model.points(None, begin + frame / rate_hz) for frame in range(FRAMES)]
-        size = numpy.linalg.norm(numpy.ptp(formula[0], axis=0))
-        taken = nearest(formula[0], self.artist(0))
-        self.assertEqual(len(set(taken)), len(formula[0]))
-        for frame, points in enumerate(formula):
-            self.check_frame(frame, points[taken], size)
+        self.compare_fbx(FBX_SKIN, rate_hz, FRAMES, False)
+        for frame in range(FRAMES):
+            self.check_carried(frame, self.artist(frame))
+
+    @unittest.skipUnless(os.path.exists(FBX_SKIN), "assimp-testmodels is not installed")
+    def test_fbx_between_keys_where_one_angle_moves(self):
+        self.assertEqual(self.compare_fbx(FBX_SKIN, 48.0, 41, False), 0)  # keys at every second frame, 24 per second
+
+    @unittest.skipUnless(os.path.exists(FBX_THREE_ANGLES), "assimp-testmodels is not installed")
+    def test_fbx_at_keys_where_three_angles_move(self):
+        self.compare_fbx(FBX_THREE_ANGLES, 25.0, 40, False)
+
+    @unittest.skipUnless(os.path.exists(FBX_THREE_ANGLES), "assimp-testmodels is not installed")
+    def test_fbx_between_keys_where_three_angles_move(self):
+        above = self.compare_fbx(FBX_THREE_ANGLES, 50.0, 79, True)  # keys at every second frame
+        self.assertGreater(above, 0)  # the bound is needed
+        self.assertLessEqual(above, 39)  # not at the keys
 
     @unittest.skipUnless(os.path.exists(SIMPLE_SKIN), "assimp-testmodels is not installed")
     def test_simple_skin(self):

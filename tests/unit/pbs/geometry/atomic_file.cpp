@@ -37,6 +37,32 @@ TEST(WriteAtomically, WritesAndReplaces)
     EXPECT_EQ(files_in(folder.path()), 1);
 }
 
+TEST(AtomicFile, IsThereOnceItIsFinished)
+{
+    const ScratchFolder folder;
+    const std::string path = folder / "hero.glb";
+    {
+        pbs::AtomicFile file(path);
+        file.write("begin");
+        file.write("");
+        file.write(", end");
+        EXPECT_FALSE(fs::exists(path));
+        EXPECT_EQ(read_text_file(file.temporary()), "begin, end");
+        file.finish();
+        EXPECT_EQ(read_text_file(path), "begin, end");
+    }
+    EXPECT_EQ(files_in(folder.path()), 1);
+}
+
+TEST(AtomicFile, ThatIsNotFinishedLeavesNothing)
+{
+    const ScratchFolder folder;
+    write_atomically(folder / "hero.glb", "old");
+    pbs::AtomicFile(folder / "hero.glb").write("new");
+    EXPECT_EQ(read_text_file(folder / "hero.glb"), "old");
+    EXPECT_EQ(files_in(folder.path()), 1);
+}
+
 TEST(WriteAtomically, GivesTheUsualPermissions)
 {
     const ScratchFolder folder;

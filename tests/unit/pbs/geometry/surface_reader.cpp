@@ -198,6 +198,19 @@ TEST(Surface, OneBelowANanometreIsRefused)
     EXPECT_NE(words.find("extent = 1.73205e-12: expected at least 1e-9 m"), std::string::npos) << words;
 }
 
+TEST(Surface, TrianglesThatAreAllPointsOrLinesAreRefused)
+{
+    const ScratchFolder folder;
+    const std::string path = folder.file("a.obj", "v 0 0 0\nv 1 0 0\nv 1 0 0\nf 1 2 3\nf 1 1 1\n");
+    try {
+        pbs::read_surface(path);
+        FAIL() << "was read";
+    } catch (const pbs::InputError& error) {
+        EXPECT_NE(std::string(error.what()).find("triangles = 2: expected one whose three corners differ"), std::string::npos)
+            << error.what();
+    }
+}
+
 TEST(Surface, PointsAndLinesAloneAreRefused)
 {
     const ScratchFolder folder;

@@ -95,6 +95,19 @@ TEST(AssimpRig, AnAnimationReplacesTheMatrixOfItsNode)
     EXPECT_TRUE(rig.nodes[std::size_t(node_named(rig, "root"))].rest.matrix);
 }
 
+TEST(AssimpRig, CurvesOfFbxThatAreNotLinearAreARemark)
+{
+    const auto remarks_with = [](const std::string& flags) {
+        std::string text = test_support::fbx_arm();
+        text.insert(text.find("KeyTime:"), "KeyAttrFlags: *1 {\na: " + flags + "\n}\n");
+        return rig_in("arm.fbx", text).remarks;
+    };
+    EXPECT_TRUE(remarks_with("24836").empty());
+    for (const char* flags : {"2", "264"})
+        EXPECT_EQ(remarks_with(flags), std::vector<std::string>{"1 of the 1 curves of animations are constant or cubic between their keys; "
+                                                                "they are read as linear there"});
+}
+
 TEST(AssimpRig, OfABinaryFbxHasBonesWithWeights)
 {
     const std::string path = "/usr/share/assimp/models/FBX/animation_with_skeleton.fbx";

@@ -3,6 +3,7 @@
 
 #include "pbs/geometry/text_file.hpp"
 #include "pbs/rig/gltf_rig.hpp"
+#include "pbs/rig/tiny_gltf.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/unit/pbs/character/expect_input_error.hpp"
 
@@ -10,8 +11,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
+#include <sstream>
 
 namespace {
 
@@ -43,11 +47,18 @@ struct WrittenGlb {
     }
 };
 
+std::string file_of(const std::string& path, const std::vector<double>& times_s, const std::vector<Positions>& frames)
+{
+    GlbWriter writer(path, "hero", one_triangle);
+    for (std::size_t f = 0; f < frames.size(); ++f) writer.add_frame(times_s[f], frames[f]);
+    writer.write();
+    return read_text_file(path);
+}
+
 WrittenGlb written_glb(const std::vector<double>& times_s, const std::vector<Positions>& frames)
 {
     const test_support::ScratchFolder folder;
-    write_glb(folder / "a.glb", "hero", one_triangle, times_s, frames);
-    const std::string file = read_text_file(folder / "a.glb");
+    const std::string file = file_of(folder / "a.glb", times_s, frames);
     EXPECT_EQ(file.substr(0, 4), "glTF");
     EXPECT_EQ(number_in<std::uint32_t>(file, 4), 2u);
     EXPECT_EQ(number_in<std::uint32_t>(file, 8), file.size());
@@ -88,15 +99,53 @@ TEST(GlbWriter, EveryOtherFrameIsAMorphTargetWithWeightOneAtItsTime)
 TEST(GlbWriter, ItsMeshIsReadAgain)
 {
     const test_support::ScratchFolder folder;
-    write_glb(folder / "a.glb", "hero", one_triangle, {0.0}, {first_frame});
+    file_of(folder / "a.glb", {0.0}, {first_frame});
     const Rig rig = read_gltf_rig(folder / "a.glb");
     EXPECT_EQ(rig.meshes.at(0).points, first_frame);
     EXPECT_EQ(rig.meshes.at(0).triangles, one_triangle);
 }
 
+// Reference: tinygltf's own writer, which holds the whole buffer in memory, of the model that tinygltf reads.
+TEST(GlbWriter, ItsBytesAreThoseOfTinygltf)
+{
+    for (const std::size_t count : {1, 2, 5}) {
+        const test_support::ScratchFolder folder;
+        std::vector<double> times_s;
+        std::vector<Positions> frames;
+        for (std::size_t f = 0; f < count; ++f) {
+            times_s.push_back(0.1 * double(f));
+            frames.push_back(first_frame.array() * std::cos(double(f)) + double(f) / 3.0);
+        }
+        const std::string file = file_of(folder / "a.glb", times_s, frames);
+        tinygltf::Model model;
+        std::string error, warning;
+        ASSERT_TRUE(tinygltf::TinyGLTF().LoadBinaryFromFile(&model, &error, &warning, folder / "a.glb")) << error;
+        EXPECT_EQ(warning, "");
+        std::ostringstream again;
+        ASSERT_TRUE(tinygltf::TinyGLTF().WriteGltfSceneToStream(&model, again, false, true));
+        EXPECT_EQ(file, again.str()) << count << " frames";
+    }
+}
+
+TEST(GlbWriter, WritesTheFramesSoFarAndLeavesNoOtherFile)
+{
+    const test_support::ScratchFolder folder;
+    {
+        GlbWriter writer(folder / "a.glb", "hero", one_triangle);
+        writer.add_frame(0.0, first_frame);
+        writer.write();
+        const std::string one = read_text_file(folder / "a.glb");
+        EXPECT_EQ(one, file_of(folder / "b.glb", {0.0}, {first_frame}));
+        writer.add_frame(0.5, first_frame.array() + 1.0);
+        writer.write();
+        EXPECT_EQ(read_text_file(folder / "a.glb"), file_of(folder / "b.glb", {0.0, 0.5}, {first_frame, first_frame.array() + 1.0}));
+    }
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), std::filesystem::directory_iterator()), 2);
+}
+
 TEST(GlbWriter, AFolderThatDoesNotExistIsRefusedByName)
 {
-    expect_input_error([] { write_glb("/no/such/folder/a.glb", "hero", one_triangle, {0.0}, {first_frame}); }, "/no/such/folder/a.glb", "");
+    expect_input_error([] { GlbWriter("/no/such/folder/a.glb", "hero", one_triangle); }, "/no/such/folder/a.glb", "");
 }
 
 }  // namespace

@@ -1,0 +1,41 @@
+// Any bytes as FBX or COLLADA. assimp reads them in a child process, whose answer is a whole rig or none. The result is a rig whose
+// skeleton, surface and poses are finite and whose weights sum to one, or an InputError. A breakdown of assimp itself is counted, since the
+// child contains it for users too; one of the project's conversion is a finding.
+#include "pbs/geometry/content_format.hpp"
+#include "pbs/rig/assimp_rig.hpp"
+#include "pbs/rig/collada_weights.hpp"
+#include "pbs/rig/rig_bytes.hpp"
+#include "tests/fuzz/library_child.hpp"
+#include "tests/fuzz/sound_rig.hpp"
+#include "tests/fuzz/token_mutator.hpp"
+#include "tests/support/scratch_folder.hpp"
+
+#include <assimp/Importer.hpp>
+
+extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t most, unsigned seed)
+{
+    return fuzz::mutated_tokens(data, size, most, seed, 0);
+}
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
+{
+    static const test_support::ScratchFolder folder;
+    const std::string path = folder.file("fuzz.bin", std::string(reinterpret_cast<const char*>(data), size));
+    const std::string extension = pbs::content_extension(path);
+    if (extension != ".fbx" && extension != ".dae" && extension != ".zae") return 0;
+    try {
+        if (extension != ".fbx") pbs::check_collada_weights(path);
+        const fuzz::LibraryChild child([&](fuzz::LibraryChild::Parent& parent) {
+            Assimp::Importer importer;
+            const aiScene& scene = pbs::read_assimp_scene(importer, path);
+            parent.library_is_done();
+            return pbs::packed(pbs::rig_of_scene(scene, path));
+        });
+        if (child.broke_down_after_library()) std::abort();
+        if (child.broke_down_in_library()) fuzz::keep_breakdown(data, size);
+        if (!child.is_whole()) return 0;
+        fuzz::expect_sound(pbs::unpacked_rig(child.bytes(), path));
+    } catch (const pbs::InputError&) {
+    }
+    return 0;
+}

@@ -1,0 +1,98 @@
+// Any bytes as a surface or a tet mesh, whose reader is chosen by the content: the first byte chooses the name, the second one what is
+// asked for. The format does not depend on the name, and the result is a surface or a mesh with valid indices, or an InputError. assimp and
+// VTK read in a child process. A breakdown of theirs is counted, since the child contains it for users too. Gmsh is left out, and CGAL in
+// libFuzzer's program.
+#include "pbs/geometry/content_format.hpp"
+#include "pbs/geometry/isolated_reader.hpp"
+#include "pbs/geometry/mesh_remarks.hpp"
+#include "pbs/geometry/module.hpp"
+#include "pbs/geometry/tet_volume.hpp"
+#include "tests/fuzz/library_child.hpp"
+#include "tests/fuzz/token_mutator.hpp"
+#include "tests/support/scratch_folder.hpp"
+
+#include <array>
+#include <filesystem>
+
+namespace pbs {
+
+const Module& load_module(const std::string& name)
+{
+    throw InputError(name, 0, "", "", "left out");
+}
+
+void* Module::address(const char*) const
+{
+    return nullptr;
+}
+
+// With limits that suit a fuzzer.
+std::string read_isolated(const std::string& path, const std::function<std::string(const std::string&)>& read)
+{
+    const fuzz::LibraryChild child([&](fuzz::LibraryChild::Parent& parent) {
+        const std::string bytes = read(path);
+        parent.library_is_done();
+        return bytes;
+    });
+    if (!child.is_whole()) throw InputError(path, 0, "", "", "refused in the child process");
+    return child.bytes();
+}
+
+}  // namespace pbs
+
+namespace {
+
+constexpr std::array<const char*, 12> names = {"a",     "a.obj", "a.ply", "a.gltf", "a.glb",  "a.dae",
+                                               "a.fbx", "a.vtu", "a.vtk", "a.msh",  "a.tobj", "a.node"};
+
+void expect(bool sound)
+{
+    if (!sound) std::abort();
+}
+
+void expect_format_of_content(const std::string& path, const std::string& other_name)
+{
+    const std::string content = pbs::content_extension(path);
+    expect(pbs::content_extension(other_name) == content);
+    expect(pbs::format_extension(path) == (content.empty() ? pbs::lower_extension(path) : content));
+    expect(pbs::lower_extension(pbs::path_by_content(path)) == pbs::format_extension(path));
+}
+
+void try_surface(const std::string& path)
+{
+    std::vector<std::string> remarks;
+    const pbs::SurfaceMesh surface = pbs::read_surface(path, remarks);
+    expect(surface.points.allFinite() && surface.triangles.rows() > 0);
+    expect(surface.triangles.minCoeff() >= 0 && surface.triangles.maxCoeff() < surface.points.rows());
+}
+
+void try_tets(const std::string& path)
+{
+    const pbs::MeshReading reading = pbs::read_tet_mesh(path);
+    expect(reading.mesh.rest.allFinite() && reading.mesh.tets.minCoeff() >= 0);
+    expect(reading.mesh.tets.maxCoeff() < reading.mesh.rest.rows());
+    expect(pbs::tet_volumes(reading.mesh.rest, reading.mesh.tets).minCoeff() > 0.0);
+    pbs::remarks_on(path, reading);
+}
+
+}  // namespace
+
+extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t most, unsigned seed)
+{
+    return fuzz::mutated_tokens(data, size, most, seed, 2);
+}
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
+{
+    static const test_support::ScratchFolder folder;
+    if (size < 2) return 0;
+    const std::string path = folder / names[data[0] % names.size()], other = folder / "b.other";
+    folder.file(std::filesystem::path(path).filename(), std::string(reinterpret_cast<const char*>(data) + 2, size - 2));
+    std::filesystem::copy_file(path, other, std::filesystem::copy_options::overwrite_existing);
+    expect_format_of_content(path, other);
+    try {
+        data[1] == 't' ? try_tets(path) : try_surface(path);
+    } catch (const pbs::InputError&) {
+    }
+    return 0;
+}
