@@ -11,7 +11,7 @@ namespace {
 
 using namespace experiments;
 
-const pbs::Character& bar()
+const pbs::Character& projected_bar()
 {
     static const pbs::Character character = test_support::bar_character({8, 2, 2});
     return character;
@@ -21,9 +21,9 @@ pbs::StepSummary advanced(std::vector<std::string> lines, pbs::Positions& positi
 {
     lines.insert(lines.end(), {"deformers.use=[\"projective_dynamics\"]", "reference.name=\"\""});
     const auto deformer = make_deformer(spec_of(read_scene("limb_bend", lines), "projective_dynamics"));
-    deformer->reset(bar());
+    deformer->reset(projected_bar());
     const pbs::StepSummary summary =
-        deformer->advance(pbs::joint_sweep(bar().skeleton, 1, pbs::Vec3::UnitZ(), 40.0, 2, 0.01).steps.back(), 0.01);
+        deformer->advance(pbs::joint_sweep(projected_bar().skeleton, 1, pbs::Vec3::UnitZ(), 40.0, 2, 0.01).steps.back(), 0.01);
     positions = deformer->positions();
     return summary;
 }
@@ -34,7 +34,7 @@ TEST(ProjectiveDynamicsDeformer, CountsItsIterations)
     const pbs::StepSummary step = advanced({"projective_dynamics.iterations=3"}, positions);
     EXPECT_EQ(step.work,
               (pbs::WorkCounters{
-                  .gradients = 3, .vertex_visits = bar().mesh.rest.rows(), .tet_visits = 3 * bar().mesh.tets.rows(), .linear_solves = 3}));
+                  .gradients = 3, .vertex_visits = projected_bar().mesh.rest.rows(), .tet_visits = 3 * projected_bar().mesh.tets.rows(), .linear_solves = 3}));
 }
 
 // An iteration rounds positions to 2^-24 of a body of 2 m, and the next ones damp what it adds.

@@ -60,7 +60,7 @@ TEST(ContentFormat, IsThatOfTheFirstBytesWhateverTheName)
 TEST(ContentFormat, OfOtherContentIsThatOfTheName)
 {
     const ScratchFolder folder;
-    for (const std::string& text : {"", "ISO-10303-21;", "solid rock\n", "plywood\n", "SCOFFS\n", "v\n", "# only a comment\n"}) {
+    for (const char* text : {"", "ISO-10303-21;", "solid rock\n", "plywood\n", "SCOFFS\n", "v\n", "# only a comment\n"}) {
         const std::string path = folder.file("A.STL", text);
         EXPECT_EQ(pbs::content_extension(path), "") << text;
         EXPECT_EQ(pbs::format_extension(path), ".stl") << text;
