@@ -12,7 +12,7 @@ namespace experiments {
 namespace {
 
 constexpr double largest_turn_deg = 45.0;     // of a bone in one solve
-constexpr int most_indefinite_in_a_row = 25;  // where Newton's steps are limited
+constexpr int most_indefinite_in_a_row = 40;  // where Newton's steps are limited
 constexpr double far_turn_deg = 15.0;         // beyond it the solution with fewer nodes is a better initial guess than the last pose's
 
 reference_fem::NewtonOptions newton_options(const FemOptions& options)

@@ -19,8 +19,8 @@
 namespace experiments {
 namespace {
 
-// About 15 s and 5 GB each on tets cut into eight; a fold without contact may take any number. Measured on the human's crouch with
-// Poisson's ratio 0.49: 57 steps, of which at most 15 in a row have an indefinite Hessian.
+// About 15 s and 5 GB each on tets cut into eight; a fold without contact may take any number. Measured: 57 on the human's crouch with
+// Poisson's ratio 0.49, and 30 in a row with an indefinite Hessian on the human standing with stiffer springs.
 constexpr int most_newton_steps = 80;
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
