@@ -18,7 +18,7 @@ namespace pbs {
 
 struct ProjectiveOptions {
     int iterations = 30;     // at most
-    double stop_step = 0.0;  // stop where the norm of a step is below this share of the first one; 0: never
+    double stop_step = 0.0;  // stop where the norm of a step is below this share of the first one, or rounding; 0: never
     Arithmetic arithmetic = Arithmetic::packed_f32;
     int threads = 1;
 };
@@ -40,6 +40,8 @@ public:
     std::size_t bytes_an_iteration() const { return system_->bytes(); }
 
 private:
+    double largest_step(double first) const;
+
     ProjectiveOptions options_;
     std::unique_ptr<FleshSystem<Scalar>> system_;
     Rows<Scalar> x_, step_;
