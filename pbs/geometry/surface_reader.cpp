@@ -52,14 +52,14 @@ SurfaceMesh joined(const std::string& path, const IndexedPoints& mesh)
         }
         if (triangle[0] != triangle[1] && triangle[1] != triangle[2] && triangle[2] != triangle[0]) triangles.push_back(triangle);
     }
-    if (triangles.empty())
-        throw InputError(path, 0, "triangles", std::to_string(mesh.cells.rows()), "expected one whose three corners differ");
     SurfaceMesh surface{Positions(static_cast<Eigen::Index>(index_of.size()), 3),
                         Triangles(static_cast<Eigen::Index>(triangles.size()), 3)};
     for (const auto& [p, index] : index_of) surface.points.row(index) << p[0], p[1], p[2];
     for (std::size_t f = 0; f < triangles.size(); ++f)
         surface.triangles.row(static_cast<Eigen::Index>(f)) << triangles[f][0], triangles[f][1], triangles[f][2];
     require_extent(path, surface.points);
+    if (triangles.empty())
+        throw InputError(path, 0, "triangles", std::to_string(mesh.cells.rows()), "expected one whose three corners differ");
     return surface;
 }
 

@@ -121,9 +121,12 @@ std::string page_of(const std::vector<PairRow>& pairs, const std::vector<MemberR
         members, [](const MemberRow& member) { return member.outcome == "reached" && !member.error_bound_pct; });
     std::string page = fmt::format(
         "{} of {} references were reached. {} of these have no bound on their own error and decide nothing, because too few of their "
-        "solutions converged without inverted tets.\n\n{} of {} pairs of deformers whose errors differ by more than {:g} percentage points are "
-        "decided. Without linear finite elements, these are {} of {} pairs.\n",
-        reached, members.size(), without_bound, all.decided, all.notable, notable_pct, skinning.decided, skinning.notable);
+        "solutions converged without inverted tets.\n\n",
+        reached, members.size(), without_bound);
+    page += fmt::format(
+        "{} of {} pairs of deformers whose errors differ by more than {:g} percentage points are decided. Without linear finite elements, "
+        "these are {} of {} pairs.\n",
+        all.decided, all.notable, notable_pct, skinning.decided, skinning.notable);
     if (!undecided.empty())
         page += "\n" + markdown_table(table_of(pair_columns, undecided), {{"body", "body"},
                                                                           {"motion", "motion"},

@@ -32,9 +32,10 @@ TEST(ProjectiveDynamicsDeformer, CountsItsIterations)
 {
     pbs::Positions positions;
     const pbs::StepSummary step = advanced({"projective_dynamics.iterations=3"}, positions);
-    EXPECT_EQ(step.work,
-              (pbs::WorkCounters{
-                  .gradients = 3, .vertex_visits = projected_bar().mesh.rest.rows(), .tet_visits = 3 * projected_bar().mesh.tets.rows(), .linear_solves = 3}));
+    EXPECT_EQ(step.work, (pbs::WorkCounters{.gradients = 3,
+                                            .vertex_visits = projected_bar().mesh.rest.rows(),
+                                            .tet_visits = 3 * projected_bar().mesh.tets.rows(),
+                                            .linear_solves = 3}));
 }
 
 // An iteration rounds positions to 2^-24 of a body of 2 m, and the next ones damp what it adds.

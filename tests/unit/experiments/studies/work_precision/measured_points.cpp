@@ -82,7 +82,7 @@ TEST(PointSettings, AreEachOnceInWordsAndKeys)
         ++of_deformer[setting.deformer];
     }
     EXPECT_EQ(of_deformer["lbs"], 2 * 3);                  // codes; one mesh and two others
-    EXPECT_EQ(of_deformer["pbs"], 2 * (6 * 9 + 2 * 3));    // codes, settings, rungs; and three rungs on each other mesh
+    EXPECT_EQ(of_deformer["pbs"], 2 * (8 * 9 + 2 * 3));    // codes, settings, rungs; and three rungs on each other mesh
     EXPECT_EQ(of_deformer["fem_linear"], 2 * 1 + 2);       // orders 1 and 2; order 1 on each other mesh
     EXPECT_EQ(of_deformer["fem_neo_hookean"], 2 + 3 + 1);  // quadratic on the mesh of 300 too; and on the tets cut into eight
     SettingRange in_short = range;
@@ -98,7 +98,7 @@ TEST(PointSettings, OfOneRungDifferInTheirSettingAlone)
         EXPECT_TRUE(of_rung[rung_of(key_of(setting))].insert(setting.tuned).second);
     for (const auto& [rung, settings] : of_rung)
         if (rung.deformer == "pbs") {
-            EXPECT_EQ(settings.size(), 6u) << text_of(rung);
+            EXPECT_EQ(settings.size(), 8u) << text_of(rung);
         }
 }
 
