@@ -57,7 +57,8 @@ fuzz_target(fuzz/skeleton.cpp pbs_character
     pbs/geometry/nearest_name.cpp pbs/geometry/input_error.cpp)
 fuzz_target(fuzz/clip.cpp pbs_character
     pbs/character/clip_bytes.cpp pbs/character/retarget.cpp pbs/character/retarget_plan.cpp pbs/character/joint_map.cpp
-    pbs/skinning/motion_sampling.cpp pbs/skinning/pose.cpp pbs/skinning/skeleton.cpp pbs/geometry/input_error.cpp)
+    pbs/skinning/motion_sampling.cpp pbs/skinning/pose.cpp pbs/skinning/skeleton.cpp pbs/geometry/name_list.cpp
+    pbs/geometry/input_error.cpp)
 fuzz_target(fuzz/rig.cpp pbs_rig
     pbs/rig/bone_tails.cpp pbs/rig/gltf_animations.cpp pbs/rig/gltf_meshes.cpp pbs/rig/gltf_model.cpp pbs/rig/gltf_numbers.cpp
     pbs/rig/gltf_rig.cpp pbs/rig/rig_binding.cpp pbs/rig/rig_bytes.cpp pbs/rig/rig_motion.cpp pbs/rig/rig_pose.cpp pbs/rig/rigged_body.cpp
@@ -71,7 +72,7 @@ fuzz_target(fuzz/texts.cpp experiments
     pbs/geometry/text_file.cpp pbs/geometry/toml_text.cpp pbs/geometry/nearest_name.cpp pbs/geometry/input_error.cpp)
 fuzz_target(fuzz/files.cpp pbs_character
     pbs/character/iqm.cpp pbs/character/weights_file.cpp pbs/skinning/skeleton.cpp pbs/geometry/tetgen_reader.cpp
-    pbs/geometry/tobj_reader.cpp
+    pbs/geometry/tobj_reader.cpp pbs/geometry/content_format.cpp
     pbs/geometry/msh_reader.cpp pbs/geometry/mesh_io_files.cpp pbs/geometry/text_file.cpp pbs/geometry/nearest_name.cpp
     pbs/geometry/input_error.cpp)
 fuzz_target(fuzz/assimp.cpp pbs_rig
