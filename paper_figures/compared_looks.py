@@ -1,16 +1,16 @@
 """The colour, marker and name of each group of deformers in the figures of error against run time."""
 import style
 
-brown, grey, olive = "#8B5A2B", "#999999", "#7F7F00"
+brown, grey, olive, violet, crimson = "#8B5A2B", "#999999", "#7F7F00", "#5B2A86", "#B0123B"
 groups = {"lbs": ("LBS", style.vermillion, "v"), "lbs_diffused": ("LBS, diffused weights", style.vermillion, "1"),
           "dqs": ("DQS", style.orange, "s"), "dqs_diffused": ("DQS, diffused weights", style.orange, "2"),
           "delta_mush": ("delta mush", style.green, "^"), "delta_mush_diffused": ("delta mush, diffused weights", style.green, "3"),
           "direct_delta_mush": ("direct delta mush", "#4B9B00", "<"),
           "direct_delta_mush_diffused": ("direct delta mush, diffused weights", "#4B9B00", "4"),
           "pbs": ("PBS", style.blue, "o"), "pbs_author": ("first author\u2019s later code", style.sky, "p"),
-          "xpbd": ("XPBD", style.purple, "D"), "xpbd_neo_hookean": ("neo-Hookean XPBD", style.purple, "d"),
+          "xpbd": ("XPBD", style.purple, "D"), "xpbd_neo_hookean": ("neo-Hookean XPBD", violet, "d"),
           "quasi_newton": ("quasi-Newton", brown, "P"), "vbd": ("vertex block descent", olive, "*"),
-          "projective_dynamics": ("projective dynamics", style.sky, "h"), "linear_fem": ("linear FEM", grey, "x"),
+          "projective_dynamics": ("projective dynamics", crimson, "h"), "linear_fem": ("linear FEM", grey, "x"),
           "nonlinear_fem": ("nonlinear FEM", style.black, "+")}
 group_of_deformer = {"xpbd_small_steps": "xpbd", "fem_linear": "linear_fem", "fem_corotational": "nonlinear_fem",
                      "fem_neo_hookean": "nonlinear_fem"}
