@@ -24,7 +24,8 @@ const OptionFields<AuthorOptions>& author_fields()
                   .meaning = "acceleration of every particle; the published code has (0, -9.81, 0) in its own unit of length"})
             .add("length_unit_m", &AuthorOptions::length_unit_m,
                  {.unit = "m",
-                  .lowest = above_zero,
+                  .lowest = 1e-6,
+                  .highest = 1e6,
                   .meaning = "unit of length of the threshold 1e-6, below which the sum of a tet's squared volume gradients leaves it out"})
             .add("k_compression", &AuthorOptions::k_compression,
                  {.lowest = 0, .highest = 1, .meaning = "stiffness of edges and binds that are shorter than at rest"})
