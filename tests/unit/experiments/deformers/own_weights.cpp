@@ -59,8 +59,8 @@ TEST(OwnWeights, OnesThatTheCharacterDoesNotBringAreRefused)
     EXPECT_THROW(make_deformer(spec)->reset(thin_bar), pbs::InputError);
 }
 
-// The roundings of LBS, ten, are amplified by the rotations of the mushes, whose own bounds are tested with them. A hundred roundings of 1 m,
-// 6e-6 m, are sufficient here; another formula in any part would differ by more, since the mesh of 2 m has edges of 0.1 m.
+// The roundings of LBS, ten, are amplified by the rotations of the mushes, whose own bounds are tested with them. A hundred roundings of
+// 1 m, 6e-6 m, are sufficient here; another formula in any part would differ by more, since the mesh of 2 m has edges of 0.1 m.
 TEST(OwnPrecision, FloatsDifferByRounding)
 {
     for (const char* kind : blends) {
