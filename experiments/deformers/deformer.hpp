@@ -41,7 +41,7 @@ public:
     virtual FewerNodes set_out_from() const { return {}; }
     // The smallest det F at the quadrature points of the elements in the last pose. Nothing: no elements with quadrature points.
     virtual std::optional<double> lowest_det_f() const { return {}; }
-    // What it reads in each iteration, or each frame, and the mesh does not determine: the sizes for DeformerKind::work.
+    // The sizes that DeformerKind::work needs and that the mesh does not determine. The deformer reads these entries in each iteration.
     virtual pbs::KeptEntries kept() const { return {}; }
     // Further facts for run.json: the grip of each bone, the solver, sizes. Null: none.
     virtual nlohmann::json record() const { return nullptr; }

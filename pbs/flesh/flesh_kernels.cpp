@@ -17,14 +17,6 @@ Row4<Scalar>& row(Scalar* rows, std::uint32_t offset)
     return *reinterpret_cast<Row4<Scalar>*>(rows + offset);
 }
 
-template <typename Scalar>
-double sum(const Lanes<Scalar>& lanes_to_add)
-{
-    double total = 0.0;
-    for (int lane = 0; lane < lanes<Scalar>; ++lane) total += double(lanes_to_add[lane]);
-    return total;
-}
-
 // to += factor * a in x, y and z.
 template <typename Scalar>
 [[gnu::always_inline]] inline void add_to(LaneVector<Scalar>& to, const Lanes<Scalar>& factor, const LaneVector<Scalar>& a)
@@ -141,10 +133,10 @@ double add_gradient_of_tets(const FleshBatch<Scalar>* batches, int count, const 
     for (int part = 0; part < count * parts_of_batch; ++part) {
         energy += add_gradient_of_part(batches[part / parts_of_batch], part % parts_of_batch * lanes<Scalar>, x, gradient);
         if (part % parts_in_scalar != parts_in_scalar - 1) continue;
-        total += sum<Scalar>(energy);
+        total += sum_of_lanes<Scalar>(energy);
         energy = Scalar(0);
     }
-    return total + sum<Scalar>(energy);
+    return total + sum_of_lanes<Scalar>(energy);
 }
 
 template <typename Scalar>
@@ -155,7 +147,7 @@ double dot(const Scalar* a, const Scalar* b, int rows)
     for (int begin = 0; begin < 4 * rows; begin += numbers_in_scalar) {
         Lanes<Scalar> products = Scalar(0);
         for (int i = begin; i < begin + numbers_in_scalar && i < 4 * rows; i += lanes<Scalar>) products += load(a + i) * load(b + i);
-        total += sum<Scalar>(products);
+        total += sum_of_lanes<Scalar>(products);
     }
     return total;
 }

@@ -3,9 +3,23 @@
 #include "pbs/flesh/packed_flesh.hpp"
 #include "pbs/flesh/plain_flesh.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <type_traits>
 
 namespace pbs {
+
+// Measured at rest, where all steps are rounding: 0.4 roundings of a bar of 208 vertices in every arithmetic.
+template <typename Scalar>
+double FleshSystem<Scalar>::smallest_step(const Rows<Scalar>& x, double share, double first) const
+{
+    constexpr double roundings = 4.0;
+    return std::max(share * first, roundings * std::numeric_limits<Scalar>::epsilon() * std::sqrt(dot(x, x)));
+}
+
+template double FleshSystem<float>::smallest_step(const Rows<float>&, double, double) const;
+template double FleshSystem<double>::smallest_step(const Rows<double>&, double, double) const;
 
 template <typename Scalar, typename Energy>
 std::unique_ptr<FleshSystem<Scalar>> make_flesh_system(const TetMesh& mesh, const Energy& energy, const CholeskyFactor& factor,

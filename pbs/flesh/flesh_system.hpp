@@ -30,6 +30,8 @@ public:
     virtual void precondition(Rows<Scalar>& residual) = 0;                                 // [m^2] -> [m]
     virtual double dot(const Rows<Scalar>& a, const Rows<Scalar>& b) const = 0;
     virtual void add(double factor, const Rows<Scalar>& a, Rows<Scalar>& to) const = 0;  // to += factor * a
+    // The norm of a step that ends an iteration [m]: this share of the first one, or a few roundings of the positions, as at rest.
+    double smallest_step(const Rows<Scalar>& x, double share, double first) const;
     virtual std::size_t bytes() const = 0;  // that an evaluation and a preconditioning read from memory
 };
 

@@ -1,8 +1,6 @@
 #include "pbs/flesh/projective_dynamics.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace pbs {
 
@@ -28,19 +26,11 @@ ProjectiveSummary ProjectiveDynamics<Scalar>::minimise(const Positions& centres,
         system_->add(-1.0, step_, x_);
         summary.steps.push_back(std::sqrt(system_->dot(step_, step_)));
         if (!std::isfinite(summary.steps.back())) break;
-        summary.converged = options_.stop_step > 0.0 && summary.steps.back() <= largest_step(summary.steps.front());
+        const double smallest = system_->smallest_step(x_, options_.stop_step, summary.steps.front());
+        summary.converged = options_.stop_step > 0.0 && summary.steps.back() <= smallest;
     }
     system_->store(x_, x);
     return summary;
-}
-
-// The norm of a step that stops the iteration [m]: the share of the first one, or a few roundings of the positions, as at rest.
-template <typename Scalar>
-double ProjectiveDynamics<Scalar>::largest_step(double first) const
-{
-    constexpr double roundings = 4.0;
-    const double rounding = roundings * std::numeric_limits<Scalar>::epsilon() * std::sqrt(system_->dot(x_, x_));
-    return std::max(options_.stop_step * first, rounding);
 }
 
 template class ProjectiveDynamics<float>;

@@ -40,8 +40,6 @@ public:
     std::size_t bytes_an_iteration() const { return system_->bytes(); }
 
 private:
-    double largest_step(double first) const;
-
     ProjectiveOptions options_;
     std::unique_ptr<FleshSystem<Scalar>> system_;
     Rows<Scalar> x_, step_;

@@ -14,14 +14,6 @@ template <typename Scalar>
 using LaneMask = typename Lanes<Scalar>::mask_type;
 
 template <typename Scalar>
-double sum(const Lanes<Scalar>& lanes_to_add)
-{
-    double total = 0.0;
-    for (int lane = 0; lane < lanes<Scalar>; ++lane) total += double(lanes_to_add[lane]);
-    return total;
-}
-
-template <typename Scalar>
 [[gnu::always_inline]] inline Lanes<Scalar> squares(const Symmetric3<Lanes<Scalar>>& s)
 {
     const Lanes<Scalar> off = s.a01 * s.a01 + (s.a02 * s.a02 + s.a12 * s.a12);
@@ -148,10 +140,10 @@ double add_gradient_of_projective_tets(const ProjectiveBatch<Scalar>* batches, i
         for (int lane = 0; any_of(in_part) && lane < lanes<Scalar>; ++lane)
             if (in_part[lane]) refused[(*refused_count)++] = lanes<Scalar> * part + lane;
         if (part % parts_in_scalar != parts_in_scalar - 1) continue;
-        total += sum<Scalar>(energy);
+        total += sum_of_lanes<Scalar>(energy);
         energy = Scalar(0);
     }
-    return total + sum<Scalar>(energy);
+    return total + sum_of_lanes<Scalar>(energy);
 }
 
 template double add_gradient_of_projective_tets(const ProjectiveBatch<float>*, int, float, float, const float*, float*, int*, int*);

@@ -34,22 +34,13 @@ QuasiNewtonSummary QuasiNewton<Scalar>::minimise(const Positions& centres, Posit
         ++summary.solves;
         summary.steps.push_back(std::sqrt(system_->dot(direction_, direction_)));
         if (!std::isfinite(slope)) break;
-        const bool is_below = options_.stop_gradient > 0.0 && summary.steps.back() <= largest_step(summary.steps.front());
+        const double smallest = system_->smallest_step(x_, options_.stop_gradient, summary.steps.front());
+        const bool is_below = options_.stop_gradient > 0.0 && summary.steps.back() <= smallest;
         summary.converged = is_below || !search(slope, summary);
         if (!summary.converged) ++summary.iterations;
     }
     system_->store(x_, x);
     return summary;
-}
-
-// The norm of H^-1 g that stops the iteration [m]: the share of its first value, or a few roundings of the positions. At rest, where all
-// steps are rounding, it is 0.4 roundings of a bar of 208 vertices in every arithmetic.
-template <typename Scalar>
-double QuasiNewton<Scalar>::largest_step(double first) const
-{
-    constexpr double roundings = 4.0;
-    const double rounding = roundings * std::numeric_limits<Scalar>::epsilon() * std::sqrt(system_->dot(x_, x_));
-    return std::max(options_.stop_gradient * first, rounding);
 }
 
 // The direction is -H_k g by the two loops of L-BFGS (J. Nocedal, S. Wright, Numerical Optimization, algorithm 7.4). Returns the slope.

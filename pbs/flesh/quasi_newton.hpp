@@ -42,7 +42,6 @@ private:
         double product;             // their inner product, above 0
     };
 
-    double largest_step(double first) const;
     double set_direction();
     bool search(double slope, QuasiNewtonSummary& summary);
     void remember();

@@ -9,7 +9,7 @@
 
 namespace pbs {
 
-// What a deformer keeps for all frames and reads in each iteration, where the mesh does not determine its size.
+// The data that a deformer keeps for all frames and reads in each iteration. Only data whose size the mesh does not determine count.
 struct KeptEntries {
     double entries = 0.0;  // of the factor's triangle with the diagonal, of the rows of weights that are blended, or of modes of springs
     double rows = 0.0;     // of weights that are blended for one vertex alone

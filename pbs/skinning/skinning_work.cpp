@@ -49,8 +49,9 @@ IterationWork work_of_delta_mush(const BodyCounts& body, double scalar_bytes, in
     return work;
 }
 
-// Of a pair: the moved centre; three columns of four sums each; the blended centre (4 multiply-adds). Of a vertex: the origin, the nearest
-// rotation (see flesh_work.cpp), R detail, the sum. Moments are 13 numbers and an index; centre and detail are rows of four.
+// A pair of vertex and bone costs the moved centre, three columns of four sums each, and the blended centre (4 multiply-adds). A vertex
+// costs the origin, the nearest rotation (see flesh_work.cpp), R detail, and the sum. Moments are 13 numbers and an index; centre and
+// detail are rows of four.
 IterationWork work_of_direct_mush(const BodyCounts& body, double scalar_bytes)
 {
     const double of_pair = (moved_point + sum) + 3 * (4 * scaled_and_added) + 4 * scaled_and_added;

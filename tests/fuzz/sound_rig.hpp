@@ -1,4 +1,4 @@
-// What every rig that was read has: a finite skeleton, surface and poses, and weights that sum to one.
+// Checks a rig that was read: its skeleton, surface and poses are finite, and its weights sum to one.
 #pragma once
 
 #include "pbs/rig/rig_motion.hpp"

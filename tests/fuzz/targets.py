@@ -43,9 +43,9 @@ class Targets(unittest.TestCase):
             results = list(pool.map(fuzz, names))
         runs, wrong = [run for run, _, _ in results], [text for _, _, text in results if text]
         broken = sum(broken for _, broken, _ in results)
-        told = ", ".join(f"{name} {count:,}" for name, count in zip(names, runs))
+        counts = ", ".join(f"{name} {count:,}" for name, count in zip(names, runs))
         reliability.tell("fuzz", f"fuzz targets without a finding in {SECONDS} s", len(names) - len(wrong), len(names),
-                         note=f"runs: {told}; assimp and VTK broke down in {broken}, contained by their process")
+                         note=f"runs: {counts}; assimp and VTK broke down in {broken}, contained by their process")
         self.assertEqual(wrong, [], "\n".join(wrong))
         for name, count in zip(names, runs):
             self.assertGreater(count, SECONDS * (LEAST_CHILDREN_PER_S if name in IN_CHILDREN else LEAST_RUNS_PER_S), name)

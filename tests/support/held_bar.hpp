@@ -21,6 +21,14 @@ inline pbs::BoneSprings random_springs(int springs, double stiffness, unsigned s
     return held;
 }
 
+// Random springs of a bar whose joint is here.
+inline pbs::BoneSprings springs_at(const pbs::Vec3& joint, int count = 60)
+{
+    pbs::BoneSprings springs = random_springs(count, 0.3);
+    springs.points.rowwise() += joint.transpose();
+    return springs;
+}
+
 // Every vertex moved by up to `size`.
 inline pbs::Positions jittered(pbs::Positions positions, double size, unsigned seed = 3)
 {

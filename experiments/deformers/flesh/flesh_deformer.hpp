@@ -1,6 +1,6 @@
-// What the deformers that minimise the energy of elastic flesh have in common: frames, initial guesses, records and traits. Every frame
-// begins at the initial guess anew, so that it does not depend on the frames before. A deformer of this kind derives from FleshDeformer,
-// sets up its solver in make_solver, and minimises in `minimise`.
+// The base class of the deformers that minimise the energy of elastic flesh. It has their frames, initial guesses, records and traits.
+// Every frame begins at the initial guess anew, so that it does not depend on the frames before. A deformer of this kind derives from
+// FleshDeformer, sets up its solver in make_solver, and minimises in `minimise`.
 #pragma once
 
 #include "experiments/deformers/deformer.hpp"
@@ -13,7 +13,8 @@
 
 namespace experiments {
 
-// Of lambda in the Laplacian that determines the weights of the initial guess, where the method itself has no use for its factor.
+// The share of lambda in the Laplacian that determines the weights of the initial guess. Methods that also solve with this Laplacian choose
+// a share of their own.
 inline constexpr double volume_share_of_guess = 0.6;
 
 // Solver<float> or Solver<double>, whichever an arithmetic needs.
@@ -70,7 +71,7 @@ private:
     pbs::Positions positions_;
 };
 
-// Of a spec with these options, which have `arithmetic` and `iterations`.
+// Returns the traits of a spec. Options must have the members `arithmetic` and `iterations`.
 template <typename Options>
 DeformerTraits flesh_traits(const DeformerSpec& spec)
 {

@@ -58,6 +58,14 @@ template <typename Scalar>
 }
 
 template <typename Scalar>
+[[gnu::always_inline]] inline double sum_of_lanes(const Lanes<Scalar>& lanes_to_add)
+{
+    double total = 0.0;
+    for (int lane = 0; lane < lanes<Scalar>; ++lane) total += double(lanes_to_add[lane]);
+    return total;
+}
+
+template <typename Scalar>
 [[gnu::always_inline]] inline Lanes<Scalar> length(const LaneVector<Scalar>& a)
 {
     return sqrt(dot(a, a));

@@ -2,6 +2,7 @@
 #include "pbs/flesh/packed_flesh.hpp"
 
 #include "pbs/flesh/plain_flesh.hpp"
+#include "tests/support/evaluated_flesh.hpp"
 #include "tests/support/held_bar.hpp"
 
 #include <gtest/gtest.h>
@@ -11,21 +12,17 @@
 namespace {
 
 using pbs::Positions;
+using test_support::Evaluated;
+using test_support::evaluated;
 
 struct Flesh {
     explicit Flesh(const std::array<int, 3>& cells, const pbs::Vec3& joint = pbs::Vec3::Zero())
         : bent(test_support::two_bone_limb(cells, pbs::Vec3::UnitZ(), 70.0, joint)),
-          hold(bent.mesh, springs_at(joint), 2),
+          hold(bent.mesh, test_support::springs_at(joint), 2),
           energy(bent.mesh, pbs::flesh_material(0.45), hold),
           factor(pbs::cholesky_factor(pbs::flesh_laplacian(bent.mesh, pbs::flesh_material(0.45), energy, 0.6)))
     {
         hold.centres(bent.pose, centres);
-    }
-    static pbs::BoneSprings springs_at(const pbs::Vec3& joint)
-    {
-        pbs::BoneSprings springs = test_support::random_springs(60, 0.3);
-        springs.points.rowwise() += joint.transpose();
-        return springs;
     }
     test_support::TwoBoneLimb bent;
     pbs::BoneHold hold;
@@ -34,30 +31,6 @@ struct Flesh {
     Positions centres;
 };
 
-struct Evaluated {
-    double energy;
-    Positions gradient, preconditioned;
-};
-
-template <typename Scalar>
-Evaluated evaluated(pbs::FleshSystem<Scalar>& system, const Flesh& flesh, const Positions& x)
-{
-    pbs::Rows<Scalar> rows = system.rows(), gradient = system.rows();
-    system.set_centres(flesh.centres);
-    system.load(x, rows);
-    Evaluated result;
-    result.energy = system.value_and_gradient(rows, gradient);
-    pbs::Rows<Scalar> zero = system.rows();
-    Positions offset;  // store() adds the origin of the rows
-    system.store(zero, offset);
-    system.store(gradient, result.gradient);
-    result.gradient -= offset;
-    system.precondition(gradient);
-    system.store(gradient, result.preconditioned);
-    result.preconditioned -= offset;
-    return result;
-}
-
 // Each entry of the gradient sums some 25 tets with some 30 roundings of terms as large as the largest of its parts, kappa d n.
 template <typename Scalar>
 void expect_equal_to_plain(const Flesh& flesh)
@@ -65,7 +38,7 @@ void expect_equal_to_plain(const Flesh& flesh)
     const Positions x = test_support::jittered(flesh.bent.lbs, 0.02);
     pbs::PlainFlesh plain(flesh.energy, flesh.factor);
     pbs::PackedFlesh<Scalar> packed(flesh.bent.mesh, flesh.energy, flesh.factor, 1);
-    const Evaluated expected = evaluated<double>(plain, flesh, x), found = evaluated<Scalar>(packed, flesh, x);
+    const Evaluated expected = evaluated<double>(plain, flesh.centres, x), found = evaluated<Scalar>(packed, flesh.centres, x);
     double part = 0.0;
     for (const pbs::FleshTet& tet : flesh.energy.tets()) part = std::max(part, tet.kappa * tet.d * std::pow(6.0 * tet.d, 2.0 / 3.0));
     const double unit = std::numeric_limits<Scalar>::epsilon();
@@ -110,10 +83,10 @@ TEST(PackedFlesh, ThreadsChangeNoBit)
     const Flesh flesh({44, 16, 16});
     const Positions x = test_support::jittered(flesh.bent.lbs, 0.002);
     pbs::PackedFlesh<float> alone(flesh.bent.mesh, flesh.energy, flesh.factor, 1);
-    const Evaluated expected = evaluated<float>(alone, flesh, x);
+    const Evaluated expected = evaluated<float>(alone, flesh.centres, x);
     for (const int threads : {2, 4}) {
         pbs::PackedFlesh<float> shared(flesh.bent.mesh, flesh.energy, flesh.factor, threads);
-        const Evaluated found = evaluated<float>(shared, flesh, x);
+        const Evaluated found = evaluated<float>(shared, flesh.centres, x);
         EXPECT_EQ(found.energy, expected.energy);
         EXPECT_EQ(found.gradient, expected.gradient);
         EXPECT_EQ(found.preconditioned, expected.preconditioned);

@@ -3,6 +3,7 @@
 #include "pbs/flesh/packed_flesh.hpp"
 #include "pbs/flesh/plain_flesh.hpp"
 #include "pbs/flesh/projective_dynamics.hpp"
+#include "tests/support/evaluated_flesh.hpp"
 #include "tests/support/held_bar.hpp"
 
 #include <gtest/gtest.h>
@@ -15,46 +16,23 @@ namespace {
 
 using pbs::Positions;
 using pbs::Vec3;
+using test_support::Evaluated;
+using test_support::evaluated;
 
 struct Flesh {
     explicit Flesh(const std::array<int, 3>& cells, bool keeps_volume = true, const Vec3& joint = Vec3::Zero())
         : bent(test_support::two_bone_limb(cells, Vec3::UnitZ(), 70.0, joint)),
-          held(bent.mesh, springs_at(joint), 2, {.poisson = 0.45, .volume_share = pbs::volume_share_of_projective(0.45, keeps_volume)}),
+          held(bent.mesh, test_support::springs_at(joint), 2,
+               {.poisson = 0.45, .volume_share = pbs::volume_share_of_projective(0.45, keeps_volume)}),
           energy(bent.mesh, pbs::projective_weights(0.45, keeps_volume), held.hold())
     {
         held.hold().centres(bent.pose, centres);
-    }
-    static pbs::BoneSprings springs_at(const Vec3& joint)
-    {
-        pbs::BoneSprings springs = test_support::random_springs(60, 0.3);
-        springs.points.rowwise() += joint.transpose();
-        return springs;
     }
     test_support::TwoBoneLimb bent;
     pbs::HeldFlesh held;
     pbs::ProjectiveEnergy energy;
     Positions centres;
 };
-
-struct Evaluated {
-    double energy;
-    Positions gradient;
-};
-
-template <typename Scalar>
-Evaluated evaluated(pbs::FleshSystem<Scalar>& system, const Flesh& flesh, const Positions& x)
-{
-    pbs::Rows<Scalar> rows = system.rows(), gradient = system.rows();
-    system.set_centres(flesh.centres);
-    system.load(x, rows);
-    Evaluated result;
-    result.energy = system.value_and_gradient(rows, gradient);
-    Positions offset;  // store() adds the origin of the rows
-    system.store(system.rows(), offset);
-    system.store(gradient, result.gradient);
-    result.gradient -= offset;
-    return result;
-}
 
 // How much a rounding of the entries of F changes the shapes: the nearest rotation by 1 / (s_2 + s_3) and less, the nearest matrix of
 // determinant one by (P_23 / (P_23 - kappa)) and less, which the formulae keep below ten. F itself has rounding of x over the edge's
@@ -81,7 +59,7 @@ int expect_equal_to_plain(const Flesh& flesh, const Positions& x)
 {
     pbs::PlainProjective plain(flesh.energy, flesh.held.factor());
     pbs::PackedProjective<Scalar> packed(flesh.bent.mesh, flesh.energy, flesh.held.factor(), 1);
-    const Evaluated expected = evaluated<double>(plain, flesh, x), found = evaluated<Scalar>(packed, flesh, x);
+    const Evaluated expected = evaluated<double>(plain, flesh.centres, x), found = evaluated<Scalar>(packed, flesh.centres, x);
     const double bound = tolerance<Scalar>(flesh, x);
     EXPECT_LE((found.gradient - expected.gradient).cwiseAbs().maxCoeff(), bound);
     // The energy changes with x by its gradient, and its terms are rounded as those of the gradient are, times a displacement.
@@ -147,10 +125,10 @@ TEST(PackedProjective, ThreadsChangeNoBit)
     const Flesh flesh({44, 16, 16});
     const Positions x = test_support::jittered(flesh.bent.lbs, 0.01);
     pbs::PackedProjective<float> alone(flesh.bent.mesh, flesh.energy, flesh.held.factor(), 1);
-    const Evaluated expected = evaluated<float>(alone, flesh, x);
+    const Evaluated expected = evaluated<float>(alone, flesh.centres, x);
     for (const int threads : {2, 4}) {
         pbs::PackedProjective<float> shared(flesh.bent.mesh, flesh.energy, flesh.held.factor(), threads);
-        const Evaluated found = evaluated<float>(shared, flesh, x);
+        const Evaluated found = evaluated<float>(shared, flesh.centres, x);
         EXPECT_EQ(found.energy, expected.energy);
         EXPECT_EQ(found.gradient, expected.gradient);
     }

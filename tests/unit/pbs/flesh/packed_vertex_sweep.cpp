@@ -15,16 +15,10 @@ using pbs::Vec3;
 struct Body {
     explicit Body(const std::array<int, 3>& cells, const Vec3& joint = Vec3::Zero(), int springs = 60)
         : bent(test_support::two_bone_limb(cells, Vec3::UnitZ(), 70.0, joint)),
-          hold(bent.mesh, springs_at(joint, springs), 2),
+          hold(bent.mesh, test_support::springs_at(joint, springs), 2),
           energy(bent.mesh, pbs::flesh_material(0.45), hold)
     {
         hold.centres(bent.pose, centres);
-    }
-    static pbs::BoneSprings springs_at(const Vec3& joint, int count)
-    {
-        pbs::BoneSprings springs = test_support::random_springs(count, 0.3);
-        springs.points.rowwise() += joint.transpose();
-        return springs;
     }
     test_support::TwoBoneLimb bent;
     pbs::BoneHold hold;
