@@ -6,8 +6,8 @@
 //   flesh.hold().centres(pose, centres);
 //   ProjectiveSummary summary = solver.minimise(centres, x);   // x: the initial guess in, the last iterate out
 // An iteration projects every tet (local step) and minimises E with R and D fixed (global step), a system whose matrix is constant and
-// factored once. It is written as x <- x - H^-1 grad E(x), which is the same (T. Liu, S. Bouaziz, L. Kavan 2017). E never increases but for
-// rounding.
+// factored once. It is written as x <- x - H^-1 grad E(x), which is the same (T. Liu, S. Bouaziz, L. Kavan 2017). E never increases,
+// except for rounding.
 #pragma once
 
 #include "pbs/flesh/flesh_system.hpp"

@@ -50,7 +50,7 @@ public:
     // Tets of positive rest volume; an InputError otherwise.
     ProjectiveEnergy(const TetMesh& mesh, const ProjectiveWeights& weights, const BoneHold& hold);
 
-    // Returns E but for a constant [m^3], and sets its gradient [m^2], #V x 3.
+    // Returns E up to a constant [m^3], and sets its gradient [m^2], #V x 3.
     double value_and_gradient(const Positions& x, const Positions& centres, Positions& gradient) const;
 
     const ProjectiveWeights& weights() const { return weights_; }
