@@ -1,6 +1,5 @@
 #include "experiments/scene/motion_case.hpp"
 
-#include "pbs/character/clip_match.hpp"
 #include "pbs/character/model_character.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/name_list.hpp"
@@ -29,23 +28,22 @@ pbs::ClipSampling clip_sampling(const MotionSpec& spec)
     return sampling;
 }
 
+std::string share_of(const pbs::ClipMatch& match)
+{
+    return fmt::format("{} of {} moving joints", match.matched, match.moving);
+}
+
 CaseMotion motion_of_clip(const MotionSpec& spec, const pbs::Character& character)
 {
     const pbs::Clip clip = pbs::read_clip(spec.clip);
+    const pbs::ClipMatch match = accepted_match(spec, clip, character.skeleton);
     CaseMotion made;
     made.motion = pbs::retarget(clip, character.skeleton, clip_sampling(spec));
-    const pbs::ClipMatch match = pbs::match_of(clip, character.skeleton);
     made.clip_joints = match.moving;
     made.matched_joints = match.matched;
-    const std::string share = fmt::format("{} of {} moving joints", match.matched, match.moving);
-    if (2 * match.matched < match.moving && !spec.allow_partial)
-        throw pbs::InputError(spec.clip, 0, "joints", share,
-                              "expected at least one half to match a bone of the character (motion.allow_partial = true in the scene, or "
-                              "--allow-partial of `pbskin try`, accepts fewer); without a bone: " +
-                                  pbs::name_list(match.unmatched));
     if (match.matched < match.moving)
         made.partial_match =
-            fmt::format("{}: {} of the clip match a bone; without a bone: {}", spec.clip, share, pbs::name_list(match.unmatched));
+            fmt::format("{}: {} of the clip match a bone; without a bone: {}", spec.clip, share_of(match), pbs::name_list(match.unmatched));
     return made;
 }
 
@@ -93,6 +91,17 @@ CaseMotion make_case_motion(const MotionSpec& spec, const pbs::Character& charac
         made.remarks.push_back(fmt::format("{}: no joint moves: the bones turn by at most {:.2g} degrees and move by at most {:.2g} m",
                                            scene_file, made.largest_rotation_deg, displacement_m));
     return made;
+}
+
+pbs::ClipMatch accepted_match(const MotionSpec& spec, const pbs::Clip& clip, const pbs::Skeleton& skeleton)
+{
+    pbs::ClipMatch match = pbs::match_of(clip, skeleton);
+    if (2 * match.matched < match.moving && !spec.allow_partial)
+        throw pbs::InputError(spec.clip, 0, "joints", share_of(match),
+                              "expected at least one half to match a bone of the character (motion.allow_partial = true in the scene, or "
+                              "--allow-partial of `pbskin try`, accepts fewer); without a bone: " +
+                                  pbs::name_list(match.unmatched));
+    return match;
 }
 
 pbs::MotionSampling sampling_of(const MotionSpec& spec)

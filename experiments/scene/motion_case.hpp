@@ -2,6 +2,7 @@
 #pragma once
 
 #include "experiments/scene/scene.hpp"
+#include "pbs/character/clip_match.hpp"
 #include "pbs/skinning/motion_sampling.hpp"
 
 namespace experiments {
@@ -19,6 +20,10 @@ struct CaseMotion {
     double largest_rotation_deg = 0.0;        // of a bone, from the first frame to another one
 };
 CaseMotion make_case_motion(const MotionSpec& spec, const pbs::Character& character, const std::string& scene_file);
+
+// The moving joints of a clip that move a bone of the skeleton. An InputError if there are none, or fewer than one half and the scene does
+// not allow it.
+pbs::ClipMatch accepted_match(const MotionSpec& spec, const pbs::Clip& clip, const pbs::Skeleton& skeleton);
 
 pbs::MotionSampling sampling_of(const MotionSpec& spec);
 

@@ -1,6 +1,7 @@
 #include "experiments/trial/trial_scene.hpp"
 
 #include "analysis/records/record_text.hpp"
+#include "experiments/scene/motion_case.hpp"
 #include "pbs/character/clip.hpp"
 #include "pbs/character/model_character.hpp"
 #include "pbs/geometry/input_error.hpp"
@@ -40,9 +41,12 @@ std::string sampled(double duration_s, int frames)
     return fmt::format("rate_hz = {}\n", nlohmann::json(rate_hz).dump());
 }
 
-std::string clip_motion(const TrialOptions& options, const std::string& clip_file)
+// A clip of another skeleton is refused before any tets are made, which takes seconds.
+std::string clip_motion(const TrialOptions& options, const std::string& clip_file, const pbs::Skeleton& joints_of_the_model)
 {
     const pbs::Clip clip = pbs::read_clip(clip_file);
+    if (!joints_of_the_model.bones.empty())
+        accepted_match({.clip = clip_file, .allow_partial = options.allow_partial}, clip, joints_of_the_model);
     const bool is_here = fs::exists(options.animation);
     std::string text = fmt::format("clip = {}\n", quoted(is_here ? from_folder(clip_file, options.folder) : options.animation));
     if (options.allow_partial) text += "allow_partial = true\n";
@@ -89,7 +93,7 @@ std::string motion(const TrialOptions& options, std::vector<std::string>& remark
         return fmt::format("animation = {}\n", quoted(named->name)) + sampled(named->end_s - named->start_s, options.frames);
     if (!options.animation.empty()) {
         try {
-            return clip_motion(options, pbs::find_clip(options.animation, ""));
+            return clip_motion(options, pbs::find_clip(options.animation, ""), model->body.skeleton);
         } catch (const pbs::InputError&) {
             if (fs::exists(options.animation)) throw;
             pbs::find_animation(model->rig, options.animation);  // lists those that the model has
