@@ -10,7 +10,7 @@ import record_shapes
 import records
 import sentences
 
-columns = ("claim", "verdict", "values within the bound; the farthest one [interval], expected", "page")
+columns = ("claim", "verdict", "values within the bound; the one farthest beyond it, or else nearest to it [interval], expected", "page")
 pages = "experiments/verdicts/claims"
 
 

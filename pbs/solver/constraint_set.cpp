@@ -37,9 +37,9 @@ void check_volume_of(const PbsOptions& options)
 {
     if (options.region_tets < 1) throw InputError("pbs", 0, "region_tets", std::to_string(options.region_tets), "expected 1 or more");
     if (options.volume_of == VolumeOf::tets) return;
-    if (options.sleep) throw InputError("pbs", 0, "sleep", "true", "expected false with the volumes of regions, which do not sleep");
-    if (options.volume_form != VolumeForm::derived)
-        throw InputError("pbs", 0, "volume_form", "", "expected derived with the volumes of regions");
+    if (options.sleep || options.volume_form != VolumeForm::derived)
+        throw InputError("pbs", 0, "volume_of", options.volume_of == VolumeOf::regions ? "regions" : "tets_and_regions",
+                         "expected tets with sleep or a printed volume_form");
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include "experiments/deformers/registry.hpp"
 #include "experiments/scene/motion_case.hpp"
 #include "experiments/settings/option_fields.hpp"
+#include "experiments/studies/shared/pose_columns.hpp"
 
 #include "analysis/frame_metrics.hpp"
 
@@ -14,11 +15,6 @@ namespace {
 using analysis::CaseKey;
 using analysis::Columns;
 using analysis::within;
-
-const Columns<CaseKey> case_columns = {{"body", &CaseKey::body, "", "name of the body"},
-                                       {"motion", &CaseKey::motion, "", "twist, bend, or the name of a clip"},
-                                       {"pose", &CaseKey::pose, "", "name of a pose in a clip"},
-                                       {"angle_deg", &CaseKey::angle_deg, "deg", "angle of a joint that is twisted or bent"}};
 
 struct DeformedShape {
     std::string deformer;
@@ -124,7 +120,7 @@ private:
 }  // namespace
 
 const Columns<MemberRow> member_columns =
-    within(&MemberRow::of, case_columns) +
+    within(&MemberRow::of, pose_columns()) +
     within(&MemberRow::member,
            Columns<EnsembleMember>{{"member", &EnsembleMember::name, "", "name of the member"},
                                    {"spring_factor", &EnsembleMember::spring_factor, "", "q of the attachment"},
@@ -150,7 +146,7 @@ const Columns<MemberRow> member_columns =
         {"solve_s", &MemberRow::solve_s, "s", "wall time of all solutions"}};
 
 const Columns<ErrorRow> error_columns =
-    within(&ErrorRow::of, case_columns) +
+    within(&ErrorRow::of, pose_columns()) +
     Columns<ErrorRow>{{"member", &ErrorRow::member, "", "name of the member"},
                       {"deformer", &ErrorRow::deformer, "", "name of the deformer"},
                       {"error_joint_pct", &ErrorRow::error_joint_pct, "%", "error over the blended vertices outside the mask"},
@@ -159,7 +155,7 @@ const Columns<ErrorRow> error_columns =
                       {"volume_change_pct", &ErrorRow::volume_change_pct, "%", "signed change of the volume"}};
 
 const Columns<PairRow> pair_columns =
-    within(&PairRow::of, case_columns) +
+    within(&PairRow::of, pose_columns()) +
     Columns<PairRow>{
         {"first", &PairRow::first, "", "name of a deformer"},
         {"second", &PairRow::second, "", "name of the other one"},

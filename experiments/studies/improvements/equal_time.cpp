@@ -1,5 +1,7 @@
 #include "experiments/studies/improvements/equal_time.hpp"
 
+#include "experiments/studies/shared/pose_columns.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -19,26 +19,6 @@
 namespace experiments {
 namespace {
 
-using analysis::CaseKey;
-using analysis::Columns;
-using analysis::FrameMetrics;
-using analysis::within;
-
-const Columns<FrameMetrics> volume_columns = {
-    {"volume_change_pct", &FrameMetrics::volume_change_pct, "%", "signed change of the whole volume"},
-    {"volume_abs_change_pct", &FrameMetrics::volume_abs_change_pct, "%", "sum of the absolute changes of each tet"},
-    {"inverted", &FrameMetrics::inverted_tets, "", "number of inverted tets"}};
-
-Columns<ChangePoint> distance_columns()
-{
-    Columns<ChangePoint> columns;
-    for (std::size_t b = 0; b < budget_iterations.size(); ++b)
-        columns.emplace_back(
-            fmt::format("from_pbs_{}_pct", budget_iterations[b]), [b](auto& row) -> auto& { return row.distance_pct[b]; }, "%",
-            fmt::format("distance from the baseline after {} iterations, at the joints outside the overlap", budget_iterations[b]));
-    return columns;
-}
-
 std::vector<double> edge_lengths_m(const pbs::TetMesh& mesh)
 {
     const pbs::Edges edges = pbs::edges_of(mesh.tets);
@@ -172,36 +152,6 @@ private:
 };
 
 }  // namespace
-
-const Columns<CaseKey>& pose_columns()
-{
-    static const Columns<CaseKey> columns = {{"body", &CaseKey::body, "", "name of the body"},
-                                             {"motion", &CaseKey::motion, "", "twist, bend, or the name of a clip"},
-                                             {"pose", &CaseKey::pose, "", "name of a pose in a clip"},
-                                             {"angle_deg", &CaseKey::angle_deg, "deg", "angle of a joint that is twisted or bent"}};
-    return columns;
-}
-
-const Columns<ChangePoint> change_columns =
-    within(&ChangePoint::of, pose_columns()) +
-    Columns<ChangePoint>{{"change", &ChangePoint::change, "", "pbs, which is the baseline, or the name of a change to it"},
-                         {"setting", &ChangePoint::setting, "", "value of the change's own parameter"},
-                         {"iterations", &ChangePoint::iterations, "", "of Algorithm 1"},
-                         {"outcome", &ChangePoint::outcome, "", "finished or not_finite"}} +
-    within(&ChangePoint::ms, spread_columns("ms_median", "ms", "processor time per frame", {"_q1", "_q3"})) +
-    Columns<ChangePoint>{{"error_joint_pct", &ChangePoint::error_joint_pct, "%", "error over the blended vertices outside the overlap"},
-                         {"error_l2_pct", &ChangePoint::error_l2_pct, "%", "error over all vertices outside the overlap"}} +
-    within(&ChangePoint::metrics, volume_columns) + distance_columns() +
-    Columns<ChangePoint>{
-        {"reference", &ChangePoint::reference, "",
-         "elements of the reference: quadratic or linear, _refined: on the tets cut into eight; or not_reached"},
-        {"reference_error_joint_pct", &ChangePoint::reference_error_joint_pct, "%", "bound on the reference's own error, at the joints"},
-        {"masked_share_pct", &ChangePoint::masked_share_pct, "%", "share of the volume that is left out because the body overlaps itself"}};
-
-std::optional<double> ChangePoint::distance_from_baseline(int budget) const
-{
-    return distance_pct.at(std::ranges::find(budget_iterations, budget) - budget_iterations.begin());
-}
 
 std::string case_name(const ChangesCase& of)
 {

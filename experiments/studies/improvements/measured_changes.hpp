@@ -53,7 +53,6 @@ struct ChangePoint {
     // The distance of the same column for a budget.
     std::optional<double> distance_from_baseline(int budget) const;
 };
-const analysis::Columns<analysis::CaseKey>& pose_columns();  // body, motion, pose, angle_deg
 extern const analysis::Columns<ChangePoint> change_columns;  // points.csv
 
 struct MeasuredChanges {

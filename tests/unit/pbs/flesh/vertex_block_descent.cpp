@@ -4,6 +4,7 @@
 #include "pbs/flesh/vertex_block.hpp"
 #include "pbs/flesh/vertex_colours.hpp"
 #include "pbs/geometry/input_error.hpp"
+#include "tests/support/flesh_rounding.hpp"
 #include "tests/support/held_bar.hpp"
 #include "tests/support/rounding_error.hpp"
 
@@ -138,13 +139,11 @@ TEST(VertexBlockDescent, InvertedAndCollapsedStartsEndWhereTheGradientVanishes)
     }
 }
 
-// In float the minimum is that of energies with coefficients that are rounded to 2^-24, magnified by the condition of the Hessian, below
-// 1e3 relative to the distance of LBS.
 TEST(VertexBlockDescent, FloatEndsNearTheSameMinimum)
 {
     const Positions in_double = minimised<double>({.iterations = 600, .arithmetic = Arithmetic::plain_f64}, bent.lbs);
     const Positions in_float = minimised<float>({.iterations = 600}, bent.lbs);
-    EXPECT_LT((in_float - in_double).norm(), 1e-4 * (bent.lbs - in_double).norm());
+    EXPECT_LT((in_float - in_double).norm(), test_support::displaced_by_rounding<float>(energy, centres, in_double));
 }
 
 TEST(VertexBlockDescent, OverRelaxationSavesSweeps)
