@@ -66,8 +66,8 @@ pbs::CharacterSource read_character(const SceneValues& values, const std::string
     source.refinements = values.integer("character.refine");
     check_character(values, source);
     const std::string weights = values.text("skinning.weights");
-    for (const pbs::WeightKind kind : {pbs::WeightKind::paper, pbs::WeightKind::rigid, pbs::WeightKind::smooth, pbs::WeightKind::diffused,
-                                       pbs::WeightKind::artist})
+    for (const pbs::WeightKind kind :
+         {pbs::WeightKind::paper, pbs::WeightKind::rigid, pbs::WeightKind::smooth, pbs::WeightKind::diffused, pbs::WeightKind::artist})
         if (weights == pbs::name_of(kind)) source.weights = kind;
     if (source.weights == pbs::WeightKind::artist && source.model_file.empty())
         values.refuse("skinning.weights", "expected a character.model, which brings the artist's weights");
@@ -134,28 +134,9 @@ bool names_a_file(const std::string& name)
     return !name.empty() && std::all_of(name.begin(), name.end(), is_plain) && !name.starts_with("pbs");
 }
 
-// The deformers of all [[kind]] tables, including those that the scene does not use.
-std::vector<DeformerSpec> read_listed_deformers(const SceneValues& values)
-{
-    std::vector<DeformerSpec> listed;
-    for (const DeformerKind& kind : deformer_kinds())
-        for (int i = 0; kind.has_list && i < values.tables(kind.name); ++i) {
-            const std::string table = kind.name + "." + std::to_string(i), name = values.text(table + ".name");
-            if (!names_a_file(name))
-                values.refuse(table + ".name", "expected letters, digits and underscores, not beginning with pbs: it names files");
-            const DeformerSpec spec = read_spec(values, kind, table, name);
-            const bool is_own_name = kind.needs_list && name == kind.name;
-            if (!is_own_name && find_deformer_kind(name)) values.refuse(table + ".name", "is the name of another deformer");
-            for (const DeformerSpec& earlier : listed)
-                if (earlier.name == name) values.refuse(table + ".name", "is used twice");
-            listed.push_back(spec);
-        }
-    return listed;
-}
-
 std::vector<DeformerSpec> read_deformers(const SceneValues& values)
 {
-    const std::vector<DeformerSpec> listed = read_listed_deformers(values);
+    const std::vector<DeformerSpec> listed = listed_deformers(values);
     std::vector<DeformerSpec> used;
     for (const std::string& name : values.texts("deformers.use")) {
         const auto same = [&](const DeformerSpec& spec) { return spec.name == name; };
@@ -232,6 +213,24 @@ std::string read_scene_text(const std::string& path)
 }
 
 }  // namespace
+
+std::vector<DeformerSpec> listed_deformers(const SceneValues& values)
+{
+    std::vector<DeformerSpec> listed;
+    for (const DeformerKind& kind : deformer_kinds())
+        for (int i = 0; kind.has_list && i < values.tables(kind.name); ++i) {
+            const std::string table = kind.name + "." + std::to_string(i), name = values.text(table + ".name");
+            if (!names_a_file(name))
+                values.refuse(table + ".name", "expected letters, digits and underscores, not beginning with pbs: it names files");
+            const DeformerSpec spec = read_spec(values, kind, table, name);
+            const bool is_own_name = kind.needs_list && name == kind.name;
+            if (!is_own_name && find_deformer_kind(name)) values.refuse(table + ".name", "is the name of another deformer");
+            for (const DeformerSpec& earlier : listed)
+                if (earlier.name == name) values.refuse(table + ".name", "is used twice");
+            listed.push_back(spec);
+        }
+    return listed;
+}
 
 SceneSchema scene_schema()
 {
