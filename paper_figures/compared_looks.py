@@ -18,7 +18,7 @@ group_of_deformer = {"xpbd_small_steps": "xpbd", "fem_linear": "linear_fem", "fe
                      "fem_neo_hookean": "nonlinear_fem"}
 
 
-own_color, own_markers = "#E0218A", ("X", "H", ">", "8", "$\\ast$", "|", "_")
+own_color, own_markers = "#E0218A", ("X", "H", ">", "8", "|", "_")
 own_looks = {}  # of deformers of the user's own, in the order in which they are drawn
 
 
