@@ -231,7 +231,8 @@ class OwnDeformer(program.ProgramTest):
             self.assertFalse(os.path.exists(self.path("out")))
 
         mine = self.write("mine.toml", 'schema = 1\n[[external]]\nname = "mine"\ncommand = ["no_such_program"]\n')
-        refused(r".*mine\.toml:4: external\.0\.command = .*no_such_program.*: cannot be started: No such", "work_precision", "--external", mine)
+        refused(r".*mine\.toml:4: external\.0\.command = .*no_such_program.*: cannot be started: No such", "work_precision", "--external",
+                mine)
         refused(r"--external = .*mine\.toml: expected work_precision among the studies", "volume", "--external", mine)
         refused(r".*none\.toml: cannot be read", "work_precision", "--external", self.path("none.toml"))
         refused(r"--only = limb: no such run; expected one of limb_twist_90", "work_precision", "--only", "limb")
