@@ -41,17 +41,17 @@ struct DiagramMember {
 struct Diagram {
     Comparison comparison = Comparison::packed_f32;
     Half half = Half::evaluation;
-    analysis::CaseKey pose;                                 // of one case; a mean of several has none
-    std::string key;                                        // limb_twist_90, or limb_mean_of_4_poses
-    std::string name;                                       // for readers: limb, twist, 90 deg
-    std::vector<DeformerGroup> groups = deformer_groups();  // those of the user's own deformers last
-    std::vector<DiagramPoint> points;                       // those with a time and an error; the reference has no error
-    std::string reference;                                  // its name for readers; empty: none was reached
-    std::optional<double> reference_ms;                     // wall time of its solutions
-    std::optional<double> reference_error_pct;              // bound at the joints
+    analysis::CaseKey pose;                     // of one case; a mean of several has none
+    std::string key;                            // limb_twist_90, or limb_mean_of_4_poses
+    std::string name;                           // for readers: limb, twist, 90 deg
+    std::vector<DiagramPoint> points;           // those with a time and an error; the reference has no error
+    std::string reference;                      // its name for readers; empty: none was reached
+    std::optional<double> reference_ms;         // wall time of its solutions
+    std::optional<double> reference_error_pct;  // bound at the joints
     std::array<DiagramMember, 5> members = {};
     double masked_share_pct = 0.0;  // of the volume, which overlaps itself and is left out
     int poses = 1;
+    std::vector<DeformerGroup> groups = deformer_groups();  // those of the user's own deformers last
 
     // The points of these deformers with their cost and measure. indices[k] is the place of the k-th in `points`.
     std::vector<analysis::WorkPrecision> of(const std::vector<std::string>& deformers, std::vector<std::size_t>& indices,

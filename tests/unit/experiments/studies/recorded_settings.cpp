@@ -114,10 +114,11 @@ TEST(RecordedSettings, OfADeformerOfTheUsersOwn)
     DeformerSpec spec = default_spec("external");
     spec.options = ExternalOptions{.command = {"python3", "mine.py"}, .library = "libmine.so", .file_hashes = {{"mine.py", "1f"}}};
     of.external = {spec};
-    const nlohmann::json recorded = to_json(of);
+    const nlohmann::json recorded = to_json(spec);
+    EXPECT_EQ(to_json(of).at("external"), nlohmann::json::array({recorded}));
     const auto with = [&](void (*change)(ExternalOptions & options)) {
-        WorkPrecisionCase other = of;
-        change(options_of<ExternalOptions>(other.external[0]));
+        DeformerSpec other = spec;
+        change(options_of<ExternalOptions>(other));
         return to_json(other);
     };
     EXPECT_EQ(with([](ExternalOptions& options) { options.scene = "moved.toml"; }), recorded);
