@@ -24,7 +24,7 @@ void add_reproduce_verb(CLI::App& app, CommonOptions& common, VerbAction& action
     verb->add_flag("--cost", arguments->cost_only, "run nothing and print the expected time");
     auto* external = verb->add_option("--external", arguments->external,
                                       "a TOML file with [[external]] tables: deformers of your own for the study work_precision");
-    auto* only = verb->add_option("--only", arguments->only, "name of a run of the studies, e.g. limb_bend_60; by default all of them")
+    auto* only = verb->add_option("--only", arguments->only, "name of a run of the studies, e.g. human_crouch; by default all of them")
                      ->allow_extra_args(false);
     auto judge = std::make_shared<bool>(false);
     verb->add_flag("--judge", *judge, "run nothing and compute the verdicts from the records in the folder")

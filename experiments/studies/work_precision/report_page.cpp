@@ -71,8 +71,9 @@ std::string external_text(const ComparisonRecords& records)
         text += fmt::format("- `{}`: {}\n", group.key, clock ? words_of(*clock) : "no time");
     }
     if (text.empty()) return "";
-    return "Deformers of the user's own take part in both comparisons, since nothing is known of their code. Their clocks:\n\n" + text +
-           "\n";
+    return "Deformers of the user's own take part in both comparisons, since it is not known whether their code is packed. Their "
+           "clocks:\n\n" +
+           text + "\n";
 }
 
 struct TriedRow {
