@@ -1,4 +1,6 @@
 """The colour, marker and name of each group of deformers in the figures of error against run time."""
+import itertools
+
 import style
 
 brown, grey, olive, violet, crimson = "#8B5A2B", "#999999", "#7F7F00", "#5B2A86", "#B0123B"
@@ -16,9 +18,18 @@ group_of_deformer = {"xpbd_small_steps": "xpbd", "fem_linear": "linear_fem", "fe
                      "fem_neo_hookean": "nonlinear_fem"}
 
 
+own_color, own_markers = "#E0218A", ("X", "H", ">", "8", "|", "_")
+own_looks = {}  # of deformers of the user's own, in the order in which they are drawn
+
+
 def of(group):
-    """Name, colour and marker; a group that is not listed here has its own name in black."""
-    return groups.get(group, (group.replace("_", " "), style.black, "."))
+    """Name, colour and marker. A group that is not listed here is a deformer of the user's own, with its name and the next free marker."""
+    if group in groups:
+        return groups[group]
+    if group not in own_looks:
+        markers = itertools.islice(itertools.cycle(own_markers), len(own_looks), None)
+        own_looks[group] = (group, own_color, next(markers))
+    return own_looks[group]
 
 
 def short(group):

@@ -180,6 +180,13 @@ def panels_of(comparison, results):
     return sorted(shown, key=lambda panel: place(panel.title))[:most_panels]
 
 
+def clock_notes(shown):
+    """A line for each deformer of the user's own whose time is not processor time."""
+    words = {"own": "time as the program states it", "wall": "wall time of the program over its poses"}
+    clocks = {row["deformer"]: row["clock"] for panel in shown for row in panel.points if row.get("clock") in words}
+    return [f"{deformer}: {words[clock]}" for deformer, clock in clocks.items()]
+
+
 def draw_comparison(comparison, results, figures):
     shown = panels_of(comparison, results)
     columns = min(2, len(shown))
@@ -189,7 +196,7 @@ def draw_comparison(comparison, results, figures):
     for axes_of_panel in axes.flat[len(shown):]:
         axes_of_panel.set_visible(False)
     axes.flat[0].plot([], [], linestyle="none", marker="o", color="#777777", markersize=2.2, alpha=0.4, label="small marks: all settings")
-    for note in ("name above a line: nearest within that time", "?: the references do not decide"):
+    for note in ("name above a line: nearest within that time", "?: the references do not decide", *clock_notes(shown)):
         axes.flat[0].plot([], [], linestyle="none", label=note)
     style.legend_above(figure, columns=3)
     name = figures_of[comparison]

@@ -1,4 +1,5 @@
-// pbskin reproduce [CLAIM or STUDY]... [-o DIR] [--quick, --full] [-j N] [--resume]: runs studies and computes verdicts.
+// pbskin reproduce [CLAIM or STUDY]... [-o DIR] [--quick, --full] [-j N] [--resume]
+//                  [--external FILE] [--only RUN]...: runs studies and computes verdicts.
 #include "experiments/command_line/verbs.hpp"
 #include "experiments/process/progress.hpp"
 #include "experiments/verdicts/reproduce.hpp"
@@ -21,10 +22,16 @@ void add_reproduce_verb(CLI::App& app, CommonOptions& common, VerbAction& action
     verb->add_option("-j,--jobs", arguments->jobs, "number of runs in parallel")->check(CLI::Range(1, 256))->capture_default_str();
     auto* resume = verb->add_flag("--resume", arguments->resume, "keep the runs that are finished already");
     verb->add_flag("--cost", arguments->cost_only, "run nothing and print the expected time");
+    auto* external = verb->add_option("--external", arguments->external,
+                                      "a TOML file with [[external]] tables: deformers of your own for the study work_precision");
+    auto* only = verb->add_option("--only", arguments->only, "name of a run of the studies, e.g. human_crouch; by default all of them")
+                     ->allow_extra_args(false);
     auto judge = std::make_shared<bool>(false);
     verb->add_flag("--judge", *judge, "run nothing and compute the verdicts from the records in the folder")
         ->excludes(full)
-        ->excludes(resume);
+        ->excludes(resume)
+        ->excludes(external)
+        ->excludes(only);
     verb->callback([&action, &common, arguments, judge] {
         action = [&common, arguments, judge] {
             if (common.quiet) hide_progress();

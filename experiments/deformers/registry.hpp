@@ -33,6 +33,7 @@ struct DeformerTraits {
     bool is_negative_control = false;    // its breakdown is an expected result and no failure
     bool blends_linearly = false;        // inverted tets in the first frame point to its weights or its bind pose
     bool solves_equations = false;       // a frame that has inverted tets or did not converge is no solution
+    bool has_own_clock = false;          // it works in another process, so that only StepSummary::seconds has its time
 };
 
 using pbs::BodyCounts;

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <sstream>
 
 #include <fcntl.h>
 #include <spawn.h>
@@ -54,6 +56,26 @@ ProgramRun run_program(const std::vector<std::string>& program_and_arguments, co
     run.last_words = end_of(analysis::read_text(output));
     std::filesystem::remove(output);
     return run;
+}
+
+std::string why_not_startable(const std::string& program)
+{
+    namespace fs = std::filesystem;
+    std::error_code code;
+    const auto why_not = [&](const fs::path& file) -> std::string {
+        if (!fs::is_regular_file(file, code)) return std::strerror(ENOENT);
+        return access(file.c_str(), X_OK) == 0 ? "" : std::strerror(EACCES);
+    };
+    if (program.find('/') != std::string::npos) return why_not(program);
+    std::string why = std::strerror(ENOENT);
+    const char* variable = std::getenv("PATH");
+    std::istringstream folders(variable ? variable : "/bin:/usr/bin");
+    for (std::string folder; std::getline(folders, folder, ':');) {
+        const std::string why_not_here = why_not(fs::path(folder.empty() ? "." : folder) / program);
+        if (why_not_here.empty()) return "";
+        if (why_not_here != std::strerror(ENOENT)) why = why_not_here;
+    }
+    return why;
 }
 
 }  // namespace experiments

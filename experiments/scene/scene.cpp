@@ -134,28 +134,9 @@ bool names_a_file(const std::string& name)
     return !name.empty() && std::all_of(name.begin(), name.end(), is_plain) && !name.starts_with("pbs");
 }
 
-// The deformers of all [[kind]] tables, including those that the scene does not use.
-std::vector<DeformerSpec> read_listed_deformers(const SceneValues& values)
-{
-    std::vector<DeformerSpec> listed;
-    for (const DeformerKind& kind : deformer_kinds())
-        for (int i = 0; kind.has_list && i < values.tables(kind.name); ++i) {
-            const std::string table = kind.name + "." + std::to_string(i), name = values.text(table + ".name");
-            if (!names_a_file(name))
-                values.refuse(table + ".name", "expected letters, digits and underscores, not beginning with pbs: it names files");
-            const DeformerSpec spec = read_spec(values, kind, table, name);
-            const bool is_own_name = kind.needs_list && name == kind.name;
-            if (!is_own_name && find_deformer_kind(name)) values.refuse(table + ".name", "is the name of another deformer");
-            for (const DeformerSpec& earlier : listed)
-                if (earlier.name == name) values.refuse(table + ".name", "is used twice");
-            listed.push_back(spec);
-        }
-    return listed;
-}
-
 std::vector<DeformerSpec> read_deformers(const SceneValues& values)
 {
-    const std::vector<DeformerSpec> listed = read_listed_deformers(values);
+    const std::vector<DeformerSpec> listed = listed_deformers(values);
     std::vector<DeformerSpec> used;
     for (const std::string& name : values.texts("deformers.use")) {
         const auto same = [&](const DeformerSpec& spec) { return spec.name == name; };
@@ -232,6 +213,24 @@ std::string read_scene_text(const std::string& path)
 }
 
 }  // namespace
+
+std::vector<DeformerSpec> listed_deformers(const SceneValues& values)
+{
+    std::vector<DeformerSpec> listed;
+    for (const DeformerKind& kind : deformer_kinds())
+        for (int i = 0; kind.has_list && i < values.tables(kind.name); ++i) {
+            const std::string table = kind.name + "." + std::to_string(i), name = values.text(table + ".name");
+            if (!names_a_file(name))
+                values.refuse(table + ".name", "expected letters, digits and underscores, not beginning with pbs: it names files");
+            const DeformerSpec spec = read_spec(values, kind, table, name);
+            const bool is_own_name = kind.needs_list && name == kind.name;
+            if (!is_own_name && find_deformer_kind(name)) values.refuse(table + ".name", "is the name of another deformer");
+            for (const DeformerSpec& earlier : listed)
+                if (earlier.name == name) values.refuse(table + ".name", "is used twice");
+            listed.push_back(spec);
+        }
+    return listed;
+}
 
 SceneSchema scene_schema()
 {

@@ -14,6 +14,8 @@
 
 namespace experiments {
 
+class SceneValues;
+
 struct MotionSpec {
     std::string joint;                    // a sweep of this joint
     pbs::Vec3 axis = pbs::Vec3::UnitX();  // in rest world axes, of any length
@@ -68,6 +70,10 @@ const DeformerSpec* find_deformer_with(const Scene& scene)
 
 // Reads a scene file, or a built-in scene by name (`pbskin list scenes`).
 Scene read_scene(const std::string& file_or_name, const std::vector<std::string>& overrides);
+
+// The deformers of all [[kind]] tables, including those that the scene does not use. InputError for a name that is no identifier, is used
+// twice or is that of a kind.
+std::vector<DeformerSpec> listed_deformers(const SceneValues& values);
 
 // `resolved` and the options of every deformer, including those that only studies set: all that the result of a run depends on.
 nlohmann::json to_json(const Scene& scene);

@@ -68,6 +68,8 @@ struct Study {
     Sets sets = {};
     StudyConclusion (*conclude)(const FinishedRuns& finished) = nullptr;  // writes the summaries; null: there are none
     bool alone = false;                                                   // it measures time: one run at a time, whatever -j is
+    // The plan with deformers of the user's own from the [[external]] tables of a file. Null: the study has a fixed list of deformers.
+    StudyPlan (*plan_with)(bool full, const std::string& external_file) = nullptr;
 };
 const std::vector<Study>& studies();
 

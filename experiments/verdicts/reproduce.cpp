@@ -56,16 +56,42 @@ void refuse_unknown(const std::vector<std::string>& names)
                                   "unknown claim or study; expected one of " + fmt::format("{}", fmt::join(known, ", ")));
 }
 
-struct StudyOutcome {
-    FinishedRuns finished = {};  // without failed runs, which are reported and whose verdicts cannot be computed
-    bool broke_down = false, failed = false, refused = false;
-    StudyCosts costs;
-};
-
 struct PlannedStudy {
     const Study* study;
     StudyPlan plan;
     std::string folder;
+};
+
+// The studies that take deformers of the user's own must be among those that run.
+void refuse_unused(const std::string& external, const std::vector<PlannedStudy>& planned)
+{
+    std::vector<std::string> taking;
+    for (const Study& study : studies())
+        if (study.plan_with) taking.push_back(study.name);
+    if (external.empty() || std::ranges::any_of(planned, [](const PlannedStudy& one) { return one.study->plan_with != nullptr; })) return;
+    throw pbs::InputError("", 0, "--external", external,
+                          fmt::format("expected {} among the studies, which compares deformers of your own", fmt::join(taking, ", ")));
+}
+
+// Each of these names must be that of a run.
+void keep_only(const std::vector<std::string>& names, std::vector<PlannedStudy>& planned)
+{
+    if (names.empty()) return;
+    std::vector<std::string> known;
+    for (const PlannedStudy& of : planned)
+        for (const StudyRun& run : of.plan.runs) known.push_back(run.name);
+    for (const std::string& name : names)
+        if (std::ranges::find(known, name) == known.end())
+            throw pbs::InputError("", 0, "--only", name, fmt::format("no such run; expected one of {}", fmt::join(known, ", ")));
+    for (PlannedStudy& of : planned)
+        std::erase_if(of.plan.runs, [&](const StudyRun& run) { return std::ranges::find(names, run.name) == names.end(); });
+    std::erase_if(planned, [](const PlannedStudy& of) { return of.plan.runs.empty(); });
+}
+
+struct StudyOutcome {
+    FinishedRuns finished = {};  // without failed runs, which are reported and whose verdicts cannot be computed
+    bool broke_down = false, failed = false, refused = false;
+    StudyCosts costs;
 };
 
 std::vector<PlannedStudy> plan_studies(const ReproduceArguments& arguments)
@@ -74,9 +100,13 @@ std::vector<PlannedStudy> plan_studies(const ReproduceArguments& arguments)
     for (const Study& study : studies()) {
         const Extent extent = asked_for(study, arguments.names, arguments.full);
         if (extent == Extent::none) continue;
-        planned.push_back({&study, study.plan(extent == Extent::full), (fs::path(arguments.folder) / study.name).string()});
+        const bool full = extent == Extent::full, is_extended = study.plan_with && !arguments.external.empty();
+        planned.push_back({&study, is_extended ? study.plan_with(full, arguments.external) : study.plan(full),
+                           (fs::path(arguments.folder) / study.name).string()});
         planned.back().plan.extent = extent;
     }
+    refuse_unused(arguments.external, planned);
+    keep_only(arguments.only, planned);
     return planned;
 }
 

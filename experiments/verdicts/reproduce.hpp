@@ -12,6 +12,8 @@ struct ReproduceArguments {
     bool full = false, resume = false;
     bool cost_only = false;  // runs nothing and prints the expected cost
     int jobs = 2;
+    std::string external = {};           // a file with deformers of the user's own, for studies that compare them; empty: none
+    std::vector<std::string> only = {};  // names of runs; empty: all runs of the studies
 };
 
 // Writes DIR/STUDY/RUN/... and, if there are verdicts, DIR/claims.json and DIR/claims.md. Prints the table of claims and the conclusions of

@@ -53,6 +53,9 @@ auto members_of(Struct& of)
     } else if constexpr (count == 12) {
         auto& [a, b, c, d, e, f, g, h, i, j, k, l] = of;
         return std::tie(a, b, c, d, e, f, g, h, i, j, k, l);
+    } else if constexpr (count == 13) {
+        auto& [a, b, c, d, e, f, g, h, i, j, k, l, m] = of;
+        return std::tie(a, b, c, d, e, f, g, h, i, j, k, l, m);
     } else if constexpr (count == 16) {
         auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p] = of;
         return std::tie(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p);

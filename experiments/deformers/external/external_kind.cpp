@@ -93,7 +93,9 @@ DeformerKind external_kind()
         .has_list = true,
         .needs_list = true,
         .read = read_external,
-        .options_json = external_json};
+        .options_json = external_json,
+        .traits =
+            [](const DeformerSpec& spec) { return DeformerTraits{.has_own_clock = options_of<ExternalOptions>(spec).library.empty()}; }};
 }
 
 }  // namespace experiments

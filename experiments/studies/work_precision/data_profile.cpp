@@ -53,7 +53,7 @@ std::vector<ProfileStep> data_profiles(const std::vector<Diagram>& diagrams)
         for (const Diagram& diagram : diagrams)
             if (diagram.comparison == comparison && counts(diagram, false)) poses.push_back(&diagram);
         for (const double tolerance_pct : profile_tolerances_pct)
-            for (const DeformerGroup& group : deformer_groups()) add_steps(steps, poses, group, tolerance_pct);
+            for (const DeformerGroup& group : groups_of(diagrams)) add_steps(steps, poses, group, tolerance_pct);
     }
     return steps;
 }

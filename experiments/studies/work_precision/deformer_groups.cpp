@@ -13,7 +13,7 @@ const std::vector<DeformerGroup>& deformer_groups()
         std::vector<DeformerGroup> all;
         const auto add = [&](const std::string& key, const std::string& words, const std::string& deformer) {
             auto found = std::ranges::find(all, key, &DeformerGroup::key);
-            if (found == all.end()) found = all.insert(all.end(), {key, words, {}});
+            if (found == all.end()) found = all.insert(all.end(), DeformerGroup{key, words, {}});
             found->deformers.push_back(deformer);
         };
         for (const ComparedDeformer& entry : compared_deformers()) add(entry.group, entry.words, entry.name);
@@ -22,6 +22,13 @@ const std::vector<DeformerGroup>& deformer_groups()
         return all;
     }();
     return groups;
+}
+
+std::vector<DeformerGroup> groups_with(const std::vector<std::string>& external)
+{
+    std::vector<DeformerGroup> all = deformer_groups();
+    for (const std::string& name : external) all.push_back({name, name, {name}, true});
+    return all;
 }
 
 const DeformerGroup& group_of(const std::string& deformer)

@@ -24,6 +24,15 @@ bool is_chosen(const std::vector<ChosenSetting>& chosen, Comparison comparison, 
     return std::ranges::any_of(chosen, [&](const auto& one) { return one.comparison == comparison && one.key == key; });
 }
 
+// The names, in the order of the rows.
+std::vector<std::string> external_in(const CaseRows& rows)
+{
+    std::vector<std::string> names;
+    for (const PointRow& row : rows)
+        if (row.is_external) names.push_back(row.key.deformer);
+    return names;
+}
+
 // One pose of one body.
 Diagram diagram_of(const CaseRecords& records, Comparison comparison, const std::vector<ChosenSetting>& chosen)
 {
@@ -33,6 +42,7 @@ Diagram diagram_of(const CaseRecords& records, Comparison comparison, const std:
     diagram.pose = records.rows.front().of;
     diagram.key = case_name(diagram.pose);
     diagram.name = text_of(diagram.pose);
+    diagram.groups = groups_with(external_in(records.rows));
     add_members(diagram, records.members);
     for (const PointRow& row : records.rows) {
         if (row.outcome == "reference") {
@@ -110,6 +120,7 @@ Diagram mean_diagram(const std::string& key, const std::string& name, const std:
     mean.comparison = poses.front().comparison;
     mean.key = key;
     mean.name = name;
+    mean.groups = poses.front().groups;
     for (std::size_t m = 0; m < mean.members.size(); ++m) mean.members[m] = mean_member(poses, m);
     mean.poses = static_cast<int>(poses.size());
     for (const Diagram& pose : poses) mean.masked_share_pct += pose.masked_share_pct / double(poses.size());
@@ -153,6 +164,11 @@ const analysis::Columns<DiagramPoint>& diagram_point_columns()
         within(&DiagramPoint::key, setting_columns()) +
         Columns<DiagramPoint>{{"ms_median", &DiagramPoint::ms, "ms", "median of the processor time per frame"}};
     return columns;
+}
+
+const std::vector<DeformerGroup>& groups_of(const std::vector<Diagram>& diagrams)
+{
+    return diagrams.empty() ? deformer_groups() : diagrams.front().groups;
 }
 
 bool is_pose(const Diagram& diagram)

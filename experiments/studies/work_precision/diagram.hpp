@@ -51,11 +51,15 @@ struct Diagram {
     std::array<DiagramMember, 5> members = {};
     double masked_share_pct = 0.0;  // of the volume, which overlaps itself and is left out
     int poses = 1;
+    std::vector<DeformerGroup> groups = deformer_groups();  // those of the user's own deformers last
 
     // The points of these deformers with their cost and measure. indices[k] is the place of the k-th in `points`.
     std::vector<analysis::WorkPrecision> of(const std::vector<std::string>& deformers, std::vector<std::size_t>& indices,
                                             const std::string& measure = "error_joint_pct") const;
 };
+
+// The groups of all diagrams of a record, which are the same.
+const std::vector<DeformerGroup>& groups_of(const std::vector<Diagram>& diagrams);
 
 bool is_pose(const Diagram& diagram);  // with a reference; a mean over several poses is none
 

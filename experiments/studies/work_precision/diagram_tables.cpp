@@ -89,10 +89,10 @@ std::optional<double> known(double value)
 
 const std::string all_name = "all";
 
-std::vector<std::string> all_deformers()
+std::vector<std::string> all_deformers(const Diagram& diagram)
 {
     std::vector<std::string> all;
-    for (const DeformerGroup& group : deformer_groups()) all.insert(all.end(), group.deformers.begin(), group.deformers.end());
+    for (const DeformerGroup& group : diagram.groups) all.insert(all.end(), group.deformers.begin(), group.deformers.end());
     return all;
 }
 
@@ -142,8 +142,8 @@ analysis::CsvTable fronts_table(const std::vector<Diagram>& diagrams)
     std::vector<FrontRow> rows;
     for (const Diagram& diagram : diagrams)
         for (const std::string& measure : measures().names()) {
-            add_front(rows, diagram, measure, all_name, all_deformers());
-            for (const std::string& deformer : all_deformers()) add_front(rows, diagram, measure, deformer, {deformer});
+            add_front(rows, diagram, measure, all_name, all_deformers(diagram));
+            for (const std::string& deformer : all_deformers(diagram)) add_front(rows, diagram, measure, deformer, {deformer});
         }
     return table_of(front_columns, rows);
 }
@@ -152,8 +152,8 @@ analysis::CsvTable crossings_table(const std::vector<Diagram>& diagrams)
 {
     std::vector<CrossingRow> rows;
     for (const Diagram& diagram : diagrams)
-        for (const DeformerGroup& one : deformer_groups())
-            for (const DeformerGroup& other : deformer_groups())
+        for (const DeformerGroup& one : diagram.groups)
+            for (const DeformerGroup& other : diagram.groups)
                 if (&one != &other) add_crossing(rows, diagram, one, other);
     return table_of(crossing_columns, rows);
 }
@@ -161,7 +161,7 @@ analysis::CsvTable crossings_table(const std::vector<Diagram>& diagrams)
 std::vector<BudgetRow> best_within(const Diagram& diagram, double budget_ms)
 {
     std::vector<BudgetRow> rows;
-    for (const DeformerGroup& group : deformer_groups())
+    for (const DeformerGroup& group : diagram.groups)
         if (const DiagramPoint* point = best_of(diagram, group, budget_ms))
             rows.push_back({diagram.comparison, diagram.key, budget_ms, 0, group.key, *point});
     std::ranges::stable_sort(rows, {}, [](const BudgetRow& row) { return row.point.error_pct; });

@@ -24,7 +24,7 @@ std::vector<const DiagramPoint*> front_of(const Diagram& diagram)
 std::string who_is_quickest(const Diagram& diagram)
 {
     std::vector<std::pair<double, std::string>> first;  // the least time of each group
-    for (const DeformerGroup& group : deformer_groups()) {
+    for (const DeformerGroup& group : diagram.groups) {
         double least = std::numeric_limits<double>::infinity();
         std::vector<std::size_t> indices;
         for (const auto& point : diagram.of(group.deformers, indices)) least = std::min(least, point.cost);
@@ -63,8 +63,9 @@ std::string who_is_nearest(const Diagram& diagram, double budget_ms)
 {
     const std::vector<BudgetRow> ranked = best_within(diagram, budget_ms);
     if (ranked.empty()) return fmt::format("within {} per frame there is no deformer", ms_text(budget_ms));
-    const auto described = [](const BudgetRow& row) {
-        return fmt::format("{} ({}: {:.1f} %)", group_named(row.group).words, text_of(row.point.key), row.point.error_pct);
+    const auto described = [&](const BudgetRow& row) {
+        const auto group = std::ranges::find(diagram.groups, row.group, &DeformerGroup::key);
+        return fmt::format("{} ({}: {:.1f} %)", group->words, text_of(row.point.key), row.point.error_pct);
     };
     std::string text = fmt::format("within {} per frame {} is nearest", ms_text(budget_ms), described(ranked[0]));
     if (ranked.size() == 1) return text + ", as the only one";
@@ -138,6 +139,8 @@ std::vector<std::string> findings(const Diagram& diagram)
     lines.push_back(who_is_quickest(diagram));
     for (const auto& [one, other] : {std::pair{"pbs", "delta_mush"}, {"pbs", "xpbd"}, {"linear_fem", "pbs"}, {"nonlinear_fem", "pbs"}})
         lines.push_back(who_passes(diagram, group_named(one), group_named(other)));
+    for (const DeformerGroup& group : diagram.groups)
+        if (group.is_external) lines.push_back(who_passes(diagram, group, group_named("pbs")));
     for (const double budget_ms : {1.0, 10.0}) lines.push_back(is_physics_worth_it(diagram, budget_ms));
     lines.push_back(how_certain_the_reference_is(diagram));
     lines.push_back(what_refinement_does(diagram));

@@ -68,7 +68,7 @@ std::string solved_table(const std::vector<Diagram>& diagrams, Comparison compar
         if (diagram.poses == 1 && std::ranges::find(bodies, diagram.pose.body) == bodies.end()) bodies.push_back(diagram.pose.body);
     std::string header = "| group |", line = "|---|", rows;
     for (const std::string& body : bodies) header += " " + body + " |", line += "---|";
-    for (const DeformerGroup& group : deformer_groups()) {
+    for (const DeformerGroup& group : groups_of(diagrams)) {
         std::string cells;
         bool solves = false;
         for (const std::string& body : bodies) {

@@ -31,13 +31,21 @@ PosePair poses_of(const WorkPrecisionCase& of, const pbs::Skeleton& skeleton)
     return poses;
 }
 
+std::vector<PointSetting> all_settings(const WorkPrecisionCase& of)
+{
+    std::vector<PointSetting> settings = external_settings(of.external);
+    const std::vector<PointSetting> compared = point_settings(of.scene, of.range);
+    settings.insert(settings.end(), compared.begin(), compared.end());
+    return settings;
+}
+
 class CaseMeasuring {
 public:
     explicit CaseMeasuring(const WorkPrecisionCase& of)
         : of_(of),
           base_(std::make_shared<pbs::Character>(pbs::make_character(of.scene.character))),
           poses_(poses_of(of, base_->skeleton)),
-          settings_(point_settings(of.scene, of.range)),
+          settings_(all_settings(of)),
           references_(of, *base_, poses_)
     {
         meshes_.emplace(0, BodyMesh(base_));
@@ -73,29 +81,37 @@ private:
             return;
         }
         try {
-            PosedDeformer& deformer = deformers_.emplace_back(setting, mesh, poses_);
+            PosedDeformer& deformer = deformers_.emplace_back(setting, mesh, poses_, 1 + rounds_of_own_clock().fewest);
             ReachedPoint point{&setting, &mesh, deformer.reach(), {}};
             point.on_base = mesh.on_base(point.shape.positions);
             const bool is_fem = options_if<FemOptions>(setting.spec) != nullptr;
             const bool is_of_the_paper = options_if<pbs::PbsOptions>(setting.spec) || traits_of(setting.spec).blends_linearly;
-            if (!point.shape.finished && is_of_the_paper) measured_.breakdown += setting.deformer + " is not finite. ";
+            if (!point.shape.finished && (is_of_the_paper || setting.is_external()))
+                measured_.breakdown += setting.deformer + " is not finite. ";
             if (!is_fem && 1e3 * point.shape.seconds > of_.longest_frame_ms) too_slow_[ladder] = 1e3 * point.shape.seconds;
             points_.push_back(std::move(point));
         } catch (const pbs::InputError& error) {
+            if (setting.is_external()) throw;
             if (deformers_.size() > points_.size()) deformers_.pop_back();
             add_row_of_case(row_without_answer(setting, mesh, "not_applicable", error.what()));
         }
     }
 
+    // A program computes its turns ahead, so that other deformers do not disturb them. take_turns adds one that warms up.
+    Rounds rounds_of_own_clock() const { return {.seconds = 0.0, .fewest = of_.rounds.fewest, .most = of_.rounds.fewest}; }
+
     // The times of those that reached the pose. The nonlinear laws take turns among themselves, and so do the others.
     std::vector<FrameTime> time_all()
     {
         std::vector<FrameTime> times(points_.size());
+        for (std::size_t i = 0; i < points_.size(); ++i)
+            if (points_[i].shape.finished && deformers_[i].has_own_clock())
+                times[i] = frame_time(take_turns({[this, i] { return deformers_[i].turn(); }}, rounds_of_own_clock())[0][0]);
         for (const bool newton : {false, true}) {
             std::vector<std::size_t> which;
             std::vector<TimedVariant> turns;
             for (std::size_t i = 0; i < points_.size(); ++i) {
-                if (!points_[i].shape.finished || points_[i].setting->is_newton() != newton) continue;
+                if (!points_[i].shape.finished || points_[i].setting->is_newton() != newton || deformers_[i].has_own_clock()) continue;
                 which.push_back(i);
                 turns.push_back([this, i] {
                     stop_if_interrupted();
@@ -112,7 +128,8 @@ private:
     {
         PointRow row = point_row(point);
         add_time(row, time);
-        row.work = deformer.work();
+        if (!row.is_external) row.work = deformer.work();  // such a deformer counts nothing
+        if (time.ms) row.clock = deformer.clock();
         if (point.shape.finished) references_.add_errors(row, point.on_base);
         if (point.shape.finished && point.setting->on_own_mesh())
             row.to_linear_elements_pct = references_.to_linear_elements_pct(point.on_base);
@@ -181,11 +198,14 @@ nlohmann::json to_json(const WorkPrecisionCase& of)
             .record("converged_iterations", &WorkPrecisionCase::converged_iterations)
             .record("longest_frame_ms", &WorkPrecisionCase::longest_frame_ms)
             .record("seeks_theta", &WorkPrecisionCase::seeks_theta)
+            .record("external", &WorkPrecisionCase::external)
             .derived("points",
                      [](const WorkPrecisionCase& one) -> nlohmann::json { return digest_of(point_settings(one.scene, one.range)); })
             .derived("reference", [](const WorkPrecisionCase& one) { return to_json(reference_flesh(one.scene)); })
             .complete();
-    return fields.json(of);
+    nlohmann::json json = fields.json(of);
+    if (of.external.empty()) json.erase("external");  // as in records of the fixed list of deformers
+    return json;
 }
 
 MeasuredPoints measure_points(const WorkPrecisionCase& of)

@@ -25,6 +25,7 @@ struct WorkPrecisionCase {
     int converged_iterations = 8000;           // of PBS for the parts of its error; 0: no parts
     double longest_frame_ms = 300.0;           // of a ladder of iterations
     bool seeks_theta = true;
+    std::vector<DeformerSpec> external = {};  // deformers of the user's own (external_entries.hpp); they are measured first
 };
 
 nlohmann::json to_json(const WorkPrecisionCase& of);  // everything that a run of the study depends on
@@ -33,9 +34,11 @@ struct MeasuredPoints {
     std::vector<PointRow> rows;
     std::vector<FamilyRow> members;
     std::vector<ThetaRow> thetas;
-    std::string breakdown;  // PBS or LBS that is not finite; a reference that is not reached is recorded as an outcome
+    std::string breakdown;  // PBS, LBS or a deformer of the user's own that is not finite; a reference that is not reached is recorded as
+                            // an outcome
 };
 
+// InputError of a deformer of the user's own that fails.
 MeasuredPoints measure_points(const WorkPrecisionCase& of);
 
 }  // namespace experiments

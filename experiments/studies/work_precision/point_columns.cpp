@@ -1,6 +1,8 @@
 // The columns of points.csv, members.csv and theta.csv.
 #include "experiments/studies/work_precision/point_row.hpp"
 
+#include <algorithm>
+
 namespace experiments {
 namespace {
 
@@ -99,6 +101,16 @@ Points columns_of_comparison()
     return (of_point + within(&PointRow::work, work_columns) + from_limit + member_error_columns()).in_group("comparison");
 }
 
+// Only where such a deformer takes part.
+Points columns_of_external()
+{
+    return Points{{"external", &PointRow::is_external, "", "a deformer of the user's own"},
+                  {"clock", &PointRow::clock, "",
+                   "of the times: processor (of this process), own (as an external program states them) or wall (of that program, divided "
+                   "by the number of its poses)"}}
+        .in_group("external");
+}
+
 }  // namespace
 
 const Points point_columns =
@@ -108,7 +120,12 @@ const Points point_columns =
     within(&PointRow::key, setting_columns()) + own_columns() + within(&PointRow::error, error_columns) +
     within(&PointRow::metrics, volume_columns) + reference_columns() + within(&PointRow::parts, before_discretisation) +
     Points{{"discretisation_pct", &PointRow::discretisation_pct, "%", "PBS: bound of the reference's distance from its limit"}} +
-    within(&PointRow::parts, after_discretisation) + columns_of_comparison();
+    within(&PointRow::parts, after_discretisation) + columns_of_comparison() + columns_of_external();
+
+Points columns_for(const std::vector<PointRow>& rows)
+{
+    return std::ranges::any_of(rows, &PointRow::is_external) ? point_columns : point_columns.without("external");
+}
 
 const Columns<FamilyRow> family_columns =
     within(&FamilyRow::of, case_columns) +

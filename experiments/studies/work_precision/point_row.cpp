@@ -19,6 +19,7 @@ PointRow row_on(const PointSetting& setting, const BodyMesh& mesh)
 {
     PointRow row{.key = key_of(setting)};
     row.setting = text_of(row.key);
+    row.is_external = setting.is_external();
     row.vertices = int(mesh.character().mesh.rest.rows());
     row.tets = int(mesh.character().mesh.tets.rows());
     return row;

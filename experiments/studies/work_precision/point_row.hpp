@@ -10,6 +10,7 @@
 #include "experiments/studies/shared/timed_rounds.hpp"
 #include "experiments/studies/work_precision/body_mesh.hpp"
 #include "experiments/studies/work_precision/case_split.hpp"
+#include "experiments/studies/work_precision/frame_clock.hpp"
 #include "experiments/studies/work_precision/stiffness_factor.hpp"
 #include "pbs/geometry/work_counters.hpp"
 
@@ -60,8 +61,12 @@ struct PointRow {
     std::optional<pbs::WorkCounters> work = {};
     std::optional<double> to_linear_elements_pct = {};  // of a point on the case's own tets
     MemberErrors members = {};
+    bool is_external = false;              // a deformer of the user's own
+    std::optional<FrameClock> clock = {};  // nothing where there is no time
 };
+// All columns. Those of the group "external" are written only if a deformer of the user's own takes part.
 extern const analysis::Columns<PointRow> point_columns;
+analysis::Columns<PointRow> columns_for(const std::vector<PointRow>& rows);
 
 // A setting without an answer: outcome is over_time_limit or not_applicable.
 PointRow row_without_answer(const PointSetting& setting, const BodyMesh& mesh, const std::string& outcome, const std::string& reason);

@@ -166,6 +166,13 @@ nlohmann::json to_json(const SettingRange& range)
     return fields.json(range);
 }
 
+std::vector<PointSetting> external_settings(const std::vector<DeformerSpec>& external)
+{
+    std::vector<PointSetting> settings;
+    for (const DeformerSpec& spec : external) settings.push_back({spec.name, spec});
+    return settings;
+}
+
 std::vector<PointSetting> point_settings(const Scene& scene, const SettingRange& range)
 {
     SettingList list(scene, range);

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "analysis/records/typed_table.hpp"
+#include "experiments/deformers/external/external_deformers.hpp"
 #include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/scene/scene.hpp"
 #include "experiments/studies/work_precision/compared_deformers.hpp"
@@ -24,6 +25,7 @@ struct PointSetting {
     int vertices = 0;                    // wanted size of another mesh of the body; 0: the case's own
     bool refined = false;                // on the case's own tets, each cut into eight
 
+    bool is_external() const { return options_if<ExternalOptions>(spec) != nullptr; }  // a deformer of the user's own
     bool on_own_mesh() const { return vertices == 0 && !refined; }
 
     bool is_newton() const
@@ -66,6 +68,9 @@ nlohmann::json to_json(const SettingRange& range);
 
 // The scene, a built-in one, gives the options that are not varied: its pbs, and the material of its first [[fem]].
 std::vector<PointSetting> point_settings(const Scene& scene, const SettingRange& range);
+
+// One setting of each deformer of the user's own.
+std::vector<PointSetting> external_settings(const std::vector<DeformerSpec>& external);
 
 // A digest in 32 hexadecimal digits of everything that the points depend on: their options and meshes.
 std::string digest_of(const std::vector<PointSetting>& settings);

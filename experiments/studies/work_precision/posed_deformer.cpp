@@ -5,11 +5,25 @@
 #include <limits>
 
 namespace experiments {
+namespace {
 
-PosedDeformer::PosedDeformer(const PointSetting& setting, const BodyMesh& mesh, const PosePair& poses)
-    : mesh_(mesh), poses_(poses), deformer_(make_deformer(setting.spec))
+// The poses of reach() and of so many turns.
+std::vector<pbs::Pose> coming_poses(const PosePair& poses, bool with_way, int turns)
+{
+    std::vector<pbs::Pose> coming;
+    if (with_way) coming = poses.way;
+    coming.push_back(poses.pose);
+    for (int turn = 0; turn < turns; ++turn) coming.push_back(turn % 2 == 0 ? poses.neighbour : poses.pose);
+    return coming;
+}
+
+}  // namespace
+
+PosedDeformer::PosedDeformer(const PointSetting& setting, const BodyMesh& mesh, const PosePair& poses, int announced_turns)
+    : mesh_(mesh), poses_(poses), deformer_(make_deformer(setting.spec)), has_own_clock_(traits_of(setting.spec).has_own_clock)
 {
     deformer_->reset(mesh.character());
+    if (has_own_clock_) deformer_->foresee(coming_poses(poses, deformer_->has_memory(), announced_turns));
 }
 
 Shape PosedDeformer::reach()
@@ -20,7 +34,8 @@ Shape PosedDeformer::reach()
     const pbs::StepSummary step = advance(poses_.pose);
     is_there_ = true;
     work_ = step.work;
-    return {deformer_->positions(), has_arrived_ && deformer_->positions().allFinite(), process_cpu_s() - start_s};
+    const double seconds = has_own_clock_ ? step.seconds : process_cpu_s() - start_s;
+    return {deformer_->positions(), has_arrived_ && deformer_->positions().allFinite(), seconds};
 }
 
 std::vector<double> PosedDeformer::turn()
@@ -28,11 +43,21 @@ std::vector<double> PosedDeformer::turn()
     const bool had_arrived = has_arrived_;
     const double start_s = process_cpu_s();
     const pbs::StepSummary step = advance(is_there_ ? poses_.neighbour : poses_.pose);
+    const double moved_s = has_own_clock_ ? process_cpu_s() : start_s;
     if (!mesh_.has_base_vertices()) on_base_ = mesh_.on_base(deformer_->positions());
     const double end_s = process_cpu_s();
     is_there_ = !is_there_;
     if (turns_++ == 0) work_ = step.work;
-    return {had_arrived && has_arrived_ ? 1e3 * (end_s - start_s) : std::numeric_limits<double>::quiet_NaN()};
+    const double transfer_s = mesh_.has_base_vertices() ? 0.0 : end_s - moved_s;
+    const double frame_s = has_own_clock_ ? step.seconds + transfer_s : end_s - start_s;
+    return {had_arrived && has_arrived_ ? 1e3 * frame_s : std::numeric_limits<double>::quiet_NaN()};
+}
+
+FrameClock PosedDeformer::clock() const
+{
+    if (!has_own_clock_) return FrameClock::processor;
+    const nlohmann::json record = deformer_->record();
+    return record.is_object() && record.value("own_times", false) ? FrameClock::own : FrameClock::wall;
 }
 
 pbs::StepSummary PosedDeformer::advance(const pbs::Pose& pose)

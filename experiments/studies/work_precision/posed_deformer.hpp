@@ -5,11 +5,13 @@
 //   PosedDeformer deformer(setting, mesh, motion);
 //   const Shape shape = deformer.reach();      // from rest, however long it takes
 //   take_turns({[&] { return deformer.turn(); }}, rounds);
-// The time is processor time over all threads of the process, so that other work on the machine affects it less.
+// The time is processor time over all threads of the process, so that other work on the machine affects it less. A deformer that works in
+// another process (DeformerTraits::has_own_clock) has the time that it states instead, and the processor time of the transfer.
 #pragma once
 
 #include "experiments/studies/shared/posed_character.hpp"
 #include "experiments/studies/work_precision/body_mesh.hpp"
+#include "experiments/studies/work_precision/frame_clock.hpp"
 
 #include <memory>
 
@@ -23,14 +25,16 @@ struct PosePair {
 
 class PosedDeformer {
 public:
-    // The mesh and the poses outlive it.
-    PosedDeformer(const PointSetting& setting, const BodyMesh& mesh, const PosePair& poses);
+    // The mesh and the poses outlive it. announced_turns: of a deformer with a clock of its own, which computes them ahead with reach().
+    PosedDeformer(const PointSetting& setting, const BodyMesh& mesh, const PosePair& poses, int announced_turns = 0);
 
     Shape reach();  // on its own mesh; a deformer with memory takes the way
-    // One number, the processor time of the next frame [ms]. Not a number where the frame did not arrive, or the one before it did not.
+    // One number, the time of the next frame [ms]. Not a number where the frame did not arrive, or the one before it did not.
     std::vector<double> turn();
     // The work of the first turn, which does not depend on the number of turns; before it, of reach().
     const pbs::WorkCounters& work() const { return work_; }
+    bool has_own_clock() const { return has_own_clock_; }
+    FrameClock clock() const;  // of the times; known after reach()
 
 private:
     pbs::StepSummary advance(const pbs::Pose& pose);
@@ -40,6 +44,7 @@ private:
     std::unique_ptr<Deformer> deformer_;
     pbs::Positions on_base_;  // [m], of the case's own vertices
     pbs::WorkCounters work_;
+    bool has_own_clock_;
     int turns_ = 0;
     bool is_there_ = false;  // in the pose
     bool has_arrived_ = true;

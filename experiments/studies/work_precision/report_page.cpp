@@ -45,6 +45,37 @@ std::string split_text(const ComparisonRecords& records)
         training.empty() ? "none" : training, evaluation.empty() ? "none" : evaluation);
 }
 
+std::string words_of(FrameClock clock)
+{
+    switch (clock) {
+        case FrameClock::processor:
+            return "processor time, as of all other deformers";
+        case FrameClock::own:
+            return "the times that the program states in seconds.f64";
+        case FrameClock::wall:
+            return "the wall time of the program with its start, divided by the number of its poses";
+    }
+    return "";
+}
+
+// The user's own deformers, each with its clock. Empty where there are none.
+std::string external_text(const ComparisonRecords& records)
+{
+    std::string text;
+    for (const DeformerGroup& group : groups_of(records.diagrams)) {
+        if (!group.is_external) continue;
+        std::optional<FrameClock> clock;  // that of the first case with a time
+        for (const CaseRecords& of : records.cases)
+            for (const PointRow& row : of.rows)
+                if (row.key.deformer == group.key && !clock) clock = row.clock;
+        text += fmt::format("- `{}`: {}\n", group.key, clock ? words_of(*clock) : "no time");
+    }
+    if (text.empty()) return "";
+    return "Deformers of the user's own take part in both comparisons, since it is not known whether their code is packed. Their "
+           "clocks:\n\n" +
+           text + "\n";
+}
+
 struct TriedRow {
     Comparison comparison;
     std::string deformer;
@@ -89,7 +120,7 @@ std::string profile_table(const ComparisonRecords& records, Comparison compariso
             header += fmt::format(" {:g} %{} |", tolerance_pct, ms < any_ms ? ", " + ms_text(ms) : "");
             line += "---|";
         }
-    for (const DeformerGroup& group : deformer_groups()) {
+    for (const DeformerGroup& group : groups_of(records.diagrams)) {
         if (solved_within(records.diagrams, comparison, group, profile_tolerances_pct.front(), any_ms).solved == 0) continue;
         rows += fmt::format("| {} |", group.words);
         for (const double tolerance_pct : profile_tolerances_pct)
@@ -134,7 +165,7 @@ std::string omission_table(const ComparisonRecords& records)
 
 std::string page_of(const ComparisonRecords& records)
 {
-    std::string page = "# Error against run time\n\n" + split_text(records);
+    std::string page = "# Error against run time\n\n" + split_text(records) + external_text(records);
     for (const Comparison comparison : comparisons) {
         page += fmt::format(
             "## Poses solved: {}\n\nEvaluated poses with an error of at most 10, 5 and 2 % at the joints, within 1, 10 and "

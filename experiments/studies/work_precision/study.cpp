@@ -13,6 +13,7 @@
 #include "experiments/studies/study.hpp"
 #include "experiments/studies/work_precision/data_profile.hpp"
 #include "experiments/studies/work_precision/diagram_tables.hpp"
+#include "experiments/studies/work_precision/external_entries.hpp"
 #include "experiments/studies/work_precision/goal.hpp"
 #include "experiments/studies/work_precision/measured_points.hpp"
 #include "experiments/studies/work_precision/report_page.hpp"
@@ -25,7 +26,7 @@ namespace {
 std::string measure_and_record(const WorkPrecisionCase& of, const std::string& folder)
 {
     const MeasuredPoints points = measure_points(of);
-    table_of(point_columns, points.rows).write(analysis::path_in(folder, "points.csv"));
+    table_of(columns_for(points.rows), points.rows).write(analysis::path_in(folder, "points.csv"));
     table_of(family_columns, points.members).write(analysis::path_in(folder, "members.csv"));
     table_of(theta_columns, points.thetas).write(analysis::path_in(folder, "theta.csv"));
     return points.breakdown;
@@ -107,9 +108,10 @@ void set_extent(WorkPrecisionCase& of, const PlannedPose& pose, bool full)
     of.members.erase(of.members.begin());
 }
 
-StudyRun run_of(const PlannedPose& pose, Half half, bool full)
+StudyRun run_of(const PlannedPose& pose, Half half, bool full, const std::vector<DeformerSpec>& external)
 {
     WorkPrecisionCase of;
+    of.external = external;
     of.half = half;
     if (pose.angle_deg > 0)
         set_sweep(of, pose);
@@ -119,7 +121,7 @@ StudyRun run_of(const PlannedPose& pose, Half half, bool full)
     return work_run(case_name(of.of), of, full ? pose.cost_s : pose.quick_cost_s, measure_and_record);
 }
 
-StudyPlan plan(bool full)
+StudyPlan plan_of(bool full, const std::vector<DeformerSpec>& external)
 {
     std::vector<PlannedPose> poses = limb_poses();
     std::vector<analysis::LeftOut> left_out;
@@ -131,10 +133,20 @@ StudyPlan plan(bool full)
     const std::vector<Half> halves = halves_of(bodies);
     StudyPlan plan;
     for (std::size_t i = 0; i < poses.size(); ++i)
-        if (full || poses[i].quick_cost_s > 0.0) plan.runs.push_back(run_of(poses[i], halves[i], full));
+        if (full || poses[i].quick_cost_s > 0.0) plan.runs.push_back(run_of(poses[i], halves[i], full, external));
     for (const analysis::LeftOut& body : left_out)
         if (full || body.scene == "human") plan.left_out.push_back(body);
     return plan;
+}
+
+StudyPlan plan(bool full)
+{
+    return plan_of(full, {});
+}
+
+StudyPlan plan_with(bool full, const std::string& external_file)
+{
+    return plan_of(full, external_entries(external_file));
 }
 
 ComparisonRecords records_of(const FinishedRuns& finished)
@@ -157,7 +169,8 @@ StudyConclusion conclude(const FinishedRuns& finished)
 {
     if (finished.none()) return {"", false};
     const ComparisonRecords records = records_of(finished);
-    finished.write("points.csv", point_columns, finished.rows(point_columns, "points.csv"));
+    const std::vector<PointRow> points = finished.rows(point_columns, "points.csv");
+    finished.write("points.csv", columns_for(points), points);
     finished.write("theta.csv", theta_columns, records.thetas);
     finished.write("settings.csv", chosen_columns, records.chosen);
     finished.write("fronts.csv", fronts_table(records.diagrams));
@@ -174,7 +187,7 @@ StudyConclusion conclude(const FinishedRuns& finished)
 
 Study work_precision_study()
 {
-    return {"work_precision", plan, in_short, conclude, true};
+    return {"work_precision", plan, in_short, conclude, true, plan_with};
 }
 
 }  // namespace experiments

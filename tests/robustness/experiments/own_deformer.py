@@ -1,6 +1,7 @@
 """Deformers of the user's own: the examples of experiments/deformers/external/README.md, run as it describes, and every way in which a
 program or a library can fail. Reference: the formulas of the examples, computed here from what pbskin writes for a program, and the frames
 of pbskin's own LBS. Tolerance: a thousand roundings of the largest coordinate, for sums over fewer than a hundred bones and neighbours."""
+import csv
 import json
 import os
 import pathlib
@@ -171,6 +172,70 @@ class OwnDeformer(program.ProgramTest):
         for label in ("LBS", "mine"):
             self.assertIn(f">{label}<", figure)
         self.assertIn('<th scope="row">mine</th>', page)
+
+    # The study of error against run time.
+
+    def reproduce(self, *arguments):
+        return program.run("reproduce", "work_precision", "--only", "limb_bend_60", "-o", self.path("out"), "--external",
+                           self.path("mine.toml"), *arguments, env=ENVIRONMENT)
+
+    def runs_to_do(self):
+        process = self.reproduce("--resume", "--cost")
+        self.assertEqual(process.returncode, 0, process.stderr)
+        return int(re.search(r"^work_precision +(\d+)", process.stdout, re.MULTILINE)[1])
+
+    def test_the_study_of_error_against_run_time_has_a_point_for_it(self):
+        """The example of the README, the same example without smoothing, which is LBS and states a time of 125 ms, and the library of the
+        README. Reference: the point of pbskin's own LBS. Tolerance: positions differ by that of the module, and the mean distance from a
+        bone is above 1 cm."""
+        if not os.path.exists(os.path.join(os.path.dirname(program.PBSKIN), "../lib/libpbskin_fem.so")):
+            self.skipTest("the reference needs the module pbskin_fem")
+        text = (FOLDER / "examples/smoothed_skinning.py").read_text()
+        kept = pathlib.Path(self.path("kept"))
+        blended = text.replace("in range(4):", "in range(0):").replace("time.perf_counter() - start", "0.125")
+        self.write("my_deformer.py", text)
+        self.write("lbs.py", blended + KEEP % str(kept))
+        subprocess.run(COMPILE.replace("libmine.so", self.path("libmine.so")).split(), cwd=FOLDER, check=True)
+        example = re.search(r"```toml\n(schema = 1.*?)```", (FOLDER / "README.md").read_text(), re.DOTALL)[1]
+        self.write("mine.toml", example + '[[external]]\nname = "blended"\ncommand = ["python3", "lbs.py"]\n'
+                   + '[[external]]\nname = "rigid"\nlibrary = "libmine.so"\n')
+        process = self.reproduce()
+        self.assertEqual(process.returncode, 0, process.stderr)
+        given = Exchanged(kept)
+        self.assertEqual(len(given.poses), 5)
+        for pose in range(5):
+            numpy.testing.assert_array_equal(given.poses[pose], given.poses[pose % 2])
+        with open(self.path("out", "work_precision", "points.csv"), newline="") as file:
+            points = list(csv.DictReader(file))
+        own = {row["deformer"]: row for row in points if row["external"] == "1"}
+        self.assertEqual({name: row["clock"] for name, row in own.items()}, {"mine": "own", "blended": "own", "rigid": "processor"})
+        lbs = next(row for row in points if row["deformer"] == "lbs" and row["precision"] == "f64" and not row["wanted_vertices"])
+        self.assertAlmostEqual(float(own["blended"]["error_joint_pct"]), float(lbs["error_joint_pct"]), delta=100 * TOLERANCE / 0.01)
+        self.assertEqual(float(own["blended"]["ms_median"]), 125.0)
+        self.assertNotAlmostEqual(float(own["mine"]["error_joint_pct"]), float(lbs["error_joint_pct"]), delta=0.1)
+        self.assertIn("- `rigid`: processor time", self.read("out", "work_precision", "work_precision.md"))
+        self.assertEqual(self.runs_to_do(), 0)
+        self.write("my_deformer.py", text + "\n")
+        self.assertEqual(self.runs_to_do(), 1)
+        self.write("my_deformer.py", text)
+        self.assertEqual(self.runs_to_do(), 0)
+        self.write("mine.toml", example)
+        self.assertEqual(self.runs_to_do(), 1)
+
+    def test_what_the_study_refuses_before_it_computes(self):
+        def refused(message, *arguments):
+            process = program.run("reproduce", *arguments, "-o", self.path("out"))
+            self.assertEqual(process.returncode, 2, process.stderr)
+            self.assertRegex(process.stderr, r"^pbskin: " + message)
+            self.assertEqual(len(process.stderr.splitlines()), 1, process.stderr)
+            self.assertFalse(os.path.exists(self.path("out")))
+
+        mine = self.write("mine.toml", 'schema = 1\n[[external]]\nname = "mine"\ncommand = ["no_such_program"]\n')
+        refused(r".*mine\.toml:4: external\.0\.command = .*no_such_program.*: cannot be started: No such", "work_precision", "--external",
+                mine)
+        refused(r"--external = .*mine\.toml: expected work_precision among the studies", "volume", "--external", mine)
+        refused(r".*none\.toml: cannot be read", "work_precision", "--external", self.path("none.toml"))
+        refused(r"--only = limb: no such run; expected one of limb_twist_90", "work_precision", "--only", "limb")
 
     # Failures: the scene, the deformer, its command or library, and the rule.
 

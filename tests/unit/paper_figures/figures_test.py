@@ -11,6 +11,7 @@ import unittest
 root = pathlib.Path(__file__).resolve().parents[3]
 sys.path[:0] = [str(root / "paper_figures"), str(pathlib.Path(__file__).parent)]
 
+import compared_looks  # noqa: E402
 import make_all  # noqa: E402
 import records  # noqa: E402
 import synthetic_records  # noqa: E402
@@ -166,6 +167,27 @@ class Figures(unittest.TestCase):
                 with contextlib.redirect_stdout(io.StringIO()):
                     self.assertEqual(make_all.main(results, "work_precision"), 1)
             self.assertIn("fronts.csv: does not exist", said.getvalue())
+
+    def test_work_precision_shows_deformers_of_the_users_own_with_their_clocks(self):
+        with tempfile.TemporaryDirectory() as folder:
+            results = pathlib.Path(folder)
+            synthetic_records.write_work_precision(results)
+            synthetic_records.add_own_deformers(results / "work_precision", {"mine": "own", "other_one": "wall", "linked": "processor"})
+            for name in ("work_precision", "work_precision_plain"):
+                with contextlib.redirect_stdout(io.StringIO()):
+                    self.assertEqual(make_all.main(results, name), 0)
+                rows = records.read_rows(results / "figures" / f"{name}.csv")
+                for shown in ("point", "front of mine"):
+                    self.assertIn((shown, "mine", 8.0), [(row["shown"], row["deformer"], float(row["ms_median"] or 0)) for row in rows])
+                drawn = (results / "figures" / f"{name}.svg").read_text()
+                for text in ("mine: time as the program states it", "other_one: wall time of the program", ">linked<"):
+                    self.assertIn(text, drawn)
+                for words in ("time", "wall"):
+                    self.assertNotIn(f"linked: {words}", drawn)
+        looks = [compared_looks.of(name) for name in ("mine", "other_one", "linked")]
+        self.assertEqual([look[0] for look in looks], ["mine", "other_one", "linked"])
+        taken = {look[2] for look in compared_looks.groups.values()}
+        self.assertEqual(len({look[2] for look in looks} - taken), 3)
 
     def test_the_bench_shows_cost_a_constraint_and_roofs(self):
         with tempfile.TemporaryDirectory() as folder:

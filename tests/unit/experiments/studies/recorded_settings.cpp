@@ -1,6 +1,7 @@
 // --resume repeats a run when anything changed that its work depends on. Reference: the members of the cases, each changed in turn.
 #include "experiments/deformers/blend/blend_options.hpp"
 #include "experiments/deformers/direct_delta_mush/mush_smoothing_names.hpp"
+#include "experiments/deformers/external/external_deformers.hpp"
 #include "experiments/deformers/fem/fem_option_names.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/studies/ambiguity/reading_values.hpp"
@@ -100,7 +101,31 @@ TEST(RecordedSettings, OfWorkPrecision)
     of.of = {.body = "limb", .motion = "bend", .angle_deg = 60.0}, of.scene = limb(), of.frame = 12;
     of.range.other_vertices = {600};
     of.members = {family().back()};
-    EXPECT_GE(expect_each_change_repeats(of), 18);
+    of.external = {default_spec("external")};
+    EXPECT_GE(expect_each_change_repeats(of), 20);
+}
+
+// Programs and libraries are recorded by their content. Without such deformers the record is that of a version that did not know them.
+TEST(RecordedSettings, OfADeformerOfTheUsersOwn)
+{
+    WorkPrecisionCase of;
+    of.scene = limb();
+    EXPECT_FALSE(to_json(of).contains("external"));
+    DeformerSpec spec = default_spec("external");
+    spec.options = ExternalOptions{.command = {"python3", "mine.py"}, .library = "libmine.so", .file_hashes = {{"mine.py", "1f"}}};
+    of.external = {spec};
+    const nlohmann::json recorded = to_json(spec);
+    EXPECT_EQ(to_json(of).at("external"), nlohmann::json::array({recorded}));
+    const auto with = [&](void (*change)(ExternalOptions & options)) {
+        DeformerSpec other = spec;
+        change(options_of<ExternalOptions>(other));
+        return to_json(other);
+    };
+    EXPECT_EQ(with([](ExternalOptions& options) { options.scene = "moved.toml"; }), recorded);
+    EXPECT_NE(with([](ExternalOptions& options) { options.command.push_back("4"); }), recorded);
+    EXPECT_NE(with([](ExternalOptions& options) { options.library = "libother.so"; }), recorded);
+    EXPECT_NE(with([](ExternalOptions& options) { options.has_memory = true; }), recorded);
+    EXPECT_NE(with([](ExternalOptions& options) { options.file_hashes["mine.py"] = "2e"; }), recorded);
 }
 
 TEST(RecordedSettings, OfConvergence)

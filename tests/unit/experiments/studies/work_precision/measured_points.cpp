@@ -185,6 +185,23 @@ TEST(PosedDeformers, CountTheWorkOfOneFrame)
     EXPECT_EQ(lbs.work(), pbs::WorkCounters{.vertex_visits = own.character().mesh.rest.rows()});
 }
 
+TEST(PosedDeformers, OfTheProjectHaveProcessorTime)
+{
+    const BodyMesh own(limb(300));
+    const PosePair poses{at_rest(own.character()), at_rest(own.character())};
+    EXPECT_EQ(PosedDeformer({"lbs", default_spec("lbs")}, own, poses).clock(), FrameClock::processor);
+}
+
+TEST(PointRows, HaveColumnsOfDeformersOfTheUsersOwnOnlyWithThem)
+{
+    std::vector<PointRow> rows(2);
+    const std::vector<std::string> without = columns_for(rows).names();
+    rows.back().is_external = true;
+    const std::vector<std::string> with = columns_for(rows).names();
+    EXPECT_EQ(std::vector(with.begin(), with.end() - 2), without);
+    EXPECT_EQ(std::vector(with.end() - 2, with.end()), (std::vector<std::string>{"external", "clock"}));
+}
+
 // A ladder ends at the rung that takes too long, and the reason names the limit.
 TEST(MeasuredPoints, StopAtTheLimitOfTimeAndRecordTheSplit)
 {

@@ -1,0 +1,76 @@
+#include "experiments/studies/work_precision/external_entries.hpp"
+
+#include "experiments/deformers/external/external_deformers.hpp"
+#include "experiments/deformers/registry.hpp"
+#include "experiments/process/program_run.hpp"
+#include "experiments/scene/scene.hpp"
+#include "experiments/scene/scene_keys.hpp"
+#include "experiments/settings/scene_values.hpp"
+#include "experiments/studies/work_precision/deformer_groups.hpp"
+#include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/text_file.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+namespace experiments {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string text_of_entries(const std::string& file)
+{
+    std::error_code code;
+    if (!fs::is_regular_file(file, code))
+        throw pbs::InputError(file, 0, "", "", "cannot be read: expected a file with schema = 1 and [[external]] tables");
+    return pbs::read_text_file(file);
+}
+
+void refuse_other_tables(const SceneValues& values, const std::string& own)
+{
+    const std::string rule = "expected only [[" + own + "]] tables";
+    for (const SceneKey& key : scene_schema().keys) {
+        if (key.table.empty() || key.table == own) continue;
+        if (key.in_list && values.tables(key.table) > 0) values.refuse(key.table + ".0.name", rule);
+        if (values.given(key.path())) values.refuse(key.path(), rule);
+        if (values.has_table(key.table)) values.refuse(key.table, rule);
+    }
+}
+
+// The names of the reference's row and of the front of all deformers are taken too.
+bool is_taken(const std::string& name)
+{
+    if (name == "reference" || name == "all") return true;
+    return std::ranges::any_of(deformer_groups(), [&](const DeformerGroup& group) {
+        return group.key == name || std::ranges::find(group.deformers, name) != group.deformers.end();
+    });
+}
+
+void check_entry(const SceneValues& values, const std::string& table, const DeformerSpec& spec)
+{
+    if (is_taken(spec.name)) values.refuse(table + ".name", "is the name of a deformer, a group or a front of the comparison");
+    const auto& options = options_of<ExternalOptions>(spec);
+    if (!options.command.empty()) {
+        const std::string why_not = why_not_startable(options.command.front());
+        if (!why_not.empty()) values.refuse(table + ".command", "cannot be started: " + why_not);
+    } else if (!fs::is_regular_file(options.library)) {
+        values.refuse(table + ".library", "cannot be loaded: expected a shared library");
+    } else {
+        make_deformer(spec);
+    }
+}
+
+}  // namespace
+
+std::vector<DeformerSpec> external_entries(const std::string& file)
+{
+    const std::string own = external_kind().name;
+    const SceneValues values(text_of_entries(file), file, {}, scene_schema());
+    refuse_other_tables(values, own);
+    const std::vector<DeformerSpec> entries = listed_deformers(values);
+    if (entries.empty()) throw pbs::InputError(file, 0, own, "", "missing: expected at least one [[" + own + "]] table");
+    for (std::size_t i = 0; i < entries.size(); ++i) check_entry(values, own + "." + std::to_string(i), entries[i]);
+    return entries;
+}
+
+}  // namespace experiments
