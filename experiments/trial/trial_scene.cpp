@@ -45,8 +45,10 @@ std::string sampled(double duration_s, int frames)
 std::string clip_motion(const TrialOptions& options, const std::string& clip_file, const pbs::Skeleton& joints_of_the_model)
 {
     const pbs::Clip clip = pbs::read_clip(clip_file);
-    if (!joints_of_the_model.bones.empty())
-        accepted_match({.clip = clip_file, .allow_partial = options.allow_partial}, clip, joints_of_the_model);
+    MotionSpec spec;
+    spec.clip = clip_file;
+    spec.allow_partial = options.allow_partial;
+    if (!joints_of_the_model.bones.empty()) accepted_match(spec, clip, joints_of_the_model);
     const bool is_here = fs::exists(options.animation);
     std::string text = fmt::format("clip = {}\n", quoted(is_here ? from_folder(clip_file, options.folder) : options.animation));
     if (options.allow_partial) text += "allow_partial = true\n";

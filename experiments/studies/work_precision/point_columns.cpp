@@ -1,4 +1,5 @@
 // The columns of points.csv, members.csv and theta.csv.
+#include "experiments/studies/shared/pose_columns.hpp"
 #include "experiments/studies/work_precision/point_row.hpp"
 
 #include <algorithm>
@@ -6,17 +7,10 @@
 namespace experiments {
 namespace {
 
-using analysis::CaseKey;
 using analysis::Columns;
 using analysis::ErrorNorms;
-using analysis::FrameMetrics;
 using analysis::within;
 using pbs::WorkCounters;
-
-const Columns<CaseKey> case_columns = {{"body", &CaseKey::body, "", "name of the body"},
-                                       {"motion", &CaseKey::motion, "", "twist, bend, or the name of a clip"},
-                                       {"pose", &CaseKey::pose, "", "name of a pose in a clip"},
-                                       {"angle_deg", &CaseKey::angle_deg, "deg", "angle of a joint that is twisted or bent"}};
 
 const Columns<SettingKey> deformer_columns = {{"deformer", &SettingKey::deformer, "", "name of the deformer"}};
 
@@ -24,11 +18,6 @@ const Columns<ErrorNorms> error_columns = {
     {"error_joint_pct", &ErrorNorms::joint_pct, "%", "error over the blended vertices outside the overlap"},
     {"error_l2_pct", &ErrorNorms::l2_pct, "%", "error over all vertices outside the overlap"},
     {"error_linf_m", &ErrorNorms::linf_m, "m", "largest distance from the reference outside the overlap"}};
-
-const Columns<FrameMetrics> volume_columns = {
-    {"volume_change_pct", &FrameMetrics::volume_change_pct, "%", "signed change of the whole volume"},
-    {"volume_abs_change_pct", &FrameMetrics::volume_abs_change_pct, "%", "sum of the absolute changes of each tet"},
-    {"inverted", &FrameMetrics::inverted_tets, "", "number of inverted tets"}};
 
 const Columns<PbsParts> before_discretisation = {
     {"solver_pct", &PbsParts::solver_pct, "%", "PBS: distance from its own converged shape, at the joints"},
@@ -114,11 +103,11 @@ Points columns_of_external()
 }  // namespace
 
 const Points point_columns =
-    within(&PointRow::of, case_columns) + within(&PointRow::key, deformer_columns) +
+    within(&PointRow::of, pose_columns()) + within(&PointRow::key, deformer_columns) +
     Points{{"setting", &PointRow::setting, "",
             "the deformer and its setting as a text, which repeats the columns from iterations to packed"}} +
     within(&PointRow::key, setting_columns()) + own_columns() + within(&PointRow::error, error_columns) +
-    within(&PointRow::metrics, volume_columns) + reference_columns() + within(&PointRow::parts, before_discretisation) +
+    within(&PointRow::metrics, volume_columns()) + reference_columns() + within(&PointRow::parts, before_discretisation) +
     Points{{"discretisation_pct", &PointRow::discretisation_pct, "%", "PBS: bound of the reference's distance from its limit"}} +
     within(&PointRow::parts, after_discretisation) + columns_of_comparison() + columns_of_external();
 
@@ -128,7 +117,7 @@ Points columns_for(const std::vector<PointRow>& rows)
 }
 
 const Columns<FamilyRow> family_columns =
-    within(&FamilyRow::of, case_columns) +
+    within(&FamilyRow::of, pose_columns()) +
     within(&FamilyRow::member,
            Columns<EnsembleMember>{{"member", &EnsembleMember::name, "", "name of the further reference"},
                                    {"spring_factor", &EnsembleMember::spring_factor, "", "q of the attachment"},
@@ -141,7 +130,7 @@ const Columns<FamilyRow> family_columns =
                        {"solve_s", &FamilyRow::solve_s, "s", "wall time of its solutions"}};
 
 const Columns<ThetaRow> theta_columns =
-    within(&ThetaRow::of, case_columns) + within(&ThetaRow::key, deformer_columns) + within(&ThetaRow::key, setting_columns()) +
+    within(&ThetaRow::of, pose_columns()) + within(&ThetaRow::key, deformer_columns) + within(&ThetaRow::key, setting_columns()) +
     within(&ThetaRow::found,
            Columns<StiffnessFactor>{
                {"outcome", &StiffnessFactor::outcome, "",
