@@ -25,7 +25,7 @@ namespace reference_fem {
 // The whole body has one material.
 class LinearFlesh {
 public:
-    // held_tets: prescribed whole. What they are asked for has no pressure to share with the flesh around them.
+    // held_tets: tets with prescribed positions. They share no pressure with the flesh around them.
     // pbs::InputError for taylor_hood unless element_order is 2 and lambda > 0. The space outlives this object.
     LinearFlesh(const SimplexSpace& space, const Lame& lame, Formulation formulation, const std::vector<int>& held_tets = {});
 

@@ -10,7 +10,7 @@
 
 namespace analysis {
 
-// Numbers are doubles. What is no finite number is a text, as in the CSV: nan, inf, or "" for no value.
+// Numbers are doubles. Values that are not finite are texts, as in the CSV: nan, inf, or "" for no value.
 template <typename Row>
 nlohmann::json json_of(const Columns<Row>& columns, const std::vector<Row>& rows)
 {

@@ -6,7 +6,7 @@
     experiments/sweeps/sweep.py run SWEEP.toml -o results/stiffness -j 2    DIR/sweep.csv, costs.csv, sweep.json, runs/NAME/
     experiments/sweeps/sweep.py run SWEEP.toml -o results/stiffness --slurm
 
-`run` goes on where it was stopped. More options of snakemake follow after `--`. What a sweep file holds: sweep_file.py. Installed, this is
+`run` goes on where it was stopped. More options of snakemake follow after `--`. sweep_file.py describes the sweep file. Installed, this is
 `pbskin-sweep`. The pbskin of a checkout is its build's, that of an installation the one beside, where they are there, else the PATH's.
 Exit status: 0 finished (runs that broke down numerically are in the table), 1 snakemake or a program failed, 2 bad input or usage,
 130 interrupted."""

@@ -17,7 +17,7 @@ struct RiggedModel {
     const RigAnimation* animation = nullptr;  // of `rig`; null: it has none
 };
 
-// What is made of a model file.
+// A model file and the choices of how a character is made of it.
 struct ModelSource {
     std::string file;
     std::string animation;   // by name; empty: the first one

@@ -1,4 +1,4 @@
-// What looks wrong about a character from a rigged model.
+// Remarks on a character from a rigged model that looks wrong.
 #pragma once
 
 #include "pbs/character/character.hpp"

@@ -1,4 +1,4 @@
-// What can be repaired in a tet mesh from a file without moving a tet.
+// Repairs of a tet mesh from a file that move no tet.
 #pragma once
 
 #include "pbs/geometry/tet_mesh.hpp"

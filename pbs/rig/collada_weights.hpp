@@ -7,7 +7,7 @@
 namespace pbs {
 
 // .dae, or a .zae archive with .dae files. An InputError names the first weight, of a skin that the scene uses, that is negative or not
-// finite. What is no XML is left to the reader.
+// finite. Text that is not XML is left to the reader.
 void check_collada_weights(const std::string& path);
 
 }  // namespace pbs

@@ -11,7 +11,7 @@ struct FbxCurves {
     int not_linear = 0;  // with a constant or cubic key
 };
 
-// bytes: of a binary or a text file. What is damaged is not counted.
+// bytes: of a binary or a text file. Damaged curves are not counted.
 FbxCurves count_fbx_curves(const std::string& bytes);
 
 }  // namespace pbs

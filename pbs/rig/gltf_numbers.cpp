@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t most_elements = 100'000'000;
 
-// What is read, for errors.
+// The place of a number in the file, for errors.
 struct Field {
     const std::string& path;
     const std::string& name;

@@ -30,7 +30,7 @@ struct RiggedBody {
 // above it. Bones are named as the joints; a name that occurs twice gets a number.
 RiggedBody make_rigged_body(const Rig& rig, const RigAnimation* animation, double scale);
 
-// What the artist's own skinning makes of the surface: the format's formula with scale and shear, [m], #P x 3.
+// The surface as the artist's own skinning moves it: the format's formula with scale and shear, [m], #P x 3.
 Positions artist_points(const RiggedBody& body, const std::vector<Eigen::Affine3d>& node_transforms);
 
 // The rigid part of every bone's motion from rest. stretch: the largest relative change of a length that is lost with the rest, if wanted.

@@ -1,4 +1,4 @@
-// Order `plain` as a Projection: file order, one constraint after the other, as the paper reads. What every other order is tested against.
+// Order `plain` as a Projection: file order, one constraint after the other, as the paper reads. Every other order is tested against it.
 #pragma once
 
 #include "pbs/solver/projection.hpp"

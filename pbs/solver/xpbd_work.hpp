@@ -1,5 +1,5 @@
-// The work of one iteration of XPBD, counted by hand from xpbd_solver.cpp by the rules of iteration_work.hpp, all in double. What the code
-// computes twice, once for the value and once for the gradient, counts once.
+// The work of one iteration of XPBD, counted by hand from xpbd_solver.cpp by the rules of iteration_work.hpp, all in double. A quantity
+// that the code computes twice, once for the value and once for the gradient, counts once.
 #pragma once
 
 #include "pbs/geometry/iteration_work.hpp"

@@ -21,7 +21,7 @@ std::string written(const std::string& name, const std::string& bytes)
 pbs::Rig rig_of(char kind, const std::string& bytes)
 {
     if (kind == 'p') return pbs::unpacked_rig(bytes, "rig.glb");
-    // What the child process reads crosses to its parent as bytes, which are checked again.
+    // The child process sends its result to the parent as bytes, which are checked again.
     return pbs::unpacked_rig(pbs::packed(pbs::read_gltf_rig(written(kind == 'g' ? "fuzz.gltf" : "fuzz.glb", bytes))), "rig.glb");
 }
 

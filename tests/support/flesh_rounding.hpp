@@ -1,4 +1,4 @@
-// What rounding does to the gradient of elastic flesh, and to a minimum that is found with such a gradient.
+// The effect of rounding on the gradient of elastic flesh, and on a minimum that is found with such a gradient.
 //   EXPECT_LT((in_float - in_double).norm(), test_support::displaced_by_rounding<float>(energy, centres, in_double));
 #pragma once
 

@@ -1,5 +1,5 @@
-"""Rigged glTF files with the difficulties that rigs from outside have, made of one tube with three joints: root, elbow and tip. What the
-file format makes of them is computed by skin_formula.py, without pbskin.
+"""Rigged glTF files with the difficulties that rigs from outside have, made of one tube with three joints: root, elbow and tip. The
+skinning that the file format defines is computed by skin_formula.py, without pbskin.
 
     rig_files.write("scaled_container", path)      # PATH.glb
 """

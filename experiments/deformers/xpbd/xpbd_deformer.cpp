@@ -1,5 +1,5 @@
 // LBS, then extended position based dynamics with a material. It costs what PBS costs: the iterations of PBS, or as many substeps of one
-// iteration. What jiggles in PBS jiggles here.
+// iteration. The vertices that jiggle are those of PBS.
 #include "experiments/deformers/registry.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "pbs/geometry/stopwatch.hpp"

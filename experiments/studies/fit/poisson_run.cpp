@@ -80,7 +80,7 @@ std::vector<NamedPose> sweep_poses(const pbs::Skeleton& skeleton, const std::str
     return poses;
 }
 
-// PBS in all poses, after the paper's iterations or until nothing moves any more. What then differs from the finite elements is the model.
+// PBS in all poses, after the paper's iterations or until nothing moves any more. The remaining error is that of the model.
 struct PosedPbs {
     double k_stretch = 0.0;
     bool until_converged = false;

@@ -2,8 +2,8 @@
 // one of five outcomes by the same bounds for every method (analysis/stability_outcome.hpp).
 //
 //   pbs, pbs_jiggle   a limb of 400 vertices, bent by 90 degrees in ten steps; one factor at a time to its extremes, in f32 and f64.
-//                     Without jiggle the time step has no effect; those cells have the model pbs_no_memory and are not judged. What is
-//                     broken or moved at the beginning is gone after one step, so that only this step can fail
+//                     Without jiggle the time step has no effect; those cells have the model pbs_no_memory and are not judged. A broken
+//                     or moved initial state is gone after one step, so that only this step can fail
 //   pbs_maps          time step x k_stretch; iterations x twist
 //   pbs_human, ...    characters landing from a jump
 //   controls          Eq. 12-20 as printed, and teleports beyond the range of the numbers: here instability must be seen

@@ -1,4 +1,4 @@
-// What a run records about a rigged model. Reference: a model made by hand.
+// A run's records about a rigged model. Reference: a model made by hand.
 #include "experiments/run/model_record.hpp"
 
 #include "pbs/character/model_character.hpp"

@@ -1,4 +1,4 @@
-// What a trial found. Reference: records written by hand, evaluated by hand.
+// The findings of a trial. Reference: records written by hand, evaluated by hand.
 #include "experiments/trial/trial_summary.hpp"
 
 #include "tests/support/scratch_folder.hpp"

@@ -112,9 +112,9 @@ TEST_F(Stepper, AnUnheldBodyFliesOn)
     EXPECT_LT(of_residual + of_positions, 1e-9) << "a bound that would let a wrong velocity pass proves nothing";
 }
 
-// M a = -grad Pi - C v initially; after one short step the velocity has changed by h a. What is left is h times the rate of change of the
-// acceleration, of first order in h. The next order is smaller by the number of cells of 1 m that a wave of 10 m/s crosses in a step, and
-// rounding grows as the rounding of positions over h^2: both are below a hundredth of it.
+// M a = -grad Pi - C v initially; after one short step the velocity has changed by h a. The remainder is h times the rate of change of
+// the acceleration, of first order in h. The next order is smaller by the number of cells of 1 m that a wave of 10 m/s crosses in a step,
+// and rounding grows as the rounding of positions over h^2: both are below a hundredth of it.
 TEST_F(Stepper, TheFirstAccelerationFollowsFromTheBalanceOfForces)
 {
     const double density = 10.0, a = 2.0, b = 0.05;

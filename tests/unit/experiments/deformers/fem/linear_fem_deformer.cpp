@@ -1,4 +1,4 @@
-// What the deformer reports, and what it refuses. The verification tests show that it deforms correctly.
+// The deformer's reports, and the inputs that it refuses. The verification tests show that it deforms correctly.
 #include "experiments/deformers/fem/linear_fem_deformer.hpp"
 
 #include "pbs/geometry/input_error.hpp"

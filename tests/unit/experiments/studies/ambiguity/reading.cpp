@@ -9,7 +9,7 @@ namespace {
 
 using experiments::Reading;
 
-// What its motion depends on, without its names.
+// All that its motion depends on, without its names.
 nlohmann::json all_of(const Reading& reading)
 {
     nlohmann::json settings = experiments::to_json(reading);
