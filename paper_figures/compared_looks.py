@@ -18,17 +18,16 @@ group_of_deformer = {"xpbd_small_steps": "xpbd", "fem_linear": "linear_fem", "fe
                      "fem_neo_hookean": "nonlinear_fem"}
 
 
-own_color, own_markers = "#E0218A", ("X", "H", ">", "8", "|", "_")
+own_looks_in_order = list(itertools.product(("#E0218A", "#00857C", "#6A6A00"), ("X", "H", ">", "8", "|", "_")))  # colour, marker
 own_looks = {}  # of deformers of the user's own, in the order in which they are drawn
 
 
 def of(group):
-    """Name, colour and marker. A group that is not listed here is a deformer of the user's own, with its name and the next free marker."""
+    """Name, colour and marker. A group that is not listed here is a deformer of the user's own, with its name and the next free look."""
     if group in groups:
         return groups[group]
     if group not in own_looks:
-        markers = itertools.islice(itertools.cycle(own_markers), len(own_looks), None)
-        own_looks[group] = (group, own_color, next(markers))
+        own_looks[group] = (group, *own_looks_in_order[len(own_looks) % len(own_looks_in_order)])
     return own_looks[group]
 
 

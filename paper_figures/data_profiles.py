@@ -36,7 +36,7 @@ def draw(results, figures):
             style.decades(panel.xaxis)
             panel.set(xlim=span_ms, ylim=(-4, 104), title=f"{comparisons[comparison]}, error at most {tolerance_pct:g} %")
             if comparison == shown[-1]:
-                panel.set_xlabel("processor time per frame [ms]")
+                panel.set_xlabel("time per frame [ms]")
         line[0].set_ylabel(f"solved poses [% of {rows[0]['poses']}]")
     style.legend_above(figure, columns=4)
     style.save(figure, figures / "data_profiles", entries.origin_of(results, "data_profiles"),

@@ -183,8 +183,8 @@ def panels_of(comparison, results):
 def clock_notes(shown):
     """A line for each deformer of the user's own whose time is not processor time."""
     words = {"own": "time as the program states it", "wall": "wall time of the program over its poses"}
-    clocks = {row["deformer"]: row["clock"] for panel in shown for row in panel.points if row.get("clock") in words}
-    return [f"{deformer}: {words[clock]}" for deformer, clock in clocks.items()]
+    clocks = {(row["deformer"], row["clock"]): None for panel in shown for row in panel.points if row.get("clock") in words}
+    return [f"{deformer}: {words[clock]}" for deformer, clock in clocks]
 
 
 def draw_comparison(comparison, results, figures):

@@ -23,9 +23,14 @@ void add_reproduce_verb(CLI::App& app, CommonOptions& common, VerbAction& action
     auto* resume = verb->add_flag("--resume", arguments->resume, "keep the runs that are finished already");
     verb->add_flag("--cost", arguments->cost_only, "run nothing and print the expected time");
     auto* external = verb->add_option("--external", arguments->external,
-                                      "a TOML file with [[external]] tables: deformers of your own for the study work_precision");
-    auto* only = verb->add_option("--only", arguments->only, "name of a run of the studies, e.g. human_crouch; by default all of them")
-                     ->allow_extra_args(false);
+                                      "a TOML file with [[external]] tables: deformers of your own for the study work_precision")
+                         ->type_name("FILE");
+    auto* only = verb->add_option("--only", arguments->only,
+                                  "carries out this run alone, e.g. human_crouch, and keeps the others that are finished; may be given "
+                                  "several times; by default all runs of the studies")
+                     ->type_name("RUN")
+                     ->expected(1)
+                     ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     auto judge = std::make_shared<bool>(false);
     verb->add_flag("--judge", *judge, "run nothing and compute the verdicts from the records in the folder")
         ->excludes(full)

@@ -85,6 +85,17 @@ std::string bending(const TrialOptions& options, const pbs::RiggedBody& body, st
                        axis.z(), bend_deg, options.frames);
 }
 
+// The file of --animation, which is no animation of the model. Where it is no clip either, the error lists the animations.
+std::string clip_file(const TrialOptions& options, const pbs::Rig& rig)
+{
+    try {
+        return pbs::find_clip(options.animation, "");
+    } catch (const pbs::InputError&) {
+        if (!fs::exists(options.animation)) pbs::find_animation(rig, options.animation);
+        throw;
+    }
+}
+
 std::string motion(const TrialOptions& options, std::vector<std::string>& remarks)
 {
     const auto model = pbs::read_model(options.model, "", options.scale);
@@ -93,15 +104,7 @@ std::string motion(const TrialOptions& options, std::vector<std::string>& remark
                                     [&](const pbs::RigAnimation& animation) { return animation.name == options.animation; });
     if (named != animations.end())
         return fmt::format("animation = {}\n", quoted(named->name)) + sampled(named->end_s - named->start_s, options.frames);
-    if (!options.animation.empty()) {
-        try {
-            return clip_motion(options, pbs::find_clip(options.animation, ""), model->body.skeleton);
-        } catch (const pbs::InputError&) {
-            if (fs::exists(options.animation)) throw;
-            pbs::find_animation(model->rig, options.animation);  // lists those that the model has
-            throw;
-        }
-    }
+    if (!options.animation.empty()) return clip_motion(options, clip_file(options, model->rig), model->body.skeleton);
     if (animations.empty()) {
         if (model->body.skeleton.bones.empty())
             throw pbs::InputError(options.model, 0, "skins", "0",

@@ -9,10 +9,10 @@
 #include "experiments/process/terminal.hpp"
 #include "experiments/process/worker_pool.hpp"
 #include "experiments/studies/shared/program_claims.hpp"
-#include "experiments/studies/study.hpp"
 #include "experiments/studies/study_costs.hpp"
 #include "experiments/studies/study_run.hpp"
 #include "experiments/verdicts/marked_frames.hpp"
+#include "experiments/verdicts/planned_studies.hpp"
 #include "experiments/verdicts/study_records.hpp"
 #include "pbs/geometry/input_error.hpp"
 
@@ -29,94 +29,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_named(const Study& study, const std::vector<std::string>& names)
-{
-    return std::any_of(names.begin(), names.end(), [&](const std::string& name) {
-        const auto of_study = [&](const analysis::Claim& claim) { return claim.id == name && claim.study == study.name; };
-        return name == study.name || std::any_of(claims().begin(), claims().end(), of_study);
-    });
-}
-
-// A named study runs in the extent that is asked for; without names, each runs in the extent of the set.
-Extent asked_for(const Study& study, const std::vector<std::string>& names, bool full)
-{
-    if (names.empty()) return full ? study.sets.full : study.sets.quick;
-    if (!is_named(study, names)) return Extent::none;
-    return full ? Extent::full : Extent::quick;
-}
-
-void refuse_unknown(const std::vector<std::string>& names)
-{
-    std::vector<std::string> known;
-    for (const auto& study : studies()) known.push_back(study.name);
-    for (const auto& claim : claims()) known.push_back(claim.id);
-    for (const auto& name : names)
-        if (!std::count(known.begin(), known.end(), name))
-            throw pbs::InputError("", 0, "reproduce", name,
-                                  "unknown claim or study; expected one of " + fmt::format("{}", fmt::join(known, ", ")));
-}
-
-struct PlannedStudy {
-    const Study* study;
-    StudyPlan plan;
-    std::string folder;
-};
-
-// The studies that take deformers of the user's own must be among those that run.
-void refuse_unused(const std::string& external, const std::vector<PlannedStudy>& planned)
-{
-    std::vector<std::string> taking;
-    for (const Study& study : studies())
-        if (study.plan_with) taking.push_back(study.name);
-    if (external.empty() || std::ranges::any_of(planned, [](const PlannedStudy& one) { return one.study->plan_with != nullptr; })) return;
-    throw pbs::InputError("", 0, "--external", external,
-                          fmt::format("expected {} among the studies, which compares deformers of your own", fmt::join(taking, ", ")));
-}
-
-// Each of these names must be that of a run.
-void keep_only(const std::vector<std::string>& names, std::vector<PlannedStudy>& planned)
-{
-    if (names.empty()) return;
-    std::vector<std::string> known;
-    for (const PlannedStudy& of : planned)
-        for (const StudyRun& run : of.plan.runs) known.push_back(run.name);
-    for (const std::string& name : names)
-        if (std::ranges::find(known, name) == known.end())
-            throw pbs::InputError("", 0, "--only", name, fmt::format("no such run; expected one of {}", fmt::join(known, ", ")));
-    for (PlannedStudy& of : planned)
-        std::erase_if(of.plan.runs, [&](const StudyRun& run) { return std::ranges::find(names, run.name) == names.end(); });
-    std::erase_if(planned, [](const PlannedStudy& of) { return of.plan.runs.empty(); });
-}
-
 struct StudyOutcome {
     FinishedRuns finished = {};  // without failed runs, which are reported and whose verdicts cannot be computed
     bool broke_down = false, failed = false, refused = false;
     StudyCosts costs;
 };
-
-std::vector<PlannedStudy> plan_studies(const ReproduceArguments& arguments)
-{
-    std::vector<PlannedStudy> planned;
-    for (const Study& study : studies()) {
-        const Extent extent = asked_for(study, arguments.names, arguments.full);
-        if (extent == Extent::none) continue;
-        const bool full = extent == Extent::full, is_extended = study.plan_with && !arguments.external.empty();
-        planned.push_back({&study, is_extended ? study.plan_with(full, arguments.external) : study.plan(full),
-                           (fs::path(arguments.folder) / study.name).string()});
-        planned.back().plan.extent = extent;
-    }
-    refuse_unused(arguments.external, planned);
-    keep_only(arguments.only, planned);
-    return planned;
-}
-
-// The runs that are not finished yet, or all of them.
-std::vector<StudyRun> runs_to_do(const PlannedStudy& planned, bool resume)
-{
-    std::vector<StudyRun> to_do = planned.plan.runs;
-    if (resume) std::erase_if(to_do, [&](const StudyRun& run) { return is_finished(run, (fs::path(planned.folder) / run.name).string()); });
-    return to_do;
-}
 
 void report_breakdown(const std::string& name, const std::string& breakdown, StudyOutcome& outcome)
 {
@@ -125,37 +42,53 @@ void report_breakdown(const std::string& name, const std::string& breakdown, Stu
     outcome.broke_down = true;
 }
 
-// The breakdowns of runs that are kept count like those of new runs.
-void report_kept_breakdowns(const PlannedStudy& planned, const std::vector<StudyRun>& to_do, StudyOutcome& outcome)
+// Those of runs that are kept count like those of new runs.
+void report_kept_breakdowns(const PlannedStudy& planned, StudyOutcome& outcome)
 {
-    for (const StudyRun& run : planned.plan.runs) {
-        const bool kept = std::none_of(to_do.begin(), to_do.end(), [&](const StudyRun& of) { return of.name == run.name; });
-        if (kept) report_breakdown(run.name, breakdown_on_record(run, (fs::path(planned.folder) / run.name).string()), outcome);
-    }
+    for (const StudyRun& run : planned.kept)
+        report_breakdown(run.name, breakdown_on_record(run, (fs::path(planned.folder) / run.name).string()), outcome);
+}
+
+// Records of an earlier revision or of other settings must not remain next to those of the runs to do.
+void remove_old_records(const PlannedStudy& planned)
+{
+    for (const auto& runs : {planned.to_do, planned.absent})
+        for (const StudyRun& run : runs) analysis::remove_record(fs::path(planned.folder) / run.name / "run.json");
+}
+
+void report_runs(const PlannedStudy& planned)
+{
+    spdlog::info("{} runs to do, {} kept", planned.to_do.size(), planned.kept.size());
+    std::vector<std::string> names;
+    for (const StudyRun& run : planned.absent) names.push_back(run.name);
+    if (names.empty()) return;
+    spdlog::warn("left out by --only: {}; the tables do not contain these runs, and verdicts that need them cannot be computed",
+                 fmt::join(names, ", "));
 }
 
 // then_s: expected wall time of the studies after this one [s].
-StudyOutcome run_study(const PlannedStudy& planned, const std::vector<StudyRun>& runs, int jobs, double then_s)
+StudyOutcome run_study(const PlannedStudy& planned, int jobs, double then_s)
 {
     std::error_code error;
     fs::create_directories(planned.folder, error);
     if (error) throw pbs::InputError(planned.folder, 0, "", "", "the output folder cannot be made: " + error.message());
     analysis::remove_abandoned_files(planned.folder);
-    for (const StudyRun& run : runs) analysis::remove_record(fs::path(planned.folder) / run.name / "run.json");
+    remove_old_records(planned);
     write_study_plan(planned.folder, planned.plan);
     std::vector<PooledWork> work;
-    for (const StudyRun& run : runs)
+    for (const StudyRun& run : planned.to_do)
         work.push_back(
             {run.name, run.cost_s, [&run, folder = (fs::path(planned.folder) / run.name).string()] { return carry_out(run, folder); }});
-    spdlog::info("{} runs to do, {} kept", work.size(), planned.plan.runs.size() - work.size());
+    report_runs(planned);
     StudyOutcome outcome{.costs = StudyCosts(planned.folder)};
-    report_kept_breakdowns(planned, runs, outcome);
+    report_kept_breakdowns(planned, outcome);
     for (const PooledResult& result : run_in_pool(work, planned.study->alone ? 1 : jobs, then_s)) {
         if (!result.finished) spdlog::error("pbskin: {}: {}", result.name, result.failure);
         report_breakdown(result.name, result.breakdown, outcome);
         outcome.failed |= !result.finished;
         outcome.refused |= result.refused;
-        const auto run = std::find_if(runs.begin(), runs.end(), [&](const StudyRun& of) { return of.name == result.name; });
+        const auto run =
+            std::find_if(planned.to_do.begin(), planned.to_do.end(), [&](const StudyRun& of) { return of.name == result.name; });
         if (result.finished) outcome.costs.add(result.name, run->cost_s, result.cpu_s);
     }
     outcome.costs.complete(planned.folder, planned.plan);
@@ -192,12 +125,8 @@ int reproduce(const ReproduceArguments& arguments)
 {
     refuse_unknown(arguments.names);
     const std::vector<PlannedStudy> planned = plan_studies(arguments);
-    std::vector<std::vector<StudyRun>> to_do;
     std::vector<ExpectedCost> expected;
-    for (const PlannedStudy& of : planned) {
-        to_do.push_back(runs_to_do(of, arguments.resume));
-        expected.push_back(expected_cost(*of.study, to_do.back(), arguments.jobs));
-    }
+    for (const PlannedStudy& of : planned) expected.push_back(expected_cost(*of.study, of.to_do, arguments.jobs));
     if (arguments.cost_only) return fmt::print("{}", expected_cost_table(expected)), exit_finished;
     if (planned.size() > 1) spdlog::info("expected cost:\n{}", expected_cost_table(expected));
 
@@ -207,18 +136,18 @@ int reproduce(const ReproduceArguments& arguments)
     std::string conclusions;  // of the studies, and on frames that need attention
     bool broke_down = false, refused = false, all_hold = true;
     for (std::size_t i = 0; i < planned.size(); ++i) {
-        const auto& [study, plan, folder] = planned[i];
+        const Study* study = planned[i].study;
         spdlog::info("study {}", study->name);
-        for (const auto& left_out : plan.left_out) spdlog::warn("left out: {}: {}", left_out.scene, left_out.reason);
+        for (const auto& left_out : planned[i].plan.left_out) spdlog::warn("left out: {}: {}", left_out.scene, left_out.reason);
         const double then_s = std::accumulate(expected.begin() + static_cast<std::ptrdiff_t>(i) + 1, expected.end(), 0.0,
                                               [](double sum, const ExpectedCost& cost) { return sum + cost.wall_s; });
-        const StudyOutcome outcome = run_study(planned[i], to_do[i], arguments.jobs, then_s);
+        const StudyOutcome outcome = run_study(planned[i], arguments.jobs, then_s);
         costs.emplace_back(study->name, outcome.costs);
         broke_down |= outcome.broke_down;
         refused |= outcome.refused;
         all_hold &= !outcome.failed;
         conclusions += marked_frames(outcome.finished.folders);
-        for (auto& verdict : verdicts_of(*study, folder, arguments.folder)) verdicts.push_back(std::move(verdict));
+        for (auto& verdict : verdicts_of(*study, planned[i].folder, arguments.folder)) verdicts.push_back(std::move(verdict));
         if (!study->conclude) continue;
         const StudyConclusion conclusion = study->conclude(outcome.finished);
         outcome.finished.write("conclusion.txt", conclusion.text);

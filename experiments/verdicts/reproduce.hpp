@@ -1,6 +1,7 @@
 // From studies to records to verdicts: runs the studies that the named claims need, then computes the verdicts from the records on disk.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,8 +13,8 @@ struct ReproduceArguments {
     bool full = false, resume = false;
     bool cost_only = false;  // runs nothing and prints the expected cost
     int jobs = 2;
-    std::string external = {};           // a file with deformers of the user's own, for studies that compare them; empty: none
-    std::vector<std::string> only = {};  // names of runs; empty: all runs of the studies
+    std::optional<std::string> external = {};  // a file with deformers of the user's own, for studies that compare them
+    std::vector<std::string> only = {};        // names of runs; the others are kept if they are finished. Empty: all runs of the studies
 };
 
 // Writes DIR/STUDY/RUN/... and, if there are verdicts, DIR/claims.json and DIR/claims.md. Prints the table of claims and the conclusions of

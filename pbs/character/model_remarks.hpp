@@ -1,4 +1,4 @@
-// Remarks on a character from a rigged model that looks wrong.
+// Warnings about a character from a rigged model that is probably wrong.
 #pragma once
 
 #include "pbs/character/character.hpp"

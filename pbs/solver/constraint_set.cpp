@@ -37,9 +37,10 @@ void check_volume_of(const PbsOptions& options)
 {
     if (options.region_tets < 1) throw InputError("pbs", 0, "region_tets", std::to_string(options.region_tets), "expected 1 or more");
     if (options.volume_of == VolumeOf::tets) return;
-    if (options.sleep || options.volume_form != VolumeForm::derived)
-        throw InputError("pbs", 0, "volume_of", options.volume_of == VolumeOf::regions ? "regions" : "tets_and_regions",
-                         "expected tets with sleep or a printed volume_form");
+    const char* of = options.volume_of == VolumeOf::regions ? "regions" : "tets_and_regions";
+    if (options.sleep) throw InputError("pbs", 0, "volume_of", of, "expected tets with sleep = true: regions do not sleep");
+    if (options.volume_form != VolumeForm::derived)
+        throw InputError("pbs", 0, "volume_of", of, "expected tets with a volume_form other than derived");
 }
 
 }  // namespace

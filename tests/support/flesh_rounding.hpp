@@ -9,17 +9,36 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <ranges>
 
 namespace test_support {
 
-// The error of an entry of the gradient whose roundings all have one sign: some 25 tets with some 30 roundings each of terms as large as
-// the largest of its parts, kappa d n.
+constexpr int roundings_per_tet = 30;  // of an entry of its forces: edges, cofactors, the dot products of each, and their sum
+
+// The largest number of tets at a vertex.
+inline int largest_valence(const pbs::FleshEnergy& energy)
+{
+    std::map<int, int> tets;
+    for (const pbs::FleshTet& tet : energy.tets())
+        for (const int vertex : tet.vertex) ++tets[vertex];
+    return std::ranges::max(tets | std::views::values);
+}
+
+// One rounding of the largest part of an entry of the gradient, kappa d n [m^2].
 template <typename Scalar>
-double rounding_of_gradient(const pbs::FleshEnergy& energy, int tets = 25, int roundings = 30)
+double rounding_of_part(const pbs::FleshEnergy& energy)
 {
     double part = 0.0;
     for (const pbs::FleshTet& tet : energy.tets()) part = std::max(part, tet.kappa * tet.d * std::pow(6.0 * tet.d, 2.0 / 3.0));
-    return tets * roundings * std::numeric_limits<Scalar>::epsilon() * part;
+    return std::numeric_limits<Scalar>::epsilon() / 2.0 * part;
+}
+
+// The error of an entry of the gradient whose roundings all have one sign [m^2]. Twice: two programs are compared.
+template <typename Scalar>
+double rounding_of_gradient(const pbs::FleshEnergy& energy)
+{
+    return 2.0 * largest_valence(energy) * roundings_per_tet * rounding_of_part<Scalar>(energy);
 }
 
 // The eigenvalues of the Hessian, by central differences of the gradient in double [m].
@@ -46,8 +65,8 @@ template <typename Scalar>
 double displaced_by_rounding(const pbs::FleshEnergy& energy, const pbs::Positions& centres, const pbs::Positions& minimum,
                              int accumulated = 0)
 {
-    const double one_rounding = rounding_of_gradient<Scalar>(energy, 1, 1) / 2.0;
-    return 4.0 * one_rounding * std::sqrt(25.0 * (30.0 + accumulated)) * stiffnesses(energy, centres, minimum).cwiseInverse().norm();
+    const double roundings = double(largest_valence(energy)) * (roundings_per_tet + accumulated);
+    return 4.0 * std::sqrt(roundings) * rounding_of_part<Scalar>(energy) * stiffnesses(energy, centres, minimum).cwiseInverse().norm();
 }
 
 }  // namespace test_support

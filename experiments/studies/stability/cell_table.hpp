@@ -48,7 +48,7 @@ analysis::CsvTable stability_measurements(const std::vector<MeasuredCell>& cells
 // The number of cells with each outcome, by body and model and on request by factor, as aligned columns.
 std::string outcome_table(const std::vector<CellRow>& cells, bool by_factor);
 
-// States why the map is unreliable: an outcome that occurs in no cell, or a cell in which the printed sign does not
+// The text states why the map is unreliable: an outcome that occurs in no cell, or a cell in which the printed sign does not
 // diverge. Empty where there is no such defect.
 std::string blind_spots(const std::vector<CellRow>& cells);
 

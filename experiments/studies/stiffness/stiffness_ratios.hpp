@@ -24,9 +24,9 @@ const VariedText& text_of(Varied varied);
 
 // The ratio of stiffnesses for one doubling, (K2 / K1)^(log 2 / log(x2 / x1)), from the first to the last of the settings next to the
 // paper's (12 to 48 iterations, 20 to 5 ms; all resolutions). low and high are the least and the largest ratio of every single doubling
-// there, over file order, random orders and the second series of meshes. Runs without convergence or with flesh that hangs upwards are left
-// out. The claim is judged by a character's jiggling zone as the paper's solver runs it; a bar, or a zone whose surroundings are held, is
-// "flesh held".
+// there, over file order, random orders and the second series of meshes. Runs that did not converge, or whose flesh rises against gravity,
+// are left out. The claim is judged by a character's jiggling zone as the paper's solver runs it; a bar, or a zone whose surroundings are
+// held, is "flesh held".
 std::vector<analysis::Measurement> stiffness_ratios(const std::vector<StiffnessRow>& rows, Varied varied);
 
 // K = c x^exponent over all settings, in file order, by least squares: a row of exponents.csv.

@@ -70,6 +70,33 @@ class ResumedStudy(program.ProgramTest):
         subprocess.run(resume, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         self.assertEqual((record.stat().st_mtime_ns, record.stat().st_ino), (repeated.st_mtime_ns, repeated.st_ino))
 
+    def verdict(self, results):
+        return json.loads((results / "claims.json").read_text())["claims"][0]["verdict"]
+
+    def test_a_part_of_the_runs(self):
+        """A verdict needs all runs of its study. Those that are not named are kept if they are finished with the same settings."""
+        results = pathlib.Path(self.path("part"))
+
+        def only(run):
+            return subprocess.run(self.command(results, "--only", run), capture_output=True, text=True)
+
+        part = only(RUNS[0])
+        self.assertEqual(part.returncode, 1, part.stderr)
+        self.assertIn(f"left out by --only: {RUNS[1]}; ", part.stderr)
+        self.assertEqual(self.verdict(results), "not_computable")
+        record = results / "momentum" / RUNS[0] / "run.json"
+        ended = record.stat()
+        whole = only(RUNS[1])
+        self.assertEqual(whole.returncode, 0, whole.stderr)
+        self.assertIn("1 runs to do, 1 kept", whole.stderr)
+        self.assertEqual((record.stat().st_mtime_ns, record.stat().st_ino), (ended.st_mtime_ns, ended.st_ino))
+        self.assertNotEqual(self.verdict(results), "not_computable")
+        other = json.loads(record.read_text())
+        other["work"]["settings"]["seed"] = "another"
+        record.write_text(json.dumps(other))
+        self.assertEqual(only(RUNS[1]).returncode, 1)
+        self.assertFalse(record.exists())
+
     def test_a_kept_breakdown_counts(self):
         results = pathlib.Path(self.path("whole"))
         subprocess.run(self.command(results), check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)

@@ -1,6 +1,7 @@
 // The scene that is made of a model. Reference: the contract of scene files, by reading the scene again, and the options by hand.
 #include "experiments/trial/trial_scene.hpp"
 
+#include "pbs/character/clip.hpp"
 #include "pbs/character/model_character.hpp"
 #include "tests/support/rigged_gltf.hpp"
 #include "tests/unit/pbs/character/expect_input_error.hpp"
@@ -13,6 +14,23 @@ namespace {
 
 using namespace experiments;
 namespace fs = std::filesystem;
+
+// A chain of joints, each of which turns by 90 degrees in the second of three frames.
+std::string write_clip(const test_support::ScratchFolder& folder, const std::vector<std::string>& joints)
+{
+    const std::string file = folder / "clip.bvh";
+    std::ofstream out(file);
+    std::string closing, rows[3];
+    out << "HIERARCHY\n";
+    for (const std::string& joint : joints) {
+        out << (closing.empty() ? "ROOT " : "JOINT ") << joint << "\n{\nOFFSET 1 0 0\nCHANNELS 3 Zrotation Yrotation Xrotation\n";
+        closing += "}\n";
+        for (int frame = 0; frame < 3; ++frame) rows[frame] += frame == 1 ? "90 0 0 " : "0 0 0 ";
+    }
+    out << "End Site\n{\nOFFSET 1 0 0\n}\n" << closing << "MOTION\nFrames: 3\nFrame Time: 0.1\n";
+    for (const std::string& row : rows) out << row << "\n";
+    return file;
+}
 
 class TrialSceneTest : public testing::Test {
 protected:
@@ -73,6 +91,20 @@ TEST_F(TrialSceneTest, TakesTheAnimationThatIsNamed)
     EXPECT_EQ(read(options).motion.animation, "Wave");
     options.animation = "Walk";
     expect_input_error([&] { trial_scene(options); }, options.model + ": animation = Walk: ", "expected one of Bend, Wave");
+}
+
+TEST_F(TrialSceneTest, AClipOfAnotherSkeletonIsRefusedBeforeThereAreTets)
+{
+    TrialOptions options = options_for(test_support::write_rigged_gltf(folder, "arm.gltf", {"Bend"}));
+    options.animation = write_clip(folder, {"a", "b"});
+    expect_input_error([&] { trial_scene(options); }, options.animation + ": joints = a, b", "no joint has the name of a bone");
+    options.animation = write_clip(folder, {"elbow", "a", "b"});
+    expect_input_error([&] { trial_scene(options); }, options.animation + ": joints = 1 of 3 moving joints: ", "--allow-partial");
+    options.allow_partial = true;
+    EXPECT_NO_THROW(trial_scene(options));
+    options.animation = "01_01.bvh";  // an installed clip, by name
+    expect_input_error([&] { trial_scene(options); }, pbs::find_clip("01_01.bvh", "") + ": joints = ", "no joint has the name of a bone");
+    EXPECT_FALSE(fs::exists(options.folder));
 }
 
 TEST_F(TrialSceneTest, BendsAModelWithoutAnimation)

@@ -1,5 +1,5 @@
 // Reference: the solvers themselves, stepped until the flesh hangs still. The load is so small that displacements are 1e-5 of an edge. The
-// second order is proportional to it, so that twice the load shows how large it is. The remaining way when stepping stops follows
+// second order is proportional to it, so that twice the load shows how large it is. The distance that remains when stepping stops follows
 // from the changes per step. The limb has vertices on its bones, d = 0. The other reference is theory: a step of the
 // position based solver does not depend on dt, so its stiffness scales with 1 / dt^2; that of converged XPBD is the material's.
 #include "experiments/studies/stiffness/resting_body.hpp"
