@@ -66,12 +66,13 @@ std::string why_not_startable(const std::string& program)
         if (!fs::is_regular_file(file, code)) return std::strerror(ENOENT);
         return access(file.c_str(), X_OK) == 0 ? "" : std::strerror(EACCES);
     };
-    if (program.find('/') != std::string::npos) return why_not(program);
     std::string why = std::strerror(ENOENT);
+    if (program.find('/') != std::string::npos) return fs::path(program).is_absolute() ? why_not(program) : why;
     const char* variable = std::getenv("PATH");
     std::istringstream folders(variable ? variable : "/bin:/usr/bin");
     for (std::string folder; std::getline(folders, folder, ':');) {
-        const std::string why_not_here = why_not(fs::path(folder.empty() ? "." : folder) / program);
+        if (!fs::path(folder).is_absolute()) continue;
+        const std::string why_not_here = why_not(fs::path(folder) / program);
         if (why_not_here.empty()) return "";
         if (why_not_here != std::strerror(ENOENT)) why = why_not_here;
     }

@@ -18,7 +18,8 @@ struct ProgramRun {
 // The program runs in `folder`, which must exist. Its output is in a file there while it runs.
 ProgramRun run_program(const std::vector<std::string>& program_and_arguments, const std::string& folder);
 
-// Why the program, a path or a name that is sought on the PATH, cannot be started. Empty: it can.
+// Returns why the program, a path or a name on the PATH, cannot be started, or an empty text if it can. Relative paths and relative entries
+// of the PATH count as missing, for run_program changes to its folder before it seeks the program.
 std::string why_not_startable(const std::string& program);
 
 }  // namespace experiments

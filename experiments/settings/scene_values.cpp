@@ -137,12 +137,15 @@ public:
                 throw pbs::InputError(scene_.file_, line, path, "", "expected a key without a dot in quotes");
             const bool is_list = scene_.schema_.is_list(path);
             if (is_list && node.is_array_of_tables()) {
-                for (const auto& element : *node.as_array())
-                    take_table(*element.as_table(), joined(path, std::to_string(scene_.lists_[path]++)));
+                for (const auto& element : *node.as_array()) {
+                    const std::string one = joined(path, std::to_string(scene_.lists_[path]++));
+                    scene_.tables_.emplace(one, static_cast<int>(element.source().begin.line));
+                    take_table(*element.as_table(), one);
+                }
             } else if (is_list) {
                 throw pbs::InputError(scene_.file_, line, path, "", "expected [[" + path + "]] tables");
             } else if (node.is_table() && scene_.schema_.is_table(scene_.schema_path(path))) {
-                scene_.tables_.push_back(path);
+                scene_.tables_.emplace(path, line);
                 take_table(*node.as_table(), path);
             } else if (scene_.schema_.is_table(path)) {
                 throw pbs::InputError(scene_.file_, line, path, "", "expected a table");
@@ -167,7 +170,7 @@ public:
                 throw pbs::InputError("--set", 0, path, value, "the scene has no such [[" + list + "]] table");
         }
         take_value(path, *parse_override(value).get("value"), "--set", 0);
-        if (const auto dot = path.rfind('.'); dot != std::string::npos) scene_.tables_.push_back(path.substr(0, dot));
+        if (const auto dot = path.rfind('.'); dot != std::string::npos) scene_.tables_.emplace(path.substr(0, dot), 0);
     }
 
     void take_value(const std::string& path, const toml::node& node, const std::string& source, int line)
@@ -212,7 +215,7 @@ SceneValues::SceneValues(const std::string& text, const std::string& file, const
 
 bool SceneValues::has_table(const std::string& table) const
 {
-    return std::count(tables_.begin(), tables_.end(), table) > 0;
+    return tables_.contains(table);
 }
 
 const json& SceneValues::value(const std::string& path) const
@@ -228,7 +231,10 @@ const json& SceneValues::value(const std::string& path) const
 void SceneValues::refuse(const std::string& path, const std::string& rule) const
 {
     const auto found = values_.find(path);
-    if (found == values_.end()) throw pbs::InputError(file_, 0, path, "", rule);
+    if (found == values_.end()) {
+        const auto table = tables_.find(path);
+        throw pbs::InputError(file_, table == tables_.end() ? 0 : table->second, path, "", rule);
+    }
     const Entry& entry = found->second;
     throw pbs::InputError(entry.source, entry.line, path, entry.value.is_string() ? entry.value.get<std::string>() : entry.value.dump(),
                           rule);

@@ -26,12 +26,13 @@ public:
     std::vector<int> integers(const std::string& path) const { return value(path).get<std::vector<int>>(); }
 
     bool given(const std::string& path) const { return values_.count(path) && !values_.at(path).is_default; }
-    bool has_table(const std::string& table) const;
+    bool has_table(const std::string& table) const;  // fem.0 is the first table of a list
     // The number of [[list]] tables. The paths of their keys are fem.0.young_pa, fem.1.young_pa, ...
     int tables(const std::string& list) const { return lists_.count(list) ? lists_.at(list) : 0; }
 
-    [[noreturn]] void refuse(const std::string& path, const std::string& rule) const;  // throws an InputError at the place of the key
-    nlohmann::json resolved() const;                                                   // all keys, nested, for run.json
+    // Throws an InputError at the line of the key, or of the header of the table.
+    [[noreturn]] void refuse(const std::string& path, const std::string& rule) const;
+    nlohmann::json resolved() const;  // all keys, nested, for run.json
     const std::string& file() const { return file_; }
 
 private:
@@ -49,8 +50,8 @@ private:
     SceneSchema schema_;
     std::string file_;
     std::map<std::string, Entry> values_;
-    std::vector<std::string> tables_;
-    std::map<std::string, int> lists_;  // list -> number of its tables
+    std::map<std::string, int> tables_;  // table -> line of its header; 0: from --set
+    std::map<std::string, int> lists_;   // list -> number of its tables
 };
 
 }  // namespace experiments

@@ -3,7 +3,6 @@
 
 #include "experiments/deformers/deformer.hpp"
 
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -12,11 +11,11 @@ namespace experiments {
 
 // The options of an [[external]] table, which has either a command or a library.
 struct ExternalOptions {
-    std::vector<std::string> command = {};                // the program and its arguments, files with their absolute paths
-    std::string library = {};                             // path
-    bool has_memory = false;                              // it gets every time step, not only the frames
-    std::map<std::string, std::string> file_hashes = {};  // of the command's files or the library, by name
-    std::string scene = {}, name = {};                    // the scene file with the table, and the deformer's name there, for messages
+    std::vector<std::string> command = {};      // the program and its arguments, files with their absolute paths
+    std::string library = {};                   // path
+    bool has_memory = false;                    // it gets every time step, not only the frames
+    std::vector<std::string> file_hashes = {};  // of each word of the command, empty if it is no file; or of the library
+    std::string scene = {}, name = {};          // the scene file with the table, and the deformer's name there, for messages
 };
 
 // Throws the InputError `SCENE: NAME.KEY = VALUE: RULE`; the key is command or library.
@@ -29,5 +28,8 @@ std::unique_ptr<Deformer> make_program_deformer(const ExternalOptions& options);
 // An InputError if the library cannot be loaded, lacks a function, was compiled for another version of pbskin_deformer.h, or reports a
 // failure.
 std::unique_ptr<Deformer> make_library_deformer(const ExternalOptions& options);
+
+// Loads the library into this process, where it stays. Returns why it cannot be used, or an empty text if it can.
+std::string why_library_not_usable(const std::string& library);
 
 }  // namespace experiments

@@ -35,6 +35,14 @@ std::string word_of(const std::string& word, const fs::path& folder)
     return !word.empty() && fs::is_regular_file(file, code) ? fs::absolute(file).string() : word;
 }
 
+// Empty for a word that is no file.
+std::string hash_of(const std::string& word)
+{
+    std::error_code code;
+    const bool is_file = fs::path(word).is_absolute() && fs::is_regular_file(word, code);
+    return is_file ? pbs::content_hash(pbs::read_text_file(word, pbs::most_mesh_bytes)) : "";
+}
+
 void read_external(const SceneValues& values, const std::string& table, DeformerSpec& spec)
 {
     const fs::path folder = fs::path(values.file()).parent_path();
@@ -46,19 +54,20 @@ void read_external(const SceneValues& values, const std::string& table, Deformer
     options.name = spec.name;
     if (options.command.empty() == options.library.empty()) values.refuse(table + ".command", "expected either a command or a library");
     if (!options.library.empty()) options.library = fs::absolute(folder / options.library).string();
-    std::vector<std::string> files = options.command;
-    files.push_back(options.library);
-    for (const std::string& file : files)
-        if (fs::path(file).is_absolute() && fs::is_regular_file(file))
-            options.file_hashes[pbs::file_name(file)] = pbs::content_hash(pbs::read_text_file(file, pbs::most_mesh_bytes));
+    const std::vector<std::string> files = options.library.empty() ? options.command : std::vector{options.library};
+    for (const std::string& file : files) options.file_hashes.push_back(hash_of(file));
     spec.options = options;
 }
 
+// A file is recorded by its name without the folder, and by its hash.
 nlohmann::json external_json(const DeformerSpec& spec)
 {
     const auto& options = options_of<ExternalOptions>(spec);
     std::vector<std::string> words;
-    for (const std::string& word : options.command) words.push_back(fs::path(word).is_absolute() ? pbs::file_name(word) : word);
+    for (std::size_t i = 0; i < options.command.size(); ++i) {
+        const bool has_hash = i < options.file_hashes.size() && !options.file_hashes[i].empty();
+        words.push_back(has_hash ? pbs::file_name(options.command[i]) : options.command[i]);
+    }
     return {{"command", words},
             {"library", pbs::file_name(options.library)},
             {"has_memory", options.has_memory},

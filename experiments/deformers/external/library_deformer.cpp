@@ -8,22 +8,44 @@
 
 #include <dlfcn.h>
 
+#include <type_traits>
+
 namespace experiments {
 namespace {
+
+struct LibraryFunctions {
+    decltype(pbskin_deformer_version)* version = nullptr;
+    decltype(pbskin_deformer_create)* create = nullptr;
+    decltype(pbskin_deformer_advance)* advance = nullptr;
+    decltype(pbskin_deformer_destroy)* destroy = nullptr;
+};
+
+// Returns why the library cannot be used, or an empty text if it can.
+std::string load(const std::string& library, LibraryFunctions& functions)
+{
+    void* handle = dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL);
+    if (!handle) return std::string("cannot be loaded: ") + dlerror();
+    std::string missing;
+    const auto find = [&](const char* name, auto*& function) {
+        function = reinterpret_cast<std::remove_reference_t<decltype(function)>>(dlsym(handle, name));
+        if (!function && missing.empty()) missing = std::string("has no function ") + name;
+    };
+    find("pbskin_deformer_version", functions.version);
+    if (functions.version && functions.version() != PBSKIN_DEFORMER_VERSION)
+        return fmt::format("was compiled for version {} of pbskin_deformer.h: expected version {}", functions.version(),
+                           PBSKIN_DEFORMER_VERSION);
+    find("pbskin_deformer_create", functions.create);
+    find("pbskin_deformer_advance", functions.advance);
+    find("pbskin_deformer_destroy", functions.destroy);
+    return missing;
+}
 
 class LibraryDeformer : public Deformer {
 public:
     explicit LibraryDeformer(const ExternalOptions& options) : options_(options)
     {
-        handle_ = dlopen(options.library.c_str(), RTLD_NOW | RTLD_LOCAL);
-        if (!handle_) refuse_external(options, std::string("cannot be loaded: ") + dlerror());
-        const int version = function<decltype(pbskin_deformer_version)>("pbskin_deformer_version")();
-        if (version != PBSKIN_DEFORMER_VERSION)
-            refuse_external(options, fmt::format("was compiled for version {} of pbskin_deformer.h: expected version {}", version,
-                                                 PBSKIN_DEFORMER_VERSION));
-        create_ = function<decltype(pbskin_deformer_create)>("pbskin_deformer_create");
-        advance_ = function<decltype(pbskin_deformer_advance)>("pbskin_deformer_advance");
-        destroy_ = function<decltype(pbskin_deformer_destroy)>("pbskin_deformer_destroy");
+        const std::string why_not = load(options.library, functions_);
+        if (!why_not.empty()) refuse_external(options, why_not);
     }
     ~LibraryDeformer() override { release(); }  // the library itself stays loaded: its threads and statics may be in use
     LibraryDeformer(const LibraryDeformer&) = delete;
@@ -49,7 +71,7 @@ public:
                                         weights.data(),
                                         ends.data(),
                                         parents.data()};
-        deformer_ = create_(&given);
+        deformer_ = functions_.create(&given);
         if (!deformer_) refuse_external(options_, "pbskin_deformer_create returned null: expected a deformer");
         positions_ = character.mesh.rest;
     }
@@ -61,7 +83,7 @@ public:
     {
         const std::vector<double> transforms = transform_rows(pose);
         const pbs::Stopwatch stopwatch;
-        const int status = advance_(deformer_, transforms.data(), dt_s, positions_.data());
+        const int status = functions_.advance(deformer_, transforms.data(), dt_s, positions_.data());
         pbs::StepSummary summary;
         summary.seconds = stopwatch.seconds();
         if (status != 0) refuse_external(options_, fmt::format("pbskin_deformer_advance returned {}: expected 0", status));
@@ -70,29 +92,25 @@ public:
     }
 
 private:
-    template <typename Function>
-    Function* function(const char* name) const
-    {
-        void* address = dlsym(handle_, name);
-        if (!address) refuse_external(options_, std::string("has no function ") + name);
-        return reinterpret_cast<Function*>(address);
-    }
-
     void release()
     {
-        if (deformer_) destroy_(deformer_);
+        if (deformer_) functions_.destroy(deformer_);
         deformer_ = nullptr;
     }
 
     ExternalOptions options_;
-    void *handle_ = nullptr, *deformer_ = nullptr;
-    decltype(pbskin_deformer_create)* create_ = nullptr;
-    decltype(pbskin_deformer_advance)* advance_ = nullptr;
-    decltype(pbskin_deformer_destroy)* destroy_ = nullptr;
+    LibraryFunctions functions_;
+    void* deformer_ = nullptr;
     pbs::Positions positions_;
 };
 
 }  // namespace
+
+std::string why_library_not_usable(const std::string& library)
+{
+    LibraryFunctions functions;
+    return load(library, functions);
+}
 
 std::unique_ptr<Deformer> make_library_deformer(const ExternalOptions& options)
 {

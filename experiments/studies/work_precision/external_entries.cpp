@@ -2,6 +2,7 @@
 
 #include "experiments/deformers/external/external_deformers.hpp"
 #include "experiments/deformers/registry.hpp"
+#include "experiments/process/own_process.hpp"
 #include "experiments/process/program_run.hpp"
 #include "experiments/scene/scene.hpp"
 #include "experiments/scene/scene_keys.hpp"
@@ -10,8 +11,11 @@
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/text_file.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <filesystem>
+#include <stdexcept>
 
 namespace experiments {
 namespace {
@@ -30,10 +34,8 @@ void refuse_other_tables(const SceneValues& values, const std::string& own)
 {
     const std::string rule = "expected only [[" + own + "]] tables";
     for (const SceneKey& key : scene_schema().keys) {
-        if (key.table.empty() || key.table == own) continue;
-        if (key.in_list && values.tables(key.table) > 0) values.refuse(key.table + ".0.name", rule);
-        if (values.given(key.path())) values.refuse(key.path(), rule);
-        if (values.has_table(key.table)) values.refuse(key.table, rule);
+        const std::string table = key.in_list ? key.table + ".0" : key.table;
+        if (key.table != own && values.has_table(table)) values.refuse(table, rule);
     }
 }
 
@@ -46,17 +48,26 @@ bool is_taken(const std::string& name)
     });
 }
 
+// Returns why the library cannot be used, or an empty text if it can. It is loaded in another process, which it may end.
+std::string why_not_loadable(const std::string& library)
+{
+    try {
+        return in_own_process([&] { return nlohmann::json(why_library_not_usable(library)); }).get<std::string>();
+    } catch (const std::runtime_error& error) {
+        return std::string("cannot be loaded: ") + error.what();
+    }
+}
+
 void check_entry(const SceneValues& values, const std::string& table, const DeformerSpec& spec)
 {
-    if (is_taken(spec.name)) values.refuse(table + ".name", "is the name of a deformer, a group or a front of the comparison");
+    if (is_taken(spec.name)) values.refuse(table + ".name", "expected a name that no deformer, group or row of the comparison has");
     const auto& options = options_of<ExternalOptions>(spec);
-    if (!options.command.empty()) {
+    if (options.library.empty()) {
         const std::string why_not = why_not_startable(options.command.front());
         if (!why_not.empty()) values.refuse(table + ".command", "cannot be started: " + why_not);
-    } else if (!fs::is_regular_file(options.library)) {
-        values.refuse(table + ".library", "cannot be loaded: expected a shared library");
     } else {
-        make_deformer(spec);
+        const std::string why_not = why_not_loadable(options.library);
+        if (!why_not.empty()) values.refuse(table + ".library", why_not);
     }
 }
 

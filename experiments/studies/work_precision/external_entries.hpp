@@ -10,8 +10,9 @@
 
 namespace experiments {
 
-// InputError for a file that cannot be read, has no such table or other tables, a name that is that of a compared deformer or used twice, a
-// program that cannot be started, and a library that cannot be loaded. Paths are relative to the file.
+// Throws an InputError for a file that cannot be read, has no such table or other tables, a name that is that of a compared deformer or
+// used twice, a program that cannot be started, and a library that cannot be loaded. Paths are relative to the file. Libraries are loaded
+// in another process.
 std::vector<DeformerSpec> external_entries(const std::string& file);
 
 }  // namespace experiments

@@ -1,13 +1,17 @@
 // The clock of a point's times.
+//   words_of(FrameClock::own)  // for readers: "the times that the program states in seconds.f64"
 #pragma once
 
 #include "analysis/records/typed_table.hpp"
+
+#include <string>
 
 namespace experiments {
 
 // processor: processor time of this process. own: the times that a deformer in another process states itself. wall: the wall time of that
 // process, divided by the number of its poses.
 enum class FrameClock { processor, own, wall };
+std::string words_of(FrameClock clock);
 
 }  // namespace experiments
 

@@ -4,7 +4,6 @@
 #include "experiments/deformers/registry.hpp"
 #include "experiments/process/interruption.hpp"
 #include "experiments/scene/motion_case.hpp"
-#include "experiments/settings/option_fields.hpp"
 #include "experiments/studies/work_precision/posed_deformer.hpp"
 #include "experiments/studies/work_precision/reference_set.hpp"
 #include "experiments/studies/work_precision/sought_theta.hpp"
@@ -31,41 +30,41 @@ PosePair poses_of(const WorkPrecisionCase& of, const pbs::Skeleton& skeleton)
     return poses;
 }
 
-std::vector<PointSetting> all_settings(const WorkPrecisionCase& of)
-{
-    std::vector<PointSetting> settings = external_settings(of.external);
-    const std::vector<PointSetting> compared = point_settings(of.scene, of.range);
-    settings.insert(settings.end(), compared.begin(), compared.end());
-    return settings;
-}
-
 class CaseMeasuring {
 public:
     explicit CaseMeasuring(const WorkPrecisionCase& of)
         : of_(of),
           base_(std::make_shared<pbs::Character>(pbs::make_character(of.scene.character))),
           poses_(poses_of(of, base_->skeleton)),
-          settings_(all_settings(of)),
-          references_(of, *base_, poses_)
+          external_(external_settings(of.external))
     {
         meshes_.emplace(0, BodyMesh(base_));
-        if (of.range.refined) meshes_.emplace(refined, BodyMesh::refined(*base_));
-        for (const int vertices : of.range.other_vertices) meshes_.emplace(vertices, BodyMesh(of.scene.character, vertices, *base_));
     }
 
+    // The user's programs are called first, so that one that fails ends the run at once.
     MeasuredPoints measure()
     {
-        for (const PointSetting& setting : settings_) reach(setting);
+        for (const PointSetting& setting : external_) reach(setting);
+        references_.emplace(of_, *base_, poses_);
+        add_other_meshes();
+        compared_ = point_settings(of_.scene, of_.range);
+        for (const PointSetting& setting : compared_) reach(setting);
         const std::vector<FrameTime> times = time_all();
         for (std::size_t i = 0; i < points_.size(); ++i) add_row(points_[i], deformers_[i], times[i]);
-        add_row_of_case(reference_row(base_->mesh, references_.first()));
-        measured_.members = references_.member_rows();
-        if (of_.seeks_theta && references_.first().is_reached())
-            measured_.thetas = sought_thetas(of_, meshes_.at(0), poses_, references_.first());
+        add_row_of_case(reference_row(base_->mesh, references_->first()));
+        measured_.members = references_->member_rows();
+        if (of_.seeks_theta && references_->first().is_reached())
+            measured_.thetas = sought_thetas(of_, meshes_.at(0), poses_, references_->first());
         return measured_;
     }
 
 private:
+    void add_other_meshes()
+    {
+        if (of_.range.refined) meshes_.emplace(refined, BodyMesh::refined(*base_));
+        for (const int vertices : of_.range.other_vertices) meshes_.emplace(vertices, BodyMesh(of_.scene.character, vertices, *base_));
+    }
+
     // Later rungs of a ladder of which a rung took too long are not tried.
     void reach(const PointSetting& setting)
     {
@@ -130,13 +129,13 @@ private:
         add_time(row, time);
         if (!row.is_external) row.work = deformer.work();  // such a deformer counts nothing
         if (time.ms) row.clock = deformer.clock();
-        if (point.shape.finished) references_.add_errors(row, point.on_base);
+        if (point.shape.finished) references_->add_errors(row, point.on_base);
         if (point.shape.finished && point.setting->on_own_mesh())
-            row.to_linear_elements_pct = references_.to_linear_elements_pct(point.on_base);
+            row.to_linear_elements_pct = references_->to_linear_elements_pct(point.on_base);
         const bool has_parts = of_.converged_iterations > 0 && options_if<pbs::PbsOptions>(point.setting->spec) &&
                                point.setting->on_own_mesh() && point.setting->tuned.empty() && row.error;
         if (has_parts) row.parts = parts_of(point);
-        add_reference(row, references_.first());
+        add_reference(row, references_->first());
         add_row_of_case(std::move(row));
     }
 
@@ -152,7 +151,7 @@ private:
         if (converged_.empty())
             for (const int iterations : {of_.converged_iterations, of_.converged_iterations / 2})
                 converged_.push_back(converged(*point.setting, iterations));
-        const PosedReference& reference = references_.first();
+        const PosedReference& reference = references_->first();
         return {reference.distance(point.on_base, converged_[0]).joint_pct, reference.error_of(converged_[0]).joint_pct,
                 reference.distance(converged_[0], converged_[1]).joint_pct};
     }
@@ -169,8 +168,8 @@ private:
     const WorkPrecisionCase& of_;
     std::shared_ptr<const pbs::Character> base_;
     PosePair poses_;
-    std::vector<PointSetting> settings_;
-    ReferenceSet references_;
+    std::vector<PointSetting> external_, compared_;  // the settings of the user's own deformers and those of the others
+    std::optional<ReferenceSet> references_;         // none until the user's own deformers have reached the pose
     static constexpr int refined = -1;
     std::map<int, BodyMesh> meshes_;  // by wanted size; 0: the case's own
     std::deque<PosedDeformer> deformers_;
@@ -181,32 +180,6 @@ private:
 };
 
 }  // namespace
-
-nlohmann::json to_json(const WorkPrecisionCase& of)
-{
-    static const auto fields =
-        OptionFields<WorkPrecisionCase>("work_precision")
-            .record("of", &WorkPrecisionCase::of)
-            .record("scene", &WorkPrecisionCase::scene)
-            .record("frame", &WorkPrecisionCase::frame)
-            .record("half", &WorkPrecisionCase::half)
-            .record("range", &WorkPrecisionCase::range)
-            .record("rounds", &WorkPrecisionCase::rounds)
-            .record("newton_rounds", &WorkPrecisionCase::newton_rounds)
-            .record("reference_is_refined", &WorkPrecisionCase::reference_is_refined)
-            .record("members", &WorkPrecisionCase::members)
-            .record("converged_iterations", &WorkPrecisionCase::converged_iterations)
-            .record("longest_frame_ms", &WorkPrecisionCase::longest_frame_ms)
-            .record("seeks_theta", &WorkPrecisionCase::seeks_theta)
-            .record("external", &WorkPrecisionCase::external)
-            .derived("points",
-                     [](const WorkPrecisionCase& one) -> nlohmann::json { return digest_of(point_settings(one.scene, one.range)); })
-            .derived("reference", [](const WorkPrecisionCase& one) { return to_json(reference_flesh(one.scene)); })
-            .complete();
-    nlohmann::json json = fields.json(of);
-    if (of.external.empty()) json.erase("external");  // as in records of the fixed list of deformers
-    return json;
-}
 
 MeasuredPoints measure_points(const WorkPrecisionCase& of)
 {

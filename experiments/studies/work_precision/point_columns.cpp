@@ -90,13 +90,14 @@ Points columns_of_comparison()
     return (of_point + within(&PointRow::work, work_columns) + from_limit + member_error_columns()).in_group("comparison");
 }
 
-// Only where such a deformer takes part.
+// These columns are written only if a deformer of the user's own takes part.
 Points columns_of_external()
 {
-    return Points{{"external", &PointRow::is_external, "", "a deformer of the user's own"},
-                  {"clock", &PointRow::clock, "",
-                   "of the times: processor (of this process), own (as an external program states them) or wall (of that program, divided "
-                   "by the number of its poses)"}}
+    return Points{
+        {"external", &PointRow::is_external, "", "a deformer of the user's own"},
+        {"clock", &PointRow::clock, "",
+         "clock of the times: processor (of this process), own (as an external program states them) or wall (of that program, divided "
+         "by the number of its poses)"}}
         .in_group("external");
 }
 

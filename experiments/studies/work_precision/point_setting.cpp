@@ -98,6 +98,7 @@ SettingKey key_of(const PointSetting& setting)
     key.refined = setting.refined;
     key.tuned = setting.tuned;
     key.packed = traits.packed;
+    if (setting.is_external()) key.precision.clear();  // it is not known
     if (const auto* xpbd = options_if<pbs::XpbdOptions>(spec)) key.iterations = xpbd->iterations, key.substeps = xpbd->substeps;
     if (const auto* fem = options_if<FemOptions>(spec)) key.element_order = fem->element_order;
     const auto* pbs = options_if<pbs::PbsOptions>(spec);

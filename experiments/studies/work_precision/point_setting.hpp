@@ -47,7 +47,8 @@ struct SettingKey {
     std::string tuned = {};  // the setting of the grid; empty: the default one
     bool packed = false;     // code that computes several constraints, vertices or tets per instruction
 
-    bool is_plain() const { return precision == "f64" && !packed; }
+    // f64 code that is not packed. A deformer of the user's own, whose code is not known, counts as such.
+    bool is_plain() const { return precision != "f32" && !packed; }
     bool operator==(const SettingKey&) const = default;
     auto operator<=>(const SettingKey&) const = default;
 };

@@ -43,13 +43,11 @@ std::vector<double> PosedDeformer::turn()
     const bool had_arrived = has_arrived_;
     const double start_s = process_cpu_s();
     const pbs::StepSummary step = advance(is_there_ ? poses_.neighbour : poses_.pose);
-    const double moved_s = has_own_clock_ ? process_cpu_s() : start_s;
     if (!mesh_.has_base_vertices()) on_base_ = mesh_.on_base(deformer_->positions());
     const double end_s = process_cpu_s();
     is_there_ = !is_there_;
     if (turns_++ == 0) work_ = step.work;
-    const double transfer_s = mesh_.has_base_vertices() ? 0.0 : end_s - moved_s;
-    const double frame_s = has_own_clock_ ? step.seconds + transfer_s : end_s - start_s;
+    const double frame_s = has_own_clock_ ? step.seconds : end_s - start_s;
     return {had_arrived && has_arrived_ ? 1e3 * frame_s : std::numeric_limits<double>::quiet_NaN()};
 }
 

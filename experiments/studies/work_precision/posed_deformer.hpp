@@ -6,7 +6,7 @@
 //   const Shape shape = deformer.reach();      // from rest, however long it takes
 //   take_turns({[&] { return deformer.turn(); }}, rounds);
 // The time is processor time over all threads of the process, so that other work on the machine affects it less. A deformer that works in
-// another process (DeformerTraits::has_own_clock) has the time that it states instead, and the processor time of the transfer.
+// another process (DeformerTraits::has_own_clock) has the time that it states instead. It runs on the case's own mesh only.
 #pragma once
 
 #include "experiments/studies/shared/posed_character.hpp"
@@ -25,7 +25,8 @@ struct PosePair {
 
 class PosedDeformer {
 public:
-    // The mesh and the poses outlive it. announced_turns: of a deformer with a clock of its own, which computes them ahead with reach().
+    // The mesh and the poses outlive it. announced_turns: the number of turns that follow reach(); a program computes them in the same
+    // call.
     PosedDeformer(const PointSetting& setting, const BodyMesh& mesh, const PosePair& poses, int announced_turns = 0);
 
     Shape reach();  // on its own mesh; a deformer with memory takes the way

@@ -45,19 +45,6 @@ std::string split_text(const ComparisonRecords& records)
         training.empty() ? "none" : training, evaluation.empty() ? "none" : evaluation);
 }
 
-std::string words_of(FrameClock clock)
-{
-    switch (clock) {
-        case FrameClock::processor:
-            return "processor time, as of all other deformers";
-        case FrameClock::own:
-            return "the times that the program states in seconds.f64";
-        case FrameClock::wall:
-            return "the wall time of the program with its start, divided by the number of its poses";
-    }
-    return "";
-}
-
 // The user's own deformers, each with its clock. Empty where there are none.
 std::string external_text(const ComparisonRecords& records)
 {
@@ -68,11 +55,11 @@ std::string external_text(const ComparisonRecords& records)
         for (const CaseRecords& of : records.cases)
             for (const PointRow& row : of.rows)
                 if (row.key.deformer == group.key && !clock) clock = row.clock;
-        text += fmt::format("- `{}`: {}\n", group.key, clock ? words_of(*clock) : "no time");
+        text += fmt::format("- `{}`: {}\n", group.key, clock ? words_of(*clock) : "it has no time");
     }
     if (text.empty()) return "";
     return "Deformers of the user's own take part in both comparisons, since it is not known whether their code is packed. Their "
-           "clocks:\n\n" +
+           "times were taken as follows:\n\n" +
            text + "\n";
 }
 

@@ -112,7 +112,7 @@ TEST(RecordedSettings, OfADeformerOfTheUsersOwn)
     of.scene = limb();
     EXPECT_FALSE(to_json(of).contains("external"));
     DeformerSpec spec = default_spec("external");
-    spec.options = ExternalOptions{.command = {"python3", "mine.py"}, .library = "libmine.so", .file_hashes = {{"mine.py", "1f"}}};
+    spec.options = ExternalOptions{.command = {"python3", "mine.py"}, .file_hashes = {"", "1f"}};
     of.external = {spec};
     const nlohmann::json recorded = to_json(spec);
     EXPECT_EQ(to_json(of).at("external"), nlohmann::json::array({recorded}));
@@ -123,9 +123,12 @@ TEST(RecordedSettings, OfADeformerOfTheUsersOwn)
     };
     EXPECT_EQ(with([](ExternalOptions& options) { options.scene = "moved.toml"; }), recorded);
     EXPECT_NE(with([](ExternalOptions& options) { options.command.push_back("4"); }), recorded);
-    EXPECT_NE(with([](ExternalOptions& options) { options.library = "libother.so"; }), recorded);
+    EXPECT_NE(with([](ExternalOptions& options) { options.command = {}, options.library = "libmine.so"; }), recorded);
     EXPECT_NE(with([](ExternalOptions& options) { options.has_memory = true; }), recorded);
-    EXPECT_NE(with([](ExternalOptions& options) { options.file_hashes["mine.py"] = "2e"; }), recorded);
+    EXPECT_NE(with([](ExternalOptions& options) { options.file_hashes[1] = "2e"; }), recorded);
+    DeformerSpec renamed = spec;
+    renamed.name = "yours";
+    EXPECT_NE(to_json(renamed), recorded);
 }
 
 TEST(RecordedSettings, OfConvergence)

@@ -279,6 +279,16 @@ TEST(Settings, AreNamedByTheirKeysInOnePlace)
     EXPECT_EQ(text_of({.deformer = "fem_linear", .element_order = 1, .refined = true}), "fem_linear, element_order 1, refined");
 }
 
+// Its precision is not known, so that it takes part in both comparisons.
+TEST(Settings, OfADeformerOfTheUsersOwnHaveNoPrecision)
+{
+    DeformerSpec spec = default_spec("external");
+    spec.name = "mine";
+    const SettingKey key = key_of(external_settings({spec}).at(0));
+    EXPECT_EQ(text_of(key), "mine");
+    for (const Comparison comparison : comparisons) EXPECT_TRUE(takes_part(comparison, key, {"pbs"}));
+}
+
 TEST(Findings, EveryDeformerOfTheStudyHasAGroup)
 {
     EXPECT_EQ(group_of("xpbd_small_steps").words, "XPBD");

@@ -8,6 +8,9 @@
 #include "tests/unit/pbs/character/expect_input_error.hpp"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
 
 namespace {
 
@@ -40,7 +43,9 @@ TEST_F(ExternalEntries, AreTheTablesInTheirOrder)
     EXPECT_EQ(read[0].threads, 1);
     const auto& options = options_of<ExternalOptions>(read[0]);
     EXPECT_EQ(options.command, (std::vector<std::string>{"sh", program}));
-    EXPECT_EQ(options.file_hashes.count("mine.sh"), 1u);
+    ASSERT_EQ(options.file_hashes.size(), 2u);
+    EXPECT_EQ(options.file_hashes[0], "") << "sh is sought on the PATH";
+    EXPECT_NE(options.file_hashes[1], "");
     EXPECT_TRUE(options_of<ExternalOptions>(read[1]).has_memory);
 }
 
@@ -48,10 +53,29 @@ TEST_F(ExternalEntries, ChangeWithTheirPrograms)
 {
     const auto hash = [&](const std::string& content) {
         folder.file("mine.sh", content);
-        return options_of<ExternalOptions>(entries(entry_table("mine"))[0]).file_hashes.at("mine.sh");
+        return options_of<ExternalOptions>(entries(entry_table("mine"))[0]).file_hashes.at(1);
     };
     EXPECT_EQ(hash("exit 0"), hash("exit 0"));
     EXPECT_NE(hash("exit 0"), hash("exit 1"));
+}
+
+// Files are recorded by their place in the command, and other words in full.
+TEST_F(ExternalEntries, ChangeWithEachFileAndWord)
+{
+    for (const char* of : {"a", "b"}) std::filesystem::create_directory(folder.path() / of);
+    const auto record = [&](const std::string& a, const std::string& b, const std::string& words) {
+        folder.file("a/mine.sh", a), folder.file("b/mine.sh", b);
+        return to_json(entries(entry_table("mine", "command = [\"sh\", " + words + "]"))[0]);
+    };
+    const std::string both = R"("a/mine.sh", "b/mine.sh")", other_order = R"("b/mine.sh", "a/mine.sh")";
+    const nlohmann::json first = record("exit 0", "exit 1", both);
+    EXPECT_EQ(record("exit 0", "exit 1", both), first);
+    EXPECT_NE(record("exit 2", "exit 1", both), first);
+    EXPECT_NE(record("exit 0", "exit 2", both), first);
+    EXPECT_NE(record("exit 0", "exit 1", other_order), first);
+    EXPECT_EQ(record("exit 1", "exit 0", other_order), first) << "the files themselves are the same";
+    EXPECT_EQ(first.dump().find(folder.path().string()), std::string::npos) << "the record is that of any folder";
+    EXPECT_NE(record("exit 0", "exit 1", both + R"(, "/nowhere/one/data")"), record("exit 0", "exit 1", both + R"(, "/nowhere/two/data")"));
 }
 
 TEST_F(ExternalEntries, NeedAFileWithTheirTablesAlone)
@@ -60,9 +84,14 @@ TEST_F(ExternalEntries, NeedAFileWithTheirTablesAlone)
     expect_input_error([&] { external_entries(folder.path().string()); }, folder.path().string(), "cannot be read");
     expect_refused("", ": external: missing", "expected at least one [[external]] table");
     expect_refused("[external]\nname = \"mine\"\n", ":2: external:", "expected [[external]] tables");
-    expect_refused(entry_table("mine") + "[deformers]\nuse = [\"mine\"]\n", ":6: deformers.use =", "expected only [[external]] tables");
-    expect_refused(entry_table("mine") + "[[fem]]\nname = \"solid\"\n", ":6: fem.0.name = solid", "expected only [[external]] tables");
-    expect_refused(entry_table("mine") + "[pbs]\n", ": pbs:", "expected only [[external]] tables");
+    expect_refused(entry_table("mine") + "[deformers]\nuse = [\"mine\"]\n", ":5: deformers:", "expected only [[external]] tables");
+    expect_refused(entry_table("mine") + "deformers.use = [\"mine\"]\n", ":5: external.0.deformers", "unknown key");
+    expect_refused("deformers.use = [\"mine\"]\n" + entry_table("mine"), ":2: deformers:", "expected only [[external]] tables");
+    for (const char* keys : {"name = \"solid\"\n", "model = \"linear\"\n"})
+        expect_refused(entry_table("mine") + "[[fem]]\n" + keys, ":5: fem.0:", "expected only [[external]] tables");
+    expect_refused(entry_table("mine") + "[[lbs]]\n", ":5: lbs.0:", "expected only [[external]] tables");
+    expect_refused(entry_table("mine") + "[pbs]\n", ":5: pbs:", "expected only [[external]] tables");
+    expect_refused(entry_table("mine") + "[reference]\nname = \"mine\"\n", ":5: reference:", "expected only [[external]] tables");
     expect_refused(entry_table("mine") + "[[mine]]\n", ":5: mine", "unknown key");
     expect_input_error([&] { external_entries(folder.file("mine.toml", entry_table("mine"))); }, folder / "mine.toml: schema",
                        "write schema = 1");
@@ -84,9 +113,10 @@ TEST_F(ExternalEntries, CanBeStartedOrLoaded)
     expect_refused(entry_table("mine", "command = [\"no_such_program\"]"), ":4: external.0.command =", "No such file or directory");
     folder.file("mine.sh", "exit 0");
     expect_refused(entry_table("mine", "command = [\"mine.sh\"]"), ":4: external.0.command =", "Permission denied");
+    expect_refused(entry_table("mine", "command = [\"./none.sh\"]"), ":4: external.0.command =", "No such file or directory");
     expect_refused(entry_table("mine", "library = \"libmine.so\""), ":4: external.0.library = libmine.so", "cannot be loaded");
     folder.file("libmine.so", "no library");
-    expect_refused(entry_table("mine", "library = \"libmine.so\""), ": mine.library =", "cannot be loaded");
+    expect_refused(entry_table("mine", "library = \"libmine.so\""), ":4: external.0.library = libmine.so", "cannot be loaded: ");
     expect_refused(entry_table("mine", ""), ": external.0.command", "expected either a command or a library");
 }
 

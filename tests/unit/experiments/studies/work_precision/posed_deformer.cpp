@@ -1,9 +1,11 @@
 // A deformer of the user's own in a pose of a case. Reference: the shapes and times that its program writes.
 #include "experiments/studies/work_precision/posed_deformer.hpp"
 
+#include "experiments/deformers/external/exchange_folder.hpp"
 #include "experiments/deformers/external/external_deformers.hpp"
 #include "experiments/scene/motion_case.hpp"
 #include "experiments/studies/work_precision/measured_points.hpp"
+#include "pbs/geometry/text_file.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/unit/pbs/character/expect_input_error.hpp"
 
@@ -11,14 +13,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <memory>
+#include <numeric>
 
 namespace {
 
 using namespace experiments;
 
-// A program that writes the shapes of LBS, which the test computes, and the times of 125 ms.
+// A program that writes the shapes of LBS, which the test computes, and times of 1, 2, 4, 8 and 16 ms for its successive poses.
 class OwnDeformer : public testing::Test {
 protected:
     OwnDeformer()
@@ -43,7 +47,7 @@ protected:
         for (int pose = 0; pose < 5; ++pose) {
             pbs::Positions shape = blended(*character, pose % 2 == 0 ? poses.pose : poses.neighbour);
             if (bad) shape(3, 1) = std::nan("");
-            const double time_s = 0.125;
+            const double time_s = 0.001 * (1 << pose);
             positions.append(reinterpret_cast<const char*>(shape.data()), static_cast<std::size_t>(shape.size()) * sizeof(double));
             seconds.append(reinterpret_cast<const char*>(&time_s), sizeof(double));
         }
@@ -94,10 +98,23 @@ TEST_F(OwnDeformer, IsCalledOnceForAllItsTurnsAndHasTheTimesThatItStates)
     const Shape shape = deformer.reach();
     EXPECT_TRUE(shape.finished);
     EXPECT_EQ(shape.positions, blended(own.character(), poses.pose));
-    EXPECT_EQ(shape.seconds, 0.125);
-    for (int turn = 0; turn < 4; ++turn) EXPECT_EQ(deformer.turn().at(0), 125.0);
+    EXPECT_DOUBLE_EQ(shape.seconds, 0.001);
+    for (const double ms : {2.0, 4.0, 8.0, 16.0}) EXPECT_DOUBLE_EQ(deformer.turn().at(0), ms);
     EXPECT_EQ(deformer.clock(), FrameClock::own);
     EXPECT_EQ(std::filesystem::file_size(folder / "calls"), 4u) << "one line";
+}
+
+// The first turn of 2 ms warms up. The others take 4, 8 and 16 ms; the lower quartile is half way from 4 to 8.
+TEST_F(OwnDeformer, HasTheMedianOfItsTurnsAfterTheFirst)
+{
+    write_answers(false, true);
+    const PointRow mine = row_of_mine(points_of(copies_answers));
+    EXPECT_DOUBLE_EQ(mine.reach_ms, 1.0);
+    EXPECT_EQ(mine.rounds, 3);
+    EXPECT_DOUBLE_EQ(mine.ms_median.value(), 8.0);
+    EXPECT_DOUBLE_EQ(mine.ms_q1.value(), 6.0);
+    EXPECT_DOUBLE_EQ(mine.ms_q3.value(), 12.0);
+    EXPECT_EQ(mine.clock, FrameClock::own);
 }
 
 TEST_F(OwnDeformer, WithoutTimesHasTheWallTimeOverItsPoses)
@@ -125,6 +142,37 @@ TEST_F(OwnDeformer, ThatIsNotFiniteBreaksDown)
 TEST_F(OwnDeformer, ThatFailsEndsTheRun)
 {
     expect_input_error([&] { points_of("exit 3"); }, "mine.toml: mine.command = /bin/sh", "ended with status 3: expected status 0");
+}
+
+// A scene without [[fem]] has no reference, which is an error as soon as it is solved.
+TEST_F(OwnDeformer, IsCalledBeforeTheReferenceIsSolved)
+{
+    of.scene.deformers.clear();
+    expect_input_error([&] { points_of("exit 3"); }, "mine.toml: mine.command = /bin/sh", "ended with status 3");
+    write_answers(false, true);
+    expect_input_error([&] { points_of(copies_answers); }, "", "fem");
+}
+
+// Frames 2 to 25 come before frame 26. The turns begin in frame 25.
+TEST_F(OwnDeformer, WithMemoryGetsTheEarlierFramesFirst)
+{
+    of.scene = read_scene("limb_twist", {"character.vertices=300", "motion.angle_deg=30", "motion.frames=31"});
+    of.frame = 26;
+    of.external = {spec_of_script("cp $1/poses.f64 $0/poses; exit 3")};
+    options_of<ExternalOptions>(of.external[0]).has_memory = true;
+    EXPECT_THROW(measure_points(of), pbs::InputError);
+    const pbs::Motion motion = make_motion(of.scene.motion, character->skeleton, of.scene.file);
+    std::vector<std::size_t> frames(24);
+    std::iota(frames.begin(), frames.end(), 2);
+    frames.insert(frames.end(), {26, 25, 26, 25, 26});
+    std::vector<double> expected;
+    for (const std::size_t frame : frames) {
+        const std::vector<double> rows = transform_rows(motion.steps.at(frame * motion.steps_per_frame));
+        expected.insert(expected.end(), rows.begin(), rows.end());
+    }
+    const std::string bytes = pbs::read_text_file(folder / "poses");
+    ASSERT_EQ(bytes.size(), expected.size() * sizeof(double));
+    EXPECT_EQ(std::memcmp(bytes.data(), expected.data(), bytes.size()), 0);
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ using namespace experiments;
 ComparisonRecords records_with(std::optional<FrameClock> clock)
 {
     CaseRows rows = test_support::hand_case({.body = "limb", .pose = "a"},
-                                            {{{.deformer = "mine", .precision = "f64"}, 2.0, 4.0},
+                                            {{{.deformer = "mine"}, 2.0, 4.0},
                                              {{.deformer = "lbs", .precision = "f64"}, 0.1, 60.0},
                                              {{.deformer = "pbs", .iterations = 4, .precision = "f32", .packed = true}, 1.0, 30.0},
                                              test_support::hand_reference()});
