@@ -3,7 +3,7 @@
 //   references.add_errors(row, positions);
 #pragma once
 
-#include "experiments/studies/work_precision/measured_points.hpp"
+#include "experiments/studies/work_precision/work_precision_case.hpp"
 #include "experiments/studies/work_precision/posed_deformer.hpp"
 
 #include <deque>

@@ -2,7 +2,7 @@
 //   for (const ThetaRow& row : sought_thetas(of, mesh, poses, reference)) ...
 #pragma once
 
-#include "experiments/studies/work_precision/measured_points.hpp"
+#include "experiments/studies/work_precision/work_precision_case.hpp"
 #include "experiments/studies/work_precision/posed_deformer.hpp"
 
 namespace experiments {
