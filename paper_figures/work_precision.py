@@ -30,7 +30,8 @@ def measured(rows):
 
 
 def is_plain(row):
-    return row["precision"] == "f64" and row["packed"] != "1"
+    """A deformer of the user's own has no precision on record and takes part in both comparisons."""
+    return row["precision"] != "f32" and row["packed"] != "1"
 
 
 def taking_part(rows, comparison):

@@ -162,7 +162,7 @@ def add_own_deformers(folder, clocks):
         write_table(file, [row for name in clocks for row in rows_of_deformer(name, rows)])
 
     def own(row, name):
-        return {**row, "deformer": name, "ms_median": 8.0, "error_joint_pct": 20.0}
+        return {**row, "deformer": name, "precision": "", "ms_median": 8.0, "error_joint_pct": 20.0}
 
     for case in ("limb_bend_90", "limb_bend_60"):
         first = next(iter(clocks))
