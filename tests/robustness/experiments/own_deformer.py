@@ -252,7 +252,11 @@ class OwnDeformer(program.ProgramTest):
         for arguments in ((), ("--cost",)):
             refused(r".*crash\.toml:4: external\.0\.library = libmine\.so: cannot be loaded: .*signal 11", "work_precision",
                     "--external", self.path("crash.toml"), *arguments)
-        refused(r"--external = .*mine\.toml: expected work_precision among the studies", "volume", "--external", mine)
+        a_run = r"--external = .*\.toml: expected a run of work_precision among the runs"
+        refused(a_run, "volume", "--external", mine)
+        sound = self.write("sound.toml", 'schema = 1\n[[external]]\nname = "mine"\ncommand = ["python3", "any.py"]\n')
+        refused(a_run, "work_precision", "momentum", "--external", sound, "--only", "limb")
+        refused("--external = : expected a file", "work_precision", "--external", "")
         refused(r".*none\.toml: cannot be read", "work_precision", "--external", self.path("none.toml"))
         refused(r"--only = limb: no such run; expected one of limb_twist_90", "work_precision", "--only", "limb")
 
