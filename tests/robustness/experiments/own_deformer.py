@@ -256,7 +256,7 @@ class OwnDeformer(program.ProgramTest):
         refused(a_run, "volume", "--external", mine)
         sound = self.write("sound.toml", 'schema = 1\n[[external]]\nname = "mine"\ncommand = ["python3", "any.py"]\n')
         refused(a_run, "work_precision", "momentum", "--external", sound, "--only", "limb")
-        refused("--external = : expected a file", "work_precision", "--external", "")
+        refused("--external: expected a file", "work_precision", "--external", "")
         refused(r".*none\.toml: cannot be read", "work_precision", "--external", self.path("none.toml"))
         refused(r"--only = limb: no such run; expected one of limb_twist_90", "work_precision", "--only", "limb")
 
