@@ -91,6 +91,9 @@ class ResumedStudy(program.ProgramTest):
         self.assertIn("1 runs to do, 1 kept", whole.stderr)
         self.assertEqual((record.stat().st_mtime_ns, record.stat().st_ino), (ended.st_mtime_ns, ended.st_ino))
         self.assertNotEqual(self.verdict(results), "not_computable")
+        again = only(RUNS[0])
+        self.assertIn("1 runs to do, 1 kept", again.stderr)
+        self.assertNotEqual((record.stat().st_mtime_ns, record.stat().st_ino), (ended.st_mtime_ns, ended.st_ino))
         other = json.loads(record.read_text())
         other["work"]["settings"]["seed"] = "another"
         record.write_text(json.dumps(other))
