@@ -22,11 +22,11 @@ struct PlannedStudy {
 // InputError for a name that is neither a claim nor a study.
 void refuse_unknown(const std::vector<std::string>& names);
 
-// Whether a claim of the study, or the study, is among these names.
+// Returns whether the study or one of its claims is among these names.
 bool is_named(const Study& study, const std::vector<std::string>& names);
 
-// Those with a run to do, or all without ReproduceArguments::only. InputErrors for the name of a run that no study has, and for deformers
-// of the user's own without a study that compares them; also those of Study::plan_with.
+// Returns the studies that have a run to do, or all studies without ReproduceArguments::only. Throws an InputError for the name of a run
+// that no study has, for deformers of the user's own without a study that compares them, and where Study::plan_with does.
 std::vector<PlannedStudy> plan_studies(const ReproduceArguments& arguments);
 
 }  // namespace experiments

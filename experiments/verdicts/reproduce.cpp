@@ -42,7 +42,7 @@ void report_breakdown(const std::string& name, const std::string& breakdown, Stu
     outcome.broke_down = true;
 }
 
-// Those of runs that are kept count like those of new runs.
+// The breakdown of a kept run has the same effect as that of a new run.
 void report_kept_breakdowns(const PlannedStudy& planned, StudyOutcome& outcome)
 {
     for (const StudyRun& run : planned.kept)

@@ -35,7 +35,7 @@ std::string word_of(const std::string& word, const fs::path& folder)
     return !word.empty() && fs::is_regular_file(file, code) ? fs::absolute(file).string() : word;
 }
 
-// Empty for a word that is no file.
+// Returns an empty text for a word that is not a file.
 std::string hash_of(const std::string& word)
 {
     std::error_code code;

@@ -64,7 +64,7 @@ struct PointRow {
     bool is_external = false;              // a deformer of the user's own
     std::optional<FrameClock> clock = {};  // nothing where there is no time
 };
-// All columns. Those of the group "external" are written only if a deformer of the user's own takes part.
+// All columns. The columns of the group "external" are written only if a deformer of the user's own takes part.
 extern const analysis::Columns<PointRow> point_columns;
 analysis::Columns<PointRow> columns_for(const std::vector<PointRow>& rows);
 

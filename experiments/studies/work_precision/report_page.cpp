@@ -45,7 +45,7 @@ std::string split_text(const ComparisonRecords& records)
         training.empty() ? "none" : training, evaluation.empty() ? "none" : evaluation);
 }
 
-// The user's own deformers, each with its clock. Empty where there are none.
+// Lists the user's own deformers, each with its clock, or returns an empty text where there are none.
 std::string external_text(const ComparisonRecords& records)
 {
     std::string text;
