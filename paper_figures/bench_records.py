@@ -2,6 +2,8 @@
 import records
 import style
 
+schema = 2  # `memory` in place of `copy`
+
 # The colour and line style of each order, and the marker of each class of constraints.
 orders = {"plain": (style.vermillion, (0, (4, 1.5))), "plain_native": (style.orange, (0, (2, 1))),
           "plain_spread": (style.black, (0, (1, 1))),
@@ -13,10 +15,13 @@ classes = {"stretch": "o", "volume": "s", "bind": "^"}
 
 
 def read(results):
-    record = records.read_json(results / "bench" / "bench.json")
+    file = results / "bench" / "bench.json"
+    record = records.read_json(file)
+    if record.get("schema") != schema:
+        raise records.RecordsMissing(f"{file}: schema {record.get('schema')}, expected {schema}; repeat `pbskin reproduce bench`")
     for key in ("context", "meshes"):
         if key not in record:
-            raise records.RecordsMissing(f"{results / 'bench' / 'bench.json'}: no {key}")
+            raise records.RecordsMissing(f"{file}: no {key}")
     return record
 
 

@@ -1,5 +1,5 @@
 """The performance of each kernel relative to the machine, with one thread: useful operations per second over operations per byte, below the
-peak of multiply-adds and the copy bandwidth of each level of memory. The two standard bars are shown: hollow 2,200 vertices, filled 19,500.
+peak of multiply-adds and the bandwidth of each level of memory. The two standard bars are shown: hollow 2,200 vertices, filled 19,500.
 A thin line joins the three kinds of constraints of an order, and the name of the order is next to the points of the larger mesh."""
 import numpy
 from matplotlib.collections import LineCollection
@@ -13,18 +13,18 @@ levels = (("L1", 32e3), ("L2", 512e3), ("L3", 8e6), ("memory", 256e6))  # workin
 peaks = {"f32": "fma_gflops_f32", "f64": "fma_gflops_f64"}
 
 
-def bandwidth_gb_s(copy, size):
+def bandwidth_gb_s(memory, size):
     """Interpolates linearly in the logarithm of the working set, like the benchmark."""
-    return numpy.interp(numpy.log(size), [numpy.log(point["bytes"]) for point in copy], [point["gb_s"] for point in copy])
+    return numpy.interp(numpy.log(size), [numpy.log(point["bytes"]) for point in memory], [point["gb_s"] for point in memory])
 
 
 def draw_roof(axes, limits, precision):
-    """Returns the roofs: the peak alone, and for each level its copy bandwidth and the point at which it meets the peak."""
+    """Returns the roofs: the peak alone, and for each level its bandwidth and the point at which it meets the peak."""
     peak = limits[peaks[precision]]
     intensity = numpy.geomspace(0.1, 100, 200)
     rows = [{"shown": "roof", "precision": precision, "roof": "multiply-add", "gflops": peak}]
     for name, size in levels:
-        bandwidth = bandwidth_gb_s(limits["copy"], size)
+        bandwidth = bandwidth_gb_s(limits["memory"], size)
         roof = numpy.column_stack([intensity, numpy.minimum(peak, bandwidth * intensity)])
         axes.add_collection(LineCollection([roof], colors="#808080", linewidths=0.7))  # a limit has no values for the pointer
         text = f"{name}\n{bandwidth:.0f}{' GB/s' if name == 'memory' else ''}"

@@ -1,5 +1,6 @@
 #include "experiments/studies/bench/bench.hpp"
 
+#include "experiments/process/other_work.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/mesh_io.hpp"
 
@@ -42,12 +43,6 @@ MeshTimingOptions timing_options(const BenchOptions& options)
     return timing;
 }
 
-double machine_load()
-{
-    double load = 0.0;
-    return getloadavg(&load, 1) == 1 ? load : 0.0;
-}
-
 }  // namespace
 
 std::vector<ScalingFit> fit_scaling(const std::vector<MeshTimings>& meshes)
@@ -68,7 +63,8 @@ BenchRecord run_bench(const BenchOptions& options)
 {
     BenchRecord record;
     record.options = options;
-    record.load_before = machine_load();
+    const double sleep_s = options.quick ? 0.05 : 0.5;
+    record.busy_before = busy_processors(sleep_s);
     spdlog::info("measuring the machine's limits");
     record.limits = options.quick ? measure_limits(1e-4, 1e6) : measure_limits(0.05);
     for (const BodyMaker& make : bodies_of(options)) {
@@ -76,7 +72,7 @@ BenchRecord run_bench(const BenchOptions& options)
         spdlog::info("{}: {} vertices, {} tets", body.character.name, body.mesh().rest.rows(), body.mesh().tets.rows());
         record.meshes.push_back(time_mesh(body, record.limits, timing_options(options)));
     }
-    record.load_after = machine_load();
+    record.busy_after = busy_processors(sleep_s);
     if (!options.sizes.empty()) record.scaling = fit_scaling(record.meshes);
     return record;
 }

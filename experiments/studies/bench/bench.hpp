@@ -24,7 +24,7 @@ struct SkinningTiming {
     Spread ns_vertex;
     Spread ratio_to_plain;        // plain is in f64
     double gb_s = 0.0;            // rest positions in and posed positions out, which a blend must move at least
-    double share_of_limit = 0.0;  // of the copy bandwidth at that working set
+    double share_of_limit = 0.0;  // of the bandwidth at that working set
 };
 
 // The reference on the same tets (linear elasticity, P1, bones embedded): the first frame with its whole set-up, and every further frame.
@@ -78,8 +78,8 @@ struct BenchRecord {
     BenchOptions options;
     MachineLimits limits;
     std::vector<MeshTimings> meshes;
-    std::vector<ScalingFit> scaling;             // where sizes were asked for
-    double load_before = 0.0, load_after = 0.0;  // runnable processes of the machine, mean of a minute; 1 is this bench alone
+    std::vector<ScalingFit> scaling;                // where sizes were asked for
+    std::optional<double> busy_before, busy_after;  // processors that other work kept busy; empty if the system does not report them
 };
 
 BenchRecord run_bench(const BenchOptions& options);

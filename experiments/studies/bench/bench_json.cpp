@@ -16,9 +16,14 @@ using nlohmann::json;
 
 json json_of(const MachineLimits& limits)
 {
-    json copy = json::array();
-    for (const CopyBandwidth& point : limits.copy) copy.push_back({{"bytes", point.bytes}, {"gb_s", point.gb_s}});
-    return {{"fma_gflops_f32", limits.gflops_f32}, {"fma_gflops_f64", limits.gflops_f64}, {"copy", copy}};
+    json memory = json::array();
+    for (const MemoryBandwidth& point : limits.memory) memory.push_back({{"bytes", point.bytes}, {"gb_s", point.gb_s}});
+    return {{"fma_gflops_f32", limits.gflops_f32}, {"fma_gflops_f64", limits.gflops_f64}, {"memory", memory}};
+}
+
+json number_or_null(const std::optional<double>& value)
+{
+    return value ? json(*value) : json();
 }
 
 json context_of(const BenchRecord& record)
@@ -36,7 +41,7 @@ json context_of(const BenchRecord& record)
             {"quick", record.options.quick},
             {"headline_ratio", "ratio_to_plain_spread"},
             {"limits_of_one_core", json_of(record.limits)},
-            {"load", {record.load_before, record.load_after}},
+            {"busy_processors", {number_or_null(record.busy_before), number_or_null(record.busy_after)}},
             {"provenance", provenance}};
 }
 
@@ -169,7 +174,7 @@ nlohmann::json bench_json(const BenchRecord& record)
     json meshes = json::array();
     for (const MeshTimings& mesh : record.meshes) meshes.push_back(json_of(mesh));
     json bench = meshes.front();
-    bench["schema"] = 1;
+    bench["schema"] = 2;
     bench["context"] = context_of(record);
     bench["meshes"] = meshes;
     for (const ScalingFit& fit : record.scaling) bench["scaling"].push_back(json_of(fit));

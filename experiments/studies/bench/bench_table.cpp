@@ -4,12 +4,14 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+
 namespace experiments {
 namespace {
 
 using nlohmann::json;
 
-constexpr double quiet_load = 0.5;
+constexpr double quiet_processors = 0.5;  // of other work
 
 constexpr const char* legend =
     "\nRead ratios, not times. A step is 24 iterations; ns_stretch, ns_volume and ns_bind are per constraint. ratio_to_plain_spread:\n"
@@ -17,7 +19,7 @@ constexpr const char* legend =
     "that none waits for the stores of the one before; ratio_to_plain: than order `plain`, which is built for the same bits on every\n"
     "machine and whose projections wait for each other's stores; ratio_to_plain_native: than the loops of `plain` with all that this\n"
     "compiler offers. Orders give different answers: the study equal_quality compares them at equal ones. ms_floor: the time that\n"
-    "moving the bytes takes. share_of_limit: of min(peak, operations per byte x copy bandwidth at that working set). exponent: the cost\n"
+    "moving the bytes takes. share_of_limit: of min(peak, operations per byte x bandwidth at that working set). exponent: the cost\n"
     "of a step is ~ constraints^exponent. Deformers: ns_tet and ns_vertex are per iteration, or per frame of a deformer without\n"
     "iterations; ratio_to_plain: to the plain implementation of the same deformer.\n";
 
@@ -69,11 +71,13 @@ std::string mesh_text(const json& timed)
 std::string bench_table(const BenchRecord& record)
 {
     const json bench = bench_json(record), &context = bench.at("context");
-    std::string text = table(json::array({context}), "cpu cores:.0f load/0:.1f load/1:.1f kernel_instructions compiler");
-    if (record.load_before > quiet_load) text += "Other work ran at the same time: wall times, and so threads, are worth little.\n";
-    text += fmt::format("\nOne core: multiply-add {:.0f} / {:.0f} GFLOP/s (f32 / f64), and copies:\n", record.limits.gflops_f32,
-                        record.limits.gflops_f64);
-    text += table(context.at("limits_of_one_core").at("copy"), "bytes:.0f gb_s:.0f");
+    std::string text =
+        table(json::array({context}), "cpu cores:.0f busy_processors/0:.2f busy_processors/1:.2f kernel_instructions compiler");
+    if (std::max(record.busy_before.value_or(0.0), record.busy_after.value_or(0.0)) > quiet_processors)
+        text += "Other work ran before or after: wall times, and so threads, are worth little.\n";
+    text += fmt::format("\nOne core: multiply-add {:.0f} / {:.0f} GFLOP/s (f32 / f64), and bytes read and written:\n",
+                        record.limits.gflops_f32, record.limits.gflops_f64);
+    text += table(context.at("limits_of_one_core").at("memory"), "bytes:.0f gb_s:.0f");
     for (const json& mesh : bench.at("meshes")) text += mesh_text(mesh);
     return text + table(bench.value("scaling", json::array()), "variant precision threads:.0f exponent:.3f interval/0:.3f interval/1:.3f") +
            legend;

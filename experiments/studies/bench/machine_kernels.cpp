@@ -36,6 +36,17 @@ void copy_floats(const float* from, float* to, std::size_t count)
             Lanes(from + i + k, stdx::vector_aligned).copy_to(to + i + k, stdx::vector_aligned);
 }
 
+void scale_floats(float factor, float* x, std::size_t count)
+{
+    using Lanes = stdx::native_simd<float>;
+    const Lanes factors = factor;
+    constexpr std::size_t stride = 4 * Lanes::size();
+    for (std::size_t i = 0; i < count; i += stride)
+#pragma GCC unroll 4
+        for (std::size_t k = 0; k < stride; k += Lanes::size())
+            (factors * Lanes(x + i + k, stdx::vector_aligned)).copy_to(x + i + k, stdx::vector_aligned);
+}
+
 template double multiply_add(std::size_t, float, float, float, float&);
 template double multiply_add(std::size_t, double, double, double, double&);
 

@@ -13,4 +13,7 @@ double multiply_add(std::size_t rounds, Scalar start, Scalar a, Scalar b, Scalar
 // to[i] = from[i] by whole vectors. Both are aligned to 64 bytes, and `count` is a multiple of 64.
 void copy_floats(const float* from, float* to, std::size_t count);
 
+// x[i] <- factor x[i] by whole vectors. x is aligned to 64 bytes, and `count` is a multiple of 64.
+void scale_floats(float factor, float* x, std::size_t count);
+
 }  // namespace experiments

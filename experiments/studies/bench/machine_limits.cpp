@@ -12,8 +12,10 @@ namespace {
 constexpr int turns = 3;
 constexpr double smallest_bytes = 16 * 1024.0;
 
+constexpr std::size_t floats_a_line = 16;
+
 struct alignas(64) CacheLine {
-    float floats[16];
+    float floats[floats_a_line];
 };
 
 // The largest amount of work per second over the turns. work(repeats) does the work and returns its amount; the number of repeats is chosen
@@ -50,14 +52,31 @@ double peak_gflops(double seconds)
            });
 }
 
-double copy_gb_s(double bytes, double seconds)
+// From one half of the working set to the other.
+double copy_gb_s(std::vector<CacheLine>& lines, double seconds)
 {
-    const std::size_t count = static_cast<std::size_t>(bytes / 2.0 / sizeof(float)) / 64 * 64;
-    std::vector<CacheLine> from(count / 16, CacheLine{{1.0f}}), to = from;
+    const std::size_t half = lines.size() / 2;
+    const std::size_t count = floats_a_line * half / 64 * 64;
     return 1e-9 * best_rate(seconds, [&](std::size_t repeats) {
-               for (std::size_t repeat = 0; repeat < repeats; ++repeat) copy_floats(from[0].floats, to[0].floats, count);
+               for (std::size_t repeat = 0; repeat < repeats; ++repeat) copy_floats(lines[0].floats, lines[half].floats, count);
                return 2.0 * double(repeats) * double(count) * sizeof(float);
            });
+}
+
+double update_gb_s(std::vector<CacheLine>& lines, double seconds)
+{
+    const std::size_t count = floats_a_line * lines.size() / 64 * 64;
+    volatile float one = 1.0f;  // unknown to the compiler
+    return 1e-9 * best_rate(seconds, [&](std::size_t repeats) {
+               for (std::size_t repeat = 0; repeat < repeats; ++repeat) scale_floats(one, lines[0].floats, count);
+               return 2.0 * double(repeats) * double(count) * sizeof(float);
+           });
+}
+
+MemoryBandwidth bandwidth_of(double bytes, double seconds)
+{
+    std::vector<CacheLine> lines(static_cast<std::size_t>(bytes / sizeof(CacheLine)), CacheLine{{1.0f}});
+    return {bytes, std::max(copy_gb_s(lines, seconds), update_gb_s(lines, seconds))};
 }
 
 }  // namespace
@@ -67,19 +86,18 @@ MachineLimits measure_limits(double seconds, double largest_bytes)
     MachineLimits limits;
     limits.gflops_f32 = peak_gflops<float>(seconds);
     limits.gflops_f64 = peak_gflops<double>(seconds);
-    for (double bytes = smallest_bytes; bytes < 1.5 * largest_bytes; bytes *= 2.0)
-        limits.copy.push_back({bytes, copy_gb_s(bytes, seconds)});
+    for (double bytes = smallest_bytes; bytes < 1.5 * largest_bytes; bytes *= 2.0) limits.memory.push_back(bandwidth_of(bytes, seconds));
     return limits;
 }
 
 double bandwidth_at(const MachineLimits& limits, double bytes)
 {
-    const auto& copy = limits.copy;
-    if (copy.empty()) return 0.0;
-    const auto above = std::find_if(copy.begin(), copy.end(), [&](const CopyBandwidth& point) { return point.bytes >= bytes; });
-    if (above == copy.begin()) return copy.front().gb_s;
-    if (above == copy.end()) return copy.back().gb_s;
-    const CopyBandwidth &low = *(above - 1), &high = *above;
+    const auto& memory = limits.memory;
+    if (memory.empty()) return 0.0;
+    const auto above = std::find_if(memory.begin(), memory.end(), [&](const MemoryBandwidth& point) { return point.bytes >= bytes; });
+    if (above == memory.begin()) return memory.front().gb_s;
+    if (above == memory.end()) return memory.back().gb_s;
+    const MemoryBandwidth &low = *(above - 1), &high = *above;
     return std::lerp(low.gb_s, high.gb_s, std::log(bytes / low.bytes) / std::log(high.bytes / low.bytes));
 }
 

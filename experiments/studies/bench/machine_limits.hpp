@@ -1,4 +1,6 @@
-// The limits of one core of this machine: multiply-adds per second, and bytes per second copied within its caches and memory.
+// The limits of one core of this machine: multiply-adds per second, and bytes per second read and written within its caches and memory.
+// The bandwidth is the larger one of a copy and of an update in place. Beyond the first cache a copy is the slower one, because the
+// processor also loads the lines that the copy overwrites.
 //   const MachineLimits limits = measure_limits(0.02);
 //   bandwidth_at(limits, 2.5e6);   // GB/s of a loop over 2.5 MB
 #pragma once
@@ -7,14 +9,14 @@
 
 namespace experiments {
 
-struct CopyBandwidth {
-    double bytes = 0.0;  // working set, read and written
+struct MemoryBandwidth {
+    double bytes = 0.0;  // working set
     double gb_s = 0.0;   // read and written, 1e9 bytes per second
 };
 
 struct MachineLimits {
     double gflops_f32 = 0.0, gflops_f64 = 0.0;  // a multiply-add is two operations
-    std::vector<CopyBandwidth> copy;            // by growing working set
+    std::vector<MemoryBandwidth> memory;        // by growing working set
 };
 
 // The best of three turns of about `seconds` of processor time each, since a limit is reached only undisturbed. Working sets double from

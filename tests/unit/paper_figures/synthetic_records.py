@@ -194,10 +194,11 @@ def write_bench(results):
                    for threads in (1, 2) if variant == "ordered" or threads == 1]
         return {"mesh": {"vertices": vertices, "edges": edges, "tets": tets}, "results": results, "yardsticks": []}
 
-    copy = [{"bytes": 1e4, "gb_s": 400.0}, {"bytes": 1e8, "gb_s": 20.0}]
+    memory = [{"bytes": 1e4, "gb_s": 400.0}, {"bytes": 1e8, "gb_s": 20.0}]
     (folder / "bench.json").write_text(json.dumps(
-        {"context": {"threads": 2, "iterations": 24,
-                     "limits_of_one_core": {"fma_gflops_f32": 200.0, "fma_gflops_f64": 100.0, "copy": copy}},
+        {"schema": 2,
+         "context": {"threads": 2, "iterations": 24,
+                     "limits_of_one_core": {"fma_gflops_f32": 200.0, "fma_gflops_f64": 100.0, "memory": memory}},
          "meshes": [mesh(100, 500, 400), mesh(1000, 6000, 5000)],
          "scaling": [{"variant": "ordered", "precision": "f32", "threads": 1, "exponent": 1.0, "interval": [None, None]}]}))
 

@@ -97,7 +97,9 @@ test_support::ResidualRounding rounding_on(const BenchBody& body)
     limb.binding = body.character.binding;
     limb.lbs = body.twisted;
     limb.bind_points = body.bind_points;
-    return test_support::residual_rounding(limb, {.order = pbs::Order::plain}, body.held);
+    pbs::PbsOptions options;
+    options.order = pbs::Order::plain;
+    return test_support::residual_rounding(limb, options, body.held);
 }
 
 // Every variant projects the same problem. The native build differs from the library's only by rounding, on both sides. Other orders settle

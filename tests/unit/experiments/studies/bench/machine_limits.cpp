@@ -16,7 +16,7 @@ using experiments::MachineLimits;
 TEST(MachineLimits, BandwidthBetweenAndBeyondWhatWasMeasured)
 {
     MachineLimits limits;
-    limits.copy = {{1e4, 400.0}, {1e6, 100.0}, {1e8, 20.0}};
+    limits.memory = {{1e4, 400.0}, {1e6, 100.0}, {1e8, 20.0}};
     EXPECT_DOUBLE_EQ(bandwidth_at(limits, 1e3), 400.0);
     EXPECT_DOUBLE_EQ(bandwidth_at(limits, 1e4), 400.0);
     EXPECT_DOUBLE_EQ(bandwidth_at(limits, 1e5), 250.0);  // half way in the logarithm
@@ -50,13 +50,21 @@ TEST(MachineLimits, CopyCopies)
     for (int i = 0; i < 128; ++i) EXPECT_EQ(to[i], float(i));
 }
 
+TEST(MachineLimits, AnUpdateInPlaceScalesEveryNumber)
+{
+    alignas(64) float x[128];
+    for (int i = 0; i < 128; ++i) x[i] = float(i);
+    experiments::scale_floats(2.0f, x, 128);
+    for (int i = 0; i < 128; ++i) EXPECT_EQ(x[i], 2.0f * float(i));
+}
+
 TEST(MachineLimits, AreFiniteAndPositive)
 {
     const MachineLimits limits = experiments::measure_limits(1e-4, 1e5);
     EXPECT_GT(limits.gflops_f32, 0.0);
     EXPECT_GT(limits.gflops_f64, 0.0);
-    ASSERT_GE(limits.copy.size(), 3u);
-    for (const auto& point : limits.copy) EXPECT_TRUE(std::isfinite(point.gb_s) && point.gb_s > 0.0);
+    ASSERT_GE(limits.memory.size(), 3u);
+    for (const auto& point : limits.memory) EXPECT_TRUE(std::isfinite(point.gb_s) && point.gb_s > 0.0);
 }
 
 }  // namespace
