@@ -1,7 +1,7 @@
 #include "experiments/process/other_work.hpp"
 
-#include <chrono>
 #include <cctype>
+#include <chrono>
 #include <fstream>
 #include <iterator>
 #include <sstream>

@@ -14,13 +14,13 @@ struct ProcessorTicks {
     int processors = 0;
 };
 
-// From the text of /proc/stat (proc(5)); nothing if it has no line "cpu" with at least four numbers, or no processor.
+// Reads the text of /proc/stat (proc(5)). Returns nothing if no line "cpu" has at least four numbers, or if no processor is listed.
 std::optional<ProcessorTicks> processor_ticks(const std::string& proc_stat);
 
-// The mean number of busy processors between two moments; nothing if no tick lies between them.
+// Returns the mean number of busy processors between two moments, or nothing if no tick lies between them.
 std::optional<double> busy_processors(const ProcessorTicks& before, const ProcessorTicks& after);
 
-// Sleeps for `seconds`. Nothing if the system does not report its processors, or if too little time has passed for a tick.
+// Measures while it sleeps for `seconds`. Returns nothing if the system does not report its processors, or if no tick passes meanwhile.
 std::optional<double> busy_processors(double seconds);
 
 }  // namespace experiments

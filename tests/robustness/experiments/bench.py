@@ -43,6 +43,7 @@ class Bench(program.ProgramTest):
         record = self.record("--mesh", self.arm(), "--threads", "2")
         self.assertLessEqual({"context", "mesh", "results", "skinning", "fem", "deformers", "meshes"}, record.keys())
         self.assertEqual(record["context"]["headline_ratio"], "ratio_to_plain_spread")
+        self.assertEqual(len(record["context"]["busy_processors"]), 2)
         self.assertEqual(record["mesh"]["vertices"], 11 * 3 * 3)
         self.assertLessEqual({"edges", "tets"}, record["mesh"].keys())
         for result in record["results"]:
