@@ -3,6 +3,7 @@ origin."""
 import contextlib
 import csv
 import io
+import json
 import pathlib
 import sys
 import tempfile
@@ -11,6 +12,7 @@ import unittest
 root = pathlib.Path(__file__).resolve().parents[3]
 sys.path[:0] = [str(root / "paper_figures"), str(pathlib.Path(__file__).parent)]
 
+import bench_records  # noqa: E402
 import compared_looks  # noqa: E402
 import make_all  # noqa: E402
 import records  # noqa: E402
@@ -218,7 +220,11 @@ class Figures(unittest.TestCase):
             for row in roofs:
                 if row["gb_s"]:  # they meet the peak at their end
                     self.assertAlmostEqual(float(row["gb_s"]) * float(row["flops_per_byte"]), float(row["gflops"]))
-            (results / "bench" / "bench.json").unlink()
+            bench = results / "bench" / "bench.json"
+            bench.write_text(json.dumps(json.loads(bench.read_text()) | {"schema": 1}))
+            with self.assertRaisesRegex(records.RecordsMissing, "schema 1, expected 2"):
+                bench_records.read(results)
+            bench.unlink()
             with contextlib.redirect_stderr(io.StringIO()) as said:
                 with contextlib.redirect_stdout(io.StringIO()):
                     self.assertEqual(make_all.main(results), 1)
