@@ -3,6 +3,8 @@ analysis/case_key.hpp declares.
 
     case_words.of({"body": "limb", "motion": "bend", "angle_deg": 90, "k_stretch": 0.2})  # limb, bend 90°, k_stretch 0.2
 """
+import re
+
 limbs = {"twist": "limb twisted", "bend": "limb bent"}  # whole sweeps
 bodies_by = {"lbs": "LBS", "dqs": "DQS", "delta_mush": "delta mush", "pbs": "PBS", "reference": "reference",
              "pbs_exponent": "PBS, k by the exponent", "xpbd": "XPBD", "xpbd_small_steps": "XPBD in small steps",
@@ -55,8 +57,13 @@ def motion(case):
     if "time_s" in case:
         return f"clip {name} at {number(case['time_s'])} s"
     if "pose" in case:
-        return f"clip {name}, {in_plain(case['pose'])}"
+        return f"clip {name}, {pose_words(case['pose'])}"
     return name if name in (*limbs, "turn") else f"clip {name}"
+
+
+def pose_words(pose):
+    """in the air; 2/5 of the clip, for 2_5_of_the_clip."""
+    return in_plain(re.sub(r"^(\d+)_(\d+)_", r"\1/\2 ", pose))
 
 
 def in_plain(identifier):

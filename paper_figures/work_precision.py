@@ -60,9 +60,10 @@ class Panel:
         self.reference_s = next((float(row["reach_ms"]) / 1e3 for row in points if row["outcome"] == "reference"), None)
 
     def heading(self):
-        of_reference = [f"reference {self.reference_s:.2g} s"] if self.reference_s else []
+        """The pose, and below it the time of the reference and the bound on its error."""
+        of_reference = [f"reference {case_words.number(float(f'{self.reference_s:.2g}'))} s"] if self.reference_s else []
         of_reference += [f"bound {self.bound_pct:.2g} %"] if self.bound_pct else []
-        return self.title + ("; " if of_reference else "") + ", ".join(of_reference)
+        return self.title + ("\n" if of_reference else "") + ", ".join(of_reference)
 
 
 def draw_points(axes, panel):
@@ -111,7 +112,7 @@ def draw_budgets(axes, panel):
         name = textwrap.fill(compared_looks.short(row["group"]), 13)
         axes.axvline(budget_ms, color="#777777", linewidth=0.7, linestyle=(0, (2, 2)), zorder=0)
         axes.text(budget_ms, 1.01, f"{budget_ms:g} ms:\n{name}{mark}\n{float(row['error_joint_pct']):.3g} %",
-                  transform=axes.get_xaxis_transform(), ha="center", va="bottom", fontsize=5.6, color=compared_looks.of(row["group"])[1])
+                  transform=axes.get_xaxis_transform(), ha="center", va="bottom", fontsize=5.2, color=compared_looks.of(row["group"])[1])
 
 
 def omission_lines(omitted):

@@ -33,12 +33,14 @@ class CaseWords(unittest.TestCase):
                          ["limb twisted", "human, clip 01_01", "frankie, clip 01_01, jiggling flesh", "lady, clip 01_03, as printed",
                            "ring"])
 
-    def test_a_key_is_told_with_its_units_and_ranges(self):
+    def test_a_key_has_its_units_and_ranges(self):
         self.assertEqual(case_words.of({"body": "limb", "motion": "bend", "angle_deg": 90.0, "joint": "upper|forearm", "deformer": "lbs",
                                         "k_stretch": 0.05, "k_stretch_to": 1.0, "time_step_s": 0.02, "time_step_to_s": 0.005}),
                          "limb, bend 90\u00b0, upper|forearm, LBS, k_stretch 0.05 to 1, steps of 20 to 5 ms")
         self.assertEqual(case_words.of({"body": "man", "motion": "01_01", "pose": "in_the_air", "iterations": 24, "masses": "equal"}),
                          "man, clip 01_01, in the air, equal masses, 24 iterations")
+        self.assertEqual(case_words.of({"body": "human", "motion": "01_01", "pose": "2_5_of_the_clip"}),
+                         "human, clip 01_01, 2/5 of the clip")
         self.assertEqual(case_words.of({"body": "man", "motion": "01_01", "time_s": 4.0, "young_pa": 3e4}),
                          "man, clip 01_01 at 4 s, 30 kPa")
         self.assertEqual(case_words.of({}), "")
