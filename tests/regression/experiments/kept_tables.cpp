@@ -5,6 +5,7 @@
 #include "experiments/studies/artefacts/artefact_values.hpp"
 #include "experiments/studies/artefacts/smoothness_comparison.hpp"
 #include "experiments/studies/convergence/convergence_records.hpp"
+#include "experiments/studies/ensemble/ensemble.hpp"
 #include "experiments/studies/equal_quality/order_report.hpp"
 #include "experiments/studies/error_split/error_split.hpp"
 #include "experiments/studies/features/feature_cost.hpp"
@@ -15,6 +16,9 @@
 #include "experiments/studies/stability/cell_table.hpp"
 #include "experiments/studies/stiffness/stiffness_ratios.hpp"
 #include "experiments/studies/timing/timing_records.hpp"
+#include "experiments/studies/work_precision/chosen_settings.hpp"
+#include "experiments/studies/work_precision/goal.hpp"
+#include "experiments/studies/work_precision/omissions.hpp"
 #include "experiments/studies/work_precision/point_row.hpp"
 #include "reference_fem/verification/verification_record.hpp"
 
@@ -131,6 +135,9 @@ TEST(KeptTables, OfTimedStudies)
 {
     expect_same_records(experiments::timing_columns, "timing", "timing.csv");
     expect_same_records(experiments::feature_columns, "features", "features.csv");
+    expect_same_records(experiments::change_columns, "improvements", "points.csv");
+    expect_same_records(experiments::order_columns, "equal_quality", "orders.csv");
+    expect_same_records(experiments::target_columns, "equal_quality", "targets.csv");
 }
 
 TEST(KeptTables, OfTheVerification)
@@ -154,6 +161,13 @@ TEST(KeptTables, ThatSumUpAStudy)
     expect_same_sum(experiments::cell_columns, "stability/map_iterations_twist.csv");
     expect_same_sum(experiments::equal_time_columns, "improvements/equal_time.csv");
     expect_same_sum(experiments::gain_columns, "improvements/gains.csv");
+    expect_same_sum(experiments::summary_columns, "equal_quality/summary.csv");
+    expect_same_sum(experiments::answer_columns, "equal_quality/answers.csv");
+    expect_same_sum(experiments::goal_columns, "work_precision/goal.csv");
+    expect_same_sum(experiments::chosen_columns, "work_precision/settings.csv");
+    expect_same_sum(experiments::omission_columns, "work_precision/omissions.csv");
+    expect_same_sum(experiments::pair_columns, "ensemble/pairs.csv");
+    expect_same_sum(experiments::member_columns, "ensemble/members.csv");
 }
 
 TEST(KeptTables, OfSetups)
