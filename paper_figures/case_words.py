@@ -15,7 +15,11 @@ bodies_by = {"lbs": "LBS", "dqs": "DQS", "delta_mush": "delta mush", "pbs": "PBS
              "pbs_author": "first author\u2019s later code", "xpbd_neo_hookean": "neo-Hookean XPBD", "quasi_newton": "quasi-Newton",
              "vbd": "vertex block descent", "projective_dynamics": "projective dynamics", "fem_corotational": "corotational FEM",
              "fem_neo_hookean": "neo-Hookean FEM",
-             "fem_stable_neo_hookean": "stable neo-Hookean FEM"}
+             "fem_stable_neo_hookean": "stable neo-Hookean FEM",
+             "fem_p1": "linear FEM, linear elements", "fem_p2": "linear FEM, quadratic elements",
+             "fem_p1_embedded": "linear FEM, linear elements, rigid bones",
+             "nh_p1": "neo-Hookean FEM, linear elements", "nh_p2": "neo-Hookean FEM, quadratic elements",
+             "nh_p2_nu_049": "neo-Hookean FEM, quadratic elements, Poisson\u2019s ratio 0.49"}
 precisions = {"f32": "single precision", "f64": "double precision"}
 masses = {"equal": "equal masses", "unequal": "unequal masses", "unequal_by_eq_8_9": "unequal masses by Eq. 8\u20139, which are for m = 1",
           "unit": "unit masses", "lumped": "lumped masses"}

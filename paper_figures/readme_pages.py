@@ -10,6 +10,7 @@ import pathlib
 import sys
 import tomllib
 
+import compared_results
 import entries
 import readme_part
 import records
@@ -89,7 +90,14 @@ def number(bound):
 def claim_lines(claim, judged):
     verdict, measured = sentences.names[judged["verdict"]], sentences.measured_in_line(judged).replace("\u2212", "-")
     result = [f"Study: [{claim['study']}](../../studies/{claim['study']}/README.md). Verdict: **{verdict}**.", ""]
-    return [*result, *bound_lines(claim), *([f"Measured: {measured}.", ""] if measured else [])][:-1]
+    result += [*bound_lines(claim), *([f"Measured: {measured}.", ""] if measured else [])]
+    return result[:-1] + compared_results.lines(judged, own_deformer(claim))
+
+
+def own_deformer(claim):
+    """The deformer that a claim is about; None where other fields distinguish its values too, such as orders of projection."""
+    of = claim.get("of", {})
+    return of.get("deformer") if list(of) == ["deformer"] else claim.get("deformer")
 
 
 def pages(results):

@@ -8,12 +8,13 @@ experiments/records/full` judges them again.
 import csv
 import json
 import pathlib
+import re
 import shutil
 import sys
 import tomllib
 
 JUDGED = ["scene", "deformer", "variant", "order", "precision", "iterations", "threads", "frame", "time_s", "angle_deg", "outcome",
-          "volume_change_pct", "volume_abs_change_pct", "inverted_tets"]
+          "volume_change_pct", "volume_abs_change_pct", "inverted_tets", "masked_share_pct", "error_joint_pct"]
 PROVENANCE = ["version", "git_revision", "git_dirty", "compiler", "flags", "build_type", "cpu_model", "logical_cpus"]
 DRAWN = ("bones.csv", "bones_rest.csv", "binding.csv", "embedding.csv")  # beside frames, which are not kept
 MOST_BYTES = 10_000_000
@@ -22,12 +23,12 @@ TABLE_BYTES = 60_000  # of a run's further tables; longer ones are made again by
 SUMMARY_BYTES = 200_000  # of a study's own files, which sum up its runs'
 
 
+number = re.compile(r"[-+]?(\d+\.\d*|\.?\d+)(e[-+]?\d+)?", re.ASCII | re.IGNORECASE)
+
+
 def rounded(text):
-    """Six digits are enough for every bound; texts stay."""
-    try:
-        return text if text == "" or text.lstrip("-").isdigit() else f"{float(text):.6g}"
-    except ValueError:
-        return text
+    """Six digits are enough for every bound. Whole numbers and texts stay. 01_01 is the name of a clip, which float() reads as 101."""
+    return f"{float(text):.6g}" if number.fullmatch(text) and not text.lstrip("-").isdigit() else text
 
 
 def shown_deformers():

@@ -16,9 +16,6 @@
 #include "experiments/studies/stability/cell_table.hpp"
 #include "experiments/studies/stiffness/stiffness_ratios.hpp"
 #include "experiments/studies/timing/timing_records.hpp"
-#include "experiments/studies/work_precision/chosen_settings.hpp"
-#include "experiments/studies/work_precision/goal.hpp"
-#include "experiments/studies/work_precision/omissions.hpp"
 #include "experiments/studies/work_precision/point_row.hpp"
 #include "reference_fem/verification/verification_record.hpp"
 
@@ -136,8 +133,6 @@ TEST(KeptTables, OfTimedStudies)
     expect_same_records(experiments::timing_columns, "timing", "timing.csv");
     expect_same_records(experiments::feature_columns, "features", "features.csv");
     expect_same_records(experiments::change_columns, "improvements", "points.csv");
-    expect_same_records(experiments::order_columns, "equal_quality", "orders.csv");
-    expect_same_records(experiments::target_columns, "equal_quality", "targets.csv");
 }
 
 TEST(KeptTables, OfTheVerification)
@@ -161,11 +156,6 @@ TEST(KeptTables, ThatSumUpAStudy)
     expect_same_sum(experiments::cell_columns, "stability/map_iterations_twist.csv");
     expect_same_sum(experiments::equal_time_columns, "improvements/equal_time.csv");
     expect_same_sum(experiments::gain_columns, "improvements/gains.csv");
-    expect_same_sum(experiments::summary_columns, "equal_quality/summary.csv");
-    expect_same_sum(experiments::answer_columns, "equal_quality/answers.csv");
-    expect_same_sum(experiments::goal_columns, "work_precision/goal.csv");
-    expect_same_sum(experiments::chosen_columns, "work_precision/settings.csv");
-    expect_same_sum(experiments::omission_columns, "work_precision/omissions.csv");
     expect_same_sum(experiments::pair_columns, "ensemble/pairs.csv");
     expect_same_sum(experiments::member_columns, "ensemble/members.csv");
 }

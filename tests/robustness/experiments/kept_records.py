@@ -9,11 +9,18 @@ import unittest
 import program
 
 KEEP = pathlib.Path(program.SOURCE) / "experiments" / "records" / "keep.py"
+sys.path.insert(0, str(KEEP.parent))
+import keep  # noqa: E402
 
 
 class KeptRecords(program.ProgramTest):
     def keep(self, results, kept):
         return subprocess.run([sys.executable, "-B", str(KEEP), str(results), str(kept)], capture_output=True, text=True)
+
+    def test_numbers_have_six_digits_and_names_stay(self):
+        for cell, kept in (("0.1234567", "0.123457"), ("-1.5E-07", "-1.5e-07"), (".5", "0.5"), ("12345678", "12345678"), ("-3", "-3"),
+                           ("01_01", "01_01"), ("1_000", "1_000"), ("nan", "nan"), ("upper|forearm", "upper|forearm"), ("", "")):
+            self.assertEqual(keep.rounded(cell), kept)
 
     def test_verdicts_come_back(self):
         results, kept = pathlib.Path(self.path("results")), pathlib.Path(self.path("kept"))

@@ -11,13 +11,16 @@ import unittest
 root = pathlib.Path(__file__).resolve().parents[3]
 sys.path[:0] = [str(root / "paper_figures"), str(pathlib.Path(__file__).parent)]
 
+import compared_results  # noqa: E402
 import readme_claims  # noqa: E402
 import readme_features  # noqa: E402
 import readme_findings  # noqa: E402
 import readme_part  # noqa: E402
 import readme_reliability  # noqa: E402
+import readme_pages  # noqa: E402
 import records  # noqa: E402
 import synthetic_records  # noqa: E402
+from synthetic_records import claim, interval, judged_run, value  # noqa: E402
 
 begin, end = readme_part.markers("claims")
 
@@ -35,6 +38,31 @@ class ReadmeTest(unittest.TestCase):
         with contextlib.redirect_stderr(io.StringIO()) as said:
             status = readme_part.main(name, lines_of, ["script", str(self.results)], "usage", self.readme)
         return status, said.getvalue()
+
+
+class ComparedResults(unittest.TestCase):
+    table = ["", "For comparison, other deformers and finite elements under the same bound. They are no part of the verdict.", ""]
+
+    def test_frames_of_all_runs_are_counted(self):
+        runs = [judged_run(body, "walk", "part", interval(-0.2), interval(share)) | {"deformer": deformer}
+                for body, share, deformer in (("man", 0.9, "nh_p1"), ("lady", 0.1, "nh_p1"), ("man", 0.5, "pbs"))]
+        shown = claim("C02", "not_reproduced", titles={"volume_change_pct": "volume change"}, controls=runs,
+                      bounds=[{"quantity": "volume_change_pct", "low": -0.5, "high": 0.5}])
+        self.assertEqual(compared_results.lines(shown, "pbs"),
+                         [*self.table, "| deformer | volume change | within the bound |", "|---|---|---|",
+                          "| neo-Hookean FEM, linear elements | -0.9 to 0 % | 50 of 100 frames in 2 runs |"])
+        self.assertEqual(compared_results.lines(shown, None), [])
+
+    def test_values_are_compared_with_each_end_of_the_bound(self):
+        values = [value("ratio", number, deformer="dqs") for number in (0.5, 0.9, 1.2)] + [value("ratio", None, deformer="dqs")]
+        for low, high, held in ((0.9, None, 2), (None, 0.9, 2), (0.6, 1.0, 1), (2.0, None, 0)):
+            shown = claim("C04", "not_reproduced", titles={}, controls=values, bounds=[{"quantity": "ratio", "low": low, "high": high}])
+            self.assertEqual(compared_results.lines(shown, "pbs")[-1], f"| DQS | 0.5 to 1.2 | {held} of 3 values |")
+
+    def test_a_claim_on_orders_of_a_deformer_has_no_table(self):
+        self.assertEqual([readme_pages.own_deformer(claim) for claim in
+                          ({"of": {"deformer": "pbs"}}, {"of": {"deformer": "pbs", "order": "plain"}}, {"deformer": "lbs"}, {})],
+                         ["pbs", None, "lbs", None])
 
 
 class Markers(ReadmeTest):
