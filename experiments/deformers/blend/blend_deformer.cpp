@@ -1,5 +1,5 @@
 // LBS and DQS as deformers: no state but the last pose's positions. They blend with the scene's weights; a table [[lbs]] or [[dqs]] adds
-// one with weights or a precision of its own.
+// one with weights, a precision or a code of its own.
 #include "experiments/deformers/blend/blend_options.hpp"
 #include "experiments/deformers/own_weights.hpp"
 #include "experiments/deformers/precision_names.hpp"
@@ -7,6 +7,7 @@
 #include "experiments/settings/option_fields.hpp"
 #include "pbs/character/skinning_weights.hpp"
 #include "pbs/geometry/stopwatch.hpp"
+#include "pbs/skinning/blend.hpp"
 #include "pbs/skinning/blend_skinning.hpp"
 #include "pbs/skinning/skinning_work.hpp"
 
@@ -17,24 +18,18 @@ namespace {
 
 enum class Blend { linear, dual_quaternion };
 
-template <class Scalar>
-class BlendDeformer : public Deformer {
+class BlendingDeformer : public Deformer {
 public:
-    explicit BlendDeformer(Blend blend) : blend_(blend) {}
-
-    void reset(const pbs::Character& character) override
+    void reset(const pbs::Character& character) final
     {
-        skinning_.emplace(character.mesh.rest, character.weights);
+        set_up(character);
         positions_ = character.mesh.rest;
     }
 
-    pbs::StepSummary advance(const pbs::Pose& pose, double /*dt_s*/) override
+    pbs::StepSummary advance(const pbs::Pose& pose, double /*dt_s*/) final
     {
         const pbs::Stopwatch stopwatch;
-        if (blend_ == Blend::linear)
-            skinning_->linear(pose, positions_);
-        else
-            skinning_->dual_quaternion(pose, positions_);
+        blend(pose, positions_);
         pbs::StepSummary summary;
         summary.seconds = stopwatch.seconds();
         summary.work.vertex_visits = positions_.rows();
@@ -42,7 +37,20 @@ public:
         return summary;
     }
 
-    const pbs::Positions& positions() const override { return positions_; }
+    const pbs::Positions& positions() const final { return positions_; }
+
+private:
+    virtual void set_up(const pbs::Character& character) = 0;
+    virtual void blend(const pbs::Pose& pose, pbs::Positions& posed) = 0;
+
+    pbs::Positions positions_;
+};
+
+template <class Scalar>
+class PackedBlend : public BlendingDeformer {
+public:
+    explicit PackedBlend(Blend blend) : blend_(blend) {}
+
     pbs::KeptEntries kept() const override
     {
         if (!skinning_) return {};
@@ -51,20 +59,56 @@ public:
     }
 
 private:
+    void set_up(const pbs::Character& character) override { skinning_.emplace(character.mesh.rest, character.weights); }
+    void blend(const pbs::Pose& pose, pbs::Positions& posed) override
+    {
+        if (blend_ == Blend::linear)
+            skinning_->linear(pose, posed);
+        else
+            skinning_->dual_quaternion(pose, posed);
+    }
+
     Blend blend_;
     std::optional<pbs::BlendSkinning<Scalar>> skinning_;
-    pbs::Positions positions_;
+};
+
+class PlainBlend : public BlendingDeformer {
+public:
+    explicit PlainBlend(Blend blend) : blend_(blend) {}
+
+    // Each vertex has a row of weights of its own.
+    pbs::KeptEntries kept() const override
+    {
+        return character_ ? pbs::KeptEntries{double(character_->weights.bone.size()), double(character_->weights.vertices())}
+                          : pbs::KeptEntries{};
+    }
+
+private:
+    void set_up(const pbs::Character& character) override { character_ = &character; }
+    void blend(const pbs::Pose& pose, pbs::Positions& posed) override
+    {
+        const auto blended = blend_ == Blend::linear ? pbs::linear_blend_skinning : pbs::dual_quaternion_skinning;
+        blended(character_->mesh.rest, character_->weights, pose, posed);
+    }
+
+    Blend blend_;
+    const pbs::Character* character_ = nullptr;
 };
 
 std::unique_ptr<Deformer> make_blend(Blend blend, const DeformerSpec& spec)
 {
-    if (options_of<BlendOptions>(spec).precision == pbs::Precision::f32) return std::make_unique<BlendDeformer<float>>(blend);
-    return std::make_unique<BlendDeformer<double>>(blend);
+    const auto& options = options_of<BlendOptions>(spec);
+    if (!options.packed) return std::make_unique<PlainBlend>(blend);
+    if (options.precision == pbs::Precision::f32) return std::make_unique<PackedBlend<float>>(blend);
+    return std::make_unique<PackedBlend<double>>(blend);
 }
 
 OptionFields<BlendOptions> blend_fields(const std::string& kind)
 {
-    return OptionFields<BlendOptions>(kind, true).add("precision", &BlendOptions::precision, {.meaning = "floating point of the blend"});
+    return OptionFields<BlendOptions>(kind, true)
+        .add("precision", &BlendOptions::precision, {.meaning = "floating point of the blend"})
+        .add("packed", &BlendOptions::packed,
+             {.meaning = "weights that several vertices have are blended once per pose; false: plain code in f64, one vertex at a time"});
 }
 
 std::vector<SceneKey> blend_keys(const std::string& kind)
@@ -82,7 +126,10 @@ std::vector<SceneKey> blend_keys(const std::string& kind)
 void read_blend(const SceneValues& values, const std::string& table, DeformerSpec& spec)
 {
     if (table == spec.kind) return;  // not from a list: the scene's weights, in double
-    spec.options = blend_fields(spec.kind).read(values, table);
+    const BlendOptions options = blend_fields(spec.kind).read(values, table);
+    if (!options.packed && options.precision == pbs::Precision::f32)
+        values.refuse(table + ".packed", "expected true with precision = \"f32\": the plain code is in f64");
+    spec.options = options;
     read_own_weights(values, table, spec);
 }
 
@@ -95,7 +142,8 @@ nlohmann::json blend_json(const DeformerSpec& spec)
 
 DeformerTraits blend_traits(const DeformerSpec& spec)
 {
-    return {.precision = name_of(options_of<BlendOptions>(spec).precision), .packed = true};
+    const auto& options = options_of<BlendOptions>(spec);
+    return {.precision = name_of(options.precision), .packed = options.packed};
 }
 
 DeformerTraits lbs_traits(const DeformerSpec& spec)

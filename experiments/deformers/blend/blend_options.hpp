@@ -7,8 +7,10 @@
 namespace experiments {
 
 struct BlendOptions {
-    // Both run pbs::BlendSkinning. f32 blends relative to the middle of the body and differs from f64 by rounding.
+    // f32 blends relative to the middle of the body and differs from f64 by rounding.
     pbs::Precision precision = pbs::Precision::f64;
+    // true: pbs::BlendSkinning. false: the blends of pbs/skinning/blend.hpp, one vertex after the other, in double only.
+    bool packed = true;
 };
 
 }  // namespace experiments

@@ -87,30 +87,36 @@ std::string words_of(Comparison comparison)
     return comparison == Comparison::packed_f32 ? "packed f32 code where a deformer has it" : "plain f64 code";
 }
 
-std::set<std::string> with_other_code(const std::vector<CaseRows>& cases)
+int code_rank(const SettingKey& key)
 {
-    std::set<std::string> deformers;
-    for (const CaseRows& rows : cases)
-        for (const PointRow& row : rows)
-            if (is_of_a_deformer(row) && !row.key.is_plain()) deformers.insert(row.key.deformer);
-    return deformers;
+    return (key.precision == "f32" ? 2 : 0) + (key.packed ? 1 : 0);
 }
 
-bool takes_part(Comparison comparison, const SettingKey& key, const std::set<std::string>& with_other_code)
+BestCodes best_codes(const std::vector<CaseRows>& cases)
+{
+    BestCodes best;
+    for (const CaseRows& rows : cases)
+        for (const PointRow& row : rows)
+            if (is_of_a_deformer(row)) best[row.key.deformer] = std::max(best[row.key.deformer], code_rank(row.key));
+    return best;
+}
+
+bool takes_part(Comparison comparison, const SettingKey& key, const BestCodes& best)
 {
     if (comparison == Comparison::plain_f64) return key.is_plain();
-    return !key.is_plain() || !with_other_code.contains(key.deformer);
+    const auto found = best.find(key.deformer);
+    return found == best.end() || code_rank(key) == found->second;
 }
 
 std::vector<ChosenSetting> choose_settings(const std::vector<CaseRows>& cases)
 {
-    const std::set<std::string> others = with_other_code(cases);
+    const BestCodes best = best_codes(cases);
     std::vector<ChosenSetting> chosen;
     for (const Comparison comparison : comparisons) {
         std::vector<std::pair<SettingKey, std::vector<SettingKey>>> rungs;  // in the order of the records
         for (const CaseRows& rows : cases)
             for (const PointRow& row : rows) {
-                if (!is_of_a_deformer(row) || !takes_part(comparison, row.key, others)) continue;
+                if (!is_of_a_deformer(row) || !takes_part(comparison, row.key, best)) continue;
                 const SettingKey rung = rung_of(row.key);
                 auto found = std::ranges::find(rungs, rung, [](const auto& one) { return one.first; });
                 if (found == rungs.end()) found = rungs.insert(rungs.end(), {rung, {}});

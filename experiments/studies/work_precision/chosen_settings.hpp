@@ -1,5 +1,5 @@
 // The setting of each rung: chosen on the training poses, shown on the others. There are two comparisons. packed_f32 has each deformer in
-// its packed f32 code, or in the only code that it has. plain_f64 has each deformer in plain f64 code.
+// the best code that it has: packed f32, plain f32, packed f64 or plain f64, in this order. plain_f64 has each deformer in plain f64 code.
 //   const std::vector<ChosenSetting> chosen = choose_settings(rows_of_all_cases);
 // The chosen setting of a rung has the least geometric mean of error_joint_pct over the training poses with that rung. Only settings
 // that finished in all of these poses are candidates. A single setting is no choice and needs no training. Where no training pose has the
@@ -8,7 +8,7 @@
 
 #include "experiments/studies/work_precision/point_row.hpp"
 
-#include <set>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -21,9 +21,12 @@ std::string words_of(Comparison comparison);  // for headings
 
 using CaseRows = std::vector<PointRow>;  // of one case
 
-// The deformers with code that is not plain f64. In packed_f32 only that code of theirs takes part.
-std::set<std::string> with_other_code(const std::vector<CaseRows>& cases);
-bool takes_part(Comparison comparison, const SettingKey& key, const std::set<std::string>& with_other_code);
+// The best code of each deformer, by code_rank. In packed_f32 only that code takes part.
+using BestCodes = std::map<std::string, int>;
+int code_rank(const SettingKey& key);  // 3: packed f32, 2: plain f32, 1: packed f64, 0: plain f64
+BestCodes best_codes(const std::vector<CaseRows>& cases);
+// A deformer that has no entry in `best` takes part with any code.
+bool takes_part(Comparison comparison, const SettingKey& key, const BestCodes& best);
 
 struct ChosenSetting {
     Comparison comparison;

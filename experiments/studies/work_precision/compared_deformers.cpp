@@ -25,6 +25,11 @@ std::vector<KeyValues> precisions_of(const std::string& kind)
     return {set(kind, "precision", "f32"), set(kind, "precision", "f64")};
 }
 
+std::vector<KeyValues> codes_of_blend(const std::string& kind)
+{
+    return {set(kind, "precision", "f32"), set(kind, "packed", "false")};
+}
+
 std::vector<ComparedDeformer> blending()
 {
     std::vector<ComparedDeformer> entries;
@@ -37,7 +42,7 @@ std::vector<ComparedDeformer> blending()
                                .group = name,
                                .words = std::string(words) + (is_diffused ? " with diffused weights" : ""),
                                .weights = weights,
-                               .codes = precisions_of(kind)});
+                               .codes = codes_of_blend(kind)});
         }
     return entries;
 }
@@ -108,7 +113,9 @@ std::vector<ComparedDeformer> projecting()
                        .words = "the first author's later code",
                        .iterations_key = "pbs_author.iterations",
                        .iterations = of_projections,
-                       .few_iterations = few_of_projections});
+                       .few_iterations = few_of_projections,
+                       .stiffness_key = "pbs_author.k_stretch",
+                       .highest_stiffness = 1.0});
     for (const auto& [kind, words] : {std::pair{"xpbd", "XPBD"}, {"xpbd_small_steps", "XPBD"}})
         entries.push_back({.name = kind,
                            .kind = kind,

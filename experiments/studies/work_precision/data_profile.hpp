@@ -16,12 +16,15 @@ struct ProfileStep {
     std::string group;  // of deformers
     double ms = 0.0;    // from this time per frame on
     int solved = 0, poses = 0;
+    int certain = 0;  // of those solved: the error plus the bound on the reference's own error is within the tolerance
     double share_pct = 0.0;
 };
 extern const analysis::Columns<ProfileStep> data_profile_columns;  // data_profiles.csv
 
 // The least time of a point of the group with an error of at most the tolerance. Nothing: the pose is not solved.
 std::optional<double> time_to_solve(const Diagram& diagram, const DeformerGroup& group, double tolerance_pct);
+// The same for the error plus the bound on the reference's own error. Nothing where the bound is not known.
+std::optional<double> time_to_solve_certainly(const Diagram& diagram, const DeformerGroup& group, double tolerance_pct);
 
 // Over the evaluated poses with a reference; a group that solves none has no steps. Means are no poses.
 std::vector<ProfileStep> data_profiles(const std::vector<Diagram>& diagrams);
@@ -30,7 +33,9 @@ std::vector<ProfileStep> data_profiles(const std::vector<Diagram>& diagrams);
 // asked for.
 struct Solved {
     int solved = 0, poses = 0;
+    int certain = 0;  // of those solved
 };
+std::string text_of(const Solved& solved);  // 3 of 4, 1 certain
 Solved solved_within(const std::vector<Diagram>& diagrams, Comparison comparison, const DeformerGroup& group, double tolerance_pct,
                      double ms, const std::string& body = "", bool with_training = false);
 

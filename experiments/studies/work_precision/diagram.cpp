@@ -46,7 +46,9 @@ Diagram diagram_of(const CaseRecords& records, Comparison comparison, const std:
     diagram.name = text_of(diagram.pose);
     diagram.groups = groups_with(external_in(records.rows));
     add_members(diagram, records.members);
+    diagram.newton = fastest_to_goal(records.newton);
     for (const PointRow& row : records.rows) {
+        if (!row.key.wanted_vertices && !row.key.refined && diagram.vertices == 0) diagram.vertices = row.vertices;
         if (row.outcome == "reference") {
             diagram.reference = text_of(row.key);
             diagram.reference_ms = row.reach_ms;

@@ -8,6 +8,7 @@
 #include "analysis/pareto_front.hpp"
 #include "experiments/studies/work_precision/chosen_settings.hpp"
 #include "experiments/studies/work_precision/deformer_groups.hpp"
+#include "experiments/studies/work_precision/newton_way.hpp"
 
 #include <optional>
 #include <string>
@@ -48,8 +49,10 @@ struct Diagram {
     std::string reference;                      // its name for readers; empty: none was reached
     std::optional<double> reference_ms;         // wall time of its solutions
     std::optional<double> reference_error_pct;  // bound at the joints
+    std::optional<NewtonRow> newton = {};       // the fastest one to the goal; nothing for a mean
     std::array<DiagramMember, 5> members = {};
     double masked_share_pct = 0.0;  // of the volume, which overlaps itself and is left out
+    int vertices = 0;               // of the case's own mesh; 0 for a mean
     int poses = 1;
     std::vector<DeformerGroup> groups = deformer_groups();  // those of the user's own deformers last
 
@@ -66,6 +69,7 @@ bool is_pose(const Diagram& diagram);  // with a reference; a mean over several 
 struct CaseRecords {
     CaseRows rows;
     std::vector<FamilyRow> members = {};
+    std::vector<NewtonRow> newton = {};
 };
 
 // Returns a diagram for each case, training cases included, and one for each mean over evaluated poses. The times and errors of a mean are

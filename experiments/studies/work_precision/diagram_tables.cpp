@@ -1,5 +1,8 @@
 #include "experiments/studies/work_precision/diagram_tables.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -38,7 +41,7 @@ const Columns<FrontRow> front_columns =
     Columns<FrontRow>{
         {"reference_error_joint_pct", &FrontRow::reference_error_pct, "%", "bound of the reference's own error at the joints"},
         {"decision", &FrontRow::decision, "",
-         std::string("whether it is nearer than any other group within its time: ") + decision_meaning},
+         std::string("front all by error_joint_pct alone: whether it is nearer than any other group within its time: ") + decision_meaning},
         {"reason", &FrontRow::reason, "", "why it is not decided, for readers"}};
 
 struct CrossingRow {
@@ -77,8 +80,10 @@ const Columns<BudgetRow> budget_columns =
                        {"rank", &BudgetRow::rank, "", "1: the group that is nearest to the reference within the budget"},
                        {"group", &BudgetRow::group, "", "key of a group of deformers"}} +
     within(&BudgetRow::point, diagram_point_columns() + point_error_columns) +
-    Columns<BudgetRow>{{"decision", &BudgetRow::decision, "", std::string("whether it is nearer than the next group: ") + decision_meaning},
-                       {"reason", &BudgetRow::reason, "", "why it is not decided, for readers"}};
+    Columns<BudgetRow>{
+        {"decision", &BudgetRow::decision, "", std::string("whether it is nearer than every group of a later rank: ") + decision_meaning},
+        {"undecided_against", &BudgetRow::undecided_against, "", "keys of the groups against which it is undecided"},
+        {"reason", &BudgetRow::reason, "", "why it is not decided, for readers"}};
 
 namespace {
 
@@ -105,10 +110,10 @@ void add_front(std::vector<FrontRow>& rows, const Diagram& diagram, const std::s
         FrontRow& row = rows.emplace_back(
             FrontRow{diagram.comparison, diagram.key, measure, name, point, value_of(point, measure), diagram.reference_error_pct});
         if (name != all_name || measure != measures().front().name) continue;
-        const std::optional<Decision> decision = decision_on_first(diagram, best_within(diagram, point.ms));
+        const std::optional<RankDecision> decision = rank_decision(diagram, best_within(diagram, point.ms), 0);
         if (!decision) continue;
-        row.decision = decision->decision;
-        row.reason = decision->reason;
+        row.decision = decision->worst.decision;
+        row.reason = decision->worst.reason;
     }
 }
 
@@ -167,22 +172,33 @@ std::vector<BudgetRow> best_within(const Diagram& diagram, double budget_ms)
     std::ranges::stable_sort(rows, {}, [](const BudgetRow& row) { return row.point.error_pct; });
     for (std::size_t i = 0; i < rows.size(); ++i) {
         rows[i].rank = static_cast<int>(i + 1);
-        if (i + 1 == rows.size()) break;
-        const Decision decision = decision_on(diagram, rows[i].point, rows[i + 1].point);
-        rows[i].decision = decision.decision;
-        rows[i].reason = decision.reason;
+        const std::optional<RankDecision> decision = rank_decision(diagram, rows, i);
+        if (!decision) break;
+        rows[i].decision = decision->worst.decision;
+        rows[i].reason = decision->worst.reason;
+        rows[i].undecided_against = fmt::format("{}", fmt::join(decision->undecided, " "));
     }
     return rows;
 }
 
-std::optional<Decision> decision_on_first(const Diagram& diagram, const std::vector<BudgetRow>& ranked)
+std::string RankDecision::remark(const Diagram& diagram) const
 {
-    std::optional<Decision> worst;
-    for (std::size_t i = 1; i < ranked.size(); ++i) {
-        const Decision decision = decision_on(diagram, ranked.front().point, ranked[i].point);
-        if (!worst || decision.decision > worst->decision) worst = decision;
+    if (worst.is_decided()) return "";
+    std::vector<std::string> words;
+    for (const std::string& key : undecided) words.push_back(std::ranges::find(diagram.groups, key, &DeformerGroup::key)->words);
+    return fmt::format(" [undecided against {}: {}]", fmt::join(words, ", "), worst.reason);
+}
+
+std::optional<RankDecision> rank_decision(const Diagram& diagram, const std::vector<BudgetRow>& ranked, std::size_t place)
+{
+    std::optional<RankDecision> all;
+    for (std::size_t i = place + 1; i < ranked.size(); ++i) {
+        const Decision decision = decision_on(diagram, ranked[place].point, ranked[i].point);
+        if (!all) all = RankDecision{decision};
+        if (decision.decision > all->worst.decision) all->worst = decision;
+        if (!decision.is_decided()) all->undecided.push_back(ranked[i].group);
     }
-    return worst;
+    return all;
 }
 
 std::vector<BudgetRow> best_within(const std::vector<Diagram>& diagrams)

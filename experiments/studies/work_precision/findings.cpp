@@ -69,11 +69,11 @@ std::string who_is_nearest(const Diagram& diagram, double budget_ms)
     };
     std::string text = fmt::format("within {} per frame {} is nearest", ms_text(budget_ms), described(ranked[0]));
     if (ranked.size() == 1) return text + ", as the only one";
-    const Decision decision = decision_on_first(diagram, ranked).value();
+    const RankDecision decision = rank_decision(diagram, ranked, 0).value();
     text += fmt::format("; next is {}", described(ranked[1]));
-    return text + (decision.is_decided() ? fmt::format(" [decided by {} {}]", decision.references,
-                                                       decision.references == 1 ? "reference" : "references, which agree")
-                                         : decision.remark());
+    const int references = decision.worst.references;
+    if (!decision.worst.is_decided()) return text + decision.remark(diagram);
+    return text + fmt::format(" [decided by {} {}]", references, references == 1 ? "reference" : "references, which agree");
 }
 
 // Delta mush, which is pure geometry, against PBS and XPBD within a budget.
@@ -93,11 +93,11 @@ std::string is_physics_worth_it(const Diagram& diagram, double budget_ms)
 std::string how_certain_the_reference_is(const Diagram& diagram)
 {
     const std::string ms = diagram.reference_ms ? fmt::format(", which takes {},", ms_text(*diagram.reference_ms)) : "";
-    if (!diagram.reference_error_pct) return fmt::format("the own error of the reference ({}){} is not known", diagram.reference, ms);
+    if (!diagram.reference_error_pct) return fmt::format("the error of the reference ({}){} is not known", diagram.reference, ms);
     const auto below =
         std::ranges::count_if(diagram.points, [&](const auto& point) { return point.error_pct <= *diagram.reference_error_pct; });
-    return fmt::format("the reference ({}){} has an own error of up to {:.2g} %, and {} of {} points lie within that", diagram.reference,
-                       ms, *diagram.reference_error_pct, below, diagram.points.size());
+    return fmt::format("the reference ({}){} has an error of at most {:.2g} %, and {} of {} points lie within that", diagram.reference, ms,
+                       *diagram.reference_error_pct, below, diagram.points.size());
 }
 
 // The law of the reference with order 1, on the case's own tets and on tets cut into eight.
@@ -137,7 +137,14 @@ std::vector<std::string> findings(const Diagram& diagram)
     std::vector<std::string> lines;
     for (const double budget_ms : budgets_ms) lines.push_back(who_is_nearest(diagram, budget_ms));
     lines.push_back(who_is_quickest(diagram));
-    for (const auto& [one, other] : {std::pair{"pbs", "delta_mush"}, {"pbs", "xpbd"}, {"linear_fem", "pbs"}, {"nonlinear_fem", "pbs"}})
+    for (const auto& [one, other] : {std::pair{"pbs", "delta_mush"},
+                                     {"pbs", "xpbd"},
+                                     {"quasi_newton", "pbs"},
+                                     {"quasi_newton", "delta_mush"},
+                                     {"vbd", "pbs"},
+                                     {"vbd", "delta_mush"},
+                                     {"linear_fem", "pbs"},
+                                     {"nonlinear_fem", "pbs"}})
         lines.push_back(who_passes(diagram, group_named(one), group_named(other)));
     for (const DeformerGroup& group : diagram.groups)
         if (group.is_external) lines.push_back(who_passes(diagram, group, group_named("pbs")));

@@ -12,6 +12,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <deque>
 #include <map>
 
@@ -52,6 +53,8 @@ public:
         const std::vector<FrameTime> times = time_all();
         for (std::size_t i = 0; i < points_.size(); ++i) add_row(points_[i], deformers_[i], times[i]);
         add_row_of_case(reference_row(base_->mesh, references_->first()));
+        if (const ReachedPoint* limit = limit_of_deformers())
+            measured_.newton = newton_way(of_, *limit->setting, meshes_.at(0), poses_, limit->shape.positions, references_->first());
         measured_.members = references_->member_rows();
         if (of_.seeks_theta && references_->first().is_reached())
             measured_.thetas = sought_thetas(of_, meshes_.at(0), poses_, references_->first());
@@ -62,7 +65,15 @@ private:
     void add_other_meshes()
     {
         if (of_.range.refined) meshes_.emplace(refined, BodyMesh::refined(*base_));
-        for (const int vertices : of_.range.other_vertices) meshes_.emplace(vertices, BodyMesh(of_.scene.character, vertices, *base_));
+        for (const std::vector<int>* sizes : {&of_.range.other_vertices, &of_.range.without_fem})
+            for (const int vertices : *sizes) meshes_.emplace(vertices, BodyMesh(of_.scene.character, vertices, *base_));
+    }
+
+    // Null where it was not reached.
+    const ReachedPoint* limit_of_deformers() const
+    {
+        const auto found = std::ranges::find_if(points_, [](const auto& point) { return point.setting->is_limit_of_deformers(); });
+        return found != points_.end() && found->shape.finished ? &*found : nullptr;
     }
 
     // Later rungs of a ladder of which a rung took too long are not tried.
@@ -130,8 +141,9 @@ private:
         if (!row.is_external) row.work = deformer.work();  // such a deformer counts nothing
         if (time.ms) row.clock = deformer.clock();
         if (point.shape.finished) references_->add_errors(row, point.on_base);
-        if (point.shape.finished && point.setting->on_own_mesh())
-            row.to_linear_elements_pct = references_->to_linear_elements_pct(point.on_base);
+        const ReachedPoint* limit = limit_of_deformers();
+        if (point.shape.finished && point.setting->on_own_mesh() && limit)
+            row.to_linear_elements_pct = references_->first().distance(point.on_base, limit->on_base).joint_pct;
         const bool has_parts = of_.converged_iterations > 0 && options_if<pbs::PbsOptions>(point.setting->spec) &&
                                point.setting->on_own_mesh() && point.setting->tuned.empty() && row.error;
         if (has_parts) row.parts = parts_of(point);

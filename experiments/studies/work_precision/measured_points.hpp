@@ -5,9 +5,11 @@
 // overlaps itself and, as one more column, on the whole body. A point whose error is not above the bound may be as good as the reference
 // and is marked. Further references of the family (shared/reference_family.hpp) decide how far an order of deformers depends on the
 // choice of the reference. The error of PBS is split into solver, model and discretisation (error_split/error_split.hpp). A ladder of
-// iterations ends where a frame takes longer than the limit.
+// iterations ends where a frame takes longer than the limit. The limit of the deformers that minimise an energy, from which their distance
+// is measured, is the point of linear elements with their law on the case's own tets (PointSetting::is_limit_of_deformers).
 #pragma once
 
+#include "experiments/studies/work_precision/newton_way.hpp"
 #include "experiments/studies/work_precision/point_row.hpp"
 #include "experiments/studies/work_precision/work_precision_case.hpp"
 
@@ -17,6 +19,7 @@ struct MeasuredPoints {
     std::vector<PointRow> rows;
     std::vector<FamilyRow> members;
     std::vector<ThetaRow> thetas;
+    std::vector<NewtonRow> newton;  // none where that limit was not reached
     std::string breakdown;  // PBS, LBS or a deformer of the user's own that is not finite; a reference that is not reached is recorded as
                             // an outcome
 };

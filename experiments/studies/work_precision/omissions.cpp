@@ -49,7 +49,7 @@ const analysis::Columns<Omission> omission_columns = {
 
 std::vector<Omission> omissions_of(const std::vector<CaseRows>& cases)
 {
-    const std::set<std::string> others = with_other_code(cases);
+    const BestCodes best = best_codes(cases);
     std::vector<std::string> deformers;  // of any case, in the order of the records
     for (const CaseRows& rows : cases)
         for (const PointRow& row : rows)
@@ -66,7 +66,7 @@ std::vector<Omission> omissions_of(const std::vector<CaseRows>& cases)
                 for (const PointRow& row : rows) {
                     if (row.key.deformer != deformer) continue;
                     is_run = true;
-                    if (takes_part(comparison, row.key, others)) points.push_back(&row);
+                    if (takes_part(comparison, row.key, best)) points.push_back(&row);
                 }
                 Omission blank{comparison, case_name(rows.front().of), deformer};
                 if (points.empty()) {

@@ -85,8 +85,10 @@ Points columns_of_comparison()
 {
     const Points of_point = {{"half", &PointRow::half, "", "training: settings are chosen on this pose; evaluation: they are shown on it"},
                              {"reason", &PointRow::reason, "", "why there is no answer, for readers"}};
-    const Points from_limit = {{"to_linear_elements_joint_pct", &PointRow::to_linear_elements_pct, "%",
-                                "distance at the joints from the reference's law with linear elements on the case's own tets"}};
+    const Points from_limit = {
+        {"to_linear_elements_joint_pct", &PointRow::to_linear_elements_pct, "%",
+         "distance at the joints from linear elements with the law of the deformers that minimise an energy (Macklin and "
+         "Mueller's neo-Hookean), on the case's own tets"}};
     return (of_point + within(&PointRow::work, work_columns) + from_limit + member_error_columns()).in_group("comparison");
 }
 
@@ -135,10 +137,14 @@ const Columns<ThetaRow> theta_columns =
     within(&ThetaRow::found,
            Columns<StiffnessFactor>{
                {"outcome", &StiffnessFactor::outcome, "",
-                "found, end_of_grid, insensitive (the errors at all factors differ by less than 1 %) or not_finite"},
-               {"theta", &StiffnessFactor::theta, "", "factor on the stiffness at which the deformer is nearest to the reference"},
-               {"error_joint_pct", &StiffnessFactor::error_pct, "%", "error at the joints with that factor"},
+                "found, end_of_grid (no minimum between the factors tried), highest_allowed (nearest at the largest stiffness that the "
+                "deformer accepts), insensitive (the errors at all factors differ by less than 1 %) or not_finite"},
+               {"theta", &StiffnessFactor::theta, "",
+                "factor on the stiffness at which the deformer is nearest to the reference; empty unless found"},
+               {"error_joint_pct", &StiffnessFactor::error_pct, "%", "least error at the joints over the factors"},
                {"error_at_1_joint_pct", &StiffnessFactor::error_at_1_pct, "%", "error at the joints with the stiffness as it is"},
-               {"tried", &StiffnessFactor::tried, "", "number of factors tried"}});
+               {"tried", &StiffnessFactor::tried, "", "number of factors tried"},
+               {"lowest_tried", &StiffnessFactor::lowest_tried, "", "smallest factor tried"},
+               {"highest_tried", &StiffnessFactor::highest_tried, "", "largest factor tried"}});
 
 }  // namespace experiments

@@ -42,7 +42,8 @@ public:
         for (const KeyValues& code : codes_of(entry)) {
             for (const SettingChange& change : grid)
                 add_ladder(entry, range_.in_short ? entry.few_iterations : entry.iterations, {{}, change, code}, 0);
-            for (const int vertices : range_.other_vertices) add_ladder(entry, entry.few_iterations, {{}, grid.front(), code}, vertices);
+            for (const std::vector<int>* sizes : {&range_.other_vertices, &range_.without_fem})
+                for (const int vertices : *sizes) add_ladder(entry, entry.few_iterations, {{}, grid.front(), code}, vertices);
         }
     }
 
@@ -52,6 +53,7 @@ public:
         for (const Model model : {Model::linear, Model::corotational, Model::neo_hookean})
             for (const int element_order : {1, 2})
                 if (element_order == 1 || (range_.quadratic && model != Model::corotational)) add_fem(model, element_order, 0);
+        add_fem(Model::stable_neo_hookean, 1, 0);  // the limit of the deformers that minimise an energy
         for (const int vertices : range_.other_vertices)
             for (const Model model : {Model::linear, Model::neo_hookean})
                 for (const int element_order : {1, 2})
@@ -161,6 +163,7 @@ nlohmann::json to_json(const SettingRange& range)
                                    .record("in_short", &SettingRange::in_short)
                                    .record("quadratic", &SettingRange::quadratic)
                                    .record("other_vertices", &SettingRange::other_vertices)
+                                   .record("without_fem", &SettingRange::without_fem)
                                    .record("quadratic_up_to", &SettingRange::quadratic_up_to)
                                    .record("refined", &SettingRange::refined)
                                    .complete();

@@ -33,6 +33,12 @@ struct PointSetting {
         const FemOptions* fem = options_if<FemOptions>(spec);
         return fem && fem->model != reference_fem::Model::linear;
     }
+    // Linear elements on the case's own tets with the law of the deformers that minimise an energy: the limit of these deformers.
+    bool is_limit_of_deformers() const
+    {
+        const FemOptions* fem = options_if<FemOptions>(spec);
+        return fem && fem->model == reference_fem::Model::stable_neo_hookean && fem->element_order == 1 && on_own_mesh();
+    }
 };
 
 // The values that distinguish a setting from the others. A field that the deformer does not have is empty.
@@ -62,6 +68,7 @@ struct SettingRange {
     bool in_short = false;                 // parts of the ladders and of the grids
     bool quadratic = true;                 // neo-Hookean flesh on quadratic elements too
     std::vector<int> other_vertices = {};  // sizes of other meshes of the body
+    std::vector<int> without_fem = {};     // further sizes, on which no finite elements are solved
     int quadratic_up_to = 1000;            // sizes of other meshes on which the nonlinear law has quadratic elements too
     bool refined = false;                  // neo-Hookean flesh on the case's own tets, each cut into eight
 };

@@ -25,14 +25,6 @@ void ReferenceSet::add_errors(PointRow& row, const pbs::Positions& positions) co
     }
 }
 
-std::optional<double> ReferenceSet::to_linear_elements_pct(const pbs::Positions& positions) const
-{
-    for (const NestedSolution& solution : first_.solutions())
-        if (solution.element_order == 1 && solution.refinements == 0 && solution.finished)
-            return first_.distance(positions, solution.positions).joint_pct;
-    return std::nullopt;
-}
-
 std::vector<FamilyRow> ReferenceSet::member_rows() const
 {
     std::vector<FamilyRow> rows;

@@ -18,9 +18,6 @@ public:
     const PosedReference& first() const { return first_; }
     // The errors of these positions of the case's own vertices [m], #V x 3, against each reference that was reached.
     void add_errors(PointRow& row, const pbs::Positions& positions) const;
-    // The distance at the joints from the first reference's own solution with linear elements on the case's own tets. Nothing where that
-    // solution was not reached.
-    std::optional<double> to_linear_elements_pct(const pbs::Positions& positions) const;
     std::vector<FamilyRow> member_rows() const;
 
 private:

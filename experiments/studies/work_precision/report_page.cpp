@@ -5,6 +5,7 @@
 #include "experiments/studies/work_precision/diagram_tables.hpp"
 #include "experiments/studies/work_precision/findings.hpp"
 #include "experiments/studies/work_precision/goal.hpp"
+#include "experiments/studies/work_precision/wins.hpp"
 
 #include <fmt/format.h>
 
@@ -92,11 +93,6 @@ std::string tried_table(const ComparisonRecords& records)
     return page;
 }
 
-std::string cell_of(const Solved& solved)
-{
-    return solved.poses ? fmt::format("{} of {}", solved.solved, solved.poses) : "";
-}
-
 // One row per group that solves a pose; the columns are tolerances and budgets.
 std::string profile_table(const ComparisonRecords& records, Comparison comparison)
 {
@@ -112,10 +108,28 @@ std::string profile_table(const ComparisonRecords& records, Comparison compariso
         rows += fmt::format("| {} |", group.words);
         for (const double tolerance_pct : profile_tolerances_pct)
             for (const double ms : {1.0, 10.0, 100.0, any_ms})
-                rows += " " + cell_of(solved_within(records.diagrams, comparison, group, tolerance_pct, ms)) + " |";
+                rows += " " + text_of(solved_within(records.diagrams, comparison, group, tolerance_pct, ms)) + " |";
         rows += "\n";
     }
     return header + "\n" + line + "\n" + rows + "\n";
+}
+
+std::string theta_words(const StiffnessFactor& found)
+{
+    const std::string range = fmt::format("{:.2g} to {:.4g}", found.lowest_tried, found.highest_tried);
+    switch (found.outcome) {
+        case ThetaOutcome::found:
+            return fmt::format("{:.2g}", found.theta.value());
+        case ThetaOutcome::end_of_grid:
+            return "no minimum inside " + range;
+        case ThetaOutcome::highest_allowed:
+            return fmt::format("no minimum inside {}: nearest at the largest stiffness that it accepts", range);
+        case ThetaOutcome::insensitive:
+            return "no effect inside " + range;
+        case ThetaOutcome::not_finite:
+            return "no answer inside " + range;
+    }
+    return "";
 }
 
 std::string theta_table(const ComparisonRecords& records)
@@ -123,14 +137,12 @@ std::string theta_table(const ComparisonRecords& records)
     std::string rows;
     for (const ThetaRow& row : records.thetas) {
         const auto percent = [](const std::optional<double>& error) { return error ? fmt::format("{:.1f}", *error) : ""; };
-        rows += fmt::format("| {} | {} | {} | {} | {} | {} |\n", case_name(row.of), text_of(row.key),
-                            row.found.theta ? fmt::format("{:.2g}", *row.found.theta) : "",
-                            analysis::CellOf<ThetaOutcome>::cell(row.found.outcome).text, percent(row.found.error_pct),
-                            percent(row.found.error_at_1_pct));
+        rows += fmt::format("| {} | {} | {} | {} | {} |\n", case_name(row.of), text_of(row.key), theta_words(row.found),
+                            percent(row.found.error_pct), percent(row.found.error_at_1_pct));
     }
     if (rows.empty()) return "";
     return "## theta\n\nThe factor on the stiffness at which a deformer is nearest to the reference.\n\n"
-           "| case | deformer | theta | outcome | error with it [%] | error without it [%] |\n|---|---|---|---|---|---|\n" +
+           "| case | deformer | theta | least error [%] | error without a factor [%] |\n|---|---|---|---|---|\n" +
            rows + "\n";
 }
 
@@ -156,11 +168,12 @@ std::string page_of(const ComparisonRecords& records)
     for (const Comparison comparison : comparisons) {
         page += fmt::format(
             "## Poses solved: {}\n\nEvaluated poses with an error of at most 10, 5 and 2 % at the joints, within 1, 10 and "
-            "100 ms per frame and at any time. Groups that solve no pose are not listed.\n\n",
+            "100 ms per frame and at any time. A pose is solved with certainty if the error plus the bound on the reference's own error "
+            "is within the tolerance. Groups that solve no pose are not listed.\n\n",
             words_of(comparison));
         page += profile_table(records, comparison) + goal_text(records.diagrams, comparison);
     }
-    page += tried_table(records) + "\n" + theta_table(records) + omission_table(records);
+    page += wins_text(records.diagrams) + tried_table(records) + "\n" + theta_table(records) + omission_table(records);
     for (const Comparison comparison : comparisons)
         for (const Diagram* diagram : described(records, comparison)) {
             page += fmt::format("## {}: {}\n\n```\n{}```\n\n", diagram->name, words_of(comparison), front_text(*diagram));

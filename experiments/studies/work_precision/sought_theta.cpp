@@ -27,7 +27,7 @@ std::vector<ThetaRow> sought_thetas(const WorkPrecisionCase& of, const BodyMesh&
             return std::nullopt;
         };
         const double highest = entry.highest_stiffness / stiffness_of(entry, of.scene);
-        rows.push_back({of.of, key_of(setting_at(1.0)), nearest_factor(error_pct, std::min(highest, factor_grid().back()))});
+        rows.push_back({of.of, key_of(setting_at(1.0)), nearest_factor(error_pct, highest)});
     }
     return rows;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 
 namespace experiments {
@@ -10,6 +11,7 @@ namespace {
 
 constexpr double insensitive_share = 0.01;  // of the least error
 constexpr int golden_sections = 8;          // each keeps 0.618 of a bracket of two octaves
+constexpr double largest_log = 12.0;        // factors up to 4096 and down to its inverse
 constexpr double none = std::numeric_limits<double>::infinity();
 
 // The minimum of a function with one minimum between the two ends.
@@ -30,6 +32,30 @@ std::pair<double, double> golden_minimum(const std::function<double(double)>& va
     return at_left <= at_right ? std::pair(left, at_left) : std::pair(right, at_right);
 }
 
+using Errors = std::map<double, double>;  // at the logarithms of the factors; infinite where there is no answer
+
+Errors::const_iterator least_of(const Errors& errors)
+{
+    return std::ranges::min_element(errors, {}, [](const auto& one) { return one.second; });
+}
+
+// Whether the nearest factor is the first or the last one tried. Neither where there is no answer.
+bool is_first(const Errors& errors)
+{
+    return least_of(errors) == errors.begin() && errors.begin()->second < none;
+}
+bool is_last(const Errors& errors)
+{
+    return least_of(errors) == std::prev(errors.end()) && errors.rbegin()->second < none;
+}
+
+bool is_insensitive(const Errors& errors)
+{
+    const double least = least_of(errors)->second;
+    const double most = std::ranges::max_element(errors, {}, [](const auto& one) { return one.second; })->second;
+    return most < none && most - least <= insensitive_share * least;
+}
+
 }  // namespace
 
 const std::vector<double>& factor_grid()
@@ -41,29 +67,36 @@ const std::vector<double>& factor_grid()
 StiffnessFactor nearest_factor(const std::function<std::optional<double>(double factor)>& error_pct, double highest)
 {
     StiffnessFactor found;
+    Errors errors;
     const auto error_at = [&](double log2_factor) {
         ++found.tried;
         return error_pct(std::exp2(log2_factor)).value_or(none);
     };
-    std::vector<double> logs, errors;
-    for (const double factor : factor_grid())
-        if (factor < highest) logs.push_back(std::log2(factor));
-    if (std::isfinite(highest) && highest <= factor_grid().back()) logs.push_back(std::log2(highest));
-    for (const double log : logs) errors.push_back(error_at(log));
-    if (const auto one = std::find(logs.begin(), logs.end(), 0.0); one != logs.end() && errors[one - logs.begin()] < none)
-        found.error_at_1_pct = errors[one - logs.begin()];
-    const auto least = std::min_element(errors.begin(), errors.end());
-    if (!(*least < none)) return found;
-    const double most = *std::max_element(errors.begin(), errors.end());
-    found.error_pct = *least;
+    const auto try_factor = [&](double log2_factor) {
+        if (!errors.contains(log2_factor)) errors[log2_factor] = error_at(log2_factor);
+    };
+    const double last_log = std::min(std::log2(highest), largest_log);
+    for (const double factor : factor_grid()) try_factor(std::min(std::log2(factor), last_log));
+    const bool has_effect = !is_insensitive(errors);
+    while (has_effect && is_first(errors) && errors.begin()->first > -largest_log) try_factor(errors.begin()->first - 1.0);
+    while (has_effect && is_last(errors) && errors.rbegin()->first < last_log) try_factor(std::min(errors.rbegin()->first + 1.0, last_log));
+
+    if (const auto one = errors.find(0.0); one != errors.end() && one->second < none) found.error_at_1_pct = one->second;
+    found.lowest_tried = std::exp2(errors.begin()->first);
+    found.highest_tried = std::exp2(errors.rbegin()->first);
+    const auto least = least_of(errors);
+    if (!(least->second < none)) return found;
+    found.error_pct = least->second;
     found.outcome = ThetaOutcome::insensitive;
-    if (most - *least <= insensitive_share * *least) return found;
-    const std::size_t best = least - errors.begin();
-    const bool at_end = best == 0 || best + 1 == logs.size();
-    found.outcome = at_end ? ThetaOutcome::end_of_grid : ThetaOutcome::found;
-    found.theta = std::exp2(logs[best]);
-    if (at_end) return found;
-    const auto [log, error] = golden_minimum(error_at, logs[best - 1], logs[best + 1]);
+    if (!has_effect) return found;
+    if (is_first(errors) || is_last(errors)) {
+        const bool is_refused_further = is_last(errors) && last_log < largest_log;
+        found.outcome = is_refused_further ? ThetaOutcome::highest_allowed : ThetaOutcome::end_of_grid;
+        return found;
+    }
+    found.outcome = ThetaOutcome::found;
+    found.theta = std::exp2(least->first);
+    const auto [log, error] = golden_minimum(error_at, std::prev(least)->first, std::next(least)->first);
     if (error < *found.error_pct) found.theta = std::exp2(log), found.error_pct = error;
     return found;
 }

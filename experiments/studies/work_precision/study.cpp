@@ -5,8 +5,8 @@
 //   human       crouch (--full: standing, crouch, in the air, landing and the poses at 1/5 to 4/5 of 01_01; crouch and in the air also on
 //               tets cut into eight; and the crouch of every other installed body)
 //
-// Writes DIR/work_precision/CASE/{points,members,theta}.csv and, over all cases, points.csv, theta.csv, settings.csv, fronts.csv,
-// crossings.csv, best_within.csv, data_profiles.csv, goal.csv, omissions.csv, work_precision.md.
+// Writes DIR/work_precision/CASE/{points,members,theta,newton}.csv and, over all cases, points.csv, theta.csv, newton.csv, settings.csv,
+// fronts.csv, crossings.csv, best_within.csv, data_profiles.csv, goal.csv, omissions.csv, work_precision.md.
 #include "analysis/records/folder_files.hpp"
 #include "experiments/scene/motion_case.hpp"
 #include "experiments/studies/shared/real_bodies.hpp"
@@ -29,6 +29,7 @@ std::string measure_and_record(const WorkPrecisionCase& of, const std::string& f
     table_of(columns_for(points.rows), points.rows).write(analysis::path_in(folder, "points.csv"));
     table_of(family_columns, points.members).write(analysis::path_in(folder, "members.csv"));
     table_of(theta_columns, points.thetas).write(analysis::path_in(folder, "theta.csv"));
+    table_of(newton_columns, points.newton).write(analysis::path_in(folder, "newton.csv"));
     return points.breakdown;
 }
 
@@ -87,7 +88,8 @@ void set_clip(WorkPrecisionCase& of, const PlannedPose& pose)
 }
 
 // In full: all rungs and settings, meshes of other sizes, a bound on the error of each reference, and on the evaluated poses the other
-// references of the family. In the fine creases of a bend Newton's method takes minutes per frame on a finer mesh.
+// references of the family. In the fine creases of a bend Newton's method takes minutes per frame on a finer mesh, so that it has no finite
+// elements there.
 void set_extent(WorkPrecisionCase& of, const PlannedPose& pose, bool full)
 {
     const bool is_limb = pose.angle_deg > 0;
@@ -97,7 +99,7 @@ void set_extent(WorkPrecisionCase& of, const PlannedPose& pose, bool full)
     of.range.quadratic_up_to = is_limb ? 600 : 1000;
     of.range.other_vertices = {600};
     if (full) of.range.other_vertices = is_limb ? std::vector{300, 600} : std::vector{600, 1000, 4650};
-    if (full && pose.motion == "twist") of.range.other_vertices.push_back(5000);
+    if (full && is_limb) (pose.motion == "twist" ? of.range.other_vertices : of.range.without_fem).push_back(5000);
     of.rounds = {.seconds = full ? 10.0 : 1.0, .fewest = full ? 5 : 3, .most = 31};
     of.newton_rounds = {.seconds = full ? 5.0 : 0.0, .fewest = 1, .most = 9};
     of.converged_iterations = full ? 8000 : 2000;
@@ -156,7 +158,7 @@ ComparisonRecords records_of(const FinishedRuns& finished)
     for (const std::string& folder : finished.folders) {
         const auto read = [&](const char* file) { return analysis::read_csv(analysis::path_in(folder, file)); };
         rows.push_back(rows_of(point_columns, read("points.csv")));
-        records.cases.push_back({rows.back(), rows_of(family_columns, read("members.csv"))});
+        records.cases.push_back({rows.back(), rows_of(family_columns, read("members.csv")), rows_of(newton_columns, read("newton.csv"))});
         for (const ThetaRow& theta : rows_of(theta_columns, read("theta.csv"))) records.thetas.push_back(theta);
     }
     records.chosen = choose_settings(rows);
@@ -172,6 +174,7 @@ StudyConclusion conclude(const FinishedRuns& finished)
     const std::vector<PointRow> points = finished.rows(point_columns, "points.csv");
     finished.write("points.csv", columns_for(points), points);
     finished.write("theta.csv", theta_columns, records.thetas);
+    finished.write("newton.csv", newton_columns, finished.rows(newton_columns, "newton.csv"));
     finished.write("settings.csv", chosen_columns, records.chosen);
     finished.write("fronts.csv", fronts_table(records.diagrams));
     finished.write("crossings.csv", crossings_table(records.diagrams));

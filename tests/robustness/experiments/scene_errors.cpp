@@ -92,6 +92,8 @@ const WrongScene wrong_lines[] = {
      "scene.toml:13: fem.0.rayleigh = [0.0,0.1,0.2]: expected two numbers"},
     {"dynamics_without_mass", "[[fem]]\ndynamics = \"newmark\"\ndensity_kg_m3 = 0.0\n",
      "scene.toml:13: fem.0.density_kg_m3 = 0.0: expected a density > 0 with dynamics"},
+    {"plain_blend_in_f32", "[[lbs]]\nname = \"own\"\nprecision = \"f32\"\npacked = false\n",
+     "scene.toml:14: lbs.0.packed = false: expected true with precision = \"f32\""},
     {"fem_named_lbs", "[[fem]]\nname = \"lbs\"\n", "is the name of another deformer"},
     {"fem_twice", "[[fem]]\nname = \"a\"\n[[fem]]\nname = \"a\"\n[deformers]\nuse = [\"a\"]\n", "is used twice"},
     {"unknown_error_bar", "[reference]\nerror_bar = \"guessed\"\n", "expected one of none, orders, refined, both"},

@@ -6,6 +6,7 @@
 #include "experiments/scene/scene.hpp"
 #include "pbs/character/skinning_weights.hpp"
 #include "pbs/geometry/input_error.hpp"
+#include "pbs/skinning/blend.hpp"
 #include "pbs/skinning/delta_mush.hpp"
 #include "pbs/skinning/direct_delta_mush.hpp"
 #include "tests/support/bar_character.hpp"
@@ -74,6 +75,24 @@ TEST(OwnPrecision, FloatsDifferByRounding)
         const pbs::Positions in_float = posed(f32, thin_bar), in_double = posed(f64, thin_bar);
         EXPECT_NE(in_float, in_double) << kind;
         EXPECT_LT((in_float - in_double).cwiseAbs().maxCoeff(), test_support::rounding_error_in<float>(100, 1.0)) << kind;
+    }
+}
+
+// The plain code blends the same sums in another order. See above for the bound.
+TEST(OwnCode, ThePlainBlendDiffersFromThePackedOneByRounding)
+{
+    for (const char* kind : {"lbs", "dqs"}) {
+        const DeformerSpec packed = default_spec(kind);
+        DeformerSpec plain = packed;
+        options_of<BlendOptions>(plain).packed = false;
+        EXPECT_TRUE(traits_of(packed).packed) << kind;
+        EXPECT_FALSE(traits_of(plain).packed) << kind;
+        const pbs::Positions in_packed = posed(packed, thin_bar), in_plain = posed(plain, thin_bar);
+        EXPECT_LT((in_packed - in_plain).cwiseAbs().maxCoeff(), test_support::rounding_error_in<double>(100, 1.0)) << kind;
+        const auto blended = kind == std::string("lbs") ? pbs::linear_blend_skinning : pbs::dual_quaternion_skinning;
+        pbs::Positions expected;
+        blended(thin_bar.mesh.rest, thin_bar.weights, elbow, expected);
+        EXPECT_EQ(in_plain, expected) << kind;
     }
 }
 

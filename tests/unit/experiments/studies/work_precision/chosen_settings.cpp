@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 namespace {
 
 using namespace experiments;
@@ -76,21 +78,51 @@ TEST(ChosenSettings, IterationsAreNoSetting)
     EXPECT_EQ(choose_settings({training}).size(), 2u);
 }
 
-TEST(Comparisons, HaveThePackedCodeOrThePlainOneAndOnlyCodesInBoth)
+TEST(Comparisons, HaveTheBestCodeOfEachDeformerOrItsPlainOne)
 {
-    SettingKey plain = packed_pbs;
-    plain.precision = "f64", plain.packed = false;
-    const SettingKey lbs = {.deformer = "lbs", .precision = "f64"}, scalar_f32 = {.deformer = "vbd", .precision = "f32"};
-    const CaseRows rows = hand_case({.pose = "one"}, {{packed_pbs, 1.0, 1.0}, {plain, 5.0, 1.0}, {lbs, 0.1, 9.0}, {scalar_f32, 1.0, 2.0}});
-    const std::set<std::string> others = with_other_code({rows});
-    EXPECT_EQ(others, (std::set<std::string>{"pbs", "vbd"}));
-    EXPECT_TRUE(takes_part(Comparison::packed_f32, packed_pbs, others));
-    EXPECT_FALSE(takes_part(Comparison::packed_f32, plain, others));
-    EXPECT_TRUE(takes_part(Comparison::plain_f64, plain, others));
-    EXPECT_FALSE(takes_part(Comparison::plain_f64, packed_pbs, others));
-    for (const Comparison comparison : comparisons) EXPECT_TRUE(takes_part(comparison, lbs, others));
-    EXPECT_TRUE(takes_part(Comparison::packed_f32, scalar_f32, others));
-    EXPECT_FALSE(takes_part(Comparison::plain_f64, scalar_f32, others));
+    SettingKey plain = packed_pbs, packed_f64 = packed_pbs;
+    plain.precision = packed_f64.precision = "f64", plain.packed = false;
+    const SettingKey xpbd = {.deformer = "xpbd", .precision = "f64"}, scalar_f32 = {.deformer = "vbd", .precision = "f32"};
+    const SettingKey packed_lbs = {.deformer = "lbs", .precision = "f64", .packed = true};
+    const BestCodes best = best_codes({hand_case({.pose = "one"}, {{plain, 5.0, 1.0},
+                                                                   {packed_pbs, 1.0, 1.0},
+                                                                   {packed_f64, 2.0, 1.0},
+                                                                   {xpbd, 0.1, 9.0},
+                                                                   {packed_lbs, 0.1, 9.0},
+                                                                   {scalar_f32, 1.0, 2.0},
+                                                                   test_support::hand_reference()})});
+    EXPECT_EQ(best, (BestCodes{{"pbs", 3}, {"vbd", 2}, {"lbs", 1}, {"xpbd", 0}}));
+    const std::vector<SettingKey> all = {plain, packed_pbs, packed_f64, xpbd, packed_lbs, scalar_f32};
+    const auto those_in = [&](Comparison comparison) {
+        std::vector<SettingKey> keys;
+        for (const SettingKey& key : all)
+            if (takes_part(comparison, key, best)) keys.push_back(key);
+        return keys;
+    };
+    EXPECT_EQ(those_in(Comparison::packed_f32), (std::vector{packed_pbs, xpbd, packed_lbs, scalar_f32}));
+    EXPECT_EQ(those_in(Comparison::plain_f64), (std::vector{plain, xpbd}));
+}
+
+// Each deformer that can be compared has at most one code in either comparison, and those with two codes are in both.
+TEST(Comparisons, HaveEachDeformerOnce)
+{
+    CaseRows rows;
+    for (const PointSetting& setting : point_settings(read_scene("limb_twist", {}), {.in_short = true, .quadratic = false}))
+        rows.push_back({.key = key_of(setting), .outcome = "finished"});
+    const BestCodes best = best_codes({rows});
+    for (const Comparison comparison : comparisons) {
+        std::set<std::string> deformers;
+        std::set<SettingKey> without_code;
+        for (const PointRow& row : rows) {
+            if (!takes_part(comparison, row.key, best)) continue;
+            SettingKey key = row.key;
+            key.precision = key.order = "", key.packed = false;
+            EXPECT_TRUE(without_code.insert(key).second) << text_of(row.key) << " is in " << name_of(comparison) << " in two codes";
+            deformers.insert(key.deformer);
+        }
+        for (const char* name : {"lbs", "lbs_diffused", "dqs", "dqs_diffused", "delta_mush", "pbs", "xpbd", "quasi_newton", "vbd"})
+            EXPECT_TRUE(deformers.contains(name)) << name << ", " << name_of(comparison);
+    }
 }
 
 }  // namespace

@@ -56,6 +56,23 @@ TEST(DataProfiles, CountTheSolvedPosesOfEachBody)
     EXPECT_EQ(count("delta_mush", 10.0, 100.0, "", false), std::pair(0, 3)) << "a deformer without points solves none";
 }
 
+// The bound of 3 % leaves 7 % of 10 %: certain are the first two poses after 4 ms.
+TEST(DataProfiles, StateHowManyPosesAreCertain)
+{
+    std::vector<CaseRows> with_bound = cases();
+    for (CaseRows& rows : with_bound)
+        for (PointRow& row : rows) row.reference_error_joint_pct = 3.0;
+    std::vector<std::tuple<double, double, int, int>> steps;
+    for (const ProfileStep& step : data_profiles(hand_diagrams(with_bound)))
+        if (step.comparison == Comparison::packed_f32 && step.group == "pbs")
+            steps.emplace_back(step.tolerance_pct, step.ms, step.solved, step.certain);
+    const std::vector<std::tuple<double, double, int, int>> expected = {
+        {10.0, 1.0, 1, 0}, {10.0, 4.0, 2, 2}, {5.0, 4.0, 2, 1}, {2.0, 4.0, 1, 0}};
+    EXPECT_EQ(steps, expected);
+    const Solved found = solved_within(hand_diagrams(with_bound), Comparison::packed_f32, group_named("pbs"), 5.0, 4.0);
+    EXPECT_EQ(text_of(found), "2 of 3, 1 certain");
+}
+
 TEST(DataProfiles, HaveNoPoseWithoutAReference)
 {
     std::vector<CaseRows> with_one_unreached = cases();

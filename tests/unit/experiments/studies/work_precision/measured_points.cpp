@@ -70,6 +70,7 @@ TEST(PointSettings, AreEachOnceInWordsAndKeys)
 {
     SettingRange range;
     range.other_vertices = {300, 600};
+    range.without_fem = {5000};
     range.refined = true;
     range.quadratic_up_to = 500;
     const std::vector<PointSetting> settings = point_settings(read_scene("limb_twist", {}), range);
@@ -81,10 +82,11 @@ TEST(PointSettings, AreEachOnceInWordsAndKeys)
         EXPECT_TRUE(keys.insert(key_of(setting)).second) << text_of(key_of(setting));
         ++of_deformer[setting.deformer];
     }
-    EXPECT_EQ(of_deformer["lbs"], 2 * 3);                  // codes; one mesh and two others
-    EXPECT_EQ(of_deformer["pbs"], 2 * (8 * 9 + 2 * 3));    // codes, settings, rungs; and three rungs on each other mesh
+    EXPECT_EQ(of_deformer["lbs"], 2 * 4);                  // codes; one mesh and three others
+    EXPECT_EQ(of_deformer["pbs"], 2 * (8 * 9 + 3 * 3));    // codes, settings, rungs; and three rungs on each other mesh
     EXPECT_EQ(of_deformer["fem_linear"], 2 * 1 + 2);       // orders 1 and 2; order 1 on each other mesh
     EXPECT_EQ(of_deformer["fem_neo_hookean"], 2 + 3 + 1);  // quadratic on the mesh of 300 too; and on the tets cut into eight
+    EXPECT_EQ(of_deformer["fem_stable_neo_hookean"], 1);   // the limit of the deformers that minimise an energy
     SettingRange in_short = range;
     in_short.in_short = true;
     EXPECT_LT(point_settings(read_scene("limb_twist", {}), in_short).size(), settings.size() / 2);

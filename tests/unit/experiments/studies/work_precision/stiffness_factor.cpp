@@ -24,13 +24,41 @@ TEST(NearestFactor, FindsAMinimumBetweenTheFactorsOfTheGrid)
     }
 }
 
-TEST(NearestFactor, StatesThatItIsAtTheEndOfTheGrid)
+TEST(NearestFactor, ExtendsTheGridUntilTheMinimumIsBracketed)
+{
+    for (const double exact : {200.0, 1000.0, 0.01, 0.001}) {
+        const StiffnessFactor found = nearest_factor([&](double factor) { return 5.0 + std::abs(std::log2(factor / exact)); });
+        EXPECT_EQ(found.outcome, ThetaOutcome::found) << exact;
+        EXPECT_LT(std::abs(std::log2(found.theta.value() / exact)), octaves) << exact;
+        EXPECT_LT(found.lowest_tried, exact);
+        EXPECT_GT(found.highest_tried, exact);
+    }
+}
+
+TEST(NearestFactor, StatesThatThereIsNoMinimumInside)
 {
     const auto stiffer_is_nearer = [](double factor) { return 100.0 / factor; };
-    EXPECT_EQ(nearest_factor(stiffer_is_nearer).outcome, ThetaOutcome::end_of_grid);
-    EXPECT_EQ(nearest_factor(stiffer_is_nearer).theta, 64.0);
-    EXPECT_EQ(nearest_factor(stiffer_is_nearer, 5.0).theta, std::exp2(std::log2(5.0))) << "no factor is above the highest one";
-    EXPECT_EQ(nearest_factor([](double factor) { return 100.0 * factor; }).theta, 1.0 / 16.0);
+    const StiffnessFactor stiff = nearest_factor(stiffer_is_nearer), soft = nearest_factor([](double factor) { return 100.0 * factor; });
+    for (const StiffnessFactor& found : {stiff, soft}) {
+        EXPECT_EQ(found.outcome, ThetaOutcome::end_of_grid);
+        EXPECT_FALSE(found.theta);
+        EXPECT_EQ(found.error_at_1_pct, 100.0);
+    }
+    EXPECT_EQ(stiff.highest_tried, 4096.0);
+    EXPECT_EQ(stiff.error_pct, 100.0 / 4096.0);
+    EXPECT_EQ(soft.lowest_tried, 1.0 / 4096.0);
+}
+
+TEST(NearestFactor, IsNotAboveTheLargestStiffnessThatTheDeformerAccepts)
+{
+    for (const double highest : {1.0, 5.0, 100.0}) {
+        const StiffnessFactor found = nearest_factor([](double factor) { return 100.0 / factor; }, highest);
+        EXPECT_EQ(found.outcome, ThetaOutcome::highest_allowed);
+        EXPECT_EQ(found.highest_tried, std::exp2(std::log2(highest)));
+        EXPECT_FALSE(found.theta);
+    }
+    const StiffnessFactor inside = nearest_factor([](double factor) { return 5.0 + std::abs(std::log2(factor)); }, 5.0);
+    EXPECT_EQ(inside.outcome, ThetaOutcome::found);
 }
 
 TEST(NearestFactor, StatesThatTheStiffnessHasNoEffect)
