@@ -15,7 +15,7 @@ groups = {"lbs": ("LBS", style.vermillion, "v"), "lbs_diffused": ("LBS, diffused
           "projective_dynamics": ("projective dynamics", crimson, "h"), "linear_fem": ("linear FEM", grey, "x"),
           "nonlinear_fem": ("nonlinear FEM", style.black, "+")}
 group_of_deformer = {"xpbd_small_steps": "xpbd", "fem_linear": "linear_fem", "fem_corotational": "nonlinear_fem",
-                     "fem_neo_hookean": "nonlinear_fem"}
+                     "fem_neo_hookean": "nonlinear_fem", "fem_stable_neo_hookean": "nonlinear_fem"}
 
 
 own_looks_in_order = list(itertools.product(("#E0218A", "#00857C", "#6A6A00"), ("X", "H", ">", "8", "|", "_")))  # colour, marker

@@ -54,6 +54,7 @@ struct Diagram {
     double masked_share_pct = 0.0;  // of the volume, which overlaps itself and is left out
     int vertices = 0;               // of the case's own mesh; 0 for a mean
     int poses = 1;
+    std::vector<std::string> cases = {};  // of a mean: the keys of its poses
     std::vector<DeformerGroup> groups = deformer_groups();  // those of the user's own deformers last
 
     // The points of these deformers with their cost and measure. indices[k] is the place of the k-th in `points`.

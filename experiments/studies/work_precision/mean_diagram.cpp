@@ -71,6 +71,7 @@ Diagram mean_diagram(const std::string& key, const std::string& name, const std:
     mean.groups = poses.front().groups;
     for (std::size_t m = 0; m < mean.members.size(); ++m) mean.members[m] = mean_member(poses, m);
     mean.poses = static_cast<int>(poses.size());
+    for (const Diagram& pose : poses) mean.cases.push_back(pose.key);
     for (const Diagram& pose : poses) mean.masked_share_pct += pose.masked_share_pct / double(poses.size());
     const bool same = std::all_of(poses.begin(), poses.end(), [&](const Diagram& pose) { return pose.reference == poses[0].reference; });
     mean.reference = same ? poses[0].reference : "another one for each pose";

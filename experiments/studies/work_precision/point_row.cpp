@@ -89,6 +89,7 @@ PointRow reference_row(const pbs::TetMesh& mesh, const PosedReference& reference
     row.vertices = int(mesh.rest.rows() + (row.key.refined ? pbs::edges_of(mesh.tets).rows() : 0));
     row.tets = int(mesh.tets.rows()) * (row.key.refined ? 8 : 1);
     row.outcome = reference.is_reached() ? "reference" : "not_reached";
+    row.reason = reference.why_not_reached();
     for (const NestedSolution& one : reference.solutions()) row.reach_ms += 1e3 * one.seconds;
     row.metrics = analysis::MeshMetrics(mesh.rest, mesh.tets).measure(solution.positions);
     add_reference(row, reference);

@@ -57,7 +57,7 @@ struct PointRow {
     std::optional<PbsParts> parts = {};
     std::optional<double> discretisation_pct = {};
     Half half = Half::evaluation;
-    std::string reason = {};  // why the outcome is not_applicable or over_time_limit
+    std::string reason = {};  // why the outcome is not_applicable or over_time_limit; why the reference is not reached
     std::optional<pbs::WorkCounters> work = {};
     std::optional<double> to_linear_elements_pct = {};  // of a point on the case's own tets
     MemberErrors members = {};

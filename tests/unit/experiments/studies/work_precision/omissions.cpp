@@ -10,6 +10,7 @@ namespace {
 using namespace experiments;
 using test_support::hand_case;
 using test_support::hand_reference;
+using test_support::HandPoint;
 
 using Found = std::tuple<Comparison, std::string, std::string, std::string, int, int>;
 
@@ -52,7 +53,31 @@ TEST(Omissions, NameAPoseWithoutAReference)
 {
     CaseRows rows = hand_case({.body = "limb", .pose = "a"}, {{{.deformer = "lbs", .precision = "f64"}, 0.1, {}}, hand_reference()});
     rows.back().outcome = "not_reached";
+    rows.back().reason = "worst tet 7 of volume ratio -0.1, 1 inverted";
     EXPECT_EQ(found_in({rows}).front(), Found(Comparison::packed_f32, "limb_a", "lbs", "no_reference", 1, 1));
+    EXPECT_EQ(omissions_of({rows}).front().reason, "worst tet 7 of volume ratio -0.1, 1 inverted");
+}
+
+// In both poses a point of vbd diverges, and in the second one LBS is not run. The training pose is not part of the mean.
+TEST(Omissions, OfAMeanAreThoseOfItsPoses)
+{
+    const SettingKey lbs = {.deformer = "lbs", .precision = "f64"}, vbd = {.deformer = "vbd", .iterations = 1, .precision = "f64"};
+    SettingKey more = vbd;
+    more.iterations = 4;
+    const HandPoint diverged = {more, 4.0, {}, "not_finite"};
+    const std::vector<CaseRows> cases = {
+        hand_case({.body = "limb", .pose = "a"}, {{lbs, 0.1, 9.0}, {vbd, 1.0, 9.0}, diverged, hand_reference()}),
+        hand_case({.body = "limb", .pose = "b"}, {{vbd, 1.0, 9.0}, diverged, hand_reference()}),
+        hand_case({.body = "limb", .pose = "c"}, {{vbd, 1.0, 9.0}, diverged, hand_reference()}, Half::training)};
+    std::vector<Found> found;
+    for (const Omission& one : omissions_of_means(omissions_of(cases), test_support::hand_diagrams(cases)))
+        found.emplace_back(one.comparison, one.of, one.deformer, one.why, one.missing, one.points);
+    const std::string mean = "mean_of_2_evaluated_poses";
+    const std::vector<Found> expected = {{Comparison::packed_f32, mean, "vbd", "not_finite", 2, 4},
+                                         {Comparison::packed_f32, mean, "lbs", "not_run", 0, 0},
+                                         {Comparison::plain_f64, mean, "vbd", "not_finite", 2, 4},
+                                         {Comparison::plain_f64, mean, "lbs", "not_run", 0, 0}};
+    EXPECT_EQ(found, expected);
 }
 
 TEST(Omissions, AreNoneWhereEachPointHasATimeAndAnError)
