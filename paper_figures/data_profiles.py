@@ -1,11 +1,12 @@
 """Data profiles (More and Wild 2009): the share of the evaluated poses that a group of deformers solves to 10, 5 and 2 % within a time per
-frame, for packed f32 code (above) and plain f64 code (below)."""
+frame, for packed f32 code (above) and plain f64 code (below). The omissions of both are listed below them."""
 import compared_looks
 import entries
+import omission_boxes
 import records
 import style
 
-columns = ("comparison", "tolerance_pct", "group", "ms", "solved", "poses", "share_pct")
+columns = ("comparison", "tolerance_pct", "group", "ms", "solved", "certain", "poses", "share_pct")
 comparisons = {"packed_f32": "packed f32 code", "plain_f64": "plain f64 code"}
 tolerances_pct = (10.0, 5.0, 2.0)
 
@@ -22,22 +23,37 @@ def draw_profiles(axes, rows, span_ms):
                   marker=marker, markersize=2.8, markevery=list(range(1, len(ms) + 1)), label=name, linewidth=1.0)
 
 
+def omitted_in(results, rows, comparison):
+    """The omissions of the evaluated poses, and per tolerance the groups without a curve because they solve no pose."""
+    cases = omission_boxes.evaluated_cases(results)
+    omitted = [row for row in omission_boxes.read(results) if row["comparison"] == comparison and row["case"] in cases]
+    lines = omission_boxes.lines(omission_boxes.added_up(omitted))
+    known = {row["group"] for row in records.table(results / "work_precision" / "best_within.csv", {"group"})}
+    for tolerance_pct in tolerances_pct:
+        drawn = {row["group"] for row in rows if row["comparison"] == comparison and float(row["tolerance_pct"]) == tolerance_pct}
+        without = [compared_looks.of(group)[0] for group in compared_looks.in_order(known - drawn)]
+        lines += [f"no pose solved to {tolerance_pct:g} %: {', '.join(without)}"] if without else []
+    return lines
+
+
 def draw(results, figures):
-    file = results / "work_precision" / "data_profiles.csv"
-    rows = records.table(file, set(columns))
+    rows = records.table(results / "work_precision" / "data_profiles.csv", set(columns))
     times = records.numbers(rows, "ms")
     span_ms = (min(times) / 1.5, max(times) * 1.5)
     shown = [name for name in comparisons if any(row["comparison"] == name for row in rows)]
-    figure, axes = style.panels(len(shown), len(tolerances_pct), height_in=2.1, sharex=True, sharey=True)
-    for comparison, line in zip(shown, axes):
-        for tolerance_pct, panel in zip(tolerances_pct, line):
+    figure, lines_of_axes = style.stacked(*[(len(tolerances_pct), 2.1), (1, 0.9)] * len(shown))
+    behind = [{name: row[name] for name in columns} for row in rows]
+    for place, comparison in enumerate(shown):
+        panels, below = lines_of_axes[2 * place], lines_of_axes[2 * place + 1][0]
+        for tolerance_pct, panel in zip(tolerances_pct, panels):
             chosen = [row for row in rows if row["comparison"] == comparison and float(row["tolerance_pct"]) == tolerance_pct]
             draw_profiles(panel, chosen, span_ms)
             style.decades(panel.xaxis)
-            panel.set(xlim=span_ms, ylim=(-4, 104), title=f"{comparisons[comparison]}, error at most {tolerance_pct:g} %")
-            if comparison == shown[-1]:
-                panel.set_xlabel("time per frame [ms]")
-        line[0].set_ylabel(f"solved poses [% of {rows[0]['poses']}]")
+            panel.set(xlim=span_ms, ylim=(-4, 104), title=f"{comparisons[comparison]}, error at most {tolerance_pct:g} %",
+                      xlabel="time per frame [ms]")
+        panels[0].set_ylabel(f"solved poses [% of {rows[0]['poses']}]")
+        omitted = omitted_in(results, rows, comparison)
+        omission_boxes.draw_below(below, omitted, 190)
+        behind += [{"comparison": comparison, "omission": line} for line in omitted]
     style.legend_above(figure, columns=4)
-    style.save(figure, figures / "data_profiles", entries.origin_of(results, "data_profiles"),
-               [{name: row[name] for name in columns} for row in rows])
+    style.save(figure, figures / "data_profiles", entries.origin_of(results, "data_profiles"), style.aligned(behind))

@@ -1,9 +1,10 @@
 """The error of PBS in each pose of the study of error against run time, split into three parts over the iterations: the solver's part, the
 part of the converged constraints, and the bound on the reference's own discretisation error. Where the bound exceeds the whole error, the
-reference is too coarse to measure the error of PBS."""
+reference is too coarse to measure the error of PBS. The poses and points that are missing are listed below."""
 import case_words
 import entries
 import error_split
+import omission_boxes
 import records
 import style
 
@@ -38,15 +39,35 @@ def draw_case(axes, rows):
     return behind
 
 
+def omitted_lines(results, tables, shown):
+    """The poses that are not among those shown, and the points of PBS that are missing in those."""
+    def names(cases):
+        return ", ".join(case_words.posed(tables[case][0]) for case in cases)
+
+    without = [case for case, rows in tables.items() if not of_pbs(rows, 0.2)]
+    further = [case for case in tables if case not in shown and case not in without]
+    lines = [f"no parts of the error on record: {names(without)}"] if without else []
+    lines += [f"at most {most_panels} poses are shown, without {names(further)}"] if further else []
+    missing = [row for row in omission_boxes.read(results)
+               if row["deformer"] == "pbs" and row["comparison"] == "packed_f32" and row["case"] in (*shown, *without)]
+    return lines + omission_boxes.lines(omission_boxes.added_up(missing))
+
+
 def draw(results, figures):
     folder = results / "work_precision"
-    cases = [of_pbs(records.table(file, columns), 0.2) for file in sorted(folder.glob("*/points.csv"))]
-    cases = sorted(filter(None, cases), key=lambda rows: rows[0]["body"] != "limb")[:most_panels]
+    tables = {file.parent.name: records.table(file, columns) for file in sorted(folder.glob("*/points.csv"))}
+    cases = [case for case, rows in tables.items() if of_pbs(rows, 0.2)]
+    cases = sorted(cases, key=lambda case: tables[case][0]["body"] != "limb")[:most_panels]
     if not cases:
         raise records.RecordsMissing(f"{folder}: no case with the error split")
-    figure, axes = style.panels(-(-len(cases) // 2), 2, height_in=2.1)
-    behind = [row for panel, rows in zip(axes.flat, cases) for row in draw_case(panel, rows)]
-    for panel in axes.flat[len(cases):]:
+    lines = -(-len(cases) // 2)
+    figure, rows_of_axes = style.stacked(*[(2, 2.1)] * lines, (1, 0.6))
+    panels = [panel for line in rows_of_axes[:-1] for panel in line]
+    behind = [row for panel, case in zip(panels, cases) for row in draw_case(panel, of_pbs(tables[case], 0.2))]
+    for panel in panels[len(cases):]:
         panel.set_visible(False)
+    omitted = omitted_lines(results, tables, cases)
+    omission_boxes.draw_below(rows_of_axes[-1][0], omitted, 170)
     style.legend_above(figure, columns=4)
-    style.save(figure, figures / "error_parts", entries.origin_of(results, "error_parts"), behind)
+    style.save(figure, figures / "error_parts", entries.origin_of(results, "error_parts"),
+               style.aligned(behind + [{"omission": line} for line in omitted]))

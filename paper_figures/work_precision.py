@@ -7,6 +7,7 @@ import textwrap
 import case_words
 import compared_looks
 import entries
+import omission_boxes
 import records
 import style
 
@@ -17,11 +18,8 @@ setting_columns = ("iterations", "k_stretch", "order", "precision", "substeps", 
 point_numbers = ("deformer", *setting_columns, "ms_median", "error_joint_pct")
 front_columns = {"comparison", "case", "measure", "front", "reference_error_joint_pct", *point_numbers}
 point_columns = {*case_columns, *point_numbers, "outcome", "half", "reach_ms", "reference_error_joint_pct"}
-best_columns = {"comparison", "case", "budget_ms", "rank", "group", "decision", "error_joint_pct", "ms_median"}
-omission_columns = {"comparison", "case", "deformer", "why", "missing", "points"}
+best_columns = {"comparison", "case", "budget_ms", "rank", "group", "decision", "undecided_against", "error_joint_pct", "ms_median"}
 budgets_ms = (0.1, 1.0, 10.0)
-reasons = {"not_finite": "diverged", "not_converged": "not converged", "over_time_limit": "over the time limit",
-           "not_applicable": "not applicable", "no_such_code": "no such code", "not_run": "not run", "no_reference": "no reference"}
 most_panels = 6
 
 
@@ -115,27 +113,17 @@ def draw_budgets(axes, panel):
     """A line at each budget, and above it the nearest deformer with its error. The least room between two names is a decade."""
     for row in panel.best:
         budget_ms = float(row["budget_ms"])
-        mark = "" if row["decision"] in ("decided", "") else "?"
+        against = row["undecided_against"].split()
+        mark = "?" + f" ({len(against)})" * bool(against) if row["decision"] not in ("decided", "") else ""
         name = textwrap.fill(compared_looks.short(row["group"]), 13)
         axes.axvline(budget_ms, color="#777777", linewidth=0.7, linestyle=(0, (2, 2)), zorder=0)
         axes.text(budget_ms, 1.01, f"{budget_ms:g} ms:\n{name}{mark}\n{float(row['error_joint_pct']):.3g} %",
                   transform=axes.get_xaxis_transform(), ha="center", va="bottom", fontsize=5.2, color=compared_looks.of(row["group"])[1])
 
 
-def omission_lines(omitted):
-    """One line per reason: diverged: XPBD 2 of 9, ..."""
-    lines = {}
-    for row in omitted:
-        share = f" {row['missing']} of {row['points']}" if int(row["missing"]) else ""
-        lines.setdefault(row["why"], []).append(case_words.of_field("deformer", row["deformer"]) + share)
-    return [f"{reasons.get(why, why)}: {', '.join(names)}" for why, names in lines.items()]
-
-
 def draw_omissions(axes, panel):
-    lines = ["settings that are not in every pose"] if panel.is_mean else omission_lines(panel.omitted) or ["none"]
-    text = "\n".join(textwrap.fill(line, 46, subsequent_indent="  ") for line in ["Omissions:", *lines])
-    axes.text(0.015, 0.02, text, transform=axes.transAxes, ha="left", va="bottom", fontsize=4.6, linespacing=1.05,
-              bbox={"boxstyle": "round,pad=0.25", "facecolor": "white", "edgecolor": "#999999", "linewidth": 0.4, "alpha": 0.9})
+    rule = ["settings without an error in one of the poses"] if panel.is_mean else []
+    omission_boxes.draw(axes, rule + omission_boxes.lines(panel.omitted), 46)
 
 
 def draw_panel(axes, panel):
@@ -159,7 +147,7 @@ def rows_behind(panel):
 
     rows = [{"shown": "point"} | taken(row, point_numbers) for row in panel.points]
     rows += [{"shown": f"front of {row['front']}"} | taken(row, point_numbers) for row in panel.fronts]
-    rows += [{"shown": "nearest"} | taken(row, ("budget_ms", "group", "decision", "ms_median", "error_joint_pct")) for row in panel.best]
+    rows += [{"shown": "nearest"} | taken(row, ("budget_ms", "group", "decision", "undecided_against", "ms_median", "error_joint_pct")) for row in panel.best]
     rows += [{"shown": "omission"} | taken(row, ("deformer", "why", "missing", "points")) for row in panel.omitted]
     if panel.bound_pct:
         rows.append({"shown": "bound", "error_joint_pct": panel.bound_pct})
@@ -175,7 +163,7 @@ def panels_of(comparison, results):
     folder = results / "work_precision"
     tables = {name: records.table(folder / f"{name}.csv", columns) for name, columns in
               (("fronts", front_columns), ("best_within", best_columns))}
-    tables["omissions"] = records.read_rows(folder / "omissions.csv")
+    tables["omissions"] = omission_boxes.read(results)
     cases = {file.parent.name: records.table(file, point_columns) for file in sorted(folder.glob("*/points.csv"))}
     shown = []
     for case in dict.fromkeys(row["case"] for row in tables["fronts"] if row["comparison"] == comparison):
@@ -205,7 +193,7 @@ def draw_comparison(comparison, results, figures):
     for axes_of_panel in axes.flat[len(shown):]:
         axes_of_panel.set_visible(False)
     axes.flat[0].plot([], [], linestyle="none", marker="o", color="#777777", markersize=2.2, alpha=0.4, label="small marks: all settings")
-    for note in ("name above a line: nearest within that time", "?: the references do not decide", *clock_notes(shown)):
+    for note in ("name above a line: nearest within that time", "? (n): the references do not decide against n groups", *clock_notes(shown)):
         axes.flat[0].plot([], [], linestyle="none", label=note)
     style.legend_above(figure, columns=3)
     name = figures_of[comparison]

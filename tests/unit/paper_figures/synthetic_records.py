@@ -143,10 +143,11 @@ def write_work_precision(results):
         fronts += [{**fronts[-1], "case": "limb_bend_60"}]
         for budget_ms, nearest in ((0.1, rows[0]), (1, rows[1 if comparison == "packed_f32" else 0]), (3, rows[2]), (10, rows[3])):
             best += [{**common, "budget_ms": budget_ms, "rank": rank, "group": nearest["deformer"], "ms_median": nearest["ms_median"],
-                      "error_joint_pct": nearest["error_joint_pct"], "decision": "decided" if budget_ms < 10 else "reference_error"}
+                      "error_joint_pct": nearest["error_joint_pct"], "decision": "decided" if budget_ms < 10 else "reference_error",
+                      "undecided_against": "" if budget_ms < 10 else "lbs"}
                      for rank in (1, 2)]
-        profiles += [{"comparison": comparison, "tolerance_pct": 10, "group": "pbs", "ms": rows[3]["ms_median"], "solved": 1, "poses": 1,
-                      "share_pct": 100}]
+        profiles += [{"comparison": comparison, "tolerance_pct": 10, "group": "pbs", "ms": rows[3]["ms_median"], "solved": 1, "certain": 0,
+                      "poses": 1, "share_pct": 100}]
     write_table(folder / "fronts.csv", fronts)
     write_table(folder / "best_within.csv", best)
     write_table(folder / "data_profiles.csv", profiles)

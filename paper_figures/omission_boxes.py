@@ -1,0 +1,65 @@
+"""The list of omissions that each figure of error against run time has: which deformer is missing, and why.
+
+    omitted = omission_boxes.read(results)
+    omission_boxes.draw(axes, omission_boxes.lines(rows), width=46)
+"""
+import textwrap
+
+import case_words
+import records
+
+columns = {"comparison", "case", "deformer", "why", "missing", "points", "reason"}
+reasons = {"not_finite": "diverged", "not_converged": "not converged", "over_time_limit": "over the time limit",
+           "not_applicable": "not applicable", "no_such_code": "no such code", "not_run": "not run", "no_reference": "no reference"}
+
+
+def read(results):
+    """The rows of omissions.csv. A record without omissions has none."""
+    file = results / "work_precision" / "omissions.csv"
+    return records.table(file, columns) if records.read_rows(file) else []
+
+
+def evaluated_cases(results):
+    """The names of the poses that are evaluated."""
+    tables = {file.parent.name: records.table(file, {"half"}) for file in sorted((results / "work_precision").glob("*/points.csv"))}
+    return [case for case, rows in tables.items() if rows[0]["half"] == "evaluation"]
+
+
+def added_up(rows):
+    """One row per deformer and reason, with the points of all cases."""
+    sums = {}
+    for row in rows:
+        key = (row["deformer"], row["why"])
+        so_far = sums.setdefault(key, {**row, "missing": 0, "points": 0})
+        so_far["missing"] += int(row["missing"])
+        so_far["points"] += int(row["points"])
+    return list(sums.values())
+
+
+def lines(omitted):
+    """One line per reason: diverged: XPBD 2 of 9, ... A reference that was not reached is followed by its worst tet."""
+    of_reason, notes = {}, {}
+    for row in omitted:
+        share = f" {row['missing']} of {row['points']}" if int(row["missing"]) else ""
+        of_reason.setdefault(row["why"], []).append(case_words.of_field("deformer", row["deformer"]) + share)
+        if row["why"] == "no_reference" and row["reason"]:
+            notes.setdefault(row["why"], row["reason"])
+    return [f"{reasons.get(why, why)}: {', '.join(names)}" + (f" ({notes[why]})" if why in notes else "")
+            for why, names in of_reason.items()]
+
+
+def text(shown, width):
+    """The heading and the lines, each filled to a width [characters]."""
+    return "\n".join(textwrap.fill(line, width, subsequent_indent="  ") for line in ["Omissions:", *(shown or ["none"])])
+
+
+def draw(axes, shown, width, place=(0.015, 0.02), fontsize=4.6):
+    """A box in the lower left corner of a panel."""
+    axes.text(*place, text(shown, width), transform=axes.transAxes, ha="left", va="bottom", fontsize=fontsize, linespacing=1.05,
+              bbox={"boxstyle": "round,pad=0.25", "facecolor": "white", "edgecolor": "#999999", "linewidth": 0.4, "alpha": 0.9})
+
+
+def draw_below(axes, shown, width, fontsize=5.5):
+    """The list in a panel of its own, without axes."""
+    axes.axis("off")
+    axes.text(0.0, 1.0, text(shown, width), transform=axes.transAxes, ha="left", va="top", fontsize=fontsize, linespacing=1.15)
