@@ -47,6 +47,7 @@ Diagram diagram_of(const CaseRecords& records, Comparison comparison, const std:
     diagram.groups = groups_with(external_in(records.rows));
     add_members(diagram, records.members);
     diagram.newton = fastest_to_goal(records.newton);
+    diagram.newton_warm_ms = warm_to_goal_ms(records.newton);
     for (const PointRow& row : records.rows) {
         if (!row.key.wanted_vertices && !row.key.refined && diagram.vertices == 0) diagram.vertices = row.vertices;
         if (row.outcome == "reference") {

@@ -49,12 +49,13 @@ struct Diagram {
     std::string reference;                      // its name for readers; empty: none was reached
     std::optional<double> reference_ms;         // wall time of its solutions
     std::optional<double> reference_error_pct;  // bound at the joints
-    std::optional<NewtonRow> newton = {};       // the fastest one to the goal; nothing for a mean
+    std::optional<NewtonRow> newton = {};       // the fastest cold start to the goal; nothing for a mean
+    std::optional<double> newton_warm_ms = {};  // to the goal, from the solution of the frame before
     std::array<DiagramMember, 5> members = {};
     double masked_share_pct = 0.0;  // of the volume, which overlaps itself and is left out
     int vertices = 0;               // of the case's own mesh; 0 for a mean
     int poses = 1;
-    std::vector<std::string> cases = {};  // of a mean: the keys of its poses
+    std::vector<std::string> cases = {};                    // of a mean: the keys of its poses
     std::vector<DeformerGroup> groups = deformer_groups();  // those of the user's own deformers last
 
     // The points of these deformers with their cost and measure. indices[k] is the place of the k-th in `points`.

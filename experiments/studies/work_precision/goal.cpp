@@ -90,6 +90,7 @@ const Columns<GoalRow> goal_columns =
         {"newton_goal_ms", &GoalRow::newton_goal_ms, "ms",
          "time of Newton's method from its fastest cold start to within 1 % of the own limit"},
         {"newton_start", &GoalRow::newton_start, "", "that start: smooth_dqs, lbs or rest"},
+        {"newton_warm_ms", &GoalRow::newton_warm_ms, "ms", "the same from the solution of the frame before, which no goal depends on"},
         {"point", &GoalRow::which, "",
          "nearest_within_time (3 ms), fastest_within_error (5 %), best_on_finer_mesh (the fastest one within 5 %, else the nearest one) or "
          "fastest_to_linear_elements (1 %)"}} +
@@ -120,6 +121,7 @@ std::optional<GoalRow> goal_row(const Diagram& diagram, GoalPoint which)
     if (linear) row.linear_elements_pct = linear->error_pct;
     if (limit) row.own_limit_pct = limit->error_pct, row.newton_converged_ms = limit->ms;
     if (diagram.newton) row.newton_goal_ms = diagram.newton->ms_median, row.newton_start = diagram.newton->start;
+    row.newton_warm_ms = diagram.newton_warm_ms;
     row.reference_error_pct = diagram.reference_error_pct;
     if (which == GoalPoint::fastest_to_linear_elements) {
         row.reaches_goal = row.is_certain = is_fast_enough(diagram, *point);

@@ -9,7 +9,8 @@
 // The solver alone: a distance of at most 1 % at the joints from the own limit of the deformers that minimise an energy, within 6 ms and
 // within a thirtieth of the time that Newton's method takes to the same distance. This limit is linear elements with their law (Macklin and
 // Mueller's neo-Hookean, pbs/flesh/flesh_material.hpp) on the case's own tets. Newton's method begins at its fastest cold start
-// (newton_way.hpp).
+// (newton_way.hpp),
+// as these deformers do in every frame. Its time from the solution of the frame before is stated for comparison.
 #pragma once
 
 #include "experiments/studies/work_precision/diagram.hpp"
@@ -31,6 +32,7 @@ struct GoalRow {
     std::optional<double> newton_converged_ms = {};  // time per frame of Newton's method for those
     std::optional<double> newton_goal_ms = {};       // from a cold start to within 1 % of them
     std::optional<NewtonStart> newton_start = {};
+    std::optional<double> newton_warm_ms = {};  // likewise from the solution of the frame before
     GoalPoint which = GoalPoint::nearest_within_time;
     DiagramPoint point;
     std::optional<double> reference_error_pct = {};  // bound

@@ -109,15 +109,18 @@ std::string solver_table(const std::vector<const Diagram*>& poses)
         if (!row) continue;
         const std::string start = row->newton_start ? analysis::CellOf<NewtonStart>::cell(*row->newton_start).text : "";
         const std::string ratio = row->newton_goal_ms ? fmt::format("{:.0f}", *row->newton_goal_ms / row->point.ms) : "";
-        rows += fmt::format("| {} | {} | {} | {:.2g} | {} | {} | {} | {} | {} |\n", case_cell(*pose), cell_of(row->own_limit_pct, "{:.1f}"),
-                            text_of(row->point.key), row->point.ms, cell_of(row->point.to_linear_elements_pct),
-                            cell_of(row->newton_goal_ms, "{:.0f}"), start, ratio, row->reaches_goal ? "yes" : "no");
+        rows += fmt::format("| {} | {} | {} | {:.2g} | {} | {} | {} | {} | {} | {} |\n", case_cell(*pose),
+                            cell_of(row->own_limit_pct, "{:.1f}"), text_of(row->point.key), row->point.ms,
+                            cell_of(row->point.to_linear_elements_pct), cell_of(row->newton_goal_ms, "{:.0f}"), start, ratio,
+                            row->reaches_goal ? "yes" : "no", cell_of(row->newton_warm_ms, "{:.0f}"));
     }
     if (rows.empty()) return "";
     return fmt::format(
                "The fastest deformer that is within {:g} % of the own limit. Newton's method is timed from its fastest cold start to the "
-               "same distance.\n\n| case | error of the own limit [%] | deformer | ms | distance [%] | Newton's method [ms] | its start | "
-               "ratio | goal reached |\n|---|---|---|---|---|---|---|---|---|\n",
+               "same distance, and for comparison from the solution of the frame before.\n\n| case | error of the own limit [%] | deformer "
+               "| ms | "
+               "distance [%] | Newton's method [ms] | its start | ratio | goal reached | from the frame before [ms] "
+               "|\n|---|---|---|---|---|---|---|---|---|---|\n",
                solver_goal_pct) +
            rows + "\n";
 }

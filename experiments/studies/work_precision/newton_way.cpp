@@ -170,11 +170,18 @@ std::vector<NewtonRow> newton_way(const WorkPrecisionCase& of, const PointSettin
 std::optional<NewtonRow> fastest_to_goal(const std::vector<NewtonRow>& rows)
 {
     std::optional<NewtonRow> fastest;
-    for (const NewtonRow& row : rows)
-        if (is_cold(row.start) && row.ms_median && row.to_limit_pct <= newton_goal_pct &&
-            (!fastest || *row.ms_median < *fastest->ms_median))
-            fastest = row;
+    for (const NewtonRow& row : rows) {
+        const bool reaches = is_cold(row.start) && row.ms_median && row.to_limit_pct <= newton_goal_pct;
+        if (reaches && (!fastest || *row.ms_median < *fastest->ms_median)) fastest = row;
+    }
     return fastest;
+}
+
+std::optional<double> warm_to_goal_ms(const std::vector<NewtonRow>& rows)
+{
+    for (const NewtonRow& row : rows)
+        if (!is_cold(row.start) && row.ms_median && row.to_limit_pct <= newton_goal_pct) return row.ms_median;
+    return std::nullopt;
 }
 
 }  // namespace experiments

@@ -35,8 +35,9 @@ extern const analysis::Columns<NewtonRow> newton_columns;  // newton.csv
 std::vector<NewtonRow> newton_way(const WorkPrecisionCase& of, const PointSetting& flesh, const BodyMesh& mesh, const PosePair& poses,
                                   const pbs::Positions& limit, const PosedReference& reference);
 
-// The least time of a cold start to a state within the goal. Nothing where no time is known.
+// The least time of a cold start to a state within the goal, or that from the frame before. Nothing where no time is known.
 std::optional<NewtonRow> fastest_to_goal(const std::vector<NewtonRow>& rows);
+std::optional<double> warm_to_goal_ms(const std::vector<NewtonRow>& rows);
 
 }  // namespace experiments
 

@@ -160,6 +160,7 @@ TEST(Goal, OfTheSolverIsTheDistanceFromItsOwnLimitInAThirtiethOfNewtonsTime)
         EXPECT_EQ(solver->newton_converged_ms, std::optional(500.0));
         EXPECT_EQ(solver->newton_goal_ms, std::optional(newton_ms));
         EXPECT_EQ(solver->newton_start, std::optional(NewtonStart::rest));
+        EXPECT_EQ(solver->newton_warm_ms, std::optional(7.0));
         EXPECT_EQ(solver->reaches_goal, newton_ms >= 30.0 * 6.0) << "6 ms are within the goal, and 180 ms are 30 times as long";
         EXPECT_EQ(row_of(found, "a", GoalPoint::fastest_within_error), nullptr);
     }
@@ -182,7 +183,7 @@ TEST(Goal, OfTheSolverIsCountedForEachBody)
     EXPECT_EQ(count(slow), std::tuple(0, 1, 0)) << "above 6 ms";
     const std::string text = goal_text(solver_diagrams(solver_case(180.0)), Comparison::plain_f64);
     EXPECT_NE(text.find("| PBS | 1 of 1 |"), std::string::npos) << text;
-    EXPECT_NE(text.find("| 6.5 | pbs, iterations 4, precision f64 | 6 | 0.9 | 180 | rest | 30 | yes |"), std::string::npos) << text;
+    EXPECT_NE(text.find("| 6.5 | pbs, iterations 4, precision f64 | 6 | 0.9 | 180 | rest | 30 | yes | 7 |"), std::string::npos) << text;
 }
 
 }  // namespace
