@@ -147,7 +147,8 @@ def rows_behind(panel):
 
     rows = [{"shown": "point"} | taken(row, point_numbers) for row in panel.points]
     rows += [{"shown": f"front of {row['front']}"} | taken(row, point_numbers) for row in panel.fronts]
-    rows += [{"shown": "nearest"} | taken(row, ("budget_ms", "group", "decision", "undecided_against", "ms_median", "error_joint_pct")) for row in panel.best]
+    rows += [{"shown": "nearest"} | taken(row, ("budget_ms", "group", "decision", "undecided_against", "ms_median", "error_joint_pct"))
+             for row in panel.best]
     rows += [{"shown": "omission"} | taken(row, ("deformer", "why", "missing", "points")) for row in panel.omitted]
     if panel.bound_pct:
         rows.append({"shown": "bound", "error_joint_pct": panel.bound_pct})
@@ -193,7 +194,8 @@ def draw_comparison(comparison, results, figures):
     for axes_of_panel in axes.flat[len(shown):]:
         axes_of_panel.set_visible(False)
     axes.flat[0].plot([], [], linestyle="none", marker="o", color="#777777", markersize=2.2, alpha=0.4, label="small marks: all settings")
-    for note in ("name above a line: nearest within that time", "? (n): the references do not decide against n groups", *clock_notes(shown)):
+    notes = ("name above a line: nearest within that time", "? (n): the references do not decide against n groups", *clock_notes(shown))
+    for note in notes:
         axes.flat[0].plot([], [], linestyle="none", label=note)
     style.legend_above(figure, columns=3)
     name = figures_of[comparison]

@@ -18,7 +18,8 @@ const std::vector<DeformerGroup>& deformer_groups()
         };
         for (const ComparedDeformer& entry : compared_deformers()) add(entry.group, entry.words, entry.name);
         add("linear_fem", "linear FEM", "fem_linear");
-        for (const char* law : {"fem_corotational", "fem_neo_hookean", "fem_stable_neo_hookean"}) add("nonlinear_fem", "nonlinear FEM", law);
+        for (const char* law : {"fem_corotational", "fem_neo_hookean", "fem_stable_neo_hookean"})
+            add("nonlinear_fem", "nonlinear FEM", law);
         return all;
     }();
     return groups;
