@@ -28,10 +28,11 @@ def omitted_in(results, rows, comparison):
     cases = omission_boxes.evaluated_cases(results)
     omitted = [row for row in omission_boxes.read(results) if row["comparison"] == comparison and row["case"] in cases]
     lines = omission_boxes.lines(omission_boxes.added_up(omitted))
-    known = {row["group"] for row in records.table(results / "work_precision" / "best_within.csv", {"group"})}
+    fronts = records.table(results / "work_precision" / "fronts.csv", {"comparison", "front"})
+    known = {compared_looks.group_of(row["front"]) for row in fronts if row["comparison"] == comparison and row["front"] != "all"}
     for tolerance_pct in tolerances_pct:
         drawn = {row["group"] for row in rows if row["comparison"] == comparison and float(row["tolerance_pct"]) == tolerance_pct}
-        without = [compared_looks.of(group)[0] for group in compared_looks.in_order(known - drawn)]
+        without = [compared_looks.short(group) for group in compared_looks.in_order(known - drawn)]
         lines += [f"no pose solved to {tolerance_pct:g} %: {', '.join(without)}"] if without else []
     return lines
 

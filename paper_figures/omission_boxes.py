@@ -48,14 +48,14 @@ def lines(omitted):
             for why, names in of_reason.items()]
 
 
-def text(shown, width):
-    """The heading and the lines, each filled to a width [characters]."""
-    return "\n".join(textwrap.fill(line, width, subsequent_indent="  ") for line in ["Omissions:", *(shown or ["none"])])
+def text(shown, width, further=()):
+    """The heading, the lines, and further lines after them, each filled to a width [characters]."""
+    return "\n".join(textwrap.fill(line, width, subsequent_indent="  ") for line in ["Omissions:", *(shown or ["none"]), *further])
 
 
-def draw(axes, shown, width, place=(0.015, 0.02), fontsize=4.6):
+def draw(axes, shown, width, further=(), place=(0.015, 0.02), fontsize=4.6):
     """A box in the lower left corner of a panel."""
-    axes.text(*place, text(shown, width), transform=axes.transAxes, ha="left", va="bottom", fontsize=fontsize, linespacing=1.05,
+    axes.text(*place, text(shown, width, further), transform=axes.transAxes, ha="left", va="bottom", fontsize=fontsize, linespacing=1.05,
               bbox={"boxstyle": "round,pad=0.25", "facecolor": "white", "edgecolor": "#999999", "linewidth": 0.4, "alpha": 0.9})
 
 

@@ -114,16 +114,23 @@ def draw_budgets(axes, panel):
     for row in panel.best:
         budget_ms = float(row["budget_ms"])
         against = row["undecided_against"].split()
-        mark = "?" + f" ({len(against)})" * bool(against) if row["decision"] not in ("decided", "") else ""
+        mark = "" if row["decision"] in ("decided", "") else f"? ({len(against)})"
         name = textwrap.fill(compared_looks.short(row["group"]), 13)
         axes.axvline(budget_ms, color="#777777", linewidth=0.7, linestyle=(0, (2, 2)), zorder=0)
         axes.text(budget_ms, 1.01, f"{budget_ms:g} ms:\n{name}{mark}\n{float(row['error_joint_pct']):.3g} %",
                   transform=axes.get_xaxis_transform(), ha="center", va="bottom", fontsize=5.2, color=compared_looks.of(row["group"])[1])
 
 
+def undecided_lines(panel):
+    """not decided within 10 ms against: XPBD, quasi-Newton."""
+    rows = [row for row in panel.best if row["undecided_against"]]
+    return [f"not decided within {float(row['budget_ms']):g} ms against: "
+            + ", ".join(compared_looks.short(group) for group in row["undecided_against"].split()) for row in rows]
+
+
 def draw_omissions(axes, panel):
     rule = ["settings without an error in one of the poses"] if panel.is_mean else []
-    omission_boxes.draw(axes, rule + omission_boxes.lines(panel.omitted), 46)
+    omission_boxes.draw(axes, rule + omission_boxes.lines(panel.omitted), 46, undecided_lines(panel))
 
 
 def draw_panel(axes, panel):
