@@ -204,8 +204,7 @@ TEST(PointRows, HaveColumnsOfDeformersOfTheUsersOwnOnlyWithThem)
     EXPECT_EQ(std::vector(with.end() - 2, with.end()), (std::vector<std::string>{"external", "clock"}));
 }
 
-// A ladder ends at the rung that takes too long, and the reason names the limit.
-TEST(MeasuredPoints, StopAtTheLimitOfTimeAndRecordTheSplit)
+WorkPrecisionCase small_case()
 {
     WorkPrecisionCase of;
     of.of = {.body = "limb", .motion = "twist", .angle_deg = 30.0};
@@ -219,7 +218,20 @@ TEST(MeasuredPoints, StopAtTheLimitOfTimeAndRecordTheSplit)
     of.members = {family()[2]};
     of.converged_iterations = 0;
     of.longest_frame_ms = 1e-6;
-    const MeasuredPoints points = measure_points(of);
+    return of;
+}
+
+const MeasuredPoints& small_points()
+{
+    static const MeasuredPoints points = measure_points(small_case());
+    return points;
+}
+
+// A ladder ends at the rung that takes too long, and the reason names the limit.
+TEST(MeasuredPoints, StopAtTheLimitOfTimeAndRecordTheSplit)
+{
+    const WorkPrecisionCase of = small_case();
+    const MeasuredPoints& points = small_points();
     int finished = 0, left_out = 0;
     for (const PointRow& row : points.rows) {
         EXPECT_EQ(row.half, Half::training);
@@ -240,6 +252,41 @@ TEST(MeasuredPoints, StopAtTheLimitOfTimeAndRecordTheSplit)
     EXPECT_FALSE(points.members[0].error_bound_pct) << "the first reference has no bound";
     EXPECT_EQ(finished, 2 * 3);      // codes, settings
     EXPECT_EQ(left_out, 2 * 3 * 2);  // and the rungs of 24 and 96 iterations
+}
+
+// Reference: the solution with the law of the deformers that minimise an energy. That of the reference's law differs.
+TEST(MeasuredPoints, HaveTheirDistanceFromTheOwnLimitOfTheDeformers)
+{
+    std::map<std::string, double> distance_pct;
+    for (const PointRow& row : small_points().rows)
+        if (row.to_linear_elements_pct) distance_pct[row.key.deformer] = *row.to_linear_elements_pct;
+    EXPECT_EQ(distance_pct.at("fem_stable_neo_hookean"), 0.0);
+    EXPECT_GT(distance_pct.at("fem_neo_hookean"), 0.0);
+    EXPECT_LT(distance_pct.at("fem_neo_hookean"), 0.1 * distance_pct.at("lbs")) << "the laws are near each other";
+}
+
+// Newton's method comes from each start to the same limit, and the time belongs to the first state within 1 % of it.
+TEST(NewtonWays, EndAtTheOwnLimitFromEachStart)
+{
+    std::map<NewtonStart, std::vector<NewtonRow>> of_start;
+    for (const NewtonRow& row : small_points().newton) of_start[row.start].push_back(row);
+    ASSERT_EQ(of_start.size(), 4u);
+    for (const auto& [start, rows] : of_start) {
+        EXPECT_LT(rows.back().to_limit_pct, 0.01 * newton_goal_pct);
+        const auto first = std::ranges::find_if(rows, [](const NewtonRow& row) { return row.to_limit_pct <= newton_goal_pct; });
+        for (const NewtonRow& row : rows) EXPECT_EQ(row.ms_median.has_value(), &row == &*first) << row.newton_steps;
+        for (std::size_t k = 1; k < rows.size(); ++k) EXPECT_GT(rows[k].single_steps_ms, rows[k - 1].single_steps_ms) << k;
+        if (start == NewtonStart::rest) continue;
+        for (std::size_t k = 0; k < rows.size(); ++k) EXPECT_EQ(rows[k].newton_steps, static_cast<int>(k));
+    }
+    EXPECT_GT(of_start[NewtonStart::lbs].front().to_limit_pct, of_start[NewtonStart::smooth_dqs].front().to_limit_pct);
+    const std::optional<NewtonRow> fastest = fastest_to_goal(small_points().newton);
+    ASSERT_TRUE(fastest);
+    EXPECT_NE(fastest->start, NewtonStart::frame_before) << "it is no cold start";
+    for (const NewtonRow& row : small_points().newton)
+        if (is_cold(row.start)) {
+            EXPECT_LE(*fastest->ms_median, row.ms_median.value_or(*fastest->ms_median));
+        }
 }
 
 }  // namespace
