@@ -45,10 +45,10 @@ struct PlannedPose {
 // clip. The order decides which poses train (case_split.hpp).
 std::vector<PlannedPose> limb_poses()
 {
-    return {{.body = "limb", .motion = "twist", .angle_deg = 90, .cost_s = 60.0, .quick_cost_s = 10.0},
-            {.body = "limb", .motion = "twist", .angle_deg = 150, .cost_s = 90.0, .quick_cost_s = 60.0},
-            {.body = "limb", .motion = "bend", .angle_deg = 60, .cost_s = 70.0, .quick_cost_s = 10.0},
-            {.body = "limb", .motion = "bend", .angle_deg = 90, .cost_s = 600.0}};
+    return {{.body = "limb", .motion = "twist", .angle_deg = 90, .cost_s = 110.0, .quick_cost_s = 20.0},
+            {.body = "limb", .motion = "twist", .angle_deg = 150, .cost_s = 150.0, .quick_cost_s = 60.0},
+            {.body = "limb", .motion = "bend", .angle_deg = 60, .cost_s = 130.0, .quick_cost_s = 20.0},
+            {.body = "limb", .motion = "bend", .angle_deg = 90, .cost_s = 950.0}};
 }
 
 std::vector<PlannedPose> human_poses()
