@@ -171,18 +171,18 @@ TEST(Goal, OfTheSolverIsCountedForEachBody)
     const DeformerGroup& pbs = group_named("pbs");
     const auto count = [&](const CaseRecords& records) {
         const SolverSolved found = solver_goal_reached(solver_diagrams(records), Comparison::plain_f64, pbs, "limb");
-        return std::tuple(found.solved, found.poses, found.unknown);
+        return std::tuple(found.solved, found.poses, found.in_time, found.unknown);
     };
-    EXPECT_EQ(count(solver_case(180.0)), std::tuple(1, 1, 0));
-    EXPECT_EQ(count(solver_case(179.0)), std::tuple(0, 1, 0));
+    EXPECT_EQ(count(solver_case(180.0)), std::tuple(1, 1, 1, 0));
+    EXPECT_EQ(count(solver_case(179.0)), std::tuple(0, 1, 1, 0));
     CaseRecords without_time = solver_case(180.0);
     without_time.newton.clear();
-    EXPECT_EQ(count(without_time), std::tuple(0, 1, 1));
+    EXPECT_EQ(count(without_time), std::tuple(0, 1, 1, 1));
     CaseRecords slow = solver_case(1000.0);
     slow.rows[1].ms_median = 6.1;
-    EXPECT_EQ(count(slow), std::tuple(0, 1, 0)) << "above 6 ms";
+    EXPECT_EQ(count(slow), std::tuple(0, 1, 0, 0)) << "above 6 ms";
     const std::string text = goal_text(solver_diagrams(solver_case(180.0)), Comparison::plain_f64);
-    EXPECT_NE(text.find("| PBS | 1 of 1 |"), std::string::npos) << text;
+    EXPECT_NE(text.find("| PBS | 1 of 1, 1 in time |"), std::string::npos) << text;
     EXPECT_NE(text.find("| 6.5 | pbs, iterations 4, precision f64 | 6 | 0.9 | 180 | rest | 30 | yes | 7 |"), std::string::npos) << text;
 }
 
