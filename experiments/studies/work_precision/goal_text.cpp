@@ -59,11 +59,10 @@ std::string solver_count_table(const std::vector<Diagram>& diagrams, const std::
     return fmt::format(
                "The solver's goal is a distance of at most {:g} % from the own limit within {:g} ms, and within a thirtieth of the time "
                "that Newton's method takes to the same distance. The own limit is linear elements with the law of the deformers that "
-               "minimise an energy, on the case's own tets. Poses in which it is reached, the training poses included, and poses in "
-               "which the distance is at most {:g} % in time, whatever Newton's time is; the bound on the reference's own error has no "
-               "part in "
-               "it:\n\n",
-               solver_goal_pct, solver_goal_ms, solver_goal_pct) +
+               "minimise an energy, on the case's own tets. Poses in which it is reached, and poses in which the distance is reached in "
+               "{:g} ms whatever Newton's time is (in time), the training poses included. The bound on the reference's own error has no "
+               "part in it:\n\n",
+               solver_goal_pct, solver_goal_ms, solver_goal_ms) +
            table_by_body(bodies, groups_of(diagrams), cell);
 }
 
