@@ -54,7 +54,7 @@ std::vector<PlannedPose> limb_poses()
 std::vector<PlannedPose> human_poses()
 {
     std::vector<PlannedPose> poses = {{.pose = "standing", .frame = 0},
-                                      {.pose = "crouch", .frame = 164, .refined = true, .quick_cost_s = 20.0},
+                                      {.pose = "crouch", .frame = 164, .refined = true, .quick_cost_s = 45.0},
                                       {.pose = "in_the_air", .frame = 672, .refined = true},
                                       {.pose = "landing", .frame = 708}};
     const Scene scene = read_scene("human_01_01", {});
