@@ -9,15 +9,15 @@
 // constraints are rigid. As in PBS, particles outside the jiggling zone begin every step at their LBS position without velocity; their mass
 // holds them to their position at the beginning of a substep. With many substeps of one iteration (M. Macklin et al., Small steps in
 // physics simulation, SCA 2019) the multipliers begin at zero in each substep.
+//
+// The projections run in the order and the precision of the options: `plain` one after the other, `ordered` and `grouped` sixteen at once
+// in the sequence of PBS, which settles on another limit. In float, they are relative to the mean position of the step.
 #pragma once
 
-#include "pbs/constraints/bind.hpp"
-#include "pbs/constraints/stretch.hpp"
-#include "pbs/constraints/volume.hpp"
-#include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/solver/step_summary.hpp"
-#include "pbs/solver/xpbd_options.hpp"
+#include "pbs/solver/xpbd_projection.hpp"
 
+#include <memory>
 #include <vector>
 
 namespace pbs {
@@ -29,36 +29,21 @@ public:
                const std::vector<bool>& held = {});
 
     StepSummary advance(const Positions& lbs_positions, const Positions& bind_points, double dt_s);
-    const Positions& positions() const { return positions_; }  // [m], #V x 3
+    const Positions& positions() const { return x_; }  // [m], #V x 3
 
-    template <typename Constraint>
-    struct Compliant {
-        Constraint constraint;
-        double compliance = 0.0;  // alpha: of a length [m/N], of a volume [m^5/N]
-        double multiplier = 0.0;  // lambda of this substep
-    };
-    // In the order of their projection.
-    const std::vector<Compliant<BindConstraint<double>>>& bind() const { return bind_; }
-    const std::vector<Compliant<StretchConstraint<double>>>& stretch() const { return stretch_; }
-    const std::vector<Compliant<VolumeConstraint<double>>>& volume() const { return volume_; }
-    const std::vector<double>& inverse_masses_1_kg() const { return w_; }  // #V
+    const XpbdConstraints& constraints() const { return constraints_; }
 
 private:
-    using Point = Vector3<double>;
-
     void predict(double dt_s);
-    void forget_multipliers();
-    void project(const Positions& bind_points, double dt_s);
     void update_velocities(double dt_s);
+    StepSummary summary(double seconds) const;
 
     XpbdOptions options_;
-    std::vector<double> w_;  // inverse masses [1/kg], #V
     std::vector<bool> integrated_;
-    std::vector<Compliant<BindConstraint<double>>> bind_;
-    std::vector<Compliant<StretchConstraint<double>>> stretch_;
-    std::vector<Compliant<VolumeConstraint<double>>> volume_;
-    std::vector<Point> x_, before_, v_;  // [m], [m], [m/s]
-    Positions positions_;
+    bool integrates_ = false;  // any particle
+    XpbdConstraints constraints_;
+    std::unique_ptr<XpbdProjection> projection_;
+    Positions x_, before_, v_;  // [m], [m], [m/s], #V x 3
     bool started_ = false;
 };
 

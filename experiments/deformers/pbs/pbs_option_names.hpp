@@ -1,17 +1,13 @@
 // The names of the options of PBS in scenes and records.
 #pragma once
 
+#include "experiments/deformers/order_names.hpp"
 #include "experiments/deformers/precision_names.hpp"
 #include "experiments/settings/option_names.hpp"
 #include "pbs/solver/options.hpp"
 
 namespace experiments {
 
-template <>
-struct OptionNames<pbs::Order> {
-    static constexpr std::array<std::pair<pbs::Order, const char*>, 3> table{
-        {{pbs::Order::plain, "plain"}, {pbs::Order::ordered, "ordered"}, {pbs::Order::grouped, "grouped"}}};
-};
 template <>
 struct OptionNames<pbs::Masses> {
     static constexpr std::array<std::pair<pbs::Masses, const char*>, 2> table{

@@ -1,5 +1,8 @@
 // LBS, then extended position based dynamics with a material. It costs what PBS costs: the iterations of PBS, or as many substeps of one
-// iteration. The vertices that jiggle are those of PBS.
+// iteration. The vertices that jiggle are those of PBS. The default is plain code in double precision; `order` and `precision` choose the
+// packed code that PBS has by default.
+#include "experiments/deformers/order_names.hpp"
+#include "experiments/deformers/precision_names.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "pbs/geometry/stopwatch.hpp"
@@ -22,6 +25,11 @@ const OptionFields<pbs::XpbdOptions>& xpbd_fields()
             .add("poisson", &pbs::XpbdOptions::poisson,
                  {.lowest = 0.25, .highest = 0.499999, .meaning = "Poisson's ratio; springs alone have 1/4, volume constraints raise it"})
             .add("density_kg_m3", &pbs::XpbdOptions::density_kg_m3, {.unit = "kg/m^3", .lowest = above_zero, .meaning = "density, lumped"})
+            .add("order", &pbs::XpbdOptions::order,
+                 {.meaning =
+                      "order of projection within a class: plain is the order of the file; ordered and grouped are those of pbs, which "
+                      "project sixteen constraints at once"})
+            .add("precision", &pbs::XpbdOptions::precision, {.meaning = "floating point of the projections and their multipliers"})
             .record("iterations", &pbs::XpbdOptions::iterations)
             .record("substeps", &pbs::XpbdOptions::substeps)
             .record("gravity_m_s2", &pbs::XpbdOptions::gravity_m_s2)
@@ -82,7 +90,9 @@ DeformerKind xpbd_kind()
             .meaning =
                 "LBS, then extended position based dynamics (Macklin 2016) with an elastic material; multipliers are kept through a step",
             .make = [](const DeformerSpec& spec) -> std::unique_ptr<Deformer> {
-                return std::make_unique<XpbdDeformer>(options_of<pbs::XpbdOptions>(spec));
+                pbs::XpbdOptions options = options_of<pbs::XpbdOptions>(spec);
+                options.threads = spec.threads;
+                return std::make_unique<XpbdDeformer>(options);
             },
             .options = pbs::XpbdOptions{},
             .keys = xpbd_fields().keys(),
@@ -90,10 +100,18 @@ DeformerKind xpbd_kind()
             .options_json = [](const DeformerSpec& spec) { return xpbd_fields().json(options_of<pbs::XpbdOptions>(spec)); },
             .traits = [](const DeformerSpec& spec) -> DeformerTraits {
                 const auto& options = options_of<pbs::XpbdOptions>(spec);
-                return {.iterations = options.iterations * options.substeps};
+                const bool packed = options.order != pbs::Order::plain;
+                return {.order = name_of(options.order),
+                        .precision = name_of(options.precision),
+                        .packed = packed,
+                        .iterations = options.iterations * options.substeps,
+                        .threads = packed ? spec.threads : 1};
             },
-            .work = [](const DeformerSpec& spec,
-                       const BodyCounts& body) { return pbs::work_of_xpbd(body, options_of<pbs::XpbdOptions>(spec).poisson > 0.25); }};
+            .work =
+                [](const DeformerSpec& spec, const BodyCounts& body) {
+                    const auto& options = options_of<pbs::XpbdOptions>(spec);
+                    return pbs::work_of_xpbd(body, options.poisson > 0.25, options.precision == pbs::Precision::f32 ? 4.0 : 8.0);
+                }};
 }
 
 DeformerKind xpbd_small_steps_kind()

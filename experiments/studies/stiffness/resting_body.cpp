@@ -110,13 +110,12 @@ void add_pbs(const LoadedBody& body, const StiffnessSetting& setting, pbs::StepN
 
 void add_xpbd(const LoadedBody& body, const StiffnessSetting& setting, pbs::StepNearRest& step)
 {
-    const pbs::XpbdSolver solver(body.mesh, body.bind_distance, body.zone, xpbd_options(setting), body.held);
+    const pbs::XpbdConstraints of_body = make_xpbd_constraints(body.mesh, body.bind_distance, xpbd_options(setting), body.held);
     const auto add_class = [&](auto constraints) {
         shuffle_if(setting.order_seed, constraints);
-        for (const auto& [constraint, compliance, multiplier] : constraints)
-            step.add(constraint, 1.0, compliance, solver.inverse_masses_1_kg());
+        for (const auto& [constraint, compliance] : constraints) step.add(constraint, 1.0, compliance, of_body.inverse_mass);
     };
-    add_class(solver.bind()), add_class(solver.stretch()), add_class(solver.volume());
+    add_class(of_body.bind), add_class(of_body.stretch), add_class(of_body.volume);
 }
 
 // still: pbs::RestingState or SteppedBody.

@@ -55,21 +55,32 @@ bool shared_among_threads(int vertices)
 }
 
 template <typename Scalar>
-BatchedConstraints<Scalar> make_batched_constraints(const ConstraintSet<Scalar>& constraints, const Tets& tets, Order order)
+BatchedConstraints<Scalar> make_batched_constraints(const ConstraintClassData<Scalar, 2>& stretch,
+                                                    const ConstraintClassData<Scalar, 4>& volume, int vertices, const Tets& tets,
+                                                    Order order)
 {
-    const int vertices = static_cast<int>(constraints.inverse_mass.size());
     BatchedConstraints<Scalar> batched{
         order_vertices(tets, vertices, vertices_a_slab(vertices)), (vertices + batch_size - 1) / batch_size * batch_size, {}, {}};
-    const auto edges = vertices_of_class(constraints.stretch);
-    const auto volumes = vertices_of_class(constraints.volume);
     const bool grouped = order == Order::grouped;
-    batched.stretch = {grouped ? grouped_edges(edges, tets) : single_edges(edges), stretch_values(constraints), batched.order,
+    batched.stretch = {grouped ? grouped_edges(stretch.vertex, tets) : single_edges(stretch.vertex), stretch.values, batched.order,
                        batched.dummy_begin};
-    batched.volume = {grouped ? grouped_tets(volumes) : single_tets(volumes), volume_values(constraints), batched.order,
+    batched.volume = {grouped ? grouped_tets(volume.vertex) : single_tets(volume.vertex), volume.values, batched.order,
                       batched.dummy_begin};
     return batched;
 }
 
+template <typename Scalar>
+BatchedConstraints<Scalar> make_batched_constraints(const ConstraintSet<Scalar>& constraints, const Tets& tets, Order order)
+{
+    const ConstraintClassData<Scalar, 2> stretch{vertices_of_class(constraints.stretch), stretch_values(constraints)};
+    const ConstraintClassData<Scalar, 4> volume{vertices_of_class(constraints.volume), volume_values(constraints)};
+    return make_batched_constraints(stretch, volume, static_cast<int>(constraints.inverse_mass.size()), tets, order);
+}
+
+template BatchedConstraints<float> make_batched_constraints(const ConstraintClassData<float, 2>&, const ConstraintClassData<float, 4>&, int,
+                                                            const Tets&, Order);
+template BatchedConstraints<double> make_batched_constraints(const ConstraintClassData<double, 2>&, const ConstraintClassData<double, 4>&,
+                                                             int, const Tets&, Order);
 template BatchedConstraints<float> make_batched_constraints(const ConstraintSet<float>&, const Tets&, Order);
 template BatchedConstraints<double> make_batched_constraints(const ConstraintSet<double>&, const Tets&, Order);
 

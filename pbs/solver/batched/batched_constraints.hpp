@@ -20,8 +20,22 @@ struct BatchedConstraints {
 // The size of the slabs of a mesh: about four of them and a half at either end, or eight ..., which two threads share evenly; or one. Fewer
 // slabs are nearer to `plain`.
 int vertices_a_slab(int vertices);
+// Fewer slabs than these are done before a second thread has come to help.
+inline constexpr int slabs_worth_threads = 3;
 
-// order: ordered or grouped.
+// The vertices of the constraints of a class and, as Batch has them, their values.
+template <typename Scalar, std::size_t vertices>
+struct ConstraintClassData {
+    std::vector<std::array<int, vertices>> vertex;
+    ConstraintValues<Scalar> values;
+};
+
+// vertices: #V of the mesh. tets: those whose edges may be grouped, constrained or not. order: ordered or grouped.
+template <typename Scalar>
+BatchedConstraints<Scalar> make_batched_constraints(const ConstraintClassData<Scalar, 2>& stretch,
+                                                    const ConstraintClassData<Scalar, 4>& volume, int vertices, const Tets& tets,
+                                                    Order order);
+// Those of Algorithm 1.
 template <typename Scalar>
 BatchedConstraints<Scalar> make_batched_constraints(const ConstraintSet<Scalar>& constraints, const Tets& tets, Order order);
 

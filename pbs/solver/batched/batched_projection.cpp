@@ -12,18 +12,10 @@
 namespace pbs {
 namespace {
 
-// Fewer slabs than these are done before a second thread has come to help.
-constexpr int slabs_worth_threads = 3;
-
 template <typename Scalar>
 double length(Scalar x, Scalar y, Scalar z)
 {
     return std::sqrt(double(x * x + y * y + z * z));
-}
-
-int blocks_of(int vertices)
-{
-    return (vertices + batch_size - 1) / batch_size;
 }
 
 }  // namespace
@@ -34,66 +26,36 @@ BatchedProjection<Scalar>::BatchedProjection(const ConstraintSet<Scalar>& constr
       parallel_(batched_.order.slabs() >= slabs_worth_threads ? options.threads : 1),
       edges_(constraints.stretch.size()),
       tets_(constraints.volume.size()),
-      regions_(constraints.regions)
+      regions_(constraints.regions),
+      particles_(batched_, constraints.inverse_mass, constraints.bind)
 {
     for (RegionVolumeConstraint<Scalar>& region : regions_)
         for (int& vertex : region.vertex) vertex = batched_.order.new_of_old[vertex];
     for (const int old : batched_.order.old_of_new) inverse_mass_.push_back(constraints.inverse_mass[old]);
-    const int vertices = batched_.vertices();
-    vertices_.resize(blocks_of(batched_.dummy_begin + batched_.order.slabs() * BatchProgram<Scalar>::dummies_a_slab), Block{});
-    for (int i = 0; i < vertices; ++i) this->vertices()[4 * i + 3] = constraints.inverse_mass[batched_.order.old_of_new[i]];
-    fill_bind(constraints);
     for (int slab = 0; slab < batched_.order.slabs(); ++slab) {
         stretch_runs_.push_back(batched_.stretch.runs(slab));
         volume_runs_.push_back(batched_.volume.runs(slab));
     }
     if (!options.sleep) return;
-    neighbours_ = adjacency_of(Tets(tets.unaryExpr([&](int old) { return batched_.order.new_of_old[old]; })), vertices);
-}
-
-template <typename Scalar>
-void BatchedProjection<Scalar>::fill_bind(const ConstraintSet<Scalar>& constraints)
-{
-    if (constraints.bind.empty()) return;
-    bind_.resize(blocks_of(static_cast<int>(constraints.inverse_mass.size())), BindBatch<Scalar>{});
-    for (const BindConstraint<Scalar>& bind : constraints.bind) {
-        const int i = batched_.order.new_of_old[bind.vertex];
-        BindBatch<Scalar>& batch = bind_[i / batch_size];
-        batch.rest_distance[i % batch_size] = bind.rest_distance;
-        batch.stiffness[i % batch_size] = constraints.inverse_mass[bind.vertex] > Scalar(0) ? bind.stiffness : Scalar(0);
-    }
+    neighbours_ = adjacency_of(Tets(tets.unaryExpr([&](int old) { return batched_.order.new_of_old[old]; })), batched_.vertices());
 }
 
 template <typename Scalar>
 void BatchedProjection<Scalar>::load(const Positions& p, const Positions& q, const Vec3& origin)
 {
-    for (std::size_t i = 0; i < batched_.order.old_of_new.size(); ++i) {
-        const int old = batched_.order.old_of_new[i];
-        for (int axis = 0; axis < 3; ++axis) vertices()[4 * i + axis] = Scalar(p(old, axis) - origin(axis));
-        if (bind_.empty()) continue;
-        BindBatch<Scalar>& batch = bind_[i / batch_size];
-        batch.x[i % batch_size] = Scalar(q(old, 0) - origin(0));
-        batch.y[i % batch_size] = Scalar(q(old, 1) - origin(1));
-        batch.z[i % batch_size] = Scalar(q(old, 2) - origin(2));
-    }
+    particles_.load(p, q, origin);
 }
 
 template <typename Scalar>
 void BatchedProjection<Scalar>::store(const Vec3& origin, Positions& p) const
 {
-    for (std::size_t i = 0; i < batched_.order.old_of_new.size(); ++i)
-        for (int axis = 0; axis < 3; ++axis) p(batched_.order.old_of_new[i], axis) = double(vertices()[4 * i + axis]) + origin(axis);
+    particles_.store(origin, p);
 }
 
 template <typename Scalar>
 void BatchedProjection<Scalar>::project_bind_constraints()
 {
-    constexpr int blocks_a_task = 64;
-    const int blocks = static_cast<int>(bind_.size()), tasks = (blocks + blocks_a_task - 1) / blocks_a_task;
-    parallel_.for_each(tasks, [&](int task) {
-        const int first = task * blocks_a_task;
-        project_bind_batches(bind_.data() + first, std::min(blocks_a_task, blocks - first), vertices_[first].xyzw);
-    });
+    particles_.project_bind_constraints(parallel_);
 }
 
 template <typename Scalar>
@@ -130,20 +92,20 @@ Residuals BatchedProjection<Scalar>::residuals() const
         return std::accumulate(of_slab.begin(), of_slab.end(), 0.0);
     };
     const auto rms = [](double sum, std::size_t count) { return count == 0 ? 0.0 : std::sqrt(sum / double(count)); };
-    const double bind = sum_squared_bind_errors(bind_.data(), static_cast<int>(bind_.size()), vertices());
+    const double bind = sum_squared_bind_errors(particles_.bind().data(), static_cast<int>(particles_.bind().size()), vertices());
     const double of_regions = rms_of_regions(regions_, [this](int i) { return Eigen::Map<const Vector3<Scalar>>(vertices() + 4 * i); });
     return {rms(sum(batched_.stretch), edges_), joint_rms(rms(sum(batched_.volume), tets_), tets_, of_regions, regions_.size()),
-            rms(bind, bind_.empty() ? 0 : batched_.order.old_of_new.size())};
+            rms(bind, particles_.bind().empty() ? 0 : batched_.order.old_of_new.size())};
 }
 
 template <typename Scalar>
 std::vector<char> BatchedProjection<Scalar>::unsatisfied(const SleepTolerance& tolerance) const
 {
-    std::vector<char> vertices(vertices_.size() * batch_size, false);
+    std::vector<char> vertices(particles_.blocks().size() * batch_size, false);
     batched_.stretch.mark_unsatisfied(this->vertices(), tolerance.ratio, vertices);
     batched_.volume.mark_unsatisfied(this->vertices(), tolerance.ratio, vertices);
-    for (std::size_t i = 0; !bind_.empty() && i < batched_.order.old_of_new.size(); ++i) {
-        const BindBatch<Scalar>& batch = bind_[i / batch_size];
+    for (std::size_t i = 0; !particles_.bind().empty() && i < batched_.order.old_of_new.size(); ++i) {
+        const BindBatch<Scalar>& batch = particles_.bind()[i / batch_size];
         const int lane = i % batch_size;
         const Scalar* p = this->vertices() + 4 * i;
         const double distance = length(p[0] - batch.x[lane], p[1] - batch.y[lane], p[2] - batch.z[lane]);
@@ -158,7 +120,7 @@ void BatchedProjection<Scalar>::sleep(const SleepTolerance& tolerance)
     if (neighbours_.first.empty()) return;
     std::vector<char> needed = unsatisfied(tolerance);
     for (std::size_t i = 0; i < moved_.size(); ++i) needed[i] = needed[i] || moved_[i];
-    loaded_ = vertices_;
+    loaded_ = particles_.blocks();
     awake_.assign(needed.size(), false);
     keep_awake(needed);
 }
@@ -220,7 +182,7 @@ template <typename Scalar>
 std::size_t BatchedProjection<Scalar>::bytes_an_iteration() const
 {
     const std::size_t positions = 4 * sizeof(Scalar) * batched_.order.old_of_new.size();
-    return batched_.stretch.bytes() + batched_.volume.bytes() + bind_.size() * sizeof(BindBatch<Scalar>) + 2 * positions * 3;
+    return batched_.stretch.bytes() + batched_.volume.bytes() + particles_.bind().size() * sizeof(BindBatch<Scalar>) + 2 * positions * 3;
 }
 
 template class BatchedProjection<float>;

@@ -6,6 +6,7 @@
 
 #include "pbs/geometry/topology.hpp"
 #include "pbs/solver/batched/batched_constraints.hpp"
+#include "pbs/solver/batched/batched_particles.hpp"
 #include "pbs/solver/parallel.hpp"
 #include "pbs/solver/projection.hpp"
 
@@ -36,13 +37,9 @@ public:
     double volume_fill() const { return batched_.volume.fill(); }    // likewise
 
 private:
-    struct alignas(64) Block {  // sixteen vertices of x, y, z, w
-        Scalar xyzw[4 * batch_size];
-    };
-    Scalar* vertices() { return vertices_.front().xyzw; }
-    const Scalar* vertices() const { return vertices_.front().xyzw; }
+    Scalar* vertices() { return particles_.xyzw(); }
+    const Scalar* vertices() const { return particles_.xyzw(); }
 
-    void fill_bind(const ConstraintSet<Scalar>& constraints);
     void project(const BatchProgram<Scalar>& program, const std::vector<std::vector<BatchRun>>& runs);
     std::vector<char> unsatisfied(const SleepTolerance& tolerance) const;  // vertices, dummies included
     void keep_awake(const std::vector<char>& vertices);                    // and all around them
@@ -52,14 +49,13 @@ private:
     std::size_t edges_, tets_;  // constraints of each class
     // In the new order. Regions are projected one after the other by the scalar code of the order plain, after all batches of the tets.
     std::vector<RegionVolumeConstraint<Scalar>> regions_;
-    std::vector<Scalar> inverse_mass_;     // #V
-    std::vector<BindBatch<Scalar>> bind_;  // of all vertices in the new order; empty: no bind constraints
-    std::vector<Block> vertices_;          // then dummies
+    std::vector<Scalar> inverse_mass_;  // #V
+    BatchedParticles<Scalar> particles_;
 
     std::vector<std::vector<BatchRun>> stretch_runs_, volume_runs_;  // what is projected, of each slab
     std::vector<char> awake_;                                        // vertices, dummies included; empty: all are
     std::vector<char> moved_;                                        // in the last step, by more than the tolerance; they start awake
-    std::vector<Block> loaded_;                                      // vertices_ before the step, with sleep
+    std::vector<typename BatchedParticles<Scalar>::Block> loaded_;   // particles_ before the step, with sleep
     Adjacency neighbours_;                                           // in the new order; empty without sleep
 };
 

@@ -3,6 +3,7 @@
 #include "pbs/solver/batched/batch_kernels.hpp"
 #include "pbs/solver/batched/batched_constraints.hpp"
 #include "pbs/solver/pbs_solver.hpp"
+#include "pbs/solver/xpbd_solver.hpp"
 
 #include "analysis/records/state_hash.hpp"
 #include "tests/support/two_bone_limb.hpp"
@@ -89,6 +90,31 @@ TEST(Threads, ChangesToTheMethodGiveTheSameBits)
         for (const int threads : {2, 4}) EXPECT_EQ(hash(volume_of, threads), alone) << threads << " threads";
     }
     EXPECT_NE(hash(pbs::VolumeOf::regions, 1), hash(pbs::VolumeOf::tets, 1));
+}
+
+// The hash of XPBD after two steps of two substeps, with one jiggling half.
+std::string hash_of_xpbd(Order order, Precision precision, int threads)
+{
+    std::vector<bool> jiggles(limb.lbs.rows());
+    for (Eigen::Index i = 0; i < limb.lbs.rows(); ++i) jiggles[i] = limb.mesh.rest(i, 0) > 0.0;
+    pbs::XpbdSolver solver(limb.mesh, limb.binding.distance, jiggles,
+                           {.iterations = 2, .substeps = 2, .jiggle = true, .order = order, .precision = precision, .threads = threads});
+    analysis::StateHash hash;
+    for (const auto* lbs : {&limb.mesh.rest, &limb.lbs}) {
+        solver.advance(*lbs, limb.bind_points, 0.01);
+        hash.add(solver.positions());
+    }
+    return hash.hex();
+}
+
+TEST(Threads, OneTwoAndFourGiveTheSameBitsOfXpbd)
+{
+    for (const Order order : batched_orders)
+        for (const Precision precision : {Precision::f32, Precision::f64}) {
+            const std::string alone = hash_of_xpbd(order, precision, 1);
+            for (const int threads : {2, 4}) EXPECT_EQ(hash_of_xpbd(order, precision, threads), alone) << threads << " threads";
+            EXPECT_NE(hash_of_xpbd(Order::plain, precision, 1), alone);
+        }
 }
 
 TEST(Threads, RunsRepeatToTheBit)

@@ -22,7 +22,7 @@ using pbs::XpbdOptions;
 const test_support::HangingTet tet = test_support::hanging_tet();
 constexpr double dt_s = 0.01;
 
-pbs::XpbdOptions hanging(int iterations, int substeps)
+pbs::XpbdOptions hanging(int iterations, int substeps, pbs::Order order = pbs::Order::plain)
 {
     return {.young_pa = 1e7,
             .poisson = 0.25,
@@ -30,7 +30,8 @@ pbs::XpbdOptions hanging(int iterations, int substeps)
             .iterations = iterations,
             .substeps = substeps,
             .gravity_m_s2 = Vec3(1.0, 2.0, -9.0),
-            .jiggle = true};
+            .jiggle = true,
+            .order = order};
 }
 
 double volume_m3()
@@ -55,11 +56,12 @@ Vec3 static_displacement(const pbs::XpbdOptions& options)
     return stiffness_n_m(options).inverse() * (options.density_kg_m3 * volume_m3() / 4.0 * options.gravity_m_s2);
 }
 
-class XpbdAtRest : public testing::TestWithParam<std::pair<int, int>> {};
+class XpbdAtRest : public testing::TestWithParam<std::tuple<std::pair<int, int>, pbs::Order>> {};
 
 TEST_P(XpbdAtRest, HangsAsSpringsDo)
 {
-    const pbs::XpbdOptions options = hanging(GetParam().first, GetParam().second);
+    const auto& [counts, order] = GetParam();
+    const pbs::XpbdOptions options = hanging(counts.first, counts.second, order);
     pbs::XpbdSolver solver(tet.mesh, {}, tet.free, options, tet.held);
     for (int step = 0; step < 4000; ++step) solver.advance(tet.mesh.rest, tet.mesh.rest, dt_s);
     const Vec3 expected = static_displacement(options);
@@ -71,7 +73,9 @@ TEST_P(XpbdAtRest, HangsAsSpringsDo)
     EXPECT_LT((solver.positions().row(3) - tet.mesh.rest.row(3) - expected.transpose()).norm(), error_m);
 }
 
-INSTANTIATE_TEST_SUITE_P(IterationsAndSubsteps, XpbdAtRest, testing::Values(std::pair{10, 1}, std::pair{100, 1}, std::pair{10, 10}));
+INSTANTIATE_TEST_SUITE_P(IterationsAndSubsteps, XpbdAtRest,
+                         testing::Combine(testing::Values(std::pair{10, 1}, std::pair{100, 1}, std::pair{10, 10}),
+                                          testing::Values(pbs::Order::plain, pbs::Order::ordered, pbs::Order::grouped)));
 
 // One iteration per substep does not solve the substep; the error falls with its length.
 TEST(XpbdAtRestWithSmallSteps, ConvergesWithTheSubsteps)
