@@ -39,6 +39,7 @@ private:
     void predict(const Pose& pose);
     void project(const std::vector<BoneSegment>& bones);
     void update();
+    WorkCounters work_of(int iterations) const;
     std::vector<BoneSegment> posed_bones(const Pose& pose) const;
 
     AuthorOptions options_;

@@ -6,7 +6,8 @@
 
 namespace pbs {
 
-// Sums over one step. A deformer fills those that its method has; the others stay zero.
+// Sums over one step. Zero means none: every deformer of this program counts all of its work. Where nothing counts, as in a program of the
+// user's own, records have empty cells.
 struct WorkCounters {
     std::int64_t gradients = 0;       // gradients of an energy of the whole body, with or without its value
     std::int64_t vertex_visits = 0;   // blends, smoothings, rotations and block solves of one vertex

@@ -1,9 +1,11 @@
 // Reference: the definitions in pbs/geometry/work_counters.hpp, counted by hand on a bar.
 #include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/deformers/registry.hpp"
+#include "pbs/author/author_options.hpp"
 #include "pbs/geometry/topology.hpp"
 #include "pbs/skinning/delta_mush.hpp"
-#include "pbs/solver/options.hpp"
+#include "pbs/skinning/direct_delta_mush.hpp"
+#include "pbs/solver/xpbd_options.hpp"
 #include "tests/support/bar_character.hpp"
 
 #include <gtest/gtest.h>
@@ -52,6 +54,67 @@ TEST(CountedWork, PbsBlendsAndProjects)
               (WorkCounters{.vertex_visits = vertices(), .tet_visits = 3 * tets, .projections = 3 * (vertices() + edges + tets)}));
 }
 
+TEST(CountedWork, PbsAuthorBlendsAndProjects)
+{
+    DeformerSpec spec = default_spec("pbs_author");
+    options_of<pbs::AuthorOptions>(spec).iterations = 3;
+    const std::int64_t tets = bar().mesh.tets.rows(), edges = pbs::edges_of(bar().mesh.tets).rows();
+    EXPECT_EQ(bent(spec).work,
+              (WorkCounters{.vertex_visits = vertices(), .tet_visits = 3 * tets, .projections = 3 * (vertices() + edges + tets)}));
+}
+
+// A pose that equals the last one is not stepped, so that there is no work.
+TEST(CountedWork, PbsAuthorDoesNothingWhenTheCharacterStops)
+{
+    const auto deformer = make_deformer(default_spec("pbs_author"));
+    deformer->reset(bar());
+    const pbs::Pose pose = pbs::joint_sweep(bar().skeleton, 1, pbs::Vec3::UnitZ(), 30.0, 2, 0.01).steps.back();
+    EXPECT_GT(deformer->advance(pose, 0.01).work.projections, 0);
+    EXPECT_EQ(deformer->advance(pose, 0.01).work, WorkCounters{});
+}
+
+TEST(CountedWork, XpbdBlendsAndProjects)
+{
+    const std::int64_t tets = bar().mesh.tets.rows(), edges = pbs::edges_of(bar().mesh.tets).rows();
+    for (const char* kind : {"xpbd", "xpbd_small_steps"})
+        for (const pbs::Order order : {pbs::Order::plain, pbs::Order::ordered, pbs::Order::grouped}) {
+            DeformerSpec spec = default_spec(kind);
+            auto& options = options_of<pbs::XpbdOptions>(spec);
+            options.iterations = 3, options.substeps = 2, options.order = order;
+            EXPECT_EQ(bent(spec).work,
+                      (WorkCounters{.vertex_visits = vertices(), .tet_visits = 6 * tets, .projections = 6 * (vertices() + edges + tets)}));
+        }
+}
+
+TEST(CountedWork, DirectDeltaMushVisitsEachVertexOnce)
+{
+    DeformerSpec spec = default_spec("direct_delta_mush");
+    options_of<pbs::DirectDeltaMushOptions>(spec).iterations = 5;
+    EXPECT_EQ(bent(spec).work, WorkCounters{.vertex_visits = vertices()}) << "it has smoothed before the first pose";
+}
+
+// One solve per iteration; a gradient, in which each tet is visited, at the beginning and for each trial of the line search.
+TEST(CountedWork, QuasiNewtonEvaluatesAndSolves)
+{
+    const pbs::StepSummary step = bent(default_spec("quasi_newton"));
+    ASSERT_EQ(step.outcome, pbs::Outcome::finished);
+    EXPECT_EQ(step.work.linear_solves, step.iterations);
+    EXPECT_GE(step.work.gradients, step.iterations + 1);
+    EXPECT_EQ(step.work.tet_visits, step.work.gradients * bar().mesh.tets.rows());
+    EXPECT_EQ(step.work.vertex_visits, vertices());
+    EXPECT_EQ(step.work.projections + step.work.factorisations, 0);
+}
+
+// Zero in a record means that there was none. So every deformer of this program counts; those of the user have empty cells.
+TEST(CountedWork, EveryDeformerCounts)
+{
+    for (const DeformerKind& kind : deformer_kinds())
+        if (!kind.needs_list) {
+            EXPECT_NE(bent(default_spec(kind.name)).work, WorkCounters{}) << kind.name;
+        }
+}
+
+// Its matrix and factor are kept from the first frame on: no frame visits a tet.
 TEST(CountedWork, LinearFemSolvesOneSystem)
 {
     DeformerSpec spec = default_spec("fem");

@@ -70,6 +70,21 @@ TEST(DeformerSettings, WithoutKeysOfItsCodeThereIsOneWithItsDefaults)
     EXPECT_TRUE(settings[0].twice);
 }
 
+// Each order in each precision; the baseline is the plain code of the same precision.
+TEST(DeformerSettings, EveryOrderAndPrecisionOfXpbd)
+{
+    for (const char* kind : {"xpbd", "xpbd_small_steps"}) {
+        const std::vector<DeformerSetting> settings = deformer_settings(*find_deformer_kind(kind));
+        ASSERT_EQ(settings.size(), std::string(kind) == "xpbd" ? 6u : 1u) << kind;
+        for (const DeformerSetting& setting : settings) {
+            EXPECT_EQ(traits_of(setting.spec).packed, setting.order != "plain" && setting.order != "") << kind;
+            EXPECT_EQ(traits_of(setting.spec).precision, setting.precision) << kind;
+            EXPECT_EQ(traits_of(settings[setting.plain].spec).packed, false) << kind;
+            EXPECT_EQ(settings[setting.plain].precision, setting.precision) << kind;
+        }
+    }
+}
+
 // The arithmetic is order and precision in one key: packed in both precisions, and plain in f64, the baseline of both.
 TEST(DeformerSettings, EveryArithmetic)
 {
@@ -92,8 +107,8 @@ TEST(DeformerSettings, EveryArithmetic)
 // Every one of them that has loops over vertices or elements of its own; the tets of a bar determine its work, and what it keeps.
 TEST(DeformerSettings, TheWorkIsCounted)
 {
-    for (const char* kind : {"lbs", "dqs", "delta_mush", "direct_delta_mush", "pbs", "xpbd", "xpbd_small_steps", "quasi_newton", "vbd",
-                             "xpbd_neo_hookean", "projective_dynamics"}) {
+    for (const char* kind : {"lbs", "dqs", "delta_mush", "direct_delta_mush", "pbs", "pbs_author", "xpbd", "xpbd_small_steps",
+                             "quasi_newton", "vbd", "xpbd_neo_hookean", "projective_dynamics"}) {
         const DeformerSpec spec = default_spec(kind);
         const auto deformer = make_deformer(spec);
         deformer->reset(bar().character);
