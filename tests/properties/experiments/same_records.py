@@ -15,7 +15,8 @@ import reliability
 import run_records
 
 LONG = bool(os.environ.get("PBS_LONG"))
-ALL = '["lbs", "dqs", "delta_mush", "pbs", "xpbd", "xpbd_small_steps"]'
+ALL = ('["lbs", "dqs", "delta_mush", "direct_delta_mush", "pbs", "pbs_author", "xpbd", "xpbd_small_steps", "quasi_newton", "vbd", '
+       '"xpbd_neo_hookean", "projective_dynamics"]')
 FEM = '[[fem]]\nname = "p1"\nmodel = "linear"\n[[fem]]\nname = "snh"\nmodel = "stable_neo_hookean"\n'
 ORDERS, PRECISIONS = ["plain", "ordered", "grouped"], ["f32", "f64"]
 BLAS_THREADS = [{"OPENBLAS_NUM_THREADS": n, "OMP_NUM_THREADS": n} for n in "124"]
@@ -68,10 +69,11 @@ class SameRecords(program.ProgramTest):
         self.expect_same(first, self.run_once(scene, before=["setarch", "-R"]))  # no address-space randomisation
 
     def test_threads_on_a_mesh_that_is_shared_among_them(self):
-        scene = self.write_arm((60, 15, 15), ALL)  # 15,616 vertices
+        scene = self.write_arm((64, 15, 15), ALL)  # 16,640 vertices: vbd shares 16,384 or more
         settings = list(itertools.product(ORDERS, PRECISIONS)) if LONG else [("ordered", "f32"), ("grouped", "f64")]
         for order, precision in settings:
-            sets = ["--set", f'pbs.order="{order}"', "--set", f'pbs.precision="{precision}"']
+            sets = ["--set", f'pbs.order="{order}"', "--set", f'pbs.precision="{precision}"',
+                    "--set", f'xpbd.order="{order}"', "--set", f'xpbd.precision="{precision}"']
             alone = self.run_once(scene, *sets, "--threads", 1)
             for threads in (2, 4) if LONG else (4,):
                 with self.subTest(order=order, precision=precision, threads=threads):

@@ -4,6 +4,7 @@
 #include "pbs/flesh/plain_flesh.hpp"
 #include "tests/support/evaluated_flesh.hpp"
 #include "tests/support/flesh_rounding.hpp"
+#include "tests/support/four_threads.hpp"
 #include "tests/support/held_bar.hpp"
 
 #include <gtest/gtest.h>
@@ -92,20 +93,28 @@ TEST(PackedFlesh, EqualsPlainOnOneTet)
     expect_equal_to_plain<double>(flesh);
 }
 
-// 13,005 vertices: enough slabs for several threads.
-TEST(PackedFlesh, ThreadsChangeNoBit)
+template <typename Scalar>
+void expect_threads_to_change_no_bit(const Flesh& flesh)
 {
-    const Flesh flesh({44, 16, 16});
     const Positions x = test_support::jittered(flesh.bent.lbs, 0.002);
-    pbs::PackedFlesh<float> alone(flesh.bent.mesh, flesh.energy, flesh.factor, 1);
-    const Evaluated expected = evaluated<float>(alone, flesh.centres, x);
+    pbs::PackedFlesh<Scalar> alone(flesh.bent.mesh, flesh.energy, flesh.factor, 1);
+    const Evaluated expected = evaluated<Scalar>(alone, flesh.centres, x);
     for (const int threads : {2, 4}) {
-        pbs::PackedFlesh<float> shared(flesh.bent.mesh, flesh.energy, flesh.factor, threads);
-        const Evaluated found = evaluated<float>(shared, flesh.centres, x);
+        pbs::PackedFlesh<Scalar> shared(flesh.bent.mesh, flesh.energy, flesh.factor, threads);
+        const Evaluated found = evaluated<Scalar>(shared, flesh.centres, x);
         EXPECT_EQ(found.energy, expected.energy);
         EXPECT_EQ(found.gradient, expected.gradient);
         EXPECT_EQ(found.preconditioned, expected.preconditioned);
     }
+}
+
+// 13,005 vertices: enough slabs for several threads.
+TEST(PackedFlesh, ThreadsChangeNoBit)
+{
+    const Flesh flesh({44, 16, 16});
+    ASSERT_GE(test_support::slabs_of(flesh.bent.mesh), 4);
+    expect_threads_to_change_no_bit<float>(flesh);
+    expect_threads_to_change_no_bit<double>(flesh);
 }
 
 }  // namespace

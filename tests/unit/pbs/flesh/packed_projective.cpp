@@ -4,6 +4,7 @@
 #include "pbs/flesh/plain_flesh.hpp"
 #include "pbs/flesh/projective_dynamics.hpp"
 #include "tests/support/evaluated_flesh.hpp"
+#include "tests/support/four_threads.hpp"
 #include "tests/support/held_bar.hpp"
 
 #include <gtest/gtest.h>
@@ -119,19 +120,28 @@ TEST(PackedProjective, EqualsPlainOnCollapsedTets)
     EXPECT_EQ(expect_equal_to_plain<double>(flesh, Positions::Zero(flat.rows(), 3)), flesh.bent.mesh.tets.rows());
 }
 
+template <typename Scalar>
+void expect_threads_to_change_no_bit(const Flesh& flesh)
+{
+    const Positions x = test_support::jittered(flesh.bent.lbs, 0.01);
+    pbs::PackedProjective<Scalar> alone(flesh.bent.mesh, flesh.energy, flesh.held.factor(), 1);
+    const Evaluated expected = evaluated<Scalar>(alone, flesh.centres, x);
+    for (const int threads : {2, 4}) {
+        pbs::PackedProjective<Scalar> shared(flesh.bent.mesh, flesh.energy, flesh.held.factor(), threads);
+        const Evaluated found = evaluated<Scalar>(shared, flesh.centres, x);
+        EXPECT_EQ(found.energy, expected.energy);
+        EXPECT_EQ(found.gradient, expected.gradient);
+        EXPECT_EQ(found.preconditioned, expected.preconditioned);
+    }
+}
+
 // 13,005 vertices: enough slabs for several threads.
 TEST(PackedProjective, ThreadsChangeNoBit)
 {
     const Flesh flesh({44, 16, 16});
-    const Positions x = test_support::jittered(flesh.bent.lbs, 0.01);
-    pbs::PackedProjective<float> alone(flesh.bent.mesh, flesh.energy, flesh.held.factor(), 1);
-    const Evaluated expected = evaluated<float>(alone, flesh.centres, x);
-    for (const int threads : {2, 4}) {
-        pbs::PackedProjective<float> shared(flesh.bent.mesh, flesh.energy, flesh.held.factor(), threads);
-        const Evaluated found = evaluated<float>(shared, flesh.centres, x);
-        EXPECT_EQ(found.energy, expected.energy);
-        EXPECT_EQ(found.gradient, expected.gradient);
-    }
+    ASSERT_GE(test_support::slabs_of(flesh.bent.mesh), 4);
+    expect_threads_to_change_no_bit<float>(flesh);
+    expect_threads_to_change_no_bit<double>(flesh);
 }
 
 // The limit is the minimum of the same energy; steps fall linearly, by a factor below 0.99 in this case.

@@ -2,6 +2,7 @@
 #include "pbs/flesh/packed_vertex_sweep.hpp"
 
 #include "pbs/flesh/plain_vertex_sweep.hpp"
+#include "tests/support/four_threads.hpp"
 #include "tests/support/held_bar.hpp"
 #include "tests/support/measured_condition.hpp"
 
@@ -166,18 +167,25 @@ TEST(PackedVertexSweep, ExtrapolatesAsPlainDoes)
     }
 }
 
+template <typename Scalar>
+void expect_threads_to_sweep_alike(const Body& body)
+{
+    const Positions x = test_support::jittered(body.bent.lbs, 0.002);
+    pbs::PackedVertexSweep<Scalar> alone(body.bent.mesh, body.energy, 1);
+    const Positions expected = swept<Scalar>(alone, body, x, 2);
+    for (const int threads : {2, 4}) {
+        pbs::PackedVertexSweep<Scalar> shared(body.bent.mesh, body.energy, threads);
+        EXPECT_EQ(swept<Scalar>(shared, body, x, 2), expected) << threads;
+    }
+}
+
 // 17,629 vertices, some 9 colours: chunks for several threads.
 TEST(PackedVertexSweep, ThreadsChangeNoBit)
 {
     const Body body({60, 16, 16});
     ASSERT_GE(body.bent.mesh.rest.rows(), 16384);
-    const Positions x = test_support::jittered(body.bent.lbs, 0.002);
-    pbs::PackedVertexSweep<float> alone(body.bent.mesh, body.energy, 1);
-    const Positions expected = swept<float>(alone, body, x, 2);
-    for (const int threads : {2, 4}) {
-        pbs::PackedVertexSweep<float> shared(body.bent.mesh, body.energy, threads);
-        EXPECT_EQ(swept<float>(shared, body, x, 2), expected);
-    }
+    expect_threads_to_sweep_alike<float>(body);
+    expect_threads_to_sweep_alike<double>(body);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include "pbs/flesh/packed_xpbd.hpp"
 
 #include "pbs/flesh/plain_xpbd.hpp"
+#include "tests/support/four_threads.hpp"
 #include "tests/support/held_xpbd.hpp"
 
 #include <gtest/gtest.h>
@@ -87,17 +88,25 @@ TEST(PackedXpbd, VisitsEveryConstraintOnce)
     EXPECT_EQ(visits.size(), expected.size());
 }
 
+template <typename Scalar>
+void expect_threads_to_iterate_alike(const HeldXpbd& held)
+{
+    const Positions from = test_support::jittered(held.bent.lbs, 0.002);
+    pbs::PackedXpbd<Scalar> alone(held.bent.mesh, held.flesh, 1);
+    const Positions expected = iterated<Scalar>(alone, held, from, 3, true);
+    for (const int threads : {2, 4}) {
+        pbs::PackedXpbd<Scalar> shared(held.bent.mesh, held.flesh, threads);
+        EXPECT_EQ(iterated<Scalar>(shared, held, from, 3, true), expected) << threads;
+    }
+}
+
 // 13,005 vertices: enough slabs for several threads.
 TEST(PackedXpbd, ThreadsChangeNoBit)
 {
     const HeldXpbd held({44, 16, 16});
-    const Positions from = test_support::jittered(held.bent.lbs, 0.002);
-    pbs::PackedXpbd<float> alone(held.bent.mesh, held.flesh, 1);
-    const Positions expected = iterated<float>(alone, held, from, 3, true);
-    for (const int threads : {2, 4}) {
-        pbs::PackedXpbd<float> shared(held.bent.mesh, held.flesh, threads);
-        EXPECT_EQ(iterated<float>(shared, held, from, 3, true), expected) << threads;
-    }
+    ASSERT_GE(test_support::slabs_of(held.bent.mesh), 4);
+    expect_threads_to_iterate_alike<float>(held);
+    expect_threads_to_iterate_alike<double>(held);
 }
 
 }  // namespace
