@@ -98,7 +98,8 @@ IterationWork work_of_projective_dynamics(const BodyCounts& body, double scalar_
     return work;
 }
 
-// Each tet is visited once for each of its vertices. Of a vertex: its row of the block, its centre in, its position in and out.
+// Each tet is visited once for each of its vertices. A vertex brings its row of the block, its centre, and its position, which is also
+// written.
 IterationWork work_of_vertex_sweep(const BodyCounts& body, double scalar_bytes, bool chebyshev)
 {
     const double visits = 4 * body.tets, row = row_bytes(scalar_bytes);

@@ -77,8 +77,9 @@ struct PbsOptions {
     ClassOrder class_order = ClassOrder::bind_stretch_volume;     // as printed
     LbsEntry lbs_entry = LbsEntry::start;                         // increment: no vertex can be held
     BindOnBone bind_on_bone = BindOnBone::pinned;                 // k_bind applies to it as to any other
-    // Constraints that LBS satisfies within the tolerance, and all around them, are left out of the frame; at its end they are looked at
-    // again and the frame is redone with those that are not satisfied any more. Tolerance: ratios; bind in shares of the mean edge.
+    // A constraint is left out of the frame if LBS satisfies it and all constraints around it within the tolerance. At the end of the
+    // frame, those left out are checked, and the frame is repeated with those that are not satisfied any more. The tolerance is one of
+    // ratios; for bind constraints it is a share of the mean edge.
     bool sleep = false;
     double sleep_tolerance = 1e-3;   // 0 or more, dimensionless; see sleep
     double stop_residual = 0.0;      // stop when the largest of the three residuals is below, else not_converged; 0: all iterations

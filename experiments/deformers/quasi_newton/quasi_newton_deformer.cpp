@@ -24,7 +24,9 @@ const OptionFields<QuasiNewtonDeformerOptions>& quasi_newton_fields()
             .add("history", &Options::history,
                  {.lowest = 0, .highest = 100, .meaning = "pairs of steps and changes of the gradient that L-BFGS keeps"})
             .add("volume_share", &Options::volume_share,
-                 {.lowest = 0.0, .highest = 100.0, .meaning = "of lambda in the first matrix; it changes the way, not the minimum"})
+                 {.lowest = 0.0,
+                  .highest = 100.0,
+                  .meaning = "share of lambda in the first matrix; it changes the iterates, not the minimum"})
             .add("stop_gradient", &Options::stop_gradient,
                  {.lowest = 0.0,
                   .highest = 1.0,

@@ -1,4 +1,4 @@
-// Sixteen groups of constraints that share no vertex, side by side: what the kernels work off. Plain data, for builders and kernels alike.
+// Sixteen groups of constraints that share no vertex, side by side: the input of the kernels. Plain data, for builders and kernels alike.
 // A group is what one lane projects before it stores its vertices: a single constraint (order `ordered`), or a few that share most of their
 // vertices (order `grouped`), so that each vertex is loaded and stored once for all of them.
 #pragma once
