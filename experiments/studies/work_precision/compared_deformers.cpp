@@ -125,6 +125,7 @@ std::vector<ComparedDeformer> projecting()
                            .iterations = of_projections,
                            .few_iterations = few_of_projections,
                            .grid = of_stiffness,
+                           .codes = {{"xpbd.order=ordered", "xpbd.precision=f32"}, {"xpbd.order=plain", "xpbd.precision=f64"}},
                            .young_key = "xpbd.young_pa",
                            .poisson_key = "xpbd.poisson",
                            .stiffness_key = "xpbd.young_pa"});
