@@ -116,7 +116,7 @@ TEST(BatchedXpbdBites, AnotherSequenceIsFarOff)
               100.0 * rounding_of_three_iterations<double>(Order::ordered));
 }
 
-TYPED_TEST(BatchedXpbd, FloatIsNearDouble)
+TEST(BatchedXpbdInFloat, IsNearDouble)
 {
     for (const Order order : packed_orders)
         EXPECT_LT((by_batches<float>(order) - by_batches<double>(order)).cwiseAbs().maxCoeff(), rounding_of_three_iterations<float>(order));
