@@ -113,7 +113,6 @@ TEST(Threads, OneTwoAndFourGiveTheSameBitsOfXpbd)
         for (const Precision precision : {Precision::f32, Precision::f64}) {
             const std::string alone = hash_of_xpbd(order, precision, 1);
             for (const int threads : {2, 4}) EXPECT_EQ(hash_of_xpbd(order, precision, threads), alone) << threads << " threads";
-            EXPECT_NE(hash_of_xpbd(Order::plain, precision, 1), alone);
         }
 }
 
@@ -126,6 +125,8 @@ TEST(Threads, RunsRepeatToTheBit)
 
 TEST(Threads, OrdersAndPrecisionsDiffer)
 {
+    EXPECT_NE(hash_of_xpbd(Order::ordered, Precision::f32, 1), hash_of_xpbd(Order::grouped, Precision::f32, 1));
+    EXPECT_NE(hash_of_xpbd(Order::ordered, Precision::f32, 1), hash_of_xpbd(Order::ordered, Precision::f64, 1));
     EXPECT_NE(hash_of_run(Order::plain, Precision::f32, 1), hash_of_run(Order::ordered, Precision::f32, 1));
     EXPECT_NE(hash_of_run(Order::ordered, Precision::f32, 1), hash_of_run(Order::grouped, Precision::f32, 1));
     EXPECT_NE(hash_of_run(Order::ordered, Precision::f32, 1), hash_of_run(Order::ordered, Precision::f64, 1));
