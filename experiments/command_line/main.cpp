@@ -22,10 +22,9 @@ CLI::App* add_verb(CLI::App& app, CommonOptions& common, const std::string& name
     CLI::App* verb = app.add_subcommand(name, meaning);
     verb->add_flag("--quiet", common.quiet, "errors only");
     verb->add_flag("--verbose", common.verbose, "print more: the results of each run of a study");
-    verb->add_option(
-            "--threads", common.threads,
-            "number of threads; run and check: of a deformer (pbs in the orders ordered and grouped, on meshes that are large enough; by "
-            "default 1); bench: what is timed in addition to one thread (by default all cores); the other verbs use one thread")
+    verb->add_option("--threads", common.threads,
+                     "number of threads; run and check: of a deformer (its packed code, on meshes that are large enough; by "
+                     "default 1); bench: what is timed in addition to one thread (by default all cores); the other verbs use one thread")
         ->check(CLI::Range(1, 1024));
     return verb;
 }

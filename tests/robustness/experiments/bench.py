@@ -81,8 +81,9 @@ class Bench(program.ProgramTest):
         for timing in timed:
             if "left_out" not in timing:
                 self.assertLessEqual({"ms_frame", "ns_tet", "ns_vertex", "ratio_to_plain", "precision"}, timing.keys(), timing["deformer"])
-        pbs = {(timing["order"], timing["precision"]) for timing in timed if timing["deformer"] == "pbs"}
-        self.assertEqual(pbs, {(order, precision) for order in ("plain", "ordered", "grouped") for precision in ("f32", "f64")})
+        for deformer in ("pbs", "xpbd"):
+            codes = {(timing["order"], timing["precision"]) for timing in timed if timing["deformer"] == deformer}
+            self.assertEqual(codes, {(order, precision) for order in ("plain", "ordered", "grouped") for precision in ("f32", "f64")})
 
     def test_the_record_goes_into_a_folder(self):
         process = self.succeeds("bench", "--quick", "--mesh", self.arm(), "-o", self.path("out"))
