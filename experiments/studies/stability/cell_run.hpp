@@ -15,7 +15,7 @@ struct CellResult {
     bool has_undisturbed = false;  // the same body comes to rest when it begins in the last pose
     int steps_not_reached = 0;
     // From a broken initial state: the method's iterations up to and including the first step that was reached. For Newton's method this is
-    // the number until the residual was within tolerance, including a first solve that failed. PBS and XPBD always do all of theirs.
+    // the number until the residual was within tolerance, including a first solve that failed. PBS and XPBD always do all their iterations.
     std::optional<int> iterations_until_reached;
     double cpu_s = 0.0;
 };

@@ -80,11 +80,11 @@ private:
     std::unique_ptr<pbs::Projection<Scalar>> projection_;
 };
 
-// The finite elements. They take only the pose and, where the initial state is broken, its shape.
+// The deformers of the registry. They take only the pose and, where the initial state is broken, its shape.
 class Posed : public DrivenBody {
 public:
     Posed(const StabilityCell& cell, const pbs::Character& character)
-        : deformer_(make_deformer(cell.spec)), is_to_start_(cell.disturbance.start != Start::none)
+        : deformer_(make_deformer(cell.spec)), is_to_start_(cell.disturbance.start != Start::none), nudge_m_(cell.nudge_m)
     {
         deformer_->reset(character);
     }
@@ -92,13 +92,18 @@ public:
     {
         if (is_to_start_) deformer_->start_from(drive.blended);
         is_to_start_ = false;
-        return deformer_->advance(drive.pose, dt_s);
+        is_nudged_ = !is_nudged_;
+        if (nudge_m_ == 0.0 || !is_nudged_) return deformer_->advance(drive.pose, dt_s);
+        pbs::Pose pose = drive.pose;
+        for (Eigen::Isometry3d& bone : pose) bone.pretranslate(nudge_m_ * pbs::Vec3::UnitX());
+        return deformer_->advance(pose, dt_s);
     }
     const pbs::Positions& positions() const override { return deformer_->positions(); }
 
 private:
     std::unique_ptr<Deformer> deformer_;
-    bool is_to_start_;
+    bool is_to_start_, is_nudged_ = false;
+    double nudge_m_;
 };
 
 std::unique_ptr<DrivenBody> make_pbs(const StabilityCell& cell, const pbs::Character& character)

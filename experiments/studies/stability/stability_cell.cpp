@@ -43,6 +43,7 @@ nlohmann::json to_json(const StabilityCell& cell)
                                    .record("thinness", &StabilityCell::thinness)
                                    .record("mass_ratio", &StabilityCell::mass_ratio)
                                    .record("held_end", &StabilityCell::held_end)
+                                   .record("nudge_m", &StabilityCell::nudge_m)
                                    .record("as_published", &StabilityCell::as_published)
                                    .complete();
     return fields.json(cell);

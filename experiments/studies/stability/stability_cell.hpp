@@ -16,7 +16,8 @@ namespace experiments {
 enum class Start { none, flattened, mirrored, random, point };
 
 // The body begins at rest in the first pose of its motion and stays in the last. A limb's forearm turns about `axis` (rest world axes) to
-// angle_deg in even steps; a character lands from a jump, 36 steps of its clip. Or the whole body is moved in one step, or begins broken.
+// angle_deg in even steps; a character lands from a jump, 36 steps of its clip. In other cells the whole body is moved in one step, or its
+// initial shape is broken.
 struct Disturbance {
     pbs::Vec3 axis = pbs::Vec3::UnitZ();
     double angle_deg = 90.0;
@@ -66,6 +67,8 @@ struct StabilityCell {
     double thinness = 1.0;    // share of the height or edge that the moved vertices keep
     double mass_ratio = 1.0;  // heaviest over lightest particle of a PBS body, seeded
     bool held_end = false;    // a tenth of the limb has infinite mass
+    // The whole body is moved along x by this length in every second step, for a method that does not step a pose that equals the last one.
+    double nudge_m = 0.0;
 
     bool as_published = false;  // the paper's method with settings that it allows; C08 is judged by these cells
 };

@@ -1,6 +1,7 @@
 // The cells of the map of stability, by method. full: more values of each factor, and more steps.
 #pragma once
 
+#include "experiments/studies/stability/cell_sweep.hpp"
 #include "experiments/studies/stability/stability_cell.hpp"
 
 namespace experiments {
@@ -12,6 +13,17 @@ std::vector<StabilityCell> negative_controls(bool full);  // Eq. 12-20 as printe
 std::vector<StabilityCell> xpbd_cells(bool full);
 std::vector<StabilityCell> fem_static_cells(bool full);   // linear, corotational, stable neo-Hookean; in equilibrium
 std::vector<StabilityCell> fem_dynamic_cells(bool full);  // corotational, stable neo-Hookean; in time
-std::vector<StabilityCell> other_cells(bool full);  // the other deformers, on the limb
+std::vector<StabilityCell> other_cells(bool full);        // the other deformers, on the limb
+
+// A deformer that is compared with PBS.
+struct ComparedKind {
+    const char* kind;
+    bool minimises;             // an energy, from an initial guess: broken_start.hpp
+    const char* without_start;  // why it has no broken start, otherwise
+};
+const std::vector<ComparedKind>& compared_kinds();
+
+// Settings up to and beyond those for which the kind is known to converge; empty: none are known.
+std::vector<const Sweep*> beyond_limits(const std::string& kind);
 
 }  // namespace experiments

@@ -3,24 +3,26 @@
 //
 //   pbs, pbs_jiggle   a limb of 400 vertices, bent by 90 degrees in ten steps; one factor at a time to its extremes, in f32 and f64.
 //                     Without jiggle the time step has no effect; those cells have the model pbs_no_memory and are not judged. A broken
-//                     or moved initial state is gone after one step, so that only this step can fail
+//                     or moved initial state has no effect after one step, so that only this step can fail
 //   pbs_maps          time step x k_stretch; iterations x twist
 //   pbs_human, ...    characters landing from a jump
 //   controls          Eq. 12-20 as printed, and teleports beyond the range of the numbers: here instability must be seen
 //   xpbd              the same limb with a material, also in small steps
-//   other_deformers   the same limb with the methods that minimise the energy of flesh, and with delta mush
+//   other_deformers   the same limb with the methods that minimise the energy of flesh, with both delta mushes and with pbs_author
+//   broken_starts     these methods from broken initial shapes: whether each finds its own result again (broken_start.hpp)
 //   fem_static        linear, corotational and stable neo-Hookean in equilibrium
 //   fem_in_time       the last two by generalised-alpha
-// A broken initial state of the finite elements in equilibrium is the initial guess of Newton's method in the last pose, without a load
-// path. It is not tried in time. The linear elements need no initial guess and are a control.
+// The finite elements in equilibrium take a broken initial state as the initial guess of Newton's method in the last pose, without a load
+// path. Those in time have no such cells. The linear elements need no initial guess and are a control.
 //
 // Judged is the share of diverged cells among all cells but the controls, without an interval: one diverged cell refutes "unconditionally".
 // The bind constraint bounds a body that has lost its shape, so the shares of inverted and of moving bodies are reported as well.
-// Writes DIR/stability/RUN/cells.csv and measurements.csv, and cells.csv, the maps, outcomes.md and criteria.md. The study fails where an
-// outcome occurs in no cell, or where the printed sign does not diverge: then the map could not tell stable from unstable.
+// Writes DIR/stability/RUN/cells.csv and measurements.csv, and cells.csv, the maps, starts.csv, outcomes.md and criteria.md. The study
+// fails where an outcome occurs in no cell, or where the printed sign does not diverge: then the map could not tell stable from unstable.
 #include "analysis/records/folder_files.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "experiments/studies/shared/real_bodies.hpp"
+#include "experiments/studies/stability/broken_start.hpp"
 #include "experiments/studies/stability/cell_table.hpp"
 #include "experiments/studies/stability/stability_body.hpp"
 #include "experiments/studies/stability/stability_cells.hpp"
@@ -38,10 +40,15 @@ struct StabilityCase {
     Cells cells;
 };
 
-nlohmann::json scenes_of(const StabilityCase& of)
+struct BrokenStartsCase {
+    Cells cells;
+    int most_iterations = 0;
+};
+
+nlohmann::json scenes_of(const Cells& cells)
 {
     nlohmann::json scenes = nlohmann::json::object();
-    for (const StabilityCell& cell : of.cells)
+    for (const StabilityCell& cell : cells)
         if (!scenes.contains(cell.body)) scenes[cell.body] = stability_scene(cell.body).resolved;
     return scenes;
 }
@@ -50,9 +57,21 @@ nlohmann::json to_json(const StabilityCase& of)
 {
     static const auto fields = OptionFields<StabilityCase>("stability")
                                    .record("cells", &StabilityCase::cells)
-                                   .derived("scenes", scenes_of)
+                                   .derived("scenes", [](const StabilityCase& of) { return scenes_of(of.cells); })
                                    .constant("seed", stability_seed)
                                    .constant("criteria", analysis::criteria_text() + endings_text())
+                                   .complete();
+    return fields.json(of);
+}
+
+nlohmann::json to_json(const BrokenStartsCase& of)
+{
+    static const auto fields = OptionFields<BrokenStartsCase>("broken_starts")
+                                   .record("cells", &BrokenStartsCase::cells)
+                                   .record("most_iterations", &BrokenStartsCase::most_iterations)
+                                   .derived("scenes", [](const BrokenStartsCase& of) { return scenes_of(of.cells); })
+                                   .constant("seed", stability_seed)
+                                   .derived("criteria", [](const BrokenStartsCase& of) { return start_criteria_text(of.most_iterations); })
                                    .complete();
     return fields.json(of);
 }
@@ -68,6 +87,15 @@ std::string run_and_record(const StabilityCase& of, const std::string& folder)
     table_of(cell_columns, rows).write(analysis::path_in(folder, "cells.csv"));
     const analysis::CsvTable shares = stability_measurements(measured);
     if (shares.rows() > 0) shares.write(analysis::path_in(folder, "measurements.csv"));
+    return {};
+}
+
+std::string start_and_record(const BrokenStartsCase& of, const std::string& folder)
+{
+    std::vector<StartRow> rows;
+    for (const StabilityCell& cell : of.cells) rows.push_back(run_broken_start(cell, of.most_iterations));
+    for (const StartRow& row : starts_not_applicable()) rows.push_back(row);
+    table_of(start_columns, rows).write(analysis::path_in(folder, "starts.csv"));
     return {};
 }
 
@@ -97,7 +125,9 @@ StudyPlan plan(bool full)
     add_characters(plan, full);
     plan.runs.push_back(stability_run("controls", negative_controls(full), 2.0));
     plan.runs.push_back(stability_run("xpbd", xpbd_cells(full), full ? 80.0 : 14.0));
-    plan.runs.push_back(stability_run("other_deformers", other_cells(full), full ? 30.0 : 5.0));
+    plan.runs.push_back(stability_run("other_deformers", other_cells(full), full ? 18.0 : 7.0));
+    plan.runs.push_back(
+        work_run<BrokenStartsCase>("broken_starts", {start_cells(full), full ? 4096 : 1024}, full ? 60.0 : 13.0, start_and_record));
     plan.runs.push_back(stability_run("fem_static", fem_static_cells(full), full ? 208.0 : 40.0));
     plan.runs.push_back(stability_run("fem_in_time", fem_dynamic_cells(full), full ? 350.0 : 22.0));
     std::string counts;
@@ -117,10 +147,17 @@ StudyConclusion conclude(const FinishedRuns& finished)
     finished.write("cells.csv", cell_columns, cells);
     finished.write("map_time_step_k_stretch.csv", map_csv(cells, "time_step", "k_stretch"));
     finished.write("map_iterations_twist.csv", map_csv(cells, "iterations", "twist"));
-    finished.write("outcomes.md", "```\n" + outcome_table(cells, true) + "```\n");
-    finished.write("criteria.md", analysis::criteria_text() + endings_text());
+    const std::vector<StartRow> starts = finished.rows(start_columns, "starts.csv");
+    std::string criteria = analysis::criteria_text() + endings_text(), outcomes = "```\n" + outcome_table(cells, true) + "```\n";
+    if (!starts.empty()) {
+        finished.write("starts.csv", start_columns, starts);
+        criteria += start_criteria_text(starts.front().most_iterations);
+        outcomes += "\n```\n" + start_table(starts) + "```\n";
+    }
+    finished.write("outcomes.md", outcomes);
+    finished.write("criteria.md", criteria);
     const std::string missing = blind_spots(cells);
-    return {outcome_table(cells, false) + missing, missing.empty()};
+    return {outcome_table(cells, false) + (starts.empty() ? "" : "\n" + start_table(starts)) + missing, missing.empty()};
 }
 
 }  // namespace

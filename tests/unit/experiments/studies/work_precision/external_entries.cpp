@@ -2,6 +2,7 @@
 #include "experiments/studies/work_precision/external_entries.hpp"
 
 #include "experiments/deformers/external/external_deformers.hpp"
+#include "experiments/deformers/registry.hpp"
 #include "experiments/studies/work_precision/compared_deformers.hpp"
 #include "experiments/studies/work_precision/deformer_groups.hpp"
 #include "tests/support/scratch_folder.hpp"
