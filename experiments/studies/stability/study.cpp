@@ -15,7 +15,8 @@
 // The finite elements in equilibrium take a broken initial state as the initial guess of Newton's method in the last pose, without a load
 // path. Those in time have no such cells. The linear elements need no initial guess and are a control.
 //
-// Judged is the share of diverged cells among all cells but the controls, without an interval: one diverged cell refutes "unconditionally".
+// The verdict follows from the share of diverged cells among the cells as published, without an interval: one diverged cell refutes
+// "unconditionally".
 // The bind constraint bounds a body that has lost its shape, so the shares of inverted and of moving bodies are reported as well.
 // Writes DIR/stability/RUN/cells.csv and measurements.csv, and cells.csv, the maps, starts.csv, outcomes.md and criteria.md. The study
 // fails where an outcome occurs in no cell, or where the printed sign does not diverge: then the map could not tell stable from unstable.
