@@ -2,7 +2,8 @@
 //   const std::vector<TargetRow> rows = target_rows(of.of, measured);
 // A target is a residual or an absolute volume change: those that `plain` has after 24 iterations in file order in the same precision, and
 // the paper's 0.5 % and 2 %. It is reached at the first iteration at which the value is not above it. Up to the 64th, every iteration is
-// looked at, then steps of two per cent. An order that does not reach a target within all iterations has its limit as the reason.
+// looked at, then steps of two per cent. Where an order does not reach a target within all iterations, the record states the limit, which
+// lies above the bound.
 #pragma once
 
 #include "analysis/records/typed_table.hpp"
