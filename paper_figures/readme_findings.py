@@ -82,14 +82,33 @@ def speed(claims):
             f"per second on one core. The bound is {bound:.0f}; the paper reports 66 to 91 on a processor of its time.")
 
 
-def distance(results):
-    """The errors against the family's first reference, and how many of the pairs that differ notably the whole family orders alike."""
-    columns = {"body", "pose", "angle_deg", "member", "deformer", "error_joint_pct"}
-    rows = [row for file in sorted((results / "ensemble").glob("*/errors.csv")) for row in records.table(file, columns)]
+def first_errors(results):
+    """Of each deformer the errors against the family's first reference, in the poses in which that reference has a bound on its own error;
+    and how many poses there are."""
+    place = ("body", "motion", "pose", "angle_deg")
+    members = records.table(results / "ensemble" / "members.csv", {*place, "member", "error_bound_pct"})
+    first = [member for member in members if member["member"] == first_member]
+    bounded = {tuple(member[name] for name in place) for member in first if member["error_bound_pct"]}
     errors = {}
-    for row in rows:
-        if row["member"] == first_member:
-            errors.setdefault(row["deformer"], []).append(float(row["error_joint_pct"]))
+    for file in sorted((results / "ensemble").glob("*/errors.csv")):
+        for row in records.table(file, {*place, "member", "deformer", "error_joint_pct"}):
+            if row["member"] == first_member and tuple(row[name] for name in place) in bounded:
+                errors.setdefault(row["deformer"], []).append(float(row["error_joint_pct"]))
+    return errors, len(first)
+
+
+def undecided(notable):
+    """The causes with their counts, as a sentence, or nothing."""
+    causes = {"reference_error": "the own error of a reference is too large or not known",
+              "models_disagree": "the references disagree"}
+    counts = {text: sum(pair["decision"] == cause for pair in notable) for cause, text in causes.items()}
+    parts = [f"in {count} {text}" for text, count in counts.items() if count]
+    return f" The others are undecided: {' and '.join(parts)}." if parts else ""
+
+
+def distance(results):
+    """The errors against the family's first reference, and how many of the pairs that differ notably the whole family decides."""
+    errors, poses = first_errors(results)
     pairs = records.table(results / "ensemble" / "pairs.csv", {"first", "second", "largest_difference_pct", "members", "decision"})
     notable = [pair for pair in pairs if float(pair["largest_difference_pct"]) > notable_points and "fem_linear" not in
                (pair["first"], pair["second"])]
@@ -97,11 +116,14 @@ def distance(results):
         raise records.RecordsMissing(f"{results / 'ensemble'}: no errors of LBS, DQS, delta mush and PBS, or no pair of them")
     spans = {name: f"{min(errors[name]):.1f} to {max(errors[name]):.1f} %" for name in errors}
     decided = sum(pair["decision"] == "decided" for pair in notable)
-    return (f"**Distance from flesh.** In {len(errors['pbs'])} poses of the limb and the human, PBS with 24 iterations is {spans['pbs']} "
+    measured = len(errors["pbs"])
+    left_out = "" if measured == poses else (f" {poses - measured} of {poses} poses are left out, because the reference has no bound on "
+                                             "its own error there.")
+    return (f"**Distance from flesh.** In {measured} poses of the limb and the human, PBS with 24 iterations is {spans['pbs']} "
             f"of the mean bone distance away from neo-Hookean flesh at the joints (LBS {spans['lbs']}, DQS {spans['dqs']}, delta mush "
-            f"{spans['delta_mush']}). {notable[0]['members']} references with other attachments and Poisson's ratios agree on which of "
-            f"two methods is closer in {decided} of the {len(notable)} pairs of skinning methods that differ by more than "
-            f"{notable_points} percentage points.")
+            f"{spans['delta_mush']}).{left_out} {notable[0]['members']} references with other attachments and Poisson's ratios decide "
+            f"which of two methods is closer in {decided} of the {len(notable)} pairs of skinning methods that differ by more than "
+            f"{notable_points} percentage points.{undecided(notable)}")
 
 
 def lines_of(results):

@@ -134,18 +134,23 @@ class Tables(ReadmeTest):
         self.assertEqual(status, 2)
         self.assertRegex(said, r"claims.json: claims: 0 with .*C04.*: expected one")
 
-    def write_ensemble(self, difference_pct="3"):
-        """Two poses, two references, of which the first is reported; LBS is 4 and 6 % away, PBS 1 and 3 %."""
+    def write_ensemble(self, difference_pct="3", landing_bound="0.1"):
+        """Two poses, two references, of which the first is reported; LBS is 4 and 6 % away, PBS 1 and 3 %. The bound on the first
+        reference's own error may be missing in the second pose."""
         for pose, far in (("crouch", 0), ("landing", 2)):
-            lines = [f"human,{pose},,{member},{name},{error + far + more}" for member, more in (("smooth", 0), ("stiffer", 10))
+            lines = [f"human,01_01,{pose},,{member},{name},{error + far + more}" for member, more in (("smooth", 0), ("stiffer", 10))
                      for name, error in (("lbs", 4), ("dqs", 3), ("delta_mush", 2), ("pbs", 1))]
             (self.results / "ensemble" / pose).mkdir(parents=True)
             (self.results / "ensemble" / pose / "errors.csv").write_text(
-                "\n".join(["body,pose,angle_deg,member,deformer,error_joint_pct", *lines, ""]))
+                "\n".join(["body,motion,pose,angle_deg,member,deformer,error_joint_pct", *lines, ""]))
         (self.results / "ensemble" / "pairs.csv").write_text(
             "first,second,largest_difference_pct,members,decision\n"
             f"lbs,pbs,{difference_pct},2,decided\ndqs,pbs,{difference_pct},2,reference_error\n"
+            f"delta_mush,pbs,{difference_pct},2,reference_error\ndelta_mush,dqs,{difference_pct},2,models_disagree\n"
             "lbs,dqs,1,2,decided\nfem_linear,lbs,9,2,decided\n")
+        (self.results / "ensemble" / "members.csv").write_text(
+            "body,motion,pose,angle_deg,member,error_bound_pct\nhuman,01_01,crouch,,smooth,0.1\nhuman,01_01,crouch,,stiffer,\n"
+            f"human,01_01,landing,,smooth,{landing_bound}\nhuman,01_01,landing,,stiffer,0.1\n")
 
     def test_the_distance_from_flesh_is_that_of_the_first_reference(self):
         self.write_ensemble()
@@ -153,7 +158,15 @@ class Tables(ReadmeTest):
         self.assertIn("In 2 poses of the limb and the human, PBS with 24 iterations is 1.0 to 3.0 % of", text)
         self.assertIn("(LBS 4.0 to 6.0 %, DQS 3.0 to 5.0 %, delta mush 2.0 to 4.0 %)", text)
         self.assertIn("2 references with", text)
-        self.assertIn("in 1 of the 2 pairs of skinning methods that differ by more than 2", text)
+        self.assertIn("decide which of two methods is closer in 1 of the 4 pairs of skinning methods that differ by more than 2", text)
+        self.assertIn("in 2 the own error of a reference is too large or not known and in 1 the references disagree.", text)
+        self.assertNotIn("left out", text)
+
+    def test_the_distance_leaves_out_poses_whose_reference_has_no_bound(self):
+        self.write_ensemble(landing_bound="")
+        text = readme_findings.distance(self.results)
+        self.assertIn("In 1 poses of the limb and the human, PBS with 24 iterations is 1.0 to 1.0 % of", text)
+        self.assertIn("1 of 2 poses are left out, because the reference has no bound on its own error there.", text)
 
     def test_the_distance_needs_pairs_that_differ(self):
         self.write_ensemble(difference_pct="1.9")
