@@ -85,16 +85,15 @@ def speed(claims):
 def first_errors(results):
     """Of each deformer the errors against the family's first reference, in the poses in which that reference has a bound on its own error;
     and how many poses there are."""
-    place = ("body", "motion", "pose", "angle_deg")
-    members = records.table(results / "ensemble" / "members.csv", {*place, "member", "error_bound_pct"})
-    first = [member for member in members if member["member"] == first_member]
-    bounded = {tuple(member[name] for name in place) for member in first if member["error_bound_pct"]}
-    errors = {}
-    for file in sorted((results / "ensemble").glob("*/errors.csv")):
-        for row in records.table(file, {*place, "member", "deformer", "error_joint_pct"}):
-            if row["member"] == first_member and tuple(row[name] for name in place) in bounded:
+    errors, files = {}, sorted((results / "ensemble").glob("*/errors.csv"))
+    for file in files:
+        members = records.table(file.with_name("members.csv"), {"member", "error_bound_pct"})
+        if not only(members, f"{file.parent}/members.csv", member=first_member)["error_bound_pct"]:
+            continue
+        for row in records.table(file, {"member", "deformer", "error_joint_pct"}):
+            if row["member"] == first_member:
                 errors.setdefault(row["deformer"], []).append(float(row["error_joint_pct"]))
-    return errors, len(first)
+    return errors, len(files)
 
 
 def undecided(notable):
@@ -117,8 +116,8 @@ def distance(results):
     spans = {name: f"{min(errors[name]):.1f} to {max(errors[name]):.1f} %" for name in errors}
     decided = sum(pair["decision"] == "decided" for pair in notable)
     measured = len(errors["pbs"])
-    left_out = "" if measured == poses else (f" {poses - measured} of {poses} poses are left out, because the reference has no bound on "
-                                             "its own error there.")
+    left_out = "" if measured == poses else (f" The reference has no bound on its own error in {poses - measured} of {poses} "
+                                             "poses, which are left out.")
     return (f"**Distance from flesh.** In {measured} poses of the limb and the human, PBS with 24 iterations is {spans['pbs']} "
             f"of the mean bone distance away from neo-Hookean flesh at the joints (LBS {spans['lbs']}, DQS {spans['dqs']}, delta mush "
             f"{spans['delta_mush']}).{left_out} {notable[0]['members']} references with other attachments and Poisson's ratios decide "
