@@ -111,7 +111,7 @@ StudyRun run_named(const std::string& name, const std::string& scene, std::vecto
 }
 
 // A run for comparison with another run of the same body and clip: it has another reference or another mesh.
-StudyRun beside(StudyRun run)
+StudyRun for_comparison(StudyRun run)
 {
     run.beside = true;
     return run;
@@ -167,10 +167,10 @@ void add_human(StudyPlan& plan, bool full)
     plan.runs.push_back(to_where_flesh_breaks(human));
     if (full) {
         plan.runs.push_back(to_where_flesh_breaks(with_orders(human_walk(150.0))));
-        plan.runs.push_back(to_where_flesh_breaks(beside(human_with_quadratic_reference(600.0))));
+        plan.runs.push_back(to_where_flesh_breaks(for_comparison(human_with_quadratic_reference(600.0))));
     }
-    plan.runs.push_back(beside(human_at(1200, 0.5)));
-    plan.runs.push_back(beside(human_at(4800, 1.0)));
+    plan.runs.push_back(for_comparison(human_at(1200, 0.5)));
+    plan.runs.push_back(for_comparison(human_at(4800, 1.0)));
 }
 
 // Man, Lady or Frankie.
@@ -181,7 +181,8 @@ void add_fetched(StudyPlan& plan, const std::string& body, bool full)
     own.scene.deformers.push_back(jiggling(pbs_of(own.scene)));
     plan.runs.push_back(with_orders(own));
     if (full)
-        plan.runs.push_back(to_where_flesh_breaks(beside(run_named(scene + "_reference", scene, {}, body == "frankie" ? 95.0 : 20.0))));
+        plan.runs.push_back(
+            to_where_flesh_breaks(for_comparison(run_named(scene + "_reference", scene, {}, body == "frankie" ? 95.0 : 20.0))));
     if (body == "lady")
         plan.runs.push_back(with_orders(
             run_named("lady_01_03", "lady_walk", {"motion.duration_s=0.0", rate, blends_and_pbs, no_reference}, full ? 16.0 : 4.0)));
@@ -193,7 +194,7 @@ StudyPlan plan(bool full)
     const std::vector<std::string> twist = full ? std::vector<std::string>{all_references} : with_linear_reference;
     plan.runs.push_back(to_where_flesh_breaks(with_orders(volume_run("limb_twist", twist, full ? 72.0 : 9.0))));
     plan.runs.push_back(to_where_flesh_breaks(with_orders(with_printed_forms(volume_run("limb_bend", {without_quadratic_flesh}, 32.0)))));
-    if (full) plan.runs.push_back(to_where_flesh_breaks(beside(bend_with_quadratic_reference(60.0))));
+    if (full) plan.runs.push_back(to_where_flesh_breaks(for_comparison(bend_with_quadratic_reference(60.0))));
     for_each_installed_body(plan.left_out, [&](const std::string& body) {
         if (body == "human")
             add_human(plan, full);
