@@ -6,6 +6,7 @@
 #include "analysis/line_fit.hpp"
 #include "experiments/process/peak_memory.hpp"
 #include "experiments/studies/bench/deformer_timing.hpp"
+#include "experiments/studies/bench/newton_timing.hpp"
 #include "experiments/studies/bench/projection_timing.hpp"
 
 #include <nlohmann/json_fwd.hpp>
@@ -41,6 +42,7 @@ struct MeshTimings {
     std::vector<ProjectionTiming> projections;
     std::vector<SkinningTiming> skinning;
     std::optional<FemTiming> fem;
+    std::optional<NewtonTiming> newton;
     std::string fem_left_out;               // the reason, where the reference could not be timed
     std::vector<DeformerTiming> deformers;  // all that are registered, on meshes where a frame of each takes less than a second
     PeakMemory memory;                      // of a solver and one step of `ordered` in f32

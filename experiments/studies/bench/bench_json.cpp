@@ -74,6 +74,10 @@ json json_of(const ProjectionTiming& timing)
     put_spread(result, "ratio_to_plain_spread", timing.ratio_to_plain_spread);
     put_spread(result, "ratio_to_plain", timing.ratio_to_plain);
     put_spread(result, "ratio_to_plain_native", timing.ratio_to_plain_native);
+    result["residual_to_plain_spread"] = timing.answer_to_plain_spread.residual;
+    result["volume_rms_to_plain_spread"] = timing.answer_to_plain_spread.volume_rms;
+    result["residual_to_plain"] = timing.answer_to_plain.residual;
+    result["volume_rms_to_plain"] = timing.answer_to_plain.volume_rms;
     if (timing.speedup_by_threads) put_spread(result, "speedup_by_threads", *timing.speedup_by_threads);
     if (timing.best_speedup_by_threads) result["best_speedup_by_threads"] = *timing.best_speedup_by_threads;
     if (timing.ms_floor) result["ms_floor"] = *timing.ms_floor;
@@ -105,7 +109,8 @@ json json_of(const DeformerTiming& timing)
     return result;
 }
 
-json json_of(const FemTiming& timing, double plain_step_ms, double plain_spread_step_ms)
+// The reference has no plain implementation, so there is no ratio.
+json json_of(const FemTiming& timing, int tets)
 {
     json result = {{"variant", "fem"},
                    {"model", "linear"},
@@ -113,11 +118,20 @@ json json_of(const FemTiming& timing, double plain_step_ms, double plain_spread_
                    {"precision", "f64"},
                    {"threads", 1},
                    {"clock", "thread_cpu"},
-                   {"further_to_first", timing.further_to_first},
-                   {"ratio_to_plain_spread", plain_spread_step_ms / timing.ms_further_frame.median},
-                   {"ratio_to_plain", plain_step_ms / timing.ms_further_frame.median}};
+                   {"further_to_first", timing.further_to_first}};
     put_spread(result, "ms_first_solve", timing.ms_first_solve);
     put_spread(result, "ms_further_frame", timing.ms_further_frame);
+    put_spread(result, "ns_element", scaled(timing.ms_further_frame, 1e6 / tets));
+    return result;
+}
+
+json json_of(const NewtonTiming& timing)
+{
+    json result = {{"variant", "fem"}, {"model", timing.model}, {"element_order", 1},           {"precision", "f64"},
+                   {"threads", 1},     {"clock", "thread_cpu"}, {"newton_steps", timing.steps}, {"reached", timing.is_reached}};
+    put_spread(result, "ms_frame", timing.ms_frame);
+    put_spread(result, "ms_newton_step", timing.ms_step);
+    put_spread(result, "ns_element", timing.ns_element);
     return result;
 }
 
@@ -126,14 +140,11 @@ json json_of(const MeshTimings& timings)
     json result = {{"mesh", {{"name", timings.name}, {"vertices", timings.vertices}, {"edges", timings.edges}, {"tets", timings.tets}}},
                    {"memory", {{"peak_bytes", timings.memory.peak_bytes}, {"growth_bytes", timings.memory.growth_bytes()}}}};
     for (const char* list : {"results", "yardsticks", "skinning", "fem", "deformers"}) result[list] = json::array();
-    double plain_step_ms = 0.0, plain_spread_step_ms = 0.0;  // in f64
-    for (const ProjectionTiming& timing : timings.projections) {
+    for (const ProjectionTiming& timing : timings.projections)
         result[timing.is_baseline() ? "yardsticks" : "results"].push_back(json_of(timing));
-        if (timing == ProjectionKind{"plain", "f64", 1}) plain_step_ms = timing.ms_step.median;
-        if (timing == ProjectionKind{"plain_spread", "f64", 1}) plain_spread_step_ms = timing.ms_step.median;
-    }
     for (const SkinningTiming& timing : timings.skinning) result["skinning"].push_back(json_of(timing));
-    if (timings.fem) result["fem"].push_back(json_of(*timings.fem, plain_step_ms, plain_spread_step_ms));
+    if (timings.fem) result["fem"].push_back(json_of(*timings.fem, timings.tets));
+    if (timings.newton) result["fem"].push_back(json_of(*timings.newton));
     for (const DeformerTiming& timing : timings.deformers) result["deformers"].push_back(json_of(timing));
     if (!timings.fem_left_out.empty()) result["fem_left_out"] = timings.fem_left_out;
     return result;

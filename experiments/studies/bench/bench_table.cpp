@@ -18,10 +18,16 @@ constexpr const char* legend =
     "times faster than plain loops, with all that this compiler offers, on constraints whose neighbours in the list share no vertex, so\n"
     "that none waits for the stores of the one before; ratio_to_plain: than order `plain`, which is built for the same bits on every\n"
     "machine and whose projections wait for each other's stores; ratio_to_plain_native: than the loops of `plain` with all that this\n"
-    "compiler offers. Orders give different answers: the study equal_quality compares them at equal ones. ms_floor: the time that\n"
+    "compiler offers. Orders give different answers: residual_to_plain_spread and volume_rms_to_plain_spread are the combined residual "
+    "and\n"
+    "the root mean square volume error after the step over those of the same loops, and _to_plain over those of `plain`; above 1 is a "
+    "loss.\n"
+    "The study equal_quality compares the times to equal answers. ms_floor: the time that\n"
     "moving the bytes takes. share_of_limit: of min(peak, operations per byte x bandwidth at that working set). exponent: the cost\n"
     "of a step is ~ constraints^exponent. Deformers: ns_tet and ns_vertex are per iteration, or per frame of a deformer without\n"
-    "iterations; ratio_to_plain: to the plain implementation of the same deformer.\n";
+    "iterations; ratio_to_plain: to the plain implementation of the same deformer. The last table has the finite elements: ns_element is "
+    "per\n"
+    "further frame of linear elements (a solve), and per Newton step of neo-Hookean ones. They have no plain implementation.\n";
 
 // One line per entry of bench.json. Each column is a place inside the entry, with a format for a number.
 std::string table(const json& entries, const std::string& places)
@@ -53,7 +59,9 @@ std::string mesh_text(const json& timed)
     std::string text = table(json::array({timed}), "mesh/name mesh/vertices:.0f mesh/edges:.0f mesh/tets:.0f memory/growth_bytes:.3g");
     text += table(projections, kind +
                                    "poses:.0f ns_stretch:.3f ns_volume:.3f ns_bind:.3f ms_step:.4g quartiles/ms_step/0:.4g "
-                                   "quartiles/ms_step/1:.4g ratio_to_plain_spread:.2f ratio_to_plain:.2f ratio_to_plain_native:.2f");
+                                   "quartiles/ms_step/1:.4g ratio_to_plain_spread:.2f residual_to_plain_spread:.3f "
+                                   "volume_rms_to_plain_spread:.3f ratio_to_plain:.2f residual_to_plain:.3f volume_rms_to_plain:.3f "
+                                   "ratio_to_plain_native:.2f");
     text += table(projections, kind +
                                    "ms_floor:.2g roofline/stretch/share_of_limit:.2f roofline/volume/share_of_limit:.2f "
                                    "roofline/bind/share_of_limit:.2f best_speedup_by_threads:.2f");
@@ -61,7 +69,9 @@ std::string mesh_text(const json& timed)
     text += table(timed.at("deformers"),
                   "deformer order precision iterations:.0f ms_frame:.4g ms_iteration:.4g ns_tet:.2f ns_vertex:.2f ratio_to_plain:.2f "
                   "gflops:.3g gb_s:.3g share_of_limit:.3f left_out");
-    text += table(timed.at("fem"), "variant ms_first_solve:.4g ms_further_frame:.4g further_to_first:.2g");
+    text += table(timed.at("fem"),
+                  "model element_order:.0f ms_first_solve:.4g ms_further_frame:.4g further_to_first:.2g newton_steps:.0f ms_frame:.4g "
+                  "ms_newton_step:.4g ns_element:.4g");
     if (timed.contains("fem_left_out")) text += fmt::format("\nfem is left out: {}\n", timed.at("fem_left_out").get<std::string>());
     return text;
 }

@@ -3,6 +3,7 @@
 #include "experiments/deformers/registry.hpp"
 #include "experiments/scene/scene_keys.hpp"
 #include "experiments/settings/scene_values.hpp"
+#include "experiments/studies/bench/plain_blend.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 #include <algorithm>
@@ -90,9 +91,8 @@ struct Timed {
     }
 };
 
-std::unique_ptr<Deformer> reset(const DeformerSpec& spec, const BenchBody& body)
+std::unique_ptr<Deformer> reset(std::unique_ptr<Deformer> deformer, const BenchBody& body)
 {
-    std::unique_ptr<Deformer> deformer = make_deformer(spec);
     deformer->reset(body.character);
     deformer->advance(body.pose, time_step_s);
     return deformer;
@@ -120,7 +120,7 @@ DeformerTiming summed_up(const Timed& timed, const Samples& own, const Samples& 
     timing.ns_vertex = scaled(step, 1e9 / counts.vertices);
     timing.ratio_to_plain = spread_of_ratios(plain[iteration_s], own[iteration_s]);
     const DeformerKind& kind = *find_deformer_kind(setting.spec.kind);
-    if (kind.work) add_limits(timing, kind.work(setting.spec, counts), limits, step.median);
+    if (kind.work && !setting.is_plain_blend) add_limits(timing, kind.work(setting.spec, counts), limits, step.median);
     return timing;
 }
 
@@ -129,8 +129,9 @@ std::vector<DeformerTiming> time_settings(const std::vector<DeformerSetting>& se
 {
     std::vector<Timed> timed;
     for (const DeformerSetting& setting : settings) {
-        timed.push_back({&setting, reset(setting.spec, body), nullptr, traits_of(setting.spec).iterations.value_or(0)});
-        if (setting.twice && timed.back().iterations > 0) timed.back().twice = reset(*setting.twice, body);
+        auto deformer = setting.is_plain_blend ? make_plain_blend(setting.spec.kind) : make_deformer(setting.spec);
+        timed.push_back({&setting, reset(std::move(deformer), body), nullptr, traits_of(setting.spec).iterations.value_or(0)});
+        if (setting.twice && timed.back().iterations > 0) timed.back().twice = reset(make_deformer(*setting.twice), body);
     }
     std::vector<TimedVariant> turns;
     for (const Timed& one : timed) turns.push_back([&one, &body] { return one.round(body); });
@@ -141,7 +142,8 @@ std::vector<DeformerTiming> time_settings(const std::vector<DeformerSetting>& se
     return timings;
 }
 
-// The order `plain` in the same precision where there is one; else plain code in f64; else code in f64; else the first.
+// The order `plain` in the same precision where there is one; else plain code in f64; else code in f64 (a kind with one implementation);
+// else the first.
 std::size_t place_of_plain(const std::vector<DeformerSetting>& settings, const std::string& precision)
 {
     const auto place_where = [&](const auto& is_plain) {
@@ -171,13 +173,14 @@ std::vector<DeformerSetting> deformer_settings(const DeformerKind& kind)
                 DeformerSetting setting{spec_with(kind, choices), {}, order, precision};
                 const DeformerTraits traits = traits_of(setting.spec);
                 if (precision.empty()) setting.precision = traits.precision;
-                if (!arithmetic.empty()) setting.order = traits.packed ? "packed" : "plain";
+                if (!arithmetic.empty() || is_blend(kind.name)) setting.order = traits.packed ? "packed" : "plain";
                 if (key_of(kind, "iterations") && traits.iterations.value_or(0) > 0) {
                     choices.push_back({"iterations", std::to_string(2 * *traits.iterations)});
                     setting.twice = spec_with(kind, choices);
                 }
                 settings.push_back(std::move(setting));
             }
+    if (is_blend(kind.name)) settings.push_back({default_spec(kind.name), {}, "plain", "f64", 0, true});
     for (DeformerSetting& setting : settings) setting.plain = place_of_plain(settings, setting.precision);
     return settings;
 }

@@ -22,13 +22,15 @@ struct DeformerKind;
 struct DeformerSetting {
     DeformerSpec spec;
     std::optional<DeformerSpec> twice;  // with twice the iterations; nothing if it has no key `iterations`
-    // order: `packed` or `plain` of a kind with the key `arithmetic`; empty without either key. precision: that of its traits without a
-    // key.
+    // order: `packed` or `plain` of a blend or a kind with the key `arithmetic`; empty without either key. precision: that of its traits
+    // without a key.
     std::string order, precision;
-    std::size_t plain = 0;  // its place in the list of the kind's settings
+    std::size_t plain = 0;        // its place in the list of the kind's settings
+    bool is_plain_blend = false;  // LBS or DQS as the paper's Eq. 1 reads (plain_blend.hpp), which no key asks for
 };
 
-// One per value of `order`, `precision` and `arithmetic`. The key of a list counts as that of its first table.
+// One per value of `order`, `precision` and `arithmetic`, and the plain blend of LBS and DQS. The key of a list counts as that of its first
+// table.
 std::vector<DeformerSetting> deformer_settings(const DeformerKind& kind);
 
 struct DeformerTiming {

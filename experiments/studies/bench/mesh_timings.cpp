@@ -14,6 +14,7 @@ namespace experiments {
 namespace {
 
 constexpr int most_fem_tets = 150'000;      // for the reference, whose first solve takes seconds there
+constexpr int most_newton_tets = 12'000;    // for its nonlinear elements, of which a frame takes some twenty such solves
 constexpr int most_deformer_tets = 30'000;  // for all deformers: the scalar ones take more than a tenth of a second per frame beyond
 constexpr int further_frames = 5;           // per sample
 
@@ -141,6 +142,7 @@ MeshTimings time_mesh(const BenchBody& body, const MachineLimits& limits, const 
     rounds.most = std::min(rounds.most, 11);
     try {
         timings.fem = time_fem(body, rounds);
+        if (timings.tets <= most_newton_tets) timings.newton = time_newton(body, rounds);
     } catch (const pbs::InputError& error) {
         timings.fem_left_out = error.what();
     }

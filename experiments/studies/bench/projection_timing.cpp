@@ -3,6 +3,7 @@
 #include "pbs/geometry/stopwatch.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace experiments {
 namespace {
@@ -90,7 +91,18 @@ ProjectionTiming summed_up(const ProjectionVariant& variant, const Samples& own,
     return timing;
 }
 
+double combined(const pbs::Residuals& residuals, double mean_distance_m)
+{
+    const double bind = residuals.bind_rms_m / mean_distance_m;
+    return std::sqrt((residuals.stretch_rms * residuals.stretch_rms + residuals.volume_rms * residuals.volume_rms + bind * bind) / 3.0);
+}
+
 }  // namespace
+
+AnswerRatio answer_ratio(const pbs::Residuals& own, const pbs::Residuals& plain, double mean_distance_m)
+{
+    return {combined(own, mean_distance_m) / combined(plain, mean_distance_m), own.volume_rms / plain.volume_rms};
+}
 
 std::vector<ProjectionTiming> time_projections(const BenchBody& body, const std::vector<int>& threads, const MachineLimits& limits,
                                                const Rounds& rounds)
@@ -105,6 +117,7 @@ std::vector<ProjectionTiming> time_projections(const BenchBody& body, const std:
     };
 
     const pbs::BodySize size{double(body.mesh().rest.rows()), double(body.edges), double(body.mesh().tets.rows())};
+    const double mean_distance_m = body.character.binding.distance.mean();
     std::vector<ProjectionTiming> timings;
     for (std::size_t i = 0; i < variants.size(); ++i) {
         const ProjectionVariant& variant = variants[i];
@@ -116,6 +129,11 @@ std::vector<ProjectionTiming> time_projections(const BenchBody& body, const std:
         timing.ratio_to_plain = ratio_to("plain");
         timing.ratio_to_plain_native = ratio_to("plain_native");
         timing.ratio_to_plain_spread = ratio_to("plain_spread");
+        const auto answer_to = [&](const std::string& name) {
+            return answer_ratio(timing.residuals, variants.at(index_of({name, variant.precision, 1})).loops.residuals(), mean_distance_m);
+        };
+        timing.answer_to_plain = answer_to("plain");
+        timing.answer_to_plain_spread = answer_to("plain_spread");
         if (variant.threads > 1) {
             const auto alone = index_of({variant.variant, variant.precision, 1});
             const std::vector<double>&alone_s = all.at(alone)[step_wall_s], &together_s = all[i][step_wall_s];

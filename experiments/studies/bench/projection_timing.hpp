@@ -30,6 +30,13 @@ struct ClassTiming {
     std::optional<RooflinePoint> roofline;  // for one thread
 };
 
+// The answer after the step over that of plain loops after theirs, on the same body and in the same precision; above 1: a loss.
+struct AnswerRatio {
+    double residual = 0.0;    // combined: sqrt((stretch_rms^2 + volume_rms^2 + (bind_rms / mean rest distance to the bone)^2) / 3)
+    double volume_rms = 0.0;  // rms of V / V0 - 1
+};
+AnswerRatio answer_ratio(const pbs::Residuals& own, const pbs::Residuals& plain, double mean_distance_m);
+
 struct ProjectionTiming : ProjectionKind {
     int poses = 1;
     ClassTiming stretch, volume, bind;
@@ -40,7 +47,8 @@ struct ProjectionTiming : ProjectionKind {
     std::optional<double> best_speedup_by_threads;                        // ratio of the fastest rounds, which were disturbed least
     std::optional<Spread> speedup_by_threads;                             // wall time of one thread over this one's
     double working_set_bytes = 0.0;
-    pbs::Residuals residuals;  // after the step
+    pbs::Residuals residuals;                             // after the step
+    AnswerRatio answer_to_plain, answer_to_plain_spread;  // an order settles elsewhere: what its speed-up costs or gains
     std::optional<double> stretch_fill, volume_fill;
 
     bool is_baseline() const { return variant == "plain_native" || variant == "plain_spread"; }  // which no scene can ask for

@@ -8,7 +8,8 @@ import unittest
 import foreign_arm
 import program
 
-RESULT = {"variant", "precision", "threads", "ns_stretch", "ns_volume", "ns_bind", "ms_step", "ratio_to_plain_spread", "ratio_to_plain"}
+RESULT = {"variant", "precision", "threads", "ns_stretch", "ns_volume", "ns_bind", "ms_step", "ratio_to_plain_spread", "ratio_to_plain",
+          "residual_to_plain_spread", "volume_rms_to_plain_spread", "residual_to_plain", "volume_rms_to_plain"}
 
 
 def numbers(value, path=""):
@@ -56,6 +57,21 @@ class Bench(program.ProgramTest):
                 self.assertLessEqual({(variant, precision, 1), (variant, precision, 2)}, set(kinds))
         blends = {(result["blend"], result["variant"], result["precision"]) for result in record["skinning"]}
         self.assertLessEqual({("lbs", "plain", "f64"), ("lbs", "packed", "f32"), ("dqs", "packed", "f64")}, blends)
+
+    def test_the_finite_elements_are_timed_per_solve_and_per_newton_step(self):
+        record = self.record("--mesh", self.arm())
+        if "fem_left_out" in record:
+            self.skipTest(record["fem_left_out"])
+        fem = {timing["model"]: timing for timing in record["fem"]}
+        self.assertEqual(fem.keys(), {"linear", "stable_neo_hookean"})
+        tets = record["mesh"]["tets"]
+        self.assertAlmostEqual(fem["linear"]["ns_element"] * tets, 1e6 * fem["linear"]["ms_further_frame"], delta=1e-6 * tets)
+        newton = fem["stable_neo_hookean"]
+        self.assertTrue(newton["reached"])
+        self.assertGreater(newton["newton_steps"], 1)
+        self.assertAlmostEqual(newton["ms_newton_step"] * newton["newton_steps"], newton["ms_frame"], delta=1e-9 * newton["ms_frame"])
+        for timing in fem.values():  # there is no plain implementation
+            self.assertFalse([key for key in timing if key.startswith("ratio_to_plain")])
 
     def test_every_number_is_finite_and_every_time_positive(self):
         for path, value in numbers(self.record("--mesh", self.arm())):

@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace {
@@ -121,6 +122,39 @@ TEST(ProjectionVariants, SettleOnTheSameResiduals)
             << variant.variant;
         EXPECT_NEAR(residuals.volume_rms, plain.volume_rms, same_order ? 2.0 * rounding.volume_rms : 0.3 * plain.volume_rms)
             << variant.variant;
+    }
+}
+
+// Worked by hand: residuals (3, 4, 0) and (0.3, 0.4, 0) have the combined values 5 / sqrt(3) and 0.5 / sqrt(3); a bind error of 2 m over a
+// mean distance of 0.5 m is 4.
+TEST(AnswerRatios, AreOfTheCombinedResidualAndOfTheVolume)
+{
+    const AnswerRatio loss = answer_ratio({.stretch_rms = 3.0, .volume_rms = 4.0, .bind_rms_m = 0.0},
+                                          {.stretch_rms = 0.3, .volume_rms = 0.4, .bind_rms_m = 0.0}, 1.0);
+    EXPECT_DOUBLE_EQ(loss.residual, 10.0);
+    EXPECT_DOUBLE_EQ(loss.volume_rms, 10.0);
+    const AnswerRatio bind = answer_ratio({.stretch_rms = 0.0, .volume_rms = 3.0, .bind_rms_m = 2.0},
+                                          {.stretch_rms = 0.0, .volume_rms = 1.0, .bind_rms_m = 0.0}, 0.5);
+    EXPECT_DOUBLE_EQ(bind.residual, 5.0);
+}
+
+// Each variant states what its answer loses to plain loops after the same step, next to its speed-up.
+TEST(AnswerRatios, StandNextToEachSpeedUp)
+{
+    const BenchBody body = make_bench_body("bar", test_support::structured_bar({-1, -0.15, -0.15}, {1, 0.15, 0.15}, {8, 2, 2}));
+    const MachineLimits limits = {100.0, 50.0, {{1e3, 80.0}, {1e9, 20.0}}};
+    const auto timings = time_projections(body, {1}, limits, {.seconds = 0.0, .fewest = 1, .most = 1});
+    for (const ProjectionTiming& timing : timings) {
+        const ProjectionTiming& spread = *std::find_if(timings.begin(), timings.end(), [&](const ProjectionTiming& one) {
+            return one.variant == "plain_spread" && one.precision == timing.precision;
+        });
+        EXPECT_EQ(timing.answer_to_plain_spread.volume_rms, timing.residuals.volume_rms / spread.residuals.volume_rms) << timing.variant;
+        if (timing.variant == "plain") {
+            EXPECT_EQ(timing.answer_to_plain.residual, 1.0);
+        }
+        if (timing.variant == "grouped") {
+            EXPECT_NE(timing.answer_to_plain_spread.residual, 1.0);
+        }
     }
 }
 

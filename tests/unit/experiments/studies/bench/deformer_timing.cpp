@@ -5,6 +5,7 @@
 #include "experiments/deformers/registry.hpp"
 #include "experiments/process/cpu_clock.hpp"
 #include "experiments/settings/scene_values.hpp"
+#include "experiments/studies/bench/plain_blend.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/solver/options.hpp"
 #include "tests/support/structured_bar.hpp"
@@ -12,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <set>
 
 namespace {
@@ -47,17 +49,36 @@ TEST(DeformerSettings, EveryOrderAndPrecision)
     EXPECT_EQ(different.size(), 6u);
 }
 
-TEST(DeformerSettings, OfABlendAreItsPrecisions)
+// The keys of a blend ask only for packed code. Its ratio is to the plain blend, not to packed code in f64.
+TEST(DeformerSettings, OfABlendAreItsPrecisionsAndThePlainBlend)
 {
-    const std::vector<DeformerSetting> settings = deformer_settings(*find_deformer_kind("lbs"));
-    std::set<std::string> precisions;
-    for (const DeformerSetting& setting : settings) {
-        EXPECT_EQ(setting.order, "");
-        EXPECT_FALSE(setting.twice);
-        precisions.insert(setting.precision);
+    for (const char* kind : {"lbs", "dqs"}) {
+        const std::vector<DeformerSetting> settings = deformer_settings(*find_deformer_kind(kind));
+        std::set<std::pair<std::string, std::string>> different;
+        for (const DeformerSetting& setting : settings) {
+            EXPECT_FALSE(setting.twice);
+            EXPECT_TRUE(settings[setting.plain].is_plain_blend);
+            different.insert({setting.order, setting.precision});
+        }
+        EXPECT_EQ(settings.size(), 3u);
+        EXPECT_EQ(different, (std::set<std::pair<std::string, std::string>>{{"packed", "f32"}, {"packed", "f64"}, {"plain", "f64"}}));
     }
-    EXPECT_EQ(settings.size(), 2u);
-    EXPECT_EQ(precisions, (std::set<std::string>{"f32", "f64"}));
+}
+
+// Both are the same mathematics in f64. Each coordinate is a sum of at most twelve products of numbers below two (metres, rotations and
+// weights that sum to one), which either side rounds once per operation; the dual quaternion adds a norm and a conversion.
+TEST(PlainBlends, GiveTheShapeOfThePackedOnes)
+{
+    for (const char* kind : {"lbs", "dqs"}) {
+        const std::unique_ptr<Deformer> plain = make_plain_blend(kind), packed = make_deformer(default_spec(kind));
+        for (Deformer* deformer : {plain.get(), packed.get()}) {
+            deformer->reset(bar().character);
+            deformer->advance(bar().pose, 0.01);
+        }
+        EXPECT_LT((plain->positions() - packed->positions()).cwiseAbs().maxCoeff(), 64.0 * std::numeric_limits<double>::epsilon()) << kind;
+        EXPECT_GT((plain->positions() - bar().mesh().rest).cwiseAbs().maxCoeff(), 0.1) << kind;
+    }
+    EXPECT_FALSE(is_blend("pbs"));
 }
 
 TEST(DeformerSettings, WithoutKeysOfItsCodeThereIsOneWithItsDefaults)
