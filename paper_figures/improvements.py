@@ -50,6 +50,22 @@ def draw_gains(axes, rows):
     return [{"shown": "gain"} | {name: row[name] for name in sorted(gain_columns)} for row in rows]
 
 
+def omissions(rows):
+    """The changes that have no value in every pose, and are not ranked: their means are over other poses."""
+    changes, lines = dict.fromkeys(row["change"] for row in rows), []
+    for budget in budget_looks:
+        poses = {row["change"]: int(row["poses"]) for row in rows if row["budget_iterations"] == budget}
+        most = max(poses.values(), default=0)
+        lines += [f"{names[change]} in the time of {budget} iterations: {poses.get(change, 0)} of {most} poses"
+                  for change in changes if poses.get(change, 0) < most]
+    return lines
+
+
+def draw_omissions(axes, lines):
+    text = "\n".join(["Omissions (not ranked):", *(lines or ["none"])])
+    axes.text(0.01, 0.02, text, transform=axes.transAxes, fontsize=5, va="bottom", ha="left")
+
+
 def draw(results, figures):
     folder = results / "improvements"
     curves = records.table(folder / "curves.csv", curve_columns)
@@ -61,6 +77,9 @@ def draw(results, figures):
     behind = [row for panel, body in zip(upper, bodies)
               for row in draw_curves(panel, body, [row for row in curves if row["body"] == body])]
     behind += draw_gains(lower[0], gains)
+    omitted = omissions(gains)
+    draw_omissions(lower[0], omitted)
+    behind += [{"shown": "omission", "why": line} for line in omitted]
     upper[0].legend(loc="best", fontsize=6)
     lower[0].legend(loc="best", fontsize=6)
     style.save(figure, figures / "improvements", entries.origin_of(results, "improvements"), style.aligned(behind))

@@ -7,22 +7,16 @@
 #include "experiments/studies/ensemble/ensemble.hpp"
 
 #include "analysis/records/folder_files.hpp"
-#include "analysis/report_table.hpp"
 #include "experiments/deformers/registry.hpp"
+#include "experiments/studies/ensemble/ensemble_page.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 #include "experiments/studies/study.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
 namespace experiments {
 namespace {
-
-constexpr double notable_pct = 2.0;  // pairs that differ by more than this are to be decided
-const std::string linear = "fem_linear";
 
 std::string measure_and_record(const EnsembleCase& of, const std::string& folder)
 {
@@ -47,7 +41,7 @@ EnsembleCase ensemble_case(const analysis::CaseKey& key, const Scene& scene, int
     options_of<pbs::PbsOptions>(pbs).jiggle.reset();
     of.deformers.push_back(pbs);
     DeformerSpec elastic = of.flesh;
-    elastic.name = elastic.label = linear;
+    elastic.name = elastic.label = linear_elements;
     auto& small_strain = options_of<FemOptions>(elastic);
     small_strain.model = reference_fem::Model::linear;
     small_strain.most_newton_steps = 0;
@@ -90,57 +84,6 @@ StudyPlan plan(bool full)
     return plan;
 }
 
-bool is_notable(const PairRow& pair)
-{
-    return pair.largest_difference_pct > notable_pct;
-}
-
-struct Count {
-    std::ptrdiff_t decided = 0, notable = 0;
-};
-Count count_decided(const std::vector<PairRow>& pairs, auto&& is_counted)
-{
-    Count count;
-    for (const PairRow& pair : pairs) {
-        if (!is_notable(pair) || !is_counted(pair)) continue;
-        ++count.notable;
-        count.decided += pair.decision == analysis::PairDecision::decided;
-    }
-    return count;
-}
-
-std::string page_of(const std::vector<PairRow>& pairs, const std::vector<MemberRow>& members)
-{
-    const Count all = count_decided(pairs, [](const PairRow&) { return true; });
-    const Count skinning = count_decided(pairs, [](const PairRow& pair) { return pair.first != linear && pair.second != linear; });
-    std::vector<PairRow> undecided;
-    for (const PairRow& pair : pairs)
-        if (is_notable(pair) && pair.decision != analysis::PairDecision::decided) undecided.push_back(pair);
-    const auto reached = std::ranges::count(members, std::string("reached"), &MemberRow::outcome);
-    const auto without_bound = std::ranges::count_if(
-        members, [](const MemberRow& member) { return member.outcome == "reached" && !member.error_bound_pct; });
-    std::string page = fmt::format(
-        "{} of {} references were reached. {} of these have no bound on their own error and decide nothing, because too few of their "
-        "solutions converged without inverted tets.\n\n",
-        reached, members.size(), without_bound);
-    page += fmt::format(
-        "{} of {} pairs of deformers whose errors differ by more than {:g} percentage points are decided. Without linear finite elements, "
-        "these are {} of {} pairs.\n",
-        all.decided, all.notable, notable_pct, skinning.decided, skinning.notable);
-    if (!undecided.empty())
-        page += "\n" + markdown_table(table_of(pair_columns, undecided), {{"body", "body"},
-                                                                          {"motion", "motion"},
-                                                                          {"pose", "pose"},
-                                                                          {"angle [deg]", "angle_deg"},
-                                                                          {"first", "first"},
-                                                                          {"second", "second"},
-                                                                          {"largest difference [%]", "largest_difference_pct", "{:.1f}"},
-                                                                          {"first closer", "first_is_closer"},
-                                                                          {"second closer", "second_is_closer"},
-                                                                          {"decision", "decision"}});
-    return page;
-}
-
 StudyConclusion conclude(const FinishedRuns& finished)
 {
     if (finished.none()) return {"", false};
@@ -148,7 +91,7 @@ StudyConclusion conclude(const FinishedRuns& finished)
     const std::vector<MemberRow> members = finished.rows(member_columns, "members.csv");
     finished.write("pairs.csv", pair_columns, pairs);
     finished.write("members.csv", member_columns, members);
-    const std::string page = page_of(pairs, members);
+    const std::string page = ensemble_page(pairs, members);
     finished.write("ensemble.md", page);
     return {page, true};
 }

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 namespace experiments {
 namespace {
@@ -63,10 +64,27 @@ std::string answer(const std::vector<GainRow>& gains)
         spoken(versus->than), interval_of(*versus), remark_on(*versus), of_the_control(gains));
 }
 
+// The changes without a value in every pose, whose means are over other poses and cannot be compared. own: of one group and budget,
+// relative to the baseline. changes: all of the study.
+std::string omissions(const std::vector<GainRow>& own, const std::set<std::string>& changes)
+{
+    const int most = std::ranges::max(own, {}, &GainRow::poses).poses;
+    std::string omitted;
+    for (const std::string& change : changes) {
+        const auto found = std::ranges::find(own, change, &GainRow::change);
+        const int poses = found == own.end() ? 0 : found->poses;
+        if (poses < most) omitted += fmt::format("{}{} ({} of {} poses)", omitted.empty() ? "" : ", ", spoken(change), poses, most);
+    }
+    return omitted.empty() ? "" : "\nNot ranked, because no setting fits into the budget in every pose: " + omitted + ".\n";
+}
+
 }  // namespace
 
 std::string gains_page(const std::vector<GainRow>& gains)
 {
+    std::set<std::string> changes;
+    for (const GainRow& gain : gains)
+        if (gain.than == baseline) changes.insert(gain.change);
     std::string page;
     for (std::size_t first = 0; first < gains.size();) {
         std::vector<GainRow> own;  // of one group at one budget, which follow each other
@@ -89,7 +107,7 @@ std::string gains_page(const std::vector<GainRow>& gains)
                                                              {"decision", "decision"},
                                                              {"volume change [%]", "volume_abs_pct", "{:.2f}"},
                                                              {"settings", "settings"}}) +
-                "\n";
+                omissions(own, changes) + "\n";
     }
     return page;
 }

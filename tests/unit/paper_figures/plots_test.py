@@ -13,6 +13,7 @@ from xml.etree import ElementTree
 root = pathlib.Path(__file__).resolve().parents[3]
 sys.path[:0] = [str(root / "paper_figures"), str(pathlib.Path(__file__).parent)]
 
+import improvements  # noqa: E402
 import make_all  # noqa: E402
 import stiffness  # noqa: E402
 import style  # noqa: E402
@@ -94,6 +95,13 @@ class Plots(unittest.TestCase):
         self.assertEqual(len([row for row in rows if row["shown"] == "gain"]), 3)  # relative to PBS, and to no other change
         self.assertAlmostEqual(float(gains["4"]["gain_pct"]), 5.0)
         self.assertEqual([gains[n]["decision"] for n in ("4", "24", "96")], ["few_poses", "decided", "few_poses"])
+        self.assertFalse([row for row in rows if row["shown"] == "omission"])
+
+    def test_improvements_list_the_changes_without_a_value_in_every_pose(self):
+        rows = [{"change": change, "budget_iterations": budget, "poses": poses}
+                for change, budget, poses in (("smooth_weights", "4", "8"), ("region_volumes", "4", "6"), ("smooth_weights", "24", "8"))]
+        self.assertEqual(improvements.omissions(rows), ["volumes of regions in the time of 4 iterations: 6 of 8 poses",
+                                                        "volumes of regions in the time of 24 iterations: 0 of 8 poses"])
 
     def test_an_attachment_that_was_not_reached_keeps_its_place_and_says_so(self):
         synthetic_tables.write_error_split(self.results / "error_split")

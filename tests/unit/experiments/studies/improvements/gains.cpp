@@ -132,6 +132,16 @@ TEST(Gains, ChangesThatAreTooSlowInSomePoseAreNotRanked)
     EXPECT_EQ(gain_of(gains, "in_one_pose", baseline).poses, 1);
     EXPECT_FALSE(gain_of(gains, "in_one_pose", baseline).gain_low_pct) << "one pose has no interval";
     EXPECT_EQ(gain_of(gains, "better", "good").poses, 4);
+    const std::string page = gains_page(gains);
+    EXPECT_NE(page.find("Not ranked, because no setting fits into the budget in every pose: in one pose (1 of 4 poses).\n"),
+              std::string::npos);
+    EXPECT_NE(page.find("in one pose (0 of 2 poses)"), std::string::npos) << "the poses of the other body";
+}
+
+TEST(Gains, APageWithEveryChangeInEveryPoseHasNoOmission)
+{
+    const std::string page = gains_page(gains_of(at_equal_time(some_poses({8.0, 7.0, 6.0, 7.0}, {4.0, 5.0, 3.0, 4.0}, 0.01))));
+    EXPECT_EQ(page.find("Not ranked"), std::string::npos);
 }
 
 }  // namespace
