@@ -59,21 +59,14 @@ const std::vector<ComparedKind>& compared_kinds()
 {
     static const std::vector<ComparedKind> kinds = {
         {"quasi_newton", true, ""},
-        {"vbd", true, ""},
-        {"xpbd_neo_hookean", true, ""},
+        {"vbd", true, "", {&chebyshev_radii, &relaxations}},
+        {"xpbd_neo_hookean", true, "", {&step_shares}},
         {"projective_dynamics", true, ""},
         {"delta_mush", false, "a function of the pose alone"},
         {"direct_delta_mush", false, "a function of the pose alone"},
         {"pbs_author", false,
          "each frame begins at the shape of LBS; only the displacement of the last frame is kept, which teleports make extreme"}};
     return kinds;
-}
-
-std::vector<const Sweep*> beyond_limits(const std::string& kind)
-{
-    if (kind == "vbd") return {&chebyshev_radii, &relaxations};
-    if (kind == "xpbd_neo_hookean") return {&step_shares};
-    return {};
 }
 
 std::vector<StabilityCell> other_cells(bool full)
@@ -86,7 +79,7 @@ std::vector<StabilityCell> other_cells(bool full)
         if (options_if<pbs::AuthorOptions>(from.spec)) append(cells, cells_of(own_time_steps, from, full));
         if (has_option(compared.kind, "poisson")) append(cells, cells_of(poissons, from, full));
         if (has_option(compared.kind, "iterations")) append(cells, cells_of(iterations, from, full));
-        for (const Sweep* sweep : beyond_limits(compared.kind)) append(cells, cells_of(*sweep, from, full));
+        for (const Sweep* sweep : compared.beyond_limits) append(cells, cells_of(*sweep, from, full));
     }
     return cells;
 }

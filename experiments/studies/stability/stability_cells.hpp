@@ -18,12 +18,10 @@ std::vector<StabilityCell> other_cells(bool full);        // the other deformers
 // A deformer that is compared with PBS.
 struct ComparedKind {
     const char* kind;
-    bool minimises;             // an energy, from an initial guess: broken_start.hpp
-    const char* without_start;  // why it has no broken start, otherwise
+    bool minimises;                                // an energy, from an initial guess: broken_start.hpp
+    const char* without_start;                     // why it has no broken start, otherwise
+    std::vector<const Sweep*> beyond_limits = {};  // settings up to and beyond those for which it is known to converge
 };
 const std::vector<ComparedKind>& compared_kinds();
-
-// Settings up to and beyond those for which the kind is known to converge; empty: none are known.
-std::vector<const Sweep*> beyond_limits(const std::string& kind);
 
 }  // namespace experiments

@@ -35,7 +35,7 @@ std::vector<StabilityCell> start_cells(bool full)
         for (const bool is_twisted : {false, true}) append(cells, cells_of(starts, posed(compared.kind, is_twisted), full));
         const StabilityCell twisted = posed(compared.kind, true);
         append(cells, cells_of_map(starts, incompressible, twisted, full));
-        for (const Sweep* sweep : beyond_limits(compared.kind)) append(cells, cells_of_map(starts, *sweep, twisted, full));
+        for (const Sweep* sweep : compared.beyond_limits) append(cells, cells_of_map(starts, *sweep, twisted, full));
     }
     return cells;
 }
