@@ -36,6 +36,7 @@ public:
           gravity_(Eigen::VectorXd::Zero(held_.space().dofs())),
           newton_(held_.space(), held_.prescribed(), options.solver),
           displacement_(Eigen::VectorXd::Zero(held_.space().dofs())),
+          last_iterate_(displacement_),
           positions_(mesh.rest),
           terms_{&flesh_, &gravity_},
           setup_(held_.summary(nullptr, 0.0))
@@ -64,6 +65,7 @@ public:
                 const Targets targets = targets_at(fraction);
                 if (guide.rows() > 0) displacement_ += held_.prescribed_values(held_.rest() + targets.guide - guide);
                 const NewtonSummary summary = newton_.minimise(terms_, move_to(targets), displacement_, options_.newton);
+                last_iterate_ = displacement_;
                 if (summary.converged()) guide = targets.guide;
                 return summary;
             },
@@ -84,6 +86,7 @@ public:
         NewtonOptions options = options_.newton;
         options.reuse_contraction = 0.0;  // far from a minimum a kept factor can lead elsewhere
         const NewtonSummary summary = newton_.minimise(terms_, move_to(targets), displacement_, options);
+        last_iterate_ = displacement_;
         show();
         return summary;
     }
@@ -98,10 +101,24 @@ public:
                 gravity_.set(weight_before + (from + share * (to - from)) * (weight - weight_before));
             }};
         const LoadPathSummary path = stepper_->advance(terms_, data, time_step_s, displacement_, options_.newton, options_.path);
+        last_iterate_ = path.converged() ? displacement_ : stepper_->last_iterate();
         weighs_ |= path.converged();
         gravity_.set(path.converged() ? weight : weight_before);
         show();
         return path;
+    }
+
+    void start_at(const Eigen::VectorXd& displacement)
+    {
+        displacement_ = displacement;
+        positions_ = held_.vertices(displacement_);
+    }
+
+    pbs::Positions moved(const pbs::Positions& points_at_rest, const Eigen::VectorXd& displacement) const
+    {
+        const pbs::TetMesh mesh{held_.rest(), held_.space().tet_nodes().leftCols(4)};
+        const AttachedPoints points(mesh, held_.space(), points_at_rest, Eigen::VectorXd::Ones(points_at_rest.rows()));
+        return points.moved(displacement);
     }
 
     void show()
@@ -138,6 +155,7 @@ public:
     NewtonMinimiser newton_;
     std::unique_ptr<TimeStepper> stepper_;  // null: quasi-static
     Eigen::VectorXd displacement_;          // [m], #dofs
+    Eigen::VectorXd last_iterate_;          // displacement [m], #dofs, at which Newton's method ended
     pbs::Positions positions_;
     Terms terms_;
     SetupSummary setup_;
@@ -171,7 +189,7 @@ LoadPathSummary ElasticBody::advance(const TargetsAt& targets_at, const pbs::Vec
 
 void ElasticBody::start_from(const pbs::Positions& vertices)
 {
-    implementation_->displacement_ = implementation_->held_.prescribed_values(vertices);
+    implementation_->start_at(implementation_->held_.prescribed_values(vertices));
 }
 
 void ElasticBody::start_from_nodes(const pbs::Positions& nodes)
@@ -179,7 +197,7 @@ void ElasticBody::start_from_nodes(const pbs::Positions& nodes)
     const pbs::Positions& rest = nodes_at_rest();
     require(nodes.rows() == rest.rows(), "nodes", nodes.rows(), "expected one position per node");
     const pbs::Positions displacement = nodes - rest;
-    implementation_->displacement_ = Eigen::VectorXd::Map(displacement.data(), displacement.size());
+    implementation_->start_at(Eigen::VectorXd::Map(displacement.data(), displacement.size()));
 }
 
 NewtonSummary ElasticBody::solve_at_once(const Targets& targets, const pbs::Vec3& gravity_m_s2)
@@ -201,10 +219,17 @@ const pbs::Positions& ElasticBody::nodes_at_rest() const
 
 pbs::Positions ElasticBody::moved(const pbs::Positions& points_at_rest) const
 {
-    const HeldSpace& held = implementation_->held_;
-    const pbs::TetMesh mesh{held.rest(), held.space().tet_nodes().leftCols(4)};
-    const AttachedPoints points(mesh, held.space(), points_at_rest, Eigen::VectorXd::Ones(points_at_rest.rows()));
-    return points.moved(implementation_->displacement_);
+    return implementation_->moved(points_at_rest, implementation_->displacement_);
+}
+
+pbs::Positions ElasticBody::moved_in_last_iterate(const pbs::Positions& points_at_rest) const
+{
+    return implementation_->moved(points_at_rest, implementation_->last_iterate_);
+}
+
+Jacobians ElasticBody::jacobians_of_last_iterate() const
+{
+    return implementation_->flesh_.jacobians(implementation_->last_iterate_);
 }
 
 const Eigen::VectorXd& ElasticBody::displacement() const

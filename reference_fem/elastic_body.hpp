@@ -1,10 +1,11 @@
-// The reference solver at large rotations: any of the laws on the skinner's own tets, held by the skeleton as LinearElasticity is,
-// quasi-static or in time.
+// The reference solver at large rotations: any of the laws on the character's own tets, which the skeleton holds as in
+// LinearElasticity, quasi-static or in time.
 //   ElasticBody body(mesh, options, attachment);
 //   const LoadPathSummary path = body.solve(targets_at, gravity_m_s2);        // equilibrium, from the last one
 //   const LoadPathSummary step = body.advance(targets_at, gravity_m_s2, dt);  // or one time step
 //   body.positions();
-// A state that was not reached is a reported outcome: the positions are then those of the last converged state.
+// A state that was not reached is a reported outcome: the positions are then those of the last converged state, and moved_in_last_iterate()
+// gives those in which Newton's method ended.
 #pragma once
 
 #include "reference_fem/attachment.hpp"
@@ -41,8 +42,8 @@ struct Targets {
     pbs::Positions springs;      // [m], #S x 3
     pbs::Positions vertices;     // [m], #V x 3, read at the vertices of prescribed tets only
     pbs::Positions bind_points;  // [m], #V x 3, where the attachment binds; else empty
-    pbs::Positions guide = {};   // [m], #V x 3, or empty: solve() sets out from the last state plus the guide's change since. Not what is
-                                 // converged to depends on it, only the way
+    pbs::Positions guide = {};   // [m], #V x 3, or empty. The initial guess of solve() is the last state plus the change of the guide since
+                                 // then. The solution does not depend on it
 };
 using TargetsAt = std::function<Targets(double fraction)>;  // may be called twice for a fraction, and after a failure for a lower one
 
@@ -65,8 +66,8 @@ public:
     // pbs::InputError where quasi-static, for a step that is not finite and > 0, and as solve().
     LoadPathSummary advance(const TargetsAt& targets_at, const pbs::Vec3& gravity_m_s2, double time_step_s);
 
-    // An initial guess for Newton's method other than the last state [m], #V x 3, with mid-edge nodes halfway; or #nodes x 3. Does not
-    // change what is converged to, only the way.
+    // Sets an initial guess for Newton's method other than the last state [m], #V x 3, with mid-edge nodes halfway; or #nodes x 3. It
+    // becomes the current state. The solution does not depend on it, only the number of iterations does.
     void start_from(const pbs::Positions& vertices);
     void start_from_nodes(const pbs::Positions& nodes);
 
@@ -78,11 +79,14 @@ public:
     const pbs::Positions& nodes_at_rest() const;  // [m], #nodes x 3: vertices, then the middles of edges
     // Where points of the flesh are now [m], #P x 3, interpolated by the elements; given at rest. Not a number outside the flesh.
     pbs::Positions moved(const pbs::Positions& points_at_rest) const;
+    // As moved() and jacobians(), in the state in which Newton's method ended last, converged or not. At rest before the first solve.
+    pbs::Positions moved_in_last_iterate(const pbs::Positions& points_at_rest) const;
+    Jacobians jacobians_of_last_iterate() const;
     const Eigen::VectorXd& displacement() const;    // of every node of the space [m], #dofs: vertices, then the middles of edges
     pbs::Positions spring_points_deformed() const;  // where the tied points went [m], #S x 3
     double strain_energy_j() const;                 // of the flesh alone
     double kinetic_energy_j() const;                // 0 where quasi-static
-    Jacobians jacobians() const;                    // at the quadrature points: an inverted one is not for P1 alone to see
+    Jacobians jacobians() const;                    // det F at the quadrature points of the elements
     std::vector<bool> prescribed_vertices() const;  // #V
     const SetupSummary& setup() const;              // solver and factor from the first solve on
 

@@ -41,6 +41,9 @@ public:
     virtual FewerNodes set_out_from() const { return {}; }
     // The smallest det F at the quadrature points of the elements in the last pose. Nothing: no elements with quadrature points.
     virtual std::optional<double> lowest_det_f() const { return {}; }
+    // The last state of the solver in the last call of advance [m], #V x 3, in the world. It differs from positions() where the pose was
+    // not reached and positions() were taken back to an earlier state.
+    virtual pbs::Positions last_state() const { return positions(); }
     // The sizes that DeformerKind::work needs and that the mesh does not determine. The deformer reads these entries in each iteration.
     virtual pbs::KeptEntries kept() const { return {}; }
     // Further facts for run.json: the grip of each bone, the solver, sizes. Null: none.

@@ -16,6 +16,7 @@ struct BrokenFrame {
     int frame = 0;
     std::string what;  // not_finite, not_converged, inverted
     int step = -1;     // of the motion, if it broke down in a step before that of the frame; the elements are always those of the frame
+    // The elements of a frame that is not converged are those of the solver's last state (Deformer::last_state).
     // If positions are not finite: the first such vertex and the number of them. Otherwise -1, 0.
     int vertex = -1, vertices = 0;
     // If they are finite: the tet of the lowest volume ratio J_t = V_t / V0_t, and the number of tets with J_t <= 0. Otherwise -1, 0, 0.

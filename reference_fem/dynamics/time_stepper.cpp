@@ -90,6 +90,7 @@ NewtonSummary TimeStepper::attempt(const Terms& terms, const MovingData& data, d
 
     Eigen::VectorXd w = between(now.displacement, guess, share);
     const NewtonSummary summary = newton_.minimise(with_inertia(terms), between(now.displacement, end.displacement, share), w, options);
+    last_iterate_ = w;
     if (!summary.converged()) return summary;
     accept_step(now, end, w, step_s);
     guess = state_.motion.displacement;

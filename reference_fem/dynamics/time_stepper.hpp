@@ -47,8 +47,11 @@ public:
                             const LoadPathOptions& path);
 
     const Motion& motion() const { return state_.motion; }  // at the end of the last step that was reached
-    double kinetic_energy_j() const;                        // v M v / 2
-    const ConsistentMass& mass() const { return mass_; }    // M, of density_kg_m3
+    // Displacement [m], #dofs, at which Newton's method ended last, converged or not: at the time within the step where the scheme balances
+    // the forces. Empty before the first step.
+    const Eigen::VectorXd& last_iterate() const { return last_iterate_; }
+    double kinetic_energy_j() const;                      // v M v / 2
+    const ConsistentMass& mass() const { return mass_; }  // M, of density_kg_m3
 
     // `newton` was used for something else.
     void forget_factor() { factored_step_s_ = 0.0; }
@@ -76,6 +79,7 @@ private:
     InertiaPotential inertia_, mass_damping_;
     std::unique_ptr<StiffnessPotential> stiffness_damping_;  // null: b = 0
     State state_;
+    Eigen::VectorXd last_iterate_;
     double factored_step_s_ = 0.0;  // 0: newton_ keeps no factor of ours
 };
 

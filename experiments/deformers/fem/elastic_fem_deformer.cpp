@@ -97,7 +97,8 @@ void ElasticFemDeformer::reset(const pbs::Character& character)
     failures_in_a_row_ = 0;
     record_ = FemRecord(character, options_, bones_, body_->setup().spring_tet);
     newton_record_ = NewtonRecord(pbs::tet_volumes(character.mesh.rest, character.mesh.tets).sum());
-    positions_ = character.mesh.rest;
+    has_tried_ = true;
+    positions_ = last_state_ = character.mesh.rest;
 }
 
 pbs::StepSummary ElasticFemDeformer::advance(const pbs::Pose& pose, double dt_s)
@@ -111,10 +112,13 @@ pbs::StepSummary ElasticFemDeformer::advance(const pbs::Pose& pose, double dt_s)
             solve = settle_from_start(frame);
         else if (!settle_from_fewer_nodes(pose, frame, solve) && may_go_the_way(solve))
             solve = settle(frame);
+        has_tried_ = !solve.stages.empty();
         positions_ = frame.to_world(body_->positions());
+        last_state_ = solve.converged() ? positions_ : frame.to_world(last_iterate_at(character_->mesh.rest));
     } else {
         solve = is_started_ ? move(pose, dt_s) : start_at(frame);
         positions_ = body_->positions();
+        last_state_ = solve.converged() ? positions_ : last_iterate_at(character_->mesh.rest);
     }
     is_started_ = true;
     pbs::StepSummary summary;
@@ -127,11 +131,28 @@ pbs::StepSummary ElasticFemDeformer::advance(const pbs::Pose& pose, double dt_s)
     summary.seconds = stopwatch.seconds();
 
     record_.add_frame(frame.pose());
+    record_solve(solve);
+    return summary;
+}
+
+void ElasticFemDeformer::record_solve(const FrameSolve& solve)
+{
     const reference_fem::Jacobians jacobians = body_->jacobians();
     lowest_det_f_ = jacobians.lowest;
-    newton_record_.add_frame(solve, jacobians);
-    if (solve.converged()) record_grip();
-    return summary;
+    if (solve.converged()) {
+        newton_record_.add_frame(solve, jacobians);
+        record_grip();
+    } else if (has_tried_) {
+        newton_record_.add_frame(solve, body_->jacobians_of_last_iterate());
+    } else {
+        newton_record_.add_frame_without_start(fewer_nodes_->newton_record_.last_failure());
+    }
+}
+
+// Where Newton's method was not tried with these nodes, the state is the last one with fewer nodes.
+pbs::Positions ElasticFemDeformer::last_iterate_at(const pbs::Positions& points_at_rest) const
+{
+    return has_tried_ ? body_->moved_in_last_iterate(points_at_rest) : fewer_nodes_->last_iterate_at(points_at_rest);
 }
 
 // Solves for equilibria along a path of poses, each placed in the world.

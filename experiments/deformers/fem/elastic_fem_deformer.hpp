@@ -3,13 +3,13 @@
 //
 // Quasi-static: the path from the last solved pose to the frame's pose is followed in stages. No bone turns by more than 45 degrees in a
 // stage, and each stage is halved until its parts converge. Where a frame is not reached, the positions are those of the last equilibrium
-// on the path, the outcome is not_converged, and the next frame begins there. The second such frame in a row is tried again from rest,
-// once. nested_start: a body with fewer nodes follows the path to a pose far from the last one, and its solution, interpolated by its own
-// elements, is the initial guess of this body, which follows the path itself only where that fails. It has order 1 on the same tets if this
-// body has order 2, and otherwise the unrefined tets. F is constant in a tet of order 1 and thus the same at all quadrature points of the
-// finer elements, so that an energy which is infinite at det F <= 0 is finite in every initial guess. start_from(): the next frame is
-// Newton's method alone, in the frame's own pose, from that shape. Where it does not converge, the positions are its last iterate, and the
-// following frame continues from there.
+// on the path, the outcome is not_converged, and the next frame begins there; last_state() and the record's worst tet are those in which
+// Newton's method ended. The second such frame in a row is tried again from rest, once. nested_start: a body with fewer nodes follows the
+// path to a pose far from the last one, and its solution, interpolated by its own elements, is the initial guess of this body, which
+// follows the path itself only where that fails. It has order 1 on the same tets if this body has order 2, and otherwise the unrefined
+// tets. F is constant in a tet of order 1 and thus the same at all quadrature points of the finer elements, so that an energy which is
+// infinite at det F <= 0 is finite in every initial guess. start_from(): the next frame is Newton's method alone, in the frame's own pose,
+// from that shape. Where it does not converge, the positions are its last iterate, and the following frame continues from there.
 //
 // In time: the body rests in equilibrium in the first pose; then every step is a time step. A step that does not converge is undone, and
 // the next step covers its time too.
@@ -40,6 +40,7 @@ public:
     std::vector<bool> prescribed() const override;
     FewerNodes set_out_from() const override { return set_out_from_; }
     std::optional<double> lowest_det_f() const override { return lowest_det_f_; }
+    pbs::Positions last_state() const override { return last_state_; }
     nlohmann::json record() const override;
 
 private:
@@ -51,6 +52,8 @@ private:
     FrameSolve start_at(const pbs::RootFrame& frame);     // in the world, at rest
     FrameSolve move(const pbs::Pose& pose, double dt_s);  // in the world
     void follow(const pbs::PosePath& way, const Eigen::Isometry3d& place, const pbs::Vec3& gravity_m_s2, FrameSolve& solve);
+    pbs::Positions last_iterate_at(const pbs::Positions& points_at_rest) const;
+    void record_solve(const FrameSolve& solve);
     void record_grip();
 
     FemOptions options_;
@@ -65,10 +68,11 @@ private:
     int failures_in_a_row_ = 0;
     std::unique_ptr<ElasticFemDeformer> fewer_nodes_;  // nested_start
     FewerNodes set_out_from_;
+    bool has_tried_ = true;  // to reach the last pose by Newton's method; if not, the solution with fewer nodes was not reached
     std::optional<double> lowest_det_f_;
     FemRecord record_;
     NewtonRecord newton_record_;
-    pbs::Positions positions_;  // [m], #V x 3
+    pbs::Positions positions_, last_state_;  // [m], #V x 3
 };
 
 }  // namespace experiments

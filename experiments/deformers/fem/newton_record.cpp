@@ -22,15 +22,20 @@ void NewtonRecord::add_failure(const FrameSolve& solve, const reference_fem::Jac
                               {"worst_tet", flesh.lowest_tet},
                               {"lowest_det_f", flesh.lowest},
                               {"inverted_points", flesh.inverted}};
-    if (solve.stages.empty()) {
-        failure["newton"] = "the solution with fewer nodes was not reached";
-    } else {
-        const reference_fem::NewtonSummary& last = solve.stages.back().steps.back().newton;
-        failure["newton"] = reference_fem::name_of(last.outcome);
-        failure["last_residual_n"] = last.iterations.back().residual_n;
-        failure["force_scale_n"] = last.iterations.back().force_scale_n;
-    }
+    const reference_fem::NewtonSummary& last = solve.stages.back().steps.back().newton;
+    failure["newton"] = reference_fem::name_of(last.outcome);
+    failure["last_residual_n"] = last.iterations.back().residual_n;
+    failure["force_scale_n"] = last.iterations.back().force_scale_n;
     not_converged_.push_back(failure);
+}
+
+void NewtonRecord::add_frame_without_start(const nlohmann::json& failure_with_fewer_nodes)
+{
+    not_converged_.push_back({{"frame", frames_},
+                              {"reached", 0.0},
+                              {"newton", "the solution with fewer nodes was not reached"},
+                              {"fewer_nodes", failure_with_fewer_nodes}});
+    ++frames_;
 }
 
 void NewtonRecord::add_frame(const FrameSolve& solve, const reference_fem::Jacobians& flesh)

@@ -22,8 +22,12 @@ public:
     NewtonRecord() = default;
     explicit NewtonRecord(double rest_volume_m3) : rest_volume_m3_(rest_volume_m3) {}
 
-    void add_frame(const FrameSolve& solve, const reference_fem::Jacobians& flesh);  // flesh: at the end of the frame
+    // flesh: at the end of the frame, or in the last state of Newton's method if the frame is not reached
+    void add_frame(const FrameSolve& solve, const reference_fem::Jacobians& flesh);
+    // Adds a frame in which Newton's method was not tried, since the solution with fewer nodes was not reached.
+    void add_frame_without_start(const nlohmann::json& failure_with_fewer_nodes);
 
+    const nlohmann::json& last_failure() const { return not_converged_.back(); }  // there must be one
     nlohmann::json to_json() const;
 
 private:

@@ -108,7 +108,7 @@ void PosedReference::add(const Deformer::FewerNodes& of, const Level& level)
     solution.refinements = level.character.refinements;
     solution.finished = of.step.outcome == pbs::Outcome::finished;
     solution.seconds = of.step.seconds;
-    const pbs::Positions& positions = of.deformer->positions();
+    const pbs::Positions positions = of.deformer->last_state();
     solution.positions = positions.topRows(character_.mesh.rest.rows());
     const nlohmann::json newton = of.deformer->record().at("newton");
     solution.newton_steps = newton.at("newton_steps").at("most");

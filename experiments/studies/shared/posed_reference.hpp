@@ -34,9 +34,11 @@ struct NestedSolution {
     double j_min = 1.0;                       // smallest volume ratio of such a tet
     int worst_tet = -1;                       // that tet
     int newton_steps = 0;                     // on all of the way to the pose
-    int projected = 0;         // those with a projected Hessian: it was not positive definite, or the last step met negative curvature
-    double seconds = 0.0;      // wall time, without that of the solution with fewer nodes
-    pbs::Positions positions;  // of the character's vertices [m], #V x 3
+    int projected = 0;     // those with a projected Hessian: it was not positive definite, or the last step met negative curvature
+    double seconds = 0.0;  // wall time, without that of the solution with fewer nodes
+    // Of the character's vertices [m], #V x 3; those of the last state of Newton's method if it did not finish. Where the solution with
+    // fewer nodes did not finish, these are its positions.
+    pbs::Positions positions;
 };
 // "worst tet 812 of volume ratio -0.04, 3 inverted"
 std::string worst_tet_of(const NestedSolution& solution);

@@ -5,6 +5,7 @@
 #include "experiments/deformers/registry.hpp"
 #include "pbs/character/bodies.hpp"
 #include "pbs/character/refined_character.hpp"
+#include "pbs/geometry/tet_volume.hpp"
 #include "tests/support/bar_character.hpp"
 
 #include <gtest/gtest.h>
@@ -123,6 +124,60 @@ TEST(PosedReference, ThatDoesNotArriveIsNotReached)
     EXPECT_FALSE(reference.is_reached());
     EXPECT_THROW(reference.reference(), std::bad_optional_access);
     for (const NestedSolution& solution : reference.solutions()) EXPECT_FALSE(solution.finished);
+}
+
+double smallest_volume_ratio(const pbs::TetMesh& mesh, const pbs::Positions& positions)
+{
+    return pbs::tet_volumes(positions, mesh.tets).cwiseQuotient(pbs::tet_volumes(mesh.rest, mesh.tets)).minCoeff();
+}
+
+// A volume ratio is a quotient of sums of products of coordinates of at most 2 m, over that of a cell of 2 m / 12 by 1/4 m by 1/4 m.
+constexpr double ratio_rounding = 1e-12;
+
+// Linear elements may take four times the steps, which suffice for this pose. Reference: Newton's method alone from the same initial guess,
+// which keeps its last iterate.
+TEST(PosedReference, ThatDoesNotArriveReportsTheWorstTetOfItsLastNewtonState)
+{
+    const pbs::Character bar = test_support::bar_character({12, 2, 2});
+    const pbs::Pose pose = bent(bar, 40.0);
+    DeformerSpec hurried = flesh();
+    options_of<FemOptions>(hurried).most_newton_steps = 2;
+    const PosedReference reference(bar, hurried, pose, time_step_s, false);
+    const NestedSolution &quadratic = reference.solutions().front(), &linear = reference.solutions().back();
+    ASSERT_FALSE(quadratic.finished);
+    ASSERT_TRUE(linear.finished);
+
+    options_of<FemOptions>(hurried).nested_start = false;
+    const auto alone = make_deformer(hurried);
+    alone->reset(bar);
+    alone->start_from(linear.positions);
+    ASSERT_EQ(alone->advance(pose, time_step_s).outcome, pbs::Outcome::not_converged);
+    const double j_min = smallest_volume_ratio(bar.mesh, alone->positions());
+    EXPECT_NEAR(quadratic.j_min, j_min, ratio_rounding);
+    EXPECT_GT(std::abs(linear.j_min - j_min), 1e-3);
+    EXPECT_LT(j_min, 0.999);  // not the rest state
+}
+
+// Linear elements fail after four steps, so that quadratic ones are not tried.
+TEST(PosedReference, ThatIsNotTriedReportsTheWorstTetOfTheCoarserSolution)
+{
+    const pbs::Character bar = test_support::bar_character({12, 2, 2});
+    const pbs::Pose pose = bent(bar, 40.0);
+    DeformerSpec hurried = flesh();
+    options_of<FemOptions>(hurried).most_newton_steps = 1;
+    const PosedReference reference(bar, hurried, pose, time_step_s, false);
+    ASSERT_FALSE(reference.solutions().back().finished);
+
+    DeformerSpec linear = flesh(1);
+    options_of<FemOptions>(linear).most_newton_steps = 4;
+    const auto alone = make_deformer(linear);
+    alone->reset(bar);
+    ASSERT_EQ(alone->advance(pose, time_step_s).outcome, pbs::Outcome::not_converged);
+    EXPECT_EQ(alone->positions(), bar.mesh.rest);
+    const double j_min = smallest_volume_ratio(bar.mesh, alone->last_state());
+    EXPECT_LT(j_min, 0.999);
+    EXPECT_NEAR(reference.solutions().front().j_min, j_min, ratio_rounding);
+    EXPECT_NEAR(reference.solutions().back().j_min, j_min, ratio_rounding);
 }
 
 }  // namespace
