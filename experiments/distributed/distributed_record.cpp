@@ -2,6 +2,7 @@
 
 #include "analysis/records/provenance.hpp"
 #include "experiments/deformers/fem/fem_option_names.hpp"
+#include "experiments/deformers/fem/fem_record.hpp"
 #include "experiments/process/blas_kernels.hpp"
 #include "experiments/settings/option_fields.hpp"
 
@@ -79,9 +80,10 @@ nlohmann::json to_json(const DistributedSettings& settings)
 nlohmann::json to_json(const DistributedSettings& settings, const LoadedBody& body, const reference_fem::ElasticSolution& solution)
 {
     const reference_fem::ElasticSummary& summary = solution.summary;
-    return {{"schema", 2},
+    return {{"schema", 3},
             {"body", body.name},
             {"settings", to_json(settings)},
+            {"attachment", body.held_by ? attachment_json(*body.held_by) : nlohmann::json()},
             {"springs", body.problem.attachment.spring_points.rows()},
             {"solver", summary.solver},
             {"ranks", summary.ranks},

@@ -51,14 +51,13 @@ LoadedBody limb(const BodyArguments& arguments, const reference_fem::LinearOptio
     source.body = "limb";
     source.vertices = arguments.limb_vertices;
     const pbs::Character character = pbs::make_character(source);
-    FemOptions fem;
-    fem.young_pa = options.young_pa;
-    const BoneAttachment bones = embedded_attachment(character, fem);
+    const FemOptions fem{.young_pa = options.young_pa, .attachment = FemAttachment::smooth};
+    const BoneAttachment bones = bone_attachment(character, fem);
     constexpr double degree = std::numbers::pi / 180.0;
     std::vector<Eigen::Quaterniond> joints(character.skeleton.bones.size(), Eigen::Quaterniond::Identity());
     joints.back() = Eigen::AngleAxisd(arguments.bend_deg * degree, pbs::Vec3::UnitZ()) *
                     Eigen::AngleAxisd(arguments.twist_deg * degree, pbs::Vec3::UnitX());
-    LoadedBody body{character.name, character.mesh, {}};
+    LoadedBody body{character.name, character.mesh, {}, fem};
     body.problem.options = options;
     body.problem.attachment = bones.attachment;
     body.problem.spring_targets = spring_targets(bones, pbs::pose_from_joints(character.skeleton, joints, pbs::Vec3::Zero()));

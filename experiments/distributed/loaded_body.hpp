@@ -1,10 +1,12 @@
 // The bodies of pbskin_distributed: tets with their supports and loads.
 #pragma once
 
+#include "experiments/deformers/fem/fem_options.hpp"
 #include "reference_fem/distributed/elastic_problem.hpp"
 #include "reference_fem/distributed/mpi_session.hpp"
 
 #include <limits>
+#include <optional>
 #include <string>
 
 namespace experiments {
@@ -12,7 +14,7 @@ namespace experiments {
 struct BodyArguments {
     // One of these. A file is held and pulled like the bar.
     int bar_tets = 0;       // a cantilever [0, 10] x [0, 1]^2 m of about this number of tets
-    int limb_vertices = 0;  // the built-in limb, held by the springs of its skeleton as in LinearElasticity
+    int limb_vertices = 0;  // the built-in limb, held by its bones with the smooth attachment of the reference
     std::string mesh_file;  // a tet mesh
 
     // Bar and file: vertices with x <= held_below_m are held, and those with x >= pulled_above_m are pulled. NaN: the lowest, the highest
@@ -27,6 +29,7 @@ struct LoadedBody {
     std::string name;
     pbs::TetMesh mesh;
     reference_fem::ElasticProblem problem;
+    std::optional<FemOptions> held_by = {};  // the options of the attachment to bones; nothing if the body has none. On rank 0 only
 };
 
 // pbs::InputError if the file cannot be read, or if not exactly one body is asked for.

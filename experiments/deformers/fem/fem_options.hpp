@@ -39,6 +39,20 @@ struct FemOptions {
     bool nested_start = false;  // nonlinear: the way to a far pose begins at the solution with fewer nodes (order 1, unrefined)
 };
 
+// Bound vertices have no capsules, prescribed tets have no springs, and both have no sample points.
+constexpr bool has_capsules(FemAttachment attachment)
+{
+    return attachment != FemAttachment::bind;
+}
+constexpr bool has_spring_factor(FemAttachment attachment)
+{
+    return attachment != FemAttachment::nodes;
+}
+constexpr bool has_sample_points(FemAttachment attachment)
+{
+    return attachment == FemAttachment::smooth || attachment == FemAttachment::embedded;
+}
+
 // The options themselves, or the attachment's own values where these are 0.
 inline double core_radius_of(const FemOptions& options)
 {

@@ -129,16 +129,22 @@ void FemRecord::add_grip(const pbs::Positions& targets, const Eigen::VectorXd& e
     if (motion_squared > 0.0) grip_error_over_motion_ = std::max(grip_error_over_motion_, std::sqrt(error_squared / motion_squared));
 }
 
-nlohmann::json FemRecord::attachment_json() const
+nlohmann::json attachment_json(const FemOptions& options)
 {
-    nlohmann::json attachment = {{"kind", name_of(options_.attachment)}};
-    if (options_.attachment != FemAttachment::bind) attachment["core_radius"] = core_radius_of(options_);
-    if (options_.attachment != FemAttachment::nodes) attachment["spring_factor"] = spring_factor_of(options_);
-    if (options_.attachment == FemAttachment::smooth) {
-        attachment["kernel"] = name_of(options_.attachment_kernel);
-        attachment["ends"] = options_.attachment_ends;
+    nlohmann::json attachment = {{"kind", name_of(options.attachment)}};
+    if (has_capsules(options.attachment)) attachment["core_radius"] = core_radius_of(options);
+    if (has_spring_factor(options.attachment)) attachment["spring_factor"] = spring_factor_of(options);
+    if (options.attachment == FemAttachment::smooth) {
+        attachment["kernel"] = name_of(options.attachment_kernel);
+        attachment["ends"] = options.attachment_ends;
     }
-    if (!bones_.spring_bone.empty()) attachment["samples"] = options_.attachment_samples;
+    if (has_sample_points(options.attachment)) attachment["samples"] = options.attachment_samples;
+    return attachment;
+}
+
+nlohmann::json FemRecord::attachment_and_grips() const
+{
+    nlohmann::json attachment = attachment_json(options_);
     for (std::size_t j = 0; j < grips_.size(); ++j)
         attachment["bones"].push_back(experiments::to_json(grips_[j], bones_.capsules[j], options_.attachment));
     return attachment;
@@ -150,7 +156,7 @@ nlohmann::json FemRecord::to_json(const reference_fem::SetupSummary& setup) cons
         {"model", name_of(options_.model)},
         {"formulation", name_of(options_.formulation)},
         {"dynamics", name_of(options_.dynamics)},
-        {"attachment", attachment_json()},
+        {"attachment", attachment_and_grips()},
         {"setup", experiments::to_json(setup)},
         {"frames", frames_},
         {"largest_rotation_deg", largest_rotation_rad_ * 180.0 / std::numbers::pi},
@@ -158,9 +164,9 @@ nlohmann::json FemRecord::to_json(const reference_fem::SetupSummary& setup) cons
                             ? "the root's rigid motion is removed before the solve and applied after; gravity is turned into its frame"
                             : "the root moves as the pose has it: the solve is in the world"}};
     if (options_.model == reference_fem::Model::linear)
-        json.update({{"fictitious_strain", 1.0 - std::cos(largest_rotation_rad_)},
-                     {"fictitious_strain_note",
-                      "linear strain takes a rotation by theta for a strain of 1 - cos(theta): fictitious by that much"}});
+        json.update(
+            {{"fictitious_strain", 1.0 - std::cos(largest_rotation_rad_)},
+             {"fictitious_strain_note", "In the linear model a rotation by theta produces a fictitious strain of 1 - cos(theta)."}});
     if (!hold_bone_.empty())
         json.update({{"largest_grip_error_m", largest_grip_error_m_}, {"grip_error_over_motion", grip_error_over_motion_}});
     return json;

@@ -19,6 +19,9 @@ struct BoneGrip {
     double error_rms_m = 0.0;  // largest over the frames of the frame's rms error of its holds, weighted by their density
 };
 
+// The kind of the attachment and those parameters that it has.
+nlohmann::json attachment_json(const FemOptions& options);
+
 class FemRecord {
 public:
     FemRecord() = default;
@@ -36,7 +39,7 @@ public:
 private:
     void add_bound_vertices(const pbs::Character& character);
     void add_gripped_tets(const pbs::Character& character, const std::vector<int>& spring_tet);
-    nlohmann::json attachment_json() const;
+    nlohmann::json attachment_and_grips() const;
 
     FemOptions options_;
     BoneAttachment bones_;

@@ -41,8 +41,9 @@ const analysis::Columns<AttachmentShare> attachment_columns = {
     {"reference", &AttachmentShare::reference, "", "label of the flesh; the reference's own comes first"},
     {"model", &AttachmentShare::model, "", "its law"},
     {"attachment", &AttachmentShare::attachment, "", "how it is held by the bones"},
-    {"spring_factor", &AttachmentShare::spring_factor, "", "q of its springs; empty: it has none"},
-    {"core_radius", &AttachmentShare::core_radius, "", "radius of the bones' capsules over the limb's; empty: it has none"},
+    {"spring_factor", &AttachmentShare::spring_factor, "", "q of its springs or of the bind constraint; empty: prescribed nodes have none"},
+    {"core_radius", &AttachmentShare::core_radius, "",
+     "radius of the bones' capsules over the limb's; empty: the bind constraint has none"},
     {"difference_pct", &AttachmentShare::difference_pct, "%", "its distance from the reference, at the joints outside the mask"},
     {"k_stretch", &AttachmentShare::k_stretch, "", "stiffness of the stretch constraints of PBS"},
     {"model_pct", &AttachmentShare::model_pct, "%", "distance of PBS's converged shape from this flesh"},
@@ -156,10 +157,8 @@ private:
         share.reference = flesh.label;
         share.model = name_of(fem.model);
         share.attachment = name_of(fem.attachment);
-        if (fem.attachment != FemAttachment::bind) {
-            share.spring_factor = spring_factor_of(fem);
-            share.core_radius = core_radius_of(fem);
-        }
+        if (has_spring_factor(fem.attachment)) share.spring_factor = spring_factor_of(fem);
+        if (has_capsules(fem.attachment)) share.core_radius = core_radius_of(fem);
         share.difference_pct = distance(pose, shape, reference_shape(pose)).joint_pct;
         share.k_stretch = k_stretch;
         share.model_pct = distance(pose, converged, shape).joint_pct;
@@ -214,6 +213,7 @@ std::vector<DeformerSpec> other_attachments(const DeformerSpec& reference)
     embedded.attachment = FemAttachment::embedded;
     embedded.spring_factor = embedded.core_radius = 0.0;  // the attachment's own
     bind.attachment = FemAttachment::bind;
+    bind.spring_factor = bind.core_radius = 0.0;
     FemOptions linear = flesh, linear_embedded = embedded;
     for (FemOptions* small_strain : {&linear, &linear_embedded}) {
         small_strain->model = reference_fem::Model::linear;

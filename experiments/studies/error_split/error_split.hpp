@@ -47,7 +47,7 @@ struct AttachmentShare {
     int frame = 0;
     double angle_deg = 0.0;
     std::string reference, model, attachment;
-    std::optional<double> spring_factor = {}, core_radius = {};  // the bind constraint has neither
+    std::optional<double> spring_factor = {}, core_radius = {};  // prescribed nodes have no q, the bind constraint no radius
     double difference_pct = 0.0, k_stretch = 0.0, model_pct = 0.0;
     bool finished = false;
 };

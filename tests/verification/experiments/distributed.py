@@ -69,6 +69,18 @@ class Distributed(program.ProgramTest):
         foreign_arm.write_msh(self.path("arm.msh"), *foreign_arm.mesh())
         self.compare(("--mesh", self.path("arm.msh"), "--order", 2, *ACROSS), of_residuals)
 
+    def test_limb_has_the_smooth_attachment_of_the_reference(self):
+        """Reference: the same attachment and linear model in a scene of pbskin, whose record states the attachment."""
+        self.write("limb.toml", LIMB)
+        process = program.run("run", self.path("limb.toml"), "-o", self.path("scene"))
+        self.assertEqual(process.returncode, 0, process.stderr)
+        expected = json.loads(self.read("scene", "run.json"))["deformers"]["fem"]["attachment"]
+        record, _, _ = self.solve(0, "--limb", 300, "--bend", 10, "--solver", "cholmod")
+        self.assertEqual(record["attachment"], {key: value for key, value in expected.items() if key != "bones"})
+        self.assertEqual(record["attachment"]["kind"], "smooth")
+        self.assertEqual(record["springs"], sum(bone["samples"] for bone in expected["bones"]))
+        self.assertIsNone(self.solve(0, "--bar", 600, *ACROSS)[0]["attachment"])
+
     def test_limb_held_by_its_skeleton(self):
         """The force of the springs is some q = 10 times the forces in the flesh, and the residual is relative to it: q times the
         tolerance, and as much again of the rounding that the condition of the matrix (some 1e5) enlarges."""

@@ -21,20 +21,30 @@ double volume_of(const pbs::TetMesh& mesh, const std::vector<int>& tets)
 
 // Skin vertices determine the radius. In the middle of edges and faces they are closer to the bone, so without the stored radii of the
 // character the capsules would shrink.
-TEST(RefinedAttachment, CapsulesAndSamplePointsAreTheSame)
+class RefinedAttachment : public testing::TestWithParam<FemAttachment> {};
+
+TEST_P(RefinedAttachment, HasTheSameCapsulesAndSprings)
 {
     const pbs::Character coarse = test_support::bar_character({24, 2, 2});
     pbs::Character fine = pbs::refined(pbs::refined(coarse));
-    const FemOptions options;
-    const BoneAttachment before = embedded_attachment(coarse, options), after = embedded_attachment(fine, options);
+    const FemOptions options{.attachment = GetParam()};
+    const BoneAttachment before = bone_attachment(coarse, options), after = bone_attachment(fine, options);
+    ASSERT_GT(before.attachment.spring_points.rows(), 0);
     EXPECT_EQ(after.attachment.spring_points, before.attachment.spring_points);
     EXPECT_EQ(after.attachment.spring_stiffness, before.attachment.spring_stiffness);
+    EXPECT_EQ(after.spring_density, before.spring_density);
+    EXPECT_EQ(after.spring_bone, before.spring_bone);
     EXPECT_EQ(after.vertex_bone.size(), static_cast<std::size_t>(fine.mesh.rest.rows()));
+    for (std::size_t j = 0; j < before.capsules.size(); ++j) EXPECT_EQ(after.capsules[j].radius_m, before.capsules[j].radius_m);
     fine.unrefined = nullptr;
-    EXPECT_NE(bone_capsules(fine, 0.35)[0].radius_m, before.capsules[0].radius_m);
+    for (std::size_t j = 0; j < before.capsules.size(); ++j)
+        EXPECT_LT(bone_capsules(fine, core_radius_of(options))[j].radius_m, 0.99 * before.capsules[j].radius_m);
 }
 
-TEST(RefinedAttachment, NodesHoldTheSameFlesh)
+INSTANTIATE_TEST_SUITE_P(Of, RefinedAttachment, testing::Values(FemAttachment::smooth, FemAttachment::embedded),
+                         [](const auto& name) { return name.param == FemAttachment::smooth ? "smooth" : "embedded"; });
+
+TEST(RefinedNodes, HoldTheSameFlesh)
 {
     const pbs::Character coarse = test_support::bar_character({48, 8, 8});
     const FemOptions options{.core_radius = 0.6};

@@ -113,8 +113,14 @@ TEST(ErrorSplit, MeasuresEachAttachmentAgainstTheReference)
         EXPECT_TRUE(other.finished) << other.reference;
         EXPECT_GT(other.difference_pct, 0.0) << other.reference;
         EXPECT_LE(other.model_pct, own.model_pct + other.difference_pct) << other.reference;
-        EXPECT_EQ(other.spring_factor.has_value(), other.attachment != "bind");
+        EXPECT_EQ(other.core_radius.has_value(), other.attachment != "bind");
     }
+    const auto factor_of = [&](const char* label) {
+        return std::ranges::find(split.attachments, label, &AttachmentShare::reference)->spring_factor;
+    };
+    EXPECT_EQ(factor_of("smooth_q_100"), 100.0);
+    EXPECT_EQ(factor_of("embedded"), 1e4);
+    EXPECT_EQ(factor_of("bind"), 1e4);  // its stiffness is q E V / R^2 (bone_attachment.hpp)
     const auto difference_pct = [&](const char* label) {
         return std::ranges::find(split.attachments, label, &AttachmentShare::reference)->difference_pct;
     };
