@@ -4,7 +4,7 @@
 //
 //   (---####---.---####---)
 //
-// One row states it where ccx is not on the PATH.
+// If ccx is not on the PATH, one row states that the comparison was not made.
 #include "experiments/studies/verification/held_frame.hpp"
 #include "experiments/studies/verification/problem.hpp"
 #include "reference_fem/verification/calculix/calculix_rows.hpp"

@@ -23,6 +23,7 @@ struct Effort : reference_fem::Effort {
 VerificationRows attached_limb_rows(const Effort& effort);
 VerificationRows error_split_rows(const Effort& effort);
 VerificationRows grid_convergence_rows(const Effort& effort);
+VerificationRows nested_convergence_rows(const Effort& effort);
 VerificationRows pbs_locking_rows(const Effort& effort);
 VerificationRows calculix_rows(const Effort& effort);
 

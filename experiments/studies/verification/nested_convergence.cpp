@@ -1,0 +1,152 @@
+// The order and the bound of a reference from nested solutions, on flesh with smooth springs whose exact solution is known: linear and
+// quadratic elements on some tets and on these tets cut into eight, as PosedReference solves them.
+#include "experiments/studies/verification/manufactured_attachment.hpp"
+#include "experiments/studies/verification/problem.hpp"
+#include "reference_fem/verification/common.hpp"
+#include "reference_fem/verification/structured_mesh.hpp"
+
+#include "analysis/line_fit.hpp"
+#include "analysis/nested_convergence.hpp"
+#include "pbs/geometry/refinement.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace experiments {
+
+using namespace reference_fem;
+
+namespace {
+
+constexpr int cells = 4;  // along each edge of the cube
+constexpr double formal_order = 2.0;
+const std::string source = "closed form: u_i = A sin(a_i . x + phi_i) with the springs and the body force that belong to it";
+
+// Root mean square over the vertices [m].
+double rms(const pbs::Positions& one, const pbs::Positions& other)
+{
+    return (one - other).norm() / std::sqrt(static_cast<double>(one.rows()));
+}
+
+// At the common vertices. The values are not a number where Newton's method does not converge.
+struct NestedSolutions {
+    pbs::Positions exact, linear, linear_refined, quadratic, finest;
+    int dofs = 0;  // of the finest
+
+    double error_of(const pbs::Positions& positions) const { return rms(positions, exact); }
+    double from_finest(const pbs::Positions& positions) const { return rms(positions, finest); }
+};
+
+NestedSolutions solve_nested(const Effort& effort)
+{
+    const pbs::TetMesh mesh = jittered_cube(cells, 0.25), refined = pbs::refine(mesh).mesh;
+    NestedSolutions solutions{.exact = exact_positions(mesh.rest)};
+    const auto solved = [&](const pbs::TetMesh& on, int element_order) -> pbs::Positions {
+        const AttachedSolution solution = solve_manufactured(on, element_order, {}, solver_material(effort, manufactured_material));
+        solutions.dofs = solution.dofs;
+        if (solution.converged) return solution.positions.topRows(mesh.rest.rows());
+        return pbs::Positions::Constant(mesh.rest.rows(), 3, std::numeric_limits<double>::quiet_NaN());
+    };
+    solutions.linear = solved(mesh, 1);
+    solutions.linear_refined = solved(refined, 1);
+    solutions.quadratic = solved(mesh, 2);
+    solutions.finest = solved(refined, 2);
+    return solutions;
+}
+
+VerificationRow row_of(const RowQuantity& quantity, int element_order, const std::string& unit, double value, int dofs)
+{
+    return {.problem = "nested_convergence",
+            .quantity = quantity,
+            .elements = elements_of(element_order),
+            .material = material_of("stable_neo_hookean", manufactured_material.poisson),
+            .mesh = text_of({cells, cells, cells}) + " jittered, and cut into eight",
+            .h_m = 0.5 / cells,
+            .dofs = dofs,
+            .value = value,
+            .unit = unit,
+            .source = source};
+}
+
+// The finest solution stands for the limit. Its error changes the two distances of the linear ones by at most itself.
+VerificationRow order_row(const NestedSolutions& solutions, const analysis::NestedOrder& order)
+{
+    const double linear = solutions.error_of(solutions.linear), refined = solutions.error_of(solutions.linear_refined),
+                 finest = solutions.error_of(solutions.finest);
+    VerificationRow row = row_of({"observed_order", "order of linear elements by their distances from the finest solution"}, 1, "1",
+                                 order.observed, solutions.dofs);
+    row.reference = std::log2(linear / refined);
+    row.low = row.reference + std::log2((1.0 - finest / linear) / (1.0 + finest / refined));
+    row.high = row.reference + std::log2((1.0 + finest / linear) / (1.0 - finest / refined));
+    row.note = order.reliable ? "reliable" : "not reliable";
+    row.bound_from = "the order of the true errors; the error of the finest solution changes each distance by at most itself";
+    return row;
+}
+
+// The bound must cover the true error and be smaller than the error of the next coarser solution.
+VerificationRow bound_row(const NestedSolutions& solutions, const RowQuantity& quantity, double bound, const pbs::Positions& of,
+                          const pbs::Positions& coarser)
+{
+    VerificationRow row = row_of(quantity, 2, "m", bound, solutions.dofs);
+    row.low = row.reference = solutions.error_of(of);
+    row.high = solutions.error_of(coarser);
+    row.bound_from = "the true errors of the solution and of the refined linear one";
+    return row;
+}
+
+VerificationRow limit_row(const NestedSolutions& solutions, const analysis::NestedOrder& order)
+{
+    const pbs::Positions limit = analysis::extrapolated(solutions.finest, solutions.quadratic, order.order + 1.0);
+    VerificationRow row =
+        row_of({"extrapolated_error", "error of the extrapolated quadratic solutions"}, 2, "m", solutions.error_of(limit), solutions.dofs);
+    row.low = 0.0;
+    row.high = solutions.error_of(solutions.finest);
+    row.bound_from = "the true error of the finest solution, from which it must extrapolate towards the limit";
+    return row;
+}
+
+// Least squares over the errors on three nested meshes.
+VerificationRow least_squares_row(const Effort& effort)
+{
+    std::vector<double> h_m, errors;
+    pbs::TetMesh mesh = jittered_cube(cells, 0.25);
+    int dofs = 0;
+    for (int level = 0; level < 3; ++level) {
+        const AttachedSolution solution = solve_manufactured(mesh, 1, {}, solver_material(effort, manufactured_material));
+        h_m.push_back(1.0 / (cells << level));
+        errors.push_back(solution.error);
+        dofs = solution.dofs;
+        mesh = pbs::refine(mesh).mesh;
+    }
+    VerificationRow row = row_of({"least_squares_order", "order of the error in L2 on three meshes, by least squares"}, 1, "1",
+                                 analysis::observed_order(h_m, errors).slope.estimate, dofs);
+    row.h_m = h_m.back();
+    row.reference = formal_order;
+    row.low = formal_order - 2.0 * order_tolerance;
+    row.high = formal_order + 2.0 * order_tolerance;
+    row.bound_from = "order of interpolation (Brenner and Scott 2008, ch. 5) within 0.2: errors C h^2 (1 + c h) on the coarser meshes";
+    return row;
+}
+
+}  // namespace
+
+VerificationRows nested_convergence_rows(const Effort& effort)
+{
+    const NestedSolutions nested = solve_nested(effort);
+    const double quadratic = nested.from_finest(nested.quadratic);
+    const analysis::NestedOrder order =
+        analysis::nested_order({nested.from_finest(nested.linear), nested.from_finest(nested.linear_refined), quadratic}, formal_order);
+    const double to_linear = rms(nested.quadratic, nested.linear_refined);
+    const analysis::NestedOrder without_finest =
+        analysis::order_without_finest(rms(nested.linear, nested.quadratic), to_linear, formal_order);
+    return {order_row(nested, order),
+            bound_row(nested, {"bound", "bound of the error of the finest solution (reference: its true error)"}, order.bound(quadratic),
+                      nested.finest, nested.linear_refined),
+            bound_row(nested,
+                      {"bound", "bound of the error of the unrefined quadratic solution without the finest one (reference: its true error)",
+                       "without_finest"},
+                      to_linear + without_finest.bound(rms(nested.linear, nested.linear_refined)), nested.quadratic, nested.linear),
+            limit_row(nested, order), least_squares_row(effort)};
+}
+
+}  // namespace experiments
