@@ -16,11 +16,13 @@
 #include "pbs/solver/frame_step.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <iterator>
 #include <limits>
 #include <memory>
+#include <set>
 
 namespace experiments {
 namespace {
@@ -278,8 +280,9 @@ private:
 
     void record_breakdown(const Runner& runner, int frame)
     {
-        const pbs::Positions& positions = runner.deformer->positions();
         const pbs::Outcome outcome = runner.steps.summary().outcome;
+        const pbs::Positions positions =
+            outcome == pbs::Outcome::not_converged ? runner.deformer->last_state() : runner.deformer->positions();
         BrokenFrame broken = broken_frame(frame, outcome, positions, measurer_.volume_ratios(positions));
         if (const int step = static_cast<int>(runner.steps.worst_step()); step != frame * motion_.steps_per_frame) broken.step = step;
         broken_frames_[runner.spec.label].push_back(broken);
@@ -287,9 +290,10 @@ private:
         const std::string text = fmt::format("{} is {}", runner.spec.label, text_of(broken));
         if (outcome == pbs::Outcome::not_finite) {
             if (breakdown_.empty()) breakdown_ = text;
-        } else if (bad_frame_.empty()) {
-            bad_frame_ = fmt::format("{}: {}", outcome == pbs::Outcome::finished ? "inverted tets" : "pose not reached", text);
-            bad_label_ = runner.spec.label;
+        } else {
+            if (bad_frame_.empty())
+                bad_frame_ = fmt::format("{}: {}", outcome == pbs::Outcome::finished ? "inverted tets" : "pose not reached", text);
+            bad_labels_.insert(runner.spec.label);
         }
     }
 
@@ -300,13 +304,21 @@ private:
         return context;
     }
 
+    // "3 of 31 frames of nh_p1", one for each deformer with a bad frame.
+    std::vector<std::string> counts_of_bad_frames() const
+    {
+        std::vector<std::string> counts;
+        for (const std::string& label : bad_labels_)
+            counts.push_back(fmt::format("{} of {} frames of {}", broken_frames_.at(label).size(), frames_, label));
+        return counts;
+    }
+
     RunResult finish()
     {
         std::map<std::string, nlohmann::json> records;
         for (const Runner& runner : runners_)
             if (const auto record = runner.deformer->record(); !record.is_null()) records[runner.spec.label] = record;
-        if (!bad_frame_.empty())
-            bad_frame_ += fmt::format("; {} of {} frames of {} broke down", broken_frames_[bad_label_].size(), frames_, bad_label_);
+        if (!bad_frame_.empty()) bad_frame_ += fmt::format("; {} broke down", fmt::join(counts_of_bad_frames(), ", "));
         nlohmann::json outcome = {{"finished", true}, {"frames", frames_}, {"breakdowns", breakdowns_}, {"not_converged", not_converged_}};
         outcome["broken_frames"] = broken_frames_;
         outcome["breakdown"] = breakdown_;
@@ -344,7 +356,8 @@ private:
     RunFolder folder_;  // made last, for it removes the records of an earlier run
     int frames_ = 0, frames_with_overlap_ = 0;
     double largest_masked_share_pct_ = 0.0;
-    std::string breakdown_, bad_frame_, bad_label_;                       // bad_label_: of the deformer of bad_frame_
+    std::string breakdown_, bad_frame_;
+    std::set<std::string> bad_labels_;                                    // of the deformers with bad frames
     std::map<std::string, std::vector<int>> breakdowns_, not_converged_;  // label -> frames
     std::map<std::string, std::vector<BrokenFrame>> broken_frames_;       // label -> frames with their worst elements
     std::map<std::string, int> frames_below_reference_error_ = {};        // label -> how many

@@ -10,13 +10,13 @@ namespace experiments {
 
 // A bad frame is one that was not reached (its step did not converge; such a frame of a reference is compared with nothing), or a frame of
 // a converged reference with inverted tets (it is compared, and marked by their number). Both are recorded. `run`, `check` and `reproduce`
-// end with exit status 3 for bad frames and for breakdowns, except in runs of a study that expects bad frames
-// (StudyRun::bad_frames_are_results).
+// end with exit status 3 for bad frames and for breakdowns. In runs of a study that expects bad frames
+// (StudyRun::bad_frames_are_results), `reproduce` only lists them (verdicts/marked_frames.hpp).
 struct RunResult {
     int frames = 0;
     double seconds = 0.0;
     std::string breakdown;           // the first deformer and frame that were not finite, with the first such vertex; empty: none
-    std::string bad_frame;           // the first bad frame, with the reason, the worst tet and the number of bad frames; empty: none
+    std::string bad_frame;           // the first bad frame, with its worst tet and the number of bad frames of each deformer; empty: none
     std::vector<std::string> lines;  // a summary for the terminal, one line per deformer
 
     // Why a run failed that was expected to finish without bad frames: the breakdown, else the bad frame. Empty: it did not fail.

@@ -95,7 +95,8 @@ public:
         const Shapes shapes = body.posed.shapes(spec, poses_of(spec));
         for (std::size_t pose = 0; pose < shapes.size(); ++pose) {
             if (!shapes[pose].finished) {
-                records_.breakdown += fmt::format("{} in {}. ", spec.label, of_.poses[pose].name);
+                records_.breakdown += fmt::format("{} did not reach {} on {} vertices: {}. ", spec.label, of_.poses[pose].name,
+                                                  body.posed.character().mesh.rest.rows(), shapes[pose].worst_element);
                 continue;
             }
             for (std::size_t joint = 0; joint < body.joints.size(); ++joint) add_profile(body, spec, shapes[pose], pose, joint);

@@ -1,9 +1,11 @@
 #include "experiments/studies/shared/posed_character.hpp"
 
 #include "experiments/process/interruption.hpp"
+#include "experiments/run/broken_frame.hpp"
 #include "experiments/run/frame_measurement.hpp"
 #include "experiments/scene/motion_case.hpp"
 #include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/tet_volume.hpp"
 #include "pbs/geometry/topology.hpp"
 #include "pbs/skinning/blend.hpp"
 #include "pbs/solver/poses_solver.hpp"
@@ -33,6 +35,16 @@ PosedCharacter::PosedCharacter(const Scene& scene, const std::vector<int>& frame
     }
 }
 
+Shape PosedCharacter::shape_of(const pbs::StepSummary& step, const pbs::Positions& positions, const pbs::Positions& last_state) const
+{
+    Shape shape{positions, step.outcome == pbs::Outcome::finished, step.seconds};
+    if (shape.finished) return shape;
+    const pbs::TetMesh& mesh = character_.mesh;
+    const Eigen::VectorXd ratios = pbs::tet_volumes(last_state, mesh.tets).cwiseQuotient(pbs::tet_volumes(mesh.rest, mesh.tets));
+    shape.worst_element = worst_element(broken_frame(0, step.outcome, last_state, ratios));
+    return shape;
+}
+
 Shapes PosedCharacter::shapes(const DeformerSpec& spec, std::optional<std::size_t> poses) const
 {
     const std::unique_ptr<Deformer> deformer = make_deformer(spec);
@@ -42,8 +54,7 @@ Shapes PosedCharacter::shapes(const DeformerSpec& spec, std::optional<std::size_
     for (std::size_t pose = 0; pose < count; ++pose) {
         stop_if_interrupted();
         const pbs::StepSummary step = deformer->advance(poses_[pose], time_step_s_);
-        const bool finished = step.outcome == pbs::Outcome::finished;
-        shapes.push_back({deformer->positions(), finished, step.seconds});
+        shapes.push_back(shape_of(step, deformer->positions(), deformer->last_state()));
     }
     return shapes;
 }
@@ -63,9 +74,8 @@ std::vector<Shapes> PosedCharacter::shapes(const std::vector<pbs::PbsOptions>& o
     const std::vector<pbs::StepSummary> steps = solver.advance(lbs, bind_points, time_step_s_);
     std::vector<Shapes> all(options.size());
     for (std::size_t lane = 0; lane < steps.size(); ++lane) {
-        const bool finished = steps[lane].outcome == pbs::Outcome::finished;
         const pbs::Positions& positions = solver.positions(static_cast<int>(lane));
-        all[lane / poses_.size()].push_back({positions, finished, steps[lane].seconds});
+        all[lane / poses_.size()].push_back(shape_of(steps[lane], positions, positions));
     }
     return all;
 }

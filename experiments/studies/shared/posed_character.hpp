@@ -21,6 +21,7 @@ struct Shape {
     pbs::Positions positions;  // vertices [m], #V x 3
     bool finished = false;     // false: not finite or not converged; nothing is measured against it
     double seconds = 0.0;
+    std::string worst_element = {};  // in the solver's last state, if it did not finish: "worst tet 7 of volume ratio -0.1, 2 inverted"
 };
 using Shapes = std::vector<Shape>;  // one per pose
 
@@ -45,6 +46,8 @@ public:
     double angle_deg(std::size_t pose) const { return angles_deg_[pose]; }  // of a sweep; not a number for a clip
 
 private:
+    Shape shape_of(const pbs::StepSummary& step, const pbs::Positions& positions, const pbs::Positions& last_state) const;
+
     pbs::Character character_;
     double time_step_s_;
     std::vector<pbs::Pose> poses_;
