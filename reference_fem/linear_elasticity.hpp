@@ -1,8 +1,8 @@
-// Implicit linear elasticity on the skinner's own tets (deal.II simplices, P1 or P2), quasi-static.
+// Implicit linear elasticity on the character's own tets (deal.II simplices, P1 or P2), quasi-static.
 //   LinearElasticity fem(mesh, options, attachment);   // assembles and factors once
 //   fem.solve(spring_targets, vertex_targets);         // every frame: a right-hand side and a re-solve
 //   fem.positions();
-// Small strain: a rotation by theta is taken for a strain of 1 - cos(theta). It is a negative control above some 10 degrees.
+// Strains are small: a rotation by theta produces a fictitious strain of 1 - cos(theta). Above some 10 degrees it is a negative control.
 // The header is plain; deal.II and SuiteSparse are seen by the .cpp files alone.
 #pragma once
 

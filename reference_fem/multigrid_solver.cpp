@@ -26,8 +26,8 @@
 namespace reference_fem {
 namespace {
 
-// Open MPI puts into the environment of a process that mpirun has not started what makes its children think they were this very rank; an
-// mpirun among them then fails.
+// In a process that mpirun did not start, MPI_Init of Open MPI sets environment variables that identify this rank. Child processes inherit
+// them, and an mpirun among these children fails. The variables are therefore removed again.
 void init_leaving_the_environment()
 {
     const auto names = [] {

@@ -1,4 +1,4 @@
-// Continuous vector-valued finite elements on the skinner's own tets: P1 or P2 on straight tets (deal.II's FE_SimplexP).
+// Continuous vector-valued finite elements on the character's own tets: P1 or P2 on straight tets (deal.II's FE_SimplexP).
 // Node v is vertex v of the mesh; a P2 space numbers its mid-edge nodes after the vertices. Degree of freedom 3 n + c is component c at
 // node n. The header is plain; deal.II is seen by simplex_space.cpp and assembly.cpp alone.
 #pragma once

@@ -52,9 +52,9 @@ const char* name_of(NewtonOutcome outcome);  // as it is spelt in the enum
 // Breakdown is an outcome: nothing is thrown.
 struct NewtonSummary {
     NewtonOutcome outcome = NewtonOutcome::iterations_exhausted;  // why it ended
-    std::vector<NewtonIteration> iterations;                      // one a state, the start first
-    int factorisations = 0;                                       // numerical ones; 0 where a kept factor served
-    pbs::WorkCounters work;                                       // every tet for each energy, gradient and Hessian
+    std::vector<NewtonIteration> iterations;                      // one per state, that of the initial guess first
+    int factorisations = 0;                                       // numerical ones; 0 if a kept factor was used
+    pbs::WorkCounters work;                                       // each energy, gradient and Hessian visits every tet
     double seconds = 0.0;                                         // wall time
 
     bool converged() const { return outcome == NewtonOutcome::converged; }  // only then the displacement is a minimum
@@ -69,8 +69,8 @@ public:
     // prescribed: #dofs.
     NewtonMinimiser(const SimplexSpace& space, const std::vector<bool>& prescribed, LinearSolver solver);
 
-    // prescribed_values [m], #dofs, is read at prescribed degrees of freedom only. displacement [m], #dofs: the start, and the minimum;
-    // where the outcome is not converged, the last iterate.
+    // prescribed_values [m], #dofs, is read at prescribed degrees of freedom only. displacement [m], #dofs: holds the initial guess before
+    // the call and the minimum after it. If the outcome is not converged, it holds the last iterate.
     NewtonSummary minimise(const Terms& terms, const Eigen::VectorXd& prescribed_values, Eigen::VectorXd& displacement,
                            const NewtonOptions& options);
 

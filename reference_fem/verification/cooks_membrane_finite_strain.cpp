@@ -1,7 +1,7 @@
 // Cook's membrane at finite strain, as in the program Quasi-Static Finite-Strain Compressible Elasticity of deal.II's code gallery: an
-// isochoric neo-Hookean panel, mu = 0.4225 N/mm^2, nu = 0.3, a dead shear load of 1/16 N/mm^2. Its figure of 14.33 mm belongs to free z
-// faces; with u_z held (plane strain) the corner rises by 13.77 mm. Free faces without the middle plane held buckle sideways at 1/40 of the
-// load: the Hessian loses its positive definiteness there.
+// isochoric neo-Hookean panel, mu = 0.4225 N/mm^2, nu = 0.3, a dead shear load of 1/16 N/mm^2. Its value of 14.33 mm belongs to free z
+// faces. With u_z held (plane strain) the corner rises by 13.77 mm. If the faces are free and the middle plane is not held, the panel
+// buckles sideways at 1/40 of the load, where the Hessian is no longer positive definite.
 #include "reference_fem/finite_strain_problem.hpp"
 #include "reference_fem/verification/membrane.hpp"
 

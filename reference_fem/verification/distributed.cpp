@@ -1,6 +1,6 @@
-// The solvers of systems whose factor does not fit in memory, compared with CHOLMOD on the same cantilever: conjugate gradients with
-// algebraic multigrid in this process, and the program pbskin_distributed on one and two ranks. One row states it where that program is not
-// in this program's folder or mpirun is not installed.
+// Two solvers of systems whose factor does not fit in memory, compared with CHOLMOD on the same cantilever: conjugate gradients with
+// algebraic multigrid in this process, and the program pbskin_distributed on one and two ranks. If that program is not in this program's
+// folder or mpirun is not installed, one row states that the comparison was not made.
 #include "reference_fem/verification/common.hpp"
 #include "reference_fem/verification/structured_mesh.hpp"
 
@@ -138,7 +138,7 @@ VerificationRows distributed_rows(const Effort& effort)
                                       .mesh = "31 x 4 x 4",
                                       .unit = "1",
                                       .source = "CHOLMOD, one process",
-                                      .note = "no pbskin_distributed beside this program, or no mpirun"};
+                                      .note = "pbskin_distributed is not in the folder of this program, or mpirun is not installed"};
     if (!program.is_installed()) {
         rows.push_back(left_out);
         return rows;

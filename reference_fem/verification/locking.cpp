@@ -2,7 +2,7 @@
 // keep as displacements to keep them with, and lock.
 //   bending: the cantilever of cantilever.cpp, against Timoshenko's beam
 //   torsion: the bar of torsion.cpp; Saint-Venant's solution changes no volume, so its torque does not depend on Poisson's ratio
-// Judged are the forms that are made for it (reference_fem/formulation.hpp).
+// Only formulations for nearly incompressible materials (reference_fem/formulation.hpp) have bounds.
 #include "reference_fem/verification/beam_problems.hpp"
 
 namespace reference_fem {

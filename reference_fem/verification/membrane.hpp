@@ -1,5 +1,6 @@
-// The panel of Cook's membrane: corners (0,0), (48,44), (48,60), (0,44) mm, 1 mm thick. N and mm. Modelled is its half above the middle
-// plane z = 0, where u_z = 0: the whole, being thin, gives way sideways long before the load of the finite-strain benchmark.
+// The panel of Cook's membrane: corners (0,0), (48,44), (48,60), (0,44) mm, 1 mm thick. Units: N and mm. Only the half
+// above the middle plane z = 0 is modelled, where u_z = 0. The whole panel is thin and buckles sideways far below the load of the finite
+// strain benchmark.
 #pragma once
 
 #include "reference_fem/verification/common.hpp"

@@ -1,4 +1,5 @@
-// How far rounding may move the solution of K u = f, from K itself: the tolerance of a comparison that nothing but rounding stands between.
+// A bound on the effect of rounding on the solution of K u = f, computed from K. It is the tolerance of comparisons in which rounding is
+// the only difference.
 //   const Spectrum of_k = spectrum(stiffness, prescribed);
 //   EXPECT_LT((ours - exact).norm(), rounding_bound(of_k) * exact.norm());
 //

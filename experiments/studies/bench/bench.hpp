@@ -28,8 +28,8 @@ struct SkinningTiming {
     double share_of_limit = 0.0;  // of the bandwidth at that working set
 };
 
-// The reference on the same tets (linear elasticity, P1, bones embedded): the first frame with its whole set-up, and every further frame.
-// Processor time of one thread, to which the BLAS is limited.
+// The reference on the same tets (linear elasticity, P1, smooth attachment of the bones): the first frame with its whole set-up, and every
+// further frame. Processor time of one thread, to which the BLAS is limited.
 struct FemTiming {
     Spread ms_first_solve;    // elements, stiffness, elimination, symbolic analysis, factorisation, solve
     Spread ms_further_frame;  // loads of another pose, and a solve
