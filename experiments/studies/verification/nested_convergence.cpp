@@ -120,6 +120,7 @@ VerificationRow least_squares_row(const Effort& effort)
     }
     VerificationRow row = row_of({"least_squares_order", "order of the error in L2 on three meshes, by least squares"}, 1, "1",
                                  analysis::observed_order(h_m, errors).slope.estimate, dofs);
+    row.mesh = text_of({cells, cells, cells}) + " jittered, and cut into eight twice";
     row.h_m = h_m.back();
     row.reference = formal_order;
     row.low = formal_order - 2.0 * order_tolerance;

@@ -1,5 +1,6 @@
 """Numerical breakdown is an outcome: the frame and the worst element are recorded and printed, and the exit status is 3 if the run was
-expected to finish. Reference: the contract in experiments/command_line/README.md, and the worst tet as computed from the written frame."""
+expected to finish. Reference: the contract in experiments/command_line/README.md, and the worst tet as computed from the written frame, or, where a
+frame was taken back, its contract in experiments/run/broken_frame.hpp."""
 import csv
 import json
 import unittest
@@ -61,6 +62,16 @@ class Breakdown(program.ProgramTest):
         self.assertNotIn("numerical breakdown", process.stderr)
         self.assertIn(f"pose not reached: snh is not converged in frame {first['frame']}: worst tet {first['worst_tet']} of volume ratio",
                       process.stderr)
+        # The tet is that of Newton's last state: the frame itself is taken back to the last equilibrium, the rest pose.
+        self.assertLess(first["volume_ratio"], 0.99)
+
+    def test_the_bad_frames_of_each_deformer_are_counted(self):
+        process = self.run_scene("fem.0.most_newton_steps=1", "motion.frames=2", "motion.angle_deg=170.0", 'fem.0.model="neo_hookean"',
+                                 "pbs.stop_residual=1e-12", "pbs.iterations=2", fem=SOLID, use='["snh", "pbs"]')
+        self.assertEqual(process.returncode, 3, process.stderr)
+        counts = {label: len(frames) for label, frames in self.outcome()["broken_frames"].items()}
+        self.assertIn(f"; {counts['pbs']} of 2 frames of pbs, {counts['snh']} of 2 frames of snh broke down", process.stderr)
+        self.assertEqual(counts, {"pbs": 2, "snh": 1})
 
     def test_pbs_above_its_stop_residual(self):
         process = self.run_scene("pbs.stop_residual=1e-12", "pbs.iterations=2")

@@ -151,4 +151,20 @@ TEST(CandyWrapperFigures, TakeTheThinnestOfAllAndDoWithoutTheReference)
     EXPECT_EQ(outcomes[2].outcome, SectionOutcome::measured);  // bent, which has no effect here
 }
 
+// Two iterations do not reach a tolerance of 1e-12.
+TEST(ArtefactBreakdown, NamesThePoseTheMeshAndTheWorstTet)
+{
+    ArtefactCase of;
+    of.scene = experiments::read_scene("limb_bend", {"character.vertices=400", "motion.frames=2", "pbs.iterations=2",
+                                                     "pbs.stop_residual=1e-12", R"(deformers.use=["pbs"])", R"(reference.name="")"});
+    of.poses.push_back({1, "bend_150_deg", {.motion = "bend", .angle_deg = 150.0}});
+    const ArtefactBody body(of);
+    const std::string breakdown = experiments::find_artefacts(of, body).breakdown;
+    const std::string place =
+        "pbs did not reach bend_150_deg on " + std::to_string(body.posed.character().mesh.rest.rows()) + " vertices: ";
+    EXPECT_TRUE(breakdown.starts_with(place + "worst tet ")) << breakdown;
+    EXPECT_NE(breakdown.find(" of volume ratio "), std::string::npos) << breakdown;
+    EXPECT_NE(breakdown.find(" inverted. "), std::string::npos) << breakdown;
+}
+
 }  // namespace
