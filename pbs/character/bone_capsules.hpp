@@ -33,7 +33,7 @@ Positions sample_points(const BoneCapsule& capsule, int samples = 1);
 
 // How the density of a smooth attachment decreases from 1 on the middle of the axis to 0 on the capsule's surface: across the bone by a
 // function of s = rho / R, along it by a step over `ends` radii R at each end (at most half of the length).
-//   biweight: (1 - s^2)^2 and the cubic step 3 t^2 - 2 t^3, continuously differentiable
+//   biweight: (1 - s^2)^2 (Tukey's; Beaton, Tukey, Technometrics 16, 1974), the cubic step 3 t^2 - 2 t^3, continuously differentiable
 //   wendland: (1 - s)^4 (4 s + 1) and the step 6 t^5 - 15 t^4 + 10 t^3, twice so (H. Wendland, Adv. Comput. Math. 4, 1995)
 enum class AttachmentKernel { biweight, wendland };
 

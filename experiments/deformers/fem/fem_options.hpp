@@ -30,7 +30,7 @@ struct FemOptions {
     FemAttachment attachment = FemAttachment::smooth;
     double core_radius = 0.0;    // capsule radius over local limb radius; 0: 0.7 with smooth, otherwise 0.35
     double spring_factor = 0.0;  // q: springs of density q E / r^2, r the capsule's radius (on its axis, if smooth); 0: 10 with smooth,
-                                 // otherwise 1e4. Doubling 1e4 changes no reported value
+                                 // otherwise 1e4. Doubling that of embedded bones changes no reported value
     pbs::AttachmentKernel attachment_kernel = pbs::AttachmentKernel::biweight;  // of smooth: how the density decreases
     double attachment_ends = 1.0;                                               // of smooth: over so many capsule radii at each end
     int attachment_samples = 1;  // of smooth and embedded: multiplies the numbers of sample points along, across and around a bone

@@ -35,9 +35,10 @@ OptionFields<Options> flesh_fields(const std::string& kind)
         .add("core_radius", &Options::core_radius,
              {.lowest = above_zero,
               .highest = 1.0,
-              .meaning = "radius of the capsules whose springs hold the flesh, over the limb's radius"})
+              .meaning = "radius of the capsules whose springs hold the flesh, a factor on the limb's radius, without a unit"})
         .add("spring_factor", &Options::spring_factor,
-             {.lowest = above_zero, .meaning = "q: the springs have the density q E / r^2 on the axis of a capsule of radius r"})
+             {.lowest = above_zero,
+              .meaning = "q, a factor without a unit: the springs have the density q E / r^2 on the axis of a capsule of radius r"})
         .add("start", &Options::start,
              {.meaning = "initial guess of each frame: dual quaternion skinning with weights that the springs determine, or LBS"})
         .add("arithmetic", &Options::arithmetic,
