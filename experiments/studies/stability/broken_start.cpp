@@ -164,8 +164,8 @@ std::string start_criteria_text(int most_iterations)
         "| outcome | when |\n|---|---|\n"
         "| not_finite | a position of a result is not finite |\n"
         "| diverged | after the most iterations a vertex is farther than {:g} D from its place in the own result |\n"
-        "| reached | after the most iterations the distance from the own result is at most {:g} %, and the own result moved by no more\n"
-        "than this in the second half of its iterations |\n"
+        "| reached | after the most iterations the distance from the own result is at most {:g} %, and the own result moved by no more "
+        "in the second half of its iterations |\n"
         "| not_reached | none of these: another equilibrium, too few iterations, or an own result that has not settled |\n"
         "| not_applicable | the method has no initial shape; `reason` states why |\n",
         most_iterations, most_iterations, analysis::StabilityBounds{}.farthest, reached_within_pct);
