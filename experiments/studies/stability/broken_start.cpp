@@ -117,9 +117,8 @@ StartRow run_broken_start(const StabilityCell& cell, int most_iterations)
     for (int iterations = 1; iterations <= most_iterations; iterations *= 2) {
         last = result_of(cell, iterations, true);
         is_finite = is_finite && last.allFinite();
-        pct[iterations] = joint_pct(cell, last, own);
+        pct[iterations] = row.from_own_result_pct = joint_pct(cell, last, own);
     }
-    row.from_own_result_pct = pct.rbegin()->second;
     if (is_finite) {
         row.iterations_until_reached = first_to_stay(pct);
         row.inverted_tets = inverted(cell, last);

@@ -44,7 +44,11 @@ RateRow row_of_convergence(const ErrorSplitCase& as)
 // PBS in double against the one reference of error_split.
 ErrorRow row_of_ensemble(const ErrorSplitCase& as)
 {
-    EnsembleCase of{.scene = as.scene, .frame = as.frames.front(), .flesh = as.reference, .members = {{.name = "reference"}}};
+    EnsembleCase of;
+    of.scene = as.scene;
+    of.frame = as.frames.front();
+    of.flesh = as.reference;
+    of.members = {{.name = "reference"}};
     of.deformers = {as.pbs};
     options_of<pbs::PbsOptions>(of.deformers.front()).precision = pbs::Precision::f64;
     return measure_ensemble(of).errors.front();
