@@ -41,6 +41,7 @@ def lines(claim, own):
     for bound in claim["bounds"] if own else []:
         if table := list(rows(claim, own, bound)):
             title = sentences.title(claim, bound["quantity"])
-            found += ["", "For comparison, other deformers and finite elements under the same bound. They are no part of the verdict.", "",
-                      f"| deformer | {title} | within the bound |", "|---|---|---|", *table]
-    return [line.replace("\u2212", "-") for line in found]
+            found += ["", f"| deformer | {title} | within the bound |", "|---|---|---|", *table]
+    introduction = ["", "For comparison, the tables show other deformers and finite elements under the same bounds. They are no part of the "
+                        "verdict."]
+    return [line.replace("\u2212", "-") for line in introduction * bool(found) + found]

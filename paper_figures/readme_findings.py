@@ -9,6 +9,7 @@ import case_words
 import readme_part
 import records
 import sentences
+from number_words import counted
 
 notable_points = 2  # of difference between the errors of two methods
 first_member = "smooth"  # the reference of the other studies
@@ -116,13 +117,13 @@ def distance(results):
     spans = {name: f"{min(errors[name]):.1f} to {max(errors[name]):.1f} %" for name in errors}
     decided = sum(pair["decision"] == "decided" for pair in notable)
     measured = len(errors["pbs"])
-    left_out = "" if measured == poses else (f" The reference has no bound on its own error in {poses - measured} of {poses} "
-                                             "poses, which are left out.")
-    return (f"**Distance from flesh.** In {measured} poses of the limb and the human, PBS with 24 iterations is {spans['pbs']} "
+    left_out = "" if measured == poses else (f" These errors leave out {counted(poses - measured, 'pose')} in which the reference has no "
+                                             "bound on its own error.")
+    return (f"**Distance from flesh.** In {counted(measured, 'pose')} of the limb and the human, PBS with 24 iterations is {spans['pbs']} "
             f"of the mean bone distance away from neo-Hookean flesh at the joints (LBS {spans['lbs']}, DQS {spans['dqs']}, delta mush "
-            f"{spans['delta_mush']}).{left_out} {notable[0]['members']} references with other attachments and Poisson's ratios decide "
-            f"which of two methods is closer in {decided} of the {len(notable)} pairs of skinning methods that differ by more than "
-            f"{notable_points} percentage points.{undecided(notable)}")
+            f"{spans['delta_mush']}).{left_out} In all {counted(poses, 'pose')}, {notable[0]['members']} references with other attachments and "
+            f"Poisson's ratios decide which of two methods is closer in {decided} of the {len(notable)} pairs of skinning methods that "
+            f"differ by more than {notable_points} percentage points.{undecided(notable)}")
 
 
 def lines_of(results):

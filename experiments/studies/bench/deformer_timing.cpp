@@ -1,9 +1,9 @@
 #include "experiments/studies/bench/deformer_timing.hpp"
 
+#include "experiments/deformers/blend/blend_options.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/scene/scene_keys.hpp"
 #include "experiments/settings/scene_values.hpp"
-#include "experiments/studies/bench/plain_blend.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 #include <algorithm>
@@ -120,7 +120,7 @@ DeformerTiming summed_up(const Timed& timed, const Samples& own, const Samples& 
     timing.ns_vertex = scaled(step, 1e9 / counts.vertices);
     timing.ratio_to_plain = spread_of_ratios(plain[iteration_s], own[iteration_s]);
     const DeformerKind& kind = *find_deformer_kind(setting.spec.kind);
-    if (kind.work && !setting.is_plain_blend) add_limits(timing, kind.work(setting.spec, counts), limits, step.median);
+    if (kind.work) add_limits(timing, kind.work(setting.spec, counts), limits, step.median);
     return timing;
 }
 
@@ -129,8 +129,7 @@ std::vector<DeformerTiming> time_settings(const std::vector<DeformerSetting>& se
 {
     std::vector<Timed> timed;
     for (const DeformerSetting& setting : settings) {
-        auto deformer = setting.is_plain_blend ? make_plain_blend(setting.spec.kind) : make_deformer(setting.spec);
-        timed.push_back({&setting, reset(std::move(deformer), body), nullptr, traits_of(setting.spec).iterations.value_or(0)});
+        timed.push_back({&setting, reset(make_deformer(setting.spec), body), nullptr, traits_of(setting.spec).iterations.value_or(0)});
         if (setting.twice && timed.back().iterations > 0) timed.back().twice = reset(make_deformer(*setting.twice), body);
     }
     std::vector<TimedVariant> turns;
@@ -163,6 +162,7 @@ std::size_t place_of_plain(const std::vector<DeformerSetting>& settings, const s
 std::vector<DeformerSetting> deformer_settings(const DeformerKind& kind)
 {
     std::vector<DeformerSetting> settings;
+    const bool is_blend = options_if<BlendOptions>(default_spec(kind.name)) != nullptr;
     for (const std::string& order : choices_of(kind, "order"))
         for (const std::string& precision : choices_of(kind, "precision"))
             for (const std::string& arithmetic : choices_of(kind, "arithmetic")) {
@@ -173,14 +173,18 @@ std::vector<DeformerSetting> deformer_settings(const DeformerKind& kind)
                 DeformerSetting setting{spec_with(kind, choices), {}, order, precision};
                 const DeformerTraits traits = traits_of(setting.spec);
                 if (precision.empty()) setting.precision = traits.precision;
-                if (!arithmetic.empty() || is_blend(kind.name)) setting.order = traits.packed ? "packed" : "plain";
+                if (!arithmetic.empty() || is_blend) setting.order = traits.packed ? "packed" : "plain";
                 if (key_of(kind, "iterations") && traits.iterations.value_or(0) > 0) {
                     choices.push_back({"iterations", std::to_string(2 * *traits.iterations)});
                     setting.twice = spec_with(kind, choices);
                 }
                 settings.push_back(std::move(setting));
             }
-    if (is_blend(kind.name)) settings.push_back({default_spec(kind.name), {}, "plain", "f64", 0, true});
+    if (is_blend) {
+        DeformerSpec plain = default_spec(kind.name);
+        options_of<BlendOptions>(plain).packed = false;
+        settings.push_back({plain, {}, "plain", "f64"});
+    }
     for (DeformerSetting& setting : settings) setting.plain = place_of_plain(settings, setting.precision);
     return settings;
 }

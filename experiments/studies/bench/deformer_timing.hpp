@@ -25,8 +25,7 @@ struct DeformerSetting {
     // order: `packed` or `plain` of a blend or a kind with the key `arithmetic`; empty without either key. precision: that of its traits
     // without a key.
     std::string order, precision;
-    std::size_t plain = 0;        // its place in the list of the kind's settings
-    bool is_plain_blend = false;  // LBS or DQS as the paper's Eq. 1 reads (plain_blend.hpp), which no key asks for
+    std::size_t plain = 0;  // its place in the list of the kind's settings
 };
 
 // One per value of `order`, `precision` and `arithmetic`, and the plain blend of LBS and DQS. The key of a list counts as that of its first

@@ -13,7 +13,7 @@ namespace experiments {
 struct NewtonTiming {
     std::string model;        // stable_neo_hookean
     int steps = 0;            // Newton steps from rest to the pose of the body
-    Spread ms_frame;          // those steps, without the set-up
+    Spread ms_frame;          // those steps, without the set-up and the analysis of the matrix's pattern
     Spread ms_step;           // assembly, factorisation, solve and line search
     Spread ns_element;        // of a step
     bool is_reached = false;  // the residual came within tolerance

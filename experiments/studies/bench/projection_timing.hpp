@@ -48,7 +48,7 @@ struct ProjectionTiming : ProjectionKind {
     std::optional<Spread> speedup_by_threads;                             // wall time of one thread over this one's
     double working_set_bytes = 0.0;
     pbs::Residuals residuals;                             // after the step
-    AnswerRatio answer_to_plain, answer_to_plain_spread;  // an order settles elsewhere: what its speed-up costs or gains
+    AnswerRatio answer_to_plain, answer_to_plain_spread;  // above 1: the order, which has a limit of its own, is farther from its goals
     std::optional<double> stretch_fill, volume_fill;
 
     bool is_baseline() const { return variant == "plain_native" || variant == "plain_spread"; }  // which no scene can ask for

@@ -41,7 +41,7 @@ std::optional<double> joint_pct(const StabilityCell& cell, const pbs::Positions&
 
 int inverted(const StabilityCell& cell, const pbs::Positions& positions)
 {
-    return static_cast<int>((pbs::tet_volumes(positions, stability_character(cell).mesh.tets).array() < 0.0).count());
+    return static_cast<int>((pbs::tet_volumes(positions, stability_character(cell).mesh.tets).array() <= 0.0).count());
 }
 
 bool is_far(const StabilityCell& cell, const pbs::Positions& one, const pbs::Positions& other)

@@ -41,7 +41,7 @@ class ReadmeTest(unittest.TestCase):
 
 
 class ComparedResults(unittest.TestCase):
-    table = ["", "For comparison, other deformers and finite elements under the same bound. They are no part of the verdict.", ""]
+    table = ["", "For comparison, the tables show other deformers and finite elements under the same bounds. They are no part of the verdict.", ""]
 
     def test_frames_of_all_runs_are_counted(self):
         runs = [judged_run(body, "walk", "part", interval(-0.2), interval(share)) | {"deformer": deformer}
@@ -156,16 +156,16 @@ class Tables(ReadmeTest):
         text = readme_findings.distance(self.results)
         self.assertIn("In 2 poses of the limb and the human, PBS with 24 iterations is 1.0 to 3.0 % of", text)
         self.assertIn("(LBS 4.0 to 6.0 %, DQS 3.0 to 5.0 %, delta mush 2.0 to 4.0 %)", text)
-        self.assertIn("2 references with", text)
+        self.assertIn("In all 2 poses, 2 references with", text)
         self.assertIn("decide which of two methods is closer in 1 of the 4 pairs of skinning methods that differ by more than 2", text)
         self.assertIn("in 2 the own error of a reference is too large or not known and in 1 the references disagree.", text)
-        self.assertNotIn("left out", text)
+        self.assertNotIn("leave out", text)
 
     def test_the_distance_leaves_out_poses_whose_reference_has_no_bound(self):
         self.write_ensemble(landing_bound="")
         text = readme_findings.distance(self.results)
-        self.assertIn("In 1 poses of the limb and the human, PBS with 24 iterations is 1.0 to 1.0 % of", text)
-        self.assertIn("The reference has no bound on its own error in 1 of 2 poses, which are left out.", text)
+        self.assertIn("In 1 pose of the limb and the human, PBS with 24 iterations is 1.0 to 1.0 % of", text)
+        self.assertIn("These errors leave out 1 pose in which the reference has no bound on its own error. In all 2 poses, 2", text)
 
     def test_the_distance_needs_pairs_that_differ(self):
         self.write_ensemble(difference_pct="1.9")

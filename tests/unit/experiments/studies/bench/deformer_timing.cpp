@@ -5,7 +5,6 @@
 #include "experiments/deformers/registry.hpp"
 #include "experiments/process/cpu_clock.hpp"
 #include "experiments/settings/scene_values.hpp"
-#include "experiments/studies/bench/plain_blend.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/solver/options.hpp"
 #include "tests/support/structured_bar.hpp"
@@ -49,7 +48,7 @@ TEST(DeformerSettings, EveryOrderAndPrecision)
     EXPECT_EQ(different.size(), 6u);
 }
 
-// The keys of a blend ask only for packed code. Its ratio is to the plain blend, not to packed code in f64.
+// The ratio of a blend is to the plain blend, not to packed code in f64.
 TEST(DeformerSettings, OfABlendAreItsPrecisionsAndThePlainBlend)
 {
     for (const char* kind : {"lbs", "dqs"}) {
@@ -57,28 +56,12 @@ TEST(DeformerSettings, OfABlendAreItsPrecisionsAndThePlainBlend)
         std::set<std::pair<std::string, std::string>> different;
         for (const DeformerSetting& setting : settings) {
             EXPECT_FALSE(setting.twice);
-            EXPECT_TRUE(settings[setting.plain].is_plain_blend);
+            EXPECT_FALSE(traits_of(settings[setting.plain].spec).packed);
             different.insert({setting.order, setting.precision});
         }
         EXPECT_EQ(settings.size(), 3u);
         EXPECT_EQ(different, (std::set<std::pair<std::string, std::string>>{{"packed", "f32"}, {"packed", "f64"}, {"plain", "f64"}}));
     }
-}
-
-// Both are the same mathematics in f64. Each coordinate is a sum of at most twelve products of numbers below two (metres, rotations and
-// weights that sum to one), which either side rounds once per operation; the dual quaternion adds a norm and a conversion.
-TEST(PlainBlends, GiveTheShapeOfThePackedOnes)
-{
-    for (const char* kind : {"lbs", "dqs"}) {
-        const std::unique_ptr<Deformer> plain = make_plain_blend(kind), packed = make_deformer(default_spec(kind));
-        for (Deformer* deformer : {plain.get(), packed.get()}) {
-            deformer->reset(bar().character);
-            deformer->advance(bar().pose, 0.01);
-        }
-        EXPECT_LT((plain->positions() - packed->positions()).cwiseAbs().maxCoeff(), 64.0 * std::numeric_limits<double>::epsilon()) << kind;
-        EXPECT_GT((plain->positions() - bar().mesh().rest).cwiseAbs().maxCoeff(), 0.1) << kind;
-    }
-    EXPECT_FALSE(is_blend("pbs"));
 }
 
 TEST(DeformerSettings, WithoutKeysOfItsCodeThereIsOneWithItsDefaults)

@@ -169,8 +169,8 @@ TYPED_TEST(CompliantKernels, TheMultiplierIsKept)
     EXPECT_EQ(groups.point(5, 1).x() - groups.point(5, 0).x(), TypeParam(2));
 }
 
-// An edge without length and a tet that is a point have no gradient. Their multipliers stay, as in plain code, so that they do not push
-// later with what has gathered meanwhile.
+// An edge without length and a tet that is a point have no gradient. Their multipliers stay, as in plain code. Otherwise they would grow
+// while the constraint cannot act, and move the vertices too far later.
 TYPED_TEST(CompliantKernels, WithoutAGradientTheMultiplierStays)
 {
     SixteenCompliant<TypeParam, GroupKind::edge> edges;
