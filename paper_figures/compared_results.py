@@ -8,6 +8,10 @@ import sentences
 from number_words import counted, span_of_thousandths
 
 
+introduction = ("", "For comparison, the tables show other deformers and finite elements under the same bounds. "
+                    "They are no part of the verdict.")
+
+
 def held_by_runs(_, runs):
     """Frames within the bound, of all; and the smallest and the largest value of all frames."""
     frames = sum(run["frames"] for run in runs)
@@ -42,6 +46,4 @@ def lines(claim, own):
         if table := list(rows(claim, own, bound)):
             title = sentences.title(claim, bound["quantity"])
             found += ["", f"| deformer | {title} | within the bound |", "|---|---|---|", *table]
-    introduction = ["", "For comparison, the tables show other deformers and finite elements under the same bounds. They are no part of the "
-                        "verdict."]
-    return [line.replace("\u2212", "-") for line in introduction * bool(found) + found]
+    return [line.replace("\u2212", "-") for line in [*introduction, *found]] if found else []

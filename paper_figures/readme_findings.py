@@ -121,8 +121,8 @@ def distance(results):
                                              "bound on its own error.")
     return (f"**Distance from flesh.** In {counted(measured, 'pose')} of the limb and the human, PBS with 24 iterations is {spans['pbs']} "
             f"of the mean bone distance away from neo-Hookean flesh at the joints (LBS {spans['lbs']}, DQS {spans['dqs']}, delta mush "
-            f"{spans['delta_mush']}).{left_out} In all {counted(poses, 'pose')}, {notable[0]['members']} references with other attachments and "
-            f"Poisson's ratios decide which of two methods is closer in {decided} of the {len(notable)} pairs of skinning methods that "
+            f"{spans['delta_mush']}).{left_out} In all {counted(poses, 'pose')}, {notable[0]['members']} references with other attachments "
+            f"and Poisson's ratios decide which of two methods is closer in {decided} of the {len(notable)} pairs of skinning methods that "
             f"differ by more than {notable_points} percentage points.{undecided(notable)}")
 
 

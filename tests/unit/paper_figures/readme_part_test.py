@@ -41,7 +41,8 @@ class ReadmeTest(unittest.TestCase):
 
 
 class ComparedResults(unittest.TestCase):
-    table = ["", "For comparison, the tables show other deformers and finite elements under the same bounds. They are no part of the verdict.", ""]
+    table = ["", "For comparison, the tables show other deformers and finite elements under the same bounds. "
+                 "They are no part of the verdict.", ""]
 
     def test_frames_of_all_runs_are_counted(self):
         runs = [judged_run(body, "walk", "part", interval(-0.2), interval(share)) | {"deformer": deformer}
