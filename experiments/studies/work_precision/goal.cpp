@@ -40,9 +40,10 @@ const DiagramPoint* best_on_finer_mesh(const Diagram& diagram)
     return fastest ? fastest : least(diagram, is_finer, [](const DiagramPoint& one) { return std::tuple(one.error_pct, one.ms); });
 }
 
+// Finite elements do not count: the limit itself is one of them.
 bool is_near_its_limit(const DiagramPoint& point)
 {
-    return point.to_linear_elements_pct && *point.to_linear_elements_pct <= solver_goal_pct;
+    return !point.key.element_order && point.to_linear_elements_pct && *point.to_linear_elements_pct <= solver_goal_pct;
 }
 
 const DiagramPoint* goal_point(const Diagram& diagram, GoalPoint which)

@@ -166,6 +166,20 @@ TEST(Goal, OfTheSolverIsTheDistanceFromItsOwnLimitInAThirtiethOfNewtonsTime)
     }
 }
 
+// PBS is 1.1 % away, and the finite elements of both laws are within 1 %.
+TEST(Goal, OfTheSolverIsNotReachedByFiniteElements)
+{
+    CaseRecords records = solver_case(1e6);
+    for (int i = 0; i < 3; ++i) records.rows[i].to_linear_elements_pct = 1.1;
+    for (int i = 3; i < 5; ++i) records.rows[i].ms_median = 5.0;
+    const std::vector<Diagram> diagrams = solver_diagrams(records);
+    EXPECT_EQ(row_of(goal_rows(diagrams), "a", GoalPoint::fastest_to_linear_elements), nullptr);
+    for (const DeformerGroup& group : groups_of(diagrams)) {
+        const SolverSolved count = solver_goal_reached(diagrams, Comparison::plain_f64, group, "limb");
+        EXPECT_EQ(std::tuple(count.solved, count.in_time), std::tuple(0, 0)) << group.key;
+    }
+}
+
 TEST(Goal, OfTheSolverIsCountedForEachBody)
 {
     const DeformerGroup& pbs = group_named("pbs");
