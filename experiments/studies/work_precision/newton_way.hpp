@@ -1,15 +1,19 @@
 // Newton's method on its way to the limit of the deformers that minimise the energy of elastic flesh: linear elements on the case's own
-// tets with their law (pbs/flesh/flesh_material.hpp). Its time is that to the error that the goal asks of these deformers (goal.hpp).
-//   const std::vector<NewtonRow> rows = newton_way(of, mesh, poses, limit, reference);
+// tets with their law (pbs/flesh/flesh_material.hpp). The recorded time is the time to the distance of 1 % that the goal requires of these
+// deformers (goal.hpp).
+//   const std::vector<NewtonRow> rows = newton_way(of, flesh, mesh, poses, limit, reference);
 //   if (const auto newton = fastest_to_goal(rows)) newton->ms_median ...
 // The initial guess is replaced, and Newton's method is solved at once in the case's pose: no load path, a new factor in each step. It
 // begins at each of the initial guesses that these deformers have. The third cold start is rest, from where the bones are led to the pose
 // in stages of at most 45 degrees until it converges. The solution of the frame before is no cold start and is recorded for comparison.
-// The matrix's pattern is analysed before the time begins, except from rest. The time of the initial guess is not included.
+// The matrix's pattern is analysed before the time begins, except from rest. The time contains that of the initial guess where it is
+// computed, as the time of the deformers does.
 #pragma once
 
 #include "experiments/studies/work_precision/work_precision_case.hpp"
 #include "experiments/studies/work_precision/posed_deformer.hpp"
+
+#include <functional>
 
 namespace experiments {
 
@@ -26,8 +30,10 @@ struct NewtonRow {
     NewtonStart start = NewtonStart::smooth_dqs;
     int newton_steps = 0;                        // from the start to this state
     std::optional<double> single_steps_ms = {};  // the sum over these steps, each solved alone, which costs one more gradient per step
-    std::optional<double> ms_median = {};        // of solves with so many steps; of the first state within the goal alone
+    std::optional<double> ms_median = {};        // of the first state within the goal alone: guess_ms and the median of whole solves
     double to_limit_pct = 0.0;                   // at the joints
+    std::optional<double> guess_ms = {};         // of the initial guess, which is part of ms_median; nothing where none is computed
+    std::optional<int> timed_steps = {};         // of the whole solves behind ms_median, which may need more steps than single steps
 };
 extern const analysis::Columns<NewtonRow> newton_columns;  // newton.csv
 
@@ -35,7 +41,10 @@ extern const analysis::Columns<NewtonRow> newton_columns;  // newton.csv
 std::vector<NewtonRow> newton_way(const WorkPrecisionCase& of, const PointSetting& flesh, const BodyMesh& mesh, const PosePair& poses,
                                   const pbs::Positions& limit, const PosedReference& reference);
 
-// The least time of a cold start to a state within the goal, or that from the frame before. Nothing where no time is known.
+// The fewest steps after which a whole solve is within the goal: `first`, or up to 5 more. Nothing where none of these is.
+std::optional<int> steps_to_goal(int first, const std::function<double(int)>& distance_pct_after);
+
+// The least time of a cold start to a state within the goal, or that from the frame before. Nothing where no time above 0 is known.
 std::optional<NewtonRow> fastest_to_goal(const std::vector<NewtonRow>& rows);
 std::optional<double> warm_to_goal_ms(const std::vector<NewtonRow>& rows);
 

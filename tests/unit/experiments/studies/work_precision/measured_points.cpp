@@ -274,7 +274,13 @@ TEST(NewtonWays, EndAtTheOwnLimitFromEachStart)
     for (const auto& [start, rows] : of_start) {
         EXPECT_LT(rows.back().to_limit_pct, 0.01 * newton_goal_pct);
         const auto first = std::ranges::find_if(rows, [](const NewtonRow& row) { return row.to_limit_pct <= newton_goal_pct; });
-        for (const NewtonRow& row : rows) EXPECT_EQ(row.ms_median.has_value(), &row == &*first) << row.newton_steps;
+        for (const NewtonRow& row : rows) {
+            EXPECT_EQ(row.ms_median.has_value(), &row == &*first) << row.newton_steps;
+            EXPECT_EQ(row.timed_steps.has_value(), row.ms_median.has_value()) << row.newton_steps;
+            EXPECT_EQ(row.guess_ms.value_or(0.0) > 0.0, start == NewtonStart::smooth_dqs || start == NewtonStart::lbs);
+        }
+        EXPECT_GE(first->timed_steps, first->newton_steps);
+        EXPECT_GT(*first->ms_median, first->guess_ms.value_or(0.0)) << "a step is needed";
         for (std::size_t k = 1; k < rows.size(); ++k) EXPECT_GT(rows[k].single_steps_ms, rows[k - 1].single_steps_ms) << k;
         if (start == NewtonStart::rest) continue;
         for (std::size_t k = 0; k < rows.size(); ++k) EXPECT_EQ(rows[k].newton_steps, static_cast<int>(k));
