@@ -93,11 +93,11 @@ std::string error_table(const std::vector<const Diagram*>& poses)
         goal_pct, goal_ms);
     for (const Diagram* pose : poses) {
         const DiagramPoint* linear = linear_elements_of(*pose);
-        const bool is_coarse = linear && linear->error_pct > goal_pct;
-        text += fmt::format("| {} | {} | {} |{}{}{}\n", case_cell(*pose), cell_of(pose->reference_error_pct),
-                            linear ? fmt::format("{:.1f}", linear->error_pct) : "", cells_of(*pose, GoalPoint::nearest_within_time, "none"),
-                            cells_of(*pose, GoalPoint::fastest_within_error, "none"),
-                            cells_of(*pose, GoalPoint::best_on_finer_mesh, is_coarse ? "no finer mesh" : "not needed"));
+        const std::string no_finer = !linear ? "not known" : linear->error_pct > goal_pct ? "no finer mesh" : "not needed";
+        text +=
+            fmt::format("| {} | {} | {} |{}{}{}\n", case_cell(*pose), cell_of(pose->reference_error_pct),
+                        linear ? fmt::format("{:.1f}", linear->error_pct) : "", cells_of(*pose, GoalPoint::nearest_within_time, "none"),
+                        cells_of(*pose, GoalPoint::fastest_within_error, "none"), cells_of(*pose, GoalPoint::best_on_finer_mesh, no_finer));
     }
     return text + "\n";
 }

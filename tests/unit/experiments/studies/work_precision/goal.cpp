@@ -76,7 +76,7 @@ TEST(Goal, HasNoRowWhereNoPointFulfilsTheCondition)
     EXPECT_EQ(row_of(rows, "c", GoalPoint::nearest_within_time), nullptr);
     EXPECT_EQ(row_of(rows, "c", GoalPoint::fastest_within_error), nullptr);
     const std::string text = goal_text(three_poses(), Comparison::plain_f64);
-    EXPECT_NE(text.find("| none | | | none | | | not needed | | |"), std::string::npos) << text;
+    EXPECT_NE(text.find("| none | | | none | | | not known | | |"), std::string::npos) << "there are no linear elements:\n" << text;
     EXPECT_NE(text.find("| PBS | 1 of 3, 0 certain |"), std::string::npos) << text;
 }
 
@@ -119,6 +119,8 @@ TEST(Goal, HasTheBestPointOnAFinerMeshWhereLinearElementsAreAboveIt)
     EXPECT_EQ(row_with().value().point.key, pbs_after(4, 5000)) << "the nearest one, and of equal ones the fastest";
     points[4].error_pct = 5.0;
     EXPECT_FALSE(row_with()) << "the own tets are fine enough";
+    const std::string text = goal_text(hand_diagrams({hand_case({.body = "limb", .pose = "a"}, points)}), Comparison::plain_f64);
+    EXPECT_NE(text.find("| not needed | | |"), std::string::npos) << text;
 }
 
 const SettingKey limit_tets = {.deformer = "fem_stable_neo_hookean", .precision = "f64", .element_order = 1};
