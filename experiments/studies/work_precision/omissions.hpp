@@ -14,14 +14,14 @@ struct Omission {
     std::string of = {};  // the case, or the mean over several
     std::string deformer = {};
     std::string why = {};         // not_finite, not_converged, over_time_limit, not_applicable, no_such_code, not_run, no_reference
-    int missing = 0, points = 0;  // points that are missing for this reason, of all that the deformer has in this case
+    int missing = 0, points = 0;  // points that are missing for this reason, of all that the deformer has in the case or mean
     std::string reason = {};      // of the first of them, for readers
 };
 extern const analysis::Columns<Omission> omission_columns;  // omissions.csv
 
 std::vector<Omission> omissions_of(const std::vector<CaseRows>& cases);
 
-// The omissions of the means among the diagrams: those of their poses, with the numbers of points added up.
-std::vector<Omission> omissions_of_means(const std::vector<Omission>& of_cases, const std::vector<Diagram>& diagrams);
+// The omissions of the means among the diagrams: those of their poses added up, of the points in all poses of the mean.
+std::vector<Omission> omissions_of_means(const std::vector<CaseRows>& cases, const std::vector<Diagram>& diagrams);
 
 }  // namespace experiments

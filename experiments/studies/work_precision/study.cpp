@@ -164,7 +164,7 @@ ComparisonRecords records_of(const FinishedRuns& finished)
     records.chosen = choose_settings(rows);
     records.diagrams = diagrams_of(records.cases, records.chosen);
     records.omissions = omissions_of(rows);
-    for (const Omission& omission : omissions_of_means(records.omissions, records.diagrams)) records.omissions.push_back(omission);
+    for (const Omission& omission : omissions_of_means(rows, records.diagrams)) records.omissions.push_back(omission);
     return records;
 }
 

@@ -70,14 +70,27 @@ TEST(Omissions, OfAMeanAreThoseOfItsPoses)
         hand_case({.body = "limb", .pose = "b"}, {{vbd, 1.0, 9.0}, diverged, hand_reference()}),
         hand_case({.body = "limb", .pose = "c"}, {{vbd, 1.0, 9.0}, diverged, hand_reference()}, Half::training)};
     std::vector<Found> found;
-    for (const Omission& one : omissions_of_means(omissions_of(cases), test_support::hand_diagrams(cases)))
+    for (const Omission& one : omissions_of_means(cases, test_support::hand_diagrams(cases)))
         found.emplace_back(one.comparison, one.of, one.deformer, one.why, one.missing, one.points);
     const std::string mean = "mean_of_2_evaluated_poses";
     const std::vector<Found> expected = {{Comparison::packed_f32, mean, "vbd", "not_finite", 2, 4},
-                                         {Comparison::packed_f32, mean, "lbs", "not_run", 0, 0},
+                                         {Comparison::packed_f32, mean, "lbs", "not_run", 0, 1},
                                          {Comparison::plain_f64, mean, "vbd", "not_finite", 2, 4},
-                                         {Comparison::plain_f64, mean, "lbs", "not_run", 0, 0}};
+                                         {Comparison::plain_f64, mean, "lbs", "not_run", 0, 1}};
     EXPECT_EQ(found, expected);
+}
+
+// A point of vbd diverges in one of four poses, in each of which it has two points.
+TEST(Omissions, OfAMeanCountThePointsOfPosesWithoutAnOmission)
+{
+    const auto vbd = [](int iterations) { return SettingKey{.deformer = "vbd", .iterations = iterations, .precision = "f64"}; };
+    std::vector<CaseRows> cases;
+    for (const char* pose : {"a", "b", "c", "d"})
+        cases.push_back(hand_case({.body = "limb", .pose = pose}, {{vbd(1), 1.0, 9.0}, {vbd(4), 4.0, 9.0}, hand_reference()}));
+    cases[1] = hand_case({.body = "limb", .pose = "b"}, {{vbd(1), 1.0, 9.0}, {vbd(4), 4.0, {}, "not_finite"}, hand_reference()});
+    const std::vector<Omission> of_means = omissions_of_means(cases, test_support::hand_diagrams(cases));
+    ASSERT_FALSE(of_means.empty());
+    for (const Omission& one : of_means) EXPECT_EQ(std::tuple(one.why, one.missing, one.points), std::tuple("not_finite", 1, 8)) << one.of;
 }
 
 TEST(Omissions, AreNoneWhereEachPointHasATimeAndAnError)
