@@ -25,9 +25,7 @@ def draw_profiles(axes, rows, span_ms):
 
 def omitted_in(results, rows, comparison):
     """The omissions of the evaluated poses, and per tolerance the groups without a curve because they solve no pose."""
-    cases = omission_boxes.evaluated_cases(results)
-    omitted = [row for row in omission_boxes.read(results) if row["comparison"] == comparison and row["case"] in cases]
-    lines = omission_boxes.lines(omission_boxes.added_up(omitted))
+    lines = omission_boxes.lines(omission_boxes.added_up(results, comparison, omission_boxes.evaluated_cases(results)))
     fronts = records.table(results / "work_precision" / "fronts.csv", {"comparison", "front"})
     known = {compared_looks.group_of(row["front"]) for row in fronts if row["comparison"] == comparison and row["front"] != "all"}
     for tolerance_pct in tolerances_pct:

@@ -48,9 +48,8 @@ def omitted_lines(results, tables, shown):
     further = [case for case in tables if case not in shown and case not in without]
     lines = [f"no parts of the error on record: {names(without)}"] if without else []
     lines += [f"at most {most_panels} poses are shown, without {names(further)}"] if further else []
-    missing = [row for row in omission_boxes.read(results)
-               if row["deformer"] == "pbs" and row["comparison"] == "packed_f32" and row["case"] in (*shown, *without)]
-    return lines + omission_boxes.lines(omission_boxes.added_up(missing))
+    missing = [row for row in omission_boxes.added_up(results, "packed_f32", (*shown, *without)) if row["deformer"] == "pbs"]
+    return lines + omission_boxes.lines(missing)
 
 
 def draw(results, figures):

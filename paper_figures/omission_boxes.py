@@ -3,9 +3,11 @@
     omitted = omission_boxes.read(results)
     omission_boxes.draw(axes, omission_boxes.lines(rows), width=46)
 """
+import collections
 import textwrap
 
 import case_words
+import compared_codes
 import records
 
 columns = {"comparison", "case", "deformer", "why", "missing", "points", "reason"}
@@ -25,14 +27,22 @@ def evaluated_cases(results):
     return [case for case, rows in tables.items() if rows[0]["half"] == "evaluation"]
 
 
-def added_up(rows):
-    """One row per deformer and reason, with the points of all cases."""
-    sums = {}
-    for row in rows:
-        key = (row["deformer"], row["why"])
-        so_far = sums.setdefault(key, {**row, "missing": 0, "points": 0})
+def points_in(results, comparison, cases):
+    """The number of points of each deformer in these cases, missing or not. The best code is that of all cases."""
+    needed = {"deformer", "precision", "packed", "outcome"}
+    points = [{**row, "case": file.parent.name} for file in sorted((results / "work_precision").glob("*/points.csv"))
+              for row in records.table(file, needed) if row["outcome"] not in ("reference", "not_reached")]
+    return collections.Counter(row["deformer"] for row in compared_codes.taking_part(points, comparison) if row["case"] in cases)
+
+
+def added_up(results, comparison, cases):
+    """One row per deformer and reason, of the points in all of these cases, whether they have the omission or not."""
+    points, sums = points_in(results, comparison, cases), {}
+    for row in read(results):
+        if row["comparison"] != comparison or row["case"] not in cases:
+            continue
+        so_far = sums.setdefault((row["deformer"], row["why"]), {**row, "missing": 0, "points": points[row["deformer"]]})
         so_far["missing"] += int(row["missing"])
-        so_far["points"] += int(row["points"])
     return list(sums.values())
 
 

@@ -5,6 +5,7 @@ omitted."""
 import textwrap
 
 import case_words
+import compared_codes
 import compared_looks
 import entries
 import omission_boxes
@@ -27,26 +28,6 @@ def measured(rows):
     return [row for row in rows if row["ms_median"] and row["error_joint_pct"]]
 
 
-def is_plain(row):
-    """A deformer of the user's own has no precision on record and takes part in both comparisons."""
-    return row["precision"] != "f32" and row["packed"] != "1"
-
-
-def code_rank(row):
-    """The better code has the higher rank: packed f32, plain f32, packed f64, plain f64."""
-    return 2 * (row["precision"] == "f32") + (row["packed"] == "1")
-
-
-def taking_part(rows, comparison):
-    """The points of a comparison: in packed_f32 those of the best code of each deformer."""
-    if comparison == "plain_f64":
-        return [row for row in rows if is_plain(row)]
-    best = {}
-    for row in rows:
-        best[row["deformer"]] = max(best.get(row["deformer"], 0), code_rank(row))
-    return [row for row in rows if code_rank(row) == best[row["deformer"]]]
-
-
 class Panel:
     """One pose or mean in one comparison, with the rows behind it."""
 
@@ -56,7 +37,7 @@ class Panel:
             return [row for row in tables[table] if all(row[column] == value for column, value in wanted.items())]
 
         self.is_mean = not points
-        self.title, self.points = title, taking_part(measured(points), comparison)
+        self.title, self.points = title, compared_codes.taking_part(measured(points), comparison)
         self.fronts = of_case("fronts", measure="error_joint_pct")
         self.best = [row for row in of_case("best_within", rank="1") if float(row["budget_ms"]) in budgets_ms]
         self.omitted = of_case("omissions")

@@ -15,6 +15,7 @@ sys.path[:0] = [str(root / "paper_figures"), str(pathlib.Path(__file__).parent)]
 
 import improvements  # noqa: E402
 import make_all  # noqa: E402
+import omission_boxes  # noqa: E402
 import stiffness  # noqa: E402
 import style  # noqa: E402
 import synthetic_records  # noqa: E402
@@ -82,10 +83,24 @@ class Plots(unittest.TestCase):
         synthetic_tables.write_error_parts(self.results / "work_precision")
         drawn = self.drawn("error_parts")
         rows = [row for row in drawn if row["part"]]
-        self.assertEqual([row["omission"] for row in drawn if not row["part"]], ["over the time limit: PBS 1 of 9"])
+        self.assertEqual([row["omission"] for row in drawn if not row["part"]], ["over the time limit: PBS 1 of 15"])
         parts = {(row["part"], float(row["iterations"])): float(row["value_pct"]) for row in rows}
         self.assertEqual(len(rows), 4 * 3)  # parts, iterations: neither another order nor another stiffness nor substeps
         self.assertEqual(parts["solver_pct", 24.0], 1.25)
+
+    def test_omissions_of_several_poses_are_of_the_points_of_all_of_them(self):
+        study = self.results / "work_precision"
+        vbd = {"deformer": "vbd", "precision": "f32", "packed": 1, "outcome": "finished"}
+        diverged, plain = {**vbd, "outcome": "not_finite"}, {**vbd, "precision": "f64", "packed": 0}
+        reference = {**vbd, "deformer": "reference", "outcome": "reference"}
+        for case, rows in {"a": [vbd, diverged, diverged, plain, reference], "b": [vbd] * 3 + [reference], "c": [plain],
+                           "other": [vbd] * 7}.items():
+            (study / case).mkdir(parents=True)
+            synthetic_tables.write(study / case / "points.csv", rows)
+        synthetic_tables.write(study / "omissions.csv", [{"comparison": "packed_f32", "case": "a", "deformer": "vbd", "why": "not_finite",
+                                                          "missing": 2, "points": 3, "reason": ""}])
+        added = omission_boxes.added_up(self.results, "packed_f32", ("a", "b", "c"))
+        self.assertEqual([(row["deformer"], row["missing"], row["points"]) for row in added], [("vbd", 2, 6)])
 
     def test_improvements(self):
         synthetic_tables.write_improvements(self.results / "improvements")

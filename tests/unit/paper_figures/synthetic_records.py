@@ -128,12 +128,13 @@ def write_work_precision(results):
     lbs = point("lbs", "", 0.1, 50.0, "f64", 0)
     packed = [point("pbs", n, float(n), 40.0 / n, "f32", 1) for n in (1, 2, 4)]
     plain = [point("pbs", n, 5.0 * n, 40.0 / n, "f64", 0) for n in (1, 2, 4)]
+    diverged = [{**point("xpbd", n, "", "", "f32", 1), "outcome": "not_finite" if n <= 2 else "over_time_limit"} for n in range(1, 10)]
     rest = {"outcome": "finished", "half": "evaluation", "reach_ms": 1.0, "reference_error_joint_pct": 15.0}
     reference = {**lbs, "deformer": "reference", "ms_median": "", "error_joint_pct": "", "outcome": "reference"}
     for name, half in (("limb_bend_90", "evaluation"), ("limb_bend_60", "training")):
         (folder / name).mkdir(parents=True)
         (folder / name / "run.json").write_text(json.dumps(origin))
-        write_table(folder / name / "points.csv", [{**case, **row, **rest, "half": half} for row in (lbs, *packed, *plain)]
+        write_table(folder / name / "points.csv", [{**case, **rest, **row, "half": half} for row in (lbs, *packed, *plain, *diverged)]
                     + [{**case, **reference, "half": half, "reach_ms": 90000.0, "reference_error_joint_pct": 15.0}])
     fronts, best, profiles = [], [], []
     for comparison, rows in (("packed_f32", [lbs, *packed]), ("plain_f64", [lbs, *plain])):
