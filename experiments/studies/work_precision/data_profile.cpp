@@ -40,7 +40,7 @@ const analysis::Columns<ProfileStep> data_profile_columns = {
     {"comparison", &ProfileStep::comparison, "", "packed_f32 or plain_f64"},
     {"tolerance_pct", &ProfileStep::tolerance_pct, "%", "largest error at the joints of a pose that counts as solved"},
     {"group", &ProfileStep::group, "", "key of a group of deformers"},
-    {"ms", &ProfileStep::ms, "ms", "time per frame from which on so many poses are solved, so many of them certainly"},
+    {"ms", &ProfileStep::ms, "ms", "time per frame at which `solved` or `certain` increases"},
     {"solved", &ProfileStep::solved, "", "number of poses that are solved"},
     {"certain", &ProfileStep::certain, "",
      "number of those with an error that is within the tolerance after the bound on the reference's own error is added"},

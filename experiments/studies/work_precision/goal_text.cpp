@@ -43,8 +43,8 @@ std::string solved_table(const std::vector<Diagram>& diagrams, const std::vector
         return std::pair(text_of(solved), solved.solved);
     };
     return fmt::format(
-               "The diagram's goal is an error of at most {:g} % within {:g} ms. Poses in which it is reached, the training poses "
-               "included; it is certain where the error plus the bound on the reference's own error is at most {:g} %:\n\n",
+               "The diagram's goal is an error of at most {:g} % within {:g} ms. The table counts the poses that reach it, including "
+               "training poses. A pose is certain if the error plus the bound on the reference's own error is at most {:g} %:\n\n",
                goal_pct, goal_ms, goal_pct) +
            table_by_body(bodies, groups_of(diagrams), cell);
 }
@@ -59,9 +59,9 @@ std::string solver_count_table(const std::vector<Diagram>& diagrams, const std::
     return fmt::format(
                "The solver's goal is a distance of at most {:g} % from the own limit within {:g} ms, and within a thirtieth of the time "
                "that Newton's method takes to the same distance. The own limit is linear elements with the law of the deformers that "
-               "minimise an energy, on the case's own tets. Poses in which it is reached, and poses in which the distance is reached in "
-               "{:g} ms whatever Newton's time is (in time), the training poses included. The bound on the reference's own error has no "
-               "part in it:\n\n",
+               "minimise an energy, on the case's own tets. A cell has the number of poses that reach the goal. `in time` counts those "
+               "that come within the distance in {:g} ms, regardless of Newton's time. Training poses are included. The bound on the "
+               "reference's own error has no part in it:\n\n",
                solver_goal_pct, solver_goal_ms, solver_goal_ms) +
            table_by_body(bodies, groups_of(diagrams), cell);
 }
@@ -117,11 +117,10 @@ std::string solver_table(const std::vector<const Diagram*>& poses)
     }
     if (rows.empty()) return "";
     return fmt::format(
-               "The fastest deformer that is within {:g} % of the own limit. Newton's method is timed from its fastest cold start to the "
-               "same distance, and for comparison from the solution of the frame before.\n\n| case | error of the own limit [%] | deformer "
-               "| ms | "
-               "distance [%] | Newton's method [ms] | its start | ratio | goal reached | from the frame before [ms] "
-               "|\n|---|---|---|---|---|---|---|---|---|---|\n",
+               "The fastest deformer that is within {:g} % of the own limit; finite elements do not count. Newton's method is timed from "
+               "its fastest cold start to the same distance, and for comparison from the solution of the frame before.\n\n"
+               "| case | error of the own limit [%] | deformer | ms | distance [%] | Newton's method [ms] | its start | ratio | "
+               "goal reached | from the frame before [ms] |\n|---|---|---|---|---|---|---|---|---|---|\n",
                solver_goal_pct) +
            rows + "\n";
 }

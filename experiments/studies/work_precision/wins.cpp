@@ -90,13 +90,10 @@ std::string wins_text(const std::vector<Diagram>& diagrams)
     }
     if (rows.empty()) return "";
     return fmt::format(
-               "## Where each deformer is nearest\n\nFor each group of deformers the evaluated pose, the comparison and the budget in "
-               "which "
-               "it is nearest to the reference: a decided one if there is one, with the largest lead over the next group. The budgets are "
-               "{} "
-               "ms per frame. `none`: another group is nearer in each pose within each budget.\n\n| group | case | comparison | within "
-               "[ms] "
-               "| error [%] | next [%] | decision | places |\n|---|---|---|---|---|---|---|---|\n",
+               "## Where each deformer is nearest\n\nThe table shows where each group is nearest to the reference. Decided places come "
+               "before undecided ones, then the largest lead over the next group counts. The budgets are {} ms per frame. `none`: another "
+               "group is nearer in each pose within each budget.\n\n| group | case | comparison | within [ms] | error [%] | next [%] | "
+               "decision | places |\n|---|---|---|---|---|---|---|---|\n",
                budgets) +
            rows + "\n";
 }
