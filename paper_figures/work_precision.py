@@ -22,6 +22,7 @@ point_columns = {*case_columns, *point_numbers, "outcome", "half", "reach_ms", "
 best_columns = {"comparison", "case", "budget_ms", "rank", "group", "decision", "undecided_against", "error_joint_pct", "ms_median"}
 budgets_ms = (0.1, 1.0, 10.0)
 most_panels = 6
+most_named_groups = 3
 
 
 def measured(rows):
@@ -103,10 +104,15 @@ def draw_budgets(axes, panel):
 
 
 def undecided_lines(panel):
-    """not decided within 10 ms against: XPBD, quasi-Newton."""
-    rows = [row for row in panel.best if row["undecided_against"]]
-    return [f"not decided within {float(row['budget_ms']):g} ms against: "
-            + ", ".join(compared_looks.short(group) for group in row["undecided_against"].split()) for row in rows]
+    """not decided within 10 ms against: XPBD, quasi-Newton. The names of many groups would hide the points; their number stands above the
+    line, and the table behind the figure names them."""
+    lines = []
+    for row in panel.best:
+        groups = row["undecided_against"].split()
+        if 0 < len(groups) <= most_named_groups:
+            names = ", ".join(compared_looks.short(group) for group in groups)
+            lines.append(f"not decided within {float(row['budget_ms']):g} ms against: {names}")
+    return lines
 
 
 def draw_omissions(axes, panel):
