@@ -84,8 +84,8 @@ def speed(claims):
 
 
 def first_errors(results):
-    """Of each deformer the errors against the family's first reference, in the poses in which that reference has a bound on its own error;
-    and how many poses there are."""
+    """The errors of each deformer against the family's first reference, in the poses in which that reference has a bound on its own
+    error; and the number of all poses."""
     errors, files = {}, sorted((results / "ensemble").glob("*/errors.csv"))
     for file in files:
         members = records.table(file.with_name("members.csv"), {"member", "error_bound_pct"})

@@ -47,8 +47,8 @@ public:
                             const LoadPathOptions& path);
 
     const Motion& motion() const { return state_.motion; }  // at the end of the last step that was reached
-    // Displacement [m], #dofs, at which Newton's method ended last, converged or not: at the time within the step where the scheme balances
-    // the forces. Empty before the first step.
+    // Displacement [m], #dofs, at which Newton's method ended last, whether it converged or not. It belongs to the time within the step at
+    // which the scheme balances the forces. Before the first step it has no entries.
     const Eigen::VectorXd& last_iterate() const { return last_iterate_; }
     double kinetic_energy_j() const;                      // v M v / 2
     const ConsistentMass& mass() const { return mass_; }  // M, of density_kg_m3

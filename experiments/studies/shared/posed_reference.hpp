@@ -33,11 +33,11 @@ struct NestedSolution {
     int inverted_tets = 0;                    // of the character's own tets, by their vertices alone
     double j_min = 1.0;                       // smallest volume ratio of such a tet
     int worst_tet = -1;                       // that tet
-    int newton_steps = 0;                     // on all of the way to the pose
+    int newton_steps = 0;                     // on the whole path to the pose
     int projected = 0;     // those with a projected Hessian: it was not positive definite, or the last step met negative curvature
     double seconds = 0.0;  // wall time, without that of the solution with fewer nodes
-    // Of the character's vertices [m], #V x 3; those of the last state of Newton's method if it did not finish. Where the solution with
-    // fewer nodes did not finish, these are its positions.
+    // Positions of the character's vertices [m], #V x 3. If Newton's method did not finish, they are those of its last state. If the
+    // solution with fewer nodes did not finish, they are the positions of that solution.
     pbs::Positions positions;
 };
 // "worst tet 812 of volume ratio -0.04, 3 inverted"

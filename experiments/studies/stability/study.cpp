@@ -13,7 +13,7 @@
 //   fem_static        linear, corotational and stable neo-Hookean in equilibrium
 //   fem_in_time       the last two by generalised-alpha
 // The finite elements in equilibrium take a broken initial state as the initial guess of Newton's method in the last pose, without a load
-// path. Those in time have no such cells. The linear elements need no initial guess and are a control.
+// path. The finite elements in time have no such cells. The linear elements need no initial guess and are a control.
 //
 // The verdict follows from the share of diverged cells among the cells as published, without an interval: one diverged cell refutes
 // "unconditionally".

@@ -35,7 +35,7 @@ template <typename Scalar>
 BatchedConstraints<Scalar> make_batched_constraints(const ConstraintClassData<Scalar, 2>& stretch,
                                                     const ConstraintClassData<Scalar, 4>& volume, int vertices, const Tets& tets,
                                                     Order order);
-// Those of Algorithm 1.
+// Batches the stretch and volume constraints of Algorithm 1.
 template <typename Scalar>
 BatchedConstraints<Scalar> make_batched_constraints(const ConstraintSet<Scalar>& constraints, const Tets& tets, Order order);
 

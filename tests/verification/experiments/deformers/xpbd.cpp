@@ -77,8 +77,8 @@ INSTANTIATE_TEST_SUITE_P(IterationsAndSubsteps, XpbdAtRest,
                          testing::Values(std::tuple{std::pair{10, 1}, pbs::Order::plain}, std::tuple{std::pair{100, 1}, pbs::Order::plain},
                                          std::tuple{std::pair{10, 10}, pbs::Order::plain}));
 
-// A particle falls by g h^2 before the constraints pull it back, and their gradients turn on this way. What a multiplier has added along
-// earlier gradients remains, which depends on the sequence of the edges and is in proportion to h^2. With ten substeps it is a hundredth.
+// A particle falls by g h^2 before the constraints pull it back, and their gradients turn meanwhile. The parts that a multiplier has added
+// along earlier gradients remain. They depend on the sequence of the edges and are proportional to h^2, so ten substeps leave a hundredth.
 INSTANTIATE_TEST_SUITE_P(PackedOrders, XpbdAtRest,
                          testing::Values(std::tuple{std::pair{10, 10}, pbs::Order::ordered},
                                          std::tuple{std::pair{10, 10}, pbs::Order::grouped}));
