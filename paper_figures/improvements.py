@@ -3,6 +3,7 @@ iterations, and the gain of each change in the time of 4, 24 and 96 iterations o
 decided is drawn filled."""
 import case_words
 import entries
+import omission_boxes
 import records
 import style
 
@@ -56,14 +57,9 @@ def omissions(rows):
     for budget in budget_looks:
         poses = {row["change"]: int(row["poses"]) for row in rows if row["budget_iterations"] == budget}
         most = max(poses.values(), default=0)
-        lines += [f"{names[change]} in the time of {budget} iterations: {poses.get(change, 0)} of {most} poses"
+        lines += [f"not ranked: {names[change]} in the time of {budget} iterations: {poses.get(change, 0)} of {most} poses"
                   for change in changes if poses.get(change, 0) < most]
     return lines
-
-
-def draw_omissions(axes, lines):
-    text = "\n".join(["Omissions (not ranked):", *(lines or ["none"])])
-    axes.text(0.01, 0.02, text, transform=axes.transAxes, fontsize=5, va="bottom", ha="left")
 
 
 def draw(results, figures):
@@ -78,8 +74,8 @@ def draw(results, figures):
               for row in draw_curves(panel, body, [row for row in curves if row["body"] == body])]
     behind += draw_gains(lower[0], gains)
     omitted = omissions(gains)
-    draw_omissions(lower[0], omitted)
+    omission_boxes.draw(lower[0], omitted, 110, place=(0.01, 0.02), fontsize=5)
     behind += [{"shown": "omission", "why": line} for line in omitted]
     upper[0].legend(loc="best", fontsize=6)
-    lower[0].legend(loc="best", fontsize=6)
+    lower[0].legend(loc="center right", fontsize=6)
     style.save(figure, figures / "improvements", entries.origin_of(results, "improvements"), style.aligned(behind))

@@ -115,8 +115,8 @@ class Plots(unittest.TestCase):
     def test_improvements_list_the_changes_without_a_value_in_every_pose(self):
         rows = [{"change": change, "budget_iterations": budget, "poses": poses}
                 for change, budget, poses in (("smooth_weights", "4", "8"), ("region_volumes", "4", "6"), ("smooth_weights", "24", "8"))]
-        self.assertEqual(improvements.omissions(rows), ["volumes of regions in the time of 4 iterations: 6 of 8 poses",
-                                                        "volumes of regions in the time of 24 iterations: 0 of 8 poses"])
+        self.assertEqual(improvements.omissions(rows), ["not ranked: volumes of regions in the time of 4 iterations: 6 of 8 poses",
+                                                        "not ranked: volumes of regions in the time of 24 iterations: 0 of 8 poses"])
 
     def test_an_attachment_that_was_not_reached_keeps_its_place_and_says_so(self):
         synthetic_tables.write_error_split(self.results / "error_split")
