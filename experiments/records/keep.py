@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Keeps what the verdicts rest on: from the records of `pbskin reproduce --full -o DIR` the values by which claims are judged, those that
-they show for comparison, the studies' own tables and the provenance, below 10 MB, in experiments/records/full. `pbskin reproduce --judge -o
+they show for comparison, the studies' own tables and the provenance, below 12 MB, in experiments/records/full. `pbskin reproduce --judge -o
 experiments/records/full` judges them again.
 
     python3 experiments/records/keep.py results/full [FOLDER]
@@ -17,8 +17,9 @@ JUDGED = ["scene", "deformer", "variant", "order", "precision", "iterations", "t
           "volume_change_pct", "volume_abs_change_pct", "inverted_tets", "masked_share_pct", "error_joint_pct"]
 PROVENANCE = ["version", "git_revision", "git_dirty", "compiler", "flags", "build_type", "cpu_model", "logical_cpus"]
 DRAWN = ("bones.csv", "bones_rest.csv", "binding.csv", "embedding.csv")  # beside frames, which are not kept
-MOST_BYTES = 10_000_000
+MOST_BYTES = 12_000_000
 RAW = ("points.csv",)  # the measured points of a run, from which the study's tables follow: kept whatever their length
+REPEATED = {"work_precision": {"setting"}}  # study -> columns of its runs that other columns repeat
 TABLE_BYTES = 60_000  # of a run's further tables; longer ones are made again by the run
 SUMMARY_BYTES = 200_000  # of a study's own files, which sum up its runs'
 
@@ -55,9 +56,12 @@ def keep_metrics(source, target):
         writer.writerows([rounded(row[column]) for column in columns] for row in rows)
 
 
-def keep_table(source, target):
+def keep_table(source, target, without=()):
     with source.open(newline="", encoding="utf-8") as file, target.open("w", newline="", encoding="utf-8") as kept:
-        csv.writer(kept, lineterminator="\n").writerows([rounded(cell) for cell in row] for row in csv.reader(file))
+        rows = csv.DictReader(file)
+        writer = csv.DictWriter(kept, [name for name in rows.fieldnames if name not in without], extrasaction="ignore", lineterminator="\n")
+        writer.writeheader()
+        writer.writerows({name: rounded(cell) for name, cell in row.items()} for row in rows)
 
 
 def keep_run(source, target):
@@ -73,7 +77,7 @@ def keep_run(source, target):
         elif table.name in ("measurements.csv", "printed.csv"):
             shutil.copyfile(table, target / table.name)
         elif table.name in RAW or table.stat().st_size <= TABLE_BYTES:
-            keep_table(table, target / table.name)
+            keep_table(table, target / table.name, REPEATED.get(source.parent.name, ()))
 
 
 def keep_study(source, target):

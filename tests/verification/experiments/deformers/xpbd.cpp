@@ -1,7 +1,7 @@
 // Reference: statics. A particle hangs from three fixed ones by the three edges of a tet; each edge is a spring of stiffness 1 / alpha, so
 // at rest
 //   sum over edges of n n^T / alpha u = m g,
-// for any number of iterations and substeps per step. A multiplier that were forgotten between iterations would stiffen it with each.
+// for any number of iterations and substeps per step. A multiplier that is forgotten between iterations would stiffen it with each.
 // Poisson's ratio 1/4 leaves the volume constraints out. Displacements are 1e-4 of an edge; the neglected terms are of second order: the
 // force of a spring of stiffness k neglects k |u|^2 / length times (sin^2 / 2, sin cos) of the angle between u and the spring, of its
 // length and of its direction, at most 1 / sqrt 3.
