@@ -22,7 +22,7 @@ STUDY_SECTIONS = ["Cases", "Records", "Claims, figures, cost", "What it cannot s
 CLAIM_SECTIONS = ["What is measured", "Formula", "Bound", "What would make it fail", "How the paper can be read", "Result"]
 WITHOUT_KEPT_TABLES = {"bench", "frames", "scale"}  # their records are large, and no verdict needs them
 # Kept records precede the tables; the next full reproduction replaces them.
-OLDER_RECORDS = {"equal_quality", "stability", "work_precision"}
+OLDER_RECORDS = {"equal_quality", "stability"}
 
 
 def sections(text):
