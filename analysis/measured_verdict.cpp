@@ -67,11 +67,16 @@ VerdictKind kind_of(const std::map<std::string, Subject>& subjects)
                                                                               : VerdictKind::not_reproduced;
 }
 
-// How far the value lies outside, relative to the size of the bound; negative inside. NaN counts as farthest outside.
+// How far the value lies outside, relative to the size of the bound; negative inside. NaN counts as farthest outside. An open end counts
+// only where an infinite value lies beyond it.
 double distance_outside(const QuantityBound& bound, double value)
 {
-    if (std::isnan(value)) return std::numeric_limits<double>::infinity();
-    const auto relative = [](double by, double end) { return std::isinf(end) ? -std::abs(end) : by / std::max(std::abs(end), 1e-300); };
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    const auto relative = [](double by, double end) {
+        if (std::abs(end) >= open_end) return by == infinity ? by : -infinity;
+        return by / std::max(std::abs(end), 1e-300);
+    };
+    if (std::isnan(value)) return infinity;
     return std::max(relative(bound.low - value, bound.low), relative(value - bound.high, bound.high));
 }
 

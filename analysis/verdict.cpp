@@ -32,16 +32,15 @@ std::vector<std::string> missing_scenes(const Claim& claim, const Records& recor
     return missing;
 }
 
-// Chooses the clip that decides, among those in the paper's own variant and with the claim's own metric: the one with the lowest share, or
-// with the mean farthest from the printed value.
+// Chooses the clip that represents the claim, by the claim's own metric: the one with the lowest share, or with the mean farthest from the
+// printed value.
 void choose_primary(Verdict& verdict)
 {
     const bool by_share = verdict.claim.rule == ClaimRule::share_within;
     double worst = -std::numeric_limits<double>::infinity();
     for (const CaseJudgement& judged : verdict.cases) {
-        const bool is_default = judged.variant.empty() || judged.variant == "default";
-        if (judged.sweep || !is_default || judged.metric != verdict.claim.metrics.front()) continue;
-        const double distance = by_share ? -judged.share.low : std::abs(judged.mean.estimate - verdict.claim.expected);
+        if (judged.sweep || judged.metric != verdict.claim.metrics.front()) continue;
+        const double distance = by_share ? -judged.share.estimate : std::abs(judged.mean.estimate - verdict.claim.expected);
         if (!(distance > worst)) continue;
         worst = distance;
         verdict.interval = by_share ? judged.share : judged.mean;

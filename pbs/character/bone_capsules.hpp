@@ -1,6 +1,6 @@
-// Each bone as a rigid capsule inside the flesh, by which a deformable body can be held. The capsule is the bone's middle (1/6 to 5/6 of
-// its length, the part that Eq. 2 gives to one bone alone); its radius is core_radius times the local limb radius. It depends on the
-// character alone, so the continuous problem does not depend on the elements. Its ends are flat: it is a cylinder without half spheres.
+// Each bone as a rigid cylinder inside the flesh, by which a deformable body can be held. Here and in the keys it is called a capsule,
+// although its ends are flat. It is the bone's middle (1/6 to 5/6 of its length, the part that Eq. 2 gives to one bone alone); its radius
+// is core_radius times the local limb radius. It depends on the character alone, so the continuous problem does not depend on the elements.
 #pragma once
 
 #include "pbs/character/character.hpp"

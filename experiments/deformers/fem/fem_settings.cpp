@@ -117,8 +117,8 @@ void add_solution_keys(OptionFields<FemOptions>& fields)
              {.lowest = 0,
               .highest = 1e9,
               .meaning =
-                  "nonlinear model, dynamics quasi_static: a stage of the way to a pose ends after this number of Newton steps, and the "
-                  "pose is not reached; 0: no limit"})
+                  "nonlinear model, dynamics quasi_static: no further solve on the way to a stage of a pose begins after this number of "
+                  "Newton steps, and the pose is not reached; the linear elements of nested_start have four times as many; 0: no limit"})
         .add("nested_start", &FemOptions::nested_start,
              {.meaning =
                   "nonlinear model, with element_order 2 or a refined character: in the first pose and where a bone turns by more than 15 "

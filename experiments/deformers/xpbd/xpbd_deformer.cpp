@@ -1,6 +1,6 @@
-// LBS, then extended position based dynamics with a material. It costs what PBS costs: the iterations of PBS, or as many substeps of one
-// iteration. The vertices that jiggle are those of PBS. The default is plain code in double precision; `order` and `precision` choose the
-// packed code that PBS has by default.
+// LBS, then extended position based dynamics with a material. It costs what PBS costs: n iterations, or n substeps with one
+// iteration each. The vertices that jiggle are those of PBS. The default is plain code in double precision; `order` and `precision` choose
+// the packed code that PBS has by default.
 #include "experiments/deformers/order_names.hpp"
 #include "experiments/deformers/precision_names.hpp"
 #include "experiments/deformers/registry.hpp"

@@ -34,8 +34,9 @@ const OptionFields<XpbdNeoHookeanDeformerOptions>& xpbd_neo_hookean_fields()
             .add("time_step", &Options::time_step,
                  {.lowest = above_zero,
                   .highest = 1e6,
-                  .meaning = "time step over the time in which the stiffness of a vertex moves its mass; above 0.8 the steps diverge "
-                             "on small tets, and far below they are slow. With multipliers kept it changes the iterates, not the limit"})
+                  .meaning =
+                      "time step over the time in which the stiffness of a vertex moves its mass; above 0.8 some poses end in "
+                      "an oscillation, and far below it convergence is slow. With multipliers kept it changes the iterates, not the limit"})
             .add(
                 "multipliers", &Options::multipliers,
                 {.meaning = "kept over all steps of a frame, with the residual corrected, which converges to the minimum; of_step: zero at "

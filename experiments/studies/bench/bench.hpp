@@ -44,7 +44,7 @@ struct MeshTimings {
     std::optional<FemTiming> fem;
     std::optional<NewtonTiming> newton;
     std::string fem_left_out;               // the reason, where the reference could not be timed
-    std::vector<DeformerTiming> deformers;  // all that are registered, on meshes where a frame of each takes less than a second
+    std::vector<DeformerTiming> deformers;  // all that are registered, on meshes of up to 30,000 tets
     PeakMemory memory;                      // of a solver and one step of `ordered` in f32
 
     double constraints() const { return double(vertices) + edges + tets; }

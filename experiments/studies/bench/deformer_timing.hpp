@@ -37,7 +37,7 @@ struct DeformerTiming {
     std::string order = {}, precision = {};
     std::optional<int> iterations = {};                 // per frame
     std::optional<Spread> ms_frame = {};                // nothing if it was left out
-    std::optional<Spread> ms_iteration = {};            // what a further one adds, else its share of the frame; nothing without
+    std::optional<Spread> ms_iteration = {};            // that one more adds; without a key `iterations`, the frame over their number
     std::optional<Spread> ns_tet = {}, ns_vertex = {};  // per iteration, or per frame of a deformer without iterations
     std::optional<Spread> ratio_to_plain = {};          // time of the plain implementation of an iteration, or a frame, over this one's
     // Where the work is counted: useful operations and moved bytes per second, and the share of the limit that they allow.

@@ -120,12 +120,7 @@ private:
 }  // namespace
 
 const Columns<MemberRow> member_columns =
-    within(&MemberRow::of, pose_columns()) +
-    within(&MemberRow::member,
-           Columns<EnsembleMember>{{"member", &EnsembleMember::name, "", "name of the member"},
-                                   {"spring_factor", &EnsembleMember::spring_factor, "", "q of the attachment"},
-                                   {"core_radius", &EnsembleMember::core_radius, "", "radius of the bones' capsules over the limb's"},
-                                   {"poisson", &EnsembleMember::poisson, "", "Poisson's ratio"}}) +
+    within(&MemberRow::of, pose_columns()) + within(&MemberRow::member, family_member_columns()) +
     Columns<MemberRow>{
         {"outcome", &MemberRow::outcome, "", "reached; inverted: det F <= 0 somewhere in each solution; not_converged"},
         {"element_order", &MemberRow::element_order, "", "of the finest solution with det F > 0, which is the reference"},

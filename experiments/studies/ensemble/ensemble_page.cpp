@@ -85,7 +85,7 @@ std::string ensemble_page(const std::vector<PairRow>& pairs, const std::vector<M
         std::ranges::count_if(members, [](const MemberRow& member) { return member.outcome == "reached" && !member.error_bound_pct; });
     std::string page = fmt::format(
         "{} of {} references were reached. {} of these have no bound on their own error and decide nothing, because too few of their "
-        "solutions converged without inverted tets.\n\n",
+        "solutions converged.\n\n",
         reached, members.size(), without_bound);
     page += fmt::format(
         "{} of {} pairs of deformers whose errors differ by more than {:g} percentage points are decided. Without linear finite elements, "

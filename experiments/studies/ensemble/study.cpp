@@ -9,6 +9,7 @@
 #include "analysis/records/folder_files.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/studies/ensemble/ensemble_page.hpp"
+#include "experiments/studies/shared/case_name.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 #include "experiments/studies/study.hpp"
 #include "pbs/geometry/input_error.hpp"
@@ -52,16 +53,16 @@ EnsembleCase ensemble_case(const analysis::CaseKey& key, const Scene& scene, int
 StudyRun limb_run(const std::string& motion, int angle_deg, double cost_s)
 {
     const Scene scene = read_scene("limb_" + motion, {fmt::format("motion.angle_deg={}", angle_deg), "motion.frames=2"});
-    return work_run(fmt::format("limb_{}_{}", motion, angle_deg),
-                    ensemble_case({.body = "limb", .motion = motion, .angle_deg = angle_deg}, scene, 1), cost_s, measure_and_record);
+    const EnsembleCase of = ensemble_case({.body = "limb", .motion = motion, .angle_deg = angle_deg}, scene, 1);
+    return work_run(case_name(of.of), of, cost_s, measure_and_record);
 }
 
 // pbs::InputError if the body is not installed.
 StudyRun human_run(const std::string& pose, int frame, double cost_s)
 {
     const Scene scene = read_scene("human_01_01", {});
-    return work_run("human_" + pose, ensemble_case({.body = "human", .motion = "01_01", .pose = pose}, scene, frame), cost_s,
-                    measure_and_record);
+    const EnsembleCase of = ensemble_case({.body = "human", .motion = "01_01", .pose = pose}, scene, frame);
+    return work_run(case_name(of.of), of, cost_s, measure_and_record);
 }
 
 StudyPlan plan(bool full)

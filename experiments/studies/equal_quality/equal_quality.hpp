@@ -1,8 +1,8 @@
 // Measures the residuals and volume changes of every order of projection, in both precisions and for several sequences of the constraints,
 // and the time until they are reached. The case is one body in one pose, and the initial guess is LBS.
 //   const std::vector<MeasuredOrder> measured = measure_orders(of);
-// The sequences: file order, spread (that of bench's plain_spread) and random ones. `poses` projects sixteen poses side by side,
-// each of which gets the very bits of `ordered`, so that only its time is its own.
+// The sequences: file order, spread (that of bench's plain_spread) and random ones. `poses` projects sixteen poses side by side. The
+// results of each are bit-identical to those of `ordered`, and only the time differs.
 #pragma once
 
 #include "analysis/case_key.hpp"

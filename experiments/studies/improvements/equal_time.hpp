@@ -1,7 +1,8 @@
 // The gain of each change to PBS in the same time as the baseline.
 //   const std::vector<EqualTimeRow> rows = at_equal_time(points);
 // Budget: the baseline's time after 4, 24 or 96 iterations in the same pose. The error of a setting at that time is interpolated between
-// its iterations, linearly in the logarithm of the time; after its last iterations it stays, and before its first it has none.
+// its iterations, linearly in the logarithm of the time. Beyond the largest number of iterations the error is constant; below the smallest
+// number there is none.
 // Poses are compared in groups: all of them, and those of each body where there are several. A change's setting in a pose is the one with
 // the least mean error at the same budget over the other poses of the group, so that no setting is evaluated on a pose on which it was
 // chosen.

@@ -1,8 +1,9 @@
 // The gain of each change over the baseline in equal time, in the mean over the poses of a group, and whether it is decided.
 //   const std::vector<GainRow> gains = gains_of(at_equal_time(points));
-// Whether the order of two shapes A and B could be reversed by the reference's own error U: the difference of their errors changes at most
-// by U times the largest distance of the two unit vectors from A and from B to the reference, which is at most 2 |A - B| / (e_A + e_B) (C.
-// Dunkl, K. Williams, A simple norm inequality, American Mathematical Monthly 71, 1964), and at most 2.
+// The reference's own error U can reverse the order of two shapes A and B. It changes the difference of their errors by at most U times the
+// largest distance between the two unit vectors that point from A and from B to the reference. This distance is at most 2, and at most
+// 2 |A - B| / (e_A + e_B) (C. Dunkl, K. Williams, A simple norm inequality, American Mathematical Monthly 71, 1964). The errors e_A and e_B
+// are at least the measured ones less U.
 #pragma once
 
 #include "experiments/studies/improvements/equal_time.hpp"
@@ -17,7 +18,7 @@ namespace experiments {
 // known.
 std::optional<double> shift_of_difference(double one_error, double other_error, double distance, std::optional<double> bound);
 
-inline constexpr int fewest_poses = 4;  // with fewer ones the bootstrap knows next to nothing about other poses
+inline constexpr int fewest_poses = 4;  // with fewer ones the interval of the bootstrap is not reliable
 
 enum class GainDecision {
     decided,          // the interval over the poses excludes zero, and the reference's own error cannot reverse the mean
@@ -25,7 +26,7 @@ enum class GainDecision {
     reference_error,  // the mean is within the reference's own error, or that is not known
 };
 
-// The mean over the poses of the difference between two errors. one: of the first, less: of what is subtracted; by pose.
+// The mean over the poses of the difference between two errors: that of `than` less that of `change`.
 struct GainRow {
     std::string group;  // all, or a body
     int budget_iterations = 0;

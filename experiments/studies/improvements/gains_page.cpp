@@ -54,8 +54,8 @@ std::string answer(const std::vector<GainRow>& gains)
     const auto best = std::ranges::find(gains, versus->change, &GainRow::change);
     if (best->gain_pct <= 0.0)
         return fmt::format(
-            "No single change reduces the mean error over {} poses, {:.2f} %. The best one, {}, gains {} percentage points "
-            "[{}].{}\n",
+            "The mean error of the baseline over {} poses is {:.2f} %, and no single change reduces it. The best change, {}, gains {} "
+            "percentage points [{}].{}\n",
             best->poses, best->than_error_pct, spoken(best->change), interval_of(*best), remark_on(*best), of_the_control(gains));
     return fmt::format(
         "The change with the largest mean gain is {}: over {} poses the mean error at the joints is {:.2f} % instead of {:.2f} %, a gain "

@@ -10,8 +10,6 @@
 #include "pbs/character/skinning_weights.hpp"
 #include "pbs/geometry/topology.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <deque>
@@ -152,12 +150,6 @@ private:
 };
 
 }  // namespace
-
-std::string case_name(const ChangesCase& of)
-{
-    if (!of.of.pose.empty()) return of.of.body + "_" + of.of.pose;
-    return fmt::format("{}_{}_{:g}", of.of.body, of.of.motion, of.of.angle_deg.value());
-}
 
 nlohmann::json to_json(const ChangesCase& of)
 {

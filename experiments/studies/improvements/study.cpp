@@ -7,6 +7,7 @@
 // seconds; --full: some minutes of processor time.
 #include "analysis/records/folder_files.hpp"
 #include "experiments/studies/improvements/gains_page.hpp"
+#include "experiments/studies/shared/case_name.hpp"
 #include "experiments/studies/study.hpp"
 #include "pbs/geometry/input_error.hpp"
 
@@ -52,7 +53,7 @@ StudyRun limb_run(const std::string& motion, int angle_deg, bool full, bool refi
     of.range = range_of(full);
     of.refined_reference = refined_reference;
     of.rounds = rounds_of(full);
-    return work_run(case_name(of), of, cost_s, measure_and_record);
+    return work_run(case_name(of.of), of, cost_s, measure_and_record);
 }
 
 // pbs::InputError if the body is not installed.
@@ -64,10 +65,10 @@ StudyRun human_run(const std::string& pose, int frame, bool refined_reference, d
     of.frame = frame;
     of.refined_reference = refined_reference;
     of.rounds = rounds_of(true);
-    return work_run(case_name(of), of, cost_s, measure_and_record);
+    return work_run(case_name(of.of), of, cost_s, measure_and_record);
 }
 
-// References on refined tets only where they take about a minute: not in the creases of the bend by 90 degrees and of the crouch.
+// References are on refined tets only where they take about a minute: not in the bend by 90 degrees, the crouch and the standing pose.
 StudyPlan plan(bool full)
 {
     StudyPlan plan;

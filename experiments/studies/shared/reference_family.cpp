@@ -3,6 +3,8 @@
 #include "experiments/deformers/fem/fem_option_names.hpp"
 #include "experiments/settings/option_fields.hpp"
 
+#include <algorithm>
+
 namespace experiments {
 
 std::vector<EnsembleMember> family()
@@ -13,6 +15,22 @@ std::vector<EnsembleMember> family()
             {.name = "stiffer_springs_thinner_bones", .spring_factor = 100.0, .core_radius = 0.5},
             {.name = "nu_0.3", .poisson = 0.3},
             {.name = "nu_0.49", .poisson = 0.49, .formulation = reference_fem::Formulation::mean_dilatation}};
+}
+
+std::size_t place_among_further(const std::string& member)
+{
+    const std::vector<EnsembleMember> all = family();
+    return static_cast<std::size_t>(std::ranges::find(all, member, &EnsembleMember::name) - all.begin()) - 1;
+}
+
+const analysis::Columns<EnsembleMember>& family_member_columns()
+{
+    static const analysis::Columns<EnsembleMember> columns = {
+        {"member", &EnsembleMember::name, "", "name of the reference in the family"},
+        {"spring_factor", &EnsembleMember::spring_factor, "", "q of the attachment"},
+        {"core_radius", &EnsembleMember::core_radius, "", "radius of the bones' capsules over the limb's"},
+        {"poisson", &EnsembleMember::poisson, "", "Poisson's ratio"}};
+    return columns;
 }
 
 nlohmann::json to_json(const EnsembleMember& member)

@@ -135,7 +135,7 @@ std::vector<StabilityCell> pbs_map_cells(bool full)
     return cells;
 }
 
-std::vector<StabilityCell> negative_controls(bool)
+std::vector<StabilityCell> negative_controls()
 {
     std::vector<StabilityCell> cells;
     for (const bool jiggle : {false, true})

@@ -8,8 +8,8 @@ namespace experiments {
 
 std::vector<StabilityCell> pbs_cells(bool jiggle, bool full);  // on the limb, in both precisions
 std::vector<StabilityCell> pbs_character_cells(const std::string& body, bool full);
-std::vector<StabilityCell> pbs_map_cells(bool full);      // time step x k_stretch, iterations x twist
-std::vector<StabilityCell> negative_controls(bool full);  // Eq. 12-20 as printed; distances whose squares overflow
+std::vector<StabilityCell> pbs_map_cells(bool full);  // time step x k_stretch, iterations x twist
+std::vector<StabilityCell> negative_controls();       // Eq. 12-20 as printed; distances whose squares overflow
 std::vector<StabilityCell> xpbd_cells(bool full);
 std::vector<StabilityCell> fem_static_cells(bool full);   // linear, corotational, stable neo-Hookean; in equilibrium
 std::vector<StabilityCell> fem_dynamic_cells(bool full);  // corotational, stable neo-Hookean; in time

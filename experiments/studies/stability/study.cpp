@@ -124,7 +124,7 @@ StudyPlan plan(bool full)
     plan.runs.push_back(stability_run("pbs_jiggle", pbs_cells(true, full), full ? 95.0 : 21.0));
     plan.runs.push_back(stability_run("pbs_maps", pbs_map_cells(full), full ? 105.0 : 18.0));
     add_characters(plan, full);
-    plan.runs.push_back(stability_run("controls", negative_controls(full), 2.0));
+    plan.runs.push_back(stability_run("controls", negative_controls(), 2.0));
     plan.runs.push_back(stability_run("xpbd", xpbd_cells(full), full ? 80.0 : 14.0));
     plan.runs.push_back(stability_run("other_deformers", other_cells(full), full ? 18.0 : 7.0));
     plan.runs.push_back(

@@ -11,11 +11,6 @@ using analysis::within;
 
 constexpr double least_error_pct = 1e-9;  // an error of zero has no logarithm
 
-bool is_of_a_deformer(const PointRow& row)
-{
-    return row.outcome != "reference" && row.outcome != "not_reached";
-}
-
 // A rung with the rows of its settings in each training pose that has it.
 struct Rung {
     std::vector<SettingKey> settings;                         // in the order of the records: the default one first
@@ -97,7 +92,7 @@ BestCodes best_codes(const std::vector<CaseRows>& cases)
     BestCodes best;
     for (const CaseRows& rows : cases)
         for (const PointRow& row : rows)
-            if (is_of_a_deformer(row)) best[row.key.deformer] = std::max(best[row.key.deformer], code_rank(row.key));
+            if (!row.is_of_reference()) best[row.key.deformer] = std::max(best[row.key.deformer], code_rank(row.key));
     return best;
 }
 
@@ -116,7 +111,7 @@ std::vector<ChosenSetting> choose_settings(const std::vector<CaseRows>& cases)
         std::vector<std::pair<SettingKey, std::vector<SettingKey>>> rungs;  // in the order of the records
         for (const CaseRows& rows : cases)
             for (const PointRow& row : rows) {
-                if (!is_of_a_deformer(row) || !takes_part(comparison, row.key, best)) continue;
+                if (row.is_of_reference() || !takes_part(comparison, row.key, best)) continue;
                 const SettingKey rung = rung_of(row.key);
                 auto found = std::ranges::find(rungs, rung, [](const auto& one) { return one.first; });
                 if (found == rungs.end()) found = rungs.insert(rungs.end(), {rung, {}});

@@ -1,5 +1,6 @@
 #include "experiments/studies/work_precision/diagram.hpp"
 
+#include "experiments/studies/shared/case_name.hpp"
 #include "experiments/studies/work_precision/mean_diagram.hpp"
 
 #include <fmt/format.h>
@@ -14,11 +15,8 @@ constexpr std::size_t fewest_for_a_mean = 3;
 
 void add_members(Diagram& diagram, const std::vector<FamilyRow>& members)
 {
-    const std::vector<EnsembleMember> all = family();
-    for (const FamilyRow& row : members) {
-        const auto place = std::ranges::find(all, row.member.name, &EnsembleMember::name) - all.begin();
-        diagram.members.at(place - 1) = {true, row.outcome == "reached" ? row.error_bound_pct : std::nullopt};
-    }
+    for (const FamilyRow& row : members)
+        diagram.members.at(place_among_further(row.member.name)) = {true, row.outcome == "reached" ? row.error_bound_pct : std::nullopt};
 }
 
 bool is_chosen(const std::vector<ChosenSetting>& chosen, Comparison comparison, const SettingKey& key)

@@ -1,6 +1,6 @@
-// Work-precision diagrams from the recorded points: one per comparison and pose, with the settings that were chosen on other poses. There
-// is also one of the mean over the evaluated poses of a body, if these are three or more (the limb is one body, twisted or bent), one of
-// the mean over the bodies in a pose, if these are three or more, and one of the mean over all evaluated poses.
+// Work-precision diagrams from the recorded points: one per comparison and pose, with the settings that were chosen on the training poses.
+// There is also one of the mean over the evaluated poses of a body, if these are three or more (the limb is one body, twisted or bent), one
+// of the mean over the bodies in a pose, if these are three or more, and one of the mean over all evaluated poses.
 //   for (const Diagram& diagram : diagrams_of(cases, choose_settings(rows_of(cases)))) ...
 // The recorded error of a point is error_joint_pct: the root mean square over the blended vertices, over their mean distance to the bone.
 #pragma once
@@ -51,7 +51,7 @@ struct Diagram {
     std::optional<double> reference_error_pct;  // bound at the joints
     std::optional<NewtonRow> newton = {};       // the fastest cold start to the goal; nothing for a mean
     std::optional<double> newton_warm_ms = {};  // to the goal, from the solution of the frame before
-    std::array<DiagramMember, 5> members = {};
+    std::array<DiagramMember, further_members> members = {};
     double masked_share_pct = 0.0;  // of the volume, which overlaps itself and is left out
     int vertices = 0;               // of the case's own mesh; 0 for a mean
     int poses = 1;

@@ -41,7 +41,7 @@ std::string who_stays_behind(const Diagram& diagram, const DeformerGroup& one, c
 {
     const double any_ms = std::numeric_limits<double>::infinity();
     const DiagramPoint *behind = best_of(diagram, one, any_ms), *nearer = best_of(diagram, other, any_ms);
-    return fmt::format("{} does not remain nearer than {} at any time ({:.1f} and {:.1f} % at best){}", one.words, other.words,
+    return fmt::format("{} is not nearer than {} from any time on (least errors {:.1f} and {:.1f} %){}", one.words, other.words,
                        behind->error_pct, nearer->error_pct, decision_on(diagram, *nearer, *behind).remark());
 }
 

@@ -2,15 +2,14 @@
 // training pose is not independent of its setting.
 //   const std::vector<GoalRow> rows = goal_rows(diagrams);   // up to four rows per comparison and pose
 // The whole method: an error of at most 5 % at the joints within 3 ms per frame. The error of the reference's law with linear elements on
-// the case's own tets, by Newton's method, shows what these tets allow. A deformer that minimises an energy has another law, so that its
-// own linear elements may be somewhat nearer or farther, and before it converges it may be nearer than they are. Where the reference's
-// linear elements are above 5 %, a row has the best point on a finer mesh. The bound on the reference's own error decides whether a goal
-// that is reached is certain.
-// The solver alone: a distance of at most 1 % at the joints from the own limit of the deformers that minimise an energy, within 6 ms and
-// within a thirtieth of the time that Newton's method takes to the same distance. Finite elements do not count. This limit is linear
-// elements with their law (Macklin and Mueller's neo-Hookean, pbs/flesh/flesh_material.hpp) on the case's own tets.
-// Newton's method begins at its fastest cold start (newton_way.hpp), as these deformers do in every frame.
-// Its time from the solution of the frame before is stated for comparison.
+// the case's own tets, by Newton's method, shows what these tets allow. A deformer that minimises an energy has another law, and linear
+// elements with that law may have a smaller or larger error. Before it converges, it may have a smaller error than its limit. Where the
+// reference's linear elements are above 5 %, a row has the best point on a finer mesh. The bound on the reference's own error decides
+// whether a goal that is reached is certain. The solver alone: a distance of at most 1 % at the joints from the own limit of the deformers
+// that minimise an energy, within 6 ms and within a thirtieth of the time that Newton's method takes to the same distance. Finite elements
+// do not count. This limit is linear elements with their law (Macklin and Mueller's neo-Hookean, pbs/flesh/flesh_material.hpp) on the
+// case's own tets. Newton's method begins at its fastest cold start (newton_way.hpp), as these deformers do in every frame. Its time from
+// the solution of the frame before is stated for comparison.
 #pragma once
 
 #include "experiments/studies/work_precision/diagram.hpp"

@@ -1,7 +1,7 @@
 // The points of one case of the work-precision study: the time and the work per frame and the error of every setting in one pose.
 //   const MeasuredPoints points = measure_points(of);
 //   table_of(point_columns, points.rows).write("points.csv");
-// The reference is that of every study (shared/posed_reference.hpp), with its bound. Errors are measured outside the part of the body that
+// The reference is that of shared/posed_reference.hpp, with its bound. Errors are measured outside the part of the body that
 // overlaps itself and, as one more column, on the whole body. A point whose error is not above the bound may be as good as the reference
 // and is marked. Further references of the family (shared/reference_family.hpp) decide how far an order of deformers depends on the
 // choice of the reference. The error of PBS is split into solver, model and discretisation (error_split/error_split.hpp). A ladder of

@@ -13,7 +13,7 @@ namespace {
 
 using analysis::within;
 
-constexpr int most_steps = 60;
+constexpr int most_steps = 35;                       // with more_steps those of a whole solve, which ends after 40 (NewtonOptions)
 constexpr double last_pct = 0.01 * newton_goal_pct;  // the way is recorded to here
 constexpr int more_steps = 5;                        // of a whole solve than of single steps, which may take another way
 

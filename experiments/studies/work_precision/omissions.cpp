@@ -1,14 +1,11 @@
 #include "experiments/studies/work_precision/omissions.hpp"
 
+#include "experiments/studies/shared/case_name.hpp"
+
 #include <algorithm>
 
 namespace experiments {
 namespace {
-
-bool is_reference(const PointRow& row)
-{
-    return row.outcome == "reference" || row.outcome == "not_reached";
-}
 
 std::string why_missing(const PointRow& row, bool has_reference)
 {
@@ -20,7 +17,7 @@ std::string why_missing(const PointRow& row, bool has_reference)
 // The row of the case's reference, reached or not. Null where there is none.
 const PointRow* reference_in(const CaseRows& rows)
 {
-    const auto found = std::ranges::find_if(rows, is_reference);
+    const auto found = std::ranges::find_if(rows, &PointRow::is_of_reference);
     return found == rows.end() ? nullptr : &*found;
 }
 
@@ -69,7 +66,7 @@ std::vector<Omission> omissions_of(const std::vector<CaseRows>& cases)
     std::vector<std::string> deformers;  // of any case, in the order of the records
     for (const CaseRows& rows : cases)
         for (const PointRow& row : rows)
-            if (!is_reference(row) && std::ranges::find(deformers, row.key.deformer) == deformers.end())
+            if (!row.is_of_reference() && std::ranges::find(deformers, row.key.deformer) == deformers.end())
                 deformers.push_back(row.key.deformer);
     std::vector<Omission> omissions;
     for (const Comparison comparison : comparisons)

@@ -120,12 +120,7 @@ Points columns_for(const std::vector<PointRow>& rows)
 }
 
 const Columns<FamilyRow> family_columns =
-    within(&FamilyRow::of, pose_columns()) +
-    within(&FamilyRow::member,
-           Columns<EnsembleMember>{{"member", &EnsembleMember::name, "", "name of the further reference"},
-                                   {"spring_factor", &EnsembleMember::spring_factor, "", "q of the attachment"},
-                                   {"core_radius", &EnsembleMember::core_radius, "", "radius of the bones' capsules over the limb's"},
-                                   {"poisson", &EnsembleMember::poisson, "", "Poisson's ratio"}}) +
+    within(&FamilyRow::of, pose_columns()) + within(&FamilyRow::member, family_member_columns()) +
     Columns<FamilyRow>{{"outcome", &FamilyRow::outcome, "", "reached or not_reached"},
                        {"error_bound_pct", &FamilyRow::error_bound_pct, "%",
                         "bound of its own error at the joints, taken from that of the first reference on the same elements"},

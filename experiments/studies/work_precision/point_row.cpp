@@ -2,8 +2,6 @@
 
 #include "pbs/geometry/topology.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
 
 namespace experiments {
@@ -26,11 +24,6 @@ PointRow row_on(const PointSetting& setting, const BodyMesh& mesh)
 }
 
 }  // namespace
-
-std::string case_name(const analysis::CaseKey& of)
-{
-    return of.angle_deg ? fmt::format("{}_{}_{:g}", of.body, of.motion, *of.angle_deg) : of.body + "_" + of.pose;
-}
 
 FrameTime frame_time(std::vector<double> samples)
 {

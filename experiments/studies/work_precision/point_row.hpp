@@ -16,9 +16,6 @@
 
 namespace experiments {
 
-// limb_twist_90, human_crouch: the name of a case's run, and of its diagram in the tables.
-std::string case_name(const analysis::CaseKey& of);
-
 // The parts of PBS's error at the joints [%]. The third part is the error of the reference.
 struct PbsParts {
     double solver_pct = 0.0, model_pct = 0.0;
@@ -35,7 +32,7 @@ FrameTime frame_time(std::vector<double> samples);
 constexpr int fewest_for_quartiles = 3;  // rounds
 
 // The errors against the members of the family after the first one, in their order.
-using MemberErrors = std::array<std::optional<double>, 5>;
+using MemberErrors = std::array<std::optional<double>, further_members>;
 
 struct PointRow {
     analysis::CaseKey of = {};  // body, motion, and the pose or the angle
@@ -63,6 +60,8 @@ struct PointRow {
     MemberErrors members = {};
     bool is_external = false;              // a deformer of the user's own
     std::optional<FrameClock> clock = {};  // nothing where there is no time
+
+    bool is_of_reference() const { return outcome == "reference" || outcome == "not_reached"; }
 };
 // All columns. The columns of the group "external" are written only if a deformer of the user's own takes part.
 extern const analysis::Columns<PointRow> point_columns;

@@ -1,7 +1,5 @@
 #include "experiments/studies/work_precision/reference_set.hpp"
 
-#include <algorithm>
-
 namespace experiments {
 
 ReferenceSet::ReferenceSet(const WorkPrecisionCase& of, const pbs::Character& character, const PosePair& poses)
@@ -18,11 +16,8 @@ void ReferenceSet::add_errors(PointRow& row, const pbs::Positions& positions) co
         row.error = first_.error_of(positions);
         row.error_whole_joint_pct = first_.error_on_whole_body(positions).joint_pct;
     }
-    const std::vector<EnsembleMember> all = family();
-    for (const Member& one : members_) {
-        const auto place = std::ranges::find(all, one.member.name, &EnsembleMember::name) - all.begin();
-        if (one.reference.is_reached()) row.members.at(place - 1) = one.reference.error_of(positions).joint_pct;
-    }
+    for (const Member& one : members_)
+        if (one.reference.is_reached()) row.members.at(place_among_further(one.member.name)) = one.reference.error_of(positions).joint_pct;
 }
 
 std::vector<FamilyRow> ReferenceSet::member_rows() const

@@ -1,4 +1,4 @@
-// The references of one case: the first one, which all studies share, and further members of the family.
+// The references of one case: the first member of the family (shared/reference_family.hpp) and further ones.
 //   ReferenceSet references(of, character, poses);
 //   references.add_errors(row, positions);
 #pragma once

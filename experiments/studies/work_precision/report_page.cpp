@@ -1,6 +1,7 @@
 #include "experiments/studies/work_precision/report_page.hpp"
 
 #include "analysis/report_table.hpp"
+#include "experiments/studies/shared/case_name.hpp"
 #include "experiments/studies/work_precision/data_profile.hpp"
 #include "experiments/studies/work_precision/diagram_tables.hpp"
 #include "experiments/studies/work_precision/findings.hpp"
@@ -196,8 +197,8 @@ std::string terminal_text(const ComparisonRecords& records)
         std::string counts;
         for (const TriedRow& row : settings_tried(records))
             if (row.comparison == comparison)
-                counts += fmt::format("{}{} {} at {}", counts.empty() ? "" : ", ", row.deformer, row.tried, row.rungs);
-        if (!counts.empty()) text += fmt::format("     settings tried at rungs, {}: {}\n", words_of(comparison), counts);
+                counts += fmt::format("{}{} {}/{}", counts.empty() ? "" : ", ", row.deformer, row.tried, row.rungs);
+        if (!counts.empty()) text += fmt::format("     settings tried / rungs, {}: {}\n", words_of(comparison), counts);
     }
     return text + "     error: distance to the reference at the joints, outside the overlap, % of the mean bone distance\n";
 }

@@ -13,7 +13,7 @@ struct Win {
     std::optional<BudgetRow> nearest = {};  // nothing: it is nearest nowhere
     std::optional<std::string> next = {};   // the group of rank 2; nothing: the group is the only one
     std::optional<double> next_error_pct = {};
-    int places = 0;  // pairs of an evaluated pose and a budget where it has rank 1
+    int places = 0;  // evaluated poses, comparisons and budgets where it has rank 1
 };
 
 // In the order of the groups. Groups without a point in any evaluated pose are left out, and so are means over poses.

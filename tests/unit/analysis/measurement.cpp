@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 namespace {
 
@@ -169,6 +170,20 @@ TEST(Measurement, WhereAllHoldTheOneNearestToItsBoundIsPrimary)
     analysis::Records records;
     records.measurements = {drift("limb", 1e-6), drift("human", 9e-4), drift("man", 1e-5)};
     EXPECT_EQ(judge(drift_claim(), records).primary->of.body, "human");
+}
+
+TEST(Measurement, AnOpenEndOfABoundDoesNotChooseThePrimaryValue)
+{
+    analysis::Claim claim = drift_claim();
+    claim.low = 30.0;
+    claim.high = analysis::open_end;
+    analysis::Records records;
+    records.measurements = {drift("limb", 93.5), drift("human", 206.0)};
+    EXPECT_EQ(judge(claim, records).primary->of.body, "limb");  // nearest to 30
+    records.measurements.push_back(drift("man", std::numeric_limits<double>::infinity()));
+    EXPECT_EQ(judge(claim, records).primary->of.body, "man");  // no finite value, so it is outside
+    records.measurements.push_back(drift("bar", 3.0));
+    EXPECT_EQ(judge(claim, records).primary->of.body, "man");
 }
 
 TEST(Measurement, AClaimOfSeveralQuantitiesAsksForAllOfThem)

@@ -105,6 +105,17 @@ TEST(VolumeIsPreserved, ShareAboveTheBoundWithAnIntervalBelowItDoesNotHold)
     EXPECT_EQ(verdict.kind, VerdictKind::not_reproduced);
 }
 
+TEST(VolumeIsPreserved, TheClipWithTheLowestShareRepresentsTheClaimInAnyVariant)
+{
+    CaseRecord walk = clip("walk", "pbs", 24, constant(100, -0.6)), jiggling = clip("jump", "pbs", 24, constant(100, -0.6));
+    jiggling.variant = "jiggle";
+    set_change(walk, 3, 0.0);
+    EXPECT_EQ(judge(claim_of("C02"), {.cases = {walk, jiggling}}).primary->of.body, "jump");
+    set_change(jiggling, 3, 0.0);
+    set_change(jiggling, 60, 0.0);
+    EXPECT_EQ(judge(claim_of("C02"), {.cases = {walk, jiggling}}).primary->of.body, "walk");
+}
+
 TEST(VolumeIsPreserved, SweepHoldsUpToItsFirstFailure)
 {
     auto twist = sweep("twist", "pbs", 24, {0, -0.1, -0.2, -0.3, -0.6, -0.4, -0.9});
