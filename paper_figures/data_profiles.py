@@ -52,7 +52,7 @@ def draw(results, figures):
                       xlabel="time per frame [ms]")
         panels[0].set_ylabel(f"solved poses [% of {rows[0]['poses']}]")
         omitted = omitted_in(results, rows, comparison)
-        omission_boxes.draw_below(below, omitted, 190)
+        omission_boxes.draw_below(below, omitted, 165)
         behind += [{"comparison": comparison, "omission": line} for line in omitted]
     style.legend_above(figure, columns=4)
     style.save(figure, figures / "data_profiles", entries.origin_of(results, "data_profiles"), style.aligned(behind))

@@ -58,14 +58,19 @@ def lines(omitted):
             for why, names in of_reason.items()]
 
 
-def text(shown, width, further=()):
-    """The heading, the lines, and further lines after them, each filled to a width [characters]."""
-    return "\n".join(textwrap.fill(line, width, subsequent_indent="  ") for line in ["Omissions:", *(shown or ["none"]), *further])
+def text(shown, width, undecided=()):
+    """The omissions and, if there are any, the groups that are not decided: a heading each, its lines filled to a width [characters]."""
+    sections = [("Omissions:", shown or ["none"])] + ([("Not decided:", undecided)] if undecided else [])
+    return "\n".join("\n".join([heading, *(filled(line, width) for line in section)]) for heading, section in sections)
 
 
-def draw(axes, shown, width, further=(), place=(0.015, 0.02), fontsize=4.6):
+def filled(line, width):
+    return textwrap.fill(line, width, initial_indent="  ", subsequent_indent="    ")
+
+
+def draw(axes, shown, width, undecided=(), place=(0.015, 0.02), fontsize=4.6):
     """A box in the lower left corner of a panel."""
-    axes.text(*place, text(shown, width, further), transform=axes.transAxes, ha="left", va="bottom", fontsize=fontsize, linespacing=1.05,
+    axes.text(*place, text(shown, width, undecided), transform=axes.transAxes, ha="left", va="bottom", fontsize=fontsize, linespacing=1.05,
               bbox={"boxstyle": "round,pad=0.25", "facecolor": "white", "edgecolor": "#999999", "linewidth": 0.4, "alpha": 0.9})
 
 

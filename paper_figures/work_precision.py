@@ -2,8 +2,6 @@
 every setting of every deformer, the front of each group of deformers with the settings that were chosen on other poses, the deformer that
 is nearest within 0.1, 1 and 10 ms, the bound on the reference's own error, below which differences have no meaning, and what is
 omitted."""
-import textwrap
-
 import case_words
 import compared_codes
 import compared_looks
@@ -23,6 +21,7 @@ best_columns = {"comparison", "case", "budget_ms", "rank", "group", "decision", 
 budgets_ms = (0.1, 1.0, 10.0)
 most_panels = 6
 most_named_groups = 3
+name_row_height = 0.048  # of the height of a panel
 
 
 def measured(rows):
@@ -92,26 +91,27 @@ def draw_bound(axes, bound_pct):
 
 
 def draw_budgets(axes, panel):
-    """A line at each budget, and above it the nearest deformer with its error. The least room between two names is a decade."""
-    for row in panel.best:
+    """A line at each budget, and above it the nearest deformer with its error. Each name has a row of its own: the lines are too close
+    together for several in one row."""
+    for place, row in enumerate(panel.best):
         budget_ms = float(row["budget_ms"])
         against = row["undecided_against"].split()
         mark = "" if row["decision"] in ("decided", "") else f"? ({len(against)})"
-        name = textwrap.fill(compared_looks.short(row["group"]), 13)
         axes.axvline(budget_ms, color="#777777", linewidth=0.7, linestyle=(0, (2, 2)), zorder=0)
-        axes.text(budget_ms, 1.01, f"{budget_ms:g} ms:\n{name}{mark}\n{float(row['error_joint_pct']):.3g} %",
+        axes.text(budget_ms, 1.01 + name_row_height * place,
+                  f"{budget_ms:g} ms: {compared_looks.short(row['group'])}{mark}, {float(row['error_joint_pct']):.3g} %",
                   transform=axes.get_xaxis_transform(), ha="center", va="bottom", fontsize=5.2, color=compared_looks.of(row["group"])[1])
 
 
 def undecided_lines(panel):
-    """not decided within 10 ms against: XPBD, quasi-Newton. The names of many groups would hide the points; their number stands above the
-    line, and the table behind the figure names them."""
+    """within 10 ms against: XPBD, quasi-Newton. The names of many groups would hide the points; their number stands above the line, and
+    the table behind the figure names them."""
     lines = []
     for row in panel.best:
         groups = row["undecided_against"].split()
         if 0 < len(groups) <= most_named_groups:
             names = ", ".join(compared_looks.short(group) for group in groups)
-            lines.append(f"not decided within {float(row['budget_ms']):g} ms against: {names}")
+            lines.append(f"within {float(row['budget_ms']):g} ms against: {names}")
     return lines
 
 
@@ -127,7 +127,7 @@ def draw_panel(axes, panel):
     draw_bound(axes, panel.bound_pct)
     style.decades(axes.xaxis)
     style.log_scale(axes.yaxis)
-    axes.set_title(panel.heading(), pad=32)
+    axes.set_title(panel.heading(), pad=30)
     axes.set_xlabel("processor time per frame [ms]")
     axes.set_ylabel("error at the joints [%]")
     draw_budgets(axes, panel)

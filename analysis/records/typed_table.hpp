@@ -4,8 +4,8 @@
 //                                               {"rms_mm", &Distance::rms_mm, "mm", "root mean square over the points"}};
 //   table_of(distance_columns, rows).write("distances.csv");
 //   const std::vector<Distance> rows = rows_of(distance_columns, read_csv("distances.csv"));
-// A member is a double, int, long, long long, bool (0 or 1), std::string, an enum with EnumNames, or std::optional of one (nothing: an
-// empty cell).
+// A member is a double, int, long, long long, bool (0 or 1), std::string, an enum with EnumNames, std::optional of one (nothing: an empty
+// cell), or a list of names without spaces.
 #pragma once
 
 #include "analysis/records/csv_table.hpp"
@@ -13,7 +13,9 @@
 #include <algorithm>
 #include <array>
 #include <functional>
+#include <iterator>
 #include <optional>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -76,15 +78,19 @@ struct CellOf<std::string> {
     static std::string read(const CsvTable& table, int row, const std::string& column) { return table.text_at(row, column); }
 };
 
+// As in records.
+template <typename Enum>
+std::string recorded_name(Enum value)
+{
+    for (const auto& [entry, name] : EnumNames<Enum>::table)
+        if (entry == value) return name;
+    return "";
+}
+
 template <typename Enum>
 requires std::is_enum_v<Enum>
 struct CellOf<Enum> {
-    static CsvTable::Cell cell(Enum value)
-    {
-        for (const auto& [entry, name] : EnumNames<Enum>::table)
-            if (entry == value) return std::string(name);
-        return std::string();
-    }
+    static CsvTable::Cell cell(Enum value) { return recorded_name(value); }
     static Enum read(const CsvTable& table, int row, const std::string& column)
     {
         std::string names;
@@ -93,6 +99,21 @@ struct CellOf<Enum> {
             names += (names.empty() ? "" : ", ") + std::string(name);
         }
         table.refuse(row, column, "expected one of " + names);
+    }
+};
+
+template <>
+struct CellOf<std::vector<std::string>> {  // names, each without a space, joined by spaces
+    static CsvTable::Cell cell(const std::vector<std::string>& names)
+    {
+        std::string text;
+        for (const std::string& name : names) text += (text.empty() ? "" : " ") + name;
+        return text;
+    }
+    static std::vector<std::string> read(const CsvTable& table, int row, const std::string& column)
+    {
+        std::istringstream text(table.text_at(row, column));
+        return {std::istream_iterator<std::string>(text), {}};
     }
 };
 

@@ -2,9 +2,33 @@
 //                  [--external FILE] [--only RUN]...: runs studies and computes verdicts.
 #include "experiments/command_line/verbs.hpp"
 #include "experiments/process/progress.hpp"
+#include "experiments/studies/study.hpp"
 #include "experiments/verdicts/reproduce.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <string>
+#include <vector>
+
 namespace experiments {
+namespace {
+
+std::vector<std::string> studies_that_run(Extent in_full)
+{
+    std::vector<std::string> names;
+    for (const Study& study : studies())
+        if (study.sets.full == in_full) names.push_back(study.name);
+    return names;
+}
+
+std::string meaning_of_full()
+{
+    return fmt::format("the whole studies; without names, only a part of {}, and nothing of {}",
+                       fmt::join(studies_that_run(Extent::quick), ", "), fmt::join(studies_that_run(Extent::none), ", "));
+}
+
+}  // namespace
 
 void add_reproduce_verb(CLI::App& app, CommonOptions& common, VerbAction& action)
 {
@@ -13,10 +37,7 @@ void add_reproduce_verb(CLI::App& app, CommonOptions& common, VerbAction& action
     auto arguments = std::make_shared<ReproduceArguments>();
     verb->add_option("names", arguments->names, "claims (C02) or studies (volume)");
     verb->add_option("-o,--output", arguments->folder, "folder of the records")->capture_default_str();
-    auto* full =
-        verb->add_flag("--full", arguments->full,
-                       "the whole studies; without names, only a part of verification, fit, work_precision, error_split, bench and "
-                       "features, and nothing of scale");
+    auto* full = verb->add_flag("--full", arguments->full, meaning_of_full());
     auto quick = std::make_shared<bool>(false);
     verb->add_flag("--quick", *quick, "a part of each study that decides the same claims in minutes (default)")->excludes(full);
     verb->add_option("-j,--jobs", arguments->jobs, "number of runs in parallel")->check(CLI::Range(1, 256))->capture_default_str();

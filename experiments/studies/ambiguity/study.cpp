@@ -16,6 +16,7 @@
 #include "experiments/studies/ambiguity/ambiguity_report.hpp"
 #include "experiments/studies/ambiguity/reading_values.hpp"
 #include "experiments/studies/artefacts/artefact_values.hpp"
+#include "experiments/studies/shared/clip_frames.hpp"
 #include "experiments/studies/shared/iteration_path.hpp"
 #include "experiments/studies/study.hpp"
 #include "pbs/geometry/input_error.hpp"
@@ -148,7 +149,7 @@ void plan_human(bool full, StudyPlan& plan)
     plan.runs.push_back(claims_run("human_joint_twist", turned("human", elbow, "twist", 45, 2), 1.1, twisted));
     plan.runs.push_back(claims_run("human_joint_bend", turned("human", elbow, "bend", 45, 2), 2.0, bent));
     ReadingsCase of = {.scene = read_scene("human_01_01", {"output.frames=[]", "output.frame_names=[]"}),
-                       .frame = 164,
+                       .frame = clip_frames::crouch,
                        .pose = "01_01_crouch",
                        .key = {.motion = "01_01", .pose = "crouch"}};
     set_effort(of, full);

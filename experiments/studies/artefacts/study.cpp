@@ -18,6 +18,7 @@
 #include "analysis/report_table.hpp"
 #include "experiments/studies/artefacts/artefact_values.hpp"
 #include "experiments/studies/artefacts/smoothness_comparison.hpp"
+#include "experiments/studies/shared/clip_frames.hpp"
 #include "experiments/studies/shared/real_bodies.hpp"
 #include "experiments/studies/study.hpp"
 
@@ -98,7 +99,7 @@ ArtefactCase crouch(const std::string& body, bool full)
 {
     ArtefactCase of;
     of.scene = read_scene("human_01_01", {deformers_of(body, full), "character.body=" + body, "reference.name=nh_p1"});
-    of.poses = {{164, "01_01_crouch", {.motion = "01_01", .pose = "crouch"}}};
+    of.poses = {{clip_frames::crouch, "01_01_crouch", {.motion = "01_01", .pose = "crouch"}}};
     of.second_order_poses = 1;
     return of;
 }

@@ -17,6 +17,7 @@
 #include "experiments/deformers/pbs/pbs_option_names.hpp"
 #include "experiments/studies/convergence/convergence_values.hpp"
 #include "experiments/studies/convergence/convergence_records.hpp"
+#include "experiments/studies/shared/clip_frames.hpp"
 #include "experiments/studies/shared/posed_reference.hpp"
 #include "experiments/studies/shared/real_bodies.hpp"
 #include "experiments/studies/shared/table_1.hpp"
@@ -94,14 +95,14 @@ StudyRun body_run(const std::string& body, int vertices, bool full, double cost_
     ConvergenceCase of;
     of.scene = read_scene("human_01_01", {"character.body=" + body, fmt::format("character.vertices={}", vertices)});
     const bool compares = vertices == 0 && (full || body == "human"), everywhere = compares && full && body == "human";
-    of.frames = {{164, "01_01_crouch", {.motion = "01_01", .pose = "crouch"}, false, compares},
-                 {708, "01_01_landing", {.motion = "01_01", .pose = "landing"}, false, everywhere}};
+    of.frames = {{clip_frames::crouch, "01_01_crouch", {.motion = "01_01", .pose = "crouch"}, false, compares},
+                 {clip_frames::landing, "01_01_landing", {.motion = "01_01", .pose = "landing"}, false, everywhere}};
     if (full)
         of.frames = {{100, "01_01_at_1_s", {.motion = "01_01", .time_s = 1.0}, false, everywhere},
-                     {164, "01_01_crouch", {.motion = "01_01", .pose = "crouch"}, false, compares},
+                     {clip_frames::crouch, "01_01_crouch", {.motion = "01_01", .pose = "crouch"}, false, compares},
                      {400, "01_01_at_4_s", {.motion = "01_01", .time_s = 4.0}, false, everywhere},
-                     {672, "01_01_in_the_air", {.motion = "01_01", .pose = "in_the_air"}, false, everywhere},
-                     {708, "01_01_landing", {.motion = "01_01", .pose = "landing"}, false, everywhere},
+                     {clip_frames::in_the_air, "01_01_in_the_air", {.motion = "01_01", .pose = "in_the_air"}, false, everywhere},
+                     {clip_frames::landing, "01_01_landing", {.motion = "01_01", .pose = "landing"}, false, everywhere},
                      {1000, "01_01_at_10_s", {.motion = "01_01", .time_s = 10.0}, false, everywhere}};
     of.k_stretch = {0.2};
     of.settings = full ? few_settings : std::vector<ProjectionSetting>{every_setting[0], every_setting[2]};

@@ -10,6 +10,7 @@
 #include "experiments/deformers/registry.hpp"
 #include "experiments/studies/ensemble/ensemble_page.hpp"
 #include "experiments/studies/shared/case_name.hpp"
+#include "experiments/studies/shared/clip_frames.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 #include "experiments/studies/study.hpp"
 #include "pbs/geometry/input_error.hpp"
@@ -75,9 +76,10 @@ StudyPlan plan(bool full)
         plan.runs.push_back(limb_run("bend", 90, 900.0));
     }
     try {
-        plan.runs.push_back(human_run("crouch", 164, 900.0));
+        plan.runs.push_back(human_run("crouch", clip_frames::crouch, 900.0));
         if (full)
-            for (const auto& [pose, frame] : {std::pair{"standing", 0}, {"in_the_air", 672}, {"landing", 708}})
+            for (const auto& [pose, frame] :
+                 {std::pair{"standing", clip_frames::standing}, {"in_the_air", clip_frames::in_the_air}, {"landing", clip_frames::landing}})
                 plan.runs.push_back(human_run(pose, frame, 900.0));
     } catch (const pbs::InputError& error) {
         plan.left_out.push_back({"human", error.what()});

@@ -7,6 +7,7 @@
 // Writes DIR/equal_quality/CASE/orders.csv and targets.csv; summary.csv, answers.csv and equal_quality.md over all cases.
 #include "analysis/records/folder_files.hpp"
 #include "experiments/studies/equal_quality/order_report.hpp"
+#include "experiments/studies/shared/clip_frames.hpp"
 #include "experiments/studies/study.hpp"
 #include "pbs/geometry/input_error.hpp"
 
@@ -49,7 +50,8 @@ StudyPlan plan(bool full)
     plan.runs.push_back(work_run("tapered_limb_twist_165", tapered, cost_s, measure_and_record));
     try {
         plan.runs.push_back(work_run(
-            "human_crouch", case_of({.body = "human", .motion = "01_01", .pose = "crouch"}, read_scene("human_01_01", {}), 164, full),
+            "human_crouch",
+            case_of({.body = "human", .motion = "01_01", .pose = "crouch"}, read_scene("human_01_01", {}), clip_frames::crouch, full),
             cost_s, measure_and_record));
     } catch (const pbs::InputError& error) {
         plan.left_out.push_back({"human_crouch", error.what()});

@@ -8,6 +8,7 @@
 #include "analysis/records/folder_files.hpp"
 #include "analysis/report_table.hpp"
 #include "experiments/studies/error_split/error_split.hpp"
+#include "experiments/studies/shared/clip_frames.hpp"
 #include "experiments/studies/shared/posed_reference.hpp"
 #include "experiments/studies/study.hpp"
 #include "pbs/geometry/input_error.hpp"
@@ -55,7 +56,7 @@ StudyPlan plan(bool full)
         split_run("limb_bend", "limb_bend", bend, full ? std::vector<int>{3, 6, 9, 11} : std::vector<int>{6}, full, full ? 1800.0 : 215.0));
     if (!full) return plan;
     try {
-        plan.runs.push_back(split_run("human_01_01", "human_01_01", {}, {164, 672}, full, 600.0));
+        plan.runs.push_back(split_run("human_01_01", "human_01_01", {}, {clip_frames::crouch, clip_frames::in_the_air}, full, 600.0));
     } catch (const pbs::InputError& error) {
         plan.left_out.push_back({"human_01_01", error.what()});
     }

@@ -8,6 +8,7 @@
 #include "analysis/records/folder_files.hpp"
 #include "experiments/studies/improvements/gains_page.hpp"
 #include "experiments/studies/shared/case_name.hpp"
+#include "experiments/studies/shared/clip_frames.hpp"
 #include "experiments/studies/study.hpp"
 #include "pbs/geometry/input_error.hpp"
 
@@ -78,10 +79,10 @@ StudyPlan plan(bool full)
     plan.runs.push_back(limb_run("twist", 150, full, true, 70.0));
     plan.runs.push_back(limb_run("bend", 90, full, false, 40.0));
     try {
-        plan.runs.push_back(human_run("crouch", 164, false, 20.0));
-        plan.runs.push_back(human_run("standing", 0, false, 20.0));
-        plan.runs.push_back(human_run("in_the_air", 672, true, 90.0));
-        plan.runs.push_back(human_run("landing", 708, true, 110.0));
+        plan.runs.push_back(human_run("crouch", clip_frames::crouch, false, 20.0));
+        plan.runs.push_back(human_run("standing", clip_frames::standing, false, 20.0));
+        plan.runs.push_back(human_run("in_the_air", clip_frames::in_the_air, true, 90.0));
+        plan.runs.push_back(human_run("landing", clip_frames::landing, true, 110.0));
     } catch (const pbs::InputError& error) {
         plan.left_out.push_back({"human", error.what()});
     }

@@ -6,6 +6,7 @@
 #include "experiments/scene/motion_case.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "experiments/studies/momentum/momentum_drift.hpp"
+#include "experiments/studies/shared/clip_frames.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 #include "experiments/studies/study.hpp"
 
@@ -94,7 +95,8 @@ StudyPlan plan(bool)
     plan.runs.push_back(work_run<MomentumCase>("limb", {"limb", read_scene("limb_bend", {"motion.angle_deg=90", "motion.frames=2"}), 1},
                                                1.0, measure_drift));
     try {
-        plan.runs.push_back(work_run<MomentumCase>("human", {"human", read_scene("human_01_01", {}), 164}, 1.0, measure_drift));
+        plan.runs.push_back(
+            work_run<MomentumCase>("human", {"human", read_scene("human_01_01", {}), clip_frames::crouch}, 1.0, measure_drift));
     } catch (const pbs::InputError& error) {
         plan.left_out.push_back({"human", error.what()});
     }

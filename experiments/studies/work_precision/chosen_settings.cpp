@@ -66,16 +66,11 @@ std::optional<ChosenSetting> choose(Comparison comparison, const Rung& rung)
 
 const Columns<ChosenSetting> chosen_columns =
     Columns<ChosenSetting>{{"comparison", &ChosenSetting::comparison, "", "packed_f32 or plain_f64"}} +
-    within(&ChosenSetting::key, Columns<SettingKey>{{"deformer", &SettingKey::deformer, "", "name of the deformer"}} + setting_columns()) +
+    within(&ChosenSetting::key, point_key_columns()) +
     Columns<ChosenSetting>{
         {"tried", &ChosenSetting::tried, "", "number of settings tried at this rung"},
         {"training_poses", &ChosenSetting::training_poses, "", "poses on which it was chosen; 0: there was no choice"},
         {"training_error_joint_pct", &ChosenSetting::training_error_pct, "%", "its geometric mean error over these poses"}};
-
-std::string name_of(Comparison comparison)
-{
-    return comparison == Comparison::packed_f32 ? "packed_f32" : "plain_f64";
-}
 
 std::string words_of(Comparison comparison)
 {

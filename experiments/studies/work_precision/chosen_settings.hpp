@@ -16,7 +16,6 @@ namespace experiments {
 
 enum class Comparison { packed_f32, plain_f64 };
 inline constexpr std::array<Comparison, 2> comparisons = {Comparison::packed_f32, Comparison::plain_f64};
-std::string name_of(Comparison comparison);
 std::string words_of(Comparison comparison);  // for headings
 
 using CaseRows = std::vector<PointRow>;  // of one case

@@ -86,8 +86,7 @@ const analysis::Columns<DiagramPoint>& diagram_point_columns()
 {
     using analysis::Columns;
     static const Columns<DiagramPoint> columns =
-        within(&DiagramPoint::key, Columns<SettingKey>{{"deformer", &SettingKey::deformer, "", "name of the deformer"}}) +
-        within(&DiagramPoint::key, setting_columns()) +
+        within(&DiagramPoint::key, point_key_columns()) +
         Columns<DiagramPoint>{{"ms_median", &DiagramPoint::ms, "ms", "median of the processor time per frame"}};
     return columns;
 }

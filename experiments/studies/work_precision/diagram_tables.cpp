@@ -176,7 +176,7 @@ std::vector<BudgetRow> best_within(const Diagram& diagram, double budget_ms)
         if (!decision) break;
         rows[i].decision = decision->worst.decision;
         rows[i].reason = decision->worst.reason;
-        rows[i].undecided_against = fmt::format("{}", fmt::join(decision->undecided, " "));
+        rows[i].undecided_against = decision->undecided;
     }
     return rows;
 }

@@ -30,7 +30,7 @@ struct BudgetRow {
     std::string group;
     DiagramPoint point;
     std::optional<analysis::PairDecision> decision = {};  // nothing: there is no group of a later rank
-    std::string undecided_against = {};                   // keys of these groups, joined by a space
+    std::vector<std::string> undecided_against = {};      // keys of these groups
     std::string reason = {};                              // of the worst decision
 };
 extern const analysis::Columns<BudgetRow> budget_columns;

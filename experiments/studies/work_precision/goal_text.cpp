@@ -108,7 +108,7 @@ std::string solver_table(const std::vector<const Diagram*>& poses)
     for (const Diagram* pose : poses) {
         const std::optional<GoalRow> row = goal_row(*pose, GoalPoint::fastest_to_linear_elements);
         if (!row) continue;
-        const std::string start = row->newton_start ? analysis::CellOf<NewtonStart>::cell(*row->newton_start).text : "";
+        const std::string start = row->newton_start ? analysis::recorded_name(*row->newton_start) : "";
         const std::string ratio = row->newton_goal_ms ? fmt::format("{:.0f}", *row->newton_goal_ms / row->point.ms) : "";
         rows += fmt::format("| {} | {} | {} | {:.2g} | {} | {} | {} | {} | {} | {} |\n", case_cell(*pose),
                             cell_of(row->own_limit_pct, "{:.1f}"), text_of(row->point.key), row->point.ms,

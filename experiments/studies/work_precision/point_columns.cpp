@@ -128,7 +128,7 @@ const Columns<FamilyRow> family_columns =
                        {"solve_s", &FamilyRow::solve_s, "s", "wall time of its solutions"}};
 
 const Columns<ThetaRow> theta_columns =
-    within(&ThetaRow::of, pose_columns()) + within(&ThetaRow::key, deformer_columns) + within(&ThetaRow::key, setting_columns()) +
+    within(&ThetaRow::of, pose_columns()) + within(&ThetaRow::key, point_key_columns()) +
     within(&ThetaRow::found,
            Columns<StiffnessFactor>{
                {"outcome", &StiffnessFactor::outcome, "",

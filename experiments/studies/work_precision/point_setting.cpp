@@ -137,6 +137,13 @@ const analysis::Columns<SettingKey>& setting_columns()
     return columns;
 }
 
+const analysis::Columns<SettingKey>& point_key_columns()
+{
+    static const analysis::Columns<SettingKey> columns =
+        analysis::Columns<SettingKey>{{"deformer", &SettingKey::deformer, "", "name of the deformer"}} + setting_columns();
+    return columns;
+}
+
 std::string text_of(const SettingKey& key)
 {
     std::string text = key.deformer;

@@ -59,8 +59,9 @@ struct SettingKey {
     auto operator<=>(const SettingKey&) const = default;
 };
 SettingKey key_of(const PointSetting& setting);
-SettingKey rung_of(SettingKey key);                      // the same for all settings of the grid, and for no other rung
-const analysis::Columns<SettingKey>& setting_columns();  // all fields except the deformer; tuned and packed are in the group "code"
+SettingKey rung_of(SettingKey key);                        // the same for all settings of the grid, and for no other rung
+const analysis::Columns<SettingKey>& setting_columns();    // all fields except the deformer; tuned and packed are in the group "code"
+const analysis::Columns<SettingKey>& point_key_columns();  // with the deformer, first
 
 std::string text_of(const SettingKey& key);  // as it is recorded: pbs, iterations 24, k_stretch 0.2, order ordered, precision f32, ...
 

@@ -90,7 +90,7 @@ std::string tried_table(const ComparisonRecords& records)
         "## Settings tried\n\nA rung is a number of iterations on a mesh, or an element order on a mesh.\n\n"
         "| comparison | deformer | rungs | settings tried at all rungs |\n|---|---|---|---|\n";
     for (const TriedRow& row : settings_tried(records))
-        page += fmt::format("| {} | {} | {} | {} |\n", name_of(row.comparison), row.deformer, row.rungs, row.tried);
+        page += fmt::format("| {} | {} | {} | {} |\n", analysis::recorded_name(row.comparison), row.deformer, row.rungs, row.tried);
     return page;
 }
 

@@ -10,6 +10,7 @@
 #include "analysis/records/folder_files.hpp"
 #include "experiments/scene/motion_case.hpp"
 #include "experiments/studies/shared/case_name.hpp"
+#include "experiments/studies/shared/clip_frames.hpp"
 #include "experiments/studies/shared/real_bodies.hpp"
 #include "experiments/studies/study.hpp"
 #include "experiments/studies/work_precision/data_profile.hpp"
@@ -54,10 +55,10 @@ std::vector<PlannedPose> limb_poses()
 
 std::vector<PlannedPose> human_poses()
 {
-    std::vector<PlannedPose> poses = {{.pose = "standing", .frame = 0},
-                                      {.pose = "crouch", .frame = 164, .refined = true, .quick_cost_s = 45.0},
-                                      {.pose = "in_the_air", .frame = 672, .refined = true},
-                                      {.pose = "landing", .frame = 708}};
+    std::vector<PlannedPose> poses = {{.pose = "standing", .frame = clip_frames::standing},
+                                      {.pose = "crouch", .frame = clip_frames::crouch, .refined = true, .quick_cost_s = 45.0},
+                                      {.pose = "in_the_air", .frame = clip_frames::in_the_air, .refined = true},
+                                      {.pose = "landing", .frame = clip_frames::landing}};
     const Scene scene = read_scene("human_01_01", {});
     const pbs::Motion motion = make_motion(scene.motion, pbs::make_character(scene.character).skeleton, scene.file);
     const int last = static_cast<int>(motion.steps.size()) / motion.steps_per_frame - 1;
@@ -69,7 +70,7 @@ std::vector<PlannedPose> human_poses()
 std::vector<PlannedPose> poses_of(const std::string& body)
 {
     if (body == "human") return human_poses();
-    return {{.body = body, .motion = "01_01", .pose = "crouch", .frame = 164, .cost_s = 300.0}};
+    return {{.body = body, .motion = "01_01", .pose = "crouch", .frame = clip_frames::crouch, .cost_s = 300.0}};
 }
 
 // 5 degrees per frame, which is the step that is timed.

@@ -55,8 +55,7 @@ std::string decision_cell(const BudgetRow& row, const std::vector<DeformerGroup>
     if (*row.decision == analysis::PairDecision::decided) return "decided";
     std::string against;
     for (const DeformerGroup& group : groups)
-        if ((" " + row.undecided_against + " ").find(" " + group.key + " ") != std::string::npos)
-            against += (against.empty() ? "" : ", ") + group.words;
+        if (std::ranges::count(row.undecided_against, group.key) > 0) against += (against.empty() ? "" : ", ") + group.words;
     return "undecided against " + against;
 }
 
@@ -86,7 +85,8 @@ std::string wins_text(const std::vector<Diagram>& diagrams)
         const BudgetRow& row = *win.nearest;
         const std::string next = win.next ? fmt::format("{}: {:.1f}", words_of_group(*win.next), *win.next_error_pct) : "";
         rows += fmt::format("| {} | {} | {} | {:g} | {:.1f} | {} | {} | {} |\n", words_of_group(win.group), row.diagram,
-                            name_of(row.comparison), row.budget_ms, row.point.error_pct, next, decision_cell(row, groups), win.places);
+                            analysis::recorded_name(row.comparison), row.budget_ms, row.point.error_pct, next, decision_cell(row, groups),
+                            win.places);
     }
     if (rows.empty()) return "";
     return fmt::format(

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <limits>
 #include <stdexcept>
 
@@ -70,6 +71,16 @@ TEST(TypedTable, RowsAreWrittenUnderTheirColumnsNames)
 TEST(TypedTable, RowsReadBackAsTheyWere)
 {
     EXPECT_EQ(rows_of(row_columns, parse_csv(table_of(row_columns, rows).text(), "m.csv")), rows);
+}
+
+TEST(TypedTable, AListOfNamesIsOneCell)
+{
+    using Names = std::vector<std::string>;
+    const Columns<Names> columns = {{"names", std::identity{}, "", "names without spaces"}};
+    const std::vector<Names> lists = {{"pbs", "delta_mush"}, {}, {"xpbd"}};
+    EXPECT_EQ(table_of(columns, lists).text(), "names\npbs delta_mush\n\"\"\nxpbd\n");
+    const std::vector<Names> with_columns = rows_of(columns, parse_csv("other,names\n1,pbs delta_mush\n2,\n3,xpbd\n", "m.csv"));
+    EXPECT_EQ(with_columns, lists);
 }
 
 TEST(TypedTable, ColumnsAreReadByNameInAnyOrder)

@@ -117,11 +117,12 @@ TEST(Comparisons, HaveEachDeformerOnce)
             if (!takes_part(comparison, row.key, best)) continue;
             SettingKey key = row.key;
             key.precision = key.order = "", key.packed = false;
-            EXPECT_TRUE(without_code.insert(key).second) << text_of(row.key) << " is in " << name_of(comparison) << " in two codes";
+            EXPECT_TRUE(without_code.insert(key).second)
+                << text_of(row.key) << " is in " << analysis::recorded_name(comparison) << " in two codes";
             deformers.insert(key.deformer);
         }
         for (const char* name : {"lbs", "lbs_diffused", "dqs", "dqs_diffused", "delta_mush", "pbs", "xpbd", "quasi_newton", "vbd"})
-            EXPECT_TRUE(deformers.contains(name)) << name << ", " << name_of(comparison);
+            EXPECT_TRUE(deformers.contains(name)) << name << ", " << analysis::recorded_name(comparison);
     }
 }
 

@@ -53,7 +53,7 @@ TEST(Wins, AreTheDecidedPlacesWithTheLargestLead)
     EXPECT_EQ(pbs.next, "xpbd");
     EXPECT_EQ(pbs.places, 2 * 4) << "two comparisons, and the budgets of 1, 3, 10 and 100 ms";
     EXPECT_EQ(mush.nearest->diagram, "limb_b");
-    EXPECT_EQ(mush.nearest->undecided_against, "pbs");
+    EXPECT_EQ(mush.nearest->undecided_against, std::vector<std::string>{"pbs"});
     EXPECT_FALSE(lbs.nearest->decision) << "it is the only one within 0.1 ms";
 }
 
