@@ -21,8 +21,6 @@ import readme_part  # noqa: E402
 STUDY_SECTIONS = ["Cases", "Records", "Claims, figures, cost", "What it cannot show"]
 CLAIM_SECTIONS = ["What is measured", "Formula", "Bound", "What would make it fail", "How the paper can be read", "Result"]
 WITHOUT_KEPT_TABLES = {"bench", "frames", "scale"}  # their records are large, and no verdict needs them
-# Kept records precede the tables; the next full reproduction replaces them.
-OLDER_RECORDS = {"equal_quality", "stability"}
 
 
 def sections(text):
@@ -99,8 +97,6 @@ class Pages(program.ProgramTest):
             rows = list(quoted_columns((readme_pages.studies / study / "README.md").read_text(encoding="utf-8")))
             self.assertEqual(not rows, study in WITHOUT_KEPT_TABLES, study)
             for file, columns in rows:
-                if study in OLDER_RECORDS:
-                    continue
                 with self.subTest(f"{study}/{file}"):
                     tables = kept_tables(study, file)
                     self.assertTrue(tables, "no such table among the kept records")

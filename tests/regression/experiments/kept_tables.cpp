@@ -7,12 +7,14 @@
 #include "experiments/studies/convergence/convergence_records.hpp"
 #include "experiments/studies/ensemble/ensemble.hpp"
 #include "experiments/studies/equal_quality/order_report.hpp"
+#include "experiments/studies/equal_quality/order_rows.hpp"
 #include "experiments/studies/error_split/error_split.hpp"
 #include "experiments/studies/features/feature_cost.hpp"
 #include "experiments/studies/fit/poisson_run.hpp"
 #include "experiments/studies/improvements/gains.hpp"
 #include "experiments/studies/jiggle/jiggle_records.hpp"
 #include "experiments/studies/setup/body_setup.hpp"
+#include "experiments/studies/stability/broken_start.hpp"
 #include "experiments/studies/stability/cell_table.hpp"
 #include "experiments/studies/stiffness/stiffness_ratios.hpp"
 #include "experiments/studies/timing/timing_records.hpp"
@@ -141,6 +143,14 @@ TEST(KeptTables, OfTimedStudies)
     expect_same_records(experiments::change_columns, "improvements", "points.csv");
 }
 
+TEST(KeptTables, OfTheOrders)
+{
+    expect_same_records(experiments::order_columns, "equal_quality", "orders.csv");
+    expect_same_records(experiments::target_columns, "equal_quality", "targets.csv");
+    expect_same_sum(experiments::summary_columns, "equal_quality/summary.csv");
+    expect_same_sum(experiments::answer_columns, "equal_quality/answers.csv");
+}
+
 TEST(KeptTables, OfTheVerification)
 {
     expect_same_file(reference_fem::verification_columns(), "verification/verification.csv");
@@ -151,6 +161,7 @@ TEST(KeptTables, OfTheOtherStudies)
     expect_same_records(experiments::rate_columns, "convergence", "rates.csv");
     expect_same_records(experiments::towards_columns, "convergence", "towards.csv");
     expect_same_records(experiments::cell_columns, "stability", "cells.csv");
+    expect_same_records(experiments::start_columns, "stability", "starts.csv");
     expect_same_records(experiments::part_columns, "error_split", "parts.csv");
     expect_same_records(experiments::attachment_columns, "error_split", "attachments.csv");
 }
@@ -172,6 +183,7 @@ TEST(KeptTables, ThatSumUpAStudy)
 {
     expect_same_sum(experiments::cell_columns, "stability/map_time_step_k_stretch.csv");
     expect_same_sum(experiments::cell_columns, "stability/map_iterations_twist.csv");
+    expect_same_sum(experiments::start_columns, "stability/starts.csv");
     expect_same_sum(experiments::equal_time_columns, "improvements/equal_time.csv");
     expect_same_sum(experiments::gain_columns, "improvements/gains.csv");
     expect_same_sum(experiments::pair_columns, "ensemble/pairs.csv");
