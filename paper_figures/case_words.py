@@ -28,8 +28,7 @@ guesses = {"previous_frame": "from the previous frame", "rest_pose": "from the r
 readings = {"as_printed": "as printed", "relative_to_p1": "read relative to p1", "derived_gradients": "with the derived gradients"}
 variants = {"jiggle": "jiggling flesh"}
 formulations = {"displacement": "", "mean_dilatation": "mean dilatation", "taylor_hood": "Taylor-Hood", "pbs": "PBS",
-                "volume_constraints": "PBS, every volume kept", "one_point": "one point", "two_grids": "two grids",
-                "three_grids": "three grids"}
+                "volume_constraints": "PBS, every volume kept", "one_point": "one point", "two_grids": "two grids"}
 factors = {"poisson": "Poisson\u2019s ratio", "young": "Young\u2019s modulus", "slivers_height_kept": "slivers, height kept",
            "needles_edge_kept": "needles, edge kept", "sign_k_bind": "sign, k_bind",
            **{name: name for name in ("k_stretch", "k_volume", "k_bind")}}

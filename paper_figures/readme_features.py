@@ -26,7 +26,7 @@ def line(row):
 
 def lines_of(results):
     rows = records.table(results / "features" / "human" / "features.csv", {"feature", "frame_cpu_ms_ratio"})
-    facts = records.provenance(results)
+    facts = records.provenance(results / "features")
     revision = facts.get("git_revision", "unknown")[:12] + (" with local changes" if facts.get("git_dirty") else "")
     return [*head, *map(line, rows), "", f"Measured at revision {revision}."]
 
