@@ -75,7 +75,7 @@ json to_json_of(const Measurement& measured)
                    {"low", finite(measured.low)},
                    {"high", finite(measured.high)},
                    {"run", measured.run}});
-    if (measured.limit != Limit::none) object["limit"] = name_of(measured.limit);
+    if (measured.limit != Limit::none) object["limit"] = recorded_name(measured.limit);
     if (measured.n > 0) object["n"] = measured.n;
     if (measured.not_reached > 0) object["not_reached"] = measured.not_reached;
     return object;

@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 #include <set>
+#include <utility>
 
 namespace analysis {
 namespace {
@@ -80,13 +81,15 @@ double distance_outside(const QuantityBound& bound, double value)
     return std::max(relative(bound.low - value, bound.low), relative(value - bound.high, bound.high));
 }
 
-PrimaryFact farthest_of(const Verdict& verdict)
+// The first of those that hold least: a value whose interval leaves the bound is worse than one that holds and lies nearer to the bound.
+PrimaryFact worst_of(const Verdict& verdict)
 {
-    const auto distance = [&](const Measurement& of) { return distance_outside(bound_of(verdict.claim, of.quantity), of.value); };
-    const Measurement& farthest = *std::max_element(verdict.measurements.begin(), verdict.measurements.end(),
-                                                    [&](const Measurement& a, const Measurement& b) { return distance(a) < distance(b); });
-    const QuantityBound bound = bound_of(verdict.claim, farthest.quantity);
-    return {farthest.quantity, "value", farthest.unit, farthest.value, farthest.low, farthest.high, bound.low, bound.high, farthest.of};
+    const auto holds_and_distance = [&](const Measurement& of) {
+        return std::pair(extent_of(verdict.claim, of), -distance_outside(bound_of(verdict.claim, of.quantity), of.value));
+    };
+    const Measurement& worst = *std::ranges::min_element(verdict.measurements, {}, holds_and_distance);
+    const QuantityBound bound = bound_of(verdict.claim, worst.quantity);
+    return {worst.quantity, "value", worst.unit, worst.value, worst.low, worst.high, bound.low, bound.high, worst.of};
 }
 
 }  // namespace
@@ -115,7 +118,7 @@ Verdict judge_measurements(const Claim& claim, const Records& records)
     for (const auto& [name, subject] : subjects)
         verdict.subjects.push_back({name, sum_of(subject).within, sum_of(subject).all, extent_of(subject)});
     verdict.kind = kind_of(subjects);
-    verdict.primary = farthest_of(verdict);
+    verdict.primary = worst_of(verdict);
     return verdict;
 }
 

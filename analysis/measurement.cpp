@@ -49,13 +49,6 @@ CsvTable measurement_table(const std::vector<Measurement>& measurements)
     return table_of(used_columns(measurement_columns(), measurements), measurements);
 }
 
-const char* name_of(Limit limit)
-{
-    for (const auto& [value, name] : EnumNames<Limit>::table)
-        if (value == limit) return name;
-    return "";
-}
-
 bool is_judged(const Claim& claim, const Measurement& measured)
 {
     return is_of_a_metric(claim, measured) && matches(measured.of, claim.of);

@@ -15,8 +15,6 @@ namespace analysis {
 std::vector<Measurement> measurements(const std::string& csv);
 CsvTable measurement_table(const std::vector<Measurement>& measurements);  // the table that measurements() reads; run is not part of it
 
-const char* name_of(Limit limit);  // at_least, at_most, more_than; empty for none
-
 // is_judged: the value is one of the claim's quantities, and its key agrees with claim.of. is_control: one of the quantities with another
 // key.
 bool is_judged(const Claim& claim, const Measurement& measured);

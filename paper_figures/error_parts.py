@@ -42,7 +42,7 @@ def draw_case(axes, rows):
 def omitted_lines(results, tables, shown):
     """The poses that are not among those shown, and the points of PBS that are missing in those."""
     def names(cases):
-        return ", ".join(case_words.posed(tables[case][0]) for case in cases)
+        return "; ".join(case_words.posed(tables[case][0]) for case in cases)  # a name has commas
 
     without = [case for case, rows in tables.items() if not of_pbs(rows, 0.2)]
     further = [case for case in tables if case not in shown and case not in without]

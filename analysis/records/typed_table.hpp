@@ -78,9 +78,9 @@ struct CellOf<std::string> {
     static std::string read(const CsvTable& table, int row, const std::string& column) { return table.text_at(row, column); }
 };
 
-// As in records.
+// The name of a value in records; empty if EnumNames does not list it.
 template <typename Enum>
-std::string recorded_name(Enum value)
+requires std::is_enum_v<Enum> std::string recorded_name(Enum value)
 {
     for (const auto& [entry, name] : EnumNames<Enum>::table)
         if (entry == value) return name;

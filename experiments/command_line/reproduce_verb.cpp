@@ -14,7 +14,7 @@
 namespace experiments {
 namespace {
 
-std::vector<std::string> studies_that_run(Extent in_full)
+std::vector<std::string> studies_with_full(Extent in_full)
 {
     std::vector<std::string> names;
     for (const Study& study : studies())
@@ -25,7 +25,7 @@ std::vector<std::string> studies_that_run(Extent in_full)
 std::string meaning_of_full()
 {
     return fmt::format("the whole studies; without names, only a part of {}, and nothing of {}",
-                       fmt::join(studies_that_run(Extent::quick), ", "), fmt::join(studies_that_run(Extent::none), ", "));
+                       fmt::join(studies_with_full(Extent::quick), ", "), fmt::join(studies_with_full(Extent::none), ", "));
 }
 
 }  // namespace

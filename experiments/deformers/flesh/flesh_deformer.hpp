@@ -13,10 +13,6 @@
 
 namespace experiments {
 
-// The share of lambda in the Laplacian that determines the weights of the initial guess. Methods that also solve with this Laplacian choose
-// a share of their own.
-inline constexpr double volume_share_of_guess = 0.6;
-
 // Solver<float> or Solver<double>, whichever an arithmetic needs.
 template <template <typename> class Solver>
 class InArithmetic {

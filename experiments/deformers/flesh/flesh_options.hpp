@@ -48,7 +48,8 @@ OptionFields<Options> flesh_fields(const std::string& kind)
 // The flesh of a character and the initial guesses of its frames.
 class PosedFlesh {
 public:
-    // volume_share: of lambda in the Laplacian, which also determines the weights of the initial guess.
+    // volume_share is the share of lambda in the Laplacian that determines the weights of the initial guess. Methods that also solve with
+    // this Laplacian choose a share of their own.
     template <typename Options>
     PosedFlesh(const pbs::Character& character, const Options& options, double volume_share = pbs::HeldFleshOptions().volume_share)
         : PosedFlesh(character, {.core_radius = options.core_radius, .spring_factor = options.spring_factor},

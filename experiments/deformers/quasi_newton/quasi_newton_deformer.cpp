@@ -12,7 +12,7 @@ struct QuasiNewtonDeformerOptions {
     pbs::FleshStart start = pbs::FleshStart::smooth_dqs;
     pbs::Arithmetic arithmetic = pbs::Arithmetic::packed_f32;
     int history = 5;
-    double volume_share = 0.6;
+    double volume_share = pbs::HeldFleshOptions().volume_share;
     double stop_gradient = 0.0;
 };
 

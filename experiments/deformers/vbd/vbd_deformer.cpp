@@ -43,7 +43,7 @@ public:
     VbdDeformer(const VbdOptions& options, int threads) : options_(options), threads_(threads) {}
 
 private:
-    PosedFlesh make_flesh(const pbs::Character& character) const override { return {character, options_, volume_share_of_guess}; }
+    PosedFlesh make_flesh(const pbs::Character& character) const override { return {character, options_}; }
 
     void make_solver(const pbs::Character& character, const pbs::HeldFlesh& flesh) override
     {

@@ -52,7 +52,7 @@ std::string why(const JudgedValue* a, const JudgedValue* b, bool b_broke_down)
     if (b_broke_down) return "B breaks down";
     if (!a || !b) return std::string(a ? "B" : "A") + " has no such value";
     const auto limit = [](const char* which, const JudgedValue& of) {
-        return of.limit == analysis::Limit::none ? "" : std::string(which) + ": " + analysis::name_of(of.limit);
+        return of.limit == analysis::Limit::none ? "" : std::string(which) + ": " + analysis::recorded_name(of.limit);
     };
     const std::string of_a = limit("A", *a), of_b = limit("B", *b);
     return of_a + (of_a.empty() || of_b.empty() ? "" : "; ") + of_b;

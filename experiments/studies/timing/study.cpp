@@ -3,7 +3,8 @@
 // judged, by wall time with LBS. The other variants, processor time and the embedded surface are timed for comparison.
 //
 //   man, frankie, lady   at 1654, 2645, 2108, 3190, 1829 vertices, in place of the paper's Man, ManHQ, bunny, bunnyHQ, Lady
-//   human                at some of the same sizes, and a ladder of sizes, the largest by cutting every tet into eight
+//   human                at the same sizes (in the quick form at two of them), and a ladder of sizes, the largest by cutting every tet
+//                        into eight
 //
 // One run is timed at once. Writes DIR/timing/BODY_VERTICES/timing.csv and measurements.csv; DIR/timing/timing.csv and timing.md.
 #include "analysis/measurement.hpp"

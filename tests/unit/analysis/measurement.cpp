@@ -172,6 +172,16 @@ TEST(Measurement, WhereAllHoldTheOneNearestToItsBoundIsPrimary)
     EXPECT_EQ(judge(drift_claim(), records).primary->of.body, "human");
 }
 
+TEST(Measurement, AValueWhoseIntervalLeavesTheBoundIsPrimaryBeforeAnyThatHolds)
+{
+    analysis::Records records;
+    records.measurements = {drift("human", 9e-4), drift("limb", 5e-4)};
+    records.measurements[1].high = 2e-3;
+    EXPECT_EQ(judge(drift_claim(), records).primary->of.body, "limb");
+    records.measurements.push_back(drift("man", 1.5e-3));
+    EXPECT_EQ(judge(drift_claim(), records).primary->of.body, "man");  // its value is outside
+}
+
 TEST(Measurement, AnOpenEndOfABoundDoesNotChooseThePrimaryValue)
 {
     analysis::Claim claim = drift_claim();
