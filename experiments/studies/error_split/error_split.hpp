@@ -4,8 +4,8 @@
 //               solver          model           discretisation
 // exactly, vertex by vertex; in the norm the parts bound the whole. The first two are measured, the third is bounded by PosedReference.
 // Measured as well are the effect of refinement on PBS itself, and that of the reference's own assumptions: flesh that the bones hold in
-// other ways, and the linear model. All distances but whole_joint_pct are outside the part of the body that overlaps itself in the
-// reference.
+// other ways, and the linear model. All distances except whole_joint_pct are outside the part of the body that overlaps itself in
+// the reference.
 #pragma once
 
 #include "analysis/records/typed_table.hpp"

@@ -177,14 +177,17 @@ class Tables(ReadmeTest):
         synthetic_records.write_study(self.results)
         folder = self.results / "features" / "human"
         folder.mkdir(parents=True)
-        (folder / "run.json").write_text(json.dumps({"provenance": {"git_revision": "of_this_table", "git_dirty": False}}))
+        other = self.results / "ambiguity" / "human"  # a study that comes first
+        other.mkdir(parents=True)
+        for run, revision in ((folder, "of_this_table"), (other, "of_another_study")):
+            (run / "run.json").write_text(json.dumps({"provenance": {"git_revision": revision, "git_dirty": False}}))
         columns = {name + side: "1.5" for name in ("frame_cpu_ms", "start_s", "peak_mb") for side in ("_without", "_with")}
         columns |= {"frame_cpu_ms_ratio" + part: "1.25" for part in ("", "_lower", "_upper")}
         columns |= {"feature": "sleep", "largest_distance_m": "0.002"}
         (folder / "features.csv").write_text(",".join(columns) + "\n" + ",".join(columns.values()) + "\n")
         self.assert_written("features", readme_features.lines_of,
                             "| sleep | 1.50 | 1.50 | 1.25 [1.25, 1.25] | 1.50 | 1.50 | 2 | 2 | 2 mm |")
-        self.assertEqual(readme_features.lines_of(self.results)[-1], "Measured at revision of_this_tabl.")  # not of another study
+        self.assertEqual(readme_features.lines_of(self.results)[-1], "Measured at revision of_this_tabl.")
 
     def test_reliability(self):
         told = self.results / "kills.json"
