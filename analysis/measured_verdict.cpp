@@ -81,7 +81,7 @@ double distance_outside(const QuantityBound& bound, double value)
     return std::max(relative(bound.low - value, bound.low), relative(value - bound.high, bound.high));
 }
 
-// A value outside the bound is worse than one whose interval leaves it, and that one is worse than any that holds, however near to the bound.
+// A value outside the bound is worse than one whose interval leaves it, and that one is worse than any that holds.
 PrimaryFact worst_of(const Verdict& verdict)
 {
     const auto holds_and_distance = [&](const Measurement& of) {
