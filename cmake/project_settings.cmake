@@ -11,10 +11,11 @@ if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
     set(CMAKE_BUILD_TYPE Release CACHE STRING "build type" FORCE)
 endif()
 
-# ccache caches objects with precompiled headers only with this sloppiness; `env` sets it for all users.
+# ccache caches objects with precompiled headers only with this sloppiness; `env` sets it for all users. The times of included files are not
+# ignored: ccache must not keep an object whose source changed while the compiler read it.
 find_program(CCACHE ccache)
 if(CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-    set(CMAKE_CXX_COMPILER_LAUNCHER env CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime ${CCACHE})
+    set(CMAKE_CXX_COMPILER_LAUNCHER env CCACHE_SLOPPINESS=pch_defines,time_macros ${CCACHE})
 endif()
 
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
