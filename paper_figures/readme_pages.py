@@ -62,13 +62,23 @@ def cost(study, results):
 
 def summaries(study, results):
     """The texts that the study itself wrote for its readers."""
-    files = sorted(file.name for file in (results / study).glob("*.md"))
+    files = sorted(file.name for pattern in ("*.md", "*.txt") for file in (results / study).glob(pattern))
     links = ", ".join(f"[{file}](../../records/full/{study}/{file})" for file in files)
     return [f"To read what was found: {links}."] if files else []
 
 
+def too_long(study, results):
+    listed = results / study / "not_kept.csv"
+    if not listed.exists():
+        return []
+    with listed.open(newline="", encoding="utf-8") as file:
+        names = sorted({f"`RUN/{name}`" if run else f"`{name}`" for run, _, name in
+                        (row["table"].rpartition("/") for row in csv.DictReader(file))})
+    return [f"These tables are too long to be kept, in some runs or in all: {', '.join(names)}."]
+
+
 def study_lines(study, results):
-    parts = [served_claims(study), drawn_figures(study), summaries(study, results), cost(study, results)]
+    parts = [served_claims(study), drawn_figures(study), summaries(study, results), cost(study, results), too_long(study, results)]
     return [line for part in parts if part for line in [*part, ""]][:-1]
 
 

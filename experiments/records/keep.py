@@ -18,7 +18,8 @@ JUDGED = ["scene", "deformer", "variant", "order", "precision", "iterations", "t
 PROVENANCE = ["version", "git_revision", "git_dirty", "compiler", "flags", "build_type", "cpu_model", "logical_cpus"]
 DRAWN = ("bones.csv", "bones_rest.csv", "binding.csv", "embedding.csv")  # beside frames, which are not kept
 MOST_BYTES = 12_000_000
-RAW = ("points.csv",)  # the measured points of a run, from which the study's tables follow: kept whatever their length
+RAW = ("points.csv", "rates.csv")  # the measured points of a run, from which the study's tables follow: kept whatever their length
+PAGES = ("bench.txt",)  # what a study says on the screen, where it writes no page
 REPEATED = {"work_precision": {"setting"}}  # study -> columns of its runs that other columns repeat
 TABLE_BYTES = 60_000  # of a run's further tables; longer ones are made again by the run
 SUMMARY_BYTES = 200_000  # of a study's own files, which sum up its runs'
@@ -65,6 +66,7 @@ def keep_table(source, target, without=()):
 
 
 def keep_run(source, target):
+    """Yields the tables that are too long to be kept, relative to the study's folder."""
     record = json.loads((source / "run.json").read_text(encoding="utf-8"))
     provenance = {key: value for key, value in record.get("provenance", {}).items() if key in PROVENANCE}
     target.mkdir(parents=True)
@@ -78,16 +80,27 @@ def keep_run(source, target):
             shutil.copyfile(table, target / table.name)
         elif table.name in RAW or table.stat().st_size <= TABLE_BYTES:
             keep_table(table, target / table.name, REPEATED.get(source.parent.name, ()))
+        else:
+            yield table.relative_to(source.parent)
 
 
 def keep_study(source, target):
+    """not_kept.csv lists the tables that are too long."""
     target.mkdir(parents=True)
+    too_long = []
     for file in sorted(source.iterdir()):
-        if file.suffix in (".csv", ".md", ".json") and (file.name == "plan.json" or file.stat().st_size <= SUMMARY_BYTES):
+        if file.suffix not in (".csv", ".md", ".json") and file.name not in PAGES:
+            continue
+        if file.name == "plan.json" or file.stat().st_size <= SUMMARY_BYTES:
             shutil.copyfile(file, target / file.name)
+        else:
+            too_long.append(file.relative_to(source))
     for run in json.loads((source / "plan.json").read_text(encoding="utf-8"))["runs"]:
         if (source / run["name"] / "run.json").exists():
-            keep_run(source / run["name"], target / run["name"])
+            too_long += keep_run(source / run["name"], target / run["name"])
+    if too_long:
+        lines = [f"{table},{(source / table).stat().st_size}\n" for table in too_long]
+        (target / "not_kept.csv").write_text("table,bytes\n" + "".join(lines), encoding="utf-8")
 
 
 def keep(results, target):

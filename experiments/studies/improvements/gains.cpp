@@ -45,9 +45,10 @@ GainRow gain_over(const std::vector<ComparedPose>& poses)
     row.gain_pct = interval.estimate;
     if (std::isfinite(interval.low)) row.gain_low_pct = interval.low, row.gain_high_pct = interval.high;
     if (is_known) row.reference_error_pct = shift;
-    const bool excludes_zero = row.poses >= fewest_poses && row.gain_low_pct && (*row.gain_low_pct > 0.0 || *row.gain_high_pct < 0.0);
-    if (!excludes_zero)
+    if (row.poses < fewest_poses)
         row.decision = GainDecision::few_poses;
+    else if (!row.gain_low_pct || (*row.gain_low_pct <= 0.0 && *row.gain_high_pct >= 0.0))
+        row.decision = GainDecision::poses_disagree;
     else
         row.decision = is_known && std::abs(row.gain_pct) > shift ? GainDecision::decided : GainDecision::reference_error;
     return row;
@@ -109,7 +110,8 @@ const analysis::Columns<GainRow> gain_columns = {
     {"gain_low_pct", &GainRow::gain_low_pct, "%", "lower end of its 95 % interval over the poses (bootstrap)"},
     {"gain_high_pct", &GainRow::gain_high_pct, "%", "upper end"},
     {"reference_error_pct", &GainRow::reference_error_pct, "%", "by which the reference's own error may change the mean"},
-    {"decision", &GainRow::decision, "", "decided, few_poses (the interval includes zero, or fewer than four poses), reference_error"},
+    {"decision", &GainRow::decision, "",
+     "decided, few_poses (fewer than four), poses_disagree (the interval includes zero), reference_error"},
     {"settings", &GainRow::settings, "", "settings that were chosen on the other poses, joined by +"},
     {"iterations", &GainRow::iterations, "", "mean number of iterations within the budget"},
     {"volume_abs_pct", &GainRow::volume_abs_pct, "%", "mean of the absolute change of the volume"}};

@@ -22,7 +22,8 @@ inline constexpr int fewest_poses = 4;  // with fewer ones the interval of the b
 
 enum class GainDecision {
     decided,          // the interval over the poses excludes zero, and the reference's own error cannot reverse the mean
-    few_poses,        // the interval over the poses includes zero, or there are fewer poses than fewest_poses
+    few_poses,        // fewer than fewest_poses
+    poses_disagree,   // the interval over the poses includes zero
     reference_error,  // the mean is within the reference's own error, or that is not known
 };
 
@@ -51,8 +52,9 @@ std::vector<GainRow> gains_of(const std::vector<EqualTimeRow>& rows);
 
 template <>
 struct analysis::EnumNames<experiments::GainDecision> {
-    static constexpr std::array<std::pair<experiments::GainDecision, const char*>, 3> table{
+    static constexpr std::array<std::pair<experiments::GainDecision, const char*>, 4> table{
         {{experiments::GainDecision::decided, "decided"},
          {experiments::GainDecision::few_poses, "few_poses"},
+         {experiments::GainDecision::poses_disagree, "poses_disagree"},
          {experiments::GainDecision::reference_error, "reference_error"}}};
 };

@@ -22,8 +22,9 @@ std::string remark_on(const GainRow& gain)
         case GainDecision::decided:
             return "decided";
         case GainDecision::few_poses:
-            return gain.poses < fewest_poses ? fmt::format("undecided: fewer than {} poses", fewest_poses)
-                                             : "undecided: the interval over the poses includes zero";
+            return fmt::format("undecided: fewer than {} poses", fewest_poses);
+        case GainDecision::poses_disagree:
+            return "undecided: the interval over the poses includes zero";
         case GainDecision::reference_error:
             break;
     }

@@ -30,14 +30,13 @@ std::string name_of(const NestedSolution& solution)
     return std::string(solution.element_order == 2 ? "quadratic" : "linear") + (solution.refinements > 0 ? "_refined" : "");
 }
 
-// By the observed order, or from linear elements on the same tets; nothing where the reference is linear itself.
-std::optional<double> bound_of(const PosedReference& reference)
+// By the observed order; on unrefined tets, where there is none, from linear elements. Nothing where the reference is linear itself.
+std::optional<double> bound_of(const PosedReference& reference, bool is_refined)
 {
     if (reference.order() && std::isfinite(reference.bound().joint_pct)) return reference.bound().joint_pct;
-    if (!reference.is_reached() || reference.reference().element_order != 2) return std::nullopt;
+    if (is_refined || !reference.is_reached() || reference.reference().element_order != 2) return std::nullopt;
     for (const NestedSolution& solution : reference.solutions())
-        if (solution.finished && solution.element_order == 1 && solution.refinements == reference.reference().refinements)
-            return reference.error_of(solution.positions).joint_pct;
+        if (solution.finished && solution.element_order == 1) return reference.error_of(solution.positions).joint_pct;
     return std::nullopt;
 }
 
@@ -123,7 +122,7 @@ private:
         row.metrics = analysis::MeshMetrics(character_.mesh.rest, character_.mesh.tets).measure(timed.positions);
         row.masked_share_pct = reference.masked_share_pct();
         row.reference = reference.is_reached() ? name_of(reference.reference()) : "not_reached";
-        row.reference_error_joint_pct = bound_of(reference);
+        row.reference_error_joint_pct = bound_of(reference, of_.refined_reference);
         if (!timed.finite || !reference.is_reached()) return row;
         const analysis::ErrorNorms error = reference.error_of(timed.positions);
         row.error_joint_pct = error.joint_pct;

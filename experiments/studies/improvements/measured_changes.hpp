@@ -2,9 +2,9 @@
 // and the change of the volume.
 //   table_of(change_columns, measure_changes(of).rows).write("points.csv");
 // The reference is neo-Hookean flesh on quadratic elements (shared/posed_reference.hpp). With refined_reference its tets are those of the
-// character cut into eight, and the bound on its own error comes from four nested solutions. Otherwise the tets are the character's own,
-// because refined ones would take minutes, and the bound is the distance from linear elements on the same tets. It holds if quadratic
-// elements at least halve the error of linear ones, |P2 - x| <= |P1 - x| / 2 <= (|P1 - P2| + |P2 - x|) / 2.
+// character cut into eight, and the bound on its own error comes from nested solutions. Otherwise the tets are the character's own, because
+// refined ones take minutes, and the bound is the distance from linear elements on the same tets. It holds if quadratic elements at least
+// halve the error of linear ones, |P2 - x| <= |P1 - x| / 2 <= (|P1 - P2| + |P2 - x|) / 2, as they do in the poses of the quick form.
 #pragma once
 
 #include "analysis/case_key.hpp"

@@ -32,6 +32,17 @@ class KeptRecords(program.ProgramTest):
         (kept / "momentum" / "limb" / "run.json").unlink()
         self.assertEqual(program.run("reproduce", "--judge", "-o", kept, "--quiet").returncode, 1)
 
+    def test_tables_that_are_too_long_are_listed(self):
+        results, kept = pathlib.Path(self.path("results")), pathlib.Path(self.path("kept"))
+        self.succeeds("reproduce", "audit", "-o", results, "--quiet")
+        long = "number\n" + "1\n" * 40_000
+        (results / "audit" / "print" / "lengths.csv").write_text(long)
+        (results / "audit" / "print" / "rates.csv").write_text(long)  # one of the tables that are kept whatever their length
+        self.assertEqual(self.keep(results, kept).returncode, 0)
+        self.assertEqual((kept / "audit" / "not_kept.csv").read_text(), f"table,bytes\nprint/lengths.csv,{len(long)}\n")
+        self.assertFalse((kept / "audit" / "print" / "lengths.csv").exists())
+        self.assertEqual((kept / "audit" / "print" / "rates.csv").read_text(), long)
+
     def test_what_cannot_be_kept_leaves_the_last_records_alone(self):
         results, kept = pathlib.Path(self.path("results")), pathlib.Path(self.path("kept"))
         self.succeeds("reproduce", "audit", "-o", results, "--quiet")

@@ -92,7 +92,7 @@ TEST(Gains, AreUndecidedWithinTheReferencesOwnError)
 TEST(Gains, AreUndecidedWhereThePosesDisagree)
 {
     const std::vector<GainRow> gains = gains_of(at_equal_time(some_poses({2.0, 18.0, 5.0, 11.0}, {4.0, 17.0, 6.0, 12.0}, 0.01)));
-    EXPECT_EQ(gain_of(gains, "good", baseline).decision, GainDecision::few_poses);
+    EXPECT_EQ(gain_of(gains, "good", baseline).decision, GainDecision::poses_disagree);
 }
 
 TEST(Gains, OfFewerThanFourPosesAreUndecided)
