@@ -73,8 +73,8 @@ def too_long(study, results):
         return []
     with listed.open(newline="", encoding="utf-8") as file:
         names = sorted({f"`RUN/{name}`" if run else f"`{name}`" for run, _, name in
-                        (row["table"].rpartition("/") for row in csv.DictReader(file))})
-    return [f"These tables are too long to be kept, in some runs or in all: {', '.join(names)}."]
+                        (row["file"].rpartition("/") for row in csv.DictReader(file))})
+    return [f"These files are too long to be kept, in some runs or in all: {', '.join(names)}."]
 
 
 def study_lines(study, results):

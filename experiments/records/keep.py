@@ -66,7 +66,8 @@ def keep_table(source, target, without=()):
 
 
 def keep_run(source, target):
-    """Yields the tables that are too long to be kept, relative to the study's folder."""
+    """Returns the tables that are too long to be kept, relative to the study's folder."""
+    too_long = []
     record = json.loads((source / "run.json").read_text(encoding="utf-8"))
     provenance = {key: value for key, value in record.get("provenance", {}).items() if key in PROVENANCE}
     target.mkdir(parents=True)
@@ -81,11 +82,12 @@ def keep_run(source, target):
         elif table.name in RAW or table.stat().st_size <= TABLE_BYTES:
             keep_table(table, target / table.name, REPEATED.get(source.parent.name, ()))
         else:
-            yield table.relative_to(source.parent)
+            too_long.append(table.relative_to(source.parent))
+    return too_long
 
 
 def keep_study(source, target):
-    """not_kept.csv lists the tables that are too long."""
+    """not_kept.csv lists the files that are too long."""
     target.mkdir(parents=True)
     too_long = []
     for file in sorted(source.iterdir()):
@@ -99,8 +101,8 @@ def keep_study(source, target):
         if (source / run["name"] / "run.json").exists():
             too_long += keep_run(source / run["name"], target / run["name"])
     if too_long:
-        lines = [f"{table},{(source / table).stat().st_size}\n" for table in too_long]
-        (target / "not_kept.csv").write_text("table,bytes\n" + "".join(lines), encoding="utf-8")
+        lines = [f"{file},{(source / file).stat().st_size}\n" for file in too_long]
+        (target / "not_kept.csv").write_text("file,bytes\n" + "".join(lines), encoding="utf-8")
 
 
 def keep(results, target):

@@ -76,10 +76,10 @@ StudyPlan plan(bool full)
     plan.runs.push_back(limb_run("bend", 60, full, full ? 80.0 : 7.0));
     if (!full) return plan;
     plan.runs.push_back(limb_run("twist", 150, full, 70.0));
-    plan.runs.push_back(limb_run("bend", 90, full, 600.0));
+    plan.runs.push_back(limb_run("bend", 90, full, 900.0));
     try {
-        plan.runs.push_back(human_run("crouch", clip_frames::crouch, 120.0));
-        plan.runs.push_back(human_run("standing", clip_frames::standing, 150.0));
+        plan.runs.push_back(human_run("crouch", clip_frames::crouch, 140.0));
+        plan.runs.push_back(human_run("standing", clip_frames::standing, 180.0));
         plan.runs.push_back(human_run("in_the_air", clip_frames::in_the_air, 90.0));
         plan.runs.push_back(human_run("landing", clip_frames::landing, 110.0));
     } catch (const pbs::InputError& error) {

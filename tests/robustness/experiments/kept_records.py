@@ -32,14 +32,14 @@ class KeptRecords(program.ProgramTest):
         (kept / "momentum" / "limb" / "run.json").unlink()
         self.assertEqual(program.run("reproduce", "--judge", "-o", kept, "--quiet").returncode, 1)
 
-    def test_tables_that_are_too_long_are_listed(self):
+    def test_files_that_are_too_long_are_listed(self):
         results, kept = pathlib.Path(self.path("results")), pathlib.Path(self.path("kept"))
         self.succeeds("reproduce", "audit", "-o", results, "--quiet")
         long = "number\n" + "1\n" * 40_000
         (results / "audit" / "print" / "lengths.csv").write_text(long)
         (results / "audit" / "print" / "rates.csv").write_text(long)  # one of the tables that are kept whatever their length
         self.assertEqual(self.keep(results, kept).returncode, 0)
-        self.assertEqual((kept / "audit" / "not_kept.csv").read_text(), f"table,bytes\nprint/lengths.csv,{len(long)}\n")
+        self.assertEqual((kept / "audit" / "not_kept.csv").read_text(), f"file,bytes\nprint/lengths.csv,{len(long)}\n")
         self.assertFalse((kept / "audit" / "print" / "lengths.csv").exists())
         self.assertEqual((kept / "audit" / "print" / "rates.csv").read_text(), long)
 

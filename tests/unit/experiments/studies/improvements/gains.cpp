@@ -119,6 +119,7 @@ TEST(Gains, PageNamesTheBestChangeAndWhetherItIsDecided)
     EXPECT_NE(page({8.0, 7.0, 6.0, 7.0}, 0.01).find("[decided]"), std::string::npos);
     EXPECT_NE(page({1.0, 1.0, 1.0, 1.0}, 0.01).find("The change with the largest mean gain is good: over 4 poses"), std::string::npos);
     EXPECT_NE(page({8.0, 7.0, 6.0, 7.0}, 9.0).find("the reference's own error may change it by"), std::string::npos);
+    EXPECT_NE(page({-8.0, 7.0, -6.0, 7.0}, 0.01).find("[undecided: the interval over the poses includes zero]"), std::string::npos);
     const std::string worse = gains_page(gains_of(at_equal_time(some_poses({12.0, 13.0, 12.0, 11.0}, {14.0, 15.0, 14.0, 13.0}, 0.01))));
     EXPECT_NE(
         worse.find(
