@@ -17,6 +17,8 @@
 
 #include <fmt/format.h>
 
+#include <tuple>
+
 namespace experiments {
 namespace {
 
@@ -69,18 +71,19 @@ StudyRun human_run(const std::string& pose, int frame, double cost_s)
 StudyPlan plan(bool full)
 {
     StudyPlan plan;
-    plan.runs.push_back(limb_run("twist", 90, 300.0));
-    plan.runs.push_back(limb_run("bend", 60, 300.0));
+    plan.runs.push_back(limb_run("twist", 90, 350.0));
+    plan.runs.push_back(limb_run("bend", 60, 400.0));
     if (full) {
-        plan.runs.push_back(limb_run("twist", 150, 350.0));
-        plan.runs.push_back(limb_run("bend", 90, 900.0));
+        plan.runs.push_back(limb_run("twist", 150, 450.0));
+        plan.runs.push_back(limb_run("bend", 90, 5000.0));
     }
     try {
-        plan.runs.push_back(human_run("crouch", clip_frames::crouch, 900.0));
+        plan.runs.push_back(human_run("crouch", clip_frames::crouch, 1200.0));
         if (full)
-            for (const auto& [pose, frame] :
-                 {std::pair{"standing", clip_frames::standing}, {"in_the_air", clip_frames::in_the_air}, {"landing", clip_frames::landing}})
-                plan.runs.push_back(human_run(pose, frame, 900.0));
+            for (const auto& [pose, frame, cost_s] : {std::tuple{"standing", clip_frames::standing, 3000.0},
+                                                      {"in_the_air", clip_frames::in_the_air, 600.0},
+                                                      {"landing", clip_frames::landing, 600.0}})
+                plan.runs.push_back(human_run(pose, frame, cost_s));
     } catch (const pbs::InputError& error) {
         plan.left_out.push_back({"human", error.what()});
     }

@@ -19,8 +19,8 @@
 namespace experiments {
 namespace {
 
-// Each step takes about 15 s and 5 GB on tets cut into eight. In a fold without contact their number has no limit. Measured: 57 steps on
-// the human's crouch with Poisson's ratio 0.49, and 74 on the human standing with stiffer springs.
+// Each step takes about 15 s and 5 GB on tets cut into eight. In a fold without contact their number has no limit. Measured: 53 steps on
+// the human's crouch with Poisson's ratio 0.49, and 84 on the human standing with stiffer springs.
 constexpr int most_newton_steps = 120;
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
