@@ -72,8 +72,7 @@ def too_long(study, results):
     if not listed.exists():
         return []
     with listed.open(newline="", encoding="utf-8") as file:
-        names = sorted({f"`RUN/{name}`" if run else f"`{name}`" for run, _, name in
-                        (row["file"].rpartition("/") for row in csv.DictReader(file))})
+        names = sorted({f"`RUN/{row['file']}`" if row["run"] else f"`{row['file']}`" for row in csv.DictReader(file)})
     return [f"These files are too long to be kept, in some runs or in all: {', '.join(names)}."]
 
 

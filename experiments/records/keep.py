@@ -101,8 +101,8 @@ def keep_study(source, target):
         if (source / run["name"] / "run.json").exists():
             too_long += keep_run(source / run["name"], target / run["name"])
     if too_long:
-        lines = [f"{file},{(source / file).stat().st_size}\n" for file in too_long]
-        (target / "not_kept.csv").write_text("file,bytes\n" + "".join(lines), encoding="utf-8")
+        lines = [f"{file.parent if file.parent.name else ''},{file.name},{(source / file).stat().st_size}\n" for file in too_long]
+        (target / "not_kept.csv").write_text("run,file,bytes\n" + "".join(lines), encoding="utf-8")
 
 
 def keep(results, target):

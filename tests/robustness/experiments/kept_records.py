@@ -39,7 +39,7 @@ class KeptRecords(program.ProgramTest):
         (results / "audit" / "print" / "lengths.csv").write_text(long)
         (results / "audit" / "print" / "rates.csv").write_text(long)  # one of the tables that are kept whatever their length
         self.assertEqual(self.keep(results, kept).returncode, 0)
-        self.assertEqual((kept / "audit" / "not_kept.csv").read_text(), f"file,bytes\nprint/lengths.csv,{len(long)}\n")
+        self.assertEqual((kept / "audit" / "not_kept.csv").read_text(), f"run,file,bytes\nprint,lengths.csv,{len(long)}\n")
         self.assertFalse((kept / "audit" / "print" / "lengths.csv").exists())
         self.assertEqual((kept / "audit" / "print" / "rates.csv").read_text(), long)
 
