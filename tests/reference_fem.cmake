@@ -5,7 +5,7 @@ endif()
 
 pbs_tests(unit reference_fem_laws FOLDERS reference_fem/laws LIBRARIES reference_fem_laws)
 pbs_tests(unit reference_fem BLAS FOLDERS reference_fem EXCEPT reference_fem/laws
-    ALONE reference_fem/linear_elasticity reference_fem/newton/newton reference_fem/point_location reference_fem/simplex_space
+    ALONE reference_fem/linear_elasticity reference_fem/newton/newton reference_fem/assembly
     LIBRARIES reference_fem_verification)
 pbs_tests(verification reference_fem_laws FILES reference_fem/laws reference_fem/laws_closed_form
     ALONE reference_fem/laws_closed_form

@@ -1,5 +1,5 @@
 // pbskin check [-o DIR] [--junit FILE] [--baseline FILE]: checks volume preservation and other bounds in continuous integration.
-#include "analysis/records/atomic_file.hpp"
+#include "analysis/records/record_files.hpp"
 #include "experiments/command_line/verbs.hpp"
 #include "experiments/process/progress.hpp"
 #include "experiments/verdicts/check/check_reports.hpp"

@@ -1,6 +1,5 @@
 // pbskin explain NAME: prints what a metric, claim, scene key, study, deformer or scene means.
-#include "analysis/plain_markdown.hpp"
-#include "analysis/text_columns.hpp"
+#include "analysis/records/report_table.hpp"
 #include "experiments/command_line/verbs.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/process/terminal.hpp"

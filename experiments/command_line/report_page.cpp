@@ -1,6 +1,6 @@
 #include "experiments/command_line/report_page.hpp"
 
-#include "analysis/records/scratch_folder.hpp"
+#include "analysis/records/record_files.hpp"
 #include "experiments/process/program_run.hpp"
 #include "pbs/geometry/input_error.hpp"
 

@@ -1,9 +1,9 @@
 // The records of pbskin_distributed: record.json and, if asked for, nodes.csv.
 #pragma once
 
-#include "analysis/records/typed_table.hpp"
+#include "analysis/records/tables.hpp"
 #include "experiments/distributed/loaded_body.hpp"
-#include "reference_fem/iterative_options.hpp"
+#include "reference_fem/options.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 

@@ -4,7 +4,7 @@
 #include "pbs/character/bodies.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/mesh_io.hpp"
-#include "reference_fem/verification/structured_mesh.hpp"
+#include "reference_fem/verification/problems.hpp"
 
 #include <algorithm>
 #include <cmath>

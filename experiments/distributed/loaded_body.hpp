@@ -3,7 +3,6 @@
 
 #include "experiments/deformers/fem/fem_options.hpp"
 #include "reference_fem/distributed/elastic_problem.hpp"
-#include "reference_fem/distributed/mpi_session.hpp"
 
 #include <limits>
 #include <optional>

@@ -9,14 +9,13 @@
 //
 // Prints the record and writes it to DIR/record.json, and with --nodes the displacement of every node to DIR/nodes.csv. It takes seconds
 // for 10,000 tets and about a minute for 1,000,000 on 2 ranks.
-#include "analysis/records/atomic_file.hpp"
+#include "analysis/records/record_files.hpp"
 #include "experiments/deformers/fem/fem_option_names.hpp"
 #include "experiments/distributed/distributed_record.hpp"
 #include "experiments/process/blas_kernels.hpp"
 #include "experiments/process/failure.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "reference_fem/distributed/distributed_elasticity.hpp"
-#include "reference_fem/distributed/serial_elasticity.hpp"
+#include "reference_fem/distributed/elastic_problem.hpp"
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>

@@ -1,6 +1,6 @@
 #include "experiments/process/own_process.hpp"
 
-#include "analysis/records/record_text.hpp"
+#include "analysis/records/record_files.hpp"
 #include "experiments/process/failure.hpp"
 #include "experiments/process/forked_process.hpp"
 #include "experiments/process/interruption.hpp"

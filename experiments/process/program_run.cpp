@@ -1,6 +1,6 @@
 #include "experiments/process/program_run.hpp"
 
-#include "analysis/records/atomic_file.hpp"
+#include "analysis/records/record_files.hpp"
 
 #include <algorithm>
 #include <cerrno>

@@ -2,7 +2,7 @@
 // binding.csv. The columns explain their contents.
 #pragma once
 
-#include "analysis/records/typed_table.hpp"
+#include "analysis/records/tables.hpp"
 #include "pbs/character/character.hpp"
 
 namespace experiments {

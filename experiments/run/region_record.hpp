@@ -2,8 +2,8 @@
 // region.
 #pragma once
 
-#include "analysis/records/typed_table.hpp"
-#include "analysis/region_volume.hpp"
+#include "analysis/metrics/frame_metrics.hpp"
+#include "analysis/records/tables.hpp"
 #include "pbs/character/character.hpp"
 
 #include <map>

@@ -3,7 +3,7 @@
 //   embedding.csv      the tet that carries each of its points, with the point's barycentric coordinates
 #pragma once
 
-#include "analysis/records/typed_table.hpp"
+#include "analysis/records/tables.hpp"
 #include "pbs/character/character.hpp"
 
 namespace experiments {

@@ -1,6 +1,6 @@
 #include "experiments/trial/trial_scene.hpp"
 
-#include "analysis/records/record_text.hpp"
+#include "analysis/records/record_files.hpp"
 #include "experiments/scene/motion_case.hpp"
 #include "pbs/character/clip.hpp"
 #include "pbs/character/model_character.hpp"

@@ -1,7 +1,7 @@
 #include "experiments/trial/trial_summary.hpp"
 
-#include "analysis/records/csv_table.hpp"
-#include "analysis/statistics.hpp"
+#include "analysis/records/tables.hpp"
+#include "analysis/statistics/statistics.hpp"
 #include "pbs/character/json_file.hpp"
 
 #include <fmt/format.h>

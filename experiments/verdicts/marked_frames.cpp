@@ -1,6 +1,6 @@
 #include "experiments/verdicts/marked_frames.hpp"
 
-#include "analysis/records/kept_record.hpp"
+#include "analysis/records/record_files.hpp"
 #include "experiments/run/broken_frame.hpp"
 
 #include <fmt/format.h>

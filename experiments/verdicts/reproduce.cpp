@@ -1,10 +1,8 @@
 #include "experiments/verdicts/reproduce.hpp"
 
-#include "analysis/claims_report.hpp"
-#include "analysis/claims_table.hpp"
-#include "analysis/records/atomic_file.hpp"
-#include "analysis/records/folder_files.hpp"
 #include "analysis/records/provenance.hpp"
+#include "analysis/records/record_files.hpp"
+#include "analysis/verdicts/claims_report.hpp"
 #include "experiments/process/failure.hpp"
 #include "experiments/process/terminal.hpp"
 #include "experiments/process/worker_pool.hpp"

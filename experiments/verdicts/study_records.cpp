@@ -1,7 +1,7 @@
 #include "experiments/verdicts/study_records.hpp"
 
-#include "analysis/measurement.hpp"
-#include "analysis/records/atomic_file.hpp"
+#include "analysis/records/record_files.hpp"
+#include "analysis/verdicts/measurement.hpp"
 #include "experiments/run/run_provenance.hpp"
 #include "pbs/character/json_file.hpp"
 

@@ -1,6 +1,6 @@
 #include "experiments/command_line/fetch/packages.hpp"
 
-#include "analysis/records/scratch_folder.hpp"
+#include "analysis/records/record_files.hpp"
 #include "experiments/process/program_run.hpp"
 #include "pbs/character/bodies.hpp"
 #include "pbs/character/frankie.hpp"

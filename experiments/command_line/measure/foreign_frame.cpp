@@ -1,6 +1,6 @@
 #include "experiments/command_line/measure/foreign_frame.hpp"
 
-#include "analysis/edge_strain.hpp"
+#include "analysis/metrics/frame_metrics.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/mesh_io.hpp"
 #include "pbs/geometry/topology.hpp"

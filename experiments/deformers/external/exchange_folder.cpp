@@ -1,6 +1,6 @@
 #include "experiments/deformers/external/exchange_folder.hpp"
 
-#include "analysis/records/record_text.hpp"
+#include "analysis/records/record_files.hpp"
 #include "pbs/geometry/atomic_file.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/text_file.hpp"

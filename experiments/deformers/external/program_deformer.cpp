@@ -1,6 +1,6 @@
 #include "experiments/deformers/external/external_deformers.hpp"
 
-#include "analysis/records/scratch_folder.hpp"
+#include "analysis/records/record_files.hpp"
 #include "experiments/deformers/external/exchange_folder.hpp"
 #include "experiments/process/interruption.hpp"
 #include "experiments/process/program_run.hpp"

@@ -1,6 +1,6 @@
 #include "experiments/studies/ambiguity/read_motion.hpp"
 
-#include "analysis/frame_metrics.hpp"
+#include "analysis/metrics/frame_metrics.hpp"
 #include "experiments/process/interruption.hpp"
 #include "experiments/scene/motion_case.hpp"
 

@@ -3,7 +3,7 @@
 //   fmt::print("{}", bench_table(record));
 #pragma once
 
-#include "analysis/line_fit.hpp"
+#include "analysis/statistics/fits.hpp"
 #include "experiments/process/peak_memory.hpp"
 #include "experiments/studies/bench/deformer_timing.hpp"
 #include "experiments/studies/bench/newton_timing.hpp"

@@ -1,6 +1,6 @@
 #include "experiments/studies/convergence/convergence_values.hpp"
 
-#include "analysis/line_fit.hpp"
+#include "analysis/statistics/fits.hpp"
 #include "experiments/deformers/pbs/pbs_option_names.hpp"
 
 #include <algorithm>

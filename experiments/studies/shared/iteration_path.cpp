@@ -1,7 +1,7 @@
 #include "experiments/studies/shared/iteration_path.hpp"
 
-#include "analysis/line_fit.hpp"
-#include "analysis/statistics.hpp"
+#include "analysis/statistics/fits.hpp"
+#include "analysis/statistics/statistics.hpp"
 #include "experiments/process/cpu_clock.hpp"
 #include "experiments/process/interruption.hpp"
 #include "experiments/studies/shared/posed_reference.hpp"

@@ -1,7 +1,6 @@
 #include "experiments/studies/shared/scene_alone.hpp"
 
-#include "analysis/records/folder_files.hpp"
-#include "analysis/records/kept_record.hpp"
+#include "analysis/records/record_files.hpp"
 #include "experiments/process/own_process.hpp"
 #include "experiments/run/run.hpp"
 

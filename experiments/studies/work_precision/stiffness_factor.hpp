@@ -5,7 +5,7 @@
 // that theta is known to 5 % where the error has one minimum in the bracket.
 #pragma once
 
-#include "analysis/records/typed_table.hpp"
+#include "analysis/records/tables.hpp"
 
 #include <functional>
 #include <limits>

@@ -1,8 +1,7 @@
 #include "experiments/verdicts/check/check_reports.hpp"
 
-#include "analysis/check/github_report.hpp"
-#include "analysis/check/junit_report.hpp"
-#include "analysis/records/atomic_file.hpp"
+#include "analysis/check/check_report.hpp"
+#include "analysis/records/record_files.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 #include <fmt/format.h>

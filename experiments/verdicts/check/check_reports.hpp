@@ -1,7 +1,7 @@
 // The reports of `pbskin check` and `pbskin measure` on their bounds: on the terminal, for JUnit and for GitHub.
 #pragma once
 
-#include "analysis/check/check_case.hpp"
+#include "analysis/check/check_report.hpp"
 
 namespace experiments {
 

@@ -3,7 +3,7 @@
 // low to rho at infinite frequency (J. Chung, G. Hulbert, J. Appl. Mech. 60(2), 1993); both are stable for every time step.
 #include "reference_fem/dynamics/vibrating_body.hpp"
 
-#include "reference_fem/verification/rounding_bound.hpp"
+#include "reference_fem/verification/problems.hpp"
 #include "tests/support/rounding_error.hpp"
 #include "tests/support/structured_bar.hpp"
 
