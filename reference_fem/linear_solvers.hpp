@@ -11,11 +11,13 @@
 #include "reference_fem/assembly.hpp"
 #include "reference_fem/options.hpp"
 
-#include <Teuchos_ParameterList.hpp>
-
 #include <memory>
 #include <string>
 #include <vector>
+
+namespace Teuchos {
+class ParameterList;
+}
 
 namespace reference_fem {
 

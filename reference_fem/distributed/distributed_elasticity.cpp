@@ -4,6 +4,7 @@
 #include "reference_fem/linear_solvers.hpp"
 #include "reference_fem/options.hpp"
 
+#include <Teuchos_ParameterList.hpp>
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_tools.h>

@@ -11,6 +11,7 @@
 
 namespace reference_fem {
 namespace {
+namespace tip_load {
 
 using pbs::Vec3;
 
@@ -29,10 +30,12 @@ BeamTheory timoshenko(double nu)
             force_n * depth_m / (k * shear_pa * area)};
 }
 
+}  // namespace tip_load
 }  // namespace
 
 VerificationRow cantilever_row(const Effort& effort, double nu, int element_order, Formulation formulation, const Divisions& divisions)
 {
+    using namespace tip_load;
     const ElasticMaterial material{young_pa, nu};
     const BoundaryValueSolution solution =
         solve(box_mesh({0, 0, 0}, {length_m, depth_m, depth_m}, divisions), solver_material(effort, material),
@@ -68,6 +71,7 @@ VerificationRow cantilever_row(const Effort& effort, double nu, int element_orde
 
 VerificationRows cantilever_rows(const Effort& effort)
 {
+    using namespace tip_load;
     VerificationRows rows;
     for (const double nu : {0.0, 0.3})
         for (const int element_order : {1, 2})
@@ -84,6 +88,7 @@ VerificationRows cantilever_rows(const Effort& effort)
 // Only formulations for nearly incompressible materials (reference_fem/options.hpp) have bounds.
 
 namespace {
+namespace locking {
 
 const std::vector<double> quick_ladder = {0.3, 0.49, 0.499, 0.49999};
 const std::vector<double> full_ladder = {0.3, 0.4, 0.45, 0.49, 0.499, 0.4999, 0.49999};
@@ -104,10 +109,12 @@ VerificationRow as_locking(VerificationRow row, const Element& element)
     return row;
 }
 
+}  // namespace locking
 }  // namespace
 
 VerificationRows locking_rows(const Effort& effort)
 {
+    using namespace locking;
     VerificationRows rows;
     const int cube = effort.full ? 8 : 4;
     for (const Element& element : {Element{1, Formulation::displacement}, Element{2, Formulation::displacement},
@@ -126,6 +133,7 @@ VerificationRows locking_rows(const Effort& effort)
 // cantilever.cpp; the first depth h makes 4 h / L of the bending deflection here.
 
 namespace {
+namespace gravity {
 
 using pbs::Vec3;
 
@@ -172,10 +180,12 @@ VerificationRow row_of(const Effort& effort, int element_order, int n)
     return row;
 }
 
+}  // namespace gravity
 }  // namespace
 
 VerificationRows gravity_cantilever_rows(const Effort& effort)
 {
+    using namespace gravity;
     return {row_of(effort, 1, 6), row_of(effort, 2, 4), row_of(effort, 2, 8)};
 }
 

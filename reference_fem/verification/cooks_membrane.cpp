@@ -35,6 +35,7 @@ BoundaryValueProblem membrane_problem(double shear, bool plane_strain, int eleme
 }
 
 namespace {
+namespace small_strain {
 
 BoundaryValueSolution bend(const Effort& effort, const ElasticMaterial& material, double shear, bool plane_strain, int element_order, int n)
 {
@@ -84,10 +85,12 @@ VerificationRow plane_stress_row(const Effort& effort, int element_order, int n)
     return row;
 }
 
+}  // namespace small_strain
 }  // namespace
 
 VerificationRows cooks_membrane_rows(const Effort& effort)
 {
+    using namespace small_strain;
     VerificationRows rows;
     for (const auto make_row : {plane_strain_row, plane_stress_row}) {
         VerificationRow linear = make_row(effort, 1, effort.full ? 32 : 16);
@@ -110,6 +113,7 @@ VerificationRows cooks_membrane_rows(const Effort& effort)
 // buckles sideways at 1/40 of the load, where the Hessian is no longer positive definite.
 
 namespace {
+namespace finite_strain {
 
 constexpr double shear_modulus = 0.4225, poisson = 0.3;
 
@@ -132,10 +136,12 @@ VerificationRow row_of(const Effort& effort, bool plane_strain, int element_orde
             .note = std::to_string(solution.path.newton_steps()) + " Newton steps"};
 }
 
+}  // namespace finite_strain
 }  // namespace
 
 VerificationRows cooks_membrane_finite_strain_rows(const Effort& effort)
 {
+    using namespace finite_strain;
     VerificationRows rows;
     for (const bool plane_strain : {false, true})
         for (const int element_order : {1, 2}) {

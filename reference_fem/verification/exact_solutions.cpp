@@ -5,6 +5,7 @@
 
 namespace reference_fem {
 namespace {
+namespace patch_test {
 
 using pbs::Vec3;
 
@@ -58,10 +59,12 @@ VerificationRow row_of(const Effort& effort, const std::string& data, const Boun
             .bound_from = rounding_bound_text};
 }
 
+}  // namespace patch_test
 }  // namespace
 
 VerificationRows patch_test_rows(const Effort& effort)
 {
+    using namespace patch_test;
     VerificationRows rows;
     for (const int element_order : {1, 2}) {
         rows.push_back(row_of(effort, "displacements", from_displacements(element_order), affine));
@@ -74,6 +77,7 @@ VerificationRows patch_test_rows(const Effort& effort)
 // else. The displacement is quadratic, so P2 tets return it to rounding (S. Timoshenko, J. Goodier, Theory of elasticity, art. 96).
 
 namespace {
+namespace own_weight {
 
 using pbs::Vec3;
 
@@ -87,10 +91,12 @@ Vec3 exact(const Vec3& point)
             -nu * slope * (length_m - x) * z};
 }
 
+}  // namespace own_weight
 }  // namespace
 
 VerificationRows own_weight_rows(const Effort& effort)
 {
+    using namespace own_weight;
     const int n = 2;
     const BoundaryValueSolution solution = solve(jittered_cube(n, 0.25), solver_material(effort, material),
                                                  {.body_force = [](const Vec3&) -> Vec3 {
@@ -118,6 +124,7 @@ VerificationRows own_weight_rows(const Effort& effort)
 // (S. Brenner, R. Scott, The mathematical theory of finite element methods, Springer 2008, ch. 5).
 
 namespace {
+namespace manufactured {
 
 using pbs::Vec3;
 
@@ -189,10 +196,12 @@ VerificationRows ladder(const Effort& effort, int element_order, int coarsest, i
     return rows;
 }
 
+}  // namespace manufactured
 }  // namespace
 
 VerificationRows manufactured_solution_rows(const Effort& effort)
 {
+    using namespace manufactured;
     VerificationRows rows = ladder(effort, 1, 4, effort.full ? 4 : 3);
     for (const auto& row : ladder(effort, 2, 2, effort.full ? 4 : 3)) rows.push_back(row);
     return rows;

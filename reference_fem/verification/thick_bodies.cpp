@@ -11,6 +11,7 @@
 
 namespace reference_fem {
 namespace {
+namespace plate {
 
 using pbs::Vec3;
 
@@ -58,10 +59,12 @@ VerificationRow row_of(const Effort& effort, int element_order, const Divisions&
             .source = "NAFEMS, The standard NAFEMS benchmarks, TNSB rev. 3, 1990, test LE10"};
 }
 
+}  // namespace plate
 }  // namespace
 
 VerificationRows thick_plate_rows(const Effort& effort)
 {
+    using namespace plate;
     VerificationRows rows = {row_of(effort, 1, {12, 16, 8}), row_of(effort, 2, {6, 8, 4}), row_of(effort, 2, {12, 16, 8})};
     if (effort.full) rows.push_back(row_of(effort, 2, {18, 24, 12}));
     bound_by_grade_a(rows.back());
@@ -73,6 +76,7 @@ VerificationRows thick_plate_rows(const Effort& effort)
 // u_r = p a^3 / (E (b^3 - a^3)) ((1 - 2 nu) r + (1 + nu) b^3 / (2 r^2)) (Timoshenko and Goodier, Theory of elasticity, art. 136).
 
 namespace {
+namespace sphere {
 
 using pbs::Vec3;
 
@@ -147,10 +151,12 @@ void judge_as_second_order(VerificationRow& row)
     row.bound_from += "order 2 of the faceted geometry within 0.1";
 }
 
+}  // namespace sphere
 }  // namespace
 
 VerificationRows thick_sphere_rows(const Effort& effort)
 {
+    using namespace sphere;
     const int coarsest = effort.full ? 6 : 4;
     VerificationRows rows;
     for (const double nu : {0.3, 0.499}) {

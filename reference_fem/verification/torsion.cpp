@@ -14,6 +14,7 @@
 
 namespace reference_fem {
 namespace {
+namespace torsion {
 
 using pbs::Vec3;
 
@@ -26,10 +27,12 @@ double torsion_constant()
     return std::pow(side_m, 4) / 3.0 * (1.0 - 192.0 / std::pow(std::numbers::pi, 5) * sum);
 }
 
+}  // namespace torsion
 }  // namespace
 
 VerificationRow torsion_row(const Effort& effort, double nu, int element_order, Formulation formulation, int n)
 {
+    using namespace torsion;
     const ElasticMaterial material{young_pa, nu};
     const auto turned = [](const Vec3& x) -> Vec3 { return angle * x.x() / length_m * Vec3(0.0, -x.z(), x.y()); };
     const auto held = [](const Vec3& x) {
@@ -55,6 +58,7 @@ VerificationRow torsion_row(const Effort& effort, double nu, int element_order, 
 }
 
 namespace {
+namespace torsion {
 
 VerificationRows ladder(const Effort& effort, int element_order, int coarsest, int levels)
 {
@@ -78,10 +82,12 @@ VerificationRows ladder(const Effort& effort, int element_order, int coarsest, i
     return rows;
 }
 
+}  // namespace torsion
 }  // namespace
 
 VerificationRows torsion_rows(const Effort& effort)
 {
+    using namespace torsion;
     VerificationRows rows = ladder(effort, 1, 4, effort.full ? 4 : 3);
     for (const auto& row : ladder(effort, 2, 2, effort.full ? 4 : 3)) rows.push_back(row);
     return rows;
@@ -95,6 +101,7 @@ VerificationRows torsion_rows(const Effort& effort)
 // s^2 (cos^2 phi / I_width + sin^2 phi / I_thickness), s the distance to the tip, phi the angle between the load and the width.
 
 namespace {
+namespace twisted_beam {
 
 using pbs::Vec3;
 
@@ -156,10 +163,12 @@ VerificationRow row_of(const Effort& effort, const Vec3& load, int element_order
             .note = note};
 }
 
+}  // namespace twisted_beam
 }  // namespace
 
 VerificationRows twisted_beam_rows(const Effort& effort)
 {
+    using namespace twisted_beam;
     VerificationRows rows;
     for (const Vec3& load : {Vec3(0, 0, 1), Vec3(0, 1, 0)}) {
         rows.push_back(row_of(effort, load, 1, {48, 8, 4}));
@@ -178,6 +187,7 @@ VerificationRows twisted_beam_rows(const Effort& effort)
 // Venant-Kirchhoff gives way.
 
 namespace {
+namespace half_turn {
 
 const Divisions divisions = {27, 8, 8};
 constexpr double length_m = 3.375, young_pa = 1e5;
@@ -289,10 +299,12 @@ VerificationRows rows_of(const Effort& effort, const SimplexSpace& space, const 
     return rows;
 }
 
+}  // namespace half_turn
 }  // namespace
 
 VerificationRows half_turn_rows(const Effort& effort)
 {
+    using namespace half_turn;
     const SimplexSpace space(box_mesh({0, -0.5, -0.5}, {length_m, 0.5, 0.5}, divisions), 1);
     VerificationRows rows;
     for (const Law& law : laws) {
