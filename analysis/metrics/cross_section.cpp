@@ -199,7 +199,7 @@ struct EdgeCrossing {
 };
 
 std::vector<EdgeCrossing> crossings_of(const Plane& plane, const pbs::Positions& positions, const pbs::Triangles& skin,
-                                   const std::vector<bool>& chosen)
+                                       const std::vector<bool>& chosen)
 {
     const Eigen::VectorXd height = (positions.rowwise() - plane.point.transpose()) * plane.normal;
     std::vector<EdgeCrossing> crossings;

@@ -10,8 +10,8 @@
 namespace analysis {
 
 // {"schema": 2, "revision", "quantities": {NAME: {"title", "unit"}}, "claims": [{id, statement, place, study, rule, verdict, ...}]}. The
-// document holds facts alone and no sentences. The fields of a key (case_record.hpp) are members of the object that they describe. Values that
-// are not known or not finite are null. revision: the program that judged.
+// document holds facts alone and no sentences. The fields of a key (case_record.hpp) are members of the object that they describe. Values
+// that are not known or not finite are null. revision: the program that judged.
 nlohmann::json claims_json(const std::vector<Verdict>& verdicts, const std::string& revision);
 
 // A table with one row per claim: id, verdict, how many of its values hold, and the primary value with its interval, bound and case.
