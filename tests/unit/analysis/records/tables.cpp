@@ -228,7 +228,7 @@ const Columns<Row> row_columns =
 const std::vector<Row> rows = {{0, {"man, sitting", 0.1}, true, Ending::not_finite, 0.25},
                                {1, {"limb", std::numeric_limits<double>::infinity()}, false, Ending::finished, std::nullopt}};
 
-std::string message_of(const std::string& text)
+std::string message_of_rows(const std::string& text)
 {
     try {
         rows_of(row_columns, parse_csv(text, "m.csv"));
@@ -299,14 +299,14 @@ TEST(TypedTable, APartThatARowLacksHasEmptyCells)
 TEST(TypedTable, WrongCellsAreNamedWithFileLineColumnValueAndRule)
 {
     const std::string head = "frame,body,height_m,is_masked,ending,error_pct\n";
-    EXPECT_EQ(message_of(head + "0.5,limb,1,0,finished,\n"), "m.csv:2:1: frame = 0.5: expected a whole number");
-    EXPECT_EQ(message_of(head + "3000000000,limb,1,0,finished,\n"),
+    EXPECT_EQ(message_of_rows(head + "0.5,limb,1,0,finished,\n"), "m.csv:2:1: frame = 0.5: expected a whole number");
+    EXPECT_EQ(message_of_rows(head + "3000000000,limb,1,0,finished,\n"),
               "m.csv:2:1: frame = 3000000000: expected a whole number of at most 31 bits");
-    EXPECT_EQ(message_of(head + "0,limb,high,0,finished,\n"), "m.csv:2:3: height_m = high: expected a number");
-    EXPECT_EQ(message_of(head + "0,limb,1,0,finished,\n1,limb,1,true,finished,\n"), "m.csv:3:4: is_masked = true: expected 0 or 1");
-    EXPECT_EQ(message_of(head + "0,limb,1,0,ended,\n"), "m.csv:2:5: ending = ended: expected one of finished, not_finite");
-    EXPECT_EQ(message_of(head + "0,limb,1,0,finished,none\n"), "m.csv:2:6: error_pct = none: expected a number");
-    EXPECT_EQ(message_of("frame\n0\n"), "m.csv:1: columns = frame: expected a column body");
+    EXPECT_EQ(message_of_rows(head + "0,limb,high,0,finished,\n"), "m.csv:2:3: height_m = high: expected a number");
+    EXPECT_EQ(message_of_rows(head + "0,limb,1,0,finished,\n1,limb,1,true,finished,\n"), "m.csv:3:4: is_masked = true: expected 0 or 1");
+    EXPECT_EQ(message_of_rows(head + "0,limb,1,0,ended,\n"), "m.csv:2:5: ending = ended: expected one of finished, not_finite");
+    EXPECT_EQ(message_of_rows(head + "0,limb,1,0,finished,none\n"), "m.csv:2:6: error_pct = none: expected a number");
+    EXPECT_EQ(message_of_rows("frame\n0\n"), "m.csv:1: columns = frame: expected a column body");
 }
 
 TEST(TypedTable, AFlagIsZeroOrOne)
