@@ -2,6 +2,7 @@
 
 #include "pbs/flesh/packed_flesh.hpp"
 #include "pbs/flesh/plain_flesh.hpp"
+#include "pbs/flesh/projective_energy.hpp"
 
 #include <algorithm>
 #include <cmath>

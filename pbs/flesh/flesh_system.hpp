@@ -10,12 +10,13 @@
 #include "pbs/flesh/arithmetic.hpp"
 #include "pbs/flesh/cholesky.hpp"
 #include "pbs/flesh/flesh_energy.hpp"
-#include "pbs/flesh/projective_energy.hpp"
 #include "pbs/flesh/rows.hpp"
 
 #include <memory>
 
 namespace pbs {
+
+class ProjectiveEnergy;
 
 template <typename Scalar>
 class FleshSystem {

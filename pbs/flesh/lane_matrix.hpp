@@ -2,7 +2,7 @@
 #pragma once
 
 #include "pbs/solver/batched/batch.hpp"
-#include "pbs/solver/batched/project_lanes.hpp"
+#include "pbs/solver/batched/lanes.hpp"
 
 namespace pbs {
 

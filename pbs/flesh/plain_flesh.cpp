@@ -2,6 +2,7 @@
 
 #include "pbs/flesh/row_positions.hpp"
 #include "pbs/flesh/triangular_solve.hpp"
+#include "pbs/flesh/projective_energy.hpp"
 
 #include <numeric>
 

@@ -2,7 +2,7 @@
 
 #include "pbs/flesh/local_shape_formula.hpp"
 #include "pbs/geometry/lane_functions.hpp"
-#include "pbs/solver/batched/project_lanes.hpp"
+#include "pbs/solver/batched/lanes.hpp"
 
 namespace pbs {
 namespace {

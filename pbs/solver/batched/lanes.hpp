@@ -170,4 +170,67 @@ template <typename Scalar>
     }
 }
 
+// A vector in every lane.
+template <typename Scalar>
+struct LaneVector {
+    Lanes<Scalar> x, y, z;
+};
+
+template <typename Scalar>
+[[gnu::always_inline]] inline LaneVector<Scalar> operator-(const Vertices<Scalar>& a, const Vertices<Scalar>& b)
+{
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+
+template <typename Scalar>
+[[gnu::always_inline]] inline LaneVector<Scalar> operator+(const LaneVector<Scalar>& a, const LaneVector<Scalar>& b)
+{
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+
+template <typename Scalar>
+[[gnu::always_inline]] inline Lanes<Scalar> dot(const LaneVector<Scalar>& a, const LaneVector<Scalar>& b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+template <typename Scalar>
+[[gnu::always_inline]] inline LaneVector<Scalar> cross(const LaneVector<Scalar>& a, const LaneVector<Scalar>& b)
+{
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+// p += factor * g; w stays.
+template <typename Scalar>
+[[gnu::always_inline]] inline void add(const Lanes<Scalar>& factor, const LaneVector<Scalar>& g, Vertices<Scalar>& p)
+{
+    p.x += factor * g.x;
+    p.y += factor * g.y;
+    p.z += factor * g.z;
+}
+
+// Zero where the denominator is not above `least`.
+template <typename Scalar>
+[[gnu::always_inline]] inline Lanes<Scalar> quotient(const Lanes<Scalar>& numerator, const Lanes<Scalar>& denominator,
+                                                     const Lanes<Scalar>& least = Scalar(0))
+{
+    Lanes<Scalar> result = numerator / denominator;
+    where(!(denominator > least), result) = Scalar(0);
+    return result;
+}
+
+template <typename Scalar>
+[[gnu::always_inline]] inline double sum_of_lanes(const Lanes<Scalar>& lanes_to_add)
+{
+    double total = 0.0;
+    for (int lane = 0; lane < lanes<Scalar>; ++lane) total += double(lanes_to_add[lane]);
+    return total;
+}
+
+template <typename Scalar>
+[[gnu::always_inline]] inline Lanes<Scalar> length(const LaneVector<Scalar>& a)
+{
+    return sqrt(dot(a, a));
+}
+
 }  // namespace pbs
