@@ -4,7 +4,7 @@
 #include "experiments/deformers/registry.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "pbs/geometry/stopwatch.hpp"
-#include "pbs/skinning/packed_delta_mush.hpp"
+#include "pbs/skinning/delta_mush.hpp"
 #include "pbs/skinning/skinning_work.hpp"
 
 #include <optional>

@@ -1,11 +1,11 @@
 // Direct delta mush, variant 0: all smoothing at reset, one blend and one rotation per vertex in a pose.
-#include "experiments/deformers/own_weights.hpp"
 #include "experiments/deformers/direct_delta_mush/mush_smoothing_names.hpp"
+#include "experiments/deformers/own_weights.hpp"
 #include "experiments/deformers/precision_names.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "pbs/geometry/stopwatch.hpp"
-#include "pbs/skinning/packed_direct_mush.hpp"
+#include "pbs/skinning/direct_delta_mush.hpp"
 #include "pbs/skinning/skinning_work.hpp"
 
 #include <optional>

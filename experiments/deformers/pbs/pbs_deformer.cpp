@@ -2,10 +2,9 @@
 #include "experiments/deformers/pbs/pbs_settings.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "pbs/geometry/stopwatch.hpp"
-#include "pbs/skinning/blend_skinning.hpp"
+#include "pbs/skinning/blend.hpp"
 #include "pbs/solver/batched/projection_work.hpp"
 #include "pbs/solver/pbs_solver.hpp"
-#include "pbs/solver/poses_solver.hpp"
 
 #include <algorithm>
 #include <optional>

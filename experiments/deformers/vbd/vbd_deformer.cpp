@@ -1,7 +1,7 @@
-// Elastic flesh in equilibrium by vertex block descent (pbs/flesh/vertex_block_descent.hpp).
+// Elastic flesh in equilibrium by vertex block descent (pbs/flesh/vbd.hpp).
 #include "experiments/deformers/flesh/flesh_deformer.hpp"
 #include "pbs/flesh/flesh_work.hpp"
-#include "pbs/flesh/vertex_block_descent.hpp"
+#include "pbs/flesh/vbd.hpp"
 
 namespace experiments {
 

@@ -7,7 +7,7 @@
 // reference's linear elements are above 5 %, a row has the best point on a finer mesh. The bound on the reference's own error decides
 // whether a goal that is reached is certain. The solver alone: a distance of at most 1 % at the joints from the own limit of the deformers
 // that minimise an energy, within 6 ms and within a thirtieth of the time that Newton's method takes to the same distance. Finite elements
-// do not count. This limit is linear elements with their law (Macklin and Mueller's neo-Hookean, pbs/flesh/flesh_material.hpp) on the
+// do not count. This limit is linear elements with their law (Macklin and Mueller's neo-Hookean, pbs/flesh/flesh_energy.hpp) on the
 // case's own tets. Newton's method begins at its fastest cold start (newton_way.hpp), as these deformers do in every frame. Its time from
 // the solution of the frame before is stated for comparison.
 #pragma once

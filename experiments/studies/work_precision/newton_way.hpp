@@ -1,5 +1,5 @@
 // Newton's method on its way to the limit of the deformers that minimise the energy of elastic flesh: linear elements on the case's own
-// tets with their law (pbs/flesh/flesh_material.hpp). The recorded time is the time to the distance of 1 % that the goal requires of these
+// tets with their law (pbs/flesh/flesh_energy.hpp). The recorded time is the time to the distance of 1 % that the goal requires of these
 // deformers (goal.hpp).
 //   const std::vector<NewtonRow> rows = newton_way(of, flesh, mesh, poses, limit, reference);
 //   if (const auto newton = fastest_to_goal(rows)) newton->ms_median ...
@@ -10,8 +10,8 @@
 // computed, as the time of the deformers does.
 #pragma once
 
-#include "experiments/studies/work_precision/work_precision_case.hpp"
 #include "experiments/studies/work_precision/posed_deformer.hpp"
+#include "experiments/studies/work_precision/work_precision_case.hpp"
 
 #include <functional>
 
