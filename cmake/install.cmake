@@ -24,7 +24,7 @@ function(pbs_install_headers component)
         endif()
         set(no_call_for_users  # headers internal to readers and meshers, to text and files, to solvers, and to parts of bodies
             "mesh_io_|meshing_|guarded_reading|isolated_reader|reading_limits|packed_bytes|assimp_|vtk_messages|surface_checks|own_folder"
-            "flesh/(flesh_kernels|local_shape|packed_|projective_|vbd|xpbd_)"
+            "flesh/(local_shape|packed_|projective_|vbd|xpbd_)"
             "packed/(groups|lanes|parallel|vertex_order)"
             "geometry/(atomic_file|content_format|file_limits|name_list|named_link|nearest_name|number_text|process)"
             "geometry/(stopwatch|text_file|toml_text)"
