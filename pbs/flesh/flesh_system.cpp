@@ -60,7 +60,7 @@ int width_of_supernode(const CholeskyFactor& factor, int column)
 }  // namespace
 
 template <typename Scalar>
-TriangularSolve<Scalar>::TriangularSolve(const CholeskyFactor& factor, const std::vector<int>& place) : entries_(factor.value.size())
+TriangularSolve<Scalar>::TriangularSolve(const CholeskyFactor& factor, const std::vector<int>& place)
 {
     const int columns = static_cast<int>(factor.order.size());
     for (const int row : factor.order) place_.push_back(4u * place[row]);
@@ -88,12 +88,6 @@ void TriangularSolve<Scalar>::apply(Scalar* rows)
 {
     solve_supernodes(supernodes_.data(), static_cast<int>(supernodes_.size()), below_.data(), values_.data(), place_.data(),
                      static_cast<int>(place_.size()), rows, work_.data());
-}
-
-template <typename Scalar>
-std::size_t TriangularSolve<Scalar>::bytes() const
-{
-    return values_.size() * sizeof(Scalar) + below_.size() * sizeof(std::uint32_t) + supernodes_.size() * sizeof(Supernode);
 }
 
 void solve_plainly(const CholeskyFactor& factor, const std::vector<int>& place, double* rows, std::vector<double>& work)
@@ -169,12 +163,6 @@ void PlainSystem<Energy>::add(double factor, const Rows<double>& a, Rows<double>
 {
     for (int i = 0; i < static_cast<int>(place_.size()); ++i)
         for (int axis = 0; axis < 3; ++axis) to[i][axis] += factor * a[i][axis];
-}
-
-template <typename Energy>
-std::size_t PlainSystem<Energy>::bytes() const
-{
-    return energy_.tets().size() * sizeof(energy_.tets()[0]) + 2 * (sizeof(double) + sizeof(int)) * factor_.value.size();
 }
 
 template class PlainSystem<FleshEnergy>;

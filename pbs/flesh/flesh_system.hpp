@@ -33,7 +33,6 @@ public:
     virtual void add(double factor, const Rows<Scalar>& a, Rows<Scalar>& to) const = 0;  // to += factor * a
     // The norm of a step that ends an iteration [m]: this share of the first one, or a few roundings of the positions, as at rest.
     double smallest_step(const Rows<Scalar>& x, double share, double first) const;
-    virtual std::size_t bytes() const = 0;  // that an evaluation and a preconditioning read from memory
 };
 
 // Energy: FleshEnergy or ProjectiveEnergy. factor: of flesh_laplacian. Scalar is that of `arithmetic` (unchecked).
@@ -51,9 +50,7 @@ public:
     // place: where row i of the matrix lies among the rows that are passed to apply, #rows.
     TriangularSolve(const CholeskyFactor& factor, const std::vector<int>& place);
 
-    void apply(Scalar* rows);                         // four numbers per row
-    std::size_t bytes() const;                        // of the factor, which an application reads twice
-    std::size_t entries() const { return entries_; }  // of L
+    void apply(Scalar* rows);  // four numbers per row
 
 private:
     std::vector<Supernode> supernodes_;
@@ -61,7 +58,6 @@ private:
     std::vector<Scalar> values_;
     std::vector<std::uint32_t> place_;  // of row k of L
     Rows<Scalar> work_;
-    std::size_t entries_ = 0;
 };
 
 // The same with a loop per entry of L: the plain implementation, in double.
@@ -83,7 +79,6 @@ public:
     void precondition(Rows<double>& residual) override;
     double dot(const Rows<double>& a, const Rows<double>& b) const override;
     void add(double factor, const Rows<double>& a, Rows<double>& to) const override;
-    std::size_t bytes() const override;
 
 private:
     Energy energy_;

@@ -80,15 +80,6 @@ double PackedSystem<Scalar, Energy>::value_and_gradient(const Rows<Scalar>& x, R
     return std::accumulate(slab_energy_.begin(), slab_energy_.end(), of_hold);
 }
 
-template <typename Scalar, typename Energy>
-std::size_t PackedSystem<Scalar, Energy>::bytes() const
-{
-    const std::size_t of_rows = 4 * sizeof(Scalar) * rows_;
-    std::size_t of_tets = 0;
-    for (const auto& slab : tets_) of_tets += slab.bytes();
-    return of_tets + 3 * of_rows + 2 * (solve_.bytes() + of_rows);
-}
-
 template class PackedSystem<float, FleshEnergy>;
 template class PackedSystem<double, FleshEnergy>;
 template class PackedSystem<float, ProjectiveEnergy>;

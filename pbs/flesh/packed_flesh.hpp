@@ -36,7 +36,6 @@ public:
     {
         return add_gradient_of_tets(batches_.data(), static_cast<int>(batches_.size()), x, gradient);
     }
-    std::size_t bytes() const { return batches_.size() * sizeof(FleshBatch<Scalar>); }
 
 private:
     const FleshEnergy* energy_;  // for set_tet alone
@@ -52,7 +51,6 @@ public:
     void set_tet(int lane, int tet, const TetOffsets& offset);
     void set_dummy(int lane, const TetOffsets& offset);
     double add_gradient(const Scalar* x, Scalar* gradient);
-    std::size_t bytes() const { return batches_.size() * sizeof(ProjectiveBatch<Scalar>); }
     int refused() const { return refused_count_; }  // in the last call of add_gradient
 
 private:
@@ -82,7 +80,6 @@ public:
     {
         pbs::add(Scalar(factor), a.data(), a.size(), to.data());
     }
-    std::size_t bytes() const override;
     const std::vector<PackedTets<Scalar, Energy>>& tets() const { return tets_; }  // of each slab
 
 private:

@@ -41,7 +41,6 @@ public:
     ProjectiveDynamics(const TetMesh& mesh, const ProjectiveEnergy& energy, const CholeskyFactor& factor, const ProjectiveOptions& options);
 
     ProjectiveSummary minimise(const Positions& centres, Positions& x);  // x [m], #V x 3; a step that is not finite ends it
-    std::size_t bytes_an_iteration() const { return system_->bytes(); }
 
 private:
     ProjectiveOptions options_;

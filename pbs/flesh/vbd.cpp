@@ -173,13 +173,6 @@ void PlainVertexSweep::extrapolate(double omega, const Rows<double>& before, Row
         for (int axis = 0; axis < 3; ++axis) x[i][axis] = before[i][axis] + omega * (x[i][axis] - before[i][axis]);
 }
 
-std::size_t PlainVertexSweep::bytes() const
-{
-    std::size_t bytes = 2 * sizeof(double) * x_.size() + stars_.size() * sizeof(VertexStar);
-    for (const VertexStar& star : stars_) bytes += star.tets.size() * sizeof(IncidentTet);
-    return bytes;
-}
-
 namespace {
 
 constexpr int vertices_of_chunk = 512;       // some 10 us of work
@@ -269,13 +262,6 @@ template <typename Scalar>
 void PackedVertexSweep<Scalar>::extrapolate(double omega, const Rows<Scalar>& before, Rows<Scalar>& x) const
 {
     pbs::extrapolate(Scalar(omega), before.data(), x.size(), x.data());
-}
-
-template <typename Scalar>
-std::size_t PackedVertexSweep<Scalar>::bytes() const
-{
-    return batches_.size() * sizeof(VertexBatch<Scalar>) + incidences_.size() * sizeof(VertexIncidence<Scalar>) +
-           2 * 4 * sizeof(Scalar) * rows_;
 }
 
 template class PackedVertexSweep<float>;

@@ -35,7 +35,6 @@ public:
     virtual void store(const Rows<Scalar>& rows, Positions& x) const = 0;
     virtual void move(double omega, Rows<Scalar>& x) = 0;
     virtual void extrapolate(double omega, const Rows<Scalar>& before, Rows<Scalar>& x) const = 0;  // x = before + omega (x - before)
-    virtual std::size_t bytes() const = 0;                                                          // that a sweep reads from memory
 };
 
 // Scalar is that of `arithmetic` (unchecked).
@@ -76,7 +75,6 @@ public:
 
     // x [m], #V x 3. A vertex without tets stays.
     VertexBlockSummary minimise(const Positions& centres, Positions& x);
-    std::size_t bytes_an_iteration() const { return sweep_->bytes(); }
 
 private:
     void sweep_over_relaxed();
@@ -134,7 +132,6 @@ public:
     void store(const Rows<double>& rows, Positions& x) const override;
     void move(double omega, Rows<double>& x) override;
     void extrapolate(double omega, const Rows<double>& before, Rows<double>& x) const override;
-    std::size_t bytes() const override;
 
 private:
     std::vector<VertexStar> stars_;  // #V
@@ -156,7 +153,6 @@ public:
     void store(const Rows<Scalar>& rows, Positions& x) const override;
     void move(double omega, Rows<Scalar>& x) override;
     void extrapolate(double omega, const Rows<Scalar>& before, Rows<Scalar>& x) const override;
-    std::size_t bytes() const override;
 
 private:
     struct Chunk {

@@ -246,14 +246,35 @@ double BatchedProjection<Scalar>::sleeping_share() const
     return all == 0 ? 0.0 : 1.0 - double(count(stretch_runs_) + count(volume_runs_)) / all;
 }
 
-template <typename Scalar>
-std::size_t BatchedProjection<Scalar>::bytes_an_iteration() const
-{
-    const std::size_t positions = 4 * sizeof(Scalar) * batched_.order.old_of_new.size();
-    return batched_.stretch.bytes() + batched_.volume.bytes() + particles_.bind().size() * sizeof(BindBatch<Scalar>) + 2 * positions * 3;
-}
-
 template class BatchedProjection<float>;
 template class BatchedProjection<double>;
+
+namespace {
+
+double position_bytes(const ProjectionLayout& layout)
+{
+    return (layout.poses == 1 ? 4.0 : 3.0) * layout.scalar_bytes;
+}
+
+// The constraints' own data, shared by all poses.
+double data_bytes(const ProjectionLayout& layout, const BodySize& size)
+{
+    const auto bytes = [&](double indices, double scalars) { return 4.0 * indices + scalars * layout.scalar_bytes; };
+    if (layout.poses == 1) return size.edges * bytes(2, 2) + size.tets * bytes(4, 2) + size.vertices * bytes(0, 2);
+    return size.edges * bytes(3, 4) + size.tets * bytes(5, 5) + size.vertices * bytes(0, 2);
+}
+
+}  // namespace
+
+double bytes_per_iteration(const ProjectionLayout& layout, const BodySize& size)
+{
+    constexpr double classes = 3.0;
+    return data_bytes(layout, size) + layout.poses * size.vertices * (3.0 * layout.scalar_bytes + classes * 2.0 * position_bytes(layout));
+}
+
+double working_set_bytes(const ProjectionLayout& layout, const BodySize& size)
+{
+    return data_bytes(layout, size) + layout.poses * size.vertices * (position_bytes(layout) + 3.0 * layout.scalar_bytes);
+}
 
 }  // namespace pbs
