@@ -13,7 +13,7 @@
 #include "pbs/character/input_file.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/stopwatch.hpp"
-#include "pbs/solver/frame_step.hpp"
+#include "pbs/solver/step_summary.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -3,7 +3,7 @@
 
 #include "experiments/scene/scene.hpp"
 #include "pbs/character/clip_match.hpp"
-#include "pbs/skinning/motion_sampling.hpp"
+#include "pbs/skinning/pose_path.hpp"
 
 namespace experiments {
 

@@ -11,7 +11,7 @@
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/text_file.hpp"
 #include "pbs/rig/rig_reader.hpp"
-#include "pbs/skinning/motion_sampling.hpp"
+#include "pbs/skinning/pose_path.hpp"
 
 #include <algorithm>
 #include <cctype>

@@ -3,7 +3,7 @@
 #include "pbs/geometry/stopwatch.hpp"
 #include "pbs/geometry/tet_volume.hpp"
 #include "pbs/skinning/blend.hpp"
-#include "pbs/skinning/harmonic_weights.hpp"
+#include "pbs/skinning/weights.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -19,7 +19,6 @@
 #include "experiments/deformers/fem/fem_record.hpp"
 #include "experiments/deformers/fem/newton_record.hpp"
 #include "pbs/skinning/pose_path.hpp"
-#include "pbs/skinning/root_frame.hpp"
 
 #include <memory>
 

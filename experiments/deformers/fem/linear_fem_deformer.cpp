@@ -1,7 +1,7 @@
 #include "experiments/deformers/fem/linear_fem_deformer.hpp"
 
 #include "pbs/geometry/stopwatch.hpp"
-#include "pbs/skinning/root_frame.hpp"
+#include "pbs/skinning/pose_path.hpp"
 
 #include <algorithm>
 

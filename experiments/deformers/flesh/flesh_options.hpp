@@ -4,9 +4,9 @@
 
 #include "experiments/settings/option_fields.hpp"
 #include "pbs/character/capsule_springs.hpp"
-#include "pbs/flesh/arithmetic.hpp"
+#include "pbs/flesh/flesh_energy.hpp"
 #include "pbs/flesh/held_flesh.hpp"
-#include "pbs/skinning/blend_skinning.hpp"
+#include "pbs/skinning/blend.hpp"
 
 #include <optional>
 

@@ -4,7 +4,6 @@
 #include "experiments/deformers/registry.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/skinning/blend.hpp"
-#include "pbs/skinning/blend_skinning.hpp"
 #include "pbs/solver/pbs_solver.hpp"
 
 #include <algorithm>
@@ -135,7 +134,7 @@ MeshTimings time_mesh(const BenchBody& body, const MachineLimits& limits, const 
     if (options.fem && timings.tets <= most_deformer_tets) {
         Rounds of_a_kind = rounds;
         of_a_kind.seconds /= 4.0;
-        timings.deformers = time_deformers(body, limits, of_a_kind);
+        timings.deformers = time_deformers(body, of_a_kind);
     }
     if (!options.fem || timings.tets > most_fem_tets) return timings;
     rounds.fewest = std::min(rounds.fewest, 2);
