@@ -11,7 +11,7 @@
 struct aiScene;
 namespace Assimp {
 class Importer;
-}
+}  // namespace Assimp
 
 namespace pbs {
 

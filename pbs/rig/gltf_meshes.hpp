@@ -5,7 +5,7 @@
 
 namespace pbs_tinygltf {
 class Model;
-}
+}  // namespace pbs_tinygltf
 
 namespace pbs {
 
