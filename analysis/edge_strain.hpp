@@ -2,7 +2,7 @@
 //   double strain = largest_edge_strain(mesh.rest, pbs::edges_of(mesh.tets), positions);
 #pragma once
 
-#include "pbs/geometry/types.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 
 namespace analysis {
 

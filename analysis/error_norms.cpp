@@ -4,7 +4,7 @@
 #include "analysis/rest_mesh_checks.hpp"
 #include "analysis/statistics.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/tet_volume.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 
 #include <Eigen/LU>
 #include <fmt/format.h>

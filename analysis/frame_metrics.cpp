@@ -2,7 +2,7 @@
 
 #include "analysis/compensated_sum.hpp"
 #include "analysis/rest_mesh_checks.hpp"
-#include "pbs/geometry/tet_volume.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/geometry/topology.hpp"
 
 #include <cmath>

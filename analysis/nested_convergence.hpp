@@ -14,7 +14,7 @@
 // Where the finest solution was not reached, the other three give a wider bound (order_without_finest).
 #pragma once
 
-#include "pbs/geometry/types.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 
 namespace analysis {
 

@@ -1,7 +1,7 @@
 #include "analysis/region_volume.hpp"
 
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/tet_volume.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 //   const std::vector<RegionVolume> changes = RegionMetrics(mesh.rest, mesh.tets, region_of_tet).measure(positions);
 #pragma once
 
-#include "pbs/geometry/types.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 
 #include <vector>
 

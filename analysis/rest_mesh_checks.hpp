@@ -1,7 +1,7 @@
 // The requirements of every measurement on its rest mesh: indices in range, and a positive volume of every tet.
 #pragma once
 
-#include "pbs/geometry/types.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 
 namespace analysis {
 

@@ -5,7 +5,7 @@
 // Strains are invariant under rotation: a region that turns as a whole is as smooth as at rest.
 #pragma once
 
-#include "pbs/geometry/types.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 
 #include <vector>
 

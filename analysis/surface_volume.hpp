@@ -2,7 +2,7 @@
 //   const double change_pct = surface_volume_change_pct(rest_points, posed_points, triangles);
 #pragma once
 
-#include "pbs/geometry/types.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 
 #include <optional>
 

@@ -1,6 +1,6 @@
 #include "reference_fem/attached_points.hpp"
 
-#include "pbs/geometry/point_location.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 
 #include <limits>
 #include <map>

@@ -1,6 +1,6 @@
 #include "reference_fem/input_checks.hpp"
 
-#include "pbs/geometry/tet_volume.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 
 #include <vector>
 

@@ -1,6 +1,6 @@
 #include "reference_fem/linear_elasticity.hpp"
 
-#include "pbs/geometry/stopwatch.hpp"
+#include "pbs/geometry/cost.hpp"
 #include "reference_fem/eliminated_system.hpp"
 #include "reference_fem/held_space.hpp"
 #include "reference_fem/input_checks.hpp"

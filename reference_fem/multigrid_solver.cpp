@@ -1,7 +1,7 @@
 // Conjugate gradients (Eigen), preconditioned by one V-cycle of smoothed aggregation (Trilinos ML through Epetra, on this process alone).
 #include "reference_fem/prepared_solver.hpp"
 
-#include "pbs/geometry/stopwatch.hpp"
+#include "pbs/geometry/cost.hpp"
 #include "reference_fem/iterative_options.hpp"
 #include "reference_fem/smoothed_aggregation.hpp"
 

@@ -1,7 +1,7 @@
 // The null space of a stiffness matrix without supports: the six rigid motions. Smoothed aggregation keeps them on its coarse levels.
 #pragma once
 
-#include "pbs/geometry/types.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 
 namespace reference_fem {
 

@@ -1,5 +1,5 @@
 // UMFPACK: T. Davis, Algorithm 832, ACM TOMS 30(2), 2004. It knows nothing of symmetry: a second opinion on the same matrix.
-#include "pbs/geometry/stopwatch.hpp"
+#include "pbs/geometry/cost.hpp"
 #include "reference_fem/prepared_solver.hpp"
 
 #include <umfpack.h>

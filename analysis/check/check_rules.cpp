@@ -1,7 +1,7 @@
 #include "analysis/check/check_rules.hpp"
 
 #include "analysis/toml_keys.hpp"
-#include "pbs/geometry/nearest_name.hpp"
+#include "pbs/geometry/input_error.hpp"
 
 #include <algorithm>
 #include <cmath>

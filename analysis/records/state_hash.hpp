@@ -3,7 +3,7 @@
 //   StateHash hash;  for (frame...) hash.add(deformer.positions());  run["state_hash"] = hash.hex();
 #pragma once
 
-#include "pbs/geometry/types.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 
 #include <memory>
 #include <string>

@@ -12,10 +12,9 @@
 #include "experiments/run/broken_frame.hpp"
 #include "experiments/run/metrics_table.hpp"
 #include "experiments/verdicts/check/check_reports.hpp"
+#include "pbs/geometry/cost.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/mesh_io.hpp"
-#include "pbs/geometry/mesh_remarks.hpp"
-#include "pbs/geometry/stopwatch.hpp"
 
 #include <fmt/format.h>
 

@@ -3,9 +3,9 @@
 #include "experiments/command_line/verbs.hpp"
 #include "experiments/process/warnings.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/mesh_remarks.hpp"
+#include "pbs/geometry/mesh_io.hpp"
 #include "pbs/geometry/meshing.hpp"
-#include "pbs/geometry/quality.hpp"
+#include "pbs/geometry/topology.hpp"
 
 #include <fmt/format.h>
 

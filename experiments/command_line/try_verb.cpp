@@ -11,8 +11,8 @@
 #include "experiments/trial/trial_summary.hpp"
 #include "pbs/character/body_cache.hpp"
 #include "pbs/character/json_file.hpp"
+#include "pbs/geometry/files.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/text_file.hpp"
 
 #include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>

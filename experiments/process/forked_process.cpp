@@ -1,7 +1,7 @@
 #include "experiments/process/forked_process.hpp"
 
 #include "experiments/process/interruption.hpp"
-#include "pbs/geometry/process.hpp"
+#include "pbs/geometry/child_process.hpp"
 
 #include <fcntl.h>
 #include <poll.h>

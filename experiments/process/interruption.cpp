@@ -1,6 +1,6 @@
 #include "experiments/process/interruption.hpp"
 
-#include "pbs/geometry/isolated_reader.hpp"
+#include "pbs/geometry/child_process.hpp"
 
 #include <csignal>
 

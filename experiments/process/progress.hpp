@@ -1,7 +1,7 @@
 // A progress bar with the time left, on stderr if that is a terminal.
 #pragma once
 
-#include "pbs/geometry/stopwatch.hpp"
+#include "pbs/geometry/cost.hpp"
 
 #include <string>
 

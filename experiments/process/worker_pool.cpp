@@ -4,7 +4,7 @@
 #include "experiments/process/forked_process.hpp"
 #include "experiments/process/interruption.hpp"
 #include "experiments/process/progress.hpp"
-#include "pbs/geometry/stopwatch.hpp"
+#include "pbs/geometry/cost.hpp"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>

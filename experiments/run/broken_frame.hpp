@@ -3,7 +3,7 @@
 //   text_of(broken[label].back())   "inverted in frame 7: worst tet 812 of volume ratio -0.04, 3 inverted"
 #pragma once
 
-#include "pbs/geometry/types.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/solver/step_summary.hpp"
 
 #include <nlohmann/json_fwd.hpp>

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "experiments/process/cpu_clock.hpp"
-#include "pbs/geometry/stopwatch.hpp"
+#include "pbs/geometry/cost.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 

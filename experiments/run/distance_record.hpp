@@ -3,7 +3,7 @@
 #pragma once
 
 #include "analysis/records/typed_table.hpp"
-#include "pbs/geometry/types.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 
 #include <string>
 #include <utility>

@@ -8,7 +8,7 @@
 #include "analysis/surface_volume.hpp"
 #include "experiments/run/limb_stations.hpp"
 #include "experiments/scene/scene.hpp"
-#include "pbs/character/overlap_mask.hpp"
+#include "pbs/character/overlap_and_jiggle.hpp"
 
 #include <optional>
 

@@ -1,8 +1,8 @@
 #include "experiments/run/model_record.hpp"
 
-#include "pbs/character/input_file.hpp"
+#include "pbs/character/body_cache.hpp"
 #include "pbs/character/model_character.hpp"
-#include "pbs/character/transferred_weights.hpp"
+#include "pbs/character/skinning_weights.hpp"
 
 #include <nlohmann/json.hpp>
 

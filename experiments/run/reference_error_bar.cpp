@@ -2,8 +2,8 @@
 
 #include "analysis/grid_convergence.hpp"
 #include "analysis/nested_convergence.hpp"
-#include "pbs/character/refined_character.hpp"
-#include "pbs/geometry/stopwatch.hpp"
+#include "pbs/character/character.hpp"
+#include "pbs/geometry/cost.hpp"
 #include "pbs/geometry/topology.hpp"
 
 #include <algorithm>

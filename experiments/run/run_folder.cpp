@@ -9,11 +9,11 @@
 #include "experiments/run/run_provenance.hpp"
 #include "experiments/run/surface_record.hpp"
 #include "experiments/scene/motion_case.hpp"
-#include "pbs/character/input_file.hpp"
+#include "pbs/character/body_cache.hpp"
 #include "pbs/character/model_character.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/mesh_io.hpp"
-#include "pbs/geometry/quality.hpp"
+#include "pbs/geometry/topology.hpp"
 
 #include <fmt/format.h>
 

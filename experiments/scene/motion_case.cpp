@@ -2,7 +2,6 @@
 
 #include "pbs/character/model_character.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/name_list.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "experiments/scene/scene.hpp"
-#include "pbs/character/clip_match.hpp"
+#include "pbs/character/clip.hpp"
 #include "pbs/skinning/pose_path.hpp"
 
 namespace experiments {

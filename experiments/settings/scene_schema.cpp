@@ -1,6 +1,6 @@
 #include "experiments/settings/scene_schema.hpp"
 
-#include "pbs/geometry/nearest_name.hpp"
+#include "pbs/geometry/input_error.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

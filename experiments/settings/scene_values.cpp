@@ -1,8 +1,8 @@
 #include "experiments/settings/scene_values.hpp"
 
 #include "analysis/records/record_text.hpp"
+#include "pbs/geometry/files.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/toml_text.hpp"
 
 #include <toml++/toml.h>
 

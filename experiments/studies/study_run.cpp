@@ -7,8 +7,8 @@
 #include "experiments/process/cpu_clock.hpp"
 #include "experiments/run/run.hpp"
 #include "experiments/run/run_provenance.hpp"
+#include "pbs/geometry/cost.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/stopwatch.hpp"
 
 #include <spdlog/spdlog.h>
 

@@ -4,7 +4,7 @@
 //   session.broadcast(mesh.rest);
 #pragma once
 
-#include "pbs/geometry/types.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 
 #include <memory>
 #include <string>

@@ -2,7 +2,7 @@
 // a rank that waits for another polls, so its waiting counts in both.
 #pragma once
 
-#include "pbs/geometry/stopwatch.hpp"
+#include "pbs/geometry/cost.hpp"
 
 #include <ctime>
 

@@ -1,6 +1,6 @@
 #include "reference_fem/distributed/springs_in_tets.hpp"
 
-#include "pbs/geometry/point_location.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 
 #include <algorithm>
 

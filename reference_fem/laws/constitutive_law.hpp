@@ -10,7 +10,7 @@
 #include "reference_fem/material.hpp"
 #include "reference_fem/model.hpp"
 
-#include "pbs/geometry/types.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 
 #include <Eigen/Core>
 

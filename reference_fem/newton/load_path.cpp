@@ -1,6 +1,6 @@
 #include "reference_fem/newton/load_path.hpp"
 
-#include "pbs/geometry/stopwatch.hpp"
+#include "pbs/geometry/cost.hpp"
 
 #include <algorithm>
 #include <numeric>

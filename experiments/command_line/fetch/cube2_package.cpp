@@ -3,7 +3,7 @@
 #include "analysis/records/scratch_folder.hpp"
 #include "experiments/process/program_run.hpp"
 #include "pbs/character/bodies.hpp"
-#include "pbs/character/frankie.hpp"
+#include "pbs/character/named_bodies.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 #include <unistd.h>

@@ -2,9 +2,9 @@
 
 #include "experiments/process/program_run.hpp"
 #include "pbs/character/body_cache.hpp"
-#include "pbs/character/makehuman.hpp"
+#include "pbs/character/named_bodies.hpp"
+#include "pbs/geometry/child_process.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/process.hpp"
 
 #include <unistd.h>
 #include <cstdlib>

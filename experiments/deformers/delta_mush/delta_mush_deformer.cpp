@@ -3,7 +3,7 @@
 #include "experiments/deformers/precision_names.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/settings/option_fields.hpp"
-#include "pbs/geometry/stopwatch.hpp"
+#include "pbs/geometry/cost.hpp"
 #include "pbs/skinning/delta_mush.hpp"
 
 #include <optional>

@@ -1,9 +1,8 @@
 #include "experiments/deformers/external/exchange_folder.hpp"
 
 #include "analysis/records/record_text.hpp"
-#include "pbs/geometry/atomic_file.hpp"
+#include "pbs/geometry/files.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/text_file.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -3,9 +3,8 @@
 #include "experiments/deformers/registry.hpp"
 #include "experiments/settings/scene_values.hpp"
 #include "pbs/character/body_cache.hpp"
-#include "pbs/character/input_file.hpp"
+#include "pbs/geometry/files.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/text_file.hpp"
 
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>

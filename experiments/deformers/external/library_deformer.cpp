@@ -2,7 +2,7 @@
 
 #include "experiments/deformers/external/exchange_folder.hpp"
 #include "experiments/deformers/external/pbskin_deformer.h"
-#include "pbs/geometry/stopwatch.hpp"
+#include "pbs/geometry/cost.hpp"
 
 #include <fmt/format.h>
 

@@ -4,8 +4,8 @@
 #include "experiments/deformers/external/exchange_folder.hpp"
 #include "experiments/process/interruption.hpp"
 #include "experiments/process/program_run.hpp"
+#include "pbs/geometry/cost.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/stopwatch.hpp"
 
 #include <fmt/format.h>
 

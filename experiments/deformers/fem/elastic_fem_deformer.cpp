@@ -1,7 +1,7 @@
 #include "experiments/deformers/fem/elastic_fem_deformer.hpp"
 
-#include "pbs/geometry/stopwatch.hpp"
-#include "pbs/geometry/tet_volume.hpp"
+#include "pbs/geometry/cost.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/skinning/blend.hpp"
 #include "pbs/skinning/weights.hpp"
 

@@ -7,7 +7,7 @@
 #include "reference_fem/model.hpp"
 
 #include "pbs/character/bone_capsules.hpp"
-#include "pbs/geometry/types.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 
 namespace experiments {
 

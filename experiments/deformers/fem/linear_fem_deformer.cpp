@@ -1,6 +1,6 @@
 #include "experiments/deformers/fem/linear_fem_deformer.hpp"
 
-#include "pbs/geometry/stopwatch.hpp"
+#include "pbs/geometry/cost.hpp"
 #include "pbs/skinning/pose_path.hpp"
 
 #include <algorithm>

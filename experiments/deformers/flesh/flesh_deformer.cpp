@@ -1,6 +1,6 @@
 #include "experiments/deformers/flesh/flesh_deformer.hpp"
 
-#include "pbs/geometry/stopwatch.hpp"
+#include "pbs/geometry/cost.hpp"
 
 namespace experiments {
 

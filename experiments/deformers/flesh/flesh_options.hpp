@@ -3,7 +3,7 @@
 #pragma once
 
 #include "experiments/settings/option_fields.hpp"
-#include "pbs/character/capsule_springs.hpp"
+#include "pbs/character/bone_capsules.hpp"
 #include "pbs/flesh/flesh_energy.hpp"
 #include "pbs/flesh/held_flesh.hpp"
 #include "pbs/skinning/blend.hpp"

@@ -8,7 +8,7 @@
 #include "analysis/minimise.hpp"
 #include "experiments/deformers/fem/elastic_fem_deformer.hpp"
 #include "experiments/deformers/fem/linear_fem_deformer.hpp"
-#include "pbs/geometry/stopwatch.hpp"
+#include "pbs/geometry/cost.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -7,7 +7,7 @@
 
 #include "analysis/line_fit.hpp"
 #include "analysis/nested_convergence.hpp"
-#include "pbs/geometry/refinement.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 
 #include <cmath>
 #include <limits>

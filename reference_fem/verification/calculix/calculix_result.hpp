@@ -3,7 +3,7 @@
 // right length that agrees with every printed number to its last digit. The ends of springs, which are not printed, are nodes behind them.
 #pragma once
 
-#include "pbs/geometry/types.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 
 #include <string>
 

@@ -3,7 +3,7 @@
 #include "analysis/surface_volume.hpp"
 
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/tet_volume.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/geometry/topology.hpp"
 #include "tests/support/structured_bar.hpp"
 #include "tests/support/volume_rounding.hpp"

@@ -2,7 +2,7 @@
 // coordinates are multiples of 1/2 a volume is rounded once, by its division by 6.
 #include "reference_fem/verification/structured_mesh.hpp"
 
-#include "pbs/geometry/tet_volume.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/geometry/topology.hpp"
 #include "tests/support/volume_rounding.hpp"
 

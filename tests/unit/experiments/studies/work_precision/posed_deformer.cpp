@@ -5,7 +5,7 @@
 #include "experiments/deformers/external/external_deformers.hpp"
 #include "experiments/scene/motion_case.hpp"
 #include "experiments/studies/work_precision/measured_points.hpp"
-#include "pbs/geometry/text_file.hpp"
+#include "pbs/geometry/files.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/unit/pbs/character/expect_input_error.hpp"
 
