@@ -1,8 +1,7 @@
-#include "analysis/error_norms.hpp"
+#include "analysis/metrics/error_norms.hpp"
 
-#include "analysis/compensated_sum.hpp"
-#include "analysis/rest_mesh_checks.hpp"
-#include "analysis/statistics.hpp"
+#include "analysis/metrics/frame_metrics.hpp"
+#include "analysis/statistics/statistics.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 

@@ -7,7 +7,7 @@
 // errors of finite elements are not proportional to each other.
 // The order is not a least squares fit of a power law to the four solutions: only two of them are of one element order, so that no residual
 // would be left to judge the fit by, and a third mesh of that order would have 64 times as many tets. With nested meshes and a ratio of 2,
-// the two distances determine the order of the linear solutions. line_fit.hpp fits errors on three or more meshes.
+// the two distances determine the order of the linear solutions. statistics/fits.hpp fits errors on three or more meshes.
 //   const NestedOrder order = nested_order({.linear = 2.0, .linear_refined = 0.6, .quadratic = 0.1}, 2.0);
 //   order.bound(0.1);         // of the quadratic solution on the refined tets
 //   2.0 + order.bound(0.1);   // of any other one, by the triangle inequality

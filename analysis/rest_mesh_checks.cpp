@@ -1,4 +1,4 @@
-#include "analysis/rest_mesh_checks.hpp"
+#include "analysis/metrics/frame_metrics.hpp"
 
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/tet_mesh.hpp"

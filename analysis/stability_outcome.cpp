@@ -1,4 +1,4 @@
-#include "analysis/stability_outcome.hpp"
+#include "analysis/metrics/stability_outcome.hpp"
 
 #include "pbs/geometry/tet_mesh.hpp"
 

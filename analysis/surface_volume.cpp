@@ -1,7 +1,5 @@
-#include "analysis/surface_volume.hpp"
+#include "analysis/metrics/frame_metrics.hpp"
 
-#include "analysis/compensated_sum.hpp"
-#include "analysis/rest_mesh_checks.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/geometry/topology.hpp"

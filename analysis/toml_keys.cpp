@@ -1,4 +1,4 @@
-#include "analysis/toml_keys.hpp"
+#include "analysis/records/toml_keys.hpp"
 
 #include "pbs/geometry/files.hpp"
 

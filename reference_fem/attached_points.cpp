@@ -1,4 +1,4 @@
-#include "reference_fem/attached_points.hpp"
+#include "reference_fem/attachment.hpp"
 
 #include "pbs/geometry/tet_mesh.hpp"
 

@@ -1,6 +1,6 @@
 // CHOLMOD: Y. Chen, T. Davis, W. Hager, S. Rajamanickam, Algorithm 887, ACM TOMS 35(3), 2008.
 #include "pbs/geometry/cost.hpp"
-#include "reference_fem/prepared_solver.hpp"
+#include "reference_fem/linear_solvers.hpp"
 
 #include <cholmod.h>
 

@@ -1,4 +1,4 @@
-#include "reference_fem/input_checks.hpp"
+#include "reference_fem/options.hpp"
 
 #include "pbs/geometry/tet_mesh.hpp"
 

@@ -1,9 +1,8 @@
 // Conjugate gradients (Eigen), preconditioned by one V-cycle of smoothed aggregation (Trilinos ML through Epetra, on this process alone).
-#include "reference_fem/prepared_solver.hpp"
+#include "reference_fem/linear_solvers.hpp"
 
 #include "pbs/geometry/cost.hpp"
-#include "reference_fem/iterative_options.hpp"
-#include "reference_fem/smoothed_aggregation.hpp"
+#include "reference_fem/options.hpp"
 
 #include <Epetra_CrsMatrix.h>
 #include <Epetra_Map.h>

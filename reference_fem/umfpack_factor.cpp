@@ -1,6 +1,6 @@
 // UMFPACK: T. Davis, Algorithm 832, ACM TOMS 30(2), 2004. It knows nothing of symmetry: a second opinion on the same matrix.
 #include "pbs/geometry/cost.hpp"
-#include "reference_fem/prepared_solver.hpp"
+#include "reference_fem/linear_solvers.hpp"
 
 #include <umfpack.h>
 

@@ -1,6 +1,6 @@
 #include "analysis/check/check_rules.hpp"
 
-#include "analysis/toml_keys.hpp"
+#include "analysis/records/toml_keys.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 #include <algorithm>

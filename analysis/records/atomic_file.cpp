@@ -1,4 +1,4 @@
-#include "analysis/records/atomic_file.hpp"
+#include "analysis/records/record_files.hpp"
 
 #include "pbs/geometry/child_process.hpp"
 #include "pbs/geometry/files.hpp"

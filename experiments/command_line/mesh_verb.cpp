@@ -1,7 +1,7 @@
 // pbskin mesh SURFACE -o TETS [--vertices N]: turns a closed or nearly closed surface into a tet mesh of about the wanted size.
-#include "analysis/records/atomic_file.hpp"
+#include "analysis/records/record_files.hpp"
 #include "experiments/command_line/verbs.hpp"
-#include "experiments/process/warnings.hpp"
+#include "experiments/process/terminal.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/mesh_io.hpp"
 #include "pbs/geometry/meshing.hpp"

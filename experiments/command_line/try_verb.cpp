@@ -1,14 +1,10 @@
 // pbskin try MODEL [--animation NAME] [-o DIR]: a rigged model through its own motion, without a scene: runs it with all methods, and
 // writes a summary, the scene to go on with, and a page with the moving model.
-#include "analysis/records/atomic_file.hpp"
-#include "analysis/records/record_text.hpp"
-#include "experiments/command_line/report_page.hpp"
+#include "analysis/records/record_files.hpp"
 #include "experiments/command_line/verbs.hpp"
-#include "experiments/process/progress.hpp"
-#include "experiments/process/warnings.hpp"
+#include "experiments/process/terminal.hpp"
 #include "experiments/run/run.hpp"
-#include "experiments/trial/trial_scene.hpp"
-#include "experiments/trial/trial_summary.hpp"
+#include "experiments/trial/trial.hpp"
 #include "pbs/character/body_cache.hpp"
 #include "pbs/character/json_file.hpp"
 #include "pbs/geometry/files.hpp"

@@ -1,6 +1,6 @@
-#include "experiments/process/forked_process.hpp"
+#include "experiments/process/child_process.hpp"
 
-#include "experiments/process/interruption.hpp"
+#include "experiments/process/terminal.hpp"
 #include "pbs/geometry/child_process.hpp"
 
 #include <fcntl.h>

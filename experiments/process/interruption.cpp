@@ -1,4 +1,4 @@
-#include "experiments/process/interruption.hpp"
+#include "experiments/process/terminal.hpp"
 
 #include "pbs/geometry/child_process.hpp"
 

@@ -1,9 +1,6 @@
-#include "experiments/process/worker_pool.hpp"
+#include "experiments/process/child_process.hpp"
 
-#include "experiments/process/failure.hpp"
-#include "experiments/process/forked_process.hpp"
-#include "experiments/process/interruption.hpp"
-#include "experiments/process/progress.hpp"
+#include "experiments/process/terminal.hpp"
 #include "pbs/geometry/cost.hpp"
 
 #include <fmt/format.h>

@@ -4,7 +4,7 @@
 //   run["cost"] = cost.json();
 #pragma once
 
-#include "experiments/process/cpu_clock.hpp"
+#include "experiments/process/machine.hpp"
 #include "pbs/geometry/cost.hpp"
 
 #include <nlohmann/json_fwd.hpp>

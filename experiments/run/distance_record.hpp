@@ -2,7 +2,7 @@
 //   DistanceRecord record;   record.add(frame, time_s, "pbs", "mesh", positions);   record.table().write("distances.csv");
 #pragma once
 
-#include "analysis/records/typed_table.hpp"
+#include "analysis/records/tables.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 
 #include <string>

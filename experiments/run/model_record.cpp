@@ -1,4 +1,4 @@
-#include "experiments/run/model_record.hpp"
+#include "experiments/run/run_records.hpp"
 
 #include "pbs/character/body_cache.hpp"
 #include "pbs/character/model_character.hpp"

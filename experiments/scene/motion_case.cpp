@@ -1,4 +1,4 @@
-#include "experiments/scene/motion_case.hpp"
+#include "experiments/scene/scene.hpp"
 
 #include "pbs/character/model_character.hpp"
 #include "pbs/geometry/input_error.hpp"

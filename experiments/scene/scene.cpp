@@ -1,9 +1,8 @@
 #include "experiments/scene/scene.hpp"
 
-#include "analysis/records/record_text.hpp"
+#include "analysis/records/record_files.hpp"
 #include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/deformers/registry.hpp"
-#include "experiments/scene/scene_keys.hpp"
 #include "experiments/settings/scene_values.hpp"
 #include "generated/scenes_texts.hpp"
 #include "pbs/character/clip.hpp"

@@ -9,7 +9,6 @@
 // A member is a number, a bool, a text, a Vec3, or an enumeration with OptionNames.
 #pragma once
 
-#include "experiments/settings/member_count.hpp"
 #include "experiments/settings/option_names.hpp"
 #include "experiments/settings/scene_values.hpp"
 #include "pbs/geometry/tet_mesh.hpp"

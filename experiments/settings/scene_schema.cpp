@@ -1,4 +1,4 @@
-#include "experiments/settings/scene_schema.hpp"
+#include "experiments/settings/scene_values.hpp"
 
 #include "pbs/geometry/input_error.hpp"
 

@@ -1,10 +1,8 @@
 #include "reference_fem/distributed/elastic_problem.hpp"
 
 #include "pbs/geometry/tet_mesh.hpp"
-#include "reference_fem/held_parts.hpp"
-#include "reference_fem/held_space.hpp"
-#include "reference_fem/input_checks.hpp"
-#include "reference_fem/material.hpp"
+#include "reference_fem/attachment.hpp"
+#include "reference_fem/options.hpp"
 
 namespace reference_fem {
 namespace {

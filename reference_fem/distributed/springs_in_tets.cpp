@@ -1,4 +1,4 @@
-#include "reference_fem/distributed/springs_in_tets.hpp"
+#include "reference_fem/distributed/distributed_space.hpp"
 
 #include "pbs/geometry/tet_mesh.hpp"
 

@@ -1,4 +1,4 @@
-#include "reference_fem/newton/load_path.hpp"
+#include "reference_fem/newton/newton.hpp"
 
 #include "pbs/geometry/cost.hpp"
 

@@ -1,7 +1,7 @@
 #include "reference_fem/newton/newton.hpp"
 
 #include "pbs/geometry/cost.hpp"
-#include "reference_fem/near_null_space.hpp"
+#include "reference_fem/linear_solvers.hpp"
 
 #include <algorithm>
 #include <cmath>

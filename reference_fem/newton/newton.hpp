@@ -10,8 +10,8 @@
 #pragma once
 
 #include "pbs/geometry/cost.hpp"
-#include "reference_fem/eliminated_system.hpp"
-#include "reference_fem/potentials/potential.hpp"
+#include "reference_fem/linear_solvers.hpp"
+#include "reference_fem/potentials/potentials.hpp"
 
 #include <memory>
 #include <vector>

@@ -1,7 +1,7 @@
-#include "experiments/command_line/fetch/packages.hpp"
+#include "experiments/command_line/body_verbs.cpp"
 
-#include "analysis/records/scratch_folder.hpp"
-#include "experiments/process/program_run.hpp"
+#include "analysis/records/record_files.hpp"
+#include "experiments/process/child_process.hpp"
 #include "pbs/character/bodies.hpp"
 #include "pbs/character/named_bodies.hpp"
 #include "pbs/geometry/input_error.hpp"

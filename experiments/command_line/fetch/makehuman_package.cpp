@@ -1,6 +1,6 @@
-#include "experiments/command_line/fetch/packages.hpp"
+#include "experiments/command_line/body_verbs.cpp"
 
-#include "experiments/process/program_run.hpp"
+#include "experiments/process/child_process.hpp"
 #include "pbs/character/body_cache.hpp"
 #include "pbs/character/named_bodies.hpp"
 #include "pbs/geometry/child_process.hpp"

@@ -1,8 +1,6 @@
 // LBS and DQS as deformers: no state but the last pose's positions. They blend with the scene's weights; a table [[lbs]] or [[dqs]] adds
 // one with weights, a precision or a code of its own.
-#include "experiments/deformers/blend/blend_options.hpp"
-#include "experiments/deformers/own_weights.hpp"
-#include "experiments/deformers/precision_names.hpp"
+#include "experiments/deformers/deformer_options.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "pbs/character/skinning_weights.hpp"

@@ -1,6 +1,5 @@
 // LBS, then delta mush.
-#include "experiments/deformers/own_weights.hpp"
-#include "experiments/deformers/precision_names.hpp"
+#include "experiments/deformers/deformer_options.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "pbs/geometry/cost.hpp"

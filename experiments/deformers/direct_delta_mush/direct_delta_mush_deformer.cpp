@@ -1,7 +1,5 @@
 // Direct delta mush, variant 0: all smoothing at reset, one blend and one rotation per vertex in a pose.
-#include "experiments/deformers/direct_delta_mush/mush_smoothing_names.hpp"
-#include "experiments/deformers/own_weights.hpp"
-#include "experiments/deformers/precision_names.hpp"
+#include "experiments/deformers/deformer_options.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "pbs/geometry/cost.hpp"

@@ -1,6 +1,5 @@
 #include "experiments/deformers/external/external_deformers.hpp"
 
-#include "experiments/deformers/external/exchange_folder.hpp"
 #include "experiments/deformers/external/pbskin_deformer.h"
 #include "pbs/geometry/cost.hpp"
 

@@ -1,9 +1,8 @@
 #include "experiments/deformers/external/external_deformers.hpp"
 
-#include "analysis/records/scratch_folder.hpp"
-#include "experiments/deformers/external/exchange_folder.hpp"
-#include "experiments/process/interruption.hpp"
-#include "experiments/process/program_run.hpp"
+#include "analysis/records/record_files.hpp"
+#include "experiments/process/child_process.hpp"
+#include "experiments/process/terminal.hpp"
 #include "pbs/geometry/cost.hpp"
 #include "pbs/geometry/input_error.hpp"
 

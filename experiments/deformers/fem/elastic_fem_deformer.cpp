@@ -1,4 +1,4 @@
-#include "experiments/deformers/fem/elastic_fem_deformer.hpp"
+#include "experiments/deformers/fem/fem_deformers.hpp"
 
 #include "pbs/geometry/cost.hpp"
 #include "pbs/geometry/tet_mesh.hpp"

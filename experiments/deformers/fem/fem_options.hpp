@@ -1,10 +1,7 @@
 // Options of the finite element reference as a deformer.
 #pragma once
 
-#include "reference_fem/dynamics.hpp"
-#include "reference_fem/formulation.hpp"
-#include "reference_fem/linear_solver.hpp"
-#include "reference_fem/model.hpp"
+#include "reference_fem/options.hpp"
 
 #include "pbs/character/bone_capsules.hpp"
 #include "pbs/geometry/tet_mesh.hpp"

@@ -1,4 +1,4 @@
-#include "experiments/deformers/fem/linear_fem_deformer.hpp"
+#include "experiments/deformers/fem/fem_deformers.hpp"
 
 #include "pbs/geometry/cost.hpp"
 #include "pbs/skinning/pose_path.hpp"

@@ -1,4 +1,4 @@
-#include "experiments/deformers/flesh/flesh_deformer.hpp"
+#include "experiments/deformers/flesh.cpp"
 
 #include "pbs/geometry/cost.hpp"
 

@@ -1,5 +1,5 @@
 // The paper's two-layered deformer: LBS, then position based dynamics (Algorithm 1).
-#include "experiments/deformers/pbs/pbs_settings.hpp"
+#include "experiments/deformers/deformer_options.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "pbs/geometry/cost.hpp"
 #include "pbs/skinning/blend.hpp"

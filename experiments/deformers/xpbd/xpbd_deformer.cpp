@@ -1,8 +1,7 @@
 // LBS, then extended position based dynamics with a material. It costs what PBS costs: n iterations, or n substeps with one
 // iteration each. The vertices that jiggle are those of PBS. The default is plain code in double precision; `order` and `precision` choose
 // the packed code that PBS has by default.
-#include "experiments/deformers/order_names.hpp"
-#include "experiments/deformers/precision_names.hpp"
+#include "experiments/deformers/deformer_options.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "pbs/geometry/cost.hpp"

@@ -7,7 +7,7 @@
 #include "experiments/studies/verification/problem.hpp"
 #include "pbs/geometry/topology.hpp"
 #include "pbs/near_rest/near_rest.hpp"
-#include "reference_fem/verification/beam_problems.hpp"
+#include "reference_fem/verification/problems.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #include "reference_fem/verification/calculix/calculix_run.hpp"
 
-#include "analysis/records/scratch_folder.hpp"
+#include "analysis/records/record_files.hpp"
 #include "pbs/geometry/cost.hpp"
 #include "pbs/geometry/input_error.hpp"
 

@@ -1,6 +1,6 @@
 // Reference: volumes of stretched unit cubes by hand; regions that cover all tets add up to the whole volume. Tolerances: a volume is
 // rounded once, by its division by 6, and then there are the differences and sums over the tets of a region.
-#include "analysis/region_volume.hpp"
+#include "analysis/metrics/frame_metrics.hpp"
 
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/tet_mesh.hpp"

@@ -1,6 +1,6 @@
 // Reference: 4/3 for the octahedron, the tets inside a boundary, and s^3. Tolerances: the roundings of volumes. Each volume between an
 // octahedron's triangle and one of its vertices is rounded once, by its division by 6; the sum is compensated.
-#include "analysis/surface_volume.hpp"
+#include "analysis/metrics/frame_metrics.hpp"
 
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/tet_mesh.hpp"

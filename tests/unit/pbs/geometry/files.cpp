@@ -120,7 +120,7 @@ TEST(TomlText, BareWordsAreAscii)
 
 }  // namespace
 
-// Reference: the contents of the file system afterwards. Failing writes: tests/unit/analysis/records/atomic_file.cpp.
+// Reference: the contents of the file system afterwards. Failing writes: tests/unit/analysis/records/record_files.cpp.
 
 namespace {
 

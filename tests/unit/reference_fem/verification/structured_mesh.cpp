@@ -1,6 +1,6 @@
 // Reference: volumes in closed form, and the topology of a ball. Tolerances: the roundings of tets' volumes and of their sum. Where
 // coordinates are multiples of 1/2 a volume is rounded once, by its division by 6.
-#include "reference_fem/verification/structured_mesh.hpp"
+#include "reference_fem/verification/problems.hpp"
 
 #include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/geometry/topology.hpp"
