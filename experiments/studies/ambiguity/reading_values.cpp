@@ -1,8 +1,8 @@
 #include "experiments/studies/ambiguity/reading_values.hpp"
 
-#include "experiments/process/cpu_clock.hpp"
-#include "experiments/process/interruption.hpp"
-#include "experiments/scene/motion_case.hpp"
+#include "experiments/process/machine.hpp"
+#include "experiments/process/terminal.hpp"
+#include "experiments/scene/scene.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "experiments/studies/convergence/convergence_values.hpp"
 #include "experiments/studies/jiggle/jiggle_values.hpp"

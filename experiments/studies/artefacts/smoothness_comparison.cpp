@@ -3,7 +3,7 @@
 #include "analysis/frame_metrics.hpp"
 #include "analysis/smoothness.hpp"
 #include "analysis/statistics.hpp"
-#include "experiments/deformers/pbs/pbs_option_names.hpp"
+#include "experiments/deformers/deformer_options.hpp"
 
 #include <fmt/format.h>
 

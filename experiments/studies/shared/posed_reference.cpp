@@ -1,7 +1,7 @@
 #include "experiments/studies/shared/posed_reference.hpp"
 
 #include "experiments/deformers/registry.hpp"
-#include "experiments/process/interruption.hpp"
+#include "experiments/process/terminal.hpp"
 #include "experiments/run/frame_measurement.hpp"
 #include "experiments/run/reference_error_bar.hpp"
 #include "pbs/character/overlap_mask.hpp"

@@ -4,8 +4,8 @@
 #pragma once
 
 #include "analysis/records/typed_table.hpp"
+#include "experiments/deformers/deformer.hpp"
 #include "experiments/deformers/fem/fem_options.hpp"
-#include "experiments/deformers/deformer_spec.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 

@@ -2,7 +2,7 @@
 
 #include "analysis/records/folder_files.hpp"
 #include "analysis/records/kept_record.hpp"
-#include "experiments/process/own_process.hpp"
+#include "experiments/process/child_process.hpp"
 #include "experiments/run/run.hpp"
 
 namespace experiments {

@@ -10,7 +10,7 @@
 #include "analysis/measurement.hpp"
 #include "analysis/records/folder_files.hpp"
 #include "analysis/records/provenance.hpp"
-#include "experiments/scene/motion_case.hpp"
+#include "experiments/scene/scene.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "experiments/studies/shared/real_bodies.hpp"
 #include "experiments/studies/shared/table_1.hpp"

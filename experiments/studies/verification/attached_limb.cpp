@@ -6,8 +6,7 @@
 #include "reference_fem/verification/common.hpp"
 
 #include "analysis/minimise.hpp"
-#include "experiments/deformers/fem/elastic_fem_deformer.hpp"
-#include "experiments/deformers/fem/linear_fem_deformer.hpp"
+#include "experiments/deformers/fem/fem_deformers.hpp"
 #include "pbs/geometry/stopwatch.hpp"
 
 #include <algorithm>

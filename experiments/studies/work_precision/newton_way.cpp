@@ -2,8 +2,8 @@
 
 #include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/deformers/registry.hpp"
-#include "experiments/process/cpu_clock.hpp"
-#include "experiments/process/interruption.hpp"
+#include "experiments/process/machine.hpp"
+#include "experiments/process/terminal.hpp"
 #include "experiments/studies/shared/pose_columns.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "experiments/studies/work_precision/sought_theta.hpp"
 
-#include "experiments/process/interruption.hpp"
+#include "experiments/process/terminal.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 namespace experiments {

@@ -1,7 +1,7 @@
 // The time of Newton's method to the goal. Reference: its definition in newton_way.hpp, by hand.
 #include "experiments/studies/work_precision/newton_way.hpp"
 
-#include "experiments/scene/motion_case.hpp"
+#include "experiments/scene/scene.hpp"
 
 #include <gtest/gtest.h>
 
