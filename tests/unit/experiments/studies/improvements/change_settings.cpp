@@ -2,6 +2,7 @@
 #include "experiments/studies/improvements/change_settings.hpp"
 
 #include "experiments/deformers/deformer_options.hpp"
+#include "experiments/settings/option_fields.hpp"
 #include "pbs/solver/constraint_set.hpp"
 
 #include <nlohmann/json.hpp>
