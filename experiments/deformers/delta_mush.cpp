@@ -6,7 +6,6 @@
 #include "pbs/geometry/stopwatch.hpp"
 #include "pbs/skinning/packed_delta_mush.hpp"
 #include "pbs/skinning/packed_direct_mush.hpp"
-#include "pbs/skinning/skinning_work.hpp"
 
 #include <optional>
 
@@ -55,12 +54,6 @@ public:
     }
 
     const pbs::Positions& positions() const override { return positions_; }
-    pbs::KeptEntries kept() const override
-    {
-        if (!skinning_) return {};
-        const auto& own = skinning_->packed_weights().own;
-        return {double(own.bone.size()), double(own.rows())};
-    }
 
 private:
     pbs::DeltaMushOptions options_;
@@ -103,12 +96,7 @@ DeformerKind delta_mush_kind()
             .traits = [](const DeformerSpec& spec) -> DeformerTraits {
                 const pbs::Precision precision = options_of<pbs::DeltaMushOptions>(spec).precision;
                 return {.precision = name_of(precision), .packed = precision == pbs::Precision::f32};
-            },
-            .work =
-                [](const DeformerSpec& spec, const BodyCounts& body) {
-                    const auto& options = options_of<pbs::DeltaMushOptions>(spec);
-                    return pbs::work_of_delta_mush(body, options.precision == pbs::Precision::f32 ? 4.0 : 8.0, options.iterations);
-                }};
+            }};
 }
 
 // Direct delta mush, variant 0: all smoothing at reset, one blend and one rotation per vertex in a pose.
@@ -166,7 +154,6 @@ public:
     }
 
     const pbs::Positions& positions() const override { return positions_; }
-    pbs::KeptEntries kept() const override { return {.entries = mush_ ? double(mush_->moments().size()) : 0.0}; }
 
 private:
     DirectDeltaMushOptions options_;
@@ -213,12 +200,7 @@ DeformerKind direct_delta_mush_kind()
         .traits = [](const DeformerSpec& spec) -> DeformerTraits {
             const pbs::Precision precision = options_of<DirectDeltaMushOptions>(spec).precision;
             return {.precision = name_of(precision), .packed = precision == pbs::Precision::f32};
-        },
-        .work =
-            [](const DeformerSpec& spec, const BodyCounts& body) {
-                const bool in_float = options_of<DirectDeltaMushOptions>(spec).precision == pbs::Precision::f32;
-                return pbs::work_of_direct_mush(body, in_float ? 4.0 : 8.0);
-            }};
+        }};
 }
 
 }  // namespace experiments

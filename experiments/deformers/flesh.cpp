@@ -7,7 +7,6 @@
 #include "experiments/settings/option_fields.hpp"
 #include "pbs/character/capsule_springs.hpp"
 #include "pbs/flesh/arithmetic.hpp"
-#include "pbs/flesh/flesh_work.hpp"
 #include "pbs/flesh/held_flesh.hpp"
 #include "pbs/flesh/projective_dynamics.hpp"
 #include "pbs/flesh/quasi_newton.hpp"
@@ -129,7 +128,6 @@ public:
     pbs::StepSummary advance(const pbs::Pose& pose, double dt_s) final;
     void start_from(const pbs::Positions& shape) override { flesh_->start_from(shape); }
     const pbs::Positions& positions() const override { return positions_; }
-    pbs::KeptEntries kept() const override { return {.entries = flesh_ ? double(flesh_->flesh().factor().value.size()) : 0.0}; }
     nlohmann::json record() const override { return flesh_ ? flesh_->record() : nullptr; }
 
 protected:
@@ -155,12 +153,6 @@ DeformerTraits flesh_traits(const DeformerSpec& spec)
             .packed = options.arithmetic != pbs::Arithmetic::plain_f64,
             .iterations = options.iterations,
             .threads = spec.threads};
-}
-
-template <typename Options>
-double scalar_bytes_of(const DeformerSpec& spec)
-{
-    return options_of<Options>(spec).arithmetic == pbs::Arithmetic::packed_f32 ? sizeof(float) : sizeof(double);
 }
 
 namespace {
@@ -299,12 +291,7 @@ DeformerKind quasi_newton_kind()
         .read = [](const SceneValues& values, const std::string& table,
                    DeformerSpec& spec) { spec.options = quasi_newton_fields().read(values, table); },
         .options_json = [](const DeformerSpec& spec) { return quasi_newton_fields().json(options_of<QuasiNewtonDeformerOptions>(spec)); },
-        .traits = flesh_traits<QuasiNewtonDeformerOptions>,
-        .work =
-            [](const DeformerSpec& spec, const BodyCounts& body) {
-                return pbs::work_of_quasi_newton(body, scalar_bytes_of<QuasiNewtonDeformerOptions>(spec),
-                                                 options_of<QuasiNewtonDeformerOptions>(spec).history);
-            }};
+        .traits = flesh_traits<QuasiNewtonDeformerOptions>};
 }
 
 // Elastic flesh in equilibrium by vertex block descent (pbs/flesh/vertex_block_descent.hpp).
@@ -388,12 +375,7 @@ DeformerKind vbd_kind()
             .read = [](const SceneValues& values, const std::string& table,
                        DeformerSpec& spec) { spec.options = vbd_fields().read(values, table); },
             .options_json = [](const DeformerSpec& spec) { return vbd_fields().json(options_of<VbdOptions>(spec)); },
-            .traits = flesh_traits<VbdOptions>,
-            .work =
-                [](const DeformerSpec& spec, const BodyCounts& body) {
-                    const bool chebyshev = options_of<VbdOptions>(spec).acceleration == pbs::Acceleration::chebyshev;
-                    return pbs::work_of_vertex_sweep(body, scalar_bytes_of<VbdOptions>(spec), chebyshev);
-                }};
+            .traits = flesh_traits<VbdOptions>};
 }
 
 // Elastic flesh in equilibrium by XPBD with the neo-Hookean constraints of Macklin and Mueller (pbs/flesh/xpbd_neo_hookean.hpp).
@@ -440,8 +422,6 @@ const OptionFields<XpbdNeoHookeanDeformerOptions>& xpbd_neo_hookean_fields()
 class XpbdNeoHookeanDeformer : public FleshDeformer {
 public:
     XpbdNeoHookeanDeformer(const XpbdNeoHookeanDeformerOptions& options, int threads) : options_(options), threads_(threads) {}
-
-    pbs::KeptEntries kept() const override { return {.entries = constraints_ ? double(constraints_->hold.modes().size()) : 0.0}; }
 
     nlohmann::json record() const override
     {
@@ -501,13 +481,7 @@ DeformerKind xpbd_neo_hookean_kind()
                        DeformerSpec& spec) { spec.options = xpbd_neo_hookean_fields().read(values, table); },
             .options_json =
                 [](const DeformerSpec& spec) { return xpbd_neo_hookean_fields().json(options_of<XpbdNeoHookeanDeformerOptions>(spec)); },
-            .traits = flesh_traits<XpbdNeoHookeanDeformerOptions>,
-            .work =
-                [](const DeformerSpec& spec, const BodyCounts& body) {
-                    const auto& options = options_of<XpbdNeoHookeanDeformerOptions>(spec);
-                    return pbs::work_of_neo_hookean_xpbd(body, scalar_bytes_of<XpbdNeoHookeanDeformerOptions>(spec),
-                                                         options.multipliers == pbs::XpbdMultipliers::kept, options.iterations_per_step);
-                }};
+            .traits = flesh_traits<XpbdNeoHookeanDeformerOptions>};
 }
 
 // Projective dynamics in equilibrium (pbs/flesh/projective_dynamics.hpp). The matrix is factored once for all frames, and the same factor
@@ -585,11 +559,7 @@ DeformerKind projective_dynamics_kind()
             .read = [](const SceneValues& values, const std::string& table,
                        DeformerSpec& spec) { spec.options = projective_fields().read(values, table); },
             .options_json = [](const DeformerSpec& spec) { return projective_fields().json(options_of<ProjectiveDeformerOptions>(spec)); },
-            .traits = flesh_traits<ProjectiveDeformerOptions>,
-            .work =
-                [](const DeformerSpec& spec, const BodyCounts& body) {
-                    return pbs::work_of_projective_dynamics(body, scalar_bytes_of<ProjectiveDeformerOptions>(spec));
-                }};
+            .traits = flesh_traits<ProjectiveDeformerOptions>};
 }
 
 }  // namespace experiments

@@ -21,8 +21,6 @@
 #include "experiments/studies/work_precision/chosen_settings.hpp"
 #include "experiments/studies/work_precision/data_profile.hpp"
 #include "experiments/studies/work_precision/diagram_tables.hpp"
-#include "experiments/studies/work_precision/goal.hpp"
-#include "experiments/studies/work_precision/newton_way.hpp"
 #include "experiments/studies/work_precision/omissions.hpp"
 #include "experiments/studies/work_precision/point_row.hpp"
 #include "reference_fem/verification/verification_record.hpp"
@@ -170,12 +168,9 @@ TEST(KeptTables, OfTheComparison)
 {
     expect_same_records(experiments::point_columns, "work_precision", "points.csv", false);  // without those of other programs
     expect_same_records(experiments::family_columns, "work_precision", "members.csv");
-    expect_same_records(experiments::theta_columns, "work_precision", "theta.csv");
-    expect_same_records(experiments::newton_columns, "work_precision", "newton.csv");
     expect_same_sum(experiments::chosen_columns, "work_precision/settings.csv");
     expect_same_sum(experiments::budget_columns, "work_precision/best_within.csv");
     expect_same_sum(experiments::data_profile_columns, "work_precision/data_profiles.csv");
-    expect_same_sum(experiments::goal_columns, "work_precision/goal.csv");
     expect_same_sum(experiments::omission_columns, "work_precision/omissions.csv");
 }
 
