@@ -18,8 +18,8 @@ pbs_tests(unit pbs_skinning FOLDERS pbs/skinning pbs/constraints
         pbs/constraints/region_volume
     LIBRARIES pbs_method)
 pbs_tests(unit pbs_solver FOLDERS pbs/solver pbs/author
-    ALONE pbs/solver/batched/batched_constraints pbs/solver/batched/batched_projection pbs/solver/batched/constraint_groups
-        pbs/solver/batched/vertex_order pbs/solver/constraint_set pbs/solver/poses_solver pbs/solver/reordered_projection
+    ALONE pbs/solver/batched/batched_constraints pbs/solver/batched/batched_projection pbs/packed/groups
+        pbs/packed/vertex_order pbs/solver/constraint_set pbs/solver/poses_solver pbs/solver/reordered_projection
         pbs/solver/xpbd_solver
     LIBRARIES pbs_method ${threads})
 pbs_tests(unit analysis FOLDERS analysis

@@ -6,7 +6,6 @@
 #include "pbs/character/skinning_weights.hpp"
 #include "pbs/geometry/stopwatch.hpp"
 #include "pbs/skinning/blend.hpp"
-#include "pbs/skinning/blend_skinning.hpp"
 
 #include <optional>
 

@@ -4,8 +4,8 @@
 #include "experiments/deformers/registry.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "pbs/geometry/stopwatch.hpp"
-#include "pbs/skinning/packed_delta_mush.hpp"
-#include "pbs/skinning/packed_direct_mush.hpp"
+#include "pbs/skinning/delta_mush.hpp"
+#include "pbs/skinning/direct_delta_mush.hpp"
 
 #include <optional>
 

@@ -6,14 +6,14 @@
 #include "experiments/process/machine.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "pbs/character/capsule_springs.hpp"
-#include "pbs/flesh/arithmetic.hpp"
+#include "pbs/flesh/flesh_energy.hpp"
 #include "pbs/flesh/held_flesh.hpp"
 #include "pbs/flesh/projective_dynamics.hpp"
 #include "pbs/flesh/quasi_newton.hpp"
-#include "pbs/flesh/vertex_block_descent.hpp"
+#include "pbs/flesh/vbd.hpp"
 #include "pbs/flesh/xpbd_neo_hookean.hpp"
 #include "pbs/geometry/stopwatch.hpp"
-#include "pbs/skinning/blend_skinning.hpp"
+#include "pbs/skinning/blend.hpp"
 
 #include <optional>
 #include <type_traits>
@@ -294,7 +294,7 @@ DeformerKind quasi_newton_kind()
         .traits = flesh_traits<QuasiNewtonDeformerOptions>};
 }
 
-// Elastic flesh in equilibrium by vertex block descent (pbs/flesh/vertex_block_descent.hpp).
+// Elastic flesh in equilibrium by vertex block descent (pbs/flesh/vbd.hpp).
 template <>
 struct OptionNames<pbs::Acceleration> {
     static constexpr std::array<std::pair<pbs::Acceleration, const char*>, 2> table{

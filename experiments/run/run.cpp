@@ -11,7 +11,7 @@
 #include "pbs/character/input_file.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/stopwatch.hpp"
-#include "pbs/solver/frame_step.hpp"
+#include "pbs/solver/step_summary.hpp"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>

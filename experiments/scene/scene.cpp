@@ -12,7 +12,7 @@
 #include "pbs/geometry/name_list.hpp"
 #include "pbs/geometry/text_file.hpp"
 #include "pbs/rig/rig_reader.hpp"
-#include "pbs/skinning/motion_sampling.hpp"
+#include "pbs/skinning/pose_path.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -7,8 +7,8 @@
 #include "experiments/settings/scene_values.hpp"
 #include "pbs/character/bodies.hpp"
 #include "pbs/character/clip_match.hpp"
-#include "pbs/skinning/motion_sampling.hpp"
 #include "pbs/skinning/pose.hpp"
+#include "pbs/skinning/pose_path.hpp"
 
 #include <nlohmann/json.hpp>
 

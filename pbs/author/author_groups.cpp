@@ -1,4 +1,4 @@
-#include "pbs/author/author_groups.hpp"
+#include "pbs/author/author_solver.hpp"
 
 #include "pbs/geometry/tet_volume.hpp"
 

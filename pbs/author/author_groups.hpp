@@ -6,7 +6,7 @@
 
 #include "pbs/author/author_constraints.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
-#include "pbs/skinning/bone_binding.hpp"
+#include "pbs/skinning/weights.hpp"
 
 namespace pbs {
 

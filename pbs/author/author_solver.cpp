@@ -1,6 +1,5 @@
 #include "pbs/author/author_solver.hpp"
 
-#include "pbs/author/author_weights.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/stopwatch.hpp"
 

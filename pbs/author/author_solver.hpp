@@ -13,9 +13,7 @@
 // float, this file in double.
 #pragma once
 
-#include "pbs/author/author_groups.hpp"
-#include "pbs/author/author_options.hpp"
-#include "pbs/skinning/blend_skinning.hpp"
+#include "pbs/skinning/blend.hpp"
 #include "pbs/solver/step_summary.hpp"
 
 #include <optional>

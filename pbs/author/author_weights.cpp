@@ -1,4 +1,4 @@
-#include "pbs/author/author_weights.hpp"
+#include "pbs/author/author_solver.hpp"
 
 namespace pbs {
 

@@ -1,4 +1,4 @@
-#include "pbs/flesh/cholesky.hpp"
+#include "pbs/flesh/held_flesh.hpp"
 
 #include "pbs/flesh/cholmod_module.hpp"
 #include "pbs/geometry/module.hpp"

@@ -2,7 +2,7 @@
 // numbers: x, y, z and one more. Arrays are 64 bytes aligned.
 #pragma once
 
-#include "pbs/solver/batched/batch.hpp"
+#include "pbs/packed/batch.hpp"
 
 #include <cstddef>
 #include <cstdint>

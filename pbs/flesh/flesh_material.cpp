@@ -1,4 +1,4 @@
-#include "pbs/flesh/flesh_material.hpp"
+#include "pbs/flesh/flesh_energy.hpp"
 
 #include "pbs/geometry/input_error.hpp"
 

@@ -1,7 +1,6 @@
 #include "pbs/flesh/flesh_system.hpp"
 
 #include "pbs/flesh/packed_flesh.hpp"
-#include "pbs/flesh/plain_flesh.hpp"
 
 #include <algorithm>
 #include <cmath>

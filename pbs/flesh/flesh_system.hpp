@@ -1,4 +1,4 @@
-// The energy of the flesh (flesh_energy.hpp, or projective_energy.hpp) as a minimiser needs it: values, gradients and steps of a
+// The energy of the flesh (flesh_energy.hpp, or projective_dynamics.hpp) as a minimiser needs it: values, gradients and steps of a
 // quasi-Newton method, on rows of numbers. One implementation is plain, the other one packed; both have the same constants.
 //   auto system = make_flesh_system<float>(mesh, energy, factor, Arithmetic::packed_f32, threads);
 //   system->set_centres(centres);
@@ -7,11 +7,10 @@
 //   system->precondition(g);   // g <- H^-1 g
 #pragma once
 
-#include "pbs/flesh/arithmetic.hpp"
-#include "pbs/flesh/cholesky.hpp"
 #include "pbs/flesh/flesh_energy.hpp"
-#include "pbs/flesh/projective_energy.hpp"
-#include "pbs/flesh/rows.hpp"
+#include "pbs/flesh/held_flesh.hpp"
+#include "pbs/flesh/projective_dynamics.hpp"
+#include "pbs/packed/rows.hpp"
 
 #include <memory>
 

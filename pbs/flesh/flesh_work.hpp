@@ -1,5 +1,5 @@
-// The work of one iteration of the methods for elastic flesh, counted by hand from flesh_kernels.cpp, projective_kernels.cpp,
-// vertex_kernels.cpp and xpbd_kernels.cpp by the rules of iteration_work.hpp.
+// The work of one iteration of the methods for elastic flesh, counted by hand from flesh_kernels.cpp, projective_dynamics_kernels.cpp,
+// vbd_kernels.cpp and xpbd_neo_hookean_kernels.cpp by the rules of iteration_work.hpp.
 //   const IterationWork work = work_of_quasi_newton({vertices, edges, tets, {entries_of_factor}}, sizeof(float), 5);
 #pragma once
 

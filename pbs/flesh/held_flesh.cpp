@@ -1,6 +1,6 @@
 #include "pbs/flesh/held_flesh.hpp"
 
-#include "pbs/flesh/triangular_solve.hpp"
+#include "pbs/flesh/flesh_system.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 #include <algorithm>

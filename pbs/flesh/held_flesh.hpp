@@ -4,7 +4,6 @@
 //   flesh.hold().centres(pose, centres);
 #pragma once
 
-#include "pbs/flesh/cholesky.hpp"
 #include "pbs/flesh/flesh_energy.hpp"
 #include "pbs/skinning/weights.hpp"
 

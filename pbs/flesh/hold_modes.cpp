@@ -1,4 +1,4 @@
-#include "pbs/flesh/hold_modes.hpp"
+#include "pbs/flesh/bone_springs.hpp"
 
 #include <Eigen/Eigenvalues>
 

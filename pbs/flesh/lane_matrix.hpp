@@ -1,8 +1,8 @@
 // 3 x 3 matrices in every lane: the arithmetic of a constraint on deformation gradients. For kernels alone.
 #pragma once
 
-#include "pbs/solver/batched/batch.hpp"
-#include "pbs/solver/batched/project_lanes.hpp"
+#include "pbs/packed/batch.hpp"
+#include "pbs/solver/batched/pbs_kernels.cpp"
 
 namespace pbs {
 

@@ -1,4 +1,4 @@
-#include "pbs/flesh/neo_hookean_constraints.hpp"
+#include "pbs/flesh/flesh_energy.hpp"
 
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/tet_volume.hpp"

@@ -2,7 +2,7 @@
 // 2021, as functions of the deformation gradient F:
 //   hydrostatic  C_H = det F - alpha        of compliance 1 / (lambda V),
 //   deviatoric   C_D = sqrt(tr(F^T F))      of compliance 1 / (mu V).
-// The energies C^2 / (2 compliance) add up to V psi(F) of flesh_material.hpp, except for the constant -3 mu V / 2.
+// The energies C^2 / (2 compliance) add up to V psi(F) of flesh_energy.hpp, except for the constant -3 mu V / 2.
 //   const Eigen::Matrix3d F = deformation_gradient(tet, p1, p2, p3, p4);
 //   double C = hydrostatic_value(F, material.alpha);
 //   Eigen::Matrix<double, 3, 4> of_vertices = vertex_gradients(tet, hydrostatic_gradient(F));

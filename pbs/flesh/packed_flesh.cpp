@@ -1,9 +1,8 @@
 #include "pbs/flesh/packed_flesh.hpp"
 
-#include "pbs/flesh/row_positions.hpp"
-#include "pbs/flesh/slabs_of_tets.hpp"
-#include "pbs/solver/batched/batch_schedule.hpp"
-#include "pbs/solver/batched/batched_constraints.hpp"
+#include "pbs/packed/groups.hpp"
+#include "pbs/packed/rows.hpp"
+#include "pbs/solver/batched/batch_program.hpp"
 
 #include <numeric>
 

@@ -3,10 +3,8 @@
 #pragma once
 
 #include "pbs/flesh/flesh_system.hpp"
-#include "pbs/flesh/packed_tets.hpp"
-#include "pbs/flesh/triangular_solve.hpp"
-#include "pbs/solver/batched/vertex_order.hpp"
-#include "pbs/solver/parallel.hpp"
+#include "pbs/packed/parallel.hpp"
+#include "pbs/packed/vertex_order.hpp"
 
 namespace pbs {
 

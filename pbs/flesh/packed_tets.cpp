@@ -1,4 +1,4 @@
-#include "pbs/flesh/packed_tets.hpp"
+#include "pbs/flesh/packed_flesh.hpp"
 
 namespace pbs {
 namespace {

@@ -8,8 +8,7 @@
 
 #include "pbs/flesh/flesh_energy.hpp"
 #include "pbs/flesh/flesh_kernels.hpp"
-#include "pbs/flesh/projective_energy.hpp"
-#include "pbs/flesh/projective_kernels.hpp"
+#include "pbs/flesh/projective_dynamics.hpp"
 
 #include <array>
 #include <vector>

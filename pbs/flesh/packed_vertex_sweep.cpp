@@ -1,7 +1,7 @@
-#include "pbs/flesh/packed_vertex_sweep.hpp"
+#include "pbs/flesh/vbd.hpp"
 
-#include "pbs/flesh/row_positions.hpp"
-#include "pbs/flesh/vertex_colours.hpp"
+#include "pbs/packed/rows.hpp"
+#include "pbs/packed/vertex_order.hpp"
 
 #include <algorithm>
 

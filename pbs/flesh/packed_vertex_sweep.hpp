@@ -3,11 +3,10 @@
 // colour. Their number changes no bit, because no vertex of a colour reads another one.
 #pragma once
 
-#include "pbs/flesh/vertex_block.hpp"
-#include "pbs/flesh/vertex_kernels.hpp"
-#include "pbs/flesh/vertex_sweep.hpp"
-#include "pbs/solver/batched/vertex_order.hpp"
-#include "pbs/solver/parallel.hpp"
+#include "pbs/flesh/flesh_kernels.hpp"
+#include "pbs/flesh/vbd.hpp"
+#include "pbs/packed/parallel.hpp"
+#include "pbs/packed/vertex_order.hpp"
 
 namespace pbs {
 

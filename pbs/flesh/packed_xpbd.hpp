@@ -3,11 +3,11 @@
 // slabs; their number changes no bit.
 #pragma once
 
-#include "pbs/flesh/xpbd_kernels.hpp"
-#include "pbs/flesh/xpbd_system.hpp"
-#include "pbs/solver/batched/batch_schedule.hpp"
-#include "pbs/solver/batched/vertex_order.hpp"
-#include "pbs/solver/parallel.hpp"
+#include "pbs/flesh/flesh_kernels.hpp"
+#include "pbs/flesh/xpbd_neo_hookean.hpp"
+#include "pbs/packed/groups.hpp"
+#include "pbs/packed/parallel.hpp"
+#include "pbs/packed/vertex_order.hpp"
 
 namespace pbs {
 

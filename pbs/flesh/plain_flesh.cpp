@@ -1,7 +1,6 @@
-#include "pbs/flesh/plain_flesh.hpp"
+#include "pbs/flesh/flesh_system.hpp"
 
-#include "pbs/flesh/row_positions.hpp"
-#include "pbs/flesh/triangular_solve.hpp"
+#include "pbs/packed/rows.hpp"
 
 #include <numeric>
 

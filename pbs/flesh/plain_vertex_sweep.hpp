@@ -1,8 +1,7 @@
 // The plain implementation of VertexSweep: one vertex after the other, in double.
 #pragma once
 
-#include "pbs/flesh/vertex_block.hpp"
-#include "pbs/flesh/vertex_sweep.hpp"
+#include "pbs/flesh/vbd.hpp"
 
 namespace pbs {
 

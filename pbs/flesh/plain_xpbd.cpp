@@ -1,6 +1,6 @@
-#include "pbs/flesh/plain_xpbd.hpp"
+#include "pbs/flesh/xpbd_neo_hookean.hpp"
 
-#include "pbs/flesh/row_positions.hpp"
+#include "pbs/packed/rows.hpp"
 
 namespace pbs {
 namespace {
@@ -88,7 +88,7 @@ void PlainXpbd::visit_hold(int t, Rows<double>& x)
     }
 }
 
-// The equations of xpbd_system.hpp. All gradients have the form A g_i, with H = dC_H/dF and D = dC_D/dF for A; with
+// The equations of xpbd_neo_hookean.hpp. All gradients have the form A g_i, with H = dC_H/dF and D = dC_D/dF for A; with
 // S = sum_i w_i g_i g_i^T, sum_i w_i (A g_i) . (B g_i) = tr(A S B^T).
 void PlainXpbd::visit_tet(int t, Rows<double>& x, bool with_residual)
 {

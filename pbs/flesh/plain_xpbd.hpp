@@ -1,7 +1,7 @@
 // The plain implementation of XpbdSystem: one constraint after the other in double, in file order: first all springs, then all tets.
 #pragma once
 
-#include "pbs/flesh/xpbd_system.hpp"
+#include "pbs/flesh/xpbd_neo_hookean.hpp"
 
 namespace pbs {
 

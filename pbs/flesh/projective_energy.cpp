@@ -1,7 +1,6 @@
-#include "pbs/flesh/projective_energy.hpp"
+#include "pbs/flesh/projective_dynamics.hpp"
 
-#include "pbs/flesh/flesh_material.hpp"
-#include "pbs/flesh/volume_projection.hpp"
+#include "pbs/flesh/flesh_energy.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/number_text.hpp"
 

@@ -1,8 +1,8 @@
-#include "pbs/flesh/projective_kernels.hpp"
+#include "pbs/flesh/flesh_kernels.hpp"
 
 #include "pbs/flesh/local_shape_formula.hpp"
-#include "pbs/geometry/lane_functions.hpp"
-#include "pbs/solver/batched/project_lanes.hpp"
+#include "pbs/packed/lanes.hpp"
+#include "pbs/solver/batched/pbs_kernels.cpp"
 
 namespace pbs {
 namespace {

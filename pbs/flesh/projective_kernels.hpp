@@ -1,7 +1,7 @@
 // The inner loop of packed projective dynamics, compiled for the machine (PBS_NATIVE): raw pointers only. See flesh_kernels.hpp for rows.
 #pragma once
 
-#include "pbs/solver/batched/batch.hpp"
+#include "pbs/packed/batch.hpp"
 
 #include <cstdint>
 

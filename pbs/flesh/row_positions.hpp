@@ -1,8 +1,8 @@
-// Positions of the mesh as rows of the kernels (rows.hpp), relative to an origin, and back. place: the row of each vertex, #V.
+// Positions of the mesh as rows of the kernels (../packed/rows.hpp), relative to an origin, and back. place: the row of each vertex, #V.
 #pragma once
 
-#include "pbs/flesh/rows.hpp"
 #include "pbs/geometry/types.hpp"
+#include "pbs/packed/rows.hpp"
 
 #include <vector>
 

@@ -1,7 +1,4 @@
-#include "pbs/flesh/slabs_of_tets.hpp"
-
-#include "pbs/solver/batched/constraint_groups.hpp"
-#include "pbs/solver/batched/projection_sequence.hpp"
+#include "pbs/packed/groups.hpp"
 
 #include <algorithm>
 #include <numeric>

@@ -2,8 +2,8 @@
 // dummies.
 #pragma once
 
-#include "pbs/solver/batched/batch.hpp"
-#include "pbs/solver/batched/vertex_order.hpp"
+#include "pbs/packed/batch.hpp"
+#include "pbs/packed/vertex_order.hpp"
 
 #include <array>
 #include <vector>
@@ -16,7 +16,7 @@ inline constexpr int dummies_of_slab = 4 * batch_size;
 int rows_with_dummies(int vertices, int slabs);
 
 // vertex: of each tet. Returns indices of the tets of each slab; a tet belongs to the slab of the first of its vertices in memory. Within a
-// slab, clusters of neighbours follow each other, and each cluster goes colour by colour (projection_sequence.hpp), so that BatchScheduler
+// slab, clusters of neighbours follow each other, and each cluster goes colour by colour (groups.hpp), so that BatchScheduler
 // fills its batches.
 std::vector<std::vector<int>> slabs_of_tets(const std::vector<std::array<int, 4>>& vertex, const VertexOrder& order);
 

@@ -1,4 +1,4 @@
-#include "pbs/flesh/triangular_solve.hpp"
+#include "pbs/flesh/flesh_system.hpp"
 
 #include <algorithm>
 

@@ -4,9 +4,9 @@
 // Columns of L with the same rows below (supernodes) are processed together, so that each row is read and written once for all of them.
 #pragma once
 
-#include "pbs/flesh/cholesky.hpp"
 #include "pbs/flesh/flesh_kernels.hpp"
-#include "pbs/flesh/rows.hpp"
+#include "pbs/flesh/held_flesh.hpp"
+#include "pbs/packed/rows.hpp"
 
 namespace pbs {
 

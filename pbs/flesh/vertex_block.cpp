@@ -1,4 +1,4 @@
-#include "pbs/flesh/vertex_block.hpp"
+#include "pbs/flesh/vbd.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "pbs/flesh/vertex_block_descent.hpp"
+#include "pbs/flesh/vbd.hpp"
 
 #include "pbs/geometry/input_error.hpp"
 

@@ -1,12 +1,12 @@
 // Vertex block descent for elastic bodies in equilibrium (A. H. Chen, Z. Liu, Y. Yang, C. Yuksel, Vertex block descent, ACM TOG 43(4),
 // 2024), without inertia: nonlinear Gauss-Seidel over vertices (Y. Chen et al., Position-based nonlinear Gauss-Seidel for quasistatic
-// hyperelasticity, 2023). The energy along one vertex is exactly quadratic here (vertex_block.hpp), so that one step of Newton's method is
+// hyperelasticity, 2023). The energy along one vertex is exactly quadratic here (vbd.hpp), so that one step of Newton's method is
 // its minimum and needs neither a projection of its matrix nor a line search.
 //   VertexBlockDescent<float> solver(mesh, energy, options);
 //   VertexBlockSummary summary = solver.minimise(centres, x);   // x: the initial guess in, the last iterate out
 #pragma once
 
-#include "pbs/flesh/vertex_sweep.hpp"
+#include "pbs/flesh/vbd.hpp"
 
 namespace pbs {
 

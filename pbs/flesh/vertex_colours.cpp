@@ -1,4 +1,4 @@
-#include "pbs/flesh/vertex_colours.hpp"
+#include "pbs/packed/vertex_order.hpp"
 
 #include "pbs/geometry/topology.hpp"
 

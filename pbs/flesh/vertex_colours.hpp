@@ -2,7 +2,7 @@
 //   for (const std::vector<int>& colour : vertex_colours(tets, vertices)) ...
 #pragma once
 
-#include "pbs/solver/batched/vertex_order.hpp"
+#include "pbs/packed/vertex_order.hpp"
 
 #include <vector>
 

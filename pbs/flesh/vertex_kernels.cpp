@@ -1,6 +1,6 @@
-#include "pbs/flesh/vertex_kernels.hpp"
+#include "pbs/flesh/flesh_kernels.hpp"
 
-#include "pbs/solver/batched/project_lanes.hpp"
+#include "pbs/solver/batched/pbs_kernels.cpp"
 
 namespace pbs {
 namespace {

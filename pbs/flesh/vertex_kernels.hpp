@@ -2,7 +2,7 @@
 // numbers: x, y, z and one more. Arrays are 64 bytes aligned.
 #pragma once
 
-#include "pbs/solver/batched/batch.hpp"
+#include "pbs/packed/batch.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -27,7 +27,7 @@ struct alignas(64) VertexIncidence {
     Scalar d[batch_size];                // [m^3]
 };
 
-// x_i -= omega H_i^-1 g_i for the vertices of `count` batches (vertex_block.hpp). centres: rows c_i and a_i.
+// x_i -= omega H_i^-1 g_i for the vertices of `count` batches (vbd.hpp). centres: rows c_i and a_i.
 template <typename Scalar>
 void move_vertices(const VertexBatch<Scalar>* batches, int count, const VertexIncidence<Scalar>* incidences, const Scalar* centres,
                    Scalar omega, Scalar* x);

@@ -1,7 +1,4 @@
-#include "pbs/flesh/vertex_sweep.hpp"
-
-#include "pbs/flesh/packed_vertex_sweep.hpp"
-#include "pbs/flesh/plain_vertex_sweep.hpp"
+#include "pbs/flesh/vbd.hpp"
 
 namespace pbs {
 

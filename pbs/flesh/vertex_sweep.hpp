@@ -1,14 +1,13 @@
 // Sweeps of vertex block descent on rows of numbers. One implementation is plain, the other one packed; both move the vertices by the same
-// colours (vertex_colours.hpp), one colour after the other.
+// colours (../packed/vertex_order.hpp), one colour after the other.
 //   auto sweep = make_vertex_sweep<float>(mesh, energy, Arithmetic::packed_f32, threads);
 //   sweep->set_centres(centres);
 //   sweep->load(positions, x);
 //   sweep->move(1.88, x);   // x_i -= omega H_i^-1 g_i for each vertex, each with the latest positions of the others
 #pragma once
 
-#include "pbs/flesh/arithmetic.hpp"
 #include "pbs/flesh/flesh_energy.hpp"
-#include "pbs/flesh/rows.hpp"
+#include "pbs/packed/rows.hpp"
 
 #include <memory>
 

@@ -1,4 +1,4 @@
-#include "pbs/flesh/volume_projection.hpp"
+#include "pbs/flesh/projective_dynamics.hpp"
 
 #include "pbs/geometry/nearest_rotation.hpp"
 

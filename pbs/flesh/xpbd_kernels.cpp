@@ -1,6 +1,6 @@
-#include "pbs/flesh/xpbd_kernels.hpp"
+#include "pbs/flesh/flesh_kernels.hpp"
 
-#include "pbs/flesh/lane_matrix.hpp"
+#include "pbs/packed/lanes.hpp"
 
 namespace pbs {
 namespace {

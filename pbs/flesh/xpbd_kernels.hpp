@@ -1,8 +1,8 @@
 // The inner loops of packed XPBD with neo-Hookean constraints, compiled for the machine (PBS_NATIVE): raw pointers only. x: rows x, y, z
-// [m] and the inverse mass w [1/m], 64 bytes aligned. See xpbd_system.hpp for the equations.
+// [m] and the inverse mass w [1/m], 64 bytes aligned. See xpbd_neo_hookean.hpp for the equations.
 #pragma once
 
-#include "pbs/solver/batched/batch.hpp"
+#include "pbs/packed/batch.hpp"
 
 #include <cstdint>
 
@@ -19,7 +19,7 @@ struct alignas(64) NeoHookeanBatch {
     Scalar applied[9][batch_size];                           // P by columns [m^3]
 };
 
-// The springs of sixteen tets that share no vertex: up to four modes of each (hold_modes.hpp).
+// The springs of sixteen tets that share no vertex: up to four modes of each (bone_springs.hpp).
 template <typename Scalar>
 struct alignas(64) HoldBatch {
     std::uint32_t offset[4][batch_size];  // 4 * row

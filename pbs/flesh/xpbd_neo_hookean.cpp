@@ -1,6 +1,6 @@
 #include "pbs/flesh/xpbd_neo_hookean.hpp"
 
-#include "pbs/flesh/xpbd_kernels.hpp"
+#include "pbs/flesh/flesh_kernels.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-// Elastic flesh in equilibrium by XPBD with the two neo-Hookean constraints of M. Macklin, M. Mueller (MIG 2021); xpbd_system.hpp has the
+// Elastic flesh in equilibrium by XPBD with the two neo-Hookean constraints of M. Macklin, M. Mueller (MIG 2021); xpbd_neo_hookean.hpp has the
 // constraints and the equations of one visit. A frame is a sequence of steps of implicit Euler without inertia from frame to frame: step n
 // begins at the predicted positions y = x_n + b (x_n - x_{n-1}) and ends near the minimum of E(x) + sum_i m_i / 2 |x_i - y_i|^2, the
 // proximal point of y, after `iterations_per_step` passes over all constraints. Its fixed point is a minimum of E, for every mass and step.
@@ -11,8 +11,6 @@
 // to step, one pass per step suffices. The momentum b is that of Y. Nesterov (1983), restarted where the forces point against the motion
 // (B. O'Donoghue, E. Candes, Found. Comput. Math. 15, 2015).
 #pragma once
-
-#include "pbs/flesh/xpbd_system.hpp"
 
 namespace pbs {
 

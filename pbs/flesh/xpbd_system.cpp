@@ -1,7 +1,5 @@
-#include "pbs/flesh/xpbd_system.hpp"
+#include "pbs/flesh/xpbd_neo_hookean.hpp"
 
-#include "pbs/flesh/packed_xpbd.hpp"
-#include "pbs/flesh/plain_xpbd.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 #include <string>

@@ -1,5 +1,5 @@
-// Elastic flesh as compliant constraints, and one pass of XPBD over them: the springs of the bones (hold_modes.hpp) and the two coupled
-// constraints of each tet (neo_hookean_constraints.hpp). One implementation is plain, the other one packed; both have the same constants.
+// Elastic flesh as compliant constraints, and one pass of XPBD over them: the springs of the bones (bone_springs.hpp) and the two coupled
+// constraints of each tet (flesh_energy.hpp). One implementation is plain, the other one packed; both have the same constants.
 //   const XpbdFlesh flesh(mesh, energy, hold, material, time_step);
 //   auto system = make_xpbd_system<float>(mesh, flesh, Arithmetic::packed_f32, threads);
 //   system->set_targets(targets);
@@ -15,11 +15,9 @@
 // its own). The constraints of the bones are linear, so that their r is zero.
 #pragma once
 
-#include "pbs/flesh/arithmetic.hpp"
+#include "pbs/flesh/bone_springs.hpp"
 #include "pbs/flesh/flesh_energy.hpp"
-#include "pbs/flesh/hold_modes.hpp"
-#include "pbs/flesh/neo_hookean_constraints.hpp"
-#include "pbs/flesh/rows.hpp"
+#include "pbs/packed/rows.hpp"
 
 #include <memory>
 

@@ -1,5 +1,5 @@
 // The functions that formulae without a branch need (rotation_formula.hpp, local_shape_formula.hpp), for a number in each lane of a
-// register. For the kernels' translation units alone, as solver/batched/lanes.hpp.
+// register. For the kernels' translation units alone, as packed/lanes.hpp.
 #pragma once
 
 #include "pbs/geometry/rotation_formula.hpp"

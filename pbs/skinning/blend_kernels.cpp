@@ -1,4 +1,4 @@
-#include "pbs/skinning/blend_kernels.hpp"
+#include "pbs/skinning/skinning_kernels.hpp"
 
 #pragma GCC diagnostic ignored "-Wpsabi"  // wide vectors never pass from here to another file
 

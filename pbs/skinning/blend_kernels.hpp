@@ -1,4 +1,4 @@
-// Inner loops of the blends on raw arrays, compiled for the present machine; blend_skinning.hpp calls them. Scalar is float or double.
+// Inner loops of the blends on raw arrays, compiled for the present machine; blend.hpp calls them. Scalar is float or double.
 //   rest, posed: points [m], n x 3, that do not overlap; one number behind the last rest point is read as well, and not used
 #pragma once
 

@@ -1,4 +1,4 @@
-#include "pbs/skinning/blend_skinning.hpp"
+#include "pbs/skinning/blend.hpp"
 
 #include <type_traits>
 #include <utility>

@@ -6,8 +6,8 @@
 // A pose has every bone that the weights name. One thread at a time: the transforms of the last pose are kept in it.
 #pragma once
 
-#include "pbs/skinning/blend_kernels.hpp"
-#include "pbs/skinning/packed_weights.hpp"
+#include "pbs/skinning/blend.hpp"
+#include "pbs/skinning/skinning_kernels.hpp"
 
 namespace pbs {
 

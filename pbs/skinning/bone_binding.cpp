@@ -1,4 +1,4 @@
-#include "pbs/skinning/bone_binding.hpp"
+#include "pbs/skinning/weights.hpp"
 
 #include "pbs/geometry/input_error.hpp"
 

@@ -4,7 +4,7 @@
 //   mush.apply(lbs_positions, posed);
 // The local frames of that paper are those of the normals of a surface. Here every vertex of the tet mesh, also in the interior, has the
 // rotation that best maps its smoothed rest edges to its smoothed posed edges (nearest_rotation.hpp). Smoothing is Laplacian with uniform
-// weights. This is plain code in double; packed_delta_mush.hpp computes the same in packed float.
+// weights. This is plain code in double; delta_mush.hpp computes the same in packed float.
 #pragma once
 
 #include "pbs/geometry/precision.hpp"

@@ -1,4 +1,4 @@
-#include "pbs/skinning/diffused_weights.hpp"
+#include "pbs/skinning/weights.hpp"
 
 #include "pbs/geometry/topology.hpp"
 

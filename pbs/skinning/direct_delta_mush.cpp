@@ -4,7 +4,7 @@
 #include "pbs/geometry/nearest_rotation.hpp"
 #include "pbs/geometry/number_text.hpp"
 #include "pbs/geometry/topology.hpp"
-#include "pbs/skinning/packed_rotations.hpp"
+#include "pbs/skinning/delta_mush.hpp"
 
 #include <Eigen/SparseCholesky>
 

@@ -1,4 +1,4 @@
-#include "pbs/skinning/harmonic_weights.hpp"
+#include "pbs/skinning/weights.hpp"
 
 #include <Eigen/SparseCholesky>
 

@@ -1,4 +1,4 @@
-#include "pbs/skinning/motion_sampling.hpp"
+#include "pbs/skinning/pose_path.hpp"
 
 #include "pbs/geometry/input_error.hpp"
 

@@ -1,6 +1,6 @@
-#include "pbs/skinning/mush_kernels.hpp"
+#include "pbs/skinning/skinning_kernels.hpp"
 
-#include "pbs/geometry/lane_functions.hpp"
+#include "pbs/packed/lanes.hpp"
 
 #pragma GCC diagnostic ignored "-Wpsabi"  // wide vectors never pass from here to another file
 

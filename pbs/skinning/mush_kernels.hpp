@@ -1,8 +1,8 @@
-// Inner loops of delta mush and direct delta mush on raw arrays, compiled for the present machine; packed_delta_mush.hpp and
-// packed_direct_mush.hpp call them. Scalar is float or double. Points are rows x, y, z, 0 [m], relative to any origin near the body.
+// Inner loops of delta mush and direct delta mush on raw arrays, compiled for the present machine; delta_mush.hpp and
+// direct_delta_mush.hpp call them. Scalar is float or double. Points are rows x, y, z, 0 [m], relative to any origin near the body.
 #pragma once
 
-#include "pbs/skinning/blend_kernels.hpp"
+#include "pbs/skinning/skinning_kernels.hpp"
 
 namespace pbs {
 

@@ -1,4 +1,4 @@
-#include "pbs/skinning/packed_delta_mush.hpp"
+#include "pbs/skinning/delta_mush.hpp"
 
 namespace pbs {
 

@@ -9,9 +9,8 @@
 // covariance, and moves the detail by that share of its length. On bodies of this project that is below a micrometre per metre.
 #pragma once
 
-#include "pbs/skinning/blend_skinning.hpp"
+#include "pbs/skinning/blend.hpp"
 #include "pbs/skinning/delta_mush.hpp"
-#include "pbs/skinning/packed_rotations.hpp"
 
 namespace pbs {
 

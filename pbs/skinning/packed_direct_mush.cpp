@@ -1,4 +1,4 @@
-#include "pbs/skinning/packed_direct_mush.hpp"
+#include "pbs/skinning/direct_delta_mush.hpp"
 
 #include <algorithm>
 

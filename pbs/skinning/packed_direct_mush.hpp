@@ -7,8 +7,8 @@
 // moments.
 #pragma once
 
+#include "pbs/skinning/delta_mush.hpp"
 #include "pbs/skinning/direct_delta_mush.hpp"
-#include "pbs/skinning/packed_rotations.hpp"
 
 namespace pbs {
 

@@ -1,4 +1,4 @@
-#include "pbs/skinning/packed_rotations.hpp"
+#include "pbs/skinning/delta_mush.hpp"
 
 #include "pbs/geometry/nearest_rotation.hpp"
 

@@ -2,8 +2,8 @@
 // back to positions in the world.
 #pragma once
 
-#include "pbs/skinning/mush_kernels.hpp"
 #include "pbs/skinning/pose.hpp"
+#include "pbs/skinning/skinning_kernels.hpp"
 
 #include <vector>
 

@@ -1,4 +1,4 @@
-#include "pbs/skinning/packed_weights.hpp"
+#include "pbs/skinning/blend.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,6 @@
 // One pose of the skeleton, and a motion as a sequence of them.
 #pragma once
 
-#include "pbs/skinning/skeleton.hpp"
-
 #include <Eigen/Geometry>
 #include <vector>
 

@@ -1,4 +1,4 @@
-#include "pbs/skinning/root_frame.hpp"
+#include "pbs/skinning/pose_path.hpp"
 
 #include <algorithm>
 

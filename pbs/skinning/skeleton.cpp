@@ -1,4 +1,4 @@
-#include "pbs/skinning/skeleton.hpp"
+#include "pbs/skinning/pose.hpp"
 
 namespace pbs {
 namespace {

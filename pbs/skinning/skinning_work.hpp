@@ -1,4 +1,4 @@
-// The work of skinning, counted by hand from blend_kernels.cpp and mush_kernels.cpp by the rules of iteration_work.hpp.
+// The work of skinning, counted by hand from blend_kernels.cpp and delta_mush_kernels.cpp by the rules of iteration_work.hpp.
 #pragma once
 
 #include "pbs/geometry/iteration_work.hpp"

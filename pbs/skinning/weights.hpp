@@ -1,8 +1,6 @@
 // Skinning weights, sparse in bones.
 #pragma once
 
-#include "pbs/skinning/bone_binding.hpp"
-
 namespace pbs {
 
 // The weights of vertex i are the entries first(i) .. first(i + 1) - 1 of `bone` and `weight`; they sum to one. Weights made

@@ -1,4 +1,4 @@
-#include "pbs/solver/frame_step.hpp"
+#include "pbs/solver/step_summary.hpp"
 
 #include <utility>
 

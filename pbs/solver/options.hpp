@@ -9,7 +9,7 @@
 namespace pbs {
 
 // Order of projection within each class; the classes follow the order of Algorithm 1. plain: file order, as the paper reads. ordered:
-// colour by colour (projection_sequence.hpp), sixteen constraints that share no vertex side by side. grouped: the same with neighbouring
+// colour by colour (groups.hpp), sixteen constraints that share no vertex side by side. grouped: the same with neighbouring
 // constraints in groups, quicker per iteration and with a larger volume change after 24 of them.
 enum class Order { plain, ordered, grouped };
 // m_i = 1 (the paper), or in proportion to the lumped rest volume; only their ratios count.

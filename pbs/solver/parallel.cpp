@@ -1,6 +1,6 @@
-#include "pbs/solver/parallel.hpp"
+#include "pbs/packed/parallel.hpp"
 
-#include "pbs/solver/hand_over.hpp"
+#include "pbs/packed/parallel.cpp"
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 #include "pbs/solver/plain_projection.hpp"
 
 #include "pbs/solver/project_plain.hpp"
-#include "pbs/solver/residuals.hpp"
+#include "pbs/solver/step_summary.hpp"
 
 namespace pbs {
 

@@ -1,4 +1,4 @@
-#include "pbs/solver/plain_xpbd_projection.hpp"
+#include "pbs/solver/xpbd_solver.hpp"
 
 namespace pbs {
 namespace {

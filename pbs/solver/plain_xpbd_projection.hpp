@@ -1,7 +1,7 @@
 // Order `plain` as an XpbdProjection: one constraint after the other in the order given. The packed orders are tested against it.
 #pragma once
 
-#include "pbs/solver/xpbd_projection.hpp"
+#include "pbs/solver/xpbd_solver.hpp"
 
 #include <vector>
 

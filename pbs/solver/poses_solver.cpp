@@ -1,7 +1,7 @@
-#include "pbs/solver/poses_solver.hpp"
+#include "pbs/solver/pbs_solver.hpp"
 
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/solver/batched/poses_algorithm_1.hpp"
+#include "pbs/solver/algorithm_1.hpp"
 
 #include <variant>
 

@@ -3,7 +3,6 @@
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/solver/batched/batched_projection.hpp"
 #include "pbs/solver/plain_projection.hpp"
-#include "pbs/solver/reordered_projection.hpp"
 
 namespace pbs {
 

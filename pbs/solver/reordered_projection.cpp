@@ -1,4 +1,4 @@
-#include "pbs/solver/reordered_projection.hpp"
+#include "pbs/solver/plain_projection.hpp"
 
 namespace pbs {
 namespace {

@@ -1,6 +1,6 @@
-#include "pbs/solver/residuals.hpp"
+#include "pbs/solver/step_summary.hpp"
 
-#include "pbs/solver/project_regions.hpp"
+#include "pbs/solver/project_plain.hpp"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "pbs/solver/xpbd_constraints.hpp"
+#include "pbs/solver/xpbd_solver.hpp"
 
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/tet_volume.hpp"

@@ -5,7 +5,7 @@
 #include "pbs/constraints/stretch.hpp"
 #include "pbs/constraints/volume.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
-#include "pbs/solver/xpbd_options.hpp"
+#include "pbs/solver/options.hpp"
 
 #include <vector>
 

@@ -1,7 +1,6 @@
-#include "pbs/solver/xpbd_projection.hpp"
+#include "pbs/solver/xpbd_solver.hpp"
 
 #include "pbs/solver/batched/batched_xpbd_projection.hpp"
-#include "pbs/solver/plain_xpbd_projection.hpp"
 
 namespace pbs {
 namespace {

@@ -7,7 +7,7 @@
 //   projection->store(origin, p);
 #pragma once
 
-#include "pbs/solver/xpbd_constraints.hpp"
+#include "pbs/solver/xpbd_solver.hpp"
 
 #include <memory>
 

@@ -15,7 +15,6 @@
 #pragma once
 
 #include "pbs/solver/step_summary.hpp"
-#include "pbs/solver/xpbd_projection.hpp"
 
 #include <memory>
 #include <vector>

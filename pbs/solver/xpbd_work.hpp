@@ -1,4 +1,4 @@
-// The work of one iteration of XPBD, counted by hand from plain_xpbd_projection.cpp by the rules of iteration_work.hpp. A quantity that the
+// The work of one iteration of XPBD, counted by hand from xpbd_solver.cpp by the rules of iteration_work.hpp. A quantity that the
 // code computes twice, once for the value and once for the gradient, counts once.
 #pragma once
 

@@ -4,8 +4,8 @@
 #include "pbs/geometry/stopwatch.hpp"
 #include "pbs/geometry/tet_volume.hpp"
 #include "pbs/skinning/blend.hpp"
-#include "pbs/skinning/harmonic_weights.hpp"
-#include "pbs/skinning/root_frame.hpp"
+#include "pbs/skinning/pose_path.hpp"
+#include "pbs/skinning/weights.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -10,7 +10,7 @@
 #include "experiments/deformers/deformer.hpp"
 #include "experiments/scene/scene.hpp"
 #include "experiments/studies/ambiguity/reading.hpp"
-#include "pbs/skinning/blend_skinning.hpp"
+#include "pbs/skinning/blend.hpp"
 #include "pbs/solver/pbs_solver.hpp"
 
 #include <memory>

@@ -7,7 +7,7 @@
 #include "pbs/geometry/tet_volume.hpp"
 #include "pbs/geometry/topology.hpp"
 #include "pbs/skinning/blend.hpp"
-#include "pbs/solver/poses_solver.hpp"
+#include "pbs/solver/pbs_solver.hpp"
 
 #include <algorithm>
 #include <limits>

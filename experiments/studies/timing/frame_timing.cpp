@@ -2,7 +2,7 @@
 
 #include "experiments/deformers/deformer_options.hpp"
 #include "pbs/geometry/stopwatch.hpp"
-#include "pbs/skinning/blend_skinning.hpp"
+#include "pbs/skinning/blend.hpp"
 #include "pbs/solver/pbs_solver.hpp"
 #include "pbs/solver/projection.hpp"
 

@@ -7,7 +7,6 @@
 #include "experiments/studies/shared/posed_reference.hpp"
 #include "pbs/character/body_cache.hpp"
 #include "pbs/solver/options.hpp"
-#include "pbs/solver/xpbd_options.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
-#include "pbs/solver/batched/batch_kernels.hpp"
+#include "pbs/solver/batched/pbs_kernels.hpp"
 
-#include "pbs/solver/batched/project_lanes.hpp"
+#include "pbs/solver/batched/pbs_kernels.cpp"
 
 namespace pbs {
 namespace {
@@ -58,7 +58,7 @@ template <typename Scalar, GroupKind kind>
         return quotient(dot(cross(p[join[1]] - p[join[0]], p[join[2]] - p[join[0]]), p[join[3]] - p[join[0]]) - rest, rest);
 }
 
-// A part does not wait for the stores of the one before: they share no vertex (batch_schedule.hpp).
+// A part does not wait for the stores of the one before: they share no vertex (../../packed/groups.hpp).
 template <typename Scalar, GroupKind kind>
 [[gnu::noinline]] void project_all(const Batch<Scalar, kind>* batches, int count, Scalar* vertices)
 {

@@ -2,7 +2,7 @@
 // vertices: x, y, z [m] and w, the inverse mass, of each, 16 bytes aligned in float, 32 in double.
 #pragma once
 
-#include "pbs/solver/batched/batch.hpp"
+#include "pbs/packed/batch.hpp"
 
 namespace pbs {
 

@@ -1,8 +1,7 @@
 #include "pbs/solver/batched/batch_program.hpp"
 
-#include "pbs/solver/batched/batch_kernels.hpp"
-#include "pbs/solver/batched/batch_schedule.hpp"
-#include "pbs/solver/batched/projection_sequence.hpp"
+#include "pbs/packed/groups.hpp"
+#include "pbs/solver/batched/pbs_kernels.hpp"
 
 #include <algorithm>
 #include <new>

@@ -2,8 +2,8 @@
 // cluster, within a cluster kind by kind. A cluster is what stays in the nearest cache.
 #pragma once
 
-#include "pbs/solver/batched/constraint_groups.hpp"
-#include "pbs/solver/batched/vertex_order.hpp"
+#include "pbs/packed/groups.hpp"
+#include "pbs/packed/vertex_order.hpp"
 
 #include <vector>
 

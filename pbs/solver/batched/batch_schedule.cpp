@@ -1,4 +1,4 @@
-#include "pbs/solver/batched/batch_schedule.hpp"
+#include "pbs/packed/groups.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -2,7 +2,7 @@
 // that can be had), so that a kernel may load ahead and need not wait for its own stores.
 #pragma once
 
-#include "pbs/solver/batched/constraint_groups.hpp"
+#include "pbs/packed/groups.hpp"
 
 #include <vector>
 

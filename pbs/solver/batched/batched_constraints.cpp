@@ -1,4 +1,4 @@
-#include "pbs/solver/batched/batched_constraints.hpp"
+#include "pbs/solver/batched/batch_program.hpp"
 
 #include "pbs/solver/pbs_solver.hpp"
 

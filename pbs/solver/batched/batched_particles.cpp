@@ -1,6 +1,6 @@
-#include "pbs/solver/batched/batched_particles.hpp"
+#include "pbs/solver/batched/batched_projection.hpp"
 
-#include "pbs/solver/batched/batch_kernels.hpp"
+#include "pbs/solver/batched/pbs_kernels.hpp"
 
 #include <algorithm>
 

@@ -1,10 +1,10 @@
-// Particles in the order of memory of the batches (vertex_order.hpp), with the dummies of each slab behind them, and their bind
+// Particles in the order of memory of the batches (../../packed/vertex_order.hpp), with the dummies of each slab behind them, and their bind
 // constraints, each of which moves its own vertex alone.
 #pragma once
 
 #include "pbs/constraints/bind.hpp"
-#include "pbs/solver/batched/batched_constraints.hpp"
-#include "pbs/solver/parallel.hpp"
+#include "pbs/packed/parallel.hpp"
+#include "pbs/solver/batched/batch_program.hpp"
 
 #include <vector>
 

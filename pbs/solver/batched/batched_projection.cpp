@@ -1,8 +1,8 @@
 #include "pbs/solver/batched/batched_projection.hpp"
 
-#include "pbs/solver/batched/batch_kernels.hpp"
-#include "pbs/solver/parallel.hpp"
-#include "pbs/solver/project_regions.hpp"
+#include "pbs/packed/parallel.hpp"
+#include "pbs/solver/batched/pbs_kernels.hpp"
+#include "pbs/solver/project_plain.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,13 +1,12 @@
-// Orders `ordered` and `grouped` as a Projection: constraints in batches of sixteen that share no vertex (batch.hpp), vertices reordered
-// for locality, slabs of the mesh in parallel (vertex_order.hpp). The order of projection belongs to the mesh: any machine and any number
+// Orders `ordered` and `grouped` as a Projection: constraints in batches of sixteen that share no vertex (../../packed/batch.hpp), vertices reordered
+// for locality, slabs of the mesh in parallel (../../packed/vertex_order.hpp). The order of projection belongs to the mesh: any machine and any number
 // of threads project alike, and threads give the same bits. It is another order than `plain`; stretch, volume and bind contradict each
 // other, so the two settle on different limits (the study `equal_quality`).
 #pragma once
 
 #include "pbs/geometry/topology.hpp"
-#include "pbs/solver/batched/batched_constraints.hpp"
-#include "pbs/solver/batched/batched_particles.hpp"
-#include "pbs/solver/parallel.hpp"
+#include "pbs/packed/parallel.hpp"
+#include "pbs/solver/batched/batch_program.hpp"
 #include "pbs/solver/projection.hpp"
 
 #include <vector>

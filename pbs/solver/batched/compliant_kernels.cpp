@@ -1,6 +1,6 @@
-#include "pbs/solver/batched/compliant_kernels.hpp"
+#include "pbs/solver/batched/pbs_kernels.hpp"
 
-#include "pbs/solver/batched/project_lanes.hpp"
+#include "pbs/solver/batched/pbs_kernels.cpp"
 
 namespace pbs {
 namespace {

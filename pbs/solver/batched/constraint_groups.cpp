@@ -1,4 +1,4 @@
-#include "pbs/solver/batched/constraint_groups.hpp"
+#include "pbs/packed/groups.hpp"
 
 namespace pbs {
 

@@ -1,10 +1,10 @@
-// Constraints in groups, which a lane projects one after the other before it stores their vertices (batch.hpp).
+// Constraints in groups, which a lane projects one after the other before it stores their vertices (../../packed/batch.hpp).
 // `ordered`: groups of one. `grouped`: edges as the six of a tet, the three of a triangle, two that share a vertex, or alone; tets as fans
 // of three or two round an edge, or alone. Grouping changes the order of projection and so, a little, what 24 iterations give.
 #pragma once
 
 #include "pbs/geometry/types.hpp"
-#include "pbs/solver/batched/batch.hpp"
+#include "pbs/packed/batch.hpp"
 
 #include <array>
 #include <vector>

@@ -1,5 +1,5 @@
 // Edges in groups, the largest first: tets whose edges are nearly all free, then triangles, then pairs at a vertex, then what is left.
-#include "pbs/solver/batched/constraint_groups.hpp"
+#include "pbs/packed/groups.hpp"
 
 #include <algorithm>
 #include <cstdint>

@@ -1,5 +1,5 @@
 // Tets in fans round an edge, the largest first; of several, the fan whose members have the fewest free neighbours.
-#include "pbs/solver/batched/constraint_groups.hpp"
+#include "pbs/packed/groups.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -2,7 +2,7 @@
 // so nothing is gathered. poses: of each vertex x, y, z [m] of poses_a_block poses; stiffness: of each class, k of every pose.
 #pragma once
 
-#include "pbs/solver/batched/pose_constraints.hpp"
+#include "pbs/solver/batched/pbs_kernels.hpp"
 
 #include <cstddef>
 

@@ -1,8 +1,8 @@
 // Algorithm 1 for many poses of one mesh, in one precision. PosesSolver is the door to it.
 #pragma once
 
+#include "pbs/packed/parallel.hpp"
 #include "pbs/solver/batched/pose_projection.hpp"
-#include "pbs/solver/parallel.hpp"
 #include "pbs/solver/particles.hpp"
 #include "pbs/solver/step_summary.hpp"
 

@@ -2,7 +2,7 @@
 // A lane whose constraint has no gradient stays, as there. For kernels alone.
 #pragma once
 
-#include "pbs/solver/batched/lanes.hpp"
+#include "pbs/packed/lanes.hpp"
 
 #include <limits>
 

@@ -1,4 +1,4 @@
-#include "pbs/solver/batched/projection_sequence.hpp"
+#include "pbs/packed/groups.hpp"
 
 #include <algorithm>
 #include <numeric>

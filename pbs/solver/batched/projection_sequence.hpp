@@ -6,7 +6,7 @@
 // sweeps is on average 3 % above. The page of the study `equal_quality` has the table.
 #pragma once
 
-#include "pbs/solver/batched/constraint_groups.hpp"
+#include "pbs/packed/groups.hpp"
 
 #include <vector>
 

@@ -1,6 +1,6 @@
 // The work of one projection of each class, counted by hand: the numerator and the denominator of the roofline.
 // Operations: every +, -, *, / and square root of real numbers counts one, a change of sign or a comparison none, and a multiply-add two.
-// They are those of pbs/solver/batched/project_lanes.hpp, which computes in advance what no frame changes (k over w1 + w2, 6 V0). The same
+// They are those of pbs/solver/batched/pbs_kernels.cpp, which computes in advance what no frame changes (k over w1 + w2, 6 V0). The same
 // count is used for every order, so that GFLOP/s are useful ones; what `plain` does beyond them is not counted.
 // Bytes: what has to pass between the core and the level that holds the working set in one pass over the class: the constraint's own data
 // once, and its share of the positions (x, y, z, w) once in and once out. Loads that a nearer cache answers are not counted.

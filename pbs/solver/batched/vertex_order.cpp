@@ -1,4 +1,4 @@
-#include "pbs/solver/batched/vertex_order.hpp"
+#include "pbs/packed/vertex_order.hpp"
 
 #include "pbs/geometry/topology.hpp"
 

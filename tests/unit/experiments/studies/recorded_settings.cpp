@@ -22,10 +22,10 @@
 #include "experiments/studies/study_run.hpp"
 #include "experiments/studies/timing/timing_records.hpp"
 #include "experiments/studies/work_precision/measured_points.hpp"
-#include "pbs/author/author_options.hpp"
+#include "pbs/author/author_solver.hpp"
 #include "pbs/skinning/delta_mush.hpp"
 #include "pbs/skinning/direct_delta_mush.hpp"
-#include "pbs/solver/xpbd_options.hpp"
+#include "pbs/solver/options.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/struct_members.hpp"
 

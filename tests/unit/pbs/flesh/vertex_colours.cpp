@@ -1,5 +1,5 @@
 // Reference: the definition of a colouring, checked tet by tet.
-#include "pbs/flesh/vertex_colours.hpp"
+#include "pbs/packed/vertex_order.hpp"
 
 #include "tests/support/structured_bar.hpp"
 #include "tests/support/tet_rings.hpp"

@@ -1,5 +1,5 @@
 // Reference: the definition. Every task runs once, and an exception of a task reaches the caller.
-#include "pbs/solver/parallel.hpp"
+#include "pbs/packed/parallel.hpp"
 
 #include <gtest/gtest.h>
 

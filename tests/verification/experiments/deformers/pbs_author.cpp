@@ -7,7 +7,7 @@
 // compares the deformer with the published code.
 #include "analysis/frame_metrics.hpp"
 #include "experiments/deformers/registry.hpp"
-#include "pbs/author/author_options.hpp"
+#include "pbs/author/author_solver.hpp"
 #include "pbs/character/bodies.hpp"
 #include "pbs/solver/options.hpp"
 

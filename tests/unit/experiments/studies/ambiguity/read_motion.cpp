@@ -2,7 +2,7 @@
 #include "experiments/studies/ambiguity/read_motion.hpp"
 
 #include "analysis/frame_metrics.hpp"
-#include "pbs/skinning/blend_skinning.hpp"
+#include "pbs/skinning/blend.hpp"
 #include "pbs/solver/pbs_solver.hpp"
 #include "tests/support/limb_character.hpp"
 

@@ -1,6 +1,6 @@
 // Reference: the conditions on which the kernels rely, checked for every batch: at most sixteen groups, no vertex twice, none of the
 // previous batch; and the order given, which groups that share a vertex keep.
-#include "pbs/solver/batched/batch_schedule.hpp"
+#include "pbs/packed/groups.hpp"
 
 #include "pbs/geometry/topology.hpp"
 #include "tests/support/expect_groups.hpp"

@@ -2,7 +2,7 @@
 #include "pbs/solver/batched/batched_projection.hpp"
 
 #include "pbs/solver/project_plain.hpp"
-#include "pbs/solver/residuals.hpp"
+#include "pbs/solver/step_summary.hpp"
 #include "tests/support/projection_rounding.hpp"
 #include "tests/support/random_points.hpp"
 #include "tests/support/scalar_rounding.hpp"

@@ -1,5 +1,5 @@
 // Reference: the shapes written by hand, and that groups of one are the constraints in file order.
-#include "pbs/solver/batched/constraint_groups.hpp"
+#include "pbs/packed/groups.hpp"
 
 #include "pbs/geometry/topology.hpp"
 #include "tests/support/expect_groups.hpp"

@@ -1,5 +1,5 @@
 // Reference: colours found by hand, the definition of a colouring, and the same projections in random sequences.
-#include "pbs/solver/batched/projection_sequence.hpp"
+#include "pbs/packed/groups.hpp"
 
 #include "pbs/constraints/volume.hpp"
 #include "pbs/geometry/topology.hpp"

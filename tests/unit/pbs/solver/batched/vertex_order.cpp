@@ -1,6 +1,6 @@
 // Reference: the condition on which threads rely. A group of constraints contains at most one vertex and all its neighbours, so slabs of
 // one parity share nothing if no such star extends beyond the slab of its first vertex and the next one.
-#include "pbs/solver/batched/vertex_order.hpp"
+#include "pbs/packed/vertex_order.hpp"
 
 #include "pbs/geometry/topology.hpp"
 #include "tests/support/structured_bar.hpp"
