@@ -17,7 +17,7 @@ pbs_tests(unit pbs_skinning FOLDERS pbs/skinning pbs/constraints
     ALONE pbs/skinning/bone_binding pbs/skinning/pose_path pbs/skinning/root_frame pbs/constraints/volume_printed
         pbs/constraints/region_volume
     LIBRARIES pbs_method)
-pbs_tests(unit pbs_solver FOLDERS pbs/solver pbs/author
+pbs_tests(unit pbs_solver FOLDERS pbs/packed pbs/solver pbs/author
     ALONE pbs/solver/batched/batched_constraints pbs/solver/batched/batched_projection pbs/packed/groups
         pbs/packed/vertex_order pbs/solver/constraint_set pbs/solver/poses_solver pbs/solver/reordered_projection
         pbs/solver/xpbd_solver

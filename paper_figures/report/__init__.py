@@ -6,7 +6,7 @@
 import sys
 
 import records
-from records import whole_file
+from records import kept, whole_file
 from report import page, record_set, run_page
 
 most_mb = 25
@@ -17,7 +17,7 @@ def main(results, quiet=False):
     file = results / "report.html"
     try:
         is_run = (results / "run.json").is_file()
-        text, missing = run_page.page(results) if is_run else page.page(record_set.RecordSet(results))
+        text, missing = run_page.page(results) if is_run else page.page(record_set.RecordSet(kept.opened(results)))
     except records.RecordsMissing as error:
         print(f"pbskin: {error}", file=sys.stderr)
         return 2

@@ -1,6 +1,6 @@
 #include "pbs/flesh/flesh_kernels.hpp"
 
-#include "pbs/solver/batched/pbs_kernels.cpp"
+#include "pbs/packed/lanes.hpp"
 
 #include <utility>
 

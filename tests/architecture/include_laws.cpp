@@ -16,12 +16,13 @@ struct Law {
 // The first entry whose folder contains a file is the law for that file.
 const std::vector<Law> laws = {
     {"pbs/geometry/", {"pbs/geometry/"}},
-    {"pbs/skinning/", {"pbs/geometry/", "pbs/skinning/"}},
+    {"pbs/packed/", {"pbs/geometry/", "pbs/packed/"}},
+    {"pbs/skinning/", {"pbs/geometry/", "pbs/packed/", "pbs/skinning/"}},
     {"pbs/constraints/", {"pbs/geometry/", "pbs/constraints/"}},
-    {"pbs/solver/", {"pbs/geometry/", "pbs/constraints/", "pbs/solver/"}},
+    {"pbs/solver/", {"pbs/geometry/", "pbs/packed/", "pbs/constraints/", "pbs/solver/"}},
     {"pbs/near_rest/", {"pbs/geometry/", "pbs/constraints/", "pbs/solver/", "pbs/near_rest/"}},
     {"pbs/author/", {"pbs/geometry/", "pbs/skinning/", "pbs/constraints/", "pbs/solver/", "pbs/author/"}},
-    {"pbs/flesh/", {"pbs/geometry/", "pbs/skinning/", "pbs/solver/", "pbs/flesh/"}},
+    {"pbs/flesh/", {"pbs/geometry/", "pbs/packed/", "pbs/skinning/", "pbs/flesh/"}},
     {"pbs/rig/", {"pbs/geometry/", "pbs/skinning/", "pbs/rig/"}},
     {"pbs/character/", {"pbs/"}},
     {"reference_fem/verification/", {"pbs/geometry/", "reference_fem/", "analysis/records/"}},

@@ -19,7 +19,7 @@ root = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(root / "paper_figures"))
 
 from drawing import bodies  # noqa: E402
-from records import entries  # noqa: E402
+from records import entries, kept  # noqa: E402
 from viewer import data as viewer_data, page as viewer_html, poses as viewer_poses  # noqa: E402
 
 skipped = 77
@@ -45,7 +45,7 @@ def recorded(program, scratch):
     if os.environ.get("PBS_BROWSER_RESULTS"):
         return pathlib.Path(os.environ["PBS_BROWSER_RESULTS"]).resolve()
     folder = scratch / "records"
-    shutil.copytree(root / "experiments" / "records" / "full", folder, dirs_exist_ok=True)
+    kept.expand(root / "experiments" / "records" / "full", folder)
     reproduce = [program, "reproduce", "--quiet", "-o", folder]
     run([*reproduce, "--resume", "frames", "audit"], [bound_missed])
     run([*reproduce, "--judge"], [bound_missed])  # of all existing records
