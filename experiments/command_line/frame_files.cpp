@@ -1,6 +1,6 @@
 #include "experiments/command_line/verbs.hpp"
 
-#include "analysis/records/folder_files.hpp"
+#include "analysis/records/record_files.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 #include <fmt/format.h>

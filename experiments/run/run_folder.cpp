@@ -1,9 +1,7 @@
 #include "experiments/run/run_folder.hpp"
 
-#include "analysis/frame_statistics.hpp"
-#include "analysis/records/atomic_file.hpp"
-#include "analysis/records/folder_files.hpp"
-#include "analysis/records/record_text.hpp"
+#include "analysis/records/record_files.hpp"
+#include "analysis/statistics/statistics.hpp"
 #include "experiments/run/metrics_table.hpp"
 #include "experiments/run/run.hpp"
 #include "experiments/run/run_records.hpp"

@@ -4,8 +4,8 @@
 // run.json is a finished run.
 #pragma once
 
-#include "analysis/records/csv_table.hpp"
-#include "analysis/records/state_hash.hpp"
+#include "analysis/records/provenance.hpp"
+#include "analysis/records/tables.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/run/frame_measurement.hpp"
 #include "experiments/run/run_records.hpp"

@@ -1,6 +1,6 @@
 #include "experiments/scene/scene.hpp"
 
-#include "analysis/records/record_text.hpp"
+#include "analysis/records/record_files.hpp"
 #include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/settings/scene_values.hpp"

@@ -1,9 +1,5 @@
 #include "experiments/verdicts/reproduce.hpp"
 
-#include "analysis/claims_report.hpp"
-#include "analysis/claims_table.hpp"
-#include "analysis/records/atomic_file.hpp"
-#include "analysis/records/folder_files.hpp"
 #include "analysis/records/provenance.hpp"
 #include "experiments/process/child_process.hpp"
 #include "experiments/process/terminal.hpp"

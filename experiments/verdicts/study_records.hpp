@@ -4,7 +4,7 @@
 //   const analysis::Records records = read_study_records(folder, root);
 #pragma once
 
-#include "analysis/records/scratch_folder.hpp"
+#include "analysis/records/record_files.hpp"
 #include "experiments/studies/study.hpp"
 
 #include <optional>

@@ -5,7 +5,7 @@
 #include "experiments/settings/option_fields.hpp"
 #include "experiments/studies/shared/pose_columns.hpp"
 
-#include "analysis/frame_metrics.hpp"
+#include "analysis/metrics/frame_metrics.hpp"
 
 #include <algorithm>
 

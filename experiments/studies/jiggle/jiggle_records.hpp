@@ -3,7 +3,7 @@
 //   const std::string breakdown = record_walk(of, folder);    // walk.csv, series.csv
 #pragma once
 
-#include "analysis/records/typed_table.hpp"
+#include "analysis/records/tables.hpp"
 #include "experiments/scene/scene.hpp"
 #include "experiments/studies/jiggle/jiggle_settings.hpp"
 #include "experiments/studies/jiggle/jolt_response.hpp"

@@ -10,8 +10,8 @@
 #include "experiments/studies/shared/posed_character.hpp"
 #include "experiments/studies/study.hpp"
 
-#include "analysis/measurement.hpp"
-#include "analysis/records/folder_files.hpp"
+#include "analysis/records/record_files.hpp"
+#include "analysis/verdicts/measurement.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 namespace experiments {

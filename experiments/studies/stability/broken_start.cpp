@@ -1,7 +1,7 @@
 #include "experiments/studies/stability/broken_start.hpp"
 
-#include "analysis/error_norms.hpp"
-#include "analysis/stability_outcome.hpp"
+#include "analysis/metrics/error_norms.hpp"
+#include "analysis/metrics/stability_outcome.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/process/machine.hpp"
 #include "experiments/process/terminal.hpp"

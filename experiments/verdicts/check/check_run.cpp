@@ -6,7 +6,7 @@
 #include "analysis/records/atomic_file.hpp"
 #include "analysis/records/kept_record.hpp"
 #include "analysis/records/provenance.hpp"
-#include "analysis/records/record_text.hpp"
+#include "analysis/records/record_files.hpp"
 #include "experiments/run/metrics_table.hpp"
 #include "experiments/run/run.hpp"
 #include "generated/claims_texts.hpp"

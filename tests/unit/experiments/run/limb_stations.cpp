@@ -2,7 +2,7 @@
 // Tolerances: the rounding of a motion, and of the mean of two directions, which counts as another.
 #include "experiments/run/frame_measurement.hpp"
 
-#include "analysis/cross_section.hpp"
+#include "analysis/metrics/cross_section.hpp"
 #include "pbs/character/bodies.hpp"
 #include "tests/support/motion_rounding.hpp"
 

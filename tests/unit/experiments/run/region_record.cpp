@@ -2,7 +2,7 @@
 // record add up to the body and its changes to those of the metrics.
 #include "experiments/run/run_records.hpp"
 
-#include "analysis/frame_metrics.hpp"
+#include "analysis/metrics/frame_metrics.hpp"
 #include "experiments/studies/volume/region_table.hpp"
 #include "pbs/geometry/tet_volume.hpp"
 #include "tests/support/limb_character.hpp"

@@ -21,7 +21,7 @@ TEST(HumanGrip, EveryBoneIsGrippedAndTheErrorFallsWithTheSprings)
     ASSERT_GE(forearm, 0);
     const pbs::Pose pose = pbs::joint_sweep(human.skeleton, forearm, pbs::Vec3::UnitX(), 10.0, 2, 0.01).steps.back();
 
-    // |r| <= sqrt(n) eps |K| |u| (reference_fem/verification/rounding_bound.hpp), where |K| |u| is at most 100 |f|, the load of the
+    // |r| <= sqrt(n) eps |K| |u| (reference_fem/verification/problems.hpp), where |K| |u| is at most 100 |f|, the load of the
     // springs.
     const double residual = test_support::rounding_error(2.0 * std::sqrt(3.0 * static_cast<double>(human.mesh.rest.rows())), 100.0);
     std::vector<double> errors;
