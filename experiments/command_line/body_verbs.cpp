@@ -1,7 +1,6 @@
 // The packages of the bodies that are no part of the project. Each is defined in a file of this folder.
 
-#include "analysis/records/atomic_file.hpp"
-#include "analysis/records/scratch_folder.hpp"
+#include "analysis/records/record_files.hpp"
 #include "experiments/command_line/verbs.hpp"
 #include "experiments/process/child_process.hpp"
 #include "experiments/process/terminal.hpp"

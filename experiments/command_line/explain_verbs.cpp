@@ -1,5 +1,4 @@
-#include "analysis/plain_markdown.hpp"
-#include "analysis/text_columns.hpp"
+#include "analysis/records/report_table.hpp"
 #include "experiments/command_line/verbs.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/process/terminal.hpp"

@@ -1,11 +1,10 @@
 // pbskin measure REST FRAME... [--csv FILE] [--junit FILE] [--max-volume-change PCT]...: applies the metrics to frames of any program.
 //   pbskin measure rest.msh 'out/frame_%04d.vtu' --max-volume-change 0.5 --max-inverted 0 --junit volume.xml
 
-#include "analysis/check/frame_bounds.hpp"
-#include "analysis/edge_strain.hpp"
-#include "analysis/frame_metrics.hpp"
-#include "analysis/records/atomic_file.hpp"
-#include "analysis/records/typed_table.hpp"
+#include "analysis/check/check_rules.hpp"
+#include "analysis/metrics/frame_metrics.hpp"
+#include "analysis/records/record_files.hpp"
+#include "analysis/records/tables.hpp"
 #include "experiments/command_line/verbs.hpp"
 #include "experiments/process/terminal.hpp"
 #include "experiments/run/frame_measurement.hpp"

@@ -1,6 +1,6 @@
 // pbskin run SCENE.toml [-o DIR] [--set key=value]...: runs one scene and writes frames and records.
 
-#include "analysis/records/atomic_file.hpp"
+#include "analysis/records/record_files.hpp"
 #include "experiments/command_line/verbs.hpp"
 #include "experiments/process/terminal.hpp"
 #include "experiments/run/run.hpp"

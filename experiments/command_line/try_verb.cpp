@@ -1,9 +1,7 @@
 // pbskin try MODEL [--animation NAME] [-o DIR]: a rigged model through its own motion, without a scene: runs it with all methods, and
 // writes a summary, the scene to go on with, and a page with the moving model.
 
-#include "analysis/records/atomic_file.hpp"
-#include "analysis/records/record_text.hpp"
-#include "analysis/records/scratch_folder.hpp"
+#include "analysis/records/record_files.hpp"
 #include "experiments/command_line/verbs.hpp"
 #include "experiments/process/child_process.hpp"
 #include "experiments/process/terminal.hpp"

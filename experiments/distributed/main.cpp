@@ -10,9 +10,9 @@
 // Prints the record and writes it to DIR/record.json, and with --nodes the displacement of every node to DIR/nodes.csv. It takes seconds
 // for 10,000 tets and about a minute for 1,000,000 on 2 ranks.
 
-#include "analysis/records/atomic_file.hpp"
 #include "analysis/records/provenance.hpp"
-#include "analysis/records/typed_table.hpp"
+#include "analysis/records/record_files.hpp"
+#include "analysis/records/tables.hpp"
 #include "experiments/deformers/fem/bone_attachment.hpp"
 #include "experiments/deformers/fem/fem_deformers.hpp"
 #include "experiments/deformers/fem/fem_options.hpp"
@@ -22,12 +22,9 @@
 #include "pbs/character/bodies.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/mesh_io.hpp"
-#include "reference_fem/distributed/distributed_elasticity.hpp"
 #include "reference_fem/distributed/elastic_problem.hpp"
-#include "reference_fem/distributed/mpi_session.hpp"
-#include "reference_fem/distributed/serial_elasticity.hpp"
-#include "reference_fem/iterative_options.hpp"
-#include "reference_fem/verification/structured_mesh.hpp"
+#include "reference_fem/options.hpp"
+#include "reference_fem/verification/problems.hpp"
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>

@@ -1,7 +1,6 @@
 #include "experiments/process/child_process.hpp"
 
-#include "analysis/records/atomic_file.hpp"
-#include "analysis/records/record_text.hpp"
+#include "analysis/records/record_files.hpp"
 #include "experiments/process/terminal.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/process.hpp"

@@ -1,6 +1,6 @@
 #include "experiments/run/frame_measurement.hpp"
 
-#include "analysis/cross_section.hpp"
+#include "analysis/metrics/cross_section.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

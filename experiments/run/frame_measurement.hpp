@@ -2,10 +2,9 @@
 // cross-section, and the volume of the rendered surface.
 #pragma once
 
-#include "analysis/cross_section.hpp"
-#include "analysis/error_norms.hpp"
-#include "analysis/frame_metrics.hpp"
-#include "analysis/surface_volume.hpp"
+#include "analysis/metrics/cross_section.hpp"
+#include "analysis/metrics/error_norms.hpp"
+#include "analysis/metrics/frame_metrics.hpp"
 #include "experiments/scene/scene.hpp"
 #include "pbs/character/character.hpp"
 #include "pbs/character/overlap_mask.hpp"

@@ -2,8 +2,8 @@
 // binding.csv. The columns explain their contents.
 #pragma once
 
-#include "analysis/records/typed_table.hpp"
-#include "analysis/region_volume.hpp"
+#include "analysis/metrics/frame_metrics.hpp"
+#include "analysis/records/tables.hpp"
 #include "experiments/process/machine.hpp"
 #include "pbs/character/character.hpp"
 #include "pbs/geometry/stopwatch.hpp"

@@ -1,8 +1,8 @@
 #include "experiments/trial/trial.hpp"
 
-#include "analysis/records/csv_table.hpp"
-#include "analysis/records/record_text.hpp"
-#include "analysis/statistics.hpp"
+#include "analysis/records/record_files.hpp"
+#include "analysis/records/tables.hpp"
+#include "analysis/statistics/statistics.hpp"
 #include "experiments/scene/scene.hpp"
 #include "pbs/character/clip.hpp"
 #include "pbs/character/json_file.hpp"

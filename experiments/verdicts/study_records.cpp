@@ -1,9 +1,7 @@
 #include "experiments/verdicts/study_records.hpp"
 
-#include "analysis/measurement.hpp"
-#include "analysis/records/atomic_file.hpp"
-#include "analysis/records/folder_files.hpp"
-#include "analysis/records/kept_record.hpp"
+#include "analysis/records/record_files.hpp"
+#include "analysis/verdicts/measurement.hpp"
 #include "experiments/run/frame_measurement.hpp"
 #include "experiments/run/run.hpp"
 #include "pbs/character/json_file.hpp"

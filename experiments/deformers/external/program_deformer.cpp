@@ -1,5 +1,4 @@
-#include "analysis/records/record_text.hpp"
-#include "analysis/records/scratch_folder.hpp"
+#include "analysis/records/record_files.hpp"
 #include "experiments/deformers/external/external_deformers.hpp"
 #include "experiments/process/child_process.hpp"
 #include "experiments/process/terminal.hpp"

@@ -5,10 +5,7 @@
 #include "experiments/settings/option_names.hpp"
 #include "pbs/character/bone_capsules.hpp"
 #include "pbs/geometry/types.hpp"
-#include "reference_fem/dynamics.hpp"
-#include "reference_fem/formulation.hpp"
-#include "reference_fem/linear_solver.hpp"
-#include "reference_fem/model.hpp"
+#include "reference_fem/options.hpp"
 
 namespace experiments {
 

@@ -1,7 +1,7 @@
 #include "experiments/studies/fit/bar_runs.hpp"
 
 #include "analysis/records/record_files.hpp"
-#include "experiments/deformers/pbs/pbs_option_names.hpp"
+#include "experiments/deformers/deformer_options.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "experiments/studies/fit/young_fit.hpp"
 #include "pbs/character/bodies.hpp"

@@ -6,8 +6,7 @@
 #include "reference_fem/verification/problems.hpp"
 
 #include "analysis/statistics/minimise.hpp"
-#include "experiments/deformers/fem/elastic_fem_deformer.hpp"
-#include "experiments/deformers/fem/linear_fem_deformer.hpp"
+#include "experiments/deformers/fem/fem_deformers.hpp"
 #include "pbs/geometry/stopwatch.hpp"
 
 #include <algorithm>

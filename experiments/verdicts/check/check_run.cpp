@@ -1,10 +1,7 @@
 #include "experiments/verdicts/check/check_run.hpp"
 
 #include "analysis/check/check_judgement.hpp"
-#include "analysis/check/github_report.hpp"
-#include "analysis/check/junit_report.hpp"
-#include "analysis/records/atomic_file.hpp"
-#include "analysis/records/kept_record.hpp"
+#include "analysis/check/check_report.hpp"
 #include "analysis/records/provenance.hpp"
 #include "analysis/records/record_files.hpp"
 #include "experiments/run/metrics_table.hpp"
