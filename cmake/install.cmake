@@ -43,7 +43,7 @@ pbs_install_libraries(character pbs_rig=rig pbs_flesh=flesh pbs_character=charac
 pbs_install_headers(character pbs/flesh pbs/rig pbs/character)
 if(PBS_WITH_ANALYSIS)
     pbs_install_libraries(analysis analysis=analysis)
-    pbs_install_headers(analysis analysis analysis/records)
+    pbs_install_headers(analysis analysis/metrics analysis/statistics analysis/verdicts analysis/records)
 endif()
 if(PBS_WITH_FEM)
     pbs_install_libraries(fem reference_fem_laws=fem_laws reference_fem_multigrid=fem_multigrid reference_fem=fem)

@@ -44,8 +44,8 @@ function(fuzz_libraries name)
 endfunction()
 
 fuzz_target(fuzz/scene.cpp experiments
-    experiments/settings/scene_values.cpp experiments/settings/scene_schema.cpp experiments/scene/scene_keys.cpp
-    experiments/deformers/pbs/pbs_settings.cpp experiments/deformers/fem/fem_settings.cpp analysis/records/record_text.cpp
+    experiments/settings/scene_values.cpp experiments/scene/scene_keys.cpp experiments/deformers/pbs_settings.cpp
+    experiments/deformers/fem/fem_kind.cpp experiments/process/machine.cpp pbs/geometry/module.cpp
     pbs/geometry/files.cpp pbs/geometry/input_error.cpp)
 fuzz_target(fuzz/mesh.cpp pbs_mesh_io
     pbs/geometry/guarded_reading.cpp pbs/geometry/child_process.cpp pbs/geometry/mesh_checks.cpp pbs/geometry/files.cpp
@@ -60,9 +60,9 @@ fuzz_target(fuzz/rig.cpp pbs_rig
     pbs/rig/rig_reader.cpp pbs/rig/tiny_gltf.cpp pbs/skinning/pose_path.cpp pbs/skinning/pose.cpp
     pbs/geometry/content_format.cpp pbs/geometry/files.cpp pbs/geometry/input_error.cpp)
 fuzz_target(fuzz/texts.cpp experiments
-    analysis/records/csv_reader.cpp analysis/records/csv_table.cpp analysis/records/atomic_file.cpp
-    experiments/settings/scene_values.cpp experiments/settings/scene_schema.cpp experiments/scene/scene_keys.cpp
-    experiments/deformers/pbs/pbs_settings.cpp experiments/deformers/fem/fem_settings.cpp analysis/records/record_text.cpp
+    analysis/records/tables.cpp analysis/records/record_files.cpp
+    experiments/settings/scene_values.cpp experiments/scene/scene_keys.cpp experiments/deformers/pbs_settings.cpp
+    experiments/deformers/fem/fem_kind.cpp experiments/process/machine.cpp pbs/geometry/module.cpp
     pbs/character/clip.cpp pbs/geometry/files.cpp pbs/geometry/input_error.cpp)
 fuzz_target(fuzz/files.cpp pbs_character
     pbs/character/frankie.cpp pbs/character/skinning_weights.cpp pbs/skinning/pose.cpp pbs/geometry/tetgen_and_tobj.cpp
