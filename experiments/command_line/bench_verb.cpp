@@ -5,6 +5,7 @@
 #include "experiments/studies/bench/bench.hpp"
 #include "pbs/geometry/input_error.hpp"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 

@@ -1,11 +1,10 @@
 #include "experiments/studies/study_run.hpp"
 
 #include "analysis/records/record_files.hpp"
-#include "experiments/process/cpu_clock.hpp"
+#include "experiments/process/machine.hpp"
 #include "experiments/run/run.hpp"
-#include "experiments/run/run_provenance.hpp"
+#include "pbs/geometry/cost.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/stopwatch.hpp"
 
 #include <spdlog/spdlog.h>
 

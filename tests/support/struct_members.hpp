@@ -3,9 +3,9 @@
 #pragma once
 
 #include "analysis/verdicts/case_record.hpp"
-#include "experiments/deformers/pbs/pbs_option_names.hpp"
+#include "experiments/deformers/deformer_options.hpp"
 #include "experiments/scene/scene.hpp"
-#include "experiments/settings/member_count.hpp"
+#include "experiments/settings/option_fields.hpp"
 
 #include <optional>
 #include <string>

@@ -3,7 +3,7 @@
 #include "analysis/metrics/error_norms.hpp"
 #include "analysis/metrics/frame_metrics.hpp"
 #include "analysis/statistics/statistics.hpp"
-#include "experiments/deformers/pbs/pbs_option_names.hpp"
+#include "experiments/deformers/deformer_options.hpp"
 
 #include <fmt/format.h>
 

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "analysis/statistics/fits.hpp"
-#include "experiments/process/peak_memory.hpp"
+#include "experiments/process/machine.hpp"
 #include "experiments/studies/bench/deformer_timing.hpp"
 #include "experiments/studies/bench/newton_timing.hpp"
 #include "experiments/studies/bench/projection_timing.hpp"

@@ -14,7 +14,7 @@
 #include "analysis/records/record_files.hpp"
 #include "analysis/records/report_table.hpp"
 #include "analysis/verdicts/measurement.hpp"
-#include "experiments/deformers/pbs/pbs_option_names.hpp"
+#include "experiments/deformers/deformer_options.hpp"
 #include "experiments/studies/convergence/convergence_records.hpp"
 #include "experiments/studies/convergence/convergence_values.hpp"
 #include "experiments/studies/shared/clip_frames.hpp"

@@ -2,7 +2,7 @@
 
 #include "analysis/metrics/frame_metrics.hpp"
 #include "experiments/deformers/registry.hpp"
-#include "experiments/scene/motion_case.hpp"
+#include "experiments/scene/scene.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "pbs/solver/options.hpp"
 

@@ -2,8 +2,8 @@
 
 #include "analysis/statistics/fits.hpp"
 #include "analysis/statistics/statistics.hpp"
-#include "experiments/process/cpu_clock.hpp"
-#include "experiments/process/interruption.hpp"
+#include "experiments/process/machine.hpp"
+#include "experiments/process/terminal.hpp"
 #include "experiments/studies/shared/posed_reference.hpp"
 #include "pbs/solver/particles.hpp"
 #include "pbs/solver/projection.hpp"

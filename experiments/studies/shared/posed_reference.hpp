@@ -10,7 +10,6 @@
 #include "analysis/metrics/error_norms.hpp"
 #include "analysis/statistics/grid_convergence.hpp"
 #include "experiments/deformers/deformer.hpp"
-#include "experiments/deformers/deformer_spec.hpp"
 #include "experiments/scene/scene.hpp"
 #include "pbs/character/character.hpp"
 

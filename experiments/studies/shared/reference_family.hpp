@@ -4,7 +4,7 @@
 #pragma once
 
 #include "analysis/records/tables.hpp"
-#include "experiments/deformers/deformer_spec.hpp"
+#include "experiments/deformers/deformer.hpp"
 #include "experiments/deformers/fem/fem_options.hpp"
 
 #include <nlohmann/json_fwd.hpp>

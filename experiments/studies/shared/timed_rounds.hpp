@@ -7,7 +7,7 @@
 #pragma once
 
 #include "analysis/records/tables.hpp"
-#include "experiments/process/cpu_clock.hpp"
+#include "experiments/process/machine.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 

@@ -10,7 +10,7 @@
 #include "analysis/records/provenance.hpp"
 #include "analysis/records/record_files.hpp"
 #include "analysis/verdicts/measurement.hpp"
-#include "experiments/scene/motion_case.hpp"
+#include "experiments/scene/scene.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "experiments/studies/shared/real_bodies.hpp"
 #include "experiments/studies/shared/table_1.hpp"

@@ -6,9 +6,8 @@
 #include "reference_fem/verification/problems.hpp"
 
 #include "analysis/statistics/minimise.hpp"
-#include "experiments/deformers/fem/elastic_fem_deformer.hpp"
-#include "experiments/deformers/fem/linear_fem_deformer.hpp"
-#include "pbs/geometry/stopwatch.hpp"
+#include "experiments/deformers/fem/fem_deformers.hpp"
+#include "pbs/geometry/cost.hpp"
 
 #include <algorithm>
 #include <cmath>

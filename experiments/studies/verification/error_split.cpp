@@ -5,7 +5,7 @@
 
 #include "analysis/metrics/error_norms.hpp"
 #include "analysis/statistics/grid_convergence.hpp"
-#include "experiments/deformers/fem/elastic_fem_deformer.hpp"
+#include "experiments/deformers/fem/fem_deformers.hpp"
 #include "pbs/skinning/blend.hpp"
 #include "pbs/solver/pbs_solver.hpp"
 

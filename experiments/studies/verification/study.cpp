@@ -2,7 +2,7 @@
 // own. No claim depends on it; it shows how far the reference itself can be trusted. The rows are in DIR/verification/verification.csv,
 // .json and .md.
 #include "analysis/records/record_files.hpp"
-#include "experiments/process/blas_kernels.hpp"
+#include "experiments/process/machine.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "experiments/studies/study.hpp"
 #include "experiments/studies/verification/problem.hpp"

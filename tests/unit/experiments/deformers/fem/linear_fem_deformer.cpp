@@ -1,5 +1,5 @@
 // The deformer's reports, and the inputs that it refuses. The verification tests show that it deforms correctly.
-#include "experiments/deformers/fem/linear_fem_deformer.hpp"
+#include "experiments/deformers/fem/fem_deformers.hpp"
 
 #include "pbs/geometry/input_error.hpp"
 #include "tests/support/bar_character.hpp"
