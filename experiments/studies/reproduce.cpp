@@ -1,4 +1,4 @@
-#include "experiments/verdicts/reproduce.hpp"
+#include "experiments/studies/reproduce.hpp"
 
 #include "analysis/records/provenance.hpp"
 #include "experiments/process/child_process.hpp"
@@ -7,7 +7,6 @@
 #include "experiments/studies/study.hpp"
 #include "experiments/studies/study_costs.hpp"
 #include "experiments/studies/study_run.hpp"
-#include "experiments/verdicts/study_records.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 #include <fmt/format.h>
