@@ -1,7 +1,5 @@
 #include "reference_fem/linear_flesh.hpp"
 
-#include "reference_fem/assembly.hpp"
-#include "reference_fem/options.hpp"
 #include "reference_fem/potentials/potentials.hpp"
 
 #include <cmath>

@@ -2,15 +2,12 @@
 
 #include "analysis/statistics/statistics.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/geometry/topology.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
-#include <vector>
 
 namespace analysis {
 

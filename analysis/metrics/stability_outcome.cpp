@@ -1,7 +1,5 @@
 #include "analysis/metrics/stability_outcome.hpp"
 
-#include "pbs/geometry/tet_mesh.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -2,17 +2,10 @@
 
 #include "pbs/geometry/child_process.hpp"
 #include "pbs/geometry/files.hpp"
-#include "pbs/geometry/input_error.hpp"
 
-#include <nlohmann/json.hpp>
 #include <unistd.h>
 
-#include <cerrno>
-#include <filesystem>
 #include <regex>
-#include <string>
-#include <system_error>
-#include <vector>
 
 namespace analysis {
 

@@ -7,7 +7,6 @@
 #include <numeric>
 #include <regex>
 #include <sstream>
-#include <vector>
 
 namespace analysis {
 namespace {

@@ -5,11 +5,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <set>
-#include <stdexcept>
 #include <string_view>
 
 namespace analysis {

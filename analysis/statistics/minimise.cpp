@@ -1,6 +1,5 @@
 #include "analysis/statistics/minimise.hpp"
 
-#include "analysis/statistics/statistics.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 #include <fmt/format.h>
@@ -14,7 +13,6 @@
 #include <limits>
 #include <map>
 #include <memory>
-#include <optional>
 
 namespace analysis {
 namespace {

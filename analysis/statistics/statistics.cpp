@@ -1,7 +1,5 @@
 #include "analysis/statistics/statistics.hpp"
 
-#include "analysis/records/tables.hpp"
-
 #include <fmt/format.h>
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_rng.h>

@@ -1,7 +1,6 @@
 #include "analysis/verdicts/measurement.hpp"
 
 #include "analysis/records/tables.hpp"
-#include "analysis/statistics/statistics.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,6 @@
 #include "analysis/verdicts/verdict.hpp"
 
 #include "analysis/statistics/statistics.hpp"
-#include "analysis/verdicts/measurement.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +8,6 @@
 #include <limits>
 #include <map>
 #include <set>
-#include <utility>
 
 namespace analysis {
 namespace {

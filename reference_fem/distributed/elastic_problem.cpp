@@ -1,9 +1,5 @@
 #include "reference_fem/distributed/elastic_problem.hpp"
 
-#include "pbs/geometry/tet_mesh.hpp"
-#include "reference_fem/attachment.hpp"
-#include "reference_fem/options.hpp"
-
 #include <deal.II/base/mpi.h>
 #include <sys/resource.h>
 

@@ -6,28 +6,9 @@
 
 namespace reference_fem {
 
-// The laws behind constitutive_law(), a file each.
-
-// psi = mu eps:eps + lambda / 2 (tr eps)^2, eps = (F + F^T) / 2 - I.
-std::unique_ptr<const ConstitutiveLaw> linear_law(const Lame& lame);
-// psi = mu |F - R|^2 + lambda / 2 (tr S - 3)^2, F = R S (E. Sifakis, J. Barbic, SIGGRAPH 2012 courses, part I, section 3.4). Defined for
-// every finite F.
-std::unique_ptr<const ConstitutiveLaw> corotational_law(const Lame& lame);
-// psi = mu / 2 (|F|^2 - 3) - mu (J - 1) + (lambda + mu) / 2 (J - 1)^2, J = det F (B. Smith, F. de Goes, T. Kim 2018, without their term in
-// ln(|F|^2 + 1)). Defined for every F.
-std::unique_ptr<const ConstitutiveLaw> stable_neo_hookean_law(const Lame& lame);
-// psi = mu / 2 (|F|^2 - 3) - mu ln J + lambda / 2 (ln J)^2, J > 0 (J. Bonet, R. Wood, Eq. 6.27).
-std::unique_ptr<const ConstitutiveLaw> neo_hookean_law(const Lame& lame);
-// psi = mu E:E + lambda / 2 (tr E)^2, E = (F^T F - I) / 2.
-std::unique_ptr<const ConstitutiveLaw> st_venant_kirchhoff_law(const Lame& lame);
-// psi = kappa / 4 (J^2 - 1 - 2 ln J) + mu / 2 (J^(-2/3) |F|^2 - 3), kappa = lambda + 2 mu / 3, J > 0 (after J. Simo, T. Hughes,
-// Computational Inelasticity). Not of two parts: no volume term.
-std::unique_ptr<const ConstitutiveLaw> isochoric_neo_hookean_law(const Lame& lame);
-
-// psi = mu eps:eps + lambda / 2 (tr eps)^2, eps = (F + F^T) / 2 - I.
-
 namespace {
 
+// psi = mu eps:eps + lambda / 2 (tr eps)^2, eps = (F + F^T) / 2 - I.
 class Linear : public ConstitutiveLaw {
 public:
     using ConstitutiveLaw::ConstitutiveLaw;
@@ -51,18 +32,8 @@ public:
     }
 };
 
-}  // namespace
-
-std::unique_ptr<const ConstitutiveLaw> linear_law(const Lame& lame)
-{
-    return std::make_unique<Linear>(lame);
-}
-
 // psi = mu |F - R|^2 + lambda / 2 (tr S - 3)^2, F = R S (E. Sifakis, J. Barbic, FEM Simulation of 3D Deformable Solids, SIGGRAPH 2012
 // courses, part I, section 3.4). Its derivatives by F: those through R vanish from the gradient, since R^T dR is skew and S symmetric.
-
-namespace {
-
 class Corotational : public ConstitutiveLaw {
 public:
     using ConstitutiveLaw::ConstitutiveLaw;
@@ -88,20 +59,10 @@ public:
     }
 };
 
-}  // namespace
-
-std::unique_ptr<const ConstitutiveLaw> corotational_law(const Lame& lame)
-{
-    return std::make_unique<Corotational>(lame);
-}
-
 // psi = mu / 2 (|F|^2 - 3) - mu (J - 1) + lambda' / 2 (J - 1)^2, J = det F, with lambda' = lambda + mu, without which the small-strain
 // limit would have lambda - mu. Smith, de Goes, Kim 2018, without their term in ln(|F|^2 + 1): like HOBAK, the code of T. Kim, D. Eberle,
 // Dynamic Deformables, SIGGRAPH 2020 courses, that leaves it out too. The price: the tet shrunk to a point, F = 0, is a local minimum.
 // With the square completed, this is mu / 2 (|F|^2 - 3) + lambda' / 2 (J - 1 - mu / lambda')^2 of M. Macklin, M. Mueller, MIG 2021.
-
-namespace {
-
 class StableNeoHookean : public ConstitutiveLaw {
 public:
     using ConstitutiveLaw::ConstitutiveLaw;
@@ -126,17 +87,7 @@ public:
     }
 };
 
-}  // namespace
-
-std::unique_ptr<const ConstitutiveLaw> stable_neo_hookean_law(const Lame& lame)
-{
-    return std::make_unique<StableNeoHookean>(lame);
-}
-
 // psi = mu / 2 (|F|^2 - 3) - mu ln J + lambda / 2 (ln J)^2, J = det F > 0 (Bonet, Wood, Eq. 6.27).
-
-namespace {
-
 class NeoHookean : public ConstitutiveLaw {
 public:
     using ConstitutiveLaw::ConstitutiveLaw;
@@ -165,17 +116,7 @@ public:
     }
 };
 
-}  // namespace
-
-std::unique_ptr<const ConstitutiveLaw> neo_hookean_law(const Lame& lame)
-{
-    return std::make_unique<NeoHookean>(lame);
-}
-
 // psi = mu E:E + lambda / 2 (tr E)^2, E = (F^T F - I) / 2.
-
-namespace {
-
 class StVenantKirchhoff : public ConstitutiveLaw {
 public:
     using ConstitutiveLaw::ConstitutiveLaw;
@@ -205,18 +146,8 @@ public:
     }
 };
 
-}  // namespace
-
-std::unique_ptr<const ConstitutiveLaw> st_venant_kirchhoff_law(const Lame& lame)
-{
-    return std::make_unique<StVenantKirchhoff>(lame);
-}
-
 // psi = kappa / 4 (J^2 - 1 - 2 ln J) + mu / 2 (J^(-2/3) |F|^2 - 3), kappa = lambda + 2 mu / 3, J = det F > 0: deal.II's step-44 and the
 // program Quasi-Static Finite-Strain Compressible Elasticity of its code gallery, after J. Simo, T. Hughes, Computational Inelasticity.
-
-namespace {
-
 class IsochoricNeoHookean : public ConstitutiveLaw {
 public:
     using ConstitutiveLaw::ConstitutiveLaw;
@@ -259,26 +190,21 @@ public:
 
 }  // namespace
 
-std::unique_ptr<const ConstitutiveLaw> isochoric_neo_hookean_law(const Lame& lame)
-{
-    return std::make_unique<IsochoricNeoHookean>(lame);
-}
-
 std::unique_ptr<const ConstitutiveLaw> constitutive_law(Model model, const Lame& lame)
 {
     switch (model) {
         case Model::linear:
-            return linear_law(lame);
+            return std::make_unique<Linear>(lame);
         case Model::corotational:
-            return corotational_law(lame);
+            return std::make_unique<Corotational>(lame);
         case Model::stable_neo_hookean:
-            return stable_neo_hookean_law(lame);
+            return std::make_unique<StableNeoHookean>(lame);
         case Model::neo_hookean:
-            return neo_hookean_law(lame);
+            return std::make_unique<NeoHookean>(lame);
         case Model::st_venant_kirchhoff:
-            return st_venant_kirchhoff_law(lame);
+            return std::make_unique<StVenantKirchhoff>(lame);
         case Model::isochoric_neo_hookean:
-            return isochoric_neo_hookean_law(lame);
+            return std::make_unique<IsochoricNeoHookean>(lame);
     }
     return nullptr;
 }

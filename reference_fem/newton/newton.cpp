@@ -1,8 +1,5 @@
 #include "reference_fem/newton/newton.hpp"
 
-#include "pbs/geometry/cost.hpp"
-#include "reference_fem/linear_solvers.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
