@@ -37,6 +37,11 @@ bool is_abandoned(const fs::path& file)
     return std::regex_match(name, match, temporary_name) && pbs::process_is_gone(std::stoi(match[1]));
 }
 
+void require(const std::error_code& error, const fs::path& path, const char* what)
+{
+    if (error) throw pbs::InputError(path.string(), 0, "", "", what + error.message());
+}
+
 }  // namespace
 
 void write_text_atomically(const std::string& path, const std::string& text)
@@ -70,17 +75,6 @@ std::string read_text(const std::string& path)
 {
     return pbs::read_text_file(path);
 }
-
-namespace {
-
-namespace fs = std::filesystem;
-
-void require(const std::error_code& error, const fs::path& path, const char* what)
-{
-    if (error) throw pbs::InputError(path.string(), 0, "", "", what + error.message());
-}
-
-}  // namespace
 
 void remove_record(const fs::path& file)
 {
