@@ -9,8 +9,6 @@
 #include <deal.II/grid/tria.h>
 
 #include <algorithm>
-#include <cmath>
-#include <stdexcept>
 
 namespace reference_fem {
 

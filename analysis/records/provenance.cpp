@@ -2,7 +2,6 @@
 
 #include "generated/build_facts.hpp"
 
-#include <Eigen/Core>
 #include <fmt/core.h>
 #include <gsl/gsl_version.h>
 #include <nlohmann/json.hpp>

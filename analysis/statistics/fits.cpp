@@ -10,14 +10,9 @@
 #include <gsl/gsl_fit.h>
 #include <gsl/gsl_multifit_nlinear.h>
 
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <numbers>
-#include <string>
-#include <utility>
 
 namespace analysis {
 namespace {

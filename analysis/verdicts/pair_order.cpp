@@ -1,6 +1,5 @@
 #include "analysis/verdicts/pair_order.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace analysis {

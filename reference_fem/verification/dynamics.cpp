@@ -9,7 +9,6 @@
 #include <Eigen/LU>
 #include <fmt/format.h>
 
-#include <cmath>
 #include <random>
 
 namespace reference_fem {

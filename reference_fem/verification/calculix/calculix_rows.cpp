@@ -4,11 +4,8 @@
 #include "reference_fem/linear_solvers.hpp"
 #include "reference_fem/potentials/potentials.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <ctime>
 #include <limits>
-#include <stdexcept>
 
 namespace reference_fem {
 namespace {
