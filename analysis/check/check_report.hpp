@@ -38,7 +38,6 @@ const char* to_string(CheckState state);                             // "holds",
 std::string check_table(const std::vector<CheckSuite>& suites);
 
 // A check as GitHub shows it: annotations at the lines of the bounds (workflow commands on stdout) and the summary of the job.
-
 // ::error file=FILE,line=N,title=SUITE NAME::MESSAGE for cases that fail, ::warning for cases that were left out; one line each.
 std::string github_annotations(const std::vector<CheckSuite>& suites);
 
@@ -48,7 +47,6 @@ std::string github_summary(const std::vector<CheckSuite>& suites);
 // JUnit XML for CI servers: one testsuite per suite and one testcase per case (classname: the name of the suite), with its wall time.
 // <failure> marks a case that fails, <error> a breakdown or a refused frame, <skipped> a case that was left out.
 //   write_text_atomically(path, junit_report(suites));
-
 // The whole document, with counts and seconds for each suite and in total.
 std::string junit_report(const std::vector<CheckSuite>& suites);
 

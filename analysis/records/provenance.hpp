@@ -35,7 +35,6 @@ void to_json(nlohmann::json& document, const Provenance& provenance);  // an obj
 // The state of a run in 32 hexadecimal digits: XXH3 128 of the bytes of all positions of all frames, in order. Two runs agree to the bit if
 // their hashes do. `xxhsum -H2` on the little-endian Float64 of the frames, one after the other, gives the same hash.
 //   StateHash hash;  for (frame...) hash.add(deformer.positions());  run["state_hash"] = hash.hex();
-
 // A stream: only the bytes and their order matter, not the portions in which they are added.
 class StateHash {
 public:

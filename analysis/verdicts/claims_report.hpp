@@ -17,15 +17,8 @@ nlohmann::json claims_json(const std::vector<Verdict>& verdicts, const std::stri
 // A table with one row per claim: id, verdict, how many of its values hold, and the primary value with its interval, bound and case.
 std::string claims_markdown(const std::vector<Verdict>& verdicts);
 
-// The primary value in columns of text; all are empty if there is none.
-struct PrimaryTexts {
-    std::string quantity, value, interval, bound, of;  // volume_change_pct, share_of_frames; 0.42; [0.31, 0.5]; 0.95 to 1; human, 01_01
-};
-PrimaryTexts texts_of_primary(const Verdict& verdict);
-
 // The verdicts as a table for the terminal, with a few lines per claim.
 //   fmt::print("{}", claims_table(verdicts, 100, false));
-
 // The columns are claim, verdict, statement and facts: how many values lie within the bound, and the primary value with its interval, bound
 // and case. Lines are wrapped so that none is longer than `width` characters (below 60: 60). The last lines count the verdicts. colours:
 // green for reproduced, yellow for reproduced in part, red for not reproduced, magenta for inconsistent, grey otherwise. claims.json holds

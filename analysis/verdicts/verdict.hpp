@@ -83,7 +83,6 @@ const char* name_of(VerdictKind kind);  // reproduced, reproduced_only_for, ...
 const char* name_of(Extent extent);     // none, part, whole
 
 // The verdict on a claim that is judged by values that a study measured (rule = "measured").
-
 // Values are grouped by subject: the field of the key that the claim names, mostly the body. A subject holds if all its values hold as a
 // whole. It holds in part if some values of each of its quantities do, since a claim of several quantities requires all of them. The
 // verdict is reproduced if all subjects hold, reproduced only for some if some hold or hold in part, and not reproduced if none does. If a
@@ -93,7 +92,6 @@ Verdict judge_measurements(const Claim& claim, const Records& records);
 // Whether a claim's verdict changes with the order and precision of projection. Constraints that contradict each other converge to a
 // different limit in each order.
 //   for (const OrderVerdict& other : judge_orders(claim, records)) ...
-
 // One verdict for each order and precision among the records of claim.orders, in order of first appearance. Each is judged on the scenes on
 // which it was recorded, and so is the claim's own deformer (default variant). None if claim.orders is empty.
 std::vector<OrderVerdict> judge_orders(const Claim& claim, const Records& records);
