@@ -122,8 +122,6 @@ TEST(CheckBaseline, AFrameTwiceIsRefusedWithItsLine)
 }
 
 // Reference: GitHub's documented workflow commands; % \r \n are escaped in messages, and also : and , in properties.
-using analysis::CheckCase;
-using analysis::CheckState;
 using analysis::CheckSuite;
 
 namespace {

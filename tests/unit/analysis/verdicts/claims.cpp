@@ -10,9 +10,6 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
-#include <sstream>
-
 namespace {
 
 using analysis::Claim;
@@ -122,11 +119,7 @@ TEST(Claims, EachOnlyOnce)
     EXPECT_EQ(message_of(head + body + again), "claims.toml:13: id = X: expected each claim once");
 }
 
-}  // namespace
-
 // Reference: the contract of claims.json and claims.md.
-
-namespace {
 
 using namespace analysis;
 
@@ -233,13 +226,7 @@ TEST(ClaimsMarkdown, GivesThePrimaryValueWithItsBound)
     EXPECT_NE(text.find("| cannot_be_tested_here | 0 | 0 |"), std::string::npos) << text;
 }
 
-}  // namespace
-
 // Reference: the definition. A claim takes a few lines, its columns begin at the same position, and no line is longer than the terminal's.
-
-namespace {
-
-using namespace analysis;
 
 std::vector<Verdict> three_verdicts()
 {
