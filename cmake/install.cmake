@@ -28,7 +28,7 @@ function(pbs_install_headers component)
             "packed/(groups|lanes|parallel|vertex_order)"
             "geometry/(atomic_file|content_format|file_limits|name_list|named_link|nearest_name|number_text|process)"
             "geometry/(stopwatch|text_file|toml_text)"
-            "solver/(algorithm_1|plain_projection|project_plain)"
+            "solver/(algorithm_1|project_plain)"
             "rig/(assimp_|collada_|fbx_|gltf_|rig_bytes|skin_weights|tiny_gltf)"
             "character/(bvh_header|clip_bytes|face_stream|folded_skeleton|input_file|json_file|making_lock|morph_targets|skeleton_order)")
         list(JOIN no_call_for_users "|" no_call_for_users)

@@ -1,5 +1,4 @@
 // Reference: the plain implementation of the same energy.
-#include "pbs/flesh/packed_flesh.hpp"
 
 #include "pbs/flesh/flesh_system.hpp"
 #include "tests/support/evaluated_flesh.hpp"
