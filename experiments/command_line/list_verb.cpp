@@ -4,7 +4,6 @@
 #include "experiments/deformers/registry.hpp"
 #include "experiments/run/metrics_table.hpp"
 #include "experiments/scene/scene.hpp"
-#include "experiments/studies/shared/program_claims.hpp"
 #include "experiments/studies/study.hpp"
 #include "generated/pages_texts.hpp"
 

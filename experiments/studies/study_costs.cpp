@@ -1,4 +1,4 @@
-#include "experiments/studies/study_costs.hpp"
+#include "experiments/studies/study.hpp"
 
 #include "analysis/records/atomic_file.hpp"
 #include "analysis/records/typed_table.hpp"

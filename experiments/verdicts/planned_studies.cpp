@@ -1,7 +1,6 @@
 #include "experiments/verdicts/planned_studies.hpp"
 
-#include "experiments/studies/shared/program_claims.hpp"
-#include "experiments/studies/study_run.hpp"
+#include "experiments/studies/study.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 #include <fmt/format.h>

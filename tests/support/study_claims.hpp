@@ -6,7 +6,7 @@
 #include "analysis/claims.hpp"
 #include "analysis/records/atomic_file.hpp"
 #include "analysis/verdict.hpp"
-#include "experiments/studies/study_run.hpp"
+#include "experiments/studies/study.hpp"
 #include "experiments/verdicts/study_records.hpp"
 #include "tests/support/scratch_folder.hpp"
 

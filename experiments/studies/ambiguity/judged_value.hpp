@@ -5,7 +5,7 @@
 
 #include "analysis/measurement.hpp"
 #include "experiments/studies/ambiguity/read_motion.hpp"
-#include "experiments/studies/shared/program_claims.hpp"
+#include "experiments/studies/study.hpp"
 
 #include <string>
 #include <vector>

@@ -16,8 +16,8 @@
 #include "experiments/studies/ambiguity/ambiguity_report.hpp"
 #include "experiments/studies/ambiguity/reading_values.hpp"
 #include "experiments/studies/artefacts/artefact_values.hpp"
-#include "experiments/studies/shared/clip_frames.hpp"
 #include "experiments/studies/shared/iteration_path.hpp"
+#include "experiments/studies/shared/posed_character.hpp"
 #include "experiments/studies/study.hpp"
 #include "pbs/geometry/input_error.hpp"
 

@@ -4,7 +4,7 @@
 #include "analysis/records/folder_files.hpp"
 #include "analysis/statistics.hpp"
 #include "experiments/settings/option_fields.hpp"
-#include "experiments/studies/shared/program_claims.hpp"
+#include "experiments/studies/study.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

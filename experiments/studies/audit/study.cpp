@@ -3,7 +3,7 @@
 #include "analysis/records/folder_files.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "experiments/studies/audit/printed_equations.hpp"
-#include "experiments/studies/shared/table_1.hpp"
+#include "experiments/studies/shared/bodies.hpp"
 #include "experiments/studies/study.hpp"
 
 #include <fmt/format.h>

@@ -15,12 +15,11 @@
 #include "analysis/records/folder_files.hpp"
 #include "analysis/report_table.hpp"
 #include "experiments/deformers/pbs/pbs_option_names.hpp"
-#include "experiments/studies/convergence/convergence_values.hpp"
 #include "experiments/studies/convergence/convergence_records.hpp"
-#include "experiments/studies/shared/clip_frames.hpp"
+#include "experiments/studies/convergence/convergence_values.hpp"
+#include "experiments/studies/shared/bodies.hpp"
+#include "experiments/studies/shared/posed_character.hpp"
 #include "experiments/studies/shared/posed_reference.hpp"
-#include "experiments/studies/shared/real_bodies.hpp"
-#include "experiments/studies/shared/table_1.hpp"
 #include "experiments/studies/study.hpp"
 
 #include <fmt/format.h>

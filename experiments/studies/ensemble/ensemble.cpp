@@ -3,7 +3,7 @@
 #include "experiments/deformers/registry.hpp"
 #include "experiments/scene/motion_case.hpp"
 #include "experiments/settings/option_fields.hpp"
-#include "experiments/studies/shared/pose_columns.hpp"
+#include "experiments/studies/shared/posed_character.hpp"
 
 #include "analysis/frame_metrics.hpp"
 

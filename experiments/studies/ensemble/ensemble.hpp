@@ -9,7 +9,6 @@
 #include "analysis/pair_order.hpp"
 #include "analysis/records/typed_table.hpp"
 #include "experiments/studies/shared/posed_reference.hpp"
-#include "experiments/studies/shared/reference_family.hpp"
 
 #include "experiments/scene/scene.hpp"
 

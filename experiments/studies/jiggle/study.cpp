@@ -11,7 +11,7 @@
 #include "analysis/records/folder_files.hpp"
 #include "analysis/report_table.hpp"
 #include "experiments/studies/jiggle/jiggle_records.hpp"
-#include "experiments/studies/shared/real_bodies.hpp"
+#include "experiments/studies/shared/bodies.hpp"
 #include "experiments/studies/study.hpp"
 
 #include <fmt/format.h>

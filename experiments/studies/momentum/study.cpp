@@ -6,7 +6,6 @@
 #include "experiments/scene/motion_case.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "experiments/studies/momentum/momentum_drift.hpp"
-#include "experiments/studies/shared/clip_frames.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 #include "experiments/studies/study.hpp"
 

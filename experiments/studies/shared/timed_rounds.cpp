@@ -1,6 +1,10 @@
 #include "experiments/studies/shared/timed_rounds.hpp"
 
+#include "analysis/records/folder_files.hpp"
+#include "analysis/records/kept_record.hpp"
 #include "analysis/statistics.hpp"
+#include "experiments/process/own_process.hpp"
+#include "experiments/run/run.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "pbs/geometry/stopwatch.hpp"
 
@@ -66,6 +70,15 @@ analysis::Columns<Spread> spread_columns(const std::string& name, const std::str
     return {{name, &Spread::median, unit, meaning + ", median of the rounds"},
             {name + endings.lower, &Spread::lower, unit, meaning + ", lower quartile"},
             {name + endings.upper, &Spread::upper, unit, meaning + ", upper quartile"}};
+}
+
+nlohmann::json run_scene_alone(const Scene& scene, const std::string& folder, const std::function<void()>& prepare)
+{
+    return in_own_process([&] {
+        if (prepare) prepare();
+        run_scene(scene, folder);
+        return analysis::read_record(analysis::path_in(folder, "run.json"));
+    });
 }
 
 }  // namespace experiments

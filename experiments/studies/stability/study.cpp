@@ -22,7 +22,7 @@
 // fails where an outcome occurs in no cell, or where the printed sign does not diverge: then the map could not tell stable from unstable.
 #include "analysis/records/folder_files.hpp"
 #include "experiments/settings/option_fields.hpp"
-#include "experiments/studies/shared/real_bodies.hpp"
+#include "experiments/studies/shared/bodies.hpp"
 #include "experiments/studies/stability/broken_start.hpp"
 #include "experiments/studies/stability/cell_table.hpp"
 #include "experiments/studies/stability/stability_body.hpp"

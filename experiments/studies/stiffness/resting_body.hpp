@@ -7,7 +7,7 @@
 
 #include "analysis/records/typed_table.hpp"
 #include "experiments/settings/option_names.hpp"
-#include "experiments/studies/shared/loaded_body.hpp"
+#include "experiments/studies/shared/bodies.hpp"
 #include "pbs/near_rest/step_near_rest.hpp"
 
 #include <string>

@@ -14,7 +14,7 @@
 // own order of projection PBS has each other order and precision, so that the report can say whether the verdict depends on it. Each run
 // writes regions.csv; the study sums them up in regions.csv and regions.txt.
 #include "experiments/deformers/pbs/pbs_option_names.hpp"
-#include "experiments/studies/shared/real_bodies.hpp"
+#include "experiments/studies/shared/bodies.hpp"
 #include "experiments/studies/study.hpp"
 #include "experiments/studies/volume/region_table.hpp"
 

@@ -4,7 +4,7 @@
 #include "experiments/deformers/registry.hpp"
 #include "experiments/process/cpu_clock.hpp"
 #include "experiments/process/interruption.hpp"
-#include "experiments/studies/shared/pose_columns.hpp"
+#include "experiments/studies/shared/posed_character.hpp"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // The columns of points.csv, members.csv and theta.csv.
-#include "experiments/studies/shared/pose_columns.hpp"
+#include "experiments/studies/shared/posed_character.hpp"
 #include "experiments/studies/work_precision/point_row.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // Reference: the goals of 5 % within 3 ms, and of 1 % within 6 ms and a thirtieth of Newton's time, applied by hand to a few points.
 #include "experiments/studies/work_precision/goal.hpp"
 
-#include "experiments/studies/shared/case_name.hpp"
+#include "experiments/studies/shared/posed_character.hpp"
 #include "tests/support/comparison_records.hpp"
 
 #include <gtest/gtest.h>

@@ -6,9 +6,13 @@
 #pragma once
 
 #include "analysis/minimise.hpp"
+#include "analysis/records/typed_table.hpp"
 #include "experiments/deformers/fem/fem_options.hpp"
-#include "experiments/studies/shared/loaded_body.hpp"
+#include "experiments/studies/shared/bodies.hpp"
 
+#include <nlohmann/json_fwd.hpp>
+
+#include <string>
 #include <vector>
 
 namespace experiments {
@@ -39,5 +43,38 @@ struct YoungFit {
 // displacement [m], #V x 3, under gravity_m_s2 along -z with the density of the elastic sag. A displacement that is not finite, or against
 // gravity, has no modulus: NaN, and the outcome not_finite.
 YoungFit fit_young(const Cantilever& cantilever, const ElasticSag& elastic, const pbs::Positions& displacement, double gravity_m_s2);
+
+// The bars and settings of one run of the study, and its rows.
+struct SagCase {
+    int vertices = 300;
+    std::vector<double> k_stretch = {0.02, 0.05, 0.1, 0.2, 0.5, 0.9, 1.0}, k_volume = {0.0, 1.0};
+    std::vector<int> iterations = {6, 24, 96};
+};
+nlohmann::json to_json(const SagCase& of);
+
+// The bar and the solver's settings.
+struct BarSetting {
+    int vertices = 0;
+    double mean_edge_m = 0.0, k_stretch = 0.0, k_volume = 0.0;
+    int iterations = 0;
+    double time_step_s = 0.0;
+    std::string masses = "lumped";
+    double density_kg_m3 = 0.0, poisson = 0.0;  // of the elastic body
+};
+
+struct SagRow {
+    BarSetting setting;
+    double young_pa = 0.0, young_low_pa = 0.0, young_high_pa = 0.0;
+    double misfit_pct = 0.0, rise = 0.0;  // how well the minimum is known
+    std::string outcome;
+    bool identifiable = false;
+    double scaled_young = 0.0, tip_sag_over_g_dt2 = 0.0;
+    bool settled = false;
+    double residual = 0.0;
+    int solver_steps = 0;
+};
+extern const analysis::Columns<SagRow> sag_columns;
+
+std::string record_sags(const SagCase& of, const std::string& folder);  // sag.csv
 
 }  // namespace experiments

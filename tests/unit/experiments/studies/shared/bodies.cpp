@@ -1,5 +1,5 @@
 // Reference: the paper's Table 1 counted by hand.
-#include "experiments/studies/shared/table_1.hpp"
+#include "experiments/studies/shared/bodies.hpp"
 
 #include "tests/support/rounding_error.hpp"
 

@@ -1,6 +1,6 @@
 // Reference: the finite elements themselves. The fit must find the modulus of a body that is an elastic bar, and leave a misfit for one
 // that is not. The sag is compared with Timoshenko's beam.
-#include "experiments/studies/fit/young_fit.hpp"
+#include "experiments/studies/fit/fit.hpp"
 
 #include "tests/support/structured_bar.hpp"
 
