@@ -16,9 +16,8 @@ own = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(own.parent))
 
 import records  # noqa: E402
-import rendering  # noqa: E402
-import style  # noqa: E402
-import whole_file  # noqa: E402
+from drawing import rendering, style  # noqa: E402
+from records import whole_file  # noqa: E402
 
 kept = own.parents[1] / "experiments" / "records" / "full" / "volume"
 picture = own / "same_pose.png"

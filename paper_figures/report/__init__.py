@@ -6,7 +6,7 @@
 import sys
 
 import records
-import whole_file
+from records import whole_file
 from report import page, record_set, run_page
 
 most_mb = 25

@@ -1,10 +1,9 @@
 """The data behind a verdict: the values of every run with their intervals, and the folder of its records."""
-import case_words
-import sentences
-from number_words import counted, figure, span_of_thousandths
 from report.markup import beside_the_page, details, element, folder_link, items, joined, table
 from report.verdict_names import name_of
-from sentences import with_interval, with_unit
+from words import case_words, sentences
+from words.number_words import counted, figure, span_of_thousandths
+from words.sentences import with_interval, with_unit
 
 holds = {"whole": "\u2714 yes", "part": "\u25d0 in part", "none": "\u2718 no"}
 most_rows = 400  # rows per table; claims.json has the rest

@@ -4,7 +4,7 @@ import statistics
 import tempfile
 
 import records
-import style
+from drawing import style
 from report.figures import inline_svg
 from report.markup import Markup, element, joined
 from report.record_set import number

@@ -2,10 +2,10 @@
 import math
 import statistics
 
-import style
-from number_words import counted, figure, listed, span_of_thousandths
+from drawing import style
 from report.markup import details, element, items, joined, table
 from report.record_set import number
+from words.number_words import counted, figure, listed, span_of_thousandths
 
 
 def known(rows, column):

@@ -1,5 +1,5 @@
 """The name of each verdict, the same on the whole page, with its symbol and the class of its colour."""
-import sentences
+from words import sentences
 
 marks = {
     "reproduced": ("\u2714", "holds"),

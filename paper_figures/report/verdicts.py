@@ -1,9 +1,9 @@
 """The verdicts: counts, short texts, and a table whose rows open to the runs behind them. sentences.py composes the sentences."""
-import sentences
 from report import behind
-from number_words import counted
 from report.markup import Markup, element, escaped, items, joined
 from report.verdict_names import counted_in_words, mark_of
+from words import sentences
+from words.number_words import counted
 
 columns = ("claim", "statement", "verdict", "expected", "measured", "for whom")
 

@@ -18,12 +18,9 @@ import numpy
 root = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(root / "paper_figures"))
 
-import bodies  # noqa: E402
-import entries  # noqa: E402
-import recorded_frames  # noqa: E402
-import viewer_data  # noqa: E402
-import viewer_html  # noqa: E402
-import viewer_poses  # noqa: E402
+from drawing import bodies  # noqa: E402
+from records import entries  # noqa: E402
+from viewer import data as viewer_data, page as viewer_html, poses as viewer_poses  # noqa: E402
 
 skipped = 77
 bound_missed = figure_missed = 1  # exit statuses for a bound that does not hold, and for a figure that was not drawn
@@ -131,7 +128,7 @@ def main(program, scratch):
                     "PBS_VIEWER_PICTURES": str(scratch), "PBS_REPORT_PAGE": str(results / "report.html")}
     truth.write_text(json.dumps(truth_of(results)))
     run(["node", "build.mjs"], cwd=root / "paper_figures/viewer", env=surroundings)
-    run([sys.executable, "-B", root / "paper_figures/viewer_html.py", results, page], env=surroundings)
+    run([sys.executable, "-B", "-m", "viewer.page", results, page], cwd=root / "paper_figures", env=surroundings)
     run([sys.executable, "-B", root / "paper_figures/make_report.py", "--quiet", results], env=surroundings)
     tests = sorted(str(file) for file in pathlib.Path(__file__).parent.glob("*.test.mjs"))
     return subprocess.run(["node", "--test", *tests], env=surroundings).returncode

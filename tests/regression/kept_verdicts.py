@@ -10,10 +10,8 @@ import program
 SOURCE = pathlib.Path(program.SOURCE)
 KEPT = SOURCE / "experiments" / "records" / "full"
 sys.path.insert(0, str(SOURCE / "paper_figures"))
-import readme_claims  # noqa: E402
-import readme_findings  # noqa: E402
-import readme_part  # noqa: E402
-import sentences  # noqa: E402
+from readme import claims as readme_claims, findings as readme_findings, part as readme_part  # noqa: E402
+from words import sentences  # noqa: E402
 
 
 class KeptVerdicts(program.ProgramTest):

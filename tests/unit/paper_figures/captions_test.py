@@ -14,11 +14,11 @@ import unittest
 root = pathlib.Path(__file__).resolve().parents[3]
 sys.path[:0] = [str(root / "paper_figures"), str(pathlib.Path(__file__).parent)]
 
-import captions  # noqa: E402
-import entries  # noqa: E402
 import make_all  # noqa: E402
 import records  # noqa: E402
 import synthetic_records  # noqa: E402
+from records import entries  # noqa: E402
+from words import captions  # noqa: E402
 
 listed = {entry.name: entry for entry in entries.read()}
 extents_differ = {"convergence", "jiggle", "stability", "stiffness", "volume", "work_precision"}  # a quick run has fewer settings
@@ -51,7 +51,8 @@ class Captions(unittest.TestCase):
         asking = [entry for entry in listed.values() if captions.asked(entry) - captions.of_runs]
         self.assertGreater(len(asking), 5)
         for entry in asking:
-            self.assertTrue(callable(getattr(importlib.import_module(entry.script), "facts", None)), entry.name)
+            script = importlib.import_module(f"figures.{entry.script}")
+            self.assertTrue(callable(getattr(script, f"{entry.name}_facts", None)), entry.name)
         for entry in listed.values():
             if not captions.asked(entry):
                 self.assertNotIn("{", entry.caption)

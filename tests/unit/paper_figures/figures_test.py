@@ -12,11 +12,10 @@ import unittest
 root = pathlib.Path(__file__).resolve().parents[3]
 sys.path[:0] = [str(root / "paper_figures"), str(pathlib.Path(__file__).parent)]
 
-import bench_records  # noqa: E402
-import compared_looks  # noqa: E402
 import make_all  # noqa: E402
 import records  # noqa: E402
 import synthetic_records  # noqa: E402
+from drawing import bench_records, compared_looks  # noqa: E402
 
 
 class Figures(unittest.TestCase):

@@ -13,14 +13,11 @@ from xml.etree import ElementTree
 root = pathlib.Path(__file__).resolve().parents[3]
 sys.path[:0] = [str(root / "paper_figures"), str(pathlib.Path(__file__).parent)]
 
-import improvements  # noqa: E402
 import make_all  # noqa: E402
-import omission_boxes  # noqa: E402
-import stiffness  # noqa: E402
-import style  # noqa: E402
 import synthetic_records  # noqa: E402
 import synthetic_tables  # noqa: E402
-import volume_by_region  # noqa: E402
+from drawing import omission_boxes, style  # noqa: E402
+from figures import improvements, stiffness, volume_by_region  # noqa: E402
 
 svg = "{http://www.w3.org/2000/svg}"
 

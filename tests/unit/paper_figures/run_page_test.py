@@ -142,7 +142,7 @@ class RunPage(unittest.TestCase):
         self.write()
         (self.folder / "frames").mkdir()
         (self.folder / "frames" / "lbs_000000.vtu").write_text("")
-        with unittest.mock.patch.dict(sys.modules, {"viewer_html": None}):
+        with unittest.mock.patch.dict(sys.modules, {"viewer.page": None}):
             text, missing = run_page.page(self.folder)
         self.assertEqual(len(missing), 1)
         self.assertTrue(missing[0].startswith("viewer: "), missing)

@@ -16,13 +16,10 @@ import numpy
 root = pathlib.Path(__file__).resolve().parents[3]
 sys.path[:0] = [str(root / "paper_figures"), str(pathlib.Path(__file__).parent)]
 
-import fig_08_artefacts  # noqa: E402
-import frames  # noqa: E402
 import records  # noqa: E402
 import synthetic_frames  # noqa: E402
-import viewer_html  # noqa: E402
-import viewer_data  # noqa: E402
-import viewer_poses  # noqa: E402
+from figures import fig_08_artefacts, frames  # noqa: E402
+from viewer import data as viewer_data, page as viewer_html, poses as viewer_poses  # noqa: E402
 
 
 class Viewer(unittest.TestCase):
