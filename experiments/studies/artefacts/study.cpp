@@ -17,7 +17,6 @@
 #include "analysis/records/folder_files.hpp"
 #include "analysis/report_table.hpp"
 #include "experiments/studies/artefacts/artefact_values.hpp"
-#include "experiments/studies/artefacts/smoothness_comparison.hpp"
 #include "experiments/studies/shared/bodies.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 #include "experiments/studies/study.hpp"

@@ -1,4 +1,4 @@
-#include "experiments/studies/stability/broken_start.hpp"
+#include "experiments/studies/stability/cell_table.hpp"
 
 #include "analysis/error_norms.hpp"
 #include "analysis/stability_outcome.hpp"
@@ -6,8 +6,8 @@
 #include "experiments/process/cpu_clock.hpp"
 #include "experiments/process/interruption.hpp"
 #include "experiments/run/frame_measurement.hpp"
-#include "experiments/studies/stability/deformer_option.hpp"
-#include "experiments/studies/stability/stability_body.hpp"
+#include "experiments/studies/stability/cell_run.hpp"
+#include "experiments/studies/stability/stability_cells.hpp"
 #include "pbs/geometry/tet_volume.hpp"
 
 #include <fmt/format.h>

@@ -9,7 +9,7 @@
 //   controls          Eq. 12-20 as printed, and teleports beyond the range of the numbers: here instability must be seen
 //   xpbd              the same limb with a material, also in small steps
 //   other_deformers   the same limb with the methods that minimise the energy of flesh, with both delta mushes and with pbs_author
-//   broken_starts     these methods from broken initial shapes: whether each finds its own result again (broken_start.hpp)
+//   broken_starts     these methods from broken initial shapes: whether each finds its own result again (cell_table.hpp)
 //   fem_static        linear, corotational and stable neo-Hookean in equilibrium
 //   fem_in_time       the last two by generalised-alpha
 // The finite elements in equilibrium take a broken initial state as the initial guess of Newton's method in the last pose, without a load
@@ -23,9 +23,8 @@
 #include "analysis/records/folder_files.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "experiments/studies/shared/bodies.hpp"
-#include "experiments/studies/stability/broken_start.hpp"
+#include "experiments/studies/stability/cell_run.hpp"
 #include "experiments/studies/stability/cell_table.hpp"
-#include "experiments/studies/stability/stability_body.hpp"
 #include "experiments/studies/stability/stability_cells.hpp"
 #include "experiments/studies/study.hpp"
 

@@ -8,8 +8,7 @@
 // Writes DIR/stiffness/{iterations,time_step,resolution}_BODY/stiffness.csv and measurements.csv; DIR/stiffness/stiffness.csv,
 // exponents.csv and stiffness.md.
 #include "analysis/records/optional_columns.hpp"
-#include "experiments/studies/stiffness/stiffness_report.hpp"
-#include "experiments/studies/stiffness/stiffness_sweep.hpp"
+#include "experiments/studies/stiffness/stiffness_ratios.hpp"
 #include "experiments/studies/study.hpp"
 
 #include <filesystem>

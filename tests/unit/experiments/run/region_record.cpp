@@ -3,7 +3,7 @@
 #include "experiments/run/region_record.hpp"
 
 #include "analysis/frame_metrics.hpp"
-#include "experiments/studies/volume/region_table.hpp"
+#include "experiments/studies/volume/study.cpp"
 #include "pbs/geometry/tet_volume.hpp"
 #include "tests/support/limb_character.hpp"
 #include "tests/support/motion_rounding.hpp"

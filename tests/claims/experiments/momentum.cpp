@@ -1,16 +1,50 @@
-// C07 from correct and broken projections. Reference:
-// - volume sign: corrections are reversed and still add up to zero, so the verdict must stay (Eq. 3-4 require no more).
-// - printed labels: gradients at the wrong particles still add up to zero (Eq. 15), but their moments do not: angular momentum is lost,
-//   linear momentum is not.
-// - a class dropped: a class that is not projected has no drift, so it is not counted as conserved.
+// C07 is judged from the momentum study's own values: if they are altered, the verdict changes. Reference: Newton's third law; projections
+// with the masses of the momentum conserve it, and Eq. 8-9 for m = 1 on unequal masses do not.
+
+#include "experiments/studies/momentum/momentum_drift.hpp"
 #include "tests/support/broken_solver.hpp"
 #include "tests/support/limb_character.hpp"
 #include "tests/support/momentum_rounding.hpp"
 #include "tests/support/study_claims.hpp"
 
-#include "experiments/studies/momentum/momentum_drift.hpp"
-
 #include <gtest/gtest.h>
+
+namespace {
+
+using analysis::VerdictKind;
+using test_support::claim;
+
+const analysis::Records& limb()
+{
+    static const analysis::Records records = test_support::records_of(experiments::momentum_study().plan(false));
+    return records;
+}
+
+TEST(MomentumVerdict, HoldsWhereMassesAreKnownAndNotByEquationsForOneMass)
+{
+    const analysis::Verdict verdict = judge(claim("C07"), limb());
+    EXPECT_EQ(verdict.kind, VerdictKind::reproduced_only_for);
+    ASSERT_EQ(verdict.subjects.size(), 3u);
+    EXPECT_EQ(verdict.subjects[2].name, "unequal_by_eq_8_9");
+    for (const auto& subject : verdict.subjects) EXPECT_EQ(subject.extent == analysis::Extent::none, subject.name == "unequal_by_eq_8_9");
+}
+
+TEST(MomentumVerdict, TurnsWithItsFigures)
+{
+    analysis::Records records = limb();
+    for (auto& measured : records.measurements) measured.value = measured.low = measured.high = 1e-9;
+    EXPECT_EQ(judge(claim("C07"), records).kind, VerdictKind::reproduced);
+    for (auto& measured : records.measurements) measured.value = measured.low = measured.high = 0.1;
+    EXPECT_EQ(judge(claim("C07"), records).kind, VerdictKind::not_reproduced);
+}
+
+}  // namespace
+
+// C07 from correct and broken projections. Reference:
+// - volume sign: corrections are reversed and still add up to zero, so the verdict must stay (Eq. 3-4 require no more).
+// - printed labels: gradients at the wrong particles still add up to zero (Eq. 15), but their moments do not: angular momentum is lost,
+//   linear momentum is not.
+// - a class dropped: a class that is not projected has no drift, so it is not counted as conserved.
 
 namespace {
 

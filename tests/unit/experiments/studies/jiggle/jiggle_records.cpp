@@ -1,10 +1,55 @@
-// The values of C09 from invented responses. Reference: the ratios and ranks of the given frequencies.
+// Reference: the definition of one-at-a-time variation, and the paper's own method (all masses 1, every vertex bound).
+
+#include "experiments/studies/jiggle/jiggle_records.hpp"
+#include "pbs/character/bodies.hpp"
+#include "pbs/character/jiggle_zone_contents.hpp"
+#include "pbs/solver/options.hpp"
 #include "tests/support/jiggle_responses.hpp"
 #include "tests/support/rounding_error.hpp"
+#include "tests/support/step_rounding.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+
+namespace {
+
+using experiments::JiggleSetting;
+
+TEST(JiggleSettings, ChangeOneThingAtATimeAndHoldPairs)
+{
+    const auto settings = experiments::jiggle_settings();
+    ASSERT_EQ(settings.front(), JiggleSetting{});
+    for (const JiggleSetting& s : settings) {
+        const JiggleSetting base;
+        EXPECT_LE((s.k_stretch != base.k_stretch) + (s.time_step_s != base.time_step_s) + (s.iterations != base.iterations) +
+                      (s.masses != base.masses) + (s.k_bind != base.k_bind),
+                  1);
+    }
+    for (const int twice : {12, 24, 48, 96})
+        EXPECT_TRUE(std::any_of(settings.begin(), settings.end(), [&](const auto& s) { return s.iterations == twice / 2; })) << twice;
+}
+
+TEST(JiggleSettings, LooseFleshAndLumpedMassesAreNotThePapers)
+{
+    EXPECT_TRUE(experiments::is_of_the_paper({.k_stretch = 0.9, .time_step_s = 0.04, .iterations = 96}));
+    EXPECT_FALSE(experiments::is_of_the_paper({.k_bind = 0.0}));
+    EXPECT_FALSE(experiments::is_of_the_paper({.masses = pbs::Masses::lumped}));
+}
+
+TEST(JiggleSettings, LeaveGravityAsItIs)
+{
+    experiments::DeformerSpec spec = experiments::default_spec("pbs");
+    experiments::options_of<pbs::PbsOptions>(spec).gravity_m_s2 = {0.0, -9.81, 0.0};
+    const auto jiggling = experiments::options_of<pbs::PbsOptions>(experiments::jiggling(spec, {.iterations = 6}));
+    EXPECT_EQ(jiggling.gravity_m_s2, pbs::Vec3(0.0, -9.81, 0.0));
+    EXPECT_EQ(jiggling.iterations, 6);
+}
+
+}  // namespace
+
+// The values of C09 from invented responses. Reference: the ratios and ranks of the given frequencies.
 
 namespace {
 
@@ -131,6 +176,74 @@ TEST(JiggleFigures, RangeIsOfTheEndsThatSwing)
     EXPECT_DOUBLE_EQ(of_quantity(measured, range)[0].value, 2.0);
     EXPECT_EQ(text_of(of_quantity(measured, range)[0].of), "limb, k_stretch 0.05 to 0.5");
     EXPECT_TRUE(of_quantity({swinging({}, 3.0)}, range).empty());
+}
+
+}  // namespace
+
+// Reference: necessary behaviour. Flesh that does not jiggle follows the bones; flesh without constraints stays behind, at rest; a jolt in
+// the opposite direction gives the mirror image.
+
+namespace {
+
+class JoltResponseOfLimb : public testing::Test {
+protected:
+    JoltResponseOfLimb()
+    {
+        options().precision = pbs::Precision::f64;
+        jolt.direction = pbs::Vec3::UnitX();
+        jolt.steps = 40;
+    }
+    pbs::PbsOptions& options() { return experiments::options_of<pbs::PbsOptions>(spec); }
+    experiments::JoltResponse response() const { return experiments::jolt_response(limb, spec, probe, jolt); }
+
+    pbs::Character limb = pbs::make_character({.body = "limb", .vertices = 400});
+    std::vector<int> probe = pbs::zone_contents(limb).pieces.front();
+    experiments::DeformerSpec spec = experiments::default_spec("pbs");
+    experiments::Jolt jolt;
+};
+
+TEST_F(JoltResponseOfLimb, NothingSwingsWithoutJiggle)
+{
+    options().jiggle.reset();
+    const auto still = response();
+    // Every step begins with LBS, so that two steps differ by their roundings alone.
+    const double rounding_m = 2.0 * test_support::step_rounding_m(test_support::two_bones_in(limb.mesh), options());
+    EXPECT_LT(still.peak_over_jolt, rounding_m / jolt.length_m);
+    EXPECT_FALSE(still.swing.found());
+}
+
+TEST_F(JoltResponseOfLimb, FreeFleshStaysBehind)
+{
+    options().k_stretch = options().k_volume = options().k_bind = 0.0;
+    options().jiggle = pbs::Jiggle{.k_stretch = 0.0};
+    const auto free = response();
+    const double rounding_m = test_support::mean_error(probe.size(), jolt.length_m);
+    for (const double excursion_m : free.excursion_m) EXPECT_NEAR(excursion_m, -jolt.length_m, rounding_m);
+    EXPECT_EQ(free.left_over_peak, 1.0);  // all excursions are equal
+    EXPECT_EQ(free.overshoot_over_jolt, 0.0);
+}
+
+// The motion from step to step does not depend on time (Algorithm 1, lines 7, 8 and 16). A quarter of a time step and four times a velocity
+// are exact.
+TEST_F(JoltResponseOfLimb, WithoutWeightTheSeriesIsTheSameAtEveryTimeStep)
+{
+    spec = experiments::jiggling(spec, {});
+    const auto slow = response();
+    jolt.time_step_s /= 4.0;
+    const auto quick = response();
+    EXPECT_EQ(quick.excursion_m, slow.excursion_m);
+}
+
+// The bones hold the skin: it swings about the place to which they move it, and comes to rest.
+TEST_F(JoltResponseOfLimb, HeldFleshSwingsAndCalmsDown)
+{
+    spec = experiments::jiggling(spec, {});
+    const auto held = response();
+    EXPECT_TRUE(held.finished);
+    EXPECT_GT(held.peak_over_jolt, 0.05);
+    EXPECT_LT(held.peak_over_jolt, 1.0);
+    EXPECT_LT(held.left_over_peak, 0.5);
+    EXPECT_LT(held.speed_growth, 1.0);
 }
 
 }  // namespace
