@@ -1,12 +1,11 @@
-"""The common style of all figures: sizes of a two-column page, Okabe-Ito colours, and a line style and marker for each deformer, so that
-grey prints are readable too.
+"""The common style of all figures: sizes of a two-column page, Okabe-Ito colours, axes, legends and files. looks.toml has the colour, marker
+and line of each deformer.
 
     figure, axes = style.panels(1, 2)
     style.draw(axes[0], "pbs", angle_deg, change_pct)
     style.save(figure, figures / "volume", provenance, rows)
 """
 import csv
-from dataclasses import dataclass
 
 import matplotlib
 
@@ -15,6 +14,7 @@ from matplotlib import pyplot, ticker  # noqa: E402
 
 from drawing import hover_titles  # noqa: E402
 from records import whole_file  # noqa: E402
+from words import looks  # noqa: E402
 
 column_in, page_in = 84 / 25.4, 178 / 25.4  # widths of one column and of the page
 
@@ -31,30 +31,8 @@ matplotlib.rcParams.update({
 })
 
 
-@dataclass(frozen=True)
-class Look:
-    label: str
-    color: str
-    line: object
-    marker: str
-
-
-looks = {
-    "lbs": Look("LBS", vermillion, (0, (4, 1.5)), "v"),
-    "dqs": Look("DQS", orange, (0, (5, 1.2, 1, 1.2)), "s"),
-    "pbs": Look("PBS, 24 iterations", blue, "-", "o"),
-    "pbs_jiggle": Look("PBS, jiggling", sky, (0, (2, 1)), "p"),
-    "fem_p1": Look("linear FEM, P1 (control)", green, (0, (1, 1)), "^"),
-    "fem_p2": Look("linear FEM, P2 (control)", black, (0, (1, 1)), "x"),
-    "nh_p1": Look("neo-Hookean FEM, P1", sky, (0, (3, 1)), "P"),
-    "nh_p2": Look("neo-Hookean FEM, P2 (reference)", purple, "-", "D"),
-}
 sequence = [(vermillion, "v"), (blue, "o"), (green, "^"), (purple, "D"), (orange, "s"), (sky, "P"), (black, "x")]
-lines = ["-", (0, (4, 1.5)), (0, (5, 1.2, 1, 1.2)), (0, (1, 1)), (0, (3, 1)), "-", (0, (4, 1.5))]
-
-
-def look_of(deformer):
-    return looks.get(deformer, Look(deformer, black, (0, (1, 1)), "x"))
+lines = [*looks.lines.values(), "-", looks.lines["dashed"]]
 
 
 def panels(rows, columns, height_in=2.0, width_in=None, height_ratios=None, width_ratios=None, **options):
@@ -72,9 +50,9 @@ def stacked(*rows):
 
 def draw(axes, deformer, x, y, markers=True, **options):
     """The line of one deformer, with a marker about every tenth point."""
-    look = look_of(deformer)
+    look = looks.of(deformer)
     spacing = max(1, len(x) // 9)
-    axes.plot(x, y, color=look.color, linestyle=look.line, marker=look.marker if markers else None, markevery=spacing, label=look.label,
+    axes.plot(x, y, color=look.color, linestyle=look.line, marker=look.marker if markers else None, markevery=spacing, label=look.name,
               **options)
 
 

@@ -6,6 +6,7 @@ from PIL import Image, ImageDraw, ImageFont
 
 from drawing import bodies, rendering, style
 from records import recorded_frames, whole_file
+from words import looks
 
 scene, deformers, still = "human_jump", ("lbs", "pbs", "nh_p1"), 8
 pixels, direction, half_height_m, floor_to_middle_m, margin_px = (300, 440), (0.9, 0.15, 1.0), 1.0, 0.96, 40
@@ -23,7 +24,7 @@ def camera(frames, frame):
 def words(frames, label, frame):
     row = frames.row(label, frame)
     change = style.signed(f"{float(row['volume_change_pct']):+.1f} %")
-    return f"{style.look_of(label).label}\nvolume {change}, {row['inverted_tets']} inverted"
+    return f"{looks.of(label).name}\nvolume {change}, {row['inverted_tets']} inverted"
 
 
 def picture(frames, frame, stage, font):

@@ -1,8 +1,9 @@
 """Data profiles (More and Wild 2009): the share of the evaluated poses that a group of deformers solves to 10, 5 and 2 % within a time per
 frame, for packed f32 code (above) and plain f64 code (below). The omissions of both are listed below them."""
 import records
-from drawing import compared_looks, omission_boxes, style
+from drawing import omission_boxes, style
 from records import entries
+from words import looks
 
 columns = ("comparison", "tolerance_pct", "group", "ms", "solved", "certain", "poses", "share_pct")
 comparisons = {"packed_f32": "packed f32 code", "plain_f64": "plain f64 code"}
@@ -11,24 +12,24 @@ tolerances_pct = (10.0, 5.0, 2.0)
 
 def draw_profiles(axes, rows, span_ms):
     """A group's share rises at each of its rows; curves that coincide are drawn slightly apart."""
-    groups = compared_looks.in_order({row["group"] for row in rows})
+    groups = looks.in_order({row["group"] for row in rows})
     for place, group in enumerate(groups):
-        name, color, marker = compared_looks.of(group)
+        look = looks.of(group)
         steps = [row for row in rows if row["group"] == group]
         ms, share = records.numbers(steps, "ms"), records.numbers(steps, "share_pct")
         apart = 0.5 * (place - (len(groups) - 1) / 2)
-        axes.step([ms[0], *ms, span_ms[1]], [apart, *(value + apart for value in share), share[-1] + apart], where="post", color=color,
-                  marker=marker, markersize=2.8, markevery=list(range(1, len(ms) + 1)), label=name, linewidth=1.0)
+        axes.step([ms[0], *ms, span_ms[1]], [apart, *(value + apart for value in share), share[-1] + apart], where="post",
+                  color=look.color, marker=look.marker, markersize=2.8, markevery=list(range(1, len(ms) + 1)), label=look.name, linewidth=1.0)
 
 
 def omitted_in(results, rows, comparison):
     """The omissions of the evaluated poses, and per tolerance the groups without a curve because they solve no pose."""
     lines = omission_boxes.lines(omission_boxes.added_up(results, comparison, omission_boxes.evaluated_cases(results)))
     fronts = records.table(results / "work_precision" / "fronts.csv", {"comparison", "front"})
-    known = {compared_looks.group_of(row["front"]) for row in fronts if row["comparison"] == comparison and row["front"] != "all"}
+    known = {looks.group_of(row["front"]) for row in fronts if row["comparison"] == comparison and row["front"] != "all"}
     for tolerance_pct in tolerances_pct:
         drawn = {row["group"] for row in rows if row["comparison"] == comparison and float(row["tolerance_pct"]) == tolerance_pct}
-        without = [compared_looks.short(group) for group in compared_looks.in_order(known - drawn)]
+        without = [looks.short(group) for group in looks.in_order(known - drawn)]
         lines += [f"no pose solved to {tolerance_pct:g} %: {', '.join(without)}"] if without else []
     return lines
 

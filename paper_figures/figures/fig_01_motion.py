@@ -2,6 +2,7 @@
 along the floor but not upwards, so that the jump is visible."""
 from drawing import bodies, rendering, style
 from records import recorded_frames
+from words import looks
 
 scene, deformers, shown = "human_jump", ("lbs", "pbs", "pbs_jiggle"), (0, 8, 12, 18, 27, 40)
 direction, half_height_m, floor_to_middle_m = (1.0, 0.15, 0.75), 0.98, 0.95
@@ -27,7 +28,7 @@ def fig_01_motion(results, figures):
             row = frames.row(deformer, frame)
             behind.append(row)
             style.show(panel, stage.shot([bodies.skin(frames.skin(deformer, frame))], camera(frames, frame)), below=facts(row))
-        panels[0].set_ylabel(style.look_of(deformer).label)
+        panels[0].set_ylabel(looks.of(deformer).name)
     for panel, frame in zip(axes[0], shown):
         panel.set_title(f"{float(frames.row('lbs', frame)['time_s']):.2f} s")
     behind = style.columns_of(behind, "volume_change_pct", "volume_abs_change_pct", "inverted_tets")

@@ -1,6 +1,7 @@
 """The paper's Fig. 5: the bent limb with rigid weights and with those of Eq. 2, before and after position based dynamics."""
 from drawing import bodies, rendering, style
 from records import recorded_frames
+from words import looks
 
 scenes, angle_deg = ("limb_bend_rigid", "limb_bend"), 90
 titles = ("each vertex on one bone", "weights of Eq. 2")
@@ -23,7 +24,7 @@ def fig_05_weights(results, figures):
             behind.append(frames.row(deformer, frame))
             actors = [bodies.skin(frames.tets(deformer, frame))]
             style.show(panel, stage.shot(actors, view), below=facts(behind[-1]))
-        panels[0].set_ylabel(style.look_of(deformer).label)
+        panels[0].set_ylabel(looks.of(deformer).name)
     for panel, title in zip(axes[0], titles):
         panel.set_title(title)
     behind = style.columns_of(behind, "angle_deg", "volume_change_pct", "volume_abs_change_pct", "inverted_tets", "min_section_pct")

@@ -7,10 +7,11 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 
 from drawing import bodies, rendering, style
 from records import recorded_frames
+from words import looks
 
 scene, angle_deg = "limb_bend", 90
 edges = list(combinations(range(4), 2))
-states = {"rest": style.black, "lbs": style.vermillion, "pbs": style.blue}
+states = {"rest": style.black, "lbs": looks.of("lbs").color, "pbs": looks.of("pbs").color}
 markers = {"rest": "o", "lbs": "v", "pbs": "s"}
 titles = {"rest": "at rest", "lbs": "after LBS", "pbs": "after PBS"}
 

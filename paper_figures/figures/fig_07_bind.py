@@ -4,6 +4,7 @@ import numpy
 
 from drawing import bodies, style
 from records import recorded_frames
+from words import looks
 
 scene, angle_deg = "limb_bend", 90
 labels = ("lbs", "pbs")
@@ -48,8 +49,8 @@ def fig_07_bind(results, figures):
     feet = {at: frames.projections(frames.bones(at))[vertex] for at in (0, frame)}
     figure, axes = style.panels(1, 3, height_in=2.3)
     shown = ((rest, 0, "$p_i$", style.black, "o", "lbs", "at rest"),
-             (posed["lbs"], frame, "$p_{i,LBS}$", style.vermillion, "v", "lbs", "after LBS"),
-             (posed["pbs"], frame, "$p_{i,PBD}$", style.blue, "s", "pbs", "after PBS"))
+             (posed["lbs"], frame, "$p_{i,LBS}$", looks.of("lbs").color, looks.of("lbs").marker, "lbs", "after LBS"),
+             (posed["pbs"], frame, "$p_{i,PBD}$", looks.of("pbs").color, looks.of("pbs").marker, "pbs", "after PBS"))
     for panel, (points, at, text, color, marker, label, title) in zip(axes[0], shown):
         draw_state(panel, frames, label, at)
         draw_bind(panel, points[vertex], feet[at], color, text, marker)

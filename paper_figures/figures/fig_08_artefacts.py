@@ -2,6 +2,7 @@
 coloured by its volume ratio. Each row has one camera, and all share one colour bar."""
 from drawing import rendering, style
 from records import pose_reached, recorded_frames
+from words import looks
 
 poses = {"limb_twist": (180, 170), "limb_bend": (110,)}
 views = {"limb_twist": rendering.Camera((0, 0, 0), 0.24, (0.0, 0.35, 1.0)),
@@ -33,7 +34,7 @@ def fig_08_artefacts(results, figures):
     figure, axes = style.panels(len(shown), len(deformers), height_in=1.75, height_ratios=[heights[frames.run.name] for frames, _ in shown])
     behind = [row for panels, (frames, angle) in zip(axes, shown) for row in draw_row(panels, frames, angle)]
     for panel, deformer in zip(axes[0], deformers):
-        panel.set_title(style.look_of(deformer).label)
+        panel.set_title(looks.of(deformer).name)
     style.ratio_bar(figure, axes, rendering.ratio_scale, rendering.ratio_colors)
     behind = style.columns_of(behind, "angle_deg", "volume_change_pct", "volume_abs_change_pct", "inverted_tets", "min_section_pct")
     style.save(figure, figures / "fig_08_artefacts", recorded_frames.origin_of(*scenes.values()), behind)

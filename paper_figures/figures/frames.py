@@ -5,6 +5,7 @@ import numpy
 import records
 from drawing import rendering, style
 from records import pose_reached, recorded_frames
+from words import looks
 from words.number_words import span
 
 pixels = (560, 800)  # size of a still
@@ -57,7 +58,7 @@ def draw_stills(rows, files, frames, file_of, colour_bar):
             panel.set(xticks=[], yticks=[], xlabel=caption(rows[deformer][frame]))
             panel.spines[:].set_visible(False)
             panel.grid(False)
-        panels[0].set_ylabel(style.look_of(deformer).label, fontsize=8)
+        panels[0].set_ylabel(looks.of(deformer).name, fontsize=8)
     for panel, frame in zip(axes[0], frames):
         panel.set_title(f"{float(rows['lbs'][frame]['time_s']):.2f} s")
     if colour_bar:

@@ -1,19 +1,16 @@
 """Every disturbance of the limb with every method, and its outcome. Each row is a quantity that is varied to its extremes, with marks from
 the smallest to the largest value. The figure shows which methods come to rest as if undisturbed, which leave tets inverted, and whether any
 method except the printed form of PBS diverges."""
+import textwrap
+
 import records
 from drawing import outcomes, style
 from records import entries
-from words import case_words
+from words import case_words, looks
 from words.number_words import listed
 
-models = {"pbs": "PBS", "pbs_no_memory": "PBS, no memory", "pbs_jiggle": "PBS, jiggle", "xpbd": "XPBD",
-          "xpbd_small_steps": "XPBD, small steps", "fem_linear": "linear FEM", "fem_corotational": "corotational FEM",
-          "fem_stable_neo_hookean": "neo-Hookean FEM", "fem_stable_neo_hookean_in_time": "neo-Hookean in time"}
-# Below a column there is room for one word or an abbreviation per line.
-ticks = models | {"pbs_no_memory": "PBS, no\nmemory", "pbs_jiggle": "PBS,\njiggle", "xpbd_small_steps": "XPBD, small\nsteps",
-                  "fem_linear": "linear\nFEM", "fem_corotational": "corotat.\nFEM", "fem_stable_neo_hookean": "neo-Hook.\nFEM",
-                  "fem_stable_neo_hookean_in_time": "neo-Hook.\nin time"}
+models = ("pbs", "pbs_no_memory", "pbs_jiggle", "xpbd", "xpbd_small_steps", "fem_linear", "fem_corotational", "fem_stable_neo_hookean",
+          "fem_stable_neo_hookean_in_time")
 columns = {"body", "model", "factor", "value", "unit", "named", "second_factor", "precision", "outcome"}
 
 
@@ -56,11 +53,11 @@ def stability_cells_facts(rows):
 
     def at_rest(model):
         ends = [row["outcome"] for row in rows if row["model"] == model]
-        return f"{models[model]} in {ends.count('converged')} of {len(ends)}"
+        return f"{looks.of(model).name} in {ends.count('converged')} of {len(ends)}"
 
     def by_method(outcome):
         found = {model: factors_with(rows, model, outcome) for model in present}
-        return listed([f"{models[model]} ({' and '.join(factors)})" for model, factors in found.items() if factors], "; ")
+        return listed([f"{looks.of(model).name} ({' and '.join(factors)})" for model, factors in found.items() if factors], "; ")
 
     return {"at_rest": listed([at_rest(model) for model in present], "; "), "diverged": by_method("diverged"),
             "not_finite": by_method("not_finite"), "inverted_pbs": listed(factors_with(rows, "pbs", "inverted"), "; "),
@@ -78,7 +75,7 @@ def stability_cells(results, figures):
         cells = [row for row in rows if row["factor"] == factor]
         draw_factor(panel, cells, place)
         labels.append(f"{case_words.of_field('factor', factor)}: {range_of(cells)}")
-    panel.set_xticks(range(len(ticks)), ticks.values())
+    panel.set_xticks(range(len(models)), [textwrap.fill(looks.of(model).name, 12) for model in models])
     panel.set_yticks(range(len(factors)), labels)
     panel.set(xlim=(-0.5, len(models) - 0.5), ylim=(len(factors) - 0.5, -0.5))
     panel.xaxis.tick_top()

@@ -6,6 +6,7 @@ import sys
 import records
 from drawing import style
 from records import entries
+from words import looks
 from words.number_words import figure, listed
 
 bodies = [("bar", "cantilever", "bar, held at one end"), ("limb", "zone_on_held", "limb, flesh on a held core"),
@@ -14,8 +15,10 @@ factors = {"iterations": "iterations", "time_step_ms": "time step [ms]", "vertic
 usual = {"iterations": 24.0, "time_step_ms": 10.0}
 young_pa = 30e3  # of XPBD; some sweeps also use stiffer values
 stiffest_n_m = 1 / sys.float_info.epsilon  # beyond this, 1 N moves the flesh by less than double precision resolves at 1 m
-methods = [("pbs", 0.2, "PBS, k_stretch 0.2"), ("pbs", 0.9, "PBS, k_stretch 0.9"), ("exponent", 0.2, "PBS with the exponent"),
-           ("xpbd", 0.2, "XPBD, 30 kPa"), ("xpbd_small_steps", 0.2, "XPBD, 30 kPa, small steps")]
+# method, k_stretch, its look, words after its name, and whether it is drawn hollow
+methods = [("pbs", 0.2, "pbs", ", k_stretch 0.2", False), ("pbs", 0.9, "pbs", ", k_stretch 0.9", True),
+           ("exponent", 0.2, "pbs_exponent", "", False), ("xpbd", 0.2, "xpbd", ", 30 kPa", False),
+           ("xpbd_small_steps", 0.2, "xpbd_small_steps", ", 30 kPa", True)]
 columns = {"body", "load", "vertices", "mesh", "method", "k_stretch", "young_pa", "iterations", "time_step_ms", "order_seed", "by",
            "stiffness_n_m", "converged"}
 
@@ -36,13 +39,15 @@ def rows_of(folder, factor, body, load):
 
 def draw_panel(axes, rows, factor):
     behind, left_out = [], 0
-    for number, (method, k_stretch, label) in enumerate(methods):
+    for method, k_stretch, deformer, setting, hollow in methods:
         found = varied(rows, factor, method, k_stretch)
         shown = [row for row in found if float(row["stiffness_n_m"]) <= stiffest_n_m]
         left_out += len(found) - len(shown)
         if shown:
-            style.draw_series(axes, number, records.numbers(shown, factor), records.numbers(shown, "stiffness_n_m"), label,
-                              markerfacecolor="none" if method == "xpbd_small_steps" else None)
+            look = looks.of(deformer)
+            axes.plot(records.numbers(shown, factor), records.numbers(shown, "stiffness_n_m"), color=look.color, marker=look.marker,
+                      linestyle=looks.lines["dotted"] if hollow else look.line, markerfacecolor="none" if hollow else look.color,
+                      label=look.name + setting)
         behind += [{"varied": factor} | {name: row[name] for name in sorted(columns)} for row in shown]
     values = sorted({float(row[factor]) for row in behind})
     axes.set_yscale("log")
@@ -75,7 +80,7 @@ def stiffness_facts(rows):
         return listed(parts)
 
     held = {"iterations": figure(usual["iterations"]), "step_ms": figure(usual["time_step_ms"]),
-            "k_exponent": listed([figure(k_stretch) for method, k_stretch, _ in methods if method == "exponent"])}
+            "k_exponent": listed([figure(k_stretch) for method, k_stretch, *_ in methods if method == "exponent"])}
     return {"xpbd": folds("xpbd"), "small_steps": folds("xpbd_small_steps")} | held
 
 

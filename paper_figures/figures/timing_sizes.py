@@ -4,9 +4,10 @@ compared with 33 ms at the paper's sizes."""
 import records
 from drawing import style
 from records import entries
+from words import looks
 
 kernels = {("plain", "f64"): "plain, f64", ("plain", "f32"): "plain, f32", ("ordered", "f32"): "ordered, f32"}
-parts = {"lbs_ms": ("LBS", style.vermillion, ""), "bind_ms": ("bind", style.yellow, "////"), "stretch_ms": ("stretch", style.sky, ""),
+parts = {"lbs_ms": ("LBS", looks.of("lbs").color, ""), "bind_ms": ("bind", style.yellow, "////"), "stretch_ms": ("stretch", style.sky, ""),
          "volume_ms": ("volume", style.blue, "...."), "rest_ms": ("rest", "#BBBBBB", "")}
 columns = {"mesh", "body", "variant", "precision", "vertices", "tets", "total_wall_ms", "total_wall_ms_low", "total_wall_ms_high",
            "paper_ms", "paper_ct_ms", *parts}

@@ -3,6 +3,7 @@ body, mean over frames. LBS loses volume at shoulders, spine and hips; what PBS 
 import records
 from drawing import style
 from records import entries
+from words import looks
 
 deformers = ("lbs", "dqs", "pbs", "nh_p1")
 columns = {"run", "deformer", "kind", "bone", "second_bone", "rest_share_pct", "change_pct", "own_change_pct"}
@@ -34,9 +35,9 @@ def draw_kind(axes, rows):
     for deformer in deformers:
         shown = sorted((row for row in rows if row["deformer"] == deformer and bones_of(row) in regions),
                        key=lambda row: regions.index(bones_of(row)))
-        look = style.look_of(deformer)
+        look = looks.of(deformer)
         axes.plot(records.numbers(shown, "change_pct"), [regions.index(bones_of(row)) for row in shown], linestyle="none", color=look.color,
-                  marker=look.marker, markersize=4, label=look.label)
+                  marker=look.marker, markersize=4, label=look.name)
         behind += [{name: row[name] for name in row if name in columns} for row in shown]
     axes.axvline(0, color=style.black, linewidth=0.6)
     axes.set_yticks(range(len(regions)), list(map(in_words, regions)))

@@ -3,6 +3,7 @@ frames in 10, for the limb single poses."""
 import records
 from drawing import style
 from records import entries
+from words import looks
 from words.number_words import figure
 
 poses = [("limb_twist", 90, "limb, twist 90\u00b0"), ("limb_twist", 180, "limb, twist 180\u00b0"), ("limb_bend", 90, "limb, bend 90\u00b0"),
@@ -53,7 +54,7 @@ def volume_over_iterations(results, figures):
     drawing, axes = style.panels(1, 2, height_in=2.7)
     behind = []
     for panel, (measure, label) in zip(axes[0], measures):
-        behind += draw_human(panel, human, measure, style.blue)
+        behind += draw_human(panel, human, measure, looks.of("pbs").color)
         for (scene, angle_deg, name), look in zip(poses, [style.sequence[0], style.sequence[4], style.sequence[2], style.sequence[6]]):
             behind += draw_pose(panel, limbs[scene], angle_deg, name, measure, look)
         style.paper_band(panel, signed=measure == "volume_change_pct")

@@ -3,9 +3,9 @@ every setting of every deformer, the front of each group of deformers with the s
 is nearest within 0.1, 1 and 10 ms, the bound on the reference's own error, below which differences have no meaning, and what is
 omitted."""
 import records
-from drawing import compared_looks, omission_boxes, style
+from drawing import omission_boxes, style
 from records import compared_codes, entries
-from words import case_words
+from words import case_words, looks
 
 figures_of = {"packed_f32": "work_precision", "plain_f64": "work_precision_plain"}
 case_columns = ("body", "motion", "pose", "angle_deg")
@@ -50,17 +50,16 @@ class Panel:
 
 
 def draw_points(axes, panel):
-    for group in compared_looks.in_order({compared_looks.group_of(row["deformer"]) for row in panel.points + panel.fronts
-                                          if row.get("front") != "all"}):
-        name, color, marker = compared_looks.of(group)
-        tried = [row for row in panel.points if compared_looks.group_of(row["deformer"]) == group]
+    for group in looks.in_order({looks.group_of(row["deformer"]) for row in panel.points + panel.fronts if row.get("front") != "all"}):
+        look = looks.of(group)
+        tried = [row for row in panel.points if looks.group_of(row["deformer"]) == group]
         if tried:
-            axes.plot(records.numbers(tried, "ms_median"), records.numbers(tried, "error_joint_pct"), linestyle="none", marker=marker,
-                      color=color, markersize=2.2, alpha=0.25, markeredgewidth=0.5)
-        front = group_front([row for row in panel.fronts if row["front"] != "all" and compared_looks.group_of(row["front"]) == group])
+            axes.plot(records.numbers(tried, "ms_median"), records.numbers(tried, "error_joint_pct"), linestyle="none", marker=look.marker,
+                      color=look.color, markersize=2.2, alpha=0.25, markeredgewidth=0.5)
+        front = group_front([row for row in panel.fronts if row["front"] != "all" and looks.group_of(row["front"]) == group])
         if front:
-            axes.plot(records.numbers(front, "ms_median"), records.numbers(front, "error_joint_pct"), color=color, marker=marker,
-                      label=name, linewidth=1.0)
+            axes.plot(records.numbers(front, "ms_median"), records.numbers(front, "error_joint_pct"), color=look.color,
+                      marker=look.marker, label=look.name, linewidth=1.0)
     front = [row for row in panel.fronts if row["front"] == "all"]
     if front:
         axes.step(records.numbers(front, "ms_median"), records.numbers(front, "error_joint_pct"), where="post", color=style.yellow,
@@ -96,8 +95,8 @@ def draw_budgets(axes, panel):
         mark = "" if row["decision"] in ("decided", "") else f"? ({len(against)})"
         axes.axvline(budget_ms, color="#777777", linewidth=0.7, linestyle=(0, (2, 2)), zorder=0)
         axes.text(budget_ms, 1.01 + name_row_height * place,
-                  f"{budget_ms:g} ms: {compared_looks.short(row['group'])}{mark}, {float(row['error_joint_pct']):.3g} %",
-                  transform=axes.get_xaxis_transform(), ha="center", va="bottom", fontsize=5.2, color=compared_looks.of(row["group"])[1])
+                  f"{budget_ms:g} ms: {looks.short(row['group'])}{mark}, {float(row['error_joint_pct']):.3g} %",
+                  transform=axes.get_xaxis_transform(), ha="center", va="bottom", fontsize=5.2, color=looks.of(row["group"]).color)
 
 
 def undecided_lines(panel):
@@ -107,7 +106,7 @@ def undecided_lines(panel):
     for row in panel.best:
         groups = row["undecided_against"].split()
         if 0 < len(groups) <= most_named_groups:
-            names = ", ".join(compared_looks.short(group) for group in groups)
+            names = ", ".join(looks.short(group) for group in groups)
             lines.append(f"within {float(row['budget_ms']):g} ms against: {names}")
     return lines
 

@@ -3,9 +3,10 @@ import records
 from records import shapes
 from report.markup import beside_the_page, element, escaped, folder_link, items, joined, table
 from report.record_set import not_run, number
+from words import looks
 from words.number_words import figure, span_of_thousandths
 
-shown = (("lbs", "LBS"), ("dqs", "DQS"), ("pbs", "PBS, 24 iterations"), ("nh_p1", "neo-Hookean FEM, P1"))
+shown = tuple((name, looks.of(name).name) for name in ("lbs", "dqs", "pbs", "nh_p1"))
 
 
 def reference_of(run):

@@ -17,10 +17,9 @@ from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 import records
 from drawing import rendering
 from records import entries, pose_reached, recorded_frames
+from words import looks
 
 titles = {"limb_twist": "limb, twist", "limb_bend": "limb, bend", "human_jump": "human, jumping", "human_walk": "human, walking"}
-deformers = {"lbs": "LBS", "dqs": "DQS", "pbs": "PBS", "nh_p1": "FEM, neo-Hookean P1", "pbs_jiggle": "PBS, jiggling flesh",
-             "pbs_no_zone": "PBS, no zone", "pbs_increment": "PBS, no start from LBS"}
 figures = ("volume_change_pct", "inverted_tets", "j_min", "error_joint_pct", "error_linf_m", "min_section_pct", "angle_deg",
            "masked_share_pct")
 ratio_steps, position_steps = 127, 65535
@@ -85,9 +84,8 @@ class Block:
 
 
 def rows_of(recorded):
-    """For each label its rows of metrics.csv whose frames were written, in the order of the panels: deformers known here first."""
-    labels = [label for label in deformers if label in recorded.deformers]
-    labels += [label for label in recorded.deformers if label not in deformers]
+    """For each label its rows of metrics.csv whose frames were written, in the order of the panels: in the order of looks.toml."""
+    labels = looks.in_order(recorded.deformers)
     rows = {label: recorded.run.select(recorded.deformers[label][0], variant=recorded.deformers[label][1]) for label in labels}
     rows = {label: [row for row in of if recorded.is_written(label, int(row["frame"]))] for label, of in rows.items()}
     if not labels or not rows[labels[0]]:
@@ -111,7 +109,7 @@ def title_of(recorded, label):
     options = {run["label"]: run.get("options", {}) for run in recorded.run.record["scene"]["runs"]}
     own, plain = options[label], options.get("pbs", {})
     if "k_stretch" not in own or own["k_stretch"] == plain.get("k_stretch"):
-        return deformers.get(label, label)
+        return looks.of(label).name
     zone = f"zone {own['jiggle']['k_stretch']:g}" if own.get("jiggle") else "no zone"
     return f"PBS, k_stretch {own['k_stretch']:g}, {zone}"
 
@@ -147,7 +145,7 @@ def facts_of(recorded, every):
     """The facts from the run's tables, without its frames."""
     rows = {label: kept[::every] for label, kept in rows_of(recorded).items()}
     first = next(iter(rows.values()))
-    shown = [{"label": label, "title": title_of(recorded, label), "figures": figures_of(rows[label]),
+    shown = [{"label": label, "title": title_of(recorded, label), "colour": looks.of(label).color, "figures": figures_of(rows[label]),
               "not_reached": not_reached(rows[label])} for label in rows]
     return {"name": recorded.run.name, "title": titles.get(recorded.run.name, recorded.run.name), "reference": recorded.run.reference(),
             "rights": "; ".join(recorded_frames.licences_of(recorded)), "frames": [int(row["frame"]) for row in first],

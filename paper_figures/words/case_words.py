@@ -5,21 +5,9 @@ analysis/case_key.hpp declares.
 """
 import re
 
+from words import looks
+
 limbs = {"twist": "limb twisted", "bend": "limb bent"}  # whole sweeps
-bodies_by = {"lbs": "LBS", "dqs": "DQS", "delta_mush": "delta mush", "pbs": "PBS", "reference": "reference",
-             "pbs_exponent": "PBS, k by the exponent", "xpbd": "XPBD", "xpbd_small_steps": "XPBD in small steps",
-             "xpbd_forgetting_multipliers": "XPBD that forgets its multipliers", "fem_linear": "linear FEM",
-             "lbs_diffused": "LBS, diffused weights", "dqs_diffused": "DQS, diffused weights",
-             "delta_mush_diffused": "delta mush, diffused weights",
-             "direct_delta_mush": "direct delta mush", "direct_delta_mush_diffused": "direct delta mush, diffused weights",
-             "pbs_author": "first author\u2019s later code", "xpbd_neo_hookean": "neo-Hookean XPBD", "quasi_newton": "quasi-Newton",
-             "vbd": "vertex block descent", "projective_dynamics": "projective dynamics", "fem_corotational": "corotational FEM",
-             "fem_neo_hookean": "neo-Hookean FEM",
-             "fem_stable_neo_hookean": "stable neo-Hookean FEM",
-             "fem_p1": "linear FEM, linear elements", "fem_p2": "linear FEM, quadratic elements",
-             "fem_p1_embedded": "linear FEM, linear elements, rigid bones",
-             "nh_p1": "neo-Hookean FEM, linear elements", "nh_p2": "neo-Hookean FEM, quadratic elements",
-             "nh_p2_nu_049": "neo-Hookean FEM, quadratic elements, Poisson\u2019s ratio 0.49"}
 precisions = {"f32": "single precision", "f64": "double precision"}
 masses = {"equal": "equal masses", "unequal": "unequal masses", "unequal_by_eq_8_9": "unequal masses by Eq. 8\u20139, which are for m = 1",
           "unit": "unit masses", "lumped": "lumped masses"}
@@ -76,7 +64,7 @@ def in_plain(identifier):
 
 def of_field(field, value):
     """Describes one field: {deformer: lbs} becomes LBS."""
-    known = {"deformer": bodies_by, "precision": precisions, "masses": masses, "tolerance": tolerances, "initial_guess": guesses,
+    known = {"deformer": {name: looks.of(name).name for name in looks.listed}, "precision": precisions, "masses": masses, "tolerance": tolerances, "initial_guess": guesses,
              "reading": readings, "variant": variants, "factor": factors, "feature": features}
     return known.get(field, {}).get(value, in_plain(str(value)))
 

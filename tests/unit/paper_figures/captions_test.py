@@ -62,7 +62,7 @@ class Captions(unittest.TestCase):
             ("pbs", "gravity", "converged"), ("pbs", "gravity", "inverted"), ("pbs", "twist", "converged"),
             ("pbs_jiggle", "start", "bounded"), ("fem_linear", "gravity", "diverged"), ("fem_linear", "slivers_height_kept", "diverged"))]
         text = self.told("stability_cells", rows)
-        self.assertIn("undisturbed: PBS in 2 of 3; PBS, jiggle in 0 of 1; linear FEM in 0 of 2 (", text)
+        self.assertIn("undisturbed: PBS in 2 of 3; PBS, jiggling in 0 of 1; linear FEM in 0 of 2 (", text)
         self.assertIn("PBS keeps inverted tets after: gravity; the jiggling PBS after: none. ", text)
         self.assertIn("Diverged: linear FEM (gravity and slivers, height kept); ", text)
         self.assertIn("Not finite: none.", text)

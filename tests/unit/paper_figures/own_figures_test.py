@@ -12,6 +12,7 @@ import numpy
 root = pathlib.Path(__file__).resolve().parents[3]
 sys.path[:0] = [str(root / "paper_figures"), str(pathlib.Path(__file__).parent)]
 
+import checked_looks  # noqa: E402,F401
 import records  # noqa: E402
 import synthetic_frames  # noqa: E402
 import synthetic_records  # noqa: E402

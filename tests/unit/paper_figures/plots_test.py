@@ -13,6 +13,7 @@ from xml.etree import ElementTree
 root = pathlib.Path(__file__).resolve().parents[3]
 sys.path[:0] = [str(root / "paper_figures"), str(pathlib.Path(__file__).parent)]
 
+import checked_looks  # noqa: E402,F401
 import make_all  # noqa: E402
 import synthetic_records  # noqa: E402
 import synthetic_tables  # noqa: E402
