@@ -3,7 +3,7 @@
 #include "experiments/process/cpu_clock.hpp"
 #include "experiments/process/interruption.hpp"
 #include "experiments/scene/motion_case.hpp"
-#include "experiments/settings/option_fields.hpp"
+#include "experiments/settings/recorded_settings.hpp"
 #include "experiments/studies/convergence/convergence_values.hpp"
 #include "experiments/studies/jiggle/jiggle_records.hpp"
 #include "experiments/studies/momentum/momentum_drift.hpp"
@@ -239,24 +239,13 @@ std::vector<ReadingValues> values_of_frames(const ReadingsCase& of, const std::v
     return all;
 }
 
-nlohmann::json to_json(const ReadingsCase& of)
-{
-    static const auto fields = OptionFields<ReadingsCase>("readings")
-                                   .record("scene", &ReadingsCase::scene)
-                                   .record("frame", &ReadingsCase::frame)
-                                   .record("pose", &ReadingsCase::pose)
-                                   .record("key", &ReadingsCase::key)
-                                   .record("jolt_direction", &ReadingsCase::jolt_direction)
-                                   .record("iterations", &ReadingsCase::most_iterations)
-                                   .record("jolt_steps", &ReadingsCase::jolt_steps)
-                                   .record("timing_s", &ReadingsCase::timing_s)
-                                   .constant("residual_tolerance", residual_tolerance)
-                                   .constant("satisfied_residual", satisfied_residual)
-                                   .constant("volume_tolerance_pct", volume_tolerance_pct)
-                                   .constant("jolt_k_stretch", {table_1_k_stretch, soft_k_stretch})
-                                   .constant("least_answer", least_answer)
-                                   .complete();
-    return fields.json(of);
-}
+RECORD_SETTINGS_AND(ReadingsCase,
+                    .record("iterations", &ReadingsCase::most_iterations)
+                        .constant("residual_tolerance", residual_tolerance)
+                        .constant("satisfied_residual", satisfied_residual)
+                        .constant("volume_tolerance_pct", volume_tolerance_pct)
+                        .constant("jolt_k_stretch", {table_1_k_stretch, soft_k_stretch})
+                        .constant("least_answer", least_answer),
+                    scene, frame, pose, key, jolt_direction, jolt_steps, timing_s)
 
 }  // namespace experiments

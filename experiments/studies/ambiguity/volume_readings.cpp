@@ -3,7 +3,7 @@
 #include "analysis/case_judgement.hpp"
 #include "analysis/records/folder_files.hpp"
 #include "analysis/statistics.hpp"
-#include "experiments/settings/option_fields.hpp"
+#include "experiments/settings/recorded_settings.hpp"
 #include "experiments/studies/study.hpp"
 
 #include <fmt/format.h>
@@ -86,15 +86,7 @@ void compare_volume(std::vector<ClaimChange>& changes, const std::string& body, 
 
 }  // namespace
 
-nlohmann::json to_json(const VolumeReadings& of)
-{
-    static const auto fields = OptionFields<VolumeReadings>("volume_readings")
-                                   .record("body", &VolumeReadings::body)
-                                   .record("scene", &VolumeReadings::scene)
-                                   .record("readings", &VolumeReadings::readings)
-                                   .complete();
-    return fields.json(of);
-}
+RECORD_SETTINGS(VolumeReadings, body, scene, readings)
 
 std::vector<VolumeChange> volume_changes(const std::string& scene, const Reading& reading, const ReadMotion& a, const ReadMotion& b,
                                          const ReadMotion& resting, const std::vector<bool>& zone)

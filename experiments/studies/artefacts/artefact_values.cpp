@@ -4,7 +4,7 @@
 #include "analysis/smoothness.hpp"
 #include "analysis/statistics.hpp"
 #include "experiments/deformers/pbs/pbs_option_names.hpp"
-#include "experiments/settings/option_fields.hpp"
+#include "experiments/settings/recorded_settings.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -169,34 +169,17 @@ nlohmann::json joints_by_hand_of(const ArtefactCase& of)
 
 }  // namespace
 
-nlohmann::json to_json(const ArtefactPose& pose)
-{
-    static const auto fields = OptionFields<ArtefactPose>("pose")
-                                   .record("frame", &ArtefactPose::frame)
-                                   .record("name", &ArtefactPose::name)
-                                   .record("key", &ArtefactPose::key)
-                                   .complete();
-    return fields.json(pose);
-}
+RECORD_SETTINGS(ArtefactPose, frame, name, key)
 
-nlohmann::json to_json(const ArtefactCase& of)
-{
-    static const auto fields = OptionFields<ArtefactCase>("artefacts")
-                                   .record("scene", &ArtefactCase::scene)
-                                   .record("poses", &ArtefactCase::poses)
-                                   .record("joint", &ArtefactCase::joint)
-                                   .record("claim", &ArtefactCase::claim)
-                                   .record("other_vertices", &ArtefactCase::vertices)
-                                   .record("second_order_poses", &ArtefactCase::second_order_poses)
-                                   .constant("deepest_bend_deg", deepest_bend_deg)
-                                   .constant("widest_over_rest", widest_over_rest)
-                                   .constant("most_weight_iterations", most_weight_iterations)
-                                   .constant("residual_tolerance", residual_tolerance)
-                                   .constant("satisfied_residual", satisfied_residual)
-                                   .derived("joints_by_hand", joints_by_hand_of)
-                                   .complete();
-    return fields.json(of);
-}
+RECORD_SETTINGS_AND(ArtefactCase,
+                    .record("other_vertices", &ArtefactCase::vertices)
+                        .constant("deepest_bend_deg", deepest_bend_deg)
+                        .constant("widest_over_rest", widest_over_rest)
+                        .constant("most_weight_iterations", most_weight_iterations)
+                        .constant("residual_tolerance", residual_tolerance)
+                        .constant("satisfied_residual", satisfied_residual)
+                        .derived("joints_by_hand", joints_by_hand_of),
+                    scene, poses, joint, claim, second_order_poses)
 
 const analysis::Columns<SectionRow> section_columns = {
     {"claim", &SectionRow::claim, "", "id of the claim that the section is measured for"},

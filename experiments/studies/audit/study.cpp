@@ -2,7 +2,7 @@
 // by which C13 to C15 are judged, and audit.md.
 
 #include "analysis/records/folder_files.hpp"
-#include "experiments/settings/option_fields.hpp"
+#include "experiments/settings/recorded_settings.hpp"
 #include "experiments/studies/audit/printed_equations.hpp"
 #include "experiments/studies/shared/bodies.hpp"
 #include "experiments/studies/study.hpp"
@@ -25,12 +25,7 @@ struct AuditCase {
     unsigned seed = 1;
 };
 
-nlohmann::json to_json(const AuditCase& of)
-{
-    static const auto fields =
-        OptionFields<AuditCase>("audit").record("tets", &AuditCase::tets).record("seed", &AuditCase::seed).complete();
-    return fields.json(of);
-}
+RECORD_SETTINGS(AuditCase, tets, seed)
 
 std::string audit_print(const AuditCase& of, const std::string& folder)
 {

@@ -11,7 +11,7 @@
 #include "analysis/statistics.hpp"
 #include "experiments/deformers/pbs/pbs_option_names.hpp"
 #include "experiments/deformers/registry.hpp"
-#include "experiments/settings/option_fields.hpp"
+#include "experiments/settings/recorded_settings.hpp"
 #include "experiments/studies/study.hpp"
 #include "pbs/character/bodies.hpp"
 #include "pbs/geometry/input_error.hpp"
@@ -233,19 +233,9 @@ SagRow sag_row(const Rig& rig, const BarSetting& setting)
 
 }  // namespace
 
-nlohmann::json to_json(const SagCase& of)
-{
-    static const auto fields = OptionFields<SagCase>("sag")
-                                   .record("vertices", &SagCase::vertices)
-                                   .record("k_stretch", &SagCase::k_stretch)
-                                   .record("k_volume", &SagCase::k_volume)
-                                   .record("iterations", &SagCase::iterations)
-                                   .constant("time_step_s", sag_time_step_s)
-                                   .constant("density_kg_m3", density_kg_m3)
-                                   .constant("poisson", elastic_poisson)
-                                   .complete();
-    return fields.json(of);
-}
+RECORD_SETTINGS_AND(SagCase,
+                    .constant("time_step_s", sag_time_step_s).constant("density_kg_m3", density_kg_m3).constant("poisson", elastic_poisson),
+                    vertices, k_stretch, k_volume, iterations)
 
 std::string record_sags(const SagCase& of, const std::string& folder)
 {

@@ -4,7 +4,7 @@
 #include "analysis/statistics.hpp"
 #include "experiments/deformers/pbs/pbs_option_names.hpp"
 #include "experiments/scene/motion_case.hpp"
-#include "experiments/settings/option_fields.hpp"
+#include "experiments/settings/recorded_settings.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 
 #include <fmt/format.h>
@@ -162,44 +162,11 @@ void add_reference(const JoltCase& of, const pbs::Character& character, const st
 
 }  // namespace
 
-nlohmann::json to_json(const Jolt& jolt)
-{
-    static const auto fields = OptionFields<Jolt>("jolt")
-                                   .record("direction", &Jolt::direction)
-                                   .record("length_m", &Jolt::length_m)
-                                   .record("time_step_s", &Jolt::time_step_s)
-                                   .record("still_steps", &Jolt::still_steps)
-                                   .record("steps", &Jolt::steps)
-                                   .complete();
-    return fields.json(jolt);
-}
+RECORD_SETTINGS(Jolt, direction, length_m, time_step_s, still_steps, steps)
 
-nlohmann::json to_json(const JoltCase& of)
-{
-    static const nlohmann::json reference = {{"deformer", "neo-Hookean, linear elements, generalised alpha"},
-                                             {"first_young_pa", first_young_pa},
-                                             {"steps_a_period", reference_steps_a_period},
-                                             {"periods", reference_periods}};
-    static const auto fields = OptionFields<JoltCase>("jolt")
-                                   .record("scene", &JoltCase::scene)
-                                   .record("jolt", &JoltCase::jolt)
-                                   .record("settings", &JoltCase::settings)
-                                   .record("with_reference", &JoltCase::with_reference)
-                                   .constant("reference", reference)
-                                   .complete();
-    return fields.json(of);
-}
+RECORD_SETTINGS_AND(JoltCase, .constant("reference", reference), scene, jolt, settings, with_reference)
 
-nlohmann::json to_json(const WalkCase& of)
-{
-    static const auto fields = OptionFields<WalkCase>("walk")
-                                   .record("scene", &WalkCase::scene)
-                                   .record("k_stretch", &WalkCase::k_stretch)
-                                   .record("still_steps", &WalkCase::still_steps)
-                                   .constant("setting", to_json(JiggleSetting{}))
-                                   .complete();
-    return fields.json(of);
-}
+RECORD_SETTINGS_AND(WalkCase, .constant("setting", to_json(JiggleSetting{})), scene, k_stretch, still_steps)
 
 std::string record_jolts(const JoltCase& of, const std::string& folder)
 {

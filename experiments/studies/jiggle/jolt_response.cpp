@@ -1,7 +1,7 @@
 #include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/deformers/pbs/pbs_option_names.hpp"
 #include "experiments/process/interruption.hpp"
-#include "experiments/settings/option_fields.hpp"
+#include "experiments/settings/recorded_settings.hpp"
 #include "experiments/studies/jiggle/jiggle_records.hpp"
 #include "pbs/solver/options.hpp"
 
@@ -216,16 +216,6 @@ std::string text_of(const JiggleSetting& setting)
            bind;
 }
 
-nlohmann::json to_json(const JiggleSetting& setting)
-{
-    static const auto fields = OptionFields<JiggleSetting>("setting")
-                                   .record("k_stretch", &JiggleSetting::k_stretch)
-                                   .record("time_step_s", &JiggleSetting::time_step_s)
-                                   .record("iterations", &JiggleSetting::iterations)
-                                   .record("k_bind", &JiggleSetting::k_bind)
-                                   .record("masses", &JiggleSetting::masses)
-                                   .complete();
-    return fields.json(setting);
-}
+RECORD_SETTINGS(JiggleSetting, k_stretch, time_step_s, iterations, k_bind, masses)
 
 }  // namespace experiments

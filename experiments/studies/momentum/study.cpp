@@ -4,7 +4,7 @@
 // Writes DIR/momentum/CASE/measurements.csv.
 #include "experiments/deformers/pbs/pbs_option_names.hpp"
 #include "experiments/scene/motion_case.hpp"
-#include "experiments/settings/option_fields.hpp"
+#include "experiments/settings/recorded_settings.hpp"
 #include "experiments/studies/momentum/momentum_drift.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 #include "experiments/studies/study.hpp"
@@ -24,15 +24,7 @@ const std::vector<Setting> settings = {{"equal", pbs::Masses::unit, pbs::Masses:
                                        {"unequal", pbs::Masses::lumped, pbs::Masses::lumped},
                                        {"unequal_by_eq_8_9", pbs::Masses::unit, pbs::Masses::lumped}};
 
-nlohmann::json to_json(const Setting& setting)
-{
-    static const auto fields = OptionFields<Setting>("setting")
-                                   .record("name", &Setting::name)
-                                   .record("known", &Setting::known)
-                                   .record("counted", &Setting::counted)
-                                   .complete();
-    return fields.json(setting);
-}
+RECORD_SETTINGS(Setting, name, known, counted)
 
 struct MomentumCase {
     std::string name;
@@ -40,16 +32,7 @@ struct MomentumCase {
     int frame = 0;
 };
 
-nlohmann::json to_json(const MomentumCase& of)
-{
-    static const auto fields = OptionFields<MomentumCase>("momentum")
-                                   .record("name", &MomentumCase::name)
-                                   .record("scene", &MomentumCase::scene)
-                                   .record("frame", &MomentumCase::frame)
-                                   .constant("masses", option_json(settings))
-                                   .complete();
-    return fields.json(of);
-}
+RECORD_SETTINGS_AND(MomentumCase, .constant("masses", option_json(settings)), name, scene, frame)
 
 const std::pair<ProjectedClass, const char*> classes[] = {
     {ProjectedClass::stretch, "stretch"}, {ProjectedClass::volume, "volume"}, {ProjectedClass::bind, "bind"}};

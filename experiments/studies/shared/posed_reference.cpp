@@ -5,7 +5,7 @@
 #include "experiments/process/interruption.hpp"
 #include "experiments/run/frame_measurement.hpp"
 #include "experiments/run/reference_error_bar.hpp"
-#include "experiments/settings/option_fields.hpp"
+#include "experiments/settings/recorded_settings.hpp"
 #include "pbs/character/overlap_mask.hpp"
 #include "pbs/character/refined_character.hpp"
 #include "pbs/geometry/input_error.hpp"
@@ -188,17 +188,7 @@ const analysis::Columns<EnsembleMember>& family_member_columns()
     return columns;
 }
 
-nlohmann::json to_json(const EnsembleMember& member)
-{
-    static const auto fields = OptionFields<EnsembleMember>("member")
-                                   .record("name", &EnsembleMember::name)
-                                   .record("spring_factor", &EnsembleMember::spring_factor)
-                                   .record("core_radius", &EnsembleMember::core_radius)
-                                   .record("poisson", &EnsembleMember::poisson)
-                                   .record("formulation", &EnsembleMember::formulation)
-                                   .complete();
-    return fields.json(member);
-}
+RECORD_SETTINGS(EnsembleMember, name, spring_factor, core_radius, poisson, formulation)
 
 DeformerSpec flesh_of(DeformerSpec flesh, const EnsembleMember& member)
 {

@@ -5,7 +5,7 @@
 #include "analysis/statistics.hpp"
 #include "experiments/process/own_process.hpp"
 #include "experiments/run/run.hpp"
-#include "experiments/settings/option_fields.hpp"
+#include "experiments/settings/recorded_settings.hpp"
 #include "pbs/geometry/stopwatch.hpp"
 
 #include <nlohmann/json.hpp>
@@ -14,15 +14,7 @@
 
 namespace experiments {
 
-nlohmann::json to_json(const Rounds& rounds)
-{
-    static const auto fields = OptionFields<Rounds>("rounds")
-                                   .record("seconds", &Rounds::seconds)
-                                   .record("fewest", &Rounds::fewest)
-                                   .record("most", &Rounds::most)
-                                   .complete();
-    return fields.json(rounds);
-}
+RECORD_SETTINGS(Rounds, seconds, fewest, most)
 
 std::vector<Samples> take_turns(const std::vector<TimedVariant>& variants, const Rounds& rounds)
 {

@@ -2,7 +2,7 @@
 
 #include "experiments/deformers/registry.hpp"
 #include "experiments/scene/scene_keys.hpp"
-#include "experiments/settings/option_fields.hpp"
+#include "experiments/settings/recorded_settings.hpp"
 #include "experiments/settings/scene_values.hpp"
 
 #include <nlohmann/json.hpp>
@@ -19,44 +19,11 @@ std::string precision_of(const StabilityCell& cell)
     return traits_of(cell.spec).precision;
 }
 
-nlohmann::json to_json(const Disturbance& disturbance)
-{
-    static const auto fields = OptionFields<Disturbance>("disturbance")
-                                   .record("axis", &Disturbance::axis)
-                                   .record("angle_deg", &Disturbance::angle_deg)
-                                   .record("turning_steps", &Disturbance::turning_steps)
-                                   .record("teleport_m", &Disturbance::teleport_m)
-                                   .record("start", &Disturbance::start)
-                                   .record("stays", &Disturbance::stays)
-                                   .complete();
-    return fields.json(disturbance);
-}
+RECORD_SETTINGS(Disturbance, axis, angle_deg, turning_steps, teleport_m, start, stays)
 
-nlohmann::json to_json(const StabilityCell& cell)
-{
-    static const auto fields = OptionFields<StabilityCell>("cell")
-                                   .record("body", &StabilityCell::body)
-                                   .record("model", &StabilityCell::model)
-                                   .record("factor", &StabilityCell::factor)
-                                   .record("value", &StabilityCell::value)
-                                   .record("unit", &StabilityCell::unit)
-                                   .record("second_factor", &StabilityCell::second_factor)
-                                   .record("second_value", &StabilityCell::second_value)
-                                   .record("second_unit", &StabilityCell::second_unit)
-                                   .record("named", &StabilityCell::named)
-                                   .record("deformer", &StabilityCell::spec)
-                                   .record("disturbance", &StabilityCell::disturbance)
-                                   .record("time_step_s", &StabilityCell::time_step_s)
-                                   .record("still_steps", &StabilityCell::still_steps)
-                                   .record("defect", &StabilityCell::defect)
-                                   .record("thinness", &StabilityCell::thinness)
-                                   .record("mass_ratio", &StabilityCell::mass_ratio)
-                                   .record("held_end", &StabilityCell::held_end)
-                                   .record("nudge_m", &StabilityCell::nudge_m)
-                                   .record("as_published", &StabilityCell::as_published)
-                                   .complete();
-    return fields.json(cell);
-}
+RECORD_SETTINGS_AND(StabilityCell, .record("deformer", &StabilityCell::spec), body, model, factor, value, unit, second_factor, second_value,
+                    second_unit, named, disturbance, time_step_s, still_steps, defect, thinness, mass_ratio, held_end, nudge_m,
+                    as_published)
 
 std::string setting_of(const StabilityCell& cell)
 {

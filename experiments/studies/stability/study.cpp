@@ -21,7 +21,7 @@
 // Writes DIR/stability/RUN/cells.csv and measurements.csv, and cells.csv, the maps, starts.csv, outcomes.md and criteria.md. The study
 // fails where an outcome occurs in no cell, or where the printed sign does not diverge: then the map could not tell stable from unstable.
 #include "analysis/records/folder_files.hpp"
-#include "experiments/settings/option_fields.hpp"
+#include "experiments/settings/recorded_settings.hpp"
 #include "experiments/studies/shared/bodies.hpp"
 #include "experiments/studies/stability/cell_run.hpp"
 #include "experiments/studies/stability/cell_table.hpp"
@@ -53,28 +53,17 @@ nlohmann::json scenes_of(const Cells& cells)
     return scenes;
 }
 
-nlohmann::json to_json(const StabilityCase& of)
-{
-    static const auto fields = OptionFields<StabilityCase>("stability")
-                                   .record("cells", &StabilityCase::cells)
-                                   .derived("scenes", [](const StabilityCase& of) { return scenes_of(of.cells); })
-                                   .constant("seed", stability_seed)
-                                   .constant("criteria", analysis::criteria_text() + endings_text())
-                                   .complete();
-    return fields.json(of);
-}
+RECORD_SETTINGS_AND(StabilityCase,
+                    .derived("scenes", [](const StabilityCase& of) { return scenes_of(of.cells); })
+                        .constant("seed", stability_seed)
+                        .constant("criteria", analysis::criteria_text() + endings_text()),
+                    cells)
 
-nlohmann::json to_json(const BrokenStartsCase& of)
-{
-    static const auto fields = OptionFields<BrokenStartsCase>("broken_starts")
-                                   .record("cells", &BrokenStartsCase::cells)
-                                   .record("most_iterations", &BrokenStartsCase::most_iterations)
-                                   .derived("scenes", [](const BrokenStartsCase& of) { return scenes_of(of.cells); })
-                                   .constant("seed", stability_seed)
-                                   .derived("criteria", [](const BrokenStartsCase& of) { return start_criteria_text(of.most_iterations); })
-                                   .complete();
-    return fields.json(of);
-}
+RECORD_SETTINGS_AND(BrokenStartsCase,
+                    .derived("scenes", [](const BrokenStartsCase& of) { return scenes_of(of.cells); })
+                        .constant("seed", stability_seed)
+                        .derived("criteria", [](const BrokenStartsCase& of) { return start_criteria_text(of.most_iterations); }),
+                    cells, most_iterations)
 
 std::string run_and_record(const StabilityCase& of, const std::string& folder)
 {

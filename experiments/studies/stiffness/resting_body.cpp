@@ -1,7 +1,7 @@
 #include "analysis/measurement.hpp"
 #include "analysis/records/folder_files.hpp"
 #include "experiments/process/interruption.hpp"
-#include "experiments/settings/option_fields.hpp"
+#include "experiments/settings/recorded_settings.hpp"
 #include "experiments/studies/stiffness/stiffness_ratios.hpp"
 #include "pbs/character/bodies.hpp"
 #include "pbs/solver/pbs_solver.hpp"
@@ -139,18 +139,7 @@ StiffnessRow row_of(const LoadedBody& body, const StiffnessSetting& setting, con
 
 }  // namespace
 
-nlohmann::json to_json(const StiffnessSetting& setting)
-{
-    static const auto fields = OptionFields<StiffnessSetting>("stiffness")
-                                   .record("method", &StiffnessSetting::method)
-                                   .record("k_stretch", &StiffnessSetting::k_stretch)
-                                   .record("young_pa", &StiffnessSetting::young_pa)
-                                   .record("iterations", &StiffnessSetting::iterations)
-                                   .record("time_step_ms", &StiffnessSetting::time_step_ms)
-                                   .record("order_seed", &StiffnessSetting::order_seed)
-                                   .complete();
-    return fields.json(setting);
-}
+RECORD_SETTINGS(StiffnessSetting, method, k_stretch, young_pa, iterations, time_step_ms, order_seed)
 
 pbs::RestingState rest_near_rest(const LoadedBody& body, const StiffnessSetting& setting)
 {
@@ -287,19 +276,11 @@ std::vector<Size> sizes_of(const StiffnessSweep& sweep)
 
 }  // namespace
 
-nlohmann::json to_json(const StiffnessSweep& sweep)
-{
-    static const auto fields = OptionFields<StiffnessSweep>("stiffness")
-                                   .record("varied", &StiffnessSweep::varied)
-                                   .record("body", &StiffnessSweep::body)
-                                   .record("full", &StiffnessSweep::full)
-                                   .record("vertices", &StiffnessSweep::vertices)
-                                   .derived("settings", [](const StiffnessSweep& of) { return option_json(settings_of(of)); })
-                                   .constant("gravity_m_s2", still_gravity_m_s2)
-                                   .constant("density_kg_m3", flesh_density_kg_m3)
-                                   .complete();
-    return fields.json(sweep);
-}
+RECORD_SETTINGS_AND(StiffnessSweep,
+                    .derived("settings", [](const StiffnessSweep& of) { return option_json(settings_of(of)); })
+                        .constant("gravity_m_s2", still_gravity_m_s2)
+                        .constant("density_kg_m3", flesh_density_kg_m3),
+                    varied, body, full, vertices)
 
 std::string record_stiffness(const StiffnessSweep& sweep, const std::string& folder)
 {
