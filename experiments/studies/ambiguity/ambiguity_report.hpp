@@ -1,8 +1,7 @@
-// The tables of claim_changes.hpp and volume_readings.hpp as people read them.
+// The changes as people read them.
 #pragma once
 
 #include "experiments/studies/ambiguity/claim_changes.hpp"
-#include "experiments/studies/ambiguity/volume_readings.hpp"
 
 #include <string>
 
@@ -11,8 +10,5 @@ namespace experiments {
 // At most 120 columns wide: one block per body, one line per reading, one column per claim. A cell is B over A of the value whose verdict
 // flips, or else of the one that changes most. The lines below state by which readings each claim flips, and why others cannot touch it.
 std::string claim_changes_text(const std::vector<ClaimChange>& changes);
-
-// One line per reading and scene.
-std::string volume_markdown(const std::vector<VolumeChange>& changes);
 
 }  // namespace experiments

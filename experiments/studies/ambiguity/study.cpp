@@ -177,7 +177,6 @@ StudyConclusion conclude(const FinishedRuns& finished)
     finished.write("figures.csv", volume_change_columns, volumes);
     const std::string text = changes.empty() ? "" : claim_changes_text(changes);
     finished.write("ambiguity.txt", text);
-    finished.write("figures.md", volumes.empty() ? "" : volume_markdown(volumes));
     return {text, !finished.none()};
 }
 
