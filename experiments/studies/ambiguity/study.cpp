@@ -13,7 +13,7 @@
 // ambiguity.txt (the table that is printed), figures.csv and figures.md for all of them.
 #include "analysis/records/folder_files.hpp"
 #include "experiments/settings/option_fields.hpp"
-#include "experiments/studies/ambiguity/ambiguity_report.hpp"
+#include "experiments/studies/ambiguity/claim_changes.hpp"
 #include "experiments/studies/ambiguity/reading_values.hpp"
 #include "experiments/studies/artefacts/artefact_values.hpp"
 #include "experiments/studies/shared/iteration_path.hpp"

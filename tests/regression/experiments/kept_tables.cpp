@@ -1,7 +1,7 @@
 // The kept records, read as rows and written again, have the same columns and cells. Reference: the files, which earlier versions wrote.
 #include "experiments/run/metrics_table.hpp"
 #include "experiments/run/region_record.hpp"
-#include "experiments/studies/ambiguity/volume_readings.hpp"
+#include "experiments/studies/ambiguity/reading_values.hpp"
 #include "experiments/studies/artefacts/artefact_values.hpp"
 #include "experiments/studies/convergence/convergence_records.hpp"
 #include "experiments/studies/ensemble/ensemble.hpp"

@@ -5,7 +5,6 @@
 #include "experiments/deformers/fem/fem_option_names.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/studies/ambiguity/reading_values.hpp"
-#include "experiments/studies/ambiguity/volume_readings.hpp"
 #include "experiments/studies/artefacts/artefact_values.hpp"
 #include "experiments/studies/bench/bench.hpp"
 #include "experiments/studies/convergence/convergence_case.hpp"

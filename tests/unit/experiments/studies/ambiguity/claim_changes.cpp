@@ -1,8 +1,6 @@
 // Reference: the description in claim_changes.hpp; the values are invented.
 
-#include "experiments/studies/ambiguity/ambiguity_report.hpp"
 #include "experiments/studies/ambiguity/claim_changes.hpp"
-#include "experiments/studies/ambiguity/judged_value.hpp"
 
 #include <gtest/gtest.h>
 
@@ -266,7 +264,7 @@ TEST(ReadingComparison, SaysWhichReadingBreaksDown)
 
 }  // namespace
 
-// Reference: the description in ambiguity_report.hpp; the values are invented.
+// Reference: the description in claim_changes.hpp; the values are invented.
 
 namespace {
 

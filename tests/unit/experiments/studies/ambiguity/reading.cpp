@@ -2,7 +2,6 @@
 
 #include "analysis/frame_metrics.hpp"
 #include "experiments/deformers/registry.hpp"
-#include "experiments/studies/ambiguity/read_motion.hpp"
 #include "experiments/studies/ambiguity/reading.hpp"
 #include "pbs/skinning/blend_skinning.hpp"
 #include "pbs/solver/pbs_solver.hpp"

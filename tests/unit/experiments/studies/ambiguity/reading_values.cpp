@@ -2,7 +2,6 @@
 
 #include "experiments/scene/motion_case.hpp"
 #include "experiments/studies/ambiguity/reading_values.hpp"
-#include "experiments/studies/ambiguity/volume_readings.hpp"
 #include "experiments/studies/momentum/momentum_drift.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 
