@@ -164,7 +164,12 @@ void add_reference(const JoltCase& of, const pbs::Character& character, const st
 
 RECORD_SETTINGS(Jolt, direction, length_m, time_step_s, still_steps, steps)
 
-RECORD_SETTINGS_AND(JoltCase, .constant("reference", reference), scene, jolt, settings, with_reference)
+RECORD_SETTINGS_AND(JoltCase,
+                    .constant("reference", {{"deformer", "neo-Hookean, linear elements, generalised alpha"},
+                                            {"first_young_pa", first_young_pa},
+                                            {"steps_a_period", reference_steps_a_period},
+                                            {"periods", reference_periods}}),
+                    scene, jolt, settings, with_reference)
 
 RECORD_SETTINGS_AND(WalkCase, .constant("setting", to_json(JiggleSetting{})), scene, k_stretch, still_steps)
 
