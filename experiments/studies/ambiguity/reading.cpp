@@ -81,7 +81,8 @@ std::set<std::string> differences(const Reading& one, const Reading& other)
         for (const auto& [path, value] : from.items()) {
             const bool is_option = path.starts_with("/pbs/options/");
             const std::string name = path.substr(is_option ? 13 : 1), setting = name.substr(0, name.find('/'));
-            if (setting != "place" && setting != "name" && setting != "baseline" && setting != "pbs" && to.value(path, nlohmann::json()) != value)
+            if (setting != "place" && setting != "name" && setting != "baseline" && setting != "pbs" &&
+                to.value(path, nlohmann::json()) != value)
                 names.insert(setting);
         }
     };

@@ -11,7 +11,6 @@
 
 #include "analysis/measurement.hpp"
 #include "analysis/records/folder_files.hpp"
-#include "pbs/geometry/input_error.hpp"
 
 namespace experiments {
 namespace {
@@ -71,18 +70,11 @@ std::string measure_drift(const MomentumCase& of, const std::string& folder)
     return {};
 }
 
-StudyPlan plan(bool)
+StudyPlan plan(bool full)
 {
-    StudyPlan plan;
-    plan.runs.push_back(work_run<MomentumCase>("limb", {"limb", read_scene("limb_bend", {"motion.angle_deg=90", "motion.frames=2"}), 1},
-                                               1.0, measure_drift));
-    try {
-        plan.runs.push_back(
-            work_run<MomentumCase>("human", {"human", read_scene("human_01_01", {}), clip_frames::crouch}, 1.0, measure_drift));
-    } catch (const pbs::InputError& error) {
-        plan.left_out.push_back({"human", error.what()});
-    }
-    return plan;
+    return plan_of_cases("momentum", full, [](const StudyCase& of, StudyPlan& plan) {
+        plan.runs.push_back(work_run<MomentumCase>(of.name, {of.name, of.scene(), of.value<int>("frame")}, of.cost_s, measure_drift));
+    });
 }
 
 }  // namespace
