@@ -13,7 +13,7 @@ import shutil
 import sys
 
 import records
-from records import entries, whole_file
+from records import entries, kept, whole_file
 from words import captions
 
 endings = ("pdf", "png", "svg", "csv", "tex", "webp", "mp4", "caption.txt")
@@ -55,6 +55,7 @@ def main(results, only=None, folder=None):
     if not only and not folder:
         shutil.rmtree(results / "figures", ignore_errors=True)
     folder = folder or results / "figures"
+    results = kept.opened(results)
     drawn = []
     for entry in listed:
         if only not in (None, entry.name):

@@ -12,6 +12,7 @@ import pathlib
 import sys
 
 from readme import claims, features, findings, pages, part, reliability
+from records import kept
 
 parts = {"claims": lambda results: {part.own_readme: claims.lines_of(results)},
          "findings": lambda results: {part.own_readme: findings.lines_of(results)},
@@ -25,7 +26,8 @@ def main(arguments):
     if not folder or folder[0].startswith("-") or not set(names) <= set(parts):
         print(__doc__, file=sys.stderr)
         return 2
-    return max(part.main(name, parts[name], pathlib.Path(folder[0])) for name in names)
+    results = kept.opened(pathlib.Path(folder[0]))
+    return max(part.main(name, parts[name], results) for name in names)
 
 
 if __name__ == "__main__":

@@ -4,14 +4,13 @@ from drawing import style
 
 schema = 2  # `memory` in place of `copy`
 
-# The colour and line style of each order, and the marker of each class of constraints.
+# The colour and line style of each order.
 orders = {"plain": (style.vermillion, (0, (4, 1.5))), "plain_native": (style.orange, (0, (2, 1))),
           "plain_spread": (style.black, (0, (1, 1))),
           "ordered": (style.blue, "-"), "grouped": (style.green, (0, (5, 1.2, 1, 1.2))), "poses": (style.purple, (0, (4, 1, 1, 1, 1, 1)))}
 markers = {"plain": "v", "plain_native": "s", "plain_spread": "x", "ordered": "o", "grouped": "^", "poses": "D"}
 names = {"plain": "plain", "plain_native": "plain, native build", "plain_spread": "plain, native, spread", "ordered": "ordered",
          "grouped": "grouped", "poses": "16 poses, each"}
-classes = {"stretch": "o", "volume": "s", "bind": "^"}
 
 
 def read(results):

@@ -17,7 +17,7 @@ def table_lines(results):
     """The lines of the table, the header first."""
     file = results / "claims.json"
     if not file.is_file():
-        raise records.RecordsMissing(f"{file}: does not exist: `pbskin reproduce --judge -o {results}` writes it")
+        raise records.RecordsMissing(f"{file.name}: does not exist: `pbskin reproduce --judge` writes it next to the records")
     return [line(*columns), "|---" * len(columns) + "|", *map(row_of, sentences.claims_of(file))]
 
 

@@ -106,7 +106,7 @@ def pages(results):
     """Each page with its generated lines."""
     file = results / "claims.json"
     if not file.is_file():
-        raise records.RecordsMissing(f"{file}: does not exist: `pbskin reproduce --judge -o {results}` writes it")
+        raise records.RecordsMissing(f"{file.name}: does not exist: `pbskin reproduce --judge` writes it next to the records")
     judged = {claim["id"]: claim for claim in sentences.claims_of(file)}
     found = {studies / study / "README.md": study_lines(study, results) for study in study_names()}
     for claim in listed_claims():

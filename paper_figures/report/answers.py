@@ -4,7 +4,7 @@ from records import shapes
 from report import costs, verdicts
 from report.markup import Markup, element, escaped, items, joined, table
 from report.record_set import not_run, number
-from report.verdict_names import mark_of
+from report.verdicts import mark_of
 from words import case_words, sentences
 from words.number_words import counted, figure, span
 

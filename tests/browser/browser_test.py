@@ -19,7 +19,7 @@ root = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(root / "paper_figures"))
 
 from drawing import bodies  # noqa: E402
-from records import entries  # noqa: E402
+from records import entries, kept  # noqa: E402
 from viewer import data as viewer_data, page as viewer_html, poses as viewer_poses  # noqa: E402
 
 skipped = 77
@@ -27,7 +27,7 @@ bound_missed = figure_missed = 1  # exit statuses for a bound that does not hold
 sampled = {"limb_twist": ["lbs", "nh_p1"], "limb_bend": ["dqs"], "human_jump": ["pbs", "dqs"], "human_walk": ["pbs_jiggle"]}
 with_bones = "limb_bend"  # the whole limb is visible, and its skeleton moves
 # The kept records contain the verdicts, but not all tables.
-not_of_these_records = {"convergence_iterations", "data_profiles", "roofline", "scaling", "section_profiles", "stability_cells",
+not_of_these_records = {"convergence_iterations", "data_profiles", "scaling", "section_profiles", "stability_cells",
                         "volume_by_region", "work_precision", "work_precision_plain"}
 sampled_skins = {"human_jump": ["pbs"], "human_walk": ["lbs", "pbs_jiggle"]}
 columns = ("volume_change_pct", "inverted_tets", "j_min", "error_joint_pct", "error_linf_m")
@@ -45,7 +45,7 @@ def recorded(program, scratch):
     if os.environ.get("PBS_BROWSER_RESULTS"):
         return pathlib.Path(os.environ["PBS_BROWSER_RESULTS"]).resolve()
     folder = scratch / "records"
-    shutil.copytree(root / "experiments" / "records" / "full", folder, dirs_exist_ok=True)
+    kept.expand(root / "experiments" / "records" / "full", folder)
     reproduce = [program, "reproduce", "--quiet", "-o", folder]
     run([*reproduce, "--resume", "frames", "audit"], [bound_missed])
     run([*reproduce, "--judge"], [bound_missed])  # of all existing records

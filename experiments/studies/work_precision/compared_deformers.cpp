@@ -5,7 +5,7 @@ namespace {
 
 const std::vector<int> of_projections = {1, 2, 4, 8, 16, 24, 48, 96, 192}, few_of_projections = {4, 24, 96};
 const std::vector<int> of_minimisers = {1, 2, 4, 8, 12, 16, 24, 48, 96}, few_of_minimisers = {4, 12, 24};
-const std::vector<SettingChange> of_stiffness = {{}, {.stiffness_factor = 4.0}, {.stiffness_factor = 16.0}};
+const std::vector<SettingChange> of_stiffness = {{}, {.young_factor = 4.0}, {.young_factor = 16.0}};
 
 KeyValues set(const std::string& kind, const std::string& key, const std::string& value)
 {
@@ -104,18 +104,14 @@ std::vector<ComparedDeformer> projecting()
                                 {{"pbs.k_bind=0.3"}},
                                 {{exponent}},
                                 {{"pbs.k_stretch=0.9", exponent}}},
-                       .codes = {{"pbs.order=ordered", "pbs.precision=f32"}, {"pbs.order=plain", "pbs.precision=f64"}},
-                       .stiffness_key = "pbs.k_stretch",
-                       .highest_stiffness = 1.0});
+                       .codes = {{"pbs.order=ordered", "pbs.precision=f32"}, {"pbs.order=plain", "pbs.precision=f64"}}});
     entries.push_back({.name = "pbs_author",
                        .kind = "pbs_author",
                        .group = "pbs_author",
                        .words = "the first author's later code",
                        .iterations_key = "pbs_author.iterations",
                        .iterations = of_projections,
-                       .few_iterations = few_of_projections,
-                       .stiffness_key = "pbs_author.k_stretch",
-                       .highest_stiffness = 1.0});
+                       .few_iterations = few_of_projections});
     for (const auto& [kind, words] : {std::pair{"xpbd", "XPBD"}, {"xpbd_small_steps", "XPBD"}})
         entries.push_back({.name = kind,
                            .kind = kind,
@@ -127,8 +123,7 @@ std::vector<ComparedDeformer> projecting()
                            .grid = of_stiffness,
                            .codes = {{"xpbd.order=ordered", "xpbd.precision=f32"}, {"xpbd.order=plain", "xpbd.precision=f64"}},
                            .young_key = "xpbd.young_pa",
-                           .poisson_key = "xpbd.poisson",
-                           .stiffness_key = "xpbd.young_pa"});
+                           .poisson_key = "xpbd.poisson"});
     return entries;
 }
 

@@ -8,7 +8,6 @@
 
 #include "experiments/scene/scene.hpp"
 
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,7 +20,7 @@ using KeyValues = std::vector<std::string>;
 // One place of the grid of settings. Empty: the deformer as the scene or the default sets it.
 struct SettingChange {
     KeyValues keys = {};
-    double stiffness_factor = 1.0;  // on the value of stiffness_key
+    double young_factor = 1.0;  // on Young's modulus of young_key
 
     bool operator==(const SettingChange&) const = default;
 };
@@ -38,8 +37,6 @@ struct ComparedDeformer {
     std::vector<SettingChange> grid = {{}};
     std::vector<KeyValues> codes = {{}};           // packed first; one: it has no other code
     std::string young_key = {}, poisson_key = {};  // take the reference's material
-    std::string stiffness_key = {};                // that a factor is sought on (theta); empty: it has no stiffness
-    double highest_stiffness = std::numeric_limits<double>::infinity();
 };
 
 const std::vector<ComparedDeformer>& compared_deformers();
@@ -51,14 +48,10 @@ struct SettingChoice {
     std::optional<int> iterations = {};
     SettingChange change = {};
     KeyValues code = {};
-    double stiffness_factor = 1.0;  // besides that of the change
 };
 
 // The entry's deformer with these settings and the others of the scene, which is a built-in one. InputError for a key that does not exist.
 DeformerSpec spec_with(const ComparedDeformer& entry, const Scene& scene, const SettingChoice& choice);
-
-// The value of the entry's stiffness_key without a factor: of Young's modulus that of the reference.
-double stiffness_of(const ComparedDeformer& entry, const Scene& scene);
 
 // An identifier: k_stretch_0.9+stiffness_exponent, stiffness_factor_4. Empty: no change.
 std::string name_of(const SettingChange& change);

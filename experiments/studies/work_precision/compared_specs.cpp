@@ -62,13 +62,6 @@ std::vector<KeyValues> codes_of(const ComparedDeformer& entry)
     return codes.empty() ? std::vector<KeyValues>{{}} : codes;
 }
 
-double stiffness_of(const ComparedDeformer& entry, const Scene& scene)
-{
-    const DeformerSpec flesh = reference_flesh(scene);
-    if (entry.stiffness_key == entry.young_key) return options_of<FemOptions>(flesh).young_pa;
-    return values_with(entry, scene, entry.fixed).number(entry.stiffness_key);
-}
-
 DeformerSpec spec_with(const ComparedDeformer& entry, const Scene& scene, const SettingChoice& choice)
 {
     const DeformerSpec reference = reference_flesh(scene);
@@ -76,10 +69,8 @@ DeformerSpec spec_with(const ComparedDeformer& entry, const Scene& scene, const 
     KeyValues keys = entry.fixed;
     for (const KeyValues& more : {choice.code, choice.change.keys}) keys.insert(keys.end(), more.begin(), more.end());
     if (choice.iterations) keys.push_back(fmt::format("{}={}", entry.iterations_key, *choice.iterations));
-    if (!entry.young_key.empty()) keys.push_back(assigned(entry.young_key, flesh.young_pa));
+    if (!entry.young_key.empty()) keys.push_back(assigned(entry.young_key, choice.change.young_factor * flesh.young_pa));
     if (!entry.poisson_key.empty()) keys.push_back(assigned(entry.poisson_key, flesh.poisson));
-    if (const double factor = choice.stiffness_factor * choice.change.stiffness_factor; factor != 1.0)
-        keys.push_back(assigned(entry.stiffness_key, std::min(factor * stiffness_of(entry, scene), entry.highest_stiffness)));
     const SceneValues values = values_with(entry, scene, keys);
     DeformerSpec spec = default_spec(entry.kind);
     spec.name = spec.label = entry.name;
@@ -99,7 +90,7 @@ std::string name_of(const SettingChange& change)
         key[equals] = '_';
         add(key.substr(dot + 1));
     }
-    if (change.stiffness_factor != 1.0) add(fmt::format("stiffness_factor_{:g}", change.stiffness_factor));
+    if (change.young_factor != 1.0) add(fmt::format("stiffness_factor_{:g}", change.young_factor));
     return name;
 }
 

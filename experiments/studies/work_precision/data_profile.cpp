@@ -8,9 +8,9 @@
 namespace experiments {
 namespace {
 
-bool counts(const Diagram& diagram, bool with_training)
+bool counts(const Diagram& diagram)
 {
-    return is_pose(diagram) && (with_training || diagram.half == Half::evaluation);
+    return is_pose(diagram) && diagram.half == Half::evaluation;
 }
 
 void add_steps(std::vector<ProfileStep>& steps, const std::vector<const Diagram*>& poses, const DeformerGroup& group, double tolerance_pct)
@@ -68,7 +68,7 @@ std::vector<ProfileStep> data_profiles(const std::vector<Diagram>& diagrams)
     for (const Comparison comparison : comparisons) {
         std::vector<const Diagram*> poses;
         for (const Diagram& diagram : diagrams)
-            if (diagram.comparison == comparison && counts(diagram, false)) poses.push_back(&diagram);
+            if (diagram.comparison == comparison && counts(diagram)) poses.push_back(&diagram);
         for (const double tolerance_pct : profile_tolerances_pct)
             for (const DeformerGroup& group : groups_of(diagrams)) add_steps(steps, poses, group, tolerance_pct);
     }
@@ -76,12 +76,11 @@ std::vector<ProfileStep> data_profiles(const std::vector<Diagram>& diagrams)
 }
 
 Solved solved_within(const std::vector<Diagram>& diagrams, Comparison comparison, const DeformerGroup& group, double tolerance_pct,
-                     double ms, const std::string& body, bool with_training)
+                     double ms)
 {
     Solved count;
     for (const Diagram& diagram : diagrams) {
-        if (diagram.comparison != comparison || !counts(diagram, with_training)) continue;
-        if (!body.empty() && diagram.pose.body != body) continue;
+        if (diagram.comparison != comparison || !counts(diagram)) continue;
         ++count.poses;
         const std::optional<double> least_ms = time_to_solve(diagram, group, tolerance_pct);
         count.solved += least_ms && *least_ms <= ms;

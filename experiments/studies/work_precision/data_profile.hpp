@@ -29,14 +29,13 @@ std::optional<double> time_to_solve_certainly(const Diagram& diagram, const Defo
 // Over the evaluated poses with a reference; a group that solves none has no steps. Means are no poses.
 std::vector<ProfileStep> data_profiles(const std::vector<Diagram>& diagrams);
 
-// The number of poses of a body (empty: of all) that the group solves within a time, and the number of poses. Training poses count too if
-// asked for.
+// The number of evaluated poses that the group solves within a time, and the number of these poses.
 struct Solved {
     int solved = 0, poses = 0;
     int certain = 0;  // of those solved
 };
 std::string text_of(const Solved& solved);  // 3 of 4, 1 certain
 Solved solved_within(const std::vector<Diagram>& diagrams, Comparison comparison, const DeformerGroup& group, double tolerance_pct,
-                     double ms, const std::string& body = "", bool with_training = false);
+                     double ms);
 
 }  // namespace experiments

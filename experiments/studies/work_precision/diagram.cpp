@@ -44,10 +44,7 @@ Diagram diagram_of(const CaseRecords& records, Comparison comparison, const std:
     diagram.name = text_of(diagram.pose);
     diagram.groups = groups_with(external_in(records.rows));
     add_members(diagram, records.members);
-    diagram.newton = fastest_to_goal(records.newton);
-    diagram.newton_warm_ms = warm_to_goal_ms(records.newton);
     for (const PointRow& row : records.rows) {
-        if (!row.key.wanted_vertices && !row.key.refined && diagram.vertices == 0) diagram.vertices = row.vertices;
         if (row.outcome == "reference") {
             diagram.reference = text_of(row.key);
             diagram.reference_ms = row.reach_ms;
@@ -57,7 +54,7 @@ Diagram diagram_of(const CaseRecords& records, Comparison comparison, const std:
         if (row.ms_median && row.error && is_chosen(chosen, comparison, row.key))
             diagram.points.push_back({row.key, *row.ms_median, row.ms_q1, row.ms_q3, row.error->joint_pct, row.error->l2_pct,
                                       row.error->linf_m, row.metrics ? std::optional(row.metrics->volume_abs_change_pct) : std::nullopt,
-                                      row.below_reference_error.value_or(false), row.members, row.to_linear_elements_pct});
+                                      row.below_reference_error.value_or(false), row.members});
     }
     return diagram;
 }

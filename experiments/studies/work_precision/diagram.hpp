@@ -8,7 +8,6 @@
 #include "analysis/pareto_front.hpp"
 #include "experiments/studies/work_precision/chosen_settings.hpp"
 #include "experiments/studies/work_precision/deformer_groups.hpp"
-#include "experiments/studies/work_precision/newton_way.hpp"
 
 #include <optional>
 #include <string>
@@ -24,7 +23,6 @@ struct DiagramPoint {
     std::optional<double> l2_pct = {}, linf_m = {}, volume_abs_change_pct = {};
     bool below_reference_error = false;
     MemberErrors members = {};  // against the further references
-    std::optional<double> to_linear_elements_pct = {};
 };
 
 // The measures of fronts, named as the points' columns: error_joint_pct, which all sentences use, error_l2_pct, error_linf_m and
@@ -49,11 +47,8 @@ struct Diagram {
     std::string reference;                      // its name for readers; empty: none was reached
     std::optional<double> reference_ms;         // wall time of its solutions
     std::optional<double> reference_error_pct;  // bound at the joints
-    std::optional<NewtonRow> newton = {};       // the fastest cold start to the goal; nothing for a mean
-    std::optional<double> newton_warm_ms = {};  // to the goal, from the solution of the frame before
     std::array<DiagramMember, further_members> members = {};
     double masked_share_pct = 0.0;  // of the volume, which overlaps itself and is left out
-    int vertices = 0;               // of the case's own mesh; 0 for a mean
     int poses = 1;
     std::vector<std::string> cases = {};                    // of a mean: the keys of its poses
     std::vector<DeformerGroup> groups = deformer_groups();  // those of the user's own deformers last
@@ -71,7 +66,6 @@ bool is_pose(const Diagram& diagram);  // with a reference; a mean over several 
 struct CaseRecords {
     CaseRows rows;
     std::vector<FamilyRow> members = {};
-    std::vector<NewtonRow> newton = {};
 };
 
 // Returns a diagram for each case, training cases included, and one for each mean over evaluated poses. The times and errors of a mean are

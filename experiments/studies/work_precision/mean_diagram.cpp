@@ -22,8 +22,7 @@ std::optional<DiagramPoint> mean_of(const std::vector<Diagram>& poses, const Dia
                                                                      &DiagramPoint::ms_q3,
                                                                      &DiagramPoint::l2_pct,
                                                                      &DiagramPoint::linf_m,
-                                                                     &DiagramPoint::volume_abs_change_pct,
-                                                                     &DiagramPoint::to_linear_elements_pct};
+                                                                     &DiagramPoint::volume_abs_change_pct};
     DiagramPoint mean{setting.key};
     for (const auto value : known_or_not) mean.*value = 0.0;
     mean.members.fill(0.0);

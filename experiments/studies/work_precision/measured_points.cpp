@@ -6,7 +6,6 @@
 #include "experiments/scene/motion_case.hpp"
 #include "experiments/studies/work_precision/posed_deformer.hpp"
 #include "experiments/studies/work_precision/reference_set.hpp"
-#include "experiments/studies/work_precision/sought_theta.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/solver/options.hpp"
 
@@ -53,11 +52,7 @@ public:
         const std::vector<FrameTime> times = time_all();
         for (std::size_t i = 0; i < points_.size(); ++i) add_row(points_[i], deformers_[i], times[i]);
         add_row_of_case(reference_row(base_->mesh, references_->first()));
-        if (const ReachedPoint* limit = limit_of_deformers())
-            measured_.newton = newton_way(of_, *limit->setting, meshes_.at(0), poses_, limit->shape.positions, references_->first());
         measured_.members = references_->member_rows();
-        if (of_.seeks_theta && references_->first().is_reached())
-            measured_.thetas = sought_thetas(of_, meshes_.at(0), poses_, references_->first());
         return measured_;
     }
 

@@ -9,7 +9,6 @@
 // is measured, is the point of linear elements with their law on the case's own tets (PointSetting::is_limit_of_deformers).
 #pragma once
 
-#include "experiments/studies/work_precision/newton_way.hpp"
 #include "experiments/studies/work_precision/point_row.hpp"
 #include "experiments/studies/work_precision/work_precision_case.hpp"
 
@@ -18,8 +17,6 @@ namespace experiments {
 struct MeasuredPoints {
     std::vector<PointRow> rows;
     std::vector<FamilyRow> members;
-    std::vector<ThetaRow> thetas;
-    std::vector<NewtonRow> newton;  // none where that limit was not reached
     std::string breakdown;  // PBS, LBS or a deformer of the user's own that is not finite; a reference that is not reached is recorded as
                             // an outcome
 };

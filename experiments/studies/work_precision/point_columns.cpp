@@ -1,4 +1,4 @@
-// The columns of points.csv, members.csv and theta.csv.
+// The columns of points.csv and members.csv.
 #include "experiments/studies/shared/posed_character.hpp"
 #include "experiments/studies/work_precision/point_row.hpp"
 
@@ -126,20 +126,5 @@ const Columns<FamilyRow> family_columns =
                         "bound of its own error at the joints, taken from that of the first reference on the same elements"},
                        {"masked_share_pct", &FamilyRow::masked_share_pct, "%", "share of the volume that is left out"},
                        {"solve_s", &FamilyRow::solve_s, "s", "wall time of its solutions"}};
-
-const Columns<ThetaRow> theta_columns =
-    within(&ThetaRow::of, pose_columns()) + within(&ThetaRow::key, point_key_columns()) +
-    within(&ThetaRow::found,
-           Columns<StiffnessFactor>{
-               {"outcome", &StiffnessFactor::outcome, "",
-                "found, end_of_grid (no minimum between the factors tried), highest_allowed (nearest at the largest stiffness that the "
-                "deformer accepts), insensitive (the errors at all factors differ by less than 1 %) or not_finite"},
-               {"theta", &StiffnessFactor::theta, "",
-                "factor on the stiffness at which the deformer is nearest to the reference; empty unless found"},
-               {"error_joint_pct", &StiffnessFactor::error_pct, "%", "least error at the joints over the factors"},
-               {"error_at_1_joint_pct", &StiffnessFactor::error_at_1_pct, "%", "error at the joints with the stiffness as it is"},
-               {"tried", &StiffnessFactor::tried, "", "number of factors tried"},
-               {"lowest_tried", &StiffnessFactor::lowest_tried, "", "smallest factor tried"},
-               {"highest_tried", &StiffnessFactor::highest_tried, "", "largest factor tried"}});
 
 }  // namespace experiments

@@ -1,5 +1,5 @@
 // points.csv: one row per setting, with its time, its work, its error, its volume and the reference that it is compared with. members.csv:
-// the other references of the family. theta.csv: the factor on each deformer's stiffness at which it is nearest to the reference.
+// the other references of the family.
 #pragma once
 
 #include "analysis/case_key.hpp"
@@ -10,7 +10,6 @@
 #include "experiments/studies/work_precision/body_mesh.hpp"
 #include "experiments/studies/work_precision/case_split.hpp"
 #include "experiments/studies/work_precision/frame_clock.hpp"
-#include "experiments/studies/work_precision/stiffness_factor.hpp"
 #include "pbs/geometry/work_counters.hpp"
 
 namespace experiments {
@@ -85,12 +84,5 @@ struct FamilyRow {
     double solve_s = 0.0;
 };
 extern const analysis::Columns<FamilyRow> family_columns;
-
-struct ThetaRow {
-    analysis::CaseKey of;
-    SettingKey key;
-    StiffnessFactor found;
-};
-extern const analysis::Columns<ThetaRow> theta_columns;
 
 }  // namespace experiments

@@ -5,8 +5,6 @@
 #include "experiments/studies/work_precision/data_profile.hpp"
 #include "experiments/studies/work_precision/diagram_tables.hpp"
 #include "experiments/studies/work_precision/findings.hpp"
-#include "experiments/studies/work_precision/goal.hpp"
-#include "experiments/studies/work_precision/wins.hpp"
 
 #include <fmt/format.h>
 
@@ -115,38 +113,6 @@ std::string profile_table(const ComparisonRecords& records, Comparison compariso
     return header + "\n" + line + "\n" + rows + "\n";
 }
 
-std::string theta_words(const StiffnessFactor& found)
-{
-    const std::string range = fmt::format("{:.2g} to {:.4g}", found.lowest_tried, found.highest_tried);
-    switch (found.outcome) {
-        case ThetaOutcome::found:
-            return fmt::format("{:.2g}", found.theta.value());
-        case ThetaOutcome::end_of_grid:
-            return "no minimum inside " + range;
-        case ThetaOutcome::highest_allowed:
-            return fmt::format("no minimum inside {}: nearest at the largest stiffness that it accepts", range);
-        case ThetaOutcome::insensitive:
-            return "no effect inside " + range;
-        case ThetaOutcome::not_finite:
-            return "no answer inside " + range;
-    }
-    return "";
-}
-
-std::string theta_table(const ComparisonRecords& records)
-{
-    std::string rows;
-    for (const ThetaRow& row : records.thetas) {
-        const auto percent = [](const std::optional<double>& error) { return error ? fmt::format("{:.1f}", *error) : ""; };
-        rows += fmt::format("| {} | {} | {} | {} | {} |\n", case_name(row.of), text_of(row.key), theta_words(row.found),
-                            percent(row.found.error_pct), percent(row.found.error_at_1_pct));
-    }
-    if (rows.empty()) return "";
-    return "## theta\n\nThe factor on the stiffness at which a deformer is nearest to the reference.\n\n"
-           "| case | deformer | theta | least error [%] | error without a factor [%] |\n|---|---|---|---|---|\n" +
-           rows + "\n";
-}
-
 std::string omission_table(const ComparisonRecords& records)
 {
     if (records.omissions.empty()) return "";
@@ -172,9 +138,9 @@ std::string page_of(const ComparisonRecords& records)
             "100 ms per frame and at any time. A pose is solved with certainty if the error plus the bound on the reference's own error "
             "is within the tolerance. Groups that solve no pose are not listed.\n\n",
             words_of(comparison));
-        page += profile_table(records, comparison) + goal_text(records.diagrams, comparison);
+        page += profile_table(records, comparison);
     }
-    page += wins_text(records.diagrams) + tried_table(records) + "\n" + theta_table(records) + omission_table(records);
+    page += tried_table(records) + "\n" + omission_table(records);
     for (const Comparison comparison : comparisons)
         for (const Diagram* diagram : described(records, comparison)) {
             page += fmt::format("## {}: {}\n\n```\n{}```\n\n", diagram->name, words_of(comparison), front_text(*diagram));

@@ -8,7 +8,6 @@ namespace experiments {
 
 struct ComparisonRecords {
     std::vector<CaseRecords> cases;
-    std::vector<ThetaRow> thetas;
     std::vector<ChosenSetting> chosen;
     std::vector<Diagram> diagrams;
     std::vector<Omission> omissions;

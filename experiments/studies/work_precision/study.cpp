@@ -5,8 +5,8 @@
 //   human       crouch (--full: standing, crouch, in the air, landing and the poses at 1/5 to 4/5 of 01_01; crouch and in the air also on
 //               tets cut into eight; and the crouch of every other installed body)
 //
-// Writes DIR/work_precision/CASE/{points,members,theta,newton}.csv and, over all cases, points.csv, theta.csv, newton.csv, settings.csv,
-// fronts.csv, crossings.csv, best_within.csv, data_profiles.csv, goal.csv, omissions.csv, work_precision.md.
+// Writes DIR/work_precision/CASE/{points,members}.csv and, over all cases, points.csv, settings.csv, fronts.csv, crossings.csv,
+// best_within.csv, data_profiles.csv, omissions.csv, work_precision.md.
 #include "analysis/records/folder_files.hpp"
 #include "experiments/scene/motion_case.hpp"
 #include "experiments/studies/shared/bodies.hpp"
@@ -15,7 +15,6 @@
 #include "experiments/studies/work_precision/data_profile.hpp"
 #include "experiments/studies/work_precision/diagram_tables.hpp"
 #include "experiments/studies/work_precision/external_entries.hpp"
-#include "experiments/studies/work_precision/goal.hpp"
 #include "experiments/studies/work_precision/measured_points.hpp"
 #include "experiments/studies/work_precision/report_page.hpp"
 
@@ -29,8 +28,6 @@ std::string measure_and_record(const WorkPrecisionCase& of, const std::string& f
     const MeasuredPoints points = measure_points(of);
     table_of(columns_for(points.rows), points.rows).write(analysis::path_in(folder, "points.csv"));
     table_of(family_columns, points.members).write(analysis::path_in(folder, "members.csv"));
-    table_of(theta_columns, points.thetas).write(analysis::path_in(folder, "theta.csv"));
-    table_of(newton_columns, points.newton).write(analysis::path_in(folder, "newton.csv"));
     return points.breakdown;
 }
 
@@ -105,7 +102,6 @@ void set_extent(WorkPrecisionCase& of, const PlannedPose& pose, bool full)
     of.newton_rounds = {.seconds = full ? 5.0 : 0.0, .fewest = 1, .most = 9};
     of.converged_iterations = full ? 8000 : 2000;
     of.reference_is_refined = full || (is_limb && of.half == Half::evaluation);
-    of.seeks_theta = full || of.half == Half::evaluation;
     if (!full || of.half == Half::training) return;
     of.members = family();
     of.members.erase(of.members.begin());
@@ -159,8 +155,7 @@ ComparisonRecords records_of(const FinishedRuns& finished)
     for (const std::string& folder : finished.folders) {
         const auto read = [&](const char* file) { return analysis::read_csv(analysis::path_in(folder, file)); };
         rows.push_back(rows_of(point_columns, read("points.csv")));
-        records.cases.push_back({rows.back(), rows_of(family_columns, read("members.csv")), rows_of(newton_columns, read("newton.csv"))});
-        for (const ThetaRow& theta : rows_of(theta_columns, read("theta.csv"))) records.thetas.push_back(theta);
+        records.cases.push_back({rows.back(), rows_of(family_columns, read("members.csv"))});
     }
     records.chosen = choose_settings(rows);
     records.diagrams = diagrams_of(records.cases, records.chosen);
@@ -175,14 +170,11 @@ StudyConclusion conclude(const FinishedRuns& finished)
     const ComparisonRecords records = records_of(finished);
     const std::vector<PointRow> points = finished.rows(point_columns, "points.csv");
     finished.write("points.csv", columns_for(points), points);
-    finished.write("theta.csv", theta_columns, records.thetas);
-    finished.write("newton.csv", newton_columns, finished.rows(newton_columns, "newton.csv"));
     finished.write("settings.csv", chosen_columns, records.chosen);
     finished.write("fronts.csv", fronts_table(records.diagrams));
     finished.write("crossings.csv", crossings_table(records.diagrams));
     finished.write("best_within.csv", budget_columns, best_within(records.diagrams));
     finished.write("data_profiles.csv", data_profile_columns, data_profiles(records.diagrams));
-    finished.write("goal.csv", goal_columns, goal_rows(records.diagrams));
     finished.write("omissions.csv", omission_columns, records.omissions);
     finished.write("work_precision.md", page_of(records));
     return {terminal_text(records), true};

@@ -19,7 +19,6 @@ nlohmann::json to_json(const WorkPrecisionCase& of)
             .record("members", &WorkPrecisionCase::members)
             .record("converged_iterations", &WorkPrecisionCase::converged_iterations)
             .record("longest_frame_ms", &WorkPrecisionCase::longest_frame_ms)
-            .record("seeks_theta", &WorkPrecisionCase::seeks_theta)
             .record("external", &WorkPrecisionCase::external)
             .derived("points",
                      [](const WorkPrecisionCase& one) -> nlohmann::json { return digest_of(point_settings(one.scene, one.range)); })

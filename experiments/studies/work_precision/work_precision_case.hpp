@@ -20,7 +20,6 @@ struct WorkPrecisionCase {
     std::vector<EnsembleMember> members = {};  // further references of the family
     int converged_iterations = 8000;           // of PBS for the parts of its error; 0: no parts
     double longest_frame_ms = 300.0;           // of a ladder of iterations
-    bool seeks_theta = true;
     std::vector<DeformerSpec> external = {};  // deformers of the user's own (external_entries.hpp); they are measured first
 };
 

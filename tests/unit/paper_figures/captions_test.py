@@ -113,7 +113,7 @@ class Captions(unittest.TestCase):
     def test_figures_of_time_name_the_processor(self):
         timed = [entry for entry in listed.values() if set(entry.studies()) & {"timing", "work_precision", "bench", "features"}]
         timed = [entry for entry in timed if entry.name != "error_parts"]
-        self.assertEqual(len(timed), 8)
+        self.assertEqual(len(timed), 7)
         for entry in timed:
             with self.subTest(entry.name):
                 self.assertIn("{cpu}", entry.caption)

@@ -18,7 +18,7 @@ import synthetic_frames  # noqa: E402
 import synthetic_records  # noqa: E402
 import synthetic_tables  # noqa: E402
 from drawing import recorded_distances  # noqa: E402
-from figures import fig_06_constraints, table_1_timing, volume_over_angle  # noqa: E402
+from figures import fig_06_constraints, table_1_timing, volume  # noqa: E402
 from records import entries, recorded_frames  # noqa: E402
 
 own = [entry for entry in entries.read() if entry.script.startswith(("fig_", "table_", "clip_"))]
@@ -176,7 +176,7 @@ class Origin(unittest.TestCase):
             self.assertEqual(entries.origin_of(results, "volume_over_angle"), {
                 "version": "0.1.0", "git_revision": synthetic_records.revision, "git_dirty": False, "cpu_model": "a processor",
                 "scenes": scenes})
-            volume_over_angle.volume_over_angle(results, results / "figures")
+            volume.volume_over_angle(results, results / "figures")
             shown = (results / "figures" / "volume_over_angle.png").read_bytes()
             for text in (synthetic_records.revision, "; a processor; ", *(f"scene {name} {digest}" for name, digest in scenes.items())):
                 self.assertIn(text.encode(), shown)

@@ -1,7 +1,9 @@
 """The page of a single run. Reference: its records, which are written here with numbers that can be predicted. Each number of a table is
 that of a record, warnings are shown, and nothing is missing that the run was not asked for."""
+import contextlib
 import csv
 import html.parser
+import io
 import json
 import pathlib
 import re
@@ -202,6 +204,15 @@ class RunPage(unittest.TestCase):
         shown = [looks.of(label) for label in found.labels()]
         self.assertEqual(len({(look.color, look.marker) for look in shown}), 3)
         self.assertEqual([look.name for look in shown], ["LBS", "one", "two"])
+
+    def test_the_picture_of_a_run_is_written_next_to_its_records(self):
+        self.write()
+        self.assertEqual(report.picture(self.folder), 0)
+        self.assertTrue((self.folder / "picture.png").read_bytes().startswith(b"\x89PNG"))
+        (self.folder / "metrics.csv").unlink()
+        with contextlib.redirect_stderr(io.StringIO()) as said:
+            self.assertEqual(report.picture(self.folder), 2)
+        self.assertIn("metrics.csv", said.getvalue())
 
     # Runs in which nothing happens, or nothing is left.
 
