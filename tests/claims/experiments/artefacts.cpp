@@ -118,8 +118,6 @@ TEST_F(ArtefactsVerdict, ARatioAboveOneIsNotSmoother)
     EXPECT_EQ(verdict("C06", measured), VerdictKind::not_reproduced);
 }
 
-}  // namespace
-
 // C04 from a twisted limb, with the correct solver and with broken ones. Reference:
 // - nothing projected: LBS remains, with radii down to cos 85 deg = 0.09 of the radius and less: a candy wrapper.
 // - bind dropped: only bind constraints contain the distance from the bone, so at 170 degrees sections are narrower than with them.
@@ -128,10 +126,6 @@ TEST_F(ArtefactsVerdict, ARatioAboveOneIsNotSmoother)
 //   theory for the effect of the remaining class on the skin between the vertices. At 170 degrees, where the verdict was also expected to
 //   stay, sections fall below the bound, although they are far above those of LBS.
 
-namespace {
-
-using analysis::Measurement;
-using analysis::VerdictKind;
 using test_support::Broken;
 using test_support::values_of;
 

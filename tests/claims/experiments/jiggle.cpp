@@ -117,8 +117,6 @@ TEST(JiggleVerdict, NothingJudgedIsNoVerdict)
     EXPECT_EQ(verdict({}), VerdictKind::not_computable);
 }
 
-}  // namespace
-
 // C09 from a small limb jolted along its bones by 2 mm, with the correct solver and with broken ones. Reference:
 // - nothing projected: nothing pulls the flesh after the skeleton, so it lags behind by the whole jolt for ever and swings at no setting.
 // - stretch dropped: k_stretch has nothing to act on, so every value of it gives the same series, to the bit.
@@ -127,8 +125,6 @@ TEST(JiggleVerdict, NothingJudgedIsNoVerdict)
 //   of the bind constraints was expected not to involve them, but they hold the parts to which the flesh is attached.
 // - any: half the time step still gives twice the frequency, since Algorithm 1 contains steps but no time.
 // The verdict itself is already against the claim, by the time step and by the small effect of k_stretch; the values behind it must change.
-
-namespace {
 
 using namespace experiments;
 using analysis::Extent;

@@ -14,7 +14,7 @@ namespace {
 using analysis::VerdictKind;
 using test_support::claim;
 
-const analysis::Records& limb()
+const analysis::Records& records_of_limb()
 {
     static const analysis::Records records = test_support::records_of(experiments::momentum_study().plan(false));
     return records;
@@ -22,7 +22,7 @@ const analysis::Records& limb()
 
 TEST(MomentumVerdict, HoldsWhereMassesAreKnownAndNotByEquationsForOneMass)
 {
-    const analysis::Verdict verdict = judge(claim("C07"), limb());
+    const analysis::Verdict verdict = judge(claim("C07"), records_of_limb());
     EXPECT_EQ(verdict.kind, VerdictKind::reproduced_only_for);
     ASSERT_EQ(verdict.subjects.size(), 3u);
     EXPECT_EQ(verdict.subjects[2].name, "unequal_by_eq_8_9");
@@ -31,14 +31,12 @@ TEST(MomentumVerdict, HoldsWhereMassesAreKnownAndNotByEquationsForOneMass)
 
 TEST(MomentumVerdict, TurnsWithItsFigures)
 {
-    analysis::Records records = limb();
+    analysis::Records records = records_of_limb();
     for (auto& measured : records.measurements) measured.value = measured.low = measured.high = 1e-9;
     EXPECT_EQ(judge(claim("C07"), records).kind, VerdictKind::reproduced);
     for (auto& measured : records.measurements) measured.value = measured.low = measured.high = 0.1;
     EXPECT_EQ(judge(claim("C07"), records).kind, VerdictKind::not_reproduced);
 }
-
-}  // namespace
 
 // C07 from correct and broken projections. Reference:
 // - volume sign: corrections are reversed and still add up to zero, so the verdict must stay (Eq. 3-4 require no more).
@@ -46,10 +44,7 @@ TEST(MomentumVerdict, TurnsWithItsFigures)
 //   linear momentum is not.
 // - a class dropped: a class that is not projected has no drift, so it is not counted as conserved.
 
-namespace {
-
 using analysis::Measurement;
-using analysis::VerdictKind;
 using experiments::MomentumDrift;
 using experiments::ProjectedClass;
 using pbs::Masses;

@@ -174,8 +174,6 @@ TEST(StabilityVerdict, TimeStepsThatDoNotEnterAreNoFigure)
     for (const StabilityCell& cell : pbs_cells(true, false)) EXPECT_TRUE(cell.factor != "time_step" || cell.as_published);
 }
 
-}  // namespace
-
 // C08 from cells of a jiggling limb with a distorted initial state, with the correct solver and with broken ones. Reference:
 // - volume sign: each projection doubles the error that it should remove, so the limb diverges and the claim is not reproduced.
 // - nothing projected: flesh falls freely, g t^2 / 2 = 4.9 m in a second, and diverges; without jiggle nothing moves at all.
@@ -183,11 +181,6 @@ TEST(StabilityVerdict, TimeStepsThatDoNotEnterAreNoFigure)
 // - multipliers forgotten: XPBD is not part of the claim; each of its projections still takes a share below one, so it is as stable as with
 //   them.
 
-namespace {
-
-using namespace experiments;
-using analysis::StabilityOutcome;
-using analysis::VerdictKind;
 using test_support::broken;
 using test_support::Broken;
 

@@ -96,8 +96,6 @@ TEST(StiffnessVerdict, NeedsFigures)
     EXPECT_EQ(verdict(measured(Method::xpbd, 0.0, 0.0, 0.0)).kind, VerdictKind::not_computable);
 }
 
-}  // namespace
-
 // C11 from a small limb's held flesh, with XPBD's multipliers kept and forgotten. Reference: with its multipliers the stiffness is the
 // material's, whatever the iterations and the time step. Without them a single constraint of inverse masses w is reduced to 1 / (1 + a) of
 // its error, a = w dt^2 / alpha, in every iteration, so n iterations hang with K = ((1 + a)^n - 1) / dt^2:
@@ -106,11 +104,7 @@ TEST(StiffnessVerdict, NeedsFigures)
 // The same holds for every mode of a body with one rate per iteration. Rigid constraints, with infinite a, do not depend on the time step
 // and are four times as stiff at half of it, so "one and less" is for flesh without bind constraints.
 
-namespace {
-
-using namespace experiments;
 using analysis::Measurement;
-using analysis::VerdictKind;
 
 LoadedBody held_flesh()
 {
@@ -151,17 +145,10 @@ std::vector<Measurement> control(Method method)
     return measured;
 }
 
-VerdictKind verdict(const std::vector<Measurement>& measured)
-{
-    analysis::Records records;
-    records.measurements = measured;
-    return judge(test_support::claim("C11"), records).kind;
-}
-
 TEST(BrokenStiffness, ForgottenMultipliersTurnTheControl)
 {
-    EXPECT_EQ(verdict(control(Method::xpbd)), VerdictKind::reproduced);
-    EXPECT_NE(verdict(control(Method::xpbd_forgetting)), VerdictKind::reproduced);
+    EXPECT_EQ(verdict(control(Method::xpbd)).kind, VerdictKind::reproduced);
+    EXPECT_NE(verdict(control(Method::xpbd_forgetting)).kind, VerdictKind::reproduced);
 }
 
 TEST(BrokenStiffness, ForgottenMultipliersAreStiffenedByIterations)

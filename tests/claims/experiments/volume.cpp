@@ -57,13 +57,9 @@ TEST(VolumeVerdict, HalfAPerCentIsHeldByEveryBodyOrNotByAll)
     EXPECT_EQ(verdict("C02", {clip("man_01_01", "pbs", -1.0), clip("lady_01_01", "pbs", -2.0)}), VerdictKind::not_reproduced);
 }
 
-}  // namespace
-
 // C01 is about blending: no defect of the solver may change its verdict, value by value and to the bit, while the values measured for the
 // solver change. A broken blend must change it. Reference: LBS does not depend on Algorithm 1; weights that bind every vertex to one bone
 // distort only the tets across the joint, so a twist loses less.
-
-namespace {
 
 using test_support::Broken;
 using test_support::claim;

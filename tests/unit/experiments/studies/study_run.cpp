@@ -114,13 +114,8 @@ TEST_F(StudyRunTest, WorkThatFailsLeavesNoRecordOfAnEarlierRun)
     EXPECT_FALSE(is_finished(failing, folder));
 }
 
-}  // namespace
-
 // Reference: sums and maxima by hand.
 
-namespace {
-
-using namespace experiments;
 using test_support::ScratchFolder;
 
 StudyRun run_of(double cost_s)

@@ -118,13 +118,8 @@ TEST(ClaimChanges, KeepCasesOfOneQuantityApart)
     EXPECT_EQ(table.at(1).change, 0.0);
 }
 
-}  // namespace
-
 // Reference: claims.toml and the rules of analysis::judge_case.
 
-namespace {
-
-using analysis::Extent;
 using experiments::judged;
 
 TEST(JudgedValue, IsOfWhatAClaimIsJudgedByAlone)
@@ -212,14 +207,7 @@ TEST(JudgedValue, OfAnUnknownClaimIsRefused)
     EXPECT_THROW(experiments::claim_named("C99"), std::logic_error);
 }
 
-}  // namespace
-
 // Reference: an invented measurement that counts its calls.
-
-namespace {
-
-using experiments::Reading;
-using experiments::ReadingValues;
 
 std::vector<Reading> readings()
 {
@@ -262,16 +250,7 @@ TEST(ReadingComparison, SaysWhichReadingBreaksDown)
     EXPECT_EQ(comparison.changes().at(0).reason, "B breaks down");
 }
 
-}  // namespace
-
 // Reference: the description in claim_changes.hpp; the values are invented.
-
-namespace {
-
-using analysis::Extent;
-using experiments::ClaimChange;
-using experiments::Reading;
-using experiments::ReadingValues;
 
 Reading named(const std::string& name)
 {

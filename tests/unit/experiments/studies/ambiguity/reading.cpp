@@ -64,13 +64,8 @@ TEST(Readings, OfAStepRememberNothing)
     }
 }
 
-}  // namespace
-
 // Reference: how each claim's values are measured (reading_values.hpp).
 
-namespace {
-
-using experiments::Reading;
 using experiments::untouched_because;
 
 Reading own()
@@ -141,22 +136,12 @@ TEST(Untouched, IsTheTimeOfAFrameByFactorsOtherThanZero)
     EXPECT_TRUE(touches("C10", jiggling(), [](Reading& r) { r.substeps = 2; }));
 }
 
-}  // namespace
-
 // Reference: the registered deformer, which is the paper's own reading, and the functions that a reading names.
 
-namespace {
-
 using experiments::ReadDeformer;
-using experiments::Reading;
 
 const test_support::TwoBoneLimb limb = test_support::two_bone_limb({16, 4, 4}, pbs::Vec3::UnitZ(), 60.0);
 const pbs::Character character = test_support::character_of(limb);
-
-Reading own()
-{
-    return {.place = "", .name = "own", .baseline = "own", .options = {}};
-}
 
 pbs::Positions posed_by(const Reading& reading)
 {
@@ -194,17 +179,9 @@ TEST(ReadDeformer, HasMemoryWhereParticlesAreIntegrated)
     EXPECT_TRUE(ReadDeformer(increment).has_memory());
 }
 
-}  // namespace
-
 // Reference: the solver, LBS and the metrics, called directly.
 
-namespace {
-
-using experiments::Reading;
 using experiments::ReadMotion;
-
-const test_support::TwoBoneLimb limb = test_support::two_bone_limb({16, 4, 4}, pbs::Vec3::UnitZ(), 0.0);
-const pbs::Character character = test_support::character_of(limb);
 
 experiments::Scene bending()
 {
@@ -217,14 +194,9 @@ experiments::Scene bending()
     return scene;
 }
 
-Reading plainly()
-{
-    return {.place = "", .name = "own", .baseline = "own", .options = {}};
-}
-
 TEST(ReadMotion, OfTheScenesOwnReadingIsTheSolvers)
 {
-    const ReadMotion moved = experiments::move(character, bending(), plainly());
+    const ReadMotion moved = experiments::move(character, bending(), own());
     ASSERT_EQ(moved.shapes.size(), 4u);
     const pbs::Pose pose = pbs::joint_sweep(limb.skeleton, 1, pbs::Vec3::UnitZ(), 60.0, 4, 0.01).steps[2];
     pbs::Positions lbs;
@@ -243,7 +215,7 @@ TEST(ReadMotion, ByIncrementDependsOnThePathAndByStartDoesNot)
 {
     experiments::Scene coarse = bending();
     coarse.motion.frames = 2;
-    Reading increment = plainly();
+    Reading increment = own();
     EXPECT_EQ(experiments::move(character, bending(), increment).shapes.back(),
               experiments::move(character, coarse, increment).shapes.back());
     increment.options.lbs_entry = pbs::LbsEntry::increment;
@@ -254,18 +226,18 @@ TEST(ReadMotion, ByIncrementDependsOnThePathAndByStartDoesNot)
 // The bones touch only in the middle, so near the outer ends either_end blends where nearest_end does not.
 TEST(ReadMotion, EitherEndMovesWhatEqTwoLeavesToOneBone)
 {
-    Reading either = plainly();
+    Reading either = own();
     either.blended_bones = experiments::BlendedBones::either_end;
-    const ReadMotion own = experiments::move(character, bending(), plainly()), other = experiments::move(character, bending(), either);
-    EXPECT_EQ(own.lbs.volume_change_pct[0], other.lbs.volume_change_pct[0]);  // at rest
-    EXPECT_NE(own.lbs.volume_change_pct[3], other.lbs.volume_change_pct[3]);
+    const ReadMotion nearest = experiments::move(character, bending(), own()), other = experiments::move(character, bending(), either);
+    EXPECT_EQ(nearest.lbs.volume_change_pct[0], other.lbs.volume_change_pct[0]);  // at rest
+    EXPECT_NE(nearest.lbs.volume_change_pct[3], other.lbs.volume_change_pct[3]);
 }
 
 TEST(ReadMotion, BindPointsProjectedAnewChangeTheShape)
 {
-    Reading anew = plainly();
+    Reading anew = own();
     anew.bind_point = experiments::BindPoint::reprojected;
-    EXPECT_NE(experiments::move(character, bending(), anew).shapes[3], experiments::move(character, bending(), plainly()).shapes[3]);
+    EXPECT_NE(experiments::move(character, bending(), anew).shapes[3], experiments::move(character, bending(), own()).shapes[3]);
 }
 
 }  // namespace

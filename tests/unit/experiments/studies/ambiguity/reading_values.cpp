@@ -147,13 +147,7 @@ TEST(ReadingValues, OfFramesTellABreakdown)
     EXPECT_TRUE(all[1].broke_down);
 }
 
-}  // namespace
-
 // Reference: C04 has two values per pose and joint, the smallest radius and the smallest area, and a shape that is not finite has none.
-
-namespace {
-
-using experiments::Reading;
 
 experiments::ArtefactCase twisted()
 {
@@ -163,14 +157,6 @@ experiments::ArtefactCase twisted()
     of.claim = experiments::ArtefactCase::Claim::candy_wrapper;
     of.poses = {{1, "twist_45_deg"}, {2, "twist_90_deg"}};
     return of;
-}
-
-Reading own()
-{
-    return {.place = "",
-            .name = "own",
-            .baseline = "own",
-            .options = experiments::options_of<pbs::PbsOptions>(experiments::spec_of(twisted().scene, "pbs"))};
 }
 
 TEST(ReadingSections, AreTwoFiguresAPoseThatTheReadingChanges)
@@ -198,13 +184,8 @@ TEST(ReadingSections, OfAReadingThatBreaksDownAreNone)
     EXPECT_TRUE(all[1].values.empty());
 }
 
-}  // namespace
-
 // Reference: the definitions of the values, and the claims' own rules for whether a verdict changes.
 
-namespace {
-
-using experiments::Reading;
 using experiments::ReadMotion;
 using experiments::VolumeChange;
 

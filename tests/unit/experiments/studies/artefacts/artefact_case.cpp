@@ -119,13 +119,9 @@ TEST_F(JointSectionsOfLimb, SkinThatIsGoneHasNoSize)
     for (const auto& section : profile) EXPECT_EQ(section.area, 0.0);
 }
 
-}  // namespace
-
 // Reference: the built-in limb's skeleton, (-1,0,0) -> 0 -> (1,0,0), and a bent one drawn by hand; for joints by hand, the limb with
 // Frankie's names and, where he is installed, his skin. The limb's bones lie along an axis and are a metre long, so that nothing of them is
 // rounded; nor is a vector along an axis when it is divided by its length.
-
-namespace {
 
 using pbs::Vec3;
 using test_support::on_skin_m;

@@ -174,12 +174,8 @@ TEST(ArtefactBreakdown, NamesThePoseTheMeshAndTheWorstTet)
     EXPECT_NE(breakdown.find(" inverted. "), std::string::npos) << breakdown;
 }
 
-}  // namespace
-
 // The weights of Eq. 2 compared with rigid ones on a small limb. Reference: the records whose ratios are the values; with rigid weights one
 // layer of tets takes all of a twist; without a pose there is no roughness; weights do not change the limit of the solver.
-
-namespace {
 
 using experiments::WeightsComparison;
 

@@ -47,11 +47,7 @@ TEST(JiggleSettings, LeaveGravityAsItIs)
     EXPECT_EQ(jiggling.iterations, 6);
 }
 
-}  // namespace
-
 // The values of C09 from invented responses. Reference: the ratios and ranks of the given frequencies.
-
-namespace {
 
 using experiments::MeasuredJiggle;
 using test_support::creeping;
@@ -178,12 +174,8 @@ TEST(JiggleFigures, RangeIsOfTheEndsThatSwing)
     EXPECT_TRUE(of_quantity({swinging({}, 3.0)}, range).empty());
 }
 
-}  // namespace
-
 // Reference: necessary behaviour. Flesh that does not jiggle follows the bones; flesh without constraints stays behind, at rest; a jolt in
 // the opposite direction gives the mirror image.
-
-namespace {
 
 class JoltResponseOfLimb : public testing::Test {
 protected:

@@ -129,11 +129,7 @@ TEST(Iterate, OneStartDoesNotRememberAnother)
     EXPECT_EQ(both[1].last, path_of({}, limb.lbs, 10).last);
 }
 
-}  // namespace
-
 // Reference: paths defined by formulas, whose rates and floors are known.
-
-namespace {
 
 using namespace experiments;
 using test_support::path_by;
@@ -233,11 +229,7 @@ TEST(NearestToReference, NeedNotBeTheLast)
     EXPECT_EQ(nearest_to_reference(path_by(100, [](int n) { return 1.0 + std::abs(n - 13); })).iteration, 13);
 }
 
-}  // namespace
-
 // Reference: the sequence by its definition, and that no constraint is lost or changed.
-
-namespace {
 
 // Constraints that are numbered by their rest value.
 template <typename Scalar>

@@ -156,11 +156,7 @@ TEST(CellRun, TeleportIsForgottenWithoutJiggle)
     EXPECT_EQ(result.stability.recovery_steps, 0);
 }
 
-}  // namespace
-
 // Reference: the heights and lengths of the tets themselves.
-
-namespace {
 
 using experiments::Defect;
 

@@ -80,14 +80,9 @@ TEST(CellSweep, ARecordTellsWhatACellStandsForAndItsSettingDoesNot)
     EXPECT_NE(setting_of(elsewhere), setting_of(cell));
 }
 
-}  // namespace
-
 // The deformers that are compared with PBS in the study of stability. Reference: the list of methods and of extreme cases that the study
 // must have, written down here again; and settings beyond the limit of a method, which must be seen to fail.
 
-namespace {
-
-using namespace experiments;
 using analysis::StabilityOutcome;
 
 const std::set<std::string> minimising_kinds = {"quasi_newton", "vbd", "xpbd_neo_hookean", "projective_dynamics"};
