@@ -1,12 +1,10 @@
 // pbskin explain NAME: prints what a metric, claim, scene key, study, deformer or scene means.
-#include "analysis/plain_markdown.hpp"
-#include "analysis/text_columns.hpp"
+#include "analysis/records/report_table.hpp"
 #include "experiments/command_line/verbs.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/process/terminal.hpp"
 #include "experiments/run/metrics_table.hpp"
 #include "experiments/scene/scene.hpp"
-#include "experiments/scene/scene_keys.hpp"
 #include "experiments/studies/study.hpp"
 #include "generated/pages_texts.hpp"
 #include "pbs/geometry/input_error.hpp"

@@ -1,5 +1,5 @@
 // pbskin list [cases, scenes, deformers, studies, claims, metrics]: lists what the program knows.
-#include "analysis/plain_markdown.hpp"
+#include "analysis/records/report_table.hpp"
 #include "experiments/command_line/verbs.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/run/metrics_table.hpp"

@@ -1,10 +1,9 @@
 // A study: its runs, and a conclusion from their records. experiments/README.md describes how to add one.
 #pragma once
 
-#include "analysis/case_key.hpp"
-#include "analysis/case_record.hpp"
-#include "analysis/claims.hpp"
-#include "analysis/records/typed_table.hpp"
+#include "analysis/records/tables.hpp"
+#include "analysis/verdicts/case_record.hpp"
+#include "analysis/verdicts/claims.hpp"
 #include "experiments/scene/scene.hpp"
 
 #include <functional>

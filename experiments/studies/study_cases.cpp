@@ -1,4 +1,4 @@
-#include "analysis/toml_keys.hpp"
+#include "analysis/records/toml_keys.hpp"
 #include "experiments/studies/study.hpp"
 #include "generated/cases_texts.hpp"
 #include "pbs/character/bodies.hpp"

@@ -1,4 +1,4 @@
-#include "experiments/verdicts/planned_studies.hpp"
+#include "experiments/verdicts/reproduce.cpp"
 
 #include "experiments/studies/study.hpp"
 #include "pbs/geometry/input_error.hpp"

@@ -1,7 +1,6 @@
 #include "experiments/studies/ambiguity/claim_changes.hpp"
 
-#include "analysis/report_table.hpp"
-#include "analysis/text_columns.hpp"
+#include "analysis/records/report_table.hpp"
 #include "pbs/character/body_cache.hpp"
 
 #include <fmt/format.h>

@@ -5,9 +5,9 @@
 //   table_of(used_columns(claim_change_columns(), changes), changes).write("ambiguity.csv");
 #pragma once
 
-#include "analysis/measurement.hpp"
-#include "analysis/records/optional_columns.hpp"
-#include "analysis/verdict.hpp"
+#include "analysis/records/tables.hpp"
+#include "analysis/verdicts/measurement.hpp"
+#include "analysis/verdicts/verdict.hpp"
 #include "experiments/studies/ambiguity/reading.hpp"
 #include "experiments/studies/study.hpp"
 

@@ -1,11 +1,11 @@
 #include "experiments/studies/ambiguity/reading.hpp"
 
-#include "analysis/frame_metrics.hpp"
-#include "experiments/deformers/deformer_spec.hpp"
-#include "experiments/deformers/pbs/pbs_option_names.hpp"
+#include "analysis/metrics/frame_metrics.hpp"
+#include "experiments/deformers/deformer.hpp"
+#include "experiments/deformers/deformer_options.hpp"
 #include "experiments/deformers/registry.hpp"
-#include "experiments/process/interruption.hpp"
-#include "experiments/scene/motion_case.hpp"
+#include "experiments/process/terminal.hpp"
+#include "experiments/scene/scene.hpp"
 #include "experiments/settings/option_fields.hpp"
 
 #include <fmt/format.h>

@@ -4,11 +4,11 @@
 // Substeps are no reading where nothing jiggles: every step then begins with LBS, and the step before has no influence.
 #pragma once
 
-#include "analysis/case_record.hpp"
+#include "analysis/verdicts/case_record.hpp"
 #include "experiments/deformers/deformer.hpp"
 #include "experiments/scene/scene.hpp"
 #include "experiments/settings/option_names.hpp"
-#include "pbs/skinning/blend_skinning.hpp"
+#include "pbs/skinning/blend.hpp"
 #include "pbs/solver/options.hpp"
 #include "pbs/solver/pbs_solver.hpp"
 

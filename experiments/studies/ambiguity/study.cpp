@@ -11,7 +11,7 @@
 //
 // Writes DIR/ambiguity/RUN/ambiguity.csv and, for the first four, figures.csv (volume, jiggling, distance); and ambiguity.csv,
 // ambiguity.txt (the table that is printed) and figures.csv for all of them.
-#include "analysis/records/folder_files.hpp"
+#include "analysis/records/record_files.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "experiments/studies/ambiguity/claim_changes.hpp"
 #include "experiments/studies/ambiguity/reading_values.hpp"

@@ -1,10 +1,9 @@
 #include "experiments/studies/artefacts/artefact_case.hpp"
 
-#include "analysis/outline_skin.hpp"
-#include "analysis/section_outline.hpp"
-#include "experiments/deformers/fem/fem_option_names.hpp"
-#include "experiments/deformers/pbs/pbs_option_names.hpp"
-#include "experiments/run/limb_stations.hpp"
+#include "analysis/metrics/cross_section.hpp"
+#include "experiments/deformers/deformer_options.hpp"
+#include "experiments/deformers/fem/fem_options.hpp"
+#include "experiments/run/frame_measurement.hpp"
 #include "pbs/geometry/meshing.hpp"
 #include "pbs/geometry/topology.hpp"
 

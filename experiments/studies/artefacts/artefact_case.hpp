@@ -5,9 +5,9 @@
 // reference also run on the body's other meshes. Their spread is the uncertainty of a value.
 #pragma once
 
-#include "analysis/case_key.hpp"
-#include "analysis/records/typed_table.hpp"
-#include "analysis/section_outline.hpp"
+#include "analysis/metrics/cross_section.hpp"
+#include "analysis/records/tables.hpp"
+#include "analysis/verdicts/case_record.hpp"
 #include "experiments/settings/option_names.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 #include "pbs/character/character.hpp"
@@ -29,7 +29,7 @@ struct LimbJoint {
     double reach_parent_m, reach_child_m;  // how far along each bone sections are taken
 };
 
-// A joint lies between two bones that meet at less than 60 degrees at rest and share their flesh with no other bone (limb_stations.hpp).
+// A joint lies between two bones that meet at less than 60 degrees at rest and share their flesh with no other bone (frame_measurement.hpp).
 // Its reach is half of each bone. Bodies with two sides have the joints of their left side (x >= 0). Where the rule misjudges the bones,
 // the joints are given by hand (joints_by_hand); their radius is that of the circle with the area of the section across the joint.
 std::vector<LimbJoint> limb_joints(const pbs::Character& character);

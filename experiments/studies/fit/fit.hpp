@@ -5,8 +5,8 @@
 //   fit.young_pa.estimate, fit.minimum.value
 #pragma once
 
-#include "analysis/minimise.hpp"
-#include "analysis/records/typed_table.hpp"
+#include "analysis/records/tables.hpp"
+#include "analysis/statistics/minimise.hpp"
 #include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/studies/shared/bodies.hpp"
 

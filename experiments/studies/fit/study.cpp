@@ -6,10 +6,10 @@
 // Writes DIR/fit/sag.csv.
 #include "experiments/studies/fit/fit.hpp"
 
-#include "analysis/records/folder_files.hpp"
-#include "analysis/report_table.hpp"
-#include "analysis/statistics.hpp"
-#include "experiments/deformers/pbs/pbs_option_names.hpp"
+#include "analysis/records/record_files.hpp"
+#include "analysis/records/report_table.hpp"
+#include "analysis/statistics/statistics.hpp"
+#include "experiments/deformers/deformer_options.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/settings/recorded_settings.hpp"
 #include "experiments/studies/study.hpp"

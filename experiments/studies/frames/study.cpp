@@ -8,7 +8,7 @@
 //
 // Writes DIR/frames/RUN/frames/*.vtu and .vtp, and in DIR/frames/RUN metrics.csv, bones.csv, bones_rest.csv, binding.csv,
 // surface_rest.vtp and embedding.csv.
-#include "experiments/deformers/pbs/pbs_option_names.hpp"
+#include "experiments/deformers/deformer_options.hpp"
 #include "experiments/studies/study.hpp"
 #include "pbs/solver/options.hpp"
 

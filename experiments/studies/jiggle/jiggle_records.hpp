@@ -3,10 +3,10 @@
 //   const std::string breakdown = record_walk(of, folder);    // walk.csv, series.csv
 #pragma once
 
-#include "analysis/case_key.hpp"
-#include "analysis/damped_oscillation.hpp"
-#include "analysis/measurement.hpp"
-#include "analysis/records/typed_table.hpp"
+#include "analysis/records/tables.hpp"
+#include "analysis/statistics/fits.hpp"
+#include "analysis/verdicts/case_record.hpp"
+#include "analysis/verdicts/measurement.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/scene/scene.hpp"
 #include "pbs/character/jiggle_zone_contents.hpp"

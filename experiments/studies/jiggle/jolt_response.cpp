@@ -1,6 +1,6 @@
+#include "experiments/deformers/deformer_options.hpp"
 #include "experiments/deformers/fem/fem_options.hpp"
-#include "experiments/deformers/pbs/pbs_option_names.hpp"
-#include "experiments/process/interruption.hpp"
+#include "experiments/process/terminal.hpp"
 #include "experiments/settings/recorded_settings.hpp"
 #include "experiments/studies/jiggle/jiggle_records.hpp"
 #include "pbs/solver/options.hpp"

@@ -4,10 +4,10 @@
 //   limb.distance(reference[0], other[0]).joint_pct;
 #pragma once
 
-#include "analysis/case_key.hpp"
-#include "analysis/error_norms.hpp"
-#include "analysis/frame_metrics.hpp"
-#include "analysis/records/typed_table.hpp"
+#include "analysis/metrics/error_norms.hpp"
+#include "analysis/metrics/frame_metrics.hpp"
+#include "analysis/records/tables.hpp"
+#include "analysis/verdicts/case_record.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/scene/scene.hpp"
 #include "pbs/solver/options.hpp"

@@ -1,8 +1,8 @@
 #include "experiments/studies/shared/posed_reference.hpp"
 
-#include "experiments/deformers/fem/fem_option_names.hpp"
+#include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/deformers/registry.hpp"
-#include "experiments/process/interruption.hpp"
+#include "experiments/process/terminal.hpp"
 #include "experiments/run/frame_measurement.hpp"
 #include "experiments/run/reference_error_bar.hpp"
 #include "experiments/settings/recorded_settings.hpp"

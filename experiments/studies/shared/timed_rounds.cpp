@@ -1,9 +1,8 @@
 #include "experiments/studies/shared/timed_rounds.hpp"
 
-#include "analysis/records/folder_files.hpp"
-#include "analysis/records/kept_record.hpp"
-#include "analysis/statistics.hpp"
-#include "experiments/process/own_process.hpp"
+#include "analysis/records/record_files.hpp"
+#include "analysis/statistics/statistics.hpp"
+#include "experiments/process/child_process.hpp"
 #include "experiments/run/run.hpp"
 #include "experiments/settings/recorded_settings.hpp"
 #include "pbs/geometry/stopwatch.hpp"

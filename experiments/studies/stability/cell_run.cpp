@@ -1,9 +1,9 @@
 #include "experiments/studies/stability/cell_run.hpp"
 
 #include "experiments/deformers/registry.hpp"
-#include "experiments/process/cpu_clock.hpp"
-#include "experiments/process/interruption.hpp"
-#include "experiments/scene/motion_case.hpp"
+#include "experiments/process/machine.hpp"
+#include "experiments/process/terminal.hpp"
+#include "experiments/scene/scene.hpp"
 #include "pbs/geometry/tet_volume.hpp"
 #include "pbs/skinning/blend.hpp"
 #include "pbs/solver/particles.hpp"

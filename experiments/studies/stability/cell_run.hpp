@@ -2,7 +2,7 @@
 //   const CellResult result = run_cell(cell);
 #pragma once
 
-#include "analysis/stability_outcome.hpp"
+#include "analysis/metrics/stability_outcome.hpp"
 #include "experiments/scene/scene.hpp"
 #include "experiments/studies/stability/stability_cells.hpp"
 #include "pbs/character/character.hpp"

@@ -1,6 +1,6 @@
 #include "experiments/deformers/registry.hpp"
 #include "experiments/studies/stability/stability_cells.hpp"
-#include "pbs/author/author_options.hpp"
+#include "pbs/author/author_solver.hpp"
 
 #include <nlohmann/json.hpp>
 

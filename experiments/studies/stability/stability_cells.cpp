@@ -1,7 +1,7 @@
 #include "experiments/studies/stability/stability_cells.hpp"
 
 #include "experiments/deformers/registry.hpp"
-#include "experiments/scene/scene_keys.hpp"
+#include "experiments/scene/scene.hpp"
 #include "experiments/settings/recorded_settings.hpp"
 #include "experiments/settings/scene_values.hpp"
 

@@ -1,7 +1,7 @@
 // The cells of the map of stability, by method. full: more values of each factor, and more steps.
 #pragma once
 
-#include "experiments/deformers/deformer_spec.hpp"
+#include "experiments/deformers/deformer.hpp"
 #include "experiments/settings/option_names.hpp"
 #include "pbs/geometry/types.hpp"
 

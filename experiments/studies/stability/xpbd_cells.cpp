@@ -1,5 +1,5 @@
 #include "experiments/studies/stability/stability_cells.hpp"
-#include "pbs/solver/xpbd_options.hpp"
+#include "pbs/solver/options.hpp"
 
 namespace experiments {
 namespace {

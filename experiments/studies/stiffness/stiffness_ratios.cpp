@@ -1,8 +1,8 @@
 #include "experiments/studies/stiffness/stiffness_ratios.hpp"
 
-#include "analysis/line_fit.hpp"
-#include "analysis/measurement.hpp"
-#include "analysis/report_table.hpp"
+#include "analysis/records/report_table.hpp"
+#include "analysis/statistics/fits.hpp"
+#include "analysis/verdicts/measurement.hpp"
 
 #include <fmt/format.h>
 

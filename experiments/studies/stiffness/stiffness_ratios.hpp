@@ -2,9 +2,9 @@
 //   measurement_table(stiffness_ratios(rows, Varied::iterations)).write("measurements.csv");
 #pragma once
 
-#include "analysis/case_record.hpp"
-#include "analysis/claims.hpp"
-#include "analysis/records/typed_table.hpp"
+#include "analysis/records/tables.hpp"
+#include "analysis/verdicts/case_record.hpp"
+#include "analysis/verdicts/claims.hpp"
 #include "experiments/settings/option_names.hpp"
 #include "experiments/studies/shared/bodies.hpp"
 #include "pbs/near_rest/step_near_rest.hpp"

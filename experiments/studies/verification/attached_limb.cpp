@@ -3,19 +3,16 @@
 //   the bones hold it. A fit of Poisson's ratio to the reference's own shape finds the ratio that the shape was made with. A further frame
 //   of the linear reference costs one re-solve.
 
-#include "analysis/minimise.hpp"
-#include "experiments/deformers/fem/elastic_fem_deformer.hpp"
-#include "experiments/deformers/fem/linear_fem_deformer.hpp"
+#include "analysis/statistics/minimise.hpp"
+#include "experiments/deformers/fem/fem_deformers.hpp"
 #include "experiments/studies/verification/attachment_problems.hpp"
 #include "experiments/studies/verification/problem.hpp"
 #include "pbs/character/bone_capsules.hpp"
 #include "pbs/geometry/stopwatch.hpp"
 #include "reference_fem/assembly.hpp"
 #include "reference_fem/newton/newton.hpp"
-#include "reference_fem/potentials/dead_load.hpp"
-#include "reference_fem/potentials/elastic_potential.hpp"
-#include "reference_fem/potentials/spring_potential.hpp"
-#include "reference_fem/verification/common.hpp"
+#include "reference_fem/potentials/potentials.hpp"
+#include "reference_fem/verification/problems.hpp"
 
 #include <algorithm>
 #include <cmath>

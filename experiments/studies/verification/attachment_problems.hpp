@@ -4,7 +4,7 @@
 #include "experiments/deformers/fem/bone_attachment.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 #include "reference_fem/boundary_value_problem.hpp"
-#include "reference_fem/verification/calculix/held_body.hpp"
+#include "reference_fem/verification/calculix/calculix_rows.hpp"
 
 namespace experiments {
 

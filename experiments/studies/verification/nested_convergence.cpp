@@ -1,18 +1,16 @@
 // The order and the bound of a reference from nested solutions, on flesh with smooth springs whose exact solution is known: linear and
 // quadratic elements on some tets and on these tets cut into eight, as PosedReference solves them.
 
-#include "analysis/error_norms.hpp"
-#include "analysis/grid_convergence.hpp"
-#include "analysis/line_fit.hpp"
-#include "analysis/nested_convergence.hpp"
-#include "experiments/deformers/fem/elastic_fem_deformer.hpp"
+#include "analysis/metrics/error_norms.hpp"
+#include "analysis/statistics/fits.hpp"
+#include "analysis/statistics/grid_convergence.hpp"
+#include "experiments/deformers/fem/fem_deformers.hpp"
 #include "experiments/studies/verification/attachment_problems.hpp"
 #include "experiments/studies/verification/problem.hpp"
 #include "pbs/geometry/refinement.hpp"
 #include "pbs/skinning/blend.hpp"
 #include "pbs/solver/pbs_solver.hpp"
-#include "reference_fem/verification/common.hpp"
-#include "reference_fem/verification/structured_mesh.hpp"
+#include "reference_fem/verification/problems.hpp"
 
 #include <fmt/format.h>
 

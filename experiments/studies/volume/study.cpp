@@ -14,9 +14,9 @@
 // own order of projection PBS has each other order and precision, so that the report can say whether the verdict depends on it. Each run
 // writes regions.csv; the study sums them up in regions.csv and regions.txt.
 
-#include "analysis/report_table.hpp"
-#include "experiments/deformers/pbs/pbs_option_names.hpp"
-#include "experiments/run/region_record.hpp"
+#include "analysis/records/report_table.hpp"
+#include "experiments/deformers/deformer_options.hpp"
+#include "experiments/run/run_records.hpp"
 #include "experiments/studies/study.hpp"
 
 #include <fmt/format.h>

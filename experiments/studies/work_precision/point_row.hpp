@@ -2,9 +2,9 @@
 // the other references of the family.
 #pragma once
 
-#include "analysis/case_key.hpp"
-#include "analysis/frame_metrics.hpp"
-#include "analysis/records/typed_table.hpp"
+#include "analysis/metrics/frame_metrics.hpp"
+#include "analysis/records/tables.hpp"
+#include "analysis/verdicts/case_record.hpp"
 #include "experiments/studies/shared/posed_reference.hpp"
 #include "experiments/studies/shared/timed_rounds.hpp"
 #include "experiments/studies/work_precision/body_mesh.hpp"

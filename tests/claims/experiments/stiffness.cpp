@@ -1,9 +1,9 @@
 // C11 is judged by the values of the stiffness study, and other values give another verdict. Reference: the project's own claims.toml. The
 // stiffnesses are invented; the values are those that the study computes from them.
 
-#include "analysis/measurement.hpp"
-#include "analysis/records/atomic_file.hpp"
-#include "analysis/verdict.hpp"
+#include "analysis/records/record_files.hpp"
+#include "analysis/verdicts/measurement.hpp"
+#include "analysis/verdicts/verdict.hpp"
 #include "experiments/studies/stiffness/stiffness_ratios.hpp"
 #include "pbs/character/bodies.hpp"
 #include "tests/support/study_claims.hpp"

@@ -1,6 +1,6 @@
 // Pieces of work in their folders. Reference: the contract of the header: run.json is written last, and only for a run that ended.
 
-#include "analysis/records/atomic_file.hpp"
+#include "analysis/records/record_files.hpp"
 #include "experiments/run/run.hpp"
 #include "experiments/studies/study.hpp"
 #include "pbs/geometry/input_error.hpp"

@@ -1,9 +1,9 @@
 // Reference: a reading belongs to a place and differs from its baseline, which comes before it.
 
-#include "analysis/frame_metrics.hpp"
+#include "analysis/metrics/frame_metrics.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/studies/ambiguity/reading.hpp"
-#include "pbs/skinning/blend_skinning.hpp"
+#include "pbs/skinning/blend.hpp"
 #include "pbs/solver/pbs_solver.hpp"
 #include "tests/support/limb_character.hpp"
 

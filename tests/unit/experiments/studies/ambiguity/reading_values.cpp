@@ -1,6 +1,6 @@
 // Reference: the studies' own functions, called directly, and what a reading cannot change.
 
-#include "experiments/scene/motion_case.hpp"
+#include "experiments/scene/scene.hpp"
 #include "experiments/studies/ambiguity/reading_values.hpp"
 #include "experiments/studies/momentum/momentum_drift.hpp"
 #include "experiments/studies/shared/posed_character.hpp"

@@ -2,7 +2,7 @@
 // by t, LBS reduces their distance from the axis by cos(t/2), so the area of the section falls by cos^2(t/2). This is exact where the plane
 // cuts only triangles of such vertices. Tolerances: the rounding of the points at which planes cut edges.
 
-#include "analysis/section_outline.hpp"
+#include "analysis/metrics/cross_section.hpp"
 #include "experiments/studies/artefacts/artefact_case.hpp"
 #include "pbs/character/bodies.hpp"
 #include "pbs/geometry/meshing.hpp"

@@ -4,7 +4,6 @@
 #include "experiments/studies/stability/cell_run.hpp"
 #include "pbs/geometry/tet_volume.hpp"
 #include "pbs/solver/options.hpp"
-#include "pbs/solver/xpbd_options.hpp"
 #include "tests/support/rounding_error.hpp"
 #include "tests/support/two_bone_limb.hpp"
 

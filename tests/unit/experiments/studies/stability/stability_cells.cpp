@@ -4,7 +4,7 @@
 #include "experiments/studies/stability/cell_run.hpp"
 #include "experiments/studies/stability/cell_table.hpp"
 #include "experiments/studies/stability/stability_cells.hpp"
-#include "pbs/author/author_options.hpp"
+#include "pbs/author/author_solver.hpp"
 #include "pbs/solver/options.hpp"
 
 #include <gtest/gtest.h>
