@@ -44,8 +44,8 @@ function(fuzz_libraries name)
 endfunction()
 
 fuzz_target(fuzz/scene.cpp experiments
-    experiments/settings/scene_values.cpp experiments/settings/scene_schema.cpp experiments/scene/scene_keys.cpp
-    experiments/deformers/pbs/pbs_settings.cpp experiments/deformers/fem/fem_settings.cpp analysis/records/record_text.cpp
+    experiments/settings/scene_values.cpp experiments/scene/scene_keys.cpp experiments/deformers/pbs_settings.cpp
+    experiments/deformers/fem/fem_kind.cpp experiments/process/machine.cpp analysis/records/record_text.cpp pbs/geometry/module.cpp
     pbs/geometry/toml_text.cpp
     pbs/geometry/nearest_name.cpp pbs/geometry/input_error.cpp)
 fuzz_target(fuzz/mesh.cpp pbs_mesh_io
@@ -66,8 +66,8 @@ fuzz_target(fuzz/rig.cpp pbs_rig
     pbs/geometry/text_file.cpp pbs/geometry/input_error.cpp)
 fuzz_target(fuzz/texts.cpp experiments
     analysis/records/csv_reader.cpp analysis/records/csv_table.cpp analysis/records/atomic_file.cpp
-    experiments/settings/scene_values.cpp experiments/settings/scene_schema.cpp experiments/scene/scene_keys.cpp
-    experiments/deformers/pbs/pbs_settings.cpp experiments/deformers/fem/fem_settings.cpp analysis/records/record_text.cpp
+    experiments/settings/scene_values.cpp experiments/scene/scene_keys.cpp experiments/deformers/pbs_settings.cpp
+    experiments/deformers/fem/fem_kind.cpp experiments/process/machine.cpp analysis/records/record_text.cpp pbs/geometry/module.cpp
     pbs/character/bvh_header.cpp pbs/geometry/atomic_file.cpp
     pbs/geometry/text_file.cpp pbs/geometry/toml_text.cpp pbs/geometry/nearest_name.cpp pbs/geometry/input_error.cpp)
 fuzz_target(fuzz/files.cpp pbs_character

@@ -1,8 +1,8 @@
 // Motion capture clips (BVH, glTF, FBX, by assimp) and how they reach our skeletons.
 #pragma once
 
-#include "pbs/skinning/motion_sampling.hpp"
 #include "pbs/skinning/pose.hpp"
+#include "pbs/skinning/pose_path.hpp"
 
 #include <string>
 #include <vector>

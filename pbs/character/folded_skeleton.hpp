@@ -2,7 +2,7 @@
 //   Skeleton skeleton = fold_skeleton({{"thigh.*", "pelvis", {"hip.*"}, {"knee.*"}}, ...}, "rig.json", point_named);
 #pragma once
 
-#include "pbs/skinning/skeleton.hpp"
+#include "pbs/skinning/pose.hpp"
 
 #include <functional>
 #include <string>

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "pbs/geometry/mesh_io.hpp"
-#include "pbs/skinning/skeleton.hpp"
+#include "pbs/skinning/pose.hpp"
 
 #include <string>
 #include <utility>

@@ -1,7 +1,7 @@
 // The skeleton TOML: [[joint]] with name, parent ("" for a root), head_m, tail_m.
 #pragma once
 
-#include "pbs/skinning/skeleton.hpp"
+#include "pbs/skinning/pose.hpp"
 
 #include <string>
 

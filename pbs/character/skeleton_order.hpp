@@ -1,7 +1,7 @@
 // The tree of named joints: the parent of each joint, parents before children.
 #pragma once
 
-#include "pbs/skinning/skeleton.hpp"
+#include "pbs/skinning/pose.hpp"
 
 #include <string>
 #include <vector>

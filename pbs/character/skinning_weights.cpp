@@ -1,8 +1,7 @@
 #include "pbs/character/skinning_weights.hpp"
 
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/skinning/diffused_weights.hpp"
-#include "pbs/skinning/harmonic_weights.hpp"
+#include "pbs/skinning/weights.hpp"
 
 namespace pbs {
 namespace {

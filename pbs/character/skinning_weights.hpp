@@ -8,7 +8,7 @@ namespace pbs {
 // Weights of the character's tets by a rule. artist: those that a rigged file brought, and file: those of its weights file; an InputError
 // where the character has none. Two controls for Eq. 2, whose weights jump from vertex to vertex. smooth: weights as of Eq. 2
 // where it gives a vertex to one bone alone, harmonic between. They still jump where two such vertices of different bones are neighbours.
-// diffused: those of Eq. 2, smoothed eight times over the mesh's edges (diffused_weights.hpp): smooth everywhere, over about two edges of
+// diffused: those of Eq. 2, smoothed eight times over the mesh's edges (weights.hpp): smooth everywhere, over about two edges of
 // the mesh. On the human in clip 01_01, LBS inverts 93 tets per frame with the weights of Eq. 2, 81 with smooth and 0.2 with diffused ones.
 Weights weights_by(WeightKind kind, const Character& character);
 

@@ -2,7 +2,7 @@
 
 #include "pbs/character/nearest_triangle.hpp"
 #include "pbs/geometry/topology.hpp"
-#include "pbs/skinning/harmonic_weights.hpp"
+#include "pbs/skinning/weights.hpp"
 
 #include <algorithm>
 #include <map>

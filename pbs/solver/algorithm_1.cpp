@@ -2,7 +2,7 @@
 
 #include "pbs/geometry/stopwatch.hpp"
 #include "pbs/geometry/topology.hpp"
-#include "pbs/solver/residuals.hpp"
+#include "pbs/solver/step_summary.hpp"
 
 #include <algorithm>
 #include <cmath>

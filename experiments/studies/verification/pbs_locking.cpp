@@ -8,7 +8,7 @@
 #include "pbs/geometry/topology.hpp"
 #include "pbs/near_rest/step_near_rest.hpp"
 #include "pbs/near_rest/volume_constraints.hpp"
-#include "reference_fem/verification/beam_problems.hpp"
+#include "reference_fem/verification/problems.hpp"
 
 #include <fmt/format.h>
 

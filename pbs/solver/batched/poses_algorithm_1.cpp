@@ -1,4 +1,4 @@
-#include "pbs/solver/batched/poses_algorithm_1.hpp"
+#include "pbs/solver/algorithm_1.hpp"
 
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/stopwatch.hpp"

@@ -1,4 +1,4 @@
-// Reference: the contents of the file system afterwards. Failing writes: tests/unit/analysis/records/atomic_file.cpp.
+// Reference: the contents of the file system afterwards. Failing writes: tests/unit/analysis/records/record_files.cpp.
 #include "pbs/geometry/atomic_file.hpp"
 
 #include "pbs/geometry/input_error.hpp"

@@ -5,7 +5,6 @@
 #include "experiments/deformers/registry.hpp"
 #include "experiments/studies/shared/posed_reference.hpp"
 #include "pbs/solver/options.hpp"
-#include "pbs/solver/xpbd_options.hpp"
 
 #include <gtest/gtest.h>
 
