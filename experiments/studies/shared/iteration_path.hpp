@@ -100,8 +100,8 @@ const Look& nearest_to_reference(const IterationPath& path);    // the look with
 //   pbs::ConstraintSet<float> constraints = pbs::make_constraint_set<float>(...);   // in file order
 //   in_random_sequence(constraints, 1);
 //
-// Spread: neighbours in the list come from eight distant parts of the old list in turn, so that no projection waits for the stores of the one
-// before. Sorted edges share their first vertex with their neighbours.
+// Spread: neighbours in the list come from eight distant parts of the old list in turn, so that no projection waits for the stores of the
+// one before. Sorted edges share their first vertex with their neighbours.
 template <typename Scalar>
 void in_spread_sequence(pbs::ConstraintSet<Scalar>& constraints);
 

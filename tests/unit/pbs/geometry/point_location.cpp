@@ -11,9 +11,9 @@
 
 namespace {
 
-using pbs::Vec3;
 using pbs::Location;
 using pbs::PointLocation;
+using pbs::Vec3;
 
 const pbs::TetMesh bar = test_support::structured_bar({-1, -0.15, -0.15}, {1, 0.15, 0.15}, {20, 3, 3});
 
