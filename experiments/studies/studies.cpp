@@ -4,8 +4,8 @@
 #include "experiments/process/machine.hpp"
 #include "experiments/run/run.hpp"
 #include "generated/claims_texts.hpp"
+#include "pbs/geometry/cost.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/stopwatch.hpp"
 
 #include <spdlog/spdlog.h>
 

@@ -13,7 +13,7 @@
 #include "experiments/studies/momentum/momentum_drift.hpp"
 #include "experiments/studies/shared/timed_rounds.hpp"
 #include "experiments/studies/study.hpp"
-#include "pbs/character/jiggle_zone_contents.hpp"
+#include "pbs/character/overlap_and_jiggle.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

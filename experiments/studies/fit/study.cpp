@@ -16,7 +16,7 @@
 #include "pbs/character/bodies.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/topology.hpp"
-#include "pbs/near_rest/step_near_rest.hpp"
+#include "pbs/near_rest/near_rest.hpp"
 
 #include <fmt/format.h>
 

@@ -5,7 +5,7 @@
 #include "experiments/process/child_process.hpp"
 #include "experiments/run/run.hpp"
 #include "experiments/settings/recorded_settings.hpp"
-#include "pbs/geometry/stopwatch.hpp"
+#include "pbs/geometry/cost.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -4,7 +4,7 @@
 #include "experiments/process/machine.hpp"
 #include "experiments/process/terminal.hpp"
 #include "experiments/scene/scene.hpp"
-#include "pbs/geometry/tet_volume.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/skinning/blend.hpp"
 #include "pbs/solver/particles.hpp"
 #include "pbs/solver/pbs_solver.hpp"

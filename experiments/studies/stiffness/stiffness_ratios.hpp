@@ -7,7 +7,7 @@
 #include "analysis/verdicts/claims.hpp"
 #include "experiments/settings/option_names.hpp"
 #include "experiments/studies/shared/bodies.hpp"
-#include "pbs/near_rest/step_near_rest.hpp"
+#include "pbs/near_rest/near_rest.hpp"
 
 #include <string>
 #include <utility>

@@ -8,7 +8,7 @@
 #include "experiments/studies/verification/attachment_problems.hpp"
 #include "experiments/studies/verification/problem.hpp"
 #include "pbs/character/bone_capsules.hpp"
-#include "pbs/geometry/stopwatch.hpp"
+#include "pbs/geometry/cost.hpp"
 #include "reference_fem/assembly.hpp"
 #include "reference_fem/newton/newton.hpp"
 #include "reference_fem/potentials/potentials.hpp"

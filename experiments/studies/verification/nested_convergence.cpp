@@ -7,7 +7,7 @@
 #include "experiments/deformers/fem/fem_deformers.hpp"
 #include "experiments/studies/verification/attachment_problems.hpp"
 #include "experiments/studies/verification/problem.hpp"
-#include "pbs/geometry/refinement.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/skinning/blend.hpp"
 #include "pbs/solver/pbs_solver.hpp"
 #include "reference_fem/verification/problems.hpp"

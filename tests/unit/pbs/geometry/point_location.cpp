@@ -1,5 +1,5 @@
 // Reference: the barycentric coordinates of a point that was placed in a known tet, and a search through all tets.
-#include "pbs/geometry/point_location.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 
 #include "tests/support/rounding_error.hpp"
 #include "tests/support/structured_bar.hpp"

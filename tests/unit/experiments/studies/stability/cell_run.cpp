@@ -2,7 +2,7 @@
 
 #include "experiments/deformers/registry.hpp"
 #include "experiments/studies/stability/cell_run.hpp"
-#include "pbs/geometry/tet_volume.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/solver/options.hpp"
 #include "tests/support/rounding_error.hpp"
 #include "tests/support/two_bone_limb.hpp"
