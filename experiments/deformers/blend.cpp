@@ -4,7 +4,7 @@
 #include "experiments/deformers/registry.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "pbs/character/skinning_weights.hpp"
-#include "pbs/geometry/stopwatch.hpp"
+#include "pbs/geometry/cost.hpp"
 #include "pbs/skinning/blend.hpp"
 
 #include <optional>

@@ -3,7 +3,7 @@
 #include "experiments/deformers/deformer_options.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/settings/option_fields.hpp"
-#include "pbs/geometry/stopwatch.hpp"
+#include "pbs/geometry/cost.hpp"
 #include "pbs/skinning/delta_mush.hpp"
 #include "pbs/skinning/direct_delta_mush.hpp"
 

@@ -5,14 +5,14 @@
 #include "experiments/deformers/registry.hpp"
 #include "experiments/process/machine.hpp"
 #include "experiments/settings/option_fields.hpp"
-#include "pbs/character/capsule_springs.hpp"
+#include "pbs/character/bone_capsules.hpp"
 #include "pbs/flesh/flesh_energy.hpp"
 #include "pbs/flesh/held_flesh.hpp"
 #include "pbs/flesh/projective_dynamics.hpp"
 #include "pbs/flesh/quasi_newton.hpp"
 #include "pbs/flesh/vbd.hpp"
 #include "pbs/flesh/xpbd_neo_hookean.hpp"
-#include "pbs/geometry/stopwatch.hpp"
+#include "pbs/geometry/cost.hpp"
 #include "pbs/skinning/blend.hpp"
 
 #include <optional>

@@ -4,10 +4,9 @@
 #include "experiments/deformers/registry.hpp"
 #include "experiments/settings/scene_values.hpp"
 #include "pbs/character/body_cache.hpp"
-#include "pbs/character/input_file.hpp"
+#include "pbs/geometry/cost.hpp"
+#include "pbs/geometry/files.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/stopwatch.hpp"
-#include "pbs/geometry/text_file.hpp"
 
 #include <dlfcn.h>
 #include <fmt/format.h>
