@@ -1,10 +1,9 @@
-#include "experiments/verdicts/reproduce.hpp"
+#include "experiments/studies/reproduce.hpp"
 
 #include "analysis/records/provenance.hpp"
 #include "experiments/process/child_process.hpp"
 #include "experiments/process/terminal.hpp"
 #include "experiments/studies/study.hpp"
-#include "experiments/verdicts/study_records.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 #include <fmt/format.h>
