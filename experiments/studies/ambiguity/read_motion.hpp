@@ -6,7 +6,7 @@
 //   const ReadMotion moved = move(character, scene, reading);
 #pragma once
 
-#include "analysis/case_record.hpp"
+#include "analysis/verdicts/case_record.hpp"
 #include "experiments/deformers/deformer.hpp"
 #include "experiments/scene/scene.hpp"
 #include "experiments/studies/ambiguity/reading.hpp"

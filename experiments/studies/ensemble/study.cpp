@@ -6,7 +6,7 @@
 // Writes DIR/ensemble/CASE/{members,errors,pairs}.csv and pairs.csv, members.csv, ensemble.md.
 #include "experiments/studies/ensemble/ensemble.hpp"
 
-#include "analysis/records/folder_files.hpp"
+#include "analysis/records/record_files.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/studies/ensemble/ensemble_page.hpp"
 #include "experiments/studies/shared/case_name.hpp"

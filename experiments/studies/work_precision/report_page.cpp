@@ -1,6 +1,6 @@
 #include "experiments/studies/work_precision/report_page.hpp"
 
-#include "analysis/report_table.hpp"
+#include "analysis/records/report_table.hpp"
 #include "experiments/studies/shared/case_name.hpp"
 #include "experiments/studies/work_precision/data_profile.hpp"
 #include "experiments/studies/work_precision/diagram_tables.hpp"
