@@ -13,7 +13,6 @@
 // order 2 with Poisson's ratios 0.45 and 0.49, and the other bodies have a reference at five frames per second. In addition to the scene's
 // own order of projection PBS has each other order and precision, so that the report can say whether the verdict depends on it. Each run
 // writes regions.csv; the study sums them up in regions.csv and regions.txt.
-
 #include "analysis/records/report_table.hpp"
 #include "experiments/deformers/deformer_options.hpp"
 #include "experiments/run/run_records.hpp"
@@ -27,6 +26,7 @@
 #include <vector>
 
 namespace experiments {
+namespace {
 
 // The bones and joints at which a body loses its volume, from the regions.csv of runs.
 struct RunRegions {
@@ -34,14 +34,70 @@ struct RunRegions {
     std::vector<RegionChange> regions;
 };
 
+struct RegionOfRun {
+    std::string run;
+    RegionChange region;
+};
+
+// The regions of one deformer and kind, the greatest loss first.
+std::vector<RegionChange> by_loss(std::vector<RegionChange> regions, const std::string& deformer, const std::string& kind)
+{
+    std::erase_if(regions, [&](const RegionChange& region) { return region.deformer != deformer || region.kind != kind; });
+    std::stable_sort(regions.begin(), regions.end(), [](const auto& a, const auto& b) { return a.change_pct < b.change_pct; });
+    return regions;
+}
+
+struct LossRow {
+    std::string run, deformer, kind;
+    double change_pct = 0.0;
+    std::string greatest = {};
+};
+const analysis::Columns<LossRow> loss_columns = {
+    {"run", &LossRow::run, "", "name of the run"},
+    {"deformer", &LossRow::deformer, "", "name of the deformer"},
+    {"kind", &LossRow::kind, "", "bone or joint"},
+    {"change_pct", &LossRow::change_pct, "%", "sum over the regions, mean over the frames"},
+    {"greatest", &LossRow::greatest, "", "the regions that lose most, and what they lose of the body and of themselves"}};
+
+LossRow loss_row(const RunRegions& run, const std::string& deformer, const std::string& kind, int most)
+{
+    LossRow row{run.run, deformer, kind};
+    for (const RegionChange& region : by_loss(run.regions, deformer, kind)) {
+        row.change_pct += region.change_pct;
+        if (most-- <= 0) continue;
+        row.greatest += row.greatest.empty() ? "" : ", ";
+        row.greatest += fmt::format("{} {:.2f} ({:.1f})", region.bones.text(), region.change_pct, region.own_change_pct);
+    }
+    return row;
+}
+
 // A row for each run, for LBS and PBS, and for each kind of region: the sum over all regions, and the `most` regions with the greatest
 // losses, in shares of the body's volume and of their own.
-std::string region_text(const std::vector<RunRegions>& runs, int most = 3);
+std::string region_text(const std::vector<RunRegions>& runs, int most = 3)
+{
+    std::vector<LossRow> rows;
+    for (const RunRegions& run : runs)
+        for (const char* deformer : {"lbs", "pbs"})
+            for (const char* kind : {"bone", "joint"})
+                if (const LossRow row = loss_row(run, deformer, kind, most); !row.greatest.empty()) rows.push_back(row);
+    return text_table(table_of(loss_columns, rows), {{"mean over frames", "run"},
+                                                     {"", "deformer"},
+                                                     {"by", "kind"},
+                                                     {"all [%]", "change_pct", "{:.2f}"},
+                                                     {"greatest losses [% of the body] (of the region itself)", "greatest"}});
+}
 
 // All rows of all runs, with a column `run` in front.
-analysis::CsvTable region_csv(const std::vector<RunRegions>& runs);
-
-namespace {
+analysis::CsvTable region_csv(const std::vector<RunRegions>& runs)
+{
+    static const analysis::Columns<RegionOfRun> columns =
+        analysis::Columns<RegionOfRun>{{"run", &RegionOfRun::run, "", "name of the run"}} +
+        analysis::within(&RegionOfRun::region, region_columns);
+    std::vector<RegionOfRun> all;
+    for (const RunRegions& run : runs)
+        for (const RegionChange& region : run.regions) all.push_back({run.run, region});
+    return table_of(columns, all);
+}
 
 void add_iterations(std::vector<DeformerSpec>& deformers, const DeformerSpec& pbs)
 {
@@ -122,72 +178,6 @@ StudyConclusion conclude(const FinishedRuns& finished)
 Study volume_study()
 {
     return {"volume", plan, quick_and_full, conclude};
-}
-
-namespace {
-
-struct RegionOfRun {
-    std::string run;
-    RegionChange region;
-};
-
-// The regions of one deformer and kind, the greatest loss first.
-std::vector<RegionChange> by_loss(std::vector<RegionChange> regions, const std::string& deformer, const std::string& kind)
-{
-    std::erase_if(regions, [&](const RegionChange& region) { return region.deformer != deformer || region.kind != kind; });
-    std::stable_sort(regions.begin(), regions.end(), [](const auto& a, const auto& b) { return a.change_pct < b.change_pct; });
-    return regions;
-}
-
-struct LossRow {
-    std::string run, deformer, kind;
-    double change_pct = 0.0;
-    std::string greatest = {};
-};
-const analysis::Columns<LossRow> loss_columns = {
-    {"run", &LossRow::run, "", "name of the run"},
-    {"deformer", &LossRow::deformer, "", "name of the deformer"},
-    {"kind", &LossRow::kind, "", "bone or joint"},
-    {"change_pct", &LossRow::change_pct, "%", "sum over the regions, mean over the frames"},
-    {"greatest", &LossRow::greatest, "", "the regions that lose most, and what they lose of the body and of themselves"}};
-
-LossRow loss_row(const RunRegions& run, const std::string& deformer, const std::string& kind, int most)
-{
-    LossRow row{run.run, deformer, kind};
-    for (const RegionChange& region : by_loss(run.regions, deformer, kind)) {
-        row.change_pct += region.change_pct;
-        if (most-- <= 0) continue;
-        row.greatest += row.greatest.empty() ? "" : ", ";
-        row.greatest += fmt::format("{} {:.2f} ({:.1f})", region.bones.text(), region.change_pct, region.own_change_pct);
-    }
-    return row;
-}
-
-}  // namespace
-
-std::string region_text(const std::vector<RunRegions>& runs, int most)
-{
-    std::vector<LossRow> rows;
-    for (const RunRegions& run : runs)
-        for (const char* deformer : {"lbs", "pbs"})
-            for (const char* kind : {"bone", "joint"})
-                if (const LossRow row = loss_row(run, deformer, kind, most); !row.greatest.empty()) rows.push_back(row);
-    return text_table(table_of(loss_columns, rows), {{"mean over frames", "run"},
-                                                     {"", "deformer"},
-                                                     {"by", "kind"},
-                                                     {"all [%]", "change_pct", "{:.2f}"},
-                                                     {"greatest losses [% of the body] (of the region itself)", "greatest"}});
-}
-
-analysis::CsvTable region_csv(const std::vector<RunRegions>& runs)
-{
-    static const analysis::Columns<RegionOfRun> columns =
-        analysis::Columns<RegionOfRun>{{"run", &RegionOfRun::run, "", "name of the run"}} +
-        analysis::within(&RegionOfRun::region, region_columns);
-    std::vector<RegionOfRun> all;
-    for (const RunRegions& run : runs)
-        for (const RegionChange& region : run.regions) all.push_back({run.run, region});
-    return table_of(columns, all);
 }
 
 }  // namespace experiments
