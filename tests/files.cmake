@@ -4,32 +4,27 @@ set(left_out)
 if(PBS_WITH_MESH_IO)
     list(APPEND left_out pbs/geometry/mesh_io_unavailable)
 else()
-    list(APPEND left_out pbs/geometry/content_format pbs/geometry/child_process pbs/geometry/mesh_io pbs/geometry/mesh_checks
-        pbs/geometry/module pbs/geometry/content_format pbs/geometry/mesh_io
-        pbs/geometry/surface_reader pbs/geometry/damaged_meshes
-        pbs/geometry/decimal_comma pbs/geometry/referred_files pbs/character/bodies pbs/character/body_cache
-        pbs/character/body_cache)
+    list(APPEND left_out pbs/geometry/content_format pbs/geometry/child_process pbs/geometry/mesh_checks pbs/geometry/mesh_io
+        pbs/geometry/module pbs/geometry/surface_reader pbs/geometry/damaged_meshes pbs/geometry/decimal_comma
+        pbs/geometry/referred_files pbs/character/bodies pbs/character/body_cache)
 endif()
 if(PBS_WITH_CGAL)
     list(APPEND left_out pbs/geometry/meshing_unavailable)
 else()
-    list(APPEND left_out pbs/geometry/meshing
-        pbs/geometry/self_intersection pbs/character/bodies pbs/character/overlap_and_jiggle)
+    list(APPEND left_out pbs/geometry/meshing pbs/geometry/self_intersection pbs/character/bodies
+        pbs/character/overlap_and_jiggle)
 endif()
 if(NOT PBS_WITH_RIG_IMPORT)
     list(APPEND left_out pbs/character/skeleton_file pbs/character/clip pbs/character/bodies
-        pbs/rig/assimp_rig pbs/rig/assimp_rig pbs/rig/glb_writer pbs/rig/gltf_rig
-        pbs/rig/rig_bytes pbs/rig/rig_reader pbs/rig/rig_reader)
+        pbs/rig/assimp_rig pbs/rig/glb_writer pbs/rig/gltf_rig pbs/rig/rig_bytes pbs/rig/rig_reader)
 endif()
 
 pbs_tests(unit pbs_files
-    FILES pbs/geometry/content_format pbs/geometry/child_process pbs/geometry/mesh_io pbs/geometry/mesh_checks
-        pbs/geometry/mesh_io_unavailable pbs/geometry/content_format
-        pbs/geometry/meshing pbs/geometry/meshing_unavailable
-        pbs/geometry/module pbs/geometry/mesh_io pbs/geometry/self_intersection
-        pbs/geometry/surface_reader
+    FILES pbs/geometry/content_format pbs/geometry/child_process pbs/geometry/mesh_checks pbs/geometry/mesh_io
+        pbs/geometry/mesh_io_unavailable pbs/geometry/meshing pbs/geometry/meshing_unavailable pbs/geometry/module
+        pbs/geometry/self_intersection pbs/geometry/surface_reader
     EXCEPT ${left_out}
-    ALONE
+    ALONE pbs/geometry/surface_reader
     LIBRARIES pbs_mesh_io pbs_meshing pbs_module)
 pbs_tests(unit pbs_rig FOLDERS pbs/rig EXCEPT ${left_out} LIBRARIES pbs_rig pbs_mesh_io)
 pbs_tests(unit pbs_character FOLDERS pbs/character EXCEPT ${left_out}

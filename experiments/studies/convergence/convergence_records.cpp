@@ -1,6 +1,6 @@
 #include "experiments/studies/convergence/convergence_records.hpp"
 
-#include "experiments/deformers/pbs/pbs_option_names.hpp"
+#include "experiments/deformers/deformer_options.hpp"
 
 #include <fmt/format.h>
 

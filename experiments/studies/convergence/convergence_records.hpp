@@ -1,7 +1,7 @@
 // The records of convergence: residuals by iteration, one row per path, and the error to the reference by iteration.
 #pragma once
 
-#include "analysis/records/typed_table.hpp"
+#include "analysis/records/tables.hpp"
 #include "experiments/studies/convergence/convergence_case.hpp"
 
 namespace experiments {

@@ -1,7 +1,7 @@
 #include "experiments/studies/convergence/convergence_values.hpp"
 
-#include "analysis/line_fit.hpp"
-#include "experiments/deformers/pbs/pbs_option_names.hpp"
+#include "analysis/statistics/fits.hpp"
+#include "experiments/deformers/deformer_options.hpp"
 
 #include <algorithm>
 #include <cmath>

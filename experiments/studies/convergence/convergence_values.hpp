@@ -6,7 +6,7 @@
 // satisfies all constraints.
 #pragma once
 
-#include "analysis/case_record.hpp"
+#include "analysis/verdicts/case_record.hpp"
 #include "experiments/studies/convergence/convergence_case.hpp"
 
 namespace experiments {

@@ -1,11 +1,11 @@
 #include "experiments/studies/ensemble/ensemble.hpp"
 
 #include "experiments/deformers/registry.hpp"
-#include "experiments/scene/motion_case.hpp"
+#include "experiments/scene/scene.hpp"
 #include "experiments/settings/option_fields.hpp"
-#include "experiments/studies/shared/pose_columns.hpp"
+#include "experiments/studies/shared/posed_character.hpp"
 
-#include "analysis/frame_metrics.hpp"
+#include "analysis/metrics/frame_metrics.hpp"
 
 #include <algorithm>
 

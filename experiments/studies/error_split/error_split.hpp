@@ -8,7 +8,7 @@
 // the reference.
 #pragma once
 
-#include "analysis/records/typed_table.hpp"
+#include "analysis/records/tables.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 
 #include <optional>

@@ -5,10 +5,10 @@
 //   human_01_01  a crouch, in the air (--full)        MakeHuman's body
 //
 // Writes DIR/error_split/CASE/parts.csv and attachments.csv, and error_split.md.
-#include "analysis/records/folder_files.hpp"
-#include "analysis/report_table.hpp"
+#include "analysis/records/record_files.hpp"
+#include "analysis/records/report_table.hpp"
 #include "experiments/studies/error_split/error_split.hpp"
-#include "experiments/studies/shared/clip_frames.hpp"
+#include "experiments/studies/shared/posed_character.hpp"
 #include "experiments/studies/shared/posed_reference.hpp"
 #include "experiments/studies/study.hpp"
 #include "pbs/geometry/input_error.hpp"

@@ -1,6 +1,6 @@
 #include "experiments/studies/improvements/change_settings.hpp"
 
-#include "experiments/deformers/pbs/pbs_option_names.hpp"
+#include "experiments/deformers/deformer_options.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "pbs/solver/constraint_set.hpp"
 

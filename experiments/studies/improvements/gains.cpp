@@ -1,6 +1,6 @@
 #include "experiments/studies/improvements/gains.hpp"
 
-#include "analysis/bootstrap.hpp"
+#include "analysis/statistics/statistics.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "experiments/studies/improvements/gains_page.hpp"
 
-#include "analysis/report_table.hpp"
+#include "analysis/records/report_table.hpp"
 
 #include <fmt/format.h>
 

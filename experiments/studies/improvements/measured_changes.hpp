@@ -7,9 +7,9 @@
 // halve the error of linear ones, |P2 - x| <= |P1 - x| / 2 <= (|P1 - P2| + |P2 - x|) / 2, as they do in the poses of the quick form.
 #pragma once
 
-#include "analysis/case_key.hpp"
-#include "analysis/frame_metrics.hpp"
-#include "analysis/records/typed_table.hpp"
+#include "analysis/metrics/frame_metrics.hpp"
+#include "analysis/records/tables.hpp"
+#include "analysis/verdicts/case_record.hpp"
 #include "experiments/scene/scene.hpp"
 #include "experiments/studies/improvements/change_settings.hpp"
 #include "experiments/studies/shared/timed_rounds.hpp"

@@ -5,10 +5,9 @@
 //
 // Writes DIR/improvements/CASE/points.csv and, over all cases, equal_time.csv, gains.csv, curves.csv and improvements.md. Quick: some
 // seconds; --full: half an hour of processor time.
-#include "analysis/records/folder_files.hpp"
+#include "analysis/records/record_files.hpp"
 #include "experiments/studies/improvements/gains_page.hpp"
-#include "experiments/studies/shared/case_name.hpp"
-#include "experiments/studies/shared/clip_frames.hpp"
+#include "experiments/studies/shared/posed_character.hpp"
 #include "experiments/studies/study.hpp"
 #include "pbs/geometry/input_error.hpp"
 

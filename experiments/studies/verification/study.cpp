@@ -1,9 +1,9 @@
 // The verification of the reference: patch tests, manufactured solutions, closed forms and published benchmarks, each problem a run of its
 // own. No claim depends on it; it shows how far the reference itself can be trusted. The rows are in DIR/verification/verification.csv,
 // .json and .md.
-#include "analysis/records/atomic_file.hpp"
-#include "experiments/process/blas_kernels.hpp"
-#include "experiments/settings/option_fields.hpp"
+#include "analysis/records/record_files.hpp"
+#include "experiments/process/machine.hpp"
+#include "experiments/settings/recorded_settings.hpp"
 #include "experiments/studies/study.hpp"
 #include "experiments/studies/verification/problem.hpp"
 #include "pbs/character/bodies.hpp"
@@ -37,14 +37,7 @@ struct VerificationCase {
     bool full = false;
 };
 
-nlohmann::json to_json(const VerificationCase& of)
-{
-    static const auto fields = OptionFields<VerificationCase>("verification")
-                                   .record("problem", &VerificationCase::problem)
-                                   .record("full", &VerificationCase::full)
-                                   .complete();
-    return fields.json(of);
-}
+RECORD_SETTINGS(VerificationCase, problem, full)
 
 std::string solve_and_record(const VerificationCase& of, const std::string& folder)
 {

@@ -2,7 +2,7 @@
 //   halves_of({"limb", "limb", "human"})   // training, evaluation, evaluation
 #pragma once
 
-#include "analysis/records/typed_table.hpp"
+#include "analysis/records/tables.hpp"
 #include "experiments/settings/option_names.hpp"
 
 #include <string>

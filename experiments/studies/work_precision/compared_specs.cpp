@@ -1,7 +1,7 @@
 // From an entry of the table of compared deformers to a deformer with its options.
 #include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/deformers/registry.hpp"
-#include "experiments/scene/scene_keys.hpp"
+#include "experiments/scene/scene.hpp"
 #include "experiments/settings/scene_values.hpp"
 #include "experiments/studies/shared/posed_reference.hpp"
 #include "experiments/studies/work_precision/compared_deformers.hpp"

@@ -5,7 +5,7 @@
 // The recorded error of a point is error_joint_pct: the root mean square over the blended vertices, over their mean distance to the bone.
 #pragma once
 
-#include "analysis/pareto_front.hpp"
+#include "analysis/statistics/minimise.hpp"
 #include "experiments/studies/work_precision/chosen_settings.hpp"
 #include "experiments/studies/work_precision/deformer_groups.hpp"
 

@@ -3,7 +3,7 @@
 // An entry has no ladder of iterations, no grid of settings and one code, so that it is one point per pose, on the case's own mesh.
 #pragma once
 
-#include "experiments/deformers/deformer_spec.hpp"
+#include "experiments/deformers/deformer.hpp"
 
 #include <string>
 #include <vector>

@@ -2,7 +2,7 @@
 //   words_of(FrameClock::own)  // for readers: "the times that the program states in seconds.f64"
 #pragma once
 
-#include "analysis/records/typed_table.hpp"
+#include "analysis/records/tables.hpp"
 
 #include <string>
 

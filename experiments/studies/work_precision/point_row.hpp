@@ -2,16 +2,15 @@
 // the other references of the family.
 #pragma once
 
-#include "analysis/case_key.hpp"
-#include "analysis/frame_metrics.hpp"
-#include "analysis/records/typed_table.hpp"
+#include "analysis/metrics/frame_metrics.hpp"
+#include "analysis/records/tables.hpp"
+#include "analysis/verdicts/case_record.hpp"
 #include "experiments/studies/shared/posed_reference.hpp"
-#include "experiments/studies/shared/reference_family.hpp"
 #include "experiments/studies/shared/timed_rounds.hpp"
 #include "experiments/studies/work_precision/body_mesh.hpp"
 #include "experiments/studies/work_precision/case_split.hpp"
 #include "experiments/studies/work_precision/frame_clock.hpp"
-#include "pbs/geometry/work_counters.hpp"
+#include "pbs/geometry/cost.hpp"
 
 namespace experiments {
 

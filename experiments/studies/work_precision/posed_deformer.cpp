@@ -1,6 +1,6 @@
 #include "experiments/studies/work_precision/posed_deformer.hpp"
 
-#include "experiments/process/cpu_clock.hpp"
+#include "experiments/process/machine.hpp"
 
 #include <limits>
 

@@ -7,11 +7,10 @@
 //
 // Writes DIR/work_precision/CASE/{points,members}.csv and, over all cases, points.csv, settings.csv, fronts.csv, crossings.csv,
 // best_within.csv, data_profiles.csv, omissions.csv, work_precision.md.
-#include "analysis/records/folder_files.hpp"
-#include "experiments/scene/motion_case.hpp"
-#include "experiments/studies/shared/case_name.hpp"
-#include "experiments/studies/shared/clip_frames.hpp"
-#include "experiments/studies/shared/real_bodies.hpp"
+#include "analysis/records/record_files.hpp"
+#include "experiments/scene/scene.hpp"
+#include "experiments/studies/shared/bodies.hpp"
+#include "experiments/studies/shared/posed_character.hpp"
 #include "experiments/studies/study.hpp"
 #include "experiments/studies/work_precision/data_profile.hpp"
 #include "experiments/studies/work_precision/diagram_tables.hpp"

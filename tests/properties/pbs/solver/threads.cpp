@@ -5,7 +5,7 @@
 #include "pbs/solver/pbs_solver.hpp"
 #include "pbs/solver/xpbd_solver.hpp"
 
-#include "analysis/records/state_hash.hpp"
+#include "analysis/records/provenance.hpp"
 #include "tests/support/two_bone_limb.hpp"
 
 #include <gtest/gtest.h>

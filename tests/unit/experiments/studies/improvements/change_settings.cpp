@@ -1,7 +1,8 @@
 // Reference: the options of PBS; a change differs from the scene's options in what its name says and in nothing else.
 #include "experiments/studies/improvements/change_settings.hpp"
 
-#include "experiments/deformers/pbs/pbs_settings.hpp"
+#include "experiments/deformers/deformer_options.hpp"
+#include "experiments/settings/option_fields.hpp"
 #include "pbs/solver/constraint_set.hpp"
 
 #include <nlohmann/json.hpp>

@@ -1,0 +1,293 @@
+#include "experiments/studies/reproduce.hpp"
+
+#include "analysis/records/provenance.hpp"
+#include "analysis/verdicts/claims_report.hpp"
+#include "experiments/process/child_process.hpp"
+#include "experiments/process/terminal.hpp"
+#include "experiments/studies/study.hpp"
+#include "pbs/geometry/input_error.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <numeric>
+#include <string>
+#include <vector>
+
+namespace experiments {
+
+// The studies that `pbskin reproduce` runs, and which of their runs it carries out.
+//   for (const PlannedStudy& planned : plan_studies(arguments)) run(planned.to_do);
+struct PlannedStudy {
+    const Study* study;
+    StudyPlan plan;
+    std::string folder;
+    std::vector<StudyRun> to_do = {};
+    std::vector<StudyRun> kept = {};    // those that are finished with the same settings and revision
+    std::vector<StudyRun> absent = {};  // those that ReproduceArguments::only leaves out and that are not finished
+};
+
+// InputError for a name that is neither a claim nor a study.
+void refuse_unknown(const std::vector<std::string>& names);
+
+// Returns whether the study or one of its claims is among these names.
+bool is_named(const Study& study, const std::vector<std::string>& names);
+
+// Returns the studies that have a run to do, or all studies without ReproduceArguments::only. Throws an InputError for the name of a run
+// that no study has, for deformers of the user's own without a study that compares them, and where Study::plan_with does.
+std::vector<PlannedStudy> plan_studies(const ReproduceArguments& arguments);
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// A named study runs in the extent that is asked for; without names, each runs in the extent of the set.
+Extent asked_for(const Study& study, const std::vector<std::string>& names, bool full)
+{
+    if (names.empty()) return full ? study.sets.full : study.sets.quick;
+    if (!is_named(study, names)) return Extent::none;
+    return full ? Extent::full : Extent::quick;
+}
+
+bool is_among(const std::string& name, const std::vector<std::string>& names)
+{
+    return std::ranges::find(names, name) != names.end();
+}
+
+void refuse_unknown_runs(const std::vector<std::string>& only, const std::vector<PlannedStudy>& planned)
+{
+    std::vector<std::string> known, listed;
+    for (const PlannedStudy& of : planned) {
+        std::vector<std::string> of_study;
+        for (const StudyRun& run : of.plan.runs) of_study.push_back(run.name);
+        known.insert(known.end(), of_study.begin(), of_study.end());
+        listed.push_back(fmt::format("{} ({})", fmt::join(of_study, ", "), of.study->name));
+    }
+    for (const std::string& name : only)
+        if (!is_among(name, known))
+            throw pbs::InputError("", 0, "--only", name, fmt::format("no such run; expected one of {}", fmt::join(listed, "; ")));
+}
+
+// Deformers of the user's own need a study that compares them, and a run of it.
+void refuse_unused(const std::string& external, const std::vector<PlannedStudy>& planned)
+{
+    if (std::ranges::any_of(planned, [](const PlannedStudy& one) { return one.study->plan_with != nullptr; })) return;
+    std::vector<std::string> taking;
+    for (const Study& study : studies())
+        if (study.plan_with) taking.push_back(study.name);
+    throw pbs::InputError(
+        "", 0, "--external", external,
+        fmt::format("expected a run of {} among the runs; this study compares deformers of your own", fmt::join(taking, ", ")));
+}
+
+void choose_runs(PlannedStudy& planned, const std::vector<std::string>& only, bool resume)
+{
+    for (const StudyRun& run : planned.plan.runs) {
+        const bool is_chosen = only.empty() || is_among(run.name, only), may_be_kept = resume || !is_chosen;
+        if (may_be_kept && is_finished(run, (fs::path(planned.folder) / run.name).string()))
+            planned.kept.push_back(run);
+        else
+            (is_chosen ? planned.to_do : planned.absent).push_back(run);
+    }
+}
+
+}  // namespace
+
+void refuse_unknown(const std::vector<std::string>& names)
+{
+    std::vector<std::string> known;
+    for (const auto& study : studies()) known.push_back(study.name);
+    for (const auto& claim : claims()) known.push_back(claim.id);
+    for (const auto& name : names)
+        if (!is_among(name, known))
+            throw pbs::InputError("", 0, "reproduce", name,
+                                  "unknown claim or study; expected one of " + fmt::format("{}", fmt::join(known, ", ")));
+}
+
+bool is_named(const Study& study, const std::vector<std::string>& names)
+{
+    return std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+        const auto of_study = [&](const analysis::Claim& claim) { return claim.id == name && claim.study == study.name; };
+        return name == study.name || std::any_of(claims().begin(), claims().end(), of_study);
+    });
+}
+
+std::vector<PlannedStudy> plan_studies(const ReproduceArguments& arguments)
+{
+    if (arguments.external && arguments.external->empty()) throw pbs::InputError("", 0, "--external", "", "expected a file");
+    std::vector<PlannedStudy> planned;
+    for (const Study& study : studies()) {
+        const Extent extent = asked_for(study, arguments.names, arguments.full);
+        if (extent == Extent::none) continue;
+        const bool full = extent == Extent::full, is_extended = study.plan_with && arguments.external;
+        planned.push_back({&study, is_extended ? study.plan_with(full, *arguments.external) : study.plan(full),
+                           (fs::path(arguments.folder) / study.name).string()});
+        planned.back().plan.extent = extent;
+    }
+    refuse_unknown_runs(arguments.only, planned);
+    const auto has_none = [&](const PlannedStudy& of) {
+        return std::ranges::none_of(of.plan.runs, [&](const StudyRun& run) { return is_among(run.name, arguments.only); });
+    };
+    if (!arguments.only.empty()) std::erase_if(planned, has_none);
+    if (arguments.external) refuse_unused(*arguments.external, planned);
+    for (PlannedStudy& of : planned) choose_runs(of, arguments.only, arguments.resume);
+    return planned;
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct StudyOutcome {
+    FinishedRuns finished = {};  // without failed runs, which are reported and whose verdicts cannot be computed
+    bool broke_down = false, failed = false, refused = false;
+    StudyCosts costs;
+};
+
+void report_breakdown(const std::string& name, const std::string& breakdown, StudyOutcome& outcome)
+{
+    if (breakdown.empty()) return;
+    spdlog::error("pbskin: {}: numerical breakdown: {}", name, breakdown);
+    outcome.broke_down = true;
+}
+
+// The breakdown of a kept run has the same effect as that of a new run.
+void report_kept_breakdowns(const PlannedStudy& planned, StudyOutcome& outcome)
+{
+    for (const StudyRun& run : planned.kept)
+        report_breakdown(run.name, breakdown_on_record(run, (fs::path(planned.folder) / run.name).string()), outcome);
+}
+
+// Records of an earlier revision or of other settings must not remain next to those of the runs to do.
+void remove_old_records(const PlannedStudy& planned)
+{
+    for (const auto& runs : {planned.to_do, planned.absent})
+        for (const StudyRun& run : runs) analysis::remove_record(fs::path(planned.folder) / run.name / "run.json");
+}
+
+void report_runs(const PlannedStudy& planned)
+{
+    spdlog::info("{} runs to do, {} kept", planned.to_do.size(), planned.kept.size());
+    std::vector<std::string> names;
+    for (const StudyRun& run : planned.absent) names.push_back(run.name);
+    if (names.empty()) return;
+    spdlog::warn("left out by --only: {}; the tables do not contain these runs, and verdicts that need them cannot be computed",
+                 fmt::join(names, ", "));
+}
+
+// then_s: expected wall time of the studies after this one [s].
+StudyOutcome run_study(const PlannedStudy& planned, int jobs, double then_s)
+{
+    std::error_code error;
+    fs::create_directories(planned.folder, error);
+    if (error) throw pbs::InputError(planned.folder, 0, "", "", "the output folder cannot be made: " + error.message());
+    analysis::remove_abandoned_files(planned.folder);
+    remove_old_records(planned);
+    write_study_plan(planned.folder, planned.plan);
+    std::vector<PooledWork> work;
+    for (const StudyRun& run : planned.to_do)
+        work.push_back(
+            {run.name, run.cost_s, [&run, folder = (fs::path(planned.folder) / run.name).string()] { return carry_out(run, folder); }});
+    report_runs(planned);
+    StudyOutcome outcome{.costs = StudyCosts(planned.folder)};
+    report_kept_breakdowns(planned, outcome);
+    for (const PooledResult& result : run_in_pool(work, planned.study->alone ? 1 : jobs, then_s)) {
+        if (!result.finished) spdlog::error("pbskin: {}: {}", result.name, result.failure);
+        report_breakdown(result.name, result.breakdown, outcome);
+        outcome.failed |= !result.finished;
+        outcome.refused |= result.refused;
+        const auto run =
+            std::find_if(planned.to_do.begin(), planned.to_do.end(), [&](const StudyRun& of) { return of.name == result.name; });
+        if (result.finished) outcome.costs.add(result.name, run->cost_s, result.cpu_s);
+    }
+    outcome.costs.complete(planned.folder, planned.plan);
+    outcome.costs.write();
+    outcome.finished = finished_runs(planned.folder);
+    return outcome;
+}
+
+std::vector<analysis::Verdict> verdicts_of(const Study& study, const std::string& folder, const std::string& root)
+{
+    std::vector<analysis::Verdict> verdicts;
+    const analysis::Records records = read_study_records(folder, root);
+    for (const auto& claim : claims())
+        if (claim.study == study.name) verdicts.push_back(analysis::judge(claim, records));
+    return verdicts;
+}
+
+// Writes the verdicts of all studies to DIR/claims.json, DIR/claims.md and the terminal. Returns whether all could be computed.
+bool report_verdicts(std::vector<analysis::Verdict> verdicts, const std::string& folder)
+{
+    std::stable_sort(verdicts.begin(), verdicts.end(), [](const auto& one, const auto& other) { return one.claim.id < other.claim.id; });
+    analysis::write_text_atomically((fs::path(folder) / "claims.json").string(),
+                                    analysis::claims_json(verdicts, analysis::collect_provenance(1).git_revision).dump(2) + "\n");
+    analysis::write_text_atomically((fs::path(folder) / "claims.md").string(), analysis::claims_markdown(verdicts));
+    fmt::print("{}all values: {}\nreport: pbskin report {}\n", analysis::claims_table(verdicts, terminal_width(), terminal_has_colours()),
+               (fs::path(folder) / "claims.json").string(), folder);
+    return std::none_of(verdicts.begin(), verdicts.end(),
+                        [](const auto& verdict) { return verdict.kind == analysis::VerdictKind::not_computable; });
+}
+
+}  // namespace
+
+int reproduce(const ReproduceArguments& arguments)
+{
+    refuse_unknown(arguments.names);
+    const std::vector<PlannedStudy> planned = plan_studies(arguments);
+    std::vector<ExpectedCost> expected;
+    for (const PlannedStudy& of : planned) expected.push_back(expected_cost(*of.study, of.to_do, arguments.jobs));
+    if (arguments.cost_only) return fmt::print("{}", expected_cost_table(expected)), exit_finished;
+    if (planned.size() > 1) spdlog::info("expected cost:\n{}", expected_cost_table(expected));
+
+    analysis::remove_abandoned_files(arguments.folder, false);
+    std::vector<analysis::Verdict> verdicts;
+    std::vector<std::pair<std::string, StudyCosts>> costs;
+    std::string conclusions;  // of the studies, and on frames that need attention
+    bool broke_down = false, refused = false, all_hold = true;
+    for (std::size_t i = 0; i < planned.size(); ++i) {
+        const Study* study = planned[i].study;
+        spdlog::info("study {}", study->name);
+        for (const auto& left_out : planned[i].plan.left_out) spdlog::warn("left out: {}: {}", left_out.scene, left_out.reason);
+        const double then_s = std::accumulate(expected.begin() + static_cast<std::ptrdiff_t>(i) + 1, expected.end(), 0.0,
+                                              [](double sum, const ExpectedCost& cost) { return sum + cost.wall_s; });
+        const StudyOutcome outcome = run_study(planned[i], arguments.jobs, then_s);
+        costs.emplace_back(study->name, outcome.costs);
+        broke_down |= outcome.broke_down;
+        refused |= outcome.refused;
+        all_hold &= !outcome.failed;
+        conclusions += marked_frames(outcome.finished.folders);
+        for (auto& verdict : verdicts_of(*study, planned[i].folder, arguments.folder)) verdicts.push_back(std::move(verdict));
+        if (!study->conclude) continue;
+        const StudyConclusion conclusion = study->conclude(outcome.finished);
+        outcome.finished.write("conclusion.txt", conclusion.text);
+        conclusions += conclusion.text;
+        all_hold &= conclusion.holds;
+    }
+    spdlog::info("actual cost:\n{}", cost_table(costs));
+    fmt::print("{}", conclusions);
+    const bool all_computed = verdicts.empty() || report_verdicts(verdicts, arguments.folder);
+    if (refused) return exit_input;
+    if (broke_down) return exit_breakdown;
+    return all_computed && all_hold ? exit_finished : exit_bound;
+}
+
+int judge_again(const ReproduceArguments& arguments)
+{
+    refuse_unknown(arguments.names);
+    const OpenedRecords opened(arguments.folder);
+    std::vector<analysis::Verdict> verdicts;
+    for (const Study& study : studies()) {
+        const std::string folder = (fs::path(opened.folder()) / study.name).string();
+        if (!has_study_plan(folder) || !(arguments.names.empty() || is_named(study, arguments.names))) continue;
+        for (auto& verdict : verdicts_of(study, folder, opened.folder())) verdicts.push_back(std::move(verdict));
+    }
+    if (verdicts.empty())
+        throw pbs::InputError(arguments.folder, 0, "reproduce --judge", "",
+                              "no records of a study in this folder: expected one that reproduce wrote");
+    return report_verdicts(verdicts, arguments.folder) ? exit_finished : exit_bound;
+}
+
+}  // namespace experiments

@@ -1,0 +1,260 @@
+#include "experiments/studies/reproduce.hpp"
+
+#include "analysis/records/record_files.hpp"
+#include "analysis/verdicts/measurement.hpp"
+#include "experiments/run/frame_measurement.hpp"
+#include "experiments/run/run.hpp"
+#include "pbs/character/json_file.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <sstream>
+
+namespace experiments {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string plan_file(const std::string& folder)
+{
+    return (fs::path(folder) / "plan.json").string();
+}
+
+// The content of plan.json, checked, for the file may have been changed.
+class KeptPlan {
+public:
+    explicit KeptPlan(const std::string& folder) : file_(plan_file(folder)) {}
+
+    const nlohmann::json& runs() const { return list("runs"); }
+    const nlohmann::json& left_out() const { return list("left_out"); }
+
+    std::string text(const nlohmann::json& part, const std::string& key) const
+    {
+        const nlohmann::json& value = file_.at(part, key);
+        if (!value.is_string()) file_.refuse(key, "expected a text");
+        return value;
+    }
+
+    bool is_set(const nlohmann::json& part, const std::string& key) const
+    {
+        if (!part.contains(key)) return false;
+        if (!part.at(key).is_boolean()) file_.refuse(key, "expected true or false");
+        return part.at(key);
+    }
+
+private:
+    const nlohmann::json& list(const std::string& key) const
+    {
+        const nlohmann::json& value = file_.at(key);
+        if (!value.is_array()) file_.refuse(key, "expected a list, as reproduce writes it");
+        return value;
+    }
+
+    pbs::JsonFile file_;
+};
+
+void require_record(const fs::path& run_json)
+{
+    const nlohmann::json schema = pbs::JsonFile(run_json.string()).at("schema");
+    if (schema != run_schema) throw pbs::InputError(run_json.string(), 0, "schema", schema.dump(), fmt::format("expected {}", run_schema));
+}
+
+// The limb's bones lie along x.
+std::string name_of_sweep(const Scene& scene)
+{
+    if (scene.character.body != "limb") return "turn";
+    return scene.motion.axis.normalized().cwiseAbs().x() > 0.5 ? "twist" : "bend";
+}
+
+analysis::CaseKey key_of(const Scene& scene)
+{
+    analysis::CaseKey key = {.body = scene.character.body, .joint = scene.motion.joint};
+    key.motion = scene.motion.clip.empty() ? name_of_sweep(scene) : fs::path(scene.motion.clip).stem().string();
+    if (scene.character.vertices > 0) key.vertices = scene.character.vertices;
+    return key;
+}
+
+// Body and motion of a run, as write_study_plan() writes them for scenes; empty if the plan has none.
+analysis::CaseKey place_of(const nlohmann::json& run, const std::string& file)
+{
+    if (!run.contains("of")) return {};
+    return analysis::case_key(run.at("of"), file);
+}
+
+void add_run(analysis::Records& records, const fs::path& folder, const std::string& name, const analysis::CaseKey& place, bool beside)
+{
+    if (const fs::path printed = folder / "printed.csv"; fs::exists(printed))
+        for (auto& value : analysis::printed_values(printed.string())) records.printed.push_back(std::move(value));
+    if (const fs::path measured = folder / "measurements.csv"; fs::exists(measured))
+        for (auto& measurement : analysis::measurements(measured.string())) {
+            measurement.run = name;
+            records.measurements.push_back(std::move(measurement));
+        }
+    if (const fs::path metrics = folder / "metrics.csv"; fs::exists(metrics))
+        for (auto& record : analysis::case_records(analysis::read_csv(metrics.string()), name)) {
+            record.beside = beside;
+            record.place = place;
+            records.cases.push_back(std::move(record));
+        }
+}
+
+// The first column of a table names the run of each row. A row without further cells states that the run's table has no rows.
+void write_tables_of_runs(const fs::path& merged, const fs::path& study)
+{
+    std::istringstream text(analysis::read_text(merged.string()));
+    std::string head, line;
+    std::getline(text, head);
+    std::map<std::string, std::string> tables;
+    while (std::getline(text, line)) {
+        const std::size_t comma = std::min(line.find(','), line.size());
+        std::string& table = tables[line.substr(0, comma)];
+        if (table.empty()) table = head.substr(head.find(',') + 1) + '\n';
+        if (line.find_first_not_of(',', comma) != std::string::npos) table += line.substr(comma + 1) + '\n';
+    }
+    for (const auto& [run, table] : tables) {
+        fs::create_directories(study / run);
+        analysis::write_text_atomically((study / run / merged.filename()).string(), table);
+    }
+}
+
+}  // namespace
+
+OpenedRecords::OpenedRecords(const std::string& folder) : folder_(folder)
+{
+    const std::string provenance = analysis::path_in(folder, "provenance.json");
+    if (!fs::exists(provenance)) return;
+    const fs::path opened = scratch_.emplace().path();
+    analysis::from_record(analysis::path_in(folder, "plans.json"), [&](const nlohmann::json& plans) {
+        for (const auto& [study, plan] : plans.items()) {
+            fs::create_directories(opened / study);
+            analysis::write_text_atomically(plan_file((opened / study).string()), plan.dump());
+            for (const char* table : {"measurements.csv", "metrics.csv", "printed.csv"})
+                if (const fs::path merged = fs::path(folder) / study / "runs" / table; fs::exists(merged))
+                    write_tables_of_runs(merged, opened / study);
+        }
+    });
+    analysis::from_record(provenance, [&](const nlohmann::json& record) {
+        for (const nlohmann::json& origin : record.at("origins"))
+            for (const std::string run : origin.at("runs")) {
+                fs::create_directories(opened / run);
+                analysis::write_text_atomically((opened / run / "run.json").string(),
+                                                nlohmann::json{{"schema", origin.at("schema")}}.dump());
+            }
+    });
+    folder_ = opened.string();
+}
+
+void write_study_plan(const std::string& folder, const StudyPlan& plan)
+{
+    auto runs = nlohmann::json::array(), left_out = nlohmann::json::array();
+    for (const StudyRun& run : plan.runs) {
+        nlohmann::json entry = {{"name", run.name}, {"cost_s", run.cost_s}};
+        if (!run.work) {
+            entry["scene"] = run.scene.name;
+            entry["of"] = to_json_of(key_of(run.scene));
+        }
+        if (run.beside) entry["beside"] = true;
+        runs.push_back(entry);
+    }
+    for (const analysis::LeftOut& out : plan.left_out) left_out.push_back({{"scene", out.scene}, {"reason", out.reason}});
+    const char* extent = plan.extent == Extent::full ? "full" : "quick";
+    fs::create_directories(folder);
+    analysis::write_text_atomically(
+        plan_file(folder), nlohmann::json{{"schema", 1}, {"extent", extent}, {"runs", runs}, {"left_out", left_out}}.dump(2) + "\n");
+}
+
+bool has_study_plan(const std::string& folder)
+{
+    return fs::exists(plan_file(folder));
+}
+
+FinishedRuns finished_runs(const std::string& folder)
+{
+    FinishedRuns finished{.folder = folder};
+    const KeptPlan plan(folder);
+    for (const auto& run : plan.runs()) {
+        const std::string name = plan.text(run, "name");
+        const fs::path of_run = fs::path(folder) / name;
+        if (fs::exists(of_run / "run.json"))
+            finished.folders.push_back(of_run.string());
+        else
+            finished.missing.push_back(name);
+    }
+    return finished;
+}
+
+analysis::Records read_study_records(const std::string& folder, const std::string& root)
+{
+    analysis::Records records;
+    const KeptPlan plan(folder);
+    for (const auto& out : plan.left_out()) records.left_out.push_back({plan.text(out, "scene"), plan.text(out, "reason")});
+    for (const auto& run : plan.runs())
+        if (run.contains("scene")) records.planned_scenes.push_back(plan.text(run, "scene"));
+    for (const auto& out : records.left_out) records.planned_scenes.push_back(out.scene);
+    for (const auto& run : plan.runs()) {
+        const std::string name = plan.text(run, "name");
+        const fs::path of_run = fs::path(folder) / name;
+        if (!fs::exists(of_run / "run.json")) {
+            records.missing_runs.push_back(name);
+            continue;
+        }
+        require_record(of_run / "run.json");
+        add_run(records, of_run, of_run.lexically_relative(root).string(), place_of(run, plan_file(folder)), plan.is_set(run, "beside"));
+    }
+    return records;
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+// "3 inverted, 1 not converged"
+std::string kinds_of(const std::vector<BrokenFrame>& broken)
+{
+    std::map<std::string, int> counts;
+    for (const BrokenFrame& frame : broken) ++counts[what_of(frame)];
+    std::vector<std::string> kinds;
+    for (const auto& [what, count] : counts) kinds.push_back(fmt::format("{} {}", count, what));
+    return fmt::format("{}", fmt::join(kinds, ", "));
+}
+
+std::string broken_line(const json& of_deformer, int frames)
+{
+    const auto broken = of_deformer.get<std::vector<BrokenFrame>>();
+    return fmt::format("broke down in {} of {} frames ({}), the first {}", broken.size(), frames, kinds_of(broken),
+                       text_of(of_deformer.at(0).get<BrokenFrame>()));
+}
+
+std::string marks_of(const json& outcome, const std::string& run)
+{
+    std::string lines;
+    const json none = json::object(), below = outcome.value("frames_below_reference_error", none),
+               broken = outcome.value("broken_frames", none);
+    if (const int count = outcome.value("frames_with_overlap", 0); count > 0)
+        lines += fmt::format("     {}: the reference overlaps itself in {} of {} frames; errors leave out up to {:.2g} % of the volume\n",
+                             run, count, outcome.at("frames").get<int>(), outcome.at("largest_masked_share_pct").get<double>());
+    for (const auto& [label, count] : below.items())
+        lines += fmt::format("     {}: the error of {} at the joints is not above the reference's own in {} of {} frames\n", run, label,
+                             count.get<int>(), outcome.at("frames").get<int>());
+    for (const auto& [label, frames] : broken.items())
+        lines += fmt::format("     {}: {} {}\n", run, label, broken_line(frames, outcome.at("frames").get<int>()));
+    return lines;
+}
+
+}  // namespace
+
+std::string marked_frames(const std::vector<std::string>& folders)
+{
+    std::string lines;
+    for (const std::string& folder : folders)
+        lines += analysis::from_record((fs::path(folder) / "run.json").string(),
+                                       [&](const json& run) { return marks_of(run.at("outcome"), fs::path(folder).filename().string()); });
+    return lines;
+}
+
+}  // namespace experiments

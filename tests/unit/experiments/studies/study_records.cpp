@@ -1,0 +1,189 @@
+// Reference: the plan and the files on disk. A verdict is based only on runs that ended.
+
+#include "analysis/records/record_files.hpp"
+#include "analysis/verdicts/measurement.hpp"
+#include "experiments/studies/reproduce.hpp"
+#include "pbs/geometry/input_error.hpp"
+#include "tests/support/scratch_folder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+namespace {
+
+using namespace experiments;
+using test_support::ScratchFolder;
+
+StudyPlan plan_of(const std::vector<std::string>& names)
+{
+    StudyPlan plan;
+    for (const std::string& name : names) plan.runs.push_back({.name = name, .work = [](const std::string&) { return std::string(); }});
+    return plan;
+}
+
+void finish(const std::string& study, const std::string& run, double value)
+{
+    const std::filesystem::path folder = std::filesystem::path(study) / run;
+    std::filesystem::create_directories(folder);
+    analysis::measurement_table({{"C07", "linear_drift", {.body = run}, value, value, value, "1"}})
+        .write((folder / "measurements.csv").string());
+    analysis::write_text_atomically((folder / "run.json").string(), "{\"schema\": 3}\n");
+}
+
+TEST(StudyRecords, ComeFromRunsThatEnded)
+{
+    const ScratchFolder root;
+    const std::string study = root / "momentum";
+    write_study_plan(study, plan_of({"limb", "human", "man"}));
+    finish(study, "limb", 1.0);
+    finish(study, "man", 3.0);
+    finish(study, "an_earlier_plan", 4.0);
+    std::filesystem::create_directories(std::filesystem::path(study) / "human");  // killed before its run.json
+    const analysis::Records records = read_study_records(study, root.path().string());
+    ASSERT_EQ(records.measurements.size(), 2u);
+    EXPECT_EQ(records.measurements[0].run, "momentum/limb");
+    EXPECT_EQ(records.measurements[1].value, 3.0);
+    EXPECT_EQ(records.missing_runs, std::vector<std::string>{"human"});
+    EXPECT_TRUE(records.planned_scenes.empty());  // pieces of work, no scenes
+}
+
+TEST(StudyRecords, KnowWhatWasPlannedAndLeftOut)
+{
+    const ScratchFolder root;
+    StudyPlan plan = plan_of({"limb"});
+    Scene scene;
+    scene.name = "walk";
+    scene.character.body = "man";
+    scene.motion.clip = "clips/01_03.bvh";
+    plan.runs.push_back({.name = "a walk", .scene = scene});
+    plan.left_out = {{"man_01_01", "not installed"}};
+    EXPECT_FALSE(has_study_plan(root / "volume"));
+    write_study_plan(root / "volume", plan);
+    EXPECT_TRUE(has_study_plan(root / "volume"));
+    const analysis::Records records = read_study_records(root / "volume", root.path().string());
+    EXPECT_EQ(records.planned_scenes, (std::vector<std::string>{"walk", "man_01_01"}));
+    ASSERT_EQ(records.left_out.size(), 1u);
+    EXPECT_EQ(records.left_out[0].reason, "not installed");
+}
+
+TEST(StudyRecords, ARecordIsOfTheBodyAndMotionThatThePlanGives)
+{
+    const ScratchFolder root;
+    const std::string study = root / "volume", run = study + "/walk";
+    StudyPlan plan;
+    Scene scene;
+    scene.name = "walk";
+    scene.character.body = "man";
+    scene.motion.clip = "clips/01_03.bvh";
+    plan.runs.push_back({.name = "walk", .scene = scene});
+    write_study_plan(study, plan);
+    std::filesystem::create_directories(run);
+    analysis::write_text_atomically(run + "/metrics.csv",
+                                    "scene,deformer,variant,order,precision,iterations,threads,frame,time_s,volume_change_pct,"
+                                    "volume_abs_change_pct,inverted_tets\nwalk,pbs,default,plain,f64,24,1,0,0,0,0,0\n");
+    analysis::write_text_atomically(run + "/run.json", "{\"schema\": 3}\n");
+    const analysis::Records records = read_study_records(study, root.path().string());
+    ASSERT_EQ(records.cases.size(), 1u);
+    EXPECT_EQ(records.cases[0].place.body, "man");
+    EXPECT_EQ(records.cases[0].place.motion, "01_03");
+}
+
+TEST(StudyRecords, WhatSomebodyElseMadeOfThemIsRefusedByFileAndField)
+{
+    const ScratchFolder root;
+    const std::string study = root / "momentum", plan = study + "/plan.json", run = study + "/limb/run.json";
+    write_study_plan(study, plan_of({"limb"}));
+    finish(study, "limb", 1.0);
+    const auto message_with = [&](const std::string& file, const std::string& text) -> std::string {
+        const std::string whole = analysis::read_text(file);
+        analysis::write_text_atomically(file, text);
+        std::string message = "accepted";
+        try {
+            read_study_records(study, root.path().string());
+        } catch (const pbs::InputError& error) {
+            message = error.what();
+        }
+        analysis::write_text_atomically(file, whole);
+        return message;
+    };
+    EXPECT_EQ(message_with(plan, "{\n\"runs\": ["), plan + ":2: no JSON, or cut short, at byte 12");
+    EXPECT_EQ(message_with(plan, "{\"runs\": []}"), plan + ": left_out: missing");
+    EXPECT_EQ(message_with(plan, "[]"), plan + ": left_out: missing");
+    EXPECT_EQ(message_with(plan, R"({"runs": 3, "left_out": []})"), plan + ": runs: expected a list, as reproduce writes it");
+    EXPECT_EQ(message_with(plan, R"({"runs": [{}], "left_out": []})"), plan + ": name: missing");
+    EXPECT_EQ(message_with(plan, R"({"runs": [{"name": 3}], "left_out": []})"), plan + ": name: expected a text");
+    EXPECT_EQ(message_with(plan, R"({"runs": [{"name": "limb", "scene": "limb", "of": {"body": 3}}], "left_out": []})"),
+              plan + ": of.body = 3: expected a text");
+    EXPECT_EQ(message_with(run, "{}"), run + ": schema: missing");
+    EXPECT_EQ(message_with(run, "{\"schema\": 3"), run + ":1: no JSON, or cut short, at byte 13");
+    EXPECT_EQ(message_with(run, "{\"schema\": 3}"), "accepted");
+    EXPECT_EQ(message_with(run, "{\"schema\": 1}"), run + ": schema = 1: expected 3");
+}
+
+}  // namespace
+
+// Reference: the contents written to run.json.
+
+namespace {
+
+using experiments::marked_frames;
+
+class MarkedFrames : public testing::Test {
+protected:
+    std::string marks_of(const std::string& run_json)
+    {
+        std::filesystem::create_directories(scratch / "limb_bend");
+        scratch.file("limb_bend/run.json", run_json);
+        return marked_frames({scratch / "limb_bend"});
+    }
+    std::string refusal_of(const std::string& run_json)
+    {
+        try {
+            return "accepted: " + marks_of(run_json);
+        } catch (const pbs::InputError& error) {
+            return error.what();
+        }
+    }
+
+    test_support::ScratchFolder scratch;
+};
+
+TEST_F(MarkedFrames, EachDeformersFirstBrokenFrameIsNamed)
+{
+    EXPECT_EQ(marks_of(R"({"outcome": {"frames": 31, "broken_frames": {
+                  "pbs": [{"frame": 2, "what": "not_finite", "step": 7, "first_vertex": 17, "vertices_not_finite": 120}],
+                  "nh_p1": [{"frame": 18, "what": "inverted", "worst_tet": 812, "volume_ratio": -0.04, "inverted_tets": 3},
+                             {"frame": 19, "what": "not_converged", "worst_tet": 5, "volume_ratio": 0.5, "inverted_tets": 0}]}}})"),
+              "     limb_bend: nh_p1 broke down in 2 of 31 frames (1 inverted, 1 not converged), the first inverted in frame 18: worst tet "
+              "812 of volume ratio -0.04, 3 inverted\n"
+              "     limb_bend: pbs broke down in 1 of 31 frames (1 not finite), the first not finite in frame 2 (in step 7, before it): "
+              "first at vertex 17, 120 not finite\n");
+}
+
+TEST_F(MarkedFrames, OverlapsAndErrorsBelowTheReferences)
+{
+    EXPECT_EQ(marks_of(R"({"outcome": {"frames": 31, "frames_with_overlap": 4, "largest_masked_share_pct": 6.25,
+                                       "frames_below_reference_error": {"pbs": 2}}})"),
+              "     limb_bend: the reference overlaps itself in 4 of 31 frames; errors leave out up to 6.2 % of the volume\n"
+              "     limb_bend: the error of pbs at the joints is not above the reference's own in 2 of 31 frames\n");
+}
+
+TEST_F(MarkedFrames, WorkAndSoundRunsHaveNone)
+{
+    EXPECT_EQ(marks_of(R"({"outcome": {"finished": true, "breakdown": ""}})"), "");
+    EXPECT_EQ(marks_of(R"({"outcome": {"frames": 31, "broken_frames": {}, "frames_with_overlap": 0}})"), "");
+}
+
+TEST_F(MarkedFrames, WhatSomebodyElseMadeOfARecordIsRefusedWithItsFile)
+{
+    const std::string refusal =
+        scratch / "limb_bend/run.json" + ": expected a record as this program writes it: it was changed, or cut short";
+    for (const char* text :
+         {"", "{\"outcome\": ", "[]", R"({"outcome": 3})", R"({"outcome": {"frames_with_overlap": 4}})",
+          R"({"outcome": {"frames_with_overlap": "four", "frames": 31}})", R"({"outcome": {"broken_frames": {"pbs": []}, "frames": 31}})",
+          R"({"outcome": {"broken_frames": {"pbs": [{"frame": "two"}]}, "frames": 31}})"})
+        EXPECT_EQ(refusal_of(text), refusal) << text;
+}
+
+}  // namespace
