@@ -1,4 +1,4 @@
-#include "analysis/check/check_judgement.hpp"
+#include "analysis/check/check.hpp"
 
 #include "analysis/statistics/statistics.hpp"
 #include "pbs/geometry/input_error.hpp"

@@ -1,4 +1,4 @@
-#include "analysis/verdicts/claims_report.hpp"
+#include "analysis/verdicts/verdict.hpp"
 
 #include "analysis/records/report_table.hpp"
 

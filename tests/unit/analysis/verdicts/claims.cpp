@@ -3,7 +3,7 @@
 #include "analysis/records/record_files.hpp"
 #include "analysis/records/report_table.hpp"
 #include "analysis/verdicts/claims.hpp"
-#include "analysis/verdicts/claims_report.hpp"
+#include "analysis/verdicts/verdict.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "tests/support/volume_claim.hpp"
 
