@@ -48,6 +48,9 @@ json to_json_of(const FailingFrame& failing)
             {"inverted_tets", failing.inverted_tets}};
 }
 
+json to_json_of(const CaseJudgement& judged);
+json to_json_of(const OrderVerdict& verdict);
+
 template <typename List>
 json list_of(const List& all)
 {
