@@ -25,7 +25,7 @@ pbs_tests(unit experiments BLAS
         experiments/command_line
     FILES experiments/deformers/fem/fem_module
     EXCEPT experiments/deformers/fem ${left_out}
-    ALONE experiments/deformers/vbd experiments/run/limb_stations experiments/run/reference_error_bar
+    ALONE experiments/run/limb_stations experiments/run/reference_error_bar
     LIBRARIES experiments)
 pbs_tests(unit experiments_studies BLAS FOLDERS experiments/studies EXCEPT ${left_out}
     ALONE experiments/studies/ambiguity/read_motion experiments/studies/ambiguity/reading_values

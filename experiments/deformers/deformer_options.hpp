@@ -1,5 +1,4 @@
-// The names of the deformers' options in scenes and records, and the options that are declared here: those of LBS and DQS, and the keys of
-// PBS.
+// The names of the deformers' options in scenes and records, and the options of LBS and DQS.
 #pragma once
 
 #include "experiments/deformers/deformer.hpp"
@@ -90,9 +89,13 @@ struct BlendOptions {
     bool packed = true;
 };
 
+// The keys `precision` and `packed` of a table, for plain code exists in f64 alone: what the scene does not state follows from what it
+// states. InputError where it states precision f32 and packed false.
+void agree_on_code(const SceneValues& values, const std::string& table, pbs::Precision& precision, bool& packed);
+
 // The keys of PBS in scenes.
 const OptionFields<pbs::PbsOptions>& pbs_fields();
-// Sets the options of PBS and the variant.
-void read_pbs(const SceneValues& values, const std::string& table, DeformerSpec& spec);
+// InputError for keys that contradict each other. Sets the variant.
+void check_pbs(const SceneValues& values, const std::string& table, pbs::PbsOptions& options, DeformerSpec& spec);
 
 }  // namespace experiments

@@ -114,9 +114,6 @@ struct OptionNames<reference_fem::LinearSolver> {
 // The options of the finite element reference in scenes and records: their keys, and how they are read.
 const OptionFields<FemOptions>& fem_fields();
 
-// Sets the options from one [[fem]] table. A name that cannot name files and contradicting keys are an InputError.
-void read_fem(const SceneValues& values, const std::string& table, DeformerSpec& spec);
-
 }  // namespace experiments
 
 // The entry for deformers into the module lib/libpbskin_fem.so, which carries deal.II and is loaded when a scene first uses a reference.

@@ -51,7 +51,7 @@ Solved solve(const pbs::Character& character, const std::vector<NamedPose>& path
         if (fem->advance(each.pose, 1.0).outcome != pbs::Outcome::finished || !fem->positions().allFinite()) break;
         solved.positions.push_back(fem->positions());
     }
-    solved.prescribed = fem->prescribed();
+    solved.prescribed = prescribed_vertices(*fem);
     return solved;
 }
 
@@ -141,7 +141,7 @@ void ElasticPoses::add_path(const pbs::Character& character, const std::vector<N
 std::optional<PoissonFit> fit_poisson(const pbs::Character& character, const ElasticPoses& elastic,
                                       const std::vector<pbs::Positions>& positions)
 {
-    const analysis::ErrorMetrics error_metrics = joint_metrics(character, elastic.prescribed());
+    const analysis::ErrorMetrics error_metrics = joint_metrics(character, prescribed_vertices(elastic));
     std::vector<analysis::Misfit> misfits;
     PoissonFit fit;
     fit.highest_poisson = highest_poisson;

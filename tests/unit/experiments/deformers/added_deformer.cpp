@@ -1,9 +1,8 @@
 // A deformer added by another program: its own options and keys, in a scene, a frame and the records, without a change elsewhere.
-// Reference: the specification in experiments/deformers/registry.hpp.
-#include "experiments/deformers/registry.hpp"
+// Reference: the specification in experiments/deformers/deformer_kind.hpp.
+#include "experiments/deformers/deformer_kind.hpp"
 #include "experiments/run/run.hpp"
 #include "experiments/scene/scene.hpp"
-#include "experiments/settings/option_fields.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "tests/support/scratch_folder.hpp"
 
@@ -25,22 +24,21 @@ struct LiftOptions {
 };
 
 // The rest shape, lifted.
-class Lift : public Deformer {
+class Lift : public TimedDeformer {
 public:
     explicit Lift(const LiftOptions& options) : options_(options) {}
 
-    void reset(const pbs::Character& character) override { positions_ = rest_ = character.mesh.rest; }
-    pbs::StepSummary advance(const pbs::Pose&, double) override
+private:
+    void set_up(const pbs::Character& character) override { rest_ = character.mesh.rest; }
+    pbs::StepSummary deform(const pbs::Pose&, double, pbs::Positions& x) override
     {
         const double height_m = options_.direction == Direction::up ? options_.height_m : -options_.height_m;
-        positions_ = rest_.rowwise() + Eigen::RowVector3d(0.0, height_m, 0.0);
+        x = rest_.rowwise() + Eigen::RowVector3d(0.0, height_m, 0.0);
         return {};
     }
-    const pbs::Positions& positions() const override { return positions_; }
 
-private:
     LiftOptions options_;
-    pbs::Positions rest_, positions_;
+    pbs::Positions rest_;
 };
 
 }  // namespace
@@ -56,32 +54,18 @@ struct OptionNames<Direction> {
 
 namespace {
 
-const OptionFields<LiftOptions>& lift_fields()
-{
-    static const OptionFields<LiftOptions> fields =
-        OptionFields<LiftOptions>("lift")
-            .add("height_m", &LiftOptions::height_m, {.unit = "m", .lowest = 0, .highest = 10, .meaning = "by how much"})
-            .add("steps", &LiftOptions::steps, {.lowest = 1, .meaning = "how often"})
-            .add("direction", &LiftOptions::direction, {.meaning = "up or down"})
-            .record("seen", &LiftOptions::seen);
-    return fields;
-}
-
 void register_lift()
 {
     if (find_deformer_kind("lift")) return;
-    add_deformer_kind(
-        {.name = "lift",
-         .meaning = "the rest shape, lifted",
-         .make = [](const DeformerSpec& spec) -> std::unique_ptr<Deformer> {
-             return std::make_unique<Lift>(options_of<LiftOptions>(spec));
-         },
-         .options = LiftOptions{},
-         .keys = lift_fields().keys(),
-         .read = [](const SceneValues& values, const std::string& table,
-                    DeformerSpec& spec) { spec.options = lift_fields().read(values, table); },
-         .options_json = [](const DeformerSpec& spec) { return lift_fields().json(options_of<LiftOptions>(spec)); },
-         .traits = [](const DeformerSpec& spec) -> DeformerTraits { return {.iterations = options_of<LiftOptions>(spec).steps}; }});
+    DeformerKind kind =
+        kind_of<Lift>("lift", "the rest shape, lifted",
+                      OptionFields<LiftOptions>("lift")
+                          .add("height_m", &LiftOptions::height_m, {.unit = "m", .lowest = 0, .highest = 10, .meaning = "by how much"})
+                          .add("steps", &LiftOptions::steps, {.lowest = 1, .meaning = "how often"})
+                          .add("direction", &LiftOptions::direction, {.meaning = "up or down"})
+                          .record("seen", &LiftOptions::seen));
+    kind.traits = [](const DeformerSpec& spec) { return DeformerTraits{.iterations = options_of<LiftOptions>(spec).steps}; };
+    add_deformer_kind(kind);
 }
 
 const std::string scene_text = R"(schema = 1

@@ -20,7 +20,7 @@ DeformerSpec quasi_newton(int iterations, double poisson, const std::string& sta
 {
     return spec_of("quasi_newton",
                    {"quasi_newton.iterations=" + std::to_string(iterations), "quasi_newton.poisson=" + std::to_string(poisson),
-                    "quasi_newton.start=\"" + start + "\"", "quasi_newton.arithmetic=\"packed_f64\""});
+                    "quasi_newton.start=\"" + start + "\"", "quasi_newton.precision=f64"});
 }
 
 // Four times the iterations lower the difference at least to a half until it is below 1e-6.

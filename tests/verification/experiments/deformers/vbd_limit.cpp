@@ -11,7 +11,7 @@ double difference_after(const FleshReference& reference, int sweeps, double pois
     const experiments::Scene scene =
         experiments::read_scene("limb_twist", {"deformers.use=[\"vbd\"]", "reference.name=\"\"", "vbd.iterations=" + std::to_string(sweeps),
                                                "vbd.poisson=" + std::to_string(poisson), "vbd.acceleration=\"" + acceleration + "\"",
-                                               "vbd.arithmetic=\"packed_f64\""});
+                                               "vbd.precision=f64"});
     return reference.difference(experiments::spec_of(scene, "vbd"));
 }
 

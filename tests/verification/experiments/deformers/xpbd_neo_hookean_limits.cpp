@@ -10,7 +10,7 @@ using test_support::FleshReference;
 DeformerSpec xpbd(int iterations, double poisson, const std::vector<std::string>& more = {})
 {
     std::vector<std::string> settings{
-        "deformers.use=[\"xpbd_neo_hookean\"]", "reference.name=\"\"", "xpbd_neo_hookean.arithmetic=\"packed_f64\"",
+        "deformers.use=[\"xpbd_neo_hookean\"]", "reference.name=\"\"", "xpbd_neo_hookean.precision=f64",
         "xpbd_neo_hookean.iterations=" + std::to_string(iterations), "xpbd_neo_hookean.poisson=" + std::to_string(poisson)};
     settings.insert(settings.end(), more.begin(), more.end());
     return experiments::spec_of(experiments::read_scene("limb_twist", settings), "xpbd_neo_hookean");

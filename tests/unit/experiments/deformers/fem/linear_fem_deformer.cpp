@@ -71,10 +71,10 @@ TEST(LinearFemDeformer, OnlyNodesArePrescribedVertices)
     const auto character = test_support::bar_character({48, 8, 8});
     LinearFemDeformer embedded(linear_tets);
     embedded.reset(character);
-    EXPECT_TRUE(embedded.prescribed().empty());
+    EXPECT_TRUE(embedded.facts()->prescribed.empty());
     LinearFemDeformer nodes({.element_order = 1, .attachment = FemAttachment::nodes, .core_radius = 0.6});
     nodes.reset(character);
-    const std::vector<bool> prescribed = nodes.prescribed();
+    const std::vector<bool> prescribed = nodes.facts()->prescribed;
     ASSERT_EQ(static_cast<Eigen::Index>(prescribed.size()), character.mesh.rest.rows());
     const pbs::Pose pose = bent(character, 10.0);
     nodes.advance(pose, 0.01);
