@@ -20,17 +20,15 @@ function(pbs_install_headers component)
     foreach(folder IN LISTS ARGN)
         file(GLOB headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.hpp)
         if(component STREQUAL "method")
-            list(FILTER headers EXCLUDE REGEX "/(mesh_io|mesh_remarks|meshing|module)[a-z_]*\\.hpp$")
+            list(FILTER headers EXCLUDE REGEX "/(mesh_io|meshing|module)[a-z_]*\\.hpp$")
         endif()
         set(no_call_for_users  # headers internal to readers and meshers, to text and files, to solvers, and to parts of bodies
-            "mesh_io_|meshing_|guarded_reading|isolated_reader|reading_limits|packed_bytes|assimp_|vtk_messages|surface_checks|own_folder"
+            "mesh_io_|meshing_|guarded_reading|child_process|mesh_checks|packed_bytes|assimp_|content_format"
             "flesh/(local_shape|packed_|projective_|vbd|xpbd_)"
             "packed/(groups|lanes|parallel|vertex_order)"
-            "geometry/(atomic_file|content_format|file_limits|name_list|named_link|nearest_name|number_text|process)"
-            "geometry/(stopwatch|text_file|toml_text)"
             "solver/(algorithm_1|plain_projection|project_plain)"
-            "rig/(assimp_|collada_|fbx_|gltf_|rig_bytes|skin_weights|tiny_gltf)"
-            "character/(bvh_header|clip_bytes|face_stream|folded_skeleton|input_file|json_file|making_lock|morph_targets|skeleton_order)")
+            "rig/(assimp_|gltf_|rig_bytes|tiny_gltf)"
+            "character/(clip_bytes|json_file)")
         list(JOIN no_call_for_users "|" no_call_for_users)
         list(FILTER headers EXCLUDE REGEX "/(${no_call_for_users})[a-z_]*\\.hpp$")
         install(FILES ${headers} DESTINATION include/${folder} COMPONENT ${component})
@@ -40,8 +38,7 @@ endfunction()
 pbs_install_libraries(method pbs_settings=settings pbs_method=method)
 pbs_install_headers(method pbs/geometry pbs/packed pbs/skinning pbs/constraints pbs/solver pbs/author)
 pbs_install_libraries(mesh_io pbs_module=module pbs_meshing=meshing pbs_mesh_io=mesh_io)
-install(FILES pbs/geometry/mesh_io.hpp pbs/geometry/mesh_remarks.hpp pbs/geometry/meshing.hpp pbs/geometry/module.hpp
-    DESTINATION include/pbs/geometry COMPONENT mesh_io)
+install(FILES pbs/geometry/mesh_io.hpp pbs/geometry/meshing.hpp pbs/geometry/module.hpp DESTINATION include/pbs/geometry COMPONENT mesh_io)
 pbs_install_libraries(character pbs_rig=rig pbs_flesh=flesh pbs_character=character)
 pbs_install_headers(character pbs/flesh pbs/rig pbs/character)
 if(PBS_WITH_ANALYSIS)

@@ -1,6 +1,6 @@
 #include "reference_fem/assembly.hpp"
 
-#include "pbs/geometry/tet_volume.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 #include "reference_fem/options.hpp"
 
 #include <deal.II/base/quadrature_lib.h>

@@ -1,6 +1,6 @@
 #include "reference_fem/linear_elasticity.hpp"
 
-#include "pbs/geometry/stopwatch.hpp"
+#include "pbs/geometry/cost.hpp"
 #include "reference_fem/attachment.hpp"
 #include "reference_fem/linear_flesh.hpp"
 #include "reference_fem/linear_solvers.hpp"

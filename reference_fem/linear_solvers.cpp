@@ -1,6 +1,6 @@
 #include "reference_fem/linear_solvers.hpp"
 
-#include "pbs/geometry/stopwatch.hpp"
+#include "pbs/geometry/cost.hpp"
 
 #include <cholmod.h>
 #include <dlfcn.h>

@@ -7,7 +7,7 @@
 // not fit in memory for.
 #pragma once
 
-#include "pbs/geometry/types.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 #include "reference_fem/assembly.hpp"
 #include "reference_fem/options.hpp"
 

@@ -1,6 +1,6 @@
 // Conjugate gradients (Eigen), preconditioned by one V-cycle of smoothed aggregation (Trilinos ML through Epetra, on this process alone).
 
-#include "pbs/geometry/stopwatch.hpp"
+#include "pbs/geometry/cost.hpp"
 #include "reference_fem/linear_solvers.hpp"
 #include "reference_fem/options.hpp"
 

@@ -6,11 +6,9 @@ if(PBS_WITH_THREADS)
 endif()
 
 pbs_tests(unit pbs_geometry FOLDERS pbs/geometry
-    EXCEPT pbs/geometry/content_format pbs/geometry/isolated_reader pbs/geometry/mesh_io pbs/geometry/mesh_io_checks
-        pbs/geometry/mesh_io_unavailable
-        pbs/geometry/meshing_builtin pbs/geometry/meshing_count pbs/geometry/meshing_surface pbs/geometry/meshing_unavailable
-        pbs/geometry/module pbs/geometry/named_link pbs/geometry/own_folder pbs/geometry/read_by_content pbs/geometry/self_intersection
-        pbs/geometry/surface_formats pbs/geometry/surface_reader pbs/geometry/tobj_reader
+    EXCEPT pbs/geometry/content_format pbs/geometry/child_process pbs/geometry/mesh_checks pbs/geometry/mesh_io
+        pbs/geometry/mesh_io_unavailable pbs/geometry/meshing pbs/geometry/meshing_unavailable pbs/geometry/module
+        pbs/geometry/self_intersection pbs/geometry/surface_reader
     ALONE pbs/geometry/topology
     LIBRARIES pbs_method)
 pbs_tests(unit pbs_skinning FOLDERS pbs/skinning pbs/constraints

@@ -3,7 +3,6 @@
 #include "analysis/records/tables.hpp"
 #include "analysis/records/toml_keys.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/nearest_name.hpp"
 
 #include <fmt/format.h>
 

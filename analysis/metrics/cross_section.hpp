@@ -4,7 +4,7 @@
 // Every layer counts: flesh that folds over the plane, or crosses it twice, is counted once per layer, and an inverted tet like any other.
 #pragma once
 
-#include "pbs/geometry/types.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 
 #include <vector>
 

@@ -3,7 +3,7 @@
 // A norm without anything to measure (no free vertex, no blended vertex) is NaN, and so is one of a frame that is not finite.
 #pragma once
 
-#include "pbs/geometry/types.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 
 #include <vector>
 

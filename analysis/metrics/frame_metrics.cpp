@@ -2,7 +2,7 @@
 
 #include "analysis/statistics/statistics.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/tet_volume.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/geometry/topology.hpp"
 
 #include <fmt/format.h>

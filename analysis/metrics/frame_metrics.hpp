@@ -4,7 +4,7 @@
 // as inverted.
 #pragma once
 
-#include "pbs/geometry/types.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 
 #include <cmath>
 #include <optional>

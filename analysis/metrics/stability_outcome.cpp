@@ -1,6 +1,6 @@
 #include "analysis/metrics/stability_outcome.hpp"
 
-#include "pbs/geometry/tet_volume.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 
 #include <fmt/format.h>
 

@@ -4,7 +4,7 @@
 // `bounded` means that nothing worse happened, not that the shape is right. Lengths are in diagonals of the rest bounding box.
 #pragma once
 
-#include "pbs/geometry/types.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 
 #include <limits>
 #include <optional>

@@ -4,7 +4,7 @@
 //   provenance.input_hashes["limb.toml"] = pbs::content_hash(bytes);  run["provenance"] = provenance;
 #pragma once
 
-#include "pbs/geometry/types.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 

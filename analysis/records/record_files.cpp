@@ -1,9 +1,8 @@
 #include "analysis/records/record_files.hpp"
 
-#include "pbs/geometry/atomic_file.hpp"
+#include "pbs/geometry/child_process.hpp"
+#include "pbs/geometry/files.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/process.hpp"
-#include "pbs/geometry/text_file.hpp"
 
 #include <nlohmann/json.hpp>
 #include <unistd.h>

@@ -8,7 +8,7 @@
 // grid_convergence.hpp observes it from four nested solutions, and fits.hpp from the errors on any number of meshes.
 #pragma once
 
-#include "pbs/geometry/types.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 
 #include <array>
 

@@ -6,13 +6,12 @@
 #include "experiments/process/terminal.hpp"
 #include "pbs/character/bodies.hpp"
 #include "pbs/character/body_cache.hpp"
-#include "pbs/character/frankie.hpp"
-#include "pbs/character/makehuman.hpp"
+#include "pbs/character/named_bodies.hpp"
+#include "pbs/geometry/child_process.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/mesh_remarks.hpp"
+#include "pbs/geometry/mesh_io.hpp"
 #include "pbs/geometry/meshing.hpp"
-#include "pbs/geometry/process.hpp"
-#include "pbs/geometry/quality.hpp"
+#include "pbs/geometry/topology.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

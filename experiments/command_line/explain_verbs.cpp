@@ -9,7 +9,6 @@
 #include "experiments/studies/study_costs.hpp"
 #include "generated/pages_texts.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/nearest_name.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -10,10 +10,9 @@
 #include "experiments/run/frame_measurement.hpp"
 #include "experiments/run/metrics_table.hpp"
 #include "experiments/verdicts/check/check_run.hpp"
+#include "pbs/geometry/cost.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/mesh_io.hpp"
-#include "pbs/geometry/mesh_remarks.hpp"
-#include "pbs/geometry/stopwatch.hpp"
 #include "pbs/geometry/topology.hpp"
 
 #include <CLI/CLI.hpp>

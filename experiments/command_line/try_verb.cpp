@@ -9,8 +9,8 @@
 #include "experiments/trial/trial.hpp"
 #include "pbs/character/body_cache.hpp"
 #include "pbs/character/json_file.hpp"
+#include "pbs/geometry/files.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/text_file.hpp"
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>

@@ -1,7 +1,7 @@
 #include "experiments/process/terminal.hpp"
 
+#include "pbs/geometry/child_process.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/isolated_reader.hpp"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>

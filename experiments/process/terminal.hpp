@@ -1,7 +1,7 @@
 // The terminal that standard output goes to.
 #pragma once
 
-#include "pbs/geometry/stopwatch.hpp"
+#include "pbs/geometry/cost.hpp"
 
 #include <cstddef>
 #include <string>

@@ -7,8 +7,8 @@
 #include "analysis/metrics/frame_metrics.hpp"
 #include "experiments/scene/scene.hpp"
 #include "pbs/character/character.hpp"
-#include "pbs/character/overlap_mask.hpp"
-#include "pbs/geometry/types.hpp"
+#include "pbs/character/overlap_and_jiggle.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/solver/step_summary.hpp"
 
 #include <nlohmann/json_fwd.hpp>

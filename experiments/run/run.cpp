@@ -7,10 +7,10 @@
 #include "experiments/run/reference_error_bar.hpp"
 #include "experiments/run/run_folder.hpp"
 #include "experiments/scene/scene.hpp"
-#include "pbs/character/body_remarks.hpp"
-#include "pbs/character/input_file.hpp"
+#include "pbs/character/bodies.hpp"
+#include "pbs/character/body_cache.hpp"
+#include "pbs/geometry/cost.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/stopwatch.hpp"
 #include "pbs/solver/step_summary.hpp"
 
 #include <fmt/chrono.h>

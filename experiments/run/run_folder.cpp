@@ -6,11 +6,11 @@
 #include "experiments/run/run.hpp"
 #include "experiments/run/run_records.hpp"
 #include "experiments/scene/scene.hpp"
-#include "pbs/character/input_file.hpp"
+#include "pbs/character/body_cache.hpp"
 #include "pbs/character/model_character.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/mesh_io.hpp"
-#include "pbs/geometry/quality.hpp"
+#include "pbs/geometry/topology.hpp"
 
 #include <fmt/format.h>
 

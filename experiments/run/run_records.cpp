@@ -1,9 +1,9 @@
 #include "experiments/run/run_records.hpp"
 
 #include "experiments/process/machine.hpp"
-#include "pbs/character/input_file.hpp"
+#include "pbs/character/body_cache.hpp"
 #include "pbs/character/model_character.hpp"
-#include "pbs/character/transferred_weights.hpp"
+#include "pbs/character/skinning_weights.hpp"
 #include "pbs/geometry/mesh_io.hpp"
 #include "pbs/skinning/weights.hpp"
 

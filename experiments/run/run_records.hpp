@@ -6,8 +6,8 @@
 #include "analysis/records/tables.hpp"
 #include "experiments/process/machine.hpp"
 #include "pbs/character/character.hpp"
-#include "pbs/geometry/stopwatch.hpp"
-#include "pbs/geometry/types.hpp"
+#include "pbs/geometry/cost.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 

@@ -9,9 +9,8 @@
 #include "pbs/character/clip.hpp"
 #include "pbs/character/model_character.hpp"
 #include "pbs/character/skinning_weights.hpp"
+#include "pbs/geometry/files.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/name_list.hpp"
-#include "pbs/geometry/text_file.hpp"
 #include "pbs/rig/rig_reader.hpp"
 #include "pbs/skinning/pose_path.hpp"
 

@@ -6,7 +6,7 @@
 #include "experiments/settings/option_names.hpp"
 #include "experiments/settings/scene_values.hpp"
 #include "pbs/character/bodies.hpp"
-#include "pbs/character/clip_match.hpp"
+#include "pbs/character/clip.hpp"
 #include "pbs/skinning/pose.hpp"
 #include "pbs/skinning/pose_path.hpp"
 

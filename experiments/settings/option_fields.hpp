@@ -12,7 +12,7 @@
 
 #include "experiments/settings/option_names.hpp"
 #include "experiments/settings/scene_values.hpp"
-#include "pbs/geometry/types.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -1,9 +1,8 @@
 #include "experiments/settings/scene_values.hpp"
 
 #include "analysis/records/record_files.hpp"
+#include "pbs/geometry/files.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/nearest_name.hpp"
-#include "pbs/geometry/toml_text.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -3,8 +3,8 @@
 #include "analysis/records/record_files.hpp"
 #include "experiments/process/machine.hpp"
 #include "experiments/run/run.hpp"
+#include "pbs/geometry/cost.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/stopwatch.hpp"
 
 #include <spdlog/spdlog.h>
 

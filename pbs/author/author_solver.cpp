@@ -1,8 +1,8 @@
 #include "pbs/author/author_solver.hpp"
 
+#include "pbs/geometry/cost.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/stopwatch.hpp"
-#include "pbs/geometry/tet_volume.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 
 #include <set>
 #include <utility>

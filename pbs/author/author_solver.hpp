@@ -15,7 +15,6 @@
 
 #include "pbs/author/author_constraints.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
-#include "pbs/geometry/types.hpp"
 #include "pbs/skinning/blend.hpp"
 #include "pbs/skinning/weights.hpp"
 #include "pbs/solver/step_summary.hpp"

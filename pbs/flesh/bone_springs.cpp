@@ -1,6 +1,6 @@
 #include "pbs/flesh/bone_springs.hpp"
 
-#include "pbs/geometry/point_location.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 
 #include <Eigen/Eigenvalues>
 

@@ -1,7 +1,7 @@
 #include "pbs/flesh/flesh_energy.hpp"
 
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/tet_volume.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>

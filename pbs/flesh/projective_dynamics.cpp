@@ -3,7 +3,6 @@
 #include "pbs/flesh/flesh_energy.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/nearest_rotation.hpp"
-#include "pbs/geometry/number_text.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>

@@ -13,7 +13,6 @@
 #include "pbs/flesh/bone_springs.hpp"
 #include "pbs/flesh/flesh_system.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
-#include "pbs/geometry/types.hpp"
 
 #include <array>
 #include <vector>

@@ -3,7 +3,7 @@
 // of three or two round an edge, or alone. Grouping changes the order of projection and so, a little, what 24 iterations give.
 #pragma once
 
-#include "pbs/geometry/types.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/packed/batch.hpp"
 #include "pbs/packed/vertex_order.hpp"
 

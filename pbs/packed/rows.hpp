@@ -1,7 +1,7 @@
 // An array of rows x, y, z and one more number, as the kernels need it: 64 bytes aligned, and whole blocks of sixteen rows.
 #pragma once
 
-#include "pbs/geometry/types.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 
 #include <vector>
 

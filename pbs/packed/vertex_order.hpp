@@ -5,7 +5,7 @@
 // worked off in parallel. Slabs belong to the mesh, never to the number of threads, so that every number of threads gives the same bits.
 #pragma once
 
-#include "pbs/geometry/types.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 
 #include <vector>
 

@@ -1,7 +1,7 @@
 // One pose of the skeleton, and a motion as a sequence of them.
 #pragma once
 
-#include "pbs/geometry/types.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 
 #include <Eigen/Geometry>
 

@@ -1,6 +1,6 @@
 #include "pbs/solver/algorithm_1.hpp"
 
-#include "pbs/geometry/stopwatch.hpp"
+#include "pbs/geometry/cost.hpp"
 #include "pbs/geometry/topology.hpp"
 #include "pbs/solver/step_summary.hpp"
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "pbs/geometry/precision.hpp"
-#include "pbs/geometry/types.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 
 #include <optional>
 
@@ -49,7 +49,7 @@ enum class BindOnBone { pinned, unbound };
 enum class BindTo { bone_distance, blended_position };
 
 // The volumes that are constrained. tets: each tet's (Sec. 3.5). regions: the sum over each region of about region_tets tets
-// (pbs/geometry/tet_regions.hpp). tets_and_regions: the tets', then the regions'.
+// (pbs/geometry/tet_mesh.hpp). tets_and_regions: the tets', then the regions'.
 enum class VolumeOf { tets, regions, tets_and_regions };
 
 // Stiffnesses of the jiggling zone, in [0, 1]. A zone that a solver is given jiggles only where options have one of these.

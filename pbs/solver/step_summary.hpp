@@ -1,7 +1,7 @@
 // The summary of one step: residuals, the reason why it stopped, and its time.
 #pragma once
 
-#include "pbs/geometry/work_counters.hpp"
+#include "pbs/geometry/cost.hpp"
 #include "pbs/solver/constraint_set.hpp"
 
 #include <cstddef>

@@ -1,8 +1,8 @@
 #include "pbs/solver/xpbd_solver.hpp"
 
+#include "pbs/geometry/cost.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/stopwatch.hpp"
-#include "pbs/geometry/tet_volume.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/geometry/topology.hpp"
 #include "pbs/solver/batched/batched_xpbd_projection.hpp"
 #include "pbs/solver/particles.hpp"

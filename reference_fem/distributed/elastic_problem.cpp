@@ -1,6 +1,6 @@
 #include "reference_fem/distributed/elastic_problem.hpp"
 
-#include "pbs/geometry/point_location.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 #include "reference_fem/attachment.hpp"
 #include "reference_fem/options.hpp"
 

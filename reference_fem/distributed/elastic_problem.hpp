@@ -2,8 +2,8 @@
 // not depend on how many processes found it.
 #pragma once
 
-#include "pbs/geometry/stopwatch.hpp"
-#include "pbs/geometry/types.hpp"
+#include "pbs/geometry/cost.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 #include "reference_fem/attachment.hpp"
 #include "reference_fem/linear_elasticity.hpp"
 #include "reference_fem/options.hpp"

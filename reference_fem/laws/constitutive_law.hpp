@@ -9,7 +9,7 @@
 
 #include "reference_fem/options.hpp"
 
-#include "pbs/geometry/types.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 
 #include <Eigen/Core>
 

@@ -1,6 +1,6 @@
 #include "reference_fem/newton/newton.hpp"
 
-#include "pbs/geometry/stopwatch.hpp"
+#include "pbs/geometry/cost.hpp"
 #include "reference_fem/linear_solvers.hpp"
 
 #include <algorithm>

@@ -9,7 +9,7 @@
 // Journal 19, 1967).
 #pragma once
 
-#include "pbs/geometry/work_counters.hpp"
+#include "pbs/geometry/cost.hpp"
 #include "reference_fem/linear_solvers.hpp"
 #include "reference_fem/potentials/potentials.hpp"
 

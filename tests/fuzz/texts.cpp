@@ -2,7 +2,7 @@
 // scene. The result is valid or an InputError.
 #include "analysis/records/tables.hpp"
 #include "experiments/settings/scene_values.hpp"
-#include "pbs/character/bvh_header.hpp"
+#include "pbs/character/clip.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "tests/fuzz/fuzzed_schema.hpp"
 

@@ -11,7 +11,7 @@
 // the norm of its two definite blocks, since e^T diag(1, -1) K e = e^T diag(1, -1) r.
 #pragma once
 
-#include "pbs/geometry/tet_volume.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 #include "reference_fem/attachment.hpp"
 #include "reference_fem/linear_elasticity.hpp"
 #include "reference_fem/linear_flesh.hpp"

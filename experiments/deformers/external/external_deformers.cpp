@@ -3,7 +3,8 @@
 #include "experiments/deformers/deformer_kind.hpp"
 #include "experiments/deformers/external/pbskin_deformer.h"
 #include "pbs/character/body_cache.hpp"
-#include "pbs/character/input_file.hpp"
+#include "pbs/geometry/cost.hpp"
+#include "pbs/geometry/files.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/text_file.hpp"
 

@@ -2,10 +2,9 @@
 #include "experiments/deformers/external/external_deformers.hpp"
 #include "experiments/process/child_process.hpp"
 #include "experiments/process/terminal.hpp"
-#include "pbs/geometry/atomic_file.hpp"
+#include "pbs/geometry/cost.hpp"
+#include "pbs/geometry/files.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/stopwatch.hpp"
-#include "pbs/geometry/text_file.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -1,8 +1,8 @@
 #include "experiments/deformers/fem/fem_deformers.hpp"
 
 #include "experiments/deformers/fem/fem_options.hpp"
-#include "pbs/geometry/stopwatch.hpp"
-#include "pbs/geometry/tet_volume.hpp"
+#include "pbs/geometry/cost.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/skinning/blend.hpp"
 #include "pbs/skinning/pose_path.hpp"
 #include "pbs/skinning/weights.hpp"

@@ -4,7 +4,7 @@
 #include "experiments/deformers/deformer.hpp"
 #include "experiments/settings/option_names.hpp"
 #include "pbs/character/bone_capsules.hpp"
-#include "pbs/geometry/types.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 #include "reference_fem/options.hpp"
 
 namespace experiments {

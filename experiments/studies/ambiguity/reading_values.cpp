@@ -8,7 +8,7 @@
 #include "experiments/studies/jiggle/jiggle_values.hpp"
 #include "experiments/studies/momentum/momentum_drift.hpp"
 #include "experiments/studies/shared/timed_rounds.hpp"
-#include "pbs/character/jiggle_zone_contents.hpp"
+#include "pbs/character/overlap_and_jiggle.hpp"
 
 #include <fmt/format.h>
 

@@ -5,7 +5,7 @@
 #include "experiments/deformers/registry.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "experiments/studies/shared/posed_reference.hpp"
-#include "pbs/geometry/tet_volume.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 
 #include <fmt/format.h>
 

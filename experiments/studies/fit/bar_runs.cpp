@@ -5,7 +5,7 @@
 #include "experiments/settings/option_fields.hpp"
 #include "experiments/studies/fit/young_fit.hpp"
 #include "pbs/character/bodies.hpp"
-#include "pbs/near_rest/step_near_rest.hpp"
+#include "pbs/near_rest/near_rest.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -8,7 +8,7 @@
 #include "experiments/studies/jiggle/jiggle_settings.hpp"
 #include "experiments/studies/jiggle/jolt_response.hpp"
 #include "experiments/studies/jiggle/walk_response.hpp"
-#include "pbs/character/jiggle_zone_contents.hpp"
+#include "pbs/character/overlap_and_jiggle.hpp"
 
 #include <string>
 #include <vector>

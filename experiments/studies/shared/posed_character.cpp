@@ -4,7 +4,7 @@
 #include "experiments/run/frame_measurement.hpp"
 #include "experiments/scene/scene.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/tet_volume.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/geometry/topology.hpp"
 #include "pbs/skinning/blend.hpp"
 #include "pbs/solver/pbs_solver.hpp"

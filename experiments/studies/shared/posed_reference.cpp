@@ -4,10 +4,10 @@
 #include "experiments/process/terminal.hpp"
 #include "experiments/run/frame_measurement.hpp"
 #include "experiments/run/reference_error_bar.hpp"
-#include "pbs/character/overlap_mask.hpp"
-#include "pbs/character/refined_character.hpp"
+#include "pbs/character/character.hpp"
+#include "pbs/character/overlap_and_jiggle.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/tet_volume.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -2,7 +2,7 @@
 
 #include "analysis/statistics/statistics.hpp"
 #include "experiments/settings/option_fields.hpp"
-#include "pbs/geometry/stopwatch.hpp"
+#include "pbs/geometry/cost.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -8,7 +8,7 @@
 #include "experiments/run/frame_measurement.hpp"
 #include "experiments/studies/stability/deformer_option.hpp"
 #include "experiments/studies/stability/stability_body.hpp"
-#include "pbs/geometry/tet_volume.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 
 #include "experiments/deformers/deformer.hpp"
 #include "experiments/settings/option_names.hpp"
-#include "pbs/geometry/types.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 

@@ -8,7 +8,7 @@
 #include "analysis/records/tables.hpp"
 #include "experiments/settings/option_names.hpp"
 #include "experiments/studies/shared/loaded_body.hpp"
-#include "pbs/near_rest/step_near_rest.hpp"
+#include "pbs/near_rest/near_rest.hpp"
 
 #include <string>
 

@@ -7,7 +7,7 @@
 
 #include "analysis/statistics/minimise.hpp"
 #include "experiments/deformers/fem/fem_deformers.hpp"
-#include "pbs/geometry/stopwatch.hpp"
+#include "pbs/geometry/cost.hpp"
 
 #include <algorithm>
 #include <cmath>

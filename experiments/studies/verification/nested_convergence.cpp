@@ -6,7 +6,7 @@
 
 #include "analysis/statistics/fits.hpp"
 #include "analysis/statistics/grid_convergence.hpp"
-#include "pbs/geometry/refinement.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 
 #include <cmath>
 #include <limits>

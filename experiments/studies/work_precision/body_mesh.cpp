@@ -1,6 +1,6 @@
 #include "experiments/studies/work_precision/body_mesh.hpp"
 
-#include "pbs/character/refined_character.hpp"
+#include "pbs/character/character.hpp"
 
 namespace experiments {
 

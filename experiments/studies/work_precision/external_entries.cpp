@@ -6,8 +6,8 @@
 #include "experiments/scene/scene.hpp"
 #include "experiments/settings/scene_values.hpp"
 #include "experiments/studies/work_precision/deformer_groups.hpp"
+#include "pbs/geometry/files.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/text_file.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -11,7 +11,7 @@
 #include "experiments/studies/work_precision/body_mesh.hpp"
 #include "experiments/studies/work_precision/case_split.hpp"
 #include "experiments/studies/work_precision/frame_clock.hpp"
-#include "pbs/geometry/work_counters.hpp"
+#include "pbs/geometry/cost.hpp"
 
 namespace experiments {
 

@@ -1,8 +1,8 @@
 #include "reference_fem/verification/calculix/calculix_run.hpp"
 
 #include "analysis/records/record_files.hpp"
+#include "pbs/geometry/cost.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/stopwatch.hpp"
 
 #include <fcntl.h>
 #include <poll.h>

@@ -2,7 +2,7 @@
 //   if (const auto program = calculix_on_path()) run_calculix(*program, deck, {});
 #pragma once
 
-#include "pbs/geometry/types.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 #include "reference_fem/verification/calculix/calculix_deck.hpp"
 
 #include <functional>

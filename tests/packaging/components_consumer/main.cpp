@@ -3,7 +3,7 @@
 #include "analysis/metrics/frame_metrics.hpp"
 #include "pbs/character/bodies.hpp"
 #include "pbs/geometry/mesh_io.hpp"
-#include "pbs/geometry/tet_volume.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 #include "reference_fem/linear_elasticity.hpp"
 
 #include <cstdio>

@@ -7,7 +7,7 @@
 #include "pbs/solver/pbs_solver.hpp"
 
 #include "pbs/geometry/meshing.hpp"
-#include "pbs/geometry/refinement.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 #include "tests/support/step_rounding.hpp"
 #include "tests/support/two_bone_limb.hpp"
 

@@ -3,7 +3,7 @@
 
 #include "analysis/metrics/frame_metrics.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/tet_volume.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/geometry/topology.hpp"
 #include "tests/support/rounding_error.hpp"
 #include "tests/support/structured_bar.hpp"

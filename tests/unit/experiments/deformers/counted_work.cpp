@@ -1,4 +1,4 @@
-// Reference: the definitions in pbs/geometry/work_counters.hpp, counted by hand on a bar.
+// Reference: the definitions in pbs/geometry/cost.hpp, counted by hand on a bar.
 #include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "pbs/author/author_solver.hpp"

@@ -4,7 +4,7 @@
 
 #include "analysis/metrics/frame_metrics.hpp"
 #include "experiments/studies/volume/region_table.hpp"
-#include "pbs/geometry/tet_volume.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 #include "tests/support/limb_character.hpp"
 #include "tests/support/motion_rounding.hpp"
 #include "tests/support/volume_rounding.hpp"

@@ -2,7 +2,7 @@
 #include "pbs/author/author_solver.hpp"
 
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/tet_volume.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 #include "tests/support/rounding_error.hpp"
 #include "tests/support/two_bone_limb.hpp"
 

@@ -1,7 +1,7 @@
 // Reference: volumes in closed form, and the topology of a ball. Tolerances: the roundings of tets' volumes and of their sum. Where
 // coordinates are multiples of 1/2 a volume is rounded once, by its division by 6.
 
-#include "pbs/geometry/tet_volume.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/geometry/topology.hpp"
 #include "reference_fem/verification/problems.hpp"
 #include "tests/support/volume_rounding.hpp"

@@ -4,7 +4,7 @@
 #include "experiments/deformers/external/external_deformers.hpp"
 #include "experiments/scene/scene.hpp"
 #include "experiments/studies/work_precision/measured_points.hpp"
-#include "pbs/geometry/text_file.hpp"
+#include "pbs/geometry/files.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/unit/pbs/character/expect_input_error.hpp"
 
