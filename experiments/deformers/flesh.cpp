@@ -4,7 +4,7 @@
 // and a kind whose keys begin with flesh_fields.
 #include "experiments/deformers/deformer_kind.hpp"
 #include "experiments/process/machine.hpp"
-#include "pbs/character/capsule_springs.hpp"
+#include "pbs/character/bone_capsules.hpp"
 #include "pbs/flesh/flesh_energy.hpp"
 #include "pbs/flesh/held_flesh.hpp"
 #include "pbs/flesh/projective_dynamics.hpp"

@@ -2,7 +2,7 @@
 // substeps with one iteration each) and whose jiggling vertices are those of PBS, and the code that the paper's first author published.
 #include "experiments/deformers/deformer_kind.hpp"
 #include "pbs/author/author_solver.hpp"
-#include "pbs/geometry/stopwatch.hpp"
+#include "pbs/geometry/cost.hpp"
 #include "pbs/skinning/blend.hpp"
 #include "pbs/solver/pbs_solver.hpp"
 #include "pbs/solver/xpbd_solver.hpp"

@@ -3,7 +3,7 @@
 #include "experiments/deformers/deformer_options.hpp"
 #include "experiments/settings/scene_values.hpp"
 #include "pbs/character/skinning_weights.hpp"
-#include "pbs/geometry/stopwatch.hpp"
+#include "pbs/geometry/cost.hpp"
 
 #include <algorithm>
 #include <array>

@@ -6,7 +6,6 @@
 #include "pbs/geometry/cost.hpp"
 #include "pbs/geometry/files.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/text_file.hpp"
 
 #include <dlfcn.h>
 #include <fmt/format.h>

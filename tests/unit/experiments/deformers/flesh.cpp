@@ -1,4 +1,4 @@
-// The deformers that minimise the energy of elastic flesh. Reference: the definitions in pbs/geometry/work_counters.hpp, counted by hand on
+// The deformers that minimise the energy of elastic flesh. Reference: the definitions in pbs/geometry/cost.hpp, counted by hand on
 // a bar, the contract of experiments/deformers/deformer.hpp, and the plain code.
 #include "experiments/deformers/registry.hpp"
 #include "experiments/scene/scene.hpp"
