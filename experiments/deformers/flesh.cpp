@@ -20,20 +20,14 @@
 namespace experiments {
 
 template <>
-struct OptionNames<pbs::FleshStart> {
-    static constexpr std::array<std::pair<pbs::FleshStart, const char*>, 2> table{
-        {{pbs::FleshStart::smooth_dqs, "smooth_dqs"}, {pbs::FleshStart::lbs, "lbs"}}};
-};
+inline constexpr NameTable<pbs::FleshStart, 2> option_names<pbs::FleshStart>{
+    {{pbs::FleshStart::smooth_dqs, "smooth_dqs"}, {pbs::FleshStart::lbs, "lbs"}}};
 template <>
-struct OptionNames<pbs::Acceleration> {
-    static constexpr std::array<std::pair<pbs::Acceleration, const char*>, 2> table{
-        {{pbs::Acceleration::over_relaxation, "over_relaxation"}, {pbs::Acceleration::chebyshev, "chebyshev"}}};
-};
+inline constexpr NameTable<pbs::Acceleration, 2> option_names<pbs::Acceleration>{
+    {{pbs::Acceleration::over_relaxation, "over_relaxation"}, {pbs::Acceleration::chebyshev, "chebyshev"}}};
 template <>
-struct OptionNames<pbs::XpbdMultipliers> {
-    static constexpr std::array<std::pair<pbs::XpbdMultipliers, const char*>, 3> table{
-        {{pbs::XpbdMultipliers::kept, "kept"}, {pbs::XpbdMultipliers::of_step, "of_step"}, {pbs::XpbdMultipliers::reset, "reset"}}};
-};
+inline constexpr NameTable<pbs::XpbdMultipliers, 3> option_names<pbs::XpbdMultipliers>{
+    {{pbs::XpbdMultipliers::kept, "kept"}, {pbs::XpbdMultipliers::of_step, "of_step"}, {pbs::XpbdMultipliers::reset, "reset"}}};
 
 namespace {
 

@@ -48,10 +48,8 @@ struct OutputSpec {
 enum class ErrorBar { none, orders, refined, both };
 
 template <>
-struct OptionNames<ErrorBar> {
-    static constexpr std::array<std::pair<ErrorBar, const char*>, 4> table{
-        {{ErrorBar::none, "none"}, {ErrorBar::orders, "orders"}, {ErrorBar::refined, "refined"}, {ErrorBar::both, "both"}}};
-};
+inline constexpr NameTable<ErrorBar, 4> option_names<ErrorBar>{
+    {{ErrorBar::none, "none"}, {ErrorBar::orders, "orders"}, {ErrorBar::refined, "refined"}, {ErrorBar::both, "both"}}};
 
 struct Scene {
     std::string name, file;

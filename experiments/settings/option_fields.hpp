@@ -6,7 +6,7 @@
 //   fields.keys()               the keys, for a schema; the defaults are those of pbs::XpbdOptions{}
 //   fields.read(values, "xpbd") the options as a scene states them
 //   fields.json(options)        all fields by name, for a record
-// A member is a number, a bool, a text, a Vec3, a list of integers or texts, or an enumeration with OptionNames. It may belong to a base
+// A member is a number, a bool, a text, a Vec3, a list of integers or texts, or an enumeration with option_names. It may belong to a base
 // class of the options.
 #pragma once
 

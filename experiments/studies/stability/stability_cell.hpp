@@ -31,18 +31,14 @@ struct Disturbance {
 enum class Defect { none, slivers, needles };
 
 template <>
-struct OptionNames<Start> {
-    static constexpr std::array<std::pair<Start, const char*>, 5> table{{{Start::none, "none"},
-                                                                         {Start::flattened, "flattened"},
-                                                                         {Start::mirrored, "mirrored"},
-                                                                         {Start::random, "random"},
-                                                                         {Start::point, "point"}}};
-};
+inline constexpr NameTable<Start, 5> option_names<Start>{{{Start::none, "none"},
+                                                          {Start::flattened, "flattened"},
+                                                          {Start::mirrored, "mirrored"},
+                                                          {Start::random, "random"},
+                                                          {Start::point, "point"}}};
 template <>
-struct OptionNames<Defect> {
-    static constexpr std::array<std::pair<Defect, const char*>, 3> table{
-        {{Defect::none, "none"}, {Defect::slivers, "slivers"}, {Defect::needles, "needles"}}};
-};
+inline constexpr NameTable<Defect, 3> option_names<Defect>{
+    {{Defect::none, "none"}, {Defect::slivers, "slivers"}, {Defect::needles, "needles"}}};
 
 inline constexpr double g_m_s2 = 9.81;  // one g
 

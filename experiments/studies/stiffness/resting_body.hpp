@@ -18,13 +18,11 @@ namespace experiments {
 // substeps of one iteration as there are iterations. xpbd_forgetting resets its multipliers in every iteration: a control that has to fail.
 enum class Method { pbs, exponent, xpbd, xpbd_small_steps, xpbd_forgetting };
 template <>
-struct OptionNames<Method> {
-    static constexpr std::array<std::pair<Method, const char*>, 5> table{{{Method::pbs, "pbs"},
-                                                                          {Method::exponent, "exponent"},
-                                                                          {Method::xpbd, "xpbd"},
-                                                                          {Method::xpbd_small_steps, "xpbd_small_steps"},
-                                                                          {Method::xpbd_forgetting, "xpbd_forgetting"}}};
-};
+inline constexpr NameTable<Method, 5> option_names<Method>{{{Method::pbs, "pbs"},
+                                                            {Method::exponent, "exponent"},
+                                                            {Method::xpbd, "xpbd"},
+                                                            {Method::xpbd_small_steps, "xpbd_small_steps"},
+                                                            {Method::xpbd_forgetting, "xpbd_forgetting"}}};
 inline bool is_xpbd(Method method)
 {
     return method != Method::pbs && method != Method::exponent;

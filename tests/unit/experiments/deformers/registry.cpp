@@ -197,9 +197,7 @@ private:
 namespace experiments {
 
 template <>
-struct OptionNames<Direction> {
-    static constexpr std::array<std::pair<Direction, const char*>, 2> table{{{Direction::up, "up"}, {Direction::down, "down"}}};
-};
+inline constexpr NameTable<Direction, 2> option_names<Direction>{{{Direction::up, "up"}, {Direction::down, "down"}}};
 
 }  // namespace experiments
 
