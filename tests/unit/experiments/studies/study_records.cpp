@@ -2,7 +2,7 @@
 
 #include "analysis/records/record_files.hpp"
 #include "analysis/verdicts/measurement.hpp"
-#include "experiments/verdicts/study_records.hpp"
+#include "experiments/studies/reproduce.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "tests/support/scratch_folder.hpp"
 
