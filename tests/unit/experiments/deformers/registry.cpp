@@ -156,14 +156,8 @@ TEST_P(EveryDeformer, RecordsEachOfItsKeysAndRefusesValuesOutOfRange)
     }
 }
 
-}  // namespace
-
 // A deformer added by another program: its own options and keys, in a scene, a frame and the records, without a change elsewhere.
 // Reference: the specification in experiments/deformers/deformer_kind.hpp.
-
-namespace {
-
-using namespace experiments;
 
 enum class Direction { up, down };
 

@@ -76,11 +76,7 @@ TEST(OwnProcess, ADeathIsAnError)
                  pbs::InputError);
 }
 
-}  // namespace
-
 // Whether a program can be started is known before it is. Reference: execvp of POSIX, which seeks names without a slash on the PATH.
-
-namespace {
 
 using namespace experiments;
 
@@ -125,11 +121,7 @@ TEST(ProgramRun, DoesNotFindProgramsFromTheCurrentFolder)
     fs::current_path(before);
 }
 
-}  // namespace
-
 // Work in several processes at once: results are returned, and a worker's failure or death does not affect the others.
-
-namespace {
 
 using experiments::PooledWork;
 using experiments::run_in_pool;

@@ -152,11 +152,7 @@ TEST_F(SelectBlasKernels, AnOpenBlasThatIsLoadedAlreadyIsLeftAsItIs)
 }
 #endif
 
-}  // namespace
-
 // Processors kept busy, from texts of /proc/stat. Reference: the columns of proc(5), added by hand.
-
-namespace {
 
 using experiments::busy_processors;
 using experiments::processor_ticks;

@@ -62,10 +62,6 @@ TEST(Failure, MemoryAndInterruptionHaveTheirOwn)
     EXPECT_EQ(failure_of(Interrupted{}).status, exit_interrupted);
 }
 
-}  // namespace
-
-namespace {
-
 using experiments::terminal_has_colours;
 using experiments::terminal_width;
 

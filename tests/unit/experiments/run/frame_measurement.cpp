@@ -147,12 +147,8 @@ TEST(FrameMeasurement, AnErrorNotAboveTheReferencesOwnIsMarked)
     EXPECT_FALSE(measured.error_below_reference_error());
 }
 
-}  // namespace
-
 // The places at which limbs are cut. Reference: the built-in limb's geometry, a capsule of radius 0.15 m around (-1,0,0) -> 0 -> (1,0,0).
 // Tolerances: the rounding of a motion, and of the mean of two directions, which counts as another.
-
-namespace {
 
 pbs::Character small_limb()
 {
@@ -208,11 +204,7 @@ TEST(LimbStations, AJointFoldedBackStillHasANormal)
         EXPECT_NEAR(experiments::posed_normal(station, motion.steps[1]).norm(), 1.0, test_support::motion_error(2, 1.0));
 }
 
-}  // namespace
-
 // Reference: the vertices and tets that were broken.
-
-namespace {
 
 using namespace experiments;
 

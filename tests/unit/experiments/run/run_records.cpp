@@ -86,11 +86,7 @@ TEST(BoneRecord, AVertexBelongsToItsNearestBone)
     EXPECT_LT(blended, std::ssize(vertices));
 }
 
-}  // namespace
-
 // The cost of a run. Reference: parts that take at least a known time, and memory that is allocated.
-
-namespace {
 
 using experiments::CostRecord;
 
@@ -155,11 +151,7 @@ TEST(CostRecord, PeakMemoryStaysWhenItIsGivenBack)
     EXPECT_GT(cost.json().at("shared_objects").get<int>(), 0);
 }
 
-}  // namespace
-
 // Reference: distances of a few points by hand.
-
-namespace {
 
 using experiments::DistanceRecord;
 
@@ -199,14 +191,8 @@ TEST(DistanceRecord, FramesAreNotComparedWithEachOther)
     EXPECT_EQ(record.table().number(0, "largest_mm"), 0.0);
 }
 
-}  // namespace
-
 // Reference: geometry of a bar with two bones along x: tets belong to the nearest bone, blended ones around the middle; the shares of a
 // record add up to the body and its changes to those of the metrics.
-
-namespace {
-
-using namespace experiments;
 
 const test_support::TwoBoneLimb& bent()
 {
@@ -321,13 +307,7 @@ TEST(RegionTable, NamesTheGreatestLossFirst)
     EXPECT_EQ(all.text_at(3, "run"), "sweep");
 }
 
-}  // namespace
-
 // A run's records about a rigged model. Reference: a model made by hand.
-
-namespace {
-
-using namespace experiments;
 
 // Weights of one vertex after the other: (bone, weight) pairs.
 pbs::Weights weights_of(const std::vector<std::vector<std::pair<int, double>>>& vertices)
@@ -413,13 +393,7 @@ TEST_F(ModelRecord, AModelWithoutAnimationAndJointsHasNeither)
     EXPECT_EQ(found.at("joints"), nlohmann::json::array());
 }
 
-}  // namespace
-
 // surface_rest.vtp and embedding.csv. Reference: an affine map preserves barycentric coordinates, inside a tet and outside.
-
-namespace {
-
-using namespace experiments;
 
 pbs::EmbeddedSurface triangle(const pbs::TetMesh& mesh)
 {

@@ -124,11 +124,7 @@ TEST(Scene, EveryKeyIsDocumented)
     }
 }
 
-}  // namespace
-
 // The motion of a scene with its remarks. Reference: clips and a model written here, whose joints and angles are known.
-
-namespace {
 
 using namespace experiments;
 

@@ -166,13 +166,7 @@ TEST_F(TrialSceneTest, RefusesWhatNoSceneCanHold)
     expect_input_error([&] { trial_scene(options_for(folder / "none.gltf")); }, folder / "none.gltf", "no such file");
 }
 
-}  // namespace
-
 // The findings of a trial. Reference: records written by hand, evaluated by hand.
-
-namespace {
-
-using namespace experiments;
 
 const std::string metrics_header = "deformer,frame,volume_change_pct,inverted_tets,step_ms,error_joint_pct\n";
 const std::string regions_header = "deformer,kind,bone,second_bone,rest_share_pct,change_pct\n";

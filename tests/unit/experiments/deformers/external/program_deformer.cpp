@@ -123,12 +123,6 @@ TEST_F(ExchangeFolder, RefusesFilesOfAnotherSizeAndTimesThatAreNone)
     }
 }
 
-}  // namespace
-
-namespace {
-
-using namespace experiments;
-
 class ProgramDeformer : public testing::Test {
 protected:
     ProgramDeformer() : character(test_support::bar_character({4, 1, 1}))

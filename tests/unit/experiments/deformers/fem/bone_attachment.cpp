@@ -177,13 +177,7 @@ TEST(SmoothAttachment, SpringsLieInTheCapsuleOfTheirBoneAndHaveItsDensity)
     }
 }
 
-}  // namespace
-
 // The attachment of the flesh is the same on a refined character. Reference: the continuous problem does not depend on the mesh.
-
-namespace {
-
-using namespace experiments;
 
 double volume_of(const pbs::TetMesh& mesh, const std::vector<int>& tets)
 {

@@ -180,15 +180,9 @@ TEST(EmbeddedBar, ElementOrderDoesNotChangeWhatIsGripped)
     EXPECT_EQ(grips[0], grips[1]);
 }
 
-}  // namespace
-
 // Reference: a manufactured solution of stable neo-Hookean flesh that is held by smooth springs
 // (experiments/studies/verification/manufactured_attachment.hpp). The verification record's problem nested_convergence shows the order and
 // the bound of nested solutions on it.
-
-namespace {
-
-using namespace experiments;
 
 double error_of(const pbs::TetMesh& mesh, int element_order, const ManufacturedSprings& springs = {})
 {
@@ -234,14 +228,8 @@ TEST(ManufacturedAttachment, SpringsOfAnotherWeightLeaveAnotherForce)
     for (const double weight : {0.5, 2.0}) EXPECT_GT(error_of(mesh, 1, {large_offset, weight}), 3.0 * right) << weight;
 }
 
-}  // namespace
-
 // Reference: the theory of quadrature. Twice as many sample points of the springs in every direction are a finer midpoint rule, whose error
 // falls to a quarter. The body is the bar of two bones, bent by 40 degrees, with stable neo-Hookean flesh.
-
-namespace {
-
-using namespace experiments;
 
 pbs::Positions bent_bar(const std::array<int, 3>& cells, const FemOptions& options)
 {
