@@ -3,7 +3,7 @@
 
 #include "analysis/metrics/frame_metrics.hpp"
 #include "analysis/records/record_files.hpp"
-#include "experiments/run/run_records.hpp"
+#include "experiments/run/run_folder.hpp"
 #include "experiments/studies/volume/region_table.hpp"
 #include "pbs/character/bodies.hpp"
 #include "pbs/character/model_character.hpp"
