@@ -141,7 +141,7 @@ void ElasticPoses::add_path(const pbs::Character& character, const std::vector<N
 std::optional<PoissonFit> fit_poisson(const pbs::Character& character, const ElasticPoses& elastic,
                                       const std::vector<pbs::Positions>& positions)
 {
-    const analysis::ErrorMetrics error_metrics = joint_metrics(character, prescribed_vertices(elastic));
+    const analysis::ErrorMetrics error_metrics = joint_metrics(character, elastic.prescribed());
     std::vector<analysis::Misfit> misfits;
     PoissonFit fit;
     fit.highest_poisson = highest_poisson;
