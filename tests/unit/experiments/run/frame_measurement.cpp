@@ -19,12 +19,9 @@ namespace {
 using experiments::FrameContext;
 using experiments::FrameMeasurer;
 
-pbs::Character small_limb()
+pbs::Character small_limb(int vertices = 400)
 {
-    pbs::CharacterSource source;
-    source.body = "limb";
-    source.vertices = 400;
-    return pbs::make_character(source);
+    return pbs::make_character({.body = "limb", .vertices = vertices});
 }
 
 pbs::Pose rest_pose(const pbs::Character& character)
@@ -150,17 +147,9 @@ TEST(FrameMeasurement, AnErrorNotAboveTheReferencesOwnIsMarked)
 // The places at which limbs are cut. Reference: the built-in limb's geometry, a capsule of radius 0.15 m around (-1,0,0) -> 0 -> (1,0,0).
 // Tolerances: the rounding of a motion, and of the mean of two directions, which counts as another.
 
-pbs::Character small_limb()
-{
-    pbs::CharacterSource source;
-    source.body = "limb";
-    source.vertices = 600;
-    return pbs::make_character(source);
-}
-
 TEST(LimbStations, StandAlongBothBonesAndAcrossTheJoint)
 {
-    const auto stations = experiments::limb_stations(small_limb());
+    const auto stations = experiments::limb_stations(small_limb(600));
     ASSERT_EQ(stations.size(), 11u);
     int joints = 0;
     for (const auto& station : stations) {
@@ -174,7 +163,7 @@ TEST(LimbStations, StandAlongBothBonesAndAcrossTheJoint)
 // The polygon inscribed in the circle of radius r has at least half the area of the circle, and at most all of it.
 TEST(LimbStations, CutTheWholeLimb)
 {
-    const pbs::Character limb = small_limb();
+    const pbs::Character limb = small_limb(600);
     const double circle = std::numbers::pi * 0.15 * 0.15;
     for (const auto& station : experiments::limb_stations(limb)) {
         const double area = analysis::cross_section_area(limb.mesh.rest, limb.mesh.tets, station.tets, {station.point, station.normal});
@@ -185,7 +174,7 @@ TEST(LimbStations, CutTheWholeLimb)
 
 TEST(LimbStations, MoveWithTheirBones)
 {
-    const pbs::Character limb = small_limb();
+    const pbs::Character limb = small_limb(600);
     const auto motion = pbs::joint_sweep(limb.skeleton, 1, pbs::Vec3::UnitZ(), 90.0, 2, 0.01);
     for (const auto& station : experiments::limb_stations(limb)) {
         const pbs::Vec3 normal = experiments::posed_normal(station, motion.steps[1]);
@@ -198,7 +187,7 @@ TEST(LimbStations, MoveWithTheirBones)
 // Opposite directions have no mean, so the direction of the first bone is used.
 TEST(LimbStations, AJointFoldedBackStillHasANormal)
 {
-    const pbs::Character limb = small_limb();
+    const pbs::Character limb = small_limb(600);
     const auto motion = pbs::joint_sweep(limb.skeleton, 1, pbs::Vec3::UnitZ(), 180.0, 2, 0.01);
     for (const auto& station : experiments::limb_stations(limb))
         EXPECT_NEAR(experiments::posed_normal(station, motion.steps[1]).norm(), 1.0, test_support::motion_error(2, 1.0));

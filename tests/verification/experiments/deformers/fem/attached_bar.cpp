@@ -2,7 +2,7 @@
 // a second solver. The body is the bar of two bones, with both attachments and both element orders.
 
 #include "experiments/deformers/fem/fem_deformers.hpp"
-#include "experiments/studies/verification/manufactured_attachment.hpp"
+#include "experiments/studies/verification/problem.hpp"
 #include "pbs/character/bodies.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 #include "tests/support/bar_character.hpp"
@@ -181,7 +181,7 @@ TEST(EmbeddedBar, ElementOrderDoesNotChangeWhatIsGripped)
 }
 
 // Reference: a manufactured solution of stable neo-Hookean flesh that is held by smooth springs
-// (experiments/studies/verification/manufactured_attachment.hpp). The verification record's problem nested_convergence shows the order and
+// (experiments/studies/verification/problem.hpp). The verification record's problem nested_convergence shows the order and
 // the bound of nested solutions on it.
 
 double error_of(const pbs::TetMesh& mesh, int element_order, const ManufacturedSprings& springs = {})
