@@ -97,13 +97,13 @@ nlohmann::json time_projections(const BenchBody& body, const std::vector<int>& t
 struct DeformerSetting {
     DeformerSpec spec;
     std::optional<DeformerSpec> twice;  // with twice the iterations; nothing if it has no key `iterations`
-    // order: `packed` or `plain` of a blend or a kind with the key `arithmetic`; empty without either key. precision: that of its traits
-    // without a key.
+    // order: that of the key, or `packed` or `plain` of a kind with the key `packed`; empty without either key. precision: that of its
+    // traits without a key.
     std::string order, precision;
     std::size_t plain = 0;  // its place in the list of the kind's settings
 };
 
-// One per value of `order`, `precision` and `arithmetic`, and the plain blend of LBS and DQS. The key of a list counts as that of its first
+// One per value of `order`, `precision` and `packed`, of which plain code has f64 alone. The key of a list counts as that of its first
 // table.
 std::vector<DeformerSetting> deformer_settings(const DeformerKind& kind);
 
