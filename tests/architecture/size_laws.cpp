@@ -18,6 +18,15 @@ const std::map<std::string, std::string> named_interfaces = {
     {"tests/support/precompiled.cpp", "the precompiled header of the tests"},
 };
 
+// Rooms whose files are small for a reason.
+const std::map<std::string, std::string> rooms_of_small_files = {
+    {"pbs/constraints/", "one constraint a file, as the paper's equations"},
+    {"tests/support/", "one fixture a header"},
+    {"tests/fuzz/", "one target a file"},
+    {"tests/packaging/", "projects of other people, as small as they would be"},
+    {"tests/benchmark/", "programs that are run by hand"},
+};
+
 struct Function {
     int line, lines;
 };
@@ -102,15 +111,15 @@ std::string exceeded(const std::string& what, int value, int most, const std::st
 
 // One line per budget: its folders, the kinds of its files, and its limits. A change that exceeds one names what it removes.
 const std::vector<Budget> the_budgets = {
-    {.what = "pbs", .folders = {"pbs/"}, .endings = cpp, .most_lines = 25'900, .least_mean = 45, .small_files = 400},
-    {.what = "reference_fem", .folders = {"reference_fem/"}, .endings = cpp, .most_lines = 9'600, .least_mean = 110, .small_files = 10},
-    {.what = "analysis", .folders = {"analysis/"}, .endings = cpp, .most_lines = 6'650, .least_mean = 100, .small_files = 10},
-    {.what = "experiments", .folders = {"experiments/"}, .endings = cpp, .most_lines = 36'100, .least_mean = 40, .small_files = 400},
-    {.what = "production C++", .folders = {"pbs/", "reference_fem/", "analysis/", "experiments/"}, .endings = cpp, .most_lines = 79'200},
-    {.what = "tests in C++", .folders = {"tests/"}, .endings = cpp, .most_lines = 52'800, .least_mean = 30, .small_files = 400},
-    {.what = "tests in Python and JavaScript", .folders = {"tests/"}, .endings = scripts, .most_lines = 13'300},
-    {.what = "paper_figures", .folders = {"paper_figures/"}, .endings = scripts, .most_lines = 8'700},
-    {.what = "kept records", .folders = {"experiments/records/full/"}, .most_files = 745},
+    {.what = "pbs", .folders = {"pbs/"}, .endings = cpp, .most_lines = 23'400, .least_mean = 120, .small_files = 13},
+    {.what = "reference_fem", .folders = {"reference_fem/"}, .endings = cpp, .most_lines = 9'300, .least_mean = 120},
+    {.what = "analysis", .folders = {"analysis/"}, .endings = cpp, .most_lines = 6'300, .least_mean = 120, .small_files = 1},
+    {.what = "experiments", .folders = {"experiments/"}, .endings = cpp, .most_lines = 30'800, .least_mean = 120, .small_files = 28},
+    {.what = "production C++", .folders = {"pbs/", "reference_fem/", "analysis/", "experiments/"}, .endings = cpp, .most_lines = 69'700},
+    {.what = "tests in C++", .folders = {"tests/"}, .endings = cpp, .most_lines = 49'700, .least_mean = 120, .small_files = 40},
+    {.what = "tests in Python and JavaScript", .folders = {"tests/"}, .endings = scripts, .most_lines = 12'700},
+    {.what = "paper_figures", .folders = {"paper_figures/"}, .endings = scripts, .most_lines = 8'400},
+    {.what = "kept records", .folders = {"experiments/records/full/"}, .most_files = 150},
 };
 
 }  // namespace
@@ -141,7 +150,7 @@ Violations folder_sizes(const SourceTree& tree, const std::vector<Budget>& budge
         if (whole->second.files > budget.most_files)
             violations.push_back(exceeded(budget.what, whole->second.files, budget.most_files, "files"));
         for (const auto& [place, total] : totals)
-            if (place != budget.what && total.lines < budget.least_mean * total.files)
+            if (place != budget.what && !rooms_of_small_files.contains(place) && total.lines < budget.least_mean * total.files)
                 violations.push_back(place + ": " + std::to_string(total.lines / total.files) + " lines per file in the mean, at least " +
                                      std::to_string(budget.least_mean) + ": merge the files of one topic");
     }
