@@ -12,8 +12,8 @@
 
 namespace reference_fem {
 
-// deal.II's side of a SimplexSpace. The requirements of deal.II 9.4.1 on tets: MappingFE everywhere (the default mapping crashes), QGaussSimplex<3>(n) with n <= 4.
-// Stays where it is made: the handler refers to the triangulation.
+// deal.II's side of a SimplexSpace. The requirements of deal.II 9.4.1 on tets: MappingFE everywhere (the default mapping crashes),
+// QGaussSimplex<3>(n) with n <= 4. Stays where it is made: the handler refers to the triangulation.
 struct SimplexSpace::Elements {
     // 1 or 2; the triangulation is filled later, by the space.
     explicit Elements(int element_order)
