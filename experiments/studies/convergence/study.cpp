@@ -1,5 +1,5 @@
 // C03, C12: how fast the solver converges, from which initial guess, and towards what. Every run iterates the paper's constraints far past
-// its 24 iterations from four initial guesses (convergence/starts.hpp) and measures residuals, volume and the error to the reference
+// its 24 iterations from four initial guesses (convergence/convergence_case.hpp) and measures residuals, volume and the error to the reference
 // (shared/posed_reference.hpp).
 //
 //   limb_twist, limb_bend   90 and 170 deg, 60 and 90 deg; three orders, two precisions, other tessellations of the same size
@@ -15,7 +15,6 @@
 #include "analysis/records/folder_files.hpp"
 #include "analysis/report_table.hpp"
 #include "experiments/deformers/pbs/pbs_option_names.hpp"
-#include "experiments/studies/convergence/convergence_values.hpp"
 #include "experiments/studies/convergence/convergence_records.hpp"
 #include "experiments/studies/shared/clip_frames.hpp"
 #include "experiments/studies/shared/posed_reference.hpp"

@@ -1,4 +1,4 @@
-// The error of PBS against the reference, split into solver, model and discretisation (error_split/error_split.hpp).
+// The error of PBS against the reference, split into solver, model and discretisation (ensemble/ensemble.hpp).
 //
 //   limb_twist   90 deg (--full: 30 to 150)           o=======o~~~~~~~o)
 //   limb_bend    60 deg (--full: 30 to 110)           o=======o
@@ -7,7 +7,7 @@
 // Writes DIR/error_split/CASE/parts.csv and attachments.csv, and error_split.md.
 #include "analysis/records/folder_files.hpp"
 #include "analysis/report_table.hpp"
-#include "experiments/studies/error_split/error_split.hpp"
+#include "experiments/studies/ensemble/ensemble.hpp"
 #include "experiments/studies/shared/clip_frames.hpp"
 #include "experiments/studies/shared/posed_reference.hpp"
 #include "experiments/studies/study.hpp"

@@ -2,7 +2,7 @@
 //   finished.write("improvements.md", gains_page(gains_of(rows)));
 #pragma once
 
-#include "experiments/studies/improvements/gains.hpp"
+#include "experiments/studies/work_precision/gains.hpp"
 
 namespace experiments {
 

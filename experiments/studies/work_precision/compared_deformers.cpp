@@ -1,5 +1,24 @@
 #include "experiments/studies/work_precision/compared_deformers.hpp"
 
+#include "experiments/deformers/external/external_deformers.hpp"
+#include "experiments/deformers/fem/fem_options.hpp"
+#include "experiments/deformers/registry.hpp"
+#include "experiments/process/own_process.hpp"
+#include "experiments/process/program_run.hpp"
+#include "experiments/scene/scene.hpp"
+#include "experiments/scene/scene_keys.hpp"
+#include "experiments/settings/scene_values.hpp"
+#include "experiments/studies/shared/posed_reference.hpp"
+#include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/text_file.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <stdexcept>
+
 namespace experiments {
 namespace {
 
@@ -162,6 +181,195 @@ const std::vector<ComparedDeformer>& compared_deformers()
         for (const auto& more : {mushing(), projecting(), elastic_ones()}) all.insert(all.end(), more.begin(), more.end());
         return all;
     }();
+    return entries;
+}
+
+// From an entry of the table of compared deformers to a deformer with its options.
+
+namespace {
+
+const std::string& text_of_scene(const Scene& scene)
+{
+    for (const BuiltInScene& built_in : built_in_scenes())
+        if (built_in.name == scene.name) return built_in.text;
+    throw std::logic_error("deformers are compared in built-in scenes, not in " + scene.name);
+}
+
+bool exist(const KeyValues& keys)
+{
+    const SceneSchema schema = scene_schema();
+    return std::ranges::all_of(keys, [&](const std::string& key) { return schema.find(key.substr(0, key.find('='))) != nullptr; });
+}
+
+std::string assigned(const std::string& key, double value)
+{
+    return fmt::format("{}={:.17g}", key, value);
+}
+
+SceneValues values_with(const ComparedDeformer& entry, const Scene& scene, const KeyValues& keys)
+{
+    std::string text = text_of_scene(scene);
+    if (!entry.weights.empty()) text += fmt::format("\n[[{}]]\nname = \"{}\"\nweights = \"{}\"\n", entry.kind, entry.name, entry.weights);
+    return SceneValues(text, scene.file, keys, scene_schema());
+}
+
+}  // namespace
+
+bool is_available(const ComparedDeformer& entry)
+{
+    KeyValues keys = entry.fixed;
+    if (!entry.iterations_key.empty()) keys.push_back(entry.iterations_key);
+    return find_deformer_kind(entry.kind) && exist(keys);
+}
+
+std::vector<SettingChange> grid_of(const ComparedDeformer& entry)
+{
+    std::vector<SettingChange> grid = entry.grid;
+    std::erase_if(grid, [](const SettingChange& change) { return !exist(change.keys); });
+    return grid;
+}
+
+std::vector<KeyValues> codes_of(const ComparedDeformer& entry)
+{
+    std::vector<KeyValues> codes = entry.codes;
+    std::erase_if(codes, [](const KeyValues& code) { return !exist(code); });
+    return codes.empty() ? std::vector<KeyValues>{{}} : codes;
+}
+
+DeformerSpec spec_with(const ComparedDeformer& entry, const Scene& scene, const SettingChoice& choice)
+{
+    const DeformerSpec reference = reference_flesh(scene);
+    const auto& flesh = options_of<FemOptions>(reference);
+    KeyValues keys = entry.fixed;
+    for (const KeyValues& more : {choice.code, choice.change.keys}) keys.insert(keys.end(), more.begin(), more.end());
+    if (choice.iterations) keys.push_back(fmt::format("{}={}", entry.iterations_key, *choice.iterations));
+    if (!entry.young_key.empty()) keys.push_back(assigned(entry.young_key, choice.change.young_factor * flesh.young_pa));
+    if (!entry.poisson_key.empty()) keys.push_back(assigned(entry.poisson_key, flesh.poisson));
+    const SceneValues values = values_with(entry, scene, keys);
+    DeformerSpec spec = default_spec(entry.kind);
+    spec.name = spec.label = entry.name;
+    const std::string table = entry.weights.empty() ? entry.kind : fmt::format("{}.{}", entry.kind, values.tables(entry.kind) - 1);
+    const DeformerKind& kind = *find_deformer_kind(entry.kind);
+    if (kind.read) kind.read(values, table, spec);
+    spec.threads = 1;
+    return spec;
+}
+
+std::string name_of(const SettingChange& change)
+{
+    std::string name;
+    const auto add = [&](const std::string& part) { name += (name.empty() ? "" : "+") + part; };
+    for (std::string key : change.keys) {
+        const std::size_t equals = key.find('='), dot = key.rfind('.', equals);
+        key[equals] = '_';
+        add(key.substr(dot + 1));
+    }
+    if (change.young_factor != 1.0) add(fmt::format("stiffness_factor_{:g}", change.young_factor));
+    return name;
+}
+
+const std::vector<DeformerGroup>& deformer_groups()
+{
+    static const std::vector<DeformerGroup> groups = [] {
+        std::vector<DeformerGroup> all;
+        const auto add = [&](const std::string& key, const std::string& words, const std::string& deformer) {
+            auto found = std::ranges::find(all, key, &DeformerGroup::key);
+            if (found == all.end()) found = all.insert(all.end(), DeformerGroup{key, words, {}});
+            found->deformers.push_back(deformer);
+        };
+        for (const ComparedDeformer& entry : compared_deformers()) add(entry.group, entry.words, entry.name);
+        add("linear_fem", "linear FEM", "fem_linear");
+        for (const char* law : {"fem_corotational", "fem_neo_hookean", "fem_stable_neo_hookean"})
+            add("nonlinear_fem", "nonlinear FEM", law);
+        return all;
+    }();
+    return groups;
+}
+
+std::vector<DeformerGroup> groups_with(const std::vector<std::string>& external)
+{
+    std::vector<DeformerGroup> all = deformer_groups();
+    for (const std::string& name : external) all.push_back({name, name, {name}, true});
+    return all;
+}
+
+const DeformerGroup& group_of(const std::string& deformer)
+{
+    for (const DeformerGroup& group : deformer_groups())
+        if (std::count(group.deformers.begin(), group.deformers.end(), deformer)) return group;
+    throw std::logic_error("a deformer of no group: " + deformer);
+}
+
+const DeformerGroup& group_named(const std::string& key)
+{
+    for (const DeformerGroup& group : deformer_groups())
+        if (group.key == key) return group;
+    throw std::logic_error("no group of deformers: " + key);
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string text_of_entries(const std::string& file)
+{
+    std::error_code code;
+    if (!fs::is_regular_file(file, code))
+        throw pbs::InputError(file, 0, "", "", "cannot be read: expected a file with schema = 1 and [[external]] tables");
+    return pbs::read_text_file(file);
+}
+
+void refuse_other_tables(const SceneValues& values, const std::string& own)
+{
+    const std::string rule = "expected only [[" + own + "]] tables";
+    for (const SceneKey& key : scene_schema().keys) {
+        const std::string table = key.in_list ? key.table + ".0" : key.table;
+        if (key.table != own && values.has_table(table)) values.refuse(table, rule);
+    }
+}
+
+// The names of the reference's row and of the front of all deformers are taken too.
+bool is_taken(const std::string& name)
+{
+    if (name == "reference" || name == "all") return true;
+    return std::ranges::any_of(deformer_groups(), [&](const DeformerGroup& group) {
+        return group.key == name || std::ranges::find(group.deformers, name) != group.deformers.end();
+    });
+}
+
+// Returns why the library cannot be used, or an empty text if it can. It is loaded in another process, which it may end.
+std::string why_not_loadable(const std::string& library)
+{
+    try {
+        return in_own_process([&] { return nlohmann::json(why_library_not_usable(library)); }).get<std::string>();
+    } catch (const std::runtime_error& error) {
+        return std::string("cannot be loaded: ") + error.what();
+    }
+}
+
+void check_entry(const SceneValues& values, const std::string& table, const DeformerSpec& spec)
+{
+    if (is_taken(spec.name)) values.refuse(table + ".name", "expected a name that no deformer, group or row of the comparison has");
+    const auto& options = options_of<ExternalOptions>(spec);
+    if (options.library.empty()) {
+        const std::string why_not = why_not_startable(options.command.front());
+        if (!why_not.empty()) values.refuse(table + ".command", "cannot be started: " + why_not);
+    } else {
+        const std::string why_not = why_not_loadable(options.library);
+        if (!why_not.empty()) values.refuse(table + ".library", why_not);
+    }
+}
+
+}  // namespace
+
+std::vector<DeformerSpec> external_entries(const std::string& file)
+{
+    const std::string own = external_kind().name;
+    const SceneValues values(text_of_entries(file), file, {}, scene_schema());
+    refuse_other_tables(values, own);
+    const std::vector<DeformerSpec> entries = listed_deformers(values);
+    if (entries.empty()) throw pbs::InputError(file, 0, own, "", "missing: expected at least one [[" + own + "]] table");
+    for (std::size_t i = 0; i < entries.size(); ++i) check_entry(values, own + "." + std::to_string(i), entries[i]);
     return entries;
 }
 

@@ -6,6 +6,7 @@
 // Finite elements have laws, element orders and meshes instead; point_setting.cpp adds them.
 #pragma once
 
+#include "experiments/deformers/deformer_spec.hpp"
 #include "experiments/scene/scene.hpp"
 
 #include <optional>
@@ -55,5 +56,30 @@ DeformerSpec spec_with(const ComparedDeformer& entry, const Scene& scene, const 
 
 // An identifier: k_stretch_0.9+stiffness_exponent, stiffness_factor_4. Empty: no change.
 std::string name_of(const SettingChange& change);
+
+// The deformers of the comparison in groups, as sentences and tables show them.
+//   group_of("xpbd_small_steps").words   // XPBD
+
+// Deformers that are one entry in sentences and tables.
+struct DeformerGroup {
+    std::string key, words;  // linear_fem, linear FEM
+    std::vector<std::string> deformers;
+    bool is_external = false;  // one deformer of the user's own
+};
+const std::vector<DeformerGroup>& deformer_groups();
+// These groups, followed by one for each of these deformers of the user's own.
+std::vector<DeformerGroup> groups_with(const std::vector<std::string>& external);
+// std::logic_error for a deformer of no group, or a key of none.
+const DeformerGroup& group_of(const std::string& deformer);
+const DeformerGroup& group_named(const std::string& key);
+
+// Deformers of the user's own in the comparison: the [[external]] tables of a file, which is written like a scene.
+//   of.external = external_entries("mine.toml");
+// An entry has no ladder of iterations, no grid of settings and one code, so that it is one point per pose, on the case's own mesh.
+
+// Throws an InputError for a file that cannot be read, has no such table or other tables, a name that is that of a compared deformer or
+// used twice, a program that cannot be started, and a library that cannot be loaded. Paths are relative to the file. Libraries are loaded
+// in another process.
+std::vector<DeformerSpec> external_entries(const std::string& file);
 
 }  // namespace experiments

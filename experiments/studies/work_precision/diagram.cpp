@@ -1,14 +1,218 @@
 #include "experiments/studies/work_precision/diagram.hpp"
 
 #include "experiments/studies/shared/case_name.hpp"
-#include "experiments/studies/work_precision/mean_diagram.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <string>
+#include <vector>
 
 namespace experiments {
+
+// The mean of the diagrams of several poses: the settings that have an error in each of them, with the means of their times and errors.
+//   diagrams.push_back(mean_diagram("human_mean_of_4_poses", "human, mean of 4 poses", poses));
+
+// poses: at least one diagram, all of the same comparison. key and name: those of the mean.
+Diagram mean_diagram(const std::string& key, const std::string& name, const std::vector<Diagram>& poses);
+
+namespace {
+
+using analysis::Columns;
+using analysis::within;
+
+constexpr double least_error_pct = 1e-9;  // an error of zero has no logarithm
+
+// A rung with the rows of its settings in each training pose that has it.
+struct Rung {
+    std::vector<SettingKey> settings;                         // in the order of the records: the default one first
+    std::vector<std::vector<const PointRow*>> training = {};  // [training pose][setting]; null: no row
+};
+
+const PointRow* row_of(const CaseRows& rows, const SettingKey& key)
+{
+    const auto found = std::ranges::find(rows, key, &PointRow::key);
+    return found == rows.end() ? nullptr : &*found;
+}
+
+Rung rung_with(const SettingKey& rung, const std::vector<SettingKey>& settings, const std::vector<CaseRows>& cases)
+{
+    Rung found{settings};
+    for (const CaseRows& rows : cases) {
+        if (rows.empty() || rows.front().half != Half::training) continue;
+        if (std::ranges::none_of(rows, [&](const PointRow& row) { return rung_of(row.key) == rung; })) continue;
+        std::vector<const PointRow*>& of_pose = found.training.emplace_back();
+        for (const SettingKey& key : settings) of_pose.push_back(row_of(rows, key));
+    }
+    return found;
+}
+
+// The geometric mean over the training poses; nothing without an answer in each of them.
+std::optional<double> training_error_pct(const Rung& rung, std::size_t setting)
+{
+    double sum = 0.0;
+    for (const auto& of_pose : rung.training) {
+        const PointRow* row = of_pose[setting];
+        if (!row || !row->error || !row->ms_median) return std::nullopt;
+        sum += std::log(std::max(row->error->joint_pct, least_error_pct));
+    }
+    if (rung.training.empty()) return std::nullopt;
+    return std::exp(sum / double(rung.training.size()));
+}
+
+std::optional<ChosenSetting> choose(Comparison comparison, const Rung& rung)
+{
+    ChosenSetting chosen{comparison, rung.settings.front(), static_cast<int>(rung.settings.size())};
+    if (rung.settings.size() == 1 || rung.training.empty()) return chosen;
+    for (std::size_t i = 0; i < rung.settings.size(); ++i) {
+        const std::optional<double> error_pct = training_error_pct(rung, i);
+        if (!error_pct || (chosen.training_error_pct && *error_pct >= *chosen.training_error_pct)) continue;
+        chosen.training_error_pct = error_pct;
+        chosen.key = rung.settings[i];
+    }
+    chosen.training_poses = static_cast<int>(rung.training.size());
+    return chosen.training_error_pct ? std::optional(chosen) : std::nullopt;
+}
+
+}  // namespace
+
+const Columns<ChosenSetting> chosen_columns =
+    Columns<ChosenSetting>{{"comparison", &ChosenSetting::comparison, "", "packed_f32 or plain_f64"}} +
+    within(&ChosenSetting::key, point_key_columns()) +
+    Columns<ChosenSetting>{
+        {"tried", &ChosenSetting::tried, "", "number of settings tried at this rung"},
+        {"training_poses", &ChosenSetting::training_poses, "", "poses on which it was chosen; 0: there was no choice"},
+        {"training_error_joint_pct", &ChosenSetting::training_error_pct, "%", "its geometric mean error over these poses"}};
+
+std::string words_of(Comparison comparison)
+{
+    return comparison == Comparison::packed_f32 ? "packed f32 code where a deformer has it" : "plain f64 code";
+}
+
+int code_rank(const SettingKey& key)
+{
+    return (key.precision == "f32" ? 2 : 0) + (key.packed ? 1 : 0);
+}
+
+BestCodes best_codes(const std::vector<CaseRows>& cases)
+{
+    BestCodes best;
+    for (const CaseRows& rows : cases)
+        for (const PointRow& row : rows)
+            if (!row.is_of_reference()) best[row.key.deformer] = std::max(best[row.key.deformer], code_rank(row.key));
+    return best;
+}
+
+bool takes_part(Comparison comparison, const SettingKey& key, const BestCodes& best)
+{
+    if (comparison == Comparison::plain_f64) return key.is_plain();
+    const auto found = best.find(key.deformer);
+    return found == best.end() || code_rank(key) == found->second;
+}
+
+std::vector<ChosenSetting> choose_settings(const std::vector<CaseRows>& cases)
+{
+    const BestCodes best = best_codes(cases);
+    std::vector<ChosenSetting> chosen;
+    for (const Comparison comparison : comparisons) {
+        std::vector<std::pair<SettingKey, std::vector<SettingKey>>> rungs;  // in the order of the records
+        for (const CaseRows& rows : cases)
+            for (const PointRow& row : rows) {
+                if (row.is_of_reference() || !takes_part(comparison, row.key, best)) continue;
+                const SettingKey rung = rung_of(row.key);
+                auto found = std::ranges::find(rungs, rung, [](const auto& one) { return one.first; });
+                if (found == rungs.end()) found = rungs.insert(rungs.end(), {rung, {}});
+                if (std::ranges::find(found->second, row.key) == found->second.end()) found->second.push_back(row.key);
+            }
+        for (const auto& [rung, settings] : rungs)
+            if (const auto choice = choose(comparison, rung_with(rung, settings, cases))) chosen.push_back(*choice);
+    }
+    return chosen;
+}
+
+namespace {
+
+std::optional<double> mean_of(const std::vector<Diagram>& poses, std::optional<double> Diagram::*value)
+{
+    double sum = 0.0;
+    for (const Diagram& pose : poses) {
+        if (!(pose.*value)) return std::nullopt;
+        sum += *(pose.*value);
+    }
+    return sum / double(poses.size());
+}
+
+// The same setting in every pose; nothing where it has no error in one of them.
+std::optional<DiagramPoint> mean_of(const std::vector<Diagram>& poses, const DiagramPoint& setting)
+{
+    constexpr std::optional<double> DiagramPoint::*known_or_not[] = {&DiagramPoint::ms_q1,
+                                                                     &DiagramPoint::ms_q3,
+                                                                     &DiagramPoint::l2_pct,
+                                                                     &DiagramPoint::linf_m,
+                                                                     &DiagramPoint::volume_abs_change_pct};
+    DiagramPoint mean{setting.key};
+    for (const auto value : known_or_not) mean.*value = 0.0;
+    mean.members.fill(0.0);
+    const double share = 1.0 / double(poses.size());
+    for (const Diagram& pose : poses) {
+        const auto same = [&](const DiagramPoint& point) { return point.key == setting.key; };
+        const auto found = std::find_if(pose.points.begin(), pose.points.end(), same);
+        if (found == pose.points.end()) return std::nullopt;
+        for (const auto value : {&DiagramPoint::ms, &DiagramPoint::error_pct}) mean.*value += share * (*found).*value;
+        for (const auto value : known_or_not) {
+            std::optional<double>& sum = mean.*value;
+            const std::optional<double>& more = (*found).*value;
+            sum = sum && more ? std::optional(*sum + share * *more) : std::nullopt;
+        }
+        for (std::size_t m = 0; m < mean.members.size(); ++m) {
+            const std::optional<double>& more = found->members[m];
+            std::optional<double>& sum = mean.members[m];
+            sum = sum && more ? std::optional(*sum + share * *more) : std::nullopt;
+        }
+    }
+    return mean;
+}
+
+// A further reference takes part in a mean if it takes part in each pose.
+DiagramMember mean_member(const std::vector<Diagram>& poses, std::size_t place)
+{
+    DiagramMember mean{true, 0.0};
+    for (const Diagram& pose : poses) {
+        const DiagramMember& one = pose.members[place];
+        mean.takes_part = mean.takes_part && one.takes_part;
+        mean.bound_pct =
+            mean.bound_pct && one.bound_pct ? std::optional(*mean.bound_pct + *one.bound_pct / double(poses.size())) : std::nullopt;
+    }
+    return mean;
+}
+
+}  // namespace
+
+Diagram mean_diagram(const std::string& key, const std::string& name, const std::vector<Diagram>& poses)
+{
+    Diagram mean;
+    mean.comparison = poses.front().comparison;
+    mean.key = key;
+    mean.name = name;
+    mean.groups = poses.front().groups;
+    for (std::size_t m = 0; m < mean.members.size(); ++m) mean.members[m] = mean_member(poses, m);
+    mean.poses = static_cast<int>(poses.size());
+    for (const Diagram& pose : poses) mean.cases.push_back(pose.key);
+    for (const Diagram& pose : poses) mean.masked_share_pct += pose.masked_share_pct / double(poses.size());
+    const bool same = std::all_of(poses.begin(), poses.end(), [&](const Diagram& pose) { return pose.reference == poses[0].reference; });
+    mean.reference = same ? poses[0].reference : "another one for each pose";
+    mean.reference_ms = mean_of(poses, &Diagram::reference_ms);
+    mean.reference_error_pct = mean_of(poses, &Diagram::reference_error_pct);
+    for (const DiagramPoint& first : poses[0].points)
+        if (auto point = mean_of(poses, first)) {
+            point->below_reference_error = mean.reference_error_pct && point->error_pct <= *mean.reference_error_pct;
+            mean.points.push_back(*point);
+        }
+    return mean;
+}
+
 namespace {
 
 constexpr std::size_t fewest_for_a_mean = 3;
@@ -149,6 +353,71 @@ const DiagramPoint* best_of(const Diagram& diagram, const DeformerGroup& group, 
     std::vector<std::size_t> indices;
     const auto best = analysis::best_within(diagram.of(group.deformers, indices), budget_ms);
     return best ? &diagram.points[indices[*best]] : nullptr;
+}
+
+namespace {
+
+using analysis::PairOrder;
+
+PairOrder order_by(std::optional<double> nearer_pct, std::optional<double> other_pct, std::optional<double> bound_pct)
+{
+    constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
+    const double one = nearer_pct.value_or(not_known), other = other_pct.value_or(not_known);
+    return analysis::order_of({one, other, one + other, bound_pct.value_or(not_known)});
+}
+
+std::string joined(const std::vector<std::string>& names)
+{
+    std::string text;
+    for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+    return text;
+}
+
+}  // namespace
+
+std::string Decision::remark() const
+{
+    return is_decided() ? "" : " [undecided: " + reason + "]";
+}
+
+Decision decision_on(const Diagram& diagram, const DiagramPoint& nearer, const DiagramPoint& other)
+{
+    std::vector<PairOrder> orders = {order_by(nearer.error_pct, other.error_pct, diagram.reference_error_pct)};
+    std::vector<std::string> silent, contrary;  // further references that do not decide, and that decide for the other point
+    const std::vector<EnsembleMember> all = family();
+    for (std::size_t m = 0; m < diagram.members.size(); ++m) {
+        if (!diagram.members[m].takes_part) continue;
+        orders.push_back(order_by(nearer.members[m], other.members[m], diagram.members[m].bound_pct));
+        if (orders.back() == PairOrder::undecided) silent.push_back(all[m + 1].name);
+        if (orders.back() == PairOrder::second_is_closer) contrary.push_back(all[m + 1].name);
+    }
+    Decision decision{analysis::decide(orders), "", static_cast<int>(orders.size())};
+    if (!contrary.empty()) {
+        decision.decision = analysis::PairDecision::models_disagree;
+        decision.reason = "the order is the other way round for " + joined(contrary);
+    } else if (!diagram.reference_error_pct) {
+        decision.reason = "the reference's own error is not known";
+    } else if (orders.front() == PairOrder::undecided) {
+        decision.reason = fmt::format("within the reference's own error of up to {:.2g} %", *diagram.reference_error_pct);
+    } else if (!silent.empty()) {
+        decision.reason = "not decided by " + joined(silent) + ", by their own error or because they were not reached";
+    }
+    return decision;
+}
+
+std::optional<Decision> decision_from(const Diagram& diagram, const DeformerGroup& one, const DeformerGroup& other, double from_ms)
+{
+    std::vector<std::string> both = one.deformers;
+    both.insert(both.end(), other.deformers.begin(), other.deformers.end());
+    std::vector<std::size_t> indices;
+    std::optional<Decision> worst;
+    for (const analysis::WorkPrecision& at : diagram.of(both, indices)) {
+        const DiagramPoint *nearer = best_of(diagram, one, at.cost), *than = best_of(diagram, other, at.cost);
+        if (at.cost < from_ms || !nearer || !than) continue;
+        const Decision decision = decision_on(diagram, *nearer, *than);
+        if (!worst || decision.decision > worst->decision) worst = decision;
+    }
+    return worst;
 }
 
 }  // namespace experiments

@@ -5,13 +5,59 @@
 // The recorded error of a point is error_joint_pct: the root mean square over the blended vertices, over their mean distance to the bone.
 #pragma once
 
+#include "analysis/pair_order.hpp"
 #include "analysis/pareto_front.hpp"
-#include "experiments/studies/work_precision/chosen_settings.hpp"
-#include "experiments/studies/work_precision/deformer_groups.hpp"
+#include "experiments/studies/work_precision/compared_deformers.hpp"
+#include "experiments/studies/work_precision/point_row.hpp"
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
+
+namespace experiments {
+
+// The setting of each rung: chosen on the training poses, shown on the others. There are two comparisons. packed_f32 has each deformer in
+// the best code that it has: packed f32, plain f32, packed f64 or plain f64, in this order. plain_f64 has each deformer in plain f64 code.
+//   const std::vector<ChosenSetting> chosen = choose_settings(rows_of_all_cases);
+// The chosen setting of a rung has the least geometric mean of error_joint_pct over the training poses with that rung. Only settings
+// that finished in all of these poses are candidates. A single setting is no choice and needs no training. Where no training pose has the
+// rung, the default setting is chosen.
+enum class Comparison { packed_f32, plain_f64 };
+inline constexpr std::array<Comparison, 2> comparisons = {Comparison::packed_f32, Comparison::plain_f64};
+std::string words_of(Comparison comparison);  // for headings
+
+using CaseRows = std::vector<PointRow>;  // of one case
+
+// The best code of each deformer, by code_rank. In packed_f32 only that code takes part.
+using BestCodes = std::map<std::string, int>;
+int code_rank(const SettingKey& key);  // 3: packed f32, 2: plain f32, 1: packed f64, 0: plain f64
+BestCodes best_codes(const std::vector<CaseRows>& cases);
+// A deformer that has no entry in `best` takes part with any code.
+bool takes_part(Comparison comparison, const SettingKey& key, const BestCodes& best);
+
+struct ChosenSetting {
+    Comparison comparison;
+    SettingKey key;
+    int tried = 0;           // settings of this rung
+    int training_poses = 0;  // that decided; 0: there was no choice, or no training pose has the rung
+    std::optional<double> training_error_pct = {};
+};
+extern const analysis::Columns<ChosenSetting> chosen_columns;  // settings.csv
+
+std::vector<ChosenSetting> choose_settings(const std::vector<CaseRows>& cases);
+
+}  // namespace experiments
+
+namespace analysis {
+
+template <>
+struct EnumNames<experiments::Comparison> {
+    static constexpr std::array<std::pair<experiments::Comparison, const char*>, 2> table{
+        {{experiments::Comparison::packed_f32, "packed_f32"}, {experiments::Comparison::plain_f64, "plain_f64"}}};
+};
+
+}  // namespace analysis
 
 namespace experiments {
 
@@ -74,5 +120,25 @@ std::vector<Diagram> diagrams_of(const std::vector<CaseRecords>& cases, const st
 
 // The best of the group's points within a budget of time. Null where none is as fast.
 const DiagramPoint* best_of(const Diagram& diagram, const DeformerGroup& group, double budget_ms);
+
+// Whether a statement "this point is nearer than that one" survives the choice of the reference and the references' own errors. Errors are
+// distances: relative to the exact solution, each may be larger or smaller by the error of the reference. A reference orders two points if
+// their errors differ by more than twice the bound of its own error (analysis/pair_order.hpp with |A - B| <= e_A + e_B). A statement is
+// decided if every reference of the ensemble orders the points in this way.
+//   decision_on(diagram, pbs, delta_mush).remark()
+struct Decision {
+    analysis::PairDecision decision = analysis::PairDecision::decided;
+    std::string reason = {};  // why it is not decided; empty where it is
+    int references = 1;
+
+    bool is_decided() const { return decision == analysis::PairDecision::decided; }
+    std::string remark() const;  // follows a sentence; empty where it is decided
+};
+
+// `nearer` has the smaller error against the first reference.
+Decision decision_on(const Diagram& diagram, const DiagramPoint& nearer, const DiagramPoint& other);
+
+// The worst decision at all times from `from_ms` on, for the best points of both groups. Nothing where one of the two has no points.
+std::optional<Decision> decision_from(const Diagram& diagram, const DeformerGroup& one, const DeformerGroup& other, double from_ms);
 
 }  // namespace experiments

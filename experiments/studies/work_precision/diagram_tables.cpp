@@ -1,10 +1,13 @@
 #include "experiments/studies/work_precision/diagram_tables.hpp"
 
+#include "experiments/studies/shared/case_name.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace experiments {
 namespace {
@@ -209,6 +212,211 @@ std::vector<BudgetRow> best_within(const std::vector<Diagram>& diagrams)
             for (BudgetRow& row : best_within(diagram, budget_ms))
                 if (diagram.poses > 1 || row.rank <= ranks_of_a_pose) rows.push_back(std::move(row));
     return rows;
+}
+
+namespace {
+
+bool counts(const Diagram& diagram)
+{
+    return is_pose(diagram) && diagram.half == Half::evaluation;
+}
+
+void add_steps(std::vector<ProfileStep>& steps, const std::vector<const Diagram*>& poses, const DeformerGroup& group, double tolerance_pct)
+{
+    std::vector<double> solved, certain;
+    for (const Diagram* pose : poses) {
+        if (const auto ms = time_to_solve(*pose, group, tolerance_pct)) solved.push_back(*ms);
+        if (const auto ms = time_to_solve_certainly(*pose, group, tolerance_pct)) certain.push_back(*ms);
+    }
+    std::set<double> times(solved.begin(), solved.end());
+    times.insert(certain.begin(), certain.end());
+    const auto until = [](const std::vector<double>& of, double ms) {
+        return static_cast<int>(std::ranges::count_if(of, [&](double one) { return one <= ms; }));
+    };
+    for (const double ms : times) {
+        ProfileStep& step = steps.emplace_back(ProfileStep{poses.front()->comparison, tolerance_pct, group.key, ms});
+        step.solved = until(solved, ms);
+        step.certain = until(certain, ms);
+        step.poses = static_cast<int>(poses.size());
+        step.share_pct = 100.0 * step.solved / step.poses;
+    }
+}
+
+}  // namespace
+
+const analysis::Columns<ProfileStep> data_profile_columns = {
+    {"comparison", &ProfileStep::comparison, "", "packed_f32 or plain_f64"},
+    {"tolerance_pct", &ProfileStep::tolerance_pct, "%", "largest error at the joints of a pose that counts as solved"},
+    {"group", &ProfileStep::group, "", "key of a group of deformers"},
+    {"ms", &ProfileStep::ms, "ms", "time per frame at which `solved` or `certain` increases"},
+    {"solved", &ProfileStep::solved, "", "number of poses that are solved"},
+    {"certain", &ProfileStep::certain, "",
+     "number of those with an error that is within the tolerance after the bound on the reference's own error is added"},
+    {"poses", &ProfileStep::poses, "", "number of evaluated poses"},
+    {"share_pct", &ProfileStep::share_pct, "%", "share of the poses that are solved"}};
+
+std::optional<double> time_to_solve(const Diagram& diagram, const DeformerGroup& group, double tolerance_pct)
+{
+    std::optional<double> least_ms;
+    std::vector<std::size_t> indices;
+    for (const analysis::WorkPrecision& point : diagram.of(group.deformers, indices))
+        if (point.error <= tolerance_pct && (!least_ms || point.cost < *least_ms)) least_ms = point.cost;
+    return least_ms;
+}
+
+std::optional<double> time_to_solve_certainly(const Diagram& diagram, const DeformerGroup& group, double tolerance_pct)
+{
+    if (!diagram.reference_error_pct) return std::nullopt;
+    return time_to_solve(diagram, group, tolerance_pct - *diagram.reference_error_pct);
+}
+
+std::vector<ProfileStep> data_profiles(const std::vector<Diagram>& diagrams)
+{
+    std::vector<ProfileStep> steps;
+    for (const Comparison comparison : comparisons) {
+        std::vector<const Diagram*> poses;
+        for (const Diagram& diagram : diagrams)
+            if (diagram.comparison == comparison && counts(diagram)) poses.push_back(&diagram);
+        for (const double tolerance_pct : profile_tolerances_pct)
+            for (const DeformerGroup& group : groups_of(diagrams)) add_steps(steps, poses, group, tolerance_pct);
+    }
+    return steps;
+}
+
+Solved solved_within(const std::vector<Diagram>& diagrams, Comparison comparison, const DeformerGroup& group, double tolerance_pct,
+                     double ms)
+{
+    Solved count;
+    for (const Diagram& diagram : diagrams) {
+        if (diagram.comparison != comparison || !counts(diagram)) continue;
+        ++count.poses;
+        const std::optional<double> least_ms = time_to_solve(diagram, group, tolerance_pct);
+        count.solved += least_ms && *least_ms <= ms;
+        const std::optional<double> certain_ms = time_to_solve_certainly(diagram, group, tolerance_pct);
+        count.certain += certain_ms && *certain_ms <= ms;
+    }
+    return count;
+}
+
+std::string text_of(const Solved& solved)
+{
+    if (solved.poses == 0) return "";
+    return fmt::format("{} of {}{}", solved.solved, solved.poses, solved.solved ? fmt::format(", {} certain", solved.certain) : "");
+}
+
+namespace {
+
+std::string why_missing(const PointRow& row, bool has_reference)
+{
+    if (row.outcome != "finished") return row.outcome;
+    if (!row.ms_median) return "not_converged";  // from one pose to the other
+    return has_reference ? "" : "no_reference";
+}
+
+// The row of the case's reference, reached or not. Null where there is none.
+const PointRow* reference_in(const CaseRows& rows)
+{
+    const auto found = std::ranges::find_if(rows, &PointRow::is_of_reference);
+    return found == rows.end() ? nullptr : &*found;
+}
+
+// Returns the points of the deformer in the case that take part in the comparison.
+std::vector<const PointRow*> points_of(const CaseRows& rows, const std::string& deformer, Comparison comparison, const BestCodes& best)
+{
+    std::vector<const PointRow*> points;
+    for (const PointRow& row : rows)
+        if (row.key.deformer == deformer && takes_part(comparison, row.key, best)) points.push_back(&row);
+    return points;
+}
+
+// Returns the omissions of one deformer in one case. `points` are its points that take part in the comparison.
+std::vector<Omission> omissions_in(const std::vector<const PointRow*>& points, const PointRow* reference, const Omission& blank)
+{
+    std::vector<Omission> omissions;
+    for (const PointRow* row : points) {
+        const std::string why = why_missing(*row, reference && reference->outcome == "reference");
+        if (why.empty()) continue;
+        auto found = std::ranges::find(omissions, why, &Omission::why);
+        if (found == omissions.end()) {
+            found = omissions.insert(omissions.end(), blank);
+            found->why = why;
+            found->reason = why == "no_reference" && reference ? reference->reason : row->reason;
+        }
+        ++found->missing;
+        found->points = static_cast<int>(points.size());
+    }
+    return omissions;
+}
+
+}  // namespace
+
+const analysis::Columns<Omission> omission_columns = {
+    {"comparison", &Omission::comparison, "", "packed_f32 or plain_f64"},
+    {"case", &Omission::of, "", "name of the case's run, or of the mean over several, which has the omissions of all of its poses"},
+    {"deformer", &Omission::deformer, "", "name of the deformer"},
+    {"why", &Omission::why, "", "not_finite, not_converged, over_time_limit, not_applicable, no_such_code, not_run or no_reference"},
+    {"missing", &Omission::missing, "", "number of its points that are missing for this reason"},
+    {"points", &Omission::points, "", "number of its points in this case, or in all poses of the mean"},
+    {"reason", &Omission::reason, "", "of the first of them, for readers; of no_reference: the worst tet of the reference's last state"}};
+
+std::vector<Omission> omissions_of(const std::vector<CaseRows>& cases)
+{
+    const BestCodes best = best_codes(cases);
+    std::vector<std::string> deformers;  // of any case, in the order of the records
+    for (const CaseRows& rows : cases)
+        for (const PointRow& row : rows)
+            if (!row.is_of_reference() && std::ranges::find(deformers, row.key.deformer) == deformers.end())
+                deformers.push_back(row.key.deformer);
+    std::vector<Omission> omissions;
+    for (const Comparison comparison : comparisons)
+        for (const CaseRows& rows : cases) {
+            if (rows.empty()) continue;
+            const PointRow* reference = reference_in(rows);
+            for (const std::string& deformer : deformers) {
+                const std::vector<const PointRow*> points = points_of(rows, deformer, comparison, best);
+                Omission blank{comparison, case_name(rows.front().of), deformer};
+                if (points.empty()) {
+                    const bool is_run = std::ranges::any_of(rows, [&](const PointRow& row) { return row.key.deformer == deformer; });
+                    blank.why = is_run ? "no_such_code" : "not_run";
+                    omissions.push_back(blank);
+                    continue;
+                }
+                for (const Omission& omission : omissions_in(points, reference, blank)) omissions.push_back(omission);
+            }
+        }
+    return omissions;
+}
+
+std::vector<Omission> omissions_of_means(const std::vector<CaseRows>& cases, const std::vector<Diagram>& diagrams)
+{
+    const BestCodes best = best_codes(cases);
+    const std::vector<Omission> of_cases = omissions_of(cases);
+    std::vector<Omission> all;
+    for (const Diagram& mean : diagrams) {
+        const auto is_of_mean = [&](const std::string& of) { return std::ranges::find(mean.cases, of) != mean.cases.end(); };
+        const auto points_in_all = [&](const std::string& deformer) {
+            std::size_t points = 0;
+            for (const CaseRows& rows : cases)
+                if (!rows.empty() && is_of_mean(case_name(rows.front().of)))
+                    points += points_of(rows, deformer, mean.comparison, best).size();
+            return static_cast<int>(points);
+        };
+        std::vector<Omission> of_mean;
+        for (const Omission& one : of_cases) {
+            if (one.comparison != mean.comparison || !is_of_mean(one.of)) continue;
+            const auto same = std::ranges::find_if(
+                of_mean, [&](const Omission& other) { return other.deformer == one.deformer && other.why == one.why; });
+            if (same != of_mean.end()) {
+                same->missing += one.missing;
+                continue;
+            }
+            of_mean.push_back(one);
+            of_mean.back().of = mean.key;
+            of_mean.back().points = points_in_all(one.deformer);
+        }
+        all.insert(all.end(), of_mean.begin(), of_mean.end());
+    }
+    return all;
 }
 
 }  // namespace experiments

@@ -1,6 +1,6 @@
 // The sentences about a work-precision diagram: which group of deformers is nearest within a time, which one passes another from which time
 // on, whether the physics is worth its time, and what the reference's own error leaves undecided. Each comparison is marked as decided, or
-// with the reason why not (certainty.hpp).
+// with the reason why not (diagram.hpp).
 #pragma once
 
 #include "experiments/studies/work_precision/diagram.hpp"

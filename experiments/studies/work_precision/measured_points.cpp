@@ -4,8 +4,8 @@
 #include "experiments/deformers/registry.hpp"
 #include "experiments/process/interruption.hpp"
 #include "experiments/scene/motion_case.hpp"
+#include "experiments/settings/option_fields.hpp"
 #include "experiments/studies/work_precision/posed_deformer.hpp"
-#include "experiments/studies/work_precision/reference_set.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/solver/options.hpp"
 
@@ -16,6 +16,101 @@
 #include <map>
 
 namespace experiments {
+
+// The references of one case: the first member of the family (shared/reference_family.hpp) and further ones.
+//   ReferenceSet references(of, character, poses);
+//   references.add_errors(row, positions);
+class ReferenceSet {
+public:
+    // The character outlives it.
+    ReferenceSet(const WorkPrecisionCase& of, const pbs::Character& character, const PosePair& poses);
+
+    const PosedReference& first() const { return first_; }
+    // The errors of these positions of the case's own vertices [m], #V x 3, against each reference that was reached.
+    void add_errors(PointRow& row, const pbs::Positions& positions) const;
+    std::vector<FamilyRow> member_rows() const;
+
+private:
+    struct Member {
+        EnsembleMember member;
+        PosedReference reference;
+    };
+    analysis::CaseKey of_;
+    PosedReference first_;
+    std::deque<Member> members_;
+};
+
+// The bound of the error of a reference's own solution with quadratic elements on the case's own tets: its distance from the finest
+// solution and the bound of that one. Nothing where there is no bound.
+std::optional<double> unrefined_bound_pct(const PosedReference& reference);
+
+nlohmann::json to_json(const WorkPrecisionCase& of)
+{
+    static const auto fields =
+        OptionFields<WorkPrecisionCase>("work_precision")
+            .record("of", &WorkPrecisionCase::of)
+            .record("scene", &WorkPrecisionCase::scene)
+            .record("frame", &WorkPrecisionCase::frame)
+            .record("half", &WorkPrecisionCase::half)
+            .record("range", &WorkPrecisionCase::range)
+            .record("rounds", &WorkPrecisionCase::rounds)
+            .record("newton_rounds", &WorkPrecisionCase::newton_rounds)
+            .record("reference_is_refined", &WorkPrecisionCase::reference_is_refined)
+            .record("members", &WorkPrecisionCase::members)
+            .record("converged_iterations", &WorkPrecisionCase::converged_iterations)
+            .record("longest_frame_ms", &WorkPrecisionCase::longest_frame_ms)
+            .record("external", &WorkPrecisionCase::external)
+            .derived("points",
+                     [](const WorkPrecisionCase& one) -> nlohmann::json { return digest_of(point_settings(one.scene, one.range)); })
+            .derived("reference", [](const WorkPrecisionCase& one) { return to_json(reference_flesh(one.scene)); })
+            .complete();
+    nlohmann::json json = fields.json(of);
+    if (of.external.empty()) json.erase("external");  // as in records of the fixed list of deformers
+    return json;
+}
+
+ReferenceSet::ReferenceSet(const WorkPrecisionCase& of, const pbs::Character& character, const PosePair& poses)
+    : of_(of.of), first_(character, reference_flesh(of.scene), poses.pose, poses.time_step_s, of.reference_is_refined)
+{
+    for (const EnsembleMember& member : of.members)
+        members_.push_back(
+            {member, PosedReference(character, flesh_of(reference_flesh(of.scene), member), poses.pose, poses.time_step_s, false)});
+}
+
+void ReferenceSet::add_errors(PointRow& row, const pbs::Positions& positions) const
+{
+    if (first_.is_reached()) {
+        row.error = first_.error_of(positions);
+        row.error_whole_joint_pct = first_.error_on_whole_body(positions).joint_pct;
+    }
+    for (const Member& one : members_)
+        if (one.reference.is_reached()) row.members.at(place_among_further(one.member.name)) = one.reference.error_of(positions).joint_pct;
+}
+
+std::vector<FamilyRow> ReferenceSet::member_rows() const
+{
+    std::vector<FamilyRow> rows;
+    for (const Member& one : members_) {
+        FamilyRow& row = rows.emplace_back();
+        row.of = of_;
+        row.member = one.member;
+        row.outcome = one.reference.is_reached() ? "reached" : "not_reached";
+        row.error_bound_pct = unrefined_bound_pct(first_);
+        row.masked_share_pct = one.reference.masked_share_pct();
+        for (const NestedSolution& solution : one.reference.solutions()) row.solve_s += solution.seconds;
+    }
+    return rows;
+}
+
+std::optional<double> unrefined_bound_pct(const PosedReference& reference)
+{
+    if (!reference.is_reached() || !reference.order()) return std::nullopt;
+    for (const NestedSolution& solution : reference.solutions())
+        if (solution.element_order == 2 && solution.refinements == 0 && solution.finished)
+            return reference.error_of(solution.positions).joint_pct + reference.bound().joint_pct;
+    return std::nullopt;
+}
+
 namespace {
 
 constexpr int frames_of_memory = 24;  // before the pose

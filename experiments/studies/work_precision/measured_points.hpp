@@ -4,15 +4,35 @@
 // The reference is that of shared/posed_reference.hpp, with its bound. Errors are measured outside the part of the body that
 // overlaps itself and, as one more column, on the whole body. A point whose error is not above the bound may be as good as the reference
 // and is marked. Further references of the family (shared/reference_family.hpp) decide how far an order of deformers depends on the
-// choice of the reference. The error of PBS is split into solver, model and discretisation (error_split/error_split.hpp). A ladder of
+// choice of the reference. The error of PBS is split into solver, model and discretisation (ensemble/ensemble.hpp). A ladder of
 // iterations ends where a frame takes longer than the limit. The limit of the deformers that minimise an energy, from which their distance
 // is measured, is the point of linear elements with their law on the case's own tets (PointSetting::is_limit_of_deformers).
 #pragma once
 
+#include "experiments/studies/shared/timed_rounds.hpp"
 #include "experiments/studies/work_precision/point_row.hpp"
-#include "experiments/studies/work_precision/work_precision_case.hpp"
 
 namespace experiments {
+
+// A case of the study: one body in one pose, and the extent to which it is measured.
+//   WorkPrecisionCase of;
+//   of.scene = read_scene("limb_twist", {"motion.angle_deg=90", "motion.frames=19"});
+//   of.frame = 18;
+struct WorkPrecisionCase {
+    analysis::CaseKey of;  // body, motion, and the pose or the angle
+    Scene scene;           // its character and motion
+    int frame = 0;         // of its motion; a timed frame begins in the one before it
+    Half half = Half::evaluation;
+    SettingRange range;
+    Rounds rounds, newton_rounds;      // newton_rounds: of the nonlinear laws, which take seconds per frame; a failed round is dropped
+    bool reference_is_refined = true;  // solved on tets cut into eight too, without which there is no bound
+    std::vector<EnsembleMember> members = {};  // further references of the family
+    int converged_iterations = 8000;           // of PBS for the parts of its error; 0: no parts
+    double longest_frame_ms = 300.0;           // of a ladder of iterations
+    std::vector<DeformerSpec> external = {};  // deformers of the user's own (compared_deformers.hpp); they are measured first
+};
+
+nlohmann::json to_json(const WorkPrecisionCase& of);  // everything that a run of the study depends on
 
 struct MeasuredPoints {
     std::vector<PointRow> rows;

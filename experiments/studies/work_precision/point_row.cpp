@@ -1,10 +1,163 @@
 #include "experiments/studies/work_precision/point_row.hpp"
 
+#include "experiments/studies/shared/pose_columns.hpp"
 #include "pbs/geometry/topology.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace experiments {
+
+std::vector<Half> halves_of(const std::vector<std::string>& bodies)
+{
+    std::map<std::string, int> poses_before;
+    std::vector<Half> halves;
+    for (const std::string& body : bodies) {
+        const bool is_alone = std::count(bodies.begin(), bodies.end(), body) == 1;
+        halves.push_back(is_alone || poses_before[body] % 2 == 1 ? Half::evaluation : Half::training);
+        ++poses_before[body];
+    }
+    return halves;
+}
+
+std::string words_of(FrameClock clock)
+{
+    switch (clock) {
+        case FrameClock::processor:
+            return "processor time, as of all other deformers";
+        case FrameClock::own:
+            return "the times that the program states in seconds.f64";
+        case FrameClock::wall:
+            return "the wall time of the program with its start, divided by the number of its poses";
+    }
+    return "";
+}
+
+// The columns of points.csv and members.csv.
+
+namespace {
+
+using analysis::Columns;
+using analysis::ErrorNorms;
+using analysis::within;
+using pbs::WorkCounters;
+
+const Columns<SettingKey> deformer_columns = {{"deformer", &SettingKey::deformer, "", "name of the deformer"}};
+
+const Columns<ErrorNorms> error_columns = {
+    {"error_joint_pct", &ErrorNorms::joint_pct, "%", "error over the blended vertices outside the overlap"},
+    {"error_l2_pct", &ErrorNorms::l2_pct, "%", "error over all vertices outside the overlap"},
+    {"error_linf_m", &ErrorNorms::linf_m, "m", "largest distance from the reference outside the overlap"}};
+
+const Columns<PbsParts> before_discretisation = {
+    {"solver_pct", &PbsParts::solver_pct, "%", "PBS: distance from its own converged shape, at the joints"},
+    {"model_pct", &PbsParts::model_pct, "%", "PBS: distance of its converged shape from the reference, at the joints"}};
+const Columns<PbsParts> after_discretisation = {{"not_converged_pct", &PbsParts::not_converged_pct, "%",
+                                                 "PBS: distance of its converged shape from that after half of the iterations"}};
+
+const Columns<WorkCounters> work_columns = {
+    {"gradients", &WorkCounters::gradients, "", "gradients of an energy of the whole body, per frame"},
+    {"vertex_visits", &WorkCounters::vertex_visits, "", "blends, smoothings, rotations and block solves of a vertex, per frame"},
+    {"tet_visits", &WorkCounters::tet_visits, "", "energies, derivatives, rotations and volume constraints of a tet, per frame"},
+    {"projections", &WorkCounters::projections, "", "constraints projected, per frame"},
+    {"linear_solves", &WorkCounters::linear_solves, "", "systems of the whole body solved, per frame"},
+    {"factorisations", &WorkCounters::factorisations, "", "numerical factorisations of such a system, per frame"}};
+
+Columns<PointRow> member_error_columns()
+{
+    Columns<PointRow> columns;
+    const std::vector<EnsembleMember> members = family();
+    for (std::size_t i = 1; i < members.size(); ++i) {
+        const auto error = [i](auto& row) -> auto&
+        {
+            return row.members[i - 1];
+        };
+        columns.push_back(
+            {"error_" + members[i].name + "_pct", error, "%", "error over the blended vertices against this further reference"});
+    }
+    return columns;
+}
+
+using Points = Columns<PointRow>;
+
+Points own_columns()
+{
+    return Points{{"vertices", &PointRow::vertices, "", "vertices of the mesh that it is solved on"},
+                  {"tets", &PointRow::tets, "", "tets of that mesh"},
+                  {"outcome", &PointRow::outcome, "",
+                   "finished, not_converged, not_finite, over_time_limit or not_applicable; reference, or not_reached"},
+                  {"reach_ms", &PointRow::reach_ms, "ms", "wall time from rest to the pose; of the reference: that of all its solutions"},
+                  {"rounds", &PointRow::rounds, "", "number of timed frames"},
+                  {"failed_rounds", &PointRow::failed_rounds, "", "frames that did not reach their pose and are left out"},
+                  {"ms_median", &PointRow::ms_median, "ms",
+                   "median of the processor time per frame, with the transfer from another mesh to the case's own"},
+                  {"ms_q1", &PointRow::ms_q1, "ms", "its lower quartile"},
+                  {"ms_q3", &PointRow::ms_q3, "ms", "its upper quartile"}};
+}
+
+Points reference_columns()
+{
+    return Points{
+        {"reference", &PointRow::reference, "", "name of the reference; empty where none was reached"},
+        {"reference_error_joint_pct", &PointRow::reference_error_joint_pct, "%", "bound of the reference's own error at the joints"},
+        {"reference_error_l2_pct", &PointRow::reference_error_l2_pct, "%", "bound of the reference's own error over all vertices"},
+        {"reference_order", &PointRow::reference_order, "", "order of convergence that is observed"},
+        {"reference_order_is_reliable", &PointRow::reference_order_is_reliable, "",
+         "that order is credible, and the bound has the safety factor 1.25 instead of 3"},
+        {"below_reference_error", &PointRow::below_reference_error, "", "the error is not above the reference's own bound"},
+        {"error_whole_joint_pct", &PointRow::error_whole_joint_pct, "%", "error over the blended vertices, those that overlap included"},
+        {"masked_share_pct", &PointRow::masked_share_pct, "%",
+         "share of the volume that the other errors leave out because the reference overlaps itself there"}};
+}
+
+// Later columns, in one group: older records do not have them.
+Points columns_of_comparison()
+{
+    const Points of_point = {{"half", &PointRow::half, "", "training: settings are chosen on this pose; evaluation: they are shown on it"},
+                             {"reason", &PointRow::reason, "", "why there is no answer, for readers"}};
+    const Points from_limit = {
+        {"to_linear_elements_joint_pct", &PointRow::to_linear_elements_pct, "%",
+         "distance at the joints from linear elements with the law of the deformers that minimise an energy (Macklin and "
+         "Mueller's neo-Hookean), on the case's own tets"}};
+    return (of_point + within(&PointRow::work, work_columns) + from_limit + member_error_columns()).in_group("comparison");
+}
+
+// These columns are written only if a deformer of the user's own takes part.
+Points columns_of_external()
+{
+    return Points{
+        {"external", &PointRow::is_external, "", "a deformer of the user's own"},
+        {"clock", &PointRow::clock, "",
+         "clock of the times: processor (of this process), own (as an external program states them) or wall (of that program, divided "
+         "by the number of its poses)"}}
+        .in_group("external");
+}
+
+}  // namespace
+
+const Points point_columns =
+    within(&PointRow::of, pose_columns()) + within(&PointRow::key, deformer_columns) +
+    Points{{"setting", &PointRow::setting, "",
+            "the deformer and its setting as a text, which repeats the columns from iterations to packed"}} +
+    within(&PointRow::key, setting_columns()) + own_columns() + within(&PointRow::error, error_columns) +
+    within(&PointRow::metrics, volume_columns()) + reference_columns() + within(&PointRow::parts, before_discretisation) +
+    Points{{"discretisation_pct", &PointRow::discretisation_pct, "%", "PBS: bound of the reference's distance from its limit"}} +
+    within(&PointRow::parts, after_discretisation) + columns_of_comparison() + columns_of_external();
+
+Points columns_for(const std::vector<PointRow>& rows)
+{
+    return std::ranges::any_of(rows, &PointRow::is_external) ? point_columns : point_columns.without("external");
+}
+
+const Columns<FamilyRow> family_columns =
+    within(&FamilyRow::of, pose_columns()) + within(&FamilyRow::member, family_member_columns()) +
+    Columns<FamilyRow>{{"outcome", &FamilyRow::outcome, "", "reached or not_reached"},
+                       {"error_bound_pct", &FamilyRow::error_bound_pct, "%",
+                        "bound of its own error at the joints, taken from that of the first reference on the same elements"},
+                       {"masked_share_pct", &FamilyRow::masked_share_pct, "%", "share of the volume that is left out"},
+                       {"solve_s", &FamilyRow::solve_s, "s", "wall time of its solutions"}};
+
 namespace {
 
 std::string outcome_of(const ReachedPoint& point)

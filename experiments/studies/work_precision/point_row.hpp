@@ -5,13 +5,64 @@
 #include "analysis/case_key.hpp"
 #include "analysis/frame_metrics.hpp"
 #include "analysis/records/typed_table.hpp"
+#include "experiments/settings/option_names.hpp"
 #include "experiments/studies/shared/posed_reference.hpp"
 #include "experiments/studies/shared/reference_family.hpp"
 #include "experiments/studies/shared/timed_rounds.hpp"
-#include "experiments/studies/work_precision/body_mesh.hpp"
-#include "experiments/studies/work_precision/case_split.hpp"
-#include "experiments/studies/work_precision/frame_clock.hpp"
+#include "experiments/studies/work_precision/posed_deformer.hpp"
 #include "pbs/geometry/work_counters.hpp"
+
+#include <string>
+#include <vector>
+
+namespace experiments {
+
+// Which poses train and which are evaluated. Settings are chosen on the training poses, and the diagrams show the others.
+//   halves_of({"limb", "limb", "human"})   // training, evaluation, evaluation
+enum class Half { training, evaluation };
+
+// The poses of each body, in the order of the list, alternate: the first one trains, the second one is evaluated, and so on. A body with
+// one pose is only evaluated. bodies: that of each pose.
+std::vector<Half> halves_of(const std::vector<std::string>& bodies);
+
+template <>
+struct OptionNames<Half> {
+    static constexpr std::array<std::pair<Half, const char*>, 2> table{{{Half::training, "training"}, {Half::evaluation, "evaluation"}}};
+};
+
+}  // namespace experiments
+
+namespace analysis {
+
+template <>
+struct EnumNames<experiments::Half> : experiments::OptionNames<experiments::Half> {
+};
+
+}  // namespace analysis
+
+namespace experiments {
+
+// The clock of a point's times.
+//   words_of(FrameClock::own)  // for readers: "the times that the program states in seconds.f64"
+
+// processor: processor time of this process. own: the times that a deformer in another process states itself. wall: the wall time of that
+// process, divided by the number of its poses.
+enum class FrameClock { processor, own, wall };
+std::string words_of(FrameClock clock);
+
+}  // namespace experiments
+
+namespace analysis {
+
+template <>
+struct EnumNames<experiments::FrameClock> {
+    static constexpr std::array<std::pair<experiments::FrameClock, const char*>, 3> table{
+        {{experiments::FrameClock::processor, "processor"},
+         {experiments::FrameClock::own, "own"},
+         {experiments::FrameClock::wall, "wall"}}};
+};
+
+}  // namespace analysis
 
 namespace experiments {
 

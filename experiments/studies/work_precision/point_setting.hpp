@@ -1,7 +1,7 @@
 // The points of a work-precision diagram: each deformer at many settings.
 //   for (const PointSetting& setting : point_settings(scene, {.other_vertices = {600}})) ...
 // A rung is a place on the axis of work: iterations, substeps, element order and mesh. At each rung a deformer has the settings of its grid
-// (compared_deformers.hpp), of which one is chosen on other poses than those that are shown (chosen_settings.hpp). On other meshes of the
+// (compared_deformers.hpp), of which one is chosen on other poses than those that are shown (diagram.hpp). On other meshes of the
 // body a deformer runs a part of its ladder with its default setting. Finite elements have laws, element orders and meshes.
 #pragma once
 

@@ -2,7 +2,6 @@
 
 #include "analysis/report_table.hpp"
 #include "experiments/studies/shared/case_name.hpp"
-#include "experiments/studies/work_precision/data_profile.hpp"
 #include "experiments/studies/work_precision/diagram_tables.hpp"
 #include "experiments/studies/work_precision/findings.hpp"
 

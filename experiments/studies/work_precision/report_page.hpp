@@ -2,7 +2,7 @@
 #pragma once
 
 #include "experiments/studies/work_precision/diagram.hpp"
-#include "experiments/studies/work_precision/omissions.hpp"
+#include "experiments/studies/work_precision/diagram_tables.hpp"
 
 namespace experiments {
 

@@ -13,9 +13,8 @@
 #include "experiments/studies/shared/clip_frames.hpp"
 #include "experiments/studies/shared/real_bodies.hpp"
 #include "experiments/studies/study.hpp"
-#include "experiments/studies/work_precision/data_profile.hpp"
+#include "experiments/studies/work_precision/compared_deformers.hpp"
 #include "experiments/studies/work_precision/diagram_tables.hpp"
-#include "experiments/studies/work_precision/external_entries.hpp"
 #include "experiments/studies/work_precision/measured_points.hpp"
 #include "experiments/studies/work_precision/report_page.hpp"
 
@@ -41,7 +40,7 @@ struct PlannedPose {
 };
 
 // The limb is one body, twisted or bent. The human has four poses by name, and four that are not chosen: at 1/5, 2/5, 3/5 and 4/5 of the
-// clip. The order decides which poses train (case_split.hpp).
+// clip. The order decides which poses train (point_row.hpp).
 std::vector<PlannedPose> limb_poses()
 {
     return {{.body = "limb", .motion = "twist", .angle_deg = 90, .cost_s = 110.0, .quick_cost_s = 20.0},

@@ -11,7 +11,6 @@
 #include "experiments/studies/convergence/convergence_case.hpp"
 #include "experiments/studies/ensemble/ensemble.hpp"
 #include "experiments/studies/equal_quality/equal_quality.hpp"
-#include "experiments/studies/error_split/error_split.hpp"
 #include "experiments/studies/features/feature_cost.hpp"
 #include "experiments/studies/fit/poisson_run.hpp"
 #include "experiments/studies/improvements/measured_changes.hpp"

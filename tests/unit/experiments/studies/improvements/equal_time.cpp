@@ -1,5 +1,5 @@
 // Reference: curves of error over time whose values at a budget and choices are computed by hand.
-#include "experiments/studies/improvements/equal_time.hpp"
+#include "experiments/studies/work_precision/gains.hpp"
 
 #include "tests/support/change_points.hpp"
 #include "tests/support/rounding_error.hpp"

@@ -1,5 +1,5 @@
 // Reference: means and intervals of a few poses by hand; the influence of the reference's error by moving a point into every direction.
-#include "experiments/studies/improvements/gains.hpp"
+#include "experiments/studies/work_precision/gains.hpp"
 
 #include "experiments/studies/improvements/gains_page.hpp"
 #include "tests/support/change_points.hpp"

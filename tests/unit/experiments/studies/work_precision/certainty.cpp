@@ -1,5 +1,5 @@
-// Reference: the rule in certainty.hpp: an order is decided if the errors differ by more than twice the bound, for every reference.
-#include "experiments/studies/work_precision/certainty.hpp"
+// Reference: the rule in diagram.hpp: an order is decided if the errors differ by more than twice the bound, for every reference.
+#include "experiments/studies/work_precision/diagram.hpp"
 
 #include "tests/support/comparison_records.hpp"
 

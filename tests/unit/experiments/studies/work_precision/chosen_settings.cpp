@@ -1,5 +1,5 @@
-// The split of the poses and the choice of settings. Reference: the rules in case_split.hpp and chosen_settings.hpp, by hand.
-#include "experiments/studies/work_precision/chosen_settings.hpp"
+// The split of the poses and the choice of settings. Reference: the rules in point_row.hpp and diagram.hpp, by hand.
+#include "experiments/studies/work_precision/diagram.hpp"
 
 #include "tests/support/comparison_records.hpp"
 #include "tests/support/rounding_error.hpp"

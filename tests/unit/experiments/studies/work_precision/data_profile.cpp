@@ -1,5 +1,5 @@
 // Reference: the definition of a data profile, counted by hand.
-#include "experiments/studies/work_precision/data_profile.hpp"
+#include "experiments/studies/work_precision/diagram_tables.hpp"
 
 #include "tests/support/comparison_records.hpp"
 

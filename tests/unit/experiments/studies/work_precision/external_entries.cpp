@@ -1,10 +1,8 @@
 // The file with deformers of the user's own: what is read, and each wrong input with its file, line, field, value and rule.
-#include "experiments/studies/work_precision/external_entries.hpp"
+#include "experiments/studies/work_precision/compared_deformers.hpp"
 
 #include "experiments/deformers/external/external_deformers.hpp"
 #include "experiments/deformers/registry.hpp"
-#include "experiments/studies/work_precision/compared_deformers.hpp"
-#include "experiments/studies/work_precision/deformer_groups.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/unit/pbs/character/expect_input_error.hpp"
 

@@ -1,12 +1,11 @@
 // Where errors are measured. Reference: barycentric coordinates reproduce a rigid motion and an affine field exactly. Tolerance: the
 // rounding of barycentric coordinates.
 #include "experiments/deformers/fem/fem_options.hpp"
-#include "experiments/studies/work_precision/body_mesh.hpp"
+#include "experiments/studies/work_precision/posed_deformer.hpp"
 
+#include "experiments/deformers/registry.hpp"
 #include "experiments/studies/work_precision/measured_points.hpp"
 #include "experiments/studies/work_precision/point_row.hpp"
-#include "experiments/studies/work_precision/posed_deformer.hpp"
-#include "experiments/deformers/registry.hpp"
 #include "pbs/skinning/pose.hpp"
 #include "pbs/solver/options.hpp"
 #include "tests/support/rounding_error.hpp"

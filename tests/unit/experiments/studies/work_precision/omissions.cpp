@@ -1,5 +1,5 @@
-// Reference: the list of reasons in omissions.hpp, by hand.
-#include "experiments/studies/work_precision/omissions.hpp"
+// Reference: the list of reasons in diagram_tables.hpp, by hand.
+#include "experiments/studies/work_precision/diagram_tables.hpp"
 
 #include "tests/support/comparison_records.hpp"
 

@@ -1,7 +1,6 @@
 // A deformer of the user's own in the tables and on the page. Reference: points made by hand.
 #include "experiments/studies/work_precision/report_page.hpp"
 
-#include "experiments/studies/work_precision/data_profile.hpp"
 #include "experiments/studies/work_precision/diagram_tables.hpp"
 #include "experiments/studies/work_precision/findings.hpp"
 #include "tests/support/comparison_records.hpp"

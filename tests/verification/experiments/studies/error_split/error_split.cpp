@@ -1,10 +1,9 @@
 // References: the studies convergence and ensemble, which measure the same 24 iterations, convergence with another solver; and the
 // definitions of the parts, which are distances and fulfil the triangle inequality.
-#include "experiments/studies/error_split/error_split.hpp"
+#include "experiments/studies/ensemble/ensemble.hpp"
 
 #include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/studies/convergence/convergence_records.hpp"
-#include "experiments/studies/ensemble/ensemble.hpp"
 #include "experiments/studies/shared/posed_reference.hpp"
 
 #include <gtest/gtest.h>
