@@ -4,11 +4,10 @@
 #include "experiments/deformers/fem/fem_option_names.hpp"
 #include "experiments/deformers/pbs/pbs_option_names.hpp"
 #include "experiments/deformers/registry.hpp"
-#include "experiments/scene/motion_case.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "experiments/studies/shared/pose_columns.hpp"
+#include "experiments/studies/shared/posed_character.hpp"
 #include "experiments/studies/shared/posed_reference.hpp"
-#include "pbs/geometry/tet_volume.hpp"
 
 #include <fmt/format.h>
 
@@ -16,114 +15,10 @@
 #include <limits>
 
 namespace experiments {
-namespace {
 
 using analysis::CaseKey;
 using analysis::Columns;
 using analysis::within;
-
-struct DeformedShape {
-    std::string deformer;
-    pbs::Positions positions;  // [m], #V x 3
-};
-
-// Those that are finite; the others are named in `breakdown`.
-std::vector<DeformedShape> deformed(const EnsembleCase& of, const pbs::Character& character, const pbs::Motion& motion,
-                                    const pbs::Pose& pose, std::string& breakdown)
-{
-    std::vector<DeformedShape> shapes;
-    for (const DeformerSpec& spec : of.deformers) {
-        const std::unique_ptr<Deformer> deformer = make_deformer(spec);
-        deformer->reset(character);
-        if (deformer->advance(pose, motion.time_step_s).outcome == pbs::Outcome::finished)
-            shapes.push_back({spec.label, deformer->positions()});
-        else
-            breakdown += spec.label + " did not finish. ";
-    }
-    return shapes;
-}
-
-MemberRow member_row(const EnsembleCase& of, const EnsembleMember& member, const PosedReference& reference,
-                     const analysis::MeshMetrics& metrics)
-{
-    MemberRow row;
-    row.of = of.of;
-    row.member = member;
-    const NestedSolution& finest = reference.solutions().front();
-    row.outcome = reference.is_reached() ? "reached" : finest.finished ? "inverted" : "not_converged";
-    row.masked_share_pct = reference.masked_share_pct();
-    row.lowest_det_f = finest.lowest_det_f;
-    row.inverted_tets = finest.inverted_tets;
-    row.j_min = finest.j_min;
-    row.worst_tet = finest.worst_tet;
-    row.newton_steps = finest.newton_steps;
-    row.projected = finest.projected;
-    for (const NestedSolution& solution : reference.solutions()) row.solve_s += solution.seconds;
-    if (!reference.is_reached()) return row;
-    row.element_order = reference.reference().element_order;
-    row.refinements = reference.reference().refinements;
-    row.volume_change_pct = metrics.measure(reference.reference().positions).volume_change_pct;
-    if (!reference.order()) return row;
-    row.error_bound_pct = reference.bound().joint_pct;
-    row.error_bound_l2_pct = reference.bound().l2_pct;
-    row.observed_order = reference.order()->observed;
-    row.reliable = reference.order()->reliable;
-    return row;
-}
-
-// Collects, for each pair of shapes, how each reference of the family orders the pair.
-class Ordering {
-public:
-    explicit Ordering(const std::vector<DeformedShape>& shapes) : shapes_(shapes), orders_(shapes.size() * shapes.size()) {}
-
-    void add(const PosedReference& reference)
-    {
-        for (std::size_t a = 0; a < shapes_.size(); ++a)
-            for (std::size_t b = a + 1; b < shapes_.size(); ++b)
-                orders_[place(a, b)].push_back(
-                    reference.is_reached()
-                        ? analysis::order_of(
-                              {reference.error_of(shapes_[a].positions).joint_pct, reference.error_of(shapes_[b].positions).joint_pct,
-                               reference.distance(shapes_[a].positions, shapes_[b].positions).joint_pct, reference.bound().joint_pct})
-                        : analysis::PairOrder::undecided);
-        if (!reference.is_reached()) {
-            ++not_reached_;
-            return;
-        }
-        errors_pct_.emplace_back();
-        for (const DeformedShape& shape : shapes_) errors_pct_.back().push_back(reference.error_of(shape.positions).joint_pct);
-    }
-
-    std::vector<PairRow> pairs(const CaseKey& of) const
-    {
-        std::vector<PairRow> rows;
-        for (std::size_t a = 0; a < shapes_.size(); ++a)
-            for (std::size_t b = a + 1; b < shapes_.size(); ++b) {
-                const std::vector<analysis::PairOrder>& orders = orders_[place(a, b)];
-                PairRow row{.of = of, .first = shapes_[a].deformer, .second = shapes_[b].deformer};
-                if (!errors_pct_.empty()) row.difference_pct = errors_pct_.front()[b] - errors_pct_.front()[a];
-                for (const std::vector<double>& errors : errors_pct_)
-                    row.largest_difference_pct = std::max(row.largest_difference_pct, std::abs(errors[b] - errors[a]));
-                row.members = static_cast<int>(orders.size());
-                row.not_reached = not_reached_;
-                row.first_is_closer = static_cast<int>(std::ranges::count(orders, analysis::PairOrder::first_is_closer));
-                row.second_is_closer = static_cast<int>(std::ranges::count(orders, analysis::PairOrder::second_is_closer));
-                row.decision = analysis::decide(orders);
-                rows.push_back(row);
-            }
-        return rows;
-    }
-
-private:
-    std::size_t place(std::size_t a, std::size_t b) const { return a * shapes_.size() + b; }
-
-    const std::vector<DeformedShape>& shapes_;
-    std::vector<std::vector<analysis::PairOrder>> orders_;  // of each pair, one per member
-    std::vector<std::vector<double>> errors_pct_;           // of the shapes, one list per member that was reached
-    int not_reached_ = 0;                                   // members
-};
-
-}  // namespace
 
 const Columns<MemberRow> member_columns =
     within(&MemberRow::of, pose_columns()) + within(&MemberRow::member, family_member_columns()) +
@@ -168,6 +63,40 @@ const Columns<PairRow> pair_columns =
         {"second_is_closer", &PairRow::second_is_closer, "", "members for which the second is"},
         {"decision", &PairRow::decision, "", "decided, reference_error (a member does not decide or was not reached) or models_disagree"}};
 
+const Columns<PartsRow> part_columns =
+    within(&PartsRow::of, pose_columns()) +
+    Columns<PartsRow>{
+        {"k_stretch", &PartsRow::k_stretch, "", "stiffness of the stretch constraints"},
+        {"iterations", &PartsRow::iterations, "", "iterations of PBS"},
+        {"error_joint_pct", &PartsRow::error_joint_pct, "%", "distance of PBS from the reference, at the joints outside the mask"},
+        {"solver_pct", &PartsRow::solver_pct, "%", "distance of PBS from its own converged shape"},
+        {"model_pct", &PartsRow::model_pct, "%", "distance of PBS's converged shape from the reference"},
+        {"discretisation_pct", &PartsRow::discretisation_pct, "%",
+         "bound of the reference's distance from its limit on ever finer tets; nan: a nested solution is missing"},
+        {"not_converged_pct", &PartsRow::not_converged_pct, "%", "distance of PBS's converged shape from that after half of the iterations"},
+        {"pbs_refinement_pct", &PartsRow::pbs_refinement_pct, "%", "distance of PBS's converged shape from that on refined tets"},
+        {"error_l2_pct", &PartsRow::error_l2_pct, "%", "distance of PBS from the reference, over all vertices outside the mask"},
+        {"error_linf_m", &PartsRow::error_linf_m, "m", "largest distance of a vertex of PBS from the reference outside the mask"},
+        {"whole_joint_pct", &PartsRow::whole_joint_pct, "%", "distance of PBS from the reference at the joints of the whole body"},
+        {"masked_share_pct", &PartsRow::masked_share_pct, "%", "share of the volume that is left out because the reference overlaps itself"},
+        {"observed_order", &PartsRow::observed_order, "", "of convergence of the reference's linear elements; empty: not known"},
+        {"order_is_reliable", &PartsRow::order_is_reliable, "",
+         "the order is credible, and the bound has the safety factor 1.25 instead of 3"}};
+
+const Columns<AttachmentRow> attachment_columns =
+    within(&AttachmentRow::of, pose_columns()) +
+    Columns<AttachmentRow>{
+        {"reference", &AttachmentRow::reference, "", "label of the flesh; the reference's own comes first"},
+        {"model", &AttachmentRow::model, "", "its law"},
+        {"attachment", &AttachmentRow::attachment, "", "how it is held by the bones"},
+        {"spring_factor", &AttachmentRow::spring_factor, "", "q of its springs or of the bind constraint; empty: prescribed nodes have none"},
+        {"core_radius", &AttachmentRow::core_radius, "",
+         "radius of the bones' capsules over the limb's; empty: the bind constraint has none"},
+        {"difference_pct", &AttachmentRow::difference_pct, "%", "its distance from the reference, at the joints outside the mask"},
+        {"k_stretch", &AttachmentRow::k_stretch, "", "stiffness of the stretch constraints of PBS"},
+        {"model_pct", &AttachmentRow::model_pct, "%", "distance of PBS's converged shape from this flesh"},
+        {"finished", &AttachmentRow::finished, "", "the flesh reached its pose"}};
+
 nlohmann::json to_json(const EnsembleCase& of)
 {
     static const auto fields = OptionFields<EnsembleCase>("ensemble")
@@ -177,219 +106,11 @@ nlohmann::json to_json(const EnsembleCase& of)
                                    .record("flesh", &EnsembleCase::flesh)
                                    .record("members", &EnsembleCase::members)
                                    .record("deformers", &EnsembleCase::deformers)
-                                   .complete();
-    return fields.json(of);
-}
-
-EnsembleRecords measure_ensemble(const EnsembleCase& of)
-{
-    const pbs::Character character = pbs::make_character(of.scene.character);
-    const pbs::Motion motion = make_motion(of.scene.motion, character.skeleton, of.scene.file);
-    const pbs::Pose& pose = motion.steps.at(static_cast<std::size_t>(of.frame) * motion.steps_per_frame);
-    const analysis::MeshMetrics metrics(character.mesh.rest, character.mesh.tets);
-    EnsembleRecords records;
-    const std::vector<DeformedShape> shapes = deformed(of, character, motion, pose, records.breakdown);
-    Ordering ordering(shapes);
-    for (const EnsembleMember& member : of.members) {
-        const PosedReference reference(character, flesh_of(of.flesh, member), pose, motion.time_step_s);
-        records.members.push_back(member_row(of, member, reference, metrics));
-        ordering.add(reference);
-        if (!reference.is_reached()) continue;
-        for (const DeformedShape& shape : shapes) {
-            const analysis::ErrorNorms error = reference.error_of(shape.positions);
-            records.errors.push_back({of.of, member.name, shape.deformer, error.joint_pct, error.l2_pct,
-                                      reference.error_on_whole_body(shape.positions).joint_pct,
-                                      metrics.measure(shape.positions).volume_change_pct});
-        }
-    }
-    records.pairs = ordering.pairs(of.of);
-    return records;
-}
-
-const analysis::Columns<ErrorParts> part_columns = {
-    {"scene", &ErrorParts::scene, "", "name of the scene"},
-    {"frame", &ErrorParts::frame, "", "frame of the scene's motion, from 0"},
-    {"angle_deg", &ErrorParts::angle_deg, "deg", "angle of a sweep; nan for clips"},
-    {"k_stretch", &ErrorParts::k_stretch, "", "stiffness of the stretch constraints"},
-    {"iterations", &ErrorParts::iterations, "", "iterations of PBS"},
-    {"error_joint_pct", &ErrorParts::error_joint_pct, "%", "distance of PBS from the reference, at the joints outside the mask"},
-    {"solver_pct", &ErrorParts::solver_pct, "%", "distance of PBS from its own converged shape"},
-    {"model_pct", &ErrorParts::model_pct, "%", "distance of PBS's converged shape from the reference"},
-    {"discretisation_pct", &ErrorParts::discretisation_pct, "%",
-     "bound of the reference's distance from its limit on ever finer tets; nan: a nested solution is missing"},
-    {"not_converged_pct", &ErrorParts::not_converged_pct, "%", "distance of PBS's converged shape from that after half of the iterations"},
-    {"pbs_refinement_pct", &ErrorParts::pbs_refinement_pct, "%", "distance of PBS's converged shape from that on refined tets"},
-    {"error_l2_pct", &ErrorParts::error_l2_pct, "%", "distance of PBS from the reference, over all vertices outside the mask"},
-    {"error_linf_m", &ErrorParts::error_linf_m, "m", "largest distance of a vertex of PBS from the reference outside the mask"},
-    {"whole_joint_pct", &ErrorParts::whole_joint_pct, "%", "distance of PBS from the reference at the joints of the whole body"},
-    {"masked_share_pct", &ErrorParts::masked_share_pct, "%", "share of the volume that is left out because the reference overlaps itself"},
-    {"observed_order", &ErrorParts::observed_order, "", "of convergence of the reference's linear elements; empty: not known"},
-    {"order_is_reliable", &ErrorParts::order_is_reliable, "",
-     "the order is credible, and the bound has the safety factor 1.25 instead of 3"}};
-
-const analysis::Columns<AttachmentShare> attachment_columns = {
-    {"scene", &AttachmentShare::scene, "", "name of the scene"},
-    {"frame", &AttachmentShare::frame, "", "frame of the scene's motion, from 0"},
-    {"angle_deg", &AttachmentShare::angle_deg, "deg", "angle of a sweep; nan for clips"},
-    {"reference", &AttachmentShare::reference, "", "label of the flesh; the reference's own comes first"},
-    {"model", &AttachmentShare::model, "", "its law"},
-    {"attachment", &AttachmentShare::attachment, "", "how it is held by the bones"},
-    {"spring_factor", &AttachmentShare::spring_factor, "", "q of its springs or of the bind constraint; empty: prescribed nodes have none"},
-    {"core_radius", &AttachmentShare::core_radius, "",
-     "radius of the bones' capsules over the limb's; empty: the bind constraint has none"},
-    {"difference_pct", &AttachmentShare::difference_pct, "%", "its distance from the reference, at the joints outside the mask"},
-    {"k_stretch", &AttachmentShare::k_stretch, "", "stiffness of the stretch constraints of PBS"},
-    {"model_pct", &AttachmentShare::model_pct, "%", "distance of PBS's converged shape from this flesh"},
-    {"finished", &AttachmentShare::finished, "", "the flesh reached its pose"}};
-
-namespace {
-
-pbs::PbsOptions in_double(const DeformerSpec& spec, double k_stretch, int iterations)
-{
-    pbs::PbsOptions options = options_of<pbs::PbsOptions>(spec);
-    options.precision = pbs::Precision::f64;
-    options.k_stretch = k_stretch;
-    options.iterations = iterations;
-    options.jiggle.reset();
-    return options;
-}
-
-Scene refined(Scene scene)
-{
-    ++scene.character.refinements;
-    return scene;
-}
-
-// PBS with its constraints converged, and after half of the iterations, which shows how far it still moves.
-struct Converged {
-    Shapes shapes, half_way, refined;
-};
-
-class Splitting {
-public:
-    explicit Splitting(const ErrorSplitCase& of) : of_(of), base_(of.scene, of.frames), fine_(refined(of.scene), of.frames)
-    {
-        references_.reserve(of.frames.size());
-        for (std::size_t pose = 0; pose < of.frames.size(); ++pose) {
-            const PosedReference& reference =
-                references_.emplace_back(base_.character(), of.reference, base_.pose(pose), of.scene.motion.time_step_s);
-            if (!reference.is_reached())
-                split_.breakdown +=
-                    fmt::format("{} in frame {}: not reached, {}. ", of.reference.label, of.frames[pose], reference.why_not_reached());
-        }
-        for (const DeformerSpec& other : of.others) others_.push_back(base_.shapes(other));
-    }
-
-    ErrorSplit split()
-    {
-        for (const double k_stretch : of_.k_stretch) {
-            const Converged converged = converge(k_stretch);
-            std::vector<pbs::PbsOptions> options;
-            for (const int iterations : of_.iterations) options.push_back(in_double(of_.pbs, k_stretch, iterations));
-            const std::vector<Shapes> stopped = base_.shapes(options);
-            for (std::size_t pose = 0; pose < references_.size(); ++pose) {
-                if (!references_[pose].is_reached()) continue;
-                for (std::size_t n = 0; n < stopped.size(); ++n) add_parts(options[n], pose, stopped[n][pose], converged);
-                add_attachments(k_stretch, pose, converged.shapes[pose]);
-            }
-        }
-        return split_;
-    }
-
-private:
-    Converged converge(double k_stretch) const
-    {
-        const pbs::PbsOptions whole = in_double(of_.pbs, k_stretch, of_.converged_iterations),
-                              half = in_double(of_.pbs, k_stretch, of_.converged_iterations / 2);
-        std::vector<Shapes> shapes = base_.shapes({whole, half});
-        return {std::move(shapes[0]), std::move(shapes[1]), fine_.shapes({whole}).front()};
-    }
-
-    void add_parts(const pbs::PbsOptions& options, std::size_t pose, const Shape& shape, const Converged& converged)
-    {
-        const PosedReference& reference = references_[pose];
-        const Shape& limit = converged.shapes[pose];
-        const analysis::ErrorNorms total = distance(pose, shape, reference_shape(pose));
-        ErrorParts parts;
-        parts.scene = of_.scene.name;
-        parts.frame = of_.frames[pose];
-        parts.angle_deg = base_.angle_deg(pose);
-        parts.k_stretch = options.k_stretch;
-        parts.iterations = options.iterations;
-        parts.error_joint_pct = total.joint_pct;
-        parts.solver_pct = distance(pose, shape, limit).joint_pct;
-        parts.model_pct = distance(pose, limit, reference_shape(pose)).joint_pct;
-        parts.discretisation_pct = reference.bound().joint_pct;
-        parts.not_converged_pct = distance(pose, limit, converged.half_way[pose]).joint_pct;
-        parts.pbs_refinement_pct = distance(pose, limit, converged.refined[pose]).joint_pct;
-        parts.error_l2_pct = total.l2_pct;
-        parts.error_linf_m = total.linf_m;
-        parts.whole_joint_pct = base_.distance(shape, reference_shape(pose)).joint_pct;
-        parts.masked_share_pct = reference.masked_share_pct();
-        if (reference.order()) {
-            parts.observed_order = reference.order()->observed;
-            parts.order_is_reliable = reference.order()->reliable;
-        }
-        split_.parts.push_back(parts);
-    }
-
-    void add_attachments(double k_stretch, std::size_t pose, const Shape& converged)
-    {
-        add_attachment(k_stretch, pose, converged, of_.reference, reference_shape(pose));
-        for (std::size_t other = 0; other < others_.size(); ++other)
-            add_attachment(k_stretch, pose, converged, of_.others[other], others_[other][pose]);
-    }
-
-    void add_attachment(double k_stretch, std::size_t pose, const Shape& converged, const DeformerSpec& flesh, const Shape& shape)
-    {
-        const auto& fem = options_of<FemOptions>(flesh);
-        AttachmentShare share;
-        share.scene = of_.scene.name;
-        share.frame = of_.frames[pose];
-        share.angle_deg = base_.angle_deg(pose);
-        share.reference = flesh.label;
-        share.model = name_of(fem.model);
-        share.attachment = name_of(fem.attachment);
-        if (has_spring_factor(fem.attachment)) share.spring_factor = spring_factor_of(fem);
-        if (has_capsules(fem.attachment)) share.core_radius = core_radius_of(fem);
-        share.difference_pct = distance(pose, shape, reference_shape(pose)).joint_pct;
-        share.k_stretch = k_stretch;
-        share.model_pct = distance(pose, converged, shape).joint_pct;
-        share.finished = shape.finished;
-        split_.attachments.push_back(share);
-    }
-
-    Shape reference_shape(std::size_t pose) const { return {references_[pose].reference().positions, true}; }
-
-    // Outside the mask of the pose. Not a number where one of them did not finish.
-    analysis::ErrorNorms distance(std::size_t pose, const Shape& one, const Shape& other) const
-    {
-        constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-        if (!one.finished || !other.finished) return {nothing, nothing, nothing};
-        const Eigen::Index vertices = base_.character().mesh.rest.rows();
-        return references_[pose].distance(one.positions.topRows(vertices), other.positions.topRows(vertices));
-    }
-
-    const ErrorSplitCase& of_;
-    PosedCharacter base_, fine_;
-    std::vector<PosedReference> references_;  // one per pose
-    std::vector<Shapes> others_;              // one per deformer of others, in each pose
-    ErrorSplit split_;
-};
-
-}  // namespace
-
-nlohmann::json to_json(const ErrorSplitCase& of)
-{
-    static const auto fields = OptionFields<ErrorSplitCase>("error_split")
-                                   .record("scene", &ErrorSplitCase::scene)
-                                   .record("frames", &ErrorSplitCase::frames)
-                                   .record("pbs", &ErrorSplitCase::pbs)
-                                   .record("reference", &ErrorSplitCase::reference)
-                                   .record("others", &ErrorSplitCase::others)
-                                   .record("k_stretch", &ErrorSplitCase::k_stretch)
-                                   .record("iterations", &ErrorSplitCase::iterations)
-                                   .record("converged_iterations", &ErrorSplitCase::converged_iterations)
+                                   .record("pbs", &EnsembleCase::pbs)
+                                   .record("other_flesh", &EnsembleCase::other_flesh)
+                                   .record("k_stretch", &EnsembleCase::k_stretch)
+                                   .record("iterations", &EnsembleCase::iterations)
+                                   .record("converged_iterations", &EnsembleCase::converged_iterations)
                                    .complete();
     return fields.json(of);
 }
@@ -427,9 +148,228 @@ std::vector<DeformerSpec> other_attachments(const DeformerSpec& reference)
     return others;
 }
 
-ErrorSplit split_error(const ErrorSplitCase& of)
+namespace {
+
+struct DeformedShape {
+    std::string deformer;
+    pbs::Positions positions;  // [m], #V x 3
+};
+
+MemberRow member_row(const EnsembleCase& of, const EnsembleMember& member, const PosedReference& reference,
+                     const analysis::MeshMetrics& metrics)
 {
-    return Splitting(of).split();
+    MemberRow row;
+    row.of = of.of;
+    row.member = member;
+    const NestedSolution& finest = reference.solutions().front();
+    row.outcome = reference.is_reached() ? "reached" : finest.finished ? "inverted" : "not_converged";
+    row.masked_share_pct = reference.masked_share_pct();
+    row.lowest_det_f = finest.lowest_det_f;
+    row.inverted_tets = finest.inverted_tets;
+    row.j_min = finest.j_min;
+    row.worst_tet = finest.worst_tet;
+    row.newton_steps = finest.newton_steps;
+    row.projected = finest.projected;
+    for (const NestedSolution& solution : reference.solutions()) row.solve_s += solution.seconds;
+    if (!reference.is_reached()) return row;
+    row.element_order = reference.reference().element_order;
+    row.refinements = reference.reference().refinements;
+    row.volume_change_pct = metrics.measure(reference.reference().positions).volume_change_pct;
+    if (!reference.order()) return row;
+    row.error_bound_pct = reference.bound().joint_pct;
+    row.error_bound_l2_pct = reference.bound().l2_pct;
+    row.observed_order = reference.order()->observed;
+    row.reliable = reference.order()->reliable;
+    return row;
+}
+
+// Collects, for each pair of shapes, how each reference of the family orders the pair.
+class Ordering {
+public:
+    explicit Ordering(const std::vector<DeformedShape>& shapes) : shapes_(shapes), orders_(shapes.size() * shapes.size()) {}
+
+    void add(const PosedReference& reference)
+    {
+        for (std::size_t a = 0; a < shapes_.size(); ++a)
+            for (std::size_t b = a + 1; b < shapes_.size(); ++b)
+                orders_[place(a, b)].push_back(reference.is_reached() ? order_of(reference, shapes_[a], shapes_[b])
+                                                                      : analysis::PairOrder::undecided);
+        if (!reference.is_reached()) {
+            ++not_reached_;
+            return;
+        }
+        errors_pct_.emplace_back();
+        for (const DeformedShape& shape : shapes_) errors_pct_.back().push_back(reference.error_of(shape.positions).joint_pct);
+    }
+
+    std::vector<PairRow> pairs(const CaseKey& of) const
+    {
+        std::vector<PairRow> rows;
+        for (std::size_t a = 0; a < shapes_.size(); ++a)
+            for (std::size_t b = a + 1; b < shapes_.size(); ++b) {
+                const std::vector<analysis::PairOrder>& orders = orders_[place(a, b)];
+                PairRow row{.of = of, .first = shapes_[a].deformer, .second = shapes_[b].deformer};
+                if (!errors_pct_.empty()) row.difference_pct = errors_pct_.front()[b] - errors_pct_.front()[a];
+                for (const std::vector<double>& errors : errors_pct_)
+                    row.largest_difference_pct = std::max(row.largest_difference_pct, std::abs(errors[b] - errors[a]));
+                row.members = static_cast<int>(orders.size());
+                row.not_reached = not_reached_;
+                row.first_is_closer = static_cast<int>(std::ranges::count(orders, analysis::PairOrder::first_is_closer));
+                row.second_is_closer = static_cast<int>(std::ranges::count(orders, analysis::PairOrder::second_is_closer));
+                row.decision = analysis::decide(orders);
+                rows.push_back(row);
+            }
+        return rows;
+    }
+
+private:
+    static analysis::PairOrder order_of(const PosedReference& reference, const DeformedShape& a, const DeformedShape& b)
+    {
+        return analysis::order_of({reference.error_of(a.positions).joint_pct, reference.error_of(b.positions).joint_pct,
+                                   reference.distance(a.positions, b.positions).joint_pct, reference.bound().joint_pct});
+    }
+
+    std::size_t place(std::size_t a, std::size_t b) const { return a * shapes_.size() + b; }
+
+    const std::vector<DeformedShape>& shapes_;
+    std::vector<std::vector<analysis::PairOrder>> orders_;  // of each pair, one per member
+    std::vector<std::vector<double>> errors_pct_;           // of the shapes, one list per member that was reached
+    int not_reached_ = 0;                                   // members
+};
+
+
+Scene refined(Scene scene)
+{
+    ++scene.character.refinements;
+    return scene;
+}
+
+pbs::PbsOptions in_double(const DeformerSpec& spec, double k_stretch, int iterations)
+{
+    pbs::PbsOptions options = options_of<pbs::PbsOptions>(spec);
+    options.precision = pbs::Precision::f64;
+    options.k_stretch = k_stretch;
+    options.iterations = iterations;
+    options.jiggle.reset();
+    return options;
+}
+
+// The parts of PBS's error relative to one reference.
+class Splitting {
+public:
+    Splitting(const EnsembleCase& of, const PosedCharacter& base, const PosedReference& reference)
+        : of_(of),
+          base_(base),
+          reference_(reference),
+          fine_(refined(of.scene), {of.frame}),
+          reference_shape_{reference.reference().positions, true}
+    {
+    }
+
+    void add_to(EnsembleRecords& records) const
+    {
+        std::vector<Shape> others;
+        for (const DeformerSpec& other : of_.other_flesh) others.push_back(base_.shapes(other).front());
+        for (const double k_stretch : of_.k_stretch) {
+            const pbs::PbsOptions whole = in_double(of_.pbs, k_stretch, of_.converged_iterations);
+            std::vector<pbs::PbsOptions> all = {whole, in_double(of_.pbs, k_stretch, of_.converged_iterations / 2)};
+            for (const int iterations : of_.iterations) all.push_back(in_double(of_.pbs, k_stretch, iterations));
+            const std::vector<Shapes> shapes = base_.shapes(all);
+            const Shape &converged = shapes[0].front(), &half_way = shapes[1].front(), on_fine = fine_.shapes({whole}).front().front();
+            for (std::size_t n = 2; n < shapes.size(); ++n) {
+                PartsRow row = parts_of(shapes[n].front(), converged);
+                row.k_stretch = k_stretch;
+                row.iterations = all[n].iterations;
+                row.not_converged_pct = distance(converged, half_way).joint_pct;
+                row.pbs_refinement_pct = distance(converged, on_fine).joint_pct;
+                records.parts.push_back(row);
+            }
+            records.attachments.push_back(attachment(k_stretch, converged, of_.flesh, reference_shape_));
+            for (std::size_t other = 0; other < others.size(); ++other)
+                records.attachments.push_back(attachment(k_stretch, converged, of_.other_flesh[other], others[other]));
+        }
+    }
+
+private:
+    PartsRow parts_of(const Shape& shape, const Shape& converged) const
+    {
+        const analysis::ErrorNorms total = distance(shape, reference_shape_);
+        PartsRow row{.of = of_.of};
+        row.error_joint_pct = total.joint_pct;
+        row.solver_pct = distance(shape, converged).joint_pct;
+        row.model_pct = distance(converged, reference_shape_).joint_pct;
+        row.discretisation_pct = reference_.bound().joint_pct;
+        row.error_l2_pct = total.l2_pct;
+        row.error_linf_m = total.linf_m;
+        row.whole_joint_pct = base_.distance(shape, reference_shape_).joint_pct;
+        row.masked_share_pct = reference_.masked_share_pct();
+        if (!reference_.order()) return row;
+        row.observed_order = reference_.order()->observed;
+        row.order_is_reliable = reference_.order()->reliable;
+        return row;
+    }
+
+    AttachmentRow attachment(double k_stretch, const Shape& converged, const DeformerSpec& flesh, const Shape& shape) const
+    {
+        const auto& fem = options_of<FemOptions>(flesh);
+        AttachmentRow row{of_.of, flesh.label, name_of(fem.model), name_of(fem.attachment)};
+        if (has_spring_factor(fem.attachment)) row.spring_factor = spring_factor_of(fem);
+        if (has_capsules(fem.attachment)) row.core_radius = core_radius_of(fem);
+        row.difference_pct = distance(shape, reference_shape_).joint_pct;
+        row.k_stretch = k_stretch;
+        row.model_pct = distance(converged, shape).joint_pct;
+        row.finished = shape.finished;
+        return row;
+    }
+
+    // Outside the mask. Not a number where one of them did not finish.
+    analysis::ErrorNorms distance(const Shape& one, const Shape& other) const
+    {
+        constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+        if (!one.finished || !other.finished) return {nothing, nothing, nothing};
+        const Eigen::Index vertices = base_.character().mesh.rest.rows();
+        return reference_.distance(one.positions.topRows(vertices), other.positions.topRows(vertices));
+    }
+
+    const EnsembleCase& of_;
+    const PosedCharacter& base_;
+    const PosedReference& reference_;
+    PosedCharacter fine_;
+    Shape reference_shape_;
+};
+
+}  // namespace
+
+EnsembleRecords measure_ensemble(const EnsembleCase& of)
+{
+    const PosedCharacter body(of.scene, {of.frame});
+    const pbs::TetMesh& mesh = body.character().mesh;
+    const analysis::MeshMetrics metrics(mesh.rest, mesh.tets);
+    EnsembleRecords records;
+    std::vector<DeformedShape> shapes;
+    for (const DeformerSpec& spec : of.deformers) {
+        const Shape shape = body.shapes(spec).front();
+        if (shape.finished)
+            shapes.push_back({spec.label, shape.positions});
+        else
+            records.breakdown += spec.label + " did not finish. ";
+    }
+    Ordering ordering(shapes);
+    for (const EnsembleMember& member : of.members) {
+        const PosedReference reference(body.character(), flesh_of(of.flesh, member), body.pose(0), of.scene.motion.time_step_s);
+        records.members.push_back(member_row(of, member, reference, metrics));
+        ordering.add(reference);
+        if (!reference.is_reached()) continue;
+        for (const DeformedShape& shape : shapes) {
+            const analysis::ErrorNorms error = reference.error_of(shape.positions);
+            records.errors.push_back({of.of, member.name, shape.deformer, error.joint_pct, error.l2_pct,
+                                      reference.error_on_whole_body(shape.positions).joint_pct,
+                                      metrics.measure(shape.positions).volume_change_pct});
+        }
+        if (records.members.size() == 1 && !of.k_stretch.empty()) Splitting(of, body, reference).add_to(records);
+    }
+    records.pairs = ordering.pairs(of.of);
+    return records;
 }
 
 }  // namespace experiments

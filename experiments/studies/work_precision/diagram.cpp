@@ -3,6 +3,7 @@
 #include "experiments/studies/shared/case_name.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,12 +12,6 @@
 #include <vector>
 
 namespace experiments {
-
-// The mean of the diagrams of several poses: the settings that have an error in each of them, with the means of their times and errors.
-//   diagrams.push_back(mean_diagram("human_mean_of_4_poses", "human, mean of 4 poses", poses));
-
-// poses: at least one diagram, all of the same comparison. key and name: those of the mean.
-Diagram mean_diagram(const std::string& key, const std::string& name, const std::vector<Diagram>& poses);
 
 namespace {
 
@@ -86,11 +81,6 @@ const Columns<ChosenSetting> chosen_columns =
         {"training_poses", &ChosenSetting::training_poses, "", "poses on which it was chosen; 0: there was no choice"},
         {"training_error_joint_pct", &ChosenSetting::training_error_pct, "%", "its geometric mean error over these poses"}};
 
-std::string words_of(Comparison comparison)
-{
-    return comparison == Comparison::packed_f32 ? "packed f32 code where a deformer has it" : "plain f64 code";
-}
-
 int code_rank(const SettingKey& key)
 {
     return (key.precision == "f32" ? 2 : 0) + (key.packed ? 1 : 0);
@@ -134,77 +124,55 @@ std::vector<ChosenSetting> choose_settings(const std::vector<CaseRows>& cases)
 
 namespace {
 
-std::optional<double> mean_of(const std::vector<Diagram>& poses, std::optional<double> Diagram::*value)
+// A mean is known where all of its values are.
+void add(std::optional<double>& sum, const std::optional<double>& more, double share)
 {
-    double sum = 0.0;
-    for (const Diagram& pose : poses) {
-        if (!(pose.*value)) return std::nullopt;
-        sum += *(pose.*value);
-    }
-    return sum / double(poses.size());
+    sum = sum && more ? std::optional(*sum + share * *more) : std::nullopt;
 }
 
 // The same setting in every pose; nothing where it has no error in one of them.
 std::optional<DiagramPoint> mean_of(const std::vector<Diagram>& poses, const DiagramPoint& setting)
 {
-    constexpr std::optional<double> DiagramPoint::*known_or_not[] = {&DiagramPoint::ms_q1,
-                                                                     &DiagramPoint::ms_q3,
-                                                                     &DiagramPoint::l2_pct,
-                                                                     &DiagramPoint::linf_m,
-                                                                     &DiagramPoint::volume_abs_change_pct};
+    constexpr std::optional<double> DiagramPoint::*known_or_not[] = {&DiagramPoint::ms_q1, &DiagramPoint::ms_q3, &DiagramPoint::l2_pct,
+                                                                     &DiagramPoint::linf_m, &DiagramPoint::volume_abs_change_pct};
     DiagramPoint mean{setting.key};
     for (const auto value : known_or_not) mean.*value = 0.0;
     mean.members.fill(0.0);
     const double share = 1.0 / double(poses.size());
     for (const Diagram& pose : poses) {
-        const auto same = [&](const DiagramPoint& point) { return point.key == setting.key; };
-        const auto found = std::find_if(pose.points.begin(), pose.points.end(), same);
+        const auto found = std::ranges::find(pose.points, setting.key, &DiagramPoint::key);
         if (found == pose.points.end()) return std::nullopt;
         for (const auto value : {&DiagramPoint::ms, &DiagramPoint::error_pct}) mean.*value += share * (*found).*value;
-        for (const auto value : known_or_not) {
-            std::optional<double>& sum = mean.*value;
-            const std::optional<double>& more = (*found).*value;
-            sum = sum && more ? std::optional(*sum + share * *more) : std::nullopt;
-        }
-        for (std::size_t m = 0; m < mean.members.size(); ++m) {
-            const std::optional<double>& more = found->members[m];
-            std::optional<double>& sum = mean.members[m];
-            sum = sum && more ? std::optional(*sum + share * *more) : std::nullopt;
-        }
+        for (const auto value : known_or_not) add(mean.*value, (*found).*value, share);
+        for (std::size_t m = 0; m < mean.members.size(); ++m) add(mean.members[m], found->members[m], share);
     }
     return mean;
 }
 
-// A further reference takes part in a mean if it takes part in each pose.
-DiagramMember mean_member(const std::vector<Diagram>& poses, std::size_t place)
-{
-    DiagramMember mean{true, 0.0};
-    for (const Diagram& pose : poses) {
-        const DiagramMember& one = pose.members[place];
-        mean.takes_part = mean.takes_part && one.takes_part;
-        mean.bound_pct =
-            mean.bound_pct && one.bound_pct ? std::optional(*mean.bound_pct + *one.bound_pct / double(poses.size())) : std::nullopt;
-    }
-    return mean;
-}
-
-}  // namespace
-
-Diagram mean_diagram(const std::string& key, const std::string& name, const std::vector<Diagram>& poses)
+// The mean of the diagrams of several poses in the same comparison: the settings that have an error in each of them, with the means of
+// their times and errors. A further reference takes part if it takes part in each pose.
+Diagram mean_diagram(const std::string& key, const std::vector<Diagram>& poses)
 {
     Diagram mean;
     mean.comparison = poses.front().comparison;
     mean.key = key;
-    mean.name = name;
     mean.groups = poses.front().groups;
-    for (std::size_t m = 0; m < mean.members.size(); ++m) mean.members[m] = mean_member(poses, m);
+    mean.has_reference = true;
     mean.poses = static_cast<int>(poses.size());
-    for (const Diagram& pose : poses) mean.cases.push_back(pose.key);
-    for (const Diagram& pose : poses) mean.masked_share_pct += pose.masked_share_pct / double(poses.size());
-    const bool same = std::all_of(poses.begin(), poses.end(), [&](const Diagram& pose) { return pose.reference == poses[0].reference; });
-    mean.reference = same ? poses[0].reference : "another one for each pose";
-    mean.reference_ms = mean_of(poses, &Diagram::reference_ms);
-    mean.reference_error_pct = mean_of(poses, &Diagram::reference_error_pct);
+    mean.members.fill({true, 0.0});
+    mean.reference_error_pct = 0.0;
+    for (const Diagram& pose : poses) {
+        mean.cases.push_back(pose.key);
+        add(mean.reference_error_pct, pose.reference_error_pct, 1.0);
+        for (std::size_t m = 0; m < mean.members.size(); ++m) {
+            mean.members[m].takes_part = mean.members[m].takes_part && pose.members[m].takes_part;
+            if (pose.members[m].bound_pct && mean.members[m].bound_pct)
+                *mean.members[m].bound_pct += *pose.members[m].bound_pct / double(poses.size());
+            else
+                mean.members[m].bound_pct.reset();
+        }
+    }
+    if (mean.reference_error_pct) *mean.reference_error_pct /= double(poses.size());
     for (const DiagramPoint& first : poses[0].points)
         if (auto point = mean_of(poses, first)) {
             point->below_reference_error = mean.reference_error_pct && point->error_pct <= *mean.reference_error_pct;
@@ -213,28 +181,11 @@ Diagram mean_diagram(const std::string& key, const std::string& name, const std:
     return mean;
 }
 
-namespace {
-
 constexpr std::size_t fewest_for_a_mean = 3;
-
-void add_members(Diagram& diagram, const std::vector<FamilyRow>& members)
-{
-    for (const FamilyRow& row : members)
-        diagram.members.at(place_among_further(row.member.name)) = {true, row.outcome == "reached" ? row.error_bound_pct : std::nullopt};
-}
 
 bool is_chosen(const std::vector<ChosenSetting>& chosen, Comparison comparison, const SettingKey& key)
 {
     return std::ranges::any_of(chosen, [&](const auto& one) { return one.comparison == comparison && one.key == key; });
-}
-
-// Returns the names of the user's own deformers, in the order of the rows.
-std::vector<std::string> external_in(const CaseRows& rows)
-{
-    std::vector<std::string> names;
-    for (const PointRow& row : rows)
-        if (row.is_external) names.push_back(row.key.deformer);
-    return names;
 }
 
 // One pose of one body.
@@ -245,21 +196,21 @@ Diagram diagram_of(const CaseRecords& records, Comparison comparison, const std:
     diagram.half = records.rows.front().half;
     diagram.pose = records.rows.front().of;
     diagram.key = case_name(diagram.pose);
-    diagram.name = text_of(diagram.pose);
-    diagram.groups = groups_with(external_in(records.rows));
-    add_members(diagram, records.members);
+    for (const FamilyRow& row : records.members)
+        diagram.members.at(place_among_further(row.member.name)) = {true, row.outcome == "reached" ? row.error_bound_pct : std::nullopt};
+    std::vector<std::string> external;
     for (const PointRow& row : records.rows) {
+        if (row.is_external) external.push_back(row.key.deformer);
         if (row.outcome == "reference") {
-            diagram.reference = text_of(row.key);
-            diagram.reference_ms = row.reach_ms;
+            diagram.has_reference = true;
             diagram.reference_error_pct = row.reference_error_joint_pct;
-            diagram.masked_share_pct = row.masked_share_pct.value_or(0.0);
         }
         if (row.ms_median && row.error && is_chosen(chosen, comparison, row.key))
             diagram.points.push_back({row.key, *row.ms_median, row.ms_q1, row.ms_q3, row.error->joint_pct, row.error->l2_pct,
                                       row.error->linf_m, row.metrics ? std::optional(row.metrics->volume_abs_change_pct) : std::nullopt,
                                       row.below_reference_error.value_or(false), row.members});
     }
+    diagram.groups = groups_with(external);
     return diagram;
 }
 
@@ -299,7 +250,7 @@ const std::vector<DeformerGroup>& groups_of(const std::vector<Diagram>& diagrams
 
 bool is_pose(const Diagram& diagram)
 {
-    return diagram.poses == 1 && !diagram.reference.empty();
+    return diagram.poses == 1 && diagram.has_reference;
 }
 
 double value_of(const DiagramPoint& point, const std::string& measure)
@@ -331,7 +282,7 @@ std::vector<Diagram> diagrams_of(const std::vector<CaseRecords>& cases, const st
             if (records.rows.empty()) continue;
             const Diagram diagram = diagram_of(records, comparison, chosen);
             diagrams.push_back(diagram);
-            if (diagram.reference.empty() || diagram.half == Half::training) continue;
+            if (!diagram.has_reference || diagram.half == Half::training) continue;
             evaluated.push_back(diagram);
             add_to(bodies, diagram.pose.body, diagram);
             if (!diagram.pose.pose.empty()) add_to(poses, diagram.pose.pose, diagram);
@@ -339,11 +290,9 @@ std::vector<Diagram> diagrams_of(const std::vector<CaseRecords>& cases, const st
         for (const auto& [over, families] : {std::pair{"poses", bodies}, {"bodies", poses}})
             for (const auto& [name, of] : families)
                 if (of.size() >= fewest_for_a_mean)
-                    diagrams.push_back(mean_diagram(fmt::format("{}_mean_of_{}_{}", name, of.size(), over),
-                                                    fmt::format("{}, mean of {} {}", name, of.size(), over), of));
+                    diagrams.push_back(mean_diagram(fmt::format("{}_mean_of_{}_{}", name, of.size(), over), of));
         if (evaluated.size() > 1)
-            diagrams.push_back(mean_diagram(fmt::format("mean_of_{}_evaluated_poses", evaluated.size()),
-                                            fmt::format("mean of the {} evaluated poses", evaluated.size()), evaluated));
+            diagrams.push_back(mean_diagram(fmt::format("mean_of_{}_evaluated_poses", evaluated.size()), evaluated));
     }
     return diagrams;
 }
@@ -355,52 +304,29 @@ const DiagramPoint* best_of(const Diagram& diagram, const DeformerGroup& group, 
     return best ? &diagram.points[indices[*best]] : nullptr;
 }
 
-namespace {
-
-using analysis::PairOrder;
-
-PairOrder order_by(std::optional<double> nearer_pct, std::optional<double> other_pct, std::optional<double> bound_pct)
-{
-    constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
-    const double one = nearer_pct.value_or(not_known), other = other_pct.value_or(not_known);
-    return analysis::order_of({one, other, one + other, bound_pct.value_or(not_known)});
-}
-
-std::string joined(const std::vector<std::string>& names)
-{
-    std::string text;
-    for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-    return text;
-}
-
-}  // namespace
-
-std::string Decision::remark() const
-{
-    return is_decided() ? "" : " [undecided: " + reason + "]";
-}
-
 Decision decision_on(const Diagram& diagram, const DiagramPoint& nearer, const DiagramPoint& other)
 {
-    std::vector<PairOrder> orders = {order_by(nearer.error_pct, other.error_pct, diagram.reference_error_pct)};
+    using analysis::PairOrder;
+    // The distance between the two shapes is not recorded.
+    std::vector<PairOrder> orders = {analysis::order_of({nearer.error_pct, other.error_pct, std::nullopt, diagram.reference_error_pct})};
     std::vector<std::string> silent, contrary;  // further references that do not decide, and that decide for the other point
     const std::vector<EnsembleMember> all = family();
     for (std::size_t m = 0; m < diagram.members.size(); ++m) {
         if (!diagram.members[m].takes_part) continue;
-        orders.push_back(order_by(nearer.members[m], other.members[m], diagram.members[m].bound_pct));
+        orders.push_back(analysis::order_of({nearer.members[m], other.members[m], std::nullopt, diagram.members[m].bound_pct}));
         if (orders.back() == PairOrder::undecided) silent.push_back(all[m + 1].name);
         if (orders.back() == PairOrder::second_is_closer) contrary.push_back(all[m + 1].name);
     }
-    Decision decision{analysis::decide(orders), "", static_cast<int>(orders.size())};
+    Decision decision{analysis::decide(orders)};
     if (!contrary.empty()) {
         decision.decision = analysis::PairDecision::models_disagree;
-        decision.reason = "the order is the other way round for " + joined(contrary);
+        decision.reason = fmt::format("the order is the other way round for {}", fmt::join(contrary, ", "));
     } else if (!diagram.reference_error_pct) {
         decision.reason = "the reference's own error is not known";
     } else if (orders.front() == PairOrder::undecided) {
         decision.reason = fmt::format("within the reference's own error of up to {:.2g} %", *diagram.reference_error_pct);
     } else if (!silent.empty()) {
-        decision.reason = "not decided by " + joined(silent) + ", by their own error or because they were not reached";
+        decision.reason = fmt::format("not decided by {}, by their own error or because they were not reached", fmt::join(silent, ", "));
     }
     return decision;
 }

@@ -25,7 +25,6 @@ namespace experiments {
 // rung, the default setting is chosen.
 enum class Comparison { packed_f32, plain_f64 };
 inline constexpr std::array<Comparison, 2> comparisons = {Comparison::packed_f32, Comparison::plain_f64};
-std::string words_of(Comparison comparison);  // for headings
 
 using CaseRows = std::vector<PointRow>;  // of one case
 
@@ -47,20 +46,6 @@ extern const analysis::Columns<ChosenSetting> chosen_columns;  // settings.csv
 
 std::vector<ChosenSetting> choose_settings(const std::vector<CaseRows>& cases);
 
-}  // namespace experiments
-
-namespace analysis {
-
-template <>
-struct EnumNames<experiments::Comparison> {
-    static constexpr std::array<std::pair<experiments::Comparison, const char*>, 2> table{
-        {{experiments::Comparison::packed_f32, "packed_f32"}, {experiments::Comparison::plain_f64, "plain_f64"}}};
-};
-
-}  // namespace analysis
-
-namespace experiments {
-
 struct DiagramPoint {
     SettingKey key;
     double ms = 0.0;
@@ -71,7 +56,7 @@ struct DiagramPoint {
     MemberErrors members = {};  // against the further references
 };
 
-// The measures of fronts, named as the points' columns: error_joint_pct, which all sentences use, error_l2_pct, error_linf_m and
+// The measures of fronts, named as the points' columns: error_joint_pct, by which all orders are decided, error_l2_pct, error_linf_m and
 // volume_abs_change_pct.
 const analysis::Columns<DiagramPoint>& measures();
 double value_of(const DiagramPoint& point, const std::string& measure);  // not a number where it is not recorded
@@ -88,13 +73,10 @@ struct Diagram {
     Half half = Half::evaluation;
     analysis::CaseKey pose;                     // of one case; a mean of several has none
     std::string key;                            // limb_twist_90, or limb_mean_of_4_poses
-    std::string name;                           // for readers: limb, twist, 90 deg
     std::vector<DiagramPoint> points;           // those with a time and an error; the reference has no error
-    std::string reference;                      // its name for readers; empty: none was reached
-    std::optional<double> reference_ms;         // wall time of its solutions
+    bool has_reference = false;                 // one was reached
     std::optional<double> reference_error_pct;  // bound at the joints
     std::array<DiagramMember, further_members> members = {};
-    double masked_share_pct = 0.0;  // of the volume, which overlaps itself and is left out
     int poses = 1;
     std::vector<std::string> cases = {};                    // of a mean: the keys of its poses
     std::vector<DeformerGroup> groups = deformer_groups();  // those of the user's own deformers last
@@ -125,14 +107,10 @@ const DiagramPoint* best_of(const Diagram& diagram, const DeformerGroup& group, 
 // distances: relative to the exact solution, each may be larger or smaller by the error of the reference. A reference orders two points if
 // their errors differ by more than twice the bound of its own error (analysis/pair_order.hpp with |A - B| <= e_A + e_B). A statement is
 // decided if every reference of the ensemble orders the points in this way.
-//   decision_on(diagram, pbs, delta_mush).remark()
+//   decision_on(diagram, pbs, delta_mush).reason
 struct Decision {
     analysis::PairDecision decision = analysis::PairDecision::decided;
     std::string reason = {};  // why it is not decided; empty where it is
-    int references = 1;
-
-    bool is_decided() const { return decision == analysis::PairDecision::decided; }
-    std::string remark() const;  // follows a sentence; empty where it is decided
 };
 
 // `nearer` has the smaller error against the first reference.
@@ -142,3 +120,9 @@ Decision decision_on(const Diagram& diagram, const DiagramPoint& nearer, const D
 std::optional<Decision> decision_from(const Diagram& diagram, const DeformerGroup& one, const DeformerGroup& other, double from_ms);
 
 }  // namespace experiments
+
+template <>
+struct analysis::EnumNames<experiments::Comparison> {
+    static constexpr std::array<std::pair<experiments::Comparison, const char*>, 2> table{
+        {{experiments::Comparison::packed_f32, "packed_f32"}, {experiments::Comparison::plain_f64, "plain_f64"}}};
+};

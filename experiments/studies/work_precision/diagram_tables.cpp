@@ -2,8 +2,6 @@
 
 #include "experiments/studies/shared/case_name.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -113,10 +111,9 @@ void add_front(std::vector<FrontRow>& rows, const Diagram& diagram, const std::s
         FrontRow& row = rows.emplace_back(
             FrontRow{diagram.comparison, diagram.key, measure, name, point, value_of(point, measure), diagram.reference_error_pct});
         if (name != all_name || measure != measures().front().name) continue;
-        const std::optional<RankDecision> decision = rank_decision(diagram, best_within(diagram, point.ms), 0);
-        if (!decision) continue;
-        row.decision = decision->worst.decision;
-        row.reason = decision->worst.reason;
+        const BudgetRow nearest = best_within(diagram, point.ms).front();
+        row.decision = nearest.decision;
+        row.reason = nearest.reason;
     }
 }
 
@@ -175,33 +172,15 @@ std::vector<BudgetRow> best_within(const Diagram& diagram, double budget_ms)
     std::ranges::stable_sort(rows, {}, [](const BudgetRow& row) { return row.point.error_pct; });
     for (std::size_t i = 0; i < rows.size(); ++i) {
         rows[i].rank = static_cast<int>(i + 1);
-        const std::optional<RankDecision> decision = rank_decision(diagram, rows, i);
-        if (!decision) break;
-        rows[i].decision = decision->worst.decision;
-        rows[i].reason = decision->worst.reason;
-        rows[i].undecided_against = decision->undecided;
+        for (std::size_t later = i + 1; later < rows.size(); ++later) {
+            const Decision decision = decision_on(diagram, rows[i].point, rows[later].point);
+            if (decision.decision != analysis::PairDecision::decided) rows[i].undecided_against.push_back(rows[later].group);
+            if (rows[i].decision && decision.decision <= *rows[i].decision) continue;
+            rows[i].decision = decision.decision;
+            rows[i].reason = decision.reason;
+        }
     }
     return rows;
-}
-
-std::string RankDecision::remark(const Diagram& diagram) const
-{
-    if (worst.is_decided()) return "";
-    std::vector<std::string> words;
-    for (const std::string& key : undecided) words.push_back(std::ranges::find(diagram.groups, key, &DeformerGroup::key)->words);
-    return fmt::format(" [undecided against {}: {}]", fmt::join(words, ", "), worst.reason);
-}
-
-std::optional<RankDecision> rank_decision(const Diagram& diagram, const std::vector<BudgetRow>& ranked, std::size_t place)
-{
-    std::optional<RankDecision> all;
-    for (std::size_t i = place + 1; i < ranked.size(); ++i) {
-        const Decision decision = decision_on(diagram, ranked[place].point, ranked[i].point);
-        if (!all) all = RankDecision{decision};
-        if (decision.decision > all->worst.decision) all->worst = decision;
-        if (!decision.is_decided()) all->undecided.push_back(ranked[i].group);
-    }
-    return all;
 }
 
 std::vector<BudgetRow> best_within(const std::vector<Diagram>& diagrams)
@@ -216,9 +195,14 @@ std::vector<BudgetRow> best_within(const std::vector<Diagram>& diagrams)
 
 namespace {
 
-bool counts(const Diagram& diagram)
+// The least time of a point of the group with an error of at most the tolerance. Nothing: the pose is not solved.
+std::optional<double> time_to_solve(const Diagram& diagram, const DeformerGroup& group, double tolerance_pct)
 {
-    return is_pose(diagram) && diagram.half == Half::evaluation;
+    std::optional<double> least_ms;
+    std::vector<std::size_t> indices;
+    for (const analysis::WorkPrecision& point : diagram.of(group.deformers, indices))
+        if (point.error <= tolerance_pct && (!least_ms || point.cost < *least_ms)) least_ms = point.cost;
+    return least_ms;
 }
 
 void add_steps(std::vector<ProfileStep>& steps, const std::vector<const Diagram*>& poses, const DeformerGroup& group, double tolerance_pct)
@@ -226,7 +210,8 @@ void add_steps(std::vector<ProfileStep>& steps, const std::vector<const Diagram*
     std::vector<double> solved, certain;
     for (const Diagram* pose : poses) {
         if (const auto ms = time_to_solve(*pose, group, tolerance_pct)) solved.push_back(*ms);
-        if (const auto ms = time_to_solve_certainly(*pose, group, tolerance_pct)) certain.push_back(*ms);
+        if (!pose->reference_error_pct) continue;
+        if (const auto ms = time_to_solve(*pose, group, tolerance_pct - *pose->reference_error_pct)) certain.push_back(*ms);
     }
     std::set<double> times(solved.begin(), solved.end());
     times.insert(certain.begin(), certain.end());
@@ -255,53 +240,17 @@ const analysis::Columns<ProfileStep> data_profile_columns = {
     {"poses", &ProfileStep::poses, "", "number of evaluated poses"},
     {"share_pct", &ProfileStep::share_pct, "%", "share of the poses that are solved"}};
 
-std::optional<double> time_to_solve(const Diagram& diagram, const DeformerGroup& group, double tolerance_pct)
-{
-    std::optional<double> least_ms;
-    std::vector<std::size_t> indices;
-    for (const analysis::WorkPrecision& point : diagram.of(group.deformers, indices))
-        if (point.error <= tolerance_pct && (!least_ms || point.cost < *least_ms)) least_ms = point.cost;
-    return least_ms;
-}
-
-std::optional<double> time_to_solve_certainly(const Diagram& diagram, const DeformerGroup& group, double tolerance_pct)
-{
-    if (!diagram.reference_error_pct) return std::nullopt;
-    return time_to_solve(diagram, group, tolerance_pct - *diagram.reference_error_pct);
-}
-
 std::vector<ProfileStep> data_profiles(const std::vector<Diagram>& diagrams)
 {
     std::vector<ProfileStep> steps;
     for (const Comparison comparison : comparisons) {
         std::vector<const Diagram*> poses;
         for (const Diagram& diagram : diagrams)
-            if (diagram.comparison == comparison && counts(diagram)) poses.push_back(&diagram);
+            if (diagram.comparison == comparison && is_pose(diagram) && diagram.half == Half::evaluation) poses.push_back(&diagram);
         for (const double tolerance_pct : profile_tolerances_pct)
             for (const DeformerGroup& group : groups_of(diagrams)) add_steps(steps, poses, group, tolerance_pct);
     }
     return steps;
-}
-
-Solved solved_within(const std::vector<Diagram>& diagrams, Comparison comparison, const DeformerGroup& group, double tolerance_pct,
-                     double ms)
-{
-    Solved count;
-    for (const Diagram& diagram : diagrams) {
-        if (diagram.comparison != comparison || !counts(diagram)) continue;
-        ++count.poses;
-        const std::optional<double> least_ms = time_to_solve(diagram, group, tolerance_pct);
-        count.solved += least_ms && *least_ms <= ms;
-        const std::optional<double> certain_ms = time_to_solve_certainly(diagram, group, tolerance_pct);
-        count.certain += certain_ms && *certain_ms <= ms;
-    }
-    return count;
-}
-
-std::string text_of(const Solved& solved)
-{
-    if (solved.poses == 0) return "";
-    return fmt::format("{} of {}{}", solved.solved, solved.poses, solved.solved ? fmt::format(", {} certain", solved.certain) : "");
 }
 
 namespace {

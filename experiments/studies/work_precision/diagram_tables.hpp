@@ -21,7 +21,7 @@ inline constexpr int ranks_of_a_pose = 3;
 inline constexpr std::array<double, 5> budgets_ms = {0.1, 1.0, 3.0, 10.0, 100.0};
 
 // best_within.csv: the best point of each group within a budget, the nearest group first. `decision` is whether it is nearer than every
-// group of a later rank within the budget: undecided if one of these is undecided. Figure, fronts and sentences use this rule.
+// group of a later rank within the budget: undecided if one of these is undecided. Figure and fronts use this rule.
 struct BudgetRow {
     Comparison comparison = Comparison::packed_f32;
     std::string diagram;
@@ -35,15 +35,6 @@ struct BudgetRow {
 };
 extern const analysis::Columns<BudgetRow> budget_columns;
 
-// Whether a ranked row is nearer than each later one: the worst decision.
-struct RankDecision {
-    Decision worst;
-    std::vector<std::string> undecided = {};  // keys of the groups against which it is undecided
-
-    std::string remark(const Diagram& diagram) const;  // follows a sentence and names these groups; empty where it is decided
-};
-// Nothing where there is no later row.
-std::optional<RankDecision> rank_decision(const Diagram& diagram, const std::vector<BudgetRow>& ranked, std::size_t place);
 std::vector<BudgetRow> best_within(const Diagram& diagram, double budget_ms);
 std::vector<BudgetRow> best_within(const std::vector<Diagram>& diagrams);  // all budgets; of a single pose the first ranks alone
 
@@ -64,22 +55,8 @@ struct ProfileStep {
 };
 extern const analysis::Columns<ProfileStep> data_profile_columns;  // data_profiles.csv
 
-// The least time of a point of the group with an error of at most the tolerance. Nothing: the pose is not solved.
-std::optional<double> time_to_solve(const Diagram& diagram, const DeformerGroup& group, double tolerance_pct);
-// The same for the error plus the bound on the reference's own error. Nothing where the bound is not known.
-std::optional<double> time_to_solve_certainly(const Diagram& diagram, const DeformerGroup& group, double tolerance_pct);
-
 // Over the evaluated poses with a reference; a group that solves none has no steps. Means are no poses.
 std::vector<ProfileStep> data_profiles(const std::vector<Diagram>& diagrams);
-
-// The number of evaluated poses that the group solves within a time, and the number of these poses.
-struct Solved {
-    int solved = 0, poses = 0;
-    int certain = 0;  // of those solved
-};
-std::string text_of(const Solved& solved);  // 3 of 4, 1 certain
-Solved solved_within(const std::vector<Diagram>& diagrams, Comparison comparison, const DeformerGroup& group, double tolerance_pct,
-                     double ms);
 
 // Which deformer is missing where, and why. Every diagram shows the omissions of its case.
 //   for (const Omission& omission : omissions_of(rows_of_all_cases)) ...

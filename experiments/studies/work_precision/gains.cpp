@@ -1,6 +1,7 @@
 #include "experiments/studies/work_precision/gains.hpp"
 
 #include "analysis/bootstrap.hpp"
+#include "analysis/pair_order.hpp"
 #include "experiments/studies/shared/pose_columns.hpp"
 
 #include <algorithm>
@@ -18,38 +19,52 @@ using analysis::CaseKey;
 using analysis::Columns;
 using analysis::within;
 
-using Curve = std::vector<ChangePoint>;                          // one setting in one pose, by iterations
+using Curve = std::vector<PointRow>;                             // one setting in one pose, by iterations
 using CurveKey = std::tuple<CaseKey, std::string, std::string>;  // pose, change, setting
 
-std::map<CurveKey, Curve> curves_of(const std::vector<ChangePoint>& points)
+constexpr double not_known = std::numeric_limits<double>::infinity();
+
+// A row without a time is one whose frames are not finite: it takes longer than any budget.
+double ms_of(const PointRow& point)
+{
+    return point.ms_median.value_or(not_known);
+}
+
+std::map<CurveKey, Curve> curves_of(const std::vector<PointRow>& points)
 {
     std::map<CurveKey, Curve> curves;
-    for (const ChangePoint& point : points) curves[{point.of, point.change, point.setting}].push_back(point);
-    for (auto& [key, curve] : curves) std::ranges::sort(curve, {}, &ChangePoint::iterations);
+    for (const PointRow& point : points) curves[{point.of, point.key.deformer, point.key.tuned}].push_back(point);
+    for (auto& [key, curve] : curves) std::ranges::sort(curve, {}, [](const PointRow& point) { return point.key.iterations; });
     return curves;
+}
+
+// The distance of the same column for a budget.
+std::optional<double> from_baseline(const PointRow& point, int budget)
+{
+    return point.from_pbs_pct.at(std::ranges::find(budget_iterations, budget) - budget_iterations.begin());
 }
 
 // The error of a setting at a budget. The result is empty if the setting takes longer or is not finite at this budget.
 std::optional<EqualTimeRow> value_at(const Curve& curve, int budget_iterations, double budget_ms)
 {
-    const auto slower = std::ranges::find_if(curve, [&](const ChangePoint& point) { return point.ms.median > budget_ms; });
+    const auto slower = std::ranges::find_if(curve, [&](const PointRow& point) { return ms_of(point) > budget_ms; });
     if (slower == curve.begin()) return std::nullopt;
-    const ChangePoint &before = *(slower - 1), &after = slower == curve.end() ? before : *slower;
-    if (!before.error_joint_pct || !after.error_joint_pct) return std::nullopt;
-    const double share =
-        after.ms.median > before.ms.median ? std::log(budget_ms / before.ms.median) / std::log(after.ms.median / before.ms.median) : 0.0;
+    const PointRow &before = *(slower - 1), &after = slower == curve.end() ? before : *slower;
+    if (!before.error || !after.error) return std::nullopt;
+    const double ms = ms_of(before), later_ms = ms_of(after);
+    const double share = later_ms > ms ? std::log(budget_ms / ms) / std::log(later_ms / ms) : 0.0;
     EqualTimeRow row;
     row.of = before.of;
     row.budget_iterations = budget_iterations;
     row.budget_ms = budget_ms;
-    row.change = before.change;
-    row.setting = before.setting;
-    row.iterations = std::lerp(double(before.iterations), double(after.iterations), share);
-    row.error_pct = std::lerp(*before.error_joint_pct, *after.error_joint_pct, share);
-    const auto one = before.distance_from_baseline(budget_iterations), other = after.distance_from_baseline(budget_iterations);
+    row.change = before.key.deformer;
+    row.setting = before.key.tuned;
+    row.iterations = std::lerp(double(before.key.iterations.value()), double(after.key.iterations.value()), share);
+    row.error_pct = std::lerp(before.error->joint_pct, after.error->joint_pct, share);
+    const auto one = from_baseline(before, budget_iterations), other = from_baseline(after, budget_iterations);
     if (one && other) row.distance_pct = std::max(*one, *other);
     row.reference_error_pct = before.reference_error_joint_pct;
-    row.volume_change_pct = before.metrics.volume_change_pct;
+    row.volume_change_pct = before.metrics ? before.metrics->volume_change_pct : 0.0;
     return row;
 }
 
@@ -60,11 +75,11 @@ using Reached = std::map<CaseKey, std::map<std::string, EqualTimeRow>>;  // of o
 std::string chosen_setting(const Reached& reached, const CaseKey& pose)
 {
     std::string best;
-    double least = std::numeric_limits<double>::infinity();
+    double least = not_known;
     for (const auto& [setting, own] : reached.at(pose)) {
         double sum = 0.0;
         for (const auto& [other, rows] : reached)
-            if (other != pose) sum += rows.contains(setting) ? rows.at(setting).error_pct : std::numeric_limits<double>::infinity();
+            if (other != pose) sum += rows.contains(setting) ? rows.at(setting).error_pct : not_known;
         if (best.empty() || sum < least) best = setting, least = sum;
     }
     return best;
@@ -91,22 +106,23 @@ namespace {
 
 // The poses of a group: their curves but the baseline's, and the baseline after each budget's iterations.
 std::vector<EqualTimeRow> rows_of_group(const std::string& group, const std::map<CurveKey, Curve>& curves,
-                                        const std::vector<ChangePoint>& points)
+                                        const std::vector<PointRow>& points)
 {
     std::vector<EqualTimeRow> rows;
     for (const int budget : budget_iterations) {
-        std::map<CaseKey, ChangePoint> of_baseline;
-        for (const ChangePoint& point : points)
-            if (point.change == baseline && point.iterations == budget && point.error_joint_pct) of_baseline.emplace(point.of, point);
+        std::map<CaseKey, PointRow> of_baseline;
+        for (const PointRow& point : points)
+            if (point.key.deformer == baseline && point.key.iterations == budget && point.error && point.ms_median)
+                of_baseline.emplace(point.of, point);
         std::map<std::string, Reached> reached;  // by change
         for (const auto& [key, curve] : curves) {
             const auto& [pose, change, setting] = key;
             if (change == baseline || !of_baseline.contains(pose) || (group != all_poses && pose.body != group)) continue;
-            const ChangePoint& base = of_baseline.at(pose);
-            auto row = value_at(curve, budget, base.ms.median);
+            const PointRow& base = of_baseline.at(pose);
+            auto row = value_at(curve, budget, *base.ms_median);
             if (!row) continue;
             row->group = group;
-            row->baseline_error_pct = *base.error_joint_pct;
+            row->baseline_error_pct = base.error->joint_pct;
             reached[change][pose].emplace(setting, *row);
         }
         for (const auto& [change, of_change] : reached)
@@ -117,25 +133,17 @@ std::vector<EqualTimeRow> rows_of_group(const std::string& group, const std::map
 
 }  // namespace
 
-std::vector<EqualTimeRow> at_equal_time(const std::vector<ChangePoint>& points)
+std::vector<EqualTimeRow> at_equal_time(const std::vector<PointRow>& points)
 {
     std::vector<std::string> groups = {all_poses};
     std::set<std::string> bodies;
-    for (const ChangePoint& point : points) bodies.insert(point.of.body);
+    for (const PointRow& point : points) bodies.insert(point.of.body);
     if (bodies.size() > 1) groups.insert(groups.end(), bodies.begin(), bodies.end());
     const std::map<CurveKey, Curve> curves = curves_of(points);
     std::vector<EqualTimeRow> rows;
     for (const std::string& group : groups)
         for (EqualTimeRow& row : rows_of_group(group, curves, points)) rows.push_back(std::move(row));
     return rows;
-}
-
-std::optional<double> shift_of_difference(double one_error, double other_error, double distance, std::optional<double> bound)
-{
-    if (!bound || !std::isfinite(*bound)) return std::nullopt;
-    const double least_sum = one_error + other_error - 2.0 * *bound;  // of the distances to any point within the bound of the reference
-    const double slope = least_sum > 0.0 ? std::min(2.0, 2.0 * distance / least_sum) : 2.0;
-    return slope * *bound;
 }
 
 namespace {
@@ -182,8 +190,7 @@ GainRow over_baseline(const std::string& change, const ByPose& rows)
     double iterations = 0.0, volume = 0.0;
     for (const auto& [pose, row] : rows) {
         poses.push_back({row.error_pct, row.baseline_error_pct,
-                         shift_of_difference(row.error_pct, row.baseline_error_pct,
-                                             row.distance_pct.value_or(std::numeric_limits<double>::infinity()), row.reference_error_pct)});
+                         analysis::shift_of_difference({row.error_pct, row.baseline_error_pct, row.distance_pct, row.reference_error_pct})});
         if (!row.setting.empty()) settings.insert(row.setting);
         iterations += row.iterations / double(rows.size());
         volume += std::abs(row.volume_change_pct) / double(rows.size());
@@ -204,10 +211,10 @@ GainRow over_other(const std::string& change, const ByPose& rows, const std::str
     for (const auto& [pose, row] : rows) {
         if (!others.contains(pose)) continue;
         const EqualTimeRow& other = others.at(pose);
-        constexpr double unknown = std::numeric_limits<double>::infinity();
-        const double distance = row.distance_pct.value_or(unknown) + other.distance_pct.value_or(unknown);
-        poses.push_back(
-            {row.error_pct, other.error_pct, shift_of_difference(row.error_pct, other.error_pct, distance, row.reference_error_pct)});
+        std::optional<double> distance;
+        if (row.distance_pct && other.distance_pct) distance = *row.distance_pct + *other.distance_pct;
+        poses.push_back({row.error_pct, other.error_pct,
+                         analysis::shift_of_difference({row.error_pct, other.error_pct, distance, row.reference_error_pct})});
     }
     GainRow gain = gain_over(poses);
     gain.change = change;
@@ -273,6 +280,57 @@ std::vector<GainRow> gains_of(const std::vector<EqualTimeRow>& rows)
             }
         }
     return all;
+}
+
+const Columns<CurveRow> curve_columns = {
+    {"body", &CurveRow::body, "", "name of the body"},
+    {"change", &CurveRow::change, "", "pbs, which is the baseline, or the name of a change"},
+    {"setting", &CurveRow::setting, "", "of its parameter: the one chosen for most poses at the time of 96 iterations"},
+    {"iterations", &CurveRow::iterations, "", "of Algorithm 1"},
+    {"poses", &CurveRow::poses, "", "number of poses in the mean"},
+    {"mean_ms", &CurveRow::ms, "ms", "mean of the median times per frame"},
+    {"error_joint_pct", &CurveRow::error_pct, "%", "mean error at the joints outside the overlap"}};
+
+namespace {
+
+using BodyAndChange = std::pair<std::string, std::string>;
+
+std::map<BodyAndChange, std::string> usual_settings(const std::vector<EqualTimeRow>& rows)
+{
+    const bool has_bodies = std::ranges::any_of(rows, [](const EqualTimeRow& row) { return row.group != all_poses; });
+    std::map<BodyAndChange, std::map<std::string, int>> times;
+    std::map<BodyAndChange, std::string> usual;
+    for (const EqualTimeRow& row : rows) {
+        usual[{row.of.body, baseline}] = "";
+        if (row.budget_iterations == 96 && (row.group == all_poses) != has_bodies) ++times[{row.of.body, row.change}][row.setting];
+    }
+    for (const auto& [key, settings] : times)
+        usual[key] = std::ranges::max_element(settings, {}, [](const auto& setting) { return setting.second; })->first;
+    return usual;
+}
+
+}  // namespace
+
+std::vector<CurveRow> mean_curves(const std::vector<PointRow>& points, const std::vector<EqualTimeRow>& rows)
+{
+    std::vector<CurveRow> curves;
+    const std::map<BodyAndChange, std::string> usual = usual_settings(rows);
+    for (const PointRow& point : points) {
+        const SettingKey& key = point.key;
+        const auto setting = usual.find({point.of.body, key.deformer});
+        if (setting == usual.end() || setting->second != key.tuned || !point.error || !point.ms_median) continue;
+        auto curve = std::ranges::find_if(curves, [&](const CurveRow& row) {
+            return row.body == point.of.body && row.change == key.deformer && row.iterations == key.iterations;
+        });
+        if (curve == curves.end()) {
+            curves.push_back({point.of.body, key.deformer, key.tuned, key.iterations.value()});
+            curve = curves.end() - 1;
+        }
+        ++curve->poses;
+        curve->ms += (*point.ms_median - curve->ms) / curve->poses;
+        curve->error_pct += (point.error->joint_pct - curve->error_pct) / curve->poses;
+    }
+    return curves;
 }
 
 }  // namespace experiments

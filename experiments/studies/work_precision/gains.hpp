@@ -1,12 +1,14 @@
-// The gain of each change over the baseline in equal time, in the mean over the poses of a group, and whether it is decided.
-//   const std::vector<GainRow> gains = gains_of(at_equal_time(points));
-// The reference's own error U can reverse the order of two shapes A and B. It changes the difference of their errors by at most U times the
-// largest distance between the two unit vectors that point from A and from B to the reference. This distance is at most 2, and at most
-// 2 |A - B| / (e_A + e_B) (C. Dunkl, K. Williams, A simple norm inequality, American Mathematical Monthly 71, 1964). The errors e_A and e_B
-// are at least the measured ones less U.
+// The gain of each change to PBS over PBS in equal time, in the mean over the poses of a group, and whether it is decided.
+//   const std::vector<EqualTimeRow> rows = at_equal_time(changes);   // the rows of changes.csv of all poses
+//   const std::vector<GainRow> gains = gains_of(rows);
+// Budget: the baseline's time after 4, 24 or 96 iterations in the same pose. The error of a setting at that time is interpolated between
+// its iterations, linearly in the logarithm of the time. Beyond the largest number of iterations the error is constant; below the smallest
+// number there is none. Poses are compared in groups: all of them, and those of each body where there are several. A change's setting in a
+// pose is the one with the least mean error at the same budget over the other poses of the group, so that no setting is evaluated on a pose
+// on which it was chosen. How much the reference's own error may change a gain: analysis/pair_order.hpp.
 #pragma once
 
-#include "experiments/studies/improvements/measured_changes.hpp"
+#include "experiments/studies/work_precision/point_row.hpp"
 
 #include <optional>
 #include <string>
@@ -14,14 +16,6 @@
 
 namespace experiments {
 
-// The gain of each change to PBS in the same time as the baseline.
-//   const std::vector<EqualTimeRow> rows = at_equal_time(points);
-// Budget: the baseline's time after 4, 24 or 96 iterations in the same pose. The error of a setting at that time is interpolated between
-// its iterations, linearly in the logarithm of the time. Beyond the largest number of iterations the error is constant; below the smallest
-// number there is none.
-// Poses are compared in groups: all of them, and those of each body where there are several. A change's setting in a pose is the one with
-// the least mean error at the same budget over the other poses of the group, so that no setting is evaluated on a pose on which it was
-// chosen.
 inline const std::string all_poses = "all";  // the group of all poses
 
 // One change in one pose at one budget.
@@ -42,11 +36,7 @@ struct EqualTimeRow {
 extern const analysis::Columns<EqualTimeRow> equal_time_columns;
 
 // points: of all poses, in which at least one setting of every change is finite. A change without a value at the budget has no row.
-std::vector<EqualTimeRow> at_equal_time(const std::vector<ChangePoint>& points);
-
-// By how much the reference's own error may change the difference between the errors of two shapes (above). Nothing where the bound is not
-// known.
-std::optional<double> shift_of_difference(double one_error, double other_error, double distance, std::optional<double> bound);
+std::vector<EqualTimeRow> at_equal_time(const std::vector<PointRow>& points);
 
 inline constexpr int fewest_poses = 4;  // with fewer ones the interval of the bootstrap is not reliable
 
@@ -74,9 +64,19 @@ struct GainRow {
 extern const analysis::Columns<GainRow> gain_columns;
 
 // Per group and budget: each change relative to the baseline, the largest gain first; then the first change relative to the second one and
-// to the control. The control (change_settings.hpp) is no change, and a change without a value in some pose has no such mean: they are not
+// to the control. The control (compared_deformers.hpp) is no change, and a change without a value in some pose has no such mean: they are not
 // compared with the others.
 std::vector<GainRow> gains_of(const std::vector<EqualTimeRow>& rows);
+
+// A point of a curve in the figure: the mean over the poses of a body at one number of iterations. The setting is the one that was chosen
+// for most of these poses at the budget of 96 iterations.
+struct CurveRow {
+    std::string body, change, setting;
+    int iterations = 0, poses = 0;
+    double ms = 0.0, error_pct = 0.0;
+};
+extern const analysis::Columns<CurveRow> curve_columns;
+std::vector<CurveRow> mean_curves(const std::vector<PointRow>& points, const std::vector<EqualTimeRow>& rows);
 
 }  // namespace experiments
 

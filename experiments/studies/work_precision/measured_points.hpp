@@ -7,6 +7,9 @@
 // choice of the reference. The error of PBS is split into solver, model and discretisation (ensemble/ensemble.hpp). A ladder of
 // iterations ends where a frame takes longer than the limit. The limit of the deformers that minimise an energy, from which their distance
 // is measured, is the point of linear elements with their law on the case's own tets (PointSetting::is_limit_of_deformers).
+// On unrefined tets a reference has no bound, except in the rows of changes to PBS: there it is the distance from linear elements on the
+// same tets. It holds if quadratic elements at least halve the error of linear ones, |P2 - x| <= |P1 - x| / 2 <= (|P1 - P2| + |P2 - x|) / 2,
+// as they do in the poses of the quick form.
 #pragma once
 
 #include "experiments/studies/shared/timed_rounds.hpp"
@@ -29,13 +32,14 @@ struct WorkPrecisionCase {
     std::vector<EnsembleMember> members = {};  // further references of the family
     int converged_iterations = 8000;           // of PBS for the parts of its error; 0: no parts
     double longest_frame_ms = 300.0;           // of a ladder of iterations
-    std::vector<DeformerSpec> external = {};  // deformers of the user's own (compared_deformers.hpp); they are measured first
+    std::vector<DeformerSpec> external = {};   // deformers of the user's own (compared_deformers.hpp); they are measured first
 };
 
 nlohmann::json to_json(const WorkPrecisionCase& of);  // everything that a run of the study depends on
 
 struct MeasuredPoints {
     std::vector<PointRow> rows;
+    std::vector<PointRow> changes;  // to PBS, and PBS itself: with SettingRange::changes
     std::vector<FamilyRow> members;
     std::string breakdown;  // PBS, LBS or a deformer of the user's own that is not finite; a reference that is not reached is recorded as
                             // an outcome
@@ -43,5 +47,10 @@ struct MeasuredPoints {
 
 // Throws an InputError if a deformer of the user's own fails.
 MeasuredPoints measure_points(const WorkPrecisionCase& of);
+
+// The length at which an edge has the stiffness k, so that the mean over all edges is k too: then the scaling softens long edges and
+// stiffens short ones, and the mesh as a whole is neither softer nor stiffer. By bisection, to 1e-12 of the longest edge; 0 < k < 1, some
+// edges.
+double neutral_length(double k, const std::vector<double>& edge_lengths_m);
 
 }  // namespace experiments

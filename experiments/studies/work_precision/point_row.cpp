@@ -3,6 +3,8 @@
 #include "experiments/studies/shared/pose_columns.hpp"
 #include "pbs/geometry/topology.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -21,21 +23,6 @@ std::vector<Half> halves_of(const std::vector<std::string>& bodies)
     return halves;
 }
 
-std::string words_of(FrameClock clock)
-{
-    switch (clock) {
-        case FrameClock::processor:
-            return "processor time, as of all other deformers";
-        case FrameClock::own:
-            return "the times that the program states in seconds.f64";
-        case FrameClock::wall:
-            return "the wall time of the program with its start, divided by the number of its poses";
-    }
-    return "";
-}
-
-// The columns of points.csv and members.csv.
-
 namespace {
 
 using analysis::Columns;
@@ -43,18 +30,10 @@ using analysis::ErrorNorms;
 using analysis::within;
 using pbs::WorkCounters;
 
-const Columns<SettingKey> deformer_columns = {{"deformer", &SettingKey::deformer, "", "name of the deformer"}};
-
 const Columns<ErrorNorms> error_columns = {
     {"error_joint_pct", &ErrorNorms::joint_pct, "%", "error over the blended vertices outside the overlap"},
     {"error_l2_pct", &ErrorNorms::l2_pct, "%", "error over all vertices outside the overlap"},
     {"error_linf_m", &ErrorNorms::linf_m, "m", "largest distance from the reference outside the overlap"}};
-
-const Columns<PbsParts> before_discretisation = {
-    {"solver_pct", &PbsParts::solver_pct, "%", "PBS: distance from its own converged shape, at the joints"},
-    {"model_pct", &PbsParts::model_pct, "%", "PBS: distance of its converged shape from the reference, at the joints"}};
-const Columns<PbsParts> after_discretisation = {{"not_converged_pct", &PbsParts::not_converged_pct, "%",
-                                                 "PBS: distance of its converged shape from that after half of the iterations"}};
 
 const Columns<WorkCounters> work_columns = {
     {"gradients", &WorkCounters::gradients, "", "gradients of an energy of the whole body, per frame"},
@@ -64,22 +43,28 @@ const Columns<WorkCounters> work_columns = {
     {"linear_solves", &WorkCounters::linear_solves, "", "systems of the whole body solved, per frame"},
     {"factorisations", &WorkCounters::factorisations, "", "numerical factorisations of such a system, per frame"}};
 
-Columns<PointRow> member_error_columns()
+using Points = Columns<PointRow>;
+
+Points member_error_columns()
 {
-    Columns<PointRow> columns;
+    Points columns;
     const std::vector<EnsembleMember> members = family();
-    for (std::size_t i = 1; i < members.size(); ++i) {
-        const auto error = [i](auto& row) -> auto&
-        {
-            return row.members[i - 1];
-        };
-        columns.push_back(
-            {"error_" + members[i].name + "_pct", error, "%", "error over the blended vertices against this further reference"});
-    }
+    for (std::size_t i = 1; i < members.size(); ++i)
+        columns.emplace_back(
+            "error_" + members[i].name + "_pct", [i](auto& row) -> auto& { return row.members[i - 1]; }, "%",
+            "error over the blended vertices against this further reference");
     return columns;
 }
 
-using Points = Columns<PointRow>;
+Points distance_columns()
+{
+    Points columns;
+    for (std::size_t b = 0; b < budget_iterations.size(); ++b)
+        columns.emplace_back(
+            fmt::format("from_pbs_{}_pct", budget_iterations[b]), [b](auto& row) -> auto& { return row.from_pbs_pct[b]; }, "%",
+            fmt::format("distance from PBS after {} iterations, at the joints outside the overlap", budget_iterations[b]));
+    return columns;
+}
 
 Points own_columns()
 {
@@ -108,7 +93,12 @@ Points reference_columns()
         {"below_reference_error", &PointRow::below_reference_error, "", "the error is not above the reference's own bound"},
         {"error_whole_joint_pct", &PointRow::error_whole_joint_pct, "%", "error over the blended vertices, those that overlap included"},
         {"masked_share_pct", &PointRow::masked_share_pct, "%",
-         "share of the volume that the other errors leave out because the reference overlaps itself there"}};
+         "share of the volume that the other errors leave out because the reference overlaps itself there"},
+        {"solver_pct", &PointRow::solver_pct, "%", "PBS: distance from its own converged shape, at the joints"},
+        {"model_pct", &PointRow::model_pct, "%", "PBS: distance of its converged shape from the reference, at the joints"},
+        {"discretisation_pct", &PointRow::discretisation_pct, "%", "PBS: bound of the reference's distance from its limit"},
+        {"not_converged_pct", &PointRow::not_converged_pct, "%",
+         "PBS: distance of its converged shape from that after half of the iterations"}};
 }
 
 // Later columns, in one group: older records do not have them.
@@ -136,14 +126,25 @@ Points columns_of_external()
 
 }  // namespace
 
-const Points point_columns =
-    within(&PointRow::of, pose_columns()) + within(&PointRow::key, deformer_columns) +
-    Points{{"setting", &PointRow::setting, "",
-            "the deformer and its setting as a text, which repeats the columns from iterations to packed"}} +
-    within(&PointRow::key, setting_columns()) + own_columns() + within(&PointRow::error, error_columns) +
-    within(&PointRow::metrics, volume_columns()) + reference_columns() + within(&PointRow::parts, before_discretisation) +
-    Points{{"discretisation_pct", &PointRow::discretisation_pct, "%", "PBS: bound of the reference's distance from its limit"}} +
-    within(&PointRow::parts, after_discretisation) + columns_of_comparison() + columns_of_external();
+const Points point_columns = within(&PointRow::of, pose_columns()) + within(&PointRow::key, point_key_columns()) + own_columns() +
+                             within(&PointRow::error, error_columns) + within(&PointRow::metrics, volume_columns()) + reference_columns() +
+                             columns_of_comparison() + columns_of_external();
+
+const Points change_columns =
+    within(&PointRow::of, pose_columns()) +
+    within(&PointRow::key, Columns<SettingKey>{{"change", &SettingKey::deformer, "", "pbs, which is the baseline, or the name of a change"},
+                                               {"setting", &SettingKey::tuned, "", "value of the change's own parameter"},
+                                               {"iterations", &SettingKey::iterations, "", "of Algorithm 1"}}) +
+    Points{{"outcome", &PointRow::outcome, "", "finished or not_finite"},
+           {"ms_median", &PointRow::ms_median, "ms", "median of the processor time per frame"},
+           {"ms_median_q1", &PointRow::ms_q1, "ms", "its lower quartile"},
+           {"ms_median_q3", &PointRow::ms_q3, "ms", "its upper quartile"}} +
+    within(&PointRow::error, Columns<ErrorNorms>{error_columns[0], error_columns[1]}) + within(&PointRow::metrics, volume_columns()) +
+    distance_columns() +
+    Points{{"reference", &PointRow::reference, "",
+            "elements of the reference: quadratic or linear, _refined: on the tets cut into eight; or not_reached"},
+           {"reference_error_joint_pct", &PointRow::reference_error_joint_pct, "%", "bound on the reference's own error, at the joints"},
+           {"masked_share_pct", &PointRow::masked_share_pct, "%", "share of the volume that is left out because the body overlaps itself"}};
 
 Points columns_for(const std::vector<PointRow>& rows)
 {
@@ -160,16 +161,9 @@ const Columns<FamilyRow> family_columns =
 
 namespace {
 
-std::string outcome_of(const ReachedPoint& point)
-{
-    if (point.shape.finished) return "finished";
-    return point.shape.positions.allFinite() ? "not_converged" : "not_finite";
-}
-
 PointRow row_on(const PointSetting& setting, const BodyMesh& mesh)
 {
     PointRow row{.key = key_of(setting)};
-    row.setting = text_of(row.key);
     row.is_external = setting.is_external();
     row.vertices = int(mesh.character().mesh.rest.rows());
     row.tets = int(mesh.character().mesh.tets.rows());
@@ -206,7 +200,7 @@ void add_reference(PointRow& row, const PosedReference& reference)
     row.reference_order = reference.order()->observed;
     row.reference_order_is_reliable = reference.order()->reliable;
     if (row.error) row.below_reference_error = row.error->joint_pct <= *row.reference_error_joint_pct;
-    if (row.parts) row.discretisation_pct = row.reference_error_joint_pct;
+    if (row.solver_pct) row.discretisation_pct = row.reference_error_joint_pct;
 }
 
 PointRow row_without_answer(const PointSetting& setting, const BodyMesh& mesh, const std::string& outcome, const std::string& reason)
@@ -220,7 +214,7 @@ PointRow row_without_answer(const PointSetting& setting, const BodyMesh& mesh, c
 PointRow point_row(const ReachedPoint& point)
 {
     PointRow row = row_on(*point.setting, *point.mesh);
-    row.outcome = outcome_of(point);
+    row.outcome = point.shape.finished ? "finished" : point.shape.positions.allFinite() ? "not_converged" : "not_finite";
     row.reach_ms = 1e3 * point.shape.seconds;
     const pbs::TetMesh& mesh = point.mesh->character().mesh;
     row.metrics = analysis::MeshMetrics(mesh.rest, mesh.tets).measure(point.shape.positions);
@@ -231,7 +225,6 @@ PointRow reference_row(const pbs::TetMesh& mesh, const PosedReference& reference
 {
     const NestedSolution& solution = reference.is_reached() ? reference.reference() : reference.solutions().front();
     PointRow row{.key = {.deformer = "reference", .element_order = solution.element_order, .refined = solution.refinements > 0}};
-    row.setting = text_of(row.key);
     row.vertices = int(mesh.rest.rows() + (row.key.refined ? pbs::edges_of(mesh.tets).rows() : 0));
     row.tets = int(mesh.tets.rows()) * (row.key.refined ? 8 : 1);
     row.outcome = reference.is_reached() ? "reference" : "not_reached";

@@ -1,5 +1,6 @@
 // points.csv: one row per setting, with its time, its work, its error, its volume and the reference that it is compared with. members.csv:
 // the other references of the family.
+// changes.csv: the rows of PBS and of single changes to it, with their distances from PBS.
 #pragma once
 
 #include "analysis/case_key.hpp"
@@ -30,48 +31,6 @@ struct OptionNames<Half> {
     static constexpr std::array<std::pair<Half, const char*>, 2> table{{{Half::training, "training"}, {Half::evaluation, "evaluation"}}};
 };
 
-}  // namespace experiments
-
-namespace analysis {
-
-template <>
-struct EnumNames<experiments::Half> : experiments::OptionNames<experiments::Half> {
-};
-
-}  // namespace analysis
-
-namespace experiments {
-
-// The clock of a point's times.
-//   words_of(FrameClock::own)  // for readers: "the times that the program states in seconds.f64"
-
-// processor: processor time of this process. own: the times that a deformer in another process states itself. wall: the wall time of that
-// process, divided by the number of its poses.
-enum class FrameClock { processor, own, wall };
-std::string words_of(FrameClock clock);
-
-}  // namespace experiments
-
-namespace analysis {
-
-template <>
-struct EnumNames<experiments::FrameClock> {
-    static constexpr std::array<std::pair<experiments::FrameClock, const char*>, 3> table{
-        {{experiments::FrameClock::processor, "processor"},
-         {experiments::FrameClock::own, "own"},
-         {experiments::FrameClock::wall, "wall"}}};
-};
-
-}  // namespace analysis
-
-namespace experiments {
-
-// The parts of PBS's error at the joints [%]. The third part is the error of the reference.
-struct PbsParts {
-    double solver_pct = 0.0, model_pct = 0.0;
-    double not_converged_pct = 0.0;  // between the converged shape and that after half of its iterations
-};
-
 struct FrameTime {
     std::optional<Spread> ms;  // nothing where no round arrived
     int failed_rounds = 0;     // rounds that did not reach the pose, or began in one that was not reached
@@ -79,7 +38,8 @@ struct FrameTime {
 // samples: [ms], not a number where a round failed.
 FrameTime frame_time(std::vector<double> samples);
 
-constexpr int fewest_for_quartiles = 3;  // rounds
+inline constexpr int fewest_for_quartiles = 3;                           // rounds
+inline constexpr std::array<int, 3> budget_iterations = {4, 24, 96};  // of PBS: a change is compared with it in the time of these
 
 // The errors against the members of the family after the first one, in their order.
 using MemberErrors = std::array<std::optional<double>, further_members>;
@@ -87,7 +47,6 @@ using MemberErrors = std::array<std::optional<double>, further_members>;
 struct PointRow {
     analysis::CaseKey of = {};  // body, motion, and the pose or the angle
     SettingKey key;
-    std::string setting = {};  // as a text
     int vertices = 0, tets = 0;
     std::string outcome = {};
     double reach_ms = 0.0;
@@ -101,8 +60,9 @@ struct PointRow {
     std::optional<bool> reference_order_is_reliable = {};
     std::optional<bool> below_reference_error = {};
     std::optional<double> error_whole_joint_pct = {}, masked_share_pct = {};
-    std::optional<PbsParts> parts = {};
-    std::optional<double> discretisation_pct = {};
+    // Of PBS at the joints: the distance from its own converged shape, the distance of that from the reference, the bound of the
+    // reference's distance from its limit, and the distance of the converged shape from that after half of its iterations.
+    std::optional<double> solver_pct = {}, model_pct = {}, discretisation_pct = {}, not_converged_pct = {};
     Half half = Half::evaluation;
     std::string reason = {};  // why the outcome is not_applicable or over_time_limit; why the reference is not reached
     std::optional<pbs::WorkCounters> work = {};
@@ -110,11 +70,14 @@ struct PointRow {
     MemberErrors members = {};
     bool is_external = false;              // a deformer of the user's own
     std::optional<FrameClock> clock = {};  // nothing where there is no time
+    // Of PBS and of a change to it: the distances from PBS after each of budget_iterations, at the joints outside the overlap.
+    std::array<std::optional<double>, budget_iterations.size()> from_pbs_pct = {};
 
     bool is_of_reference() const { return outcome == "reference" || outcome == "not_reached"; }
 };
 // All columns. The columns of the group "external" are written only if a deformer of the user's own takes part.
 extern const analysis::Columns<PointRow> point_columns;
+extern const analysis::Columns<PointRow> change_columns;  // changes.csv
 analysis::Columns<PointRow> columns_for(const std::vector<PointRow>& rows);
 
 // A setting without an answer: outcome is over_time_limit or not_applicable.
@@ -138,3 +101,7 @@ struct FamilyRow {
 extern const analysis::Columns<FamilyRow> family_columns;
 
 }  // namespace experiments
+
+template <>
+struct analysis::EnumNames<experiments::Half> : experiments::OptionNames<experiments::Half> {
+};

@@ -11,6 +11,8 @@
 #include "experiments/scene/scene.hpp"
 #include "experiments/studies/work_precision/compared_deformers.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,6 +26,7 @@ struct PointSetting {
     std::string tuned = {};              // the setting of its grid, see name_of(SettingChange)
     int vertices = 0;                    // wanted size of another mesh of the body; 0: the case's own
     bool refined = false;                // on the case's own tets, each cut into eight
+    const ComparedDeformer* change = {}; // the change to PBS that it is a setting of; null: of none
 
     bool is_external() const { return options_if<ExternalOptions>(spec) != nullptr; }  // a deformer of the user's own
     bool on_own_mesh() const { return vertices == 0 && !refined; }
@@ -63,8 +66,6 @@ SettingKey rung_of(SettingKey key);                        // the same for all s
 const analysis::Columns<SettingKey>& setting_columns();    // all fields except the deformer; tuned and packed are in the group "code"
 const analysis::Columns<SettingKey>& point_key_columns();  // with the deformer, first
 
-std::string text_of(const SettingKey& key);  // as it is recorded: pbs, iterations 24, k_stretch 0.2, order ordered, precision f32, ...
-
 struct SettingRange {
     bool in_short = false;                 // parts of the ladders and of the grids
     bool quadratic = true;                 // neo-Hookean flesh on quadratic elements too
@@ -72,8 +73,9 @@ struct SettingRange {
     std::vector<int> without_fem = {};     // further sizes, on which no finite elements are solved
     int quadratic_up_to = 1000;            // sizes of other meshes on which the nonlinear law has quadratic elements too
     bool refined = false;                  // neo-Hookean flesh on the case's own tets, each cut into eight
+    bool changes = false;                  // the changes to PBS
 };
-nlohmann::json to_json(const SettingRange& range);
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SettingRange, in_short, quadratic, other_vertices, without_fem, quadratic_up_to, refined, changes)
 
 // The scene, a built-in one, gives the options that are not varied: its pbs, and the material of its first [[fem]].
 std::vector<PointSetting> point_settings(const Scene& scene, const SettingRange& range);

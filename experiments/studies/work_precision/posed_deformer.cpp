@@ -2,6 +2,7 @@
 
 #include "experiments/process/cpu_clock.hpp"
 #include "pbs/character/refined_character.hpp"
+#include "pbs/character/skinning_weights.hpp"
 
 #include <limits>
 
@@ -27,6 +28,13 @@ BodyMesh BodyMesh::refined(const pbs::Character& base)
     BodyMesh fine(std::make_shared<pbs::Character>(pbs::refined(base)));
     fine.base_vertices_ = base.mesh.rest.rows();
     return fine;
+}
+
+BodyMesh BodyMesh::with_smooth_weights(const pbs::Character& base)
+{
+    auto smooth = std::make_shared<pbs::Character>(base);
+    smooth->weights = pbs::weights_by(pbs::WeightKind::smooth, base);
+    return BodyMesh(smooth);
 }
 
 pbs::Positions BodyMesh::on_base(const pbs::Positions& positions) const

@@ -9,8 +9,8 @@
 // another process (DeformerTraits::has_own_clock) has the time that it states instead. It runs on the case's own mesh only.
 #pragma once
 
+#include "analysis/records/typed_table.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
-#include "experiments/studies/work_precision/point_row.hpp"
 #include "experiments/studies/work_precision/point_setting.hpp"
 #include "pbs/character/bodies.hpp"
 
@@ -18,8 +18,6 @@
 #include <optional>
 
 namespace experiments {
-
-// The meshes of a case's body, and the shapes that the settings reach on them.
 
 // A mesh of the body: the case's own, or a coarser or finer one. Shapes on it are mapped to the vertices of the case's own mesh, so that
 // errors on all meshes are measured at the same points of the flesh and by the same metrics.
@@ -35,6 +33,8 @@ public:
     BodyMesh(const pbs::CharacterSource& source, int vertices, const pbs::Character& base);
     // Every tet of the base cut into eight. The first vertices are those of the base.
     static BodyMesh refined(const pbs::Character& base);
+    // The base with skinning weights that are harmonic where Eq. 2 blends.
+    static BodyMesh with_smooth_weights(const pbs::Character& base);
 
     const pbs::Character& character() const { return *character_; }
     bool has_base_vertices() const { return !points_; }  // its first vertices are those of the base: nothing has to be transferred
@@ -56,6 +56,10 @@ struct ReachedPoint {
     Shape shape;             // on its own mesh
     pbs::Positions on_base;  // on the case's own vertices
 };
+
+// The clock of a point's times. processor: processor time of this process. own: the times that a deformer in another process states itself.
+// wall: the wall time of that process, divided by the number of its poses.
+enum class FrameClock { processor, own, wall };
 
 struct PosePair {
     pbs::Pose pose, neighbour;  // neighbour: of the frame before
@@ -92,3 +96,11 @@ private:
 };
 
 }  // namespace experiments
+
+template <>
+struct analysis::EnumNames<experiments::FrameClock> {
+    static constexpr std::array<std::pair<experiments::FrameClock, const char*>, 3> table{
+        {{experiments::FrameClock::processor, "processor"},
+         {experiments::FrameClock::own, "own"},
+         {experiments::FrameClock::wall, "wall"}}};
+};
