@@ -8,15 +8,13 @@ written, it is named and the exit status is 2.
     xvfb-run -a python3 paper_figures/make_all.py results/reproduce --only work_precision --into elsewhere
 """
 import argparse
-import importlib
 import pathlib
 import shutil
 import sys
 
-import captions
-import entries
 import records
-import whole_file
+from records import entries, kept, whole_file
+from words import captions
 
 endings = ("pdf", "png", "svg", "csv", "tex", "webp", "mp4", "caption.txt")
 
@@ -30,29 +28,18 @@ def absent_study(entry, results):
     return next((study for study in entry.studies() if not (results / study).is_dir()), None)
 
 
-def draw(script, group, results, folder):
-    """Draws the figures of a script; returns whether it succeeded."""
+def draw(entry, results, folder):
+    """Draws a figure; returns whether it succeeded."""
     try:
-        for entry in group:
-            entry.check(results)
-        importlib.import_module(script).draw(results, folder)
-        for entry in group:
-            captions.write(entry, results, folder)
+        entry.check(results)
+        entry.draw(results, folder)
+        captions.write(entry, results, folder)
     except records.RecordsMissing as error:
-        for entry in group:
-            delete(entry.name, folder)
-            print(f"figures: {entry.name} not drawn: {error}", file=sys.stderr)
+        delete(entry.name, folder)
+        print(f"figures: {entry.name} not drawn: {error}", file=sys.stderr)
         return False
-    for entry in group:
-        print(f"figures: {folder / entry.name}")
+    print(f"figures: {folder / entry.name}")
     return True
-
-
-def by_script(chosen):
-    scripts = {}
-    for entry in chosen:
-        scripts.setdefault(entry.script, []).append(entry)
-    return scripts
 
 
 def main(results, only=None, folder=None):
@@ -68,16 +55,17 @@ def main(results, only=None, folder=None):
     if not only and not folder:
         shutil.rmtree(results / "figures", ignore_errors=True)
     folder = folder or results / "figures"
-    scripts = {entry.script for entry in listed if only in (None, entry.name)}
+    results = kept.opened(results)
     drawn = []
-    for script, group in by_script(entry for entry in listed if entry.script in scripts).items():
-        for entry in group:
-            delete(entry.name, folder)
-        study = next(filter(None, (absent_study(entry, results) for entry in group)), None)
+    for entry in listed:
+        if only not in (None, entry.name):
+            continue
+        delete(entry.name, folder)
+        study = absent_study(entry, results)
         if study and not only:
-            print(f"figures: {', '.join(entry.name for entry in group)} left out: the study {study} was not run")
+            print(f"figures: {entry.name} left out: the study {study} was not run")
         else:
-            drawn.append(draw(script, group, results, folder))
+            drawn.append(draw(entry, results, folder))
     return 0 if all(drawn) else 1
 
 

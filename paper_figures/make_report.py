@@ -2,6 +2,7 @@
 status 2 if DIR holds no records.
 
     python3 paper_figures/make_report.py results/reproduce
+    python3 paper_figures/make_report.py --picture RUN    # only RUN/picture.png: the values of a single run over its frames
 """
 import pathlib
 import sys
@@ -9,8 +10,9 @@ import sys
 import report
 
 if __name__ == "__main__":
-    folders = [argument for argument in sys.argv[1:] if argument != "--quiet"]
+    folders = [argument for argument in sys.argv[1:] if not argument.startswith("--")]
     if len(folders) != 1:
         print(__doc__, file=sys.stderr)
         sys.exit(2)
-    sys.exit(report.main(pathlib.Path(folders[0]), quiet="--quiet" in sys.argv))
+    folder = pathlib.Path(folders[0])
+    sys.exit(report.picture(folder) if "--picture" in sys.argv else report.main(folder, quiet="--quiet" in sys.argv))

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "pbs/character/character.hpp"
-#include "pbs/geometry/iteration_work.hpp"
 #include "pbs/solver/step_summary.hpp"
 
 #include <nlohmann/json.hpp>
@@ -44,8 +43,6 @@ public:
     // The last state of the solver in the last call of advance [m], #V x 3, in the world. It differs from positions() where the pose was
     // not reached and positions() were taken back to an earlier state.
     virtual pbs::Positions last_state() const { return positions(); }
-    // The sizes that DeformerKind::work needs and that the mesh does not determine. The deformer reads these entries in each iteration.
-    virtual pbs::KeptEntries kept() const { return {}; }
     // Further facts for run.json: the grip of each bone, the solver, sizes. Null: none.
     virtual nlohmann::json record() const { return nullptr; }
 };

@@ -30,7 +30,6 @@ public:
     FewerNodes set_out_from() const override { return deformer_->set_out_from(); }
     std::optional<double> lowest_det_f() const override { return deformer_->lowest_det_f(); }
     pbs::Positions last_state() const override { return deformer_->last_state(); }
-    pbs::KeptEntries kept() const override { return deformer_->kept(); }
     nlohmann::json record() const override { return deformer_->record(); }
 
 private:

@@ -9,7 +9,6 @@
 #include "experiments/deformers/deformer.hpp"
 #include "experiments/deformers/deformer_spec.hpp"
 #include "experiments/settings/scene_schema.hpp"
-#include "pbs/geometry/iteration_work.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -36,9 +35,6 @@ struct DeformerTraits {
     bool has_own_clock = false;          // it works in another process, so that only StepSummary::seconds has its time
 };
 
-using pbs::BodyCounts;
-using pbs::IterationWork;
-
 struct DeformerKind {
     std::string name;     // in scenes and records
     std::string meaning;  // a line of `pbskin list deformers`
@@ -53,9 +49,6 @@ struct DeformerKind {
     void (*read)(const SceneValues& values, const std::string& table, DeformerSpec& spec) = nullptr;
     nlohmann::json (*options_json)(const DeformerSpec& spec) = nullptr;
     DeformerTraits (*traits)(const DeformerSpec& spec) = nullptr;  // null: the default ones
-    // The work of one iteration, or of one frame of a deformer without iterations, counted as pbs/geometry/iteration_work.hpp says.
-    // body.kept is that of Deformer::kept. For `pbskin bench`; null: not counted.
-    IterationWork (*work)(const DeformerSpec& spec, const BodyCounts& body) = nullptr;
 };
 
 const std::vector<DeformerKind>& deformer_kinds();

@@ -6,11 +6,13 @@ experiments/records/full` judges them again.
     python3 experiments/records/keep.py results/full [FOLDER]
 """
 import csv
+import io
 import json
 import pathlib
 import re
 import shutil
 import sys
+import tempfile
 import tomllib
 
 JUDGED = ["scene", "deformer", "variant", "order", "precision", "iterations", "threads", "frame", "time_s", "angle_deg", "outcome",
@@ -105,6 +107,50 @@ def keep_study(source, target):
         (target / "not_kept.csv").write_text("run,file,bytes\n" + "".join(lines), encoding="utf-8")
 
 
+def joined(tables, column):
+    """The rows of several tables, (value, file), as one with a column in front. A table that lacks a column has empty cells in it, and one
+    without rows has a row without cells."""
+    columns, rows = [], []
+    for value, file in tables:
+        with file.open(newline="", encoding="utf-8") as stream:
+            reader = csv.DictReader(stream)
+            for place, name in enumerate(reader.fieldnames):
+                if name not in columns:
+                    columns.insert(columns.index(reader.fieldnames[place - 1]) + 1 if place else 0, name)
+            rows += [{column: value} | row for row in reader] or [{column: value}]
+    text = io.StringIO()
+    writer = csv.DictWriter(text, [column, *columns], restval="", lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(rows)
+    return text.getvalue()
+
+
+def merge(results, target):
+    """From a folder per run to one table per study and kind (paper_figures/records/kept.py reads it)."""
+    origins, plans, tables = {}, {}, {}
+    for file in sorted(results.rglob("*")):
+        study, *rest = place = file.relative_to(results).parts
+        if file.is_dir():
+            continue
+        if file.name == "run.json":
+            origins.setdefault(file.read_text(encoding="utf-8"), []).append(f"{study}/{rest[0]}")
+        elif file.name == "plan.json":
+            plans[study] = json.loads(file.read_text(encoding="utf-8"))
+        elif len(rest) == 1 and file.name in ("costs.csv", "not_kept.csv"):
+            tables.setdefault((file.name, "study"), []).append((study, file))
+        elif len(rest) == 2:
+            tables.setdefault((f"{study}/runs/{file.name}", "run"), []).append((rest[0], file))
+        else:
+            (target / pathlib.Path(*place)).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copyfile(file, target / pathlib.Path(*place))
+    for (name, column), parts in tables.items():
+        (target / name).parent.mkdir(parents=True, exist_ok=True)
+        (target / name).write_text(joined(parts, column), encoding="utf-8")
+    for name, content in (("plans.json", plans),
+                          ("provenance.json", {"origins": [json.loads(text) | {"runs": runs} for text, runs in origins.items()]})):
+        (target / name).write_text(json.dumps(content, indent=1, sort_keys=True) + "\n", encoding="utf-8")
+
+
 def keep(results, target):
     """Into a folder beside, which takes the old one's place when it is whole and small enough."""
     plans = sorted(results.glob("*/plan.json"))
@@ -112,11 +158,13 @@ def keep(results, target):
         sys.exit(f"keep: {results}: no records of a study")
     beside = target.with_name(target.name + ".new")
     shutil.rmtree(beside, ignore_errors=True)
-    for plan in plans:
-        if plan.parent.name == "frames":  # no claim is judged by them
-            continue
-        keep_study(plan.parent, beside / plan.parent.name)
-    shutil.copyfile(results / "claims.md", beside / "claims.md")  # claims.json is longer, and --judge writes it again
+    beside.mkdir(parents=True)
+    with tempfile.TemporaryDirectory() as scratch:
+        for plan in plans:
+            if plan.parent.name != "frames":  # no claim is judged by them
+                keep_study(plan.parent, pathlib.Path(scratch) / plan.parent.name)
+        shutil.copyfile(results / "claims.md", pathlib.Path(scratch) / "claims.md")  # claims.json is longer, and --judge writes it again
+        merge(pathlib.Path(scratch), beside)
     size = sum(file.stat().st_size for file in beside.rglob("*") if file.is_file())
     if size > MOST_BYTES:
         sys.exit(f"keep: {size / 1e6:.2f} MB in {beside}, more than {MOST_BYTES / 1e6:g}")

@@ -165,11 +165,12 @@ int reproduce(const ReproduceArguments& arguments)
 int judge_again(const ReproduceArguments& arguments)
 {
     refuse_unknown(arguments.names);
+    const OpenedRecords opened(arguments.folder);
     std::vector<analysis::Verdict> verdicts;
     for (const Study& study : studies()) {
-        const std::string folder = (fs::path(arguments.folder) / study.name).string();
+        const std::string folder = (fs::path(opened.folder()) / study.name).string();
         if (!has_study_plan(folder) || !(arguments.names.empty() || is_named(study, arguments.names))) continue;
-        for (auto& verdict : verdicts_of(study, folder, arguments.folder)) verdicts.push_back(std::move(verdict));
+        for (auto& verdict : verdicts_of(study, folder, opened.folder())) verdicts.push_back(std::move(verdict));
     }
     if (verdicts.empty())
         throw pbs::InputError(arguments.folder, 0, "reproduce --judge", "",

@@ -2,12 +2,17 @@
 
 #include "analysis/measurement.hpp"
 #include "analysis/records/atomic_file.hpp"
+#include "analysis/records/folder_files.hpp"
+#include "analysis/records/kept_record.hpp"
 #include "experiments/run/run_provenance.hpp"
 #include "pbs/character/json_file.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <map>
+#include <sstream>
 
 namespace experiments {
 namespace {
@@ -97,7 +102,51 @@ void add_run(analysis::Records& records, const fs::path& folder, const std::stri
         }
 }
 
+// The first column of a table names the run of each row. A row without further cells states that the run's table has no rows.
+void write_tables_of_runs(const fs::path& merged, const fs::path& study)
+{
+    std::istringstream text(analysis::read_text(merged.string()));
+    std::string head, line;
+    std::getline(text, head);
+    std::map<std::string, std::string> tables;
+    while (std::getline(text, line)) {
+        const std::size_t comma = std::min(line.find(','), line.size());
+        std::string& table = tables[line.substr(0, comma)];
+        if (table.empty()) table = head.substr(head.find(',') + 1) + '\n';
+        if (line.find_first_not_of(',', comma) != std::string::npos) table += line.substr(comma + 1) + '\n';
+    }
+    for (const auto& [run, table] : tables) {
+        fs::create_directories(study / run);
+        analysis::write_text_atomically((study / run / merged.filename()).string(), table);
+    }
+}
+
 }  // namespace
+
+OpenedRecords::OpenedRecords(const std::string& folder) : folder_(folder)
+{
+    const std::string provenance = analysis::path_in(folder, "provenance.json");
+    if (!fs::exists(provenance)) return;
+    const fs::path opened = scratch_.emplace().path();
+    analysis::from_record(analysis::path_in(folder, "plans.json"), [&](const nlohmann::json& plans) {
+        for (const auto& [study, plan] : plans.items()) {
+            fs::create_directories(opened / study);
+            analysis::write_text_atomically(plan_file((opened / study).string()), plan.dump());
+            for (const char* table : {"measurements.csv", "metrics.csv", "printed.csv"})
+                if (const fs::path merged = fs::path(folder) / study / "runs" / table; fs::exists(merged))
+                    write_tables_of_runs(merged, opened / study);
+        }
+    });
+    analysis::from_record(provenance, [&](const nlohmann::json& record) {
+        for (const nlohmann::json& origin : record.at("origins"))
+            for (const std::string run : origin.at("runs")) {
+                fs::create_directories(opened / run);
+                analysis::write_text_atomically((opened / run / "run.json").string(),
+                                                nlohmann::json{{"schema", origin.at("schema")}}.dump());
+            }
+    });
+    folder_ = opened.string();
+}
 
 void write_study_plan(const std::string& folder, const StudyPlan& plan)
 {

@@ -4,14 +4,28 @@
 //   const analysis::Records records = read_study_records(folder, root);
 #pragma once
 
+#include "analysis/records/scratch_folder.hpp"
 #include "experiments/studies/study.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace experiments {
 
 void write_study_plan(const std::string& folder, const StudyPlan& plan);
+
+// A folder of results as `pbskin reproduce` writes it: the folder itself, or the runs of kept records, which have one table per study and
+// kind (experiments/records/keep.py), with a folder each. These are temporary and have what verdicts are computed from.
+class OpenedRecords {
+public:
+    explicit OpenedRecords(const std::string& folder);
+    const std::string& folder() const { return folder_; }
+
+private:
+    std::string folder_;
+    std::optional<analysis::ScratchFolder> scratch_;
+};
 
 bool has_study_plan(const std::string& folder);
 

@@ -16,11 +16,10 @@ own = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(own.parent))
 
 import records  # noqa: E402
-import rendering  # noqa: E402
-import style  # noqa: E402
-import whole_file  # noqa: E402
+from drawing import rendering, style  # noqa: E402
+from records import kept, whole_file  # noqa: E402
 
-kept = own.parents[1] / "experiments" / "records" / "full" / "volume"
+kept_volume = kept.opened(own.parents[1] / "experiments" / "records" / "full") / "volume"
 picture = own / "same_pose.png"
 compared = ("volume_change_pct", "volume_abs_change_pct", "inverted_tets")
 titles = {"lbs": "LBS", "dqs": "DQS", "pbs": "PBS, 24 iterations", "reference": "FEM (the reference)"}
@@ -53,11 +52,11 @@ def row_of(folder, pose, deformer):
 def checked_row(folder, pose, deformer):
     """The row of the run, after a check that it agrees with the kept record to the six digits that are kept."""
     run = row_of(folder, pose, deformer)
-    record = row_of(kept / pose.scene, pose, deformer)
+    record = row_of(kept_volume / pose.scene, pose, deformer)
     for column in compared:
         if not math.isclose(record.number(column), run.number(column), rel_tol=1e-5, abs_tol=1e-9):
             raise records.RecordsMissing(f"{folder / 'metrics.csv'}: {column} of {deformer} = {run[column]}: expected {record[column]}, "
-                                         f"as in {kept / pose.scene / 'metrics.csv'}")
+                                         f"as in {kept_volume / pose.scene / 'metrics.csv'}")
     return run
 
 

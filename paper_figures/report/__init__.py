@@ -6,7 +6,7 @@
 import sys
 
 import records
-import whole_file
+from records import kept, whole_file
 from report import page, record_set, run_page
 
 most_mb = 25
@@ -17,7 +17,7 @@ def main(results, quiet=False):
     file = results / "report.html"
     try:
         is_run = (results / "run.json").is_file()
-        text, missing = run_page.page(results) if is_run else page.page(record_set.RecordSet(results))
+        text, missing = run_page.page(results) if is_run else page.page(record_set.RecordSet(kept.opened(results)))
     except records.RecordsMissing as error:
         print(f"pbskin: {error}", file=sys.stderr)
         return 2
@@ -38,4 +38,17 @@ def main(results, quiet=False):
     if megabytes > most_mb:
         print(f"pbskin: {file}: {megabytes:.1f} MB: expected at most {most_mb}", file=sys.stderr)
         return 1
+    return 0
+
+
+def picture(folder):
+    """Writes folder/picture.png, the values of a single run over its frames. Returns the exit status: 2 if it cannot be read or written."""
+    from report import run_figures  # needs matplotlib, which the report does without
+    try:
+        figure = run_figures.over_frames(run_page.RunRecords(folder))
+        with whole_file.beside(folder / "picture.png") as part:
+            figure.savefig(part, dpi=150)
+    except (records.RecordsMissing, whole_file.CannotBeWritten) as error:
+        print(f"pbskin: {error}", file=sys.stderr)
+        return 2
     return 0

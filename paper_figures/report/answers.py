@@ -1,13 +1,12 @@
 """The first screen: which claims hold, where the others fail, the distance from the finite elements, and the cost. Every sentence is
 composed from claims.json, work_precision/*/points.csv, timing/timing.csv and the studies' costs."""
-import case_words
-import record_shapes
-import sentences
+from records import shapes
 from report import costs, verdicts
-from number_words import counted, figure, span
 from report.markup import Markup, element, escaped, items, joined, table
 from report.record_set import not_run, number
-from report.verdict_names import mark_of
+from report.verdicts import mark_of
+from words import case_words, sentences
+from words.number_words import counted, figure, span
 
 who = ("Each entry lists the bodies on which the claim was tested; brackets state how many of a body\u2019s values lie within the "
        "claim\u2019s bound.")
@@ -67,7 +66,7 @@ def poses(found):
     all_poses, without_table = [], planned_without_table(found)
     for file in found.files("work_precision/*/points.csv"):
         name = file.parent.relative_to(found.results).as_posix()
-        run = found.run(name, record_shapes.posed_run) if name in found.runs else {}
+        run = found.run(name, shapes.posed_run) if name in found.runs else {}
         scene = run.get("work", {}).get("settings", {}).get("scene", {})
         rows = found.rows(f"{name}/points.csv")
         if rows:

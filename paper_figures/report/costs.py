@@ -1,7 +1,7 @@
 """The cost of the studies: expected and measured processor time, and wall time, from each study's costs.csv."""
-from number_words import counted, figure
 from report.markup import details, element, joined, table
 from report.record_set import number
+from words.number_words import counted, figure
 
 
 def of_studies(found):

@@ -1,11 +1,12 @@
 """The distance of the deformers from nonlinear finite elements over whole sweeps and clips, from frame_statistics.csv."""
-import record_shapes
 import records
-from number_words import figure, span_of_thousandths
+from records import shapes
 from report.markup import beside_the_page, element, escaped, folder_link, items, joined, table
 from report.record_set import not_run, number
+from words import looks
+from words.number_words import figure, span_of_thousandths
 
-shown = (("lbs", "LBS"), ("dqs", "DQS"), ("pbs", "PBS, 24 iterations"), ("nh_p1", "neo-Hookean FEM, P1"))
+shown = tuple((name, looks.of(name).name) for name in ("lbs", "dqs", "pbs", "nh_p1"))
 
 
 def reference_of(run):
@@ -26,7 +27,7 @@ def error_of(folder, deformer):
 
 
 def row_of(found, name, fem):
-    outcome = found.run(name, record_shapes.judged_run)["outcome"]
+    outcome = found.run(name, shapes.judged_run)["outcome"]
     cells = ["\u2013" if deformer == fem["name"] else error_of(found.results / name, deformer) for deformer, _ in shown]
     overlaps = outcome.get("frames_with_overlap", 0)
     model = f"{fem['model'].replace('_', ' ')}, P{fem['element_order']}"

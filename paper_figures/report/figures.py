@@ -4,11 +4,11 @@ import dataclasses
 import html
 import re
 
-import captions
-import entries
 import records
+from records import entries
 from report import record_set
 from report.markup import Markup, beside_the_page, details, element, escaped, joined
+from words import captions
 
 slack_s = 60.0  # possible difference between the times of the files of a copied folder
 most_inline_kb = 400  # size of a CSV that the page contains

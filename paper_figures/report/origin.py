@@ -1,6 +1,6 @@
 """The origin of the records: revision, machine, libraries, inputs, what was left out, and the licences of what is shown."""
-from number_words import counted
 from report.markup import details, element, escaped, items, joined, table
+from words.number_words import counted
 
 facts = {"version": "version", "git_revision": "revision", "compiler": "compiler", "flags": "flags", "build_type": "build",
          "cpu_model": "processor", "logical_cpus": "processors seen", "threads": "threads of a deformer"}

@@ -3,9 +3,9 @@
     found = record_set.RecordSet(results)
     for claim in found.claims: ...
 """
-import record_shapes
 import records
-import sentences
+from records import shapes
+from words import sentences
 
 
 class RecordSet:
@@ -13,12 +13,12 @@ class RecordSet:
         if not results.is_dir():
             raise records.RecordsMissing(f"{results}: no such folder")
         self.results = results
-        self.runs = {file.parent.relative_to(results).as_posix(): record_shapes.read(file, record_shapes.run)
+        self.runs = {file.parent.relative_to(results).as_posix(): shapes.read(file, shapes.run)
                      for file in self.files("**/run.json")}
         if not self.runs:
             raise records.RecordsMissing(f"{results}: no records: no run.json in it or below; run `pbskin reproduce -o` into it first")
         self.studies = sorted({name.split("/")[0] for name in self.runs})
-        self.plans = {file.parent.name: record_shapes.read(file, record_shapes.plan) for file in self.files("*/plan.json")}
+        self.plans = {file.parent.name: shapes.read(file, shapes.plan) for file in self.files("*/plan.json")}
         self.claims = self._claims()
 
     def _claims(self):
@@ -28,7 +28,7 @@ class RecordSet:
 
     def run(self, name, shape):
         """The record of a run of which further members are read."""
-        record_shapes.check(self.results / name / "run.json", self.runs[name], shape)
+        shapes.check(self.results / name / "run.json", self.runs[name], shape)
         return self.runs[name]
 
     def rows(self, name):

@@ -1,9 +1,9 @@
 """The verification of the finite element reference itself, if that study is on record: its values, their sources and the origins of
 bounds."""
-import case_words
-from number_words import counted, figure
 from report.markup import element, inline, joined, table
 from report.record_set import not_run, number
+from words import case_words
+from words.number_words import counted, figure
 
 header = ["problem", "quantity", "elements", "material", "mesh", "degrees of freedom", "value", "reference", "unit", "difference [%]",
           "order (theory)", "bounds", "holds", "notes"]

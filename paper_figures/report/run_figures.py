@@ -4,11 +4,12 @@ import statistics
 import tempfile
 
 import records
-import style
+from drawing import style
 from report.figures import inline_svg
 from report.markup import Markup, element, joined
 from report.record_set import number
 from report.run_tables import known
+from words import looks
 
 measures = (("volume_change_pct", "volume change [%]"), ("error_joint_pct", "error at the joints [%]"), ("inverted_tets", "inverted tets"))
 
@@ -25,15 +26,6 @@ def values_of(rows, column):
     return [number(row, column) if number(row, column) is not None else float("nan") for row in rows]
 
 
-def look_of(found, label):
-    """The usual look of a known deformer; others take turns."""
-    if label in style.looks:
-        return style.looks[label]
-    others = [one for one in found.labels() if one not in style.looks]
-    color, marker = style.sequence[others.index(label) % len(style.sequence)]
-    return style.Look(label, color, style.lines[others.index(label) % len(style.lines)], marker)
-
-
 def over_frames(found):
     rows = {label: found.rows(label) for label in found.labels()}
     shown = [(column, name) for column, name in measures
@@ -42,9 +34,9 @@ def over_frames(found):
     for panel, (column, name) in zip(axes[:, 0], shown):
         for label, of in rows.items():
             x, unit = abscissa(of)
-            look = look_of(found, label)
+            look = looks.of(label)
             panel.plot(x, values_of(of, column), color=look.color, linestyle=look.line, marker=look.marker, markevery=max(1, len(x) // 9),
-                       label=look.label)
+                       label=look.name)
         panel.set_ylabel(name)
         panel.margins(x=0)
     axes[-1][0].set_xlabel(unit)
@@ -64,8 +56,8 @@ def error_against_time(found):
         return None
     figure, axes = style.panels(1, 1, height_in=2.6, width_in=style.page_in * 0.6)
     for label, (ms, error) in points.items():
-        look = look_of(found, label)
-        axes[0][0].plot([ms], [error], color=look.color, marker=look.marker, linestyle="none", label=look.label, markersize=6)
+        look = looks.of(label)
+        axes[0][0].plot([ms], [error], color=look.color, marker=look.marker, linestyle="none", label=look.name, markersize=6)
     style.decades(axes[0][0].xaxis)
     axes[0][0].set(xlabel="median time of a step [ms]", ylabel="median error at the joints [%]")
     axes[0][0].set_ylim(bottom=0)

@@ -1,18 +1,19 @@
 """The page of a single run: what it found over its frames, its warnings, the viewer and where its records come from. It holds what the run
 was asked for, and nothing else is reported as missing."""
+import importlib
 import types
 
-import record_shapes
 import records
+from records import shapes
 from report import origin, run_figures, run_tables
 from report.markup import Markup, element, items
 from report.page import navigation, whole, written
 
-moved = {"frames?": record_shapes.whole, "warnings?": [record_shapes.text], "bad_frame?": record_shapes.text,
-         "breakdown?": record_shapes.text, "motion?": {"largest_rotation_deg?": record_shapes.number, "clip_joints?": record_shapes.whole,
-                                                       "matched_joints?": record_shapes.whole}}
-shape = record_shapes.run | {"scene": record_shapes.scene | {"name": record_shapes.text}, "outcome": moved}
-trial = {"summary": record_shapes.text, "warnings": [record_shapes.text]}
+moved = {"frames?": shapes.whole, "warnings?": [shapes.text], "bad_frame?": shapes.text,
+         "breakdown?": shapes.text, "motion?": {"largest_rotation_deg?": shapes.number, "clip_joints?": shapes.whole,
+                                                       "matched_joints?": shapes.whole}}
+shape = shapes.run | {"scene": shapes.scene | {"name": shapes.text}, "outcome": moved}
+trial = {"summary": shapes.text, "warnings": [shapes.text]}
 
 
 class RunRecords:
@@ -20,10 +21,10 @@ class RunRecords:
 
     def __init__(self, folder):
         self.folder = folder
-        self.record = record_shapes.read(folder / "run.json", shape)
+        self.record = shapes.read(folder / "run.json", shape)
         self.run = records.Run(folder)
         file = folder / "try.json"
-        self.trial = record_shapes.read(file, trial) if file.is_file() else None
+        self.trial = shapes.read(file, trial) if file.is_file() else None
 
     @property
     def name(self):
@@ -56,9 +57,8 @@ def viewer_of(found):
     if not any((found.folder / "frames").glob("*.vtu")):
         return None, []
     try:
-        import recorded_frames
-        import viewer_html
-        return Markup(viewer_html.fragment_of([recorded_frames.Frames.of_run(found.folder)])), []
+        recorded_frames, page_of_viewer = map(importlib.import_module, ("records.recorded_frames", "viewer.page"))
+        return Markup(page_of_viewer.fragment_of([recorded_frames.Frames.of_run(found.folder)])), []
     except (ImportError, records.RecordsMissing) as error:
         return None, [f"viewer: {str(error).replace(f'{found.folder}/', '')}"]
 

@@ -2,10 +2,11 @@
 import math
 import statistics
 
-import style
-from number_words import counted, figure, listed, span_of_thousandths
+from drawing import style
 from report.markup import details, element, items, joined, table
 from report.record_set import number
+from words import looks
+from words.number_words import counted, figure, listed, span_of_thousandths
 
 
 def known(rows, column):
@@ -23,7 +24,7 @@ def of_deformer(found, label):
     inverted = known(rows, "inverted_tets")
     is_reference = label == found.record["scene"].get("reference", {}).get("name")
     told_error = "the reference" if is_reference else f"{figure(statistics.median(error))} ({figure(max(error))})" if error else "\u2013"
-    return [style.look_of(label).label, span_of_thousandths(change), f"{max(inverted, default=0):.0f}", told_error, median(step)]
+    return [looks.of(label).name, span_of_thousandths(change), f"{max(inverted, default=0):.0f}", told_error, median(step)]
 
 
 def summary(found):
@@ -48,7 +49,7 @@ def joints(found):
     ordered = sorted(changes.items(), key=lambda pair: pair[1].get(first) or 0.0)
     body = [[name, *(figure(of.get(label)) for label in labels)] for name, of in ordered]
     return table("Mean change of the volume of the tets at a joint [% of their volume at rest]",
-                 ["joint", *(style.look_of(label).label for label in labels)], body, "tall")
+                 ["joint", *(looks.of(label).name for label in labels)], body, "tall")
 
 
 def distances(found):

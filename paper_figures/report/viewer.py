@@ -8,7 +8,7 @@ from report.markup import Markup, element
 def fragment(found):
     """(HTML or None, the reason for None)."""
     try:
-        made = importlib.import_module("viewer_html").fragment(found.results)
+        made = importlib.import_module("viewer.page").fragment(found.results)
     except (ImportError, records.RecordsMissing) as error:
         return None, str(error).replace(f"{found.results}/", "")
     return made, "" if made else "no frames are on record to show (pbskin reproduce frames), or the viewer was not built"
@@ -16,7 +16,7 @@ def fragment(found):
 
 def pose_links(found):
     """For each claim, the link that opens its pose in the viewer."""
-    return getattr(importlib.import_module("viewer_html"), "claim_links", lambda results: {})(found.results)
+    return importlib.import_module("viewer.page").claim_links(found.results)
 
 
 def section(found):

@@ -12,7 +12,7 @@ const std::vector<std::string> headers_of_kernels = {"array",   "cmath",       "
 const std::vector<std::string> headers_of_registers = {"experimental/simd", "immintrin.h", "x86intrin.h", "arm_neon.h"};
 
 // Targets built for the machine, and the definition that records this. Those of the benchmark are not in the library.
-const std::vector<std::string> built_for_the_machine = {"target_compile_options(pbs_kernels ", "target_compile_options(bench_kernels ",
+const std::vector<std::string> built_for_the_machine = {"target_compile_options(pbs_kernels ",
                                                         "target_compile_options(pbskin_native_plain ", "\"PBS_KERNEL_FLAGS="};
 
 // The sources of an add_library(NAME ...), with paths from the root.
@@ -83,8 +83,7 @@ Violations machine_flags(const SourceTree& tree)
 
 Violations registers_at_home(const SourceTree& tree)
 {
-    std::vector<std::string> kernels = sources_of(tree, "pbs_kernels");
-    for (const std::string& source : sources_of(tree, "bench_kernels")) kernels.push_back(source);
+    const std::vector<std::string> kernels = sources_of(tree, "pbs_kernels");
     Violations violations;
     for (const auto& [path, text] : tree)
         if (path.ends_with(".cpp") && !names(kernels, path))

@@ -18,19 +18,16 @@ import numpy
 root = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(root / "paper_figures"))
 
-import bodies  # noqa: E402
-import entries  # noqa: E402
-import recorded_frames  # noqa: E402
-import viewer_data  # noqa: E402
-import viewer_html  # noqa: E402
-import viewer_poses  # noqa: E402
+from drawing import bodies  # noqa: E402
+from records import entries, kept  # noqa: E402
+from viewer import data as viewer_data, page as viewer_html, poses as viewer_poses  # noqa: E402
 
 skipped = 77
 bound_missed = figure_missed = 1  # exit statuses for a bound that does not hold, and for a figure that was not drawn
 sampled = {"limb_twist": ["lbs", "nh_p1"], "limb_bend": ["dqs"], "human_jump": ["pbs", "dqs"], "human_walk": ["pbs_jiggle"]}
 with_bones = "limb_bend"  # the whole limb is visible, and its skeleton moves
 # The kept records contain the verdicts, but not all tables.
-not_of_these_records = {"convergence_iterations", "data_profiles", "roofline", "scaling", "section_profiles", "stability_cells",
+not_of_these_records = {"convergence_iterations", "data_profiles", "scaling", "section_profiles", "stability_cells",
                         "volume_by_region", "work_precision", "work_precision_plain"}
 sampled_skins = {"human_jump": ["pbs"], "human_walk": ["lbs", "pbs_jiggle"]}
 columns = ("volume_change_pct", "inverted_tets", "j_min", "error_joint_pct", "error_linf_m")
@@ -48,7 +45,7 @@ def recorded(program, scratch):
     if os.environ.get("PBS_BROWSER_RESULTS"):
         return pathlib.Path(os.environ["PBS_BROWSER_RESULTS"]).resolve()
     folder = scratch / "records"
-    shutil.copytree(root / "experiments" / "records" / "full", folder, dirs_exist_ok=True)
+    kept.expand(root / "experiments" / "records" / "full", folder)
     reproduce = [program, "reproduce", "--quiet", "-o", folder]
     run([*reproduce, "--resume", "frames", "audit"], [bound_missed])
     run([*reproduce, "--judge"], [bound_missed])  # of all existing records
@@ -131,7 +128,7 @@ def main(program, scratch):
                     "PBS_VIEWER_PICTURES": str(scratch), "PBS_REPORT_PAGE": str(results / "report.html")}
     truth.write_text(json.dumps(truth_of(results)))
     run(["node", "build.mjs"], cwd=root / "paper_figures/viewer", env=surroundings)
-    run([sys.executable, "-B", root / "paper_figures/viewer_html.py", results, page], env=surroundings)
+    run([sys.executable, "-B", "-m", "viewer.page", results, page], cwd=root / "paper_figures", env=surroundings)
     run([sys.executable, "-B", root / "paper_figures/make_report.py", "--quiet", results], env=surroundings)
     tests = sorted(str(file) for file in pathlib.Path(__file__).parent.glob("*.test.mjs"))
     return subprocess.run(["node", "--test", *tests], env=surroundings).returncode

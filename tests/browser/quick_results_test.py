@@ -14,7 +14,7 @@ import sys
 import browser_test
 from browser_test import bound_missed, root, run
 
-import entries
+from records import entries
 
 
 def quick_records(program, scratch):

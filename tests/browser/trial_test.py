@@ -16,9 +16,9 @@ from browser_test import root, run
 
 sys.path.insert(0, str(root / "tests" / "support"))
 
-import bodies  # noqa: E402
 import rig_files  # noqa: E402
-import viewer_data  # noqa: E402
+from drawing import bodies  # noqa: E402
+from viewer import data as viewer_data  # noqa: E402
 
 frames = 5
 shown = ("lbs", "pbs", "lbs_paper")  # deformers whose surfaces are compared

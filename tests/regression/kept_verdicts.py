@@ -10,10 +10,9 @@ import program
 SOURCE = pathlib.Path(program.SOURCE)
 KEPT = SOURCE / "experiments" / "records" / "full"
 sys.path.insert(0, str(SOURCE / "paper_figures"))
-import readme_claims  # noqa: E402
-import readme_findings  # noqa: E402
-import readme_part  # noqa: E402
-import sentences  # noqa: E402
+from readme import claims as readme_claims, findings as readme_findings, part as readme_part  # noqa: E402
+from records import kept  # noqa: E402
+from words import sentences  # noqa: E402
 
 
 class KeptVerdicts(program.ProgramTest):
@@ -33,12 +32,12 @@ class KeptVerdicts(program.ProgramTest):
 
     def test_judging_them_where_they_lie_leaves_nothing_that_git_would_see(self):
         ignored = (SOURCE / ".gitignore").read_text().splitlines()
-        kept, judged = ({file.relative_to(folder) for file in folder.rglob("*")} for folder in (KEPT, self.judged()))
-        for file in judged - kept:
+        before, after = ({file.relative_to(folder) for file in folder.rglob("*")} for folder in (KEPT, self.judged()))
+        for file in after - before:
             self.assertIn(f"/experiments/records/full/{file}", ignored)
 
     def test_readme_states_each_claim_and_finding_as_the_records_have_it(self):
-        judged = self.judged()
+        judged = kept.opened(self.judged())
         for name, lines_of in (("claims", readme_claims.table_lines), ("findings", readme_findings.lines_of)):
             _, stated, _ = readme_part.cut(SOURCE / "README.md", name)
             self.assertEqual(stated.strip().split("\n\n")[0].splitlines(), lines_of(judged))

@@ -12,12 +12,11 @@ import unittest
 import program
 
 SOURCE = pathlib.Path(program.SOURCE)
-KEPT = SOURCE / "experiments" / "records" / "full"
 sys.path.insert(0, str(SOURCE / "paper_figures"))
-import readme_features  # noqa: E402
-import readme_pages  # noqa: E402
-import readme_part  # noqa: E402
+from readme import features as readme_features, pages as readme_pages, part as readme_part  # noqa: E402
+from records import kept  # noqa: E402
 
+KEPT = kept.opened(SOURCE / "experiments" / "records" / "full")
 STUDY_SECTIONS = ["Cases", "Records", "Claims, figures, cost", "What it cannot show"]
 CLAIM_SECTIONS = ["What is measured", "Formula", "Bound", "What would make it fail", "How the paper can be read", "Result"]
 WITHOUT_KEPT_TABLES = {"bench", "frames", "scale"}  # their records are large, and no verdict needs them
@@ -108,8 +107,8 @@ class Pages(program.ProgramTest):
         self.succeeds("reproduce", "--judge", "-o", copy, "--quiet")
         for page, lines in readme_pages.pages(copy).items():
             with self.subTest(page.relative_to(SOURCE)):
-                self.assertEqual(readme_part.cut(page, readme_pages.part)[1].splitlines()[1:], lines,
-                                 "python3 paper_figures/readme_pages.py writes it")
+                self.assertEqual(readme_part.cut(page, "kept")[1].splitlines()[1:], lines,
+                                 "python3 paper_figures/make_readme.py writes it")
 
     def test_the_table_of_features_is_that_of_the_kept_records(self):
         _, told, _ = readme_part.cut(readme_features.page, "features")

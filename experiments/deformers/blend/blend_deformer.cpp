@@ -9,7 +9,6 @@
 #include "pbs/geometry/stopwatch.hpp"
 #include "pbs/skinning/blend.hpp"
 #include "pbs/skinning/blend_skinning.hpp"
-#include "pbs/skinning/skinning_work.hpp"
 
 #include <optional>
 
@@ -51,13 +50,6 @@ class PackedBlend : public BlendingDeformer {
 public:
     explicit PackedBlend(Blend blend) : blend_(blend) {}
 
-    pbs::KeptEntries kept() const override
-    {
-        if (!skinning_) return {};
-        const auto& own = skinning_->packed_weights().own;
-        return {double(own.bone.size()), double(own.rows())};
-    }
-
 private:
     void set_up(const pbs::Character& character) override { skinning_.emplace(character.mesh.rest, character.weights); }
     void blend(const pbs::Pose& pose, pbs::Positions& posed) override
@@ -75,13 +67,6 @@ private:
 class PlainBlend : public BlendingDeformer {
 public:
     explicit PlainBlend(Blend blend) : blend_(blend) {}
-
-    // Each vertex has a row of weights of its own.
-    pbs::KeptEntries kept() const override
-    {
-        return character_ ? pbs::KeptEntries{double(character_->weights.bone.size()), double(character_->weights.vertices())}
-                          : pbs::KeptEntries{};
-    }
 
 private:
     void set_up(const pbs::Character& character) override { character_ = &character; }
@@ -153,12 +138,6 @@ DeformerTraits lbs_traits(const DeformerSpec& spec)
     return traits;
 }
 
-template <IterationWork (*work_of)(const BodyCounts& body, double scalar_bytes)>
-IterationWork work_of_blend(const DeformerSpec& spec, const BodyCounts& body)
-{
-    return work_of(body, options_of<BlendOptions>(spec).precision == pbs::Precision::f32 ? sizeof(float) : sizeof(double));
-}
-
 DeformerKind blend_kind(const std::string& name, const std::string& meaning, std::unique_ptr<Deformer> (*make)(const DeformerSpec& spec))
 {
     return {.name = name,
@@ -169,8 +148,7 @@ DeformerKind blend_kind(const std::string& name, const std::string& meaning, std
             .has_list = true,
             .read = read_blend,
             .options_json = blend_json,
-            .traits = blend_traits,
-            .work = work_of_blend<pbs::work_of_dual_quaternion_blend>};
+            .traits = blend_traits};
 }
 
 }  // namespace
@@ -180,7 +158,6 @@ DeformerKind lbs_kind()
     DeformerKind kind =
         blend_kind("lbs", "linear blend skinning, Eq. 1", [](const DeformerSpec& spec) { return make_blend(Blend::linear, spec); });
     kind.traits = lbs_traits;
-    kind.work = work_of_blend<pbs::work_of_linear_blend>;
     return kind;
 }
 

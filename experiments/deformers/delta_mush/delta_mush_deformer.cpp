@@ -5,7 +5,6 @@
 #include "experiments/settings/option_fields.hpp"
 #include "pbs/geometry/stopwatch.hpp"
 #include "pbs/skinning/packed_delta_mush.hpp"
-#include "pbs/skinning/skinning_work.hpp"
 
 #include <optional>
 
@@ -54,12 +53,6 @@ public:
     }
 
     const pbs::Positions& positions() const override { return positions_; }
-    pbs::KeptEntries kept() const override
-    {
-        if (!skinning_) return {};
-        const auto& own = skinning_->packed_weights().own;
-        return {double(own.bone.size()), double(own.rows())};
-    }
 
 private:
     pbs::DeltaMushOptions options_;
@@ -102,12 +95,7 @@ DeformerKind delta_mush_kind()
             .traits = [](const DeformerSpec& spec) -> DeformerTraits {
                 const pbs::Precision precision = options_of<pbs::DeltaMushOptions>(spec).precision;
                 return {.precision = name_of(precision), .packed = precision == pbs::Precision::f32};
-            },
-            .work =
-                [](const DeformerSpec& spec, const BodyCounts& body) {
-                    const auto& options = options_of<pbs::DeltaMushOptions>(spec);
-                    return pbs::work_of_delta_mush(body, options.precision == pbs::Precision::f32 ? 4.0 : 8.0, options.iterations);
-                }};
+            }};
 }
 
 }  // namespace experiments

@@ -6,7 +6,6 @@
 #include "experiments/settings/option_fields.hpp"
 #include "pbs/geometry/stopwatch.hpp"
 #include "pbs/skinning/packed_direct_mush.hpp"
-#include "pbs/skinning/skinning_work.hpp"
 
 #include <optional>
 
@@ -65,7 +64,6 @@ public:
     }
 
     const pbs::Positions& positions() const override { return positions_; }
-    pbs::KeptEntries kept() const override { return {.entries = mush_ ? double(mush_->moments().size()) : 0.0}; }
 
 private:
     DirectDeltaMushOptions options_;
@@ -112,12 +110,7 @@ DeformerKind direct_delta_mush_kind()
         .traits = [](const DeformerSpec& spec) -> DeformerTraits {
             const pbs::Precision precision = options_of<DirectDeltaMushOptions>(spec).precision;
             return {.precision = name_of(precision), .packed = precision == pbs::Precision::f32};
-        },
-        .work =
-            [](const DeformerSpec& spec, const BodyCounts& body) {
-                const bool in_float = options_of<DirectDeltaMushOptions>(spec).precision == pbs::Precision::f32;
-                return pbs::work_of_direct_mush(body, in_float ? 4.0 : 8.0);
-            }};
+        }};
 }
 
 }  // namespace experiments

@@ -50,7 +50,6 @@ public:
     pbs::StepSummary advance(const pbs::Pose& pose, double dt_s) final;
     void start_from(const pbs::Positions& shape) override { flesh_->start_from(shape); }
     const pbs::Positions& positions() const override { return positions_; }
-    pbs::KeptEntries kept() const override { return {.entries = flesh_ ? double(flesh_->flesh().factor().value.size()) : 0.0}; }
     nlohmann::json record() const override { return flesh_ ? flesh_->record() : nullptr; }
 
 protected:
@@ -76,12 +75,6 @@ DeformerTraits flesh_traits(const DeformerSpec& spec)
             .packed = options.arithmetic != pbs::Arithmetic::plain_f64,
             .iterations = options.iterations,
             .threads = spec.threads};
-}
-
-template <typename Options>
-double scalar_bytes_of(const DeformerSpec& spec)
-{
-    return options_of<Options>(spec).arithmetic == pbs::Arithmetic::packed_f32 ? sizeof(float) : sizeof(double);
 }
 
 }  // namespace experiments

@@ -3,7 +3,6 @@
 #include "experiments/deformers/registry.hpp"
 #include "pbs/geometry/stopwatch.hpp"
 #include "pbs/skinning/blend_skinning.hpp"
-#include "pbs/solver/batched/projection_work.hpp"
 #include "pbs/solver/pbs_solver.hpp"
 #include "pbs/solver/poses_solver.hpp"
 
@@ -106,17 +105,6 @@ pbs::StepSummary PbsDeformer::advance(const pbs::Pose& pose, double dt_s)
     return summary;
 }
 
-// Each class of constraints is projected once.
-IterationWork work_of_pbs(const DeformerSpec& spec, const BodyCounts& body)
-{
-    const pbs::ProjectionLayout layout{options_of<pbs::PbsOptions>(spec).precision == pbs::Precision::f32 ? 4.0 : 8.0, 1};
-    const pbs::BodySize size{body.vertices, body.edges, body.tets};
-    double flops = 0.0;
-    for (const auto of : {pbs::ConstraintClass::stretch, pbs::ConstraintClass::volume, pbs::ConstraintClass::bind})
-        flops += size.constraints(of) * pbs::flops_of(of);
-    return {flops, pbs::bytes_per_iteration(layout, size), pbs::working_set_bytes(layout, size)};
-}
-
 }  // namespace
 
 DeformerKind pbs_kind()
@@ -141,8 +129,7 @@ DeformerKind pbs_kind()
                         .threads = spec.threads,
                         .sleeps = options.sleep,
                         .is_negative_control = options.volume_form != pbs::VolumeForm::derived};
-            },
-            .work = work_of_pbs};
+            }};
 }
 
 }  // namespace experiments

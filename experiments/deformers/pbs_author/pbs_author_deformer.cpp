@@ -4,7 +4,6 @@
 #include "experiments/deformers/registry.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "pbs/author/author_solver.hpp"
-#include "pbs/author/author_work.hpp"
 
 #include <optional>
 
@@ -73,8 +72,7 @@ DeformerKind pbs_author_kind()
             .options_json = [](const DeformerSpec& spec) { return author_fields().json(options_of<AuthorOptions>(spec)); },
             .traits = [](const DeformerSpec& spec) -> DeformerTraits {
                 return {.order = "first_fit", .iterations = options_of<AuthorOptions>(spec).iterations};
-            },
-            .work = [](const DeformerSpec&, const BodyCounts& body) { return pbs::work_of_author(body); }};
+            }};
 }
 
 }  // namespace experiments

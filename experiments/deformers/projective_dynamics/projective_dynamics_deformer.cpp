@@ -1,7 +1,6 @@
 // Projective dynamics in equilibrium (pbs/flesh/projective_dynamics.hpp). The matrix is factored once for all frames, and the same factor
 // gives the weights of the initial guess.
 #include "experiments/deformers/flesh/flesh_deformer.hpp"
-#include "pbs/flesh/flesh_work.hpp"
 #include "pbs/flesh/projective_dynamics.hpp"
 
 namespace experiments {
@@ -77,11 +76,7 @@ DeformerKind projective_dynamics_kind()
             .read = [](const SceneValues& values, const std::string& table,
                        DeformerSpec& spec) { spec.options = projective_fields().read(values, table); },
             .options_json = [](const DeformerSpec& spec) { return projective_fields().json(options_of<ProjectiveDeformerOptions>(spec)); },
-            .traits = flesh_traits<ProjectiveDeformerOptions>,
-            .work =
-                [](const DeformerSpec& spec, const BodyCounts& body) {
-                    return pbs::work_of_projective_dynamics(body, scalar_bytes_of<ProjectiveDeformerOptions>(spec));
-                }};
+            .traits = flesh_traits<ProjectiveDeformerOptions>};
 }
 
 }  // namespace experiments

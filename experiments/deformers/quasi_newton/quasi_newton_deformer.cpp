@@ -1,6 +1,5 @@
 // Elastic flesh in equilibrium by a quasi-Newton method whose matrix is factored once (pbs/flesh/quasi_newton.hpp).
 #include "experiments/deformers/flesh/flesh_deformer.hpp"
-#include "pbs/flesh/flesh_work.hpp"
 #include "pbs/flesh/quasi_newton.hpp"
 
 namespace experiments {
@@ -84,12 +83,7 @@ DeformerKind quasi_newton_kind()
         .read = [](const SceneValues& values, const std::string& table,
                    DeformerSpec& spec) { spec.options = quasi_newton_fields().read(values, table); },
         .options_json = [](const DeformerSpec& spec) { return quasi_newton_fields().json(options_of<QuasiNewtonDeformerOptions>(spec)); },
-        .traits = flesh_traits<QuasiNewtonDeformerOptions>,
-        .work =
-            [](const DeformerSpec& spec, const BodyCounts& body) {
-                return pbs::work_of_quasi_newton(body, scalar_bytes_of<QuasiNewtonDeformerOptions>(spec),
-                                                 options_of<QuasiNewtonDeformerOptions>(spec).history);
-            }};
+        .traits = flesh_traits<QuasiNewtonDeformerOptions>};
 }
 
 }  // namespace experiments

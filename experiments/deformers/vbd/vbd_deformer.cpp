@@ -1,6 +1,5 @@
 // Elastic flesh in equilibrium by vertex block descent (pbs/flesh/vertex_block_descent.hpp).
 #include "experiments/deformers/flesh/flesh_deformer.hpp"
-#include "pbs/flesh/flesh_work.hpp"
 #include "pbs/flesh/vertex_block_descent.hpp"
 
 namespace experiments {
@@ -85,12 +84,7 @@ DeformerKind vbd_kind()
             .read = [](const SceneValues& values, const std::string& table,
                        DeformerSpec& spec) { spec.options = vbd_fields().read(values, table); },
             .options_json = [](const DeformerSpec& spec) { return vbd_fields().json(options_of<VbdOptions>(spec)); },
-            .traits = flesh_traits<VbdOptions>,
-            .work =
-                [](const DeformerSpec& spec, const BodyCounts& body) {
-                    const bool chebyshev = options_of<VbdOptions>(spec).acceleration == pbs::Acceleration::chebyshev;
-                    return pbs::work_of_vertex_sweep(body, scalar_bytes_of<VbdOptions>(spec), chebyshev);
-                }};
+            .traits = flesh_traits<VbdOptions>};
 }
 
 }  // namespace experiments

@@ -8,7 +8,6 @@
 #include "pbs/geometry/stopwatch.hpp"
 #include "pbs/skinning/blend_skinning.hpp"
 #include "pbs/solver/xpbd_solver.hpp"
-#include "pbs/solver/xpbd_work.hpp"
 
 #include <algorithm>
 #include <optional>
@@ -106,12 +105,7 @@ DeformerKind xpbd_kind()
                         .packed = packed,
                         .iterations = options.iterations * options.substeps,
                         .threads = packed ? spec.threads : 1};
-            },
-            .work =
-                [](const DeformerSpec& spec, const BodyCounts& body) {
-                    const auto& options = options_of<pbs::XpbdOptions>(spec);
-                    return pbs::work_of_xpbd(body, options.poisson > 0.25, options.precision == pbs::Precision::f32 ? 4.0 : 8.0);
-                }};
+            }};
 }
 
 DeformerKind xpbd_small_steps_kind()

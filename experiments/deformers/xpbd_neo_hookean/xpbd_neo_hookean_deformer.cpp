@@ -1,6 +1,5 @@
 // Elastic flesh in equilibrium by XPBD with the neo-Hookean constraints of Macklin and Mueller (pbs/flesh/xpbd_neo_hookean.hpp).
 #include "experiments/deformers/flesh/flesh_deformer.hpp"
-#include "pbs/flesh/flesh_work.hpp"
 #include "pbs/flesh/xpbd_neo_hookean.hpp"
 
 namespace experiments {
@@ -48,8 +47,6 @@ const OptionFields<XpbdNeoHookeanDeformerOptions>& xpbd_neo_hookean_fields()
 class XpbdNeoHookeanDeformer : public FleshDeformer {
 public:
     XpbdNeoHookeanDeformer(const XpbdNeoHookeanDeformerOptions& options, int threads) : options_(options), threads_(threads) {}
-
-    pbs::KeptEntries kept() const override { return {.entries = constraints_ ? double(constraints_->hold.modes().size()) : 0.0}; }
 
     nlohmann::json record() const override
     {
@@ -109,13 +106,7 @@ DeformerKind xpbd_neo_hookean_kind()
                        DeformerSpec& spec) { spec.options = xpbd_neo_hookean_fields().read(values, table); },
             .options_json =
                 [](const DeformerSpec& spec) { return xpbd_neo_hookean_fields().json(options_of<XpbdNeoHookeanDeformerOptions>(spec)); },
-            .traits = flesh_traits<XpbdNeoHookeanDeformerOptions>,
-            .work =
-                [](const DeformerSpec& spec, const BodyCounts& body) {
-                    const auto& options = options_of<XpbdNeoHookeanDeformerOptions>(spec);
-                    return pbs::work_of_neo_hookean_xpbd(body, scalar_bytes_of<XpbdNeoHookeanDeformerOptions>(spec),
-                                                         options.multipliers == pbs::XpbdMultipliers::kept, options.iterations_per_step);
-                }};
+            .traits = flesh_traits<XpbdNeoHookeanDeformerOptions>};
 }
 
 }  // namespace experiments

@@ -18,7 +18,7 @@ json json_of(const MachineLimits& limits)
 {
     json memory = json::array();
     for (const MemoryBandwidth& point : limits.memory) memory.push_back({{"bytes", point.bytes}, {"gb_s", point.gb_s}});
-    return {{"fma_gflops_f32", limits.gflops_f32}, {"fma_gflops_f64", limits.gflops_f64}, {"memory", memory}};
+    return {{"memory", memory}};
 }
 
 json number_or_null(const std::optional<double>& value)
@@ -62,14 +62,8 @@ json json_of(const ProjectionTiming& timing)
                      {"volume_rms", timing.residuals.volume_rms},
                      {"bind_rms_m", timing.residuals.bind_rms_m}}}});
     for (const auto& [name, of] :
-         {std::pair("stretch", &timing.stretch), std::pair("volume", &timing.volume), std::pair("bind", &timing.bind)}) {
-        put_spread(result, std::string("ns_") + name, of->ns);
-        if (!of->roofline) continue;
-        result["roofline"][name] = {{"flops_per_byte", of->roofline->flops_per_byte},
-                                    {"gflops", of->roofline->gflops},
-                                    {"attainable_gflops", of->roofline->attainable_gflops},
-                                    {"share_of_limit", of->roofline->share_of_limit}};
-    }
+         {std::pair("stretch", &timing.stretch), std::pair("volume", &timing.volume), std::pair("bind", &timing.bind)})
+        put_spread(result, std::string("ns_") + name, *of);
     put_spread(result, "ms_step", timing.ms_step);
     put_spread(result, "ratio_to_plain_spread", timing.ratio_to_plain_spread);
     put_spread(result, "ratio_to_plain", timing.ratio_to_plain);
@@ -103,9 +97,6 @@ json json_of(const DeformerTiming& timing)
          {std::pair("ms_frame", &timing.ms_frame), std::pair("ms_iteration", &timing.ms_iteration), std::pair("ns_tet", &timing.ns_tet),
           std::pair("ns_vertex", &timing.ns_vertex), std::pair("ratio_to_plain", &timing.ratio_to_plain)})
         if (*spread) put_spread(result, name, **spread);
-    for (const auto& [name, value] :
-         {std::pair("gflops", timing.gflops), std::pair("gb_s", timing.gb_s), std::pair("share_of_limit", timing.share_of_limit)})
-        if (value) result[name] = *value;
     return result;
 }
 

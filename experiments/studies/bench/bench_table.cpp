@@ -23,7 +23,7 @@ constexpr const char* legend =
     "the root mean square volume error after the step over those of the same loops, and _to_plain over those of `plain`; above 1 is a "
     "loss.\n"
     "The study equal_quality compares the times to equal answers. ms_floor: the time that\n"
-    "moving the bytes takes. share_of_limit: of min(peak, operations per byte x bandwidth at that working set). exponent: the cost\n"
+    "moving the bytes takes. exponent: the cost\n"
     "of a step is ~ constraints^exponent. Deformers: ns_tet and ns_vertex are per iteration, or per frame of a deformer without\n"
     "iterations; ratio_to_plain: to the plain implementation of the same deformer. The last table has the finite elements: ns_element is "
     "per\n"
@@ -62,13 +62,11 @@ std::string mesh_text(const json& timed)
                                    "quartiles/ms_step/1:.4g ratio_to_plain_spread:.2f residual_to_plain_spread:.3f "
                                    "volume_rms_to_plain_spread:.3f ratio_to_plain:.2f residual_to_plain:.3f volume_rms_to_plain:.3f "
                                    "ratio_to_plain_native:.2f");
-    text += table(projections, kind +
-                                   "ms_floor:.2g roofline/stretch/share_of_limit:.2f roofline/volume/share_of_limit:.2f "
-                                   "roofline/bind/share_of_limit:.2f best_speedup_by_threads:.2f");
+    text += table(projections, kind + "ms_floor:.2g best_speedup_by_threads:.2f");
     text += table(timed.at("skinning"), "blend variant precision ns_vertex:.3f gb_s:.1f ratio_to_plain:.2f");
-    text += table(timed.at("deformers"),
-                  "deformer order precision iterations:.0f ms_frame:.4g ms_iteration:.4g ns_tet:.2f ns_vertex:.2f ratio_to_plain:.2f "
-                  "gflops:.3g gb_s:.3g share_of_limit:.3f left_out");
+    text +=
+        table(timed.at("deformers"),
+              "deformer order precision iterations:.0f ms_frame:.4g ms_iteration:.4g ns_tet:.2f ns_vertex:.2f ratio_to_plain:.2f left_out");
     text += table(timed.at("fem"),
                   "model element_order:.0f ms_first_solve:.4g ms_further_frame:.4g further_to_first:.2g newton_steps:.0f ms_frame:.4g "
                   "ms_newton_step:.4g ns_element:.4g");
@@ -85,8 +83,7 @@ std::string bench_table(const BenchRecord& record)
         table(json::array({context}), "cpu cores:.0f busy_processors/0:.2f busy_processors/1:.2f kernel_instructions compiler");
     if (std::max(record.busy_before.value_or(0.0), record.busy_after.value_or(0.0)) > quiet_processors)
         text += "Other work ran before or after: wall times, and so threads, are worth little.\n";
-    text += fmt::format("\nOne core: multiply-add {:.0f} / {:.0f} GFLOP/s (f32 / f64), and bytes read and written:\n",
-                        record.limits.gflops_f32, record.limits.gflops_f64);
+    text += "\nOne core, bytes read and written:\n";
     text += table(context.at("limits_of_one_core").at("memory"), "bytes:.0f gb_s:.0f");
     for (const json& mesh : bench.at("meshes")) text += mesh_text(mesh);
     return text + table(bench.value("scaling", json::array()), "variant precision threads:.0f exponent:.3f interval/0:.3f interval/1:.3f") +

@@ -98,34 +98,21 @@ std::unique_ptr<Deformer> reset(std::unique_ptr<Deformer> deformer, const BenchB
     return deformer;
 }
 
-void add_limits(DeformerTiming& timing, const IterationWork& work, const MachineLimits& limits, double seconds)
-{
-    const double peak = 1e9 * (timing.precision == "f32" ? limits.gflops_f32 : limits.gflops_f64);
-    const double bandwidth = 1e9 * bandwidth_at(limits, work.working_set_bytes);
-    if (work.flops > 0.0) timing.gflops = 1e-9 * work.flops / seconds;
-    if (work.bytes > 0.0) timing.gb_s = 1e-9 * work.bytes / seconds;
-    timing.share_of_limit = std::max(work.flops / peak, work.bytes / bandwidth) / seconds;
-}
-
-DeformerTiming summed_up(const Timed& timed, const Samples& own, const Samples& plain, const BenchBody& body, const MachineLimits& limits)
+DeformerTiming summed_up(const Timed& timed, const Samples& own, const Samples& plain, const BenchBody& body)
 {
     const DeformerSetting& setting = *timed.setting;
-    const BodyCounts counts{double(body.mesh().rest.rows()), double(body.edges), double(body.mesh().tets.rows()), timed.once->kept()};
     const Spread step = spread_of(own[iteration_s]);
     DeformerTiming timing{setting.spec.kind, setting.order, setting.precision};
     timing.iterations = traits_of(setting.spec).iterations;
     timing.ms_frame = scaled(spread_of(own[frame_s]), 1e3);
     if (timed.iterations > 0) timing.ms_iteration = scaled(step, 1e3);
-    timing.ns_tet = scaled(step, 1e9 / counts.tets);
-    timing.ns_vertex = scaled(step, 1e9 / counts.vertices);
+    timing.ns_tet = scaled(step, 1e9 / double(body.mesh().tets.rows()));
+    timing.ns_vertex = scaled(step, 1e9 / double(body.mesh().rest.rows()));
     timing.ratio_to_plain = spread_of_ratios(plain[iteration_s], own[iteration_s]);
-    const DeformerKind& kind = *find_deformer_kind(setting.spec.kind);
-    if (kind.work) add_limits(timing, kind.work(setting.spec, counts), limits, step.median);
     return timing;
 }
 
-std::vector<DeformerTiming> time_settings(const std::vector<DeformerSetting>& settings, const BenchBody& body, const MachineLimits& limits,
-                                          const Rounds& rounds)
+std::vector<DeformerTiming> time_settings(const std::vector<DeformerSetting>& settings, const BenchBody& body, const Rounds& rounds)
 {
     std::vector<Timed> timed;
     for (const DeformerSetting& setting : settings) {
@@ -136,8 +123,7 @@ std::vector<DeformerTiming> time_settings(const std::vector<DeformerSetting>& se
     for (const Timed& one : timed) turns.push_back([&one, &body] { return one.round(body); });
     const std::vector<Samples> samples = take_turns(turns, rounds);
     std::vector<DeformerTiming> timings;
-    for (std::size_t i = 0; i < timed.size(); ++i)
-        timings.push_back(summed_up(timed[i], samples[i], samples[settings[i].plain], body, limits));
+    for (std::size_t i = 0; i < timed.size(); ++i) timings.push_back(summed_up(timed[i], samples[i], samples[settings[i].plain], body));
     return timings;
 }
 
@@ -189,14 +175,13 @@ std::vector<DeformerSetting> deformer_settings(const DeformerKind& kind)
     return settings;
 }
 
-std::vector<DeformerTiming> time_deformers(const BenchBody& body, const MachineLimits& limits, const Rounds& rounds)
+std::vector<DeformerTiming> time_deformers(const BenchBody& body, const Rounds& rounds)
 {
     std::vector<DeformerTiming> timings;
     for (const DeformerKind& kind : deformer_kinds()) {
         if (kind.needs_list) continue;  // there is none without a table in a scene
         try {
-            for (DeformerTiming& timing : time_settings(deformer_settings(kind), body, limits, rounds))
-                timings.push_back(std::move(timing));
+            for (DeformerTiming& timing : time_settings(deformer_settings(kind), body, rounds)) timings.push_back(std::move(timing));
         } catch (const pbs::InputError& error) {
             timings.push_back({.deformer = kind.name, .left_out = error.what()});
         }

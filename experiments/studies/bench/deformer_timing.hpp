@@ -1,13 +1,12 @@
 // How long a frame and an iteration of every registered deformer take, in each precision and order that it offers, relative to the plain
-// implementation of the same method in the same run, and to the machine's limit.
-//   for (const DeformerTiming& timing : time_deformers(body, limits, rounds)) ...
+// implementation of the same method in the same run.
+//   for (const DeformerTiming& timing : time_deformers(body, rounds)) ...
 // The list is the registry's: a deformer with a key `precision`, `order` or `arithmetic` is timed for each of its values. Processor time of
 // one thread.
 #pragma once
 
 #include "experiments/deformers/deformer_spec.hpp"
 #include "experiments/studies/bench/bench_body.hpp"
-#include "experiments/studies/bench/machine_limits.hpp"
 #include "experiments/studies/shared/timed_rounds.hpp"
 
 #include <optional>
@@ -40,11 +39,9 @@ struct DeformerTiming {
     std::optional<Spread> ms_iteration = {};            // that one more adds; without a key `iterations`, the frame over their number
     std::optional<Spread> ns_tet = {}, ns_vertex = {};  // per iteration, or per frame of a deformer without iterations
     std::optional<Spread> ratio_to_plain = {};          // time of the plain implementation of an iteration, or a frame, over this one's
-    // Where the work is counted: useful operations and moved bytes per second, and the share of the limit that they allow.
-    std::optional<double> gflops = {}, gb_s = {}, share_of_limit = {};
-    std::string left_out = {};  // the reason
+    std::string left_out = {};                          // the reason
 };
 
-std::vector<DeformerTiming> time_deformers(const BenchBody& body, const MachineLimits& limits, const Rounds& rounds);
+std::vector<DeformerTiming> time_deformers(const BenchBody& body, const Rounds& rounds);
 
 }  // namespace experiments

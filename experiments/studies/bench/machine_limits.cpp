@@ -1,22 +1,16 @@
 #include "experiments/studies/bench/machine_limits.hpp"
 
 #include "experiments/process/cpu_clock.hpp"
-#include "experiments/studies/bench/machine_kernels.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace experiments {
 namespace {
 
 constexpr int turns = 3;
 constexpr double smallest_bytes = 16 * 1024.0;
-
-constexpr std::size_t floats_a_line = 16;
-
-struct alignas(64) CacheLine {
-    float floats[floats_a_line];
-};
 
 // The largest amount of work per second over the turns. work(repeats) does the work and returns its amount; the number of repeats is chosen
 // so that they take about `seconds`.
@@ -39,44 +33,35 @@ double best_rate(double seconds, const Work& work)
     return best;
 }
 
-template <typename Scalar>
-double peak_gflops(double seconds)
-{
-    volatile Scalar start = Scalar(1), a = Scalar(0.999), b = Scalar(0.001);  // unknown to the compiler
-    volatile Scalar sink = Scalar(0);
-    return 1e-9 * best_rate(seconds, [&](std::size_t repeats) {
-               Scalar sum;
-               const double flops = multiply_add<Scalar>(1000 * repeats, start, a, b, sum);
-               sink = sum;
-               return flops;
-           });
-}
-
 // From one half of the working set to the other.
-double copy_gb_s(std::vector<CacheLine>& lines, double seconds)
+double copy_gb_s(std::vector<float>& numbers, double seconds)
 {
-    const std::size_t half = lines.size() / 2;
-    const std::size_t count = floats_a_line * half / 64 * 64;
+    const std::size_t half = numbers.size() / 2;
     return 1e-9 * best_rate(seconds, [&](std::size_t repeats) {
-               for (std::size_t repeat = 0; repeat < repeats; ++repeat) copy_floats(lines[0].floats, lines[half].floats, count);
-               return 2.0 * double(repeats) * double(count) * sizeof(float);
+               for (std::size_t repeat = 0; repeat < repeats; ++repeat) {
+                   std::memcpy(&numbers[0], &numbers[half], half * sizeof(float));
+                   asm volatile("" ::: "memory");  // so that no repetition is left out
+               }
+               return 2.0 * double(repeats) * double(half) * sizeof(float);
            });
 }
 
-double update_gb_s(std::vector<CacheLine>& lines, double seconds)
+double update_gb_s(std::vector<float>& numbers, double seconds)
 {
-    const std::size_t count = floats_a_line * lines.size() / 64 * 64;
     volatile float one = 1.0f;  // unknown to the compiler
     return 1e-9 * best_rate(seconds, [&](std::size_t repeats) {
-               for (std::size_t repeat = 0; repeat < repeats; ++repeat) scale_floats(one, lines[0].floats, count);
-               return 2.0 * double(repeats) * double(count) * sizeof(float);
+               for (std::size_t repeat = 0; repeat < repeats; ++repeat) {
+                   const float factor = one;
+                   for (float& number : numbers) number *= factor;
+               }
+               return 2.0 * double(repeats) * double(numbers.size()) * sizeof(float);
            });
 }
 
 MemoryBandwidth bandwidth_of(double bytes, double seconds)
 {
-    std::vector<CacheLine> lines(static_cast<std::size_t>(bytes / sizeof(CacheLine)), CacheLine{{1.0f}});
-    return {bytes, std::max(copy_gb_s(lines, seconds), update_gb_s(lines, seconds))};
+    std::vector<float> numbers(static_cast<std::size_t>(bytes / sizeof(float)), 1.0f);
+    return {bytes, std::max(copy_gb_s(numbers, seconds), update_gb_s(numbers, seconds))};
 }
 
 }  // namespace
@@ -84,8 +69,6 @@ MemoryBandwidth bandwidth_of(double bytes, double seconds)
 MachineLimits measure_limits(double seconds, double largest_bytes)
 {
     MachineLimits limits;
-    limits.gflops_f32 = peak_gflops<float>(seconds);
-    limits.gflops_f64 = peak_gflops<double>(seconds);
     for (double bytes = smallest_bytes; bytes < 1.5 * largest_bytes; bytes *= 2.0) limits.memory.push_back(bandwidth_of(bytes, seconds));
     return limits;
 }
@@ -99,11 +82,6 @@ double bandwidth_at(const MachineLimits& limits, double bytes)
     if (above == memory.end()) return memory.back().gb_s;
     const MemoryBandwidth &low = *(above - 1), &high = *above;
     return std::lerp(low.gb_s, high.gb_s, std::log(bytes / low.bytes) / std::log(high.bytes / low.bytes));
-}
-
-double attainable_gflops(double peak_gflops, double gb_s, double flops_per_byte)
-{
-    return std::min(peak_gflops, gb_s * flops_per_byte);
 }
 
 }  // namespace experiments

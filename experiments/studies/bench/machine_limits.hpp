@@ -1,4 +1,4 @@
-// The limits of one core of this machine: multiply-adds per second, and bytes per second read and written within its caches and memory.
+// The limits of one core of this machine: bytes per second read and written within its caches and memory.
 // The bandwidth is the larger one of a copy and of an update in place. Beyond the first cache a copy is the slower one, because the
 // processor also loads the lines that the copy overwrites.
 //   const MachineLimits limits = measure_limits(0.02);
@@ -15,8 +15,7 @@ struct MemoryBandwidth {
 };
 
 struct MachineLimits {
-    double gflops_f32 = 0.0, gflops_f64 = 0.0;  // a multiply-add is two operations
-    std::vector<MemoryBandwidth> memory;        // by growing working set
+    std::vector<MemoryBandwidth> memory;  // by growing working set
 };
 
 // The best of three turns of about `seconds` of processor time each, since a limit is reached only undisturbed. Working sets double from
@@ -25,8 +24,5 @@ MachineLimits measure_limits(double seconds, double largest_bytes = 256e6);
 
 // Interpolates linearly in the logarithm of the working set; constant outside the measured sizes.
 double bandwidth_at(const MachineLimits& limits, double bytes);
-
-// The roofline [GFLOP/s]: no loop with so many operations per byte does more.
-double attainable_gflops(double peak_gflops, double gb_s, double flops_per_byte);
 
 }  // namespace experiments

@@ -135,7 +135,7 @@ MeshTimings time_mesh(const BenchBody& body, const MachineLimits& limits, const 
     if (options.fem && timings.tets <= most_deformer_tets) {
         Rounds of_a_kind = rounds;
         of_a_kind.seconds /= 4.0;
-        timings.deformers = time_deformers(body, limits, of_a_kind);
+        timings.deformers = time_deformers(body, of_a_kind);
     }
     if (!options.fem || timings.tets > most_fem_tets) return timings;
     rounds.fewest = std::min(rounds.fewest, 2);

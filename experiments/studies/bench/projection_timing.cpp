@@ -66,21 +66,12 @@ ProjectionTiming summed_up(const ProjectionVariant& variant, const Samples& own,
     timing.poses = variant.poses;
     timing.working_set_bytes = pbs::working_set_bytes(layout, size);
     const double gb_s = bandwidth_at(limits, timing.working_set_bytes);
-    const auto class_timing = [&](pbs::ConstraintClass of, Sample sample) {
-        ClassTiming result;
-        result.ns = scaled(spread_of(own[sample]), 1e9 / (iterations_per_step * variant.poses * size.constraints(of)));
-        if (variant.threads > 1) return result;
-        RooflinePoint point{.flops_per_byte = pbs::flops_of(of) / pbs::bytes_of(of, layout, size),
-                            .gflops = pbs::flops_of(of) / result.ns.median};
-        point.attainable_gflops =
-            attainable_gflops(variant.precision == "f32" ? limits.gflops_f32 : limits.gflops_f64, gb_s, point.flops_per_byte);
-        point.share_of_limit = point.gflops / point.attainable_gflops;
-        result.roofline = point;
-        return result;
+    const auto ns_of = [&](pbs::ConstraintClass of, Sample sample) {
+        return scaled(spread_of(own[sample]), 1e9 / (iterations_per_step * variant.poses * size.constraints(of)));
     };
-    timing.stretch = class_timing(pbs::ConstraintClass::stretch, stretch_s);
-    timing.volume = class_timing(pbs::ConstraintClass::volume, volume_s);
-    timing.bind = class_timing(pbs::ConstraintClass::bind, bind_s);
+    timing.stretch = ns_of(pbs::ConstraintClass::stretch, stretch_s);
+    timing.volume = ns_of(pbs::ConstraintClass::volume, volume_s);
+    timing.bind = ns_of(pbs::ConstraintClass::bind, bind_s);
     timing.ms_step = scaled(spread_of(own[step_s]), 1e3 / variant.poses);
     timing.ms_transfer = scaled(spread_of(own[transfer_s]), 1e3 / variant.poses).median;
     const double step_bytes = iterations_per_step * pbs::bytes_per_iteration(layout, size) / variant.poses;

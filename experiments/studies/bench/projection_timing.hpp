@@ -17,19 +17,6 @@ namespace experiments {
 
 inline constexpr int iterations_per_step = 24;
 
-// How near one class of constraints on one thread comes to the machine's limit.
-struct RooflinePoint {
-    double flops_per_byte = 0.0;
-    double gflops = 0.0;             // useful operations
-    double attainable_gflops = 0.0;  // min(peak, flops_per_byte times the bandwidth at the working set)
-    double share_of_limit = 0.0;
-};
-
-struct ClassTiming {
-    Spread ns;                              // per constraint and pose
-    std::optional<RooflinePoint> roofline;  // for one thread
-};
-
 // The answer after the step over that of plain loops after theirs, on the same body and in the same precision; above 1: a loss.
 struct AnswerRatio {
     double residual = 0.0;    // combined: sqrt((stretch_rms^2 + volume_rms^2 + (bind_rms / mean rest distance to the bone)^2) / 3)
@@ -39,7 +26,7 @@ AnswerRatio answer_ratio(const pbs::Residuals& own, const pbs::Residuals& plain,
 
 struct ProjectionTiming : ProjectionKind {
     int poses = 1;
-    ClassTiming stretch, volume, bind;
+    Spread stretch, volume, bind;    // ns per constraint and pose
     Spread ms_step;                  // per pose
     std::optional<double> ms_floor;  // per pose, for one thread: the bytes that a step has to move, over the bandwidth at its working set
     double ms_transfer = 0.0;        // load and store, median

@@ -58,12 +58,12 @@ export class Viewer {
         this.panel_elements = now.panels.map((label, at) => {
             const choice = select(`deformer of panel ${at + 1}`, options, (chosen) => this.choose(at, chosen));
             choice.value = label;
-            const title = this.run.deformer(label).title;
+            const { title, colour } = this.run.deformer(label);
             const name = `${title}: arrows turn, plus and minus zoom`;
             const view = element("div", { class: "vw-view", tabindex: 0, role: "application", "aria-label": name });
             const numbers = element("dl", { "aria-label": `recorded numbers of ${title}` });
             const mark = element("p", { class: "vw-mark vw-hidden" }, "pose not reached");
-            const whole = element("div", { class: "vw-panel" }, choice, view, mark, numbers);
+            const whole = element("div", { class: "vw-panel", style: `border-top: 4px solid ${colour}` }, choice, view, mark, numbers);
             this.panels_element.append(whole);
             return { whole, view, mark, numbers };
         });

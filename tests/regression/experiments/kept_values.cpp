@@ -15,7 +15,7 @@ namespace {
 using Wanted = std::map<std::string, std::string>;
 
 struct KeptValue {
-    std::string file;  // in the folder of kept records
+    std::string file;  // STUDY/RUN/TABLE, which the kept records have in STUDY/runs/TABLE
     Wanted wanted;     // cells of its row
     std::string column = "error_joint_pct";
 };
@@ -28,10 +28,14 @@ bool is_wanted(const analysis::CsvTable& table, int row, const Wanted& wanted)
 // Nothing if there is no such row, or more than one.
 std::optional<double> only_value(const KeptValue& of)
 {
-    const analysis::CsvTable table = analysis::read_csv((std::filesystem::path(PBS_KEPT_RECORDS) / of.file).string());
+    const std::filesystem::path file = of.file, run = file.parent_path();
+    const auto merged = std::filesystem::path(PBS_KEPT_RECORDS) / run.parent_path() / "runs" / file.filename();
+    const analysis::CsvTable table = analysis::read_csv(merged.string());
+    Wanted wanted = of.wanted;
+    wanted["run"] = run.filename().string();
     std::vector<double> found;
     for (int row = 0; row < table.rows(); ++row)
-        if (is_wanted(table, row, of.wanted)) found.push_back(table.number(row, of.column));
+        if (is_wanted(table, row, wanted)) found.push_back(table.number(row, of.column));
     return found.size() == 1 ? std::optional(found.front()) : std::nullopt;
 }
 

@@ -11,6 +11,8 @@ import program
 KEEP = pathlib.Path(program.SOURCE) / "experiments" / "records" / "keep.py"
 sys.path.insert(0, str(KEEP.parent))
 import keep  # noqa: E402
+sys.path.insert(0, str(pathlib.Path(program.SOURCE) / "paper_figures"))
+from records import kept as kept_records  # noqa: E402
 
 
 class KeptRecords(program.ProgramTest):
@@ -29,8 +31,27 @@ class KeptRecords(program.ProgramTest):
         self.assertEqual(self.keep(results, kept).returncode, 0)
         self.succeeds("reproduce", "--judge", "-o", kept, "--quiet")
         self.assertEqual(json.loads((kept / "claims.json").read_text()), told)
-        (kept / "momentum" / "limb" / "run.json").unlink()
+        provenance = kept / "provenance.json"
+        provenance.write_text(provenance.read_text().replace('"momentum/limb"', '"momentum/another"'))
         self.assertEqual(program.run("reproduce", "--judge", "-o", kept, "--quiet").returncode, 1)
+
+    def test_each_run_has_its_tables_again(self):
+        results, merged, opened = (pathlib.Path(self.path(name)) for name in ("results", "merged", "opened"))
+        tables = {"study/one/a.csv": "x,y\n1,\"p,q\"\n2,r\n", "study/two/a.csv": "y,z\ns,3\n", "study/two/b.csv": "only\n",
+                  "study/a.csv": "sum\n6\n", "study/costs.csv": "run,cpu_s\none,1\n"}
+        runs = {f"study/{run}/run.json": json.dumps({"schema": 3, "provenance": {"version": version}})
+                for run, version in (("one", "1"), ("two", "2"))}
+        for name, text in (tables | runs | {"study/plan.json": '{"runs": []}'}).items():
+            (results / name).parent.mkdir(parents=True, exist_ok=True)
+            (results / name).write_text(text)
+        keep.merge(results, merged)
+        kept_records.expand(merged, opened)
+        columns_of_both = {"study/one/a.csv": "x,y,z\n1,\"p,q\",\n2,r,\n", "study/two/a.csv": "x,y,z\n,s,3\n"}
+        for name, text in (tables | columns_of_both).items():
+            self.assertEqual((opened / name).read_text(), text)
+        for name, text in runs.items():
+            self.assertEqual(json.loads((opened / name).read_text()), json.loads(text))
+        self.assertEqual(sorted(file.name for file in (merged / "study" / "runs").iterdir()), ["a.csv", "b.csv"])
 
     def test_files_that_are_too_long_are_listed(self):
         results, kept = pathlib.Path(self.path("results")), pathlib.Path(self.path("kept"))
@@ -39,9 +60,9 @@ class KeptRecords(program.ProgramTest):
         (results / "audit" / "print" / "lengths.csv").write_text(long)
         (results / "audit" / "print" / "rates.csv").write_text(long)  # one of the tables that are kept whatever their length
         self.assertEqual(self.keep(results, kept).returncode, 0)
-        self.assertEqual((kept / "audit" / "not_kept.csv").read_text(), f"run,file,bytes\nprint,lengths.csv,{len(long)}\n")
-        self.assertFalse((kept / "audit" / "print" / "lengths.csv").exists())
-        self.assertEqual((kept / "audit" / "print" / "rates.csv").read_text(), long)
+        self.assertEqual((kept / "not_kept.csv").read_text(), f"study,run,file,bytes\naudit,print,lengths.csv,{len(long)}\n")
+        self.assertFalse((kept / "audit" / "runs" / "lengths.csv").exists())
+        self.assertEqual((kept / "audit" / "runs" / "rates.csv").read_text(), long.replace("number", "run,number").replace("1", "print,1"))
 
     def test_what_cannot_be_kept_leaves_the_last_records_alone(self):
         results, kept = pathlib.Path(self.path("results")), pathlib.Path(self.path("kept"))

@@ -16,10 +16,10 @@ import unittest
 root = pathlib.Path(__file__).resolve().parents[3]
 sys.path[:0] = [str(root / "paper_figures"), str(pathlib.Path(__file__).parent)]
 
-import entries  # noqa: E402
 import make_all  # noqa: E402
 import synthetic_records  # noqa: E402
 import synthetic_tables  # noqa: E402
+from records import entries  # noqa: E402
 
 
 def drawn(results, only=None):
@@ -39,15 +39,14 @@ class Listing(unittest.TestCase):
                 self.assertGreater(len(entry.caption.split()), 8)
                 self.assertTrue(entry.title and entry.records)
                 self.assertLessEqual(set(entry.claims), claims)
-                module = importlib.import_module(entry.script)
-                self.assertEqual(list(inspect.signature(module.draw).parameters), ["results", "figures"])
+                module = importlib.import_module(f"figures.{entry.script}")
+                self.assertEqual(list(inspect.signature(getattr(module, entry.name)).parameters), ["results", "figures"])
                 self.assertTrue(module.__doc__)
 
-    def test_every_script_that_draws_is_listed(self):
-        listed = {entry.script for entry in entries.read()}
-        for file in sorted((root / "paper_figures").glob("*.py")):
-            if "\ndef draw(results, figures):" in file.read_text():
-                self.assertIn(file.stem, listed)
+    def test_every_function_that_draws_a_figure_is_listed(self):
+        defined = {(file.stem, name) for file in (root / "paper_figures" / "figures").glob("*.py")
+                   for name in re.findall(r"^def (\w+)\(results, figures\):", file.read_text(), re.MULTILINE)}
+        self.assertEqual(defined, {(entry.script, entry.name) for entry in entries.read()})
 
     def test_without_its_records_every_figure_refuses_with_the_reason(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -1,7 +1,6 @@
 """Reference: the definition. The paper's own figures show the recorded frames, name the origin of body and motion, and are refused without
 records; every figure names its runs."""
 import csv
-import importlib
 import json
 import pathlib
 import sys
@@ -13,16 +12,14 @@ import numpy
 root = pathlib.Path(__file__).resolve().parents[3]
 sys.path[:0] = [str(root / "paper_figures"), str(pathlib.Path(__file__).parent)]
 
-import entries  # noqa: E402
-import fig_06_constraints  # noqa: E402
-import recorded_distances  # noqa: E402
-import recorded_frames  # noqa: E402
+import checked_looks  # noqa: E402,F401
 import records  # noqa: E402
 import synthetic_frames  # noqa: E402
 import synthetic_records  # noqa: E402
 import synthetic_tables  # noqa: E402
-import table_1_timing  # noqa: E402
-import volume_over_angle  # noqa: E402
+from drawing import recorded_distances  # noqa: E402
+from figures import fig_06_constraints, table_1_timing, volume  # noqa: E402
+from records import entries, recorded_frames  # noqa: E402
 
 own = [entry for entry in entries.read() if entry.script.startswith(("fig_", "table_", "clip_"))]
 
@@ -46,13 +43,13 @@ class OwnFigures(unittest.TestCase):
 
     def test_every_own_figure_is_listed_and_refuses_without_records(self):
         names = {entry.name for entry in own}
-        scripts = {file.stem for kind in ("fig_*.py", "table_*.py", "clip_*.py") for file in (root / "paper_figures").glob(kind)}
+        scripts = {file.stem for kind in ("fig_*.py", "table_*.py", "clip_*.py")
+                   for file in (root / "paper_figures" / "figures").glob(kind)}
         self.assertEqual(names, scripts)
         self.assertEqual(sorted(name[:6] for name in names if name.startswith("fig_")), [f"fig_{number:02}" for number in range(1, 11)])
         for entry in own:
             with self.subTest(entry.name):
-                script = importlib.import_module(entry.script)
-                self.assert_missing("does not exist", lambda: script.draw(self.results, self.results / "figures"))
+                self.assert_missing("does not exist", lambda: entry.draw(self.results, self.results / "figures"))
                 self.assertFalse((self.results / "figures").exists())
 
     def test_projections_lie_on_the_posed_bone_within_its_ends(self):
@@ -119,7 +116,7 @@ class OwnFigures(unittest.TestCase):
     def test_a_tets_lengths_and_volume(self):
         self.frames()
         figures = self.results / "figures"
-        fig_06_constraints.draw(self.results, figures)
+        fig_06_constraints.fig_06_constraints(self.results, figures)
         with open(figures / "fig_06_constraints.csv", newline="") as stream:
             rows = {row["state"]: row for row in csv.DictReader(stream)}
         growth = 1 + 0.1 * synthetic_frames.labels["pbs"] * 9
@@ -147,7 +144,7 @@ class OwnFigures(unittest.TestCase):
     def test_table_1_shows_the_papers_own_body_and_the_counts_it_prints(self):
         self.write_timing()
         figures = self.results / "figures"
-        table_1_timing.draw(self.results, figures)
+        table_1_timing.table_1_timing(self.results, figures)
         with open(figures / "table_1_timing.csv", newline="") as stream:
             row, = csv.DictReader(stream)
         self.assertEqual((row["mesh"], row["vertices"], row["edges"], row["tets"]), ("man", "400 / 200", "800 / 600", "500 / 400"))
@@ -159,7 +156,7 @@ class OwnFigures(unittest.TestCase):
 
     def test_table_1_refuses_half_a_timing(self):
         self.write_timing(orders=table_1_timing.orders[:1])
-        self.assert_missing("not timed in plain f64 and ordered f32", lambda: table_1_timing.draw(self.results, self.results / "figures"))
+        self.assert_missing("not timed in plain f64 and ordered f32", lambda: table_1_timing.table_1_timing(self.results, self.results / "figures"))
 
 
 class Origin(unittest.TestCase):
@@ -179,7 +176,7 @@ class Origin(unittest.TestCase):
             self.assertEqual(entries.origin_of(results, "volume_over_angle"), {
                 "version": "0.1.0", "git_revision": synthetic_records.revision, "git_dirty": False, "cpu_model": "a processor",
                 "scenes": scenes})
-            volume_over_angle.draw(results, results / "figures")
+            volume.volume_over_angle(results, results / "figures")
             shown = (results / "figures" / "volume_over_angle.png").read_bytes()
             for text in (synthetic_records.revision, "; a processor; ", *(f"scene {name} {digest}" for name, digest in scenes.items())):
                 self.assertIn(text.encode(), shown)

@@ -13,14 +13,12 @@ from xml.etree import ElementTree
 root = pathlib.Path(__file__).resolve().parents[3]
 sys.path[:0] = [str(root / "paper_figures"), str(pathlib.Path(__file__).parent)]
 
-import improvements  # noqa: E402
+import checked_looks  # noqa: E402,F401
 import make_all  # noqa: E402
-import omission_boxes  # noqa: E402
-import stiffness  # noqa: E402
-import style  # noqa: E402
 import synthetic_records  # noqa: E402
 import synthetic_tables  # noqa: E402
-import volume_by_region  # noqa: E402
+from drawing import omission_boxes, style  # noqa: E402
+from figures import improvements, stiffness, volume  # noqa: E402
 
 svg = "{http://www.w3.org/2000/svg}"
 
@@ -194,7 +192,7 @@ class Plots(unittest.TestCase):
         synthetic_records.write_study(self.results)
         self.drawn("volume_by_region")
         self.assertIn("LBS: -1, spine\u2013chest", self.titles("change [% of the body's volume]"))
-        self.assertEqual([volume_by_region.in_words(bones) for bones in (("upper_arm.L",), ("chest", "clavicle.R"), ("thigh.R", "shin.R"))],
+        self.assertEqual([volume.in_words(bones) for bones in (("upper_arm.L",), ("chest", "clavicle.R"), ("thigh.R", "shin.R"))],
                          ["left upper arm", "chest\u2013right clavicle", "right thigh\u2013shin"])
 
     def test_timing(self):

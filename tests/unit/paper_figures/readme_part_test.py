@@ -11,16 +11,12 @@ import unittest
 root = pathlib.Path(__file__).resolve().parents[3]
 sys.path[:0] = [str(root / "paper_figures"), str(pathlib.Path(__file__).parent)]
 
-import compared_results  # noqa: E402
-import readme_claims  # noqa: E402
-import readme_features  # noqa: E402
-import readme_findings  # noqa: E402
-import readme_part  # noqa: E402
-import readme_reliability  # noqa: E402
-import readme_pages  # noqa: E402
+import make_readme  # noqa: E402
 import records  # noqa: E402
 import synthetic_records  # noqa: E402
+from readme import claims as readme_claims, features as readme_features, findings as readme_findings, pages as readme_pages, part as readme_part, reliability as readme_reliability  # noqa: E402
 from synthetic_records import claim, interval, judged_run, value  # noqa: E402
+from words import compared_results  # noqa: E402
 
 begin, end = readme_part.markers("claims")
 
@@ -36,7 +32,7 @@ class ReadmeTest(unittest.TestCase):
         """Exit status and error messages of the script of this name for a README with `text`; by default the usual one."""
         self.readme.write_text(text if text is not None else "before\n{}\nold\n{}\nafter\n".format(*readme_part.markers(name)))
         with contextlib.redirect_stderr(io.StringIO()) as said:
-            status = readme_part.main(name, lines_of, ["script", str(self.results)], "usage", self.readme)
+            status = readme_part.main(name, lambda results: {self.readme: lines_of(results)}, self.results)
         return status, said.getvalue()
 
 
@@ -83,7 +79,7 @@ class Markers(ReadmeTest):
                             ("<!-- features:begin -->\n<!-- features:end -->", f"{begin} occurs 0 times")):
             with self.subTest(text):
                 self.assertEqual(self.written("claims", lambda folder: ["new"], text)[0], 2)
-                self.assertIn(f"readme_claims: {self.readme}: {words}", self.written("claims", lambda folder: ["new"], text)[1])
+                self.assertIn(f"make_readme: claims: {self.readme}: {words}", self.written("claims", lambda folder: ["new"], text)[1])
                 self.assertEqual(self.readme.read_text(), text)
 
     def test_a_readme_that_is_not_there_is_refused(self):
@@ -99,8 +95,8 @@ class Markers(ReadmeTest):
 
     def test_one_folder_is_asked_for(self):
         with contextlib.redirect_stderr(io.StringIO()) as said:
-            self.assertEqual(readme_part.main("claims", readme_claims.lines_of, ["script"], "usage"), 2)
-        self.assertEqual(said.getvalue(), "usage\n")
+            self.assertEqual([make_readme.main([]), make_readme.main(["folder", "no_such_part"])], [2, 2])
+        self.assertIn("paper_figures/make_readme.py", said.getvalue())
 
     def test_the_projects_own_readme_has_each_pair_once(self):
         for name, page in (("claims", readme_part.own_readme), ("features", readme_features.page),

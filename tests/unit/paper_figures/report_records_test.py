@@ -12,10 +12,10 @@ import unittest.mock
 root = pathlib.Path(__file__).resolve().parents[3]
 sys.path[:0] = [str(root / "paper_figures"), str(pathlib.Path(__file__).parent)]
 
-import record_shapes  # noqa: E402
 import records  # noqa: E402
 import report  # noqa: E402
 import synthetic_records  # noqa: E402
+from records import shapes as record_shapes  # noqa: E402
 
 RUN, POSE, PLAN, CLAIMS = "volume/limb_twist/run.json", "work_precision/twist/run.json", "volume/plan.json", "claims.json"
 ANYTHING = (None, True, 3, -1e300, "x", "", [], [3], ["x"], {}, {"x": 3})
@@ -93,7 +93,7 @@ class ReportRecords(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.results = pathlib.Path(folder.name)
-        without_viewer = unittest.mock.patch.dict(sys.modules, {"viewer_html": None})
+        without_viewer = unittest.mock.patch.dict(sys.modules, {"viewer.page": None})
         without_viewer.start()
         self.addCleanup(without_viewer.stop)
         synthetic_records.write_study(self.results)

@@ -15,9 +15,9 @@ import unittest.mock
 root = pathlib.Path(__file__).resolve().parents[3]
 sys.path[:0] = [str(root / "paper_figures"), str(pathlib.Path(__file__).parent)]
 
-import entries  # noqa: E402
 import report  # noqa: E402
 import synthetic_records  # noqa: E402
+from records import entries  # noqa: E402
 from report import answers, costs, errors, figures, markup, origin, record_set  # noqa: E402
 
 
@@ -52,7 +52,7 @@ class Report(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.results = pathlib.Path(folder.name)
-        without_viewer = unittest.mock.patch.dict(sys.modules, {"viewer_html": None})  # it has tests of its own
+        without_viewer = unittest.mock.patch.dict(sys.modules, {"viewer.page": None})  # it has tests of its own
         without_viewer.start()
         self.addCleanup(without_viewer.stop)
 
@@ -301,10 +301,10 @@ class Report(unittest.TestCase):
         synthetic_records.write_study(self.results)
         synthetic_records.write_claims(self.results)
         for fragment, expected in ((lambda results: "<p>turn me</p>", "<p>turn me</p>"), (lambda results: None, "The viewer is missing: ")):
-            module = types.ModuleType("viewer_html")
+            module = types.ModuleType("viewer.page")
             module.fragment = fragment
             module.claim_links = lambda results: {"C02": "#run=limb"}
-            with unittest.mock.patch.dict(sys.modules, {"viewer_html": module}):
+            with unittest.mock.patch.dict(sys.modules, {"viewer.page": module}):
                 text = self.make()[1]
             self.assertIn(expected, text)
             self.assertEqual('href="#run=limb"' in text, "turn me" in expected)

@@ -1,7 +1,9 @@
 """The page of a single run. Reference: its records, which are written here with numbers that can be predicted. Each number of a table is
 that of a record, warnings are shown, and nothing is missing that the run was not asked for."""
+import contextlib
 import csv
 import html.parser
+import io
 import json
 import pathlib
 import re
@@ -14,7 +16,8 @@ root = pathlib.Path(__file__).resolve().parents[3]
 sys.path[:0] = [str(root / "paper_figures"), str(pathlib.Path(__file__).parent)]
 
 import report  # noqa: E402
-from report import run_figures, run_page, run_tables  # noqa: E402
+from report import run_figures, run_page  # noqa: E402
+from words import looks  # noqa: E402
 
 columns = ("scene", "deformer", "variant", "iterations", "frame", "time_s", "volume_change_pct", "inverted_tets", "step_ms",
            "error_joint_pct", "angle_deg")
@@ -95,9 +98,9 @@ class RunPage(unittest.TestCase):
         self.write()
         header, *rows = Tables(self.page()).rows["Over all frames"]
         self.assertEqual(header[0], "deformer")
-        self.assertEqual(rows, [["LBS", "\u22128 to 0", "4", "7 (9)", "0.03"], ["PBS, 24 iterations", "\u22121 to 0", "0", "2 (3)", "3"],
+        self.assertEqual(rows, [["LBS", "\u22128 to 0", "4", "7 (9)", "0.03"], ["PBS", "\u22121 to 0", "0", "2 (3)", "3"],
                                 ["mine", "0 to 2", "8", "2.5 (3)", "18"],
-                                ["neo-Hookean FEM, P1", "0 to 0.5", "0", "the reference", "300"]])
+                                ["neo-Hookean FEM, linear elements", "0 to 0.5", "0", "the reference", "300"]])
 
     def test_joints_are_sorted_by_the_loss_of_the_first_deformer(self):
         self.write()
@@ -107,7 +110,7 @@ class RunPage(unittest.TestCase):
                     [{"deformer": label, "kind": kind, "bone": bone, "second_bone": second, "own_change_pct": change}
                      for kind, bone, second, changes in kinds for label, change in changes.items()])
         rows = Tables(self.page()).rows["Mean change of the volume of the tets at a joint [% of their volume at rest]"]
-        self.assertEqual(rows, [["joint", "LBS", "PBS, 24 iterations"], ["chest \u2013 arm", "\u22127.25", "0.25"],
+        self.assertEqual(rows, [["joint", "LBS", "PBS"], ["chest \u2013 arm", "\u22127.25", "0.25"],
                                 ["hips \u2013 knee", "\u22123.5", "\u22120.5"]])
 
     def test_distances_are_the_median_and_the_largest_over_the_frames(self):
@@ -142,7 +145,7 @@ class RunPage(unittest.TestCase):
         self.write()
         (self.folder / "frames").mkdir()
         (self.folder / "frames" / "lbs_000000.vtu").write_text("")
-        with unittest.mock.patch.dict(sys.modules, {"viewer_html": None}):
+        with unittest.mock.patch.dict(sys.modules, {"viewer.page": None}):
             text, missing = run_page.page(self.folder)
         self.assertEqual(len(missing), 1)
         self.assertTrue(missing[0].startswith("viewer: "), missing)
@@ -182,7 +185,7 @@ class RunPage(unittest.TestCase):
         self.write()
         axes = run_figures.error_against_time(run_page.RunRecords(self.folder)).axes[0]
         points = {line.get_label(): (line.get_xdata()[0], line.get_ydata()[0]) for line in axes.lines}
-        self.assertEqual(points, {"LBS": (0.03, 7.0), "PBS, 24 iterations": (3.0, 2.0), "mine": (18.0, 2.5)})
+        self.assertEqual(points, {"LBS": (0.03, 7.0), "PBS": (3.0, 2.0), "mine": (18.0, 2.5)})
 
     def test_the_lines_over_the_frames_are_the_columns(self):
         for angles, x, unit in ((True, [0, 10, 20, 30, 40], "angle [degrees]"), (False, [0, 0.04, 0.08, 0.12, 0.16], "time [s]")):
@@ -198,9 +201,18 @@ class RunPage(unittest.TestCase):
         with unittest.mock.patch.dict(numbers, {"one": numbers["mine"], "two": numbers["mine"]}):
             self.write(labels=("lbs", "one", "two"), reference="")
             found = run_page.RunRecords(self.folder)
-        looks = [run_figures.look_of(found, label) for label in found.labels()]
-        self.assertEqual(len({(look.color, look.marker, str(look.line)) for look in looks}), 3)
-        self.assertEqual([look.label for look in looks], ["LBS", "one", "two"])
+        shown = [looks.of(label) for label in found.labels()]
+        self.assertEqual(len({(look.color, look.marker) for look in shown}), 3)
+        self.assertEqual([look.name for look in shown], ["LBS", "one", "two"])
+
+    def test_the_picture_of_a_run_is_written_next_to_its_records(self):
+        self.write()
+        self.assertEqual(report.picture(self.folder), 0)
+        self.assertTrue((self.folder / "picture.png").read_bytes().startswith(b"\x89PNG"))
+        (self.folder / "metrics.csv").unlink()
+        with contextlib.redirect_stderr(io.StringIO()) as said:
+            self.assertEqual(report.picture(self.folder), 2)
+        self.assertIn("metrics.csv", said.getvalue())
 
     # Runs in which nothing happens, or nothing is left.
 

@@ -23,7 +23,7 @@ class SamePose(unittest.TestCase):
     def write_run(self, folder, **changed):
         """The kept rows of LBS at the first pose as a run's metrics.csv, with these cells changed."""
         pose = same_pose.poses[0]
-        row = {**same_pose.row_of(same_pose.kept / pose.scene, pose, "lbs"), **changed}
+        row = {**same_pose.row_of(same_pose.kept_volume / pose.scene, pose, "lbs"), **changed}
         with open(folder / "metrics.csv", "w", newline="") as stream:
             writer = csv.DictWriter(stream, list(row))
             writer.writeheader()
@@ -38,7 +38,7 @@ class SamePose(unittest.TestCase):
         for row in shown():
             pose = next(pose for pose in same_pose.poses if pose.scene == row["scene"])
             self.assertEqual(float(row["angle_deg"]), pose.angle_deg)
-            kept = same_pose.row_of(same_pose.kept / pose.scene, pose, row["deformer"])
+            kept = same_pose.row_of(same_pose.kept_volume / pose.scene, pose, row["deformer"])
             for column in same_pose.compared:
                 self.assertTrue(math.isclose(float(row[column]), kept.number(column), rel_tol=1e-5), (row, column))
 

@@ -8,11 +8,10 @@ import unittest
 root = pathlib.Path(__file__).resolve().parents[3]
 sys.path[:0] = [str(root / "paper_figures"), str(pathlib.Path(__file__).parent)]
 
-import case_words  # noqa: E402
 import records  # noqa: E402
-import sentences  # noqa: E402
 import synthetic_records  # noqa: E402
 from synthetic_records import claim, interval, judged_run, subject, value  # noqa: E402
+from words import case_words, sentences  # noqa: E402
 
 
 def told(**facts):

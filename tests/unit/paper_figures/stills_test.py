@@ -11,11 +11,10 @@ from PIL import Image
 root = pathlib.Path(__file__).resolve().parents[3]
 sys.path[:0] = [str(root / "paper_figures"), str(pathlib.Path(__file__).parent)]
 
-import bodies  # noqa: E402
-import clip_jump  # noqa: E402
-import recorded_frames  # noqa: E402
-import rendering  # noqa: E402
 import synthetic_frames  # noqa: E402
+from drawing import bodies, rendering  # noqa: E402
+from figures import clip_jump  # noqa: E402
+from records import recorded_frames  # noqa: E402
 
 size = (120, 90)
 

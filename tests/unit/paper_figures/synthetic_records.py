@@ -182,10 +182,9 @@ def write_bench(results):
     folder = results / "bench"
     (folder / "timings").mkdir(parents=True)
     (folder / "timings" / "run.json").write_text(json.dumps(origin))
-    point = {"flops_per_byte": 2.0, "gflops": 10.0, "attainable_gflops": 40.0, "share_of_limit": 0.25}
 
     def timing(variant, precision, threads, ms_step):
-        single = {"roofline": {name: point for name in ("stretch", "volume", "bind")}} if threads == 1 else {"speedup_by_threads": 1.5}
+        single = {} if threads == 1 else {"speedup_by_threads": 1.5}
         return {"variant": variant, "precision": precision, "threads": threads, "ms_step": ms_step, "ratio_to_plain": 1.0,
                 "quartiles": {"ms_step": [0.9 * ms_step, 1.1 * ms_step]}, **single}
 
@@ -196,11 +195,9 @@ def write_bench(results):
                    for threads in (1, 2) if variant == "ordered" or threads == 1]
         return {"mesh": {"vertices": vertices, "edges": edges, "tets": tets}, "results": results, "yardsticks": []}
 
-    memory = [{"bytes": 1e4, "gb_s": 400.0}, {"bytes": 1e8, "gb_s": 20.0}]
     (folder / "bench.json").write_text(json.dumps(
         {"schema": 2,
-         "context": {"threads": 2, "iterations": 24,
-                     "limits_of_one_core": {"fma_gflops_f32": 200.0, "fma_gflops_f64": 100.0, "memory": memory}},
+         "context": {"threads": 2, "iterations": 24},
          "meshes": [mesh(100, 500, 400), mesh(1000, 6000, 5000)],
          "scaling": [{"variant": "ordered", "precision": "f32", "threads": 1, "exponent": 1.0, "interval": [None, None]}]}))
 

@@ -16,13 +16,11 @@ import numpy
 root = pathlib.Path(__file__).resolve().parents[3]
 sys.path[:0] = [str(root / "paper_figures"), str(pathlib.Path(__file__).parent)]
 
-import fig_08_artefacts  # noqa: E402
-import frames  # noqa: E402
 import records  # noqa: E402
 import synthetic_frames  # noqa: E402
-import viewer_html  # noqa: E402
-import viewer_data  # noqa: E402
-import viewer_poses  # noqa: E402
+from figures import fig_08_artefacts, frames  # noqa: E402
+from viewer import data as viewer_data, page as viewer_html, poses as viewer_poses  # noqa: E402
+from words import looks  # noqa: E402
 
 
 class Viewer(unittest.TestCase):
@@ -86,7 +84,7 @@ class Viewer(unittest.TestCase):
         recorded = types.SimpleNamespace(run=types.SimpleNamespace(record={"scene": {"runs": runs}}))
         self.assertEqual([viewer_data.title_of(recorded, label) for label in ("lbs", *options)],
                          ["LBS", "PBS", "PBS, k_stretch 1, zone 0.1", "PBS, k_stretch 1, no zone", "PBS, no start from LBS",
-                          "FEM, neo-Hookean P1"])
+                          "neo-Hookean FEM, linear elements"])
 
     def test_the_limb_has_no_surface_but_its_tets(self):
         self.assertIsNone(self.unpacked()[0]["surface"])
@@ -107,7 +105,8 @@ class Viewer(unittest.TestCase):
         lbs = next(deformer for deformer in run["deformers"] if deformer["label"] == "lbs")
         self.assertEqual(lbs["figures"]["volume_change_pct"], [-2.0, -9.0])
         self.assertEqual(lbs["figures"]["inverted_tets"], [0.0, 1.0])
-        self.assertEqual([deformer["title"] for deformer in run["deformers"]], ["LBS", "DQS", "PBS", "FEM, neo-Hookean P1"])
+        self.assertEqual([deformer["title"] for deformer in run["deformers"]], ["LBS", "DQS", "PBS", "neo-Hookean FEM, linear elements"])
+        self.assertEqual([deformer["colour"] for deformer in run["deformers"]], [looks.of(name).color for name in ("lbs", "dqs", "pbs", "nh_p1")])
 
     def test_frames_whose_pose_was_not_reached_are_packed_as_such(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -10,7 +10,7 @@ import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / "paper_figures"))
 
-import whole_file  # noqa: E402
+from records import whole_file  # noqa: E402
 
 
 class WholeFile(unittest.TestCase):

@@ -142,7 +142,7 @@ TEST(AnswerRatios, AreOfTheCombinedResidualAndOfTheVolume)
 TEST(AnswerRatios, StandNextToEachSpeedUp)
 {
     const BenchBody body = make_bench_body("bar", test_support::structured_bar({-1, -0.15, -0.15}, {1, 0.15, 0.15}, {8, 2, 2}));
-    const MachineLimits limits = {100.0, 50.0, {{1e3, 80.0}, {1e9, 20.0}}};
+    const MachineLimits limits = {{{1e3, 80.0}, {1e9, 20.0}}};
     const auto timings = time_projections(body, {1}, limits, {.seconds = 0.0, .fewest = 1, .most = 1});
     for (const ProjectionTiming& timing : timings) {
         const ProjectionTiming& spread = *std::find_if(timings.begin(), timings.end(), [&](const ProjectionTiming& one) {

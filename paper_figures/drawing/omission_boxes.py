@@ -1,0 +1,80 @@
+"""The list of omissions that each figure of error against run time has: which deformer is missing, and why.
+
+    omitted = omission_boxes.read(results)
+    omission_boxes.draw(axes, omission_boxes.lines(rows), width=46)
+"""
+import collections
+import textwrap
+
+import records
+from records import compared_codes
+from words import case_words
+
+columns = {"comparison", "case", "deformer", "why", "missing", "points", "reason"}
+reasons = {"not_finite": "diverged", "not_converged": "not converged", "over_time_limit": "over the time limit",
+           "not_applicable": "not applicable", "no_such_code": "no such code", "not_run": "not run", "no_reference": "no reference"}
+
+
+def read(results):
+    """The rows of omissions.csv. A record without omissions has none."""
+    file = results / "work_precision" / "omissions.csv"
+    return records.table(file, columns) if records.read_rows(file) else []
+
+
+def evaluated_cases(results):
+    """The names of the poses that are evaluated."""
+    tables = {file.parent.name: records.table(file, {"half"}) for file in sorted((results / "work_precision").glob("*/points.csv"))}
+    return [case for case, rows in tables.items() if rows[0]["half"] == "evaluation"]
+
+
+def points_in(results, comparison, cases):
+    """The number of points of each deformer in these cases, missing or not. The best code is that of all cases."""
+    needed = {"deformer", "precision", "packed", "outcome"}
+    points = [{**row, "case": file.parent.name} for file in sorted((results / "work_precision").glob("*/points.csv"))
+              for row in records.table(file, needed) if row["outcome"] not in ("reference", "not_reached")]
+    return collections.Counter(row["deformer"] for row in compared_codes.taking_part(points, comparison) if row["case"] in cases)
+
+
+def added_up(results, comparison, cases):
+    """One row per deformer and reason, of the points in all of these cases, whether they have the omission or not."""
+    points, sums = points_in(results, comparison, cases), {}
+    for row in read(results):
+        if row["comparison"] != comparison or row["case"] not in cases:
+            continue
+        so_far = sums.setdefault((row["deformer"], row["why"]), {**row, "missing": 0, "points": points[row["deformer"]]})
+        so_far["missing"] += int(row["missing"])
+    return list(sums.values())
+
+
+def lines(omitted):
+    """One line per reason: diverged: XPBD 2 of 9, ... A reference that was not reached is followed by its worst tet."""
+    of_reason, notes = {}, {}
+    for row in omitted:
+        share = f" {row['missing']} of {row['points']}" if int(row["missing"]) else ""
+        of_reason.setdefault(row["why"], []).append(case_words.of_field("deformer", row["deformer"]) + share)
+        if row["why"] == "no_reference" and row["reason"]:
+            notes.setdefault(row["why"], row["reason"])
+    return [f"{reasons.get(why, why)}: {', '.join(names)}" + (f" ({notes[why]})" if why in notes else "")
+            for why, names in of_reason.items()]
+
+
+def text(shown, width, undecided=()):
+    """The omissions and, if there are any, the groups that are not decided: a heading each, its lines filled to a width [characters]."""
+    sections = [("Omissions:", shown or ["none"])] + ([("Not decided:", undecided)] if undecided else [])
+    return "\n".join("\n".join([heading, *(filled(line, width) for line in section)]) for heading, section in sections)
+
+
+def filled(line, width):
+    return textwrap.fill(line, width, initial_indent="  ", subsequent_indent="    ")
+
+
+def draw(axes, shown, width, undecided=(), place=(0.015, 0.02), fontsize=4.6):
+    """A box in the lower left corner of a panel."""
+    axes.text(*place, text(shown, width, undecided), transform=axes.transAxes, ha="left", va="bottom", fontsize=fontsize, linespacing=1.05,
+              bbox={"boxstyle": "round,pad=0.25", "facecolor": "white", "edgecolor": "#999999", "linewidth": 0.4, "alpha": 0.9})
+
+
+def draw_below(axes, shown, width, fontsize=5.5):
+    """The list in a panel of its own, without axes."""
+    axes.axis("off")
+    axes.text(0.0, 1.0, text(shown, width), transform=axes.transAxes, ha="left", va="top", fontsize=fontsize, linespacing=1.15)

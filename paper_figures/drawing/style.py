@@ -1,0 +1,184 @@
+"""The common style of all figures: sizes of a two-column page, Okabe-Ito colours, axes, legends and files. looks.toml has the colour, marker
+and line of each deformer.
+
+    figure, axes = style.panels(1, 2)
+    style.draw(axes[0], "pbs", angle_deg, change_pct)
+    style.save(figure, figures / "volume", provenance, rows)
+"""
+import csv
+
+import matplotlib
+
+matplotlib.use("Agg")
+from matplotlib import pyplot, ticker  # noqa: E402
+
+from drawing import hover_titles  # noqa: E402
+from records import whole_file  # noqa: E402
+from words import looks  # noqa: E402
+
+column_in, page_in = 84 / 25.4, 178 / 25.4  # widths of one column and of the page
+
+black, orange, sky, green = "#000000", "#E69F00", "#56B4E9", "#009E73"
+yellow, blue, vermillion, purple = "#F0E442", "#0072B2", "#D55E00", "#CC79A7"
+
+matplotlib.rcParams.update({
+    "font.family": "DejaVu Sans", "font.size": 7.5, "axes.titlesize": 8, "axes.labelsize": 7.5, "legend.fontsize": 7,
+    "xtick.labelsize": 7, "ytick.labelsize": 7, "lines.linewidth": 1.2, "lines.markersize": 3.2, "axes.linewidth": 0.6,
+    "xtick.major.width": 0.6, "ytick.major.width": 0.6, "axes.grid": True, "grid.linewidth": 0.3, "grid.color": "#D0D0D0",
+    "axes.axisbelow": True, "legend.frameon": False, "savefig.dpi": 300, "pdf.fonttype": 42, "svg.fonttype": "none",
+    "svg.hashsalt": "pbskin", "axes.spines.top": False,
+    "axes.spines.right": False, "figure.constrained_layout.use": True,
+})
+
+
+sequence = [(vermillion, "v"), (blue, "o"), (green, "^"), (purple, "D"), (orange, "s"), (sky, "P"), (black, "x")]
+lines = [*looks.lines.values(), "-", looks.lines["dashed"]]
+
+
+def panels(rows, columns, height_in=2.0, width_in=None, height_ratios=None, width_ratios=None, **options):
+    width = width_in or (page_in if columns > 1 else column_in)
+    options["gridspec_kw"] = {"height_ratios": height_ratios, "width_ratios": width_ratios}
+    return pyplot.subplots(rows, columns, figsize=(width, height_in * rows), squeeze=False, **options)
+
+
+def stacked(*rows):
+    """Rows of panels, each with a number of columns and a height [in] and its own layout; returns the axes of each row."""
+    figure = pyplot.figure(figsize=(page_in, sum(height for _, height in rows)))
+    parts = figure.subfigures(len(rows), 1, height_ratios=[height for _, height in rows])
+    return figure, [part.subplots(1, columns, squeeze=False)[0] for part, (columns, _) in zip(parts, rows)]
+
+
+def draw(axes, deformer, x, y, markers=True, **options):
+    """The line of one deformer, with a marker about every tenth point."""
+    look = looks.of(deformer)
+    spacing = max(1, len(x) // 9)
+    axes.plot(x, y, color=look.color, linestyle=look.line, marker=look.marker if markers else None, markevery=spacing, label=look.name,
+              **options)
+
+
+def draw_series(axes, number, x, y, label, bars=None, **options):
+    """The number-th line of several that belong to no deformer; bars: lower and upper ends for each point."""
+    color, marker = sequence[number % len(sequence)]
+    axes.plot(x, y, **{"color": color, "marker": marker, "linestyle": lines[number % len(lines)], "label": label} | options)
+    if bars:
+        axes.vlines(x, *bars, color=color, linewidth=0.7)
+
+
+def log_scale(axis, values=None, steps=(1, 2, 5)):
+    """A logarithmic axis with plain numbers at these values, or at these steps of each decade."""
+    axis.axes.set_xscale("log") if axis is axis.axes.xaxis else axis.axes.set_yscale("log")
+    axis.set_major_locator(ticker.FixedLocator(values) if values is not None else ticker.LogLocator(subs=steps))
+    axis.set_major_formatter(ticker.FuncFormatter(lambda value, _: f"{value:g}"))
+    axis.set_minor_locator(ticker.NullLocator())
+
+
+def decades(axis):
+    """A logarithmic axis with plain numbers at whole decades only, if more would overlap; the ticks between have no labels."""
+    log_scale(axis, steps=(1,))
+    axis.set_major_formatter(ticker.FuncFormatter(lambda value, _: f"{value:,g}"))
+    axis.set_minor_locator(ticker.LogLocator(subs=range(2, 10)))
+    axis.set_minor_formatter(ticker.NullFormatter())
+
+
+def per_cent_scale(axes, signed):
+    """Linear up to the paper's 0.5 % and logarithmic beyond, so that 0.1 % and 100 % can be read from the same axis."""
+    axes.set_yscale("symlog", linthresh=0.5, linscale=0.7)
+    low, high = axes.get_ylim()
+    steps = [0.5, 2, 10, 100, 1000] if high - low > 25 else [0.5, 1, 2, 5, 10, 20]
+    ticks = [0, *steps, *(-step for step in steps)]
+    axes.yaxis.set_major_locator(ticker.FixedLocator([tick for tick in ticks if low <= tick <= high]))
+    text = (lambda value, _: f"{value:+g}".replace("-", "\u2212") if value else "0") if signed else (lambda value, _: f"{value:g}")
+    axes.yaxis.set_major_formatter(ticker.FuncFormatter(text))
+    axes.yaxis.set_minor_locator(ticker.NullLocator())
+
+
+def paper_band(axes, signed):
+    axes.axhspan(-0.5 if signed else 0.0, 0.5, color="#E8E8E8", linewidth=0, zorder=0, label="within 0.5 % (Sec. 4)")
+
+
+def legend_above(figure, columns=None):
+    """The common legend of the panels, above them all: every label that occurs, once."""
+    shown = {}
+    for panel in figure.axes:
+        for handle, label in zip(*panel.get_legend_handles_labels()):
+            shown.setdefault(label, handle)
+    labels, handles = list(shown), list(shown.values())
+    columns = columns or min(len(labels), 5)
+    rows = -(-len(labels) // columns)
+    height = 0.17 * rows + 0.06  # [in]
+    top = 1 - height / figure.get_size_inches()[1]
+    figure.get_layout_engine().set(rect=(0, 0, 1, top))
+    figure.legend(handles, labels, loc="lower center", bbox_to_anchor=(0.5, top), ncol=columns)
+
+
+def show(panel, picture, title="", below=""):
+    """A still without axes, its title above and its facts below."""
+    panel.imshow(picture, interpolation="antialiased")
+    panel.set(xticks=[], yticks=[], title=title, xlabel=below)
+    panel.spines[:].set_visible(False)
+    panel.grid(False)
+
+
+def signed(text):
+    """The number with a typographic minus sign."""
+    return text.replace("-", "\u2212")
+
+
+def bar(figure, axes, scale, colors, label, extend="neither"):
+    """One colour bar below all panels, which leave the top free."""
+    figure.get_layout_engine().set(rect=(0, 0, 1, 0.985))
+    shades = matplotlib.cm.ScalarMappable(scale, colors)
+    figure.colorbar(shades, ax=axes, location="bottom", shrink=0.5, aspect=40, extend=extend, pad=0.01).set_label(label)
+
+
+def ratio_bar(figure, axes, scale, colors):
+    label = "volume ratio of a tet, deformed over rest [1]; inverted tets in dark red, in grey the darkest"
+    bar(figure, axes, scale, colors, label, "both")
+
+
+def bone_in_words(bone, next_to=""):
+    """The name of a bone in words: left upper arm for `upper_arm.L`. The side is left out next to a bone on the same side."""
+    name, _, side = bone.partition(".")
+    known = side == next_to.partition(".")[2]
+    return " ".join([*({"L": ["left"], "R": ["right"]}.get(side, []) if not known else []), *name.split("_")])
+
+
+def source_of(provenance):
+    """Version, revision, processor and the hashes of the shown scenes, for a file's metadata."""
+    processor = f"; {provenance['cpu_model']}" if "cpu_model" in provenance else ""
+    scenes = "".join(f"; scene {name} {digest}" for name, digest in provenance.get("scenes", {}).items())
+    return "pbskin {} {}{}{}{}".format(provenance.get("version", "?"), provenance.get("git_revision", "unknown revision"),
+                                       " (dirty)" if provenance.get("git_dirty") else "", processor, scenes)
+
+
+def save(figure, stem, provenance, table, formats=("pdf", "png", "svg")):
+    """Writes stem.pdf, stem.png and stem.svg with the revision in their metadata, and stem.csv with the rows (dicts) behind the figure. In
+    the SVG, every drawn point has its label and numbers as a title, which a browser shows under the pointer."""
+    source, rights = source_of(provenance), provenance.get("rights", "")
+    metadata = {"pdf": {"Title": stem.name, "Subject": source, "Keywords": rights, "CreationDate": None},
+                "png": {"Title": stem.name, "Source": source, "Copyright": rights, "Software": "pbskin paper_figures"},
+                "svg": {"Title": stem.name, "Source": source, "Rights": rights, "Creator": "pbskin paper_figures", "Date": None}}
+    figure.canvas.draw()
+    figure.set_layout_engine("none")  # the layout is computed once, so that it is the same in every format and in hover_titles
+    for ending in formats:
+        with whole_file.beside(stem.with_suffix("." + ending)) as path:
+            figure.savefig(path, metadata=metadata[ending], dpi=150 if ending == "svg" else 300)
+            if ending == "svg":
+                hover_titles.add(figure, path)
+    pyplot.close(figure)
+    with whole_file.beside(stem.with_suffix(".csv")) as path, open(path, "w", newline="") as stream:
+        writer = csv.DictWriter(stream, fieldnames=list(table[0]), lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(table)
+
+
+def aligned(rows):
+    """Rows of several kinds in one table with all columns; a cell is empty if its kind has no such column."""
+    columns = dict.fromkeys(column for row in rows for column in row)
+    return [{column: row.get(column, "") for column in columns} for row in rows]
+
+
+def columns_of(rows, *names):
+    """The rows with only these columns, for the CSV behind a figure."""
+    names = ("scene", "deformer", "variant", "iterations", "frame", "time_s", *names)
+    return [{name: row[name] for name in names} for row in rows]

@@ -1,0 +1,34 @@
+"""Writes the parts of README.md and of other pages that come from records, each between two markers of its own. Nobody edits them by hand.
+
+    build/release/bin/pbskin reproduce --judge -o experiments/records/full      # writes claims.json there; git ignores it
+    python3 paper_figures/make_readme.py experiments/records/full               # claims, findings, features and kept
+    python3 paper_figures/make_readme.py results/check/reliability reliability  # the counts that the tests of ./check --long wrote
+
+claims: one line per claim in the README; findings: its findings; features: the table of the study that leaves features out; kept: the
+generated parts of the studies' READMEs and of the claims' pages; reliability: the table of tests/README.md. Exit status 2 if the records or
+a page are not as expected.
+"""
+import pathlib
+import sys
+
+from readme import claims, features, findings, pages, part, reliability
+from records import kept
+
+parts = {"claims": lambda results: {part.own_readme: claims.lines_of(results)},
+         "findings": lambda results: {part.own_readme: findings.lines_of(results)},
+         "features": lambda results: {features.page: features.lines_of(results)},
+         "kept": pages.pages,
+         "reliability": lambda folder: {reliability.page: reliability.lines_of(folder)}}
+
+
+def main(arguments):
+    folder, names = arguments[:1], arguments[1:] or ["claims", "findings", "features", "kept"]
+    if not folder or folder[0].startswith("-") or not set(names) <= set(parts):
+        print(__doc__, file=sys.stderr)
+        return 2
+    results = kept.opened(pathlib.Path(folder[0]))
+    return max(part.main(name, parts[name], results) for name in names)
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

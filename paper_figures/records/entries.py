@@ -1,0 +1,144 @@
+"""The figures that figures.toml lists, and whether the records behind each exist and are up to date.
+
+    for entry in entries.read():
+        entry.check(results)          # raises RecordsMissing or RecordsStale
+        entry.absent(results)         # (["man_crouch"], 15): planned runs without records, and the number of planned runs
+    entries.origin_of(results, name)  # for the figure's metadata: versions, revisions, processors, scenes of the runs behind it
+"""
+import fnmatch
+import importlib
+import pathlib
+import tomllib
+from dataclasses import dataclass
+
+import records
+
+listing = pathlib.Path(__file__).resolve().parents[1] / "figures.toml"
+marks = {"R": "minutes, on any machine: ./reproduce", "NR": "not from this repository's records",
+         "CR": "an hour or more on two cores: ./reproduce --full; or the one study by its name"}
+slack_s = 60.0  # possible difference between the times of the files of a copied folder
+
+
+class RecordsStale(records.RecordsMissing):
+    """Records that do not belong together."""
+
+
+@dataclass(frozen=True)
+class Entry:
+    name: str  # name of the files: figures/name.svg
+    title: str
+    caption: str  # states what the figure shows
+    claims: list
+    records: list  # patterns below the results' folder; each must match a file
+    script: str  # the module of the folder figures whose function of the figure's name draws it: NAME(results, figures)
+    mark: str
+
+    def draw(self, results, figures):
+        getattr(importlib.import_module(f"figures.{self.script}"), self.name)(results, figures)
+
+    def facts(self, rows):
+        """The numbers that the caption names, from the rows of NAME.csv."""
+        return getattr(importlib.import_module(f"figures.{self.script}"), f"{self.name}_facts")(rows)
+
+    def studies(self):
+        return sorted({pattern.split("/")[0] for pattern in self.records})
+
+    def files(self, results):
+        found = {pattern: sorted(results.glob(pattern)) for pattern in self.records}
+        for pattern, files in found.items():
+            if not files:
+                raise records.RecordsMissing(f"{results / pattern}: does not exist")
+        return [file for files in found.values() for file in files]
+
+    def runs(self, results):
+        """The run.json of each run behind it."""
+        return list(dict.fromkeys(run for file in self.files(results) for run in runs_behind(file, results)))
+
+    def origin(self, results):
+        return records.origin_of({run.parent.name: records.read_json(run) for run in self.runs(results)})
+
+    def absent(self, results):
+        """The planned runs without records behind a figure of several runs, and the number of planned runs. A study's own table summarises
+        all of them."""
+        on_record = {}
+        for pattern in self.records:
+            study, *below = pattern.split("/")
+            chosen, file = (below[0], "/".join(below[1:])) if len(below) > 1 else ("*", "run.json")
+            for name in fnmatch.filter(planned_runs(results / study), chosen) if "*" in chosen else []:
+                on_record[name] = on_record.get(name, True) and any((results / study / name).glob(file))
+        return [name for name, found in on_record.items() if not found], len(on_record)
+
+    def check(self, results):
+        """Raises RecordsMissing if a pattern matches nothing or no run.json states the origin. Raises RecordsStale if a run is not in the
+        plan of its study (left from an earlier one), if a table was written after its run ended or before a run that it summarises, or if
+        revisions differ."""
+        revisions = {}
+        for file in self.files(results):
+            for run in runs_behind(file, results):
+                check_plan(run)
+                check_times(file, run)
+                revisions.setdefault(revision_of(run), run)
+        if len(revisions) > 1:
+            (first, one), (second, other) = list(revisions.items())[:2]
+            raise RecordsStale(f"stale: {one.parent} is of revision {first}, {other.parent} of {second}: run both anew")
+
+
+def read():
+    """The entries in the order of figures.toml."""
+    return [Entry(name=name, **entry) for name, entry in tomllib.loads(listing.read_text())["figures"].items()]
+
+
+def origin_of(results, name):
+    return next(entry for entry in read() if entry.name == name).origin(results)
+
+
+def runs_behind(file, results):
+    """The run.json of the run that wrote a file; for a study's table, those of all its runs."""
+    for folder in file.parents:
+        if folder == results:
+            break
+        if (folder / "run.json").is_file():
+            return [folder / "run.json"]
+    study = results / file.relative_to(results).parts[0]
+    runs = [run for run in sorted(study.glob("*/run.json")) if is_planned(run)]
+    if not runs:
+        raise records.RecordsMissing(f"{study}: no run.json in it")
+    return runs
+
+
+def is_planned(run):
+    """Whether the plan of its study names a run's folder or a part of it; a study without a plan names none."""
+    for folder in run.parents:
+        if (folder.parent / "plan.json").is_file():
+            return folder.name in planned_runs(folder.parent)
+    return True
+
+
+def planned_runs(study):
+    """The names in the study's plan.json; none if it does not exist."""
+    plan = study / "plan.json"
+    if not plan.is_file():
+        return []
+    try:
+        return [planned["name"] for planned in records.read_json(plan)["runs"]]
+    except (KeyError, TypeError):
+        raise records.RecordsMissing(f"{plan}: runs: expected a list of runs with their names") from None
+
+
+def check_plan(run):
+    if not is_planned(run):
+        raise RecordsStale(f"stale: {run.parent} is no run of its study's plan.json: left from an earlier one")
+
+
+def check_times(file, run):
+    written_s, ended_s = file.stat().st_mtime, run.stat().st_mtime
+    own = run.parent in file.parents
+    if own and written_s > ended_s + slack_s:
+        raise RecordsStale(f"stale: {file} was changed after its run ended")
+    if not own and written_s < ended_s - slack_s:
+        raise RecordsStale(f"stale: {file} is older than {run.parent}, which it sums up")
+
+
+def revision_of(run):
+    origin = records.read_json(run).get("provenance", {})
+    return origin.get("git_revision", "unknown")[:10] + (" (dirty)" if origin.get("git_dirty") else "")

@@ -1,0 +1,191 @@
+"""Packs the recorded frames of DIR/frames into one block of bytes, with a header that describes its contents, for the interactive viewer.
+
+Positions are rounded to a grid of 65536 steps over the longest edge of the run's bounding box: low_m + step_m * code, so that each
+coordinate is within step_m / 2 of the record. A frame is stored as the difference of its codes to those of the previous frame (modulo
+65536), first the low bytes of all frames, then the high ones, which compresses well.
+The rendered surface is not stored frame by frame: each of its points is the weighted sum of the corners of the tet that carries it (float32
+weights), and so within step_m / 2 times the sum of the absolute weights.
+Volume ratios take one byte: 0 is an inverted tet (ratio <= 0), a code c > 0 represents (c - 1) / 127, and 255 all ratios above 2.
+"""
+import gzip
+import hashlib
+
+import numpy
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
+
+import records
+from drawing import rendering
+from records import entries, pose_reached, recorded_frames
+from words import looks
+
+titles = {"limb_twist": "limb, twist", "limb_bend": "limb, bend", "human_jump": "human, jumping", "human_walk": "human, walking"}
+figures = ("volume_change_pct", "inverted_tets", "j_min", "error_joint_pct", "error_linf_m", "min_section_pct", "angle_deg",
+           "masked_share_pct")
+ratio_steps, position_steps = 127, 65535
+
+
+def read_frame(file):
+    """Positions [m], #V x 3, tets, #T x 4, volume ratios, #T, rest positions [m], #V x 3."""
+    if not file.is_file():
+        raise records.RecordsMissing(f"{file}: does not exist")
+    reader = vtkXMLUnstructuredGridReader()
+    reader.SetFileName(str(file))
+    reader.Update()
+    grid = reader.GetOutput()
+    ratio, rest = grid.GetCellData().GetArray("volume_ratio"), grid.GetPointData().GetArray("rest_position")
+    if not ratio or not rest:
+        raise records.RecordsMissing(f"{file}: no {'rest_position' if ratio else 'volume_ratio'}")
+    if not numpy.isfinite(vtk_to_numpy(grid.GetPoints().GetData())).all():
+        raise records.RecordsMissing(f"{file}: a position is not finite: nothing to show")
+    tets = vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 4)
+    return tuple(numpy.array(array) for array in (vtk_to_numpy(grid.GetPoints().GetData()), tets, vtk_to_numpy(ratio), vtk_to_numpy(rest)))
+
+
+def grid_over(positions):
+    """Lowest corner [m] and step [m] of the grid to which positions are rounded."""
+    points = positions.reshape(-1, 3)
+    low = points.min(axis=0)
+    return low, (points.max(axis=0) - low).max() / position_steps
+
+
+def codes_of(positions, low, step):
+    return numpy.rint((positions - low) / step).astype("<u2")
+
+
+def differences(codes):
+    """The difference of each frame to the previous one, modulo 65536, with the first frame as it is: their low bytes, then their high
+    bytes."""
+    result = codes.copy()
+    result[1:] -= codes[:-1]
+    return numpy.stack([result & 255, result >> 8]).astype("u1")
+
+
+def ratio_codes(ratios):
+    codes = numpy.clip(1 + numpy.rint(ratios * ratio_steps), 1, 255)
+    return numpy.where(ratios <= 0, 0, codes).astype("u1")
+
+
+class Block:
+    """Arrays in sequence, each at a multiple of four bytes. Equal arrays are stored once, since runs of one body share them."""
+
+    def __init__(self):
+        self.bytes = bytearray()
+        self.places = {}
+
+    def put(self, array):
+        packed = numpy.ascontiguousarray(array).tobytes()
+        digest = hashlib.sha256(packed).digest()
+        if digest not in self.places:
+            self.bytes += bytes(-len(self.bytes) % 4)
+            self.places[digest] = len(self.bytes)
+            self.bytes += packed
+        return self.places[digest]
+
+
+def rows_of(recorded):
+    """For each label its rows of metrics.csv whose frames were written, in the order of the panels: in the order of looks.toml."""
+    labels = looks.in_order(recorded.deformers)
+    rows = {label: recorded.run.select(recorded.deformers[label][0], variant=recorded.deformers[label][1]) for label in labels}
+    rows = {label: [row for row in of if recorded.is_written(label, int(row["frame"]))] for label, of in rows.items()}
+    if not labels or not rows[labels[0]]:
+        raise records.RecordsMissing(f"{recorded.folder / 'frames'}: no frames were written")
+    return rows
+
+
+def figures_of(rows):
+    """One number per frame for each column; null if the record has none."""
+    return {column: [float(row[column]) if row.get(column) else None for row in rows] for column in figures}
+
+
+def not_reached(rows):
+    """The indices of the frames whose pose the deformer did not reach."""
+    return [at for at, row in enumerate(rows) if not pose_reached.of(row)]
+
+
+def title_of(recorded, label):
+    """The title of a PBS panel whose stiffness differs from that of plain PBS in the same scene: that stiffness and the one of its jiggling
+    zone, as recorded."""
+    options = {run["label"]: run.get("options", {}) for run in recorded.run.record["scene"]["runs"]}
+    own, plain = options[label], options.get("pbs", {})
+    if "k_stretch" not in own or own["k_stretch"] == plain.get("k_stretch"):
+        return looks.of(label).name
+    zone = f"zone {own['jiggle']['k_stretch']:g}" if own.get("jiggle") else "no zone"
+    return f"PBS, k_stretch {own['k_stretch']:g}, {zone}"
+
+
+def pack_bones(recorded, frames, block):
+    """Names, and the place of the posed ends: float32, frame by frame, head and tail [m] of every bone."""
+    rows = records.table(recorded.folder / "bones.csv", {"frame", "bone", *recorded_frames.bone_ends})
+    of_frame = {}
+    for row in rows:
+        of_frame.setdefault(int(row["frame"]), []).append([float(row[column]) for column in recorded_frames.bone_ends])
+    missing = [frame for frame in frames if frame not in of_frame]
+    if missing:
+        raise records.RecordsMissing(f"{recorded.folder / 'bones.csv'}: no frame {missing[0]}")
+    ends = numpy.array([of_frame[frame] for frame in frames], dtype="<f4")
+    names = [row["bone"] for row in rows[:ends.shape[1]]]
+    return {"names": names, "ends": block.put(ends)}
+
+
+def pack_surface(recorded, block):
+    """The rendered surface: its triangles, and the tet and weights of each of its points. None for a body without one."""
+    file = recorded.skin_at_rest()
+    if not file:
+        return None
+    triangles = vtk_to_numpy(rendering.read(file).GetPolys().GetConnectivityArray()).reshape(-1, 3)
+    tets, shares = recorded.embedding()
+    if triangles.max() >= len(tets):
+        raise records.RecordsMissing(f"{recorded.folder / 'embedding.csv'}: {len(tets)} points, but {file.name} has more")
+    return {"points": len(tets), "triangles": len(triangles), "largest_sum": float(abs(shares).sum(axis=1).max()),
+            "corners": block.put(triangles.astype("<u4")), "tets": block.put(tets.astype("<u4")), "shares": block.put(shares.astype("<f4"))}
+
+
+def facts_of(recorded, every):
+    """The facts from the run's tables, without its frames."""
+    rows = {label: kept[::every] for label, kept in rows_of(recorded).items()}
+    first = next(iter(rows.values()))
+    shown = [{"label": label, "title": title_of(recorded, label), "colour": looks.of(label).color, "figures": figures_of(rows[label]),
+              "not_reached": not_reached(rows[label])} for label in rows]
+    return {"name": recorded.run.name, "title": titles.get(recorded.run.name, recorded.run.name), "reference": recorded.run.reference(),
+            "rights": "; ".join(recorded_frames.licences_of(recorded)), "frames": [int(row["frame"]) for row in first],
+            "times_s": [float(row["time_s"]) for row in first], "deformers": shown}
+
+
+def pack_run(recorded, every, block):
+    """The header of one run; its arrays are added to the block."""
+    facts = facts_of(recorded, every)
+    labels = [deformer["label"] for deformer in facts["deformers"]]
+    read = {label: [read_frame(recorded.tets(label, frame)) for frame in facts["frames"]] for label in labels}
+    positions = {label: numpy.stack([one[0] for one in read[label]]) for label in labels}
+    low, step = grid_over(numpy.stack(list(positions.values())))
+    _, tets, _, rest = read[labels[0]][0]
+    rest_low, rest_step = grid_over(rest)
+    for deformer in facts["deformers"]:
+        deformer["positions"] = block.put(differences(codes_of(positions[deformer["label"]], low, step)))
+        deformer["ratios"] = block.put(numpy.stack([ratio_codes(one[2]) for one in read[deformer["label"]]]))
+    return {**facts, "vertices": len(rest), "tets": len(tets), "low_m": low.tolist(), "step_m": step, "rest_low_m": rest_low.tolist(),
+            "rest_step_m": rest_step, "tet_corners": block.put(tets.astype("<u4")), "bones": pack_bones(recorded, facts["frames"], block),
+            "rest_codes": block.put(codes_of(rest, rest_low, rest_step)), "surface": pack_surface(recorded, block)}
+
+
+def check(results, names):
+    """Checks that the runs are planned, written by their own run and not changed since, like the records of a figure, and that all have one
+    revision."""
+    files = [f"frames/{run}/{file}" for run in names for file in ("metrics.csv", "bones.csv", "frames/*.vtu")]
+    entries.Entry("viewer", "", "", [], files, "", "R").check(results)
+
+
+def recorded_runs(results):
+    found = [recorded_frames.Frames(results, name) for name in titles if (results / "frames" / name).is_dir()]
+    if not found:
+        raise records.RecordsMissing(f"{results / 'frames'}: no frames on record; the study `frames` writes them")
+    check(results, [recorded.run.name for recorded in found])
+    return found
+
+
+def pack(recorded, every=1):
+    """The header and the compressed block of these runs, with every n-th frame."""
+    block = Block()
+    runs = [pack_run(one, every, block) for one in recorded]
+    return {"schema": 1, "every": every, "ratio_steps": ratio_steps, "runs": runs}, gzip.compress(bytes(block.bytes), 9, mtime=0)

@@ -1,0 +1,102 @@
+"""The interactive viewer as a piece of HTML for the report: its header, the frames and the program, all inline, without network access.
+
+    fragment = page.fragment(results)               # <div id="frame-viewer">, the data and the bundle
+    links = page.claim_links(results)              # claim -> "#run=...", which opens the claim's pose in the viewer
+    python3 -m viewer.page results/reproduce viewer.html    # in paper_figures: a page with nothing else
+"""
+import base64
+import json
+import os
+import pathlib
+import sys
+
+from matplotlib import colormaps, colors
+
+import records
+from drawing import rendering
+from viewer import data as viewer_data, poses as viewer_poses
+
+most_bytes = 15_000_000  # limit for the viewer, so that the report stays below 25 MB
+folder = pathlib.Path(__file__).resolve().parent
+how_to_build = "npm ci && npm run build, in paper_figures/viewer"
+page = """<!DOCTYPE html>
+<html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">
+<title>pbskin: recorded frames</title><link rel="icon" href="data:,"></head><body>
+{body}
+</body></html>
+"""
+
+
+def bundle_file():
+    return pathlib.Path(os.environ.get("PBS_VIEWER_BUILD") or folder / "dist") / "viewer.js"
+
+
+def shades_of(colormap):
+    return [colors.to_hex(shade) for shade in colormap([step / 63 for step in range(64)])]
+
+
+def colours():
+    """The same colours as in the stills."""
+    scale = rendering.ratio_scale
+    return {"ratio": {"low": scale.vmin, "high": scale.vmax, "shades": shades_of(rendering.ratio_colors)},
+            "error": {"shades": shades_of(colormaps["viridis_r"])}, "skin": colors.to_hex(rendering.skin_color),
+            "inverted": colors.to_hex(rendering.inverted_color)}
+
+
+def statements(results):
+    """For each claim its statement in the paper, if the claims are on record."""
+    file = results / "claims.json"
+    return {claim["id"]: claim["statement"] for claim in records.read_json(file)["claims"]} if file.is_file() else {}
+
+
+def pack(recorded):
+    """Packs every frame, or every second, third, ... one if all are too many for a page. Returns the header and base64 text."""
+    for every in range(1, 100):
+        header, block = viewer_data.pack(recorded, every)
+        text = base64.b64encode(block).decode()
+        if len(text) <= most_bytes:
+            return header, text
+    raise records.RecordsMissing(f"{recorded[0].folder / 'frames'}: too large for a page")
+
+
+def fragment(results):
+    """The HTML of the viewer for the study `frames`. RecordsMissing if frames are missing or the program is not built; the message states
+    how to get it."""
+    return fragment_of(viewer_data.recorded_runs(results), statements(results))
+
+
+def fragment_of(recorded, claims=None):
+    """The HTML of the viewer for these runs."""
+    if not bundle_file().is_file():
+        raise records.RecordsMissing(f"{bundle_file().name} is not built: {how_to_build}")
+    header, block = pack(recorded)
+    header.update(colours=colours(), poses=viewer_poses.poses_of(header["runs"]), claims=claims or {})
+    words = json.dumps(header, separators=(",", ":"), allow_nan=False).replace("</", "<\\/")
+    program = bundle_file().read_text().replace("</script", "<\\/script")
+    return "\n".join((
+        '<div id="frame-viewer"><noscript>The viewer needs JavaScript.</noscript></div>',
+        f'<script type="application/json" id="viewer-header">{words}</script>',
+        f'<script type="application/octet-stream;base64" id="viewer-block">{block}</script>', f"<script>{program}</script>"))
+
+
+def claim_links(results):
+    """For each claim, the link that opens its pose."""
+    runs = [viewer_data.facts_of(recorded, 1) for recorded in viewer_data.recorded_runs(results)]
+    return {pose["claim"]: viewer_poses.link_of(pose) for pose in viewer_poses.poses_of(runs)}
+
+
+def main(results, file):
+    try:
+        text = page.format(body=fragment(results))
+    except records.RecordsMissing as error:
+        print(f"viewer: {error}", file=sys.stderr)
+        return 1
+    file.write_text(text)
+    print(f"viewer: {file}, {len(text) / 1e6:.1f} MB")
+    return 0
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 3:
+        sys.exit(__doc__)
+    sys.exit(main(*map(pathlib.Path, sys.argv[1:])))
