@@ -258,7 +258,8 @@ private:
         add_reference(row, references_->first());
         if (of_.range.changes && row.error && (point.setting->change || is_baseline(row.key)))
             for (std::size_t b = 0; b < budget_iterations.size(); ++b)
-                row.from_pbs_pct[b] = references_->first().distance(point.on_base, baseline_after(budget_iterations[b])).joint_pct;
+                if (const ReachedPoint* of_pbs = baseline_after(budget_iterations[b]))
+                    row.from_pbs_pct[b] = references_->first().distance(point.on_base, of_pbs->on_base).joint_pct;
         add_row_of_case(std::move(row), point.setting);
     }
 
@@ -279,14 +280,14 @@ private:
         return key.deformer == baseline && key.packed && key.tuned.empty() && !key.wanted_vertices && !key.refined;
     }
 
-    const pbs::Positions& baseline_after(int iterations) const
+    // Null where that takes too long.
+    const ReachedPoint* baseline_after(int iterations) const
     {
-        return std::ranges::find_if(points_,
-                                    [&](const ReachedPoint& point) {
-                                        const SettingKey key = key_of(*point.setting);
-                                        return !point.setting->change && is_baseline(key) && key.iterations == iterations;
-                                    })
-            ->on_base;
+        const auto found = std::ranges::find_if(points_, [&](const ReachedPoint& point) {
+            const SettingKey key = key_of(*point.setting);
+            return !point.setting->change && is_baseline(key) && key.iterations == iterations;
+        });
+        return found == points_.end() ? nullptr : &*found;
     }
 
     void add_parts(PointRow& row, const ReachedPoint& point)
