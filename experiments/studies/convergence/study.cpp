@@ -10,7 +10,7 @@
 // The reference of a pose takes minutes, so the quick form has it only at twist 90, bend 60, in the human's crouch and on the ladder. On
 // the human and the ladder it has no solution on finer tets, and therefore no bound.
 //
-// Writes DIR/convergence/RUN/residuals.csv, rates.csv, towards.csv, measurements.csv, and convergence.md over all runs.
+// Writes DIR/convergence/RUN/residuals.csv, rates.csv, towards.csv, measurements.csv.
 #include "analysis/measurement.hpp"
 #include "analysis/records/folder_files.hpp"
 #include "analysis/report_table.hpp"
@@ -142,23 +142,11 @@ StudyConclusion conclude(const FinishedRuns& finished)
             if (is_shown && row.of.order == "ordered" && row.of.precision == "f32") shown.push_back(row);
         }
     }
-    const std::string text = text_table(table_of(rate_columns, shown), {{"body", "body"},
-                                                                        {"pose", "pose"},
-                                                                        {"vertices", "vertices", "{:.0f}"},
-                                                                        {"k_stretch", "k_stretch"},
-                                                                        {"initial guess", "start"},
-                                                                        {"rate", "rate_per_iteration", "{:.4f}", 1.0, "-"},
-                                                                        {"to residual", "iterations_to_residual", "{:.0f}"},
-                                                                        {"reached", "residual_reached"},
-                                                                        {"to volume", "iterations_to_volume", "{:.0f}"},
-                                                                        {"reached", "volume_reached"},
-                                                                        {"masked [%]", "masked_share_pct", "{:.1f}", 1.0, "-"},
-                                                                        {"bound [%]", "reference_bound_pct", "{:.2f}", 1.0, "-"},
-                                                                        {"error 24 [%]", "error_24_pct", "{:.1f}", 1.0, "-"},
-                                                                        {"least at", "least_error_iteration", "{:.0f}"},
-                                                                        {"error end [%]", "last_error_pct", "{:.1f}", 1.0, "-"}});
-    finished.write("convergence.md", "```\n" + text + "```\n");
-    return {text, !finished.none()};
+    return {text_table(table_of(rate_columns, shown),
+                       analysis::report_columns("body pose vertices k_stretch start rate_per_iteration:.4f iterations_to_residual "
+                                                "residual_reached iterations_to_volume volume_reached masked_share_pct:.1f "
+                                                "reference_bound_pct:.2f error_24_pct:.1f least_error_iteration last_error_pct:.1f")),
+            !finished.none()};
 }
 
 }  // namespace
