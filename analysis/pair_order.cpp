@@ -1,4 +1,4 @@
-#include "analysis/pair_order.hpp"
+#include "analysis/verdicts/pair_order.hpp"
 
 #include <algorithm>
 #include <cmath>

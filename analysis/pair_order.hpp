@@ -9,7 +9,7 @@
 // takes its place, and the two rules are the same.
 #pragma once
 
-#include "analysis/records/typed_table.hpp"
+#include "analysis/records/tables.hpp"
 
 #include <optional>
 #include <vector>

@@ -1,7 +1,7 @@
 // A study: its runs, and a conclusion from their records. experiments/README.md describes how to add one.
 #pragma once
 
-#include "analysis/case_record.hpp"
+#include "analysis/verdicts/case_record.hpp"
 #include "experiments/scene/scene.hpp"
 #include "experiments/studies/finished_runs.hpp"
 

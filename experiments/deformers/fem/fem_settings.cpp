@@ -1,4 +1,4 @@
-#include "experiments/deformers/fem/fem_settings.hpp"
+#include "experiments/deformers/fem/fem_options.hpp"
 
 #include <algorithm>
 #include <cctype>

@@ -1,14 +1,14 @@
 #include "experiments/studies/ambiguity/reading_values.hpp"
 
-#include "experiments/process/cpu_clock.hpp"
-#include "experiments/process/interruption.hpp"
-#include "experiments/scene/motion_case.hpp"
+#include "experiments/process/machine.hpp"
+#include "experiments/process/terminal.hpp"
+#include "experiments/scene/scene.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "experiments/studies/convergence/convergence_records.hpp"
 #include "experiments/studies/jiggle/jiggle_values.hpp"
 #include "experiments/studies/momentum/momentum_drift.hpp"
 #include "experiments/studies/shared/timed_rounds.hpp"
-#include "pbs/character/jiggle_zone_contents.hpp"
+#include "pbs/character/overlap_and_jiggle.hpp"
 
 #include <fmt/format.h>
 

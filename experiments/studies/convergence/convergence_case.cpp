@@ -1,8 +1,8 @@
 #include "experiments/studies/convergence/convergence_case.hpp"
 
-#include "experiments/deformers/pbs/pbs_option_names.hpp"
-#include "experiments/process/interruption.hpp"
-#include "experiments/scene/motion_case.hpp"
+#include "experiments/deformers/deformer_options.hpp"
+#include "experiments/process/terminal.hpp"
+#include "experiments/scene/scene.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 #include "experiments/studies/shared/posed_reference.hpp"

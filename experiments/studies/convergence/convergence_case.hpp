@@ -2,7 +2,7 @@
 //   const ConvergenceResult result = measure_convergence(case_of_the_limb);
 #pragma once
 
-#include "analysis/case_key.hpp"
+#include "analysis/verdicts/case_record.hpp"
 #include "experiments/scene/scene.hpp"
 #include "experiments/studies/shared/iteration_path.hpp"
 #include "pbs/character/character.hpp"

@@ -1,7 +1,7 @@
 #include "experiments/studies/convergence/convergence_records.hpp"
 
-#include "analysis/line_fit.hpp"
-#include "experiments/deformers/pbs/pbs_option_names.hpp"
+#include "analysis/statistics/fits.hpp"
+#include "experiments/deformers/deformer_options.hpp"
 
 #include <fmt/format.h>
 

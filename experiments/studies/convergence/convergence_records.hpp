@@ -1,8 +1,8 @@
 // The records of convergence: residuals by iteration, one row per path, and the error to the reference by iteration.
 #pragma once
 
-#include "analysis/case_record.hpp"
-#include "analysis/records/typed_table.hpp"
+#include "analysis/records/tables.hpp"
+#include "analysis/verdicts/case_record.hpp"
 #include "experiments/studies/convergence/convergence_case.hpp"
 
 namespace experiments {

@@ -11,10 +11,10 @@
 // the human and the ladder it has no solution on finer tets, and therefore no bound.
 //
 // Writes DIR/convergence/RUN/residuals.csv, rates.csv, towards.csv, measurements.csv.
-#include "analysis/measurement.hpp"
-#include "analysis/records/folder_files.hpp"
-#include "analysis/report_table.hpp"
-#include "experiments/deformers/pbs/pbs_option_names.hpp"
+#include "analysis/records/record_files.hpp"
+#include "analysis/records/report_table.hpp"
+#include "analysis/verdicts/measurement.hpp"
+#include "experiments/deformers/deformer_options.hpp"
 #include "experiments/studies/convergence/convergence_records.hpp"
 #include "experiments/studies/shared/clip_frames.hpp"
 #include "experiments/studies/shared/posed_reference.hpp"

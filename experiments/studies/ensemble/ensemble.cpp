@@ -1,8 +1,8 @@
 #include "experiments/studies/ensemble/ensemble.hpp"
 
-#include "analysis/frame_metrics.hpp"
-#include "experiments/deformers/fem/fem_option_names.hpp"
-#include "experiments/deformers/pbs/pbs_option_names.hpp"
+#include "analysis/metrics/frame_metrics.hpp"
+#include "experiments/deformers/deformer_options.hpp"
+#include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "experiments/studies/shared/pose_columns.hpp"
@@ -236,7 +236,6 @@ private:
     std::vector<std::vector<double>> errors_pct_;           // of the shapes, one list per member that was reached
     int not_reached_ = 0;                                   // members
 };
-
 
 Scene refined(Scene scene)
 {

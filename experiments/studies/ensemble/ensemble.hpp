@@ -2,7 +2,7 @@
 // family of references, which differ in how the bones hold the flesh and in how compressible it is.
 //   const EnsembleRecords records = measure_ensemble(of);
 //   table_of(pair_columns, records.pairs).write("pairs.csv");
-// A pair of deformers is decided if every member orders it in the same way by more than its own error allows (analysis/pair_order.hpp).
+// A pair of deformers is decided if every member orders it in the same way by more than its own error allows (analysis/verdicts/pair_order.hpp).
 //
 // And what the error of PBS against the first member is made of. With x_n the shape after n iterations, x_inf the same constraints
 // converged, x_h the reference and x_0 its limit on ever finer meshes,
@@ -14,9 +14,9 @@
 // the reference.
 #pragma once
 
-#include "analysis/case_key.hpp"
-#include "analysis/pair_order.hpp"
-#include "analysis/records/typed_table.hpp"
+#include "analysis/records/tables.hpp"
+#include "analysis/verdicts/case_record.hpp"
+#include "analysis/verdicts/pair_order.hpp"
 #include "experiments/scene/scene.hpp"
 #include "experiments/studies/shared/reference_family.hpp"
 

@@ -10,8 +10,8 @@
 // Writes DIR/ensemble/CASE/{members,errors,pairs,parts,attachments}.csv and, over all cases, pairs.csv, members.csv.
 #include "experiments/studies/ensemble/ensemble.hpp"
 
-#include "analysis/records/folder_files.hpp"
-#include "analysis/report_table.hpp"
+#include "analysis/records/record_files.hpp"
+#include "analysis/records/report_table.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/studies/shared/case_name.hpp"
 #include "experiments/studies/shared/clip_frames.hpp"

@@ -3,13 +3,12 @@
 #include "experiments/deformers/external/external_deformers.hpp"
 #include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/deformers/registry.hpp"
-#include "experiments/process/own_process.hpp"
-#include "experiments/process/program_run.hpp"
-#include "experiments/scene/scene_keys.hpp"
+#include "experiments/process/child_process.hpp"
+#include "experiments/scene/scene.hpp"
 #include "experiments/settings/scene_values.hpp"
 #include "experiments/studies/shared/posed_reference.hpp"
+#include "pbs/geometry/files.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/text_file.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

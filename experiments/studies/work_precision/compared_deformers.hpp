@@ -7,7 +7,7 @@
 // gains most over PBS in equal time. Finite elements have laws, element orders and meshes instead; point_setting.cpp adds them.
 #pragma once
 
-#include "experiments/deformers/deformer_spec.hpp"
+#include "experiments/deformers/deformer.hpp"
 #include "experiments/scene/scene.hpp"
 
 #include <optional>

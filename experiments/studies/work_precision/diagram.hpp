@@ -5,8 +5,8 @@
 // The recorded error of a point is error_joint_pct: the root mean square over the blended vertices, over their mean distance to the bone.
 #pragma once
 
-#include "analysis/pair_order.hpp"
-#include "analysis/pareto_front.hpp"
+#include "analysis/statistics/minimise.hpp"
+#include "analysis/verdicts/pair_order.hpp"
 #include "experiments/studies/work_precision/compared_deformers.hpp"
 #include "experiments/studies/work_precision/point_row.hpp"
 
@@ -105,7 +105,7 @@ const DiagramPoint* best_of(const Diagram& diagram, const DeformerGroup& group, 
 
 // Whether a statement "this point is nearer than that one" survives the choice of the reference and the references' own errors. Errors are
 // distances: relative to the exact solution, each may be larger or smaller by the error of the reference. A reference orders two points if
-// their errors differ by more than twice the bound of its own error (analysis/pair_order.hpp with |A - B| <= e_A + e_B). A statement is
+// their errors differ by more than twice the bound of its own error (analysis/verdicts/pair_order.hpp with |A - B| <= e_A + e_B). A statement is
 // decided if every reference of the ensemble orders the points in this way.
 //   decision_on(diagram, pbs, delta_mush).reason
 struct Decision {

@@ -1,7 +1,7 @@
 #include "experiments/studies/work_precision/gains.hpp"
 
-#include "analysis/bootstrap.hpp"
-#include "analysis/pair_order.hpp"
+#include "analysis/statistics/statistics.hpp"
+#include "analysis/verdicts/pair_order.hpp"
 #include "experiments/studies/shared/pose_columns.hpp"
 
 #include <algorithm>

@@ -5,7 +5,7 @@
 // its iterations, linearly in the logarithm of the time. Beyond the largest number of iterations the error is constant; below the smallest
 // number there is none. Poses are compared in groups: all of them, and those of each body where there are several. A change's setting in a
 // pose is the one with the least mean error at the same budget over the other poses of the group, so that no setting is evaluated on a pose
-// on which it was chosen. How much the reference's own error may change a gain: analysis/pair_order.hpp.
+// on which it was chosen. How much the reference's own error may change a gain: analysis/verdicts/pair_order.hpp.
 #pragma once
 
 #include "experiments/studies/work_precision/point_row.hpp"

@@ -3,15 +3,15 @@
 // changes.csv: the rows of PBS and of single changes to it, with their distances from PBS.
 #pragma once
 
-#include "analysis/case_key.hpp"
-#include "analysis/frame_metrics.hpp"
-#include "analysis/records/typed_table.hpp"
+#include "analysis/metrics/frame_metrics.hpp"
+#include "analysis/records/tables.hpp"
+#include "analysis/verdicts/case_record.hpp"
 #include "experiments/settings/option_names.hpp"
 #include "experiments/studies/shared/posed_reference.hpp"
 #include "experiments/studies/shared/reference_family.hpp"
 #include "experiments/studies/shared/timed_rounds.hpp"
 #include "experiments/studies/work_precision/posed_deformer.hpp"
-#include "pbs/geometry/work_counters.hpp"
+#include "pbs/geometry/cost.hpp"
 
 #include <string>
 #include <vector>

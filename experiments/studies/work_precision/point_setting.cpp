@@ -1,12 +1,11 @@
 #include "experiments/studies/work_precision/point_setting.hpp"
 
-#include "experiments/deformers/fem/fem_option_names.hpp"
-#include "experiments/deformers/pbs/pbs_option_names.hpp"
+#include "experiments/deformers/deformer_options.hpp"
+#include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/studies/shared/posed_reference.hpp"
 #include "pbs/character/body_cache.hpp"
 #include "pbs/solver/options.hpp"
-#include "pbs/solver/xpbd_options.hpp"
 
 #include <fmt/format.h>
 

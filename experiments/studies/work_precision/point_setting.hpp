@@ -5,7 +5,7 @@
 // body a deformer runs a part of its ladder with its default setting. Finite elements have laws, element orders and meshes.
 #pragma once
 
-#include "analysis/records/typed_table.hpp"
+#include "analysis/records/tables.hpp"
 #include "experiments/deformers/external/external_deformers.hpp"
 #include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/scene/scene.hpp"

@@ -1,7 +1,7 @@
 #include "experiments/studies/work_precision/posed_deformer.hpp"
 
-#include "experiments/process/cpu_clock.hpp"
-#include "pbs/character/refined_character.hpp"
+#include "experiments/process/machine.hpp"
+#include "pbs/character/character.hpp"
 #include "pbs/character/skinning_weights.hpp"
 
 #include <limits>

@@ -9,7 +9,7 @@
 // another process (DeformerTraits::has_own_clock) has the time that it states instead. It runs on the case's own mesh only.
 #pragma once
 
-#include "analysis/records/typed_table.hpp"
+#include "analysis/records/tables.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 #include "experiments/studies/work_precision/point_setting.hpp"
 #include "pbs/character/bodies.hpp"

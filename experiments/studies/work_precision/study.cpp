@@ -14,9 +14,9 @@
 // best_within.csv, data_profiles.csv, omissions.csv; of the changes to PBS equal_time.csv, gains.csv and curves.csv.
 #include "experiments/studies/study.hpp"
 
-#include "analysis/records/folder_files.hpp"
-#include "analysis/report_table.hpp"
-#include "experiments/scene/motion_case.hpp"
+#include "analysis/records/record_files.hpp"
+#include "analysis/records/report_table.hpp"
+#include "experiments/scene/scene.hpp"
 #include "experiments/studies/shared/case_name.hpp"
 #include "experiments/studies/shared/clip_frames.hpp"
 #include "experiments/studies/shared/real_bodies.hpp"

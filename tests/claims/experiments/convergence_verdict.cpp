@@ -2,8 +2,8 @@
 // Reference: the rules in experiments/verdicts/claims.toml.
 #include "experiments/studies/convergence/convergence_records.hpp"
 
-#include "analysis/records/atomic_file.hpp"
-#include "analysis/verdict.hpp"
+#include "analysis/records/record_files.hpp"
+#include "analysis/verdicts/verdict.hpp"
 #include "tests/support/iteration_paths.hpp"
 
 #include <gtest/gtest.h>

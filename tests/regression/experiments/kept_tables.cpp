@@ -1,8 +1,7 @@
 // The kept records, read as rows and written again, have the same columns and cells. Reference: the files, which earlier versions wrote.
-#include "analysis/records/atomic_file.hpp"
-#include "analysis/records/scratch_folder.hpp"
+#include "analysis/records/record_files.hpp"
 #include "experiments/run/metrics_table.hpp"
-#include "experiments/run/region_record.hpp"
+#include "experiments/run/run_records.hpp"
 #include "experiments/studies/ambiguity/volume_readings.hpp"
 #include "experiments/studies/artefacts/artefact_values.hpp"
 #include "experiments/studies/artefacts/smoothness_comparison.hpp"

@@ -1,5 +1,5 @@
 // Values that several studies measure are the same in all of them. Reference: the kept records.
-#include "analysis/records/csv_table.hpp"
+#include "analysis/records/tables.hpp"
 
 #include <gtest/gtest.h>
 

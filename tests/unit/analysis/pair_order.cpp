@@ -1,6 +1,6 @@
 // Reference: the identity of the header. A decision must hold for every exact solution within the bound, and without a decision there must
 // be one within the bound that reverses the order.
-#include "analysis/pair_order.hpp"
+#include "analysis/verdicts/pair_order.hpp"
 
 #include <gtest/gtest.h>
 

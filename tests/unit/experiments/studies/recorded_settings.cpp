@@ -1,8 +1,7 @@
 // --resume repeats a run when anything changed that its work depends on. Reference: the members of the cases, each changed in turn.
-#include "experiments/deformers/blend/blend_options.hpp"
-#include "experiments/deformers/direct_delta_mush/mush_smoothing_names.hpp"
+#include "experiments/deformers/deformer_options.hpp"
 #include "experiments/deformers/external/external_deformers.hpp"
-#include "experiments/deformers/fem/fem_option_names.hpp"
+#include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/studies/ambiguity/reading_values.hpp"
 #include "experiments/studies/ambiguity/volume_readings.hpp"
@@ -21,10 +20,10 @@
 #include "experiments/studies/study_run.hpp"
 #include "experiments/studies/timing/timing_records.hpp"
 #include "experiments/studies/work_precision/measured_points.hpp"
-#include "pbs/author/author_options.hpp"
+#include "pbs/author/author_solver.hpp"
 #include "pbs/skinning/delta_mush.hpp"
 #include "pbs/skinning/direct_delta_mush.hpp"
-#include "pbs/solver/xpbd_options.hpp"
+#include "pbs/solver/options.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/struct_members.hpp"
 

@@ -2,13 +2,12 @@
 // own: what is read, and each wrong input with its file, line, field, value and rule.
 #include "experiments/studies/work_precision/compared_deformers.hpp"
 
+#include "experiments/deformers/deformer_options.hpp"
 #include "experiments/deformers/external/external_deformers.hpp"
 #include "experiments/deformers/fem/fem_options.hpp"
-#include "experiments/deformers/pbs/pbs_option_names.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/studies/shared/posed_reference.hpp"
 #include "pbs/solver/options.hpp"
-#include "pbs/solver/xpbd_options.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/unit/pbs/character/expect_input_error.hpp"
 
