@@ -20,17 +20,15 @@ function(pbs_install_headers component)
     foreach(folder IN LISTS ARGN)
         file(GLOB headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.hpp)
         if(component STREQUAL "method")
-            list(FILTER headers EXCLUDE REGEX "/(mesh_io|mesh_remarks|meshing|module)[a-z_]*\\.hpp$")
+            list(FILTER headers EXCLUDE REGEX "/(mesh_io|meshing|module)[a-z_]*\\.hpp$")
         endif()
         set(no_call_for_users  # headers internal to readers and meshers, to text and files, to solvers, and to parts of bodies
-            "mesh_io_|meshing_|guarded_reading|isolated_reader|reading_limits|packed_bytes|assimp_|vtk_messages|surface_checks|own_folder"
-            "flesh/(cholmod_module|flesh_kernels|hold_modes|local_shape|neo_hookean|packed_|plain_|projective_(dyn|ker)|row_|slabs_of)"
-            "flesh/(triangular|vertex_|volume_|xpbd_)"
-            "geometry/(atomic_file|content_format|file_limits|lane_functions|name_list|named_link|nearest_name|number_text|process)"
-            "geometry/(stopwatch|text_file|toml_text)"
-            "solver/(algorithm_1|hand_over|parallel|plain_projection|project_plain|reordered_projection)"
-            "rig/(assimp_|collada_|fbx_|gltf_|rig_bytes|skin_weights|tiny_gltf)"
-            "character/(bvh_header|clip_bytes|face_stream|folded_skeleton|input_file|json_file|making_lock|morph_targets|skeleton_order)")
+            "mesh_io_|meshing_|guarded_reading|child_process|mesh_checks|packed_bytes|assimp_|content_format"
+            "flesh/(local_shape|packed_|projective_|vbd|xpbd_)"
+            "packed/(groups|lanes|parallel|vertex_order)"
+            "solver/(algorithm_1|plain_projection|project_plain)"
+            "rig/(assimp_|gltf_|rig_bytes|tiny_gltf)"
+            "character/(clip_bytes|json_file)")
         list(JOIN no_call_for_users "|" no_call_for_users)
         list(FILTER headers EXCLUDE REGEX "/(${no_call_for_users})[a-z_]*\\.hpp$")
         install(FILES ${headers} DESTINATION include/${folder} COMPONENT ${component})
@@ -38,15 +36,14 @@ function(pbs_install_headers component)
 endfunction()
 
 pbs_install_libraries(method pbs_settings=settings pbs_method=method)
-pbs_install_headers(method pbs/geometry pbs/skinning pbs/constraints pbs/solver pbs/author)
+pbs_install_headers(method pbs/geometry pbs/packed pbs/skinning pbs/constraints pbs/solver pbs/author)
 pbs_install_libraries(mesh_io pbs_module=module pbs_meshing=meshing pbs_mesh_io=mesh_io)
-install(FILES pbs/geometry/mesh_io.hpp pbs/geometry/mesh_remarks.hpp pbs/geometry/meshing.hpp pbs/geometry/module.hpp
-    DESTINATION include/pbs/geometry COMPONENT mesh_io)
+install(FILES pbs/geometry/mesh_io.hpp pbs/geometry/meshing.hpp pbs/geometry/module.hpp DESTINATION include/pbs/geometry COMPONENT mesh_io)
 pbs_install_libraries(character pbs_rig=rig pbs_flesh=flesh pbs_character=character)
 pbs_install_headers(character pbs/flesh pbs/rig pbs/character)
 if(PBS_WITH_ANALYSIS)
     pbs_install_libraries(analysis analysis=analysis)
-    pbs_install_headers(analysis analysis analysis/records)
+    pbs_install_headers(analysis analysis/metrics analysis/statistics analysis/verdicts analysis/records)
 endif()
 if(PBS_WITH_FEM)
     pbs_install_libraries(fem reference_fem_laws=fem_laws reference_fem_multigrid=fem_multigrid reference_fem=fem)

@@ -1,14 +1,121 @@
 #include "reference_fem/assembly.hpp"
 
-#include "reference_fem/element_tables.hpp"
-#include "reference_fem/simplex_elements.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
+#include "reference_fem/options.hpp"
 
 #include <deal.II/base/quadrature_lib.h>
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/fe/fe_simplex_p.h>
+#include <deal.II/fe/fe_system.h>
 #include <deal.II/fe/fe_values.h>
+#include <deal.II/fe/mapping_fe.h>
+#include <deal.II/grid/tria.h>
 
+#include <algorithm>
 #include <cmath>
+#include <stdexcept>
+#include <vector>
 
 namespace reference_fem {
+
+// deal.II's side of a SimplexSpace. To be included by assembly.cpp and assembly.cpp only: it takes some 20 s to compile.
+// The requirements of deal.II 9.4.1 on tets: MappingFE everywhere (the default mapping crashes), QGaussSimplex<3>(n) with n <= 4.
+
+// Stays where it is made: the handler refers to the triangulation.
+struct SimplexSpace::Elements {
+    // 1 or 2; the triangulation is filled later, by the space.
+    explicit Elements(int element_order)
+        : element(dealii::FE_SimplexP<3>(element_order), 3), mapping(dealii::FE_SimplexP<3>(1)), dof_handler(triangulation)
+    {
+    }
+
+    dealii::Triangulation<3> triangulation;  // cell t is tet t of the mesh
+    dealii::FESystem<3> element;             // three components of FE_SimplexP
+    dealii::MappingFE<3> mapping;            // of straight tets
+    dealii::DoFHandler<3> dof_handler;       // renumbered: 3 n + c is component c at node n
+};
+
+namespace {
+
+void fill_triangulation(const pbs::TetMesh& mesh, dealii::Triangulation<3>& triangulation)
+{
+    std::vector<dealii::Point<3>> vertices;
+    vertices.reserve(mesh.rest.rows());
+    for (Eigen::Index v = 0; v < mesh.rest.rows(); ++v) vertices.emplace_back(mesh.rest(v, 0), mesh.rest(v, 1), mesh.rest(v, 2));
+    std::vector<dealii::CellData<3>> cells(mesh.tets.rows(), dealii::CellData<3>(4));
+    for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t)
+        for (int corner = 0; corner < 4; ++corner) cells[t].vertices[corner] = mesh.tets(t, corner);
+    triangulation.create_triangulation(vertices, cells, dealii::SubCellData());
+}
+
+}  // namespace
+
+SimplexSpace::SimplexSpace(const pbs::TetMesh& mesh, int element_order) : element_order_(element_order)
+{
+    require(element_order == 1 || element_order == 2, "element_order", element_order, "expected 1 or 2");
+    check_mesh(mesh);
+    elements_ = std::make_unique<Elements>(element_order);
+    fill_triangulation(mesh, elements_->triangulation);
+    elements_->dof_handler.distribute_dofs(elements_->element);
+    number_nodes(mesh);
+}
+
+SimplexSpace::~SimplexSpace() = default;
+
+void SimplexSpace::number_nodes(const pbs::TetMesh& mesh)
+{
+    const auto& element = elements_->element;
+    auto& dof_handler = elements_->dof_handler;
+    const int per_tet = static_cast<int>(element.n_dofs_per_cell()) / 3;
+    tet_nodes_.resize(mesh.tets.rows(), per_tet);
+    node_positions_.resize(dof_handler.n_dofs() / 3, 3);
+    node_positions_.topRows(mesh.rest.rows()) = mesh.rest;
+
+    int next_node = static_cast<int>(mesh.rest.rows());
+    std::vector<dealii::types::global_dof_index> renumbered(dof_handler.n_dofs(), dealii::numbers::invalid_dof_index);
+    std::vector<dealii::types::global_dof_index> dofs(element.n_dofs_per_cell());
+    for (const auto& cell : dof_handler.active_cell_iterators()) {
+        const auto t = static_cast<Eigen::Index>(cell->active_cell_index());
+        cell->get_dof_indices(dofs);
+        for (unsigned int i = 0; i < dofs.size(); ++i) {
+            const auto [component, node_in_tet] = element.system_to_component_index(i);
+            auto& number = renumbered[dofs[i]];
+            if (node_in_tet < 4)
+                number = 3 * cell->vertex_index(node_in_tet) + component;
+            else if (number == dealii::numbers::invalid_dof_index)
+                number = component == 0 ? 3 * next_node++ : renumbered[dofs[element.component_to_system_index(0, node_in_tet)]] + component;
+            tet_nodes_(t, node_in_tet) = static_cast<int>(number / 3);
+            if (node_in_tet >= 4) {
+                const auto middle = cell->line(node_in_tet - 4)->center();
+                node_positions_.row(number / 3) << middle[0], middle[1], middle[2];
+            }
+        }
+    }
+    if (tet_nodes_.leftCols(4) != mesh.tets) throw std::logic_error("deal.II reordered the corners of a tet");
+    dof_handler.renumber_dofs(renumbered);
+}
+
+Eigen::VectorXd SimplexSpace::shape_values(const pbs::Vec3& barycentric) const
+{
+    const auto& scalar = elements_->element.base_element(0);
+    const dealii::Point<3> point(barycentric.x(), barycentric.y(), barycentric.z());
+    Eigen::VectorXd values(scalar.n_dofs_per_cell());
+    for (unsigned int i = 0; i < scalar.n_dofs_per_cell(); ++i) values(i) = scalar.shape_value(i, point);
+    return values;
+}
+
+pbs::Positions SimplexSpace::from_vertices(const pbs::Positions& at_vertices) const
+{
+    pbs::Positions on_nodes(nodes(), 3);
+    on_nodes.topRows(at_vertices.rows()) = at_vertices;
+    for (Eigen::Index t = 0; t < tet_nodes_.rows(); ++t)
+        for (Eigen::Index middle = 4; middle < tet_nodes_.cols(); ++middle) {
+            const auto& [first, second] = edge_corners[middle - 4];
+            on_nodes.row(tet_nodes_(t, middle)) = (at_vertices.row(tet_nodes_(t, first)) + at_vertices.row(tet_nodes_(t, second))) / 2.0;
+        }
+    return on_nodes;
+}
+
 namespace {
 
 using DofIndices = std::vector<dealii::types::global_dof_index>;
@@ -208,6 +315,108 @@ ErrorNorms error_norms(const SimplexSpace& space, const Eigen::VectorXd& displac
         }
     });
     return {std::sqrt(squared.l2), std::sqrt(squared.h1_seminorm)};
+}
+
+namespace {
+
+// Nodes that share a tet with each node, itself included, increasing.
+std::vector<std::vector<int>> neighbours(const TetNodes& tet_nodes, int nodes)
+{
+    std::vector<std::vector<int>> adjacent(nodes);
+    for (const auto& tet : tet_nodes.rowwise())
+        for (const int node : tet) adjacent[node].insert(adjacent[node].end(), tet.begin(), tet.end());
+    for (auto& of_node : adjacent) {
+        std::sort(of_node.begin(), of_node.end());
+        of_node.erase(std::unique(of_node.begin(), of_node.end()), of_node.end());
+    }
+    return adjacent;
+}
+
+}  // namespace
+
+NodalMatrix::NodalMatrix(const SimplexSpace& space) : matrix_(space.dofs(), space.dofs()), tet_nodes_(space.tet_nodes())
+{
+    const auto adjacent = neighbours(tet_nodes_, space.nodes());
+    std::size_t blocks = 0;
+    for (const auto& of_node : adjacent) blocks += of_node.size();
+    matrix_.reserve(9 * blocks);
+    for (int column = 0; column < space.dofs(); ++column) {
+        matrix_.startVec(column);
+        for (const int row_node : adjacent[column / 3])
+            for (int c = 0; c < 3; ++c) matrix_.insertBack(3 * row_node + c, column) = 0.0;
+    }
+    matrix_.finalize();
+
+    tet_places_.reserve(tet_nodes_.size() * tet_nodes_.cols());
+    for (const auto& tet : tet_nodes_.rowwise())
+        for (const int row_node : tet)
+            for (const int column_node : tet) tet_places_.push_back(place(row_node, column_node));
+}
+
+SparseMatrix::StorageIndex NodalMatrix::place(int row_node, int column_node) const
+{
+    const auto* begin = matrix_.innerIndexPtr() + matrix_.outerIndexPtr()[3 * column_node];
+    const auto* end = matrix_.innerIndexPtr() + matrix_.outerIndexPtr()[3 * column_node + 1];
+    return std::lower_bound(begin, end, 3 * row_node) - begin;
+}
+
+template <typename Block>
+void NodalMatrix::add_at(SparseMatrix::StorageIndex place, int column_node, const Block& block)
+{
+    for (int c = 0; c < 3; ++c) {
+        double* column = matrix_.valuePtr() + matrix_.outerIndexPtr()[3 * column_node + c] + place;
+        for (int r = 0; r < 3; ++r) column[r] += block(r, c);
+    }
+}
+
+void NodalMatrix::add_block(int row_node, int column_node, const Eigen::Matrix3d& block)
+{
+    add_at(place(row_node, column_node), column_node, block);
+}
+
+void NodalMatrix::add_tet(Eigen::Index tet, const Eigen::Ref<const Eigen::MatrixXd>& values)
+{
+    const Eigen::Index nodes = tet_nodes_.cols();
+    const auto* places = tet_places_.data() + tet * nodes * nodes;
+    for (Eigen::Index a = 0; a < nodes; ++a)
+        for (Eigen::Index b = 0; b < nodes; ++b) add_at(places[a * nodes + b], tet_nodes_(tet, b), values.block<3, 3>(3 * a, 3 * b));
+}
+
+void NodalMatrix::add(const SparseMatrix& same_pattern, double factor)
+{
+    matrix_.coeffs() += factor * same_pattern.coeffs();
+}
+
+void NodalMatrix::add_isotropic(const SparseMatrix& of_nodes, double factor)
+{
+    for (Eigen::Index node = 0; node < of_nodes.cols(); ++node) {
+        SparseMatrix::StorageIndex place = 0;
+        for (SparseMatrix::InnerIterator entry(of_nodes, node); entry; ++entry, place += 3)
+            for (int c = 0; c < 3; ++c) matrix_.valuePtr()[matrix_.outerIndexPtr()[3 * node + c] + place + c] += factor * entry.value();
+    }
+}
+
+Lame lame_parameters(double young_pa, double poisson)
+{
+    require(young_pa > 0.0 && std::isfinite(young_pa), "young_pa", young_pa, "expected young_pa > 0");
+    require(poisson > -1.0 && poisson < 0.5, "poisson", poisson, "expected -1 < poisson < 0.5");
+    return {young_pa * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson)), young_pa / (2.0 * (1.0 + poisson))};
+}
+
+void check_mesh(const pbs::TetMesh& mesh)
+{
+    require(mesh.tets.rows() > 0, "tets", mesh.tets.rows(), "expected at least one");
+    require(mesh.rest.allFinite(), "rest positions", "not a number or infinite", "expected finite coordinates");
+    std::vector<bool> used(mesh.rest.rows(), false);
+    for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t) {
+        for (const int vertex : mesh.tets.row(t)) {
+            require(vertex >= 0 && vertex < mesh.rest.rows(), "tet vertex", vertex, "expected an index below the number of vertices");
+            used[vertex] = true;
+        }
+        const auto corner = [&](int c) -> pbs::Vec3 { return mesh.rest.row(mesh.tets(t, c)); };
+        require(pbs::tet_volume(corner(0), corner(1), corner(2), corner(3)) > 0.0, "tet", t, "expected a positive volume");
+    }
+    for (std::size_t v = 0; v < used.size(); ++v) require(used[v], "vertex", v, "expected every vertex to belong to a tet");
 }
 
 }  // namespace reference_fem

@@ -1,10 +1,9 @@
 #include "reference_fem/boundary_value_problem.hpp"
 
-#include "reference_fem/eliminated_system.hpp"
-#include "reference_fem/linear_flesh.hpp"
-#include "reference_fem/near_null_space.hpp"
-
 #include "pbs/geometry/topology.hpp"
+#include "reference_fem/linear_flesh.hpp"
+#include "reference_fem/linear_solvers.hpp"
+#include "reference_fem/potentials/potentials.hpp"
 
 #include <algorithm>
 #include <set>
@@ -120,6 +119,31 @@ Eigen::Matrix3d BoundaryValueSolution::stress_at(const pbs::Vec3& point, const E
     const Lame lame = lame_parameters(material.young_pa, material.poisson);
     const double pressure = LinearFlesh(*space, lame, formulation).pressure_at_vertex_pa(displacement, pressure_pa, vertex);
     return pressure * Eigen::Matrix3d::Identity() + 2.0 * lame.mu_pa * strain;
+}
+
+FiniteStrainSolution solve_at_finite_strain(const pbs::TetMesh& mesh, const ElasticMaterial& material, Model model,
+                                            const BoundaryValueProblem& problem, const LoadPathOptions& path)
+{
+    FiniteStrainSolution solution{std::make_shared<const SimplexSpace>(mesh, problem.element_order), {}, {}};
+    const SimplexSpace& space = *solution.space;
+    solution.displacement.setZero(space.dofs());
+    const ElasticPotential flesh(space, model, lame_parameters(material.young_pa, material.poisson), problem.formulation);
+    const PrescribedData prescribed = prescribed_data(space, problem);
+    const Eigen::VectorXd whole_load = external_load(space, problem);
+    DeadLoad load(Eigen::VectorXd::Zero(space.dofs()));
+    NewtonMinimiser newton(space, prescribed.held, problem.solver);
+    solution.path = follow_load_path(
+        [&](double fraction) {
+            load.set(fraction * whole_load);
+            return newton.minimise({&flesh, &load}, fraction * prescribed.values, solution.displacement, {});
+        },
+        solution.displacement, path);
+    return solution;
+}
+
+pbs::Vec3 FiniteStrainSolution::displacement_at(const pbs::Vec3& point) const
+{
+    return displacement.segment<3>(3 * nearest_node(*space, point));
 }
 
 }  // namespace reference_fem

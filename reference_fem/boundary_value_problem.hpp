@@ -6,8 +6,9 @@
 #pragma once
 
 #include "reference_fem/assembly.hpp"
-#include "reference_fem/formulation.hpp"
-#include "reference_fem/prepared_solver.hpp"
+#include "reference_fem/linear_solvers.hpp"
+#include "reference_fem/newton/newton.hpp"
+#include "reference_fem/options.hpp"
 
 #include <vector>
 
@@ -71,5 +72,23 @@ struct PrescribedData {
 PrescribedData prescribed_data(const SimplexSpace& space, const BoundaryValueProblem& problem);
 Eigen::VectorXd external_load(const SimplexSpace& space, const BoundaryValueProblem& problem);  // [N], #dofs
 int nearest_node(const SimplexSpace& space, const pbs::Vec3& point);  // by rest position [m]; mid-edge nodes count
+
+// A boundary value problem with any of the laws, by Newton along a load path: prescribed displacements and dead loads grow together.
+//   FiniteStrainSolution solution = solve_at_finite_strain(mesh, material, Model::isochoric_neo_hookean, problem, {.first_step = 0.2});
+//   if (solution.path.converged()) solution.displacement_at(point);
+
+// Not reaching the end is an outcome: path says how far it went.
+struct FiniteStrainSolution {
+    std::shared_ptr<const SimplexSpace> space;  // its node v is vertex v of the mesh
+    Eigen::VectorXd displacement;               // [m], #dofs, of the last converged step
+    LoadPathSummary path;                       // every attempt, with Newton's record
+
+    pbs::Vec3 displacement_at(const pbs::Vec3& point) const;  // [m], of the nearest node
+};
+
+// pbs::InputError for a mesh, an element_order or a material that solve() refuses, for taylor_hood, and for mean_dilatation with
+// isochoric_neo_hookean. Newton by its default options, with problem.solver.
+FiniteStrainSolution solve_at_finite_strain(const pbs::TetMesh& mesh, const ElasticMaterial& material, Model model,
+                                            const BoundaryValueProblem& problem, const LoadPathOptions& path);
 
 }  // namespace reference_fem

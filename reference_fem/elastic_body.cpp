@@ -1,11 +1,9 @@
 #include "reference_fem/elastic_body.hpp"
 
+#include "reference_fem/attachment.hpp"
 #include "reference_fem/dynamics/time_stepper.hpp"
-#include "reference_fem/held_space.hpp"
-#include "reference_fem/input_checks.hpp"
-#include "reference_fem/potentials/bind_potential.hpp"
-#include "reference_fem/potentials/dead_load.hpp"
-#include "reference_fem/potentials/spring_potential.hpp"
+#include "reference_fem/options.hpp"
+#include "reference_fem/potentials/potentials.hpp"
 
 namespace reference_fem {
 namespace {

@@ -9,11 +9,10 @@
 #pragma once
 
 #include "reference_fem/attachment.hpp"
-#include "reference_fem/dynamics.hpp"
-#include "reference_fem/formulation.hpp"
 #include "reference_fem/laws/constitutive_law.hpp"
-#include "reference_fem/newton/load_path.hpp"
-#include "reference_fem/potentials/elastic_potential.hpp"
+#include "reference_fem/newton/newton.hpp"
+#include "reference_fem/options.hpp"
+#include "reference_fem/potentials/potentials.hpp"
 
 #include <functional>
 #include <memory>

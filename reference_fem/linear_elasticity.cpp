@@ -1,11 +1,10 @@
 #include "reference_fem/linear_elasticity.hpp"
 
-#include "pbs/geometry/stopwatch.hpp"
-#include "reference_fem/eliminated_system.hpp"
-#include "reference_fem/held_space.hpp"
-#include "reference_fem/input_checks.hpp"
+#include "pbs/geometry/cost.hpp"
+#include "reference_fem/attachment.hpp"
 #include "reference_fem/linear_flesh.hpp"
-#include "reference_fem/near_null_space.hpp"
+#include "reference_fem/linear_solvers.hpp"
+#include "reference_fem/options.hpp"
 
 namespace reference_fem {
 

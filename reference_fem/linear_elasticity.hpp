@@ -7,8 +7,7 @@
 #pragma once
 
 #include "reference_fem/attachment.hpp"
-#include "reference_fem/formulation.hpp"
-#include "reference_fem/linear_solver.hpp"
+#include "reference_fem/options.hpp"
 
 #include <memory>
 

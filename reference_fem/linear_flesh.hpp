@@ -12,11 +12,8 @@
 // (51,073 unknowns, nu 0.3 to 0.49999), with the same residual. It is therefore solved that way, whichever direct solver is requested.
 #pragma once
 
-#include "reference_fem/formulation.hpp"
-#include "reference_fem/linear_solver.hpp"
-#include "reference_fem/material.hpp"
-#include "reference_fem/simplex_space.hpp"
-#include "reference_fem/sparse_matrix.hpp"
+#include "reference_fem/assembly.hpp"
+#include "reference_fem/options.hpp"
 
 #include <vector>
 

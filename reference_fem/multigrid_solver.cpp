@@ -1,18 +1,19 @@
 // Conjugate gradients (Eigen), preconditioned by one V-cycle of smoothed aggregation (Trilinos ML through Epetra, on this process alone).
-#include "reference_fem/prepared_solver.hpp"
 
-#include "pbs/geometry/stopwatch.hpp"
-#include "reference_fem/iterative_options.hpp"
-#include "reference_fem/smoothed_aggregation.hpp"
+#include "pbs/geometry/cost.hpp"
+#include "reference_fem/linear_solvers.hpp"
+#include "reference_fem/options.hpp"
 
+#include <Eigen/Geometry>
+#include <Eigen/IterativeLinearSolvers>
 #include <Epetra_CrsMatrix.h>
 #include <Epetra_Map.h>
 #include <Epetra_MpiComm.h>
 #include <Epetra_Vector.h>
+#include <Teuchos_ParameterList.hpp>
 #include <ml_MultiLevelPreconditioner.h>
 #include <mpi.h>
-
-#include <Eigen/IterativeLinearSolvers>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -21,9 +22,45 @@
 #include <set>
 #include <string>
 
-#include <unistd.h>
-
 namespace reference_fem {
+
+Eigen::MatrixXd rigid_body_modes(const pbs::Positions& nodes, const pbs::Vec3& centre, double length_m)
+{
+    Eigen::MatrixXd modes(3 * nodes.rows(), 6);
+    for (Eigen::Index n = 0; n < nodes.rows(); ++n) {
+        const pbs::Vec3 arm = (nodes.row(n).transpose() - centre) / length_m;
+        modes.block<3, 3>(3 * n, 0).setIdentity();
+        for (int axis = 0; axis < 3; ++axis) modes.block<3, 1>(3 * n, 3 + axis) = pbs::Vec3::Unit(axis).cross(arm);
+    }
+    return modes;
+}
+
+Eigen::MatrixXd rigid_body_modes(const pbs::Positions& nodes)
+{
+    const pbs::Vec3 low = nodes.colwise().minCoeff(), high = nodes.colwise().maxCoeff();
+    return rigid_body_modes(nodes, (low + high) / 2.0, (high - low).norm());
+}
+
+Teuchos::ParameterList smoothed_aggregation(double* modes, int number_of_modes, int block_size)
+{
+    Teuchos::ParameterList parameters;
+    ML_Epetra::SetDefaults("SA", parameters);
+    parameters.set("ML output", 0);
+    parameters.set("initialize random seed", true);  // the estimate of the largest eigenvalue repeats to the bit
+    parameters.set("PDE equations", block_size);
+    parameters.set("null space: type", "pre-computed");
+    parameters.set("null space: dimension", number_of_modes);
+    parameters.set("null space: vectors", modes);
+    parameters.set("aggregation: type", "Uncoupled");  // no aggregate spans two ranks
+    parameters.set("aggregation: threshold", 0.0);
+    parameters.set("smoother: type", "Chebyshev");  // symmetric, and the same on any number of ranks
+    parameters.set("smoother: sweeps", 2);
+    parameters.set("smoother: Chebyshev alpha", 10.0);
+    parameters.set("coarse: type", "Amesos-KLU");
+    parameters.set("coarse: max size", 2000);
+    return parameters;
+}
+
 namespace {
 
 // In a process that mpirun did not start, MPI_Init of Open MPI sets environment variables that identify this rank. Child processes inherit

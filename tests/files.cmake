@@ -4,37 +4,31 @@ set(left_out)
 if(PBS_WITH_MESH_IO)
     list(APPEND left_out pbs/geometry/mesh_io_unavailable)
 else()
-    list(APPEND left_out pbs/geometry/content_format pbs/geometry/isolated_reader pbs/geometry/mesh_io pbs/geometry/mesh_io_checks
-        pbs/geometry/module pbs/geometry/named_link pbs/geometry/own_folder pbs/geometry/read_by_content
-        pbs/geometry/surface_formats pbs/geometry/surface_reader pbs/geometry/tobj_reader pbs/geometry/damaged_meshes
-        pbs/geometry/decimal_comma pbs/geometry/referred_files pbs/character/bodies_from_files pbs/character/body_cache
-        pbs/character/input_file)
+    list(APPEND left_out pbs/geometry/content_format pbs/geometry/child_process pbs/geometry/mesh_checks pbs/geometry/mesh_io
+        pbs/geometry/module pbs/geometry/surface_reader pbs/geometry/damaged_meshes pbs/geometry/decimal_comma
+        pbs/geometry/referred_files pbs/character/bodies pbs/character/body_cache)
 endif()
 if(PBS_WITH_CGAL)
     list(APPEND left_out pbs/geometry/meshing_unavailable)
 else()
-    list(APPEND left_out pbs/geometry/meshing_builtin pbs/geometry/meshing_count pbs/geometry/meshing_surface
-        pbs/geometry/self_intersection pbs/character/bodies pbs/character/jiggle_zone_contents pbs/character/overlap_mask)
+    list(APPEND left_out pbs/geometry/meshing pbs/geometry/self_intersection pbs/character/bodies
+        pbs/character/overlap_and_jiggle)
 endif()
 if(NOT PBS_WITH_RIG_IMPORT)
-    list(APPEND left_out pbs/character/skeleton_file pbs/character/bvh_header pbs/character/retarget_plan pbs/character/bodies_from_files
-        pbs/rig/assimp_rig pbs/rig/collada_weights pbs/rig/fbx_curves pbs/rig/glb_writer pbs/rig/gltf_animations pbs/rig/gltf_meshes
-        pbs/rig/gltf_numbers pbs/rig/gltf_rig
-        pbs/rig/rig_bytes pbs/rig/rig_reader pbs/rig/skin_weights)
+    list(APPEND left_out pbs/character/skeleton_file pbs/character/clip pbs/character/bodies
+        pbs/rig/assimp_rig pbs/rig/glb_writer pbs/rig/gltf_rig pbs/rig/rig_bytes pbs/rig/rig_reader)
 endif()
 
 pbs_tests(unit pbs_files
-    FILES pbs/geometry/content_format pbs/geometry/isolated_reader pbs/geometry/mesh_io pbs/geometry/mesh_io_checks
-        pbs/geometry/mesh_io_unavailable pbs/geometry/named_link
-        pbs/geometry/meshing_builtin pbs/geometry/meshing_count pbs/geometry/meshing_surface pbs/geometry/meshing_unavailable
-        pbs/geometry/module pbs/geometry/own_folder pbs/geometry/read_by_content pbs/geometry/self_intersection
-        pbs/geometry/surface_formats pbs/geometry/surface_reader pbs/geometry/tobj_reader
+    FILES pbs/geometry/content_format pbs/geometry/child_process pbs/geometry/mesh_checks pbs/geometry/mesh_io
+        pbs/geometry/mesh_io_unavailable pbs/geometry/meshing pbs/geometry/meshing_unavailable pbs/geometry/module
+        pbs/geometry/self_intersection pbs/geometry/surface_reader
     EXCEPT ${left_out}
     ALONE pbs/geometry/surface_reader
     LIBRARIES pbs_mesh_io pbs_meshing pbs_module)
 pbs_tests(unit pbs_rig FOLDERS pbs/rig EXCEPT ${left_out} LIBRARIES pbs_rig pbs_mesh_io)
 pbs_tests(unit pbs_character FOLDERS pbs/character EXCEPT ${left_out}
-    ALONE pbs/character/overlap_mask pbs/character/refined_character pbs/character/retarget
+    ALONE pbs/character/overlap_and_jiggle pbs/character/character pbs/character/retarget
     LIBRARIES pbs_character pbs_mesh_io)
 if(TARGET pbskin_cholmod)
     pbs_tests(unit pbs_flesh FOLDERS pbs/flesh

@@ -44,52 +44,39 @@ function(fuzz_libraries name)
 endfunction()
 
 fuzz_target(fuzz/scene.cpp experiments
-    experiments/settings/scene_values.cpp experiments/settings/scene_schema.cpp experiments/scene/scene_keys.cpp
-    experiments/deformers/pbs/pbs_settings.cpp experiments/deformers/fem/fem_settings.cpp analysis/records/record_text.cpp
-    pbs/geometry/toml_text.cpp
-    pbs/geometry/nearest_name.cpp pbs/geometry/input_error.cpp)
+    experiments/settings/scene_values.cpp experiments/scene/scene_keys.cpp experiments/deformers/pbs_settings.cpp
+    experiments/deformers/fem/fem_kind.cpp experiments/process/machine.cpp pbs/geometry/module.cpp
+    pbs/geometry/files.cpp pbs/geometry/input_error.cpp)
 fuzz_target(fuzz/mesh.cpp pbs_mesh_io
-    pbs/geometry/guarded_reading.cpp pbs/geometry/isolated_reader.cpp pbs/geometry/reading_limits.cpp pbs/geometry/mesh_io_checks.cpp
-    pbs/geometry/mesh_io_files.cpp pbs/geometry/mesh_repair.cpp pbs/geometry/text_file.cpp pbs/geometry/tet_volume.cpp
-    pbs/geometry/topology.cpp pbs/geometry/input_error.cpp)
+    pbs/geometry/guarded_reading.cpp pbs/geometry/child_process.cpp pbs/geometry/mesh_checks.cpp pbs/geometry/files.cpp
+    pbs/geometry/tet_mesh.cpp pbs/geometry/topology.cpp pbs/geometry/input_error.cpp)
 fuzz_target(fuzz/skeleton.cpp pbs_character
-    pbs/character/skeleton_file.cpp pbs/character/skeleton_order.cpp pbs/geometry/text_file.cpp pbs/geometry/toml_text.cpp
-    pbs/geometry/nearest_name.cpp pbs/geometry/input_error.cpp)
+    pbs/character/skeleton_file.cpp pbs/character/folded_skeleton.cpp pbs/geometry/files.cpp pbs/geometry/input_error.cpp)
 fuzz_target(fuzz/clip.cpp pbs_character
-    pbs/character/clip_bytes.cpp pbs/character/retarget.cpp pbs/character/retarget_plan.cpp pbs/character/joint_map.cpp
-    pbs/skinning/motion_sampling.cpp pbs/skinning/pose.cpp pbs/skinning/skeleton.cpp pbs/geometry/name_list.cpp
-    pbs/geometry/input_error.cpp)
+    pbs/character/clip_bytes.cpp pbs/character/retarget.cpp pbs/skinning/pose_path.cpp
+    pbs/skinning/pose.cpp pbs/geometry/input_error.cpp)
 fuzz_target(fuzz/rig.cpp pbs_rig
-    pbs/rig/bone_tails.cpp pbs/rig/gltf_animations.cpp pbs/rig/gltf_meshes.cpp pbs/rig/gltf_model.cpp pbs/rig/gltf_numbers.cpp
-    pbs/rig/gltf_rig.cpp pbs/rig/rig_binding.cpp pbs/rig/rig_bytes.cpp pbs/rig/rig_motion.cpp pbs/rig/rig_pose.cpp pbs/rig/rigged_body.cpp
-    pbs/rig/skin_weights.cpp pbs/rig/tiny_gltf.cpp pbs/skinning/motion_sampling.cpp pbs/skinning/skeleton.cpp pbs/geometry/own_folder.cpp
-    pbs/geometry/text_file.cpp pbs/geometry/input_error.cpp)
+    pbs/rig/rigged_body.cpp pbs/rig/gltf_rig.cpp pbs/rig/gltf_model.cpp pbs/rig/rig_pose.cpp pbs/rig/rig_bytes.cpp
+    pbs/rig/rig_reader.cpp pbs/rig/tiny_gltf.cpp pbs/skinning/pose_path.cpp pbs/skinning/pose.cpp
+    pbs/geometry/content_format.cpp pbs/geometry/files.cpp pbs/geometry/input_error.cpp)
 fuzz_target(fuzz/texts.cpp experiments
-    analysis/records/csv_reader.cpp analysis/records/csv_table.cpp analysis/records/atomic_file.cpp
-    experiments/settings/scene_values.cpp experiments/settings/scene_schema.cpp experiments/scene/scene_keys.cpp
-    experiments/deformers/pbs/pbs_settings.cpp experiments/deformers/fem/fem_settings.cpp analysis/records/record_text.cpp
-    pbs/character/bvh_header.cpp pbs/geometry/atomic_file.cpp
-    pbs/geometry/text_file.cpp pbs/geometry/toml_text.cpp pbs/geometry/nearest_name.cpp pbs/geometry/input_error.cpp)
+    analysis/records/tables.cpp analysis/records/record_files.cpp
+    experiments/settings/scene_values.cpp experiments/scene/scene_keys.cpp experiments/deformers/pbs_settings.cpp
+    experiments/deformers/fem/fem_kind.cpp experiments/process/machine.cpp pbs/geometry/module.cpp
+    pbs/character/clip.cpp pbs/geometry/files.cpp pbs/geometry/input_error.cpp)
 fuzz_target(fuzz/files.cpp pbs_character
-    pbs/character/iqm.cpp pbs/character/weights_file.cpp pbs/skinning/skeleton.cpp pbs/geometry/tetgen_reader.cpp
-    pbs/geometry/tobj_reader.cpp pbs/geometry/content_format.cpp
-    pbs/geometry/msh_reader.cpp pbs/geometry/mesh_io_files.cpp pbs/geometry/text_file.cpp pbs/geometry/nearest_name.cpp
+    pbs/character/frankie.cpp pbs/character/skinning_weights.cpp pbs/skinning/pose.cpp pbs/geometry/tetgen_and_tobj.cpp
+    pbs/geometry/content_format.cpp pbs/geometry/msh_files.cpp pbs/geometry/mesh_checks.cpp pbs/geometry/files.cpp
     pbs/geometry/input_error.cpp)
 fuzz_target(fuzz/assimp.cpp pbs_rig
-    pbs/rig/assimp_animations.cpp pbs/rig/assimp_rig.cpp pbs/rig/bone_tails.cpp pbs/rig/collada_weights.cpp pbs/rig/fbx_curves.cpp
-    pbs/rig/rig_binding.cpp pbs/rig/rig_bytes.cpp pbs/rig/rig_motion.cpp pbs/rig/rig_pose.cpp pbs/rig/rigged_body.cpp
-    pbs/rig/skin_weights.cpp pbs/skinning/motion_sampling.cpp
-    pbs/skinning/skeleton.cpp pbs/geometry/content_format.cpp pbs/geometry/own_folder.cpp
-    pbs/geometry/text_file.cpp pbs/geometry/input_error.cpp)
+    pbs/rig/assimp_rig.cpp pbs/rig/rigged_body.cpp pbs/rig/collada_and_fbx.cpp pbs/rig/rig_pose.cpp pbs/rig/rig_bytes.cpp
+    pbs/rig/rig_reader.cpp pbs/skinning/pose_path.cpp pbs/skinning/pose.cpp pbs/geometry/content_format.cpp
+    pbs/geometry/files.cpp pbs/geometry/input_error.cpp)
 fuzz_libraries(assimp assimp::assimp pugixml::pugixml ${MINIZIP_LIBRARY} ZLIB::ZLIB)
 fuzz_target(fuzz/content.cpp pbs_mesh_io
-    pbs/geometry/content_format.cpp pbs/geometry/guarded_reading.cpp pbs/geometry/mesh_io.cpp pbs/geometry/mesh_io_checks.cpp
-    pbs/geometry/mesh_io_files.cpp pbs/geometry/mesh_remarks.cpp pbs/geometry/mesh_repair.cpp pbs/geometry/msh_reader.cpp
-    pbs/geometry/atomic_file.cpp pbs/geometry/msh_writer.cpp pbs/geometry/vtk_writer.cpp
-    pbs/geometry/named_link.cpp pbs/geometry/own_folder.cpp pbs/geometry/surface_assimp.cpp pbs/geometry/surface_checks.cpp
-    pbs/geometry/surface_reader.cpp pbs/geometry/tet_volume.cpp pbs/geometry/tetgen_reader.cpp pbs/geometry/text_file.cpp
-    pbs/geometry/tobj_reader.cpp pbs/geometry/topology.cpp pbs/geometry/vtk_messages.cpp pbs/geometry/vtk_reader.cpp
-    pbs/geometry/input_error.cpp)
+    pbs/geometry/content_format.cpp pbs/geometry/guarded_reading.cpp pbs/geometry/mesh_io.cpp pbs/geometry/mesh_checks.cpp
+    pbs/geometry/msh_files.cpp pbs/geometry/files.cpp pbs/geometry/vtk_files.cpp pbs/geometry/surface_reader.cpp
+    pbs/geometry/tet_mesh.cpp pbs/geometry/tetgen_and_tobj.cpp pbs/geometry/topology.cpp pbs/geometry/input_error.cpp)
 fuzz_libraries(content assimp::assimp ${VTK_LIBRARIES})
 if(PBS_WITH_FUZZ)
     set(settings PBS_SOURCE=${PROJECT_SOURCE_DIR} PBS_FUZZ_PROGRAMS=${CMAKE_BINARY_DIR}/tests PBS_FUZZ_FOLDER=${CMAKE_BINARY_DIR}/fuzz

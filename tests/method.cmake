@@ -6,26 +6,24 @@ if(PBS_WITH_THREADS)
 endif()
 
 pbs_tests(unit pbs_geometry FOLDERS pbs/geometry
-    EXCEPT pbs/geometry/content_format pbs/geometry/isolated_reader pbs/geometry/mesh_io pbs/geometry/mesh_io_checks
-        pbs/geometry/mesh_io_unavailable
-        pbs/geometry/meshing_builtin pbs/geometry/meshing_count pbs/geometry/meshing_surface pbs/geometry/meshing_unavailable
-        pbs/geometry/module pbs/geometry/named_link pbs/geometry/own_folder pbs/geometry/read_by_content pbs/geometry/self_intersection
-        pbs/geometry/surface_formats pbs/geometry/surface_reader pbs/geometry/tobj_reader
+    EXCEPT pbs/geometry/content_format pbs/geometry/child_process pbs/geometry/mesh_checks pbs/geometry/mesh_io
+        pbs/geometry/mesh_io_unavailable pbs/geometry/meshing pbs/geometry/meshing_unavailable pbs/geometry/module
+        pbs/geometry/self_intersection pbs/geometry/surface_reader
     ALONE pbs/geometry/topology
     LIBRARIES pbs_method)
 pbs_tests(unit pbs_skinning FOLDERS pbs/skinning pbs/constraints
     ALONE pbs/skinning/bone_binding pbs/skinning/pose_path pbs/skinning/root_frame pbs/constraints/volume_printed
         pbs/constraints/region_volume
     LIBRARIES pbs_method)
-pbs_tests(unit pbs_solver FOLDERS pbs/solver pbs/author
-    ALONE pbs/solver/batched/batched_constraints pbs/solver/batched/batched_projection pbs/solver/batched/constraint_groups
-        pbs/solver/batched/vertex_order pbs/solver/constraint_set pbs/solver/poses_solver pbs/solver/reordered_projection
+pbs_tests(unit pbs_solver FOLDERS pbs/packed pbs/solver pbs/author
+    ALONE pbs/solver/batched/batched_constraints pbs/solver/batched/batched_projection pbs/packed/groups
+        pbs/packed/vertex_order pbs/solver/constraint_set pbs/solver/poses_solver pbs/solver/reordered_projection
         pbs/solver/xpbd_solver
     LIBRARIES pbs_method ${threads})
 pbs_tests(unit analysis FOLDERS analysis
-    ALONE analysis/pareto_front analysis/records/typed_table analysis/region_volume analysis/smoothness
+    ALONE analysis/statistics/minimise analysis/records/tables analysis/metrics/frame_metrics analysis/metrics/error_norms
     LIBRARIES analysis GSL::gsl)
-set_source_files_properties(unit/analysis/claims.cpp unit/analysis/verdict.cpp PROPERTIES COMPILE_DEFINITIONS ${claims_file})
+set_source_files_properties(unit/analysis/verdicts/claims.cpp unit/analysis/verdicts/verdict.cpp PROPERTIES COMPILE_DEFINITIONS ${claims_file})
 pbs_tests(properties method FOLDERS pbs analysis
     EXCEPT pbs/geometry/meshing_repeats pbs/solver/orders
     ALONE pbs/skinning/invariance pbs/solver/invariance pbs/solver/left_out pbs/solver/sleep pbs/solver/threads

@@ -1,9 +1,9 @@
 // Compares a scene's metrics.csv with a bound and with a baseline.
 #pragma once
 
-#include "analysis/check/check_case.hpp"
+#include "analysis/check/check_report.hpp"
 #include "analysis/check/check_rules.hpp"
-#include "analysis/records/csv_table.hpp"
+#include "analysis/records/tables.hpp"
 
 namespace analysis {
 

@@ -2,7 +2,7 @@
 //   json["responses"] = json_of(response_columns, rows);
 #pragma once
 
-#include "analysis/records/typed_table.hpp"
+#include "analysis/records/tables.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -4,9 +4,9 @@
 //   pbskin measure rest.msh frame_*.vtu --max-volume-change 0.5
 #include "analysis/records/provenance.hpp"
 #include "experiments/command_line/verbs.hpp"
-#include "experiments/process/failure.hpp"
-#include "experiments/process/interruption.hpp"
+#include "experiments/process/terminal.hpp"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <spdlog/sinks/stdout_color_sinks.h>

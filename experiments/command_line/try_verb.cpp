@@ -1,25 +1,83 @@
 // pbskin try MODEL [--animation NAME] [-o DIR]: a rigged model through its own motion, without a scene: runs it with all methods, and
 // writes a summary, the scene to go on with, and a page with the moving model.
-#include "analysis/records/atomic_file.hpp"
-#include "analysis/records/record_text.hpp"
-#include "experiments/command_line/report_page.hpp"
+
+#include "analysis/records/record_files.hpp"
 #include "experiments/command_line/verbs.hpp"
-#include "experiments/process/progress.hpp"
-#include "experiments/process/warnings.hpp"
+#include "experiments/process/child_process.hpp"
+#include "experiments/process/terminal.hpp"
 #include "experiments/run/run.hpp"
-#include "experiments/trial/trial_scene.hpp"
-#include "experiments/trial/trial_summary.hpp"
+#include "experiments/trial/trial.hpp"
 #include "pbs/character/body_cache.hpp"
 #include "pbs/character/json_file.hpp"
+#include "pbs/geometry/files.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/text_file.hpp"
 
+#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
+#include <spawn.h>
 #include <spdlog/spdlog.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <cerrno>
+#include <cstdio>
 #include <filesystem>
 
 namespace experiments {
+namespace {
+
+namespace fs = std::filesystem;
+
+// In a build as in an installation, share/pbskin is next to the folder of the program.
+fs::path page_maker()
+{
+    return fs::read_symlink("/proc/self/exe").parent_path().parent_path() / "share/pbskin/paper_figures/make_report.py";
+}
+
+// Debian's python3 comes first, for one of a version manager on the PATH often lacks the packages that the figures need.
+std::string python_that_draws()
+{
+    const analysis::ScratchFolder scratch;
+    for (const char* python : {"/usr/bin/python3", "python3"})
+        if (run_program({python, "-c", "import numpy, matplotlib"}, scratch.path()).succeeded()) return python;
+    throw pbs::InputError("", 0, "report", "",
+                          "no python3 that can import numpy and matplotlib: install python3-numpy and python3-matplotlib");
+}
+
+}  // namespace
+
+int write_report_page(const std::string& folder, bool quiet)
+{
+    if (!fs::is_directory(folder))
+        throw pbs::InputError(folder, 0, "", "", "no such folder: expected one that `pbskin try`, `run` or `reproduce` wrote");
+    if (!fs::is_regular_file(page_maker()))
+        throw pbs::InputError(page_maker().string(), 0, "", "",
+                              "not found: the page is made by scripts that are installed with the program");
+    std::vector<std::string> words = {python_that_draws(), "-B", page_maker().string(), folder};
+    if (quiet) words.push_back("--quiet");
+    std::vector<char*> arguments;
+    for (std::string& word : words) arguments.push_back(word.data());
+    arguments.push_back(nullptr);
+    std::fflush(nullptr);
+    pid_t process = 0;
+    if (posix_spawnp(&process, arguments.front(), nullptr, nullptr, arguments.data(), environ) != 0)
+        throw pbs::InputError("", 0, "report", words.front(), "cannot be started");
+    int status = 0;
+    while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
+    }
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+// pbskin report DIR: writes the records and the figures drawn from them as one self-contained page, DIR/report.html.
+void add_report_verb(CLI::App& app, CommonOptions& common, VerbAction& action)
+{
+    CLI::App* verb =
+        add_verb(app, common, "report", "writes records and drawn figures on one self-contained HTML page and states what is missing");
+    auto folder = std::make_shared<std::string>();
+    verb->add_option("folder", *folder, "the folder that reproduce wrote; the page is report.html in it")->required();
+    verb->callback([&action, &common, folder] { action = [&common, folder] { return write_report_page(*folder, common.quiet); }; });
+}
+
 namespace {
 
 namespace fs = std::filesystem;

@@ -1,12 +1,15 @@
-// The verbs of `pbskin`, one file each. A verb adds its options and its action, which returns the exit status.
+// The verbs of `pbskin`. A verb adds its options and its action, which returns the exit status.
 #pragma once
 
-#include "experiments/process/failure.hpp"
-
-#include <CLI/CLI.hpp>
+#include "experiments/process/terminal.hpp"
 
 #include <functional>
 #include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
 
 namespace experiments {
 
@@ -39,5 +42,22 @@ CLI::App* add_verb(CLI::App& app, CommonOptions& common, const std::string& name
 // An option has names (none: it is positional), name, meaning, value (empty: it is a flag), choices (empty: anything), repeated, required.
 // A scene key has table, name, meaning, unit, rule, in_list and default (JSON text; empty: every scene must state it).
 std::string describe(const CLI::App& app);
+
+// Writes `folder`/report.html by the scripts of paper_figures. The page maker runs as a process of its own, which reports what is missing.
+// Returns its exit status. InputErrors: no such folder, no python3 with the packages that draw, no page maker.
+int write_report_page(const std::string& folder, bool quiet);
+
+// The files that a user means by frames: files, `frames_%04d.vtu`, `frames_*.vtu` (quoted), or a folder with one sequence.
+//   for (const std::string& path : frame_files({"out/frames_%04d.vtu"})) ...
+// The files in the order of their numbers. The number is the one in place of %d, or the one that differs between the names
+// (frame_7_v2.vtu, frame_8_v2.vtu). Files that are named one by one are taken as they are. InputError:
+// - for a pattern or a folder that has no frames,
+// - for names that differ in several numbers,
+// - for a folder with several sequences,
+// - for a number that is missing between the first and the last of a sequence, by its own smallest step: every fifth frame is no gap.
+std::vector<std::string> frame_files(const std::vector<std::string>& arguments);
+
+// The names of the frames in reports: the file's name, or its path as given if several files have that name.
+std::vector<std::string> frame_names(const std::vector<std::string>& paths);
 
 }  // namespace experiments

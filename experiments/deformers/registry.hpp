@@ -7,8 +7,7 @@
 #pragma once
 
 #include "experiments/deformers/deformer.hpp"
-#include "experiments/deformers/deformer_spec.hpp"
-#include "experiments/settings/scene_schema.hpp"
+#include "experiments/settings/scene_values.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -17,8 +16,6 @@
 #include <vector>
 
 namespace experiments {
-
-class SceneValues;
 
 // Properties of a deformer that other code may read without knowing its kind.
 struct DeformerTraits {
@@ -76,5 +73,17 @@ DeformerSpec default_spec(const std::string& kind);  // named and labelled by it
 std::unique_ptr<Deformer> make_deformer(const DeformerSpec& spec);
 DeformerTraits traits_of(const DeformerSpec& spec);
 nlohmann::json to_json(const DeformerSpec& spec);  // name, label, kind, variant and options, for records
+
+// A deformer on a character whose skinning weights follow another rule, for comparisons such as LBS with Eq. 2's and with smooth weights on
+// the same mesh. make_deformer applies it wherever DeformerSpec::weights is set; scenes set that by the key `weights` of a deformer's
+// table. The deformer sees the character with weights by the rule (pbs::with_weights). InputError at reset where the character brings no
+// such weights.
+std::unique_ptr<Deformer> with_own_weights(std::unique_ptr<Deformer> deformer, pbs::WeightKind weights);
+
+// The key `weights` of a deformer's table: scene (the default), paper, rigid, smooth, diffused or artist.
+SceneKey own_weights_key(const std::string& table, bool in_list = false);
+
+// Sets the weights and, unless they are the scene's, the variant: weights_smooth.
+void read_own_weights(const SceneValues& values, const std::string& table, DeformerSpec& spec);
 
 }  // namespace experiments

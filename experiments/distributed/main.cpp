@@ -9,22 +9,270 @@
 //
 // Prints the record and writes it to DIR/record.json, and with --nodes the displacement of every node to DIR/nodes.csv. It takes seconds
 // for 10,000 tets and about a minute for 1,000,000 on 2 ranks.
-#include "analysis/records/atomic_file.hpp"
-#include "experiments/deformers/fem/fem_option_names.hpp"
-#include "experiments/distributed/distributed_record.hpp"
-#include "experiments/process/blas_kernels.hpp"
-#include "experiments/process/failure.hpp"
+
+#include "analysis/records/provenance.hpp"
+#include "analysis/records/record_files.hpp"
+#include "analysis/records/tables.hpp"
+#include "experiments/deformers/fem/bone_attachment.hpp"
+#include "experiments/deformers/fem/fem_deformers.hpp"
+#include "experiments/deformers/fem/fem_options.hpp"
+#include "experiments/process/machine.hpp"
+#include "experiments/process/terminal.hpp"
+#include "experiments/settings/option_fields.hpp"
+#include "pbs/character/bodies.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "reference_fem/distributed/distributed_elasticity.hpp"
-#include "reference_fem/distributed/serial_elasticity.hpp"
+#include "pbs/geometry/mesh_io.hpp"
+#include "reference_fem/distributed/elastic_problem.hpp"
+#include "reference_fem/options.hpp"
+#include "reference_fem/verification/problems.hpp"
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <string>
 
 namespace experiments {
+
+// The bodies of pbskin_distributed: tets with their supports and loads.
+struct BodyArguments {
+    // One of these. A file is held and pulled like the bar.
+    int bar_tets = 0;       // a cantilever [0, 10] x [0, 1]^2 m of about this number of tets
+    int limb_vertices = 0;  // the built-in limb, held by its bones with the smooth attachment of the reference
+    std::string mesh_file;  // a tet mesh
+
+    // Bar and file: vertices with x <= held_below_m are held, and those with x >= pulled_above_m are pulled. NaN: the lowest, the highest
+    // x.
+    double held_below_m = std::numeric_limits<double>::quiet_NaN();
+    double pulled_above_m = std::numeric_limits<double>::quiet_NaN();
+    pbs::Vec3 traction_pa = pbs::Vec3::Zero();
+    double twist_deg = 0.0, bend_deg = 0.0;  // of the forearm of the limb, about x and z
+};
+
+struct LoadedBody {
+    std::string name;
+    pbs::TetMesh mesh;
+    reference_fem::ElasticProblem problem;
+    std::optional<FemOptions> held_by = {};  // the options of the attachment to bones; nothing if the body has none. On rank 0 only
+};
+
+// pbs::InputError if the file cannot be read, or if not exactly one body is asked for.
+LoadedBody load_body(const BodyArguments& arguments, const reference_fem::LinearOptions& options);
+
+// Sends the body from rank 0 to all ranks, without its options.
+void broadcast(const reference_fem::MpiSession& session, LoadedBody& body);
+
+// The records of pbskin_distributed: record.json and, if asked for, nodes.csv.
+
+// Everything that a solution depends on.
+struct DistributedSettings {
+    BodyArguments body;
+    reference_fem::LinearOptions elastic{.element_order = 1, .poisson = 0.3};
+    reference_fem::IterativeOptions iterative;
+    bool serial = false;  // on one process, by the serial reference
+};
+nlohmann::json to_json(const DistributedSettings& settings);
+
+nlohmann::json to_json(const DistributedSettings& settings, const LoadedBody& body, const reference_fem::ElasticSolution& solution);
+
+struct DisplacedNode {
+    int first = 0, second = 0;
+    pbs::Vec3 displacement_m;
+};
+extern const analysis::Columns<DisplacedNode> node_columns;  // nodes.csv
+
+void write_nodes(const std::string& path, const reference_fem::ElasticSolution& solution);
+
+namespace {
+
+// Cubes of 6 tets each: n along each side of the section, and as many along the bar as give the wanted number of tets.
+pbs::TetMesh bar(int tets)
+{
+    const int n = std::max(1, static_cast<int>(std::lround(std::cbrt(tets / 60.0))));
+    const int along = std::max(1, static_cast<int>(std::lround(tets / (6.0 * n * n))));
+    return reference_fem::box_mesh({0, 0, 0}, {10, 1, 1}, {along, n, n});
+}
+
+std::vector<int> vertices_where(const pbs::TetMesh& mesh, const auto& holds)
+{
+    std::vector<int> vertices;
+    for (int v = 0; v < mesh.rest.rows(); ++v)
+        if (holds(mesh.rest(v, 0))) vertices.push_back(v);
+    return vertices;
+}
+
+LoadedBody held_at_the_end(const BodyArguments& arguments, const reference_fem::LinearOptions& options)
+{
+    LoadedBody body;
+    body.name = arguments.bar_tets > 0 ? "bar" : std::filesystem::path(arguments.mesh_file).filename().string();
+    body.mesh = arguments.bar_tets > 0 ? bar(arguments.bar_tets) : pbs::read_tet_mesh(arguments.mesh_file).mesh;
+    const double low = body.mesh.rest.col(0).minCoeff(), high = body.mesh.rest.col(0).maxCoeff(), rounding = 1e-9 * (high - low);
+    const double held = std::isnan(arguments.held_below_m) ? low + rounding : arguments.held_below_m;
+    const double pulled = std::isnan(arguments.pulled_above_m) ? high - rounding : arguments.pulled_above_m;
+    body.problem.options = options;
+    body.problem.held_vertices = vertices_where(body.mesh, [&](double x) { return x <= held; });
+    body.problem.pulled_vertices = vertices_where(body.mesh, [&](double x) { return x >= pulled; });
+    body.problem.traction_pa = arguments.traction_pa;
+    return body;
+}
+
+LoadedBody limb(const BodyArguments& arguments, const reference_fem::LinearOptions& options)
+{
+    pbs::CharacterSource source;
+    source.body = "limb";
+    source.vertices = arguments.limb_vertices;
+    const pbs::Character character = pbs::make_character(source);
+    const FemOptions fem{.young_pa = options.young_pa, .attachment = FemAttachment::smooth};
+    const BoneAttachment bones = bone_attachment(character, fem);
+    constexpr double degree = std::numbers::pi / 180.0;
+    std::vector<Eigen::Quaterniond> joints(character.skeleton.bones.size(), Eigen::Quaterniond::Identity());
+    joints.back() = Eigen::AngleAxisd(arguments.bend_deg * degree, pbs::Vec3::UnitZ()) *
+                    Eigen::AngleAxisd(arguments.twist_deg * degree, pbs::Vec3::UnitX());
+    LoadedBody body{character.name, character.mesh, {}, fem};
+    body.problem.options = options;
+    body.problem.attachment = bones.attachment;
+    body.problem.spring_targets = spring_targets(bones, pbs::pose_from_joints(character.skeleton, joints, pbs::Vec3::Zero()));
+    return body;
+}
+
+}  // namespace
+
+LoadedBody load_body(const BodyArguments& arguments, const reference_fem::LinearOptions& options)
+{
+    if ((arguments.bar_tets > 0) + (arguments.limb_vertices > 0) + !arguments.mesh_file.empty() != 1)
+        throw pbs::InputError("", 0, "body", "", "expected one of --bar, --limb and --mesh");
+    return arguments.limb_vertices > 0 ? limb(arguments, options) : held_at_the_end(arguments, options);
+}
+
+void broadcast(const reference_fem::MpiSession& session, LoadedBody& body)
+{
+    session.broadcast(body.name);
+    session.broadcast(body.mesh.rest);
+    session.broadcast(body.mesh.tets);
+    session.broadcast(body.problem.held_vertices);
+    session.broadcast(body.problem.pulled_vertices);
+    session.broadcast(body.problem.attachment.spring_points);
+    session.broadcast(body.problem.attachment.spring_stiffness);
+    session.broadcast(body.problem.attachment.prescribed_tets);
+    session.broadcast(body.problem.spring_targets);
+    session.broadcast(body.problem.vertex_targets);
+}
+
+const analysis::Columns<DisplacedNode> node_columns = {
+    {"first", &DisplacedNode::first, "", "the vertex that the node lies on, or the first of the two that it lies halfway between"},
+    {"second", &DisplacedNode::second, "", "the second of the two, or the same vertex"},
+    {"x_m", [](auto& node) -> decltype(auto) { return (node.displacement_m.x()); }, "m", "x of its displacement"},
+    {"y_m", [](auto& node) -> decltype(auto) { return (node.displacement_m.y()); }, "m", "y of its displacement"},
+    {"z_m", [](auto& node) -> decltype(auto) { return (node.displacement_m.z()); }, "m", "z of its displacement"}};
+
+namespace {
+
+// Mean displacement [m] of the vertices with the greatest x.
+pbs::Vec3 tip_displacement(const pbs::TetMesh& mesh, const reference_fem::ElasticSolution& solution)
+{
+    const double high = mesh.rest.col(0).maxCoeff(), rounding = 1e-9 * (high - mesh.rest.col(0).minCoeff());
+    pbs::Vec3 sum = pbs::Vec3::Zero();
+    int vertices = 0;
+    for (Eigen::Index n = 0; n < solution.nodes.rows(); ++n) {
+        const int vertex = solution.nodes(n, 0);
+        if (vertex != solution.nodes(n, 1) || mesh.rest(vertex, 0) < high - rounding) continue;
+        sum += solution.displacement.row(n);
+        ++vertices;
+    }
+    return sum / vertices;
+}
+
+// One thread per rank, and the BLAS of the direct solvers.
+analysis::Provenance provenance()
+{
+    analysis::Provenance provenance = analysis::collect_provenance(1);
+    provenance.blas = blas_in_use();
+    return provenance;
+}
+
+}  // namespace
+
+nlohmann::json to_json(const DistributedSettings& settings)
+{
+    using reference_fem::IterativeOptions;
+    using reference_fem::LinearOptions;
+    static const auto body = OptionFields<BodyArguments>("body")
+                                 .record("bar_tets", &BodyArguments::bar_tets)
+                                 .record("limb_vertices", &BodyArguments::limb_vertices)
+                                 .record("mesh_file", &BodyArguments::mesh_file)
+                                 .record("held_below_m", &BodyArguments::held_below_m)
+                                 .record("pulled_above_m", &BodyArguments::pulled_above_m)
+                                 .record("traction_pa", &BodyArguments::traction_pa)
+                                 .record("twist_deg", &BodyArguments::twist_deg)
+                                 .record("bend_deg", &BodyArguments::bend_deg)
+                                 .complete();
+    static const auto elastic = OptionFields<LinearOptions>("elastic")
+                                    .record("element_order", &LinearOptions::element_order)
+                                    .record("young_pa", &LinearOptions::young_pa)
+                                    .record("poisson", &LinearOptions::poisson)
+                                    .record("density_kg_m3", &LinearOptions::density_kg_m3)
+                                    .record("gravity_m_s2", &LinearOptions::gravity_m_s2)
+                                    .record("solver", &LinearOptions::solver)
+                                    .record("formulation", &LinearOptions::formulation)
+                                    .complete();
+    static const auto iterative = OptionFields<IterativeOptions>("iterative")
+                                      .record("tolerance", &IterativeOptions::tolerance)
+                                      .record("most_iterations", &IterativeOptions::most_iterations)
+                                      .complete();
+    return {{"body", body.json(settings.body)},
+            {"elastic", elastic.json(settings.elastic)},
+            {"iterative", iterative.json(settings.iterative)},
+            {"serial", settings.serial}};
+}
+
+nlohmann::json to_json(const DistributedSettings& settings, const LoadedBody& body, const reference_fem::ElasticSolution& solution)
+{
+    const reference_fem::ElasticSummary& summary = solution.summary;
+    return {{"schema", 3},
+            {"body", body.name},
+            {"settings", to_json(settings)},
+            {"attachment", body.held_by ? attachment_json(*body.held_by) : nlohmann::json()},
+            {"springs", body.problem.attachment.spring_points.rows()},
+            {"solver", summary.solver},
+            {"ranks", summary.ranks},
+            {"vertices", body.mesh.rest.rows()},
+            {"tets", summary.tets},
+            {"tets_of_rank_min", summary.tets_of_rank_min},
+            {"tets_of_rank_max", summary.tets_of_rank_max},
+            {"dofs", summary.dofs},
+            {"mesh_s", summary.mesh.wall_s},
+            {"mesh_cpu_s", summary.mesh.cpu_s},
+            {"assembly_s", summary.assembly.wall_s},
+            {"assembly_cpu_s", summary.assembly.cpu_s},
+            {"setup_s", summary.setup.wall_s},
+            {"setup_cpu_s", summary.setup.cpu_s},
+            {"solve_s", summary.solve.wall_s},
+            {"solve_cpu_s", summary.solve.cpu_s},
+            {"peak_mb_of_rank_max", summary.peak_mb},
+            {"iterations", summary.iterations},
+            {"relative_residual", summary.relative_residual},
+            {"converged", summary.converged},
+            {"compliance_j", summary.compliance_j},
+            {"tip_displacement_m", option_json(tip_displacement(body.mesh, solution))},
+            {"largest_displacement_m", solution.displacement.rowwise().norm().maxCoeff()},
+            {"provenance", provenance()}};
+}
+
+void write_nodes(const std::string& path, const reference_fem::ElasticSolution& solution)
+{
+    std::vector<DisplacedNode> nodes;
+    for (Eigen::Index n = 0; n < solution.nodes.rows(); ++n)
+        nodes.push_back({solution.nodes(n, 0), solution.nodes(n, 1), solution.displacement.row(n)});
+    table_of(node_columns, nodes).write(path);
+}
+
 namespace {
 
 struct Arguments : DistributedSettings {
@@ -132,6 +380,7 @@ int parse_and_act(const reference_fem::MpiSession& session, int argc, char** arg
 }
 
 }  // namespace
+
 }  // namespace experiments
 
 int main(int argc, char** argv)

@@ -1,9 +1,42 @@
 // The terminal that standard output goes to.
 #pragma once
 
+#include "pbs/geometry/cost.hpp"
+
 #include <cstddef>
+#include <string>
+#include <vector>
 
 namespace experiments {
+
+// The program's exit status, and what an exception means: a text for stderr and an exit status.
+//   try { ... } catch (...) { const Failure failure = caught_failure(); }
+enum ExitStatus {
+    exit_finished = 0,
+    exit_bound = 1,         // a bound does not hold, or a verdict could not be computed
+    exit_internal = 1,      // an error of the program itself
+    exit_input = 2,         // bad input or usage
+    exit_breakdown = 3,     // numerical breakdown in a run that was expected to finish
+    exit_interrupted = 130  // finished work is kept
+};
+
+struct Failure {
+    std::string words;
+    ExitStatus status = exit_internal;
+
+    std::string message() const;  // one line for stderr, without the program's name
+};
+
+// To be called in a catch, for the exception that is being handled. The user can mend bad input, a failing disk and too little memory
+// (exit_input). Any other exception is an internal error, and its message says so.
+Failure caught_failure();
+
+// The first SIGINT or SIGTERM ends the work between two frames, so that finished work is kept. The second ends the program at once.
+struct Interrupted {};
+
+void watch_interrupts();
+bool interrupted();
+void stop_if_interrupted();  // throws Interrupted
 
 // The number of characters in a line: COLUMNS, else the width of the terminal, else 100.
 std::size_t terminal_width();
@@ -11,5 +44,27 @@ std::size_t terminal_width();
 // False if NO_COLOR is set. Otherwise CLICOLOR_FORCE decides (any value except 0: true), and if that is not set, whether standard output is
 // a terminal.
 bool terminal_has_colours();
+
+// A progress bar with the time left, on stderr if that is a terminal.
+class Progress {
+public:
+    Progress(std::string label, int total);
+    ~Progress();
+    void advance_to(int done);
+
+private:
+    std::string label_;
+    int total_;
+    bool shown_;
+    double last_drawn_s_ = -1.0;
+    pbs::Stopwatch stopwatch_;
+};
+
+void hide_progress();  // for --quiet and in worker processes
+void show_progress();  // undoes hide_progress
+
+// Warnings on stderr about input that was accepted after a treatment: `pbskin: warning: FILE: FIELD = VALUE: treatment`. --quiet hides
+// them.
+void warn(const std::vector<std::string>& remarks);
 
 }  // namespace experiments

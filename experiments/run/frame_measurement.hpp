@@ -2,17 +2,41 @@
 // cross-section, and the volume of the rendered surface.
 #pragma once
 
-#include "analysis/cross_section.hpp"
-#include "analysis/error_norms.hpp"
-#include "analysis/frame_metrics.hpp"
-#include "analysis/surface_volume.hpp"
-#include "experiments/run/limb_stations.hpp"
+#include "analysis/metrics/cross_section.hpp"
+#include "analysis/metrics/error_norms.hpp"
+#include "analysis/metrics/frame_metrics.hpp"
 #include "experiments/scene/scene.hpp"
-#include "pbs/character/overlap_mask.hpp"
+#include "pbs/character/character.hpp"
+#include "pbs/character/overlap_and_jiggle.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
+#include "pbs/solver/step_summary.hpp"
+
+#include <nlohmann/json_fwd.hpp>
 
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace experiments {
+
+// The planes that cut limbs to find their smallest cross-section: across bones that flesh surrounds like a sleeve, and across the joints
+// between such bones.
+
+// A plane in the rest pose, and the bones that move it: its posed point and normal are the means over these bones.
+struct LimbStation {
+    std::string name;           // e.g. "forearm 0.33", "upper|forearm"
+    pbs::Vec3 point, normal;    // rest [m], unit
+    std::vector<int> carriers;  // one bone, or the two that meet at the joint
+    std::vector<int> tets;      // tets of these bones and their neighbours along the limb
+};
+
+// A bone is a limb if it is longer than 3 times the mean distance of its vertices. Stations are at 1/6, 2/6 ... 5/6 of each limb, and at
+// each joint between two limbs that meet at an angle below 90 degrees. A station is left out if the limb shares its flesh with other bones,
+// as in the trunk: less than nine tenths of the area that the plane cuts nearby belongs to the limb.
+std::vector<LimbStation> limb_stations(const pbs::Character& character);
+
+pbs::Vec3 posed_point(const LimbStation& station, const pbs::Pose& pose);
+pbs::Vec3 posed_normal(const LimbStation& station, const pbs::Pose& pose);
 
 struct FrameMeasurement {
     analysis::FrameMetrics metrics;
@@ -66,8 +90,34 @@ private:
     std::optional<pbs::OverlapMask> overlap_;  // if errors are measured
     std::vector<bool> masked_;                 // in this frame, #V
     std::vector<LimbStation> stations_;
-    std::vector<analysis::SectionStation> sections_;  // one per station, in the pose that is being measured
+    std::vector<analysis::SectionStation> sections_;         // one per station, in the pose that is being measured
     std::optional<analysis::SurfaceVolume> surface_volume_;  // if the surface is closed
 };
+
+// A frame that broke down, with its worst element. run.json lists such frames under outcome.broken_frames, by the deformer's label.
+//   broken[label].push_back(broken_frame(frame, step.outcome, positions, measurer.volume_ratios(positions)));
+//   text_of(broken[label].back())   "inverted in frame 7: worst tet 812 of volume ratio -0.04, 3 inverted"
+struct BrokenFrame {
+    int frame = 0;
+    std::string what;  // not_finite, not_converged, inverted
+    int step = -1;     // of the motion, if it broke down in a step before that of the frame; the elements are always those of the frame
+    // The elements of a frame that is not converged are those of the solver's last state (Deformer::last_state).
+    // If positions are not finite: the first such vertex and the number of them. Otherwise -1, 0.
+    int vertex = -1, vertices = 0;
+    // If they are finite: the tet of the lowest volume ratio J_t = V_t / V0_t, and the number of tets with J_t <= 0. Otherwise -1, 0, 0.
+    int tet = -1;
+    double volume_ratio = 0.0;
+    int inverted_tets = 0;
+};
+
+// positions [m], #V x 3; volume_ratios: J_t, #T. A frame whose outcome is finished broke down because it inverted tets.
+BrokenFrame broken_frame(int frame, pbs::Outcome outcome, const pbs::Positions& positions, const Eigen::VectorXd& volume_ratios);
+
+std::string worst_element(const BrokenFrame& broken);  // "first at vertex 17, 120 not finite"
+std::string what_of(const BrokenFrame& broken);        // in words: "not finite"
+std::string text_of(const BrokenFrame& broken);
+
+void to_json(nlohmann::json& json, const BrokenFrame& broken);
+void from_json(const nlohmann::json& json, BrokenFrame& broken);
 
 }  // namespace experiments

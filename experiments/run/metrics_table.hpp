@@ -2,7 +2,7 @@
 // declared with the columns.
 #pragma once
 
-#include "analysis/records/typed_table.hpp"
+#include "analysis/records/tables.hpp"
 #include "experiments/run/frame_measurement.hpp"
 #include "pbs/solver/step_summary.hpp"
 

@@ -1,9 +1,8 @@
 #include "experiments/run/reference_error_bar.hpp"
 
-#include "analysis/grid_convergence.hpp"
-#include "analysis/nested_convergence.hpp"
-#include "pbs/character/refined_character.hpp"
-#include "pbs/geometry/stopwatch.hpp"
+#include "analysis/statistics/grid_convergence.hpp"
+#include "pbs/character/character.hpp"
+#include "pbs/geometry/cost.hpp"
 #include "pbs/geometry/topology.hpp"
 
 #include <algorithm>

@@ -1,30 +1,47 @@
 #include "experiments/run/run.hpp"
 
 #include "experiments/deformers/registry.hpp"
-#include "experiments/process/interruption.hpp"
-#include "experiments/process/progress.hpp"
-#include "experiments/process/warnings.hpp"
-#include "experiments/run/broken_frame.hpp"
+#include "experiments/process/machine.hpp"
+#include "experiments/process/terminal.hpp"
+#include "experiments/run/frame_measurement.hpp"
 #include "experiments/run/reference_error_bar.hpp"
 #include "experiments/run/run_folder.hpp"
-#include "experiments/run/run_provenance.hpp"
-#include "experiments/scene/motion_case.hpp"
-#include "pbs/character/body_remarks.hpp"
-#include "pbs/character/input_file.hpp"
+#include "experiments/scene/scene.hpp"
+#include "pbs/character/bodies.hpp"
+#include "pbs/character/body_cache.hpp"
+#include "pbs/geometry/cost.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/stopwatch.hpp"
-#include "pbs/solver/frame_step.hpp"
+#include "pbs/solver/step_summary.hpp"
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <ctime>
 #include <iterator>
 #include <limits>
 #include <memory>
 #include <set>
 
 namespace experiments {
+
+analysis::Provenance run_provenance(int threads)
+{
+    analysis::Provenance provenance = analysis::collect_provenance(threads);
+    provenance.libraries["CGAL"] = PBS_CGAL_VERSION;
+    provenance.libraries["VTK"] = PBS_VTK_VERSION;
+    provenance.libraries["assimp"] = PBS_ASSIMP_VERSION;
+    provenance.blas = blas_in_use();
+    return provenance;
+}
+
+nlohmann::json run_end(double wall_s)
+{
+    return {{"ended_utc", fmt::format("{:%FT%TZ}", fmt::gmtime(std::time(nullptr)))}, {"wall_s", wall_s}};
+}
+
 namespace {
 
 // One deformer of the run, and its steps since the last frame.

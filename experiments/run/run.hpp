@@ -1,7 +1,10 @@
 // Runs one scene: from its character, motion and deformers to the folder of a run (metrics.csv, iterations.csv, run.json, frames/).
 #pragma once
 
+#include "analysis/records/provenance.hpp"
 #include "experiments/scene/scene.hpp"
+
+#include <nlohmann/json_fwd.hpp>
 
 #include <string>
 #include <vector>
@@ -11,7 +14,7 @@ namespace experiments {
 // A bad frame is one that was not reached (its step did not converge; such a frame of a reference is compared with nothing), or a frame of
 // a converged reference with inverted tets (it is compared, and marked by their number). Both are recorded. `run`, `check` and `reproduce`
 // end with exit status 3 for bad frames and for breakdowns. In runs of a study that expects bad frames
-// (StudyRun::bad_frames_are_results), `reproduce` only lists them (verdicts/marked_frames.hpp).
+// (StudyRun::bad_frames_are_results), `reproduce` only lists them (verdicts/study_records.hpp).
 struct RunResult {
     int frames = 0;
     double seconds = 0.0;
@@ -27,5 +30,19 @@ struct RunResult {
 // printed forms, linear elasticity) is only recorded, under outcome.broken_frames.
 // warnings: what the caller has to say about the scene; they are printed and recorded before those of the run.
 RunResult run_scene(const Scene& scene, const std::string& folder, const std::vector<std::string>& warnings = {});
+
+// The parts of run.json that are the same for all runs.
+//   run["provenance"] = run_provenance(threads);   run["outcome"].update(run_end(stopwatch.seconds()));
+
+// The version of run.json. Since 3, errors are measured outside the part of the body that overlaps itself, and the outcome counts the
+// frames with such a part (frames_with_overlap, largest_masked_share_pct) instead of leaving them out.
+inline constexpr int run_schema = 3;
+
+// The provenance of this build and machine, with the BLAS in use and the versions of the libraries that make characters and frames (empty
+// for a library that the build left out). threads: that the run uses.
+analysis::Provenance run_provenance(int threads);
+
+// ended_utc: now, as ISO 8601 to the second; wall_s: as given [s].
+nlohmann::json run_end(double wall_s);
 
 }  // namespace experiments

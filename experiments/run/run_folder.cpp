@@ -1,19 +1,16 @@
 #include "experiments/run/run_folder.hpp"
 
-#include "analysis/frame_statistics.hpp"
-#include "analysis/records/atomic_file.hpp"
-#include "analysis/records/folder_files.hpp"
-#include "analysis/records/record_text.hpp"
+#include "analysis/records/record_files.hpp"
+#include "analysis/statistics/statistics.hpp"
 #include "experiments/run/metrics_table.hpp"
-#include "experiments/run/model_record.hpp"
-#include "experiments/run/run_provenance.hpp"
-#include "experiments/run/surface_record.hpp"
-#include "experiments/scene/motion_case.hpp"
-#include "pbs/character/input_file.hpp"
+#include "experiments/run/run.hpp"
+#include "experiments/run/run_records.hpp"
+#include "experiments/scene/scene.hpp"
+#include "pbs/character/body_cache.hpp"
 #include "pbs/character/model_character.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/mesh_io.hpp"
-#include "pbs/geometry/quality.hpp"
+#include "pbs/geometry/topology.hpp"
 
 #include <fmt/format.h>
 

@@ -4,14 +4,11 @@
 // run.json is a finished run.
 #pragma once
 
-#include "analysis/records/csv_table.hpp"
-#include "analysis/records/state_hash.hpp"
+#include "analysis/records/provenance.hpp"
+#include "analysis/records/tables.hpp"
 #include "experiments/deformers/registry.hpp"
-#include "experiments/run/bone_record.hpp"
-#include "experiments/run/cost_record.hpp"
-#include "experiments/run/distance_record.hpp"
 #include "experiments/run/frame_measurement.hpp"
-#include "experiments/run/region_record.hpp"
+#include "experiments/run/run_records.hpp"
 #include "experiments/scene/scene.hpp"
 #include "pbs/rig/glb_writer.hpp"
 

@@ -1,5 +1,3 @@
-#include "experiments/scene/scene_keys.hpp"
-
 #include "experiments/scene/scene.hpp"
 
 namespace experiments {

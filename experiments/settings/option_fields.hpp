@@ -9,20 +9,50 @@
 // A member is a number, a bool, a text, a Vec3, or an enumeration with OptionNames.
 #pragma once
 
-#include "experiments/settings/member_count.hpp"
 #include "experiments/settings/option_names.hpp"
 #include "experiments/settings/scene_values.hpp"
-#include "pbs/geometry/types.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 
 #include <nlohmann/json.hpp>
 
+#include <cstddef>
 #include <functional>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace experiments {
+
+// The number of members of a struct, to check that a declaration of its fields is complete.
+//   static_assert(member_count<Jolt>() == 5);
+// The struct must be an aggregate without base classes and without C arrays (std::array is allowed).
+
+// Converts to a member of any type; only its type is used.
+struct AnyMember {
+    template <typename Member>
+    operator Member() const;
+};
+
+template <typename Struct, std::size_t... indices>
+constexpr bool takes_members(std::index_sequence<indices...>)
+{
+    return requires
+    {
+        Struct{(static_cast<void>(indices), AnyMember{})...};
+    };
+}
+
+template <typename Struct, std::size_t count = 0>
+constexpr std::size_t member_count()
+{
+    static_assert(std::is_aggregate_v<Struct>);
+    if constexpr (takes_members<Struct>(std::make_index_sequence<count + 1>{}))
+        return member_count<Struct, count + 1>();
+    else
+        return count;
+}
 
 // A value as JSON: an enumeration by its name, a struct by its to_json or to_json_of.
 template <typename Value>

@@ -1,6 +1,6 @@
 #include "experiments/studies/finished_runs.hpp"
 
-#include "analysis/records/atomic_file.hpp"
+#include "analysis/records/record_files.hpp"
 
 #include <filesystem>
 

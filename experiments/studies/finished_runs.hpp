@@ -1,7 +1,7 @@
 // The finished runs of a study. The conclusion of a study reads their records and writes summaries into the folder of the study.
 #pragma once
 
-#include "analysis/records/typed_table.hpp"
+#include "analysis/records/tables.hpp"
 
 #include <string>
 #include <utility>

@@ -1,7 +1,7 @@
 #include "experiments/studies/study_costs.hpp"
 
-#include "analysis/records/atomic_file.hpp"
-#include "analysis/records/typed_table.hpp"
+#include "analysis/records/record_files.hpp"
+#include "analysis/records/tables.hpp"
 
 #include <fmt/format.h>
 

@@ -1,14 +1,10 @@
 #include "experiments/studies/study_run.hpp"
 
-#include "analysis/records/atomic_file.hpp"
-#include "analysis/records/folder_files.hpp"
-#include "analysis/records/kept_record.hpp"
-#include "analysis/records/record_text.hpp"
-#include "experiments/process/cpu_clock.hpp"
+#include "analysis/records/record_files.hpp"
+#include "experiments/process/machine.hpp"
 #include "experiments/run/run.hpp"
-#include "experiments/run/run_provenance.hpp"
+#include "pbs/geometry/cost.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/stopwatch.hpp"
 
 #include <spdlog/spdlog.h>
 

@@ -1,5 +1,5 @@
 """Describes the case of a value in claims.json in words: its body, motion, joint and settings. The key is a set of fields, which
-analysis/case_key.hpp declares.
+analysis/verdicts/case_record.hpp declares.
 
     case_words.of({"body": "limb", "motion": "bend", "angle_deg": 90, "k_stretch": 0.2})  # limb, bend 90°, k_stretch 0.2
 """

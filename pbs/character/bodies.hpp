@@ -3,6 +3,9 @@
 
 #include "pbs/character/character.hpp"
 
+#include <string>
+#include <vector>
+
 namespace pbs {
 
 // A body by name, a rigged model_file, or mesh_file with skeleton_file.
@@ -32,5 +35,12 @@ bool body_is_installed(const std::string& body);  // whether require_body throws
 // reaches the mesh's bounding box, or that is 25 times larger or smaller than the mesh (other units); a file that changed while it was
 // read.
 Character make_character(const CharacterSource& source);
+
+// make_character with what was accepted in a mesh from a file although its author may not have meant it (mesh_io.hpp).
+//   std::vector<std::string> remarks;
+//   const Character arm = make_character({.mesh_file = "arm.msh", .skeleton_file = "arm.skeleton.toml"}, remarks);
+
+// One line each: turned tets, parts, an extent that speaks for other units than metres; none of a body by name.
+Character make_character(const CharacterSource& source, std::vector<std::string>& remarks);
 
 }  // namespace pbs

@@ -6,7 +6,10 @@
 #include "pbs/geometry/tet_mesh.hpp"
 
 #include <functional>
+#include <map>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace pbs {
 
@@ -20,5 +23,37 @@ std::string cache_folder();
 // Reads the mesh from the cache, or makes and stores it while other processes wait. Where the folder cannot be written, the mesh is made
 // every time.
 TetMesh cached_mesh(const std::string& key, const std::function<TetMesh()>& make);
+
+// Files that a run is made from, and the hashes of the bytes that were read.
+//   const InputFile clip("walk.gltf");  const Clip read = read_clip("walk.gltf");
+//   for (const auto& [name, hash] : clip.hashed()) ...
+
+// Records name files, not folders of the machine.
+std::string file_name(const std::string& path);
+
+// A file that a library opens by its name, with those that are read along with it: TetGen's other half, a glTF's buffers. Where what is
+// asked afterwards is what was there before, these are the bytes that were read.
+class InputFile {
+public:
+    explicit InputFile(const std::string& path);  // what cannot be read is left to its reader, who says why; "": no file
+
+    // Names and hashes, the file itself first. InputError if a file has another content, has been written since, or is gone. A file with
+    // the same content that has been written since may have been read in between. Its time of change decides, which a change of its
+    // permissions or a new hard link also sets.
+    std::vector<std::pair<std::string, std::string>> hashed() const;
+
+private:
+    struct State {
+        std::string path, hash;
+        std::string written;  // which file it is, and when it was last changed
+    };
+    static State state_of(const std::string& path);
+
+    std::string path_;
+    std::vector<State> before_;
+};
+
+// By name, for the records; of another file of a name that is taken, "NAME (2)".
+std::map<std::string, std::string> hashes_by_name(const std::vector<std::pair<std::string, std::string>>& inputs);
 
 }  // namespace pbs

@@ -1,6 +1,10 @@
 #include "pbs/character/character.hpp"
 
+#include "pbs/character/skinning_weights.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
+
 #include <algorithm>
+#include <map>
 
 namespace pbs {
 
@@ -26,6 +30,52 @@ std::vector<bool> jiggle_zone_by_bone(const BoneBinding& binding)
         zone[vertex] = binding.distance(vertex) * count[bone] > sum[bone];
     }
     return zone;
+}
+
+namespace {
+
+void append(Weights& weights, const std::map<int, double>& of_bones)
+{
+    for (const auto& [bone, weight] : of_bones) {
+        weights.bone.push_back(bone);
+        weights.weight.push_back(weight);
+    }
+    weights.first.push_back(static_cast<int>(weights.bone.size()));
+}
+
+// Coarse vertices keep their weights; a new vertex has the mean of its parents' weights.
+Weights mean_of_parents(Weights weights, const Edges& parents)
+{
+    for (Eigen::Index e = 0; e < parents.rows(); ++e) {
+        std::map<int, double> mean;
+        for (const int parent : parents.row(e))
+            for (int entry = weights.first[parent]; entry < weights.first[parent + 1]; ++entry)
+                mean[weights.bone[entry]] += 0.5 * weights.weight[entry];
+        append(weights, mean);
+    }
+    return weights;
+}
+
+}  // namespace
+
+Character refined(const Character& character)
+{
+    const Refinement fine = refine(character.mesh);
+    Character result = character;
+    result.mesh = fine.mesh;
+    result.binding = bind_to_nearest_bone(fine.mesh.rest, character.skeleton);
+    const Weights paper = paper_weights(result.binding, character.skeleton);
+    result.blended.clear();
+    for (int vertex = 0; vertex < paper.vertices(); ++vertex) result.blended.push_back(paper.blended(vertex));
+    if (character.artist) result.artist->weights = mean_of_parents(character.artist->weights, fine.parents);
+    if (character.weight_kind == WeightKind::paper || character.weight_kind == WeightKind::rigid)
+        result.weights = weights_by(character.weight_kind, result);
+    else
+        result.weights = mean_of_parents(character.weights, fine.parents);
+    if (character.surface) result.surface = embed_in_children(*character.surface, character.mesh, fine.mesh);
+    if (!character.unrefined) result.unrefined = std::make_shared<const Character>(character);
+    ++result.refinements;
+    return result;
 }
 
 }  // namespace pbs

@@ -40,7 +40,7 @@ struct Character {
     std::optional<ArtistSkin> artist;                         // of a character from a rigged file
     std::vector<std::pair<std::string, std::string>> inputs;  // what it is made from, its clip with a run's -> content hash
     WeightKind weight_kind = WeightKind::paper;               // the rule that `weights` obey, on finer tets too
-    int refinements = 0;                                      // how often its tets were cut into eight; see refined_character.hpp
+    int refinements = 0;                                      // how often its tets were cut into eight; see character.hpp
     std::shared_ptr<const Character> unrefined;               // whose first vertices and whose bones' sizes it keeps; null: itself
 };
 
@@ -49,5 +49,14 @@ std::vector<bool> jiggle_zone(const BoneBinding& binding);
 
 // Another reading of it: farther than the mean over the vertices of their own bone, #V.
 std::vector<bool> jiggle_zone_by_bone(const BoneBinding& binding);
+
+// The same character on finer tets: what any deformer is run on to learn how much its own mesh matters.
+//   const Character fine = refined(character);   // its first #V vertices are those of `character`
+// Skeleton and bones' sizes (Character::unrefined) stay; binding and weights follow the same rules on the finer mesh, a weights file's from
+// the mean of the two vertices that a new one lies between; the rendered surface stays where it is. A rule that asks for the nearest bone
+// jumps between vertices, so that a finer mesh shows Eq. 2's jumps more sharply: its limit is a jump.
+
+// Eight times the tets; Character::refinements is one higher.
+Character refined(const Character& character);
 
 }  // namespace pbs

@@ -1,8 +1,8 @@
 // Motion capture clips (BVH, glTF, FBX, by assimp) and how they reach our skeletons.
 #pragma once
 
-#include "pbs/skinning/motion_sampling.hpp"
 #include "pbs/skinning/pose.hpp"
+#include "pbs/skinning/pose_path.hpp"
 
 #include <string>
 #include <vector>
@@ -43,5 +43,38 @@ Motion retarget(const Clip& clip, const Skeleton& skeleton, const ClipSampling& 
 // Full path of a clip given by name: as it is, relative to `folder`, or in Debian's assimp-testmodels. InputError where it is
 // in none of them.
 std::string find_clip(const std::string& name, const std::string& folder);
+
+// How much of a clip reaches a skeleton.
+struct ClipMatch {
+    int moving = 0;                      // joints of the clip whose rotation changes
+    int matched = 0;                     // of these, joints that a bone follows
+    std::vector<std::string> unmatched;  // names of the others
+};
+
+// By the same names as retarget().
+ClipMatch match_of(const Clip& clip, const Skeleton& skeleton);
+
+// The largest rotation of a bone from the first pose to another one [deg]; translations do not count.
+double largest_rotation_deg(const Motion& motion);
+
+// The largest displacement of an end of a bone from the first pose to another one [m].
+double largest_displacement_m(const Motion& motion, const Skeleton& skeleton);
+
+// The skeleton that a clip's file (BVH, glTF, FBX) carries: its joints in the zero pose.
+//   const Skeleton skeleton = skeleton_from_clip(read_clip("01_01.bvh"), 0.0254 / 0.45);   // CMU's unit in metres
+
+// A bone runs from each joint to its first child that lies elsewhere; joints without one (ends, and joints that coincide with their child)
+// have none, and what is attached to them is attached to the next bone above. scale: metres per unit of the clip. InputError where no bone
+// is left.
+Skeleton skeleton_from_clip(const Clip& clip, double scale);
+
+// Checks of a BVH file's header that assimp omits, done before assimp reads the file.
+
+// By the file's extension or its first word, HIERARCHY, as assimp tells it; white space and a byte-order mark may stand before that.
+bool is_bvh(const std::string& text, const std::string& path);
+
+// Throws an InputError where Frames or Frame Time is no positive number, more frames are announced than the text can hold, or joints are
+// nested deeper than a reader's stack. A header that is not there is left to the reader to refuse.
+void check_bvh_header(const std::string& text, const std::string& path);
 
 }  // namespace pbs

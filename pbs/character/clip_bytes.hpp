@@ -1,4 +1,4 @@
-// A clip as bytes, on its way from the process that reads it (pbs/geometry/isolated_reader.hpp) to the one that retargets it.
+// A clip as bytes, on its way from the process that reads it (pbs/geometry/child_process.hpp) to the one that retargets it.
 #pragma once
 
 #include "pbs/character/clip.hpp"

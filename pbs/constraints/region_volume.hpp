@@ -10,7 +10,7 @@
 
 #include "pbs/constraints/vector3.hpp"
 #include "pbs/constraints/volume.hpp"
-#include "pbs/geometry/types.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 
 #include <Eigen/Geometry>
 

@@ -1,6 +1,6 @@
 // The module pbskin_cholmod: analysis and factorisation of a sparse matrix. The simplicial method calls no BLAS, so that the factor is the
 // same for each of its kernels and each number of its threads.
-#include "pbs/flesh/cholmod_module.hpp"
+#include "pbs/flesh/held_flesh.hpp"
 
 #include <cholmod.h>
 
@@ -36,6 +36,8 @@ void copy(const cholmod_factor& from, pbs::CholeskyFactor& to)
 }
 
 }  // namespace
+
+extern "C" void pbskin_cholmod_factor(const Eigen::SparseMatrix<double>& lower, pbs::CholeskyFactor& factor);
 
 void pbskin_cholmod_factor(const Eigen::SparseMatrix<double>& lower, pbs::CholeskyFactor& factor)
 {

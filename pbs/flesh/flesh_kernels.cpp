@@ -1,6 +1,6 @@
 #include "pbs/flesh/flesh_kernels.hpp"
 
-#include "pbs/solver/batched/project_lanes.hpp"
+#include "pbs/packed/lanes.hpp"
 
 #include <utility>
 

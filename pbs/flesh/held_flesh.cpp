@@ -1,7 +1,8 @@
 #include "pbs/flesh/held_flesh.hpp"
 
-#include "pbs/flesh/triangular_solve.hpp"
+#include "pbs/flesh/flesh_system.hpp"
 #include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/module.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -9,6 +10,9 @@
 
 namespace pbs {
 namespace {
+
+// The function of the module pbskin_cholmod: fills in the factor, or leaves it empty if the matrix is not positive definite.
+using FactorFunction = void(const Eigen::SparseMatrix<double>& lower, CholeskyFactor& factor);
 
 constexpr double negligible = 1e-3;
 
@@ -64,6 +68,13 @@ Weights HeldFlesh::smooth_weights(const Weights& otherwise) const
         smooth.first.push_back(static_cast<int>(smooth.bone.size()));
     }
     return smooth;
+}
+
+CholeskyFactor cholesky_factor(const Eigen::SparseMatrix<double>& lower)
+{
+    CholeskyFactor factor;
+    load_module("pbskin_cholmod").function<FactorFunction>("pbskin_cholmod_factor")(lower, factor);
+    return factor;
 }
 
 }  // namespace pbs

@@ -1,5 +1,5 @@
 // The local step of projective dynamics by formulae without a branch, for one matrix or for one in each lane of a register: twins of
-// volume_projection.hpp, which says what they compute. Callers use that header, or the kernels, which also treat what is refused here.
+// projective_dynamics.hpp, which says what they compute. Callers use that header, or the kernels, which also treat what is refused here.
 //
 // F = R S, R by rotation_formula.hpp, and the nearest matrix of determinant one is D = R g(S). g maps each eigenvalue s_i of S to y_i with
 //   y_i^2 - s_i y_i + kappa = 0,   y_1 y_2 y_3 = 1.

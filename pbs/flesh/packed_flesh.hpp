@@ -2,13 +2,66 @@
 // Algorithm 1 (batched/vertex_order.hpp). Threads share the slabs of the mesh; their number changes no bit.
 #pragma once
 
+#include "pbs/flesh/flesh_energy.hpp"
+#include "pbs/flesh/flesh_kernels.hpp"
 #include "pbs/flesh/flesh_system.hpp"
-#include "pbs/flesh/packed_tets.hpp"
-#include "pbs/flesh/triangular_solve.hpp"
-#include "pbs/solver/batched/vertex_order.hpp"
-#include "pbs/solver/parallel.hpp"
+#include "pbs/flesh/projective_dynamics.hpp"
+#include "pbs/packed/parallel.hpp"
+#include "pbs/packed/vertex_order.hpp"
+
+#include <array>
+#include <vector>
 
 namespace pbs {
+
+// The tets of one slab, sixteen side by side, as PackedSystem (packed_flesh.hpp) needs them: one specialisation for each energy.
+//   PackedTets<float, FleshEnergy> tets(energy);
+//   tets.add_batch();
+//   tets.set_tet(lane, t, offset);        // tet t of the energy in the last batch
+//   tets.set_dummy(lane, offset);         // a lane without a tet
+//   double e = tets.add_gradient(x, gradient);
+using TetOffsets = std::array<std::uint32_t, 4>;  // 4 * row of each vertex
+
+template <typename Scalar, typename Energy>
+class PackedTets;
+
+template <typename Scalar>
+class PackedTets<Scalar, FleshEnergy> {
+public:
+    explicit PackedTets(const FleshEnergy& energy) : energy_(&energy) {}
+    void add_batch() { batches_.emplace_back(); }
+    void set_tet(int lane, int tet, const TetOffsets& offset);
+    void set_dummy(int lane, const TetOffsets& offset);
+    double add_gradient(const Scalar* x, Scalar* gradient)
+    {
+        return add_gradient_of_tets(batches_.data(), static_cast<int>(batches_.size()), x, gradient);
+    }
+
+private:
+    const FleshEnergy* energy_;  // for set_tet alone
+    std::vector<FleshBatch<Scalar>> batches_;
+};
+
+// A tet whose shapes the kernel refuses (local_shape_formula.hpp) is computed by projective_forces.
+template <typename Scalar>
+class PackedTets<Scalar, ProjectiveEnergy> {
+public:
+    explicit PackedTets(const ProjectiveEnergy& energy) : energy_(&energy), weights_(energy.weights()) {}
+    void add_batch();
+    void set_tet(int lane, int tet, const TetOffsets& offset);
+    void set_dummy(int lane, const TetOffsets& offset);
+    double add_gradient(const Scalar* x, Scalar* gradient);
+    int refused() const { return refused_count_; }  // in the last call of add_gradient
+
+private:
+    double add_gradient_of_refused(int place, const Scalar* x, Scalar* gradient) const;
+
+    const ProjectiveEnergy* energy_;  // for set_tet alone
+    ProjectiveWeights weights_;
+    std::vector<ProjectiveBatch<Scalar>> batches_;
+    std::vector<int> refused_;  // room for the places, 16 batch + lane, of refused tets
+    int refused_count_ = 0;
+};
 
 // Energy: FleshEnergy or ProjectiveEnergy. It is read in the constructor alone.
 template <typename Scalar, typename Energy>
@@ -27,7 +80,6 @@ public:
     {
         pbs::add(Scalar(factor), a.data(), a.size(), to.data());
     }
-    std::size_t bytes() const override;
     const std::vector<PackedTets<Scalar, Energy>>& tets() const { return tets_; }  // of each slab
 
 private:

@@ -34,7 +34,6 @@ public:
 
     // x [m], #V x 3.
     QuasiNewtonSummary minimise(const Positions& centres, Positions& x);
-    std::size_t bytes_an_iteration() const { return system_->bytes(); }
 
 private:
     struct Pair {

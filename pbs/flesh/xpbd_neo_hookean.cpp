@@ -1,9 +1,14 @@
 #include "pbs/flesh/xpbd_neo_hookean.hpp"
 
-#include "pbs/flesh/xpbd_kernels.hpp"
+#include "pbs/flesh/flesh_kernels.hpp"
+#include "pbs/geometry/input_error.hpp"
+#include "pbs/packed/groups.hpp"
+#include "pbs/packed/rows.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <string>
 #include <utility>
 
 namespace pbs {
@@ -60,5 +65,310 @@ double XpbdNeoHookean<Scalar>::momentum()
 
 template class XpbdNeoHookean<float>;
 template class XpbdNeoHookean<double>;
+
+XpbdFlesh::XpbdFlesh(const TetMesh& mesh, const FleshEnergy& energy, const BoneHold& bones, const FleshMaterial& of_flesh, double time_step)
+    : material(of_flesh), tets(neo_hookean_tets(mesh)), hold(bones), first_mode(tets.size() + 1, 0), w(energy.hold())
+{
+    if (!(time_step > 0.0)) throw InputError("flesh", 0, "time_step", std::to_string(time_step), "expected a value above 0");
+    for (const HoldMode& mode : hold.modes()) ++first_mode[mode.tet + 1];
+    for (std::size_t t = 0; t < tets.size(); ++t) first_mode[t + 1] += first_mode[t];
+    for (const FleshTet& tet : energy.tets())
+        for (int e = 0; e < 6; ++e)
+            for (const int end : edges_of_tet[e]) w(tet.vertex[end]) += tet.w[e];
+    for (double& stiffness : w) stiffness = stiffness > 0.0 ? time_step * time_step / stiffness : 1.0;
+}
+
+template <>
+std::unique_ptr<XpbdSystem<float>> make_xpbd_system(const TetMesh& mesh, const XpbdFlesh& flesh, Arithmetic, int threads)
+{
+    return std::make_unique<PackedXpbd<float>>(mesh, flesh, threads);
+}
+
+template <>
+std::unique_ptr<XpbdSystem<double>> make_xpbd_system(const TetMesh& mesh, const XpbdFlesh& flesh, Arithmetic arithmetic, int threads)
+{
+    if (arithmetic == Arithmetic::plain_f64) return std::make_unique<PlainXpbd>(flesh);
+    return std::make_unique<PackedXpbd<double>>(mesh, flesh, threads);
+}
+
+namespace {
+
+std::vector<XpbdVisit> in_file_order(const XpbdFlesh& flesh)
+{
+    std::vector<XpbdVisit> visits;
+    const int tets = static_cast<int>(flesh.tets.size());
+    for (int t = 0; t < tets; ++t)
+        if (flesh.first_mode[t] < flesh.first_mode[t + 1]) visits.push_back({true, t});
+    for (int t = 0; t < tets; ++t) visits.push_back({false, t});
+    return visits;
+}
+
+double inner(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b)
+{
+    return a.cwiseProduct(b).sum();
+}
+
+}  // namespace
+
+PlainXpbd::PlainXpbd(const XpbdFlesh& flesh) : PlainXpbd(flesh, in_file_order(flesh))
+{
+}
+
+PlainXpbd::PlainXpbd(const XpbdFlesh& flesh, const std::vector<XpbdVisit>& visits) : flesh_(flesh), visits_(visits)
+{
+    for (const NeoHookeanTet& tet : flesh.tets) {
+        Eigen::Matrix<double, 3, 4> g = vertex_gradients(tet, Eigen::Matrix3d::Identity());
+        Eigen::Vector4d w;
+        for (int i = 0; i < 4; ++i) w(i) = flesh.w(tet.vertex[i]);
+        weighted_.push_back(g * w.asDiagonal() * g.transpose());
+    }
+    forget();
+}
+
+Rows<double> PlainXpbd::rows() const
+{
+    Rows<double> rows(static_cast<int>(flesh_.w.size()));
+    for (int i = 0; i < rows.size(); ++i) rows[i][3] = i < flesh_.w.size() ? flesh_.w(i) : 1.0;
+    return rows;
+}
+
+void PlainXpbd::load(const Positions& x, Rows<double>& rows) const
+{
+    load_rows(x, rows);
+}
+
+void PlainXpbd::store(const Rows<double>& rows, Positions& x) const
+{
+    store_rows(rows, flesh_.w.size(), x);
+}
+
+void PlainXpbd::forget()
+{
+    state_.assign(flesh_.tets.size(), State());
+    mode_multipliers_.setZero(static_cast<Eigen::Index>(flesh_.hold.modes().size()), 3);
+}
+
+void PlainXpbd::iterate(Rows<double>& x, bool with_residual)
+{
+    for (const XpbdVisit& visit : visits_) {
+        if (visit.is_hold)
+            visit_hold(visit.tet, x);
+        else
+            visit_tet(visit.tet, x, with_residual);
+    }
+}
+
+// C = v^T x - d; k C + lambda = 0 with the stiffness k, for x, y and z.
+void PlainXpbd::visit_hold(int t, Rows<double>& x)
+{
+    const auto& vertex = flesh_.tets[t].vertex;
+    for (int r = flesh_.first_mode[t]; r < flesh_.first_mode[t + 1]; ++r) {
+        const auto& [tet, v, k] = flesh_.hold.modes()[r];
+        Eigen::RowVector3d C = -targets_.row(r);
+        double w_gradient2 = 0.0;
+        for (int i = 0; i < 4; ++i) {
+            C += v(i) * Eigen::RowVector3d::Map(x[vertex[i]]);
+            w_gradient2 += flesh_.w(vertex[i]) * v(i) * v(i);
+        }
+        const Eigen::RowVector3d change = (-k * C - mode_multipliers_.row(r)) / (k * w_gradient2 + 1.0);
+        mode_multipliers_.row(r) += change;
+        for (int i = 0; i < 4; ++i) Eigen::RowVector3d::Map(x[vertex[i]]) += flesh_.w(vertex[i]) * v(i) * change;
+    }
+}
+
+// The equations of xpbd_neo_hookean.hpp. All gradients have the form A g_i, with H = dC_H/dF and D = dC_D/dF for A; with
+// S = sum_i w_i g_i g_i^T, sum_i w_i (A g_i) . (B g_i) = tr(A S B^T).
+void PlainXpbd::visit_tet(int t, Rows<double>& x, bool with_residual)
+{
+    const NeoHookeanTet& tet = flesh_.tets[t];
+    State& state = state_[t];
+    const auto p = [&](int i) { return Vec3(Vec3::Map(x[tet.vertex[i]])); };
+    const Eigen::Matrix3d F = deformation_gradient(tet, p(0), p(1), p(2), p(3));
+    const Eigen::Matrix3d H = hydrostatic_gradient(F), D = deviatoric_gradient(F), HS = H * weighted_[t], DS = D * weighted_[t];
+    const double k_H = flesh_.material.lambda * tet.volume, k_D = flesh_.material.mu * tet.volume;
+
+    Eigen::Matrix3d residual = Eigen::Matrix3d::Zero();
+    if (with_residual) residual = state.applied - state.multipliers(0) * H - state.multipliers(1) * D;
+    const double right_H = -k_H * hydrostatic_value(F, flesh_.material.alpha) - state.multipliers(0) + k_H * inner(HS, residual);
+    const double right_D = -k_D * deviatoric_value(F) - state.multipliers(1) + k_D * inner(DS, residual);
+    const double HH = k_H * inner(HS, H) + 1.0, HD = k_H * inner(HS, D), DH = k_D * inner(HS, D), DD = k_D * inner(DS, D) + 1.0;
+    const double determinant = HH * DD - HD * DH;  // 1 or more, by Cauchy and Schwarz
+    const Eigen::Vector2d change((right_H * DD - HD * right_D) / determinant, (HH * right_D - DH * right_H) / determinant);
+    state.multipliers += change;
+
+    const Eigen::Matrix3d more = change(0) * H + change(1) * D - residual;
+    state.applied += more;
+    const Eigen::Matrix<double, 3, 4> force = vertex_gradients(tet, more);
+    for (int i = 0; i < 4; ++i) Vec3::Map(x[tet.vertex[i]]) += flesh_.w(tet.vertex[i]) * force.col(i);
+}
+
+template <typename Scalar>
+PackedXpbd<Scalar>::PackedXpbd(const TetMesh& mesh, const XpbdFlesh& flesh, int threads)
+    : order_(order_vertices(mesh.tets, static_cast<int>(mesh.rest.rows()), vertices_a_slab(static_cast<int>(mesh.rest.rows())))),
+      parallel_(order_.slabs() >= 3 ? threads : 1),
+      w_(flesh.w),
+      alpha_(Scalar(flesh.material.alpha)),
+      slabs_(order_.slabs()),
+      place_(flesh.hold.modes().size())
+{
+    rows_ = rows_with_dummies(static_cast<int>(mesh.rest.rows()), order_.slabs());
+    std::vector<std::array<int, 4>> vertex;
+    for (const NeoHookeanTet& tet : flesh.tets) vertex.push_back(tet.vertex);
+    const auto tets = slabs_of_tets(vertex, order_);
+    for (int slab = 0; slab < order_.slabs(); ++slab) fill_slab(slab, tets[slab], flesh);
+}
+
+template <typename Scalar>
+void PackedXpbd<Scalar>::fill_slab(int s, const std::vector<int>& tets, const XpbdFlesh& flesh)
+{
+    Slab& slab = slabs_[s];
+    std::vector<int> held;
+    std::copy_if(tets.begin(), tets.end(), std::back_inserter(held), [&](int t) { return flesh.first_mode[t] < flesh.first_mode[t + 1]; });
+    BatchScheduler scheduler(static_cast<int>(order_.new_of_old.size()));
+    slab.hold_members = scheduled(scheduler, held, flesh);
+    slab.tet_members = scheduled(scheduler, tets, flesh);
+    slab.holds.resize(slab.hold_members.size());
+    slab.tets.resize(slab.tet_members.size());
+    const auto fill = [&](auto& batches, const Members& members, auto&& fill_lane) {
+        for (std::size_t b = 0; b < batches.size(); ++b)
+            for (int lane = 0; lane < batch_size; ++lane) {
+                const bool is_there = lane < static_cast<int>(members[b].size());
+                set_offsets(batches[b], lane, s, is_there ? &flesh.tets[members[b][lane]] : nullptr);
+                if (is_there) fill_lane(static_cast<int>(b), lane, members[b][lane]);
+            }
+    };
+    fill(slab.holds, slab.hold_members, [&](int b, int lane, int tet) {
+        for (int r = flesh.first_mode[tet]; r < flesh.first_mode[tet + 1]; ++r) place_[r] = {s, b, r - flesh.first_mode[tet], lane};
+        fill_hold(slab.holds[b], lane, tet, flesh);
+    });
+    fill(slab.tets, slab.tet_members, [&](int b, int lane, int tet) { fill_tet(slab.tets[b], lane, tet, flesh); });
+}
+
+template <typename Scalar>
+auto PackedXpbd<Scalar>::scheduled(BatchScheduler& scheduler, const std::vector<int>& tets, const XpbdFlesh& flesh) const -> Members
+{
+    std::vector<ConstraintGroup> groups;
+    for (const int t : tets) {
+        const auto& v = flesh.tets[t].vertex;
+        groups.push_back({GroupKind::tet, {v[0], v[1], v[2], v[3]}, {}});
+    }
+    Members batches = scheduler.schedule(groups);
+    for (std::vector<int>& batch : batches)
+        for (int& member : batch) member = tets[member];
+    return batches;
+}
+
+template <typename Scalar>
+template <typename Batch>
+void PackedXpbd<Scalar>::set_offsets(Batch& batch, int lane, int slab, const NeoHookeanTet* tet) const
+{
+    const int dummies = rows_ - (order_.slabs() - slab) * dummies_of_slab;
+    for (int i = 0; i < 4; ++i) batch.offset[i][lane] = 4u * (tet ? order_.new_of_old[tet->vertex[i]] : dummies + 4 * lane + i);
+}
+
+template <typename Scalar>
+void PackedXpbd<Scalar>::fill_hold(HoldBatch<Scalar>& batch, int lane, int t, const XpbdFlesh& flesh)
+{
+    for (int r = flesh.first_mode[t]; r < flesh.first_mode[t + 1]; ++r) {
+        const HoldMode& mode = flesh.hold.modes()[r];
+        const int place = r - flesh.first_mode[t];
+        double w_gradient2 = 0.0;
+        for (int i = 0; i < 4; ++i) {
+            batch.v[place][i][lane] = Scalar(mode.v(i));
+            w_gradient2 += flesh.w(flesh.tets[t].vertex[i]) * mode.v(i) * mode.v(i);
+        }
+        batch.stiffness[place][lane] = Scalar(mode.stiffness);
+        batch.share[place][lane] = Scalar(1.0 / (1.0 + mode.stiffness * w_gradient2));
+    }
+}
+
+template <typename Scalar>
+void PackedXpbd<Scalar>::fill_tet(NeoHookeanBatch<Scalar>& batch, int lane, int t, const XpbdFlesh& flesh)
+{
+    const NeoHookeanTet& tet = flesh.tets[t];
+    const Eigen::Matrix<double, 3, 4> g = vertex_gradients(tet, Eigen::Matrix3d::Identity());
+    Eigen::Matrix3d S = Eigen::Matrix3d::Zero();
+    for (int i = 0; i < 4; ++i) S += flesh.w(tet.vertex[i]) * g.col(i) * g.col(i).transpose();
+    for (int k = 0; k < 9; ++k) batch.rest_inverse[k][lane] = Scalar(tet.rest_inverse(k / 3, k % 3));
+    const double entries[6] = {S(0, 0), S(1, 1), S(2, 2), S(1, 2), S(0, 2), S(0, 1)};
+    for (int k = 0; k < 6; ++k) batch.weighted[k][lane] = Scalar(entries[k]);
+    batch.hydrostatic[lane] = Scalar(flesh.material.lambda * tet.volume);
+    batch.deviatoric[lane] = Scalar(flesh.material.mu * tet.volume);
+}
+
+template <typename Scalar>
+Rows<Scalar> PackedXpbd<Scalar>::rows() const
+{
+    Rows<Scalar> rows(rows_);
+    for (int i = 0; i < rows.size(); ++i) rows[i][3] = i < w_.size() ? Scalar(w_(order_.old_of_new[i])) : Scalar(1);
+    return rows;
+}
+
+template <typename Scalar>
+void PackedXpbd<Scalar>::set_targets(const Positions& targets)
+{
+    origin_.setZero();
+    if (targets.rows() > 0) origin_ = targets.colwise().mean();
+    for (Slab& slab : slabs_)
+        for (HoldBatch<Scalar>& batch : slab.holds) std::fill_n(&batch.target[0][0][0], 4 * 3 * batch_size, Scalar(0));
+    for (std::size_t r = 0; r < place_.size(); ++r) {
+        const auto& [slab, b, mode, lane] = place_[r];
+        HoldBatch<Scalar>& batch = slabs_[slab].holds[b];
+        double sum = 0.0;  // v^T (x - origin) = d - (sum of v) origin
+        for (int i = 0; i < 4; ++i) sum += double(batch.v[mode][i][lane]);
+        for (int axis = 0; axis < 3; ++axis)
+            batch.target[mode][axis][lane] = Scalar(targets(static_cast<Eigen::Index>(r), axis) - sum * origin_(axis));
+    }
+}
+
+template <typename Scalar>
+void PackedXpbd<Scalar>::load(const Positions& x, Rows<Scalar>& rows) const
+{
+    load_rows(x, order_.new_of_old, origin_, rows);
+}
+
+template <typename Scalar>
+void PackedXpbd<Scalar>::store(const Rows<Scalar>& rows, Positions& x) const
+{
+    store_rows(rows, order_.new_of_old, origin_, x);
+}
+
+template <typename Scalar>
+void PackedXpbd<Scalar>::forget()
+{
+    for (Slab& slab : slabs_) {
+        for (HoldBatch<Scalar>& batch : slab.holds) std::fill_n(&batch.multiplier[0][0][0], 4 * 3 * batch_size, Scalar(0));
+        for (NeoHookeanBatch<Scalar>& batch : slab.tets) {
+            std::fill_n(&batch.multiplier[0][0], 2 * batch_size, Scalar(0));
+            std::fill_n(&batch.applied[0][0], 9 * batch_size, Scalar(0));
+        }
+    }
+}
+
+template <typename Scalar>
+void PackedXpbd<Scalar>::iterate(Rows<Scalar>& x, bool with_residual)
+{
+    for (const int parity : {0, 1})
+        parallel_.for_each((order_.slabs() + 1 - parity) / 2, [&](int pair) {
+            Slab& slab = slabs_[2 * pair + parity];
+            visit_holds(slab.holds.data(), static_cast<int>(slab.holds.size()), x.data());
+            visit_tets(slab.tets.data(), static_cast<int>(slab.tets.size()), alpha_, with_residual, x.data());
+        });
+}
+
+template <typename Scalar>
+std::vector<XpbdVisit> PackedXpbd<Scalar>::visits() const
+{
+    std::vector<XpbdVisit> visits;
+    for (const int parity : {0, 1})
+        for (std::size_t s = parity; s < slabs_.size(); s += 2)
+            for (const bool is_hold : {true, false})
+                for (const std::vector<int>& batch : is_hold ? slabs_[s].hold_members : slabs_[s].tet_members)
+                    for (const int tet : batch) visits.push_back({is_hold, tet});
+    return visits;
+}
+
+template class PackedXpbd<float>;
+template class PackedXpbd<double>;
 
 }  // namespace pbs

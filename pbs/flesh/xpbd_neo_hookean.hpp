@@ -1,6 +1,6 @@
-// Elastic flesh in equilibrium by XPBD with the two neo-Hookean constraints of M. Macklin, M. Mueller (MIG 2021); xpbd_system.hpp has the
-// constraints and the equations of one visit. A frame is a sequence of steps of implicit Euler without inertia from frame to frame: step n
-// begins at the predicted positions y = x_n + b (x_n - x_{n-1}) and ends near the minimum of E(x) + sum_i m_i / 2 |x_i - y_i|^2, the
+// Elastic flesh in equilibrium by XPBD with the two neo-Hookean constraints of M. Macklin, M. Mueller (MIG 2021); xpbd_neo_hookean.hpp has
+// the constraints and the equations of one visit. A frame is a sequence of steps of implicit Euler without inertia from frame to frame:
+// step n begins at the predicted positions y = x_n + b (x_n - x_{n-1}) and ends near the minimum of E(x) + sum_i m_i / 2 |x_i - y_i|^2, the
 // proximal point of y, after `iterations_per_step` passes over all constraints. Its fixed point is a minimum of E, for every mass and step.
 //   XpbdNeoHookean<float> solver(mesh, flesh, options);
 //   XpbdNeoHookeanSummary summary = solver.minimise(targets, x);   // x: the initial guess in, the shape after the last pass out
@@ -12,9 +12,72 @@
 // (B. O'Donoghue, E. Candes, Found. Comput. Math. 15, 2015).
 #pragma once
 
-#include "pbs/flesh/xpbd_system.hpp"
+#include "pbs/flesh/bone_springs.hpp"
+#include "pbs/flesh/flesh_energy.hpp"
+#include "pbs/flesh/flesh_kernels.hpp"
+#include "pbs/packed/groups.hpp"
+#include "pbs/packed/parallel.hpp"
+#include "pbs/packed/rows.hpp"
+#include "pbs/packed/vertex_order.hpp"
+
+#include <memory>
 
 namespace pbs {
+
+// Elastic flesh as compliant constraints, and one pass of XPBD over them: the springs of the bones (bone_springs.hpp) and the two coupled
+// constraints of each tet (flesh_energy.hpp). One implementation is plain, the other one packed; both have the same constants.
+//   const XpbdFlesh flesh(mesh, energy, hold, material, time_step);
+//   auto system = make_xpbd_system<float>(mesh, flesh, Arithmetic::packed_f32, threads);
+//   system->set_targets(targets);
+//   system->load(positions, x);
+//   system->iterate(x, true);
+//
+// One visit of a tet solves for the changes of its two multipliers, with inverse masses w, W = diag(w) and k = lambda V, mu V (Eq. 18 of
+// M. Macklin, M. Mueller, N. Chentanez, XPBD, MIG 2016, for two constraints at once):
+//   (k_a dC_a W dC_b^T + delta_ab) dlambda_b = -k_a C_a - lambda_a + k_a dC_a r,      dx = W dC^T dlambda - r.
+// r = W (p - dC^T lambda) is what the tet has moved its vertices in excess of its multipliers' forces at its present shape (p: the forces
+// that it has applied). XPBD neglects r, which is why it does not converge to implicit Euler; with r it does (Y. Chen et al., Primal
+// extended position based dynamics for hyperelasticity, MIG 2023, keep this residual for all constraints at once; here each tet corrects
+// its own). The constraints of the bones are linear, so that their r is zero.
+
+// The constraints and the masses, over Young's modulus.
+struct XpbdFlesh {
+    // InputError: a tet without volume, or time_step not above 0.
+    XpbdFlesh(const TetMesh& mesh, const FleshEnergy& energy, const BoneHold& hold, const FleshMaterial& material, double time_step);
+
+    FleshMaterial material;
+    std::vector<NeoHookeanTet> tets;
+    HoldModes hold;
+    std::vector<int> first_mode;  // of each tet, #T + 1
+    // Inverse masses w_i = time_step^2 / D_i [1/m], #V. D_i is the stiffness of the energy along vertex i without its volume term. The
+    // limit does not depend on the masses, and with these a small tet is no stiffer than a large one in units of its masses. 1: no tet.
+    Eigen::VectorXd w;
+};
+
+// One constraint block: the springs of a tet or its pair of neo-Hookean constraints.
+struct XpbdVisit {
+    bool is_hold;
+    int tet;
+};
+
+template <typename Scalar>
+class XpbdSystem {
+public:
+    virtual ~XpbdSystem() = default;
+
+    virtual Rows<Scalar> rows() const = 0;                   // of positions and w; in places without a vertex w is 1
+    virtual void set_targets(const Positions& targets) = 0;  // of the hold's modes [m]; packed: their mean becomes the origin of the rows
+    virtual void load(const Positions& x, Rows<Scalar>& rows) const = 0;
+    virtual void store(const Rows<Scalar>& rows, Positions& x) const = 0;
+    virtual void forget() = 0;  // sets all multipliers, and the forces that tets have applied, to zero
+    // Visits every constraint once. with_residual: r is corrected; otherwise it is neglected, as published.
+    virtual void iterate(Rows<Scalar>& x, bool with_residual) = 0;
+    virtual std::vector<XpbdVisit> visits() const = 0;  // an order in which one after the other gives the same result
+};
+
+// Scalar is that of `arithmetic` (unchecked).
+template <typename Scalar>
+std::unique_ptr<XpbdSystem<Scalar>> make_xpbd_system(const TetMesh& mesh, const XpbdFlesh& flesh, Arithmetic arithmetic, int threads);
 
 // kept: multipliers and applied forces are kept over all steps of a frame, and the residual is corrected. of_step: they begin at zero in
 // each step, and the residual is neglected, as published. reset: zero in each iteration, a common mistake; a negative control.
@@ -50,6 +113,83 @@ private:
     std::unique_ptr<XpbdSystem<Scalar>> system_;
     Rows<Scalar> x_, before_, predicted_, applied_;  // of the step: x_n, y, and x - y
     double nesterov_ = 1.0;
+};
+
+// The plain implementation of XpbdSystem: one constraint after the other in double, in file order: first all springs, then all tets.
+class PlainXpbd final : public XpbdSystem<double> {
+public:
+    explicit PlainXpbd(const XpbdFlesh& flesh);
+    PlainXpbd(const XpbdFlesh& flesh, const std::vector<XpbdVisit>& visits);  // in another order
+
+    Rows<double> rows() const override;
+    void set_targets(const Positions& targets) override { targets_ = targets; }
+    void load(const Positions& x, Rows<double>& rows) const override;
+    void store(const Rows<double>& rows, Positions& x) const override;
+    void forget() override;
+    void iterate(Rows<double>& x, bool with_residual) override;
+    std::vector<XpbdVisit> visits() const override { return visits_; }
+
+    // The multipliers of a tet's constraints C_H and C_D [m^3], and of the modes [m^2], #modes x 3.
+    const Eigen::Vector2d& multipliers_of_tet(int tet) const { return state_[tet].multipliers; }
+    const Positions& multipliers_of_modes() const { return mode_multipliers_; }
+
+private:
+    struct State {
+        Eigen::Vector2d multipliers = Eigen::Vector2d::Zero();
+        Eigen::Matrix3d applied = Eigen::Matrix3d::Zero();  // P: the tet has applied the force P g_i to vertex i
+    };
+    void visit_hold(int tet, Rows<double>& x);
+    void visit_tet(int tet, Rows<double>& x, bool with_residual);
+
+    XpbdFlesh flesh_;
+    std::vector<XpbdVisit> visits_;
+    std::vector<Eigen::Matrix3d> weighted_;  // S = sum_i w_i g_i g_i^T of each tet
+    std::vector<State> state_;
+    Positions targets_, mode_multipliers_;
+};
+
+// The packed implementation of XpbdSystem: sixteen tets that share no vertex side by side, in the order of memory of the solvers of
+// Algorithm 1 (batched/vertex_order.hpp). In each slab of the mesh, first the springs and then the tets are visited. Threads share the
+// slabs; their number changes no bit.
+template <typename Scalar>
+class PackedXpbd : public XpbdSystem<Scalar> {
+public:
+    PackedXpbd(const TetMesh& mesh, const XpbdFlesh& flesh, int threads);
+
+    Rows<Scalar> rows() const override;
+    void set_targets(const Positions& targets) override;
+    void load(const Positions& x, Rows<Scalar>& rows) const override;
+    void store(const Rows<Scalar>& rows, Positions& x) const override;
+    void forget() override;
+    void iterate(Rows<Scalar>& x, bool with_residual) override;
+    std::vector<XpbdVisit> visits() const override;
+
+private:
+    using Members = std::vector<std::vector<int>>;  // tets of each batch
+    struct Slab {
+        Members hold_members, tet_members;
+        std::vector<HoldBatch<Scalar>> holds;
+        std::vector<NeoHookeanBatch<Scalar>> tets;
+    };
+    struct ModePlace {
+        int slab, batch, mode, lane;
+    };
+
+    void fill_slab(int slab, const std::vector<int>& tets, const XpbdFlesh& flesh);
+    Members scheduled(BatchScheduler& scheduler, const std::vector<int>& tets, const XpbdFlesh& flesh) const;
+    template <typename Batch>
+    void set_offsets(Batch& batch, int lane, int slab, const NeoHookeanTet* tet) const;
+    void fill_hold(HoldBatch<Scalar>& batch, int lane, int tet, const XpbdFlesh& flesh);
+    void fill_tet(NeoHookeanBatch<Scalar>& batch, int lane, int tet, const XpbdFlesh& flesh);
+
+    VertexOrder order_;
+    int rows_ = 0;  // of vertices and, behind them, of the dummies of each slab
+    Parallel parallel_;
+    Eigen::VectorXd w_;
+    Scalar alpha_;
+    std::vector<Slab> slabs_;
+    std::vector<ModePlace> place_;  // of each mode
+    Vec3 origin_ = Vec3::Zero();
 };
 
 }  // namespace pbs

@@ -1,4 +1,4 @@
-// assimp opens only files that own_folder.hpp allows: the file itself and regular files below its folder. It chooses its reader by the
+// assimp opens only files that content_format.hpp allows: the file itself and regular files below its folder. It chooses its reader by the
 // file's name, so that it is given a name whose extension fits the content.
 //   Assimp::Importer importer;
 //   const OwnFolder& files = only_own_folder(importer, path);
@@ -7,10 +7,10 @@
 
 #include "pbs/geometry/content_format.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/own_folder.hpp"
 
 #include <assimp/DefaultIOSystem.h>
 #include <assimp/Importer.hpp>
+#include <assimp/scene.h>
 
 #include <filesystem>
 #include <string>
@@ -64,6 +64,20 @@ inline const OwnFolder& only_own_folder(Assimp::Importer& importer, const std::s
     auto* files = new OwnFolder(path);
     importer.SetIOHandler(files);
     return *files;
+}
+
+// The unit of a file that assimp has read.
+
+// FBX states its unit in centimetres. COLLADA's is in the root's transform, and the other formats have none.
+inline double metres_per_unit(const aiScene& scene)
+{
+    constexpr double metres_per_centimetre = 0.01;
+    double centimetres = 0.0;
+    float single = 0.0F;
+    if (!scene.mMetaData) return 1.0;
+    if (scene.mMetaData->Get("UnitScaleFactor", centimetres)) return metres_per_centimetre * centimetres;
+    if (scene.mMetaData->Get("UnitScaleFactor", single)) return metres_per_centimetre * static_cast<double>(single);
+    return 1.0;
 }
 
 }  // namespace pbs

@@ -1,9 +1,13 @@
 #include "pbs/geometry/content_format.hpp"
 
+#include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/mesh_io_formats.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -115,6 +119,50 @@ std::string path_by_content(const std::string& path)
 {
     const std::string extension = format_extension(path);
     return extension == lower_extension(path) ? path : path + extension;
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+
+bool lies_below(const fs::path& file, const fs::path& folder)
+{
+    return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
+}
+
+}  // namespace
+
+bool may_be_opened_for(const std::string& path, const std::string& file)
+{
+    std::error_code code;
+    const fs::path target = fs::canonical(file, code);  // links followed
+    if (code || !fs::is_regular_file(target, code)) return false;
+    const fs::path own = fs::canonical(path, code), named = fs::weakly_canonical(fs::absolute(path).parent_path(), code);
+    return target == own || lies_below(target, own.parent_path()) || lies_below(target, named);
+}
+
+namespace fs = std::filesystem;
+
+NamedLink::NamedLink(const std::string& path, const std::string& extension) : link_(path)
+{
+    if (lower_extension(path) == extension) return;
+    std::error_code code;
+    const fs::path target = fs::canonical(path, code);
+    std::string made = (fs::temp_directory_path(code) / "pbskin-XXXXXX").string();
+    if (!code && mkdtemp(made.data())) {
+        folder_ = made;
+        link_ = (fs::path(folder_) / (fs::path(path).filename().string() + extension)).string();
+        fs::create_symlink(target, link_, code);
+        if (!code) return;
+    }
+    fs::remove_all(folder_, code);
+    throw InputError(path, 0, "extension", lower_extension(path), "no link of another name can be made: rename the file to " + extension);
+}
+
+NamedLink::~NamedLink()
+{
+    std::error_code ignored;
+    if (!folder_.empty()) fs::remove_all(folder_, ignored);
 }
 
 }  // namespace pbs

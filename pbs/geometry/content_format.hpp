@@ -22,4 +22,28 @@ std::string format_extension(const std::string& path);   // content_extension if
 // is no file of this name.
 std::string path_by_content(const std::string& path);
 
+// Which files may be opened in order to read one file: that file, and those below its folder that it refers to (a glTF's buffers, an OBJ's
+// materials). A named pipe would be waited for without end, and no file decides what is read elsewhere on somebody else's machine.
+
+// Is `file` a regular file that may be opened in order to read `path`? Links are followed first.
+bool may_be_opened_for(const std::string& path, const std::string& file);
+
+// Another name for a file, for libraries that choose their reader by the extension. A link in a new folder for temporary files, which is
+// removed with the object.
+//   const NamedLink link("arm.txt", ".mesh");
+//   read(link.path());   // .../arm.txt.mesh
+class NamedLink {
+public:
+    // An InputError that asks for the file to be renamed if no link can be made.
+    NamedLink(const std::string& path, const std::string& extension);
+    ~NamedLink();
+    NamedLink(const NamedLink&) = delete;
+    NamedLink& operator=(const NamedLink&) = delete;
+
+    const std::string& path() const { return link_; }  // the file's own path if it has that extension, in small or capital letters
+
+private:
+    std::string folder_, link_;
+};
+
 }  // namespace pbs

@@ -1,7 +1,7 @@
 #include "pbs/geometry/guarded_reading.hpp"
 
+#include "pbs/geometry/child_process.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/isolated_reader.hpp"
 #include "pbs/geometry/packed_bytes.hpp"
 
 #include <limits>

@@ -1,7 +1,7 @@
-// Points and cells that a library reads in a child process (isolated_reader.hpp) and sends through a pipe.
+// Points and cells that a library reads in a child process (child_process.hpp) and sends through a pipe.
 #pragma once
 
-#include "pbs/geometry/types.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 
 #include <functional>
 #include <string>

@@ -3,8 +3,10 @@
 // prints as  limb.toml:12: k_volume = 1.4: expected 0 <= k <= 1  and ends the program with exit status 2.
 #pragma once
 
+#include <sstream>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace pbs {
 
@@ -15,5 +17,44 @@ public:
     // characters stand in it by their codes (\n, \x1b).
     InputError(const std::string& file, int line, const std::string& field, const std::string& value, const std::string& rule);
 };
+
+// Numbers as error messages print them.
+
+// "expected an index from 0 to 7"; where one number alone is right, "expected 3". `what` with its article.
+inline std::string expected_whole(const std::string& what, long long low, long long high)
+{
+    if (low == high) return "expected " + std::to_string(low);
+    return "expected " + what + " from " + std::to_string(low) + " to " + std::to_string(high);
+}
+
+// So many digits whatever the magnitude: 1e-300 is no 0.000000.
+inline std::string number_text(double number, int digits = 6)
+{
+    std::ostringstream text;
+    text.precision(digits);
+    text << number;
+    return text.str();
+}
+
+// "(0, 0.5, 1)"
+template <typename Row>
+std::string place_text(const Row& place)
+{
+    std::ostringstream text;
+    text << '(' << place(0) << ", " << place(1) << ", " << place(2) << ')';
+    return text.str();
+}
+
+// The first few of many names, for messages.
+//   name_list({"a", "b", "c", "d", "e", "f", "g", "h"})   "a, b, c, d, e, f and 2 others"
+
+// All names if there are at most six.
+std::string name_list(const std::vector<std::string>& names);
+
+// The known name nearest to a mistyped one, for errors.
+//   throw InputError(file, line, key, "", "unknown key; the nearest known one is " + nearest_name(key, known));
+
+// The known name with the least edit distance (Levenshtein), the first of equals; empty where there are none.
+std::string nearest_name(const std::string& name, const std::vector<std::string>& known);
 
 }  // namespace pbs

@@ -2,9 +2,8 @@
 
 #include "pbs/geometry/content_format.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/mesh_io_checks.hpp"
+#include "pbs/geometry/mesh_checks.hpp"
 #include "pbs/geometry/mesh_io_formats.hpp"
-#include "pbs/geometry/named_link.hpp"
 
 namespace pbs {
 namespace {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "pbs/geometry/content_format.hpp"
-#include "pbs/geometry/file_limits.hpp"
+#include "pbs/geometry/files.hpp"
 #include "pbs/geometry/guarded_reading.hpp"
 #include "pbs/geometry/mesh_io.hpp"
 

@@ -2,7 +2,6 @@
 #include "pbs/geometry/mesh_io.hpp"
 
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/mesh_remarks.hpp"
 
 namespace pbs {
 namespace {

@@ -2,8 +2,8 @@
 #include "pbs/geometry/meshing.hpp"
 
 #include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/meshing_attempts.hpp"
 #include "pbs/geometry/meshing_cgal.hpp"
-#include "pbs/geometry/meshing_count.hpp"
 
 #include <CGAL/Labeled_mesh_domain_3.h>
 #include <CGAL/Mesh_complex_3_in_triangulation_3.h>

@@ -3,9 +3,8 @@
 #include "pbs/geometry/meshing.hpp"
 
 #include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/meshing_attempts.hpp"
 #include "pbs/geometry/meshing_cgal.hpp"
-#include "pbs/geometry/meshing_count.hpp"
-#include "pbs/geometry/meshing_verdict.hpp"
 #include "pbs/geometry/topology.hpp"
 
 #include <CGAL/AABB_face_graph_triangle_primitive.h>

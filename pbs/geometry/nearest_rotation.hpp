@@ -7,7 +7,7 @@
 // A matrix that is not finite has a result of which all entries are not a number.
 #pragma once
 
-#include "pbs/geometry/types.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 
 namespace pbs {
 

@@ -1,4 +1,4 @@
-// Numbers, names and arrays as bytes, for what a child process reads and its parent takes over (isolated_reader.hpp). The taker checks
+// Numbers, names and arrays as bytes, for what a child process reads and its parent takes over (child_process.hpp). The taker checks
 // every size against the bytes that are there before it makes room for it.
 //   PackedBytes bytes;  bytes.put(3);  bytes.put_array(x.data(), x.size());
 //   TakenBytes taken(bytes.text());  taken.take<int>();  taken.take_array<double>();  taken.whole();

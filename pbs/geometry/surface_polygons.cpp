@@ -3,7 +3,6 @@
 
 #include "pbs/geometry/content_format.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/number_text.hpp"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/IO/OFF.h>

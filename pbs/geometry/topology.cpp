@@ -1,10 +1,19 @@
 #include "pbs/geometry/topology.hpp"
 
+#include "pbs/geometry/tet_mesh.hpp"
+
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
+#include <iomanip>
+#include <limits>
 #include <map>
+#include <numbers>
 #include <numeric>
+#include <sstream>
 #include <tuple>
 #include <utility>
 
@@ -268,6 +277,133 @@ Topology topology_of(const Tets& tets, Eigen::Index vertices)
         for (int corner = 0; corner < 4; ++corner) used[tets(t, corner)] = true;
     topology.unused_vertices = static_cast<int>(vertices) - count_used(used);
     return topology;
+}
+
+std::vector<int> parts_of(const Tets& tets)
+{
+    std::vector<int> parent(static_cast<std::size_t>(tets.rows()));
+    std::iota(parent.begin(), parent.end(), 0);
+    const auto root_of = [&](int tet) {
+        while (parent[tet] != tet) tet = parent[tet] = parent[parent[tet]];
+        return tet;
+    };
+    std::map<std::array<int, 3>, int> tet_at;
+    for (int tet = 0; tet < tets.rows(); ++tet)
+        for (int opposite = 0; opposite < 4; ++opposite) {
+            std::array<int, 3> face = {tets(tet, (opposite + 1) % 4), tets(tet, (opposite + 2) % 4), tets(tet, (opposite + 3) % 4)};
+            std::sort(face.begin(), face.end());
+            const auto [other, added] = tet_at.emplace(face, tet);
+            if (!added) parent[root_of(tet)] = root_of(other->second);
+        }
+    std::map<int, int> number;
+    std::vector<int> parts;
+    for (int tet = 0; tet < tets.rows(); ++tet)
+        parts.push_back(number.emplace(root_of(tet), static_cast<int>(number.size())).first->second);
+    return parts;
+}
+
+TetMesh kept_tets(const TetMesh& mesh, const std::vector<bool>& kept)
+{
+    std::vector<int> new_index(static_cast<std::size_t>(mesh.rest.rows()), -1);
+    const auto tets = std::count(kept.begin(), kept.end(), true);
+    for (Eigen::Index tet = 0; tet < mesh.tets.rows(); ++tet)
+        if (kept[static_cast<std::size_t>(tet)])
+            for (const int vertex : mesh.tets.row(tet)) new_index[vertex] = 0;
+    int vertices = 0;
+    for (int& index : new_index)
+        if (index == 0) index = vertices++;
+
+    TetMesh result;
+    result.rest.resize(vertices, 3);
+    result.tets.resize(tets, 4);
+    for (Eigen::Index v = 0; v < mesh.rest.rows(); ++v)
+        if (new_index[static_cast<std::size_t>(v)] >= 0) result.rest.row(new_index[static_cast<std::size_t>(v)]) = mesh.rest.row(v);
+    Eigen::Index next = 0;
+    for (Eigen::Index tet = 0; tet < mesh.tets.rows(); ++tet) {
+        if (!kept[static_cast<std::size_t>(tet)]) continue;
+        for (int corner = 0; corner < 4; ++corner) result.tets(next, corner) = new_index[mesh.tets(tet, corner)];
+        ++next;
+    }
+    return result;
+}
+
+namespace {
+
+// The six edges of a tet, each with the two corners that are not on it.
+constexpr std::array<std::array<int, 4>, 6> edge_corners = {
+    {{0, 1, 2, 3}, {0, 2, 1, 3}, {0, 3, 1, 2}, {1, 2, 0, 3}, {1, 3, 0, 2}, {2, 3, 0, 1}}};
+
+void examine_dihedrals(const TetMesh& mesh, Quality& quality)
+{
+    quality.min_dihedral_deg = 180.0;
+    for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t) {
+        const std::array<double, 6> angles_deg = dihedral_angles_deg(mesh.rest.row(mesh.tets(t, 0)), mesh.rest.row(mesh.tets(t, 1)),
+                                                                     mesh.rest.row(mesh.tets(t, 2)), mesh.rest.row(mesh.tets(t, 3)));
+        const auto [smallest, largest] = std::minmax_element(angles_deg.begin(), angles_deg.end());
+        quality.min_dihedral_deg = std::min(quality.min_dihedral_deg, *smallest);
+        quality.max_dihedral_deg = std::max(quality.max_dihedral_deg, *largest);
+    }
+}
+
+void examine_edges(const TetMesh& mesh, Quality& quality)
+{
+    const Edges edges = edges_of(mesh.tets);
+    quality.edges = static_cast<int>(edges.rows());
+    quality.shortest_edge_m = std::numeric_limits<double>::infinity();
+    for (Eigen::Index e = 0; e < edges.rows(); ++e) {
+        const double length = (mesh.rest.row(edges(e, 0)) - mesh.rest.row(edges(e, 1))).norm();
+        quality.shortest_edge_m = std::min(quality.shortest_edge_m, length);
+        quality.longest_edge_m = std::max(quality.longest_edge_m, length);
+    }
+}
+
+}  // namespace
+
+std::array<double, 6> dihedral_angles_deg(const Vec3& p1, const Vec3& p2, const Vec3& p3, const Vec3& p4)
+{
+    const std::array<const Vec3*, 4> corner = {&p1, &p2, &p3, &p4};
+    std::array<double, 6> angles_deg;
+    for (std::size_t e = 0; e < edge_corners.size(); ++e) {
+        const auto [a, b, c, d] = edge_corners[e];
+        const Vec3 edge = *corner[b] - *corner[a];
+        const Vec3 normal_c = edge.cross(*corner[c] - *corner[a]), normal_d = edge.cross(*corner[d] - *corner[a]);
+        angles_deg[e] = std::atan2(normal_c.cross(normal_d).norm(), normal_c.dot(normal_d)) * 180.0 / std::numbers::pi;
+    }
+    return angles_deg;
+}
+
+Quality quality_of(const TetMesh& mesh)
+{
+    Quality quality;
+    quality.vertices = static_cast<int>(mesh.rest.rows());
+    quality.tets = static_cast<int>(mesh.tets.rows());
+    quality.topology = topology_of(mesh.tets, mesh.rest.rows());
+    if (quality.tets == 0) return quality;
+
+    const Triangles boundary = boundary_of(mesh.tets);
+    std::vector<bool> on_boundary(mesh.rest.rows(), false);
+    for (const int vertex : boundary.reshaped()) on_boundary[vertex] = true;
+    quality.boundary_triangles = static_cast<int>(boundary.rows());
+    quality.boundary_vertices = static_cast<int>(std::count(on_boundary.begin(), on_boundary.end(), true));
+    quality.volume_m3 = tet_volumes(mesh.rest, mesh.tets).sum();
+    examine_dihedrals(mesh, quality);
+    examine_edges(mesh, quality);
+    return quality;
+}
+
+std::string describe(const Quality& quality)
+{
+    const Topology& topology = quality.topology;
+    std::ostringstream text;
+    text << quality.vertices << " vertices (" << quality.boundary_vertices << " on the boundary), " << quality.edges << " edges, "
+         << quality.tets << " tets, " << quality.boundary_triangles << " boundary triangles\n";
+    text << std::setprecision(6) << "volume " << quality.volume_m3 << " m^3, edges " << std::setprecision(3) << quality.shortest_edge_m
+         << " to " << quality.longest_edge_m << " m, dihedral angles " << std::fixed << std::setprecision(1) << quality.min_dihedral_deg
+         << " to " << quality.max_dihedral_deg << " deg\n";
+    text << "boundary " << (topology.boundary_manifold ? "manifold" : "NOT manifold") << ", " << topology.boundary_components
+         << " component(s), Euler characteristic " << topology.boundary_euler << "; " << topology.components << " component(s) of tets, "
+         << topology.unused_vertices << " unused vertices\n";
+    return text.str();
 }
 
 }  // namespace pbs

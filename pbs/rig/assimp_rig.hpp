@@ -8,10 +8,15 @@
 
 #include "pbs/rig/rig.hpp"
 
+#include <string>
+
 struct aiScene;
+
 namespace Assimp {
+
 class Importer;
-}
+
+}  // namespace Assimp
 
 namespace pbs {
 
@@ -22,5 +27,22 @@ Rig read_assimp_rig(const std::string& path);
 // Its steps after check_collada_weights: assimp's reading, into a scene that the importer owns, and the conversion of that scene.
 const aiScene& read_assimp_scene(Assimp::Importer& importer, const std::string& path);
 Rig rig_of_scene(const aiScene& scene, const std::string& path);
+
+// The skin weights of a COLLADA file as the file states them: assimp leaves out weights that are negative or not finite without a message.
+//   check_collada_weights("hero.dae");
+
+// .dae, or a .zae archive with .dae files. An InputError names the first weight, of a skin that the scene uses, that is negative or not
+// finite. Text that is not XML is left to the reader.
+void check_collada_weights(const std::string& path);
+
+// How the curves of an FBX file run between their keys, which assimp does not report: it reads all of them as linear.
+//   const FbxCurves curves = count_fbx_curves(read_text_file("hero.fbx"));
+struct FbxCurves {
+    int curves = 0;      // whose keys are marked as constant, linear or cubic
+    int not_linear = 0;  // with a constant or cubic key
+};
+
+// bytes: of a binary or a text file. Damaged curves are not counted.
+FbxCurves count_fbx_curves(const std::string& bytes);
 
 }  // namespace pbs

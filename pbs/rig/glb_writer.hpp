@@ -5,8 +5,8 @@
 // The frames wait in a temporary file next to the .glb file, so that the memory does not depend on their number.
 #pragma once
 
-#include "pbs/geometry/atomic_file.hpp"
-#include "pbs/geometry/types.hpp"
+#include "pbs/geometry/files.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 
 #include <string>
 #include <vector>

@@ -1,4 +1,4 @@
-// A rig as bytes, for the child process that reads it and its parent (isolated_reader.hpp).
+// A rig as bytes, for the child process that reads it and its parent (child_process.hpp).
 #pragma once
 
 #include "pbs/rig/rig.hpp"

@@ -3,8 +3,9 @@
 //   const RiggedBody body = make_rigged_body(rig, find_animation(rig, "Walk"), 1.0);
 #pragma once
 
-#include "pbs/rig/rig_binding.hpp"
+#include "pbs/rig/rig_pose.hpp"
 #include "pbs/skinning/pose.hpp"
+#include "pbs/skinning/pose_path.hpp"
 
 namespace pbs {
 
@@ -26,7 +27,7 @@ struct RiggedBody {
     std::vector<std::string> remarks;     // of the reader and of what was made of the rig
 };
 
-// A joint that moves points is a bone, from the joint to where the joints below it are (bone_tails.hpp); its parent is the next such joint
+// A joint that moves points is a bone, from the joint to where the joints below it are (rigged_body.hpp); its parent is the next such joint
 // above it. Bones are named as the joints; a name that occurs twice gets a number.
 RiggedBody make_rigged_body(const Rig& rig, const RigAnimation* animation, double scale);
 
@@ -35,5 +36,26 @@ Positions artist_points(const RiggedBody& body, const std::vector<Eigen::Affine3
 
 // The rigid part of every bone's motion from rest. stretch: the largest relative change of a length that is lost with the rest, if wanted.
 Pose rigid_pose(const RiggedBody& body, const std::vector<Eigen::Affine3d>& node_transforms, double* stretch = nullptr);
+
+// Where the bones of a rig end: a rig's file says only where its joints are.
+
+// Sets the tails of all bones of `body`, whose heads, surface and skin are known. A bone ends
+// - at the joint below its own joint, whether that joint is a bone or not;
+// - where several are below, in their middle, or at the one that moves most if they lie on opposite sides;
+// - where none is below, at nine tenths of the way to the farthest point that it moves, in the direction of the middle of these points, or
+//   of its parent if that middle is at the joint.
+void set_tails(const Rig& rig, RiggedBody& body);
+
+// An animation of a rig as a motion of its bones.
+struct RigMotion {
+    Motion motion;
+    double stretch = 0.0;  // the largest relative change of a length in a bone's transform, which is left out
+};
+
+// sampling.start_s is after the first key of the animation. InputErrors are those of pose_path.hpp.
+RigMotion rig_motion(const Rig& rig, const RiggedBody& body, const RigAnimation& animation, const MotionSampling& sampling);
+
+// The artist's surface at a frame of that motion [m], #P x 3.
+Positions artist_frame(const Rig& rig, const RiggedBody& body, const RigAnimation& animation, const MotionSampling& sampling, int frame);
 
 }  // namespace pbs

@@ -1,4 +1,6 @@
-#include "pbs/skinning/blend_kernels.hpp"
+#include "pbs/skinning/skinning_kernels.hpp"
+
+#include "pbs/packed/lanes.hpp"
 
 #pragma GCC diagnostic ignored "-Wpsabi"  // wide vectors never pass from here to another file
 
@@ -16,22 +18,8 @@ constexpr int widest = 32;
 constexpr int widest = 16;
 #endif
 
-// Numbers side by side, n * sizeof(Scalar) bytes of them.
-template <class Scalar, int n>
-struct Lanes {
-    using Aligned [[gnu::vector_size(n * sizeof(Scalar)), gnu::may_alias]] = Scalar;
-    using Unaligned [[gnu::vector_size(n * sizeof(Scalar)), gnu::aligned(alignof(Scalar)), gnu::may_alias]] = Scalar;
-};
 template <class Scalar>
-using Four = typename Lanes<Scalar, 4>::Aligned;  // a column or a point
-template <class Scalar>
-using Eight = typename Lanes<Scalar, 8>::Aligned;  // two of them
-
-template <class Scalar>
-PBS_INLINE Four<Scalar> load(const Scalar* numbers)
-{
-    return *reinterpret_cast<const typename Lanes<Scalar, 4>::Unaligned*>(numbers);
-}
+using Eight = simd_detail::Vector<Scalar, 8>;  // two columns of a matrix
 
 // Used where the machine has wide enough registers: (c_0 x, c_1 y) + (c_2 z, t 1), then the halves of the sum.
 template <class Scalar>
@@ -39,14 +27,14 @@ PBS_INLINE Four<Scalar> moved(const PaddedMatrix<Scalar>& matrix, const Scalar* 
 {
     if constexpr (sizeof(Eight<Scalar>) <= widest) {
         const auto* columns = reinterpret_cast<const Eight<Scalar>*>(matrix.numbers);
-        Four<Scalar> v = load(point);
+        Four<Scalar> v = load_four(point);
         v[3] = 1;
         const Eight<Scalar> sum = columns[0] * __builtin_shufflevector(v, v, 0, 0, 0, 0, 1, 1, 1, 1) +
                                   columns[1] * __builtin_shufflevector(v, v, 2, 2, 2, 2, 3, 3, 3, 3);
         return __builtin_shufflevector(sum, sum, 0, 1, 2, 3) + __builtin_shufflevector(sum, sum, 4, 5, 6, 7);
     } else {
         const Scalar* c = matrix.numbers;
-        return load(c) * point[0] + (load(c + 4) * point[1] + (load(c + 8) * point[2] + load(c + 12)));
+        return load_four(c) * point[0] + (load_four(c + 4) * point[1] + (load_four(c + 8) * point[2] + load_four(c + 12)));
     }
 }
 
@@ -55,7 +43,7 @@ template <class Scalar, class Transform>
 PBS_INLINE Transform blended(const BlendRows<Scalar>& rows, int row, const Transform* transforms)
 {
     constexpr int bytes = sizeof(Transform) < widest ? sizeof(Transform) : widest, parts = sizeof(Transform) / bytes;
-    using Part = typename Lanes<Scalar, bytes / sizeof(Scalar)>::Aligned;
+    using Part = simd_detail::Vector<Scalar, bytes / sizeof(Scalar)>;
     Part sum[parts] = {};
     for (int k = rows.first[row]; k < rows.first[row + 1]; ++k) {
         const auto* transform = reinterpret_cast<const Part*>(transforms[rows.transform[k]].numbers);
@@ -106,7 +94,7 @@ template <class Scalar, class MovedPoint>
 PBS_INLINE void store_points(int n, Scalar* posed, const MovedPoint& moved_point)
 {
     if (n <= 0) return;
-    for (int i = 0; i + 1 < n; ++i) *reinterpret_cast<typename Lanes<Scalar, 4>::Unaligned*>(posed + 3L * i) = moved_point(i);
+    for (int i = 0; i + 1 < n; ++i) store_four<Scalar>(moved_point(i), posed + 3L * i);
     const Four<Scalar> last = moved_point(n - 1);
     for (int axis = 0; axis < 3; ++axis) posed[3L * (n - 1) + axis] = last[axis];
 }
@@ -123,8 +111,8 @@ void move_points(int n, const PackedDualQuaternion<Scalar>* __restrict dual_quat
 template <class Scalar>
 void transform_points(int n, const PaddedMatrix<Scalar>& matrix, const Scalar* rest, Scalar* posed)
 {
-    const Four<Scalar> c0 = load(matrix.numbers), c1 = load(matrix.numbers + 4), c2 = load(matrix.numbers + 8),
-                       t = load(matrix.numbers + 12);
+    const Four<Scalar> c0 = load_four(matrix.numbers), c1 = load_four(matrix.numbers + 4), c2 = load_four(matrix.numbers + 8),
+                       t = load_four(matrix.numbers + 12);
     store_points(n, posed, [=](int i) {
         const Scalar* v = rest + 3L * i;
         return c0 * v[0] + (c1 * v[1] + (c2 * v[2] + t));

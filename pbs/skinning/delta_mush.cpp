@@ -43,4 +43,108 @@ Eigen::Matrix3d DeltaMush::rotation(const Positions& smoothed_posed, int vertex)
     return nearest_rotation(covariance);
 }
 
+template <class Scalar>
+std::vector<Scalar> padded_rows(const Positions& points, const Vec3& origin, Scalar fourth)
+{
+    std::vector<Scalar> rows;
+    rows.reserve(4 * points.rows());
+    for (const auto& point : points.rowwise()) {
+        for (int axis = 0; axis < 3; ++axis) rows.push_back(static_cast<Scalar>(point(axis) - origin(axis)));
+        rows.push_back(fourth);
+    }
+    return rows;
+}
+
+Vec3 middle_of_box(const Positions& points)
+{
+    if (points.rows() == 0) return Vec3::Zero();
+    return 0.5 * (points.colwise().minCoeff() + points.colwise().maxCoeff()).transpose();
+}
+
+Vec3 posed_origin(const Pose& pose, const Vec3& middle)
+{
+    return pose.empty() ? middle : pose[0] * middle;
+}
+
+template <class Scalar>
+void to_world(const std::vector<Scalar>& rows, const Vec3& origin, Positions& positions)
+{
+    using Rows = Eigen::Matrix<Scalar, Eigen::Dynamic, 3, Eigen::RowMajor>;
+    const Eigen::Index vertices = static_cast<Eigen::Index>(rows.size() / 3);
+    positions = Eigen::Map<const Rows>(rows.data(), vertices, 3).template cast<double>().rowwise() + origin.transpose();
+}
+
+template <class Scalar>
+RefusedRotations<Scalar> PackedRotations<Scalar>::none_yet()
+{
+    return {0, vertex_.data(), reinterpret_cast<Scalar(*)[9]>(covariance_.data())};
+}
+
+template <class Scalar>
+void PackedRotations<Scalar>::turn(const RefusedRotations<Scalar>& refused, const std::vector<Scalar>& detail, std::vector<Scalar>& posed)
+{
+    using Rows = Eigen::Matrix<Scalar, 3, 3, Eigen::RowMajor>;
+    using Row = Eigen::Matrix<Scalar, 3, 1>;
+    for (int i = 0; i < refused.n; ++i) {
+        const int v = refused.vertex[i];
+        const Eigen::Matrix3d covariance = Eigen::Map<const Rows>(refused.covariance[i]).template cast<double>();
+        const Vec3 own = Eigen::Map<const Row>(&detail[4L * v]).template cast<double>();
+        Eigen::Map<Row>(&posed[3L * v]) += (nearest_rotation(covariance) * own).template cast<Scalar>();
+    }
+}
+
+#define PBS_PACKED_ROTATIONS(Scalar)                                                 \
+    template std::vector<Scalar> padded_rows(const Positions&, const Vec3&, Scalar); \
+    template void to_world(const std::vector<Scalar>&, const Vec3&, Positions&);     \
+    template class PackedRotations<Scalar>;
+PBS_PACKED_ROTATIONS(float)
+PBS_PACKED_ROTATIONS(double)
+
+template <class Scalar>
+PackedDeltaMush<Scalar>::PackedDeltaMush(const TetMesh& mesh, const DeltaMushOptions& options)
+    : refused_(mesh.rest.rows()), options_(options), middle_(middle_of_box(mesh.rest))
+{
+    const DeltaMush plain(mesh, options);
+    first_ = plain.neighbours().first;
+    neighbour_ = plain.neighbours().neighbour;
+    for (Eigen::Index i = 0; i < mesh.rest.rows(); ++i) {
+        const int count = first_[i + 1] - first_[i];
+        one_over_.push_back(count > 0 ? Scalar(1) / static_cast<Scalar>(count) : Scalar(0));
+    }
+    smoothed_rest_ = padded_rows<Scalar>(plain.smoothed_rest(), middle_);
+    detail_ = padded_rows<Scalar>(plain.detail(), Vec3::Zero());
+    smoothed_.resize(smoothed_rest_.size());
+    next_.resize(smoothed_rest_.size());
+    posed_.resize(mesh.rest.size());
+    blended_.resize(mesh.rest.size());
+}
+
+template <class Scalar>
+void PackedDeltaMush<Scalar>::apply_rows(const Scalar* blended)
+{
+    const int vertices = static_cast<int>(one_over_.size());
+    for (int i = 0; i < vertices; ++i)
+        for (int axis = 0; axis < 3; ++axis) smoothed_[4L * i + axis] = blended[3L * i + axis];
+    const NeighbourRows<Scalar> rows{vertices, first_.data(), neighbour_.data(), one_over_.data()};
+    for (int iteration = 0; iteration < options_.iterations; ++iteration) {
+        smooth_points(rows, static_cast<Scalar>(options_.step), smoothed_.data(), next_.data());
+        smoothed_.swap(next_);
+    }
+    RefusedRotations<Scalar> refused = refused_.none_yet();
+    add_detail(rows, smoothed_rest_.data(), smoothed_.data(), detail_.data(), posed_.data(), refused);
+    PackedRotations<Scalar>::turn(refused, detail_, posed_);
+}
+
+template <class Scalar>
+void PackedDeltaMush<Scalar>::apply(BlendSkinning<Scalar>& skinning, const Pose& pose, Positions& posed)
+{
+    const Vec3 origin = posed_origin(pose, middle_);
+    skinning.linear_rows(pose, origin, blended_.data());
+    apply_rows(blended_.data());
+    to_world(posed_, origin, posed);
+}
+
+template class PackedDeltaMush<float>;
+template class PackedDeltaMush<double>;
+
 }  // namespace pbs

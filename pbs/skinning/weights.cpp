@@ -1,8 +1,76 @@
 #include "pbs/skinning/weights.hpp"
 
+#include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/topology.hpp"
+
+#include <Eigen/SparseCholesky>
+
 #include <algorithm>
+#include <map>
 
 namespace pbs {
+namespace {
+
+struct Projection {
+    double parameter;  // along the bone, not clamped
+    Vec3 point;        // on the bone's segment [m]
+    double distance;   // [m]
+};
+
+// A bone without length is the point at its head, which is its near end too: parameter 0.
+Projection project_on_bone(const Vec3& vertex, const Bone& bone)
+{
+    const Vec3 axis = bone.tail - bone.head;
+    const double length_squared = axis.squaredNorm();
+    const double parameter = length_squared > 0.0 ? (vertex - bone.head).dot(axis) / length_squared : 0.0;
+    const Vec3 point = parameter >= 1.0 ? bone.tail : Vec3(bone.head + std::max(parameter, 0.0) * axis);
+    return {parameter, point, (vertex - point).norm()};
+}
+
+}  // namespace
+
+BoneBinding bind_to_nearest_bone(const Positions& rest, const Skeleton& skeleton)
+{
+    if (skeleton.bones.empty()) throw InputError("skeleton", 0, "bones", "0", "expected at least one bone");
+    BoneBinding binding{std::vector<int>(rest.rows()), Eigen::VectorXd(rest.rows()), Positions(rest.rows(), 3),
+                        Eigen::VectorXd(rest.rows())};
+    for (Eigen::Index i = 0; i < rest.rows(); ++i) {
+        const Vec3 vertex = rest.row(i);
+        int nearest = 0;
+        Projection best = project_on_bone(vertex, skeleton.bones[0]);
+        for (int j = 1; j < static_cast<int>(skeleton.bones.size()); ++j) {
+            const Projection candidate = project_on_bone(vertex, skeleton.bones[j]);
+            if (candidate.distance < best.distance) {
+                nearest = j;
+                best = candidate;
+            }
+        }
+        binding.bone[i] = nearest;
+        binding.parameter(i) = best.parameter;
+        binding.rest_point.row(i) = best.point;
+        binding.distance(i) = best.distance;
+    }
+    return binding;
+}
+
+Positions posed_bind_points(const BoneBinding& binding, const Pose& pose)
+{
+    Positions points(binding.rest_point.rows(), 3);
+    for (Eigen::Index i = 0; i < points.rows(); ++i) points.row(i) = pose[binding.bone[i]] * Vec3(binding.rest_point.row(i));
+    return points;
+}
+
+Positions reprojected_bind_points(const BoneBinding& binding, const Skeleton& skeleton, const Pose& pose, const Positions& positions)
+{
+    Positions points(positions.rows(), 3);
+    for (Eigen::Index i = 0; i < points.rows(); ++i) {
+        const int j = binding.bone[i];
+        const Bone posed{"", -1, pose[j] * skeleton.bones[j].head, pose[j] * skeleton.bones[j].tail};
+        points.row(i) = project_on_bone(positions.row(i), posed).point;
+    }
+    return points;
+}
+
 namespace {
 
 void append_vertex(Weights& weights, const std::vector<int>& bones)
@@ -58,6 +126,146 @@ Weights rigid_weights(const BoneBinding& binding)
     Weights weights{{0}, {}, {}};
     for (const int bone : binding.bone) append_vertex(weights, {bone});
     return weights;
+}
+
+namespace {
+
+constexpr double negligible = 1e-6;
+constexpr double regular = 1e-9;  // keeps the system of a part that nothing grips from being singular; its weights become 0
+
+using Laplacian = Eigen::SparseMatrix<double>;
+using Gradients = Eigen::Matrix<double, 3, 4>;
+
+// Gradients of the four barycentric coordinates [1/m], one per column, and the tet's volume [m^3].
+Gradients barycentric_gradients(const TetMesh& mesh, Eigen::Index tet, double& volume_m3)
+{
+    Eigen::Matrix3d edges;
+    for (int k = 0; k < 3; ++k) edges.row(k) = mesh.rest.row(mesh.tets(tet, k + 1)) - mesh.rest.row(mesh.tets(tet, 0));
+    volume_m3 = edges.determinant() / 6.0;
+    Gradients gradients;
+    gradients.rightCols<3>() = edges.inverse();
+    gradients.col(0) = -gradients.rightCols<3>().rowwise().sum();
+    return gradients;
+}
+
+// The rows of known vertices are those of the identity; their couplings go to the right-hand side.
+Laplacian held_laplacian(const TetMesh& mesh, const std::vector<bool>& known, const Eigen::MatrixXd& weights,
+                         Eigen::MatrixXd& right_hand_sides)
+{
+    std::vector<Eigen::Triplet<double>> entries;
+    for (std::size_t v = 0; v < known.size(); ++v) {
+        if (!known[v]) continue;
+        entries.emplace_back(v, v, 1.0);
+        right_hand_sides.row(static_cast<Eigen::Index>(v)) = weights.row(static_cast<Eigen::Index>(v));
+    }
+    for (Eigen::Index tet = 0; tet < mesh.tets.rows(); ++tet) {
+        double volume_m3 = 0.0;
+        const Gradients gradients = barycentric_gradients(mesh, tet, volume_m3);
+        for (int a = 0; a < 4; ++a)
+            for (int b = 0; b < 4; ++b) {
+                const int row = mesh.tets(tet, a), column = mesh.tets(tet, b);
+                if (known[row]) continue;
+                const double entry = volume_m3 * gradients.col(a).dot(gradients.col(b));
+                if (known[column])
+                    right_hand_sides.row(row) -= entry * weights.row(column);
+                else
+                    entries.emplace_back(row, column, row == column ? (1.0 + regular) * entry : entry);
+            }
+    }
+    Laplacian laplacian(mesh.rest.rows(), mesh.rest.rows());
+    laplacian.setFromTriplets(entries.begin(), entries.end());
+    return laplacian;
+}
+
+Weights sparse(const Eigen::MatrixXd& weights)
+{
+    Weights result;
+    result.first.push_back(0);
+    for (Eigen::Index v = 0; v < weights.rows(); ++v) {
+        const double sum = (weights.row(v).array() > negligible).select(weights.row(v), 0.0).sum();
+        for (int j = 0; j < weights.cols(); ++j) {
+            if (!(weights(v, j) > negligible)) continue;
+            result.bone.push_back(j);
+            result.weight.push_back(weights(v, j) / sum);
+        }
+        if (result.first.back() == static_cast<int>(result.bone.size())) {
+            result.bone.push_back(0);
+            result.weight.push_back(1.0);
+        }
+        result.first.push_back(static_cast<int>(result.bone.size()));
+    }
+    return result;
+}
+
+}  // namespace
+
+Weights harmonic_extension(const TetMesh& mesh, const std::vector<bool>& known, const Eigen::MatrixXd& weights)
+{
+    Eigen::MatrixXd right_hand_sides = Eigen::MatrixXd::Zero(weights.rows(), weights.cols());
+    const Laplacian laplacian = held_laplacian(mesh, known, weights, right_hand_sides);
+    const Eigen::SimplicialLDLT<Laplacian> factor(laplacian);
+    return sparse(factor.solve(right_hand_sides));
+}
+
+Weights harmonic_weights(const TetMesh& mesh, const std::vector<int>& gripping_bone, int bones)
+{
+    std::vector<bool> gripped;
+    Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(mesh.rest.rows(), bones);
+    for (std::size_t v = 0; v < gripping_bone.size(); ++v) {
+        gripped.push_back(gripping_bone[v] >= 0);
+        if (gripped.back()) weights(static_cast<Eigen::Index>(v), gripping_bone[v]) = 1.0;
+    }
+    return harmonic_extension(mesh, gripped, weights);
+}
+
+namespace {
+
+constexpr double negligible_weight = 1e-6;
+
+using Row = std::map<int, double>;  // weights of a vertex by bone, in the order of the bones
+
+std::vector<Row> rows_of(const Weights& weights)
+{
+    std::vector<Row> rows(weights.vertices());
+    for (int v = 0; v < weights.vertices(); ++v)
+        for (int k = weights.first[v]; k < weights.first[v + 1]; ++k) rows[v][weights.bone[k]] += weights.weight[k];
+    return rows;
+}
+
+Weights weights_of(const std::vector<Row>& rows)
+{
+    Weights result{{0}, {}, {}};
+    for (const Row& row : rows) {
+        double sum = 0.0;
+        for (const auto& [bone, weight] : row)
+            if (weight > negligible_weight) sum += weight;
+        for (const auto& [bone, weight] : row) {
+            if (!(weight > negligible_weight)) continue;
+            result.bone.push_back(bone);
+            result.weight.push_back(weight / sum);
+        }
+        result.first.push_back(static_cast<int>(result.bone.size()));
+    }
+    return result;
+}
+
+}  // namespace
+
+Weights diffused_weights(const TetMesh& mesh, const Weights& weights, int steps)
+{
+    const Adjacency neighbours = adjacency_of(mesh.tets, weights.vertices());
+    std::vector<Row> rows = rows_of(weights);
+    for (int step = 0; step < steps; ++step) {
+        const std::vector<Row> last = rows;
+        for (int v = 0; v < weights.vertices(); ++v) {
+            const int first = neighbours.first[v], end = neighbours.first[v + 1];
+            if (first == end) continue;
+            for (auto& [bone, weight] : rows[v]) weight *= 0.5;
+            for (int k = first; k < end; ++k)
+                for (const auto& [bone, weight] : last[neighbours.neighbour[k]]) rows[v][bone] += 0.5 * weight / (end - first);
+        }
+    }
+    return weights_of(rows);
 }
 
 }  // namespace pbs

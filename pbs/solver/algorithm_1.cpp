@@ -1,8 +1,8 @@
 #include "pbs/solver/algorithm_1.hpp"
 
-#include "pbs/geometry/stopwatch.hpp"
+#include "pbs/geometry/cost.hpp"
 #include "pbs/geometry/topology.hpp"
-#include "pbs/solver/residuals.hpp"
+#include "pbs/solver/step_summary.hpp"
 
 #include <algorithm>
 #include <cmath>

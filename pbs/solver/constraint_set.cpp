@@ -1,9 +1,7 @@
 #include "pbs/solver/constraint_set.hpp"
 
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/number_text.hpp"
-#include "pbs/geometry/tet_regions.hpp"
-#include "pbs/geometry/tet_volume.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/geometry/topology.hpp"
 
 #include <cmath>

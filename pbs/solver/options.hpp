@@ -2,14 +2,14 @@
 #pragma once
 
 #include "pbs/geometry/precision.hpp"
-#include "pbs/geometry/types.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 
 #include <optional>
 
 namespace pbs {
 
 // Order of projection within each class; the classes follow the order of Algorithm 1. plain: file order, as the paper reads. ordered:
-// colour by colour (projection_sequence.hpp), sixteen constraints that share no vertex side by side. grouped: the same with neighbouring
+// colour by colour (groups.hpp), sixteen constraints that share no vertex side by side. grouped: the same with neighbouring
 // constraints in groups, quicker per iteration and with a larger volume change after 24 of them.
 enum class Order { plain, ordered, grouped };
 // m_i = 1 (the paper), or in proportion to the lumped rest volume; only their ratios count.
@@ -49,7 +49,7 @@ enum class BindOnBone { pinned, unbound };
 enum class BindTo { bone_distance, blended_position };
 
 // The volumes that are constrained. tets: each tet's (Sec. 3.5). regions: the sum over each region of about region_tets tets
-// (pbs/geometry/tet_regions.hpp). tets_and_regions: the tets', then the regions'.
+// (pbs/geometry/tet_mesh.hpp). tets_and_regions: the tets', then the regions'.
 enum class VolumeOf { tets, regions, tets_and_regions };
 
 // Stiffnesses of the jiggling zone, in [0, 1]. A zone that a solver is given jiggles only where options have one of these.
@@ -93,6 +93,23 @@ struct PbsOptions {
     // The edge length at which a stretch constraint has the stiffness k as stated [m]; others have that of stiffness_at_length
     // (constraint_set.hpp). 0: all have k.
     double k_stretch_length_m = 0.0;
+};
+
+// Options of extended position based dynamics (XPBD).
+
+// XpbdSolver refuses with an InputError: poisson outside [1/4, 1/2), substeps below 1, threads below 1.
+struct XpbdOptions {
+    double young_pa = 1.0e5;
+    double poisson = 0.45;  // at least 1/4, which springs alone have; volume constraints raise it
+    double density_kg_m3 = 1000.0;
+    int iterations = 24;  // per substep
+    int substeps = 1;     // per time step
+    Vec3 gravity_m_s2 = Vec3::Zero();
+    bool jiggle = false;                   // the jiggling zone is integrated in time
+    bool keep_multipliers = true;          // false: set to zero in every iteration, a common mistake; a negative control
+    Order order = Order::plain;            // within each class; ordered and grouped are packed code
+    Precision precision = Precision::f64;  // of the projections and their multipliers
+    int threads = 1;                       // of a step in packed code, where the mesh is large enough for more than one to pay
 };
 
 }  // namespace pbs

@@ -1,7 +1,5 @@
 #include "pbs/solver/project_plain.hpp"
 
-#include "pbs/solver/project_regions.hpp"
-
 namespace pbs {
 
 template <typename Scalar>

@@ -1,8 +1,10 @@
 // The summary of one step: residuals, the reason why it stopped, and its time.
 #pragma once
 
-#include "pbs/geometry/work_counters.hpp"
+#include "pbs/geometry/cost.hpp"
+#include "pbs/solver/constraint_set.hpp"
 
+#include <cstddef>
 #include <vector>
 
 namespace pbs {
@@ -28,6 +30,32 @@ struct StepSummary {
     double seconds = 0.0;                 // wall time of the step
     WorkCounters work;                    // that was done in the step, of all attempts
     std::vector<Residuals> history;       // one per iteration, if requested
+};
+
+// How far particles are from satisfying their constraints; summed in double.
+
+// p: particle positions [m], #V; q: posed bind points [m], #V; sizes are not checked. A class that was left out has the residual zero.
+template <typename Scalar>
+Residuals residuals_of(const ConstraintSet<Scalar>& constraints, const std::vector<Vector3<Scalar>>& p,
+                       const std::vector<Vector3<Scalar>>& q);
+
+// The largest of the three, what stop_residual is compared with: two are ratios, one is in metres. NaN where one is NaN.
+double largest(const Residuals& residuals);
+
+// All steps of a deformer up to a frame, as one: the last step with the worst outcome of all. A step between two frames that did not
+// converge or was not finite is thus recorded with the frame that follows it, even if the deformer has recovered.
+//   FrameStep frame;  for (...) frame.add(deformer.advance(poses[step], dt_s), step);  record(frame.summary(), frame.worst_step());
+class FrameStep {
+public:
+    // step: number of the step in the motion, from 0.
+    void add(StepSummary summary, std::size_t step);
+
+    const StepSummary& summary() const { return summary_; }
+    std::size_t worst_step() const { return worst_step_; }  // the first with the worst outcome; the last step if all finished
+
+private:
+    StepSummary summary_;
+    std::size_t worst_step_ = 0;
 };
 
 }  // namespace pbs

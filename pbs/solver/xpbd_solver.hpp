@@ -14,13 +14,61 @@
 // in the sequence of PBS, which settles on another limit. In float, they are relative to the mean position of the step.
 #pragma once
 
+#include "pbs/constraints/bind.hpp"
+#include "pbs/constraints/stretch.hpp"
+#include "pbs/constraints/volume.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
+#include "pbs/solver/options.hpp"
 #include "pbs/solver/step_summary.hpp"
-#include "pbs/solver/xpbd_projection.hpp"
 
 #include <memory>
 #include <vector>
 
 namespace pbs {
+
+// The constraints of extended position based dynamics with their compliances (xpbd_solver.hpp states where these come from).
+template <typename Constraint>
+struct Compliant {
+    Constraint constraint;    // its stiffness is 1 and not used
+    double compliance = 0.0;  // alpha: of a length [m/N], of a volume [m^5/N]
+};
+
+// In the order of their projection.
+struct XpbdConstraints {
+    std::vector<Compliant<BindConstraint<double>>> bind;        // by vertex, compliance zero
+    std::vector<Compliant<StretchConstraint<double>>> stretch;  // by edges
+    std::vector<Compliant<VolumeConstraint<double>>> volume;    // by tets; none where Poisson's ratio is 1/4
+    std::vector<double> inverse_mass;                           // [1/kg], #V; zero: held
+};
+
+// bind_distance: d_i [m], #V; empty: no bind constraints. held: #V, or empty. InputError for Poisson's ratios outside [1/4, 1/2).
+XpbdConstraints make_xpbd_constraints(const TetMesh& mesh, const Eigen::VectorXd& bind_distance, const XpbdOptions& options,
+                                      const std::vector<bool>& held);
+
+// The projections of extended position based dynamics in a chosen order, as projection.hpp has those of Algorithm 1: each class once, on
+// positions in a layout of its own, with the multiplier of each constraint.
+//   const auto projection = make_xpbd_projection(constraints, mesh.tets, options);
+//   projection->load(p, q, origin);
+//   projection->begin_substep(dt_s);
+//   projection->project_bind_constraints(); ..stretch.. ..volume..
+//   projection->store(origin, p);
+class XpbdProjection {
+public:
+    virtual ~XpbdProjection() = default;
+
+    // p: positions, q: posed bind points [m], #V x 3; inside, positions are relative to origin [m].
+    virtual void load(const Positions& p, const Positions& q, const Vec3& origin) = 0;
+    virtual void begin_substep(double dt_s) = 0;  // of this length; all multipliers become zero
+    virtual void forget_multipliers() = 0;        // they become zero
+    virtual void project_bind_constraints() = 0;  // all of the class once
+    virtual void project_stretch_constraints() = 0;
+    virtual void project_volume_constraints() = 0;
+    // Positions back in p [m], #V x 3; origin as it was given to load.
+    virtual void store(const Vec3& origin, Positions& p) const = 0;
+};
+
+// The order and the precision that the options name. tets: those whose edges the order `grouped` may group.
+std::unique_ptr<XpbdProjection> make_xpbd_projection(const XpbdConstraints& constraints, const Tets& tets, const XpbdOptions& options);
 
 class XpbdSolver {
 public:
@@ -45,6 +93,39 @@ private:
     std::unique_ptr<XpbdProjection> projection_;
     Positions x_, before_, v_;  // [m], [m], [m/s], #V x 3
     bool started_ = false;
+};
+
+// Order `plain` as an XpbdProjection: one constraint after the other in the order given. The packed orders are tested against it.
+
+// Scalar: float or double.
+template <typename Scalar>
+class PlainXpbdProjection : public XpbdProjection {
+public:
+    explicit PlainXpbdProjection(const XpbdConstraints& constraints);
+
+    void load(const Positions& p, const Positions& q, const Vec3& origin) override;
+    void begin_substep(double dt_s) override;
+    void forget_multipliers() override;
+    void project_bind_constraints() override;
+    void project_stretch_constraints() override;
+    void project_volume_constraints() override;
+    void store(const Vec3& origin, Positions& p) const override;
+
+private:
+    using Point = Vector3<Scalar>;
+    template <typename Constraint>
+    struct Multiplied {
+        Constraint constraint;
+        Scalar compliance;  // alpha
+        Scalar multiplier;  // lambda of this substep
+    };
+
+    Scalar dt2_ = Scalar(0);  // the square of the substep [s^2]
+    std::vector<Scalar> w_;   // inverse masses [1/kg], #V
+    std::vector<Multiplied<BindConstraint<Scalar>>> bind_;
+    std::vector<Multiplied<StretchConstraint<Scalar>>> stretch_;
+    std::vector<Multiplied<VolumeConstraint<Scalar>>> volume_;
+    std::vector<Point> x_, q_;  // relative to the origin [m], #V
 };
 
 }  // namespace pbs

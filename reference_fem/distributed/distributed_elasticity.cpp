@@ -1,12 +1,10 @@
-#include "reference_fem/distributed/distributed_elasticity.hpp"
+#include "reference_fem/distributed/elastic_problem.hpp"
 
 #include "reference_fem/distributed/distributed_space.hpp"
-#include "reference_fem/distributed/peak_memory.hpp"
-#include "reference_fem/distributed/prescribed_nodes.hpp"
-#include "reference_fem/distributed/springs_in_tets.hpp"
-#include "reference_fem/material.hpp"
-#include "reference_fem/smoothed_aggregation.hpp"
+#include "reference_fem/linear_solvers.hpp"
+#include "reference_fem/options.hpp"
 
+#include <Teuchos_ParameterList.hpp>
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_tools.h>

@@ -5,7 +5,8 @@
 #pragma once
 
 #include "pbs/geometry/tet_mesh.hpp"
-#include "reference_fem/simplex_space.hpp"
+#include "reference_fem/assembly.hpp"
+#include "reference_fem/attachment.hpp"
 
 #include <deal.II/base/index_set.h>
 #include <deal.II/distributed/fully_distributed_tria.h>
@@ -15,6 +16,7 @@
 #include <deal.II/fe/mapping_fe.h>
 
 #include <functional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -51,6 +53,28 @@ struct DistributedSpace {
     dealii::MappingFE<3> mapping;                                        // of straight tets
     dealii::DoFHandler<3> dof_handler;                                   // of `element` on `triangulation`
     dealii::IndexSet owned, relevant;  // degrees of freedom of this rank; and those of its neighbours' tets
+};
+
+// The skeleton's springs by the tet that holds them, so that whoever owns the tet can add them.
+
+// Pulls on its rest point by stiffness times (stretch - displacement there).
+struct SpringInTet {
+    int tet = 0;             // index into the mesh's tets
+    double stiffness = 0.0;  // [N/m]
+    pbs::Vec3 barycentric;   // on corners 2, 3, 4
+    pbs::Vec3 stretch;       // target minus rest point [m]
+};
+
+// Sorted once; mesh, attachment and targets may go.
+class SpringsInTets {
+public:
+    // targets [m], #S x 3. A point outside every tet is left out.
+    SpringsInTets(const pbs::TetMesh& mesh, const Attachment& attachment, const pbs::Positions& targets);
+
+    std::span<const SpringInTet> in(Eigen::Index tet) const;  // in the attachment's order; a view, valid while this lives
+
+private:
+    std::vector<SpringInTet> springs_;  // by tet, increasing
 };
 
 }  // namespace reference_fem

@@ -1,12 +1,9 @@
-#include "reference_fem/distributed/serial_elasticity.hpp"
+#include "reference_fem/distributed/elastic_problem.hpp"
 
 #include "pbs/geometry/topology.hpp"
 #include "reference_fem/assembly.hpp"
-#include "reference_fem/attached_points.hpp"
-#include "reference_fem/distributed/peak_memory.hpp"
-#include "reference_fem/distributed/prescribed_nodes.hpp"
-#include "reference_fem/eliminated_system.hpp"
-#include "reference_fem/near_null_space.hpp"
+#include "reference_fem/attachment.hpp"
+#include "reference_fem/linear_solvers.hpp"
 
 #include <Eigen/Geometry>
 

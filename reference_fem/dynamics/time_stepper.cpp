@@ -1,8 +1,152 @@
 #include "reference_fem/dynamics/time_stepper.hpp"
 
-#include "reference_fem/input_checks.hpp"
+#include "reference_fem/assembly.hpp"
+#include "reference_fem/options.hpp"
 
 namespace reference_fem {
+
+ConsistentMass::ConsistentMass(const SimplexSpace& space, double density_kg_m3) : of_nodes_(mass_matrix(space, density_kg_m3))
+{
+}
+
+Eigen::VectorXd ConsistentMass::times(const Eigen::VectorXd& values) const
+{
+    const Eigen::Map<const pbs::Positions> at_nodes(values.data(), of_nodes_.rows(), 3);
+    Eigen::VectorXd product(values.size());
+    // The matrix is symmetric: its columns are read as rows, which gathers instead of scattering.
+    Eigen::Map<pbs::Positions>(product.data(), of_nodes_.rows(), 3).noalias() = of_nodes_.transpose() * at_nodes;
+    return product;
+}
+
+void ConsistentMass::add_to(NodalMatrix& matrix, double factor) const
+{
+    matrix.add_isotropic(of_nodes_, factor);
+}
+
+SparseMatrix ConsistentMass::matrix() const
+{
+    SparseMatrix matrix(3 * of_nodes_.rows(), 3 * of_nodes_.cols());
+    matrix.reserve(3 * of_nodes_.nonZeros());
+    for (Eigen::Index column = 0; column < matrix.cols(); ++column) {
+        matrix.startVec(column);
+        for (SparseMatrix::InnerIterator entry(of_nodes_, column / 3); entry; ++entry)
+            matrix.insertBack(3 * entry.row() + column % 3, column) = entry.value();
+    }
+    matrix.finalize();
+    return matrix;
+}
+
+TimeScheme newmark()
+{
+    return {};
+}
+
+TimeScheme generalized_alpha(double spectral_radius)
+{
+    require(spectral_radius >= 0.0 && spectral_radius <= 1.0, "spectral_radius", spectral_radius, "expected 0 <= spectral_radius <= 1");
+    TimeScheme scheme;
+    // The optimal algorithm of Chung and Hulbert; then what second order (gamma) and the highest modes (beta) ask for.
+    scheme.alpha_m = (2.0 * spectral_radius - 1.0) / (spectral_radius + 1.0);
+    scheme.alpha_f = spectral_radius / (spectral_radius + 1.0);
+    scheme.gamma = 0.5 - scheme.alpha_m + scheme.alpha_f;
+    scheme.beta = 0.25 * (1.0 - scheme.alpha_m + scheme.alpha_f) * (1.0 - scheme.alpha_m + scheme.alpha_f);
+    return scheme;
+}
+
+double end_share(const TimeScheme& scheme)
+{
+    return 1.0 - scheme.alpha_f;
+}
+
+double inertia_coefficient(const TimeScheme& scheme, double step_s)
+{
+    return (1.0 - scheme.alpha_m) / (end_share(scheme) * scheme.beta * step_s * step_s);
+}
+
+double damping_coefficient(const TimeScheme& scheme, double step_s)
+{
+    return scheme.gamma / (scheme.beta * step_s);
+}
+
+Eigen::VectorXd inertia_centre(const TimeScheme& scheme, const Motion& motion, double step_s)
+{
+    const double of_acceleration = (0.5 - scheme.beta / (1.0 - scheme.alpha_m)) * step_s * step_s;
+    return motion.displacement + end_share(scheme) * (step_s * motion.velocity + of_acceleration * motion.acceleration);
+}
+
+Eigen::VectorXd damping_centre(const TimeScheme& scheme, const Motion& motion, double step_s)
+{
+    const double ratio = scheme.beta / scheme.gamma;
+    return motion.displacement + (end_share(scheme) - ratio) * step_s * motion.velocity +
+           end_share(scheme) * (0.5 - ratio) * step_s * step_s * motion.acceleration;
+}
+
+Eigen::VectorXd moved_acceleration(const TimeScheme& scheme, const Eigen::VectorXd& acceleration, const Eigen::VectorXd& rate,
+                                   double longer_s)
+{
+    return acceleration + (scheme.alpha_m - scheme.alpha_f) * longer_s * rate;
+}
+
+Motion accept(const TimeScheme& scheme, const Motion& motion, const Eigen::VectorXd& w, double step_s)
+{
+    const Eigen::VectorXd increment = (w - motion.displacement) / end_share(scheme);
+    Motion next;
+    next.displacement = motion.displacement + increment;
+    // Eq. (b)
+    next.acceleration = (increment - step_s * motion.velocity - (0.5 - scheme.beta) * step_s * step_s * motion.acceleration) /
+                        (scheme.beta * step_s * step_s);
+    // Eq. (c)
+    next.velocity = motion.velocity + step_s * ((1.0 - scheme.gamma) * motion.acceleration + scheme.gamma * next.acceleration);
+    return next;
+}
+
+PrescribedMotion::PrescribedMotion(const std::vector<bool>& prescribed)
+{
+    for (std::size_t i = 0; i < prescribed.size(); ++i)
+        if (prescribed[i]) dofs_.push_back(static_cast<int>(i));
+}
+
+PrescribedMotion::Differences PrescribedMotion::differences(const Motion& motion, const Eigen::VectorXd& values, double step_s) const
+{
+    Differences now;
+    now.slope = (values(dofs_) - motion.displacement(dofs_)) / step_s;
+    if (steps_ == 0)
+        now.curvature = (now.slope - motion.velocity(dofs_)) / step_s;
+    else
+        now.curvature = (now.slope - before_.slope) / (step_s + step_before_s_);
+    return now;
+}
+
+// Newton's form through u_(n+1), u_n, u_(n-1), u_(n-2):
+//   p(t) = u_(n+1) + s (t - t_(n+1)) + c (t - t_(n+1)) (t - t_n) + e (t - t_(n+1)) (t - t_n) (t - t_(n-1)).
+Motion PrescribedMotion::next(const Motion& motion, const Eigen::VectorXd& values, double step_s) const
+{
+    const Differences now = differences(motion, values, step_s);
+    Motion next = motion;
+    next.displacement(dofs_) = values(dofs_);
+    next.velocity(dofs_) = now.slope + step_s * now.curvature;
+    next.acceleration(dofs_) = 2.0 * now.curvature;
+    if (steps_ == 0) return next;
+    const Eigen::VectorXd third = (now.curvature - before_.curvature) / (step_s + step_before_s_ + step_before_that_s_);
+    next.acceleration(dofs_) += 2.0 * (2.0 * step_s + step_before_s_) * third;
+    return next;
+}
+
+void PrescribedMotion::copy(const Motion& from, Motion& to) const
+{
+    to.displacement(dofs_) = from.displacement(dofs_);
+    to.velocity(dofs_) = from.velocity(dofs_);
+    to.acceleration(dofs_) = from.acceleration(dofs_);
+}
+
+void PrescribedMotion::accept(const Motion& motion, const Motion& next, double step_s)
+{
+    before_ = differences(motion, next.displacement, step_s);
+    step_before_that_s_ = steps_ == 0 ? 0.0 : step_before_s_;
+    step_before_s_ = step_s;
+    ++steps_;
+}
+
 namespace {
 
 const TimeStepperOptions& checked(const TimeStepperOptions& options)

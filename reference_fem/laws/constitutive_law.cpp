@@ -1,9 +1,268 @@
 #include "reference_fem/laws/constitutive_law.hpp"
 
-#include "reference_fem/laws/isotropic_laws.hpp"
 #include "reference_fem/laws/matrix_calculus.hpp"
 
+#include <cmath>
+
 namespace reference_fem {
+
+// The laws behind constitutive_law(), a file each.
+
+// psi = mu eps:eps + lambda / 2 (tr eps)^2, eps = (F + F^T) / 2 - I.
+std::unique_ptr<const ConstitutiveLaw> linear_law(const Lame& lame);
+// psi = mu |F - R|^2 + lambda / 2 (tr S - 3)^2, F = R S (E. Sifakis, J. Barbic, SIGGRAPH 2012 courses, part I, section 3.4). Defined for
+// every finite F.
+std::unique_ptr<const ConstitutiveLaw> corotational_law(const Lame& lame);
+// psi = mu / 2 (|F|^2 - 3) - mu (J - 1) + (lambda + mu) / 2 (J - 1)^2, J = det F (B. Smith, F. de Goes, T. Kim 2018, without their term in
+// ln(|F|^2 + 1)). Defined for every F.
+std::unique_ptr<const ConstitutiveLaw> stable_neo_hookean_law(const Lame& lame);
+// psi = mu / 2 (|F|^2 - 3) - mu ln J + lambda / 2 (ln J)^2, J > 0 (J. Bonet, R. Wood, Eq. 6.27).
+std::unique_ptr<const ConstitutiveLaw> neo_hookean_law(const Lame& lame);
+// psi = mu E:E + lambda / 2 (tr E)^2, E = (F^T F - I) / 2.
+std::unique_ptr<const ConstitutiveLaw> st_venant_kirchhoff_law(const Lame& lame);
+// psi = kappa / 4 (J^2 - 1 - 2 ln J) + mu / 2 (J^(-2/3) |F|^2 - 3), kappa = lambda + 2 mu / 3, J > 0 (after J. Simo, T. Hughes,
+// Computational Inelasticity). Not of two parts: no volume term.
+std::unique_ptr<const ConstitutiveLaw> isochoric_neo_hookean_law(const Lame& lame);
+
+// psi = mu eps:eps + lambda / 2 (tr eps)^2, eps = (F + F^T) / 2 - I.
+
+namespace {
+
+class Linear : public ConstitutiveLaw {
+public:
+    using ConstitutiveLaw::ConstitutiveLaw;
+
+    PointResponse evaluate(const Eigen::Matrix3d& f, Derivatives derivatives) const override
+    {
+        const Eigen::Matrix3d identity = Eigen::Matrix3d::Identity();
+        const Eigen::Matrix3d strain = 0.5 * (f + f.transpose()) - identity;
+        PointResponse response;
+        response.shape = lame_.mu_pa * strain.squaredNorm();
+        response.dilatation = strain.trace();
+        if (derivatives == Derivatives::none) return response;
+
+        response.shape_gradient = 2.0 * lame_.mu_pa * strain;
+        response.dilatation_gradient = identity;
+        if (derivatives == Derivatives::first) return response;
+
+        response.shape_hessian = lame_.mu_pa * (Tangent::Identity() + transposing_product(identity));
+        response.dilatation_hessian.setZero();
+        return response;
+    }
+};
+
+}  // namespace
+
+std::unique_ptr<const ConstitutiveLaw> linear_law(const Lame& lame)
+{
+    return std::make_unique<Linear>(lame);
+}
+
+// psi = mu |F - R|^2 + lambda / 2 (tr S - 3)^2, F = R S (E. Sifakis, J. Barbic, FEM Simulation of 3D Deformable Solids, SIGGRAPH 2012
+// courses, part I, section 3.4). Its derivatives by F: those through R vanish from the gradient, since R^T dR is skew and S symmetric.
+
+namespace {
+
+class Corotational : public ConstitutiveLaw {
+public:
+    using ConstitutiveLaw::ConstitutiveLaw;
+
+    PointResponse evaluate(const Eigen::Matrix3d& f, Derivatives derivatives) const override
+    {
+        PointResponse response;
+        response.defined = f.allFinite();
+        if (!response.defined) return response;
+
+        const PolarDecomposition polar = polar_decomposition(f);
+        response.shape = lame_.mu_pa * (f - polar.rotation).squaredNorm();
+        response.dilatation = polar.stretches.sum() - 3.0;
+        if (derivatives == Derivatives::none) return response;
+
+        response.shape_gradient = 2.0 * lame_.mu_pa * (f - polar.rotation);
+        response.dilatation_gradient = polar.rotation;
+        if (derivatives == Derivatives::first) return response;
+
+        response.dilatation_hessian = rotation_derivative(polar);
+        response.shape_hessian = 2.0 * lame_.mu_pa * (Tangent::Identity() - response.dilatation_hessian);
+        return response;
+    }
+};
+
+}  // namespace
+
+std::unique_ptr<const ConstitutiveLaw> corotational_law(const Lame& lame)
+{
+    return std::make_unique<Corotational>(lame);
+}
+
+// psi = mu / 2 (|F|^2 - 3) - mu (J - 1) + lambda' / 2 (J - 1)^2, J = det F, with lambda' = lambda + mu, without which the small-strain
+// limit would have lambda - mu. Smith, de Goes, Kim 2018, without their term in ln(|F|^2 + 1): like HOBAK, the code of T. Kim, D. Eberle,
+// Dynamic Deformables, SIGGRAPH 2020 courses, that leaves it out too. The price: the tet shrunk to a point, F = 0, is a local minimum.
+// With the square completed, this is mu / 2 (|F|^2 - 3) + lambda' / 2 (J - 1 - mu / lambda')^2 of M. Macklin, M. Mueller, MIG 2021.
+
+namespace {
+
+class StableNeoHookean : public ConstitutiveLaw {
+public:
+    using ConstitutiveLaw::ConstitutiveLaw;
+
+    PointResponse evaluate(const Eigen::Matrix3d& f, Derivatives derivatives) const override
+    {
+        const Invariants change = invariants(f);
+        const double mu = lame_.mu_pa, volume_change = change.volume_change;
+        PointResponse response;
+        response.shape = mu * (change.shear + 0.5 * volume_change * volume_change);
+        response.dilatation = volume_change;
+        if (derivatives == Derivatives::none) return response;
+
+        response.dilatation_gradient = cofactor(f);
+        response.shape_gradient = mu * (f + (volume_change - 1.0) * response.dilatation_gradient);
+        if (derivatives == Derivatives::first) return response;
+
+        response.dilatation_hessian = cofactor_derivative(f);
+        response.shape_hessian = mu * (Tangent::Identity() + outer(response.dilatation_gradient, response.dilatation_gradient) +
+                                       (volume_change - 1.0) * response.dilatation_hessian);
+        return response;
+    }
+};
+
+}  // namespace
+
+std::unique_ptr<const ConstitutiveLaw> stable_neo_hookean_law(const Lame& lame)
+{
+    return std::make_unique<StableNeoHookean>(lame);
+}
+
+// psi = mu / 2 (|F|^2 - 3) - mu ln J + lambda / 2 (ln J)^2, J = det F > 0 (Bonet, Wood, Eq. 6.27).
+
+namespace {
+
+class NeoHookean : public ConstitutiveLaw {
+public:
+    using ConstitutiveLaw::ConstitutiveLaw;
+
+    PointResponse evaluate(const Eigen::Matrix3d& f, Derivatives derivatives) const override
+    {
+        const Invariants change = invariants(f);
+        const double mu = lame_.mu_pa, volume_change = change.volume_change;
+        PointResponse response;
+        response.defined = change.volume > 0.0;
+        if (!response.defined) return response;
+
+        const double log_volume = change.log_volume();
+        response.shape = mu * (change.shear + volume_change - log_volume);
+        response.dilatation = log_volume;
+        if (derivatives == Derivatives::none) return response;
+
+        const Eigen::Matrix3d inverse_transposed = cofactor(f) / change.volume;
+        response.dilatation_gradient = inverse_transposed;
+        response.shape_gradient = mu * (f - inverse_transposed);
+        if (derivatives == Derivatives::first) return response;
+
+        response.dilatation_hessian = -transposing_product(inverse_transposed);
+        response.shape_hessian = mu * (Tangent::Identity() - response.dilatation_hessian);
+        return response;
+    }
+};
+
+}  // namespace
+
+std::unique_ptr<const ConstitutiveLaw> neo_hookean_law(const Lame& lame)
+{
+    return std::make_unique<NeoHookean>(lame);
+}
+
+// psi = mu E:E + lambda / 2 (tr E)^2, E = (F^T F - I) / 2.
+
+namespace {
+
+class StVenantKirchhoff : public ConstitutiveLaw {
+public:
+    using ConstitutiveLaw::ConstitutiveLaw;
+
+    PointResponse evaluate(const Eigen::Matrix3d& f, Derivatives derivatives) const override
+    {
+        const double mu = lame_.mu_pa;
+        const Eigen::Matrix3d strain = 0.5 * (f.transpose() * f - Eigen::Matrix3d::Identity());
+        PointResponse response;
+        response.shape = mu * strain.squaredNorm();
+        response.dilatation = strain.trace();
+        if (derivatives == Derivatives::none) return response;
+
+        response.shape_gradient.noalias() = 2.0 * mu * f * strain;
+        response.dilatation_gradient = f;
+        if (derivatives == Derivatives::first) return response;
+
+        // dP = 2 mu (dF E + F dE), dE = (F^T dF + dF^T F) / 2
+        response.shape_hessian = mu * transposing_product(f);
+        const Eigen::Matrix3d left_cauchy_green = f * f.transpose();
+        for (int j = 0; j < 3; ++j) {
+            response.shape_hessian.block<3, 3>(3 * j, 3 * j) += mu * left_cauchy_green;
+            for (int l = 0; l < 3; ++l) response.shape_hessian.block<3, 3>(3 * j, 3 * l).diagonal().array() += 2.0 * mu * strain(l, j);
+        }
+        response.dilatation_hessian.setIdentity();
+        return response;
+    }
+};
+
+}  // namespace
+
+std::unique_ptr<const ConstitutiveLaw> st_venant_kirchhoff_law(const Lame& lame)
+{
+    return std::make_unique<StVenantKirchhoff>(lame);
+}
+
+// psi = kappa / 4 (J^2 - 1 - 2 ln J) + mu / 2 (J^(-2/3) |F|^2 - 3), kappa = lambda + 2 mu / 3, J = det F > 0: deal.II's step-44 and the
+// program Quasi-Static Finite-Strain Compressible Elasticity of its code gallery, after J. Simo, T. Hughes, Computational Inelasticity.
+
+namespace {
+
+class IsochoricNeoHookean : public ConstitutiveLaw {
+public:
+    using ConstitutiveLaw::ConstitutiveLaw;
+
+    bool volume_term() const override { return false; }
+
+    PointResponse evaluate(const Eigen::Matrix3d& f, Derivatives derivatives) const override
+    {
+        const Invariants change = invariants(f);
+        const double volume_change = change.volume_change;
+        PointResponse response;
+        response.defined = change.volume > 0.0;
+        if (!response.defined) return response;
+
+        const double mu = lame_.mu_pa, kappa = lame_.lambda_pa + 2.0 / 3.0 * mu, log_volume = change.log_volume();
+        const double isochoric = std::exp(-2.0 / 3.0 * log_volume);
+        response.shape = 0.25 * kappa * ((2.0 + volume_change) * volume_change - 2.0 * log_volume) +
+                         0.5 * mu * (3.0 * std::expm1(-2.0 / 3.0 * log_volume) + isochoric * change.squared_norm_change);
+        response.dilatation = 0.0;
+        if (derivatives == Derivatives::none) return response;
+
+        const double volume = change.volume, first_invariant = f.squaredNorm();
+        const Eigen::Matrix3d volume_gradient = cofactor(f);
+        // P = volume_slope d J / d F + mu J^(-2/3) F
+        const double shear = mu * isochoric,
+                     volume_slope = 0.5 * kappa * (volume - 1.0 / volume) - shear * first_invariant / (3.0 * volume);
+        response.shape_gradient = volume_slope * volume_gradient + shear * f;
+        response.dilatation_gradient.setZero();
+        if (derivatives == Derivatives::first) return response;
+
+        const double volume_curvature =
+            0.5 * kappa * (1.0 + 1.0 / (volume * volume)) + shear * 5.0 / 9.0 * first_invariant / (volume * volume);
+        const Tangent mixed = outer(volume_gradient, f);
+        response.shape_hessian = volume_slope * cofactor_derivative(f) + volume_curvature * outer(volume_gradient, volume_gradient) +
+                                 shear * (Tangent::Identity() - 2.0 / (3.0 * volume) * (mixed + mixed.transpose()));
+        response.dilatation_hessian.setZero();
+        return response;
+    }
+};
+
+}  // namespace
+
+std::unique_ptr<const ConstitutiveLaw> isochoric_neo_hookean_law(const Lame& lame)
+{
+    return std::make_unique<IsochoricNeoHookean>(lame);
+}
 
 std::unique_ptr<const ConstitutiveLaw> constitutive_law(Model model, const Lame& lame)
 {

@@ -7,10 +7,9 @@
 // All have the small-strain limit of linear elasticity with the same Lame parameters.
 #pragma once
 
-#include "reference_fem/material.hpp"
-#include "reference_fem/model.hpp"
+#include "reference_fem/options.hpp"
 
-#include "pbs/geometry/types.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 
 #include <Eigen/Core>
 
@@ -47,7 +46,7 @@ protected:
     Lame lame_;  // as given
 };
 
-// Makes a law by name; the formulas are in isotropic_laws.hpp.
+// Makes a law by name; the formulas are in constitutive_law.cpp.
 std::unique_ptr<const ConstitutiveLaw> constitutive_law(Model model, const Lame& lame);
 
 // psi [Pa] of a response; lambda_pa: its law's lambda_pa().

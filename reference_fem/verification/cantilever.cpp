@@ -6,10 +6,12 @@
 // The solid differs from the beam near its ends, over one depth by Saint-Venant's principle: a clamp that holds the anticlastic curvature
 // bends as a plate there, 1 - nu^2 as much, and the first depth h of a tip-loaded cantilever makes 3 h / L of its deflection; at either
 // end the warping of the cross-section may be free or held, which is at most the shear deflection of one depth.
-#include "reference_fem/verification/beam_problems.hpp"
+
+#include "reference_fem/verification/problems.hpp"
 
 namespace reference_fem {
 namespace {
+namespace tip_load {
 
 using pbs::Vec3;
 
@@ -28,10 +30,12 @@ BeamTheory timoshenko(double nu)
             force_n * depth_m / (k * shear_pa * area)};
 }
 
+}  // namespace tip_load
 }  // namespace
 
 VerificationRow cantilever_row(const Effort& effort, double nu, int element_order, Formulation formulation, const Divisions& divisions)
 {
+    using namespace tip_load;
     const ElasticMaterial material{young_pa, nu};
     const BoundaryValueSolution solution =
         solve(box_mesh({0, 0, 0}, {length_m, depth_m, depth_m}, divisions), solver_material(effort, material),
@@ -67,6 +71,7 @@ VerificationRow cantilever_row(const Effort& effort, double nu, int element_orde
 
 VerificationRows cantilever_rows(const Effort& effort)
 {
+    using namespace tip_load;
     VerificationRows rows;
     for (const double nu : {0.0, 0.3})
         for (const int element_order : {1, 2})
@@ -74,6 +79,114 @@ VerificationRows cantilever_rows(const Effort& effort)
                 if (n < 12 || (effort.full && element_order == 1))
                     rows.push_back(cantilever_row(effort, nu, element_order, Formulation::displacement, {8 * n, n, n}));
     return rows;
+}
+
+// The share of bending and torsion that remains as Poisson's ratio approaches 1/2, by element: linear tets have about as many volumes to
+// keep as displacements to keep them with, and lock.
+//   bending: the cantilever of cantilever.cpp, against Timoshenko's beam
+//   torsion: the bar of torsion.cpp; Saint-Venant's solution changes no volume, so its torque does not depend on Poisson's ratio
+// Only formulations for nearly incompressible materials (reference_fem/options.hpp) have bounds.
+
+namespace {
+namespace locking {
+
+const std::vector<double> quick_ladder = {0.3, 0.49, 0.499, 0.49999};
+const std::vector<double> full_ladder = {0.3, 0.4, 0.45, 0.49, 0.499, 0.4999, 0.49999};
+
+struct Element {
+    int order;
+    Formulation formulation;
+};
+
+VerificationRow as_locking(VerificationRow row, const Element& element)
+{
+    row.problem = "locking";
+    row.note.clear();
+    if (element.formulation == Formulation::displacement) {
+        row.low = row.high = std::nullopt;
+        row.bound_from.clear();
+    }
+    return row;
+}
+
+}  // namespace locking
+}  // namespace
+
+VerificationRows locking_rows(const Effort& effort)
+{
+    using namespace locking;
+    VerificationRows rows;
+    const int cube = effort.full ? 8 : 4;
+    for (const Element& element : {Element{1, Formulation::displacement}, Element{2, Formulation::displacement},
+                                   Element{2, Formulation::mean_dilatation}, Element{2, Formulation::taylor_hood}})
+        for (const double nu : effort.full ? full_ladder : quick_ladder) {
+            rows.push_back(as_locking(cantilever_row(effort, nu, element.order, element.formulation, {48, 6, 6}), element));
+            VerificationRow torsion = torsion_row(effort, nu, element.order, element.formulation, cube);
+            bound_by_grade_a(torsion);
+            rows.push_back(as_locking(torsion, element));
+        }
+    return rows;
+}
+
+// A soft cantilever, 0.6 x 0.12 x 0.12 m, under its own weight: E = 1 MPa, nu = 0.3, 1000 kg/m^3, of the size and stiffness of flesh.
+// w = weight per length; deflection = w L^4 / (8 E I) + w L^2 / (2 k G A). Near the clamp the solid differs from the beam as in
+// cantilever.cpp; the first depth h makes 4 h / L of the bending deflection here.
+
+namespace {
+namespace gravity {
+
+using pbs::Vec3;
+
+constexpr double length_m = 0.6, depth_m = 0.12, density_kg_m3 = 1000.0, gravity_m_s2 = 9.81;
+const ElasticMaterial material{1.0e6, 0.3};
+
+VerificationRow row_of(const Effort& effort, int element_order, int n)
+{
+    const Divisions divisions = {5 * n, n, n};
+    const BoundaryValueSolution solution =
+        solve(box_mesh({0, 0, 0}, {length_m, depth_m, depth_m}, divisions), solver_material(effort, material),
+              {.body_force = [](const Vec3&) -> Vec3 {
+                   return {0, 0, -density_kg_m3 * gravity_m_s2};
+               },
+               .held = [](const Vec3& x) { return x.x() < 1e-9; },
+               .element_order = element_order});
+
+    const double nu = material.poisson, area = depth_m * depth_m, inertia = area * area / 12.0;
+    const double weight_n_m = density_kg_m3 * gravity_m_s2 * area, k_g_a = 10.0 * material.young_pa / (2.0 * (12.0 + 11.0 * nu)) * area;
+    const double bending = weight_n_m * std::pow(length_m, 4) / (8.0 * material.young_pa * inertia);
+    const double shear = weight_n_m * length_m * length_m / (2.0 * k_g_a);
+    VerificationRow row = {.problem = "gravity_cantilever",
+                           .quantity = {"end_deflection", "deflection of the end's middle"},
+                           .elements = elements_of(element_order),
+                           .material = linear_material(nu),
+                           .mesh = text_of(divisions),
+                           .h_m = depth_m / n,
+                           .dofs = solution.space->dofs(),
+                           .value = -solution.displacement_at({length_m, depth_m / 2.0, depth_m / 2.0}).z(),
+                           .reference = bending + shear,
+                           .unit = "m",
+                           .source =
+                               "closed form: Timoshenko's beam under uniform load, shear coefficient of G. R. Cowper, J. Appl. Mech. 33 "
+                               "(1966) 335-340"};
+    if (element_order == 1) {
+        row.note = "P1 is too stiff in bending";
+        return row;
+    }
+    const double shear_of_a_depth = weight_n_m * length_m * depth_m / k_g_a;
+    row.low = row.reference - 4.0 * nu * nu * depth_m / length_m * bending - shear_of_a_depth;
+    row.high = row.reference + shear_of_a_depth;
+    row.bound_from =
+        "solid against beam: 4 nu^2 h / L of the bending for the held anticlastic curvature, the shear deflection of one depth";
+    return row;
+}
+
+}  // namespace gravity
+}  // namespace
+
+VerificationRows gravity_cantilever_rows(const Effort& effort)
+{
+    using namespace gravity;
+    return {row_of(effort, 1, 6), row_of(effort, 2, 4), row_of(effort, 2, 8)};
 }
 
 }  // namespace reference_fem

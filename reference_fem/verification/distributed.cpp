@@ -1,11 +1,10 @@
 // Two solvers of systems whose factor does not fit in memory, compared with CHOLMOD on the same cantilever: conjugate gradients with
 // algebraic multigrid in this process, and the program pbskin_distributed on one and two ranks. If that program is not in this program's
 // folder or mpirun is not installed, one row states that the comparison was not made.
-#include "reference_fem/verification/common.hpp"
-#include "reference_fem/verification/structured_mesh.hpp"
+#include "reference_fem/verification/problems.hpp"
 
-#include "analysis/records/csv_table.hpp"
-#include "analysis/records/scratch_folder.hpp"
+#include "analysis/records/record_files.hpp"
+#include "analysis/records/tables.hpp"
 
 #include <nlohmann/json.hpp>
 

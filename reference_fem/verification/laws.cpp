@@ -2,7 +2,7 @@
 // (the error of central differences falls with the square of the step), its tangent is symmetric, a rotation of the whole leaves its
 // energy alone, and at rest it is linear elasticity.
 #include "reference_fem/laws/constitutive_law.hpp"
-#include "reference_fem/verification/common.hpp"
+#include "reference_fem/verification/problems.hpp"
 
 #include <Eigen/Geometry>
 

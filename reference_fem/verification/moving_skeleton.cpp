@@ -5,8 +5,7 @@
 //
 // No closed form: the order in the time step is seen against a step eight times finer than the finest, which leaves 0.02 of it open.
 #include "reference_fem/elastic_body.hpp"
-#include "reference_fem/verification/common.hpp"
-#include "reference_fem/verification/structured_mesh.hpp"
+#include "reference_fem/verification/problems.hpp"
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>

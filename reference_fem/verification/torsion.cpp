@@ -2,13 +2,19 @@
 // Torque = G J theta / L, J = s^4 / 3 (1 - 192 / pi^5 sum over odd n of tanh(n pi / 2) / n^5) (Timoshenko and Goodier, Theory of
 // elasticity, art. 109). The data are displacements, so the strain energy, hence the torque, comes from above, with twice the order of
 // the displacement gradient.
-#include "reference_fem/verification/beam_problems.hpp"
+
+#include "reference_fem/newton/newton.hpp"
+#include "reference_fem/potentials/potentials.hpp"
+#include "reference_fem/verification/problems.hpp"
 
 #include <cmath>
+#include <cstdio>
+#include <limits>
 #include <numbers>
 
 namespace reference_fem {
 namespace {
+namespace torsion {
 
 using pbs::Vec3;
 
@@ -21,10 +27,12 @@ double torsion_constant()
     return std::pow(side_m, 4) / 3.0 * (1.0 - 192.0 / std::pow(std::numbers::pi, 5) * sum);
 }
 
+}  // namespace torsion
 }  // namespace
 
 VerificationRow torsion_row(const Effort& effort, double nu, int element_order, Formulation formulation, int n)
 {
+    using namespace torsion;
     const ElasticMaterial material{young_pa, nu};
     const auto turned = [](const Vec3& x) -> Vec3 { return angle * x.x() / length_m * Vec3(0.0, -x.z(), x.y()); };
     const auto held = [](const Vec3& x) {
@@ -50,6 +58,7 @@ VerificationRow torsion_row(const Effort& effort, double nu, int element_order, 
 }
 
 namespace {
+namespace torsion {
 
 VerificationRows ladder(const Effort& effort, int element_order, int coarsest, int levels)
 {
@@ -73,12 +82,236 @@ VerificationRows ladder(const Effort& effort, int element_order, int coarsest, i
     return rows;
 }
 
+}  // namespace torsion
 }  // namespace
 
 VerificationRows torsion_rows(const Effort& effort)
 {
+    using namespace torsion;
     VerificationRows rows = ladder(effort, 1, 4, effort.full ? 4 : 3);
     for (const auto& row : ladder(effort, 2, 2, effort.full ? 4 : 3)) rows.push_back(row);
+    return rows;
+}
+
+// MacNeal and Harder's twisted beam: 12 x 1.1 x 0.32 in, turned by 90 degrees from the clamp to the tip, E = 29e6 psi, nu = 0.22, a unit
+// load at the tip. At the clamp the width lies along y, at the tip along z. A load along z lies in the plane of the tip's width and bends
+// the beam about its thin side where the moment is largest: the large deflection; a load along y is out of that plane.
+//
+// Beam theory alone determines which value belongs to which load: deflection = P / E times the integral of
+// s^2 (cos^2 phi / I_width + sin^2 phi / I_thickness), s the distance to the tip, phi the angle between the load and the width.
+
+namespace {
+namespace twisted_beam {
+
+using pbs::Vec3;
+
+constexpr double length_in = 12.0, width_in = 1.1, thickness_in = 0.32;
+const ElasticMaterial material{29.0e6, 0.22};
+
+double turn(double x)
+{
+    return std::numbers::pi / 2.0 * x / length_in;
+}
+
+pbs::TetMesh beam(const Divisions& divisions)
+{
+    return mapped(box_mesh({0, -width_in / 2.0, -thickness_in / 2.0}, {length_in, width_in / 2.0, thickness_in / 2.0}, divisions),
+                  [](const Vec3& p) -> Vec3 {
+                      const double c = std::cos(turn(p.x())), s = std::sin(turn(p.x()));
+                      return {p.x(), c * p.y() - s * p.z(), s * p.y() + c * p.z()};
+                  });
+}
+
+// Bending alone, Simpson's rule.
+double beam_theory(const Vec3& load)
+{
+    const double along_width = thickness_in * std::pow(width_in, 3) / 12.0, along_thickness = width_in * std::pow(thickness_in, 3) / 12.0;
+    const auto integrand = [&](double x) {
+        const Vec3 width(0.0, std::cos(turn(x)), std::sin(turn(x)));
+        const double share = std::pow(load.dot(width), 2);
+        return std::pow(length_in - x, 2) * (share / along_width + (1.0 - share) / along_thickness) / material.young_pa;
+    };
+    const int n = 200;
+    double sum = integrand(0.0) + integrand(length_in);
+    for (int i = 1; i < n; ++i) sum += (i % 2 ? 4.0 : 2.0) * integrand(length_in * i / n);
+    return sum * length_in / (3.0 * n);
+}
+
+VerificationRow row_of(const Effort& effort, const Vec3& load, int element_order, const Divisions& divisions)
+{
+    const BoundaryValueSolution solution =
+        solve(beam(divisions), solver_material(effort, material),
+              {.held = [](const Vec3& x) { return x.x() < 1e-9; },
+               .element_order = element_order,
+               .tractions = {{[](const Vec3& centre) { return centre.x() > length_in - 1e-6; },
+                              [&](const Vec3&, const Vec3&) -> Vec3 { return load / (width_in * thickness_in); }}}});
+    const bool in_plane = load.z() != 0.0;
+    char note[120];
+    std::snprintf(note, sizeof note, "beam theory, bending alone: %.6f in", beam_theory(load));
+    return {.problem = "twisted_beam",
+            .quantity = in_plane ? RowQuantity{"tip_deflection_in_plane", "tip deflection, load along the tip's width (in plane)"}
+                                 : RowQuantity{"tip_deflection_out_of_plane", "tip deflection, load across the tip's width (out of plane)"},
+            .elements = elements_of(element_order),
+            .material = linear_material(material.poisson),
+            .mesh = text_of(divisions),
+            .h_m = width_in / divisions[1] * 0.0254,
+            .dofs = solution.space->dofs(),
+            .value = solution.work_of_load_j(),
+            .reference = in_plane ? 0.005424 : 0.001754,
+            .unit = "in",
+            .source = "R. MacNeal, R. Harder, Finite Elements in Analysis and Design 1 (1985) 3-20, Table 7",
+            .note = note};
+}
+
+}  // namespace twisted_beam
+}  // namespace
+
+VerificationRows twisted_beam_rows(const Effort& effort)
+{
+    using namespace twisted_beam;
+    VerificationRows rows;
+    for (const Vec3& load : {Vec3(0, 0, 1), Vec3(0, 1, 0)}) {
+        rows.push_back(row_of(effort, load, 1, {48, 8, 4}));
+        rows.push_back(row_of(effort, load, 2, {24, 4, 2}));
+        bound_by_grade_a(rows.back());
+        if (!effort.full) continue;
+        rows.push_back(row_of(effort, load, 2, {48, 8, 4}));
+        bound_by_grade_a(rows.back());
+    }
+    return rows;
+}
+
+// A bar of 3.375 x 1 x 1 m, 27 x 8 x 8 cells, both ends held, one turned by 180 degrees in ten steps, in linear tets: Newton's iterations
+// and the states that it finds by each law, against an earlier implementation of ours with an assembly and a Newton loop of its own.
+// Large rotations distinguish the laws: linear strain takes them for a swelling of 31 % at 90 degrees and turns tets inside out, St
+// Venant-Kirchhoff gives way.
+
+namespace {
+namespace half_turn {
+
+const Divisions divisions = {27, 8, 8};
+constexpr double length_m = 3.375, young_pa = 1e5;
+constexpr int steps = 10;
+const std::string source =
+    "our earlier implementation of the same laws and tets, with an assembly and a Newton loop of its own: regression, no outside truth";
+
+struct TurnValues {
+    double iterations;                                         // of all steps
+    double volume_change_at_90_pct, volume_change_at_180_pct;  // 100 (V - V0) / V0
+    double energy_j;                                           // at 180 degrees
+};
+
+struct Law {
+    Model model;
+    std::string name;
+    double poisson;
+    TurnValues reference;
+};
+
+const std::vector<Law> laws = {
+    {Model::stable_neo_hookean, "stable_neo_hookean", 0.3, {50, -0.54875601453, -2.2862093441, 8.764288341984e3}},
+    {Model::stable_neo_hookean, "stable_neo_hookean", 0.45, {52, -0.14701254924, -0.61770920955, 8.047671776187e3}},
+    {Model::stable_neo_hookean, "stable_neo_hookean", 0.49, {60, -0.031776708163, -0.13479810078, 8.058009117295e3}},
+    {Model::neo_hookean, "neo_hookean", 0.3, {50, -0.53699726800, -2.1441996139, 8.768634425136e3}},
+    {Model::corotational, "corotational", 0.3, {50, -1.1677960915, -4.5892346582, 8.709920258043e3}},
+    {Model::st_venant_kirchhoff, "st_venant_kirchhoff", 0.3, {50, -2.1304995670, -8.4372925420, 8.902397719894e3}},
+    {Model::linear, "linear", 0.3, {10, 30.753109139, -4.8410438713, 8.406643111517e4}}};
+
+bool at_far_end(const SimplexSpace& space, int node)
+{
+    return space.node_positions()(node, 0) > length_m - 1e-9;
+}
+
+std::vector<bool> held_ends(const SimplexSpace& space)
+{
+    std::vector<bool> held(space.dofs(), false);
+    for (int node = 0; node < space.nodes(); ++node)
+        for (int c = 0; c < 3; ++c) held[3 * node + c] = at_far_end(space, node) || space.node_positions()(node, 0) < 1e-9;
+    return held;
+}
+
+Eigen::VectorXd turned_end(const SimplexSpace& space, double angle)
+{
+    Eigen::VectorXd values = Eigen::VectorXd::Zero(space.dofs());
+    for (int node = 0; node < space.nodes(); ++node) {
+        if (!at_far_end(space, node)) continue;
+        const double y = space.node_positions()(node, 1), z = space.node_positions()(node, 2);
+        values.segment<3>(3 * node) << 0.0, std::cos(angle) * y - std::sin(angle) * z - y, std::sin(angle) * y + std::cos(angle) * z - z;
+    }
+    return values;
+}
+
+// Not a number from the step on that did not converge.
+TurnValues turn(const SimplexSpace& space, const ElasticPotential& flesh)
+{
+    NewtonMinimiser newton(space, held_ends(space), LinearSolver::cholmod);
+    Eigen::VectorXd displacement = Eigen::VectorXd::Zero(space.dofs());
+    const auto volume_change_pct = [&] { return 100.0 * (flesh.jacobians(displacement).volume / length_m - 1.0); };
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    TurnValues turned{0.0, none, none, none};
+    for (int step = 1; step <= steps; ++step) {
+        const NewtonSummary summary = newton.minimise({&flesh}, turned_end(space, std::numbers::pi * step / steps), displacement, {});
+        if (!summary.converged()) return turned;
+        turned.iterations += summary.steps();
+        if (2 * step == steps) turned.volume_change_at_90_pct = volume_change_pct();
+    }
+    turned.volume_change_at_180_pct = volume_change_pct();
+    turned.energy_j = flesh.value(displacement);
+    return turned;
+}
+
+VerificationRow row_of(const Law& law, const RowQuantity& quantity, const std::string& unit, double value, double reference)
+{
+    constexpr double same = 1e-6;  // both stop at forces of 1e-8, Newton's last step being quadratic
+    return {.problem = "half_turn",
+            .quantity = quantity,
+            .elements = elements_of(1),
+            .material = material_of(law.name, law.poisson),
+            .mesh = text_of(divisions),
+            .h_m = length_m / divisions[0],
+            .value = value,
+            .reference = reference,
+            .unit = unit,
+            .source = source,
+            .low = reference - same * std::abs(reference),
+            .high = reference + same * std::abs(reference),
+            .bound_from = "the same discrete problem: 1e-6 of the value, for both stop at a residual of 1e-8 of the forces"};
+}
+
+VerificationRows rows_of(const Effort& effort, const SimplexSpace& space, const Law& law)
+{
+    const ElasticMaterial material = solver_material(effort, {young_pa, law.poisson});
+    const TurnValues ours =
+        turn(space, ElasticPotential(space, law.model, lame_parameters(material.young_pa, material.poisson), Formulation::displacement));
+    VerificationRow iterations =
+        row_of(law, {"newton_iterations", "Newton iterations of ten steps to 180 degrees"}, "1", ours.iterations, law.reference.iterations);
+    iterations.low = 1.0;
+    iterations.high = 1.5 * law.reference.iterations;
+    iterations.bound_from = "at most 1.5 times the other implementation's";
+    VerificationRows rows = {
+        iterations,
+        row_of(law, {"volume_change_at_90_deg", "volume change at 90 degrees"}, "%", ours.volume_change_at_90_pct,
+               law.reference.volume_change_at_90_pct),
+        row_of(law, {"volume_change_at_180_deg", "volume change at 180 degrees"}, "%", ours.volume_change_at_180_pct,
+               law.reference.volume_change_at_180_pct),
+        row_of(law, {"strain_energy_at_180_deg", "strain energy at 180 degrees"}, "J", ours.energy_j, law.reference.energy_j)};
+    for (VerificationRow& row : rows) row.dofs = space.dofs();
+    return rows;
+}
+
+}  // namespace half_turn
+}  // namespace
+
+VerificationRows half_turn_rows(const Effort& effort)
+{
+    using namespace half_turn;
+    const SimplexSpace space(box_mesh({0, -0.5, -0.5}, {length_m, 0.5, 0.5}, divisions), 1);
+    VerificationRows rows;
+    for (const Law& law : laws) {
+        const bool is_quick = law.model == Model::linear || (law.model == Model::stable_neo_hookean && law.poisson != 0.45);
+        if (!effort.full && !is_quick) continue;
+        for (const VerificationRow& row : rows_of(effort, space, law)) rows.push_back(row);
+    }
     return rows;
 }
 

@@ -1,8 +1,9 @@
-#include "tests/architecture/include_laws.hpp"
+#include "tests/architecture/laws.hpp"
 
 #include <algorithm>
 #include <optional>
 #include <regex>
+#include <set>
 
 namespace architecture {
 namespace {
@@ -16,18 +17,23 @@ struct Law {
 // The first entry whose folder contains a file is the law for that file.
 const std::vector<Law> laws = {
     {"pbs/geometry/", {"pbs/geometry/"}},
-    {"pbs/skinning/", {"pbs/geometry/", "pbs/skinning/"}},
+    {"pbs/packed/", {"pbs/geometry/", "pbs/packed/"}},
+    {"pbs/skinning/", {"pbs/geometry/", "pbs/packed/", "pbs/skinning/"}},
     {"pbs/constraints/", {"pbs/geometry/", "pbs/constraints/"}},
-    {"pbs/solver/", {"pbs/geometry/", "pbs/constraints/", "pbs/solver/"}},
+    {"pbs/solver/", {"pbs/geometry/", "pbs/packed/", "pbs/constraints/", "pbs/solver/"}},
     {"pbs/near_rest/", {"pbs/geometry/", "pbs/constraints/", "pbs/solver/", "pbs/near_rest/"}},
     {"pbs/author/", {"pbs/geometry/", "pbs/skinning/", "pbs/constraints/", "pbs/solver/", "pbs/author/"}},
-    {"pbs/flesh/", {"pbs/geometry/", "pbs/skinning/", "pbs/solver/", "pbs/flesh/"}},
+    {"pbs/flesh/", {"pbs/geometry/", "pbs/packed/", "pbs/skinning/", "pbs/flesh/"}},
     {"pbs/rig/", {"pbs/geometry/", "pbs/skinning/", "pbs/rig/"}},
     {"pbs/character/", {"pbs/"}},
     {"reference_fem/verification/", {"pbs/geometry/", "reference_fem/", "analysis/records/"}},
+    {"reference_fem/laws/", {"pbs/geometry/", "reference_fem/laws/", "reference_fem/options.hpp"}},
     {"reference_fem/", {"pbs/geometry/", "reference_fem/"}, {"reference_fem/verification/"}},
     {"analysis/records/", {"pbs/geometry/", "analysis/records/"}},
-    {"analysis/", {"pbs/geometry/", "analysis/"}},
+    {"analysis/statistics/", {"pbs/geometry/", "analysis/records/", "analysis/statistics/"}},
+    {"analysis/metrics/", {"pbs/geometry/", "analysis/statistics/", "analysis/metrics/"}},
+    {"analysis/verdicts/", {"pbs/geometry/", "analysis/records/", "analysis/statistics/", "analysis/verdicts/"}},
+    {"analysis/check/", {"pbs/geometry/", "analysis/records/", "analysis/statistics/", "analysis/metrics/", "analysis/check/"}},
     {"experiments/", {"pbs/", "reference_fem/", "analysis/", "experiments/"}},
     {"tests/", {"pbs/", "reference_fem/", "analysis/", "experiments/", "tests/"}},
 };
@@ -182,6 +188,57 @@ Violations deformers_tested_by_name(const SourceTree& tree)
             if (std::regex_search(line, compares))
                 violations.push_back(at(path, number, "depends on the name of a deformer's kind: ask its traits or options"));
         }
+    }
+    return violations;
+}
+
+namespace {
+
+struct HeavyLibrary {
+    std::string header;                // the beginning of its includes
+    std::vector<std::string> at_home;  // the places whose files may see it
+    std::size_t most_files;            // limit for the number of .cpp files outside tests that see it
+};
+
+const std::vector<HeavyLibrary> heavy = {
+    {"deal.II/", {"reference_fem/"}, 3}, {"mpi.h", {"reference_fem/"}, 1},
+    {"ml_", {"reference_fem/"}, 2},      {"Epetra_", {"reference_fem/"}, 1},
+    {"CGAL/", {"pbs/geometry/"}, 4},     {"vtk", {"pbs/geometry/"}, 3},
+    {"gmsh.h", {"pbs/geometry/"}, 1},    {"assimp/", {"pbs/geometry/", "pbs/rig/", "pbs/character/"}, 4},
+};
+
+bool is_heavy(const std::string& target, const HeavyLibrary& library)
+{
+    // vtk*.h are in no folder of their own; a folder "vtk..." of this project would be.
+    return target.starts_with(library.header) && (library.header != "vtk" || target.find('/') == std::string::npos);
+}
+
+// Whether the file includes the library, directly or through headers of this project.
+bool sees(const SourceTree& tree, const std::string& path, const HeavyLibrary& library, std::set<std::string>& visited)
+{
+    const auto file = tree.find(path);
+    if (file == tree.end() || !visited.insert(path).second) return false;
+    for (const Include& include : includes_of(file->second))
+        if (is_heavy(include.target, library) || sees(tree, include.target, library, visited)) return true;
+    return false;
+}
+
+}  // namespace
+
+Violations heavy_headers(const SourceTree& tree)
+{
+    Violations violations;
+    for (const HeavyLibrary& library : heavy) {
+        std::size_t files = 0;
+        for (const auto& [path, text] : tree) {
+            std::set<std::string> visited;
+            if (!is_cpp(path) || path.starts_with("tests/") || !sees(tree, path, library, visited)) continue;
+            files += path.ends_with(".cpp");
+            if (!starts_with_any(path, library.at_home)) violations.push_back(at(path, 1, "sees " + library.header + " outside its place"));
+        }
+        if (files > library.most_files)
+            violations.push_back(library.header + " is seen by " + std::to_string(files) + " .cpp files; at most " +
+                                 std::to_string(library.most_files) + " may");
     }
     return violations;
 }

@@ -1,12 +1,22 @@
-#include "tests/architecture/size_laws.hpp"
+#include "tests/architecture/laws.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <regex>
 
 namespace architecture {
 namespace {
 
-constexpr int longest_file = 500, usual_file = 200, longest_function = 120, usual_function = 60, longest_line = 140;
+constexpr int longest_file = 500, least_file = 60, longest_function = 120, usual_function = 60, longest_line = 140;
+constexpr int several_users = 3;
+
+const std::vector<std::string> cpp = {".cpp", ".hpp"}, scripts = {".py", ".js", ".mjs", ".css"};
+
+// Files of fewer lines than `least_file` that are neither merged nor public headers with several users.
+const std::map<std::string, std::string> named_interfaces = {
+    {"tests/support/counted_exit.cpp", "a library of its own, linked into every program of a build that counts lines"},
+    {"tests/support/precompiled.cpp", "the precompiled header of the tests"},
+};
 
 struct Sized {
     std::string path;
@@ -62,6 +72,62 @@ std::vector<Sized> functions_of(const std::string& path, const std::vector<std::
     return functions;
 }
 
+// Number of files that include a header, its own source excepted.
+std::map<std::string, int> users_of_headers(const SourceTree& tree)
+{
+    std::map<std::string, int> users;
+    for (const auto& [path, text] : tree)
+        for (const Include& include : is_cpp(path) ? includes_of(text) : std::vector<Include>{})
+            if (path.substr(0, path.rfind('.')) != include.target.substr(0, include.target.rfind('.'))) ++users[include.target];
+    return users;
+}
+
+struct Total {
+    int lines = 0, files = 0;
+};
+
+bool belongs_to(const Budget& budget, const std::string& path)
+{
+    return starts_with_any(path, budget.folders) && (budget.endings.empty() || ends_with_any(path, budget.endings));
+}
+
+// The lines and files of a budget, and of the folders and direct rooms that it names: "pbs/", "pbs/solver/".
+std::map<std::string, Total> totals_of(const SourceTree& tree, const Budget& budget)
+{
+    std::map<std::string, Total> totals;
+    for (const auto& [path, text] : tree) {
+        if (!belongs_to(budget, path)) continue;
+        std::vector<std::string> places = {budget.what};
+        for (const std::string& folder : budget.folders) {
+            if (!path.starts_with(folder)) continue;
+            places.push_back(folder);
+            if (const std::size_t end = path.find('/', folder.size()); end != std::string::npos) places.push_back(path.substr(0, end + 1));
+        }
+        const int lines = static_cast<int>(lines_of(text).size());
+        for (const std::string& place : places) totals[place] = {totals[place].lines + lines, totals[place].files + 1};
+    }
+    return totals;
+}
+
+std::string exceeded(const std::string& what, int value, int most, const std::string& unit)
+{
+    return what + ": " + std::to_string(value) + " " + unit + ", at most " + std::to_string(most) + ": " + std::to_string(value - most) +
+           " too many";
+}
+
+// One line per budget: its folders, the kinds of its files, and its limits. A change that exceeds one names what it removes.
+const std::vector<Budget> the_budgets = {
+    {.what = "pbs", .folders = {"pbs/"}, .endings = cpp, .most_lines = 25'900, .least_mean = 45, .small_files = 400},
+    {.what = "reference_fem", .folders = {"reference_fem/"}, .endings = cpp, .most_lines = 9'600, .least_mean = 110, .small_files = 10},
+    {.what = "analysis", .folders = {"analysis/"}, .endings = cpp, .most_lines = 6'650, .least_mean = 100, .small_files = 10},
+    {.what = "experiments", .folders = {"experiments/"}, .endings = cpp, .most_lines = 36'100, .least_mean = 45, .small_files = 400},
+    {.what = "production C++", .folders = {"pbs/", "reference_fem/", "analysis/", "experiments/"}, .endings = cpp, .most_lines = 79'200},
+    {.what = "tests in C++", .folders = {"tests/"}, .endings = cpp, .most_lines = 52'800, .least_mean = 30, .small_files = 400},
+    {.what = "tests in Python and JavaScript", .folders = {"tests/"}, .endings = scripts, .most_lines = 13'000},
+    {.what = "paper_figures", .folders = {"paper_figures/"}, .endings = scripts, .most_lines = 8'700},
+    {.what = "kept records", .folders = {"experiments/records/full/"}, .most_files = 745},
+};
+
 }  // namespace
 
 Violations file_sizes(const SourceTree& tree)
@@ -69,7 +135,52 @@ Violations file_sizes(const SourceTree& tree)
     std::vector<Sized> files;
     for (const auto& [path, text] : tree)
         if (is_source(path)) files.push_back({path, 1, static_cast<int>(lines_of(text).size())});
-    return judge(files, longest_file, usual_file, "file");
+    return judge(files, longest_file, longest_file, "file");
+}
+
+const std::vector<Budget>& budgets()
+{
+    return the_budgets;
+}
+
+Violations folder_sizes(const SourceTree& tree, const std::vector<Budget>& budgets)
+{
+    Violations violations;
+    for (const Budget& budget : budgets) {
+        const std::map<std::string, Total> totals = totals_of(tree, budget);
+        const auto whole = totals.find(budget.what);
+        if (whole == totals.end()) continue;
+        if (whole->second.lines > budget.most_lines)
+            violations.push_back(exceeded(budget.what, whole->second.lines, budget.most_lines, "lines"));
+        if (whole->second.files > budget.most_files)
+            violations.push_back(exceeded(budget.what, whole->second.files, budget.most_files, "files"));
+        for (const auto& [place, total] : totals)
+            if (place != budget.what && total.lines < budget.least_mean * total.files)
+                violations.push_back(place + ": " + std::to_string(total.lines / total.files) + " lines per file in the mean, at least " +
+                                     std::to_string(budget.least_mean) + ": merge the files of one topic");
+    }
+    return violations;
+}
+
+Violations small_files(const SourceTree& tree, const std::vector<Budget>& budgets)
+{
+    const std::map<std::string, int> users = users_of_headers(tree);
+    Violations violations;
+    for (const Budget& budget : budgets) {
+        Violations small;
+        for (const auto& [path, text] : tree) {
+            const int lines = static_cast<int>(lines_of(text).size());
+            if (budget.least_mean == 0 || !belongs_to(budget, path) || lines >= least_file || named_interfaces.contains(path)) continue;
+            const auto header = users.find(path);
+            if (path.ends_with(".hpp") && header != users.end() && header->second >= several_users) continue;
+            small.push_back(at(path, 1,
+                               "file of " + std::to_string(lines) + " lines, at least " + std::to_string(least_file) +
+                                   " unless it is a header with " + std::to_string(several_users) + " users"));
+        }
+        if (static_cast<int>(small.size()) <= budget.small_files) continue;
+        violations.insert(violations.end(), small.begin(), small.end());
+    }
+    return violations;
 }
 
 Violations function_sizes(const SourceTree& tree)
@@ -96,6 +207,43 @@ Violations line_lengths(const SourceTree& tree)
         }
     }
     return violations;
+}
+
+namespace {
+
+Violations in_every_line(const SourceTree& tree, const std::function<bool(const std::string&)>& offends, const std::string& what)
+{
+    Violations violations;
+    for (const auto& [path, text] : tree) {
+        int number = 0;
+        for (const std::string& line : lines_of(text)) {
+            ++number;
+            if (offends(line)) violations.push_back(at(path, number, what));
+        }
+    }
+    return violations;
+}
+
+}  // namespace
+
+Violations absolute_paths(const SourceTree& tree)
+{
+    static const std::regex home(R"((^|[^\w.])/(home|root|work|Users)/\w)");
+    return in_every_line(
+        tree, [](const std::string& line) { return std::regex_search(line, home); }, "a path of one machine");
+}
+
+Violations unfinished_marks(const SourceTree& tree)
+{
+    static const std::regex mark(R"(\b(TO[D]O|FIX[M]E|XX[X]|HAC[K])\b)");
+    return in_every_line(
+        tree, [](const std::string& line) { return std::regex_search(line, mark); }, "finish it, or open an issue");
+}
+
+Violations stray_whitespace(const SourceTree& tree)
+{
+    const auto offends = [](const std::string& line) { return line.find('\t') != std::string::npos || line.ends_with(' '); };
+    return in_every_line(tree, offends, "a tab, or blanks at the end of the line");
 }
 
 }  // namespace architecture

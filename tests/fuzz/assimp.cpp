@@ -3,7 +3,6 @@
 // child contains it for users too; one of the project's conversion is a finding.
 #include "pbs/geometry/content_format.hpp"
 #include "pbs/rig/assimp_rig.hpp"
-#include "pbs/rig/collada_weights.hpp"
 #include "pbs/rig/rig_bytes.hpp"
 #include "tests/fuzz/library_child.hpp"
 #include "tests/fuzz/sound_rig.hpp"

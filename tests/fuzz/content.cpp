@@ -2,11 +2,11 @@
 // asked for. The format does not depend on the name, and the result is a surface or a mesh with valid indices, or an InputError. assimp and
 // VTK read in a child process. A breakdown of theirs is counted, since the child contains it for users too. Gmsh is left out, and CGAL in
 // libFuzzer's program.
+#include "pbs/geometry/child_process.hpp"
 #include "pbs/geometry/content_format.hpp"
-#include "pbs/geometry/isolated_reader.hpp"
-#include "pbs/geometry/mesh_remarks.hpp"
+#include "pbs/geometry/mesh_io.hpp"
 #include "pbs/geometry/module.hpp"
-#include "pbs/geometry/tet_volume.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 #include "tests/fuzz/library_child.hpp"
 #include "tests/fuzz/token_mutator.hpp"
 #include "tests/support/scratch_folder.hpp"

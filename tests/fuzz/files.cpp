@@ -1,7 +1,7 @@
 // Any bytes as a file that the program itself reads, selected by their first byte: TetGen's pair (separated by a zero byte), .tobj,
 // weights, IQM, and the checks before Gmsh reads .mesh and .msh. The result is valid, or an InputError.
-#include "pbs/character/iqm.hpp"
-#include "pbs/character/weights_file.hpp"
+#include "pbs/character/named_bodies.hpp"
+#include "pbs/character/skinning_weights.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/mesh_io_formats.hpp"
 #include "pbs/geometry/module.hpp"

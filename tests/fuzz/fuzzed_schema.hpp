@@ -2,9 +2,10 @@
 // every deformer into the instrumented program.
 #pragma once
 
-#include "experiments/deformers/fem/fem_settings.hpp"
-#include "experiments/deformers/pbs/pbs_settings.hpp"
-#include "experiments/scene/scene_keys.hpp"
+#include "experiments/deformers/deformer_options.hpp"
+#include "experiments/deformers/fem/fem_options.hpp"
+#include "experiments/scene/scene.hpp"
+#include "experiments/settings/option_fields.hpp"
 
 inline const experiments::SceneSchema& fuzzed_schema()
 {

@@ -1,4 +1,4 @@
-// Runs a library on any bytes in a child process, as isolated_reader.hpp does, and distinguishes the library's own breakdowns, which the
+// Runs a library on any bytes in a child process, as child_process.hpp does, and distinguishes the library's own breakdowns, which the
 // child contains, from those of the project's code after it.
 //   const LibraryChild child([&](LibraryChild::Parent& parent) { ...; parent.library_is_done(); return packed(...); });
 //   if (child.broke_down_in_library()) return;   // the user gets an InputError

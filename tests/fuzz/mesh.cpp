@@ -1,8 +1,8 @@
 // Any bytes as the output of the reader's process: a valid mesh in which every tet has a volume, or an InputError.
 #include "pbs/geometry/guarded_reading.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/mesh_io_checks.hpp"
-#include "pbs/geometry/tet_volume.hpp"
+#include "pbs/geometry/mesh_checks.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,8 +1,8 @@
 // Checks a rig that was read: its skeleton, surface and poses are finite, and its weights sum to one.
 #pragma once
 
-#include "pbs/rig/rig_motion.hpp"
 #include "pbs/rig/rig_pose.hpp"
+#include "pbs/rig/rigged_body.hpp"
 
 #include <cmath>
 #include <cstdlib>

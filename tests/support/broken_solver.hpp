@@ -2,7 +2,7 @@
 //   options = test_support::broken(options, Broken::volume_sign);
 #pragma once
 
-#include "analysis/measurement.hpp"
+#include "analysis/verdicts/measurement.hpp"
 #include "experiments/scene/scene.hpp"
 #include "pbs/solver/options.hpp"
 

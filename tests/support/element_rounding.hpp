@@ -5,8 +5,8 @@
 //   Entry of a vector or matrix: there are nine roundings of products, and the sums over quadrature points and over tets about a node.
 #pragma once
 
-#include "reference_fem/element_tables.hpp"
-#include "reference_fem/prepared_solver.hpp"
+#include "reference_fem/assembly.hpp"
+#include "reference_fem/linear_solvers.hpp"
 #include "tests/support/rounding_error.hpp"
 
 #include <Eigen/LU>

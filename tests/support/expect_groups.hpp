@@ -1,7 +1,7 @@
 // The requirements on every grouping of constraints: each constraint is in one group, and joins its vertices as the group's shape defines.
 #pragma once
 
-#include "pbs/solver/batched/constraint_groups.hpp"
+#include "pbs/packed/groups.hpp"
 
 #include <gtest/gtest.h>
 

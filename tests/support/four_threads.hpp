@@ -3,7 +3,7 @@
 #pragma once
 
 #include "pbs/geometry/tet_mesh.hpp"
-#include "pbs/solver/batched/batched_constraints.hpp"
+#include "pbs/solver/batched/batch_program.hpp"
 
 #ifdef PBS_WITH_THREADS
 #include <tbb/global_control.h>

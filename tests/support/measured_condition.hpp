@@ -5,7 +5,7 @@
 //   EXPECT_NEAR(of_float, of_double, value_rounding(positions, single_rounding_m(positions), value));
 #pragma once
 
-#include "pbs/geometry/types.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 #include "tests/support/random_points.hpp"
 #include "tests/support/scalar_rounding.hpp"
 

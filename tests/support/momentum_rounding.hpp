@@ -6,7 +6,7 @@
 
 #include "experiments/studies/momentum/momentum_drift.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
-#include "pbs/geometry/tet_volume.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/solver/constraint_set.hpp"
 #include "pbs/solver/pbs_solver.hpp"
 #include "pbs/solver/projection.hpp"

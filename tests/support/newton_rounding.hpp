@@ -6,8 +6,8 @@
 #pragma once
 
 #include "experiments/deformers/fem/bone_attachment.hpp"
-#include "reference_fem/held_space.hpp"
-#include "reference_fem/verification/rounding_bound.hpp"
+#include "reference_fem/attachment.hpp"
+#include "reference_fem/verification/problems.hpp"
 #include "tests/support/motion_rounding.hpp"
 
 #include <gtest/gtest.h>

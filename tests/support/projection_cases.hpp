@@ -1,7 +1,7 @@
 // The cases on which kernels are compared with their plain counterparts: sizes, stiffnesses, well-shaped and degenerate tets.
 #pragma once
 
-#include "pbs/geometry/types.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 
 #include <array>
 #include <string>

@@ -9,7 +9,7 @@
 #include "pbs/constraints/bind.hpp"
 #include "pbs/constraints/stretch.hpp"
 #include "pbs/constraints/volume.hpp"
-#include "pbs/geometry/types.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 
 #include <algorithm>
 #include <cmath>

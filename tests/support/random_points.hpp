@@ -1,7 +1,7 @@
 // Random points and rigid motions with a fixed seed, the same in every run.
 #pragma once
 
-#include "pbs/geometry/types.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 
 #include <Eigen/Geometry>
 

@@ -2,7 +2,7 @@
 //   const test_support::ScratchFolder folder;  write(folder / "limb.msh");
 #pragma once
 
-#include "analysis/records/scratch_folder.hpp"
+#include "analysis/records/record_files.hpp"
 
 #include <fstream>
 

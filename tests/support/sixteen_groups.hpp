@@ -3,7 +3,7 @@
 //   groups.set_vertex(lane, v, point, w); groups.set_constraint(lane, c, rest, k); groups.expect_as_plain();
 #pragma once
 
-#include "pbs/solver/batched/batch_kernels.hpp"
+#include "pbs/solver/batched/pbs_kernels.hpp"
 #include "tests/support/projection_rounding.hpp"
 
 #include <gtest/gtest.h>

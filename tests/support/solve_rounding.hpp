@@ -1,4 +1,4 @@
-// How much rounding may change a solution of the reference, for tolerances. reference_fem/verification/rounding_bound.hpp derives |e| <= c
+// How much rounding may change a solution of the reference, for tolerances. reference_fem/verification/problems.hpp derives |e| <= c
 // cond(K) |u|, where e is the error of the unknowns u, c = sqrt(n) eps and cond(K) is the condition number of the matrix itself. The bounds
 // below follow from the residual r = K e, for which |r| <= c |K| |u|, with V the smallest volume of a tet:
 //   energy norm      |e|_K^2 = e^T K e = r^T K^-1 r <= |r|^2 / min|eigenvalue of K|;
@@ -11,11 +11,11 @@
 // the norm of its two definite blocks, since e^T diag(1, -1) K e = e^T diag(1, -1) r.
 #pragma once
 
-#include "pbs/geometry/tet_volume.hpp"
-#include "reference_fem/held_space.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
+#include "reference_fem/attachment.hpp"
 #include "reference_fem/linear_elasticity.hpp"
 #include "reference_fem/linear_flesh.hpp"
-#include "reference_fem/verification/rounding_bound.hpp"
+#include "reference_fem/verification/problems.hpp"
 
 #include <cmath>
 

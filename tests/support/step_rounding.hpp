@@ -4,9 +4,9 @@
 // Comput. 41, 2019, Sec. 2). The projections that follow multiply them by a factor that random disturbances of the blend measure.
 #pragma once
 
+#include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/solver/constraint_set.hpp"
 #include "pbs/solver/pbs_solver.hpp"
-#include "pbs/geometry/tet_volume.hpp"
 #include "tests/support/measured_condition.hpp"
 #include "tests/support/projection_rounding.hpp"
 #include "tests/support/random_points.hpp"

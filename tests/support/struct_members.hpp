@@ -2,10 +2,10 @@
 //   for_each_change(JoltCase{...}, [](const JoltCase& changed, const std::string& what) { ... });
 #pragma once
 
-#include "analysis/case_key.hpp"
-#include "experiments/deformers/pbs/pbs_option_names.hpp"
+#include "analysis/verdicts/case_record.hpp"
+#include "experiments/deformers/deformer_options.hpp"
 #include "experiments/scene/scene.hpp"
-#include "experiments/settings/member_count.hpp"
+#include "experiments/settings/option_fields.hpp"
 
 #include <optional>
 #include <string>

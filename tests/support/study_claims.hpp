@@ -3,9 +3,9 @@
 //   judge(test_support::claim("C13"), records)
 #pragma once
 
-#include "analysis/claims.hpp"
-#include "analysis/records/atomic_file.hpp"
-#include "analysis/verdict.hpp"
+#include "analysis/records/record_files.hpp"
+#include "analysis/verdicts/claims.hpp"
+#include "analysis/verdicts/verdict.hpp"
 #include "experiments/studies/study_run.hpp"
 #include "experiments/verdicts/study_records.hpp"
 #include "tests/support/scratch_folder.hpp"

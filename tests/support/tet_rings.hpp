@@ -2,7 +2,7 @@
 //   const pbs::Tets closed = tet_ring(5, true);   // five tets round the edge 0, 1, closed
 #pragma once
 
-#include "pbs/geometry/types.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 
 #include <algorithm>
 #include <array>

@@ -2,8 +2,8 @@
 //   judge(test_support::volume_claim("volume is kept"), {.cases = {test_support::walk()}})
 #pragma once
 
-#include "analysis/case_record.hpp"
-#include "analysis/claims.hpp"
+#include "analysis/verdicts/case_record.hpp"
+#include "analysis/verdicts/claims.hpp"
 
 #include <string>
 

@@ -1,7 +1,7 @@
 // A bar that overlaps itself: an input for what leaves out such a part.
 #pragma once
 
-#include "pbs/geometry/types.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 
 #include <cmath>
 

@@ -1,8 +1,8 @@
 #include "experiments/deformers/fem/bone_attachment.hpp"
 
-#include "pbs/character/capsule_springs.hpp"
+#include "pbs/character/bone_capsules.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/tet_volume.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 
 #include <algorithm>
 #include <map>

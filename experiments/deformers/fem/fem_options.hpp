@@ -1,15 +1,17 @@
-// Options of the finite element reference as a deformer.
+// Options of the finite element reference as a deformer, their names and keys, and the module that makes it.
 #pragma once
 
-#include "reference_fem/dynamics.hpp"
-#include "reference_fem/formulation.hpp"
-#include "reference_fem/linear_solver.hpp"
-#include "reference_fem/model.hpp"
-
+#include "experiments/deformers/deformer.hpp"
+#include "experiments/settings/option_names.hpp"
 #include "pbs/character/bone_capsules.hpp"
-#include "pbs/geometry/types.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
+#include "reference_fem/options.hpp"
 
 namespace experiments {
+
+template <typename Options>
+class OptionFields;  // experiments/settings/option_fields.hpp
+class SceneValues;
 
 // How the bones hold the flesh. smooth: springs, whose density decreases smoothly to zero from the axis of each bone to the surface of a
 // capsule around it. embedded: each bone is a rigid capsule inside the flesh, tied to it by stiff springs of one density. nodes: whole tets
@@ -65,4 +67,57 @@ inline double spring_factor_of(const FemOptions& options)
     return options.attachment == FemAttachment::smooth ? 10.0 : 1e4;
 }
 
+// The names of the values of the reference's options in scenes and records.
+template <>
+struct OptionNames<reference_fem::Model> {
+    static constexpr std::array<std::pair<reference_fem::Model, const char*>, 5> table{
+        {{reference_fem::Model::linear, "linear"},
+         {reference_fem::Model::corotational, "corotational"},
+         {reference_fem::Model::stable_neo_hookean, "stable_neo_hookean"},
+         {reference_fem::Model::neo_hookean, "neo_hookean"},
+         {reference_fem::Model::st_venant_kirchhoff, "st_venant_kirchhoff"}}};
+};
+template <>
+struct OptionNames<reference_fem::Formulation> {
+    static constexpr std::array<std::pair<reference_fem::Formulation, const char*>, 3> table{
+        {{reference_fem::Formulation::displacement, "displacement"},
+         {reference_fem::Formulation::mean_dilatation, "mean_dilatation"},
+         {reference_fem::Formulation::taylor_hood, "taylor_hood"}}};
+};
+template <>
+struct OptionNames<reference_fem::Dynamics> {
+    static constexpr std::array<std::pair<reference_fem::Dynamics, const char*>, 3> table{
+        {{reference_fem::Dynamics::quasi_static, "quasi_static"},
+         {reference_fem::Dynamics::newmark, "newmark"},
+         {reference_fem::Dynamics::generalized_alpha, "generalized_alpha"}}};
+};
+template <>
+struct OptionNames<FemAttachment> {
+    static constexpr std::array<std::pair<FemAttachment, const char*>, 4> table{{{FemAttachment::smooth, "smooth"},
+                                                                                 {FemAttachment::embedded, "embedded"},
+                                                                                 {FemAttachment::nodes, "nodes"},
+                                                                                 {FemAttachment::bind, "bind"}}};
+};
+template <>
+struct OptionNames<pbs::AttachmentKernel> {
+    static constexpr std::array<std::pair<pbs::AttachmentKernel, const char*>, 2> table{
+        {{pbs::AttachmentKernel::biweight, "biweight"}, {pbs::AttachmentKernel::wendland, "wendland"}}};
+};
+template <>
+struct OptionNames<reference_fem::LinearSolver> {
+    static constexpr std::array<std::pair<reference_fem::LinearSolver, const char*>, 3> table{
+        {{reference_fem::LinearSolver::cholmod, "cholmod"},
+         {reference_fem::LinearSolver::umfpack, "umfpack"},
+         {reference_fem::LinearSolver::cg_ml, "cg_ml"}}};
+};
+
+// The options of the finite element reference in scenes and records: their keys, and how they are read.
+const OptionFields<FemOptions>& fem_fields();
+
+// Sets the options from one [[fem]] table. A name that cannot name files and contradicting keys are an InputError.
+void read_fem(const SceneValues& values, const std::string& table, DeformerSpec& spec);
+
 }  // namespace experiments
+
+// The entry for deformers into the module lib/libpbskin_fem.so, which carries deal.II and is loaded when a scene first uses a reference.
+extern "C" experiments::Deformer* pbskin_make_fem(const experiments::FemOptions& options);  // the caller owns it

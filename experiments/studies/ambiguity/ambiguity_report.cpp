@@ -1,7 +1,6 @@
 #include "experiments/studies/ambiguity/ambiguity_report.hpp"
 
-#include "analysis/report_table.hpp"
-#include "analysis/text_columns.hpp"
+#include "analysis/records/report_table.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -5,8 +5,8 @@
 //   table_of(used_columns(claim_change_columns(), changes), changes).write("ambiguity.csv");
 #pragma once
 
-#include "analysis/records/optional_columns.hpp"
-#include "analysis/verdict.hpp"
+#include "analysis/records/tables.hpp"
+#include "analysis/verdicts/verdict.hpp"
 #include "experiments/studies/ambiguity/judged_value.hpp"
 
 #include <functional>

@@ -3,7 +3,7 @@
 //   const std::vector<JudgedValue> of_sweep = judged(read_motion);   // C01, C02
 #pragma once
 
-#include "analysis/measurement.hpp"
+#include "analysis/verdicts/measurement.hpp"
 #include "experiments/studies/ambiguity/read_motion.hpp"
 #include "experiments/studies/shared/program_claims.hpp"
 

@@ -1,8 +1,8 @@
 #include "experiments/studies/ambiguity/read_motion.hpp"
 
-#include "analysis/frame_metrics.hpp"
-#include "experiments/process/interruption.hpp"
-#include "experiments/scene/motion_case.hpp"
+#include "analysis/metrics/frame_metrics.hpp"
+#include "experiments/process/terminal.hpp"
+#include "experiments/scene/scene.hpp"
 
 namespace experiments {
 namespace {

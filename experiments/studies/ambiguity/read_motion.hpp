@@ -6,11 +6,11 @@
 //   const ReadMotion moved = move(character, scene, reading);
 #pragma once
 
-#include "analysis/case_record.hpp"
+#include "analysis/verdicts/case_record.hpp"
 #include "experiments/deformers/deformer.hpp"
 #include "experiments/scene/scene.hpp"
 #include "experiments/studies/ambiguity/reading.hpp"
-#include "pbs/skinning/blend_skinning.hpp"
+#include "pbs/skinning/blend.hpp"
 #include "pbs/solver/pbs_solver.hpp"
 
 #include <memory>

@@ -1,7 +1,7 @@
 #include "experiments/studies/ambiguity/reading.hpp"
 
-#include "experiments/deformers/deformer_spec.hpp"
-#include "experiments/deformers/pbs/pbs_option_names.hpp"
+#include "experiments/deformers/deformer.hpp"
+#include "experiments/deformers/deformer_options.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/settings/option_fields.hpp"
 

@@ -11,7 +11,7 @@
 //
 // Writes DIR/ambiguity/RUN/ambiguity.csv and, for the first four, figures.csv (volume, jiggling, distance); and ambiguity.csv,
 // ambiguity.txt (the table that is printed), figures.csv and figures.md for all of them.
-#include "analysis/records/folder_files.hpp"
+#include "analysis/records/record_files.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "experiments/studies/ambiguity/ambiguity_report.hpp"
 #include "experiments/studies/ambiguity/reading_values.hpp"

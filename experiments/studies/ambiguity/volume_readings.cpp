@@ -1,8 +1,8 @@
 #include "experiments/studies/ambiguity/volume_readings.hpp"
 
-#include "analysis/case_judgement.hpp"
-#include "analysis/records/folder_files.hpp"
-#include "analysis/statistics.hpp"
+#include "analysis/records/record_files.hpp"
+#include "analysis/statistics/statistics.hpp"
+#include "analysis/verdicts/measurement.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "experiments/studies/shared/program_claims.hpp"
 

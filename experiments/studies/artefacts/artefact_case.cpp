@@ -1,7 +1,7 @@
 #include "experiments/studies/artefacts/artefact_case.hpp"
 
-#include "experiments/deformers/fem/fem_option_names.hpp"
-#include "experiments/deformers/pbs/pbs_option_names.hpp"
+#include "experiments/deformers/deformer_options.hpp"
+#include "experiments/deformers/fem/fem_options.hpp"
 
 #include <fmt/format.h>
 

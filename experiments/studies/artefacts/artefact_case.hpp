@@ -5,8 +5,8 @@
 // reference also run on the body's other meshes. Their spread is the uncertainty of a value.
 #pragma once
 
-#include "analysis/case_key.hpp"
-#include "analysis/records/typed_table.hpp"
+#include "analysis/records/tables.hpp"
+#include "analysis/verdicts/case_record.hpp"
 #include "experiments/settings/option_names.hpp"
 #include "experiments/studies/artefacts/joint_sections.hpp"
 #include "experiments/studies/shared/posed_character.hpp"

@@ -5,7 +5,7 @@
 //   section_outcomes(of, body, records.samples)   // which poses and joints have a value, and why the others have none
 #pragma once
 
-#include "analysis/measurement.hpp"
+#include "analysis/verdicts/measurement.hpp"
 #include "experiments/studies/artefacts/artefact_case.hpp"
 
 namespace experiments {

@@ -1,6 +1,6 @@
 #include "experiments/studies/artefacts/joint_sections.hpp"
 
-#include "analysis/outline_skin.hpp"
+#include "analysis/metrics/cross_section.hpp"
 #include "pbs/geometry/topology.hpp"
 
 #include <algorithm>

@@ -8,7 +8,7 @@
 // outline is measured, the one that encloses the bone. Where the skin is folded deeply into a joint, this outline may enclose both halves.
 #pragma once
 
-#include "analysis/section_outline.hpp"
+#include "analysis/metrics/cross_section.hpp"
 #include "experiments/studies/shared/limb_joints.hpp"
 #include "pbs/geometry/meshing.hpp"
 

@@ -1,9 +1,9 @@
 #include "experiments/studies/artefacts/smoothness_comparison.hpp"
 
-#include "analysis/frame_metrics.hpp"
-#include "analysis/smoothness.hpp"
-#include "analysis/statistics.hpp"
-#include "experiments/deformers/pbs/pbs_option_names.hpp"
+#include "analysis/metrics/error_norms.hpp"
+#include "analysis/metrics/frame_metrics.hpp"
+#include "analysis/statistics/statistics.hpp"
+#include "experiments/deformers/deformer_options.hpp"
 
 #include <fmt/format.h>
 

@@ -14,8 +14,8 @@
 // Writes DIR/artefacts/CASE/{profiles,sections,intersections,smoothness,iterations,measurements}.csv, intersections.md and sections.md.
 // The paper states that it does not handle self-intersections; they are counted. sections.md states where C04 and C05 have a value, and why
 // they have none elsewhere.
-#include "analysis/records/folder_files.hpp"
-#include "analysis/report_table.hpp"
+#include "analysis/records/record_files.hpp"
+#include "analysis/records/report_table.hpp"
 #include "experiments/studies/artefacts/artefact_values.hpp"
 #include "experiments/studies/artefacts/smoothness_comparison.hpp"
 #include "experiments/studies/shared/clip_frames.hpp"

@@ -2,7 +2,7 @@
 // with central differences of Eq. 11, and each printed correction with its purpose, which is to reduce C.
 #pragma once
 
-#include "analysis/case_record.hpp"
+#include "analysis/verdicts/case_record.hpp"
 
 #include <vector>
 

@@ -1,6 +1,6 @@
 // The paper against itself: its mesh sizes, its Table 1 and its equations for the volume constraint. Writes DIR/audit/print/printed.csv,
 // by which C13 to C15 are judged, and audit.md.
-#include "analysis/records/folder_files.hpp"
+#include "analysis/records/record_files.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "experiments/studies/audit/printed_equations.hpp"
 #include "experiments/studies/shared/table_1.hpp"

@@ -1,6 +1,6 @@
 #include "experiments/studies/bench/bench.hpp"
 
-#include "experiments/process/other_work.hpp"
+#include "experiments/process/machine.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/mesh_io.hpp"
 

@@ -3,8 +3,8 @@
 //   fmt::print("{}", bench_table(record));
 #pragma once
 
-#include "analysis/line_fit.hpp"
-#include "experiments/process/peak_memory.hpp"
+#include "analysis/statistics/fits.hpp"
+#include "experiments/process/machine.hpp"
 #include "experiments/studies/bench/deformer_timing.hpp"
 #include "experiments/studies/bench/newton_timing.hpp"
 #include "experiments/studies/bench/projection_timing.hpp"

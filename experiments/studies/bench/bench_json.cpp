@@ -2,7 +2,7 @@
 
 #include "analysis/records/provenance.hpp"
 #include "experiments/settings/option_fields.hpp"
-#include "pbs/solver/batched/batch_kernels.hpp"
+#include "pbs/solver/batched/pbs_kernels.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,4 +1,4 @@
-#include "analysis/report_table.hpp"
+#include "analysis/records/report_table.hpp"
 #include "experiments/studies/bench/bench.hpp"
 
 #include <fmt/format.h>

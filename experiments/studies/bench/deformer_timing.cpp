@@ -1,8 +1,8 @@
 #include "experiments/studies/bench/deformer_timing.hpp"
 
-#include "experiments/deformers/blend/blend_options.hpp"
+#include "experiments/deformers/deformer_options.hpp"
 #include "experiments/deformers/registry.hpp"
-#include "experiments/scene/scene_keys.hpp"
+#include "experiments/scene/scene.hpp"
 #include "experiments/settings/scene_values.hpp"
 #include "pbs/geometry/input_error.hpp"
 

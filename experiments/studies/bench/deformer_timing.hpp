@@ -5,7 +5,7 @@
 // one thread.
 #pragma once
 
-#include "experiments/deformers/deformer_spec.hpp"
+#include "experiments/deformers/deformer.hpp"
 #include "experiments/studies/bench/bench_body.hpp"
 #include "experiments/studies/shared/timed_rounds.hpp"
 

@@ -1,6 +1,6 @@
 #include "experiments/studies/bench/machine_limits.hpp"
 
-#include "experiments/process/cpu_clock.hpp"
+#include "experiments/process/machine.hpp"
 
 #include <algorithm>
 #include <cmath>

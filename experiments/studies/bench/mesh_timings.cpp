@@ -4,7 +4,6 @@
 #include "experiments/deformers/registry.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/skinning/blend.hpp"
-#include "pbs/skinning/blend_skinning.hpp"
 #include "pbs/solver/pbs_solver.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "experiments/studies/bench/newton_timing.hpp"
 
-#include "experiments/deformers/fem/fem_option_names.hpp"
+#include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/deformers/registry.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "experiments/studies/bench/projection_timing.hpp"
 
-#include "pbs/geometry/stopwatch.hpp"
+#include "pbs/geometry/cost.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -7,7 +7,7 @@
 #include "experiments/studies/bench/machine_limits.hpp"
 #include "experiments/studies/bench/step_loops.hpp"
 #include "experiments/studies/shared/timed_rounds.hpp"
-#include "pbs/solver/batched/projection_work.hpp"
+#include "pbs/solver/batched/batched_projection.hpp"
 
 #include <optional>
 #include <string>

@@ -3,10 +3,10 @@
 #include "experiments/studies/bench/plain_loops.hpp"
 #include "experiments/studies/shared/constraint_sequence.hpp"
 #include "pbs/geometry/module.hpp"
+#include "pbs/packed/parallel.hpp"
 #include "pbs/solver/batched/batched_projection.hpp"
 #include "pbs/solver/batched/pose_projection.hpp"
-#include "pbs/solver/parallel.hpp"
-#include "pbs/solver/residuals.hpp"
+#include "pbs/solver/step_summary.hpp"
 
 #include <algorithm>
 #include <thread>

@@ -1,7 +1,6 @@
 // How long a step takes: every order, precision and number of threads, relative to plain loops, over meshes of growing size
 // (bench/bench.hpp). The study has one run, so that nothing else runs meanwhile. Writes DIR/bench/bench.json and bench.txt.
-#include "analysis/records/atomic_file.hpp"
-#include "analysis/records/folder_files.hpp"
+#include "analysis/records/record_files.hpp"
 #include "experiments/studies/bench/bench.hpp"
 #include "experiments/studies/study.hpp"
 

@@ -1,7 +1,7 @@
 #include "experiments/studies/equal_quality/equal_quality.hpp"
 
-#include "experiments/deformers/pbs/pbs_option_names.hpp"
-#include "experiments/scene/motion_case.hpp"
+#include "experiments/deformers/deformer_options.hpp"
+#include "experiments/scene/scene.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "experiments/studies/equal_quality/tapered_limb.hpp"
 #include "experiments/studies/shared/constraint_sequence.hpp"

@@ -5,7 +5,7 @@
 // results of each are bit-identical to those of `ordered`, and only the time differs.
 #pragma once
 
-#include "analysis/case_key.hpp"
+#include "analysis/verdicts/case_record.hpp"
 #include "experiments/scene/scene.hpp"
 #include "experiments/studies/shared/iteration_path.hpp"
 #include "experiments/studies/shared/timed_rounds.hpp"

@@ -1,7 +1,7 @@
 #include "experiments/studies/equal_quality/order_report.hpp"
 
-#include "analysis/report_table.hpp"
-#include "analysis/statistics.hpp"
+#include "analysis/records/report_table.hpp"
+#include "analysis/statistics/statistics.hpp"
 
 #include <algorithm>
 #include <stdexcept>

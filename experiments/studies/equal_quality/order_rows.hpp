@@ -6,7 +6,7 @@
 // lies above the bound.
 #pragma once
 
-#include "analysis/records/typed_table.hpp"
+#include "analysis/records/tables.hpp"
 #include "experiments/studies/equal_quality/equal_quality.hpp"
 
 #include <optional>

@@ -5,7 +5,7 @@
 //   human_crouch             MakeHuman's body in CMU's 01_01
 //
 // Writes DIR/equal_quality/CASE/orders.csv and targets.csv; summary.csv, answers.csv and equal_quality.md over all cases.
-#include "analysis/records/folder_files.hpp"
+#include "analysis/records/record_files.hpp"
 #include "experiments/studies/equal_quality/order_report.hpp"
 #include "experiments/studies/shared/clip_frames.hpp"
 #include "experiments/studies/study.hpp"

@@ -1,6 +1,6 @@
 #include "experiments/studies/equal_quality/tapered_limb.hpp"
 
-#include "pbs/geometry/tet_volume.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 
 #include <algorithm>
 #include <array>

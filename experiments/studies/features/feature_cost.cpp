@@ -1,8 +1,8 @@
 #include "experiments/studies/features/feature_cost.hpp"
 
-#include "analysis/frame_metrics.hpp"
+#include "analysis/metrics/frame_metrics.hpp"
 #include "experiments/deformers/registry.hpp"
-#include "experiments/scene/motion_case.hpp"
+#include "experiments/scene/scene.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "pbs/solver/options.hpp"
 

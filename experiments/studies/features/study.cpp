@@ -5,10 +5,10 @@
 //   human  MakeHuman's body, 21 frames of the clip's jump
 //
 // Writes DIR/features/SCENE/features.csv, DIR/features/features.csv and features.md.
-#include "analysis/records/folder_files.hpp"
-#include "analysis/report_table.hpp"
-#include "experiments/process/own_process.hpp"
-#include "experiments/process/progress.hpp"
+#include "analysis/records/record_files.hpp"
+#include "analysis/records/report_table.hpp"
+#include "experiments/process/child_process.hpp"
+#include "experiments/process/terminal.hpp"
 #include "experiments/studies/features/feature_cost.hpp"
 #include "experiments/studies/shared/scene_alone.hpp"
 #include "experiments/studies/study.hpp"

@@ -1,11 +1,11 @@
 #include "experiments/studies/fit/bar_runs.hpp"
 
-#include "analysis/records/folder_files.hpp"
-#include "experiments/deformers/pbs/pbs_option_names.hpp"
+#include "analysis/records/record_files.hpp"
+#include "experiments/deformers/deformer_options.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "experiments/studies/fit/young_fit.hpp"
 #include "pbs/character/bodies.hpp"
-#include "pbs/near_rest/step_near_rest.hpp"
+#include "pbs/near_rest/near_rest.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -2,8 +2,8 @@
 // swing.csv.
 #pragma once
 
-#include "analysis/minimise.hpp"
-#include "analysis/records/typed_table.hpp"
+#include "analysis/records/tables.hpp"
+#include "analysis/statistics/minimise.hpp"
 #include "experiments/studies/fit/release_test.hpp"
 
 #include <nlohmann/json_fwd.hpp>

@@ -4,8 +4,8 @@
 //   if (const auto fit = fit_poisson(character, elastic, positions_of_each_pose)) ...
 #pragma once
 
-#include "analysis/error_norms.hpp"
-#include "analysis/minimise.hpp"
+#include "analysis/metrics/error_norms.hpp"
+#include "analysis/statistics/minimise.hpp"
 #include "experiments/deformers/fem/fem_options.hpp"
 #include "pbs/character/character.hpp"
 

@@ -1,9 +1,8 @@
 #include "experiments/studies/fit/poisson_run.hpp"
 
-#include "analysis/records/atomic_file.hpp"
-#include "analysis/records/folder_files.hpp"
-#include "experiments/deformers/fem/fem_option_names.hpp"
-#include "experiments/process/interruption.hpp"
+#include "analysis/records/record_files.hpp"
+#include "experiments/deformers/fem/fem_options.hpp"
+#include "experiments/process/terminal.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "experiments/studies/fit/poisson_fit.hpp"
 #include "pbs/character/bodies.hpp"

@@ -1,6 +1,6 @@
 #include "experiments/studies/fit/release_test.hpp"
 
-#include "experiments/process/interruption.hpp"
+#include "experiments/process/terminal.hpp"
 #include "pbs/solver/pbs_solver.hpp"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 //   test.frequency_hz, test.damping_ratio
 #pragma once
 
-#include "analysis/records/typed_table.hpp"
+#include "analysis/records/tables.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/solver/options.hpp"
 

@@ -7,9 +7,9 @@
 //                                constraints, after 24 iterations and converged. Young's modulus cancels.
 //
 // Writes DIR/fit/{sag,swing,poisson,poisson_poses,valley}.csv, fit.json and fit.md.
-#include "analysis/line_fit.hpp"
 #include "analysis/records/json_rows.hpp"
-#include "analysis/report_table.hpp"
+#include "analysis/records/report_table.hpp"
+#include "analysis/statistics/fits.hpp"
 #include "experiments/studies/fit/poisson_run.hpp"
 #include "experiments/studies/study.hpp"
 

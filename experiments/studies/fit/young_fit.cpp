@@ -1,6 +1,6 @@
 #include "experiments/studies/fit/young_fit.hpp"
 
-#include "analysis/statistics.hpp"
+#include "analysis/statistics/statistics.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/topology.hpp"

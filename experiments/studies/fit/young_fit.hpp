@@ -5,7 +5,7 @@
 //   fit.young_pa.estimate, fit.minimum.value
 #pragma once
 
-#include "analysis/minimise.hpp"
+#include "analysis/statistics/minimise.hpp"
 #include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/studies/shared/loaded_body.hpp"
 

@@ -1,9 +1,9 @@
 #include "experiments/studies/jiggle/jiggle_records.hpp"
 
-#include "analysis/records/folder_files.hpp"
-#include "analysis/statistics.hpp"
-#include "experiments/deformers/pbs/pbs_option_names.hpp"
-#include "experiments/scene/motion_case.hpp"
+#include "analysis/records/record_files.hpp"
+#include "analysis/statistics/statistics.hpp"
+#include "experiments/deformers/deformer_options.hpp"
+#include "experiments/scene/scene.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "experiments/studies/jiggle/jiggle_values.hpp"
 #include "experiments/studies/shared/posed_character.hpp"

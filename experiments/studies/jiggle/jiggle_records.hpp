@@ -3,12 +3,12 @@
 //   const std::string breakdown = record_walk(of, folder);    // walk.csv, series.csv
 #pragma once
 
-#include "analysis/records/typed_table.hpp"
+#include "analysis/records/tables.hpp"
 #include "experiments/scene/scene.hpp"
 #include "experiments/studies/jiggle/jiggle_settings.hpp"
 #include "experiments/studies/jiggle/jolt_response.hpp"
 #include "experiments/studies/jiggle/walk_response.hpp"
-#include "pbs/character/jiggle_zone_contents.hpp"
+#include "pbs/character/overlap_and_jiggle.hpp"
 
 #include <string>
 #include <vector>

@@ -1,6 +1,6 @@
 #include "experiments/studies/jiggle/jiggle_settings.hpp"
 
-#include "experiments/deformers/pbs/pbs_option_names.hpp"
+#include "experiments/deformers/deformer_options.hpp"
 #include "experiments/settings/option_fields.hpp"
 
 #include <fmt/format.h>

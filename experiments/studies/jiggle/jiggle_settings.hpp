@@ -2,7 +2,7 @@
 //   for (const JiggleSetting& setting : jiggle_settings()) responses.push_back(jolt_response(character, jiggling(pbs, setting), ...));
 #pragma once
 
-#include "analysis/case_key.hpp"
+#include "analysis/verdicts/case_record.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "pbs/solver/options.hpp"
 

@@ -1,6 +1,6 @@
 #include "experiments/studies/jiggle/jiggle_values.hpp"
 
-#include "analysis/statistics.hpp"
+#include "analysis/statistics/statistics.hpp"
 
 #include <algorithm>
 

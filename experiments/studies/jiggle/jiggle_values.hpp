@@ -2,7 +2,7 @@
 //   for (const analysis::Measurement& measurement : jiggle_values("limb", measured)) ...
 #pragma once
 
-#include "analysis/measurement.hpp"
+#include "analysis/verdicts/measurement.hpp"
 #include "experiments/studies/jiggle/jiggle_settings.hpp"
 #include "experiments/studies/jiggle/jolt_response.hpp"
 

@@ -1,7 +1,7 @@
 #include "experiments/studies/jiggle/jolt_response.hpp"
 
 #include "experiments/deformers/fem/fem_options.hpp"
-#include "experiments/process/interruption.hpp"
+#include "experiments/process/terminal.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 // skeleton.
 #pragma once
 
-#include "analysis/damped_oscillation.hpp"
+#include "analysis/statistics/fits.hpp"
 #include "experiments/deformers/registry.hpp"
 
 #include <optional>

@@ -8,8 +8,8 @@
 // The limb is moved along its bones, the only direction in which the bind constraints leave all of its skin free; bodies are moved up.
 // Flesh has no gravity in a jolt, so that it lies still before it, and has gravity in a walk.
 // Writes DIR/jiggle/RUN/{responses,series,zone,measurements}.csv or walk.csv, and jiggle.md.
-#include "analysis/records/folder_files.hpp"
-#include "analysis/report_table.hpp"
+#include "analysis/records/record_files.hpp"
+#include "analysis/records/report_table.hpp"
 #include "experiments/studies/jiggle/jiggle_records.hpp"
 #include "experiments/studies/shared/real_bodies.hpp"
 #include "experiments/studies/study.hpp"

@@ -1,6 +1,6 @@
 #include "experiments/studies/jiggle/walk_response.hpp"
 
-#include "experiments/process/interruption.hpp"
+#include "experiments/process/terminal.hpp"
 #include "pbs/solver/options.hpp"
 
 #include <algorithm>

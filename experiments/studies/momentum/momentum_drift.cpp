@@ -2,7 +2,7 @@
 
 #include "experiments/studies/shared/posed_character.hpp"
 #include "pbs/constraints/volume_printed.hpp"
-#include "pbs/geometry/tet_volume.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/solver/particles.hpp"
 #include "pbs/solver/projection.hpp"
 

@@ -2,16 +2,16 @@
 // from the LBS shape of a bent limb and of the human's crouch, in both precisions, with equal and unequal masses. Eq. 8-9 as printed, for
 // m_i = 1, are measured for comparison, as is the momentum that the bones take up from the bind constraints.
 // Writes DIR/momentum/CASE/measurements.csv.
-#include "experiments/deformers/pbs/pbs_option_names.hpp"
-#include "experiments/scene/motion_case.hpp"
+#include "experiments/deformers/deformer_options.hpp"
+#include "experiments/scene/scene.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "experiments/studies/momentum/momentum_drift.hpp"
 #include "experiments/studies/shared/clip_frames.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 #include "experiments/studies/study.hpp"
 
-#include "analysis/measurement.hpp"
-#include "analysis/records/folder_files.hpp"
+#include "analysis/records/record_files.hpp"
+#include "analysis/verdicts/measurement.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 namespace experiments {

@@ -3,7 +3,7 @@
 //   table_of(scale_columns, {scale_row(run, metrics)}).write("scale.csv");
 #pragma once
 
-#include "analysis/records/typed_table.hpp"
+#include "analysis/records/tables.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 

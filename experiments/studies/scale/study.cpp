@@ -5,9 +5,9 @@
 //
 // The sizes run one after the other, each in a process of its own with an empty cache of meshes. Writes DIR/scale/sizes/VERTICES/... (a
 // run's folder), DIR/scale/scale.csv and scale.md.
-#include "analysis/line_fit.hpp"
-#include "analysis/records/folder_files.hpp"
-#include "analysis/report_table.hpp"
+#include "analysis/records/record_files.hpp"
+#include "analysis/records/report_table.hpp"
+#include "analysis/statistics/fits.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "experiments/studies/scale/scale_records.hpp"
 #include "experiments/studies/shared/scene_alone.hpp"

@@ -1,10 +1,8 @@
 #include "experiments/studies/setup/body_setup.hpp"
 
-#include "analysis/bootstrap.hpp"
-#include "analysis/records/folder_files.hpp"
-#include "analysis/records/kept_record.hpp"
-#include "analysis/records/typed_table.hpp"
-#include "analysis/statistics.hpp"
+#include "analysis/records/record_files.hpp"
+#include "analysis/records/tables.hpp"
+#include "analysis/statistics/statistics.hpp"
 #include "experiments/run/run.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "pbs/character/body_cache.hpp"

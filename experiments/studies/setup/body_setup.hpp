@@ -2,8 +2,8 @@
 // character.vertices, meshed anew and run. A body that fails is tried again with further keys changed, and these keys are counted.
 #pragma once
 
-#include "analysis/measurement.hpp"
-#include "analysis/records/typed_table.hpp"
+#include "analysis/records/tables.hpp"
+#include "analysis/verdicts/measurement.hpp"
 #include "experiments/scene/scene.hpp"
 
 #include <functional>

@@ -4,8 +4,8 @@
 //   human at 1,200, 2,400 and 4,800 vertices; man, lady, frankie where installed; ring, a body with a handle
 //
 // Writes DIR/setup/BODY/measurements.csv, changed_keys.csv, trials.csv and run/ (the folder of a run), and setup.csv.
-#include "analysis/measurement.hpp"
-#include "analysis/report_table.hpp"
+#include "analysis/records/report_table.hpp"
+#include "analysis/verdicts/measurement.hpp"
 #include "experiments/studies/setup/body_setup.hpp"
 #include "experiments/studies/shared/real_bodies.hpp"
 #include "experiments/studies/study.hpp"

@@ -1,7 +1,7 @@
 // The name of a pose's run, and of its diagram in the tables: limb_twist_90, human_crouch.
 #pragma once
 
-#include "analysis/case_key.hpp"
+#include "analysis/verdicts/case_record.hpp"
 
 #include <string>
 

@@ -1,9 +1,9 @@
 #include "experiments/studies/shared/iteration_path.hpp"
 
-#include "analysis/line_fit.hpp"
-#include "analysis/statistics.hpp"
-#include "experiments/process/cpu_clock.hpp"
-#include "experiments/process/interruption.hpp"
+#include "analysis/statistics/fits.hpp"
+#include "analysis/statistics/statistics.hpp"
+#include "experiments/process/machine.hpp"
+#include "experiments/process/terminal.hpp"
 #include "experiments/studies/shared/posed_reference.hpp"
 #include "pbs/solver/particles.hpp"
 #include "pbs/solver/projection.hpp"

@@ -11,8 +11,8 @@
 // The number of iterations is the first one after which the path never leaves the tolerance again.
 #pragma once
 
-#include "analysis/bootstrap.hpp"
-#include "analysis/frame_metrics.hpp"
+#include "analysis/metrics/frame_metrics.hpp"
+#include "analysis/statistics/statistics.hpp"
 #include "pbs/character/character.hpp"
 #include "pbs/solver/options.hpp"
 #include "pbs/solver/projection.hpp"

@@ -1,7 +1,7 @@
 #include "experiments/studies/shared/limb_joints.hpp"
 
-#include "analysis/section_outline.hpp"
-#include "experiments/run/limb_stations.hpp"
+#include "analysis/metrics/cross_section.hpp"
+#include "experiments/run/frame_measurement.hpp"
 #include "pbs/geometry/meshing.hpp"
 #include "pbs/geometry/topology.hpp"
 

@@ -17,9 +17,10 @@ struct LimbJoint {
     double reach_parent_m, reach_child_m;  // how far along each bone sections are taken
 };
 
-// A joint lies between two bones that meet at less than 60 degrees at rest and share their flesh with no other bone (limb_stations.hpp).
-// Its reach is half of each bone. Bodies with two sides have the joints of their left side (x >= 0). Where the rule misjudges the bones,
-// the joints are given by hand (joints_by_hand); their radius is that of the circle with the area of the section across the joint.
+// A joint lies between two bones that meet at less than 60 degrees at rest and share their flesh with no other bone
+// (frame_measurement.hpp). Its reach is half of each bone. Bodies with two sides have the joints of their left side (x >= 0). Where the
+// rule misjudges the bones, the joints are given by hand (joints_by_hand); their radius is that of the circle with the area of the section
+// across the joint.
 std::vector<LimbJoint> limb_joints(const pbs::Character& character);
 
 // A joint given by its bones, and the share of each bone on which a section's outline encloses the limb alone.

@@ -1,7 +1,7 @@
 #include "experiments/studies/shared/loaded_body.hpp"
 
 #include "pbs/character/bodies.hpp"
-#include "pbs/geometry/tet_volume.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/geometry/topology.hpp"
 
 #include <algorithm>

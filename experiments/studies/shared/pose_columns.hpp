@@ -3,9 +3,9 @@
 // They are functions, since columns of other files are made from them before main() begins.
 #pragma once
 
-#include "analysis/case_key.hpp"
-#include "analysis/frame_metrics.hpp"
-#include "analysis/records/typed_table.hpp"
+#include "analysis/metrics/frame_metrics.hpp"
+#include "analysis/records/tables.hpp"
+#include "analysis/verdicts/case_record.hpp"
 
 namespace experiments {
 

@@ -1,14 +1,13 @@
 #include "experiments/studies/shared/posed_character.hpp"
 
-#include "experiments/process/interruption.hpp"
-#include "experiments/run/broken_frame.hpp"
+#include "experiments/process/terminal.hpp"
 #include "experiments/run/frame_measurement.hpp"
-#include "experiments/scene/motion_case.hpp"
+#include "experiments/scene/scene.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/tet_volume.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/geometry/topology.hpp"
 #include "pbs/skinning/blend.hpp"
-#include "pbs/solver/poses_solver.hpp"
+#include "pbs/solver/pbs_solver.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -4,7 +4,7 @@
 //   limb.distance(reference[0], other[0]).joint_pct;
 #pragma once
 
-#include "analysis/error_norms.hpp"
+#include "analysis/metrics/error_norms.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/scene/scene.hpp"
 #include "pbs/solver/options.hpp"

@@ -1,13 +1,13 @@
 #include "experiments/studies/shared/posed_reference.hpp"
 
 #include "experiments/deformers/registry.hpp"
-#include "experiments/process/interruption.hpp"
+#include "experiments/process/terminal.hpp"
 #include "experiments/run/frame_measurement.hpp"
 #include "experiments/run/reference_error_bar.hpp"
-#include "pbs/character/overlap_mask.hpp"
-#include "pbs/character/refined_character.hpp"
+#include "pbs/character/character.hpp"
+#include "pbs/character/overlap_and_jiggle.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/tet_volume.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -1,7 +1,7 @@
 // The claims of claims.toml, which is compiled into the program.
 #pragma once
 
-#include "analysis/claims.hpp"
+#include "analysis/verdicts/claims.hpp"
 
 #include <string>
 #include <vector>

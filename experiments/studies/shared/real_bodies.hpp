@@ -2,7 +2,7 @@
 //   for_each_installed_body(plan.left_out, [&](const std::string& body) { plan.runs.push_back(run_of(body)); });
 #pragma once
 
-#include "analysis/case_record.hpp"
+#include "analysis/verdicts/case_record.hpp"
 
 #include <functional>
 #include <string>

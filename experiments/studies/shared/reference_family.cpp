@@ -1,6 +1,6 @@
 #include "experiments/studies/shared/reference_family.hpp"
 
-#include "experiments/deformers/fem/fem_option_names.hpp"
+#include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/settings/option_fields.hpp"
 
 #include <algorithm>

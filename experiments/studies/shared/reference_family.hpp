@@ -3,9 +3,9 @@
 //   for (const EnsembleMember& member : family()) PosedReference(character, flesh_of(reference_flesh(scene), member), pose, dt) ...
 #pragma once
 
-#include "analysis/records/typed_table.hpp"
+#include "analysis/records/tables.hpp"
+#include "experiments/deformers/deformer.hpp"
 #include "experiments/deformers/fem/fem_options.hpp"
-#include "experiments/deformers/deformer_spec.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 

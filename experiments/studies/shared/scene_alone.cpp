@@ -1,8 +1,7 @@
 #include "experiments/studies/shared/scene_alone.hpp"
 
-#include "analysis/records/folder_files.hpp"
-#include "analysis/records/kept_record.hpp"
-#include "experiments/process/own_process.hpp"
+#include "analysis/records/record_files.hpp"
+#include "experiments/process/child_process.hpp"
 #include "experiments/run/run.hpp"
 
 namespace experiments {

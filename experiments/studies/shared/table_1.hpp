@@ -1,7 +1,7 @@
 // Table 1 of the paper and what follows from its own numbers: counts against the topology of tet meshes, times against each other.
 #pragma once
 
-#include "analysis/case_record.hpp"
+#include "analysis/verdicts/case_record.hpp"
 
 #include <array>
 #include <string>

@@ -1,8 +1,8 @@
 #include "experiments/studies/shared/timed_rounds.hpp"
 
-#include "analysis/statistics.hpp"
+#include "analysis/statistics/statistics.hpp"
 #include "experiments/settings/option_fields.hpp"
-#include "pbs/geometry/stopwatch.hpp"
+#include "pbs/geometry/cost.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -6,8 +6,8 @@
 //   spread_of_ratios(samples[0][0], samples[1][0]).median   // a over b
 #pragma once
 
-#include "analysis/records/typed_table.hpp"
-#include "experiments/process/cpu_clock.hpp"
+#include "analysis/records/tables.hpp"
+#include "experiments/process/machine.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 

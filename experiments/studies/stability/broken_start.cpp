@@ -1,14 +1,14 @@
 #include "experiments/studies/stability/broken_start.hpp"
 
-#include "analysis/error_norms.hpp"
-#include "analysis/stability_outcome.hpp"
+#include "analysis/metrics/error_norms.hpp"
+#include "analysis/metrics/stability_outcome.hpp"
 #include "experiments/deformers/registry.hpp"
-#include "experiments/process/cpu_clock.hpp"
-#include "experiments/process/interruption.hpp"
+#include "experiments/process/machine.hpp"
+#include "experiments/process/terminal.hpp"
 #include "experiments/run/frame_measurement.hpp"
 #include "experiments/studies/stability/deformer_option.hpp"
 #include "experiments/studies/stability/stability_body.hpp"
-#include "pbs/geometry/tet_volume.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 
 #include <fmt/format.h>
 

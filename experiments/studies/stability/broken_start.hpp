@@ -5,7 +5,7 @@
 // The outcomes in cells.csv cannot show this: there a deformer without memory forgets a broken shape after one step.
 #pragma once
 
-#include "analysis/records/typed_table.hpp"
+#include "analysis/records/tables.hpp"
 #include "experiments/studies/stability/stability_cell.hpp"
 
 #include <optional>

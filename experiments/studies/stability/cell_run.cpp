@@ -1,7 +1,7 @@
 #include "experiments/studies/stability/cell_run.hpp"
 
-#include "experiments/process/cpu_clock.hpp"
-#include "experiments/process/interruption.hpp"
+#include "experiments/process/machine.hpp"
+#include "experiments/process/terminal.hpp"
 #include "experiments/studies/stability/driven_body.hpp"
 
 #include <fmt/format.h>

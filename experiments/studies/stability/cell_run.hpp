@@ -2,7 +2,7 @@
 //   const CellResult result = run_cell(cell);
 #pragma once
 
-#include "analysis/stability_outcome.hpp"
+#include "analysis/metrics/stability_outcome.hpp"
 #include "experiments/studies/stability/stability_cell.hpp"
 
 #include <optional>

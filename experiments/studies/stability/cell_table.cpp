@@ -1,7 +1,7 @@
 #include "experiments/studies/stability/cell_table.hpp"
 
-#include "analysis/measurement.hpp"
-#include "analysis/share_interval.hpp"
+#include "analysis/statistics/statistics.hpp"
+#include "analysis/verdicts/measurement.hpp"
 #include "pbs/solver/options.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // The outcomes of a run's cells as records: cells.csv, the shares by which C08 is judged, and tables for reading.
 #pragma once
 
-#include "analysis/records/typed_table.hpp"
+#include "analysis/records/tables.hpp"
 #include "experiments/studies/stability/cell_run.hpp"
 
 #include <string>

@@ -1,7 +1,7 @@
 #include "experiments/studies/stability/deformer_option.hpp"
 
 #include "experiments/deformers/registry.hpp"
-#include "experiments/scene/scene_keys.hpp"
+#include "experiments/scene/scene.hpp"
 #include "experiments/settings/scene_values.hpp"
 
 #include <nlohmann/json.hpp>

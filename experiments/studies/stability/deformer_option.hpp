@@ -2,7 +2,7 @@
 //   cell.spec = with_option(cell.spec, "poisson", 0.499);
 #pragma once
 
-#include "experiments/deformers/deformer_spec.hpp"
+#include "experiments/deformers/deformer.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 

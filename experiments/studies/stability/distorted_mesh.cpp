@@ -1,6 +1,6 @@
 #include "experiments/studies/stability/distorted_mesh.hpp"
 
-#include "pbs/geometry/tet_volume.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 
 #include <Eigen/Geometry>
 

@@ -1,4 +1,4 @@
-#include "experiments/deformers/fem/fem_option_names.hpp"
+#include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/studies/stability/cell_sweep.hpp"
 #include "experiments/studies/stability/stability_cells.hpp"
 

@@ -2,7 +2,7 @@
 #include "experiments/studies/stability/cell_sweep.hpp"
 #include "experiments/studies/stability/deformer_option.hpp"
 #include "experiments/studies/stability/stability_cells.hpp"
-#include "pbs/author/author_options.hpp"
+#include "pbs/author/author_solver.hpp"
 
 #include <nlohmann/json.hpp>
 

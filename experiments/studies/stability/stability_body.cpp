@@ -1,6 +1,6 @@
 #include "experiments/studies/stability/stability_body.hpp"
 
-#include "experiments/scene/motion_case.hpp"
+#include "experiments/scene/scene.hpp"
 #include "experiments/studies/stability/distorted_mesh.hpp"
 #include "pbs/skinning/blend.hpp"
 

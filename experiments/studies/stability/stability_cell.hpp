@@ -1,9 +1,9 @@
 // One cell of the map of stability: a body, a method with its settings, a disturbance, and the factor that the cell varies.
 #pragma once
 
-#include "experiments/deformers/deformer_spec.hpp"
+#include "experiments/deformers/deformer.hpp"
 #include "experiments/settings/option_names.hpp"
-#include "pbs/geometry/types.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 

@@ -1,5 +1,5 @@
 // C08: is the method unconditionally stable, large time steps included? Each cell of the map disturbs a body, then holds it still, and has
-// one of five outcomes by the same bounds for every method (analysis/stability_outcome.hpp).
+// one of five outcomes by the same bounds for every method (analysis/metrics/stability_outcome.hpp).
 //
 //   pbs, pbs_jiggle   a limb of 400 vertices, bent by 90 degrees in ten steps; one factor at a time to its extremes, in f32 and f64.
 //                     Without jiggle the time step has no effect; those cells have the model pbs_no_memory and are not judged. A broken
@@ -20,7 +20,7 @@
 // The bind constraint bounds a body that has lost its shape, so the shares of inverted and of moving bodies are reported as well.
 // Writes DIR/stability/RUN/cells.csv and measurements.csv, and cells.csv, the maps, starts.csv, outcomes.md and criteria.md. The study
 // fails where an outcome occurs in no cell, or where the printed sign does not diverge: then the map could not tell stable from unstable.
-#include "analysis/records/folder_files.hpp"
+#include "analysis/records/record_files.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "experiments/studies/shared/real_bodies.hpp"
 #include "experiments/studies/stability/broken_start.hpp"

@@ -1,6 +1,6 @@
 #include "experiments/studies/stability/cell_sweep.hpp"
 #include "experiments/studies/stability/stability_cells.hpp"
-#include "pbs/solver/xpbd_options.hpp"
+#include "pbs/solver/options.hpp"
 
 namespace experiments {
 namespace {

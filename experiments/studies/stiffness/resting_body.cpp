@@ -1,6 +1,6 @@
 #include "experiments/studies/stiffness/resting_body.hpp"
 
-#include "experiments/process/interruption.hpp"
+#include "experiments/process/terminal.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "pbs/solver/pbs_solver.hpp"
 #include "pbs/solver/xpbd_solver.hpp"

@@ -5,10 +5,10 @@
 //   table_of(stiffness_columns, {linear_stiffness(body, setting)}).write("stiffness.csv");
 #pragma once
 
-#include "analysis/records/typed_table.hpp"
+#include "analysis/records/tables.hpp"
 #include "experiments/settings/option_names.hpp"
 #include "experiments/studies/shared/loaded_body.hpp"
-#include "pbs/near_rest/step_near_rest.hpp"
+#include "pbs/near_rest/near_rest.hpp"
 
 #include <string>
 

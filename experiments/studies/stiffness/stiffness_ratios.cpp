@@ -1,6 +1,6 @@
 #include "experiments/studies/stiffness/stiffness_ratios.hpp"
 
-#include "analysis/line_fit.hpp"
+#include "analysis/statistics/fits.hpp"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 //   measurement_table(stiffness_ratios(rows, Varied::iterations)).write("measurements.csv");
 #pragma once
 
-#include "analysis/case_record.hpp"
+#include "analysis/verdicts/case_record.hpp"
 #include "experiments/studies/stiffness/resting_body.hpp"
 
 namespace experiments {

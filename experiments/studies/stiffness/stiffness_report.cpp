@@ -1,7 +1,7 @@
 #include "experiments/studies/stiffness/stiffness_report.hpp"
 
-#include "analysis/measurement.hpp"
-#include "analysis/report_table.hpp"
+#include "analysis/records/report_table.hpp"
+#include "analysis/verdicts/measurement.hpp"
 
 #include <fmt/format.h>
 

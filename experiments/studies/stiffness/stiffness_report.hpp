@@ -1,7 +1,7 @@
 // The report of the stiffness study: a page with every exponent and every value of the claim, and a short table for the terminal.
 #pragma once
 
-#include "analysis/claims.hpp"
+#include "analysis/verdicts/claims.hpp"
 #include "experiments/studies/stiffness/stiffness_ratios.hpp"
 
 #include <string>

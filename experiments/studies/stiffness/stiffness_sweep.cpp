@@ -1,7 +1,7 @@
 #include "experiments/studies/stiffness/stiffness_sweep.hpp"
 
-#include "analysis/measurement.hpp"
-#include "analysis/records/folder_files.hpp"
+#include "analysis/records/record_files.hpp"
+#include "analysis/verdicts/measurement.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "pbs/character/bodies.hpp"
 

@@ -7,7 +7,7 @@
 // is judged by the zone on what the solver moves, as the paper runs it; bars and zones on what is held are for comparison ("flesh held").
 // Writes DIR/stiffness/{iterations,time_step,resolution}_BODY/stiffness.csv and measurements.csv; DIR/stiffness/stiffness.csv,
 // exponents.csv and stiffness.md.
-#include "analysis/records/optional_columns.hpp"
+#include "analysis/records/tables.hpp"
 #include "experiments/studies/shared/program_claims.hpp"
 #include "experiments/studies/shared/real_bodies.hpp"
 #include "experiments/studies/stiffness/stiffness_report.hpp"

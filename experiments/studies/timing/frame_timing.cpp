@@ -1,8 +1,8 @@
 #include "experiments/studies/timing/frame_timing.hpp"
 
-#include "experiments/deformers/pbs/pbs_option_names.hpp"
-#include "pbs/geometry/stopwatch.hpp"
-#include "pbs/skinning/blend_skinning.hpp"
+#include "experiments/deformers/deformer_options.hpp"
+#include "pbs/geometry/cost.hpp"
+#include "pbs/skinning/blend.hpp"
 #include "pbs/solver/pbs_solver.hpp"
 #include "pbs/solver/projection.hpp"
 

@@ -7,10 +7,10 @@
 //                        into eight
 //
 // One run is timed at once. Writes DIR/timing/BODY_VERTICES/timing.csv and measurements.csv; DIR/timing/timing.csv and timing.md.
-#include "analysis/measurement.hpp"
-#include "analysis/records/folder_files.hpp"
 #include "analysis/records/provenance.hpp"
-#include "experiments/scene/motion_case.hpp"
+#include "analysis/records/record_files.hpp"
+#include "analysis/verdicts/measurement.hpp"
+#include "experiments/scene/scene.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "experiments/studies/shared/real_bodies.hpp"
 #include "experiments/studies/shared/table_1.hpp"

@@ -4,7 +4,7 @@
 //   measurement_table(timing_measurements(rows)).write("measurements.csv");
 #pragma once
 
-#include "analysis/case_record.hpp"
+#include "analysis/verdicts/case_record.hpp"
 #include "experiments/scene/scene.hpp"
 #include "experiments/studies/timing/frame_timing.hpp"
 

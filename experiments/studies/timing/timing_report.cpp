@@ -1,5 +1,5 @@
-#include "analysis/power_law_end.hpp"
-#include "analysis/report_table.hpp"
+#include "analysis/records/report_table.hpp"
+#include "analysis/statistics/fits.hpp"
 #include "experiments/studies/timing/timing_records.hpp"
 
 #include <fmt/format.h>

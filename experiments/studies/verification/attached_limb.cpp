@@ -3,12 +3,11 @@
 //   the bones hold it. A fit of Poisson's ratio to the reference's own shape finds the ratio that the shape was made with. A further frame
 //   of the linear reference costs one re-solve.
 #include "experiments/studies/verification/problem.hpp"
-#include "reference_fem/verification/common.hpp"
+#include "reference_fem/verification/problems.hpp"
 
-#include "analysis/minimise.hpp"
-#include "experiments/deformers/fem/elastic_fem_deformer.hpp"
-#include "experiments/deformers/fem/linear_fem_deformer.hpp"
-#include "pbs/geometry/stopwatch.hpp"
+#include "analysis/statistics/minimise.hpp"
+#include "experiments/deformers/fem/fem_deformers.hpp"
+#include "pbs/geometry/cost.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,11 +1,11 @@
 // The split of an error into solver, model and discretisation, on a coarse limb whose forearm is twisted: properties of its parts that do
 // not depend on the flesh; and, for information, the effect of the attachment and of the bones' thickness.
 #include "experiments/studies/verification/problem.hpp"
-#include "reference_fem/verification/common.hpp"
+#include "reference_fem/verification/problems.hpp"
 
-#include "analysis/error_norms.hpp"
-#include "analysis/grid_convergence.hpp"
-#include "experiments/deformers/fem/elastic_fem_deformer.hpp"
+#include "analysis/metrics/error_norms.hpp"
+#include "analysis/statistics/grid_convergence.hpp"
+#include "experiments/deformers/fem/fem_deformers.hpp"
 #include "pbs/skinning/blend.hpp"
 #include "pbs/solver/pbs_solver.hpp"
 

@@ -2,9 +2,9 @@
 // Alliance CFD Verification and Validation, tutorial "Examining spatial (grid) convergence", after P. J. Roache 1994). The example observes
 // its order on the third grid, and its safety factor is 1.25; with two grids the order is presumed and the factor is 3.
 #include "experiments/studies/verification/problem.hpp"
-#include "reference_fem/verification/common.hpp"
+#include "reference_fem/verification/problems.hpp"
 
-#include "analysis/grid_convergence.hpp"
+#include "analysis/statistics/grid_convergence.hpp"
 
 namespace experiments {
 

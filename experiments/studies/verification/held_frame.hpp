@@ -2,7 +2,7 @@
 #pragma once
 
 #include "experiments/deformers/fem/bone_attachment.hpp"
-#include "reference_fem/verification/calculix/held_body.hpp"
+#include "reference_fem/verification/calculix/calculix_rows.hpp"
 
 namespace experiments {
 

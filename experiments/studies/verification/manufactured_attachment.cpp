@@ -3,9 +3,7 @@
 #include "pbs/character/bone_capsules.hpp"
 #include "reference_fem/assembly.hpp"
 #include "reference_fem/newton/newton.hpp"
-#include "reference_fem/potentials/dead_load.hpp"
-#include "reference_fem/potentials/elastic_potential.hpp"
-#include "reference_fem/potentials/spring_potential.hpp"
+#include "reference_fem/potentials/potentials.hpp"
 
 namespace experiments {
 

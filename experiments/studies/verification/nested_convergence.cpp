@@ -2,12 +2,11 @@
 // quadratic elements on some tets and on these tets cut into eight, as PosedReference solves them.
 #include "experiments/studies/verification/manufactured_attachment.hpp"
 #include "experiments/studies/verification/problem.hpp"
-#include "reference_fem/verification/common.hpp"
-#include "reference_fem/verification/structured_mesh.hpp"
+#include "reference_fem/verification/problems.hpp"
 
-#include "analysis/line_fit.hpp"
-#include "analysis/nested_convergence.hpp"
-#include "pbs/geometry/refinement.hpp"
+#include "analysis/statistics/fits.hpp"
+#include "analysis/statistics/grid_convergence.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 
 #include <cmath>
 #include <limits>

@@ -6,9 +6,8 @@
 // E = 2.5 mu, and where no volume changes E = 3 mu.
 #include "experiments/studies/verification/problem.hpp"
 #include "pbs/geometry/topology.hpp"
-#include "pbs/near_rest/step_near_rest.hpp"
-#include "pbs/near_rest/volume_constraints.hpp"
-#include "reference_fem/verification/beam_problems.hpp"
+#include "pbs/near_rest/near_rest.hpp"
+#include "reference_fem/verification/problems.hpp"
 
 #include <fmt/format.h>
 

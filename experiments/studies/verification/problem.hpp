@@ -2,7 +2,7 @@
 #pragma once
 
 #include "pbs/character/character.hpp"
-#include "reference_fem/verification/effort.hpp"
+#include "reference_fem/verification/verification_record.hpp"
 
 #include <functional>
 #include <string>
@@ -19,7 +19,7 @@ struct Effort : reference_fem::Effort {
     std::function<pbs::Character(int vertices, int refinements)> limb = {};
 };
 
-// The problems that need a character or PBS; reference_fem/verification/common.hpp declares the others.
+// The problems that need a character or PBS; reference_fem/verification/problems.hpp declares the others.
 VerificationRows attached_limb_rows(const Effort& effort);
 VerificationRows error_split_rows(const Effort& effort);
 VerificationRows grid_convergence_rows(const Effort& effort);

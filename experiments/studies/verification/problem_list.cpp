@@ -1,5 +1,5 @@
 #include "experiments/studies/verification/problem.hpp"
-#include "reference_fem/verification/common.hpp"
+#include "reference_fem/verification/problems.hpp"
 
 namespace experiments {
 

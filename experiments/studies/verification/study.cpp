@@ -1,8 +1,8 @@
 // The verification of the reference: patch tests, manufactured solutions, closed forms and published benchmarks, each problem a run of its
 // own. No claim depends on it; it shows how far the reference itself can be trusted. The rows are in DIR/verification/verification.csv,
 // .json and .md.
-#include "analysis/records/atomic_file.hpp"
-#include "experiments/process/blas_kernels.hpp"
+#include "analysis/records/record_files.hpp"
+#include "experiments/process/machine.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "experiments/studies/study.hpp"
 #include "experiments/studies/verification/problem.hpp"

@@ -1,6 +1,6 @@
 #include "experiments/studies/volume/region_table.hpp"
 
-#include "analysis/report_table.hpp"
+#include "analysis/records/report_table.hpp"
 
 #include <fmt/format.h>
 

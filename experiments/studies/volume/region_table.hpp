@@ -1,7 +1,7 @@
 // The bones and joints at which a body loses its volume, from the regions.csv of runs.
 #pragma once
 
-#include "experiments/run/region_record.hpp"
+#include "experiments/run/run_records.hpp"
 
 #include <string>
 #include <vector>

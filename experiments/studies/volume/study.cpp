@@ -13,7 +13,7 @@
 // order 2 with Poisson's ratios 0.45 and 0.49, and the other bodies have a reference at five frames per second. In addition to the scene's
 // own order of projection PBS has each other order and precision, so that the report can say whether the verdict depends on it. Each run
 // writes regions.csv; the study sums them up in regions.csv and regions.txt.
-#include "experiments/deformers/pbs/pbs_option_names.hpp"
+#include "experiments/deformers/deformer_options.hpp"
 #include "experiments/studies/shared/real_bodies.hpp"
 #include "experiments/studies/study.hpp"
 #include "experiments/studies/volume/region_table.hpp"

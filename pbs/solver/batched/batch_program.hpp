@@ -2,8 +2,9 @@
 // cluster, within a cluster kind by kind. A cluster is what stays in the nearest cache.
 #pragma once
 
-#include "pbs/solver/batched/constraint_groups.hpp"
-#include "pbs/solver/batched/vertex_order.hpp"
+#include "pbs/packed/groups.hpp"
+#include "pbs/packed/vertex_order.hpp"
+#include "pbs/solver/constraint_set.hpp"
 
 #include <vector>
 
@@ -85,5 +86,33 @@ void BatchProgram<Scalar>::for_each_constraint(F&& f) const
         for (int slab = parity; slab < slabs(); slab += 2)
             for (const BatchRun& run : runs_[slab]) with_kind(run.kind, [&](auto kind) { of_run(kind, run); });
 }
+
+// A constraint set in the orders `ordered` and `grouped`: where vertices lie, and stretch and volume constraints as batches. Scalar: float
+// or double.
+template <typename Scalar>
+struct BatchedConstraints {
+    VertexOrder order;    // where the mesh's vertices lie
+    int dummy_begin = 0;  // dummy vertices follow the mesh's, from a whole batch on; see BatchProgram
+    // Programs of the edges and the tets; empty where the class is left out.
+    BatchProgram<Scalar> stretch, volume;
+
+    int vertices() const { return static_cast<int>(order.old_of_new.size()); }  // #V of the mesh, dummies not counted
+};
+
+// The vertices of the constraints of a class and, as Batch has them, their values.
+template <typename Scalar, std::size_t vertices>
+struct ConstraintClassData {
+    std::vector<std::array<int, vertices>> vertex;
+    ConstraintValues<Scalar> values;
+};
+
+// vertices: #V of the mesh. tets: those whose edges may be grouped, constrained or not. order: ordered or grouped.
+template <typename Scalar>
+BatchedConstraints<Scalar> make_batched_constraints(const ConstraintClassData<Scalar, 2>& stretch,
+                                                    const ConstraintClassData<Scalar, 4>& volume, int vertices, const Tets& tets,
+                                                    Order order);
+// Batches the stretch and volume constraints of Algorithm 1.
+template <typename Scalar>
+BatchedConstraints<Scalar> make_batched_constraints(const ConstraintSet<Scalar>& constraints, const Tets& tets, Order order);
 
 }  // namespace pbs

@@ -1,18 +1,53 @@
-// Orders `ordered` and `grouped` as a Projection: constraints in batches of sixteen that share no vertex (batch.hpp), vertices reordered
-// for locality, slabs of the mesh in parallel (vertex_order.hpp). The order of projection belongs to the mesh: any machine and any number
-// of threads project alike, and threads give the same bits. It is another order than `plain`; stretch, volume and bind contradict each
-// other, so the two settle on different limits (the study `equal_quality`).
+// Orders `ordered` and `grouped` as a Projection: constraints in batches of sixteen that share no vertex (../../packed/batch.hpp), vertices
+// reordered for locality, slabs of the mesh in parallel (../../packed/vertex_order.hpp). The order of projection belongs to the mesh: any
+// machine and any number of threads project alike, and threads give the same bits. It is another order than `plain`; stretch, volume and
+// bind contradict each other, so the two settle on different limits (the study `equal_quality`).
 #pragma once
 
+#include "pbs/constraints/bind.hpp"
 #include "pbs/geometry/topology.hpp"
-#include "pbs/solver/batched/batched_constraints.hpp"
-#include "pbs/solver/batched/batched_particles.hpp"
-#include "pbs/solver/parallel.hpp"
+#include "pbs/packed/parallel.hpp"
+#include "pbs/solver/batched/batch_program.hpp"
 #include "pbs/solver/projection.hpp"
 
 #include <vector>
 
 namespace pbs {
+
+// Particles in the order of memory of the batches (../../packed/vertex_order.hpp), with the dummies of each slab behind them, and their
+// bind constraints, each of which moves its own vertex alone.
+
+// Scalar: float or double.
+template <typename Scalar>
+class BatchedParticles {
+public:
+    struct alignas(64) Block {  // sixteen vertices of x, y, z [m], w
+        Scalar xyzw[4 * batch_size];
+    };
+
+    // inverse_mass: #V, in the mesh's numbering; zero: held. bind: at most one per vertex, in the mesh's numbering.
+    BatchedParticles(const BatchedConstraints<Scalar>& batched, const std::vector<Scalar>& inverse_mass,
+                     const std::vector<BindConstraint<Scalar>>& bind);
+
+    // p: positions, q: posed bind points [m], #V x 3; inside, positions are relative to origin [m].
+    void load(const Positions& p, const Positions& q, const Vec3& origin);
+    void store(const Vec3& origin, Positions& p) const;
+    void project_bind_constraints(const Parallel& parallel);
+
+    Scalar* xyzw() { return blocks_.front().xyzw; }
+    const Scalar* xyzw() const { return blocks_.front().xyzw; }
+    int vertices() const { return static_cast<int>(old_of_new_.size()); }  // #V of the mesh, dummies not counted
+    const std::vector<Block>& blocks() const { return blocks_; }           // of the vertices, then of the dummies
+    const std::vector<BindBatch<Scalar>>& bind() const { return bind_; }   // of all vertices; empty: no bind constraints
+
+private:
+    void fill_bind(const std::vector<int>& new_of_old, const std::vector<Scalar>& inverse_mass,
+                   const std::vector<BindConstraint<Scalar>>& bind);
+
+    std::vector<int> old_of_new_;
+    std::vector<BindBatch<Scalar>> bind_;
+    std::vector<Block> blocks_;
+};
 
 // See Projection. This class reads the options order, threads and sleep.
 template <typename Scalar>
@@ -32,7 +67,6 @@ public:
     int wake(const SleepTolerance& tolerance) override;
     double sleeping_share() const override;
 
-    std::size_t bytes_an_iteration() const;                          // constraint data once, positions read and written in each class
     double stretch_fill() const { return batched_.stretch.fill(); }  // share of lanes that have a group
     double volume_fill() const { return batched_.volume.fill(); }    // likewise
 
@@ -58,5 +92,29 @@ private:
     std::vector<typename BatchedParticles<Scalar>::Block> loaded_;   // particles_ before the step, with sleep
     Adjacency neighbours_;                                           // in the new order; empty without sleep
 };
+
+// What has to pass between the core and the level of memory that holds the working set: each constraint's own data once per class, and the
+// positions once in and once out. No step is faster than these bytes over the bandwidth. Loads that a nearer cache answers do not count.
+enum class ConstraintClass { stretch, volume, bind };
+
+// How constraints and positions lie in memory. One pose: a constraint has a vertex index of 4 bytes for each vertex, its rest value and its
+// stiffness, a bind constraint d and k; a vertex is x, y, z, w. Many poses side by side share the constraints, which then carry inverse
+// masses and a class of stiffness; a vertex is x, y, z for each pose. Bind points, x, y, z, belong to each pose.
+struct ProjectionLayout {
+    double scalar_bytes = 4.0;
+    int poses = 1;
+};
+
+struct BodySize {
+    double vertices = 0.0, edges = 0.0, tets = 0.0;
+
+    double constraints(ConstraintClass of) const
+    {
+        return of == ConstraintClass::stretch ? edges : of == ConstraintClass::volume ? tets : vertices;
+    }
+};
+
+double bytes_per_iteration(const ProjectionLayout& layout, const BodySize& size);  // over all three classes, all poses together
+double working_set_bytes(const ProjectionLayout& layout, const BodySize& size);    // the memory that such an iteration touches
 
 }  // namespace pbs

@@ -1,6 +1,6 @@
 #include "pbs/solver/batched/batched_xpbd_projection.hpp"
 
-#include "pbs/solver/batched/compliant_kernels.hpp"
+#include "pbs/solver/batched/pbs_kernels.hpp"
 
 #include <algorithm>
 

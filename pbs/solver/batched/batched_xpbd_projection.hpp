@@ -2,10 +2,10 @@
 // multiplier for each constraint. Any machine and any number of threads project alike, and threads give the same bits.
 #pragma once
 
-#include "pbs/solver/batched/batched_constraints.hpp"
-#include "pbs/solver/batched/batched_particles.hpp"
-#include "pbs/solver/parallel.hpp"
-#include "pbs/solver/xpbd_projection.hpp"
+#include "pbs/packed/parallel.hpp"
+#include "pbs/solver/batched/batch_program.hpp"
+#include "pbs/solver/batched/batched_projection.hpp"
+#include "pbs/solver/xpbd_solver.hpp"
 
 #include <vector>
 

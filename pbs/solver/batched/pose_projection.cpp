@@ -1,6 +1,6 @@
 #include "pbs/solver/batched/pose_projection.hpp"
 
-#include "pbs/solver/batched/pose_kernels.hpp"
+#include "pbs/solver/batched/pbs_kernels.hpp"
 
 namespace pbs {
 

@@ -1,8 +1,8 @@
 // Lines 11-13 of Algorithm 1 for many poses of a mesh side by side: the counterpart of Projection. Poses come in blocks of sixteen.
 #pragma once
 
-#include "pbs/solver/batched/batched_constraints.hpp"
-#include "pbs/solver/batched/pose_constraints.hpp"
+#include "pbs/solver/batched/batch_program.hpp"
+#include "pbs/solver/batched/pbs_kernels.hpp"
 
 #include <vector>
 

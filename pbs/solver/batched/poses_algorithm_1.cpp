@@ -1,7 +1,7 @@
-#include "pbs/solver/batched/poses_algorithm_1.hpp"
+#include "pbs/solver/algorithm_1.hpp"
 
+#include "pbs/geometry/cost.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/stopwatch.hpp"
 
 #include <algorithm>
 

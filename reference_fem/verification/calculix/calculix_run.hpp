@@ -2,6 +2,9 @@
 //   if (const auto program = calculix_on_path()) run_calculix(*program, deck, {});
 #pragma once
 
+#include "pbs/geometry/tet_mesh.hpp"
+#include "reference_fem/verification/calculix/calculix_deck.hpp"
+
 #include <functional>
 #include <iosfwd>
 #include <optional>
@@ -21,7 +24,7 @@ enum class CalculixOutcome {
 };
 const char* name_of(CalculixOutcome outcome);
 
-// CalculiX's files and output; calculix_result.hpp reads the solution from them.
+// CalculiX's files and output; calculix_run.hpp reads the solution from them.
 struct CalculixRun {
     CalculixOutcome outcome = CalculixOutcome::not_started;
     double wall_s = 0.0;  // from the start of the process to its end, reading and writing of its files included
@@ -42,5 +45,38 @@ std::string calculix_version(const std::string& program);
 
 // write_deck writes the deck to a stream; the folder is removed afterwards.
 CalculixRun run_calculix(const std::string& program, const std::function<void(std::ostream&)>& write_deck, const CalculixLimits& limits);
+
+// Displacements from CalculiX's files. It prints 7 digits (deck.dat); its restart file (deck.rout, *RESTART, WRITE: Fortran records
+// of raw memory) holds them in double. Which record of it they are depends on CalculiX's version, so it is recognised: the one of the
+// right length that agrees with every printed number to its last digit. The ends of springs, which are not printed, are nodes behind them.
+struct CalculixDisplacements {
+    pbs::Positions displacements;  // [m], #nodes x 3
+    bool in_double = false;        // from the restart file; false: 7 digits, as printed
+};
+
+// The one block of displacements in a .dat text, at time 1. pbs::InputError with `file` and line where there is none or a second one, a
+// node is missing, twice or unknown, or a line is not a node and three numbers.
+pbs::Positions read_printed_displacements(const std::string& text, const std::string& file, Eigen::Index nodes);
+
+// Both; a restart file that is empty or holds no such record leaves the printed digits. pbs::InputError where it is cut short.
+CalculixDisplacements read_displacements(const std::string& printed, const std::string& restart, Eigen::Index nodes);
+
+// CalculiX's answer to a problem that the reference has solved, compared node by node.
+//   const SecondOpinion opinion = second_opinion(*calculix_on_path(), answered_cantilever(mesh, 1, {}));
+struct SecondOpinion {
+    CalculixOutcome outcome = CalculixOutcome::not_started;  // finished: the numbers below are set
+    std::string last_words;                                  // the end of CalculiX's output, where it did not finish
+    double wall_s = 0.0;
+    bool in_double = false;               // its displacements were read in double; false: 7 digits
+    double largest_displacement_m = 0.0;  // the reference's
+    double largest_difference_m = 0.0;    // of a node's displacement vector
+    int node = -1;                        // where
+
+    double relative_difference() const { return largest_difference_m / largest_displacement_m; }
+};
+
+// pbs::InputError where CalculiX's files are damaged.
+SecondOpinion second_opinion(const std::string& program, const AnsweredProblem& ours, const DeckOptions& options = {},
+                             const CalculixLimits& limits = {});
 
 }  // namespace reference_fem

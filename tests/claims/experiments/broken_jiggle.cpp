@@ -8,7 +8,7 @@
 // The verdict itself is already against the claim, by the time step and by the small effect of k_stretch; the values behind it must change.
 #include "experiments/studies/jiggle/jiggle_values.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
-#include "pbs/character/jiggle_zone_contents.hpp"
+#include "pbs/character/overlap_and_jiggle.hpp"
 #include "pbs/solver/options.hpp"
 #include "tests/support/broken_solver.hpp"
 #include "tests/support/study_claims.hpp"

@@ -7,7 +7,6 @@
 #include "experiments/studies/stability/cell_table.hpp"
 #include "experiments/studies/stability/stability_cells.hpp"
 #include "pbs/solver/options.hpp"
-#include "pbs/solver/xpbd_options.hpp"
 #include "tests/support/broken_solver.hpp"
 #include "tests/support/study_claims.hpp"
 

@@ -8,7 +8,7 @@
 #include "experiments/studies/stiffness/stiffness_ratios.hpp"
 #include "tests/support/study_claims.hpp"
 
-#include "analysis/measurement.hpp"
+#include "analysis/verdicts/measurement.hpp"
 #include "pbs/character/bodies.hpp"
 
 #include <gtest/gtest.h>

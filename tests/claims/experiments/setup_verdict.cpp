@@ -1,8 +1,8 @@
 // C17 is judged from the measurements of the setup study: if they are altered, the verdict changes. Reference: the project's own
 // claims.toml. The frames are invented, and the values are computed from them by the study's own functions.
-#include "analysis/claims.hpp"
-#include "analysis/records/atomic_file.hpp"
-#include "analysis/verdict.hpp"
+#include "analysis/records/record_files.hpp"
+#include "analysis/verdicts/claims.hpp"
+#include "analysis/verdicts/verdict.hpp"
 #include "experiments/studies/setup/body_setup.hpp"
 
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 // C08 judged from records like those of the stability study: a single cell that diverges changes the verdict.
-#include "analysis/claims.hpp"
-#include "analysis/measurement.hpp"
-#include "analysis/records/atomic_file.hpp"
-#include "analysis/verdict.hpp"
+#include "analysis/records/record_files.hpp"
+#include "analysis/verdicts/claims.hpp"
+#include "analysis/verdicts/measurement.hpp"
+#include "analysis/verdicts/verdict.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/studies/stability/cell_table.hpp"
 #include "experiments/studies/stability/stability_cells.hpp"
@@ -123,7 +123,7 @@ TEST(StabilityVerdict, ReportedSharesHaveAnIntervalAndTheJudgedOneHasNone)
     for (int row = 0; row < shares.rows(); row += 4) EXPECT_EQ(shares.number(row, "high"), shares.number(row, "value"));
     EXPECT_EQ(shares.text_at(5, "quantity"), "share_of_cells_inverted");  // none of one
     // The probability 1 - p = 0.025 comes from logarithms of magnitude 9 at most, of ten roundings
-    // (tests/unit/analysis/share_interval.cpp).
+    // (tests/unit/analysis/statistics/statistics.cpp).
     EXPECT_NEAR(shares.number(5, "high"), 0.975, test_support::rounding_error(10, 9.0 / 0.025));
     EXPECT_EQ(shares.number(5, "low"), 0.0);
 }

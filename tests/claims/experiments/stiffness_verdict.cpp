@@ -1,8 +1,8 @@
 // C11 is judged by the values of the stiffness study, and other values give another verdict. Reference: the project's own claims.toml. The
 // stiffnesses are invented; the values are those that the study computes from them.
-#include "analysis/verdict.hpp"
+#include "analysis/verdicts/verdict.hpp"
 
-#include "analysis/records/atomic_file.hpp"
+#include "analysis/records/record_files.hpp"
 #include "experiments/studies/stiffness/stiffness_ratios.hpp"
 
 #include <gtest/gtest.h>

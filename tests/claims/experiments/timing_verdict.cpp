@@ -1,8 +1,8 @@
 // C10 is judged from what the study `timing` measures: other times reverse the verdict. The claim is that of claims.toml, and the times are
 // made up.
-#include "analysis/verdict.hpp"
+#include "analysis/verdicts/verdict.hpp"
 
-#include "analysis/records/atomic_file.hpp"
+#include "analysis/records/record_files.hpp"
 #include "experiments/studies/timing/timing_records.hpp"
 
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 // C01 and C02 are judged from metrics.csv, frame by frame: if the frames of one body are altered, the verdicts change. Reference: the
 // project's own claims.toml; the frames are invented.
-#include "analysis/claims.hpp"
-#include "analysis/records/atomic_file.hpp"
-#include "analysis/verdict.hpp"
+#include "analysis/records/record_files.hpp"
+#include "analysis/verdicts/claims.hpp"
+#include "analysis/verdicts/verdict.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Tests whether Eq. 12-21 are the gradients and corrections of Eq. 11. Reference: the volumes themselves. Each form, derived and as
 // printed, runs on a limb bent by 90 degrees (k_stretch 0.5, 24 iterations) and is measured by the sum of |V - V0| over the rest volume, in
 // per cent.
-#include "pbs/geometry/tet_volume.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/solver/pbs_solver.hpp"
 #include "tests/support/two_bone_limb.hpp"
 

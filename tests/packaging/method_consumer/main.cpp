@@ -4,7 +4,7 @@
 //   ______________________              ___________
 //  |    .     |     .     |   -->      |     .     |     prints: tets 1920, lbs -x.xxx %, pbs -x.xxx %
 //  |__________|___________|            |_____    . |
-#include "pbs/geometry/tet_volume.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/skinning/blend.hpp"
 #include "pbs/solver/pbs_solver.hpp"
 

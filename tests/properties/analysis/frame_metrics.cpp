@@ -1,6 +1,6 @@
 // Invariances of the metrics: rigid motion, order of tets and vertices, unit of length. Reference: none of them changes a ratio of volumes
 // or lengths. Tolerance: the rounding of the moved positions, of volumes and of lengths.
-#include "analysis/frame_metrics.hpp"
+#include "analysis/metrics/frame_metrics.hpp"
 
 #include "tests/support/motion_rounding.hpp"
 #include "tests/support/structured_bar.hpp"

@@ -1,5 +1,5 @@
 // Sleep on the human through a jump: the difference from the full solve stays small. Reference: the same deformer without sleep.
-#include "experiments/scene/motion_case.hpp"
+#include "experiments/scene/scene.hpp"
 #include "experiments/studies/features/feature.hpp"
 #include "experiments/studies/features/feature_cost.hpp"
 #include "pbs/geometry/input_error.hpp"

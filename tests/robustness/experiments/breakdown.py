@@ -1,6 +1,6 @@
 """Numerical breakdown is an outcome: the frame and the worst element are recorded and printed, and the exit status is 3 if the run was
 expected to finish. Reference: the contract in experiments/command_line/README.md; the worst tet as computed from the written frame or,
-where a frame was taken back, the contract in experiments/run/broken_frame.hpp."""
+where a frame was taken back, the contract in experiments/run/frame_measurement.hpp."""
 import csv
 import json
 import unittest

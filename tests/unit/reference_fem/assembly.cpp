@@ -1,16 +1,22 @@
 // Reference: the P1 stiffness of one tet in closed form, derived by hand; rigid motions store no energy; the load adds up to the weight;
 // the energy is half of u K u. Tolerances: the roundings of an entry and of the sums that follow, times the magnitudes of the terms. The
 // magnitudes of all shape functions at a point add up to at most 2, at the centroid of a quadratic tet.
-#include "reference_fem/assembly.hpp"
 
+#include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/topology.hpp"
+#include "reference_fem/assembly.hpp"
+#include "reference_fem/options.hpp"
 #include "tests/support/element_rounding.hpp"
+#include "tests/support/rounding_error.hpp"
 #include "tests/support/structured_bar.hpp"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
+#include <set>
 
 namespace {
 
@@ -154,6 +160,150 @@ TEST(Assembly, ErrorNormsOfZeroAreTheNormsOfTheField)
     EXPECT_NEAR(norms.h1_seminorm, std::sqrt(2.0), rounding_error(roundings, volume) / (2.0 * std::sqrt(2.0)));
     // A coordinate of at most 2 is compared with its interpolation, a sum of four products with shape functions, over a volume of 2.
     EXPECT_LT(error_norms(space, at_nodes(space, field), field, gradient).l2, rounding_error(8 + 8 + 4, 2.0) * std::sqrt(2.0));
+}
+
+}  // namespace
+
+// Reference: the same sums in a dense matrix.
+
+namespace {
+
+using namespace reference_fem;
+
+TEST(NodalMatrix, AddsWhatADenseMatrixAdds)
+{
+    for (const int order : {1, 2}) {
+        const SimplexSpace space(test_support::structured_bar({0, 0, 0}, {1, 1, 1}, {1, 1, 1}), order);
+        NodalMatrix matrix(space);
+        Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(space.dofs(), space.dofs());
+        const auto nodes = space.tet_nodes().cols();
+        for (Eigen::Index t = 0; t < space.tet_nodes().rows(); ++t) {
+            const Eigen::MatrixXd values = Eigen::MatrixXd::Random(3 * nodes, 3 * nodes);
+            matrix.add_tet(t, values);
+            for (Eigen::Index a = 0; a < nodes; ++a)
+                for (Eigen::Index b = 0; b < nodes; ++b)
+                    dense.block<3, 3>(3 * space.tet_nodes()(t, a), 3 * space.tet_nodes()(t, b)) += values.block<3, 3>(3 * a, 3 * b);
+        }
+        matrix.add_block(0, 1, Eigen::Matrix3d::Constant(2.0));
+        dense.block<3, 3>(0, 3).array() += 2.0;
+        EXPECT_EQ(Eigen::MatrixXd(matrix.matrix()), dense);
+        matrix.set_zero();
+        EXPECT_EQ(matrix.matrix().norm(), 0.0);
+    }
+}
+
+}  // namespace
+
+// Reference: the definition of nodal elements. Vertex v is node v, shape functions are 1 at their own node and 0 at the others. At nodes
+// they are polynomials of 0, 1/2 and 1, which are not rounded.
+
+namespace {
+
+using pbs::Vec3;
+using reference_fem::SimplexSpace;
+
+const pbs::TetMesh long_bar = test_support::structured_bar({0, 0, 0}, {3, 1, 1}, {3, 2, 1});
+
+TEST(SimplexSpace, KeepsVerticesAndTetsInTheirOrder)
+{
+    for (const int order : {1, 2}) {
+        const SimplexSpace space(long_bar, order);
+        EXPECT_EQ(space.node_positions().topRows(long_bar.rest.rows()), bar.rest);
+        EXPECT_EQ(space.tet_nodes().leftCols(4), long_bar.tets);
+    }
+}
+
+TEST(SimplexSpace, LinearHasOneNodeAVertexAndQuadraticOneMoreAnEdge)
+{
+    EXPECT_EQ(SimplexSpace(long_bar, 1).nodes(), bar.rest.rows());
+    EXPECT_EQ(SimplexSpace(long_bar, 2).nodes(), bar.rest.rows() + pbs::edges_of(bar.tets).rows());
+}
+
+TEST(SimplexSpace, MidEdgeNodesLieInTheMiddleOfTheirEdges)
+{
+    const SimplexSpace space(long_bar, 2);
+    std::set<int> seen;
+    for (const auto& tet : space.tet_nodes().rowwise())
+        for (int k = 0; k < 6; ++k) {
+            const auto& [first, second] = SimplexSpace::edge_corners[k];
+            const Eigen::RowVector3d middle = (long_bar.rest.row(tet(first)) + bar.rest.row(tet(second))) / 2.0;
+            EXPECT_EQ(space.node_positions().row(tet(4 + k)), middle);
+            seen.insert(tet(4 + k));
+        }
+    EXPECT_EQ(static_cast<int>(seen.size()), space.nodes() - long_bar.rest.rows());
+}
+
+TEST(SimplexSpace, ShapeFunctionsAreOneAtTheirOwnNodeAndZeroAtTheOthers)
+{
+    const Vec3 corners[4] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    for (const int order : {1, 2}) {
+        const SimplexSpace space(long_bar, order);
+        for (int node = 0; node < space.tet_nodes().cols(); ++node) {
+            const auto* ends = SimplexSpace::edge_corners[std::max(node - 4, 0)];
+            const Vec3 point = node < 4 ? corners[node] : Vec3((corners[ends[0]] + corners[ends[1]]) / 2.0);
+            const Eigen::VectorXd expected = Eigen::VectorXd::Unit(space.tet_nodes().cols(), node);
+            EXPECT_EQ(space.shape_values(point), expected) << "order " << order << ", node " << node;
+        }
+        // A function goes through eight roundings and the sum of ten. The terms of L_i (2 L_i - 1) and 4 L_i L_j add up to 3 in magnitude.
+        EXPECT_NEAR(space.shape_values({0.1, 0.2, 0.3}).sum(), 1.0, test_support::rounding_error(8 + 10, 3.0));
+    }
+}
+
+TEST(SimplexSpace, AffineValuesAtVerticesAreAffineOnAllNodes)
+{
+    const SimplexSpace space(long_bar, 2);
+    Eigen::Matrix3d gradient;
+    gradient << 1, 2, 3, -4, 5, 6, 7, -8, 9;
+    const pbs::Positions expected = space.node_positions() * gradient.transpose();
+    // There are three products and sums on both sides, and the mean of two.
+    const pbs::Positions terms = space.node_positions().cwiseAbs() * gradient.cwiseAbs().transpose();
+    EXPECT_LT((space.from_vertices(long_bar.rest * gradient.transpose()) - expected).norm(),
+              test_support::rounding_error(3 + 3 + 1, terms.norm()));
+}
+
+TEST(SimplexSpace, RefusesAnElementOrderItDoesNotHave)
+{
+    EXPECT_THROW(SimplexSpace(long_bar, 0), pbs::InputError);
+    EXPECT_THROW(SimplexSpace(long_bar, 3), pbs::InputError);
+}
+
+TEST(SimplexSpace, RefusesDegenerateMeshes)
+{
+    pbs::TetMesh inverted = long_bar, flat = bar, unused = bar, out_of_range = bar, not_finite = bar;
+    std::swap(inverted.tets(4, 0), inverted.tets(4, 1));
+    flat.rest.row(flat.tets(0, 3)) = flat.rest.row(flat.tets(0, 2));
+    unused.rest.conservativeResize(long_bar.rest.rows() + 1, 3);
+    unused.rest.bottomRows(1).setZero();
+    out_of_range.tets(2, 1) = static_cast<int>(long_bar.rest.rows());
+    not_finite.rest(3, 1) = std::nan("");
+    for (const auto& mesh : {inverted, flat, unused, out_of_range, not_finite, pbs::TetMesh{}})
+        EXPECT_THROW(SimplexSpace(mesh, 1), pbs::InputError);
+}
+
+}  // namespace
+
+// Reference: relations between elastic constants, by hand: E = mu (3 lambda + 2 mu) / (lambda + mu), nu = lambda / (2 (lambda + mu)).
+
+namespace {
+
+using reference_fem::Lame;
+using reference_fem::lame_parameters;
+
+// Each relation goes through some fifteen roundings. 1 - 2 nu cancels in lambda, but E and nu depend on lambda by a factor below 1 - 2 nu
+// where nu is close to 1/2. At nu = -0.4 the sums lambda + mu and 3 lambda + 2 mu cancel, by factors of 2.6 and 5.
+TEST(Material, LameParametersReturnYoungsModulusAndPoissonsRatio)
+{
+    for (const double poisson : {-0.4, 0.0, 0.3, 0.45, 0.4999}) {
+        const auto [lambda, mu] = lame_parameters(7e4, poisson);
+        EXPECT_NEAR(mu * (3.0 * lambda + 2.0 * mu) / (lambda + mu), 7e4, test_support::rounding_error(15, 5.0 * 7e4));
+        EXPECT_NEAR(lambda / (2.0 * (lambda + mu)), poisson, test_support::rounding_error(15, 2.6 * 0.5));
+    }
+}
+
+TEST(Material, RefusesWhatNoStableMaterialHas)
+{
+    for (const double young : {0.0, -1.0, double(INFINITY), std::nan("")}) EXPECT_THROW(lame_parameters(young, 0.3), pbs::InputError);
+    for (const double poisson : {-1.0, 0.5, 0.6, std::nan("")}) EXPECT_THROW(lame_parameters(1.0, poisson), pbs::InputError);
 }
 
 }  // namespace

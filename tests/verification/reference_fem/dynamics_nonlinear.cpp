@@ -4,7 +4,7 @@
 
 #include "pbs/geometry/input_error.hpp"
 #include "reference_fem/dynamics/time_stepper.hpp"
-#include "reference_fem/potentials/dead_load.hpp"
+#include "reference_fem/potentials/potentials.hpp"
 
 #include "tests/support/solve_rounding.hpp"
 #include "tests/support/structured_bar.hpp"

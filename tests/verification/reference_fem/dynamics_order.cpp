@@ -2,7 +2,7 @@
 // schemes are of second order (J. Chung, G. Hulbert, J. Appl. Mech. 60(2), 1993). Tolerance 0.1 on the observed order: the next terms of
 // the error, of relative size (omega h)^2 and for rho = 0 some omega h = 0.05 on the finest pair, contribute up to 0.05.
 #include "reference_fem/dynamics/vibrating_body.hpp"
-#include "reference_fem/potentials/elastic_potential.hpp"
+#include "reference_fem/potentials/potentials.hpp"
 
 #include "tests/support/structured_bar.hpp"
 

@@ -3,10 +3,7 @@
 // no energy.
 #include "pbs/geometry/input_error.hpp"
 #include "reference_fem/assembly.hpp"
-#include "reference_fem/potentials/bind_potential.hpp"
-#include "reference_fem/potentials/dead_load.hpp"
-#include "reference_fem/potentials/elastic_potential.hpp"
-#include "reference_fem/potentials/spring_potential.hpp"
+#include "reference_fem/potentials/potentials.hpp"
 
 #include "tests/support/eps_sweep.hpp"
 #include "tests/verification/reference_fem/jittered_cube.hpp"

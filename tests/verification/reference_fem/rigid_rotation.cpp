@@ -3,7 +3,7 @@
 // its error is.
 #include "reference_fem/linear_elasticity.hpp"
 
-#include "pbs/geometry/tet_volume.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 #include "tests/verification/reference_fem/jittered_cube.hpp"
 
 #include <Eigen/Geometry>

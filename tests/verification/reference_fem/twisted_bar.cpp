@@ -3,7 +3,7 @@
 // Both stop at a residual of 1e-8 of the forces, after a quadratic last Newton step; values of volume and energy agree to a relative 1e-6.
 // Newton may take 1.5 times the iterations of that implementation.
 #include "reference_fem/newton/newton.hpp"
-#include "reference_fem/potentials/elastic_potential.hpp"
+#include "reference_fem/potentials/potentials.hpp"
 
 #include "tests/support/structured_bar.hpp"
 

@@ -1,11 +1,10 @@
-// LBS and DQS, plain (blend.hpp) and packed (blend_skinning.hpp), in ns per vertex, compared with a copy of the same number of bytes.
+// LBS and DQS, plain (blend.hpp) and packed (blend.hpp), in ns per vertex, compared with a copy of the same number of bytes.
 // Ratios of one run are meaningful; absolute times depend on the machine and its state.
 //   limb, human: the built-in characters    paper: two bones and Eq. 2's weights, ordered along them    mixed: the same in random order
 //   smooth: four bones of twenty and weights of its own for every vertex
 //   build/release/tests/benchmark_blend --benchmark_filter=paper
 #include "pbs/character/bodies.hpp"
 #include "pbs/skinning/blend.hpp"
-#include "pbs/skinning/blend_skinning.hpp"
 #include "tests/support/random_points.hpp"
 
 #include <benchmark/benchmark.h>

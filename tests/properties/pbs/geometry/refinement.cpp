@@ -1,9 +1,8 @@
 // Refinement depends neither on the orientation of a body nor on its numbering, and children are never much worse than their parents.
-// Reference: the body is the same; with the shortest diagonal, a child's mean ratio is at least 3/4 of its parent's (refinement.hpp).
-#include "pbs/geometry/refinement.hpp"
+// Reference: the body is the same; with the shortest diagonal, a child's mean ratio is at least 3/4 of its parent's (tet_mesh.hpp).
+#include "pbs/geometry/tet_mesh.hpp"
 
-#include "pbs/geometry/quality.hpp"
-#include "pbs/geometry/tet_volume.hpp"
+#include "pbs/geometry/topology.hpp"
 #include "tests/support/random_points.hpp"
 #include "tests/support/rounding_error.hpp"
 #include "tests/support/structured_bar.hpp"

@@ -1,7 +1,6 @@
 // Reference: the plain blends, which follow the paper line by line; rigid motions; quantities that are invariant under a change of origin.
-#include "pbs/skinning/blend_skinning.hpp"
-
 #include "pbs/skinning/blend.hpp"
+
 #include "tests/support/random_points.hpp"
 
 #include <gtest/gtest.h>

@@ -4,7 +4,7 @@
 // limits its growth.
 #include "pbs/solver/pbs_solver.hpp"
 
-#include "pbs/geometry/tet_volume.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 #include "tests/support/random_points.hpp"
 #include "tests/support/step_rounding.hpp"
 #include "tests/support/two_bone_limb.hpp"

@@ -1,6 +1,6 @@
 // Nothing is built that a scene does not need. Reference: this requirement, checked in the solver's own parts for every combination of
 // classes with and without stiffness.
-#include "pbs/solver/batched/batched_constraints.hpp"
+#include "pbs/solver/batched/batch_program.hpp"
 #include "pbs/solver/particles.hpp"
 #include "pbs/solver/pbs_solver.hpp"
 #include "tests/support/scalar_rounding.hpp"

@@ -1,13 +1,13 @@
 // Reference: order `plain`. Stretch, volume and bind contradict each other, so every order of projection converges to a limit of its own.
 // The test measures how far those lie from plain's on a limb twisted by 90 and bent by 60 degrees, after the paper's 24 iterations.
 // `ordered` must not be worse than plain by more than random orders of the plain loops differ among themselves, some 1 % in stretch; in
-// volume, its colours leave less than plain (projection_sequence.hpp), and it must not be worse at all. The bounds of `grouped`, 9 % and
+// volume, its colours leave less than plain (groups.hpp), and it must not be worse at all. The bounds of `grouped`, 9 % and
 // 19 %, are regression values, not theory: its bias as once measured on a bar of 20,000 vertices. Meshes are irregular: on a regular grid
 // the file order itself is special, 20 to 30 % below random orders of the same loops.
 #include "pbs/solver/pbs_solver.hpp"
 
 #include "pbs/geometry/meshing.hpp"
-#include "pbs/geometry/refinement.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 #include "tests/support/step_rounding.hpp"
 #include "tests/support/two_bone_limb.hpp"
 

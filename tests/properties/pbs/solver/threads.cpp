@@ -1,11 +1,11 @@
 // Reference: the same run on one thread. Threads share a mesh by slabs, which are defined by the mesh, so no number of threads and no order
 // of the slabs of one parity changes a bit; nor does a second run.
-#include "pbs/solver/batched/batch_kernels.hpp"
-#include "pbs/solver/batched/batched_constraints.hpp"
+#include "pbs/solver/batched/batch_program.hpp"
+#include "pbs/solver/batched/pbs_kernels.hpp"
 #include "pbs/solver/pbs_solver.hpp"
 #include "pbs/solver/xpbd_solver.hpp"
 
-#include "analysis/records/state_hash.hpp"
+#include "analysis/records/provenance.hpp"
 #include "tests/support/two_bone_limb.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // A small package in MakeHuman's formats, complete and damaged: errors are refused with file and field. Reference: the formats (three.js
 // JSON 3.1, the rig's vertex lists, int16 targets), laid out by hand.
-#include "pbs/character/makehuman_figure.hpp"
+#include "pbs/character/named_bodies.hpp"
 
 #include "tests/support/rounding_error.hpp"
 #include "tests/support/scratch_folder.hpp"

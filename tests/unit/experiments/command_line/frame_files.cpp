@@ -1,5 +1,5 @@
 // Reference: the permissions of the folder.
-#include "experiments/command_line/measure/frame_files.hpp"
+#include "experiments/command_line/verbs.hpp"
 
 #include "pbs/geometry/input_error.hpp"
 #include "tests/support/scratch_folder.hpp"

@@ -2,7 +2,7 @@
 // Reference: the specification in experiments/deformers/registry.hpp.
 #include "experiments/deformers/registry.hpp"
 #include "experiments/run/run.hpp"
-#include "experiments/scene/scene_keys.hpp"
+#include "experiments/scene/scene.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "tests/support/scratch_folder.hpp"

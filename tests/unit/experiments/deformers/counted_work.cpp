@@ -1,11 +1,11 @@
-// Reference: the definitions in pbs/geometry/work_counters.hpp, counted by hand on a bar.
+// Reference: the definitions in pbs/geometry/cost.hpp, counted by hand on a bar.
 #include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/deformers/registry.hpp"
-#include "pbs/author/author_options.hpp"
+#include "pbs/author/author_solver.hpp"
 #include "pbs/geometry/topology.hpp"
 #include "pbs/skinning/delta_mush.hpp"
 #include "pbs/skinning/direct_delta_mush.hpp"
-#include "pbs/solver/xpbd_options.hpp"
+#include "pbs/solver/options.hpp"
 #include "tests/support/bar_character.hpp"
 
 #include <gtest/gtest.h>

@@ -1,8 +1,7 @@
 // Reference: the same deformer on a character that has these weights itself; equal to the bit.
-#include "experiments/deformers/own_weights.hpp"
-
-#include "experiments/deformers/blend/blend_options.hpp"
 #include "experiments/deformers/registry.hpp"
+
+#include "experiments/deformers/deformer_options.hpp"
 #include "experiments/scene/scene.hpp"
 #include "pbs/character/skinning_weights.hpp"
 #include "pbs/geometry/input_error.hpp"

@@ -1,4 +1,4 @@
-// Reference: the definitions in pbs/geometry/work_counters.hpp, counted by hand on a bar, and the plain implementation.
+// Reference: the definitions in pbs/geometry/cost.hpp, counted by hand on a bar, and the plain implementation.
 #include "experiments/deformers/registry.hpp"
 #include "experiments/scene/scene.hpp"
 #include "experiments/studies/shared/posed_character.hpp"

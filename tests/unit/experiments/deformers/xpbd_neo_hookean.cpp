@@ -1,4 +1,4 @@
-// Reference: the definitions in pbs/geometry/work_counters.hpp, counted by hand on a bar, and the contract of
+// Reference: the definitions in pbs/geometry/cost.hpp, counted by hand on a bar, and the contract of
 // experiments/deformers/deformer.hpp.
 #include "experiments/deformers/registry.hpp"
 #include "experiments/scene/scene.hpp"

@@ -1,6 +1,6 @@
 // Reference: which instructions each processor has, by its data sheet, and which kernels OpenBLAS 0.3.21 selects for its family and model;
 // the library's own report of the kernels it uses.
-#include "experiments/process/blas_kernels.hpp"
+#include "experiments/process/machine.hpp"
 
 #ifdef __x86_64__
 #include "tests/support/other_processor.hpp"

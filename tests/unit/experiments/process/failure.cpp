@@ -1,7 +1,6 @@
 // Reference: the contract of exit statuses (experiments/command_line/README.md).
-#include "experiments/process/failure.hpp"
+#include "experiments/process/terminal.hpp"
 
-#include "experiments/process/interruption.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 #include <gtest/gtest.h>

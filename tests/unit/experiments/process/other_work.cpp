@@ -1,5 +1,5 @@
 // Processors kept busy, from texts of /proc/stat. Reference: the columns of proc(5), added by hand.
-#include "experiments/process/other_work.hpp"
+#include "experiments/process/machine.hpp"
 
 #include <gtest/gtest.h>
 

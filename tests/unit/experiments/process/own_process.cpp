@@ -1,5 +1,5 @@
 // Work in a separate process. Reference: the contract of the header.
-#include "experiments/process/own_process.hpp"
+#include "experiments/process/child_process.hpp"
 
 #include "pbs/geometry/input_error.hpp"
 

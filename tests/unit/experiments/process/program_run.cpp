@@ -1,5 +1,5 @@
 // Whether a program can be started is known before it is. Reference: execvp of POSIX, which seeks names without a slash on the PATH.
-#include "experiments/process/program_run.hpp"
+#include "experiments/process/child_process.hpp"
 
 #include "tests/support/scratch_folder.hpp"
 

@@ -1,5 +1,5 @@
 // Work in several processes at once: results are returned, and a worker's failure or death does not affect the others.
-#include "experiments/process/worker_pool.hpp"
+#include "experiments/process/child_process.hpp"
 
 #include "pbs/geometry/input_error.hpp"
 

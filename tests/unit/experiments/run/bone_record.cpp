@@ -1,6 +1,6 @@
 // bones.csv, bones_rest.csv and binding.csv. Reference: rigid motion by hand, and the limb's own geometry. Tolerances: the rounding of
 // motions and of distances.
-#include "experiments/run/bone_record.hpp"
+#include "experiments/run/run_records.hpp"
 
 #include "pbs/character/bodies.hpp"
 #include "tests/support/motion_rounding.hpp"

@@ -1,5 +1,5 @@
 // Reference: the vertices and tets that were broken.
-#include "experiments/run/broken_frame.hpp"
+#include "experiments/run/frame_measurement.hpp"
 
 #include <gtest/gtest.h>
 

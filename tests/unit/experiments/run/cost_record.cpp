@@ -1,5 +1,5 @@
 // The cost of a run. Reference: parts that take at least a known time, and memory that is allocated.
-#include "experiments/run/cost_record.hpp"
+#include "experiments/run/run_records.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Reference: distances of a few points by hand.
-#include "experiments/run/distance_record.hpp"
+#include "experiments/run/run_records.hpp"
 
 #include "tests/support/rounding_error.hpp"
 

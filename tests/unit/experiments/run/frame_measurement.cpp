@@ -3,7 +3,7 @@
 #include "experiments/run/frame_measurement.hpp"
 
 #include "pbs/character/bodies.hpp"
-#include "pbs/character/overlap_mask.hpp"
+#include "pbs/character/overlap_and_jiggle.hpp"
 #include "tests/support/bar_character.hpp"
 #include "tests/support/motion_rounding.hpp"
 #include "tests/support/wound_bar.hpp"

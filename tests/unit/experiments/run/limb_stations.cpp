@@ -1,8 +1,8 @@
 // The places at which limbs are cut. Reference: the built-in limb's geometry, a capsule of radius 0.15 m around (-1,0,0) -> 0 -> (1,0,0).
 // Tolerances: the rounding of a motion, and of the mean of two directions, which counts as another.
-#include "experiments/run/limb_stations.hpp"
+#include "experiments/run/frame_measurement.hpp"
 
-#include "analysis/cross_section.hpp"
+#include "analysis/metrics/cross_section.hpp"
 #include "pbs/character/bodies.hpp"
 #include "tests/support/motion_rounding.hpp"
 

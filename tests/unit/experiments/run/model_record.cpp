@@ -1,5 +1,5 @@
 // A run's records about a rigged model. Reference: a model made by hand.
-#include "experiments/run/model_record.hpp"
+#include "experiments/run/run_records.hpp"
 
 #include "pbs/character/model_character.hpp"
 

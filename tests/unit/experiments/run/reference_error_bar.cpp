@@ -5,7 +5,7 @@
 
 #include "experiments/deformers/fem/fem_options.hpp"
 #include "pbs/character/bodies.hpp"
-#include "pbs/character/refined_character.hpp"
+#include "pbs/character/character.hpp"
 #include "pbs/geometry/topology.hpp"
 #include "tests/support/rounding_error.hpp"
 

@@ -1,10 +1,10 @@
 // Reference: geometry of a bar with two bones along x: tets belong to the nearest bone, blended ones around the middle; the shares of a
 // record add up to the body and its changes to those of the metrics.
-#include "experiments/run/region_record.hpp"
+#include "experiments/run/run_records.hpp"
 
-#include "analysis/frame_metrics.hpp"
+#include "analysis/metrics/frame_metrics.hpp"
 #include "experiments/studies/volume/region_table.hpp"
-#include "pbs/geometry/tet_volume.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 #include "tests/support/limb_character.hpp"
 #include "tests/support/motion_rounding.hpp"
 #include "tests/support/volume_rounding.hpp"

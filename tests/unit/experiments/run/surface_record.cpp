@@ -1,7 +1,7 @@
 // surface_rest.vtp and embedding.csv. Reference: an affine map preserves barycentric coordinates, inside a tet and outside.
-#include "experiments/run/surface_record.hpp"
+#include "experiments/run/run_records.hpp"
 
-#include "analysis/records/scratch_folder.hpp"
+#include "analysis/records/record_files.hpp"
 #include "tests/support/rounding_error.hpp"
 #include "tests/support/unit_tet.hpp"
 

@@ -1,5 +1,5 @@
 // The motion of a scene with its remarks. Reference: clips and a model written here, whose joints and angles are known.
-#include "experiments/scene/motion_case.hpp"
+#include "experiments/scene/scene.hpp"
 
 #include "pbs/character/model_character.hpp"
 #include "tests/support/bar_character.hpp"

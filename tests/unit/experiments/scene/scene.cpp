@@ -3,7 +3,6 @@
 #include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/scene/scene.hpp"
-#include "experiments/scene/scene_keys.hpp"
 #include "pbs/solver/options.hpp"
 #include "tests/support/scratch_folder.hpp"
 

@@ -1,7 +1,7 @@
 // Reference: sums and maxima by hand.
 #include "experiments/studies/study_costs.hpp"
 
-#include "analysis/records/atomic_file.hpp"
+#include "analysis/records/record_files.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 #include <gtest/gtest.h>

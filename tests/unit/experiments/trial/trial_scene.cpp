@@ -1,5 +1,5 @@
 // The scene that is made of a model. Reference: the contract of scene files, by reading the scene again, and the options by hand.
-#include "experiments/trial/trial_scene.hpp"
+#include "experiments/trial/trial.hpp"
 
 #include "pbs/character/clip.hpp"
 #include "pbs/character/model_character.hpp"

@@ -1,5 +1,5 @@
 // The findings of a trial. Reference: records written by hand, evaluated by hand.
-#include "experiments/trial/trial_summary.hpp"
+#include "experiments/trial/trial.hpp"
 
 #include "tests/support/scratch_folder.hpp"
 

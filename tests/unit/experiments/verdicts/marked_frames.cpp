@@ -1,5 +1,5 @@
 // Reference: the contents written to run.json.
-#include "experiments/verdicts/marked_frames.hpp"
+#include "experiments/verdicts/study_records.hpp"
 
 #include "pbs/geometry/input_error.hpp"
 #include "tests/support/scratch_folder.hpp"

@@ -1,8 +1,8 @@
 // Reference: the plan and the files on disk. A verdict is based only on runs that ended.
 #include "experiments/verdicts/study_records.hpp"
 
-#include "analysis/measurement.hpp"
-#include "analysis/records/atomic_file.hpp"
+#include "analysis/records/record_files.hpp"
+#include "analysis/verdicts/measurement.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "tests/support/scratch_folder.hpp"
 

@@ -1,5 +1,5 @@
-// First-fit colouring over all kinds of constraints together. Reference: the rule in author_groups.hpp, by hand.
-#include "pbs/author/author_groups.hpp"
+// First-fit colouring over all kinds of constraints together. Reference: the rule in author_solver.hpp, by hand.
+#include "pbs/author/author_solver.hpp"
 #include "tests/support/two_bone_limb.hpp"
 
 #include <gtest/gtest.h>

@@ -1,9 +1,8 @@
 // The step of the published code. Reference: the rules in author_solver.hpp, by hand.
 #include "pbs/author/author_solver.hpp"
 
-#include "pbs/author/author_weights.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/tet_volume.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 #include "tests/support/rounding_error.hpp"
 #include "tests/support/two_bone_limb.hpp"
 

@@ -1,5 +1,5 @@
-// Eq. 2 as the published code reads it. Reference: the rule in author_weights.hpp, by hand.
-#include "pbs/author/author_weights.hpp"
+// Eq. 2 as the published code reads it. Reference: the rule in author_solver.hpp, by hand.
+#include "pbs/author/author_solver.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,19 @@
 // Reference: the specified shape of the built-in limb (capsule of radius 0.15 m around (-1,0,0) -> 0 -> (1,0,0)), and refusals by field.
-#include "pbs/character/bodies.hpp"
 
+#include "pbs/character/bodies.hpp"
+#include "pbs/character/body_cache.hpp"
+#include "pbs/geometry/mesh_io.hpp"
+#include "tests/support/arm_in_formats.hpp"
 #include "tests/support/mesher_error.hpp"
 #include "tests/support/rounding_error.hpp"
+#include "tests/support/scratch_folder.hpp"
+#include "tests/support/structured_bar.hpp"
 #include "tests/unit/pbs/character/expect_input_error.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <utility>
 
 namespace {
 
@@ -57,6 +67,51 @@ TEST(Bodies, RefusesWhatIsNotThere)
     expect_input_error([] { make_character({}); }, "character.mesh: ", "expected a body");
     expect_input_error([] { make_character({.mesh_file = "arm.msh"}); }, "character.skeleton: ", "needs a skeleton");
     expect_input_error([] { make_character({.body = "limb", .vertices = -5}); }, "character.vertices = -5: ", "0 or more");
+}
+
+}  // namespace
+
+// Reference: the contents written to the files.
+
+namespace {
+
+using namespace pbs;
+
+TEST(Bodies, FromFiles)
+{
+    const test_support::ScratchFolder folder;
+    const std::string mesh = (folder.path() / "bar.vtu").string();
+    write_tet_mesh(mesh, test_support::structured_bar(Vec3(-1, -0.1, -0.1), Vec3(1, 0.1, 0.1), {2, 1, 1}));
+    const std::string bones = "[[joint]]\nname = \"only\"\nparent = \"\"\nhead_m = [-1, 0, 0]\ntail_m = [1, 0, 0]\n";
+    const std::string skeleton = folder.file("bar.skeleton.toml", bones);
+    std::string rows = "vertex,joint,weight\n";
+    for (int vertex = 0; vertex < 12; ++vertex) rows += std::to_string(vertex) + ",only,1\n";
+    const std::string weights = folder.file("bar.csv", rows);
+
+    const Character bar = make_character({.mesh_file = mesh, .skeleton_file = skeleton, .weights_file = weights});
+    EXPECT_EQ(bar.mesh.rest.rows(), 12);
+    EXPECT_EQ(bar.weights.vertices(), 12);
+    ASSERT_EQ(bar.inputs.size(), 4u);  // mesh, skeleton, tets, weights
+    EXPECT_EQ(bar.inputs[0], std::pair(std::string("bar.vtu"), hash_of_file(mesh)));
+    EXPECT_EQ(bar.inputs[1], std::pair(std::string("bar.skeleton.toml"), content_hash(bones)));
+    EXPECT_EQ(bar.inputs[2].first, "tets");
+    EXPECT_EQ(bar.inputs[3], std::pair(std::string("bar.csv"), content_hash(rows)));
+}
+
+// A COLLADA file whose body has no skin.
+TEST(Bodies, AColladaFileWithoutASkinIsNoSkeleton)
+{
+    const test_support::ScratchFolder folder;
+    const std::string mesh = folder / "bar.vtu";
+    write_tet_mesh(mesh, test_support::structured_bar(Vec3(-1, -0.1, -0.1), Vec3(1, 0.1, 0.1), {2, 1, 1}));
+    std::string text = test_support::collada_arm();
+    const std::string skinned = R"(<instance_controller url="#skin"><skeleton>#root</skeleton></instance_controller>)";
+    text.replace(text.find(skinned), skinned.size(), R"(<instance_geometry url="#arm"/>)");
+    for (const char* name : {"arm.dae", "arm.toml"}) {
+        const std::string skeleton = folder.file(name, text);
+        expect_input_error([&] { make_character({.mesh_file = mesh, .skeleton_file = skeleton}); },
+                           skeleton + ": skins = 0: ", "a COLLADA file without one is no skeleton");
+    }
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // Reference: the springs one by one, each with its point carried by the tet that contains it.
 #include "pbs/flesh/bone_springs.hpp"
 
-#include "pbs/geometry/point_location.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 #include "tests/support/held_bar.hpp"
 #include "tests/support/rounding_error.hpp"
 

@@ -2,7 +2,7 @@
 #include "pbs/flesh/flesh_energy.hpp"
 
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/tet_volume.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 #include "tests/support/eps_sweep.hpp"
 #include "tests/support/held_bar.hpp"
 #include "tests/support/rounding_error.hpp"

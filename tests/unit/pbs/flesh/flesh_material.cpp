@@ -1,5 +1,5 @@
 // Reference: the conditions that rest is an equilibrium and that the moduli at small strains are those of Hooke's law.
-#include "pbs/flesh/flesh_material.hpp"
+#include "pbs/flesh/flesh_energy.hpp"
 
 #include "pbs/geometry/input_error.hpp"
 #include "tests/support/rounding_error.hpp"

@@ -1,7 +1,7 @@
 // Reference: the same springs summed over vertices and edges (BoneHold), and the definition of an eigenvector.
-#include "pbs/flesh/hold_modes.hpp"
+#include "pbs/flesh/bone_springs.hpp"
 
-#include "pbs/geometry/point_location.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 #include "tests/support/held_bar.hpp"
 #include "tests/support/rounding_error.hpp"
 

@@ -1,7 +1,6 @@
 // Reference: differences of the values, and the energy of the same material (FleshEnergy).
-#include "pbs/flesh/neo_hookean_constraints.hpp"
-
 #include "pbs/flesh/flesh_energy.hpp"
+
 #include "pbs/geometry/input_error.hpp"
 #include "tests/support/eps_sweep.hpp"
 #include "tests/support/held_bar.hpp"

@@ -1,7 +1,7 @@
 // Reference: the plain implementation of the same energy.
 #include "pbs/flesh/packed_flesh.hpp"
 
-#include "pbs/flesh/plain_flesh.hpp"
+#include "pbs/flesh/flesh_system.hpp"
 #include "tests/support/evaluated_flesh.hpp"
 #include "tests/support/flesh_rounding.hpp"
 #include "tests/support/four_threads.hpp"

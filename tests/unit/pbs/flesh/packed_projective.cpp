@@ -1,7 +1,7 @@
 // Reference: the plain implementation of the same energy, whose local step uses eigenvectors and no formula.
+#include "pbs/flesh/flesh_system.hpp"
 #include "pbs/flesh/held_flesh.hpp"
 #include "pbs/flesh/packed_flesh.hpp"
-#include "pbs/flesh/plain_flesh.hpp"
 #include "pbs/flesh/projective_dynamics.hpp"
 #include "tests/support/evaluated_flesh.hpp"
 #include "tests/support/four_threads.hpp"

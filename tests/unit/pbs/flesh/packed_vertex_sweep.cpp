@@ -1,7 +1,6 @@
 // Reference: the plain implementation of the same sweep.
-#include "pbs/flesh/packed_vertex_sweep.hpp"
+#include "pbs/flesh/vbd.hpp"
 
-#include "pbs/flesh/plain_vertex_sweep.hpp"
 #include "tests/support/four_threads.hpp"
 #include "tests/support/held_bar.hpp"
 #include "tests/support/measured_condition.hpp"

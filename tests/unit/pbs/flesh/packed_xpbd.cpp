@@ -1,7 +1,6 @@
 // Reference: the plain implementation, which visits the constraints in the same order.
-#include "pbs/flesh/packed_xpbd.hpp"
+#include "pbs/flesh/xpbd_neo_hookean.hpp"
 
-#include "pbs/flesh/plain_xpbd.hpp"
 #include "tests/support/four_threads.hpp"
 #include "tests/support/held_xpbd.hpp"
 

@@ -1,5 +1,5 @@
 // Reference: the equations that a visit solves, evaluated by the constraints' own values and gradients.
-#include "pbs/flesh/plain_xpbd.hpp"
+#include "pbs/flesh/xpbd_neo_hookean.hpp"
 
 #include "tests/support/held_xpbd.hpp"
 #include "tests/support/rounding_error.hpp"

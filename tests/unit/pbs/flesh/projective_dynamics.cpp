@@ -3,7 +3,7 @@
 
 #include "pbs/flesh/held_flesh.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/tet_volume.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 #include "tests/support/eps_sweep.hpp"
 #include "tests/support/random_points.hpp"
 #include "tests/support/rounding_error.hpp"

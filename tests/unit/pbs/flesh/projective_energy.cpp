@@ -1,6 +1,6 @@
 // Reference: the definition of the global step, evaluated with the deformation gradients of a displacement. The energy itself is tested in
 // projective_dynamics.cpp.
-#include "pbs/flesh/projective_energy.hpp"
+#include "pbs/flesh/projective_dynamics.hpp"
 
 #include "pbs/flesh/flesh_energy.hpp"
 #include "tests/support/held_bar.hpp"

@@ -2,7 +2,7 @@
 #include "pbs/flesh/held_flesh.hpp"
 #include "pbs/flesh/projective_dynamics.hpp"
 #include "pbs/flesh/quasi_newton.hpp"
-#include "pbs/flesh/vertex_block_descent.hpp"
+#include "pbs/flesh/vbd.hpp"
 #include "tests/support/four_threads.hpp"
 #include "tests/support/held_xpbd.hpp"
 

@@ -1,8 +1,8 @@
 // Reference: the product of the matrix with the solution.
-#include "pbs/flesh/triangular_solve.hpp"
+#include "pbs/flesh/flesh_system.hpp"
 
 #include "pbs/flesh/flesh_energy.hpp"
-#include "pbs/flesh/rows.hpp"
+#include "pbs/packed/rows.hpp"
 #include "tests/support/held_bar.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // Reference: the value and the gradient of the plain energy, which knows nothing of vertices' blocks.
-#include "pbs/flesh/vertex_block.hpp"
+#include "pbs/flesh/vbd.hpp"
 
 #include "tests/support/held_bar.hpp"
 #include "tests/support/rounding_error.hpp"

@@ -1,9 +1,8 @@
 // Reference: the plain energy, the theory of relaxation and of Chebyshev polynomials, and sweeps written out with the plain blocks.
-#include "pbs/flesh/vertex_block_descent.hpp"
+#include "pbs/flesh/vbd.hpp"
 
-#include "pbs/flesh/vertex_block.hpp"
-#include "pbs/flesh/vertex_colours.hpp"
 #include "pbs/geometry/input_error.hpp"
+#include "pbs/packed/vertex_order.hpp"
 #include "tests/support/flesh_rounding.hpp"
 #include "tests/support/held_bar.hpp"
 #include "tests/support/rounding_error.hpp"

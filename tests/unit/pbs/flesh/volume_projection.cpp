@@ -1,5 +1,5 @@
 // Reference: the conditions of the minimum, and a search over matrices of determinant one.
-#include "pbs/flesh/volume_projection.hpp"
+#include "pbs/flesh/projective_dynamics.hpp"
 
 #include "pbs/geometry/nearest_rotation.hpp"
 #include "tests/support/random_points.hpp"

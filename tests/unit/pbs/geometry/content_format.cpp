@@ -1,17 +1,20 @@
 // Reference: the first bytes by which each format is defined, and one body written in each of them.
-#include "pbs/geometry/content_format.hpp"
 
+#include "pbs/geometry/content_format.hpp"
 #include "pbs/geometry/mesh_io.hpp"
-#include "pbs/geometry/mesh_remarks.hpp"
 #include "tests/support/arm_in_formats.hpp"
 #include "tests/support/rigged_gltf.hpp"
+#include "tests/support/scratch_folder.hpp"
 #include "tests/unit/pbs/character/expect_input_error.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 
 namespace {
 
@@ -121,6 +124,118 @@ TEST(ContentFormat, OfTetsIsRefusedAsASurface)
     const ScratchFolder folder;
     const std::string path = folder.file("arm.obj", "$MeshFormat\n2.2 0 8\n");
     expect_input_error([&] { pbs::read_surface(path); }, path + ": format of the content = .msh: ", "expected a surface");
+}
+
+}  // namespace
+
+// Reference: the interface. A file may refer to regular files in and below its own folder.
+
+namespace {
+
+class OwnFolderTest : public testing::Test {
+protected:
+    void SetUp() override
+    {
+        std::filesystem::create_directories(scratch.path() / "own" / "deeper");
+        std::filesystem::create_directories(scratch.path() / "own2");
+        for (const char* name : {"own/a.gltf", "own/beside.bin", "own/deeper/below.bin", "own2/similar.bin", "above.bin"})
+            scratch.file(name, "x");
+    }
+    bool may_open(const std::string& file) const { return pbs::may_be_opened_for(scratch / "own/a.gltf", scratch / file); }
+
+    const test_support::ScratchFolder scratch;
+};
+
+TEST_F(OwnFolderTest, AllowsTheFileItselfAndThoseBesideAndBelow)
+{
+    for (const char* file : {"own/a.gltf", "own/beside.bin", "own/deeper/below.bin", "own/deeper/../beside.bin", "own/./beside.bin"})
+        EXPECT_TRUE(may_open(file)) << file;
+}
+
+TEST_F(OwnFolderTest, RefusesFilesElsewhereAndThoseThatDoNotExist)
+{
+    for (const char* file : {"above.bin", "own/../above.bin", "own2/similar.bin", "own/none.bin", "own/deeper"})
+        EXPECT_FALSE(may_open(file)) << file;
+    EXPECT_FALSE(pbs::may_be_opened_for(scratch / "own/a.gltf", "/etc/passwd"));
+    EXPECT_FALSE(pbs::may_be_opened_for(scratch / "own/a.gltf", ""));
+}
+
+TEST_F(OwnFolderTest, FollowsLinksBeforeItDecides)
+{
+    std::filesystem::create_symlink(scratch / "above.bin", scratch / "own/out.bin");
+    std::filesystem::create_symlink(scratch / "own/deeper/below.bin", scratch / "own/in.bin");
+    EXPECT_FALSE(may_open("own/out.bin"));
+    EXPECT_TRUE(may_open("own/in.bin"));
+}
+
+TEST_F(OwnFolderTest, AllowsWhatLiesBesideTheFileOrBesideALinkToIt)
+{
+    std::filesystem::create_symlink(scratch / "own/a.gltf", scratch / "own2/link.gltf");
+    EXPECT_TRUE(pbs::may_be_opened_for(scratch / "own2/link.gltf", scratch / "own/beside.bin"));
+    EXPECT_TRUE(pbs::may_be_opened_for(scratch / "own2/link.gltf", scratch / "own2/similar.bin"));
+    EXPECT_FALSE(pbs::may_be_opened_for(scratch / "own2/link.gltf", scratch / "above.bin"));
+}
+
+TEST_F(OwnFolderTest, RefusesPipes)
+{
+    ASSERT_EQ(mkfifo((scratch / "own/pipe").c_str(), 0600), 0);
+    EXPECT_FALSE(may_open("own/pipe"));
+}
+
+}  // namespace
+
+// Reference: the specification in content_format.hpp.
+
+namespace {
+
+namespace fs = std::filesystem;
+using test_support::ScratchFolder;
+
+// The folder for temporary files, as long as the object exists.
+class TemporaryFiles {
+public:
+    explicit TemporaryFiles(const std::string& folder)
+    {
+        if (const char* before = std::getenv("TMPDIR")) before_ = before;
+        setenv("TMPDIR", folder.c_str(), 1);
+    }
+    ~TemporaryFiles() { before_.empty() ? unsetenv("TMPDIR") : setenv("TMPDIR", before_.c_str(), 1); }
+    TemporaryFiles(const TemporaryFiles&) = delete;
+    TemporaryFiles& operator=(const TemporaryFiles&) = delete;
+
+private:
+    std::string before_;
+};
+
+TEST(NamedLink, IsTheFileUnderTheOtherNameAndLeavesNothing)
+{
+    const ScratchFolder folder, temporary;
+    const std::string file = folder.file("a.txt", "text");
+    const TemporaryFiles here(temporary.path());
+    {
+        const pbs::NamedLink link(file, ".mesh");
+        EXPECT_TRUE(link.path().ends_with("/a.txt.mesh")) << link.path();
+        std::string text;
+        std::ifstream(link.path()) >> text;
+        EXPECT_EQ(text, "text");
+    }
+    EXPECT_TRUE(fs::is_empty(temporary.path()));
+    EXPECT_TRUE(fs::exists(file));
+}
+
+TEST(NamedLink, IsTheFileItselfIfItHasTheExtension)
+{
+    const ScratchFolder folder;
+    const std::string file = folder.file("A.MESH", "text");
+    EXPECT_EQ(pbs::NamedLink(file, ".mesh").path(), file);
+}
+
+TEST(NamedLink, AsksForAnotherNameWhereNoLinkCanBeMade)
+{
+    const ScratchFolder folder;
+    const std::string file = folder.file("a.txt", "text");
+    const TemporaryFiles nowhere(folder / "none");
+    expect_input_error([&] { pbs::NamedLink(file, ".mesh"); }, file + ": extension = .txt: ", "rename the file to .mesh");
 }
 
 }  // namespace

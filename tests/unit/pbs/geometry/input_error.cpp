@@ -1,5 +1,6 @@
 // Reference: the form that the header specifies. The content of a file neither breaks the single line nor reaches the terminal as a
 // command.
+
 #include "pbs/geometry/input_error.hpp"
 
 #include <gtest/gtest.h>
@@ -40,6 +41,51 @@ TEST(InputError, LongFieldsAndValuesAreCut)
               "x.csv:2: " + most + "... = " + most + "...: expected a number");
     const std::string letters = std::string(79, 'a') + "\xc3\xa9t\xc3\xa9";
     EXPECT_EQ(told("", 0, "joint", letters, "no such joint"), "joint = " + letters.substr(0, 79) + "...: no such joint");
+}
+
+}  // namespace
+
+// Reference: the specification in input_error.hpp.
+
+namespace {
+
+TEST(NameList, HasAtMostSixNames)
+{
+    EXPECT_EQ(pbs::name_list({}), "");
+    EXPECT_EQ(pbs::name_list({"a"}), "a");
+    EXPECT_EQ(pbs::name_list({"a", "b", "c", "d", "e", "f"}), "a, b, c, d, e, f");
+    EXPECT_EQ(pbs::name_list({"a", "b", "c", "d", "e", "f", "g", "h"}), "a, b, c, d, e, f and 2 others");
+}
+
+}  // namespace
+
+// Reference: edit distances counted by hand.
+
+namespace {
+
+using pbs::nearest_name;
+
+TEST(NearestName, TakesTheLeastEditDistanceAndTheFirstOfEquals)
+{
+    EXPECT_EQ(nearest_name("tial_m", {"head_m", "tail_m", "name"}), "tail_m");
+    EXPECT_EQ(nearest_name("nam", {"head_m", "tail_m", "name"}), "name");
+    EXPECT_EQ(nearest_name("", {"abc", "ab", "cd"}), "ab");
+    EXPECT_EQ(nearest_name("iteration", {"iterations", "precision", "order"}), "iterations");
+    EXPECT_EQ(nearest_name("k_volum", {"k_stretch", "k_volume", "k_bind"}), "k_volume");
+}
+
+TEST(NearestName, ANameOfMegabytesTakesNoTime)
+{
+    std::string endless;
+    for (int i = 0; i < 2'000'000; ++i) endless += "elbow";
+    // a comparison letter by letter would take half an hour
+    EXPECT_EQ(nearest_name(endless, std::vector<std::string>(1000, "shoulder")), "shoulder");
+    EXPECT_EQ(nearest_name(endless, {"shoulder", "elbow", "wrist"}), "elbow");
+}
+
+TEST(NearestName, IsEmptyWhereNoneIsKnown)
+{
+    EXPECT_EQ(nearest_name("anything", {}), "");
 }
 
 }  // namespace

@@ -1,10 +1,15 @@
 // Reference: counts and Euler's formula for bodies that can be counted by hand.
-#include "pbs/geometry/topology.hpp"
 
-#include "pbs/geometry/tet_volume.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
+#include "pbs/geometry/topology.hpp"
 #include "tests/support/structured_bar.hpp"
+#include "tests/support/volume_rounding.hpp"
 
 #include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
 
 namespace {
 
@@ -206,6 +211,141 @@ TEST(ClosedTriangles, NoneEncloseNothing)
     EXPECT_FALSE(pbs::is_closed(Triangles(0, 3)));
     EXPECT_FALSE(pbs::is_watertight(Triangles(0, 3)));
     EXPECT_FALSE(pbs::open_edge(Triangles(0, 3)));
+}
+
+}  // namespace
+
+// Reference: the definition, on bars and tets that are counted by hand.
+
+namespace {
+
+// Two bars of six tets whose tets alternate: those of the first one have even numbers.
+pbs::TetMesh two_bars()
+{
+    const pbs::TetMesh left = test_support::structured_bar({0, 0, 0}, {1, 1, 1}, {1, 1, 1});
+    pbs::TetMesh both{pbs::Positions(16, 3), pbs::Tets(12, 4)};
+    both.rest << left.rest, (left.rest.array() + 3.0).matrix();
+    for (Eigen::Index t = 0; t < 6; ++t) {
+        both.tets.row(2 * t) = left.tets.row(t);
+        both.tets.row(2 * t + 1) = left.tets.row(t).array() + 8;
+    }
+    return both;
+}
+
+TEST(Parts, OfOneBodyAreOne)
+{
+    const std::vector<int> parts = pbs::parts_of(test_support::structured_bar({0, 0, 0}, {1, 1, 1}, {3, 2, 2}).tets);
+    EXPECT_EQ(parts, std::vector<int>(72, 0));
+}
+
+TEST(Parts, AreNumberedInTheOrderOfTheirFirstTets)
+{
+    EXPECT_EQ(pbs::parts_of(two_bars().tets), (std::vector<int>{0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1}));
+}
+
+TEST(Parts, ThatShareAVertexOrAnEdgeAlone)
+{
+    EXPECT_EQ(pbs::parts_of((pbs::Tets(2, 4) << 0, 1, 2, 3, 0, 4, 5, 6).finished()), (std::vector<int>{0, 1}));
+    EXPECT_EQ(pbs::parts_of((pbs::Tets(2, 4) << 0, 1, 2, 3, 0, 1, 5, 6).finished()), (std::vector<int>{0, 1}));
+    EXPECT_EQ(pbs::parts_of((pbs::Tets(2, 4) << 0, 1, 2, 3, 4, 2, 1, 0).finished()), (std::vector<int>{0, 0}));
+}
+
+TEST(Parts, OfNoTetsAreNone)
+{
+    EXPECT_TRUE(pbs::parts_of(pbs::Tets(0, 4)).empty());
+}
+
+TEST(Parts, DoNotDependOnTheOrderOfTets)
+{
+    const pbs::TetMesh bars = two_bars();
+    std::vector<int> order(12);
+    for (int t = 0; t < 12; ++t) order[std::size_t(t)] = t;
+    std::shuffle(order.begin(), order.end(), std::mt19937(1));
+    pbs::Tets shuffled(12, 4);
+    for (int t = 0; t < 12; ++t) shuffled.row(t) = bars.tets.row(order[std::size_t(t)]);
+    const std::vector<int> parts = pbs::parts_of(shuffled);
+    for (std::size_t a = 0; a < 12; ++a)
+        for (std::size_t b = 0; b < 12; ++b) EXPECT_EQ(parts[a] == parts[b], order[a] % 2 == order[b] % 2);
+}
+
+TEST(KeptTets, HaveTheVerticesThatTheyUseInTheirOrder)
+{
+    const pbs::TetMesh bars = two_bars();
+    std::vector<bool> kept(12);
+    for (std::size_t t = 1; t < 12; t += 2) kept[t] = true;
+    const pbs::TetMesh right = pbs::kept_tets(bars, kept);
+    EXPECT_EQ(right.rest, pbs::Positions(bars.rest.bottomRows(8)));
+    EXPECT_EQ(right.tets, test_support::structured_bar({0, 0, 0}, {1, 1, 1}, {1, 1, 1}).tets);
+}
+
+TEST(KeptTets, AllAndNone)
+{
+    const pbs::TetMesh bars = two_bars();
+    EXPECT_EQ(pbs::kept_tets(bars, std::vector<bool>(12, true)).tets, bars.tets);
+    const pbs::TetMesh none = pbs::kept_tets(bars, std::vector<bool>(12, false));
+    EXPECT_EQ(none.tets.rows(), 0);
+    EXPECT_EQ(none.rest.rows(), 0);
+}
+
+}  // namespace
+
+// Reference: angles and sizes of tets known in closed form.
+
+namespace {
+
+constexpr double degree = 180.0 / std::numbers::pi;
+
+// Angles of tets whose coordinates are whole numbers: normals are exact; their norm, the angle, two conversions and pi are rounded. Those
+// of comparison go through seven roundings: a root and a quotient in the cosine, the angle, the conversion and pi.
+constexpr double of_angles_deg = test_support::rounding_error(5 + 7, 90.0);
+
+TEST(DihedralAngles, OfARegularTetAreAcosOfAThird)
+{
+    for (const double angle_deg : pbs::dihedral_angles_deg({1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}))
+        EXPECT_NEAR(angle_deg, std::acos(1.0 / 3.0) * degree, of_angles_deg);
+}
+
+TEST(DihedralAngles, OfTheUnitCornerAreRightOnTheAxes)
+{
+    const auto angles_deg = pbs::dihedral_angles_deg({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1});
+    for (int e = 0; e < 3; ++e) EXPECT_NEAR(angles_deg[e], 90.0, of_angles_deg);
+    for (int e = 3; e < 6; ++e) EXPECT_NEAR(angles_deg[e], std::acos(1.0 / std::sqrt(3.0)) * degree, of_angles_deg);
+}
+
+TEST(DihedralAngles, OfAFlatTetAreZeroOr180)
+{
+    for (const double angle_deg : pbs::dihedral_angles_deg({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}))
+        EXPECT_TRUE(angle_deg == 0.0 || angle_deg == 180.0) << angle_deg;
+}
+
+TEST(DihedralAngles, OfACollapsedTetAreFinite)
+{
+    for (const double angle_deg : pbs::dihedral_angles_deg({1, 2, 3}, {1, 2, 3}, {1, 2, 3}, {1, 2, 3})) EXPECT_EQ(angle_deg, 0.0);
+}
+
+TEST(Quality, OfAKuhnSplitBar)
+{
+    const pbs::TetMesh bar = test_support::structured_bar({0, 0, 0}, {4, 3, 2}, {4, 3, 2});
+    const pbs::Quality quality = pbs::quality_of(bar);
+    EXPECT_EQ(quality.vertices, 5 * 4 * 3);
+    EXPECT_EQ(quality.boundary_vertices, 5 * 4 * 3 - 3 * 2 * 1);
+    EXPECT_EQ(quality.tets, 6 * 4 * 3 * 2);
+    EXPECT_EQ(quality.boundary_triangles, 4 * (4 * 3 + 4 * 2 + 3 * 2));
+    EXPECT_NEAR(quality.volume_m3, 24.0, test_support::volume_error(bar.rest, bar.tets));
+    EXPECT_NEAR(quality.min_dihedral_deg, 45.0, of_angles_deg);  // Kuhn's tet: 45, 60 and 90 degrees
+    EXPECT_NEAR(quality.max_dihedral_deg, 90.0, of_angles_deg);
+    EXPECT_DOUBLE_EQ(quality.shortest_edge_m, 1.0);
+    EXPECT_DOUBLE_EQ(quality.longest_edge_m, std::sqrt(3.0));
+    EXPECT_TRUE(quality.topology.boundary_manifold);
+    EXPECT_NE(pbs::describe(quality).find("boundary manifold, 1 component(s), Euler characteristic 2"), std::string::npos);
+}
+
+TEST(Quality, OfNothingIsZeros)
+{
+    const pbs::Quality quality = pbs::quality_of(pbs::TetMesh{pbs::Positions(0, 3), pbs::Tets(0, 4)});
+    EXPECT_EQ(quality.tets, 0);
+    EXPECT_EQ(quality.min_dihedral_deg, 0.0);
+    EXPECT_EQ(quality.shortest_edge_m, 0.0);
 }
 
 }  // namespace

@@ -1,15 +1,20 @@
 // Reference: an arm of two joints whose skinned points are computed by hand, as COLLADA and as FBX. assimp computes in single precision: at
 // most 64 roundings of numbers of at most 8 of the files' units.
-#include "pbs/rig/assimp_rig.hpp"
 
+#include "pbs/rig/assimp_rig.hpp"
 #include "pbs/rig/rig_pose.hpp"
 #include "tests/support/arm_in_formats.hpp"
 #include "tests/support/scalar_rounding.hpp"
 #include "tests/support/scratch_folder.hpp"
+#include "tests/unit/pbs/character/expect_input_error.hpp"
 
 #include <gtest/gtest.h>
+#include <minizip/zip.h>
+#include <zlib.h>
 
+#include <cstdint>
 #include <filesystem>
+#include <vector>
 
 namespace {
 
@@ -121,6 +126,158 @@ TEST(AssimpRig, OfABinaryFbxHasBonesWithWeights)
             EXPECT_NEAR(sum, 1.0, 1e-12) << "point " << p << " of " << mesh.name;
         }
     EXPECT_TRUE(std::any_of(rig.meshes.begin(), rig.meshes.end(), [](const RigMesh& mesh) { return mesh.joints.size() > 1; }));
+}
+
+}  // namespace
+
+// Reference: the rule for the weights of glTF files (finite, 0 or more), on the four weights of an arm, each of which a point uses.
+
+namespace {
+
+using test_support::ScratchFolder;
+
+std::string arm_with(const std::string& part, const std::string& other)
+{
+    std::string text = test_support::collada_arm();
+    EXPECT_NE(text.find(part), std::string::npos) << part;
+    return text.replace(text.find(part), part.size(), other);
+}
+
+std::string arm_with_weights(const std::string& weights)
+{
+    return arm_with("1 0.5 0.25 0.75", weights);
+}
+
+// The message without the path.
+void expect_refused(const std::string& text, const std::string& field_and_value)
+{
+    const ScratchFolder folder;
+    const std::string path = folder.file("arm.dae", text);
+    expect_input_error([&] { pbs::check_collada_weights(path); },
+                       path + ": controller skin, weight of point " + field_and_value + ": expected a finite number of 0 or more", "");
+}
+
+void expect_accepted(const std::string& text)
+{
+    const ScratchFolder folder;
+    EXPECT_NO_THROW(pbs::check_collada_weights(folder.file("arm.dae", text)));
+}
+
+TEST(ColladaWeights, ANegativeOneIsRefusedWithItsPoint)
+{
+    expect_refused(arm_with_weights("1 0.5 0.25 -0.75"), "3 = -0.75");
+    expect_refused(arm_with_weights("1 -0.5 0.25 0.75"), "1 = -0.5");
+    expect_refused(arm_with_weights("1 0.5 0.25 -1e-400"), "3 = -1e-400");
+}
+
+TEST(ColladaWeights, OneThatIsNotFiniteIsRefused)
+{
+    for (const std::string weight : {"nan", "inf", "-inf", "1e400", "half"})
+        expect_refused(arm_with_weights("1 0.5 0.25 " + weight), "3 = " + weight);
+}
+
+TEST(ColladaWeights, OfZeroOrMoreAreAccepted)
+{
+    for (const char* weight : {"0.75", "+0.75", "0", "-0", "7.5E-1", "1e-400", "3"})
+        expect_accepted(arm_with_weights("1 0.5 0.25 " + std::string(weight)));
+}
+
+TEST(ColladaWeights, WhatNoPointUsesIsAccepted)
+{
+    expect_accepted(arm_with_weights("1 0.5 0.25 0.75 -1"));
+    expect_accepted([] {  // the controller is not part of the scene
+        std::string text = arm_with_weights("1 0.5 0.25 -0.75");
+        return text.replace(text.find("url=\"#skin\""), 11, "url=\"#none\"");
+    }());
+}
+
+TEST(ColladaWeights, TheirPlaceFollowsTheAccessor)
+{
+    const std::string accessor = "<accessor source='#weights-array' count='4' stride='1'>";
+    const std::string pairs = "<accessor source='#weights-array' count='4' stride='2'>";
+    std::string text = arm_with(accessor, pairs);
+    const std::string weights = "1 0.5 0.25 0.75";
+    text.replace(text.find(weights), weights.size(), "1 -9 0.5 -9 0.25 -9 0.75 -9");
+    expect_accepted(text);
+    text.replace(text.find("0.25 -9"), 7, "-0.2 -9");
+    expect_refused(text, "3 = -0.2");
+}
+
+TEST(ColladaWeights, OfAnArchiveAreChecked)
+{
+    const ScratchFolder folder;
+    const std::string path = folder / "arm.zae", text = arm_with_weights("1 0.5 0.25 -0.75");
+    zipFile archive = zipOpen(path.c_str(), APPEND_STATUS_CREATE);
+    ASSERT_TRUE(archive);
+    zipOpenNewFileInZip(archive, "arm.dae", nullptr, nullptr, 0, nullptr, 0, nullptr, Z_DEFLATED, Z_DEFAULT_COMPRESSION);
+    zipWriteInFileInZip(archive, text.data(), static_cast<unsigned>(text.size()));
+    zipCloseFileInZip(archive);
+    zipClose(archive, nullptr);
+    expect_input_error([&] { pbs::check_collada_weights(path); }, path + ": controller skin, weight of point 3 = -0.75: ", "");
+}
+
+TEST(ColladaWeights, WhatIsNoXmlOrNoArchiveIsLeftToTheReader)
+{
+    expect_accepted("<COLLADA><library_controllers>");
+    expect_accepted(arm_with("1 2 1 2</vcount>", "1 2 99 2</vcount>"));
+    expect_accepted("PK\x03\x04 nothing");
+}
+
+}  // namespace
+
+// Reference: the flags of keys as the format stores them: 2 constant, 4 linear, 8 cubic; Blender's linear keys have the flags 24836.
+
+namespace {
+
+std::string text_of(const std::string& flags)
+{
+    return "AnimationCurve: 11 {\nKeyAttrFlags: *1 {\n\ta: " + flags + "\n}\nKeyAttrDataFloat: *4 {\na: 0,0,8,0\n}\n}\n";
+}
+
+std::string word(std::uint32_t number)
+{
+    return std::string(reinterpret_cast<const char*>(&number), sizeof number);
+}
+
+std::string binary_of(const std::vector<std::int32_t>& flags, bool is_packed)
+{
+    std::string data(reinterpret_cast<const char*>(flags.data()), sizeof(std::int32_t) * flags.size());
+    if (is_packed) {
+        std::string packed(compressBound(data.size()), '\0');
+        uLongf size = packed.size();
+        compress(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(data.data()), data.size());
+        data = packed.substr(0, size);
+    }
+    return "\x0cKeyAttrFlagsi" + word(std::uint32_t(flags.size())) + word(is_packed) + word(std::uint32_t(data.size())) + data;
+}
+
+void expect_count(const std::string& bytes, int curves, int not_linear)
+{
+    const pbs::FbxCurves count = pbs::count_fbx_curves(bytes);
+    EXPECT_EQ(count.curves, curves);
+    EXPECT_EQ(count.not_linear, not_linear);
+}
+
+TEST(FbxCurves, OfATextFileAreCounted)
+{
+    expect_count(text_of("24836") + text_of("4") + text_of("2") + text_of("4,264,4"), 4, 2);
+}
+
+TEST(FbxCurves, OfABinaryFileAreCounted)
+{
+    for (const bool is_packed : {false, true})
+        expect_count("Kaydara FBX Binary" + binary_of({24836}, is_packed) + binary_of({4, 8}, is_packed) + binary_of({2}, is_packed), 3, 2);
+}
+
+TEST(FbxCurves, ThatAreDamagedAreNotCounted)
+{
+    expect_count("", 0, 0);
+    expect_count("KeyAttrFlags", 0, 0);
+    expect_count("KeyAttrFlags: *1 { a: 4", 0, 0);
+    const std::string whole = binary_of({4, 8}, true);
+    for (std::size_t length = 0; length < whole.size(); ++length) expect_count(whole.substr(0, length), 0, 0);
+    expect_count("KeyAttrFlagsi" + word(0xffffffffu) + word(0) + word(4) + word(4), 0, 0);
+    expect_count("KeyAttrFlagsi" + word(2) + word(0) + word(4) + word(4), 0, 0);
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // Reference: the container of glTF 2.0, Sec. 4.4, parsed here, and morph targets, which are differences from the mesh's points.
 #include "pbs/rig/glb_writer.hpp"
 
-#include "pbs/geometry/text_file.hpp"
+#include "pbs/geometry/files.hpp"
 #include "pbs/rig/gltf_rig.hpp"
 #include "pbs/rig/tiny_gltf.hpp"
 #include "tests/support/scratch_folder.hpp"

@@ -1,6 +1,6 @@
 // Reference: glTF 2.0, Sec. 3.5 (scenes and nodes), on small trees.
-#include "pbs/rig/gltf_rig.hpp"
 
+#include "pbs/rig/gltf_rig.hpp"
 #include "tests/support/gltf_document.hpp"
 #include "tests/support/scratch_folder.hpp"
 
@@ -102,6 +102,331 @@ TEST(GltfRig, ExtensionsThatDoNotMoveVerticesAreAllowed)
         const test_support::ScratchFolder folder;
         EXPECT_NO_THROW(read_gltf_rig(folder.file("a.gltf", gltf.text()))) << extension;
     }
+}
+
+}  // namespace
+
+// Reference: glTF 2.0, Sec. 3.7.2 (primitives) and 3.7.3 (skins), on four points.
+
+namespace {
+
+using namespace pbs;
+using nlohmann::json;
+using test_support::GltfDocument;
+using test_support::two_joint_document;
+
+Rig rig_from(const GltfDocument& gltf)
+{
+    const test_support::ScratchFolder folder;
+    return read_gltf_rig(folder.file("a.gltf", gltf.text()));
+}
+
+json& primitive_of(GltfDocument& gltf)
+{
+    return gltf.json["meshes"][0]["primitives"][0];
+}
+
+Triangles triangles_in_mode(int mode, const std::vector<std::uint16_t>& indices)
+{
+    GltfDocument gltf = two_joint_document();
+    primitive_of(gltf)["mode"] = mode;
+    primitive_of(gltf)["indices"] = gltf.put("SCALAR", indices);
+    return rig_from(gltf).meshes.at(0).triangles;
+}
+
+TEST(GltfMeshes, ListsStripsAndFansOfTriangles)
+{
+    EXPECT_EQ(triangles_in_mode(4, {0, 1, 2, 2, 1, 3}), (Triangles(2, 3) << 0, 1, 2, 2, 1, 3).finished());
+    EXPECT_EQ(triangles_in_mode(5, {0, 1, 2, 3}), (Triangles(2, 3) << 0, 1, 2, 1, 3, 2).finished());
+    EXPECT_EQ(triangles_in_mode(6, {0, 1, 2, 3}), (Triangles(2, 3) << 0, 1, 2, 0, 2, 3).finished());
+}
+
+TEST(GltfMeshes, WithoutIndicesTrianglesAreThoseOfTheVerticesInTheirOrder)
+{
+    GltfDocument gltf = two_joint_document();
+    primitive_of(gltf).erase("indices");
+    EXPECT_EQ(rig_from(gltf).meshes.at(0).triangles, (Triangles(1, 3) << 0, 1, 2).finished()) << "the fourth vertex begins no triangle";
+}
+
+TEST(GltfMeshes, SeveralPrimitivesAreOneMesh)
+{
+    GltfDocument gltf = two_joint_document();
+    gltf.json["meshes"][0]["primitives"].push_back(primitive_of(gltf));
+    const RigMesh mesh = rig_from(gltf).meshes.at(0);
+    EXPECT_EQ(mesh.points.rows(), 8);
+    EXPECT_EQ(mesh.triangles, (Triangles(4, 3) << 0, 1, 3, 1, 2, 3, 4, 5, 7, 5, 6, 7).finished());
+    EXPECT_EQ(mesh.skin.first, (std::vector<int>{0, 1, 3, 4, 6, 7, 9, 10, 12}));
+}
+
+TEST(GltfMeshes, PointsAndLinesAreLeftOutWithARemark)
+{
+    GltfDocument gltf = two_joint_document();
+    json lines = primitive_of(gltf);
+    lines["mode"] = 1;
+    gltf.json["meshes"][0]["primitives"].push_back(lines);
+    const Rig rig = rig_from(gltf);
+    EXPECT_EQ(rig.meshes.at(0).points.rows(), 4);
+    EXPECT_EQ(rig.remarks, std::vector<std::string>{"mesh arm: points and lines are left out"});
+    primitive_of(gltf)["mode"] = 0;
+    EXPECT_TRUE(rig_from(gltf).meshes.empty()) << "a mesh without triangles is none";
+}
+
+TEST(GltfMeshes, MorphTargetsAreLeftOutWithARemark)
+{
+    GltfDocument gltf = two_joint_document();
+    primitive_of(gltf)["targets"] = {{{"POSITION", 0}}, {{"POSITION", 0}}};
+    const Rig rig = rig_from(gltf);
+    EXPECT_EQ(rig.meshes.at(0).points.row(0), Eigen::RowVector3d(1, 0, 0));
+    EXPECT_EQ(rig.remarks, std::vector<std::string>{"mesh arm: 2 morph targets are left out"});
+}
+
+TEST(GltfMeshes, HaveTheSkinOfTheirNode)
+{
+    const RigMesh mesh = rig_from(two_joint_document()).meshes.at(0);
+    EXPECT_EQ(mesh.name, "arm");
+    ASSERT_EQ(mesh.joints.size(), 2u);
+    EXPECT_EQ(mesh.joints[1].node, 1);
+    EXPECT_EQ(mesh.joints[1].inverse_bind * Vec3(1, 2, 0), Vec3(0, 0, 0));
+    EXPECT_EQ(mesh.skin.first, (std::vector<int>{0, 1, 3, 4, 6}));
+    EXPECT_EQ(mesh.skin.bone, (std::vector<int>{0, 0, 1, 1, 0, 1}));
+    EXPECT_EQ(mesh.skin.weight, (std::vector<double>{1.0, 0.5, 0.5, 1.0, 0.25, 0.75}));
+}
+
+TEST(GltfMeshes, WithoutInverseBindMatricesTheyAreIdentities)
+{
+    GltfDocument gltf = two_joint_document();
+    gltf.json["skins"][0].erase("inverseBindMatrices");
+    for (const SkinJoint& joint : rig_from(gltf).meshes.at(0).joints)
+        EXPECT_EQ(joint.inverse_bind.matrix(), Eigen::Matrix4d(Eigen::Matrix4d::Identity()));
+}
+
+TEST(GltfMeshes, ASecondSetOfJointsAddsItsWeights)
+{
+    GltfDocument gltf = two_joint_document();
+    const int joints = gltf.put<std::uint8_t>("VEC4", {1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0});
+    const int weights = gltf.put<float>("VEC4", {1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0});
+    primitive_of(gltf)["attributes"].update({{"JOINTS_1", joints}, {"WEIGHTS_1", weights}});
+    const Rig rig = rig_from(gltf);
+    EXPECT_EQ(rig.meshes.at(0).skin.bone, (std::vector<int>{0, 1, 0, 1, 1, 0, 1}));
+    EXPECT_EQ(rig.meshes.at(0).skin.weight, (std::vector<double>{0.5, 0.5, 0.5, 0.5, 1.0, 0.25, 0.75}));
+    EXPECT_EQ(rig.remarks.size(), 1u) << "1 + 1 is not one";
+}
+
+TEST(GltfMeshes, NormalisedBytesAsWeights)
+{
+    GltfDocument gltf = two_joint_document();
+    primitive_of(gltf)["attributes"]["WEIGHTS_0"] =
+        gltf.put<std::uint8_t>("VEC4", {255, 0, 0, 0, 51, 204, 0, 0, 255, 0, 0, 0, 102, 153, 0, 0}, true);
+    const Weights skin = rig_from(gltf).meshes.at(0).skin;
+    ASSERT_EQ(skin.weight.size(), 6u);
+    EXPECT_DOUBLE_EQ(skin.weight[1], 0.2);
+    EXPECT_DOUBLE_EQ(skin.weight[4], 0.4);
+}
+
+TEST(GltfMeshes, TheJointOfAWeightOfZeroMayBeAnything)  // glTF 2.0, Sec. 3.7.3.3: unused joints should be zero, and often are not
+{
+    GltfDocument gltf = two_joint_document();
+    primitive_of(gltf)["attributes"]["JOINTS_0"] = gltf.put<std::uint8_t>("VEC4", {0, 99, 0, 0, 0, 1, 99, 0, 1, 0, 0, 99, 0, 1, 0, 0});
+    EXPECT_EQ(rig_from(gltf).meshes.at(0).skin.bone, (std::vector<int>{0, 0, 1, 1, 0, 1}));
+}
+
+TEST(GltfMeshes, AMeshWithoutANameIsCalledAsItsNode)
+{
+    GltfDocument gltf = two_joint_document();
+    gltf.json["meshes"][0].erase("name");
+    EXPECT_EQ(rig_from(gltf).meshes.at(0).name, "body");
+}
+
+}  // namespace
+
+// Reference: glTF 2.0, Sec. 3.11, on an animation of two keys.
+
+namespace {
+
+using namespace pbs;
+using test_support::GltfDocument;
+using test_support::two_joint_document;
+
+Rig animated(const GltfDocument& gltf)
+{
+    const test_support::ScratchFolder folder;
+    return read_gltf_rig(folder.file("a.gltf", gltf.text()));
+}
+
+TEST(GltfAnimations, HaveTheKeysOfTheirSamplers)
+{
+    const Rig rig = animated(two_joint_document());
+    ASSERT_EQ(rig.animations.size(), 1u);
+    EXPECT_EQ(rig.animations[0].name, "Bend");
+    EXPECT_EQ(rig.animations[0].start_s, 0.0);
+    EXPECT_EQ(rig.animations[0].end_s, 1.0);
+    ASSERT_EQ(rig.animations[0].nodes.size(), 1u);
+    const NodeTracks& tracks = rig.animations[0].nodes[0];
+    EXPECT_EQ(rig.nodes[std::size_t(tracks.node)].name, "elbow");
+    EXPECT_FALSE(tracks.translation || tracks.scale);
+    ASSERT_TRUE(tracks.rotation);
+    EXPECT_EQ(tracks.rotation->interpolation, Interpolation::linear);
+    EXPECT_EQ(tracks.rotation->times_s, (std::vector<double>{0.0, 1.0}));
+    EXPECT_EQ(tracks.rotation->values, (std::vector<Eigen::Vector4d>{{0, 0, 0, 1}, {0, 0, 1, 0}}));
+}
+
+TEST(GltfAnimations, ACubicSplineHasThreeValuesPerKey)
+{
+    GltfDocument gltf = two_joint_document();
+    const int output = gltf.put<float>("VEC3", {1, 0, 0, 2, 0, 0, 3, 0, 0, 4, 0, 0, 5, 0, 0, 6, 0, 0});
+    gltf.json["animations"][0]["samplers"][0].update({{"interpolation", "CUBICSPLINE"}, {"output", output}});
+    gltf.json["animations"][0]["channels"][0]["target"]["path"] = "translation";
+    const Rig rig = animated(gltf);
+    const KeyTrack& track = rig.animations.at(0).nodes.at(0).translation.value();
+    EXPECT_EQ(track.interpolation, Interpolation::cubic_spline);
+    ASSERT_EQ(track.values.size(), 6u);
+    EXPECT_EQ(track.values[4], Eigen::Vector4d(5, 0, 0, 0));
+}
+
+TEST(GltfAnimations, AStepAndALinearTrackOfOneNodeAreReadTogether)
+{
+    GltfDocument gltf = two_joint_document();
+    const int times = gltf.put<float>("SCALAR", {0.5F, 2.0F}), scales = gltf.put<float>("VEC3", {1, 1, 1, 2, 2, 2});
+    gltf.json["animations"][0]["samplers"].push_back({{"input", times}, {"output", scales}, {"interpolation", "STEP"}});
+    gltf.json["animations"][0]["channels"].push_back({{"sampler", 1}, {"target", {{"node", 1}, {"path", "scale"}}}});
+    const RigAnimation animation = animated(gltf).animations.at(0);
+    ASSERT_EQ(animation.nodes.size(), 1u);
+    EXPECT_TRUE(animation.nodes[0].rotation && animation.nodes[0].scale && !animation.nodes[0].translation);
+    EXPECT_EQ(animation.nodes[0].scale->interpolation, Interpolation::step);
+    EXPECT_EQ(animation.start_s, 0.0);
+    EXPECT_EQ(animation.end_s, 2.0);
+}
+
+TEST(GltfAnimations, WithoutANameAreNumbered)
+{
+    GltfDocument gltf = two_joint_document();
+    gltf.json["animations"].push_back(gltf.json["animations"][0]);
+    gltf.json["animations"][1].erase("name");
+    EXPECT_EQ(animated(gltf).animations.at(1).name, "animation 1");
+}
+
+TEST(GltfAnimations, AChannelWithoutANodeIsIgnored)
+{
+    GltfDocument gltf = two_joint_document();
+    gltf.json["animations"][0]["channels"].push_back({{"sampler", 0}, {"target", {{"path", "rotation"}}}});
+    EXPECT_EQ(animated(gltf).animations.at(0).nodes.size(), 1u);
+    gltf.json["animations"][0]["channels"].erase(0);
+    EXPECT_TRUE(animated(gltf).animations.empty()) << "it moves no node";
+}
+
+TEST(GltfAnimations, WithoutChannelsAreLeftOut)
+{
+    GltfDocument gltf = two_joint_document();
+    gltf.json["animations"][0]["channels"] = nlohmann::json::array();
+    EXPECT_TRUE(animated(gltf).animations.empty());
+}
+
+TEST(GltfAnimations, OfMorphTargetsAreLeftOutWithARemark)
+{
+    GltfDocument gltf = two_joint_document();
+    gltf.json["animations"][0]["channels"].push_back({{"sampler", 0}, {"target", {{"node", 2}, {"path", "weights"}}}});
+    const Rig rig = animated(gltf);
+    EXPECT_EQ(rig.animations.at(0).nodes.size(), 1u);
+    EXPECT_EQ(rig.remarks, std::vector<std::string>{"animation Bend: the changes of morph targets are left out"});
+}
+
+TEST(GltfAnimations, AFileMayHaveNone)
+{
+    GltfDocument gltf = two_joint_document();
+    gltf.json.erase("animations");
+    EXPECT_TRUE(animated(gltf).animations.empty());
+}
+
+}  // namespace
+
+// Reference: glTF 2.0, Sec. 3.6.2 (accessors, sparse accessors) and the conversion of normalised integers in Sec. 3.6.2.2, by hand.
+
+namespace {
+
+using namespace pbs;
+using test_support::GltfDocument;
+using test_support::two_joint_document;
+
+Rig read_document(const GltfDocument& gltf)
+{
+    const test_support::ScratchFolder folder;
+    return read_gltf_rig(folder.file("a.gltf", gltf.text()));
+}
+
+Positions points_in(const GltfDocument& gltf)
+{
+    return read_document(gltf).meshes.at(0).points;
+}
+
+// The last key's rotation where the document's rotations are these.
+template <typename Number>
+Eigen::Vector4d last_rotation(const std::vector<Number>& numbers)
+{
+    GltfDocument gltf = two_joint_document();
+    gltf.json["animations"][0]["samplers"][0]["output"] = gltf.put("VEC4", numbers, true);
+    return read_document(gltf).animations.at(0).nodes.at(0).rotation->values.back();
+}
+
+TEST(GltfNumbers, NormalisedBytesAndShorts)
+{
+    EXPECT_EQ(last_rotation<std::uint8_t>({0, 0, 0, 255, 0, 51, 102, 255}), Eigen::Vector4d(0.0, 0.2, 0.4, 1.0));
+    EXPECT_EQ(last_rotation<std::uint16_t>({0, 0, 0, 65535, 0, 13107, 26214, 65535}), Eigen::Vector4d(0.0, 0.2, 0.4, 1.0));
+    EXPECT_EQ(last_rotation<std::int8_t>({0, 0, 0, 127, 0, 127, -127, 1}), Eigen::Vector4d(0.0, 1.0, -1.0, 1.0 / 127.0));
+    EXPECT_EQ(last_rotation<std::int16_t>({0, 0, 0, 32767, 0, 32767, -32767, 1}), Eigen::Vector4d(0.0, 1.0, -1.0, 1.0 / 32767.0));
+}
+
+TEST(GltfNumbers, TheLeastSignedNumberIsMinusOneToo)
+{
+    EXPECT_EQ(last_rotation<std::int8_t>({0, 0, 0, 127, -128, 0, 0, 127}).x(), -1.0);
+    EXPECT_EQ(last_rotation<std::int16_t>({0, 0, 0, 32767, -32768, 0, 0, 32767}).x(), -1.0);
+}
+
+TEST(GltfNumbers, IntegersThatAreNotNormalisedKeepTheirValues)  // as KHR_mesh_quantization stores points
+{
+    GltfDocument gltf = two_joint_document();
+    gltf.json["meshes"][0]["primitives"][0]["attributes"]["POSITION"] =
+        gltf.put<std::int16_t>("VEC3", {-300, 0, 7, 1, 2, 0, 1, 4, 0, 2, 2, 0});
+    EXPECT_EQ(Vec3(points_in(gltf).row(0)), Vec3(-300, 0, 7));
+}
+
+TEST(GltfNumbers, OfAStridedViewAndAnOffset)
+{
+    GltfDocument gltf = two_joint_document();
+    // Each of the four points is followed by a number that is none of its own; one number precedes them.
+    gltf.put<float>("SCALAR", {99, 1, 2, 3, 99, 4, 5, 6, 99, 7, 8, 9, 99, 10, 11, 12});
+    gltf.json["bufferViews"].back()["byteStride"] = 16;
+    gltf.json["accessors"].back().update({{"byteOffset", 4}, {"type", "VEC3"}, {"count", 4}});
+    gltf.json["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = gltf.json["accessors"].size() - 1;
+    EXPECT_EQ(points_in(gltf), (Positions(4, 3) << 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12).finished());
+}
+
+// Points 1 and 3 get other places.
+GltfDocument with_sparse_points()
+{
+    GltfDocument gltf = two_joint_document();
+    const int indices = gltf.put_bytes<std::uint8_t>({1, 3}), values = gltf.put_bytes<float>({10, 20, 30, 40, 50, 60});
+    gltf.json["accessors"][0]["sparse"] = {
+        {"count", 2}, {"indices", {{"bufferView", indices}, {"componentType", 5121}}}, {"values", {{"bufferView", values}}}};
+    return gltf;
+}
+
+TEST(GltfNumbers, ASparseAccessorReplacesSomeElements)
+{
+    EXPECT_EQ(points_in(with_sparse_points()), (Positions(4, 3) << 1, 0, 0, 10, 20, 30, 1, 4, 0, 40, 50, 60).finished());
+}
+
+TEST(GltfNumbers, ASparseAccessorWithoutAViewReplacesZeros)
+{
+    GltfDocument gltf = with_sparse_points();
+    gltf.json["accessors"][0].erase("bufferView");
+    EXPECT_EQ(points_in(gltf), (Positions(4, 3) << 0, 0, 0, 10, 20, 30, 0, 0, 0, 40, 50, 60).finished());
+}
+
+TEST(GltfNumbers, AnAccessorWithoutAViewHoldsZeros)
+{
+    GltfDocument gltf = two_joint_document();
+    gltf.json["accessors"][0].erase("bufferView");
+    EXPECT_EQ(points_in(gltf), Positions(Positions::Zero(4, 3)));
 }
 
 }  // namespace

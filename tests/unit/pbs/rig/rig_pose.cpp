@@ -1,7 +1,8 @@
 // Reference: the interpolations of glTF 2.0, Appendix C, and skinned points, computed by hand. Tolerances: at most 64 roundings of numbers
 // of at most 8.
-#include "pbs/rig/rig_pose.hpp"
 
+#include "pbs/rig/rig_pose.hpp"
+#include "pbs/rig/rigged_body.hpp"
 #include "tests/support/rounding_error.hpp"
 #include "tests/support/two_joint_rig.hpp"
 #include "tests/unit/pbs/character/expect_input_error.hpp"
@@ -133,6 +134,185 @@ TEST(FindAnimation, TheFirstOneWithoutANameAndAnErrorThatListsTheNames)
     rig.animations.clear();
     EXPECT_EQ(find_animation(rig, ""), nullptr);
     expect_input_error([&] { find_animation(rig, "Walk"); }, "arm.gltf: animation = Walk: ", "the file has no animation");
+}
+
+}  // namespace
+
+// Reference: rigid motions of two bones and the artist's points, by hand. A rotation from a singular value decomposition is in error by
+// some hundred roundings.
+
+namespace {
+
+using namespace pbs;
+
+const double rigid_rounding = test_support::rounding_error(256, 8.0);
+
+struct PosedBody {
+    Rig rig;
+    RiggedBody body;
+    std::vector<Eigen::Affine3d> nodes;
+};
+
+// The rig of two joints at a time of its animation, after its root was scaled at rest and in the animation.
+PosedBody posed_body(double time_s, const Vec3& scale = Vec3::Ones(), double metres = 1.0)
+{
+    PosedBody made{test_support::two_joint_rig(), {}, {}};
+    made.body = make_rigged_body(made.rig, nullptr, metres);
+    made.rig.nodes[0].rest.scale = scale;
+    made.nodes = node_transforms(made.rig, &made.rig.animations[0], time_s);
+    return made;
+}
+
+TEST(RigidPose, OfTheRestPoseIsTheIdentity)
+{
+    for (const Eigen::Isometry3d& bone : rigid_pose(posed_body(0.0).body, posed_body(0.0).nodes))
+        EXPECT_LE((bone.matrix() - Eigen::Matrix4d::Identity()).cwiseAbs().maxCoeff(), rigid_rounding);
+}
+
+TEST(RigidPose, CarriesRestPointsToTheirPlacesInMetres)
+{
+    const PosedBody half_round = posed_body(1.0, Vec3::Ones(), 0.5);
+    const Pose pose = rigid_pose(half_round.body, half_round.nodes);
+    EXPECT_LE((pose[0] * Vec3(0.5, 2, 0) - Vec3(0.5, 2, 0)).norm(), rigid_rounding);
+    EXPECT_LE((pose[1] * Vec3(0.5, 2, 0) - Vec3(0.5, 0, 0)).norm(), rigid_rounding);  // about (0.5, 1, 0)
+}
+
+TEST(RigidPose, LeavesOutScaleAndReportsIt)
+{
+    double stretch = 0.0;
+    const PosedBody scaled = posed_body(0.0, Vec3(1, 1.5, 1));
+    const Pose pose = rigid_pose(scaled.body, scaled.nodes, &stretch);
+    EXPECT_NEAR(stretch, 0.5, rigid_rounding);
+    EXPECT_LE((pose[0].linear() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff(), rigid_rounding);
+    EXPECT_LE((pose[1] * Vec3(1, 2, 0) - Vec3(1, 3, 0)).norm(), rigid_rounding) << "the head follows the joint";
+}
+
+TEST(RigidPose, OfAMirroredBoneIsARotation)
+{
+    const PosedBody mirrored = posed_body(0.0, Vec3(-1, 1, 1));
+    for (const Eigen::Isometry3d& bone : rigid_pose(mirrored.body, mirrored.nodes))
+        EXPECT_NEAR(bone.linear().determinant(), 1.0, rigid_rounding);
+}
+
+TEST(ArtistPoints, AreTheFormatsFormulaInMetres)
+{
+    const PosedBody half_round = posed_body(1.0, Vec3::Ones(), 0.5);
+    Positions expected(4, 3);
+    expected << 1, 0, 0, 1, 2, 0, 1, 0, 0, 0.5, 2, 0;
+    const Positions points = artist_points(half_round.body, half_round.nodes);
+    EXPECT_LE((points - 0.5 * expected).cwiseAbs().maxCoeff(), rigid_rounding);
+}
+
+TEST(ArtistPoints, KeepTheScaleThatABoneLoses)
+{
+    const PosedBody scaled = posed_body(0.0, Vec3(1, 1.5, 1));
+    Positions expected = scaled.rig.meshes[0].points;
+    expected.col(1) *= 1.5;
+    EXPECT_LE((artist_points(scaled.body, scaled.nodes) - expected).cwiseAbs().maxCoeff(), rigid_rounding);
+}
+
+}  // namespace
+
+// Reference: poses of nodes and skinned points, computed by hand. Tolerances: at most 64 roundings of numbers of at most 8.
+
+namespace {
+
+using namespace pbs;
+using test_support::two_joint_rig;
+
+const double skin_rounding = test_support::rounding_error(64, 8.0);
+
+void expect_points(const Positions& points, const Positions& expected)
+{
+    ASSERT_EQ(points.rows(), expected.rows());
+    EXPECT_LE((points - expected).cwiseAbs().maxCoeff(), skin_rounding) << points << "\nexpected\n" << expected;
+}
+
+Positions posed(const Rig& rig, double time_s)
+{
+    return skinned_points(rig.meshes[0], node_transforms(rig, &rig.animations[0], time_s));
+}
+
+TEST(NodeTransforms, ArePutTogetherFromTranslationRotationAndScale)
+{
+    NodeTransform transform;
+    transform.translation = Vec3(1, 2, 3);
+    transform.rotation = Eigen::Quaterniond(0, 0, 0, 1);  // half round about z
+    transform.scale = Vec3(2, 3, -4);
+    EXPECT_EQ(transform.affine() * Vec3(1, 1, 1), Vec3(-1, -1, -1));
+    transform.matrix = Eigen::Affine3d(Eigen::Scaling(2.0));
+    EXPECT_EQ(transform.affine() * Vec3(1, 1, 1), Vec3(2, 2, 2));
+}
+
+TEST(NodeTransforms, AreThoseOfTheNodesAboveToo)
+{
+    Rig rig = two_joint_rig();
+    rig.nodes[0].rest.scale = Vec3(2, 2, 2);
+    const auto nodes = node_transforms(rig, nullptr, 0.0);
+    EXPECT_EQ(nodes[0] * Vec3(0, 0, 0), Vec3(1, 0, 0));
+    EXPECT_EQ(nodes[1] * Vec3(1, 0, 0), Vec3(3, 4, 0));
+}
+
+TEST(NodeTransforms, WhatHasNoKeysStaysAsItIsAtRest)
+{
+    Rig rig = two_joint_rig();
+    rig.nodes[1].rest.scale = Vec3(1, 3, 1);
+    const auto nodes = node_transforms(rig, &rig.animations[0], 1.0);
+    EXPECT_LE((nodes[1] * Vec3(0, 1, 0) - Vec3(1, -1, 0)).norm(), skin_rounding);
+}
+
+TEST(SkinnedPoints, AtRestAreThoseOfTheMeshWhereTheBindPoseIsTheRestPose)
+{
+    const Rig rig = two_joint_rig();
+    expect_points(skinned_points(rig.meshes[0], node_transforms(rig, nullptr, 0.0)), rig.meshes[0].points);
+}
+
+TEST(SkinnedPoints, OfTwoJointsByHand)
+{
+    Positions quarter(4, 3), half(4, 3);
+    quarter << 1, 0, 0, 1, 2, 0, -1, 2, 0, 0.25 * 2 + 0.75 * 1, 0.25 * 2 + 0.75 * 3, 0;
+    half << 1, 0, 0, 1, 2, 0, 1, 0, 0, 0.25 * 2 + 0.75 * 0, 2, 0;
+    expect_points(posed(two_joint_rig(), 0.5), quarter);
+    expect_points(posed(two_joint_rig(), 1.0), half);
+}
+
+TEST(SkinnedPoints, IgnoreWhereTheNodeOfASkinnedMeshIs)  // glTF 2.0, Sec. 3.7.3.3
+{
+    Rig rig = two_joint_rig();
+    rig.nodes[2].rest.translation = Vec3(5, 5, 5);
+    expect_points(posed(rig, 0.5), posed(two_joint_rig(), 0.5));
+}
+
+TEST(SkinnedPoints, OfANegativeScaleAreMirrored)
+{
+    Rig rig = two_joint_rig();
+    rig.nodes[0].rest.scale = Vec3(-1, 1, 1);  // about the root joint at x = 1
+    Positions mirrored = rig.meshes[0].points;
+    mirrored.col(0) = 2.0 - mirrored.col(0).array();
+    expect_points(skinned_points(rig.meshes[0], node_transforms(rig, nullptr, 0.0)), mirrored);
+}
+
+TEST(SkinnedPoints, WithoutASkinFollowTheirNode)
+{
+    Rig rig = two_joint_rig();
+    rig.meshes[0].joints.clear();
+    rig.meshes[0].node = 1;
+    Positions expected = rig.meshes[0].points;
+    expected.rowwise() += Eigen::RowVector3d(1, 2, 0);
+    expect_points(skinned_points(rig.meshes[0], node_transforms(rig, nullptr, 0.0)), expected);
+}
+
+// A rigid motion of the root moves all points in the same way, whatever their weights.
+TEST(SkinnedPoints, MoveRigidlyWithTheRoot)
+{
+    Rig rig = two_joint_rig();
+    const Positions before = posed(rig, 0.25);
+    const Eigen::Quaterniond turn(Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()));
+    const Vec3 shift(0.5, -1, 2);
+    rig.nodes[0].rest.rotation = turn;
+    rig.nodes[0].rest.translation = turn * Vec3(1, 0, 0) + shift;
+    const Positions expected = ((before * turn.toRotationMatrix().transpose()).rowwise() + shift.transpose()).eval();
+    expect_points(posed(rig, 0.25), expected);
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 // Reference: the rest pose, rigid transforms, and the caller's memory. Tolerances: the roundings of a blend.
-#include "pbs/skinning/blend_skinning.hpp"
-
 #include "pbs/skinning/blend.hpp"
+
 #include "tests/support/scalar_rounding.hpp"
 
 #include <gtest/gtest.h>

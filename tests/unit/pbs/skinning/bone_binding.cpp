@@ -1,5 +1,5 @@
 // Reference: projections on segments along the axes, by hand. Tolerances: the rounding of motions.
-#include "pbs/skinning/bone_binding.hpp"
+#include "pbs/skinning/weights.hpp"
 
 #include "pbs/geometry/input_error.hpp"
 #include "tests/support/motion_rounding.hpp"

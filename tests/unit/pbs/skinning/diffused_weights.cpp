@@ -1,5 +1,5 @@
 // Reference: the definition on rows of cross-sections, and what diffusion conserves.
-#include "pbs/skinning/diffused_weights.hpp"
+#include "pbs/skinning/weights.hpp"
 
 #include "tests/support/rounding_error.hpp"
 #include "tests/support/two_bone_limb.hpp"

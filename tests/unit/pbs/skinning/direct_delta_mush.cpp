@@ -3,7 +3,6 @@
 
 #include "pbs/geometry/nearest_rotation.hpp"
 #include "pbs/geometry/topology.hpp"
-#include "pbs/skinning/packed_direct_mush.hpp"
 #include "tests/support/mush_rounding.hpp"
 #include "tests/support/random_points.hpp"
 #include "tests/support/two_bone_limb.hpp"

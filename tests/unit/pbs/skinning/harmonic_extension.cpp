@@ -1,6 +1,6 @@
 // Reference: functions that are linear in the place are harmonic, and linear elements represent them exactly. The term 1e-9 that keeps the
 // system regular and the removal of weights below 1e-6 change weights by less than 3e-6.
-#include "pbs/skinning/harmonic_weights.hpp"
+#include "pbs/skinning/weights.hpp"
 
 #include "pbs/geometry/topology.hpp"
 #include "tests/support/structured_bar.hpp"

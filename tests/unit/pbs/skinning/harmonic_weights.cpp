@@ -1,5 +1,5 @@
 // Reference: harmonic functions of one coordinate are linear in it, and linear elements represent those exactly.
-#include "pbs/skinning/harmonic_weights.hpp"
+#include "pbs/skinning/weights.hpp"
 
 #include "tests/support/rounding_error.hpp"
 #include "tests/support/structured_bar.hpp"

@@ -1,5 +1,5 @@
 // Reference: the definition. A frame lasts 1 / rate, and n steps fill it.
-#include "pbs/skinning/motion_sampling.hpp"
+#include "pbs/skinning/pose_path.hpp"
 
 #include "pbs/geometry/input_error.hpp"
 

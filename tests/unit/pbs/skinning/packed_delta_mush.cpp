@@ -1,5 +1,5 @@
 // Reference: the plain code in double. Tolerance: the rounding of delta mush in float or double, to which LBS adds its own.
-#include "pbs/skinning/packed_delta_mush.hpp"
+#include "pbs/skinning/delta_mush.hpp"
 
 #include "tests/support/mush_rounding.hpp"
 #include "tests/support/two_bone_limb.hpp"

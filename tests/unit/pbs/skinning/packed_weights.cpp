@@ -1,5 +1,5 @@
 // Reference: rows of weights written by hand.
-#include "pbs/skinning/packed_weights.hpp"
+#include "pbs/skinning/blend.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Reference: a rigid motion and its inverse. Tolerances: the rounding of two motions, one of them on each side or both on one.
-#include "pbs/skinning/root_frame.hpp"
+#include "pbs/skinning/pose_path.hpp"
 
 #include "tests/support/motion_rounding.hpp"
 

@@ -1,5 +1,5 @@
 // Reference: the bones that meet at each point, read from the drawing.
-#include "pbs/skinning/skeleton.hpp"
+#include "pbs/skinning/pose.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Reference: outcomes that are given step by step.
-#include "pbs/solver/frame_step.hpp"
+#include "pbs/solver/step_summary.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 #include "pbs/solver/pbs_solver.hpp"
 
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/tet_volume.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/geometry/topology.hpp"
 #include "tests/support/projection_rounding.hpp"
 #include "tests/support/scalar_rounding.hpp"

@@ -2,7 +2,6 @@
 // unequal masses, the rounding of k / (w1 + w2).
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/solver/pbs_solver.hpp"
-#include "pbs/solver/poses_solver.hpp"
 #include "tests/support/scalar_rounding.hpp"
 #include "tests/support/two_bone_limb.hpp"
 

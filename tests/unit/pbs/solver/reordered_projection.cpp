@@ -1,5 +1,5 @@
 // Reference: the classes projected by hand in the order that the class order states.
-#include "pbs/solver/reordered_projection.hpp"
+#include "pbs/solver/plain_projection.hpp"
 
 #include "tests/support/two_bone_limb.hpp"
 

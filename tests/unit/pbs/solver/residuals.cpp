@@ -1,5 +1,5 @@
 // Reference: root mean squares by hand.
-#include "pbs/solver/residuals.hpp"
+#include "pbs/solver/step_summary.hpp"
 
 #include <gtest/gtest.h>
 

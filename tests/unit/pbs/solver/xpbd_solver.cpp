@@ -1,7 +1,7 @@
 #include "pbs/solver/xpbd_solver.hpp"
 
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/tet_volume.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/geometry/topology.hpp"
 #include "tests/support/rounding_error.hpp"
 #include "tests/support/scalar_rounding.hpp"

@@ -1,10 +1,9 @@
 // Reference: the balance of forces, and the specification in the header for failures, degenerate data and rest.
-#include "reference_fem/dynamics/time_stepper.hpp"
 
 #include "pbs/geometry/input_error.hpp"
-#include "reference_fem/potentials/elastic_potential.hpp"
-
-#include "reference_fem/verification/rounding_bound.hpp"
+#include "reference_fem/dynamics/time_stepper.hpp"
+#include "reference_fem/potentials/potentials.hpp"
+#include "reference_fem/verification/problems.hpp"
 #include "tests/support/rounding_error.hpp"
 #include "tests/support/structured_bar.hpp"
 
@@ -198,6 +197,166 @@ TEST_F(Stepper, DampingBringsTheBarToRest)
         for (int k = 0; k < 300; ++k) ASSERT_TRUE(step(time, 0.03).converged());
         EXPECT_LT(flesh.value(time.motion().displacement) + time.kinetic_energy_j(), 1e-3 * before);
     }
+}
+
+}  // namespace
+
+// Reference: the scheme's own three equations, which the accepted step must satisfy, and the conditions of Chung and Hulbert. Tolerances:
+// roundings of the equations' terms, whose magnitudes add up in displacements to `size`; the rates divide them by powers of the step.
+
+namespace {
+
+using namespace reference_fem;
+using test_support::rounding_error;
+
+class Scheme : public testing::TestWithParam<TimeScheme> {
+protected:
+    const double h = 0.3;
+    const Motion before{Eigen::Vector2d(0.4, -1.0), Eigen::Vector2d(2.0, 0.7), Eigen::Vector2d(-3.0, 0.2)};
+    const Eigen::Vector2d w{0.9, -0.5};
+};
+
+TEST_P(Scheme, AnAcceptedStepSatisfiesTheEquationsOfTheScheme)
+{
+    const TimeScheme& s = GetParam();
+    const Motion after = accept(s, before, w, h);
+    const auto mean = [](double alpha, const Eigen::VectorXd& now, const Eigen::VectorXd& next) -> Eigen::VectorXd {
+        return (1.0 - alpha) * next + alpha * now;
+    };
+    const Eigen::VectorXd u =
+        before.displacement + h * before.velocity + h * h * ((0.5 - s.beta) * before.acceleration + s.beta * after.acceleration);
+    const Eigen::VectorXd v = before.velocity + h * ((1.0 - s.gamma) * before.acceleration + s.gamma * after.acceleration);
+    const double size = before.displacement.norm() + w.norm() + h * before.velocity.norm() + h * h * before.acceleration.norm();
+    const double c_m = inertia_coefficient(s, h), c_c = damping_coefficient(s, h);
+    // The increment is (w - u) / (1 - alpha_f), twice the size at most. The new acceleration takes it in eight roundings, and the test's
+    // own equation in eight.
+    EXPECT_LT((after.displacement - u).norm(), rounding_error(8 + 8, 2.0 * size));
+    EXPECT_LT((after.velocity - v).norm(),  // six roundings on each side, of the same accelerations
+              rounding_error(6 + 6, before.velocity.norm() + h * (before.acceleration.norm() + s.gamma * after.acceleration.norm())));
+    EXPECT_LT((mean(s.alpha_f, before.displacement, after.displacement) - w).norm(), rounding_error(8, 2.0 * size));
+    // Eqs. (d) to (g): the rates in the balance are affine in w, with the factors c_m and c_c. Each side goes through some fifteen
+    // roundings.
+    EXPECT_LT((mean(s.alpha_m, before.acceleration, after.acceleration) - c_m * (w - inertia_centre(s, before, h))).norm(),
+              rounding_error(15 + 15, c_m * size));
+    EXPECT_LT((mean(s.alpha_f, before.velocity, after.velocity) - c_c * (w - damping_centre(s, before, h))).norm(),
+              rounding_error(15 + 15, c_c * size));
+}
+
+TEST_P(Scheme, IsOfSecondOrderAndUnconditionallyStable)
+{
+    const TimeScheme& s = GetParam();
+    EXPECT_EQ(s.gamma, 0.5 - s.alpha_m + s.alpha_f);
+    EXPECT_LE(s.alpha_m, s.alpha_f);
+    EXPECT_LE(s.alpha_f, 0.5);
+    EXPECT_GE(s.beta, 0.25 + (s.alpha_f - s.alpha_m) / 2.0);  // equal, and of exact numbers, if alpha_f = alpha_m; well above otherwise
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Scheme,
+                         testing::Values(newmark(), generalized_alpha(0.0), generalized_alpha(0.5), generalized_alpha(0.8),
+                                         generalized_alpha(1.0)));
+
+TEST(GeneralizedAlpha, RefusesASpectralRadiusOutsideZeroToOne)
+{
+    for (const double radius : {-0.1, 1.1, std::nan("")}) EXPECT_THROW(generalized_alpha(radius), pbs::InputError);
+}
+
+TEST(GeneralizedAlpha, OfSpectralRadiusOneHalfIsAsPrinted)
+{
+    const TimeScheme scheme = generalized_alpha(0.5);
+    EXPECT_DOUBLE_EQ(scheme.alpha_m, 0.0);
+    EXPECT_DOUBLE_EQ(scheme.alpha_f, 1.0 / 3.0);
+    EXPECT_DOUBLE_EQ(scheme.beta, 4.0 / 9.0);
+    EXPECT_DOUBLE_EQ(scheme.gamma, 5.0 / 6.0);
+}
+
+}  // namespace
+
+// Reference: polynomials, whose derivatives are known. A parabola through three displacements gives the velocity of quadratic motion
+// exactly, and a cubic through four the acceleration of cubic motion, for steps of any length. Tolerances: the condition of differences, by
+// which an error d of the displacements grows to 2 d / h in a slope, to its differences over two and three steps in the next.
+
+namespace {
+
+using namespace reference_fem;
+using test_support::rounding_error;
+
+// One free and one prescribed degree of freedom.
+class Prescribed : public testing::Test {
+protected:
+    void step(double u, double step_s)
+    {
+        const Motion next = prescribed.next(motion, Eigen::Vector2d(std::nan(""), u), step_s);
+        prescribed.accept(motion, next, step_s);
+        motion = next;
+    }
+
+    PrescribedMotion prescribed{{false, true}};
+    Motion motion{Eigen::Vector2d(5.0, 0.0), Eigen::Vector2d(6.0, 0.0), Eigen::Vector2d(7.0, 0.0)};
+};
+
+TEST_F(Prescribed, RatesOfACubicAreExactInUnequalSteps)
+{
+    const auto u = [](double t) { return 1.0 + 2.0 * t - 3.0 * t * t + 0.5 * t * t * t; };
+    motion.displacement(1) = u(0.0);
+    motion.velocity(1) = 2.0;
+    double t = 0.0;
+    for (const double h : {0.1, 0.2, 0.05, 0.3}) {
+        t += h;
+        step(u(t), h);
+    }
+    // A displacement is in error by d, ten roundings of terms that add up to at most 4. The slopes of the last three steps are in error by
+    // 2 d / 0.3, 2 d / 0.05 and 2 d / 0.2, their differences over 0.35 and 0.25 by 133 d and 200 d, the third difference over 0.55 by
+    // 606 d, and the acceleration by 2 (133 d + 0.65 (606 d)).
+    EXPECT_NEAR(motion.acceleration(1), -6.0 + 3.0 * t, 1054.0 * rounding_error(10, 4.0));
+    // u''' / 6 times the distances to the previous two points
+    EXPECT_NEAR(motion.velocity(1), 2.0 - 6.0 * t + 1.5 * t * t, 0.5 * 0.3 * 0.35);
+}
+
+TEST_F(Prescribed, TheFirstStepTakesTheVelocityItIsGiven)
+{
+    motion.velocity(1) = 2.0;
+    step(0.2 + 0.5 * 3.0 * 0.01, 0.1);  // u = 2 t + 3 t^2 / 2
+    // The velocity is 2 s - 2 and the acceleration 2 (s - 2) / h; the slope s = 2.15 goes through six roundings.
+    EXPECT_NEAR(motion.velocity(1), 2.3, 2.0 * rounding_error(6, 2.15));
+    EXPECT_NEAR(motion.acceleration(1), 3.0, 2.0 / 0.1 * rounding_error(6, 2.15));
+}
+
+// From rest, the velocity becomes constant at once: the accelerations vanish after three steps, and their impulse equals the velocity. The
+// slopes are in error by 2 d / h, the velocity by 4 d / h, the second and third differences by 2 d / h^2 and 4/3 d / h^3 and the
+// acceleration by 2 (2 + 3 (4/3)) d / h^2, six of which add up to the impulse.
+TEST_F(Prescribed, AJumpOfTheVelocityIsForgottenAndItsImpulseIsWhole)
+{
+    const double h = 0.1, velocity = 3.0;
+    const double d = rounding_error(4, 6 * h * velocity);  // two roundings of the displacement and two of its differences
+    double impulse = 0.0;
+    step(0.0, h);
+    step(0.0, h);
+    for (int k = 1; k <= 6; ++k) {
+        step(k * h * velocity, h);
+        impulse += h * motion.acceleration(1);
+        if (k < 3) continue;
+        EXPECT_NEAR(motion.velocity(1), velocity, 4.0 * d / h);
+        EXPECT_NEAR(motion.acceleration(1), 0.0, 12.0 * d / (h * h));
+    }
+    EXPECT_NEAR(impulse, velocity, 6 * h * 12.0 * d / (h * h));
+}
+
+TEST_F(Prescribed, RestStaysRestToTheBitAndFreeDegreesOfFreedomAreNotTouched)
+{
+    motion.displacement(1) = 0.1;
+    for (const double h : {0.1, 0.03, 0.7}) step(0.1, h);
+    EXPECT_EQ(motion.velocity(1), 0.0);
+    EXPECT_EQ(motion.acceleration(1), 0.0);
+    EXPECT_EQ(motion.displacement, Eigen::Vector2d(5.0, 0.1));
+    EXPECT_EQ(motion.velocity(0), 6.0);
+    EXPECT_EQ(motion.acceleration(0), 7.0);
+}
+
+TEST(PrescribedMotion, MayBeOfNothing)
+{
+    const PrescribedMotion none({false, false, false});
+    const Eigen::Vector3d ones = Eigen::Vector3d::Ones();
+    EXPECT_EQ(none.next({ones, ones, ones}, 2.0 * ones, 0.1).displacement, ones);
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // Reference: the rules in the header, by hand.
 #include "reference_fem/verification/verification_record.hpp"
 
-#include "analysis/records/csv_table.hpp"
+#include "analysis/records/tables.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 #include <gtest/gtest.h>

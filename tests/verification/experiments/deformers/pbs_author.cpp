@@ -5,9 +5,9 @@
 // double to 1e-14 m, so the tolerance is half of the last printed digit alone. The columns of LBS and PBS were measured with this project.
 // They verify that mesh, poses and metrics are those of the table. Where CGAL makes another mesh the tests fail, because nothing else
 // compares the deformer with the published code.
-#include "analysis/frame_metrics.hpp"
+#include "analysis/metrics/frame_metrics.hpp"
 #include "experiments/deformers/registry.hpp"
-#include "pbs/author/author_options.hpp"
+#include "pbs/author/author_solver.hpp"
 #include "pbs/character/bodies.hpp"
 #include "pbs/solver/options.hpp"
 

@@ -5,7 +5,7 @@
 // Poisson's ratio 1/4 leaves the volume constraints out. Displacements are 1e-4 of an edge; the neglected terms are of second order: the
 // force of a spring of stiffness k neglects k |u|^2 / length times (sin^2 / 2, sin cos) of the angle between u and the spring, of its
 // length and of its direction, at most 1 / sqrt 3.
-#include "pbs/geometry/tet_volume.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/solver/xpbd_solver.hpp"
 #include "tests/support/hanging_tet.hpp"
 

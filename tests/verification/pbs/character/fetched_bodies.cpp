@@ -2,8 +2,8 @@
 // figures; the volume of a ring by Pappus; the joints that clips name.
 #include "pbs/character/bodies.hpp"
 #include "pbs/character/clip.hpp"
-#include "pbs/character/human.hpp"
-#include "pbs/geometry/quality.hpp"
+#include "pbs/character/named_bodies.hpp"
+#include "pbs/geometry/topology.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // Reference: the topology of a ball; MakeHuman's own joints; the surface's own volume.
 // Needs Debian's assimp-testmodels, which the set-up installs. The mesh comes from the cache if it exists there.
 #include "pbs/character/bodies.hpp"
-#include "pbs/character/human.hpp"
-#include "pbs/geometry/quality.hpp"
+#include "pbs/character/named_bodies.hpp"
+#include "pbs/geometry/topology.hpp"
 
 #include <gtest/gtest.h>
 

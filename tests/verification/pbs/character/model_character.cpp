@@ -1,7 +1,7 @@
 // Reference: an ellipsoid of known volume with two joints on its long axis, whose weights are linear along it.
 #include "pbs/character/model_character.hpp"
 
-#include "pbs/geometry/tet_volume.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 #include "tests/support/closed_surfaces.hpp"
 #include "tests/support/gltf_document.hpp"
 #include "tests/support/scratch_folder.hpp"

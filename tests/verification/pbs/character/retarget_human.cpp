@@ -1,7 +1,7 @@
 // Reference: the source's own limb directions (independent kinematics, bvh_kinematics.hpp), rigid bones, and what a body can do in 10 ms.
 // Needs Debian's assimp-testmodels, which set-up installs.
 #include "pbs/character/clip.hpp"
-#include "pbs/character/human.hpp"
+#include "pbs/character/named_bodies.hpp"
 
 #include "tests/support/motion_rounding.hpp"
 #include "tests/support/scalar_rounding.hpp"

@@ -1,5 +1,5 @@
 // The skeleton of a clip's file. Reference: the offsets in the header of CMU's 01_01.bvh, and the clip's own kinematics.
-#include "pbs/character/skeleton_from_clip.hpp"
+#include "pbs/character/clip.hpp"
 
 #include "pbs/geometry/input_error.hpp"
 #include "tests/support/scalar_rounding.hpp"

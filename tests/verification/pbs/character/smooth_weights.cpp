@@ -4,7 +4,7 @@
 #include "pbs/character/bodies.hpp"
 #include "pbs/character/clip.hpp"
 #include "pbs/character/skinning_weights.hpp"
-#include "pbs/geometry/tet_volume.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/skinning/blend.hpp"
 #include "tests/support/rounding_error.hpp"
 

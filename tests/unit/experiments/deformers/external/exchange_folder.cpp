@@ -1,6 +1,6 @@
 // The files between pbskin and a program. Reference: the table of files in experiments/deformers/external/README.md, read here byte by
 // byte.
-#include "experiments/deformers/external/exchange_folder.hpp"
+#include "experiments/deformers/external/external_deformers.hpp"
 
 #include "tests/support/bar_character.hpp"
 #include "tests/support/scratch_folder.hpp"

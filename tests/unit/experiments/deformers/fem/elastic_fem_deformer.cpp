@@ -1,8 +1,8 @@
 // How the deformer reaches frames, and what it reports of those that it does not reach. The verification tests show that it deforms
 // correctly. Tolerances between two solutions for one pose: newton_error_m, the error that Newton's method leaves, for each of them.
-#include "experiments/deformers/fem/elastic_fem_deformer.hpp"
+#include "experiments/deformers/fem/fem_deformers.hpp"
 
-#include "pbs/character/refined_character.hpp"
+#include "pbs/character/character.hpp"
 #include "tests/support/bar_character.hpp"
 #include "tests/support/newton_rounding.hpp"
 

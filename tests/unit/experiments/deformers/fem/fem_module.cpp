@@ -1,5 +1,5 @@
 // The module as the program uses it: loaded at run time, with errors thrown inside and caught outside. This test itself links no deal.II.
-#include "experiments/deformers/fem/fem_module.hpp"
+#include "experiments/deformers/fem/fem_options.hpp"
 
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/module.hpp"

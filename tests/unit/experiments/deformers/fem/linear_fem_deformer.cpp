@@ -1,5 +1,5 @@
 // The deformer's reports, and the inputs that it refuses. The verification tests show that it deforms correctly.
-#include "experiments/deformers/fem/linear_fem_deformer.hpp"
+#include "experiments/deformers/fem/fem_deformers.hpp"
 
 #include "pbs/geometry/input_error.hpp"
 #include "tests/support/bar_character.hpp"
@@ -48,7 +48,7 @@ TEST(LinearFemDeformer, RecordsWhatIsGrippedOfEachBone)
     const double degree = std::acos(-1.0) / 180.0, rounding = test_support::rounding_error(20, 1.0);
     EXPECT_NEAR(record["largest_rotation_deg"].get<double>(), 10.0, rounding / degree);
     EXPECT_NEAR(record["fictitious_strain"].get<double>(), 1.0 - std::cos(10.0 * degree), rounding);
-    // |r| <= sqrt(n) eps |K| |u| (reference_fem/verification/rounding_bound.hpp). The stiffest entries of K are those of the springs, which
+    // |r| <= sqrt(n) eps |K| |u| (reference_fem/verification/problems.hpp). The stiffest entries of K are those of the springs, which
     // are also the load, so that |K| |u| is at most 100 |f|.
     const double unknowns = 3.0 * static_cast<double>(character.mesh.rest.rows());
     EXPECT_LT(record["largest_residual"].get<double>(), test_support::rounding_error(2.0 * std::sqrt(unknowns), 100.0));

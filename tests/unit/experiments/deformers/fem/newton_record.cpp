@@ -1,5 +1,5 @@
 // Reference: sums and extremes over invented paths with known numbers.
-#include "experiments/deformers/fem/newton_record.hpp"
+#include "experiments/deformers/fem/fem_deformers.hpp"
 
 #include "tests/support/rounding_error.hpp"
 

@@ -1,7 +1,7 @@
 // The attachment of the flesh is the same on a refined character. Reference: the continuous problem does not depend on the mesh.
 #include "experiments/deformers/fem/bone_attachment.hpp"
-#include "pbs/character/refined_character.hpp"
-#include "pbs/geometry/tet_volume.hpp"
+#include "pbs/character/character.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 #include "tests/support/bar_character.hpp"
 #include "tests/support/rounding_error.hpp"
 

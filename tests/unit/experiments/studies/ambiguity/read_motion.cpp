@@ -1,8 +1,8 @@
 // Reference: the solver, LBS and the metrics, called directly.
 #include "experiments/studies/ambiguity/read_motion.hpp"
 
-#include "analysis/frame_metrics.hpp"
-#include "pbs/skinning/blend_skinning.hpp"
+#include "analysis/metrics/frame_metrics.hpp"
+#include "pbs/skinning/blend.hpp"
 #include "pbs/solver/pbs_solver.hpp"
 #include "tests/support/limb_character.hpp"
 

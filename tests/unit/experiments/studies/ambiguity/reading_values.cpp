@@ -1,7 +1,7 @@
 // Reference: the studies' own functions, called directly, and what a reading cannot change.
 #include "experiments/studies/ambiguity/reading_values.hpp"
 
-#include "experiments/scene/motion_case.hpp"
+#include "experiments/scene/scene.hpp"
 #include "experiments/studies/momentum/momentum_drift.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 

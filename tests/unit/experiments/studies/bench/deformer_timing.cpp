@@ -1,9 +1,9 @@
 // Reference: the registry, whose kinds and keys are counted here once more, and a deformer whose time is given.
 #include "experiments/studies/bench/deformer_timing.hpp"
 
-#include "experiments/deformers/pbs/pbs_option_names.hpp"
+#include "experiments/deformers/deformer_options.hpp"
 #include "experiments/deformers/registry.hpp"
-#include "experiments/process/cpu_clock.hpp"
+#include "experiments/process/machine.hpp"
 #include "experiments/settings/scene_values.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/solver/options.hpp"

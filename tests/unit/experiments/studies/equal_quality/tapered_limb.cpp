@@ -1,7 +1,7 @@
 // Reference: counts and volumes of a regular grid, and the formula of its cross-section.
 #include "experiments/studies/equal_quality/tapered_limb.hpp"
 
-#include "pbs/geometry/tet_volume.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/geometry/topology.hpp"
 
 #include <gtest/gtest.h>

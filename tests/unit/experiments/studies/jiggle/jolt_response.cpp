@@ -4,7 +4,7 @@
 
 #include "experiments/studies/jiggle/jiggle_settings.hpp"
 #include "pbs/character/bodies.hpp"
-#include "pbs/character/jiggle_zone_contents.hpp"
+#include "pbs/character/overlap_and_jiggle.hpp"
 #include "pbs/solver/options.hpp"
 #include "tests/support/rounding_error.hpp"
 #include "tests/support/step_rounding.hpp"

@@ -3,7 +3,7 @@
 // rounded; nor is a vector along an axis when it is divided by its length.
 #include "experiments/studies/shared/limb_joints.hpp"
 
-#include "analysis/section_outline.hpp"
+#include "analysis/metrics/cross_section.hpp"
 #include "pbs/character/bodies.hpp"
 #include "pbs/geometry/meshing.hpp"
 #include "pbs/geometry/topology.hpp"

@@ -4,7 +4,6 @@
 #include "experiments/deformers/registry.hpp"
 #include "experiments/studies/stability/driven_body.hpp"
 #include "pbs/solver/options.hpp"
-#include "pbs/solver/xpbd_options.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Reference: the heights and lengths of the tets themselves.
 #include "experiments/studies/stability/distorted_mesh.hpp"
 
-#include "pbs/geometry/tet_volume.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 #include "tests/support/rounding_error.hpp"
 #include "tests/support/two_bone_limb.hpp"
 

@@ -2,10 +2,10 @@
 // must have, written down here again; and settings beyond the limit of a method, which must be seen to fail.
 #include "experiments/studies/stability/broken_start.hpp"
 #include "experiments/studies/stability/cell_run.hpp"
-#include "experiments/studies/stability/stability_body.hpp"
 #include "experiments/studies/stability/driven_body.hpp"
+#include "experiments/studies/stability/stability_body.hpp"
 #include "experiments/studies/stability/stability_cells.hpp"
-#include "pbs/author/author_options.hpp"
+#include "pbs/author/author_solver.hpp"
 
 #include <gtest/gtest.h>
 

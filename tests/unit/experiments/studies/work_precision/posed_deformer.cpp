@@ -1,11 +1,10 @@
 // A deformer of the user's own in a pose of a case. Reference: the shapes and times that its program writes.
 #include "experiments/studies/work_precision/posed_deformer.hpp"
 
-#include "experiments/deformers/external/exchange_folder.hpp"
 #include "experiments/deformers/external/external_deformers.hpp"
-#include "experiments/scene/motion_case.hpp"
+#include "experiments/scene/scene.hpp"
 #include "experiments/studies/work_precision/measured_points.hpp"
-#include "pbs/geometry/text_file.hpp"
+#include "pbs/geometry/files.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/unit/pbs/character/expect_input_error.hpp"
 

@@ -2,7 +2,7 @@
 // Another sequence exceeds the tolerance in either precision, which AnotherSequenceIsFarOff confirms.
 #include "pbs/solver/batched/batched_xpbd_projection.hpp"
 
-#include "pbs/solver/plain_xpbd_projection.hpp"
+#include "pbs/solver/xpbd_solver.hpp"
 #include "tests/support/two_bone_limb.hpp"
 #include "tests/support/xpbd_rounding.hpp"
 

@@ -1,7 +1,7 @@
 // Reference: value and gradient of pbs/constraints and the change of the multiplier by Eq. 18 of Macklin 2016, in the same precision.
 // Tolerance: the rounding of a projection that removes all of the error (projection_rounding.hpp), once for each side; a compliance makes
 // the correction smaller. The multiplier is at most what the rest value would give, so that the bound holds for its term too.
-#include "pbs/solver/batched/compliant_kernels.hpp"
+#include "pbs/solver/batched/pbs_kernels.hpp"
 
 #include "tests/support/projection_cases.hpp"
 #include "tests/support/projection_rounding.hpp"

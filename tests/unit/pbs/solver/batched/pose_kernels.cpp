@@ -1,5 +1,5 @@
 // Reference: the plain form in pbs/constraints, pose by pose, within the bounds of rounding (projection_rounding.hpp).
-#include "pbs/solver/batched/pose_kernels.hpp"
+#include "pbs/solver/batched/pbs_kernels.hpp"
 
 #include "tests/support/projection_cases.hpp"
 #include "tests/support/projection_rounding.hpp"

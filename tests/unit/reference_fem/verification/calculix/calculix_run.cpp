@@ -1,10 +1,14 @@
 // Reference: what the stand-in programs do, shell scripts in the place of ccx.
+
+#include "pbs/geometry/input_error.hpp"
 #include "reference_fem/verification/calculix/calculix_run.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <ostream>
 
@@ -99,6 +103,109 @@ TEST(LastWords, AreTheEndWithoutBlankLines)
     text.insert(0, 1000, 'a');
     last.insert(0, 397, 'a');
     EXPECT_EQ(last_words(text), last);
+}
+
+}  // namespace
+
+// Reference: what was put into the files. Fortran prints 1p,e13.6, leaves the E of a three-digit exponent out, and puts a record's length
+// before and after its data.
+
+namespace {
+
+using namespace reference_fem;
+
+const std::string header = "\n displacements (vx,vy,vz) for set NODES and time  0.1000000E+01\n\n";
+const std::string first = "         1  1.234568E-03 -2.000000E+00  0.000000E+00\n";
+const std::string second = "         2 -7.654321E-12  3.333333E-01  1.234567-101\n";
+
+template <typename Number>
+std::string record(const std::vector<Number>& values)
+{
+    const auto length = static_cast<std::int32_t>(values.size() * sizeof(Number));
+    std::string bytes(2 * sizeof length + length, '\0');
+    std::memcpy(bytes.data(), &length, sizeof length);
+    std::memcpy(bytes.data() + sizeof length, values.data(), length);
+    std::memcpy(bytes.data() + sizeof length + length, &length, sizeof length);
+    return bytes;
+}
+
+// Node by node: temperature and three displacements.
+const std::vector<double> exact = {20.0, 1.2345678901e-3, -2.0, 0.0, 20.0, -7.6543210987e-12, 1.0 / 3.0, 1.234567e-101};
+
+void expect_refused(const std::string& text, const std::string& what)
+{
+    try {
+        read_printed_displacements(text, "deck.dat", 2);
+        ADD_FAILURE() << "accepted: " << text;
+    } catch (const pbs::InputError& error) {
+        EXPECT_NE(std::string(error.what()).find("deck.dat"), std::string::npos) << error.what();
+        EXPECT_NE(std::string(error.what()).find(what), std::string::npos) << error.what();
+    }
+}
+
+TEST(PrintedDisplacements, AreReadInAnyOrder)
+{
+    const pbs::Positions read = read_printed_displacements(header + second + first, "deck.dat", 2);
+    EXPECT_EQ(read.row(0), Eigen::RowVector3d(1.234568e-3, -2.0, 0.0));
+    EXPECT_EQ(read.row(1), Eigen::RowVector3d(-7.654321e-12, 3.333333e-1, 1.234567e-101));
+}
+
+TEST(PrintedDisplacements, MalformedFilesAreRefused)
+{
+    expect_refused("", "expected a block");
+    expect_refused(first + second, "below a header");
+    expect_refused(header + first, "node = 2");
+    expect_refused(header + first + first + second, "one line a node");
+    expect_refused(header + first + "         3  0.0 0.0 0.0\n", "expected 1 to 2");
+    expect_refused(header + first + "       1.5  0.0 0.0 0.0\n", "expected 1 to 2");
+    expect_refused(header + first + "         2  0.0 0.0\n", "three numbers");
+    expect_refused(header + first + "         2  0.0 0.0 ******\n", "displacement = ******");
+    expect_refused(header + first + "         2  0.0 NaN 0.0\n", "displacement = NaN");
+    expect_refused(header + first + "         2  0.0 0.0 1.2x\n", "displacement = 1.2x");
+    expect_refused(header + first + second + header + first + second, "one block");
+    expect_refused("\n displacements (vx,vy,vz) for set NODES and time  0.5000000E+00\n\n" + first + second, "time");
+}
+
+TEST(RestartFile, GivesTheDisplacementsInDouble)
+{
+    std::vector<double> others = exact;
+    others[1] += 1e-8;
+    const std::string restart = record<double>({1.0}) + record(others) + record<std::int32_t>({7, 8}) + record(exact) + record<char>({});
+    const CalculixDisplacements read = read_displacements(header + first + second, restart, 2);
+    EXPECT_TRUE(read.in_double);
+    EXPECT_EQ(read.displacements.row(0), Eigen::RowVector3d(exact[1], exact[2], exact[3]));
+    EXPECT_EQ(read.displacements.row(1), Eigen::RowVector3d(exact[5], exact[6], exact[7]));
+}
+
+TEST(RestartFile, EndsOfSpringsAreBehindTheNodes)
+{
+    std::vector<double> with_an_end = exact;
+    with_an_end.insert(with_an_end.end(), {20.0, 5.0, 6.0, 7.0});
+    const CalculixDisplacements read = read_displacements(header + first + second, record(with_an_end), 2);
+    EXPECT_TRUE(read.in_double);
+    ASSERT_EQ(read.displacements.rows(), 2);
+    EXPECT_EQ(read.displacements.row(1), Eigen::RowVector3d(exact[5], exact[6], exact[7]));
+}
+
+TEST(RestartFile, WithoutTheRecordThePrintedDigitsStay)
+{
+    std::vector<double> others = exact;
+    others[6] = 0.3333344;  // the 7th digit differs
+    for (const std::string& restart : {std::string(), record(others), record<double>({1.0, 2.0})}) {
+        const CalculixDisplacements read = read_displacements(header + first + second, restart, 2);
+        EXPECT_FALSE(read.in_double);
+        EXPECT_EQ(read.displacements(0, 0), 1.234568e-3);
+    }
+}
+
+TEST(RestartFile, CutShortOrDamagedIsRefused)
+{
+    const std::string restart = record(exact);
+    for (std::size_t length = 1; length < restart.size(); ++length)
+        EXPECT_THROW(read_displacements(header + first + second, restart.substr(0, length), 2), pbs::InputError) << length;
+    std::string damaged = restart;
+    damaged[damaged.size() - 1] ^= 1;
+    EXPECT_THROW(read_displacements(header + first + second, damaged, 2), pbs::InputError);
 }
 
 }  // namespace

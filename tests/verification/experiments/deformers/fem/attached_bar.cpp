@@ -1,6 +1,6 @@
 // Reference: rigid motion and objectivity, which are exact for a linear law since the root's motion is removed; the limit of stiff springs;
 // a second solver. The body is the bar of two bones, with both attachments and both element orders.
-#include "experiments/deformers/fem/linear_fem_deformer.hpp"
+#include "experiments/deformers/fem/fem_deformers.hpp"
 #include "tests/support/bar_character.hpp"
 #include "tests/support/newton_rounding.hpp"
 #include "tests/support/solve_rounding.hpp"

@@ -1,7 +1,6 @@
 // Reference: objectivity of the laws; the independence of an equilibrium from the path to it; the small-strain limit, which is the linear
 // reference; the motions that the bind constraint allows and prevents. The body is the bar of two bones.
-#include "experiments/deformers/fem/elastic_fem_deformer.hpp"
-#include "experiments/deformers/fem/linear_fem_deformer.hpp"
+#include "experiments/deformers/fem/fem_deformers.hpp"
 #include "tests/support/bar_character.hpp"
 #include "tests/support/newton_rounding.hpp"
 

@@ -2,7 +2,7 @@
 // The forearm is turned by 10 degrees, P1, nu 0.45. Bound on the error over the motion at q = 1e4: the fictitious strain 1 - cos(10 deg) =
 // 1.5 %, which the flesh would lose and the springs prevent, times the share that tets with samples of two bones cannot follow; the test
 // requires a tenth of it, 1.5e-3. Needs Debian's assimp-testmodels, which the set-up installs.
-#include "experiments/deformers/fem/linear_fem_deformer.hpp"
+#include "experiments/deformers/fem/fem_deformers.hpp"
 #include "pbs/character/bodies.hpp"
 #include "tests/support/rounding_error.hpp"
 
@@ -21,7 +21,7 @@ TEST(HumanGrip, EveryBoneIsGrippedAndTheErrorFallsWithTheSprings)
     ASSERT_GE(forearm, 0);
     const pbs::Pose pose = pbs::joint_sweep(human.skeleton, forearm, pbs::Vec3::UnitX(), 10.0, 2, 0.01).steps.back();
 
-    // |r| <= sqrt(n) eps |K| |u| (reference_fem/verification/rounding_bound.hpp), where |K| |u| is at most 100 |f|, the load of the
+    // |r| <= sqrt(n) eps |K| |u| (reference_fem/verification/problems.hpp), where |K| |u| is at most 100 |f|, the load of the
     // springs.
     const double residual = test_support::rounding_error(2.0 * std::sqrt(3.0 * static_cast<double>(human.mesh.rest.rows())), 100.0);
     std::vector<double> errors;

@@ -2,7 +2,7 @@
 // nearly incompressible. Reference: Newton's method ends at the same equilibrium from either side. The volume that a law loses falls as its
 // bulk modulus rises, to first order with 1 - 2 nu, so from nu 0.45 to 0.49 to a fifth. The test requires half of that fall, since at these
 // angles and on linear tets the strain is not small.
-#include "experiments/deformers/fem/elastic_fem_deformer.hpp"
+#include "experiments/deformers/fem/fem_deformers.hpp"
 #include "pbs/character/bodies.hpp"
 
 #include <gtest/gtest.h>

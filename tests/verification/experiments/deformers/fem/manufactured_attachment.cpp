@@ -3,7 +3,7 @@
 // the bound of nested solutions on it.
 #include "experiments/studies/verification/manufactured_attachment.hpp"
 
-#include "pbs/geometry/refinement.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 #include "tests/verification/reference_fem/jittered_cube.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // Reference: the theory of quadrature. Twice as many sample points of the springs in every direction are a finer midpoint rule, whose error
 // falls to a quarter. The body is the bar of two bones, bent by 40 degrees, with stable neo-Hookean flesh.
-#include "experiments/deformers/fem/elastic_fem_deformer.hpp"
+#include "experiments/deformers/fem/fem_deformers.hpp"
 #include "pbs/character/bodies.hpp"
 #include "tests/support/bar_character.hpp"
 

@@ -2,8 +2,7 @@
 // (also those of the attachment's springs, whose density is q E / r^2). The positions therefore do not depend on it, and twist and bend can
 // only determine nu. Multiplied by an even power of two, Young's modulus changes no digit of a force, of a root in Cholesky's factorisation
 // or of a quotient of forces, and Newton's stopping criterion is relative to the forces: the positions are equal to the bit.
-#include "experiments/deformers/fem/elastic_fem_deformer.hpp"
-#include "experiments/deformers/fem/linear_fem_deformer.hpp"
+#include "experiments/deformers/fem/fem_deformers.hpp"
 #include "tests/support/bar_character.hpp"
 
 #include <gtest/gtest.h>

@@ -3,7 +3,7 @@
 // of (p x q)_x over the segments p q in which its outward triangles meet the plane.
 #include "experiments/studies/ambiguity/reading_values.hpp"
 
-#include "experiments/scene/motion_case.hpp"
+#include "experiments/scene/scene.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 #include "pbs/geometry/topology.hpp"
 #include "pbs/skinning/blend.hpp"

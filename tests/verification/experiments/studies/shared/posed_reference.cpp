@@ -4,8 +4,8 @@
 #include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "pbs/character/bodies.hpp"
-#include "pbs/character/refined_character.hpp"
-#include "pbs/geometry/tet_volume.hpp"
+#include "pbs/character/character.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 #include "tests/support/bar_character.hpp"
 
 #include <gtest/gtest.h>

@@ -7,8 +7,8 @@
 // very matrix (difference_bound()). Skipped where ccx is not on the PATH.
 #include "experiments/studies/verification/held_frame.hpp"
 #include "pbs/character/bodies.hpp"
-#include "reference_fem/verification/calculix/loaded_cantilever.hpp"
-#include "reference_fem/verification/calculix/second_opinion.hpp"
+#include "reference_fem/verification/calculix/calculix_rows.hpp"
+#include "reference_fem/verification/calculix/calculix_run.hpp"
 #include "tests/support/structured_bar.hpp"
 
 #include <gtest/gtest.h>

@@ -1,0 +1,97 @@
+// A record as it is written to disk: JSON in UTF-8, whatever bytes the names in it contain.
+//   analysis::write_text_atomically(path, record_text(run));
+#pragma once
+
+#include "pbs/geometry/input_error.hpp"
+
+#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
+#include <stdlib.h>
+
+#include <cerrno>
+#include <filesystem>
+#include <string>
+#include <system_error>
+#include <vector>
+
+namespace analysis {
+
+// Bytes that are not UTF-8 become U+FFFD, so that a record is never lost because of a name.
+std::string record_text(const nlohmann::json& record);
+
+bool is_utf8(const std::string& text);
+
+// Writes records as whole files or not at all, by pbs::write_atomically, and removes what killed writers left behind.
+//   write_text_atomically("results/run.json", document.dump(2) + "\n");
+
+// InputError with the system's reason if the folder is missing, cannot be written or is full; nothing is left behind in that case.
+void write_text_atomically(const std::string& path, const std::string& text);
+
+// Checks before long work whether the file can be written: the same InputError if its folder, or an existing entry in its place, forbids
+// it.
+void require_writable(const std::string& path);
+
+// Removes the half-written files that killed writers left in a folder and in those below it: temporary files whose process no longer
+// exists. A folder that does not exist holds none.
+void remove_abandoned_files(const std::string& folder, bool and_below = true);
+
+// pbs::read_text_file: InputError if the file cannot be read.
+std::string read_text(const std::string& path);
+
+// Lists and removes the files of a folder. Where the system refuses, the error names the file and the reason.
+//   remove_record(folder / "run.json");  for (const fs::path& file : files_in(folder / "frames")) ...
+
+// Removes a file of an earlier run, so that it does not remain next to the files of the next one; a missing file is no error.
+void remove_record(const std::filesystem::path& file);
+
+// The path of a file in a folder.
+std::string path_in(const std::string& folder, const std::string& name);
+
+// The files of a folder, in no particular order.
+std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder);
+
+// Reads back the record of a run, which may have been changed since it was written.
+//   const double total_s = from_record(folder + "/run.json", [](const auto& run) { return run.at("cost").at("total").get<double>(); });
+nlohmann::json read_record(const std::string& path);       // InputError if it is not valid JSON
+[[noreturn]] void refuse_record(const std::string& path);  // throws InputError
+
+// The result of `read`; InputError with the file if an entry is missing or has another type.
+template <typename Read>
+auto from_record(const std::string& path, const Read& read)
+{
+    const nlohmann::json record = read_record(path);
+    try {
+        return read(record);
+    } catch (const nlohmann::json::exception&) {
+        refuse_record(path);
+    }
+}
+
+// A temporary folder for files that another program reads and writes. It is removed with this object.
+//   const ScratchFolder folder;  write(folder / "deck.inp");
+class ScratchFolder {
+public:
+    ScratchFolder()
+    {
+        const std::filesystem::path parent = std::filesystem::temp_directory_path();
+        std::string name = (parent / "pbskin_XXXXXX").string();
+        if (!mkdtemp(name.data()))
+            throw pbs::InputError(parent.string(), 0, "", "", "no folder can be made here: " + std::generic_category().message(errno));
+        path_ = name;
+    }
+    ~ScratchFolder()
+    {
+        std::error_code ignored;
+        std::filesystem::remove_all(path_, ignored);
+    }
+    ScratchFolder(const ScratchFolder&) = delete;
+    ScratchFolder& operator=(const ScratchFolder&) = delete;
+
+    std::string operator/(const std::string& name) const { return (path_ / name).string(); }
+    const std::filesystem::path& path() const { return path_; }
+
+private:
+    std::filesystem::path path_;
+};
+
+}  // namespace analysis

@@ -1,0 +1,204 @@
+#include "analysis/statistics/statistics.hpp"
+
+#include "analysis/records/tables.hpp"
+
+#include <fmt/format.h>
+#include <gsl/gsl_cdf.h>
+#include <gsl/gsl_rng.h>
+#include <gsl/gsl_statistics_double.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+namespace analysis {
+namespace {
+
+bool has_nan(const std::vector<double>& values)
+{
+    return std::any_of(values.begin(), values.end(), [](double value) { return std::isnan(value); });
+}
+
+}  // namespace
+
+double mean(const std::vector<double>& values)
+{
+    return values.empty() ? not_known : gsl_stats_mean(values.data(), 1, values.size());
+}
+
+double median(const std::vector<double>& values)
+{
+    return quantile(values, 0.5);
+}
+
+double quantile(std::vector<double> values, double share)
+{
+    if (values.empty() || has_nan(values)) return not_known;
+    std::sort(values.begin(), values.end());
+    return gsl_stats_quantile_from_sorted_data(values.data(), 1, values.size(), share);
+}
+
+double standard_deviation(const std::vector<double>& values)
+{
+    return values.size() < 2 ? not_known : gsl_stats_sd(values.data(), 1, values.size());
+}
+
+double standard_error(const std::vector<double>& values)
+{
+    return standard_deviation(values) / std::sqrt(static_cast<double>(values.size()));
+}
+
+double rank_correlation(const std::vector<double>& x, const std::vector<double>& y)
+{
+    const std::size_t n = std::min(x.size(), y.size());
+    if (n < 2 || has_nan(x) || has_nan(y)) return not_known;
+    std::vector<double> work(2 * n);
+    return gsl_stats_spearman(x.data(), 1, y.data(), 1, n, work.data());
+}
+
+double integrated_autocorrelation_time(const std::vector<double>& series)
+{
+    const std::size_t n = series.size();
+    const double centre = mean(series);
+    const auto covariance = [&](std::size_t lag) {
+        double sum = 0.0;
+        for (std::size_t i = 0; i + lag < n; ++i) sum += (series[i] - centre) * (series[i + lag] - centre);
+        return sum / static_cast<double>(n);
+    };
+    const double variance = n < 2 ? 0.0 : covariance(0);
+    if (!(variance > 0.0)) return 1.0;
+    double tau = 1.0;
+    for (std::size_t lag = 1; lag < n && static_cast<double>(lag) < 5.0 * tau; ++lag) tau += 2.0 * covariance(lag) / variance;
+    return std::max(tau, 1.0);
+}
+
+namespace {
+
+using Random = std::unique_ptr<gsl_rng, decltype(&gsl_rng_free)>;
+
+// The mean of as many samples as the series has, drawn in blocks of neighbours; the last block is shortened to fit.
+double resampled_mean(const std::vector<double>& series, std::size_t block, gsl_rng* random)
+{
+    double sum = 0.0;
+    for (std::size_t drawn = 0; drawn < series.size();) {
+        const std::size_t first = gsl_rng_uniform_int(random, series.size() - block + 1);
+        const std::size_t count = std::min(block, series.size() - drawn);
+        for (std::size_t i = first; i < first + count; ++i) sum += series[i];
+        drawn += count;
+    }
+    return sum / static_cast<double>(series.size());
+}
+
+}  // namespace
+
+int block_length(const std::vector<double>& series)
+{
+    const double tau = integrated_autocorrelation_time(series), n = static_cast<double>(series.size());
+    const double length = std::cbrt(1.5 * n) * std::pow((tau * tau - 1.0) / (2.0 * tau), 2.0 / 3.0);
+    return static_cast<int>(std::clamp(std::ceil(length), 1.0, std::max(1.0, std::floor(n / 2.0))));
+}
+
+Interval bootstrap_mean(const std::vector<double>& series, const BootstrapOptions& options)
+{
+    Interval interval{mean(series), not_known, not_known, options.level, static_cast<int>(series.size()), 0};
+    if (series.size() < 2 || !std::isfinite(interval.estimate)) return interval;
+    interval.block = options.block > 0 ? std::min(options.block, interval.n) : block_length(series);
+
+    const Random random(gsl_rng_alloc(gsl_rng_mt19937), gsl_rng_free);
+    gsl_rng_set(random.get(), options.seed);
+    std::vector<double> means(static_cast<std::size_t>(options.resamples));
+    for (double& value : means) value = resampled_mean(series, static_cast<std::size_t>(interval.block), random.get());
+    interval.low = quantile(means, (1.0 - options.level) / 2.0);
+    interval.high = quantile(means, (1.0 + options.level) / 2.0);
+    return interval;
+}
+
+Interval bootstrap_share(const std::vector<bool>& holds, const BootstrapOptions& options)
+{
+    Interval interval = bootstrap_mean(std::vector<double>(holds.begin(), holds.end()), options);
+    if (interval.n < 2 || (interval.estimate > 0.0 && interval.estimate < 1.0)) return interval;
+    const double independent = interval.n / std::max(1.0, options.autocorrelation_time);
+    const double margin = 1.0 - std::pow((1.0 - options.level) / 2.0, 1.0 / independent);
+    (interval.estimate > 0.0 ? interval.low : interval.high) = interval.estimate > 0.0 ? 1.0 - margin : margin;
+    return interval;
+}
+
+Interval share_interval(int counted, int all, double level)
+{
+    const double tail = (1.0 - level) / 2.0;
+    Interval share{.estimate = double(counted) / all, .low = 0.0, .high = 1.0, .level = level, .n = all};
+    if (counted > 0) share.low = gsl_cdf_beta_Pinv(tail, counted, all - counted + 1.0);
+    if (counted < all) share.high = gsl_cdf_beta_Pinv(1.0 - tail, counted + 1.0, all - counted);
+    return share;
+}
+
+namespace {
+
+const std::array<std::string, 6> settings = {"scene", "deformer", "variant", "order", "precision", "iterations"};
+const std::array<std::string, 4> quantities = {"volume_change", "volume_abs_change", "error_l2", "error_joint"};  // each [%]
+const std::array<std::pair<std::string, double>, 5> shares = {{{"least", 0.0}, {"p10", 0.1}, {"median", 0.5}, {"p90", 0.9}, {"most", 1.0}}};
+
+struct Group {
+    std::array<std::string, 6> setting;
+    std::vector<int> rows = {};
+    int frames = 0;
+    std::array<std::array<std::optional<double>, 5>, 4> statistics = {};  // by quantity and share
+};
+
+Columns<Group> all_columns()
+{
+    Columns<Group> columns;
+    for (std::size_t i = 0; i < settings.size(); ++i)
+        columns.emplace_back(
+            settings[i], [i](auto& group) -> decltype(auto) { return (group.setting[i]); }, "", "as in metrics.csv");
+    columns.emplace_back("frames", &Group::frames, "", "number of frames");
+    for (std::size_t q = 0; q < quantities.size(); ++q)
+        for (std::size_t i = 0; i < shares.size(); ++i)
+            columns.emplace_back(
+                quantities[q] + "_" + shares[i].first + "_pct", [q, i](auto& group) -> decltype(auto) { return (group.statistics[q][i]); },
+                "%", fmt::format("{} quantile of {}_pct over the finite frames", shares[i].second, quantities[q]));
+    return columns;
+}
+
+// In order of first appearance.
+std::vector<Group> by_setting(const CsvTable& metrics)
+{
+    std::vector<Group> groups;
+    for (int row = 0; row < metrics.rows(); ++row) {
+        std::array<std::string, 6> setting;
+        for (std::size_t i = 0; i < settings.size(); ++i) setting[i] = metrics.text_at(row, settings[i]);
+        auto found = std::find_if(groups.begin(), groups.end(), [&](const Group& group) { return group.setting == setting; });
+        if (found == groups.end()) found = groups.insert(groups.end(), {setting});
+        found->rows.push_back(row);
+    }
+    return groups;
+}
+
+std::vector<double> values_of(const CsvTable& metrics, const std::vector<int>& rows, const std::string& column)
+{
+    std::vector<double> values;
+    if (!metrics.has_column(column)) return values;
+    for (const int row : rows)
+        if (const auto value = metrics.number_or_nothing(row, column); value && std::isfinite(*value)) values.push_back(*value);
+    return values;
+}
+
+}  // namespace
+
+CsvTable frame_statistics(const CsvTable& metrics)
+{
+    static const Columns<Group> columns = all_columns();
+    std::vector<Group> groups = by_setting(metrics);
+    for (Group& group : groups) {
+        group.frames = static_cast<int>(group.rows.size());
+        for (std::size_t q = 0; q < quantities.size(); ++q) {
+            const std::vector<double> values = values_of(metrics, group.rows, quantities[q] + "_pct");
+            if (values.empty()) continue;
+            for (std::size_t i = 0; i < shares.size(); ++i) group.statistics[q][i] = quantile(values, shares[i].second);
+        }
+    }
+    return table_of(columns, groups);
+}
+
+}  // namespace analysis

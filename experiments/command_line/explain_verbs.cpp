@@ -1,0 +1,289 @@
+#include "analysis/records/report_table.hpp"
+#include "experiments/command_line/verbs.hpp"
+#include "experiments/deformers/registry.hpp"
+#include "experiments/process/terminal.hpp"
+#include "experiments/run/metrics_table.hpp"
+#include "experiments/scene/scene.hpp"
+#include "experiments/studies/shared/program_claims.hpp"
+#include "experiments/studies/study.hpp"
+#include "experiments/studies/study_costs.hpp"
+#include "generated/pages_texts.hpp"
+#include "pbs/geometry/input_error.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <sstream>
+
+namespace experiments {
+namespace {
+
+using nlohmann::json;
+
+std::vector<std::string> names_of(const CLI::Option& option)
+{
+    std::vector<std::string> names;
+    for (const std::string& name : option.get_snames()) names.push_back("-" + name);
+    for (const std::string& name : option.get_lnames()) names.push_back("--" + name);
+    return names;
+}
+
+// The choices in the name of an option's type, where CLI11 writes TEXT:{one,other}.
+std::vector<std::string> choices_in(const std::string& type)
+{
+    const std::size_t open = type.find('{'), close = type.rfind('}');
+    std::vector<std::string> choices;
+    if (open == std::string::npos || close == std::string::npos) return choices;
+    std::istringstream inside(type.substr(open + 1, close - open - 1));
+    for (std::string choice; std::getline(inside, choice, ',');) choices.push_back(choice);
+    return choices;
+}
+
+json describe_option(const CLI::Option& option)
+{
+    const std::string type = option.get_type_name();
+    const bool takes_a_value = option.get_items_expected_max() > 0;
+    return {{"names", names_of(option)},           {"name", option.get_name(option.get_positional())},
+            {"meaning", option.get_description()}, {"value", takes_a_value ? type.substr(0, type.find_first_of(":[ ")) : ""},
+            {"choices", choices_in(type)},         {"repeated", option.get_items_expected_max() > 1},
+            {"required", option.get_required()}};
+}
+
+json describe_options(const CLI::App& app)
+{
+    json options = json::array();
+    for (const CLI::Option* option : app.get_options({}))
+        if (!option->get_group().empty()) options.push_back(describe_option(*option));
+    return options;
+}
+
+json describe_scene_keys()
+{
+    json keys = json::array();
+    for (const SceneKey& key : scene_schema().keys)
+        keys.push_back({{"table", key.table},
+                        {"name", key.name},
+                        {"meaning", key.meaning},
+                        {"unit", key.unit},
+                        {"rule", key.rule()},
+                        {"default", key.default_json},
+                        {"in_list", key.in_list}});
+    return keys;
+}
+
+}  // namespace
+
+std::string describe(const CLI::App& app)
+{
+    json verbs = json::array();
+    for (const CLI::App* verb : app.get_subcommands(std::function<bool(const CLI::App*)>{}))
+        if (!verb->get_group().empty())
+            verbs.push_back({{"name", verb->get_name()}, {"meaning", verb->get_description()}, {"options", describe_options(*verb)}});
+    const json all = {{"name", app.get_name()},
+                      {"meaning", app.get_description()},
+                      {"options", describe_options(app)},
+                      {"verbs", verbs},
+                      {"scene_keys", describe_scene_keys()}};
+    return all.dump(1);
+}
+
+// pbskin list [cases, scenes, deformers, studies, claims, metrics]: lists what the program knows.
+
+namespace {
+
+using Lines = std::vector<std::pair<std::string, std::string>>;  // name, meaning
+
+// One line per entry, by two of its members.
+template <typename Entry, typename Name, typename Meaning>
+Lines lines_of(const std::vector<Entry>& entries, Name name, Meaning meaning)
+{
+    Lines lines;
+    for (const Entry& entry : entries) lines.emplace_back(std::invoke(name, entry), std::invoke(meaning, entry));
+    return lines;
+}
+
+std::string question_of(const Study& study)
+{
+    return analysis::first_paragraph(*pages::by_name.at(study.name));
+}
+
+const std::map<std::string, std::function<Lines()>> kinds = {
+    {"cases",
+     [] {
+         return Lines{{"sweep", "a joint turns by angle_deg in `frames` frames; frame 0 is the rest pose"},
+                      {"clip", "motion capture (BVH, glTF, FBX), retargeted and resampled"}};
+     }},
+    {"scenes", [] { return lines_of(built_in_scenes(), &BuiltInScene::name, &BuiltInScene::meaning); }},
+    {"deformers", [] { return lines_of(deformer_kinds(), &DeformerKind::name, &DeformerKind::meaning); }},
+    {"studies", [] { return lines_of(studies(), &Study::name, question_of); }},
+    {"claims", [] { return lines_of(claims(), &analysis::Claim::id, &analysis::Claim::statement); }},
+    {"metrics", [] { return lines_of(metric_texts(), &MetricText::name, &MetricText::meaning); }}};
+
+int list(const std::vector<std::string>& asked)
+{
+    for (const auto& [kind, lines] : kinds) {
+        if (!asked.empty() && std::find(asked.begin(), asked.end(), kind) == asked.end()) continue;
+        fmt::print("{}\n", kind);
+        for (const auto& [name, meaning] : lines()) fmt::print("  {:<26} {}\n", name, meaning);
+    }
+    return exit_finished;
+}
+
+}  // namespace
+
+void add_list_verb(CLI::App& app, CommonOptions& common, VerbAction& action)
+{
+    CLI::App* verb = add_verb(app, common, "list", "lists the cases, scenes, deformers, studies, claims and metrics");
+    auto asked = std::make_shared<std::vector<std::string>>();
+    verb->add_option("kind", *asked, "which of them; by default all")
+        ->check(CLI::IsMember({"cases", "scenes", "deformers", "studies", "claims", "metrics"}));
+    verb->callback([&action, asked] { action = [asked] { return list(*asked); }; });
+}
+
+// pbskin explain NAME: prints what a metric, claim, scene key, study, deformer or scene means.
+
+namespace {
+
+// The README.md of a study or a deformer, or the page of a claim.
+std::string page_of(const std::string& name)
+{
+    return analysis::plain_text(*pages::by_name.at(name), terminal_width());
+}
+
+// A label and its text, which is wrapped in a column of its own.
+void line(const std::string& label, const std::string& text)
+{
+    constexpr std::size_t label_width = 8, least = 30;
+    const std::size_t width = std::max(terminal_width(), label_width + 4 + least) - label_width - 4;
+    if (!text.empty()) fmt::print("{}", analysis::side_by_side({{"", 0}, {label, label_width}, {text, width}}));
+}
+
+bool explain_key(const std::string& name)
+{
+    bool found = false;
+    for (const auto& key : scene_schema().keys) {
+        if (key.path() != name && key.name != name && key.table != name) continue;
+        found = true;
+        fmt::print("{} (scene key)\n", key.path());
+        line("meaning", key.meaning);
+        line("unit", key.unit);
+        line("rule", key.rule());
+        line("default", key.default_json.empty() ? "none: every scene must state it" : key.default_json);
+    }
+    return found;
+}
+
+bool explain_metric(const std::string& name)
+{
+    for (const auto& text : metric_texts()) {
+        if (text.name != name) continue;
+        fmt::print("{} (metric)\n", text.name);
+        line("meaning", text.meaning);
+        line("formula", text.formula);
+        line("", fmt::format("{}", fmt::join(text.symbols, "\n")));
+        line("unit", text.unit);
+        line("source", text.source);
+        line("cost", text.cost);
+        return true;
+    }
+    return false;
+}
+
+bool is_metric(const std::string& name)
+{
+    return std::any_of(metric_texts().begin(), metric_texts().end(), [&](const MetricText& text) { return text.name == name; });
+}
+
+// A claim is found by its id, and by a quantity that decides it unless a metric has that name.
+bool explain_claim(const std::string& name)
+{
+    bool found = false;
+    for (const auto& claim : claims()) {
+        const bool is_decided_by_it = std::count(claim.metrics.begin(), claim.metrics.end(), name) && !is_metric(name);
+        if (claim.id != name && !is_decided_by_it) continue;
+        fmt::print("{}", page_of(claim.id));
+        found = true;
+    }
+    return found;
+}
+
+std::string extent_text(const Study& study, bool full)
+{
+    const ExpectedCost cost = expected_cost(study, study.plan(full).runs, 1);
+    return fmt::format("{} runs, {:.1f} minutes on one core", cost.runs, cost.cpu_s / 60.0);
+}
+
+std::string part_text(Extent extent)
+{
+    return extent == Extent::none ? "no" : extent == Extent::quick ? "in its quick form" : "in its full form";
+}
+
+// The README of the study, and what it costs on this machine with the bodies that are installed.
+bool explain_study(const std::string& name)
+{
+    for (const auto& study : studies()) {
+        if (study.name != name) continue;
+        fmt::print("{}\nCost on this machine\n\n", page_of(name));
+        line("--quick", extent_text(study, false));
+        line("--full", extent_text(study, true));
+        line("part of", fmt::format("reproduce: {}\nreproduce --full: {}", part_text(study.sets.quick), part_text(study.sets.full)));
+        return true;
+    }
+    return false;
+}
+
+bool explain_deformer_or_scene(const std::string& name)
+{
+    for (const auto& kind : deformer_kinds()) {
+        if (kind.name != name) continue;
+        fmt::print("{} (deformer)\n", kind.name);
+        line("meaning", kind.meaning);
+        if (pages::by_name.contains(name)) fmt::print("\n{}\n", page_of(name));
+        return true;
+    }
+    for (const auto& scene : built_in_scenes())
+        if (scene.name == name) return fmt::print("{} (scene)\n  {}\n\n{}", scene.name, scene.meaning, scene.text), true;
+    return false;
+}
+
+std::vector<std::string> known_names()
+{
+    std::vector<std::string> names;
+    for (const auto& key : scene_schema().keys) names.insert(names.end(), {key.path(), key.name});
+    for (const auto& text : metric_texts()) names.push_back(text.name);
+    for (const auto& claim : claims()) {
+        names.push_back(claim.id);
+        names.insert(names.end(), claim.metrics.begin(), claim.metrics.end());
+    }
+    for (const auto& study : studies()) names.push_back(study.name);
+    for (const auto& kind : deformer_kinds()) names.push_back(kind.name);
+    for (const auto& scene : built_in_scenes()) names.push_back(scene.name);
+    return names;
+}
+
+int explain(const std::string& name)
+{
+    bool found = false;
+    for (const auto explain_one : {explain_metric, explain_claim, explain_study, explain_deformer_or_scene, explain_key})
+        found |= explain_one(name);
+    if (!found)
+        throw pbs::InputError("", 0, "explain", name, "unknown name; the nearest known one is " + pbs::nearest_name(name, known_names()));
+    return exit_finished;
+}
+
+}  // namespace
+
+void add_explain_verb(CLI::App& app, CommonOptions& common, VerbAction& action)
+{
+    CLI::App* verb = add_verb(app, common, "explain", "prints what a metric, claim, scene key, study, deformer or scene means");
+    auto name = std::make_shared<std::string>();
+    verb->add_option("name", *name, "its name, e.g. volume_change_pct, C02, pbs.k_volume")->required();
+    verb->callback([&action, name] { action = [name] { return explain(*name); }; });
+}
+
+}  // namespace experiments

@@ -1,0 +1,358 @@
+#include "experiments/deformers/fem/fem_deformers.hpp"
+
+#include "experiments/deformers/fem/fem_options.hpp"
+#include "pbs/geometry/cost.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
+#include "pbs/skinning/blend.hpp"
+#include "pbs/skinning/pose_path.hpp"
+#include "pbs/skinning/weights.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace experiments {
+namespace {
+
+reference_fem::LinearOptions linear_options(const FemOptions& options)
+{
+    return {.element_order = options.element_order,
+            .young_pa = options.young_pa,
+            .poisson = options.poisson,
+            .density_kg_m3 = options.density_kg_m3,
+            .gravity_m_s2 = options.gravity_m_s2,
+            .solver = options.solver,
+            .formulation = options.formulation};
+}
+
+}  // namespace
+
+void LinearFemDeformer::reset(const pbs::Character& character)
+{
+    character_ = &character;
+    bones_ = bone_attachment(character, options_);
+    elasticity_ = std::make_unique<reference_fem::LinearElasticity>(character.mesh, linear_options(options_), bones_.attachment);
+    record_ = FemRecord(character, options_, bones_, elasticity_->setup().spring_tet);
+    frames_not_finite_ = 0;
+    largest_residual_ = 0.0;
+    most_iterations_ = 0;
+    positions_ = character.mesh.rest;
+}
+
+pbs::StepSummary LinearFemDeformer::advance(const pbs::Pose& pose, double)
+{
+    const pbs::Stopwatch stopwatch;
+    const pbs::RootFrame frame(character_->skeleton, pose);
+    const reference_fem::Targets held = targets(bones_, character_->mesh.rest, frame.pose());
+    const reference_fem::SolveSummary solve = elasticity_->solve(held.springs, held.vertices, frame.from_world(options_.gravity_m_s2));
+    positions_ = frame.to_world(elasticity_->positions());
+
+    pbs::StepSummary summary;
+    summary.outcome = solve.finite && positions_.allFinite() ? pbs::Outcome::finished : pbs::Outcome::not_finite;
+    summary.seconds = stopwatch.seconds();
+    summary.work.linear_solves = 1;
+
+    record_.add_frame(frame.pose());
+    largest_residual_ = std::max(largest_residual_, solve.residual);
+    most_iterations_ = std::max(most_iterations_, solve.iterations);
+    if (solve.finite)
+        record_.add_grip(held.springs, (held.springs - elasticity_->spring_points_deformed()).rowwise().norm());
+    else
+        ++frames_not_finite_;
+    return summary;
+}
+
+std::vector<bool> LinearFemDeformer::prescribed() const
+{
+    if (!elasticity_ || options_.attachment != FemAttachment::nodes) return {};
+    return elasticity_->prescribed_vertices();
+}
+
+nlohmann::json LinearFemDeformer::record() const
+{
+    if (!elasticity_) return nullptr;
+    nlohmann::json json = record_.to_json(elasticity_->setup());
+    json.update({{"frames_not_finite", frames_not_finite_}, {"largest_residual", largest_residual_}});
+    if (options_.solver == reference_fem::LinearSolver::cg_ml) json["most_iterations"] = most_iterations_;
+    return json;
+}
+
+namespace {
+
+constexpr double largest_turn_deg = 45.0;     // of a bone in one solve
+constexpr int most_indefinite_in_a_row = 40;  // where Newton's steps are limited
+constexpr double far_turn_deg = 15.0;         // beyond it the solution with fewer nodes is a better initial guess than the last pose's
+
+reference_fem::NewtonOptions newton_options(const FemOptions& options)
+{
+    reference_fem::NewtonOptions newton;
+    // Quadratic elements start at the solution of linear ones, so that there is no way to halve where they need many steps.
+    const bool has_no_way = options.nested_start && options.element_order == 2;
+    if (options.most_newton_steps > 0)
+        newton.iterations = has_no_way ? options.most_newton_steps : std::min(newton.iterations, options.most_newton_steps);
+    if (options.most_newton_steps > 0) newton.indefinite_in_a_row = most_indefinite_in_a_row;
+    if (options.dynamics == reference_fem::Dynamics::quasi_static) newton.reuse_contraction = 0.1;
+    return newton;
+}
+
+reference_fem::ElasticOptions solver_options(const FemOptions& options)
+{
+    return {.model = options.model,
+            .element_order = options.element_order,
+            .formulation = options.formulation,
+            .young_pa = options.young_pa,
+            .poisson = options.poisson,
+            .density_kg_m3 = options.density_kg_m3,
+            .dynamics = options.dynamics,
+            .rayleigh_mass_1_s = options.rayleigh_mass_1_s,
+            .rayleigh_stiffness_s = options.rayleigh_stiffness_s,
+            .solver = options.solver,
+            .newton = newton_options(options),
+            .path = {.most_newton_steps = options.most_newton_steps}};
+}
+
+pbs::Pose placed(pbs::Pose pose, const Eigen::Isometry3d& place)
+{
+    for (Eigen::Isometry3d& bone : pose) bone = place * bone;
+    return pose;
+}
+
+// The motion of each bone from one pose to the other.
+pbs::Pose turned_from(const pbs::Pose& from, pbs::Pose to)
+{
+    for (std::size_t j = 0; j < to.size(); ++j) to[j] = to[j] * from[j].inverse();
+    return to;
+}
+
+// A step of order 1 takes less than a tenth of the time of one of order 2, so that more of them are allowed.
+FemOptions with_order_1(FemOptions options)
+{
+    options.element_order = 1;
+    options.most_newton_steps *= 4;
+    if (options.formulation == reference_fem::Formulation::mean_dilatation)  // equal to it on order 1
+        options.formulation = reference_fem::Formulation::displacement;
+    return options;
+}
+
+pbs::Pose rest_pose(const pbs::Skeleton& skeleton)
+{
+    return pbs::Pose(skeleton.bones.size(), Eigen::Isometry3d::Identity());
+}
+
+}  // namespace
+
+void ElasticFemDeformer::reset(const pbs::Character& character)
+{
+    character_ = &character;
+    bones_ = bone_attachment(character, options_);
+    body_ = std::make_unique<reference_fem::ElasticBody>(character.mesh, solver_options(options_), bones_.attachment);
+    guide_weights_ = {};
+    if (options_.attachment != FemAttachment::bind)
+        guide_weights_ = pbs::harmonic_weights(character.mesh, gripping_bones(bones_, character.mesh.tets, body_->setup().spring_tet),
+                                               static_cast<int>(character.skeleton.bones.size()));
+    reached_pose_ = rest_pose(character.skeleton);
+    fewer_nodes_.reset();
+    if (options_.nested_start && (options_.element_order == 2 || character.unrefined)) {
+        const bool same_tets = options_.element_order == 2;
+        fewer_nodes_ = std::make_unique<ElasticFemDeformer>(same_tets ? with_order_1(options_) : options_);
+        fewer_nodes_->reset(same_tets ? character : *character.unrefined);
+    }
+    unspent_s_ = 0.0;
+    start_ = {};
+    is_started_ = false;
+    set_out_from_ = {};
+    lowest_det_f_.reset();
+    failures_in_a_row_ = 0;
+    record_ = FemRecord(character, options_, bones_, body_->setup().spring_tet);
+    newton_record_ = NewtonRecord(pbs::tet_volumes(character.mesh.rest, character.mesh.tets).sum());
+    has_tried_ = true;
+    positions_ = last_state_ = character.mesh.rest;
+}
+
+pbs::StepSummary ElasticFemDeformer::advance(const pbs::Pose& pose, double dt_s)
+{
+    const pbs::Stopwatch stopwatch;
+    const pbs::RootFrame frame(character_->skeleton, pose);
+    FrameSolve solve;
+    set_out_from_ = {};
+    if (!has_memory()) {
+        if (start_.rows() > 0)
+            solve = settle_from_start(frame);
+        else if (!settle_from_fewer_nodes(pose, frame, solve) && may_go_the_way(solve))
+            solve = settle(frame);
+        has_tried_ = !solve.stages.empty();
+        positions_ = frame.to_world(body_->positions());
+        last_state_ = solve.converged() ? positions_ : frame.to_world(last_iterate_at(character_->mesh.rest));
+    } else {
+        solve = is_started_ ? move(pose, dt_s) : start_at(frame);
+        positions_ = body_->positions();
+        last_state_ = solve.converged() ? positions_ : last_iterate_at(character_->mesh.rest);
+    }
+    is_started_ = true;
+    pbs::StepSummary summary;
+    summary.outcome = solve.converged() ? pbs::Outcome::finished : pbs::Outcome::not_converged;
+    for (const auto& stage : solve.stages) {
+        summary.iterations += stage.newton_steps();
+        summary.work += stage.work();
+    }
+    if (set_out_from_.deformer) summary.work += set_out_from_.step.work;
+    summary.seconds = stopwatch.seconds();
+
+    record_.add_frame(frame.pose());
+    record_solve(solve);
+    return summary;
+}
+
+void ElasticFemDeformer::record_solve(const FrameSolve& solve)
+{
+    const reference_fem::Jacobians jacobians = body_->jacobians();
+    lowest_det_f_ = jacobians.lowest;
+    if (solve.converged()) {
+        newton_record_.add_frame(solve, jacobians);
+        record_grip();
+    } else if (has_tried_) {
+        newton_record_.add_frame(solve, body_->jacobians_of_last_iterate());
+    } else {
+        newton_record_.add_frame_without_start(fewer_nodes_->newton_record_.last_failure());
+    }
+}
+
+// Where Newton's method was not tried with these nodes, the state is the last one with fewer nodes.
+pbs::Positions ElasticFemDeformer::last_iterate_at(const pbs::Positions& points_at_rest) const
+{
+    return has_tried_ ? body_->moved_in_last_iterate(points_at_rest) : fewer_nodes_->last_iterate_at(points_at_rest);
+}
+
+// Solves for equilibria along a path of poses, each placed in the world.
+void ElasticFemDeformer::follow(const pbs::PosePath& way, const Eigen::Isometry3d& place, const pbs::Vec3& gravity_m_s2, FrameSolve& solve)
+{
+    const pbs::Positions& rest = character_->mesh.rest;
+    const int stages = std::max(1, static_cast<int>(std::ceil(way.largest_turn_deg() / largest_turn_deg)));
+    for (int stage = 0; stage < stages; ++stage) {
+        const auto on_the_way = [&](double fraction) { return (stage + fraction) / stages; };
+        const pbs::Pose from = placed(way.at(on_the_way(0.0)), place);
+        const pbs::Positions before = rest + Eigen::Map<const pbs::Positions>(body_->displacement().data(), rest.rows(), 3);
+        const auto targets_at = [&](double fraction) {
+            const pbs::Pose pose = placed(way.at(on_the_way(fraction)), place);
+            reference_fem::Targets held = targets_of(pose);
+            if (guide_weights_.vertices() > 0) pbs::dual_quaternion_skinning(before, guide_weights_, turned_from(from, pose), held.guide);
+            return held;
+        };
+        solve.stages.push_back(body_->solve(targets_at, gravity_m_s2));
+        solve.reached = on_the_way(solve.stages.back().reached);
+        if (!solve.stages.back().converged()) break;
+    }
+    reached_pose_ = placed(way.at(solve.reached), place);
+}
+
+// With a limit on Newton's steps, a body whose solution with fewer nodes was not reached is not reached either: it would take longer.
+bool ElasticFemDeformer::may_go_the_way(const FrameSolve& solve) const
+{
+    if (options_.most_newton_steps == 0) return true;
+    const bool has_spent_its_steps =
+        !solve.stages.empty() && solve.stages.back().steps.back().newton.outcome == reference_fem::NewtonOutcome::iterations_exhausted;
+    const bool fewer_nodes_failed = set_out_from_.deformer && set_out_from_.step.outcome != pbs::Outcome::finished;
+    return !has_spent_its_steps && !fewer_nodes_failed;
+}
+
+// Where this fails, the body returns to where it was.
+bool ElasticFemDeformer::settle_from_fewer_nodes(const pbs::Pose& pose, const pbs::RootFrame& frame, FrameSolve& solve)
+{
+    if (!fewer_nodes_) return false;
+    const pbs::PosePath from_last_pose(character_->skeleton, reached_pose_, frame.pose());
+    if (is_started_ && from_last_pose.largest_turn_deg() <= far_turn_deg) return false;
+    set_out_from_ = {fewer_nodes_.get(), fewer_nodes_->advance(pose, 0.0)};
+    if (set_out_from_.step.outcome != pbs::Outcome::finished) return false;
+    const pbs::Positions& rest = body_->nodes_at_rest();
+    const pbs::Positions before = rest + Eigen::Map<const pbs::Positions>(body_->displacement().data(), rest.rows(), 3);
+    body_->start_from_nodes(fewer_nodes_->body_->moved(rest));
+    solve.stages.push_back(body_->solve_here(targets_of(frame.pose()), frame.from_world(options_.gravity_m_s2)));
+    solve.reached = solve.stages.back().reached;
+    if (!solve.converged()) {
+        body_->start_from_nodes(before);
+        return false;
+    }
+    reached_pose_ = frame.pose();
+    failures_in_a_row_ = 0;
+    return true;
+}
+
+FrameSolve ElasticFemDeformer::settle(const pbs::RootFrame& frame)
+{
+    const pbs::Skeleton& skeleton = character_->skeleton;
+    const Eigen::Isometry3d here = Eigen::Isometry3d::Identity();
+    const pbs::Vec3 gravity_m_s2 = frame.from_world(options_.gravity_m_s2);
+    FrameSolve solve;
+    follow(pbs::PosePath(skeleton, reached_pose_, frame.pose()), here, gravity_m_s2, solve);
+    failures_in_a_row_ = solve.converged() ? 0 : failures_in_a_row_ + 1;
+    if (failures_in_a_row_ != 2) return solve;
+
+    solve.restarted = true;
+    body_->start_from(character_->mesh.rest);
+    follow(pbs::PosePath(skeleton, rest_pose(skeleton), frame.pose()), here, gravity_m_s2, solve);
+    if (solve.converged()) failures_in_a_row_ = 0;
+    return solve;
+}
+
+FrameSolve ElasticFemDeformer::settle_from_start(const pbs::RootFrame& frame)
+{
+    body_->start_from(frame.to_root(start_));
+    start_ = {};
+    const reference_fem::NewtonSummary newton = body_->solve_at_once(targets_of(frame.pose()), frame.from_world(options_.gravity_m_s2));
+    reached_pose_ = frame.pose();
+    failures_in_a_row_ = 0;
+    const double reached = newton.converged() ? 1.0 : 0.0;
+    return {{{reached, {{1.0, newton}}, newton.seconds}}, reached};
+}
+
+FrameSolve ElasticFemDeformer::start_at(const pbs::RootFrame& frame)
+{
+    FrameSolve solve;
+    body_->start_from(frame.to_world(character_->mesh.rest));
+    follow(pbs::PosePath(character_->skeleton, rest_pose(character_->skeleton), frame.pose()), frame.root(), options_.gravity_m_s2, solve);
+    return solve;
+}
+
+FrameSolve ElasticFemDeformer::move(const pbs::Pose& pose, double dt_s)
+{
+    const pbs::PosePath way(character_->skeleton, reached_pose_, pose);
+    unspent_s_ += dt_s;
+    FrameSolve solve;
+    solve.stages.push_back(
+        body_->advance([&](double fraction) { return targets_of(way.at(fraction)); }, options_.gravity_m_s2, unspent_s_));
+    if (!solve.stages.back().converged()) return solve;
+    solve.reached = 1.0;
+    reached_pose_ = pose;
+    unspent_s_ = 0.0;
+    return solve;
+}
+
+void ElasticFemDeformer::record_grip()
+{
+    const reference_fem::Targets held = targets_of(reached_pose_);
+    if (held.springs.rows() > 0) record_.add_grip(held.springs, (held.springs - body_->spring_points_deformed()).rowwise().norm());
+    if (options_.attachment == FemAttachment::bind)
+        record_.add_grip(held.bind_points, (body_->positions() - held.bind_points).rowwise().norm() - bones_.attachment.bind_distance);
+}
+
+std::vector<bool> ElasticFemDeformer::prescribed() const
+{
+    if (!body_ || options_.attachment != FemAttachment::nodes) return {};
+    return body_->prescribed_vertices();
+}
+
+nlohmann::json ElasticFemDeformer::record() const
+{
+    if (!body_) return nullptr;
+    nlohmann::json json = record_.to_json(body_->setup());
+    json["newton"] = newton_record_.to_json();
+    return json;
+}
+
+}  // namespace experiments
+
+experiments::Deformer* pbskin_make_fem(const experiments::FemOptions& options)
+{
+    const bool linear = options.model == reference_fem::Model::linear && options.dynamics == reference_fem::Dynamics::quasi_static;
+    if (linear) return new experiments::LinearFemDeformer(options);
+    return new experiments::ElasticFemDeformer(options);
+}

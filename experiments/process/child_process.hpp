@@ -1,0 +1,85 @@
+// Work in a process of its own, which has its own peak memory, loaded libraries and breakdowns.
+//   const nlohmann::json cost = in_own_process([&] { return cost_of(scene); });
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <sys/types.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace experiments {
+
+// Returns what the work returns. An InputError of the work is thrown here with the same text, any other exception as a
+// std::runtime_error. InputError if the process ended by a signal; Interrupted if this process is interrupted.
+nlohmann::json in_own_process(const std::function<nlohmann::json()>& work);
+
+// A forked process that returns a text to its parent, however long the text is. It ends with its parent, however that ends.
+//   ForkedProcess process = start_process([] { return ProcessEnd{"text", exit_finished}; });
+//   while (process.from >= 0) wait_for_text({process.from}), listen(process);
+struct ProcessEnd {
+    std::string text;
+    int status = 0;
+};
+
+struct ForkedProcess {
+    pid_t id = -1;
+    int from = -1;          // the pipe that its text comes from; below 0 when no process can write any more
+    std::string text = {};  // as far as it has arrived
+    bool told_to_stop = false;
+};
+
+// std::runtime_error where no process or pipe can be had. Programs that either process starts do not inherit the pipe.
+ForkedProcess start_process(const std::function<ProcessEnd()>& work);
+
+// Appends what has arrived without waiting. Parents must listen while the process works, for it waits when the pipe is full.
+void listen(ForkedProcess& process);
+
+// Passes an interruption of this process on to a process that has not been waited for, once: a second signal would end its work in the
+// middle.
+void pass_on_interruption(ForkedProcess& process);
+
+// Waits until one of the pipes has something to read, but only for a moment, so that a signal before the wait is noticed after it.
+// Pipes below 0 are left out.
+void wait_for_text(const std::vector<int>& pipes);
+
+// Runs another program, found on the PATH, without a shell.
+//   const ProgramRun packed = run_program({"npm", "pack", "name@1.0.0"}, folder);
+struct ProgramRun {
+    bool started = false;
+    int status = -1;         // its exit status; -1: it ended by a signal or did not start
+    std::string last_words;  // the end of its output; the reason if it did not start
+
+    bool succeeded() const { return started && status == 0; }
+};
+
+// The program runs in `folder`, which must exist. Its output is in a file there while it runs.
+ProgramRun run_program(const std::vector<std::string>& program_and_arguments, const std::string& folder);
+
+// Returns why the program, a path or a name on the PATH, cannot be started, or an empty text if it can. Relative paths and relative entries
+// of the PATH count as missing, for run_program changes to its folder before it seeks the program.
+std::string why_not_startable(const std::string& program);
+
+// Runs in parallel, each in a process of its own: a failure of a library stays in its run, and all memory is given back. Workers end with
+// this process, however it ends.
+struct PooledWork {
+    std::string name;
+    double cost_s = 0.0;                  // expected, on one core
+    std::function<std::string()> action;  // runs in the worker; returns what broke down numerically, or ""; an exception is a failure
+};
+
+struct PooledResult {
+    std::string name;
+    bool finished = false;
+    std::string breakdown;  // numerical; the run is finished and recorded nevertheless
+    std::string failure;    // the worker's message, or the signal that ended it
+    bool refused = false;   // the failure is an InputError: bad input, or a file that cannot be written
+    double cpu_s = 0.0;     // processor time that it took
+};
+
+// Runs at most `jobs` at once, the costliest first. The results are in the order of `work`. Logs each end with the time left by the
+// expected costs. then_s: expected wall time of the work that follows this [s].
+std::vector<PooledResult> run_in_pool(const std::vector<PooledWork>& work, int jobs, double then_s = 0.0);
+
+}  // namespace experiments

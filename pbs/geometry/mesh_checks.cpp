@@ -1,0 +1,417 @@
+// Paths, sizes and index ranges: what every format needs.
+
+#include "pbs/geometry/mesh_checks.hpp"
+
+#include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/mesh_io.hpp"
+#include "pbs/geometry/mesh_io_formats.hpp"
+#include "pbs/geometry/meshing.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
+#include "pbs/geometry/topology.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <numeric>
+#include <sstream>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+namespace pbs {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double least_extent_m = 1e-9;
+
+}  // namespace
+
+void require_readable(const std::string& path, std::uintmax_t most_bytes)
+{
+    std::error_code code;
+    if (!fs::exists(path, code)) throw InputError(path, 0, "", "", "no such file");
+    if (!fs::is_regular_file(path, code)) throw InputError(path, 0, "", "", "expected a file");
+    if (!std::ifstream(path)) throw InputError(path, 0, "", "", "cannot be read");
+    const std::uintmax_t bytes = fs::file_size(path, code);
+    if (code) throw InputError(path, 0, "", "", "cannot be read: " + code.message());
+    if (bytes == 0) throw InputError(path, 0, "", "", "the file is empty");
+    require_size(path, bytes, most_bytes);
+}
+
+void require_points(const std::string& path, long long points)
+{
+    if (points == 0) throw InputError(path, 0, "points", "0", "expected at least one point");
+}
+
+void require_extent(const std::string& path, const Positions& points)
+{
+    const double extent = (points.colwise().maxCoeff() - points.colwise().minCoeff()).stableNorm();
+    if (!(extent >= least_extent_m)) throw InputError(path, 0, "extent", number_text(extent), "expected at least 1e-9 m");
+}
+
+int checked_index(const std::string& path, long long tet, long long index, long long points)
+{
+    require_points(path, points);
+    if (index < 0 || index >= points)
+        throw InputError(path, 0, "tet " + std::to_string(tet) + " vertex", std::to_string(index),
+                         expected_whole("an index", 0, points - 1));
+    return static_cast<int>(index);
+}
+
+namespace {
+
+// |V| / (longest edge)^3 is 0.118 for the regular tet. Rounding of the coordinates alone leaves some 1e-16 D / l of it, D the distance
+// from the origin: 1e-10 keeps clear of that for every mesh with D / l < 1e5.
+constexpr double flat_tet = 1e-10;
+constexpr double farthest_m = 1e9;  // beyond, products of three lengths leave the range of a double
+
+std::string numbered(const char* what, Eigen::Index i)
+{
+    return what + std::string(" ") + std::to_string(i);
+}
+
+template <typename Row>
+std::string listed(const Row& row)
+{
+    std::ostringstream text;
+    text.precision(17);
+    text << '(';
+    for (Eigen::Index i = 0; i < row.size(); ++i) text << (i ? ", " : "") << row(i);
+    return text.str() + ')';
+}
+
+double longest_edge(const TetMesh& mesh, Eigen::Index t)
+{
+    double longest = 0.0;
+    for (int a = 0; a < 4; ++a)
+        for (int b = a + 1; b < 4; ++b)
+            longest = std::max(longest, (mesh.rest.row(mesh.tets(t, a)) - mesh.rest.row(mesh.tets(t, b))).norm());
+    return longest;
+}
+
+int normalise_orientation(const std::string& path, TetMesh& mesh)
+{
+    int flipped = 0;
+    const Eigen::VectorXd volumes = tet_volumes(mesh.rest, mesh.tets);
+    for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t) {
+        const double length = longest_edge(mesh, t);
+        if (!(std::abs(volumes(t)) > flat_tet * length * length * length))
+            throw InputError(path, 0, numbered("tet", t), listed(mesh.tets.row(t)),
+                             "expected a volume; its four vertices are in one plane");
+        if (volumes(t) > 0.0) continue;
+        std::swap(mesh.tets(t, 2), mesh.tets(t, 3));
+        ++flipped;
+    }
+    return flipped;
+}
+
+// Vertices of the file, of which an unused one may be anywhere.
+void check_distinct(const std::string& path, const MeshReading& reading)
+{
+    const Positions& points = reading.mesh.rest;
+    std::vector<Eigen::Index> order(static_cast<std::size_t>(points.rows()));
+    std::iota(order.begin(), order.end(), Eigen::Index(0));
+    const auto key = [&](Eigen::Index i) { return std::array{points(i, 0), points(i, 1), points(i, 2)}; };
+    std::sort(order.begin(), order.end(), [&](Eigen::Index a, Eigen::Index b) { return std::pair(key(a), a) < std::pair(key(b), b); });
+    for (std::size_t i = 1; i < order.size(); ++i) {
+        const int vertex = reading.file_vertex[static_cast<std::size_t>(order[i])];
+        const int before = reading.file_vertex[static_cast<std::size_t>(order[i - 1])];
+        if (vertex != before && key(order[i - 1]) == key(order[i]))
+            throw InputError(path, 0, numbered("vertex", vertex), listed(points.row(order[i])),
+                             "expected a point of its own; " + numbered("vertex", before) + " is there already: merge the two");
+    }
+}
+
+struct Face {
+    std::array<int, 3> vertices;  // ascending
+    bool even = false;            // ascending order is an even permutation of the outward order
+    Eigen::Index tet = 0;
+};
+
+std::vector<Face> sorted_faces(const Tets& tets)
+{
+    std::vector<Face> faces;
+    faces.reserve(static_cast<std::size_t>(4 * tets.rows()));
+    for (Eigen::Index t = 0; t < tets.rows(); ++t)
+        for (int left_out = 0; left_out < 4; ++left_out) {
+            std::array<int, 3> v = {tets(t, (left_out + 1) % 4), tets(t, (left_out + 2) % 4), tets(t, (left_out + 3) % 4)};
+            bool even = left_out % 2 == 0;
+            for (const auto& [a, b] : {std::pair(0, 1), std::pair(1, 2), std::pair(0, 1)})
+                if (v[std::size_t(a)] > v[std::size_t(b)]) {
+                    std::swap(v[std::size_t(a)], v[std::size_t(b)]);
+                    even = !even;
+                }
+            faces.push_back({v, even, t});
+        }
+    std::sort(faces.begin(), faces.end(),
+              [](const Face& a, const Face& b) { return std::pair(a.vertices, a.tet) < std::pair(b.vertices, b.tet); });
+    return faces;
+}
+
+void check_places(const std::string& path, const Positions& points)
+{
+    for (Eigen::Index i = 0; i < points.rows(); ++i) {
+        if (!points.row(i).allFinite())
+            throw InputError(path, 0, numbered("vertex", i), listed(points.row(i)), "expected finite coordinates [m]");
+        if (!(points.row(i).cwiseAbs().maxCoeff() <= farthest_m))
+            throw InputError(path, 0, numbered("vertex", i), listed(points.row(i)), "expected within 1e9 m of the origin");
+    }
+}
+
+// Two tets that share a face lie on either side of it; both positively oriented, they list it in opposite order.
+void check_faces(const std::string& path, const TetMesh& mesh)
+{
+    const std::vector<Face> faces = sorted_faces(mesh.tets);
+    for (std::size_t i = 1; i < faces.size(); ++i) {
+        const Face &face = faces[i], &before = faces[i - 1];
+        if (face.vertices != before.vertices) continue;
+        if (face.even == before.even)
+            throw InputError(path, 0, numbered("tet", face.tet), listed(mesh.tets.row(face.tet)),
+                             "expected to lie beside " + numbered("tet", before.tet) + ", with which it shares a face; they overlap");
+        if (i >= 2 && face.vertices == faces[i - 2].vertices)
+            throw InputError(path, 0, numbered("tet", face.tet), listed(mesh.tets.row(face.tet)),
+                             "expected faces of at most two tets; one face is in three");
+    }
+}
+
+// Parts that touch in a vertex of the file are split there, so that their triangles share a place but no vertex.
+void check_boundary(const std::string& path, const MeshReading& reading)
+{
+    if (!topology_of(reading.mesh.tets, reading.mesh.rest.rows()).boundary_manifold) {
+        const auto edge = edge_that_is_not_manifold(reading.mesh.tets);
+        const std::string where =
+            edge ? "vertices " + std::to_string(reading.file_vertex[(*edge)[0]]) + " and " + std::to_string(reading.file_vertex[(*edge)[1]])
+                 : "";
+        throw InputError(
+            path, 0, "boundary", where,
+            "expected a manifold; tets that share no face touch in the edge of these vertices: join them by a face or give them "
+            "vertices of their own");
+    }
+#ifdef PBS_WITH_CGAL
+    const Triangles boundary = boundary_of(reading.mesh.tets);
+    for (const auto& [a, b] : self_intersections(reading.mesh.rest, boundary)) {
+        bool were_split = false;
+        for (const int of_a : boundary.row(a))
+            for (const int of_b : boundary.row(b))
+                were_split = were_split || (of_a != of_b && reading.file_vertex[of_a] == reading.file_vertex[of_b]);
+        if (were_split) continue;
+        throw InputError(path, 0, "boundary", "vertex " + std::to_string(reading.file_vertex[boundary(a, 0)]),
+                         "expected a surface that does not intersect itself; it does near this vertex: mesh the body anew (pbskin mesh)");
+    }
+#endif
+}
+
+}  // namespace
+
+void check_frame(const std::string& path, const TetMesh& mesh)
+{
+    if (mesh.tets.rows() == 0) throw InputError(path, 0, "tets", "0", "expected at least one tetrahedron");
+    for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t)
+        for (int corner = 0; corner < 4; ++corner) checked_index(path, t, mesh.tets(t, corner), mesh.rest.rows());
+    check_places(path, mesh.rest);
+}
+
+MeshReading check_rest(const std::string& path, TetMesh mesh)
+{
+    check_frame(path, mesh);
+    require_extent(path, mesh.rest);
+    MeshReading reading;
+    reading.flipped_tets = normalise_orientation(path, mesh);
+    reading.file_vertices = static_cast<int>(mesh.rest.rows());
+    check_faces(path, mesh);
+    RepairedMesh repair = repaired(mesh);
+    reading.mesh = std::move(repair.mesh);
+    reading.file_vertex = std::move(repair.file_vertex);
+    reading.unused_vertices = std::move(repair.unused);
+    reading.split_vertices = std::move(repair.split);
+    check_distinct(path, reading);
+    check_boundary(path, reading);
+    return reading;
+}
+
+namespace {
+
+// The tets of each vertex, #V.
+std::vector<std::vector<int>> tets_of_vertices(const TetMesh& mesh)
+{
+    std::vector<std::vector<int>> tets(static_cast<std::size_t>(mesh.rest.rows()));
+    for (int t = 0; t < mesh.tets.rows(); ++t)
+        for (const int vertex : mesh.tets.row(t)) tets[static_cast<std::size_t>(vertex)].push_back(t);
+    return tets;
+}
+
+// The group of each of a vertex's tets: those that are joined by faces at that vertex.
+std::vector<int> groups_at(int vertex, const std::vector<int>& around, const Tets& tets)
+{
+    std::vector<int> group(around.size());
+    std::iota(group.begin(), group.end(), 0);
+    const auto root_of = [&](int member) {
+        while (group[member] != member) member = group[member] = group[group[member]];
+        return member;
+    };
+    std::map<std::array<int, 2>, int> tet_at;  // by the other two vertices of a face
+    for (int member = 0; member < static_cast<int>(around.size()); ++member) {
+        std::vector<int> others;
+        for (const int corner : tets.row(around[member]))
+            if (corner != vertex) others.push_back(corner);
+        std::sort(others.begin(), others.end());
+        for (const auto& face : {std::array{others[0], others[1]}, std::array{others[0], others[2]}, std::array{others[1], others[2]}}) {
+            const auto [other, added] = tet_at.emplace(face, member);
+            if (!added) group[root_of(member)] = root_of(other->second);
+        }
+    }
+    for (int member = 0; member < static_cast<int>(around.size()); ++member) group[member] = root_of(member);
+    return group;
+}
+
+}  // namespace
+
+RepairedMesh repaired(const TetMesh& mesh)
+{
+    RepairedMesh result;
+    result.mesh.tets = mesh.tets;
+    const std::vector<std::vector<int>> tets_of = tets_of_vertices(mesh);
+    for (int vertex = 0; vertex < mesh.rest.rows(); ++vertex) {
+        const std::vector<int>& around = tets_of[static_cast<std::size_t>(vertex)];
+        if (around.empty()) {
+            result.unused.push_back(vertex);
+            continue;
+        }
+        const std::vector<int> groups = groups_at(vertex, around, mesh.tets);
+        std::map<int, int> index_of_group;
+        for (std::size_t member = 0; member < around.size(); ++member) {
+            const auto [index, added] = index_of_group.emplace(groups[member], static_cast<int>(result.file_vertex.size()));
+            if (added) result.file_vertex.push_back(vertex);
+            for (int corner = 0; corner < 4; ++corner)
+                if (mesh.tets(around[member], corner) == vertex) result.mesh.tets(around[member], corner) = index->second;
+        }
+        if (index_of_group.size() > 1) result.split.push_back(vertex);
+    }
+    result.mesh.rest.resize(static_cast<Eigen::Index>(result.file_vertex.size()), 3);
+    for (std::size_t v = 0; v < result.file_vertex.size(); ++v)
+        result.mesh.rest.row(static_cast<Eigen::Index>(v)) = mesh.rest.row(result.file_vertex[v]);
+    return result;
+}
+
+std::optional<std::array<int, 2>> edge_that_is_not_manifold(const Tets& tets)
+{
+    const Triangles boundary = boundary_of(tets);
+    std::map<std::pair<int, int>, int> triangles_at;
+    for (const auto& triangle : boundary.rowwise())
+        for (int k = 0; k < 3; ++k) ++triangles_at[std::minmax({triangle(k), triangle((k + 1) % 3)})];
+    for (const auto& [edge, count] : triangles_at)
+        if (count > 2) return std::array{edge.first, edge.second};
+    return std::nullopt;
+}
+
+namespace {
+
+constexpr double smallest_m = 1e-3, largest_m = 100.0;  // of a character
+
+template <typename Value>
+std::string remark(const std::string& path, const std::string& field, const Value& value, const std::string& treatment)
+{
+    std::ostringstream text;
+    text << path << ": " << field << " = " << value << ": " << treatment;
+    return text.str();
+}
+
+// The first few by number.
+void add_vertices(const std::string& path, const std::string& field, const std::vector<int>& vertices, const std::string& treatment,
+                  std::vector<std::string>& remarks)
+{
+    if (vertices.empty()) return;
+    constexpr std::size_t most = 20;
+    std::string list;
+    for (std::size_t v = 0; v < vertices.size() && v < most; ++v) list += (v ? ", " : "") + std::to_string(vertices[v]);
+    if (vertices.size() > most) list += ", ...";
+    remarks.push_back(remark(path, field, std::to_string(vertices.size()) + " (" + list + ")", treatment));
+}
+
+void add_size(const std::string& path, const Positions& points, std::vector<std::string>& remarks)
+{
+    const double size = (points.colwise().maxCoeff() - points.colwise().minCoeff()).maxCoeff();
+    if (!(size >= smallest_m && size <= largest_m))
+        remarks.push_back(remark(path, "extent [m]", size, "taken as it is; are the coordinates in metres?"));
+}
+
+// Edges that are not in two triangles: what the mesher wraps.
+void add_open_and_joined_edges(const std::string& path, const SurfaceMesh& surface, std::vector<std::string>& remarks)
+{
+    std::map<std::pair<int, int>, int> triangles_at;
+    for (const auto& triangle : surface.triangles.rowwise())
+        for (int k = 0; k < 3; ++k) ++triangles_at[std::minmax({triangle(k), triangle((k + 1) % 3)})];
+    if (const auto holes = std::count_if(triangles_at.begin(), triangles_at.end(), [](const auto& edge) { return edge.second == 1; }))
+        remarks.push_back(remark(path, "edges of one triangle", holes, "its holes are wrapped over"));
+    const auto is_joint = [](const auto& edge) { return edge.second > 2; };
+    const auto first = std::find_if(triangles_at.begin(), triangles_at.end(), is_joint);
+    if (first == triangles_at.end()) return;
+    remarks.push_back(remark(path, "edges of three or more triangles", std::count_if(triangles_at.begin(), triangles_at.end(), is_joint),
+                             "not manifold there, first from " + place_text(surface.points.row(first->first.first)) + " to " +
+                                 place_text(surface.points.row(first->first.second)) + "; the surface is wrapped"));
+}
+
+// Skins of characters do so: MakeHuman's at lips and lids. Without CGAL this is not checked, and never for tet meshes.
+void add_crossings([[maybe_unused]] const std::string& path, [[maybe_unused]] const SurfaceMesh& surface,
+                   [[maybe_unused]] std::vector<std::string>& remarks)
+{
+#ifdef PBS_WITH_CGAL
+    const std::vector<std::array<int, 2>> crossings = self_intersections(surface.points, surface.triangles);
+    if (crossings.empty()) return;
+    Vec3 middle = Vec3::Zero();  // of the first one's first triangle
+    for (const int point : surface.triangles.row(crossings.front()[0])) middle += surface.points.row(point).transpose() / 3.0;
+    remarks.push_back(remark(path, "pairs of triangles that meet", crossings.size(),
+                             "it intersects or touches itself, first at " + place_text(middle) + "; what is outside is kept"));
+#endif
+}
+
+// Volume of the body enclosed by outward triangles [m^3]; negative where they face inward.
+double signed_volume(const SurfaceMesh& surface)
+{
+    const Vec3 middle = surface.points.colwise().mean().transpose();
+    double volume = 0.0;
+    for (const auto& triangle : surface.triangles.rowwise())
+        volume += tet_volume(middle, surface.points.row(triangle(0)), surface.points.row(triangle(1)), surface.points.row(triangle(2)));
+    return volume;
+}
+
+}  // namespace
+
+std::string remark_on_name(const std::string& path, const std::string& content_extension)
+{
+    return remark(path, "format of the content", content_extension, "read as such, whatever the file is called");
+}
+
+std::vector<std::string> remarks_on(const std::string& path, const MeshReading& reading)
+{
+    std::vector<std::string> remarks;
+    if (!reading.read_as.empty()) remarks.push_back(remark_on_name(path, reading.read_as));
+    if (reading.flipped_tets > 0)
+        remarks.push_back(remark(path, "inverted tets", reading.flipped_tets, "turned, so that every rest volume is positive"));
+    add_vertices(path, "unused vertices", reading.unused_vertices, "left out; no tet uses them", remarks);
+    add_vertices(path, "vertices at which parts touch", reading.split_vertices, "split, so that each part has its own", remarks);
+    const int parts = topology_of(reading.mesh.tets, reading.mesh.rest.rows()).components;
+    if (parts > 1) remarks.push_back(remark(path, "parts", parts, "kept; no face joins them"));
+    add_size(path, reading.mesh.rest, remarks);
+    return remarks;
+}
+
+std::vector<std::string> remarks_on(const std::string& path, const SurfaceMesh& surface, int unused_points, int triangles_without_area)
+{
+    std::vector<std::string> remarks;
+    if (unused_points > 0) remarks.push_back(remark(path, "unused points", unused_points, "left out; no triangle uses them"));
+    if (triangles_without_area > 0) remarks.push_back(remark(path, "triangles without area", triangles_without_area, "left out"));
+    add_open_and_joined_edges(path, surface, remarks);
+    add_crossings(path, surface, remarks);
+    if (const double volume = signed_volume(surface); volume < 0.0)
+        remarks.push_back(remark(path, "enclosed volume [m^3]", volume, "inside out; taken as the body that it encloses"));
+    add_size(path, surface.points, remarks);
+    return remarks;
+}
+
+}  // namespace pbs

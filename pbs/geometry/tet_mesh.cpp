@@ -1,0 +1,282 @@
+#include "pbs/geometry/tet_mesh.hpp"
+
+#include "pbs/geometry/topology.hpp"
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <utility>
+
+namespace pbs {
+
+Eigen::VectorXd tet_volumes(const Positions& positions, const Tets& tets)
+{
+    Eigen::VectorXd volumes(tets.rows());
+    for (Eigen::Index t = 0; t < tets.rows(); ++t)
+        volumes(t) = tet_volume(positions.row(tets(t, 0)), positions.row(tets(t, 1)), positions.row(tets(t, 2)), positions.row(tets(t, 3)));
+    return volumes;
+}
+
+Eigen::VectorXd lumped_volumes(const Positions& rest, const Tets& tets)
+{
+    const Eigen::VectorXd volumes = tet_volumes(rest, tets);
+    Eigen::VectorXd lumped = Eigen::VectorXd::Zero(rest.rows());
+    for (Eigen::Index t = 0; t < tets.rows(); ++t)
+        for (int corner = 0; corner < 4; ++corner) lumped(tets(t, corner)) += volumes(t) / 4.0;
+    return lumped;
+}
+
+namespace {
+
+using Nodes = std::array<int, 10>;  // of a tet: its corners, then the midpoints of 01, 02, 03, 12, 13, 23
+constexpr std::array<std::array<int, 2>, 6> edge_corners = {{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
+
+// The children in nodes of their parent, positively oriented.
+using Children = std::array<std::array<int, 4>, 4>;
+constexpr Children at_corners = {{{0, 4, 5, 6}, {4, 1, 7, 8}, {5, 7, 2, 9}, {6, 8, 9, 3}}};
+
+// The octahedron's diagonals, and its four tets round each of them.
+struct Diagonal {
+    int from, to;
+    Children tets;
+};
+constexpr std::array<Diagonal, 3> diagonals = {{{4, 9, {{{4, 9, 7, 5}, {4, 9, 8, 7}, {4, 9, 6, 8}, {4, 9, 5, 6}}}},
+                                                {5, 8, {{{5, 8, 4, 7}, {5, 8, 7, 9}, {5, 8, 9, 6}, {5, 8, 6, 4}}}},
+                                                {6, 7, {{{6, 7, 8, 4}, {6, 7, 9, 8}, {6, 7, 5, 9}, {6, 7, 4, 5}}}}}};
+
+// Row of `edges`, which are sorted.
+int index_of_edge(const Edges& edges, int a, int b)
+{
+    const std::array<int, 2> wanted = {std::min(a, b), std::max(a, b)};
+    Eigen::Index first = 0, last = edges.rows();
+    while (first < last) {
+        const Eigen::Index middle = (first + last) / 2;
+        if (std::array<int, 2>{edges(middle, 0), edges(middle, 1)} < wanted)
+            first = middle + 1;
+        else
+            last = middle;
+    }
+    return static_cast<int>(first);
+}
+
+Nodes nodes_of(const TetMesh& mesh, const Edges& edges, Eigen::Index tet)
+{
+    Nodes nodes;
+    for (int corner = 0; corner < 4; ++corner) nodes[corner] = mesh.tets(tet, corner);
+    for (std::size_t e = 0; e < edge_corners.size(); ++e)
+        nodes[4 + e] = static_cast<int>(mesh.rest.rows()) + index_of_edge(edges, nodes[edge_corners[e][0]], nodes[edge_corners[e][1]]);
+    return nodes;
+}
+
+const Diagonal& shortest_diagonal(const Positions& rest, const Nodes& nodes)
+{
+    const auto squared_length = [&](const Diagonal& diagonal) {
+        return (rest.row(nodes[diagonal.from]) - rest.row(nodes[diagonal.to])).squaredNorm();
+    };
+    return *std::min_element(diagonals.begin(), diagonals.end(),
+                             [&](const Diagonal& a, const Diagonal& b) { return squared_length(a) < squared_length(b); });
+}
+
+}  // namespace
+
+Refinement refine(const TetMesh& mesh)
+{
+    Refinement fine;
+    fine.parents = edges_of(mesh.tets);
+    fine.mesh.rest = prolongated(mesh.rest, fine.parents);
+    fine.mesh.tets.resize(8 * mesh.tets.rows(), 4);
+    Eigen::Index next = 0;
+    for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t) {
+        const Nodes nodes = nodes_of(mesh, fine.parents, t);
+        for (const Children* children : {&at_corners, &shortest_diagonal(fine.mesh.rest, nodes).tets})
+            for (const auto& [a, b, c, d] : *children) fine.mesh.tets.row(next++) << nodes[a], nodes[b], nodes[c], nodes[d];
+    }
+    return fine;
+}
+
+Positions prolongated(const Positions& coarse, const Edges& parents)
+{
+    Positions fine(coarse.rows() + parents.rows(), 3);
+    fine.topRows(coarse.rows()) = coarse;
+    for (Eigen::Index e = 0; e < parents.rows(); ++e)
+        fine.row(coarse.rows() + e) = 0.5 * (coarse.row(parents(e, 0)) + coarse.row(parents(e, 1)));
+    return fine;
+}
+
+namespace {
+
+constexpr double on_face = 1e-10;  // of a barycentric coordinate: some 1e5 roundings of a well-shaped tet
+
+Vec3 barycentric_in(const TetMesh& mesh, Eigen::Index tet, const Vec3& point)
+{
+    const auto corner = [&](int c) -> Vec3 { return mesh.rest.row(mesh.tets(tet, c)); };
+    Eigen::Matrix3d edges;
+    edges << corner(1) - corner(0), corner(2) - corner(0), corner(3) - corner(0);
+    return edges.inverse() * (point - corner(0));
+}
+
+}  // namespace
+
+PointLocation::PointLocation(const TetMesh& mesh) : mesh_(mesh), low_(mesh.rest.colwise().minCoeff())
+{
+    const Vec3 size = mesh.rest.colwise().maxCoeff().transpose() - low_;
+    const double cell_m = std::cbrt(size.prod() / static_cast<double>(mesh.tets.rows()));  // about one cell a tet
+    for (int axis = 0; axis < 3; ++axis) cells_(axis) = std::clamp(static_cast<int>(size(axis) / cell_m), 1, 1000);
+    cell_size_m_ = size.cwiseQuotient(cells_.cast<double>());
+
+    first_.assign(cells_.prod() + 1, 0);
+    for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t) for_each_cell_of_tet(t, [&](int cell) { ++first_[cell + 1]; });
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    tet_in_cell_.resize(first_.back());
+    std::vector<int> next(first_.begin(), first_.end() - 1);
+    for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t)
+        for_each_cell_of_tet(t, [&](int cell) { tet_in_cell_[next[cell]++] = static_cast<int>(t); });
+}
+
+PointLocation::Cell PointLocation::cell_of(const Vec3& point) const
+{
+    Cell cell;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double place = std::floor((point(axis) - low_(axis)) / cell_size_m_(axis));
+        cell(axis) = static_cast<int>(std::clamp(place, 0.0, cells_(axis) - 1.0));
+    }
+    return cell;
+}
+
+template <typename Visit>
+void PointLocation::for_each_cell_of_tet(Eigen::Index tet, Visit visit) const
+{
+    Vec3 low = mesh_.rest.row(mesh_.tets(tet, 0)), high = low;
+    for (int corner = 1; corner < 4; ++corner) {
+        const Vec3 point = mesh_.rest.row(mesh_.tets(tet, corner));
+        low = low.cwiseMin(point);
+        high = high.cwiseMax(point);
+    }
+    const Vec3 margin = on_face * (high - low);  // so that a point taken for on the face is looked for here
+    const Cell first = cell_of(low - margin), last = cell_of(high + margin);
+    for (int k = first(2); k <= last(2); ++k)
+        for (int j = first(1); j <= last(1); ++j)
+            for (int i = first(0); i <= last(0); ++i) visit(index_of({i, j, k}));
+}
+
+Location PointLocation::locate(const Vec3& point) const
+{
+    if (!point.allFinite()) return {};
+    const int cell = index_of(cell_of(point));
+    for (int k = first_[cell]; k < first_[cell + 1]; ++k) {
+        const Vec3 barycentric = barycentric_in(mesh_, tet_in_cell_[k], point);
+        if (std::min(barycentric.minCoeff(), 1.0 - barycentric.sum()) >= -on_face) return {tet_in_cell_[k], barycentric};
+    }
+    return {};
+}
+
+namespace {
+
+constexpr int none = -1;
+using Neighbours = std::vector<std::array<int, 4>>;  // over the faces of each tet, opposite to its vertices; or none
+
+// A face in more than two tets joins the first two.
+Neighbours neighbours_over_faces(const Tets& tets)
+{
+    Neighbours neighbours(tets.rows(), {none, none, none, none});
+    std::map<std::array<int, 3>, std::pair<int, int>> open;  // face -> tet and place of the face that wait for the other side
+    for (int t = 0; t < tets.rows(); ++t)
+        for (int opposite = 0; opposite < 4; ++opposite) {
+            std::array<int, 3> face;
+            for (int v = 0, corner = 0; v < 4; ++v)
+                if (v != opposite) face[corner++] = tets(t, v);
+            std::ranges::sort(face);
+            const auto [found, is_first] = open.try_emplace(face, t, opposite);
+            if (is_first) continue;
+            const auto [other, place] = found->second;
+            if (neighbours[other][place] != none) continue;
+            neighbours[other][place] = t;
+            neighbours[t][opposite] = other;
+        }
+    return neighbours;
+}
+
+// Takes tets without a region, breadth-first from `first`, until there are `most`; calls take(tet) for each.
+template <typename IsFree, typename Take>
+std::vector<int> grow(int first, const Neighbours& neighbours, std::size_t most, const IsFree& is_free, const Take& take)
+{
+    std::vector<int> grown = {first};
+    take(first);
+    for (std::size_t done = 0; done < grown.size(); ++done)
+        for (const int t : neighbours[grown[done]]) {
+            if (t == none || grown.size() == most || !is_free(t)) continue;
+            take(t);
+            grown.push_back(t);
+        }
+    return grown;
+}
+
+std::vector<int> breadth_first(const Neighbours& neighbours)
+{
+    std::vector<bool> visited(neighbours.size(), false);
+    std::vector<int> order;
+    for (std::size_t t = 0; t < neighbours.size(); ++t) {
+        if (visited[t]) continue;
+        const std::vector<int> part = grow(
+            static_cast<int>(t), neighbours, neighbours.size(), [&](int other) { return !visited[other]; },
+            [&](int other) { visited[other] = true; });
+        order.insert(order.end(), part.begin(), part.end());
+    }
+    return order;
+}
+
+// The other region with most faces to these tets of region `own`, the first of equals; none where there is no other one.
+int nearest_region(const std::vector<int>& part, int own, const Neighbours& neighbours, const std::vector<int>& region)
+{
+    std::map<int, int> faces;
+    for (const int t : part)
+        for (const int other : neighbours[t])
+            if (other != none && region[other] != own) ++faces[region[other]];
+    int nearest = none;
+    for (const auto& [of, count] : faces)
+        if (nearest == none || count > faces[nearest]) nearest = of;
+    return nearest;
+}
+
+}  // namespace
+
+std::vector<int> tet_regions(const Tets& tets, int region_size)
+{
+    const Neighbours neighbours = neighbours_over_faces(tets);
+    std::vector<int> region(tets.rows(), none);
+    int regions = 0;
+    for (const int first : breadth_first(neighbours)) {
+        if (region[first] != none) continue;
+        const std::vector<int> part = grow(
+            first, neighbours, region_size, [&](int t) { return region[t] == none; }, [&](int t) { region[t] = regions; });
+        const bool is_small = 2 * part.size() < static_cast<std::size_t>(region_size);
+        const int nearest = is_small ? nearest_region(part, regions, neighbours, region) : none;
+        if (nearest == none)
+            ++regions;
+        else
+            for (const int t : part) region[t] = nearest;
+    }
+    return region;
+}
+
+std::vector<Triangles> region_surfaces(const Tets& tets, const std::vector<int>& region)
+{
+    std::vector<std::vector<int>> members;
+    for (std::size_t t = 0; t < region.size(); ++t) {
+        if (region[t] >= static_cast<int>(members.size())) members.resize(region[t] + 1);
+        members[region[t]].push_back(static_cast<int>(t));
+    }
+    std::vector<Triangles> surfaces;
+    for (const std::vector<int>& of_region : members) {
+        Tets own(of_region.size(), 4);
+        for (std::size_t i = 0; i < of_region.size(); ++i) own.row(i) = tets.row(of_region[i]);
+        surfaces.push_back(boundary_of(own));
+    }
+    return surfaces;
+}
+
+}  // namespace pbs

@@ -1,0 +1,280 @@
+// VTK reports errors as text on a global window. They are collected here instead of printed, a thread at a time.
+//   VtkMessages messages;  reader->Update();  messages.throw_if_any(path);
+
+#include "pbs/geometry/files.hpp"
+#include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/mesh_io.hpp"
+#include "pbs/geometry/mesh_io_formats.hpp"
+
+#include <vtkCell.h>
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkCellTypes.h>
+#include <vtkDoubleArray.h>
+#include <vtkIdList.h>
+#include <vtkIntArray.h>
+#include <vtkLogger.h>
+#include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkOutputWindow.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkUnstructuredGridReader.h>
+#include <vtkXMLPolyDataWriter.h>
+#include <vtkXMLUnstructuredGridReader.h>
+#include <vtkXMLUnstructuredGridWriter.h>
+
+#include <algorithm>
+#include <locale>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace pbs {
+
+// Collects what VTK reports on this thread from the construction of the object on.
+class VtkMessages {
+public:
+    VtkMessages();  // forgets what the thread collected before
+
+    // An InputError with VTK's words, its file and line numbers taken off.
+    void throw_if_any(const std::string& path) const;
+};
+
+namespace {
+
+thread_local std::string collected;
+
+class CollectingWindow : public vtkOutputWindow {
+public:
+    static CollectingWindow* New();
+    vtkTypeMacro(CollectingWindow, vtkOutputWindow) void DisplayText(const char* text) override { collected += text; }
+    void DisplayErrorText(const char* text) override { collected += text; }
+    void DisplayWarningText(const char* text) override { collect_lost_data(text); }
+    void DisplayGenericWarningText(const char* text) override { collect_lost_data(text); }
+    void DisplayDebugText(const char*) override {}
+
+private:
+    // VTK only warns of numbers that are missing, and leaves the memory for them as it is.
+    void collect_lost_data(const std::string& text)
+    {
+        if (text.find("Error reading") != std::string::npos) collected += text;
+    }
+};
+vtkStandardNewMacro(CollectingWindow);
+
+// "ERROR: In x.cxx, line 12\nvtkReader (0x55): words\n\n" and "Generic Warning: In x.cxx, line 12\nwords\n\n" -> "words"
+std::string words_of(const std::string& message)
+{
+    std::size_t begin = message.find("): ");
+    const std::size_t first_line = message.find('\n');
+    begin = begin != std::string::npos                                           ? begin + 3
+            : first_line != std::string::npos && first_line + 1 < message.size() ? first_line + 1
+                                                                                 : 0;
+    const std::size_t end = message.find("\n\n", begin);
+    std::string words = message.substr(begin, end == std::string::npos ? end : end - begin);
+    for (char& c : words)
+        if (c == '\n') c = ' ';
+    if (words.starts_with("Algorithm ")) return "the file is damaged";  // what follows are addresses in memory
+    return words;
+}
+
+}  // namespace
+
+VtkMessages::VtkMessages()
+{
+    static const bool installed = [] {
+        vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
+        vtkOutputWindow::SetInstance(vtkSmartPointer<CollectingWindow>::New());
+        return true;
+    }();
+    static_cast<void>(installed);
+    collected.clear();
+}
+
+void VtkMessages::throw_if_any(const std::string& path) const
+{
+    if (!collected.empty()) throw InputError(path, 0, "", "", "VTK: " + words_of(collected));
+}
+
+namespace {
+
+template <typename Reader>
+vtkSmartPointer<vtkUnstructuredGrid> grid_of(const std::string& path, Reader& reader)
+{
+    const VtkMessages messages;
+    reader.SetFileName(path.c_str());
+    reader.Update();
+    messages.throw_if_any(path);
+    vtkSmartPointer<vtkUnstructuredGrid> grid = reader.GetOutput();
+    if (!grid) throw InputError(path, 0, "", "", "expected a VTK unstructured grid");
+    return grid;
+}
+
+vtkSmartPointer<vtkUnstructuredGrid> read_grid(const std::string& path)
+{
+    if (beginning_of(path).starts_with("# vtk DataFile")) {  // either format may have either extension
+        vtkNew<vtkUnstructuredGridReader> reader;
+        return grid_of(path, *reader.Get());
+    }
+    vtkNew<vtkXMLUnstructuredGridReader> reader;
+    return grid_of(path, *reader.Get());
+}
+
+bool is_lower_dimensional(int type)
+{
+    return type == VTK_VERTEX || type == VTK_POLY_VERTEX || type == VTK_LINE || type == VTK_POLY_LINE || type == VTK_TRIANGLE ||
+           type == VTK_TRIANGLE_STRIP || type == VTK_POLYGON || type == VTK_PIXEL || type == VTK_QUAD;
+}
+
+// The cells that are tets; other volume cells are refused.
+std::vector<vtkIdType> tet_cells(const std::string& path, vtkUnstructuredGrid& grid)
+{
+    std::vector<vtkIdType> cells;
+    for (vtkIdType cell = 0; cell < grid.GetNumberOfCells(); ++cell) {
+        const int type = grid.GetCellType(cell);
+        if (type == VTK_TETRA)
+            cells.push_back(cell);
+        else if (!is_lower_dimensional(type))
+            throw InputError(path, 0, "cell " + std::to_string(cell), vtkCellTypes::GetClassNameFromTypeId(type),
+                             "expected four-node tetrahedra (VTK_TETRA)");
+    }
+    return cells;
+}
+
+}  // namespace
+
+IndexedPoints read_vtk(const std::string& path)
+{
+    const vtkSmartPointer<vtkUnstructuredGrid> grid = read_grid(path);
+    const std::vector<vtkIdType> cells = tet_cells(path, *grid);
+    const vtkIdType points = grid->GetNumberOfPoints();
+
+    IndexedPoints mesh;
+    mesh.points.resize(points, 3);
+    for (vtkIdType i = 0; i < points; ++i) grid->GetPoint(i, mesh.points.row(i).data());
+    mesh.cells.resize(static_cast<Eigen::Index>(cells.size()), 4);
+    vtkNew<vtkIdList> corners;
+    for (std::size_t t = 0; t < cells.size(); ++t) {
+        grid->GetCellPoints(cells[t], corners);
+        if (corners->GetNumberOfIds() != 4)
+            throw InputError(path, 0, "cell " + std::to_string(cells[t]) + " vertices", std::to_string(corners->GetNumberOfIds()),
+                             "expected 4");
+        for (int corner = 0; corner < 4; ++corner)
+            mesh.cells(static_cast<Eigen::Index>(t), corner) =
+                checked_index(path, static_cast<long long>(t), corners->GetId(corner), points);
+    }
+    return mesh;
+}
+
+namespace {
+
+void require_length(const std::string& path, const std::string& field, Eigen::Index length, Eigen::Index expected)
+{
+    if (length != expected)
+        throw InputError(path, 0, field, std::to_string(length), "expected " + std::to_string(expected) + " entries, one each");
+}
+
+vtkSmartPointer<vtkDoubleArray> vectors_of(const std::string& name, const Positions& values)
+{
+    auto array = vtkSmartPointer<vtkDoubleArray>::New();
+    array->SetName(name.c_str());
+    array->SetNumberOfComponents(3);
+    array->SetNumberOfTuples(values.rows());
+    std::copy(values.data(), values.data() + values.size(), array->GetPointer(0));
+    return array;
+}
+
+vtkSmartPointer<vtkPoints> points_of(const Positions& positions)
+{
+    auto points = vtkSmartPointer<vtkPoints>::New();
+    points->SetDataTypeToDouble();
+    points->SetData(vectors_of("points", positions));
+    return points;
+}
+
+template <typename Cells>
+vtkSmartPointer<vtkCellArray> cells_of(const Cells& indices)
+{
+    auto cells = vtkSmartPointer<vtkCellArray>::New();
+    for (Eigen::Index c = 0; c < indices.rows(); ++c) {
+        cells->InsertNextCell(static_cast<int>(indices.cols()));
+        for (Eigen::Index corner = 0; corner < indices.cols(); ++corner) cells->InsertCellPoint(indices(c, corner));
+    }
+    return cells;
+}
+
+void add_fields(const std::string& path, const FrameFields& fields, vtkUnstructuredGrid& grid)
+{
+    for (const auto& [name, values] : fields.point_vectors) {
+        require_length(path, name, values.rows(), grid.GetNumberOfPoints());
+        grid.GetPointData()->AddArray(vectors_of(name, values));
+    }
+    for (const auto& [name, flags] : fields.point_flags) {
+        require_length(path, name, static_cast<Eigen::Index>(flags.size()), grid.GetNumberOfPoints());
+        vtkNew<vtkIntArray> array;
+        array->SetName(name.c_str());
+        array->SetNumberOfTuples(grid.GetNumberOfPoints());
+        std::copy(flags.begin(), flags.end(), array->GetPointer(0));
+        grid.GetPointData()->AddArray(array);
+    }
+    for (const auto& [name, values] : fields.cell_scalars) {
+        require_length(path, name, values.size(), grid.GetNumberOfCells());
+        vtkNew<vtkDoubleArray> array;
+        array->SetName(name.c_str());
+        array->SetNumberOfTuples(values.size());
+        std::copy(values.data(), values.data() + values.size(), array->GetPointer(0));
+        grid.GetCellData()->AddArray(array);
+    }
+}
+
+// Into memory: VTK does not say what a file system refuses.
+void write_xml(const std::string& path, vtkXMLWriter& writer)
+{
+    const VtkMessages messages;
+    writer.WriteToOutputStringOn();
+    writer.SetDataModeToAppended();
+    writer.SetCompressorTypeToZLib();
+    const int written = writer.Write();
+    messages.throw_if_any(path);
+    if (!written) throw InputError(path, 0, "", "", "cannot be written");
+    write_atomically(path, writer.GetOutputString());
+}
+
+}  // namespace
+
+void write_vtu(const std::string& path, const Positions& points, const Tets& tets, const FrameFields& fields)
+{
+    vtkNew<vtkUnstructuredGrid> grid;
+    grid->SetPoints(points_of(points));
+    grid->SetCells(VTK_TETRA, cells_of(tets));
+    add_fields(path, fields, *grid);
+    vtkNew<vtkXMLUnstructuredGridWriter> writer;
+    writer->SetInputData(grid);
+    write_xml(path, *writer);
+}
+
+void write_vtp(const std::string& path, const Positions& points, const Triangles& triangles)
+{
+    vtkNew<vtkPolyData> surface;
+    surface->SetPoints(points_of(points));
+    surface->SetPolys(cells_of(triangles));
+    vtkNew<vtkXMLPolyDataWriter> writer;
+    writer->SetInputData(surface);
+    write_xml(path, *writer);
+}
+
+void write_pvd(const std::string& path, const std::vector<std::pair<double, std::string>>& frames)
+{
+    std::ostringstream text;
+    text.imbue(std::locale::classic());
+    text.precision(17);
+    text << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n  <Collection>\n";
+    for (const auto& [time_s, name] : frames) text << "    <DataSet timestep=\"" << time_s << "\" part=\"0\" file=\"" << name << "\"/>\n";
+    text << "  </Collection>\n</VTKFile>\n";
+    write_atomically(path, text.str());
+}
+
+}  // namespace pbs

@@ -1,0 +1,197 @@
+#include "pbs/packed/groups.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+namespace pbs {
+namespace {
+
+// Earlier groups at each vertex, ascending, as one array.
+struct GroupsAtVertex {
+    std::vector<int> first, group;  // #V + 1; #V's groups one after the other
+};
+
+GroupsAtVertex groups_at_vertices(const std::vector<ConstraintGroup>& groups, int vertices)
+{
+    GroupsAtVertex at{std::vector<int>(static_cast<std::size_t>(vertices) + 1, 0), {}};
+    for (const ConstraintGroup& group : groups)
+        for (int v = 0; v < vertices_of(group.kind); ++v) ++at.first[group.vertex[v] + 1];
+    std::partial_sum(at.first.begin(), at.first.end(), at.first.begin());
+    at.group.resize(at.first.back());
+    std::vector<int> next(at.first.begin(), at.first.end() - 1);
+    for (std::size_t g = 0; g < groups.size(); ++g)
+        for (int v = 0; v < vertices_of(groups[g].kind); ++v) at.group[next[groups[g].vertex[v]]++] = static_cast<int>(g);
+    return at;
+}
+
+// First-fit colours, with marks of the colours that are taken around one group.
+class Colouring {
+public:
+    explicit Colouring(std::size_t groups) : colour_(groups, 0) {}
+
+    void take(int neighbour, int by)
+    {
+        const std::size_t colour = colour_[neighbour];
+        if (colour >= taken_by_.size()) taken_by_.resize(colour + 1, -1);
+        taken_by_[colour] = by;
+    }
+    void choose(int group)
+    {
+        const auto free = std::find_if(taken_by_.begin(), taken_by_.end(), [&](int by) { return by != group; });
+        colour_[group] = static_cast<int>(free - taken_by_.begin());
+    }
+    int operator[](int group) const { return colour_[group]; }
+
+private:
+    std::vector<int> colour_;    // of each group
+    std::vector<int> taken_by_;  // of each colour, the last group next to which it was found
+};
+
+}  // namespace
+
+std::vector<int> projection_sequence(const std::vector<ConstraintGroup>& groups, int vertices)
+{
+    const GroupsAtVertex at = groups_at_vertices(groups, vertices);
+    Colouring by_vertex(groups.size()), by_edge(groups.size()), by_face(groups.size());
+    std::vector<int> shared(groups.size(), 0), neighbours;
+    for (int g = 0; g < static_cast<int>(groups.size()); ++g) {
+        neighbours.clear();
+        for (int v = 0; v < vertices_of(groups[g].kind); ++v) {
+            const int vertex = groups[g].vertex[v];
+            for (int k = at.first[vertex]; at.group[k] < g; ++k)
+                if (shared[at.group[k]]++ == 0) neighbours.push_back(at.group[k]);
+        }
+        for (const int neighbour : neighbours) {
+            by_vertex.take(neighbour, g);
+            if (shared[neighbour] >= 2) by_edge.take(neighbour, g);
+            if (shared[neighbour] >= 3) by_face.take(neighbour, g);
+            shared[neighbour] = 0;
+        }
+        by_vertex.choose(g), by_edge.choose(g), by_face.choose(g);
+    }
+
+    std::vector<int> sorted(groups.size()), place(groups.size());
+    std::iota(sorted.begin(), sorted.end(), 0);
+    const auto colours = [&](int g) {
+        const int edge_colour = constraints_of(groups[g].kind) == 1 ? -by_edge[g] : 0;
+        return std::tuple(by_face[g], edge_colour, by_vertex[g], g);
+    };
+    std::sort(sorted.begin(), sorted.end(), [&](int a, int b) { return colours(a) < colours(b); });
+    for (std::size_t i = 0; i < sorted.size(); ++i) place[sorted[i]] = static_cast<int>(i);
+    return place;
+}
+
+std::vector<std::vector<int>> BatchScheduler::schedule(const std::vector<ConstraintGroup>& groups)
+{
+    if (groups.empty()) return {};
+    const auto is_earlier = [&](int a, int b) {
+        return chain_of_group_[a] != chain_of_group_[b] ? chain_of_group_[a] > chain_of_group_[b] : a < b;
+    };
+    std::vector<int> ready, freed = begin(groups);
+
+    std::vector<std::vector<int>> batches;
+    for (std::size_t scheduled = 0; scheduled < groups.size();) {
+        std::sort(freed.begin(), freed.end(), is_earlier);
+        const auto before = static_cast<std::ptrdiff_t>(ready.size());
+        ready.insert(ready.end(), freed.begin(), freed.end());
+        std::inplace_merge(ready.begin(), ready.begin() + before, ready.end(), is_earlier);
+        freed.clear();
+
+        const int now = static_cast<int>(batches.size());
+        std::vector<int> batch;
+        for (int since = now - 2; since < now && batch.empty(); ++since)
+            std::erase_if(ready, [&](int g) {
+                if (static_cast<int>(batch.size()) == batch_size || !rests(groups[g], since)) return false;
+                batch.push_back(g);
+                return true;
+            });
+        for (const int g : batch) finish(groups[g], now, freed);
+        scheduled += batch.size();
+        batches.push_back(std::move(batch));
+    }
+    for (const ConstraintGroup& group : groups)
+        for (int v = 0; v < vertices_of_group_; ++v) last_batch_[group.vertex[v]] = never;
+    return batches;
+}
+
+// From the last group to the first, so that the next one at each vertex is at the end of its list. Returns those that wait for none.
+std::vector<int> BatchScheduler::begin(const std::vector<ConstraintGroup>& groups)
+{
+    vertices_of_group_ = vertices_of(groups.front().kind);
+    chain_of_group_.assign(groups.size(), 0);
+    turns_.assign(groups.size(), 0);
+    for (int g = static_cast<int>(groups.size()) - 1; g >= 0; --g) {
+        const auto& vertex = groups[g].vertex;
+        for (int v = 0; v < vertices_of_group_; ++v) {
+            chain_of_group_[g] = std::max(chain_of_group_[g], chain_at_vertex_[vertex[v]] + 1);
+            waiting_[vertex[v]].push_back(g);
+        }
+        for (int v = 0; v < vertices_of_group_; ++v) chain_at_vertex_[vertex[v]] = chain_of_group_[g];
+    }
+    std::vector<int> free;
+    for (std::size_t g = 0; g < groups.size(); ++g)
+        for (int v = 0; v < vertices_of_group_; ++v) {
+            chain_at_vertex_[groups[g].vertex[v]] = 0;
+            if (waiting_[groups[g].vertex[v]].back() == static_cast<int>(g)) take_turn(static_cast<int>(g), free);
+        }
+    return free;
+}
+
+void BatchScheduler::take_turn(int group, std::vector<int>& freed)
+{
+    if (++turns_[group] == vertices_of_group_) freed.push_back(group);
+}
+
+// Its vertices go on to their next groups.
+void BatchScheduler::finish(const ConstraintGroup& group, int batch, std::vector<int>& freed)
+{
+    for (int v = 0; v < vertices_of_group_; ++v) {
+        last_batch_[group.vertex[v]] = batch;
+        std::vector<int>& waiting = waiting_[group.vertex[v]];
+        waiting.pop_back();
+        if (!waiting.empty()) take_turn(waiting.back(), freed);
+    }
+}
+
+bool BatchScheduler::rests(const ConstraintGroup& group, int since) const
+{
+    return std::all_of(group.vertex.begin(), group.vertex.begin() + vertices_of_group_, [&](int v) { return last_batch_[v] < since; });
+}
+
+namespace {
+
+constexpr int tets_of_cluster = 4096;  // whose vertices stay in the cache from colour to colour
+
+}  // namespace
+
+int rows_with_dummies(int vertices, int slabs)
+{
+    return (vertices + batch_size - 1) / batch_size * batch_size + slabs * dummies_of_slab;
+}
+
+std::vector<std::vector<int>> slabs_of_tets(const std::vector<std::array<int, 4>>& vertex, const VertexOrder& order)
+{
+    std::vector<int> sorted(vertex.size()), first_vertex;
+    for (const std::array<int, 4>& of_tet : vertex) {
+        int lowest = order.new_of_old[of_tet[0]];
+        for (const int v : of_tet) lowest = std::min(lowest, order.new_of_old[v]);
+        first_vertex.push_back(lowest);
+    }
+    std::iota(sorted.begin(), sorted.end(), 0);
+    std::stable_sort(sorted.begin(), sorted.end(), [&](int a, int b) { return first_vertex[a] < first_vertex[b]; });
+    const std::vector<int> slab_of = order.slab_of_new();
+    std::vector<std::vector<int>> slabs(order.slabs());
+    for (const int t : sorted) slabs[slab_of[first_vertex[t]]].push_back(t);
+    const std::vector<int> place = projection_sequence(single_tets(vertex), static_cast<int>(order.new_of_old.size()));
+    for (std::vector<int>& slab : slabs)
+        for (auto first = slab.begin(); first != slab.end();) {
+            const auto last = slab.end() - first < 3 * tets_of_cluster / 2 ? slab.end() : first + tets_of_cluster;  // no small last one
+            std::sort(first, last, [&](int a, int b) { return place[a] < place[b]; });
+            first = last;
+        }
+    return slabs;
+}
+
+}  // namespace pbs

@@ -1,0 +1,93 @@
+// The laws of the architecture, and the project's text files as they read them: from disk, or planted to show that a law detects
+// violations.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace architecture {
+
+// Path from the root, '/' between folders -> the file's text.
+using SourceTree = std::map<std::string, std::string>;
+
+// Violations of a law, as `path:line: what and why`.
+using Violations = std::vector<std::string>;
+
+// Sources, scripts, CMake files, scenes and pages of the project, without build folders, results, and dot folders except .ci.
+SourceTree read_source_tree();
+
+std::vector<std::string> lines_of(const std::string& text);
+std::string folder_of(const std::string& path);
+bool starts_with_any(std::string_view text, const std::vector<std::string>& prefixes);
+bool ends_with_any(std::string_view text, const std::vector<std::string>& suffixes);
+bool is_cpp(const std::string& path);         // .cpp or .hpp
+bool is_cmake_file(const std::string& path);  // CMakeLists.txt or .cmake
+bool is_command(const std::string& path);     // a script without a suffix that users start
+
+struct Include {
+    int line;
+    std::string target;
+    bool quoted;
+};
+std::vector<Include> includes_of(const std::string& text);
+
+std::string at(const std::string& path, int line, const std::string& what);
+
+using Law = std::function<Violations(const SourceTree&)>;
+
+// Which folder may include which: geometry < skinning < character; geometry < constraints < solver. The reference (reference_fem) and the
+// metrics (analysis) share only the mesh with the method; the verification of the reference writes records (analysis/records). The
+// experiments depend on all of them and have layers of their own, in which no study includes another one. A drawn figure computes nothing.
+Violations include_direction(const SourceTree& tree);
+Violations layer_direction(const SourceTree& tree);  // the layers inside of experiments
+// includes of this project in quotes, from the root, of files that exist; headers with #pragma once
+Violations include_form(const SourceTree& tree);
+Violations values_compute(const SourceTree& tree);
+// outside experiments/deformers/, where code uses their traits and options instead
+Violations deformers_tested_by_name(const SourceTree& tree);
+
+// Few .cpp files, of one place per library, include heavy headers (deal.II takes some 20 s per file), through whatever chain of includes,
+// so that a change in the method recompiles in seconds.
+Violations heavy_headers(const SourceTree& tree);
+
+// Code that is built for one machine's instructions is isolated. Kernels use raw pointers and neither Eigen nor containers, whose inline
+// code would otherwise differ from that of the rest of the program. No other code is built that way or includes SIMD headers.
+Violations kernel_includes(const SourceTree& tree);    // headers that the sources of pbs_kernels must not include
+Violations machine_flags(const SourceTree& tree);      // -march for a target that is not a kernel
+Violations registers_at_home(const SourceTree& tree);  // SIMD headers included by code that is not a kernel
+
+// Every source file is built, and the unit tests mirror the source folders.
+Violations orphaned_sources(const SourceTree& tree);  // a .cpp that no CMake file names
+Violations unit_mirror(const SourceTree& tree);       // tests/unit/A/... without a source folder A or pbs/A
+
+// cmake/packages.txt is the one list of the project's requirements: it is well formed, and covers what the CMake files search for.
+Violations package_list_form(const SourceTree& tree);
+Violations package_list_cover(const SourceTree& tree);
+
+// Sizes of folders, files and functions. A folder has a budget of lines; a file is a topic that is read in one scroll: 150 to 400 lines, at
+// most 500, and at least 60 unless it is a header with several users; a function has 10 to 15 lines, 9 in 10 at most 60, none over 120; a
+// line of source has at most 140 columns.
+struct Budget {
+    std::string what;
+    std::vector<std::string> folders, endings = {};  // of its files; no endings: all files
+    int most_lines = 1 << 30, most_files = 1 << 30;
+    int least_mean = 0;   // lines per file, of each folder and of each of its direct rooms; 0: neither this rule nor the next one
+    int small_files = 0;  // at most so many files that are too small
+};
+const std::vector<Budget>& budgets();  // of this project
+
+Violations file_sizes(const SourceTree& tree);
+Violations folder_sizes(const SourceTree& tree, const std::vector<Budget>& budgets);
+Violations small_files(const SourceTree& tree, const std::vector<Budget>& budgets);
+Violations function_sizes(const SourceTree& tree);
+Violations line_lengths(const SourceTree& tree);
+
+// Texts that no file of the project may contain.
+Violations absolute_paths(const SourceTree& tree);  // paths in a home or work folder
+Violations unfinished_marks(const SourceTree& tree);
+Violations stray_whitespace(const SourceTree& tree);  // tabs, and blanks at the end of a line
+
+}  // namespace architecture

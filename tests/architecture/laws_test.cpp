@@ -1,0 +1,347 @@
+// The laws of the architecture hold for the actual source tree, and each law finds what is planted: a law that accepts a planted violation
+// proves nothing. References: the project's rules on includes, sizes, build files and text.
+#include "tests/architecture/laws.hpp"
+
+using namespace architecture;
+
+namespace {
+
+struct NamedLaw {
+    std::string name;
+    Law law;
+};
+
+class Laws : public testing::TestWithParam<NamedLaw> {};
+
+TEST_P(Laws, HoldForTheSourceTree)
+{
+    const SourceTree tree = read_source_tree();
+    ASSERT_TRUE(tree.contains("CMakeLists.txt")) << "the source tree was not found";
+    std::string found;
+    for (const std::string& violation : GetParam().law(tree)) found += "\n" + violation;
+    EXPECT_TRUE(found.empty()) << found;
+}
+
+Violations own_folder_sizes(const SourceTree& tree)
+{
+    return folder_sizes(tree, budgets());
+}
+
+Violations own_small_files(const SourceTree& tree)
+{
+    return small_files(tree, budgets());
+}
+
+const NamedLaw laws[] = {
+    {"IncludesPointOneWay", include_direction},
+    {"ExperimentsPointOneWay", layer_direction},
+    {"IncludesAreWrittenFromTheRootInQuotes", include_form},
+    {"FiguresComputeNothing", values_compute},
+    {"DeformersAreNotTestedByName", deformers_tested_by_name},
+    {"HeavyHeadersStayAtHome", heavy_headers},
+    {"KernelsSeeRawPointersAlone", kernel_includes},
+    {"KernelsAloneAreBuiltForTheMachine", machine_flags},
+    {"KernelsAloneSeeRegisters", registers_at_home},
+    {"EverySourceIsBuilt", orphaned_sources},
+    {"UnitTestsMirrorTheSource", unit_mirror},
+    {"PackageListIsWellFormed", package_list_form},
+    {"PackageListCoversTheCMakeFiles", package_list_cover},
+    {"FoldersKeepTheirBudgets", own_folder_sizes},
+    {"NoFileIsTooSmall", own_small_files},
+    {"NoFileIsTooLong", file_sizes},
+    {"Functions", function_sizes},
+    {"Lines", line_lengths},
+    {"NoPathOfOneMachine", absolute_paths},
+    {"NoUnfinishedMarks", unfinished_marks},
+    {"NoStrayWhitespace", stray_whitespace},
+};
+
+const auto law_name = [](const auto& info) { return info.param.name; };
+INSTANTIATE_TEST_SUITE_P(, Laws, testing::ValuesIn(laws), law_name);
+
+// The law finds exactly one violation in the planted files, and its text contains `expected`; nothing is found where that is "".
+struct Planted {
+    std::string name;
+    Law law;
+    SourceTree files;
+    std::string expected;
+};
+
+class Bite : public testing::TestWithParam<Planted> {};
+
+TEST_P(Bite, FindsWhatIsPlanted)
+{
+    const auto& [name, law, files, expected] = GetParam();
+    const Violations violations = law(files);
+    ASSERT_EQ(violations.size(), expected.empty() ? 0u : 1u);
+    if (!expected.empty()) EXPECT_NE(violations[0].find(expected), std::string::npos) << violations[0];
+}
+
+std::string including(const std::string& header)
+{
+    return "#include \"" + header + "\"\n";
+}
+
+const Planted includes[] = {
+    {"TheReferenceIncludesTheMethod",
+     include_direction,
+     {{"reference_fem/x.cpp", including("pbs/geometry/a.hpp") + including("pbs/solver/b.hpp")}},
+     "reference_fem/x.cpp:2: reference_fem/ may not include pbs/solver/b.hpp"},
+    {"TheMetricsIncludeSkinning",
+     include_direction,
+     {{"analysis/metrics/x.hpp", including("pbs/skinning/a.hpp")}},
+     "analysis/metrics/ may not include"},
+    {"TheSolverIncludesSkinning",
+     include_direction,
+     {{"pbs/solver/x.hpp", including("pbs/skinning/a.hpp")}},
+     "pbs/solver/ may not include"},
+    {"TheMethodIncludesTests", include_direction, {{"pbs/character/x.cpp", including("tests/support/a.hpp")}}, "may not include tests/"},
+    {"SourcesInAFolderWithoutALaw", include_direction, {{"extras/x.cpp", ""}}, "no include law knows"},
+    {"TheReferenceIncludesItsVerification",
+     include_direction,
+     {{"reference_fem/x.cpp", including("reference_fem/verification/a.hpp")}},
+     "reference_fem/ may not include reference_fem/verification/a.hpp"},
+    {"TheLawsIncludeTheAssembly",
+     include_direction,
+     {{"reference_fem/laws/x.cpp", including("reference_fem/options.hpp") + including("reference_fem/assembly.hpp")}},
+     "x.cpp:2: reference_fem/laws/ may not include reference_fem/assembly.hpp"},
+    {"TheVerificationOfTheReferenceIncludesMetrics",
+     include_direction,
+     {{"reference_fem/verification/x.cpp", including("analysis/metrics/error_norms.hpp")}},
+     "reference_fem/verification/ may not include analysis/metrics/error_norms.hpp"},
+    {"RecordsIncludeVerdicts",
+     include_direction,
+     {{"analysis/records/x.cpp", including("analysis/verdicts/verdict.hpp")}},
+     "analysis/records/ may not include analysis/verdicts/verdict.hpp"},
+    {"StatisticsIncludeMetrics",
+     include_direction,
+     {{"analysis/statistics/x.cpp", including("analysis/metrics/error_norms.hpp")}},
+     "analysis/statistics/ may not include analysis/metrics/error_norms.hpp"},
+    {"AStudyIncludesAnother",
+     layer_direction,
+     {{"experiments/studies/stiffness/x.cpp", "\n" + including("experiments/studies/fit/a.hpp")}},
+     "experiments/studies/stiffness/x.cpp:2: experiments/studies/stiffness/ may not include experiments/studies/fit/a.hpp"},
+    {"AmbiguityAloneIncludesStudies",
+     layer_direction,
+     {{"experiments/studies/ambiguity/x.cpp", including("experiments/studies/jiggle/a.hpp") + including("experiments/verdicts/b.hpp")}},
+     "x.cpp:2: experiments/studies/ambiguity/ may not include experiments/verdicts/b.hpp"},
+    {"WhatStudiesShareIncludesAStudy",
+     layer_direction,
+     {{"experiments/studies/shared/x.cpp", including("experiments/studies/volume/a.hpp")}},
+     "experiments/studies/shared/ may not include"},
+    {"VerdictsIncludeTheirNeighbour",
+     layer_direction,
+     {{"experiments/verdicts/x.cpp", including("experiments/distributed/a.hpp")}},
+     "experiments/verdicts/ may not include experiments/distributed/"},
+    {"AFolderOfExperimentsWithoutALayer", layer_direction, {{"experiments/extras/x.cpp", ""}}, "no layer knows"},
+    {"ExperimentsThemselvesWithoutALayer", layer_direction, {{"experiments/x.cpp", ""}}, "no layer knows"},
+    {"RelativeInclude", include_form, {{"analysis/x.cpp", including("y.hpp")}}, "no such file"},
+    {"AngleBrackets", include_form, {{"analysis/x.cpp", "#include <analysis/y.hpp>\n"}}, "ours goes in quotes"},
+    {"HeaderWithoutPragmaOnce", include_form, {{"analysis/x.hpp", "int f();\n"}}, "#pragma once"},
+    {"AFigureRunsTheSolver",
+     values_compute,
+     {{"paper_figures/x.py", "import csv\nimport subprocess\n"}},
+     "paper_figures/x.py:2: subprocess"},
+    {"HeavyHeaderThroughAHeader",
+     heavy_headers,
+     {{"pbs/geometry/meshing_cgal.hpp", "#include <CGAL/Kernel.h>\n"}, {"pbs/solver/x.cpp", including("pbs/geometry/meshing_cgal.hpp")}},
+     "pbs/solver/x.cpp:1: sees CGAL/"},
+};
+INSTANTIATE_TEST_SUITE_P(Includes, Bite, testing::ValuesIn(includes), law_name);
+
+TEST(IncludeLawsBite, EachLayerIncludesTheNext)
+{
+    const std::vector<std::string> rooms = {"process",        "settings", "deformers",      "scene",    "run",
+                                            "studies/shared", "studies",  "studies/volume", "verdicts", "command_line"};
+    for (std::size_t i = 0; i + 1 < rooms.size(); ++i) {
+        const std::string lower = "experiments/" + rooms[i] + "/", upper = "experiments/" + rooms[i + 1] + "/";
+        const Violations found = layer_direction({{lower + "x.hpp", including(upper + "a.hpp")}});
+        ASSERT_EQ(found.size(), 1u);
+        EXPECT_NE(found[0].find(lower + " may not include " + upper), std::string::npos) << found[0];
+        EXPECT_TRUE(layer_direction({{upper + "x.hpp", including(lower + "a.hpp")}}).empty()) << upper;
+    }
+}
+
+TEST(IncludeLawsBite, AStudyTestsForADeformersName)
+{
+    for (const char* line :
+         {"if (spec.kind == \"pbs\") f();\n", "return a.kind != \"fem\";\n", "return spec.kind.starts_with(\"xpbd\");\n"})
+        EXPECT_EQ(deformers_tested_by_name({{"experiments/studies/x/y.cpp", line}}),
+                  Violations{"experiments/studies/x/y.cpp:1: depends on the name of a deformer's kind: ask its traits or options"});
+    EXPECT_TRUE(deformers_tested_by_name({{"experiments/deformers/x/y.cpp", "if (spec.kind == \"pbs\") f();\n"}}).empty());
+    EXPECT_TRUE(deformers_tested_by_name({{"experiments/studies/x/y.cpp", "of.kind = \"pbs\";\n"}}).empty());
+}
+
+TEST(IncludeLawsBite, TooManyHeavyFiles)
+{
+    SourceTree planted;
+    for (int i = 0; i < 9; ++i) planted["reference_fem/x" + std::to_string(i) + ".cpp"] = "#include <deal.II/base/point.h>\n";
+    const Violations found = heavy_headers(planted);
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_TRUE(found[0].starts_with("deal.II/ is seen by 9 .cpp files")) << found[0];
+}
+
+const std::string kernel_library = "add_library(pbs_kernels OBJECT solver/k.cpp)\n";
+
+const Planted builds[] = {
+    {"EigenInAKernelThroughAHeader",
+     kernel_includes,
+     {{"pbs/CMakeLists.txt", kernel_library},
+      {"pbs/solver/k.cpp", including("pbs/solver/k.hpp")},
+      {"pbs/solver/k.hpp", "#include <cstdint>\n#include <Eigen/Core>\n"}},
+     "pbs/solver/k.cpp:1: a kernel sees <Eigen/Core>"},
+    {"AContainerInAKernel",
+     kernel_includes,
+     {{"pbs/CMakeLists.txt", kernel_library}, {"pbs/solver/k.cpp", "#include <array>\n#include <vector>\n"}},
+     "a kernel sees <vector>"},
+    {"NoKernelsFound", kernel_includes, {{"pbs/CMakeLists.txt", "add_library(other k.cpp)\n"}}, "no sources"},
+    {"FlagsForEverybody",
+     machine_flags,
+     {{"pbs/CMakeLists.txt", "target_compile_options(pbs_kernels PRIVATE -march=native)\nadd_compile_options(-march=native)  # -march\n"}},
+     "pbs/CMakeLists.txt:2:"},
+    {"RegistersElsewhere",
+     registers_at_home,
+     {{"pbs/CMakeLists.txt", kernel_library},
+      {"pbs/solver/k.cpp", including("pbs/solver/lanes.hpp")},
+      {"pbs/solver/x.cpp", including("pbs/solver/lanes.hpp")},
+      {"pbs/solver/lanes.hpp", "#include <experimental/simd>\n"}},
+     "pbs/solver/x.cpp:1: no kernel, and sees <experimental/simd>"},
+    {"OrphanedSource",
+     orphaned_sources,
+     {{"analysis/CMakeLists.txt", "add_library(analysis used.cpp)  # unused.cpp\n"},
+      {"analysis/used.cpp", ""},
+      {"analysis/unused.cpp", ""}},
+     "analysis/unused.cpp"},
+    {"NamedOnlyInAnotherFolder",
+     orphaned_sources,
+     {{"analysis/CMakeLists.txt", "add_library(analysis x.cpp)\n"}, {"experiments/x.cpp", ""}},
+     "experiments/x.cpp"},
+    {"UnregisteredTest",
+     orphaned_sources,
+     {{"tests/method.cmake", "pbs_tests(unit geometry FOLDERS geometry LIBRARIES skinning)\n"},
+      {"tests/unit/geometry/a.cpp", ""},
+      {"tests/unit/skinning/b.cpp", ""}},
+     "tests/unit/skinning/b.cpp"},
+    {"TestOfTheSameNameInAnotherKind",
+     orphaned_sources,
+     {{"tests/method.cmake", "pbs_tests(unit geometry FOLDERS geometry)\n"},
+      {"tests/unit/geometry/a.cpp", ""},
+      {"tests/properties/geometry/a.cpp", ""}},
+     "tests/properties/geometry/a.cpp"},
+    {"TestThatItsFolderLeavesOut",
+     orphaned_sources,
+     {{"tests/method.cmake",
+       "pbs_tests(unit geometry FOLDERS geometry\n    EXCEPT geometry/a geometry/b)\npbs_tests(unit meshes FILES geometry/a)\n"},
+      {"tests/unit/geometry/a.cpp", ""},
+      {"tests/unit/geometry/b.cpp", ""}},
+     "tests/unit/geometry/b.cpp"},
+    {"UnitTestOfNothing",
+     unit_mirror,
+     {{"pbs/geometry/a.hpp", ""}, {"tests/unit/geometry/a.cpp", ""}, {"tests/unit/elsewhere/b.cpp", ""}},
+     "mirrors no source folder 'elsewhere'"},
+    {"UnknownGroup", package_list_form, {{"cmake/packages.txt", "# list\ng++ 12 always compiler\n"}}, "cmake/packages.txt:2:"},
+    {"PackageWithoutPurpose", package_list_form, {{"cmake/packages.txt", "g++ 12 run\n"}}, "packages.txt:1:"},
+    {"PackageTwice", package_list_form, {{"cmake/packages.txt", "g++ 12 run a\ng++ 12 run b\n"}}, "g++ twice"},
+    {"LibraryOfNoPackage",
+     package_list_cover,
+     {{"cmake/packages.txt", "libgsl-dev 2 run [GSL] statistics\n"},
+      {"analysis/CMakeLists.txt", "find_package(GSL REQUIRED)\nfind_package(Boost)  # find_package(X)\n"}},
+     "analysis/CMakeLists.txt:2: Boost"},
+};
+INSTANTIATE_TEST_SUITE_P(Builds, Bite, testing::ValuesIn(builds), law_name);
+
+std::string lines(int count)
+{
+    std::string text;
+    for (int i = 0; i < count; ++i) text += "    line();\n";
+    return text;
+}
+
+const std::vector<Budget> made_up = {{.what = "libraries",
+                                      .folders = {"pbs/", "analysis/"},
+                                      .endings = {".cpp", ".hpp"},
+                                      .most_lines = 1000,
+                                      .most_files = 8,
+                                      .least_mean = 80,
+                                      .small_files = 1}};
+
+Violations made_up_folder_sizes(const SourceTree& tree)
+{
+    return folder_sizes(tree, made_up);
+}
+
+Violations made_up_small_files(const SourceTree& tree)
+{
+    return small_files(tree, made_up);
+}
+
+const std::string used = including("pbs/small.hpp");
+
+const Planted sizes[] = {
+    {"FileOver500Lines",
+     file_sizes,
+     {{"analysis/x.cpp", lines(501)}, {"analysis/y.cpp", lines(500)}},
+     "analysis/x.cpp:1: file of 501 lines"},
+    {"FunctionOver60Lines",
+     function_sizes,
+     {{"analysis/x.cpp", "int f()\n{\n" + lines(60) + "}\n"}},
+     "analysis/x.cpp:1: function of 62 lines"},
+    {"MethodInAClass",
+     function_sizes,
+     {{"analysis/x.hpp", "class A {\n    int f()\n    {\n" + lines(60) + "    }\n};\n"}},
+     "function of 62 lines"},
+    {"ShortFunction", function_sizes, {{"analysis/x.cpp", "int f()\n{\n" + lines(10) + "}\n"}}, ""},
+    {"BudgetOfLines",
+     made_up_folder_sizes,
+     {{"pbs/x.cpp", lines(400)}, {"analysis/a/x.cpp", lines(400)}, {"analysis/b/x.hpp", lines(203)}, {"tests/x.cpp", lines(400)}},
+     "libraries: 1003 lines, at most 1000: 3 too many"},
+    {"BudgetKept", made_up_folder_sizes, {{"pbs/x.cpp", lines(500)}, {"analysis/x.cpp", lines(500)}, {"analysis/x.py", lines(400)}}, ""},
+    {"MeanOfARoom",
+     made_up_folder_sizes,
+     {{"pbs/solver/x.cpp", lines(79)}, {"pbs/solver/y.cpp", lines(80)}, {"pbs/y.cpp", lines(200)}},
+     "pbs/solver/: 79 lines per file in the mean, at least 80"},
+    {"TooManyFiles", made_up_folder_sizes,
+     [] {
+         SourceTree nine;
+         for (int i = 0; i < 9; ++i) nine["pbs/x" + std::to_string(i) + ".cpp"] = lines(100);
+         return nine;
+     }(),
+     "libraries: 9 files, at most 8: 1 too many"},
+    {"SmallFilesWithinTheirNumber", made_up_small_files, {{"pbs/small.hpp", lines(59)}, {"pbs/x.cpp", lines(60)}}, ""},
+    {"HeaderWithSeveralUsers",
+     made_up_small_files,
+     {{"pbs/small.hpp", ""}, {"pbs/one.cpp", ""}, {"tests/a.cpp", used}, {"tests/b.cpp", used}, {"tests/c.cpp", used}},
+     ""},
+};
+INSTANTIATE_TEST_SUITE_P(Sizes, Bite, testing::ValuesIn(sizes), law_name);
+
+TEST(SizeLawsBite, AHeaderWithTwoUsersAndItsOwnSource)
+{
+    const Violations found =
+        made_up_small_files({{"pbs/small.hpp", lines(5)}, {"pbs/small.cpp", used}, {"tests/a.cpp", used}, {"tests/b.cpp", used}});
+    ASSERT_EQ(found.size(), 2u);
+    EXPECT_EQ(found[0], "pbs/small.cpp:1: file of 1 lines, at least 60 unless it is a header with 3 users");
+    EXPECT_EQ(found[1], "pbs/small.hpp:1: file of 5 lines, at least 60 unless it is a header with 3 users");
+}
+
+TEST(SizeLawsBite, LineOver140Columns)
+{
+    for (const std::string path : {"analysis/x.cpp", "analysis/x.hpp", "tests/x.py", "cmake/x.cmake", "pbs/CMakeLists.txt", "cmake/x.sh",
+                                   "check", "paper_figures/x.js", "tests/x.mjs", "paper_figures/x.css", "experiments/sweeps/Snakefile"})
+        EXPECT_EQ(line_lengths({{path, "\n" + std::string(141, 'x') + "\n"}}), Violations{path + ":2: 141 columns, at most 140"});
+    std::string umlauts;
+    for (int i = 0; i < 140; ++i) umlauts += "\u00fc";
+    EXPECT_TRUE(line_lengths({{"analysis/x.cpp", std::string(140, 'x') + "\n" + umlauts + "\n"}}).empty());
+    EXPECT_TRUE(line_lengths({{"README.md", std::string(141, 'x')}, {"package-lock.json", std::string(141, 'x')}}).empty());
+}
+
+// One letter of each planted text is written by its code, so that this file itself obeys the law.
+const Planted texts[] = {
+    {"HomeFolder", absolute_paths, {{"analysis/x.cpp", "\n// see /\150ome/somebody/data\n"}}, "analysis/x.cpp:2"},
+    {"UnfinishedMark", unfinished_marks, {{"analysis/x.cpp", "// \124ODO later\n"}}, "analysis/x.cpp:1: finish it"},
+    {"Tab", stray_whitespace, {{"a.md", "tab\there\nclean\n"}}, "a.md:1"},
+    {"BlankAtTheEnd", stray_whitespace, {{"a.md", "clean\nblank \n"}}, "a.md:2"},
+};
+INSTANTIATE_TEST_SUITE_P(Texts, Bite, testing::ValuesIn(texts), law_name);
+
+}  // namespace

@@ -1,0 +1,339 @@
+// Reference: RFC 4180 and the identity: a table that is written reads back to the same bits.
+
+#include "analysis/records/tables.hpp"
+#include "pbs/geometry/input_error.hpp"
+#include "tests/support/scratch_folder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <random>
+#include <stdexcept>
+
+namespace {
+
+using analysis::CsvTable;
+using analysis::parse_csv;
+
+std::string message_of(const std::string& text)
+{
+    try {
+        parse_csv(text, "m.csv");
+    } catch (const pbs::InputError& error) {
+        return error.what();
+    }
+    return "accepted";
+}
+
+double round_trip(double value)
+{
+    CsvTable table{{"x"}};
+    table.add_row({value});
+    return parse_csv(table.text(), "m.csv").number(0, "x");
+}
+
+TEST(CsvTable, NumbersRoundTripToTheBit)
+{
+    using limits = std::numeric_limits<double>;
+    std::vector<double> values = {0.0,
+                                  -0.0,
+                                  0.1,
+                                  -1.0 / 3.0,
+                                  limits::min(),
+                                  limits::denorm_min(),
+                                  -limits::denorm_min() * 12345,
+                                  limits::max(),
+                                  limits::lowest(),
+                                  limits::epsilon(),
+                                  limits::infinity(),
+                                  -limits::infinity(),
+                                  1e22,
+                                  123456789.0};
+    std::mt19937_64 random(3);
+    while (values.size() < 2000) {
+        const double value = std::bit_cast<double>(random());
+        if (!std::isnan(value)) values.push_back(value);
+    }
+    for (double value : values) EXPECT_EQ(std::bit_cast<std::uint64_t>(round_trip(value)), std::bit_cast<std::uint64_t>(value)) << value;
+    EXPECT_TRUE(std::isnan(round_trip(limits::quiet_NaN())));
+    EXPECT_TRUE(std::isnan(round_trip(-limits::quiet_NaN())));
+}
+
+TEST(CsvTable, NumbersAreTheShortestText)
+{
+    EXPECT_EQ(analysis::number_text(0.1), "0.1");
+    EXPECT_EQ(analysis::number_text(-0.25), "-0.25");
+    EXPECT_EQ(analysis::number_text(std::nan("")), "nan");
+    EXPECT_EQ(analysis::number_text(-std::nan("")), "nan");
+    EXPECT_EQ(analysis::number_text(-INFINITY), "-inf");
+}
+
+TEST(CsvTable, TextOfATable)
+{
+    CsvTable table{{"scene", "frame", "volume_change_pct", "error_l2_pct"}};
+    table.add_row({"limb", 3, -0.25, std::nullopt});
+    EXPECT_EQ(table.text(), "scene,frame,volume_change_pct,error_l2_pct\nlimb,3,-0.25,\n");
+}
+
+TEST(CsvTable, QuotedFieldsRoundTrip)
+{
+    const std::vector<std::string> fields = {"plain", "with,comma", "with \"quotes\"", "two\nlines", "cr\r\nlf",
+                                             "",      "\"",         " spaces ",        "\xc3\xa4"};
+    CsvTable table{{"a,b", "line\nbreak"}};
+    for (const auto& field : fields) table.add_row({field, field});
+    const CsvTable read = parse_csv(table.text(), "m.csv");
+    EXPECT_EQ(read.columns(), table.columns());
+    ASSERT_EQ(read.rows(), static_cast<int>(fields.size()));
+    for (int row = 0; row < read.rows(); ++row) {
+        EXPECT_EQ(read.text_at(row, "a,b"), fields[row]);
+        EXPECT_EQ(read.text_at(row, "line\nbreak"), fields[row]);
+    }
+}
+
+TEST(CsvTable, SingleEmptyFieldIsNotLost)
+{
+    CsvTable table{{"x"}};
+    table.add_row({""});
+    EXPECT_EQ(parse_csv(table.text(), "m.csv").rows(), 1);
+}
+
+TEST(CsvTable, ReadsWindowsLineEnds)
+{
+    const CsvTable table = parse_csv("a,b\r\n1,2\r\n", "m.csv");
+    EXPECT_EQ(table.number(0, "b"), 2.0);
+}
+
+TEST(CsvTable, TypedAccess)
+{
+    const CsvTable table = parse_csv("a,b\n1,\n2.5,x\n", "m.csv");
+    EXPECT_EQ(table.integer(0, "a"), 1);
+    EXPECT_EQ(table.numbers("a"), (std::vector<double>{1.0, 2.5}));
+    EXPECT_FALSE(table.number_or_nothing(0, "b"));
+    EXPECT_TRUE(table.has_column("a"));
+    EXPECT_FALSE(table.has_column("c"));
+}
+
+TEST(CsvTable, WrongValuesAreNamedWithFileLineColumn)
+{
+    const CsvTable table = parse_csv("a,b\n\"1\n2\",3\n4,5x\n", "m.csv");
+    try {
+        table.number(1, "b");
+        FAIL();
+    } catch (const pbs::InputError& error) {
+        EXPECT_STREQ(error.what(), "m.csv:4:2: b = 5x: expected a number");
+    }
+    EXPECT_THROW(table.integer(1, "b"), pbs::InputError);
+    EXPECT_THROW(table.number(0, "missing"), pbs::InputError);
+    EXPECT_THROW(parse_csv("a\n1.5\n", "m.csv").integer(0, "a"), pbs::InputError);
+    EXPECT_THROW(parse_csv("a\n 1\n", "m.csv").number(0, "a"), pbs::InputError);
+}
+
+TEST(CsvTable, BrokenFilesAreRefusedWithFileLineColumn)
+{
+    EXPECT_EQ(message_of(""), "m.csv: the file is empty: expected a line of column names");
+    EXPECT_EQ(message_of("a,b\n1,2\n3,4"), "m.csv:3:2: the file ends within a line: cut off?");
+    EXPECT_EQ(message_of("a,b\n1,2\n3\n"), "m.csv:3:1: 1 fields: expected 2 as in the first line");
+    EXPECT_EQ(message_of("a,b\n1,2,3\n"), "m.csv:2:3: 3 fields: expected 2 as in the first line");
+    EXPECT_EQ(message_of("a,b\n\n"), "m.csv:2:1: 1 fields: expected 2 as in the first line");
+    EXPECT_EQ(message_of("a,a\n"), "m.csv:1:2: column = a: expected each column once");
+    EXPECT_EQ(message_of("a,b\n1,\"2\n3,4\n"), "m.csv:2:2: a quote is never closed");
+    EXPECT_EQ(message_of("a,b\n1,2\"\n"), "m.csv:2:2: unexpected quote or zero byte within a field");
+    EXPECT_EQ(message_of("a,b\n1,\"2\"x\n"), "m.csv:2:2: unexpected text after a field");
+    EXPECT_EQ(message_of(std::string("a,b\n1,\0\n", 8)), "m.csv:2:2: unexpected quote or zero byte within a field");
+    EXPECT_EQ(message_of("a,b\r1,2\r"), "m.csv:1:2: unexpected text after a field");
+}
+
+TEST(CsvTable, RowsOfAnotherLengthAreAMistakeOfTheCaller)
+{
+    CsvTable table{{"a", "b"}};
+    EXPECT_THROW(table.add_row({1}), std::logic_error);
+}
+
+TEST(CsvTable, AppendsTheRowsOfOthersUnderOneHead)
+{
+    CsvTable all{{}};
+    all.append(parse_csv("a,b\n1,\"x,y\"\n", "first.csv"));
+    all.append(parse_csv("a,b\n", "none.csv"));
+    all.append(parse_csv("a,b\n2,\n3,z\n", "second.csv"));
+    EXPECT_EQ(all.text(), "a,b\n1,\"x,y\"\n2,\n3,z\n");
+    EXPECT_FALSE(all.number_or_nothing(1, "b"));
+    EXPECT_THROW(all.number(2, "b"), pbs::InputError);  // the error names its line as well
+}
+
+TEST(CsvTable, AppendsNoTableOfOtherColumns)
+{
+    CsvTable all = parse_csv("a,b\n1,2\n", "first.csv");
+    EXPECT_THROW(all.append(parse_csv("b,a\n1,2\n", "other.csv")), pbs::InputError);
+    EXPECT_THROW(all.append(parse_csv("a\n1\n", "other.csv")), pbs::InputError);
+    EXPECT_EQ(all.text(), "a,b\n1,2\n");
+}
+
+TEST(CsvTable, GoesThroughAFile)
+{
+    const test_support::ScratchFolder folder;
+    const std::string path = folder / "table.csv";
+    CsvTable table{{"a"}};
+    table.add_row({0.1});
+    table.write(path);
+    EXPECT_EQ(analysis::read_csv(path).number(0, "a"), 0.1);
+    EXPECT_THROW(analysis::read_csv(folder / "missing.csv"), pbs::InputError);
+}
+
+}  // namespace
+
+// Reference: RFC 4180 and the identity: rows that are written read back unchanged.
+
+namespace {
+
+enum class Ending { finished, not_finite };
+
+}  // namespace
+
+template <>
+struct analysis::EnumNames<Ending> {
+    static constexpr std::array<std::pair<Ending, const char*>, 2> table{
+        {{Ending::finished, "finished"}, {Ending::not_finite, "not_finite"}}};
+};
+
+namespace {
+
+using analysis::Columns;
+using analysis::parse_csv;
+
+struct Place {
+    std::string body;
+    double height_m = 0.0;
+    bool operator==(const Place&) const = default;
+};
+struct Row {
+    int frame = 0;
+    Place place;
+    bool is_masked = false;
+    Ending ending = Ending::finished;
+    std::optional<double> error_pct;
+    bool operator==(const Row&) const = default;
+};
+
+const Columns<Place> place_columns = {{"body", &Place::body, "", "name of the body"},
+                                      {"height_m", &Place::height_m, "m", "height above the ground"}};
+const Columns<Row> row_columns =
+    Columns<Row>{{"frame", &Row::frame, "", "number of the frame, from 0"}} + analysis::within(&Row::place, place_columns) +
+    Columns<Row>{{"is_masked", &Row::is_masked, "", "the reference meets itself"}, {"ending", &Row::ending, "", "how it ended"}} +
+    Columns<Row>{{"error_pct", &Row::error_pct, "%", "error against the reference"}}.in_group("reference");
+
+const std::vector<Row> rows = {{0, {"man, sitting", 0.1}, true, Ending::not_finite, 0.25},
+                               {1, {"limb", std::numeric_limits<double>::infinity()}, false, Ending::finished, std::nullopt}};
+
+std::string message_of_rows(const std::string& text)
+{
+    try {
+        rows_of(row_columns, parse_csv(text, "m.csv"));
+    } catch (const pbs::InputError& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+TEST(TypedTable, RowsAreWrittenUnderTheirColumnsNames)
+{
+    EXPECT_EQ(table_of(row_columns, rows).text(),
+              "frame,body,height_m,is_masked,ending,error_pct\n"
+              "0,\"man, sitting\",0.1,1,not_finite,0.25\n"
+              "1,limb,inf,0,finished,\n");
+}
+
+TEST(TypedTable, RowsReadBackAsTheyWere)
+{
+    EXPECT_EQ(rows_of(row_columns, parse_csv(table_of(row_columns, rows).text(), "m.csv")), rows);
+}
+
+TEST(TypedTable, AListOfNamesIsOneCell)
+{
+    using Names = std::vector<std::string>;
+    const Columns<Names> columns = {{"names", std::identity{}, "", "names without spaces"}};
+    const std::vector<Names> lists = {{"pbs", "delta_mush"}, {}, {"xpbd"}};
+    EXPECT_EQ(table_of(columns, lists).text(), "names\npbs delta_mush\n\"\"\nxpbd\n");
+    const std::vector<Names> with_columns = rows_of(columns, parse_csv("other,names\n1,pbs delta_mush\n2,\n3,xpbd\n", "m.csv"));
+    EXPECT_EQ(with_columns, lists);
+}
+
+TEST(TypedTable, ColumnsAreReadByNameInAnyOrder)
+{
+    const auto read = rows_of(place_columns, parse_csv("more,height_m,body\n7,0.5,limb\n", "m.csv"));
+    EXPECT_EQ(read, (std::vector<Place>{{"limb", 0.5}}));
+}
+
+TEST(TypedTable, AGroupIsThereAsAWholeOrNotAtAll)
+{
+    const Columns<Row> unasked = row_columns.without("reference");
+    EXPECT_EQ(table_of(unasked, rows).columns().back(), "ending");
+    std::vector<Row> without_errors = rows;
+    without_errors[0].error_pct.reset();
+    EXPECT_EQ(rows_of(row_columns, parse_csv(table_of(unasked, rows).text(), "m.csv")), without_errors);
+
+    const Columns<Place> both = place_columns.in_group("place");
+    EXPECT_THROW(rows_of(both, parse_csv("body\nlimb\n", "m.csv")), pbs::InputError);
+    EXPECT_EQ(rows_of(both, parse_csv("other\nx\n", "m.csv")), std::vector<Place>(1));
+}
+
+struct Pose {
+    int frame = 0;
+    std::optional<Place> place;
+};
+const Columns<Pose> pose_columns =
+    Columns<Pose>{{"frame", &Pose::frame, "", "number of the frame, from 0"}} + analysis::within(&Pose::place, place_columns);
+
+TEST(TypedTable, APartThatARowLacksHasEmptyCells)
+{
+    const std::string text = "frame,body,height_m\n0,limb,0.5\n1,,\n";
+    EXPECT_EQ(table_of(pose_columns, std::vector<Pose>{{0, Place{"limb", 0.5}}, {1, std::nullopt}}).text(), text);
+    const auto read = rows_of(pose_columns, parse_csv(text, "m.csv"));
+    EXPECT_EQ(read[0].place, (Place{"limb", 0.5}));
+    EXPECT_FALSE(read[1].place);
+}
+
+TEST(TypedTable, WrongCellsAreNamedWithFileLineColumnValueAndRule)
+{
+    const std::string head = "frame,body,height_m,is_masked,ending,error_pct\n";
+    EXPECT_EQ(message_of_rows(head + "0.5,limb,1,0,finished,\n"), "m.csv:2:1: frame = 0.5: expected a whole number");
+    EXPECT_EQ(message_of_rows(head + "3000000000,limb,1,0,finished,\n"),
+              "m.csv:2:1: frame = 3000000000: expected a whole number of at most 31 bits");
+    EXPECT_EQ(message_of_rows(head + "0,limb,high,0,finished,\n"), "m.csv:2:3: height_m = high: expected a number");
+    EXPECT_EQ(message_of_rows(head + "0,limb,1,0,finished,\n1,limb,1,true,finished,\n"), "m.csv:3:4: is_masked = true: expected 0 or 1");
+    EXPECT_EQ(message_of_rows(head + "0,limb,1,0,ended,\n"), "m.csv:2:5: ending = ended: expected one of finished, not_finite");
+    EXPECT_EQ(message_of_rows(head + "0,limb,1,0,finished,none\n"), "m.csv:2:6: error_pct = none: expected a number");
+    EXPECT_EQ(message_of_rows("frame\n0\n"), "m.csv:1: columns = frame: expected a column body");
+}
+
+TEST(TypedTable, AFlagIsZeroOrOne)
+{
+    EXPECT_EQ(row_columns[3].name, "is_masked");
+    EXPECT_EQ(row_columns[3].unit, "0/1");
+}
+
+TEST(TypedTable, AColumnsNameEndsWithItsUnit)
+{
+    for (const auto& [name, unit] : std::vector<std::pair<std::string, std::string>>{{"time_s", "s"},
+                                                                                     {"volume_change_pct", "%"},
+                                                                                     {"speed_m_s", "m/s"},
+                                                                                     {"stiffness_n_m", "N/m"},
+                                                                                     {"frames_per_s", "1/s"},
+                                                                                     {"step_ms_median", "ms"},
+                                                                                     {"step_ms_ratio", ""},
+                                                                                     {"frame", ""}})
+        EXPECT_NO_THROW(analysis::require_unit(name, unit)) << name;
+    for (const auto& [name, unit] : std::vector<std::pair<std::string, std::string>>{{"time_s", "ms"},
+                                                                                     {"time_s", ""},
+                                                                                     {"time", "s"},
+                                                                                     {"speed_m_s", "s"},
+                                                                                     {"stiffness_n_m", "m"},
+                                                                                     {"step_ms_median", "s"},
+                                                                                     {"frame", "frames"}})
+        EXPECT_THROW(analysis::require_unit(name, unit), std::logic_error) << name;
+}
+
+}  // namespace

@@ -1,0 +1,285 @@
+// Reference: closed forms, evaluated by hand and independent of GSL.
+
+#include "analysis/statistics/statistics.hpp"
+#include "tests/support/rounding_error.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace {
+
+using namespace analysis;
+
+TEST(Statistics, OfOneToFive)
+{
+    const std::vector<double> values = {5, 1, 4, 2, 3};
+    EXPECT_EQ(mean(values), 3.0);
+    EXPECT_EQ(median(values), 3.0);
+    EXPECT_EQ(quantile(values, 0.0), 1.0);
+    EXPECT_EQ(quantile(values, 0.25), 2.0);
+    // The place 0.9 of 4 goes through two roundings, the value between 4 and 5 through four.
+    EXPECT_NEAR(quantile(values, 0.9), 4.6, test_support::rounding_error(2, 3.6) + test_support::rounding_error(4, 4.6));
+    EXPECT_EQ(quantile(values, 1.0), 5.0);
+    // The running mean of squares is rounded three times per value, and its root halves a relative error.
+    EXPECT_NEAR(standard_deviation(values), std::sqrt(2.5), test_support::rounding_error(3 * 5 / 2.0 + 2, std::sqrt(2.5)));
+    EXPECT_NEAR(standard_error(values), std::sqrt(0.5), test_support::rounding_error(3 * 5 / 2.0 + 4, std::sqrt(0.5)));
+}
+
+TEST(Statistics, MedianOfAnEvenNumberIsTheMiddle)
+{
+    EXPECT_EQ(median({1.0, 2.0, 10.0, 4.0}), 3.0);
+}
+
+TEST(Statistics, QuantileIsLinearBetweenTwo)
+{
+    EXPECT_EQ(quantile({0.0, 1.0}, 0.3), 0.3);
+}
+
+TEST(Statistics, TooFewValuesAreNaN)
+{
+    EXPECT_TRUE(std::isnan(mean({})));
+    EXPECT_TRUE(std::isnan(median({})));
+    EXPECT_TRUE(std::isnan(standard_deviation({1.0})));
+    EXPECT_TRUE(std::isnan(standard_error({})));
+}
+
+TEST(Statistics, NaNIsNotSortedAway)
+{
+    EXPECT_TRUE(std::isnan(quantile({1.0, std::nan(""), 2.0}, 0.5)));
+}
+
+TEST(AutocorrelationTime, OfAConstantSeriesIsOne)
+{
+    EXPECT_EQ(integrated_autocorrelation_time(std::vector<double>(20, 0.5)), 1.0);
+}
+
+TEST(AutocorrelationTime, OfAnAlternatingSeriesIsNotBelowOne)
+{
+    EXPECT_EQ(integrated_autocorrelation_time({1, -1, 1, -1, 1, -1, 1, -1}), 1.0);
+}
+
+TEST(AutocorrelationTime, OfTooFewSamplesIsOne)
+{
+    EXPECT_EQ(integrated_autocorrelation_time({}), 1.0);
+    EXPECT_EQ(integrated_autocorrelation_time({3.0}), 1.0);
+}
+
+// Spearman 1904: 1 - 6 sum d^2 / (n (n^2 - 1)) without ties; n = 5, d = 0, 0, 1, 1, 0.
+TEST(Statistics, RankCorrelationIsOfRanksAlone)
+{
+    EXPECT_DOUBLE_EQ(analysis::rank_correlation({1, 2, 3, 4, 5}, {1, 10, 1000, 100, 1e6}), 1.0 - 6.0 * 2.0 / 120.0);
+    EXPECT_DOUBLE_EQ(analysis::rank_correlation({1, 2, 3}, {5, 7, 90}), 1.0);
+    EXPECT_DOUBLE_EQ(analysis::rank_correlation({1, 2, 3}, {9, 2, 1}), -1.0);
+    EXPECT_TRUE(std::isnan(analysis::rank_correlation({1}, {1})));
+    EXPECT_TRUE(std::isnan(analysis::rank_correlation({1, 2}, {1, std::nan("")})));
+}
+
+}  // namespace
+
+// Reference: degenerate cases by definition, and reproducibility by seed. tests/verification/analysis/statistics.cpp tests the coverage.
+
+namespace {
+
+using analysis::bootstrap_mean;
+using analysis::bootstrap_share;
+using analysis::Interval;
+using test_support::mean_error;
+
+const std::vector<double> series = {0.3, 0.4, 0.4, 0.5, 0.6, 0.7, 0.9, 0.8, 1.0, 1.0, 1.1, 1.2, 1.2, 1.4, 1.3, 1.4};
+
+TEST(Bootstrap, EnclosesItsEstimate)
+{
+    const Interval interval = bootstrap_mean(series);
+    EXPECT_NEAR(interval.estimate, 14.2 / 16.0, mean_error(16, 14.2 / 16.0));
+    EXPECT_LT(interval.low, interval.estimate);
+    EXPECT_GT(interval.high, interval.estimate);
+    EXPECT_EQ(interval.level, 0.95);
+    EXPECT_EQ(interval.n, 16);
+    EXPECT_GE(interval.block, 2);
+    EXPECT_LE(interval.block, 8);
+}
+
+TEST(Bootstrap, RepeatsToTheBitAndFollowsItsSeed)
+{
+    const Interval a = bootstrap_mean(series), b = bootstrap_mean(series), c = bootstrap_mean(series, {.seed = 2});
+    EXPECT_EQ(a.low, b.low);
+    EXPECT_EQ(a.high, b.high);
+    EXPECT_TRUE(a.low != c.low || a.high != c.high);
+}
+
+TEST(Bootstrap, HigherLevelIsWider)
+{
+    const Interval narrow = bootstrap_mean(series, {.level = 0.5}), wide = bootstrap_mean(series, {.level = 0.99});
+    EXPECT_LT(wide.low, narrow.low);
+    EXPECT_GT(wide.high, narrow.high);
+}
+
+TEST(Bootstrap, GivenBlockIsKept)
+{
+    EXPECT_EQ(bootstrap_mean(series, {.block = 3}).block, 3);
+    EXPECT_EQ(bootstrap_mean(series, {.block = 99}).block, 16);
+}
+
+TEST(Bootstrap, BlockAsLongAsTheSeriesHasNoSpread)
+{
+    const Interval interval = bootstrap_mean(series, {.block = 16});
+    const double of_two_orders = 2.0 * mean_error(16, interval.estimate);
+    EXPECT_NEAR(interval.low, interval.estimate, of_two_orders);
+    EXPECT_NEAR(interval.high, interval.estimate, of_two_orders);
+}
+
+TEST(Bootstrap, SeriesWithoutSpreadHasNoWidth)
+{
+    const Interval same = bootstrap_mean(std::vector<double>(20, 3.5));
+    EXPECT_EQ(same.low, 3.5);
+    EXPECT_EQ(same.high, 3.5);
+}
+
+// Clopper and Pearson 1934: none of n independent samples holds with probability (1 - p)^n, which is 2.5 % at p = 1 - 0.025^(1/n).
+TEST(Bootstrap, AShareOfAllOrNoneHasTheExactBinomialBound)
+{
+    const Interval none = bootstrap_share(std::vector<bool>(20, false));
+    EXPECT_EQ(none.low, 0.0);
+    EXPECT_NEAR(none.high, 0.16843, 0.5e-5);  // tables of the exact bound, 0 of 20: half of the last digit
+    const Interval all = bootstrap_share(std::vector<bool>(20, true));
+    EXPECT_NEAR(all.low, 1.0 - 0.16843, 0.5e-5);
+    EXPECT_EQ(all.high, 1.0);
+}
+
+TEST(Bootstrap, CorrelatedSamplesSayLessAboutNone)
+{
+    const Interval correlated = bootstrap_share(std::vector<bool>(200, false), {.autocorrelation_time = 10.0});
+    EXPECT_NEAR(correlated.high, 0.16843, 0.5e-5);  // equivalent to 20 independent samples
+}
+
+TEST(Bootstrap, ShareStaysBetweenNoneAndAll)
+{
+    std::vector<bool> holds(40, true);
+    holds[11] = holds[12] = false;
+    const Interval share = bootstrap_share(holds);
+    EXPECT_NEAR(share.estimate, 0.95, mean_error(40, 0.95));
+    EXPECT_LT(share.low, 0.95);
+    EXPECT_LE(share.high, 1.0);
+}
+
+TEST(Bootstrap, TooFewOrBrokenSamplesHaveNoInterval)
+{
+    EXPECT_TRUE(std::isnan(bootstrap_mean({}).estimate));
+    EXPECT_EQ(bootstrap_mean({2.0}).estimate, 2.0);
+    EXPECT_TRUE(std::isnan(bootstrap_mean({2.0}).low));
+    EXPECT_TRUE(std::isnan(bootstrap_mean({1.0, std::numeric_limits<double>::quiet_NaN(), 2.0}).high));
+    EXPECT_TRUE(std::isnan(bootstrap_mean({1.0, std::numeric_limits<double>::infinity(), 2.0}).low));
+}
+
+TEST(BlockLength, OfUncorrelatedSamplesIsOne)
+{
+    EXPECT_EQ(analysis::block_length({1, -1, 1, -1, 1, -1, 1, -1}), 1);
+}
+
+}  // namespace
+
+// Reference: theory where none or all are counted; else the definition, by sums of the binomial distribution.
+
+namespace {
+
+using analysis::share_interval;
+
+// The probability of `counted` or fewer out of `all` with probability p each.
+double at_most(int counted, int all, double p)
+{
+    double sum = 0.0;
+    for (int k = 0; k <= counted; ++k)
+        sum += std::exp(std::lgamma(all + 1.0) - std::lgamma(k + 1.0) - std::lgamma(all - k + 1.0) + k * std::log(p) +
+                        (all - k) * std::log1p(-p));
+    return sum;
+}
+
+// The rounding error of such a probability, here or in the inverse: the logarithm of a term contains three log-gamma functions and two
+// products with logarithms of shares, of magnitude 9 at most, each of which goes through ten roundings. (GSL's inverse converges cubically
+// and ends after a step below 1e-10: only rounding is left.)
+double probability_error(int all)
+{
+    return test_support::rounding_error(10, 3.0 * std::lgamma(all + 1.0) + 9.0 * all);
+}
+
+TEST(ShareInterval, EndsWhereTheTailsAreAFortieth)
+{
+    for (const int all : {4, 18, 161})
+        for (int counted = 1; counted < all; ++counted) {
+            const auto share = share_interval(counted, all);
+            EXPECT_EQ(share.estimate, double(counted) / all);
+            EXPECT_NEAR(at_most(counted, all, share.high), 0.025, 2.0 * probability_error(all));
+            EXPECT_NEAR(1.0 - at_most(counted - 1, all, share.low), 0.025, 2.0 * probability_error(all));
+        }
+}
+
+// An error of the probability (1 - p)^n = 0.025 is one of p over its derivative, n 0.025 / (1 - p) > n 0.025.
+TEST(ShareInterval, OfNoneAndOfAll)
+{
+    for (const int all : {1, 8, 100}) {
+        const double end = 1.0 - std::pow(0.025, 1.0 / all);
+        const auto none = share_interval(0, all), every = share_interval(all, all);
+        EXPECT_EQ(none.low, 0.0);
+        const double rounding = probability_error(all) / (0.025 * all) + test_support::rounding_error(4, 1.0);
+        EXPECT_NEAR(none.high, end, rounding);
+        EXPECT_NEAR(every.low, 1.0 - end, rounding);
+        EXPECT_EQ(every.high, 1.0);
+    }
+}
+
+TEST(ShareInterval, IsWiderOfFewerAndOfAHigherLevel)
+{
+    EXPECT_GT(share_interval(2, 8).high - share_interval(2, 8).low, share_interval(20, 80).high - share_interval(20, 80).low);
+    EXPECT_GT(share_interval(2, 8, 0.99).high, share_interval(2, 8, 0.95).high);
+}
+
+}  // namespace
+
+// Reference: order statistics of a few frames by hand, linear between them.
+
+namespace {
+
+using analysis::CsvTable;
+using analysis::frame_statistics;
+
+CsvTable metrics()
+{
+    return CsvTable({"scene", "deformer", "variant", "order", "precision", "iterations", "frame", "volume_change_pct",
+                     "volume_abs_change_pct", "error_joint_pct"});
+}
+
+TEST(FrameStatistics, OfEachSettingByItself)
+{
+    CsvTable table = metrics();
+    for (int frame = 0; frame <= 10; ++frame) {  // 0, -1, ... -10; the order of frames does not matter
+        table.add_row({"limb", "pbs", "default", "ordered", "f32", 24, frame, -1.0 * ((7 * frame) % 11), 2.0, std::nullopt});
+        table.add_row({"limb", "pbs", "default", "ordered", "f32", 1, frame, 5.0, 3.0, std::nullopt});
+    }
+    const CsvTable statistics = frame_statistics(table);
+    ASSERT_EQ(statistics.rows(), 2);
+    EXPECT_EQ(statistics.text_at(0, "iterations"), "24");
+    EXPECT_EQ(statistics.integer(0, "frames"), 11);
+    EXPECT_EQ(statistics.number(0, "volume_change_least_pct"), -10.0);
+    EXPECT_DOUBLE_EQ(statistics.number(0, "volume_change_p10_pct"), -9.0);
+    EXPECT_DOUBLE_EQ(statistics.number(0, "volume_change_median_pct"), -5.0);
+    EXPECT_DOUBLE_EQ(statistics.number(0, "volume_change_p90_pct"), -1.0);
+    EXPECT_EQ(statistics.number(0, "volume_change_most_pct"), 0.0);
+    EXPECT_EQ(statistics.number(0, "volume_abs_change_median_pct"), 2.0);
+    EXPECT_EQ(statistics.number(1, "volume_change_median_pct"), 5.0);
+}
+
+TEST(FrameStatistics, FramesWithoutAValueAreLeftOut)
+{
+    CsvTable table = metrics();
+    table.add_row({"walk", "lbs", "default", "", "f64", std::nullopt, 0, 1.0, 1.0, std::nullopt});
+    table.add_row({"walk", "lbs", "default", "", "f64", std::nullopt, 1, std::numeric_limits<double>::quiet_NaN(), 1.0, 30.0});
+    const CsvTable statistics = frame_statistics(table);
+    ASSERT_EQ(statistics.rows(), 1);
+    EXPECT_EQ(statistics.number(0, "volume_change_median_pct"), 1.0);
+    EXPECT_EQ(statistics.number(0, "error_joint_median_pct"), 30.0);
+    EXPECT_FALSE(statistics.number_or_nothing(0, "error_l2_median_pct"));  // a run without a reference has no such column
+}
+
+}  // namespace

@@ -1,0 +1,222 @@
+#include "analysis/verdicts/measurement.hpp"
+
+#include "analysis/records/record_files.hpp"
+#include "analysis/verdicts/verdict.hpp"
+#include "pbs/geometry/input_error.hpp"
+#include "tests/support/scratch_folder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace {
+
+using analysis::Extent;
+using analysis::Measurement;
+using analysis::VerdictKind;
+
+analysis::Claim drift_claim()
+{
+    analysis::Claim claim;
+    claim.id = "C07";
+    claim.rule = analysis::ClaimRule::measured;
+    claim.metrics = {"linear_drift", "angular_drift"};
+    claim.low = 0.0;
+    claim.high = 1e-3;
+    return claim;
+}
+
+Measurement drift_of(const analysis::CaseKey& of, double value)
+{
+    return {"C07", "linear_drift", of, value, value, value, "1"};
+}
+
+Measurement drift(const std::string& body, double value)
+{
+    return drift_of({.body = body}, value);
+}
+
+TEST(Measurement, ComesBackFromItsTable)
+{
+    const test_support::ScratchFolder folder;
+    const std::string path = folder / "measurements.csv";
+    const analysis::CaseKey key = {
+        .body = "limb \"soft\", thin", .motion = "bend", .angle_deg = 1.0 / 3.0, .deformer = "pbs", .iterations = 24.0};
+    const Measurement written{"C07", "linear_drift", key, 1.0 / 3.0, 0.25, 0.5, "m", "", analysis::Limit::more_than, 4, 1};
+    analysis::measurement_table({written, drift("human", 1e-300)}).write(path);
+    const auto read = analysis::measurements(path);
+    ASSERT_EQ(read.size(), 2u);
+    EXPECT_EQ(read[0].quantity, written.quantity);
+    EXPECT_EQ(read[0].of, written.of);
+    EXPECT_EQ(read[0].limit, analysis::Limit::more_than);
+    EXPECT_EQ(read[0].n, 4);
+    EXPECT_EQ(read[0].not_reached, 1);
+    EXPECT_EQ(read[1].of, analysis::CaseKey{.body = "human"});
+    EXPECT_EQ(read[1].limit, analysis::Limit::none);
+    EXPECT_EQ(read[0].value, written.value);
+    EXPECT_EQ(read[0].high, written.high);
+    EXPECT_EQ(read[1].value, 1e-300);
+}
+
+TEST(Measurement, AnUnknownLimitIsRefused)
+{
+    const test_support::ScratchFolder folder;
+    analysis::write_text_atomically(folder / "m.csv", "claim,quantity,value,low,high,unit,limit\nC07,linear_drift,1,1,1,1,roughly\n");
+    EXPECT_THROW(analysis::measurements(folder / "m.csv"), pbs::InputError);
+}
+
+TEST(Measurement, HoldsWholeInPartOrNot)
+{
+    Measurement measured = drift("limb", 5e-4);
+    EXPECT_EQ(analysis::extent_of(drift_claim(), measured), Extent::whole);
+    measured.high = 2e-3;
+    EXPECT_EQ(analysis::extent_of(drift_claim(), measured), Extent::part);
+    EXPECT_EQ(analysis::extent_of(drift_claim(), drift("limb", 2e-3)), Extent::none);
+    EXPECT_EQ(analysis::extent_of(drift_claim(), drift("limb", std::nan(""))), Extent::none);
+}
+
+TEST(Measurement, AlteredRecordsFlipTheVerdict)
+{
+    analysis::Records records;
+    records.measurements = {drift("limb", 1e-6), drift("human", 1e-5), {"C99", "linear_drift", {.body = "another"}, 9.0, 9.0, 9.0, "1"}};
+    EXPECT_EQ(judge(drift_claim(), records).kind, VerdictKind::reproduced);
+    records.measurements[1].value = 0.5;
+    const analysis::Verdict in_part = judge(drift_claim(), records);
+    EXPECT_EQ(in_part.kind, VerdictKind::reproduced_only_for);
+    ASSERT_EQ(in_part.subjects.size(), 2u);
+    EXPECT_EQ(in_part.subjects[0].name, "human");
+    EXPECT_EQ(in_part.subjects[0].extent, Extent::none);
+    EXPECT_EQ(in_part.subjects[1].extent, Extent::whole);
+    ASSERT_TRUE(in_part.primary);
+    EXPECT_EQ(in_part.primary->of.body, "human");
+    EXPECT_EQ(in_part.primary->value, 0.5);
+    EXPECT_EQ(in_part.primary->bound_high, 1e-3);
+    records.measurements[0].value = 0.5;
+    EXPECT_EQ(judge(drift_claim(), records).kind, VerdictKind::not_reproduced);
+    records.measurements.clear();
+    EXPECT_EQ(judge(drift_claim(), records).kind, VerdictKind::not_computable);
+    records.left_out = {{"human", "not installed"}};
+    EXPECT_EQ(judge(drift_claim(), records).kind, VerdictKind::cannot_be_tested_here);
+}
+
+TEST(Measurement, AQuantityMayHaveABoundOfItsOwn)
+{
+    analysis::Claim claim = drift_claim();
+    claim.bounds = {{"angular_drift", 0.5, 2.0}};
+    EXPECT_EQ(analysis::bound_of(claim, "linear_drift").high, 1e-3);
+    EXPECT_EQ(analysis::extent_of(claim, {"C07", "angular_drift", {}, 1.0, 0.5, 2.0, "1"}), Extent::whole);
+    EXPECT_EQ(analysis::extent_of(claim, {"C07", "angular_drift", {}, 1e-4, 1e-4, 1e-4, "1"}), Extent::none);
+    EXPECT_EQ(analysis::bound_text({"", 0.0, 0.0}), "0");
+    EXPECT_EQ(analysis::bound_text({"", 30.0, 1e9}), "30 or more");
+    EXPECT_EQ(analysis::bound_text({"", 0.9, 1.1}), "0.9 to 1.1");
+}
+
+TEST(Measurement, WhatIsReportedIsNoPartOfTheVerdict)
+{
+    analysis::Claim claim = drift_claim();
+    claim.reported = {"energy"};
+    analysis::Records records;
+    records.measurements = {drift("limb", 1e-6), {"C07", "energy", {.body = "limb"}, 9.0, 9.0, 9.0, "J"}};
+    const analysis::Verdict verdict = judge(claim, records);
+    EXPECT_EQ(verdict.kind, VerdictKind::reproduced);
+    ASSERT_EQ(verdict.controls.size(), 1u);
+    EXPECT_EQ(verdict.controls[0].quantity, "energy");
+}
+
+TEST(Measurement, AVerdictCountsValuesBySubject)
+{
+    analysis::Records records;
+    records.measurements = {drift_of({.body = "limb", .pose = "bent"}, 1e-6), drift_of({.body = "limb", .pose = "straight"}, 0.25),
+                            drift("human", 1e-5), drift("bar", std::nan(""))};
+    analysis::Claim claim = drift_claim();
+    const analysis::Verdict verdict = judge(claim, records);
+    std::vector<std::string> names;
+    for (const auto& subject : verdict.subjects) names.push_back(subject.name);
+    EXPECT_EQ(names, (std::vector<std::string>{"bar", "human", "limb"}));
+    EXPECT_EQ(verdict.subjects[2].within, 1);
+    EXPECT_EQ(verdict.subjects[2].all, 2);
+    EXPECT_EQ(verdict.subjects[2].extent, Extent::part);
+    EXPECT_EQ(verdict.primary->of.body, "bar");  // a value that is not a number is farthest outside
+    claim.subject = "pose";
+    EXPECT_EQ(judge(claim, records).subjects.size(), 3u);  // bent, straight, none
+}
+
+TEST(Measurement, OfTheSameQuantityOtherKeysAreControls)
+{
+    analysis::Claim claim = drift_claim();
+    claim.of = {.deformer = "pbs"};
+    analysis::Records records;
+    records.measurements = {drift_of({.body = "limb", .deformer = "pbs"}, 1e-6), drift_of({.body = "limb", .deformer = "lbs"}, 0.5)};
+    const analysis::Verdict verdict = judge(claim, records);
+    EXPECT_EQ(verdict.kind, VerdictKind::reproduced);
+    EXPECT_EQ(verdict.n, 1);
+    ASSERT_EQ(verdict.controls.size(), 1u);
+    EXPECT_EQ(verdict.controls[0].of.deformer, "lbs");
+}
+
+TEST(Measurement, ASubjectHoldsForEachValueOfAFieldThatIsCountedApart)
+{
+    analysis::Claim claim = drift_claim();
+    analysis::Records records;
+    records.measurements = {drift_of({.body = "limb", .deformer = "pbs"}, 1e-6), drift_of({.body = "limb", .deformer = "lbs"}, 0.5)};
+    EXPECT_EQ(judge(claim, records).kind, VerdictKind::reproduced_only_for);
+    claim.each = {"deformer"};
+    EXPECT_EQ(judge(claim, records).kind, VerdictKind::not_reproduced);
+}
+
+TEST(Measurement, WhereAllHoldTheOneNearestToItsBoundIsPrimary)
+{
+    analysis::Records records;
+    records.measurements = {drift("limb", 1e-6), drift("human", 9e-4), drift("man", 1e-5)};
+    EXPECT_EQ(judge(drift_claim(), records).primary->of.body, "human");
+}
+
+TEST(Measurement, AValueWhoseIntervalLeavesTheBoundIsPrimaryBeforeAnyThatHolds)
+{
+    analysis::Records records;
+    records.measurements = {drift("human", 9e-4), drift("limb", 5e-4)};
+    records.measurements[1].high = 2e-3;
+    EXPECT_EQ(judge(drift_claim(), records).primary->of.body, "limb");
+    records.measurements.push_back(drift("man", 1.5e-3));
+    EXPECT_EQ(judge(drift_claim(), records).primary->of.body, "man");  // its value is outside
+}
+
+TEST(Measurement, AnOpenEndOfABoundDoesNotChooseThePrimaryValue)
+{
+    analysis::Claim claim = drift_claim();
+    claim.low = 30.0;
+    claim.high = analysis::open_end;
+    analysis::Records records;
+    records.measurements = {drift("limb", 93.5), drift("human", 206.0)};
+    EXPECT_EQ(judge(claim, records).primary->of.body, "limb");  // nearest to 30
+    records.measurements.push_back(drift("man", std::numeric_limits<double>::infinity()));
+    EXPECT_EQ(judge(claim, records).primary->of.body, "man");  // no finite value, so it is outside
+    records.measurements.push_back(drift("bar", 3.0));
+    EXPECT_EQ(judge(claim, records).primary->of.body, "man");
+}
+
+TEST(Measurement, AClaimOfSeveralQuantitiesAsksForAllOfThem)
+{
+    const auto angular = [](const analysis::CaseKey& of, double value) {
+        return Measurement{"C07", "angular_drift", of, value, value, value, "1"};
+    };
+    const analysis::CaseKey bent = {.body = "limb", .pose = "bent"}, straight = {.body = "limb", .pose = "straight"};
+    analysis::Records records;
+    records.measurements = {drift_of(bent, 1e-6), drift_of(straight, 1e-6), angular(bent, 0.5), angular(straight, 0.5)};
+    EXPECT_EQ(judge(drift_claim(), records).kind, VerdictKind::not_reproduced);
+    records.measurements[3].value = records.measurements[3].low = records.measurements[3].high = 1e-6;
+    EXPECT_EQ(judge(drift_claim(), records).kind, VerdictKind::reproduced_only_for);
+}
+
+TEST(Measurement, WithoutAPlannedRunNothingIsJudged)
+{
+    analysis::Records records;
+    records.measurements = {drift("limb", 1e-6)};
+    records.missing_runs = {"human"};
+    const analysis::Verdict verdict = judge(drift_claim(), records);
+    EXPECT_EQ(verdict.kind, VerdictKind::not_computable);
+    EXPECT_EQ(verdict.missing, std::vector<std::string>{"human"});
+}
+
+}  // namespace

@@ -1,0 +1,115 @@
+// Reference: the errors that assimp 5.2 accepts and should not; each refusal by file, line and field.
+
+#include "pbs/character/clip.hpp"
+#include "pbs/character/named_bodies.hpp"
+#include "pbs/character/retarget.hpp"
+#include "tests/support/motion_rounding.hpp"
+#include "tests/unit/pbs/character/expect_input_error.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace {
+
+using namespace pbs;
+
+std::string bvh(const std::string& frames, const std::string& time)
+{
+    return "HIERARCHY\nROOT a { CHANNELS 3 Xrotation Yrotation Zrotation\n}\n\nMOTION\nFrames: " + frames + "\nFrame Time: " + time +
+           "\n0 0 0\n0 0 0\n";  // Frames is in line 6
+}
+
+TEST(BvhHeader, AWholeOnePasses)
+{
+    EXPECT_NO_THROW(check_bvh_header(bvh("2", "0.0083333"), "a.bvh"));
+    EXPECT_NO_THROW(check_bvh_header(bvh("\t2", " .01"), "a.bvh"));
+}
+
+TEST(BvhHeader, ABvhIsKnownByItsExtensionOrItsFirstWord)
+{
+    for (const std::string before : {"", "\n", " \t\r\n\v\f\n", "\xef\xbb\xbf", "\xef\xbb\xbf\n"})
+        EXPECT_TRUE(is_bvh(before + bvh("2", "0.01"), "a.clip")) << before;
+    EXPECT_TRUE(is_bvh("noise", "folder/a.BVH"));
+    for (const std::string text : {"", " \n", "\xef\xbb\xbf", "solid HIERARCHY", "HIERARCH"})
+        EXPECT_FALSE(is_bvh(text, "a.bvh.clip")) << text;
+}
+
+TEST(BvhHeader, WhatIsNotThereIsLeftToTheReader)
+{
+    EXPECT_NO_THROW(check_bvh_header("", "a.bvh"));
+    EXPECT_NO_THROW(check_bvh_header("HIERARCHY\nMOTION\n", "a.bvh"));
+}
+
+TEST(BvhHeader, FramesMustBeAWholeNumberAboveZero)
+{
+    for (const std::string frames : {"0", "-3", "2.5", "nan", "many"})
+        expect_input_error([&] { check_bvh_header(bvh(frames, "0.01"), "a.bvh"); }, "a.bvh:6: Frames = " + frames, "1 or more");
+}
+
+TEST(BvhHeader, FramesMustFitTheFile)
+{
+    expect_input_error([] { check_bvh_header(bvh("2000000000", "0.01"), "a.bvh"); }, "a.bvh:6: Frames = 2000000000", "too short");
+}
+
+TEST(BvhHeader, RowsBeyondFramesAreRefused)
+{
+    expect_input_error([] { check_bvh_header(bvh("1", "0.01"), "a.bvh"); }, "a.bvh:8: motion = 6 numbers", "Frames times channels: 3");
+}
+
+TEST(BvhHeader, FrameTimeMustBePositiveAndFinite)
+{
+    for (const std::string time : {"0", "-0.01", "nan", "inf", "soon"})
+        expect_input_error([&] { check_bvh_header(bvh("2", time), "a.bvh"); }, "a.bvh:7: Frame Time = " + time, "from 1e-6 to 1000 s");
+}
+
+TEST(BvhHeader, NestingHasAnEnd)
+{
+    std::string text;
+    for (int depth = 0; depth < 100000; ++depth) text += "JOINT a\n{\n";
+    expect_input_error([&] { check_bvh_header(text, "a.bvh"); }, "a.bvh:1002: JOINT", "deeper than 500");
+}
+
+}  // namespace
+
+// Reference: the twist of q = swing * twist is the twist; CMU's names cover every bone of the human except the hips.
+
+namespace {
+
+using namespace pbs;
+
+TEST(TwistAngle, OfATwistWithASwingBeforeIt)
+{
+    const Vec3 axis = Vec3(1.0, -2.0, 0.5).normalized();
+    const Vec3 across = axis.cross(Vec3::UnitX()).normalized();
+    for (const double angle : {-3.0, -1.0, 0.0, 0.3, 1.5, 3.1}) {
+        const Eigen::Quaterniond q(Eigen::AngleAxisd(1.2, across) * Eigen::AngleAxisd(angle, axis));
+        const double rounding = 2.0 * test_support::motion_error(2, 1.0);  // of two rotations, whose quaternions have half the angle
+        EXPECT_NEAR(twist_angle(q, axis), angle, rounding);
+        EXPECT_NEAR(twist_angle(Eigen::Quaterniond(-q.coeffs()), axis), angle, rounding) << "q and -q are one rotation";
+    }
+}
+
+TEST(TwistAngle, OfASwingAloneIsZero)
+{
+    EXPECT_NEAR(twist_angle(Eigen::Quaterniond(Eigen::AngleAxisd(2.0, Vec3::UnitY())), Vec3::UnitX()), 0.0,
+                test_support::motion_error(1, 1.0));
+}
+
+TEST(TwistAngle, OfAHalfTurnSwingIsFinite)  // where the twist is undefined
+{
+    EXPECT_TRUE(std::isfinite(twist_angle(Eigen::Quaterniond(0.0, 0.0, 1.0, 0.0), Vec3::UnitX())));
+}
+
+TEST(JointMap, NamesTheBonesOfTheHuman)
+{
+    const Skeleton human = human_skeleton();
+    std::set<std::string> mapped;
+    for (const JointMapping& mapping : cmu_joint_map()) {
+        EXPECT_GE(find_bone(human, mapping.bone), 0) << mapping.bone;
+        EXPECT_TRUE(mapped.insert(mapping.bone).second) << mapping.bone << " twice";
+    }
+    for (const Bone& bone : human.bones) EXPECT_EQ(mapped.count(bone.name), bone.name.starts_with("hip.") ? 0u : 1u) << bone.name;
+}
+
+}  // namespace

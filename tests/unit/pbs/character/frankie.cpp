@@ -1,0 +1,98 @@
+// Reference: the documented format (a tetrahedron of volume 1/6 and two joints, laid out by hand); each refusal by file and field.
+#include "pbs/character/named_bodies.hpp"
+
+#include "tests/support/iqm_bytes.hpp"
+#include "tests/support/motion_rounding.hpp"
+#include "tests/support/scratch_folder.hpp"
+#include "tests/unit/pbs/character/expect_input_error.hpp"
+
+#include <Eigen/Geometry>
+
+namespace {
+
+using namespace pbs;
+using P = test_support::IqmPlaces;
+
+TEST(Iqm, TrianglesTurnOutwardAndSeamsAreJoined)
+{
+    const test_support::ScratchFolder folder;
+    const IqmModel model = read_iqm(folder.file("tet.iqm", test_support::iqm_bytes()));
+    EXPECT_EQ(model.surface.points.rows(), 4);
+    ASSERT_EQ(model.surface.triangles.rows(), 4);
+    double volume = 0.0;
+    for (Eigen::Index t = 0; t < 4; ++t) {
+        const Vec3 a = model.surface.points.row(model.surface.triangles(t, 0)), b = model.surface.points.row(model.surface.triangles(t, 1)),
+                   c = model.surface.points.row(model.surface.triangles(t, 2));
+        volume += a.dot(b.cross(c)) / 6.0;
+    }
+    EXPECT_DOUBLE_EQ(volume, 1.0 / 6.0);
+}
+
+TEST(Iqm, JointsStandWhereTheirParentsTurnThem)
+{
+    const test_support::ScratchFolder folder;
+    const IqmModel model = read_iqm(folder.file("tet.iqm", test_support::iqm_bytes()));
+    ASSERT_EQ(model.joints.size(), 2u);
+    EXPECT_EQ(model.joints[0].name, "root");
+    EXPECT_EQ(model.joints[1].name, "arm");
+    EXPECT_EQ(model.joints[1].parent, 0);
+    // The joint is 3 along the root's x, which is the world's y, from a height of 2. The quaternion's two equal components in single
+    // precision become those of a quarter turn when it is normalised in double precision.
+    EXPECT_NEAR((model.joints[1].position - Vec3(0.0, 3.0, 2.0)).norm(), 0.0, test_support::motion_error(2, 3.0 + 2.0));
+}
+
+TEST(Iqm, EveryTruncationIsRefused)
+{
+    const test_support::ScratchFolder folder;
+    const std::string whole = test_support::iqm_bytes();
+    for (std::size_t bytes = 0; bytes < whole.size(); bytes += 7) {
+        const std::string path = folder.file("cut.iqm", whole.substr(0, bytes));
+        EXPECT_THROW(read_iqm(path), InputError) << bytes;
+        if (bytes < P::text) continue;
+        std::string consistent = whole.substr(0, bytes);  // its header states the reduced length
+        test_support::put(consistent, P::file_size, static_cast<std::uint32_t>(bytes));
+        const std::string same = folder.file("cut.iqm", consistent);
+        EXPECT_THROW(read_iqm(same), InputError) << bytes;
+    }
+}
+
+struct Damage {
+    const char* name;
+    std::size_t place;
+    std::uint32_t word;
+    const char* field;
+};
+
+class DamagedIqm : public testing::TestWithParam<Damage> {};
+
+TEST_P(DamagedIqm, IsRefusedByFileAndField)
+{
+    const test_support::ScratchFolder folder;
+    std::string bytes = test_support::iqm_bytes();
+    test_support::put(bytes, GetParam().place, GetParam().word);
+    const std::string path = folder.file("bad.iqm", bytes);
+    expect_input_error([&] { read_iqm(path); }, path + ": ", GetParam().field);
+}
+
+constexpr std::uint32_t nan_bits = 0x7fc00000, huge = 0xfffffff0;
+INSTANTIATE_TEST_SUITE_P(
+    Iqm, DamagedIqm,
+    testing::Values(
+        Damage{"magic", 0, 0, "magic"}, Damage{"version", P::version, 1, "version"}, Damage{"file_size", P::file_size, 7, "filesize"},
+        Damage{"more_vertices", P::vertex_count, 1000, "vertexarrays.position"},
+        Damage{"huge_vertices", P::vertex_count, huge, "vertexarrays.position"}, Damage{"fewer_vertices", P::vertex_count, 3, "triangles"},
+        Damage{"no_triangles", P::triangle_count, 0, "num_triangles"}, Damage{"huge_triangles", P::triangle_count, huge, "ofs_triangles"},
+        Damage{"huge_joints", P::joint_count, huge, "ofs_joints"}, Damage{"no_positions", P::array, 1, "vertexarrays.position"},
+        Damage{"positions_of_bytes", P::array + 8, 1, "vertexarrays.position"},
+        Damage{"positions_beyond", P::array + 16, huge, "vertexarrays.position"},
+        Damage{"nan_position", P::points, nan_bits, "vertexarrays.position"}, Damage{"corner_out_of_range", P::triangles, 5, "triangles"},
+        Damage{"name_beyond", P::joints, 400, "name"}, Damage{"its_own_parent", P::joints + 52, 1, "parent"},
+        Damage{"nan_joint", P::joints + 8, nan_bits, "joint root"}, Damage{"no_rotation", P::joints + 48 + 8 + 24, 0, "joint arm"}),
+    [](const auto& info) { return std::string(info.param.name); });
+
+TEST(Iqm, AFileThatIsNotThere)
+{
+    expect_input_error([] { read_iqm("no.iqm"); }, "no.iqm: ", "cannot be opened");
+}
+
+}  // namespace

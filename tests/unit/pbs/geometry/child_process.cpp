@@ -1,0 +1,155 @@
+// Reference: the value that a reader returns, or the way in which it was made to die.
+
+#include "pbs/geometry/child_process.hpp"
+#include "pbs/geometry/input_error.hpp"
+#include "tests/support/scratch_folder.hpp"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <new>
+#include <stdexcept>
+
+namespace {
+
+using Reader = std::function<std::string(const std::string&)>;
+
+std::string message_of(const Reader& read, const std::string& path = "x.vtu")
+{
+    try {
+        return "read: " + pbs::read_isolated(path, read);
+    } catch (const pbs::InputError& error) {
+        return error.what();
+    }
+}
+
+TEST(IsolatedReader, GivesBackEveryByte)
+{
+    EXPECT_EQ(pbs::read_isolated("x", [](const std::string&) { return std::string("a\0b", 3); }), std::string("a\0b", 3));
+    EXPECT_EQ(pbs::read_isolated("x", [](const std::string&) { return std::string(); }), "");
+    const std::string large(5'000'000, 'x');  // many times the capacity of a pipe
+    EXPECT_EQ(pbs::read_isolated("x", [&](const std::string&) { return large; }), large);
+}
+
+TEST(IsolatedReader, WhatTheReaderThrowsComesBack)
+{
+    EXPECT_EQ(message_of([](const std::string& path) -> std::string { throw pbs::InputError(path, 3, "tet", "-1", "expected 0 or more"); }),
+              "x.vtu:3: tet = -1: expected 0 or more");
+    EXPECT_EQ(message_of([](const std::string&) -> std::string { throw std::runtime_error("no header"); }), "x.vtu: no header");
+    EXPECT_EQ(message_of([](const std::string&) -> std::string { throw std::bad_alloc(); }),
+              "x.vtu: damaged: asks for more memory than such a file can need");
+}
+
+TEST(IsolatedReader, ADeathIsAnErrorThatNamesIt)
+{
+    const auto dying = [](int signal) {
+        return [signal](const std::string&) {
+            std::raise(signal);
+            return std::string();
+        };
+    };
+    EXPECT_EQ(message_of(dying(SIGSEGV)), "x.vtu: damaged: the reader broke down on it: Segmentation fault");
+    EXPECT_EQ(message_of(dying(SIGABRT)), "x.vtu: damaged: the reader broke down on it: Aborted");
+    EXPECT_EQ(message_of([](const std::string&) -> std::string { _exit(7); }),
+              "x.vtu: damaged: the reader ended in the middle, with exit status 7");
+    EXPECT_EQ(message_of([](const std::string&) -> std::string { _exit(0); }),
+              "x.vtu: damaged: the reader ended in the middle, with exit status 0");
+}
+
+struct Stop {};
+
+long open_files()
+{
+    return std::distance(std::filesystem::directory_iterator("/proc/self/fd"), std::filesystem::directory_iterator());
+}
+
+TEST(IsolatedReader, WhatTheQuestionThrowsEndsTheReaderAndLeavesNothing)
+{
+    const long before = open_files();
+    int asked = 0;
+    pbs::ask_while_reading([&asked] {
+        if (++asked == 3) throw Stop{};
+    });
+    const auto begin = std::chrono::steady_clock::now();
+    EXPECT_THROW(pbs::read_isolated("x.vtu", [](const std::string&) { return sleep(60), std::string(); }), Stop);
+    pbs::ask_while_reading([] {});
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10));
+    EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1) << "a child was left";
+    EXPECT_EQ(open_files(), before);
+}
+
+std::uintmax_t available_bytes()
+{
+    std::ifstream file("/proc/meminfo");
+    std::uintmax_t kilobytes = 0;
+    for (std::string word; file >> word;)
+        if (word == "MemAvailable:" && file >> kilobytes) break;
+    return 1024 * kilobytes;
+}
+
+// The limit holds for any file size, since a sparse file may have any size at no cost.
+TEST(IsolatedReader, MoreThanHalfOfTheMemoryIsNotGiven)
+{
+    if (std::getenv("PBS_SANITIZED")) GTEST_SKIP() << "sanitizers reserve terabytes: no limit on addresses";
+    const test_support::ScratchFolder folder;
+    const std::string path = folder.file("sparse.vtu", "");
+    std::filesystem::resize_file(path, std::uintmax_t(1) << 36);
+    const auto taking = [](std::uintmax_t bytes) {
+        return [bytes](const std::string&) {
+            std::string room;
+            room.reserve(bytes);
+            return std::string("taken");
+        };
+    };
+    EXPECT_EQ(message_of(taking(available_bytes() / 3), path), "read: taken");
+    EXPECT_EQ(message_of(taking(available_bytes() * 2 / 3), path), path + ": damaged: asks for more memory than such a file can need");
+}
+
+TEST(IsolatedReader, AFileThatShrinksWhileItIsMapped)
+{
+    const test_support::ScratchFolder folder;
+    const std::string path = folder / "shrinking.vtu";
+    std::ofstream(path) << std::string(100'000, 'x');
+    const Reader read = [](const std::string& file) {
+        const int descriptor = open(file.c_str(), O_RDONLY);
+        const void* bytes = mmap(nullptr, 100'000, PROT_READ, MAP_PRIVATE, descriptor, 0);
+        std::filesystem::resize_file(file, 10);
+        return std::string(static_cast<const char*>(bytes), 100'000);
+    };
+    EXPECT_EQ(message_of(read, path), path + ": damaged: the reader broke down on it: Bus error");
+}
+
+}  // namespace
+
+// Reference: the state of this process's own children.
+
+namespace {
+
+TEST(Process, IsGoneOnceItHasEndedThoughNobodyHasAskedHow)
+{
+    EXPECT_FALSE(pbs::process_is_gone(getpid()));
+    const pid_t child = fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+        pause();
+        _exit(0);
+    }
+    EXPECT_FALSE(pbs::process_is_gone(child));
+    kill(child, SIGKILL);
+    siginfo_t how;
+    ASSERT_EQ(waitid(P_PID, child, &how, WEXITED | WNOWAIT), 0);  // it stays a zombie
+    EXPECT_TRUE(pbs::process_is_gone(child));
+    ASSERT_EQ(waitpid(child, nullptr, 0), child);
+    EXPECT_TRUE(pbs::process_is_gone(child));
+}
+
+}  // namespace

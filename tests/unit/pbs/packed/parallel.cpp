@@ -1,0 +1,94 @@
+// Reference: the definition. Every task runs once, and an exception of a task reaches the caller.
+#include "pbs/packed/parallel.hpp"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#ifdef PBS_WITH_THREADS
+#include <tbb/global_control.h>
+#endif
+
+namespace {
+
+#ifdef PBS_WITH_THREADS
+// By default, oneTBB uses no more threads than the machine has cores.
+const tbb::global_control four_threads(tbb::global_control::max_allowed_parallelism, 4);
+#endif
+
+class ParallelTasks : public testing::TestWithParam<int> {
+protected:
+    const pbs::Parallel parallel_{GetParam()};
+};
+
+std::string threads(const testing::TestParamInfo<int>& info)
+{
+    return std::to_string(info.param) + "_threads";
+}
+INSTANTIATE_TEST_SUITE_P(On, ParallelTasks, testing::Values(1, 2, 4), threads);
+
+std::vector<int> runs_of_each(const pbs::Parallel& parallel, int count)
+{
+    std::vector<std::atomic<int>> runs(count);
+    parallel.for_each(count, [&](int task) { ++runs.at(task); });
+    return {runs.begin(), runs.end()};
+}
+
+TEST_P(ParallelTasks, EachOnce)
+{
+    for (const int count : {2, 3, 4, 5, 1000}) EXPECT_EQ(runs_of_each(parallel_, count), std::vector<int>(count, 1)) << count << " tasks";
+}
+
+TEST_P(ParallelTasks, NoneCallsNothing)
+{
+    parallel_.for_each(0, [](int) { FAIL(); });
+}
+
+TEST_P(ParallelTasks, OneIsTaskZero)
+{
+    EXPECT_EQ(runs_of_each(parallel_, 1), std::vector<int>{1});
+}
+
+// When the call returns, the caller can read what the tasks have written.
+TEST_P(ParallelTasks, AreDoneOnReturn)
+{
+    for (int call = 0; call < 100; ++call) {
+        std::vector<int> written(64, 0);
+        parallel_.for_each(64, [&](int task) { written[task] = call + task; });
+        for (int task = 0; task < 64; ++task) ASSERT_EQ(written[task], call + task);
+    }
+}
+
+TEST_P(ParallelTasks, WhatOneThrowsReachesTheCaller)
+{
+    for (const int count : {1, 2, 100})
+        for (const int thrower : {0, count - 1}) {
+            const auto task = [&](int i) {
+                if (i == thrower) throw std::runtime_error("task " + std::to_string(i));
+            };
+            try {
+                parallel_.for_each(count, task);
+                ADD_FAILURE() << "nothing reached the caller";
+            } catch (const std::runtime_error& error) {
+                EXPECT_EQ(error.what(), "task " + std::to_string(thrower));
+            }
+        }
+}
+
+TEST_P(ParallelTasks, GoOnAfterOneThrew)
+{
+    EXPECT_THROW(parallel_.for_each(10, [](int) { throw std::runtime_error("sick"); }), std::runtime_error);
+    EXPECT_EQ(runs_of_each(parallel_, 10), std::vector<int>(10, 1));
+}
+
+TEST_P(ParallelTasks, MovedStillRun)
+{
+    pbs::Parallel from(GetParam());
+    const pbs::Parallel to = std::move(from);
+    EXPECT_EQ(runs_of_each(to, 10), std::vector<int>(10, 1));
+}
+
+}  // namespace

@@ -1,0 +1,330 @@
+// Reference: theory of the first-order autoregressive series x_t = phi x_{t-1} + e_t.
+//   variance of the mean of m samples: s^2/m (1 + 2 sum_{k<m} (1 - k/m) phi^k);   tau = (1 + phi) / (1 - phi).
+// The moving-block bootstrap with blocks of length b reports on average the variance (b/n) (var_b - var_n), estimated with about 3/2 n/b
+// degrees of freedom (overlapping blocks: Kunsch 1989). So its 95 % interval contains the true mean with probability P(|t_nu| < 1.96 r),
+// r^2 = reported over true variance, nu = 3/2 n/b. Tolerance: four binomial standard errors of the trials.
+
+#include "analysis/statistics/fits.hpp"
+#include "analysis/statistics/grid_convergence.hpp"
+#include "analysis/statistics/statistics.hpp"
+#include "pbs/geometry/input_error.hpp"
+#include "tests/support/rounding_error.hpp"
+
+#include <gsl/gsl_cdf.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+namespace {
+
+constexpr double phi = 0.6;
+constexpr int samples = 512, trials = 1000;
+
+std::vector<double> autoregressive_series(int n, std::mt19937_64& random)
+{
+    std::normal_distribution<double> noise;
+    std::vector<double> series;
+    double value = noise(random) / std::sqrt(1.0 - phi * phi);  // stationary from the first sample
+    for (int i = 0; i < n; ++i) {
+        series.push_back(value);
+        value = phi * value + noise(random);
+    }
+    return series;
+}
+
+double variance_of_mean(int m)
+{
+    double sum = 1.0;
+    for (int k = 1; k < m; ++k) sum += 2.0 * (1.0 - double(k) / m) * std::pow(phi, k);
+    return sum / m / (1.0 - phi * phi);
+}
+
+double expected_coverage(int block)
+{
+    const double reported = double(block) / samples * (variance_of_mean(block) - variance_of_mean(samples));
+    const double r = std::sqrt(reported / variance_of_mean(samples)), freedom = 1.5 * samples / block;
+    return 1.0 - 2.0 * gsl_cdf_tdist_Q(1.96 * r, freedom);
+}
+
+struct Coverage {
+    double inside = 0.0, too_high = 0.0, too_low = 0.0;  // shares of the trials; too_high: the whole interval lies above the true mean
+};
+
+Coverage observed_coverage(int block)
+{
+    std::mt19937_64 random(42);
+    Coverage coverage;
+    for (int trial = 0; trial < trials; ++trial) {
+        const auto interval = analysis::bootstrap_mean(autoregressive_series(samples, random),
+                                                       {.resamples = 400, .seed = static_cast<unsigned long>(trial + 1), .block = block});
+        (interval.low > 0.0 ? coverage.too_high : interval.high < 0.0 ? coverage.too_low : coverage.inside) += 1.0 / trials;
+    }
+    return coverage;
+}
+
+double four_standard_errors(double coverage)
+{
+    return 4.0 * std::sqrt(coverage * (1.0 - coverage) / trials);
+}
+
+class BlockBootstrap : public testing::TestWithParam<int> {};
+
+TEST_P(BlockBootstrap, CoversTheMeanAsTheorySays)
+{
+    const double expected = expected_coverage(GetParam());
+    const Coverage observed = observed_coverage(GetParam());
+    EXPECT_NEAR(observed.inside, expected, four_standard_errors(expected));
+    const double either_side = 0.5 * (1.0 - expected);  // the noise is symmetric
+    EXPECT_NEAR(observed.too_high, either_side, four_standard_errors(either_side));
+    EXPECT_NEAR(observed.too_low, either_side, four_standard_errors(either_side));
+}
+
+INSTANTIATE_TEST_SUITE_P(OfAnAutoregressiveSeries, BlockBootstrap, testing::Values(1, 4, 16));
+
+// With the block length chosen from the series itself, at least the coverage of half the best length for this phi.
+TEST(BlockBootstrap, ChoosesABlockThatCovers)
+{
+    const double tau = (1.0 + phi) / (1.0 - phi);
+    const int best = static_cast<int>(std::cbrt(1.5 * samples) * std::pow((tau * tau - 1.0) / (2.0 * tau), 2.0 / 3.0));
+    const double least = expected_coverage(best / 2);
+    EXPECT_GT(observed_coverage(0).inside, least - four_standard_errors(least));
+    EXPECT_GT(least, expected_coverage(1) + four_standard_errors(least));
+}
+
+// Relative standard error of the estimate: sqrt(2 (2 W + 1) / n) with the window W = 5 tau (Madras and Sokal 1988), 2 % here.
+TEST(AutocorrelationTime, OfAnAutoregressiveSeriesIsKnown)
+{
+    const int n = 200000;
+    std::mt19937_64 random(5);
+    const double tau = (1.0 + phi) / (1.0 - phi), relative_error = std::sqrt(2.0 * (10.0 * tau + 1.0) / n);
+    EXPECT_NEAR(analysis::integrated_autocorrelation_time(autoregressive_series(n, random)), tau, 4.0 * relative_error * tau);
+}
+
+}  // namespace
+
+// Reference: NIST Statistical Reference Dataset "Norris" (36 points, certified to 15 digits), and power laws. Tolerances: half a unit of
+// the last certified digit, and the rounding of a fit.
+
+namespace {
+
+using analysis::fit_line;
+using analysis::observed_order;
+using test_support::rounding_error;
+
+// The rounding of a fit to n points: running means in three roundings of each point; slope, the quotient of two sums of products of
+// deviations, each in eight roundings with those of the means; intercept, from the means and the slope; a residual, from four terms.
+struct FitRounding {
+    double slope, intercept, residual;
+
+    FitRounding(const std::vector<double>& x, const std::vector<double>& y, double fitted_slope)
+    {
+        const auto largest = [](const std::vector<double>& v) {
+            return std::max(*std::max_element(v.begin(), v.end()), -*std::min_element(v.begin(), v.end()));
+        };
+        const double n = static_cast<double>(x.size());
+        slope = rounding_error(2.0 * (n + 8), std::abs(fitted_slope));
+        intercept = rounding_error(3.0 * n, largest(y) + std::abs(fitted_slope) * largest(x)) + slope * largest(x);
+        residual = rounding_error(4, largest(y) + std::abs(fitted_slope) * largest(x)) + intercept + slope * largest(x);
+    }
+};
+
+const std::vector<double> norris_x = {0.2, 337.4, 118.2, 884.6, 10.1,  226.5, 666.3, 996.3, 448.6, 777.0, 558.2, 0.4,
+                                      0.6, 775.5, 666.9, 338.0, 447.5, 11.6,  556.0, 228.1, 995.8, 887.6, 120.2, 0.3,
+                                      0.3, 556.8, 339.1, 887.2, 999.0, 779.0, 11.1,  118.3, 229.2, 669.1, 448.9, 0.5};
+const std::vector<double> norris_y = {0.1, 338.8, 118.1, 888.0, 9.2,   228.1, 668.5, 998.5, 449.1, 778.9, 559.2, 0.3,
+                                      0.1, 778.1, 668.8, 339.3, 448.9, 10.8,  557.7, 228.3, 998.0, 888.8, 119.6, 0.3,
+                                      0.6, 557.6, 339.3, 888.0, 998.5, 778.9, 10.2,  117.6, 228.9, 668.4, 449.2, 0.2};
+
+TEST(LineFit, NorrisCertifiedValues)
+{
+    const auto fit = fit_line(norris_x, norris_y);
+    const FitRounding rounding(norris_x, norris_y, 1.0);
+    EXPECT_NEAR(fit.slope.estimate, 1.00211681802045, 0.5e-14 + rounding.slope);
+    EXPECT_NEAR(fit.intercept.estimate, -0.262323073774029, 0.5e-15 + rounding.intercept);
+    EXPECT_NEAR(fit.residual_rms * std::sqrt(36.0 / 34.0), 0.884796396144373, 0.5e-15 + rounding.residual);
+    // Standard errors are proportional to the residual.
+    const double t = gsl_cdf_tdist_Pinv(0.975, 34), relative = (rounding.residual + 0.5e-15) / 0.88;
+    EXPECT_NEAR(fit.slope.high - fit.slope.estimate, t * 0.000429796848199937, t * 0.00043 * relative + rounding_error(2, 1.0));
+    EXPECT_NEAR(fit.intercept.estimate - fit.intercept.low, t * 0.232818234301152, t * 0.233 * relative);
+    EXPECT_EQ(fit.slope.n, 36);
+}
+
+TEST(LineFit, ExactLineHasNoWidth)
+{
+    const std::vector<double> x = {0.0, 1.0, 3.0, 4.0}, y = {1.0, 3.0, 7.0, 9.0};
+    const auto fit = fit_line(x, y);
+    const FitRounding rounding(x, y, 2.0);
+    // Residuals are rounding errors: the standard errors are at most their root mean square over two degrees of freedom, times the root of
+    // 1 / Sxx for the slope and of 1 / n + mean^2 / Sxx for the intercept, with Sxx = 10 and a mean of 2.
+    const double wide = gsl_cdf_tdist_Pinv(0.975, 2) * std::sqrt(4.0 / 2.0) * rounding.residual;
+    EXPECT_NEAR(fit.slope.estimate, 2.0, rounding.slope);
+    EXPECT_NEAR(fit.slope.low, 2.0, rounding.slope + wide * std::sqrt(1.0 / 10.0));
+    EXPECT_NEAR(fit.intercept.high, 1.0, rounding.intercept + wide * std::sqrt(1.0 / 4.0 + 4.0 / 10.0));
+}
+
+TEST(LineFit, TwoPointsHaveNoInterval)
+{
+    const auto fit = fit_line({0.0, 1.0}, {1.0, 3.0});
+    EXPECT_DOUBLE_EQ(fit.slope.estimate, 2.0);
+    EXPECT_TRUE(std::isnan(fit.slope.low));
+}
+
+TEST(ObservedOrder, OfAPowerLawIsItsExponent)
+{
+    const std::vector<double> h = {0.1, 0.05, 0.025, 0.0125};
+    std::vector<double> error;
+    for (double size : h) error.push_back(3.0 * std::pow(size, 1.75));
+    const auto fit = observed_order(h, error);
+    // Errors go through four roundings and their logarithms through one more; errors of the logarithms turn the line by at most their size
+    // over the deviations' mean magnitude, since slope = sum of deviation times y over the sum of squared deviations.
+    const std::vector<double> x = {std::log(h[0]), std::log(h[1]), std::log(h[2]), std::log(h[3])};
+    const FitRounding rounding(x, {std::log(error[0]), std::log(error[3])}, 1.75);
+    const double of_logarithms = rounding_error(4, 1.0) + rounding_error(1, -std::log(error[3])) + 1.75 * rounding_error(1, -x[3]);
+    const double of_slope = rounding.slope + of_logarithms / (std::log(2.0) * (1.5 * 1.5 + 0.5 * 0.5) / (1.5 + 0.5));
+    EXPECT_NEAR(fit.slope.estimate, 1.75, of_slope);
+    EXPECT_NEAR(fit.intercept.estimate, std::log(3.0), rounding.intercept + of_logarithms + of_slope * -x[3]);
+}
+
+TEST(LineFit, RefusesWhatHasNoLine)
+{
+    EXPECT_THROW(fit_line({1.0}, {1.0}), pbs::InputError);
+    EXPECT_THROW(fit_line({1.0, 2.0}, {1.0}), pbs::InputError);
+    EXPECT_THROW(fit_line({1.0, 1.0}, {1.0, 2.0}), pbs::InputError);
+    EXPECT_THROW(observed_order({0.1, 0.05}, {0.0, 1.0}), pbs::InputError);
+}
+
+}  // namespace
+
+// Reference: series made from the formula, with and without noise of a known size.
+
+namespace {
+
+using analysis::fit_damped_oscillation;
+using analysis::OscillationOutcome;
+
+std::vector<double> oscillation(double frequency_hz, double damping_ratio, double noise = 0.0, unsigned seed = 1)
+{
+    const double omega = 2.0 * std::numbers::pi * frequency_hz;
+    const double decay = omega * damping_ratio / std::sqrt(1.0 - damping_ratio * damping_ratio);
+    std::mt19937_64 random(seed);
+    std::normal_distribution<double> normal(0.0, 1.0);
+    std::vector<double> series;
+    for (int i = 0; i < 300; ++i) {
+        const double t = 0.01 * i;
+        series.push_back(0.02 + std::exp(-decay * t) * std::cos(omega * t + 0.4) + noise * normal(random));
+    }
+    return series;
+}
+
+// Three seconds at 100 Hz. The fit ends at a step of 1e-10 of each parameter, and without noise the error that remains is far smaller than
+// the last step. The damping ratio is a quotient of two parameters.
+TEST(DampedOscillation, FrequencyAndDampingComeBack)
+{
+    for (const double frequency_hz : {1.0, 4.0, 11.0})
+        for (const double damping_ratio : {0.005, 0.05, 0.3}) {
+            const auto swing = fit_damped_oscillation(oscillation(frequency_hz, damping_ratio), 0.01);
+            ASSERT_EQ(swing.outcome, OscillationOutcome::found) << frequency_hz << " " << damping_ratio;
+            EXPECT_NEAR(swing.frequency_hz.estimate, frequency_hz, 1e-10 * frequency_hz);
+            EXPECT_NEAR(swing.damping_ratio.estimate, damping_ratio, 2.0 * 1e-10 * damping_ratio);
+            EXPECT_NEAR(swing.amplitude, 1.0, 1e-10);
+        }
+}
+
+// With white noise the 95 % interval contains the true value in 95 of 100 series; fewer than 85 would occur once in 30,000 times
+// (binomial).
+TEST(DampedOscillation, IntervalHoldsTheTruthAsOftenAsItSays)
+{
+    int frequency_held = 0, damping_held = 0;
+    for (unsigned seed = 0; seed < 100; ++seed) {
+        const auto swing = fit_damped_oscillation(oscillation(4.0, 0.03, 0.05, seed), 0.01);
+        frequency_held += swing.frequency_hz.low <= 4.0 && 4.0 <= swing.frequency_hz.high;
+        damping_held += swing.damping_ratio.low <= 0.03 && 0.03 <= swing.damping_ratio.high;
+    }
+    EXPECT_GE(frequency_held, 85);
+    EXPECT_GE(damping_held, 85);
+    EXPECT_LE(frequency_held + damping_held, 199);
+}
+
+// A swing of 25 Hz with a damping ratio of 0.3 has decayed after 8 samples.
+TEST(DampedOscillation, OneThatDiesAtOnceIsTooShort)
+{
+    EXPECT_EQ(fit_damped_oscillation(oscillation(25.0, 0.3), 0.01).outcome, OscillationOutcome::too_short);
+}
+
+TEST(DampedOscillation, ACreepIsOverdamped)
+{
+    std::vector<double> series;
+    for (int i = 0; i < 300; ++i) series.push_back(std::exp(-0.03 * i));
+    EXPECT_EQ(fit_damped_oscillation(series, 0.01).outcome, OscillationOutcome::overdamped);
+}
+
+TEST(DampedOscillation, StillnessShortnessAndNoiseAreNone)
+{
+    EXPECT_EQ(fit_damped_oscillation({}, 0.01).outcome, OscillationOutcome::none);
+    EXPECT_EQ(fit_damped_oscillation(std::vector<double>(50, 3.0), 0.01).outcome, OscillationOutcome::none);
+    EXPECT_EQ(fit_damped_oscillation({1.0, std::nan(""), 2.0}, 0.01).outcome, OscillationOutcome::none);
+    std::vector<double> one_kick(100, 0.0);
+    one_kick[0] = 1.0;
+    EXPECT_EQ(fit_damped_oscillation(one_kick, 0.01).outcome, OscillationOutcome::too_short);
+    std::mt19937_64 random(7);
+    std::normal_distribution<double> normal(0.0, 1.0);
+    std::vector<double> noise(300);
+    for (double& y : noise) y = normal(random);
+    EXPECT_EQ(fit_damped_oscillation(noise, 0.01).outcome, OscillationOutcome::unclear);
+}
+
+}  // namespace
+
+// Grid convergence compared with printed values, and with a field of a known order. Reference: the sample table of I. B. Celik et al.,
+// Journal of Fluids Engineering 130, 078001, 2008; the worked example of NASA's NPARC tutorial "Examining Spatial (Grid) Convergence"
+// (J. W. Slater; pressure recovery of an inlet), which follows P. J. Roache. Both observe their order on a third grid; here it is presumed.
+// Their index has the safety factor 1.25 of three grids.
+
+namespace {
+
+constexpr double of_three_grids = 1.25 / analysis::grid_safety_factor;
+
+struct PrintedColumn {
+    std::array<double, 2> values;
+    double ratio, order, extrapolated, gci_pct;
+};
+
+class CelikTable : public testing::TestWithParam<PrintedColumn> {};
+
+// The printed order has two decimals: half a digit of it changes the limit by at most `of_order`, to which half of the last printed digit
+// is added.
+TEST_P(CelikTable, LimitAndIndex)
+{
+    const PrintedColumn& column = GetParam();
+    const auto at = [&](double order) { return analysis::two_grids(column.values, column.ratio, order); };
+    const analysis::GridConvergence grids = at(column.order);
+    const double of_order = std::abs(at(column.order - 0.005).extrapolated - grids.extrapolated);
+    EXPECT_NEAR(grids.extrapolated, column.extrapolated, of_order + 0.00005);
+    EXPECT_NEAR(100.0 * of_three_grids * grids.bounds[0] / column.values[0], column.gci_pct, 125.0 * of_order / column.values[0] + 0.05);
+}
+
+// Reattachment length and axial velocity over a backward facing step.
+INSTANTIATE_TEST_SUITE_P(Columns, CelikTable,
+                         testing::Values(PrintedColumn{{6.063, 5.972}, 1.5, 1.53, 6.1685, 2.2},
+                                         PrintedColumn{{10.7880, 10.7250}, 2.0, 0.75, 10.8801, 1.1}));
+
+TEST(NparcTutorial, PressureRecovery)
+{
+    const analysis::GridConvergence grids = analysis::two_grids({0.97050, 0.96854}, 2.0, 1.786170);
+    EXPECT_NEAR(grids.extrapolated, 0.97130, 5e-6);
+    // The order has six decimals, so that it changes the index by less than half of its last printed digit.
+    EXPECT_NEAR(100.0 * of_three_grids * grids.bounds[0] / 0.97050, 0.103083, 5e-7 + 1e-7);
+    EXPECT_NEAR(100.0 * of_three_grids * grids.bounds[1] / 0.96854, 0.356249, 5e-7 + 1e-7);
+}
+
+// The fields limit + h e and limit + 2 h e differ by h |e|. The coarser one is twice as far from the limit, and the safety factor is 3.
+TEST(MadeUpField, IsBoundedByThreeTimesItsDistance)
+{
+    constexpr double difference = 0.3;
+    EXPECT_EQ(analysis::two_fields(difference, 2.0, 1.0).bounds[1], 3.0 * 2.0 * difference);
+}
+
+}  // namespace
