@@ -1,6 +1,6 @@
 // C03, C12: how fast the solver converges, from which initial guess, and towards what. Every run iterates the paper's constraints far past
-// its 24 iterations from four initial guesses (convergence/convergence_case.hpp) and measures residuals, volume and the error to the reference
-// (shared/posed_reference.hpp).
+// its 24 iterations from four initial guesses (convergence/convergence_case.hpp) and measures residuals, volume and the error to the
+// reference (shared/posed_reference.hpp).
 //
 //   limb_twist, limb_bend   90 and 170 deg, 60 and 90 deg; three orders, two precisions, other tessellations of the same size
 //   human, ...              poses of the clip 01_01, every real body that is installed, at the sizes of Table 1

@@ -75,8 +75,7 @@ std::vector<ComparedDeformer> mushing()
                                    .few_iterations = {2, 10, 50},
                                    .grid = each_of("delta_mush.step", {"0.25", "0.9"}),
                                    .codes = precisions_of("delta_mush")};
-    const ComparedDeformer direct = {
-        .kind = "direct_delta_mush", .grid = direct_settings(), .codes = precisions_of("direct_delta_mush")};
+    const ComparedDeformer direct = {.kind = "direct_delta_mush", .grid = direct_settings(), .codes = precisions_of("direct_delta_mush")};
     std::vector<ComparedDeformer> entries;
     for (ComparedDeformer entry : {mush, direct}) {
         entry.name = entry.kind;
@@ -139,10 +138,10 @@ std::vector<ComparedDeformer> elastic_ones()
 {
     std::vector<SettingChange> of_vbd = each_of("vbd.omega", {"1", "1.5", "1.75"});
     of_vbd.push_back({{"vbd.acceleration=chebyshev", "vbd.omega=1", "vbd.rho=0.9"}});
-    return {elastic("quasi_newton",
-                    {{}, {{"quasi_newton.volume_share=0.3"}}, {{"quasi_newton.volume_share=1"}}, {{"quasi_newton.start=lbs"}}}),
-            elastic("vbd", of_vbd), elastic("xpbd_neo_hookean", each_of("xpbd_neo_hookean.time_step", {"0.4", "0.6"})),
-            elastic("projective_dynamics", {{}})};
+    return {
+        elastic("quasi_newton", {{}, {{"quasi_newton.volume_share=0.3"}}, {{"quasi_newton.volume_share=1"}}, {{"quasi_newton.start=lbs"}}}),
+        elastic("vbd", of_vbd), elastic("xpbd_neo_hookean", each_of("xpbd_neo_hookean.time_step", {"0.4", "0.6"})),
+        elastic("projective_dynamics", {{}})};
 }
 
 // A change to PBS in its packed code. The settings that the quick form takes come first.
@@ -237,7 +236,8 @@ const std::vector<ComparedDeformer>& changes_to_pbs()
             change("region_volumes", {improved + "volume_of=regions"}, improved + "region_tets", {"64", "256", "16", "1024"}),
             change("tet_and_region_volumes", {improved + "volume_of=tets_and_regions"}, improved + "region_tets",
                    {"64", "256", "16", "1024"}),
-            change("k_by_edge_length", {}), change("another_order", {}, "pbs.order", {"grouped", "plain"}),
+            change("k_by_edge_length", {}),
+            change("another_order", {}, "pbs.order", {"grouped", "plain"}),
             change(control, {}, "pbs.k_stretch", {"0.5", "0.05", "0.1", "0.9"})};
         all[0].smooth_weights = all[4].k_by_edge_length = true;
         all[5].codes = {{"pbs.precision=f32"}};

@@ -72,10 +72,10 @@ const std::vector<DeformerGroup>& deformer_groups();
 // These groups, followed by one for each of these deformers of the user's own.
 std::vector<DeformerGroup> groups_with(const std::vector<std::string>& external);
 
-// Deformers of the user's own in the comparison: the [[external]] tables of a file, which is written like a scene. An entry has no ladder of
-// iterations, no grid of settings and one code, so that it is one point per pose, on the case's own mesh. Throws an InputError for a file
-// that cannot be read, has no such table or other tables, a name that is that of a compared deformer or used twice, a program that cannot
-// be started, and a library that cannot be loaded. Paths are relative to the file. Libraries are loaded in another process.
+// Deformers of the user's own in the comparison: the [[external]] tables of a file, which is written like a scene. An entry has no ladder
+// of iterations, no grid of settings and one code, so that it is one point per pose, on the case's own mesh. Throws an InputError for a
+// file that cannot be read, has no such table or other tables, a name that is that of a compared deformer or used twice, a program that
+// cannot be started, and a library that cannot be loaded. Paths are relative to the file. Libraries are loaded in another process.
 //   of.external = external_entries("mine.toml");
 std::vector<DeformerSpec> external_entries(const std::string& file);
 

@@ -291,8 +291,7 @@ std::vector<Diagram> diagrams_of(const std::vector<CaseRecords>& cases, const st
             for (const auto& [name, of] : families)
                 if (of.size() >= fewest_for_a_mean)
                     diagrams.push_back(mean_diagram(fmt::format("{}_mean_of_{}_{}", name, of.size(), over), of));
-        if (evaluated.size() > 1)
-            diagrams.push_back(mean_diagram(fmt::format("mean_of_{}_evaluated_poses", evaluated.size()), evaluated));
+        if (evaluated.size() > 1) diagrams.push_back(mean_diagram(fmt::format("mean_of_{}_evaluated_poses", evaluated.size()), evaluated));
     }
     return diagrams;
 }

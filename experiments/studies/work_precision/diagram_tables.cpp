@@ -2,7 +2,6 @@
 
 #include "experiments/studies/shared/case_name.hpp"
 
-
 #include <algorithm>
 #include <cmath>
 #include <set>

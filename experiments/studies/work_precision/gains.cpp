@@ -189,8 +189,9 @@ GainRow over_baseline(const std::string& change, const ByPose& rows)
     std::set<std::string> settings;
     double iterations = 0.0, volume = 0.0;
     for (const auto& [pose, row] : rows) {
-        poses.push_back({row.error_pct, row.baseline_error_pct,
-                         analysis::shift_of_difference({row.error_pct, row.baseline_error_pct, row.distance_pct, row.reference_error_pct})});
+        poses.push_back(
+            {row.error_pct, row.baseline_error_pct,
+             analysis::shift_of_difference({row.error_pct, row.baseline_error_pct, row.distance_pct, row.reference_error_pct})});
         if (!row.setting.empty()) settings.insert(row.setting);
         iterations += row.iterations / double(rows.size());
         volume += std::abs(row.volume_change_pct) / double(rows.size());

@@ -64,8 +64,8 @@ struct GainRow {
 extern const analysis::Columns<GainRow> gain_columns;
 
 // Per group and budget: each change relative to the baseline, the largest gain first; then the first change relative to the second one and
-// to the control. The control (compared_deformers.hpp) is no change, and a change without a value in some pose has no such mean: they are not
-// compared with the others.
+// to the control. The control (compared_deformers.hpp) is no change, and a change without a value in some pose has no such mean: they are
+// not compared with the others.
 std::vector<GainRow> gains_of(const std::vector<EqualTimeRow>& rows);
 
 // A point of a curve in the figure: the mean over the poses of a body at one number of iterations. The setting is the one that was chosen

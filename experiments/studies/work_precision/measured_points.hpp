@@ -8,8 +8,8 @@
 // iterations ends where a frame takes longer than the limit. The limit of the deformers that minimise an energy, from which their distance
 // is measured, is the point of linear elements with their law on the case's own tets (PointSetting::is_limit_of_deformers).
 // On unrefined tets a reference has no bound, except in the rows of changes to PBS: there it is the distance from linear elements on the
-// same tets. It holds if quadratic elements at least halve the error of linear ones, |P2 - x| <= |P1 - x| / 2 <= (|P1 - P2| + |P2 - x|) / 2,
-// as they do in the poses of the quick form.
+// same tets. It holds if quadratic elements at least halve the error of linear ones, |P2 - x| <= |P1 - x| / 2 <= (|P1 - P2| + |P2 - x|) /
+// 2, as they do in the poses of the quick form.
 #pragma once
 
 #include "experiments/studies/shared/timed_rounds.hpp"

@@ -38,7 +38,7 @@ struct FrameTime {
 // samples: [ms], not a number where a round failed.
 FrameTime frame_time(std::vector<double> samples);
 
-inline constexpr int fewest_for_quartiles = 3;                           // rounds
+inline constexpr int fewest_for_quartiles = 3;                        // rounds
 inline constexpr std::array<int, 3> budget_iterations = {4, 24, 96};  // of PBS: a change is compared with it in the time of these
 
 // The errors against the members of the family after the first one, in their order.

@@ -22,11 +22,11 @@ namespace experiments {
 struct PointSetting {
     std::string deformer;  // its front: lbs, dqs, delta_mush, pbs, xpbd, xpbd_small_steps, fem_linear, ...
     DeformerSpec spec;
-    std::optional<int> iterations = {};  // of its ladder
-    std::string tuned = {};              // the setting of its grid, see name_of(SettingChange)
-    int vertices = 0;                    // wanted size of another mesh of the body; 0: the case's own
-    bool refined = false;                // on the case's own tets, each cut into eight
-    const ComparedDeformer* change = {}; // the change to PBS that it is a setting of; null: of none
+    std::optional<int> iterations = {};   // of its ladder
+    std::string tuned = {};               // the setting of its grid, see name_of(SettingChange)
+    int vertices = 0;                     // wanted size of another mesh of the body; 0: the case's own
+    bool refined = false;                 // on the case's own tets, each cut into eight
+    const ComparedDeformer* change = {};  // the change to PBS that it is a setting of; null: of none
 
     bool is_external() const { return options_if<ExternalOptions>(spec) != nullptr; }  // a deformer of the user's own
     bool on_own_mesh() const { return vertices == 0 && !refined; }

@@ -47,8 +47,8 @@ struct PlannedPose {
     double cost_s = 0.0, quick_cost_s = 0.0;        // in full and in the quick form; 0: not in the quick form
 };
 
-// 1. The poses. The limb is one body, twisted or bent. The human has four poses by name, and four that are not chosen: at 1/5, 2/5, 3/5 and 4/5 of the
-// clip. The order decides which poses train (point_row.hpp).
+// 1. The poses. The limb is one body, twisted or bent. The human has four poses by name, and four that are not chosen: at 1/5, 2/5, 3/5 and
+// 4/5 of the clip. The order decides which poses train (point_row.hpp).
 std::vector<PlannedPose> limb_poses()
 {
     return {{.body = "limb", .motion = "twist", .angle_deg = 90, .changes = true, .cost_s = 110.0, .quick_cost_s = 20.0},
@@ -59,10 +59,11 @@ std::vector<PlannedPose> limb_poses()
 
 std::vector<PlannedPose> human_poses()
 {
-    std::vector<PlannedPose> poses = {{.pose = "standing", .frame = clip_frames::standing, .changes = true},
-                                      {.pose = "crouch", .frame = clip_frames::crouch, .refined = true, .changes = true, .quick_cost_s = 45.0},
-                                      {.pose = "in_the_air", .frame = clip_frames::in_the_air, .refined = true, .changes = true},
-                                      {.pose = "landing", .frame = clip_frames::landing, .changes = true}};
+    std::vector<PlannedPose> poses = {
+        {.pose = "standing", .frame = clip_frames::standing, .changes = true},
+        {.pose = "crouch", .frame = clip_frames::crouch, .refined = true, .changes = true, .quick_cost_s = 45.0},
+        {.pose = "in_the_air", .frame = clip_frames::in_the_air, .refined = true, .changes = true},
+        {.pose = "landing", .frame = clip_frames::landing, .changes = true}};
     const Scene scene = read_scene("human_01_01", {});
     const pbs::Motion motion = make_motion(scene.motion, pbs::make_character(scene.character).skeleton, scene.file);
     const int last = static_cast<int>(motion.steps.size()) / motion.steps_per_frame - 1;
@@ -93,10 +94,9 @@ void set_clip(WorkPrecisionCase& of, const PlannedPose& pose)
     of.frame = pose.frame;
 }
 
-// 2. The extent. In full: all rungs and settings, meshes of other sizes, a bound on the error of each reference, and on the evaluated poses the other
-// references of the family. In the fine creases of a bend Newton's method takes minutes per frame on a finer mesh, so that it has no finite
-// elements there. The changes to PBS are compared in the quick form in two poses
-// of the limb.
+// 2. The extent. In full: all rungs and settings, meshes of other sizes, a bound on the error of each reference, and on the evaluated poses
+// the other references of the family. In the fine creases of a bend Newton's method takes minutes per frame on a finer mesh, so that it has
+// no finite elements there. The changes to PBS are compared in the quick form in two poses of the limb.
 void set_extent(WorkPrecisionCase& of, const PlannedPose& pose, bool full)
 {
     const bool is_limb = pose.angle_deg > 0;
@@ -168,9 +168,10 @@ std::string nearest_text(const std::vector<Diagram>& diagrams)
             if (diagram.comparison == comparison && diagram.half == Half::evaluation) shown = {diagram};
         std::vector<BudgetRow> nearest = best_within(shown);
         std::erase_if(nearest, [](const BudgetRow& row) { return row.rank > 1; });
-        text += text_table(table_of(budget_columns, nearest),
-                           analysis::report_columns("comparison case budget_ms group deformer iterations tuned ms_median:.2g error_joint_pct:.1f "
-                                          "decision undecided_against")) +
+        text += text_table(
+                    table_of(budget_columns, nearest),
+                    analysis::report_columns("comparison case budget_ms group deformer iterations tuned ms_median:.2g error_joint_pct:.1f "
+                                             "decision undecided_against")) +
                 "\n";
     }
     return text;
@@ -180,9 +181,10 @@ std::string gains_text(std::vector<GainRow> gains)
 {
     std::erase_if(gains, [](const GainRow& gain) { return gain.group != all_poses; });
     if (gains.empty()) return "";
-    return text_table(table_of(gain_columns, gains),
-                      analysis::report_columns("budget_iterations change than poses error_pct:.2f than_error_pct:.2f gain_pct:.2f gain_low_pct:.2f "
-                                     "gain_high_pct:.2f reference_error_pct:.2f decision settings"));
+    return text_table(
+        table_of(gain_columns, gains),
+        analysis::report_columns("budget_iterations change than poses error_pct:.2f than_error_pct:.2f gain_pct:.2f gain_low_pct:.2f "
+                                 "gain_high_pct:.2f reference_error_pct:.2f decision settings"));
 }
 
 StudyConclusion conclude(const FinishedRuns& finished)

@@ -274,8 +274,7 @@ struct RefusedEntry {
     std::string tables, place, rule = {};
 };
 
-class RefusedEntries : public ExternalEntries, public testing::WithParamInterface<RefusedEntry> {
-};
+class RefusedEntries : public ExternalEntries, public testing::WithParamInterface<RefusedEntry> {};
 
 TEST_P(RefusedEntries, NameThePlaceAndTheRule)
 {
@@ -285,19 +284,19 @@ TEST_P(RefusedEntries, NameThePlaceAndTheRule)
 }
 
 const std::string alone = "expected only [[external]] tables";
-INSTANTIATE_TEST_SUITE_P(
-    OfOtherTables, RefusedEntries,
-    testing::Values(RefusedEntry{"", ": external: missing", "expected at least one [[external]] table"},
-                    RefusedEntry{"[external]\nname = \"mine\"\n", ":2: external:", "expected [[external]] tables"},
-                    RefusedEntry{entry_table("mine") + "[deformers]\nuse = [\"mine\"]\n", ":5: deformers:", alone},
-                    RefusedEntry{entry_table("mine") + "deformers.use = [\"mine\"]\n", ":5: external.0.deformers", "unknown key"},
-                    RefusedEntry{"deformers.use = [\"mine\"]\n" + entry_table("mine"), ":2: deformers:", alone},
-                    RefusedEntry{entry_table("mine") + "[[fem]]\nname = \"solid\"\n", ":5: fem.0:", alone},
-                    RefusedEntry{entry_table("mine") + "[[fem]]\nmodel = \"linear\"\n", ":5: fem.0:", alone},
-                    RefusedEntry{entry_table("mine") + "[[lbs]]\n", ":5: lbs.0:", alone},
-                    RefusedEntry{entry_table("mine") + "[pbs]\n", ":5: pbs:", alone},
-                    RefusedEntry{entry_table("mine") + "[reference]\nname = \"mine\"\n", ":5: reference:", alone},
-                    RefusedEntry{entry_table("mine") + "[[mine]]\n", ":5: mine", "unknown key"}));
+INSTANTIATE_TEST_SUITE_P(OfOtherTables, RefusedEntries,
+                         testing::Values(RefusedEntry{"", ": external: missing", "expected at least one [[external]] table"},
+                                         RefusedEntry{"[external]\nname = \"mine\"\n", ":2: external:", "expected [[external]] tables"},
+                                         RefusedEntry{entry_table("mine") + "[deformers]\nuse = [\"mine\"]\n", ":5: deformers:", alone},
+                                         RefusedEntry{entry_table("mine") + "deformers.use = [\"mine\"]\n", ":5: external.0.deformers",
+                                                      "unknown key"},
+                                         RefusedEntry{"deformers.use = [\"mine\"]\n" + entry_table("mine"), ":2: deformers:", alone},
+                                         RefusedEntry{entry_table("mine") + "[[fem]]\nname = \"solid\"\n", ":5: fem.0:", alone},
+                                         RefusedEntry{entry_table("mine") + "[[fem]]\nmodel = \"linear\"\n", ":5: fem.0:", alone},
+                                         RefusedEntry{entry_table("mine") + "[[lbs]]\n", ":5: lbs.0:", alone},
+                                         RefusedEntry{entry_table("mine") + "[pbs]\n", ":5: pbs:", alone},
+                                         RefusedEntry{entry_table("mine") + "[reference]\nname = \"mine\"\n", ":5: reference:", alone},
+                                         RefusedEntry{entry_table("mine") + "[[mine]]\n", ":5: mine", "unknown key"}));
 INSTANTIATE_TEST_SUITE_P(
     OfTheirNames, RefusedEntries,
     testing::Values(RefusedEntry{entry_table("fem_linear"), ":3: external.0.name = fem_linear", "of the comparison"},

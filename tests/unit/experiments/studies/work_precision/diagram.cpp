@@ -222,7 +222,8 @@ TEST(Diagram, AMeanHasTheFurtherReferencesThatAllPosesHave)
 TEST(Diagram, AMeanThrowsNoBodyOfManyPosesTogetherWithOthersOfOne)
 {
     std::vector<CaseRows> tables;
-    for (const char* pose : {"crouch", "standing", "folded"}) tables.push_back(hand_case({.body = "human", .pose = pose}, seven_points(30.0)));
+    for (const char* pose : {"crouch", "standing", "folded"})
+        tables.push_back(hand_case({.body = "human", .pose = pose}, seven_points(30.0)));
     for (const char* body : {"man", "lady"}) tables.push_back(hand_case({.body = body, .pose = "crouch"}, seven_points(60.0)));
     for (const char* motion : {"twist", "bend"})
         tables.push_back(hand_case({.body = "limb", .motion = motion, .angle_deg = 90.0}, seven_points(90.0)));
@@ -263,8 +264,7 @@ struct DecidedCase {
     bool knows_the_bound = true;
 };
 
-class Decisions : public testing::TestWithParam<DecidedCase> {
-};
+class Decisions : public testing::TestWithParam<DecidedCase> {};
 
 TEST_P(Decisions, NeedADifferenceOfMoreThanTwiceTheBoundForEachReference)
 {
@@ -292,7 +292,8 @@ INSTANTIATE_TEST_SUITE_P(
                                 reference_error,
                                 "not decided by thinner_bones, by their own error or because they were not reached"},
                     DecidedCase{33.0, {{0, 1.0, 13.0, 10.0}}, models_disagree, "the order is the other way round for stiffer_springs"},
-                    DecidedCase{33.0, {{4}}, reference_error, "not decided by nu_0.49, by their own error or because they were not reached"}));
+                    DecidedCase{
+                        33.0, {{4}}, reference_error, "not decided by nu_0.49, by their own error or because they were not reached"}));
 
 TEST(Decisions, FromATimeOnAreTheWorstOfAllLaterTimes)
 {

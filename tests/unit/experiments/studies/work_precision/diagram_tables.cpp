@@ -266,10 +266,9 @@ TEST(Omissions, AreNoneWhereEachPointHasATimeAndAnError)
 // `mine` is nearer than PBS and slower.
 TEST(OwnDeformers, AreAGroupOfTheirOwnInBothComparisons)
 {
-    CaseRows rows = hand_case({.body = "limb", .pose = "a"}, {{{.deformer = "mine"}, 2.0, 4.0},
-                                                              {{.deformer = "lbs", .precision = "f64"}, 0.1, 60.0},
-                                                              {pbs(4), 1.0, 30.0},
-                                                              hand_reference()});
+    CaseRows rows = hand_case(
+        {.body = "limb", .pose = "a"},
+        {{{.deformer = "mine"}, 2.0, 4.0}, {{.deformer = "lbs", .precision = "f64"}, 0.1, 60.0}, {pbs(4), 1.0, 30.0}, hand_reference()});
     rows.front().is_external = true;
     const std::vector<Diagram> diagrams = hand_diagrams({rows});
     for (const Diagram& diagram : diagrams) {

@@ -1,4 +1,5 @@
-// Reference: curves of error over time whose values at a budget and choices are computed by hand; means and intervals of a few poses by hand.
+// Reference: curves of error over time whose values at a budget and choices are computed by hand; means and intervals of a few poses by
+// hand.
 #include "experiments/studies/work_precision/gains.hpp"
 
 #include "experiments/studies/work_precision/compared_deformers.hpp"
@@ -19,8 +20,8 @@ const CaseKey limb_twist_pose = {.body = "limb", .motion = "twist", .angle_deg =
               human_crouch_pose = {.body = "human", .motion = "01_01", .pose = "crouch"},
               human_standing_pose = {.body = "human", .motion = "01_01", .pose = "standing"};
 
-PointRow change_point(const CaseKey& of, const std::string& change, const std::string& setting, int iterations, double ms,
-                      double error_pct, std::optional<double> bound_pct = 0.01, double distance_pct = 1.0)
+PointRow change_point(const CaseKey& of, const std::string& change, const std::string& setting, int iterations, double ms, double error_pct,
+                      std::optional<double> bound_pct = 0.01, double distance_pct = 1.0)
 {
     PointRow point{.of = of, .key = {.deformer = change, .iterations = iterations, .tuned = setting}, .ms_median = ms};
     if (std::isfinite(error_pct)) point.error = {.joint_pct = error_pct};
