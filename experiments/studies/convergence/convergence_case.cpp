@@ -3,7 +3,7 @@
 #include "experiments/deformers/deformer_options.hpp"
 #include "experiments/process/terminal.hpp"
 #include "experiments/scene/scene.hpp"
-#include "experiments/settings/option_fields.hpp"
+#include "experiments/settings/recorded_settings.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 #include "experiments/studies/shared/posed_reference.hpp"
 #include "pbs/skinning/blend.hpp"
@@ -200,49 +200,15 @@ private:
 
 }  // namespace
 
-nlohmann::json to_json(const NamedFrame& frame)
-{
-    static const auto fields = OptionFields<NamedFrame>("frame")
-                                   .record("frame", &NamedFrame::frame)
-                                   .record("name", &NamedFrame::name)
-                                   .record("key", &NamedFrame::key)
-                                   .record("twist", &NamedFrame::twist)
-                                   .record("compared", &NamedFrame::compared)
-                                   .complete();
-    return fields.json(frame);
-}
-
-nlohmann::json to_json(const ProjectionSetting& setting)
-{
-    static const auto fields = OptionFields<ProjectionSetting>("setting")
-                                   .record("order", &ProjectionSetting::order)
-                                   .record("precision", &ProjectionSetting::precision)
-                                   .complete();
-    return fields.json(setting);
-}
-
-nlohmann::json to_json(const ConvergenceCase& of)
-{
-    static const auto fields =
-        OptionFields<ConvergenceCase>("convergence")
-            .record("scene", &ConvergenceCase::scene)
-            .record("frames", &ConvergenceCase::frames)
-            .record("k_stretch", &ConvergenceCase::k_stretch)
-            .record("settings", &ConvergenceCase::settings)
-            .record("other_vertices", &ConvergenceCase::other_vertices)
-            .record("every_setting_to", &ConvergenceCase::every_setting_to)
-            .record("ladder", &ConvergenceCase::ladder)
-            .record("iterations", &ConvergenceCase::most_iterations)
-            .record("reference", &ConvergenceCase::reference)
-            .record("refines_reference", &ConvergenceCase::refines_reference)
-            .record("reference_to", &ConvergenceCase::reference_to)
-            .derived("looks", [](const ConvergenceCase& one) -> nlohmann::json { return looked_at(one.most_iterations); })
-            .constant("residual_tolerance", residual_tolerance)
-            .constant("satisfied_residual", satisfied_residual)
-            .constant("volume_tolerance_pct", volume_tolerance_pct)
-            .complete();
-    return fields.json(of);
-}
+RECORD_SETTINGS(NamedFrame, frame, name, key, twist, compared)
+RECORD_SETTINGS(ProjectionSetting, order, precision)
+RECORD_SETTINGS_AND(ConvergenceCase,
+                    .derived("looks", [](const ConvergenceCase& of) -> nlohmann::json { return looked_at(of.most_iterations); })
+                        .constant("residual_tolerance", residual_tolerance)
+                        .constant("satisfied_residual", satisfied_residual)
+                        .constant("volume_tolerance_pct", volume_tolerance_pct),
+                    scene, frames, k_stretch, settings, other_vertices, every_setting_to, ladder, most_iterations, reference,
+                    refines_reference, reference_to)
 
 ConvergenceResult measure_convergence(const ConvergenceCase& of)
 {

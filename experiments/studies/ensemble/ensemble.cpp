@@ -4,7 +4,7 @@
 #include "experiments/deformers/deformer_options.hpp"
 #include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/deformers/registry.hpp"
-#include "experiments/settings/option_fields.hpp"
+#include "experiments/settings/recorded_settings.hpp"
 #include "experiments/studies/shared/pose_columns.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 #include "experiments/studies/shared/posed_reference.hpp"
@@ -100,23 +100,7 @@ const Columns<AttachmentRow> attachment_columns =
         {"model_pct", &AttachmentRow::model_pct, "%", "distance of PBS's converged shape from this flesh"},
         {"finished", &AttachmentRow::finished, "", "the flesh reached its pose"}};
 
-nlohmann::json to_json(const EnsembleCase& of)
-{
-    static const auto fields = OptionFields<EnsembleCase>("ensemble")
-                                   .record("of", &EnsembleCase::of)
-                                   .record("scene", &EnsembleCase::scene)
-                                   .record("frame", &EnsembleCase::frame)
-                                   .record("flesh", &EnsembleCase::flesh)
-                                   .record("members", &EnsembleCase::members)
-                                   .record("deformers", &EnsembleCase::deformers)
-                                   .record("pbs", &EnsembleCase::pbs)
-                                   .record("other_flesh", &EnsembleCase::other_flesh)
-                                   .record("k_stretch", &EnsembleCase::k_stretch)
-                                   .record("iterations", &EnsembleCase::iterations)
-                                   .record("converged_iterations", &EnsembleCase::converged_iterations)
-                                   .complete();
-    return fields.json(of);
-}
+RECORD_SETTINGS(EnsembleCase, of, scene, frame, flesh, members, deformers, pbs, other_flesh, k_stretch, iterations, converged_iterations)
 
 std::vector<DeformerSpec> other_attachments(const DeformerSpec& reference)
 {

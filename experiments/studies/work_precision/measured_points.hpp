@@ -13,6 +13,7 @@
 #pragma once
 
 #include "experiments/studies/shared/timed_rounds.hpp"
+#include "experiments/studies/shared/posed_reference.hpp"
 #include "experiments/studies/work_precision/point_row.hpp"
 
 namespace experiments {
@@ -36,6 +37,23 @@ struct WorkPrecisionCase {
 };
 
 nlohmann::json to_json(const WorkPrecisionCase& of);  // everything that a run of the study depends on
+
+// The rows of points.csv: of a setting that reached the pose, of one without an answer (outcome is over_time_limit or not_applicable), and
+// of the reference itself (outcome is reference, or not_reached).
+PointRow point_row(const ReachedPoint& point);
+PointRow row_without_answer(const PointSetting& setting, const BodyMesh& mesh, const std::string& outcome, const std::string& reason);
+PointRow reference_row(const pbs::TetMesh& mesh, const PosedReference& reference);
+void add_reference(PointRow& row, const PosedReference& reference);  // and whether the error, if there is one, is below its bound
+
+struct FrameTime {
+    std::optional<Spread> ms;  // nothing where no round arrived
+    int failed_rounds = 0;     // rounds that did not reach the pose, or began in one that was not reached
+};
+// samples: [ms], not a number where a round failed.
+FrameTime frame_time(std::vector<double> samples);
+
+inline constexpr int fewest_for_quartiles = 3;  // rounds
+void add_time(PointRow& row, const FrameTime& time);
 
 struct MeasuredPoints {
     std::vector<PointRow> rows;

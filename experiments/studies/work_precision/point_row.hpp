@@ -1,15 +1,12 @@
 // points.csv: one row per setting, with its time, its work, its error, its volume and the reference that it is compared with. members.csv:
-// the other references of the family.
-// changes.csv: the rows of PBS and of single changes to it, with their distances from PBS.
+// the other references of the family. changes.csv: the rows of PBS and of single changes to it, with their distances from PBS.
 #pragma once
 
 #include "analysis/metrics/frame_metrics.hpp"
 #include "analysis/records/tables.hpp"
 #include "analysis/verdicts/case_record.hpp"
 #include "experiments/settings/option_names.hpp"
-#include "experiments/studies/shared/posed_reference.hpp"
 #include "experiments/studies/shared/reference_family.hpp"
-#include "experiments/studies/shared/timed_rounds.hpp"
 #include "experiments/studies/work_precision/posed_deformer.hpp"
 #include "pbs/geometry/cost.hpp"
 
@@ -31,14 +28,6 @@ struct OptionNames<Half> {
     static constexpr std::array<std::pair<Half, const char*>, 2> table{{{Half::training, "training"}, {Half::evaluation, "evaluation"}}};
 };
 
-struct FrameTime {
-    std::optional<Spread> ms;  // nothing where no round arrived
-    int failed_rounds = 0;     // rounds that did not reach the pose, or began in one that was not reached
-};
-// samples: [ms], not a number where a round failed.
-FrameTime frame_time(std::vector<double> samples);
-
-inline constexpr int fewest_for_quartiles = 3;                        // rounds
 inline constexpr std::array<int, 3> budget_iterations = {4, 24, 96};  // of PBS: a change is compared with it in the time of these
 
 // The errors against the members of the family after the first one, in their order.
@@ -79,14 +68,6 @@ struct PointRow {
 extern const analysis::Columns<PointRow> point_columns;
 extern const analysis::Columns<PointRow> change_columns;  // changes.csv
 analysis::Columns<PointRow> columns_for(const std::vector<PointRow>& rows);
-
-// A setting without an answer: outcome is over_time_limit or not_applicable.
-PointRow row_without_answer(const PointSetting& setting, const BodyMesh& mesh, const std::string& outcome, const std::string& reason);
-PointRow point_row(const ReachedPoint& point);
-void add_time(PointRow& row, const FrameTime& time);
-void add_reference(PointRow& row, const PosedReference& reference);  // and whether the error, if there is one, is below its bound
-// The row of the reference itself. Its outcome is reference, or not_reached.
-PointRow reference_row(const pbs::TetMesh& mesh, const PosedReference& reference);
 
 // A further reference of the family, solved with quadratic elements on the case's own tets alone. Its bound is that of the first member's
 // own solution on these tets, which is an assumption: the same elements have a similar error.

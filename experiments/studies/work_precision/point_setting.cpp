@@ -3,6 +3,7 @@
 #include "experiments/deformers/deformer_options.hpp"
 #include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/deformers/registry.hpp"
+#include "experiments/settings/recorded_settings.hpp"
 #include "experiments/studies/shared/posed_reference.hpp"
 #include "pbs/character/body_cache.hpp"
 #include "pbs/solver/options.hpp"
@@ -164,6 +165,8 @@ std::string digest_of(const std::vector<PointSetting>& settings)
         all.push_back({setting.deformer, to_json(setting.spec), setting.tuned, setting.vertices, setting.refined});
     return pbs::content_hash(all.dump());
 }
+
+RECORD_SETTINGS(SettingRange, in_short, quadratic, other_vertices, without_fem, quadratic_up_to, refined, changes)
 
 std::vector<PointSetting> external_settings(const std::vector<DeformerSpec>& external)
 {

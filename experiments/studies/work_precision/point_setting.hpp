@@ -11,7 +11,7 @@
 #include "experiments/scene/scene.hpp"
 #include "experiments/studies/work_precision/compared_deformers.hpp"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <optional>
 #include <string>
@@ -75,7 +75,7 @@ struct SettingRange {
     bool refined = false;                  // neo-Hookean flesh on the case's own tets, each cut into eight
     bool changes = false;                  // the changes to PBS
 };
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SettingRange, in_short, quadratic, other_vertices, without_fem, quadratic_up_to, refined, changes)
+nlohmann::json to_json(const SettingRange& range);
 
 // The scene, a built-in one, gives the options that are not varied: its pbs, and the material of its first [[fem]].
 std::vector<PointSetting> point_settings(const Scene& scene, const SettingRange& range);
