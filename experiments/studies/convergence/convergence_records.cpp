@@ -1,4 +1,4 @@
-#include "experiments/studies/convergence/convergence_records.hpp"
+#include "experiments/studies/convergence/convergence_case.hpp"
 
 #include "analysis/statistics/fits.hpp"
 #include "experiments/deformers/deformer_options.hpp"

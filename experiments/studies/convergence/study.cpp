@@ -15,7 +15,7 @@
 #include "analysis/records/report_table.hpp"
 #include "analysis/verdicts/measurement.hpp"
 #include "experiments/deformers/deformer_options.hpp"
-#include "experiments/studies/convergence/convergence_records.hpp"
+#include "experiments/studies/convergence/convergence_case.hpp"
 #include "experiments/studies/shared/clip_frames.hpp"
 #include "experiments/studies/shared/posed_reference.hpp"
 #include "experiments/studies/shared/real_bodies.hpp"

@@ -5,7 +5,7 @@
 #include "experiments/studies/ambiguity/volume_readings.hpp"
 #include "experiments/studies/artefacts/artefact_values.hpp"
 #include "experiments/studies/artefacts/smoothness_comparison.hpp"
-#include "experiments/studies/convergence/convergence_records.hpp"
+#include "experiments/studies/convergence/convergence_case.hpp"
 #include "experiments/studies/ensemble/ensemble.hpp"
 #include "experiments/studies/equal_quality/order_report.hpp"
 #include "experiments/studies/equal_quality/order_rows.hpp"
