@@ -107,10 +107,6 @@ const Columns<Look> error_look_columns = {
     {"error_joint_pct", &Look::error_joint_pct, "%", "distance to the reference over the blended vertices outside its mask"},
     {"whole_joint_pct", &Look::whole_joint_pct, "%", "distance to the reference over all blended vertices"}};
 
-const Columns<Look> start_residual = {{"start_residual", &Look::combined, "", "combined residual of the initial guess"}};
-const Columns<Look> paper_residual = {{"residual_24", &Look::combined, "", "combined residual after 24 iterations"}};
-const Columns<Look> last_residual = {{"last_residual", &Look::combined, "", "combined residual after the last iteration"}};
-
 const Columns<analysis::Interval> rate_interval = {
     {"rate_per_iteration", &analysis::Interval::estimate, "", "factor per iteration of residual - floor"},
     {"rate_low", &analysis::Interval::low, "", "lower end of its interval"},
@@ -118,28 +114,6 @@ const Columns<analysis::Interval> rate_interval = {
 const Columns<Rate> fitted_rate = Columns<Rate>{{"stalls_at_iteration", &Rate::stalls_at, "", "where it stalls; empty: nowhere"}} +
                                   within(&Rate::rate, rate_interval) +
                                   Columns<Rate>{{"rate_log_rms_off", &Rate::log_rms_off, "", "root mean square logarithm over the fit"}};
-
-const Columns<Reached> to_residual = {{"iterations_to_residual", &Reached::iterations, "", "iterations to the residual's tolerance"},
-                                      {"residual_reached", &Reached::within, "", "they reached it"}};
-const Columns<Reached> to_volume = {{"iterations_to_volume", &Reached::iterations, "", "iterations to the paper's 0.5 % of volume"},
-                                    {"volume_reached", &Reached::within, "", "they reached it"}};
-
-const Columns<Look> paper_volume = {
-    {"volume_change_24_pct", &Look::volume_change_pct, "%", "volume change after 24 iterations"},
-    {"volume_abs_change_24_pct", &Look::volume_abs_change_pct, "%", "sum of the tets' absolute changes after 24 iterations"}};
-const Columns<Look> last_volume = {
-    {"last_volume_change_pct", &Look::volume_change_pct, "%", "volume change at the end"},
-    {"last_volume_abs_change_pct", &Look::volume_abs_change_pct, "%", "sum of the tets' absolute changes at the end"},
-    {"last_inverted_tets", &Look::inverted_tets, "", "inverted tets at the end"}};
-
-const Columns<Look> start_error = {
-    {"start_error_pct", &Look::error_joint_pct, "%", "error of the initial guess at the joints outside the mask"}};
-const Columns<Look> paper_error = {{"error_24_pct", &Look::error_joint_pct, "%", "error after 24 iterations"}};
-const Columns<Look> paper_whole_error = {
-    {"whole_error_24_pct", &Look::whole_joint_pct, "%", "error after 24 iterations with the joints that the mask leaves out"}};
-const Columns<Look> least_error = {{"least_error_pct", &Look::error_joint_pct, "%", "least error on the way"},
-                                   {"least_error_iteration", &Look::iteration, "", "iteration of the least error"}};
-const Columns<Look> last_error = {{"last_error_pct", &Look::error_joint_pct, "%", "error at the end"}};
 
 const Columns<ReferenceQuality> quality_columns = {
     {"masked_share_pct", &ReferenceQuality::masked_share_pct, "%", "share of the volume that is left out because the reference overlaps"},
@@ -153,21 +127,41 @@ const Columns<LookRow> residual_columns = within(&LookRow::of, case_columns) + w
 const Columns<LookRow> towards_columns = within(&LookRow::of, case_columns) + within(&LookRow::look, error_look_columns);
 
 using Rates = Columns<RateRow>;
+using Looks = Columns<Look>;
 const Columns<RateRow> rate_columns =
     within(&RateRow::of, case_columns) +
     Rates{{"iterations", &RateRow::iterations, "", "iterations that were done"},
           {"outcome", &RateRow::outcome, "", "finished or not_finite"},
           {"floor", &RateRow::floor, "", "lowest combined residual that any initial guess leads to"}} +
-    within(&RateRow::first, start_residual) + within(&RateRow::paper, paper_residual) + within(&RateRow::last, last_residual) +
+    within(&RateRow::first, Looks{{"start_residual", &Look::combined, "", "combined residual of the initial guess"}}) +
+    within(&RateRow::paper, Looks{{"residual_24", &Look::combined, "", "combined residual after 24 iterations"}}) +
+    within(&RateRow::last, Looks{{"last_residual", &Look::combined, "", "combined residual after the last iteration"}}) +
     Rates{{"last_half_change_pct", &RateRow::last_half_change_pct, "%", "change of the residual over the second half of the iterations"}} +
-    within(&RateRow::rate, fitted_rate) + within(&RateRow::residual, to_residual) + within(&RateRow::volume, to_volume) +
+    within(&RateRow::rate, fitted_rate) +
+    within(&RateRow::residual,
+           Columns<Reached>{{"iterations_to_residual", &Reached::iterations, "", "iterations to the residual's tolerance"},
+                            {"residual_reached", &Reached::within, "", "they reached it"}}) +
+    within(&RateRow::volume,
+           Columns<Reached>{{"iterations_to_volume", &Reached::iterations, "", "iterations to the paper's 0.5 % of volume"},
+                            {"volume_reached", &Reached::within, "", "they reached it"}}) +
     Rates{{"iteration_cpu_ms", &RateRow::iteration_cpu_ms, "ms", "mean processor time per iteration"},
           {"cpu_ms_to_residual", &RateRow::cpu_ms_to_residual, "ms", "processor time to the residual's tolerance; empty: not reached"},
           {"cpu_ms_to_volume", &RateRow::cpu_ms_to_volume, "ms", "processor time to the volume's tolerance; empty: not reached"}} +
-    within(&RateRow::paper, paper_volume) + within(&RateRow::last, last_volume) +
-    Rates{{"reference", &RateRow::reference, "", "name of the reference, or why there is none"}} + within(&RateRow::first, start_error) +
-    within(&RateRow::paper, paper_error) + within(&RateRow::nearest, least_error) + within(&RateRow::last, last_error) +
-    within(&RateRow::paper, paper_whole_error) + within(&RateRow::quality, quality_columns) +
+    within(&RateRow::paper, Looks{{"volume_change_24_pct", &Look::volume_change_pct, "%", "volume change after 24 iterations"},
+                                  {"volume_abs_change_24_pct", &Look::volume_abs_change_pct, "%",
+                                   "sum of the tets' absolute changes after 24 iterations"}}) +
+    within(&RateRow::last, Looks{{"last_volume_change_pct", &Look::volume_change_pct, "%", "volume change at the end"},
+                                 {"last_volume_abs_change_pct", &Look::volume_abs_change_pct, "%", "sum of the tets' changes at the end"},
+                                 {"last_inverted_tets", &Look::inverted_tets, "", "inverted tets at the end"}}) +
+    Rates{{"reference", &RateRow::reference, "", "name of the reference, or why there is none"}} +
+    within(&RateRow::first, Looks{{"start_error_pct", &Look::error_joint_pct, "%", "error of the initial guess outside the mask"}}) +
+    within(&RateRow::paper, Looks{{"error_24_pct", &Look::error_joint_pct, "%", "error after 24 iterations"}}) +
+    within(&RateRow::nearest, Looks{{"least_error_pct", &Look::error_joint_pct, "%", "least error on the way"},
+                                    {"least_error_iteration", &Look::iteration, "", "iteration of the least error"}}) +
+    within(&RateRow::last, Looks{{"last_error_pct", &Look::error_joint_pct, "%", "error at the end"}}) +
+    within(&RateRow::paper,
+           Looks{{"whole_error_24_pct", &Look::whole_joint_pct, "%", "error after 24 iterations with the masked joints"}}) +
+    within(&RateRow::quality, quality_columns) +
     Rates{{"limit_from_lbs_pct", &RateRow::limit_from_lbs_pct, "%", "distance of the last shape from the one that LBS leads to"}};
 
 std::vector<LookRow> look_rows(const ConvergenceResult& result)

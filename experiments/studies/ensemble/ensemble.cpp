@@ -170,59 +170,45 @@ MemberRow member_row(const EnsembleCase& of, const EnsembleMember& member, const
     return row;
 }
 
-// Collects, for each pair of shapes, how each reference of the family orders the pair.
-class Ordering {
-public:
-    explicit Ordering(const std::vector<DeformedShape>& shapes) : shapes_(shapes), orders_(shapes.size() * shapes.size()) {}
-
-    void add(const PosedReference& reference)
-    {
-        for (std::size_t a = 0; a < shapes_.size(); ++a)
-            for (std::size_t b = a + 1; b < shapes_.size(); ++b)
-                orders_[place(a, b)].push_back(reference.is_reached() ? order_of(reference, shapes_[a], shapes_[b])
-                                                                      : analysis::PairOrder::undecided);
-        if (!reference.is_reached()) {
-            ++not_reached_;
-            return;
-        }
-        errors_pct_.emplace_back();
-        for (const DeformedShape& shape : shapes_) errors_pct_.back().push_back(reference.error_of(shape.positions).joint_pct);
-    }
-
-    std::vector<PairRow> pairs(const CaseKey& of) const
-    {
-        std::vector<PairRow> rows;
-        for (std::size_t a = 0; a < shapes_.size(); ++a)
-            for (std::size_t b = a + 1; b < shapes_.size(); ++b) {
-                const std::vector<analysis::PairOrder>& orders = orders_[place(a, b)];
-                PairRow row{.of = of, .first = shapes_[a].deformer, .second = shapes_[b].deformer};
-                if (!errors_pct_.empty()) row.difference_pct = errors_pct_.front()[b] - errors_pct_.front()[a];
-                for (const std::vector<double>& errors : errors_pct_)
-                    row.largest_difference_pct = std::max(row.largest_difference_pct, std::abs(errors[b] - errors[a]));
-                row.members = static_cast<int>(orders.size());
-                row.not_reached = not_reached_;
-                row.first_is_closer = static_cast<int>(std::ranges::count(orders, analysis::PairOrder::first_is_closer));
-                row.second_is_closer = static_cast<int>(std::ranges::count(orders, analysis::PairOrder::second_is_closer));
-                row.decision = analysis::decide(orders);
-                rows.push_back(row);
-            }
-        return rows;
-    }
-
-private:
-    static analysis::PairOrder order_of(const PosedReference& reference, const DeformedShape& a, const DeformedShape& b)
-    {
-        return analysis::order_of({reference.error_of(a.positions).joint_pct, reference.error_of(b.positions).joint_pct,
-                                   reference.distance(a.positions, b.positions).joint_pct, reference.bound().joint_pct});
-    }
-
-    std::size_t place(std::size_t a, std::size_t b) const { return a * shapes_.size() + b; }
-
-    const std::vector<DeformedShape>& shapes_;
-    std::vector<std::vector<analysis::PairOrder>> orders_;  // of each pair, one per member
-    std::vector<std::vector<double>> errors_pct_;           // of the shapes, one list per member that was reached
-    int not_reached_ = 0;                                   // members
+// A pair of shapes, with the order that each reference of the family gives it.
+struct OrderedPair {
+    const DeformedShape &first, &second;
+    PairRow row;
+    std::vector<analysis::PairOrder> orders = {};
 };
+
+std::vector<OrderedPair> all_pairs(const CaseKey& of, const std::vector<DeformedShape>& shapes)
+{
+    std::vector<OrderedPair> pairs;
+    for (std::size_t a = 0; a < shapes.size(); ++a)
+        for (std::size_t b = a + 1; b < shapes.size(); ++b)
+            pairs.push_back({shapes[a], shapes[b], {.of = of, .first = shapes[a].deformer, .second = shapes[b].deformer}});
+    return pairs;
+}
+
+void add_order(OrderedPair& pair, const PosedReference& reference)
+{
+    ++pair.row.members;
+    if (!reference.is_reached()) {
+        ++pair.row.not_reached;
+        pair.orders.push_back(analysis::PairOrder::undecided);
+        return;
+    }
+    const pbs::Positions &a = pair.first.positions, &b = pair.second.positions;
+    const double first_pct = reference.error_of(a).joint_pct, second_pct = reference.error_of(b).joint_pct;
+    if (!pair.row.difference_pct) pair.row.difference_pct = second_pct - first_pct;
+    pair.row.largest_difference_pct = std::max(pair.row.largest_difference_pct, std::abs(second_pct - first_pct));
+    pair.orders.push_back(analysis::order_of({first_pct, second_pct, reference.distance(a, b).joint_pct, reference.bound().joint_pct}));
+}
+
+PairRow decided(const OrderedPair& pair)
+{
+    PairRow row = pair.row;
+    row.first_is_closer = static_cast<int>(std::ranges::count(pair.orders, analysis::PairOrder::first_is_closer));
+    row.second_is_closer = static_cast<int>(std::ranges::count(pair.orders, analysis::PairOrder::second_is_closer));
+    row.decision = analysis::decide(pair.orders);
+    return row;
+}
 
 Scene refined(Scene scene)
 {
@@ -340,11 +326,11 @@ EnsembleRecords measure_ensemble(const EnsembleCase& of)
         else
             records.breakdown += spec.label + " did not finish. ";
     }
-    Ordering ordering(shapes);
+    std::vector<OrderedPair> pairs = all_pairs(of.of, shapes);
     for (const EnsembleMember& member : of.members) {
         const PosedReference reference(body.character(), flesh_of(of.flesh, member), body.pose(0), of.scene.motion.time_step_s);
         records.members.push_back(member_row(of, member, reference, metrics));
-        ordering.add(reference);
+        for (OrderedPair& pair : pairs) add_order(pair, reference);
         if (!reference.is_reached()) continue;
         for (const DeformedShape& shape : shapes) {
             const analysis::ErrorNorms error = reference.error_of(shape.positions);
@@ -354,7 +340,7 @@ EnsembleRecords measure_ensemble(const EnsembleCase& of)
         }
         if (records.members.size() == 1 && !of.k_stretch.empty()) Splitting(of, body, reference).add_to(records);
     }
-    records.pairs = ordering.pairs(of.of);
+    for (const OrderedPair& pair : pairs) records.pairs.push_back(decided(pair));
     return records;
 }
 
