@@ -40,17 +40,12 @@ PathCase case_of(const ConvergencePaths& of, std::size_t start)
             name_of(all_starts[start])};
 }
 
-// Enough digits for drawing. All digits would double the size of the record.
-double six_digits(double value)
-{
-    return std::stod(fmt::format("{:.6g}", value));
-}
-
+// Six digits are enough for drawing. All digits would double the size of the record.
 Look rounded(Look look)
 {
     for (const auto member : {&Look::stretch_rms, &Look::volume_rms, &Look::bind_rms_m, &Look::combined, &Look::volume_change_pct,
                               &Look::volume_abs_change_pct, &Look::error_joint_pct, &Look::whole_joint_pct})
-        look.*member = six_digits(look.*member);
+        look.*member = std::stod(fmt::format("{:.6g}", look.*member));
     return look;
 }
 

@@ -12,12 +12,6 @@ namespace {
 using analysis::Columns;
 using analysis::within;
 
-const Columns<DiagramPoint> quartile_columns = {{"ms_q1", &DiagramPoint::ms_q1, "ms", "its lower quartile"},
-                                                {"ms_q3", &DiagramPoint::ms_q3, "ms", "its upper quartile"}};
-const Columns<DiagramPoint> point_error_columns = {measures().front()};
-const Columns<DiagramPoint> below_columns = {
-    {"below_reference_error", &DiagramPoint::below_reference_error, "", "the error is not above the reference's own bound"}};
-
 const char* const comparison_meaning = "packed_f32 or plain_f64";
 const char* const decision_meaning = "decided, reference_error (a reference does not decide) or models_disagree";
 
@@ -35,9 +29,12 @@ const Columns<FrontRow> front_columns =
                       {"case", &FrontRow::diagram, "", "name of the case's run, or of the mean over several"},
                       {"measure", &FrontRow::measure, "", "what the front is the best of: a column of points.csv"},
                       {"front", &FrontRow::front, "", "whose front it is: a deformer's, or all"}} +
-    within(&FrontRow::point, diagram_point_columns() + quartile_columns) +
+    within(&FrontRow::point, diagram_point_columns() + Columns<DiagramPoint>{{"ms_q1", &DiagramPoint::ms_q1, "ms", "its lower quartile"},
+                                                                             {"ms_q3", &DiagramPoint::ms_q3, "ms", "its upper quartile"}}) +
     Columns<FrontRow>{{"value", &FrontRow::value, "", "the point's value of the measure, in the measure's unit"}} +
-    within(&FrontRow::point, point_error_columns + below_columns) +
+    within(&FrontRow::point, Columns<DiagramPoint>{measures().front(),
+                                                   {"below_reference_error", &DiagramPoint::below_reference_error, "",
+                                                    "the error is not above the reference's own bound"}}) +
     Columns<FrontRow>{
         {"reference_error_joint_pct", &FrontRow::reference_error_pct, "%", "bound of the reference's own error at the joints"},
         {"decision", &FrontRow::decision, "",
@@ -79,7 +76,7 @@ const Columns<BudgetRow> budget_columns =
                        {"budget_ms", &BudgetRow::budget_ms, "ms", "time per frame"},
                        {"rank", &BudgetRow::rank, "", "1: the group that is nearest to the reference within the budget"},
                        {"group", &BudgetRow::group, "", "key of a group of deformers"}} +
-    within(&BudgetRow::point, diagram_point_columns() + point_error_columns) +
+    within(&BudgetRow::point, diagram_point_columns() + Columns<DiagramPoint>{measures().front()}) +
     Columns<BudgetRow>{
         {"decision", &BudgetRow::decision, "", std::string("whether it is nearer than every group of a later rank: ") + decision_meaning},
         {"undecided_against", &BudgetRow::undecided_against, "", "keys of the groups against which it is undecided"},

@@ -38,12 +38,6 @@ std::map<CurveKey, Curve> curves_of(const std::vector<PointRow>& points)
     return curves;
 }
 
-// The distance of the same column for a budget.
-std::optional<double> from_baseline(const PointRow& point, int budget)
-{
-    return point.from_pbs_pct.at(std::ranges::find(budget_iterations, budget) - budget_iterations.begin());
-}
-
 // The error of a setting at a budget. The result is empty if the setting takes longer or is not finite at this budget.
 std::optional<EqualTimeRow> value_at(const Curve& curve, int budget_iterations, double budget_ms)
 {
@@ -61,7 +55,8 @@ std::optional<EqualTimeRow> value_at(const Curve& curve, int budget_iterations, 
     row.setting = before.key.tuned;
     row.iterations = std::lerp(double(before.key.iterations.value()), double(after.key.iterations.value()), share);
     row.error_pct = std::lerp(before.error->joint_pct, after.error->joint_pct, share);
-    const auto one = from_baseline(before, budget_iterations), other = from_baseline(after, budget_iterations);
+    const auto column = std::ranges::find(experiments::budget_iterations, budget_iterations) - experiments::budget_iterations.begin();
+    const auto one = before.from_pbs_pct.at(column), other = after.from_pbs_pct.at(column);
     if (one && other) row.distance_pct = std::max(*one, *other);
     row.reference_error_pct = before.reference_error_joint_pct;
     row.volume_change_pct = before.metrics ? before.metrics->volume_change_pct : 0.0;

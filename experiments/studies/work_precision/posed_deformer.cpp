@@ -43,25 +43,16 @@ pbs::Positions BodyMesh::on_base(const pbs::Positions& positions) const
                    : pbs::Positions(positions.topRows(base_vertices_));
 }
 
-namespace {
-
-// The poses of reach() and of so many turns.
-std::vector<pbs::Pose> coming_poses(const PosePair& poses, bool with_way, int turns)
-{
-    std::vector<pbs::Pose> coming;
-    if (with_way) coming = poses.way;
-    coming.push_back(poses.pose);
-    for (int turn = 0; turn < turns; ++turn) coming.push_back(turn % 2 == 0 ? poses.neighbour : poses.pose);
-    return coming;
-}
-
-}  // namespace
-
 PosedDeformer::PosedDeformer(const PointSetting& setting, const BodyMesh& mesh, const PosePair& poses, int announced_turns)
     : mesh_(mesh), poses_(poses), deformer_(make_deformer(setting.spec)), has_own_clock_(traits_of(setting.spec).has_own_clock)
 {
     deformer_->reset(mesh.character());
-    if (has_own_clock_) deformer_->foresee(coming_poses(poses, deformer_->has_memory(), announced_turns));
+    if (!has_own_clock_) return;
+    std::vector<pbs::Pose> coming;  // of reach() and of so many turns
+    if (deformer_->has_memory()) coming = poses.way;
+    coming.push_back(poses.pose);
+    for (int turn = 0; turn < announced_turns; ++turn) coming.push_back(turn % 2 == 0 ? poses.neighbour : poses.pose);
+    deformer_->foresee(coming);
 }
 
 Shape PosedDeformer::reach()

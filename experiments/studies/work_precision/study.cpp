@@ -78,22 +78,6 @@ std::vector<PlannedPose> poses_of(const std::string& body)
     return {{.body = body, .motion = "01_01", .pose = "crouch", .frame = clip_frames::crouch, .cost_s = 300.0}};
 }
 
-// 5 degrees per frame, which is the step that is timed.
-void set_sweep(WorkPrecisionCase& of, const PlannedPose& pose)
-{
-    of.of = {.body = pose.body, .motion = pose.motion, .angle_deg = pose.angle_deg};
-    of.scene = read_scene("limb_" + pose.motion,
-                          {fmt::format("motion.angle_deg={}", pose.angle_deg), fmt::format("motion.frames={}", pose.angle_deg / 5 + 1)});
-    of.frame = pose.angle_deg / 5;
-}
-
-void set_clip(WorkPrecisionCase& of, const PlannedPose& pose)
-{
-    of.of = {.body = pose.body, .motion = pose.motion, .pose = pose.pose};
-    of.scene = read_scene("human_01_01", {"character.body=" + pose.body});
-    of.frame = pose.frame;
-}
-
 // 2. The extent. In full: all rungs and settings, meshes of other sizes, a bound on the error of each reference, and on the evaluated poses
 // the other references of the family. In the fine creases of a bend Newton's method takes minutes per frame on a finer mesh, so that it has
 // no finite elements there. The changes to PBS are compared in the quick form in two poses of the limb.
@@ -122,10 +106,16 @@ StudyRun run_of(const PlannedPose& pose, Half half, bool full, const std::vector
     WorkPrecisionCase of;
     of.external = external;
     of.half = half;
-    if (pose.angle_deg > 0)
-        set_sweep(of, pose);
-    else
-        set_clip(of, pose);
+    of.of = {.body = pose.body, .motion = pose.motion, .pose = pose.pose};
+    of.frame = pose.frame;
+    if (pose.angle_deg > 0) {  // 5 degrees per frame, which is the step that is timed
+        of.of.angle_deg = pose.angle_deg;
+        of.frame = pose.angle_deg / 5;
+        of.scene = read_scene("limb_" + pose.motion,
+                              {fmt::format("motion.angle_deg={}", pose.angle_deg), fmt::format("motion.frames={}", of.frame + 1)});
+    } else {
+        of.scene = read_scene("human_01_01", {"character.body=" + pose.body});
+    }
     set_extent(of, pose, full);
     return work_run(case_name(of.of), of, full ? pose.cost_s : pose.quick_cost_s, measure_and_record);
 }
