@@ -24,9 +24,10 @@ def of_comparison(rows, comparison):
 
 
 def split(folder, points):
-    halves = {half: ", ".join(run for run, rows in points.items() if rows[0]["half"] == half) or "none" for half in ("training", "evaluation")}
-    text = (f"Settings are chosen on the training poses ({halves['training']}) and shown on the evaluated poses "
-            f"({halves['evaluation']}). The poses of each body alternate, and a body with one pose is only evaluated.\n")
+    training, evaluation = (", ".join(run for run, rows in points.items() if rows[0]["half"] == half) or "none"
+                            for half in ("training", "evaluation"))
+    text = (f"Settings are chosen on the training poses ({training}) and shown on the evaluated poses ({evaluation}). The poses of "
+            "each body alternate, and a body with one pose is only evaluated.\n")
     own = {row["deformer"]: clocks.get(row["clock"], "it has no time") for rows in points.values() for row in rows
            if row.get("external") == "1"}
     return text + ("\nDeformers of the user's own take part in both comparisons, since it is not known whether their code is packed. Their "
@@ -69,8 +70,8 @@ def profiles(folder):
                 heading = f"{tolerance:g} %" + (f", {ms:g} ms" if ms < budgets[-1] else "")
                 columns[heading] = lambda row, tolerance=tolerance, ms=ms: solved(row["group"], tolerance, ms)
         poses = of[0]["poses"] if of else "0"
-        text += (f"\n## Poses solved, of {poses}: {words}\n\nA pose is solved with certainty if the error plus the bound on the reference's "
-                 "own error is within the tolerance. Groups that solve no pose are not listed.\n\n"
+        text += (f"\n## Poses solved, of {poses}: {words}\n\nA pose is solved with certainty if the error plus the bound on the "
+                 "reference's own error is within the tolerance. Groups that solve no pose are not listed.\n\n"
                  + pages.table([{"group": group} for group in looks.in_order({row["group"] for row in of})], columns))
     return text
 
@@ -99,7 +100,8 @@ def references(points):
             if row["outcome"] in ("reference", "not_reached")]
     return "\n## References\n\n" + pages.table(rows, {
         "case": "case", "half": "half", "reference": words_of, "outcome": "outcome", "time of its solutions [s]": ("s", 0),
-        "bound on its error [%]": ("reference_error_joint_pct", 2), "left out, where it overlaps [% of the volume]": ("masked_share_pct", 2)})
+        "bound on its error [%]": ("reference_error_joint_pct", 2),
+        "left out, where it overlaps [% of the volume]": ("masked_share_pct", 2)})
 
 
 def crossings(folder):
@@ -127,7 +129,7 @@ def fronts(folder):
 def remark(gain):
     if gain["decision"] == "reference_error":
         shift = gain["reference_error_pct"]
-        return f"the reference's own error may change it by {float(shift):.2g} points" if shift else "the reference's own error is not known"
+        return f"the reference's own error {f'may change it by {float(shift):.2g} points' if shift else 'is not known'}"
     return {"few_poses": "fewer than 4 poses", "poses_disagree": "the interval over the poses includes zero"}.get(gain["decision"], "")
 
 
