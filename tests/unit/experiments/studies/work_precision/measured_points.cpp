@@ -100,7 +100,10 @@ TEST(PointSettings, OfChangesToPbsAreMarked)
     const std::vector<PointSetting> settings = point_settings(read_scene("limb_twist", {}), range);
     std::map<std::string, std::size_t> of_change;
     for (const PointSetting& setting : settings)
-        if (setting.change) ++of_change[setting.change->name], EXPECT_TRUE(setting.on_own_mesh());
+        if (setting.change) {
+            ++of_change[setting.change->name];
+            EXPECT_TRUE(setting.on_own_mesh());
+        }
     EXPECT_EQ(of_change.size(), changes_to_pbs().size());
     for (const ComparedDeformer& one : changes_to_pbs()) EXPECT_EQ(of_change[one.name], one.grid.size() * one.iterations.size());
     EXPECT_EQ(settings.size(), without + 25 * 8);  // settings of all changes, rungs
