@@ -3,7 +3,6 @@
 
 #include "analysis/verdicts/case_record.hpp"
 #include "experiments/scene/scene.hpp"
-#include "experiments/studies/finished_runs.hpp"
 
 #include <functional>
 #include <string>

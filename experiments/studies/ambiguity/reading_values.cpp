@@ -5,7 +5,7 @@
 #include "experiments/scene/scene.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "experiments/studies/convergence/convergence_case.hpp"
-#include "experiments/studies/jiggle/jiggle_values.hpp"
+#include "experiments/studies/jiggle/jiggle_records.hpp"
 #include "experiments/studies/momentum/momentum_drift.hpp"
 #include "experiments/studies/shared/timed_rounds.hpp"
 #include "pbs/character/overlap_and_jiggle.hpp"

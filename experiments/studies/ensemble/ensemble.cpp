@@ -5,7 +5,6 @@
 #include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/settings/recorded_settings.hpp"
-#include "experiments/studies/shared/pose_columns.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 #include "experiments/studies/shared/posed_reference.hpp"
 

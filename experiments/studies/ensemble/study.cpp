@@ -13,8 +13,6 @@
 #include "analysis/records/record_files.hpp"
 #include "analysis/records/report_table.hpp"
 #include "experiments/deformers/registry.hpp"
-#include "experiments/studies/shared/case_name.hpp"
-#include "experiments/studies/shared/clip_frames.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 #include "experiments/studies/shared/posed_reference.hpp"
 #include "experiments/studies/study.hpp"

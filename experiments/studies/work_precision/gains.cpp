@@ -2,7 +2,7 @@
 
 #include "analysis/statistics/statistics.hpp"
 #include "analysis/verdicts/pair_order.hpp"
-#include "experiments/studies/shared/pose_columns.hpp"
+#include "experiments/studies/shared/posed_character.hpp"
 
 #include <algorithm>
 #include <cmath>

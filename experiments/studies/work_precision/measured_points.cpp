@@ -117,7 +117,7 @@ std::optional<double> unrefined_bound_pct(const PosedReference& reference)
     return std::nullopt;
 }
 
-// The references of one case: the first member of the family (shared/reference_family.hpp) and further ones. The character outlives it.
+// The references of one case: the first member of the family (shared/posed_reference.hpp) and further ones. The character outlives it.
 class ReferenceSet {
 public:
     ReferenceSet(const WorkPrecisionCase& of, const pbs::Character& character, const PosePair& poses)

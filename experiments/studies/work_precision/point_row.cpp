@@ -1,6 +1,6 @@
 #include "experiments/studies/work_precision/point_row.hpp"
 
-#include "experiments/studies/shared/pose_columns.hpp"
+#include "experiments/studies/shared/posed_character.hpp"
 
 #include <fmt/format.h>
 

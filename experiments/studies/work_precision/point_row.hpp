@@ -6,7 +6,7 @@
 #include "analysis/records/tables.hpp"
 #include "analysis/verdicts/case_record.hpp"
 #include "experiments/settings/option_names.hpp"
-#include "experiments/studies/shared/reference_family.hpp"
+#include "experiments/studies/shared/posed_reference.hpp"
 #include "experiments/studies/work_precision/posed_deformer.hpp"
 #include "pbs/geometry/cost.hpp"
 
