@@ -6,7 +6,7 @@ endif()
 # Tests that load deal.II at run time, in the module pbskin_fem.
 set(with_the_module experiments/deformers/fem/fem_module experiments/deformers/flesh_limits experiments/deformers/vbd_limit
     experiments/studies/convergence/convergence_case
-    experiments/studies/ensemble/ensemble experiments/studies/fit/young_fit
+    experiments/studies/ensemble/ensemble experiments/studies/fit/fit
     experiments/studies/shared/posed_reference experiments/studies/stability/broken_fem_starts experiments/broken_bulge)
 set(left_out)
 if(NOT PBS_WITH_FEM)
@@ -28,9 +28,8 @@ pbs_tests(unit experiments BLAS
     ALONE experiments/deformers/vbd experiments/run/limb_stations experiments/run/reference_error_bar
     LIBRARIES experiments)
 pbs_tests(unit experiments_studies BLAS FOLDERS experiments/studies EXCEPT ${left_out}
-    ALONE experiments/studies/ambiguity/reading experiments/studies/ambiguity/reading_values
-        experiments/studies/ambiguity/reading_values experiments/studies/convergence/starts
-        experiments/studies/fit/poisson_fit experiments/studies/recorded_settings experiments/studies/shared/iteration_path
+    ALONE experiments/studies/ambiguity/reading experiments/studies/ambiguity/reading_values experiments/studies/convergence/starts
+        experiments/studies/recorded_settings experiments/studies/shared/iteration_path
         experiments/studies/stability/stability_cells experiments/studies/stiffness/stiffness_ratios experiments/studies/timing/timing_table
         experiments/studies/work_precision/measured_points
     LIBRARIES experiments)

@@ -9,12 +9,12 @@
 #include <nlohmann/json.hpp>
 
 #define RECORDED_MEMBER(member) .record(#member, &Recorded::member)
-#define RECORD_SETTINGS_AND(Type, further, ...)                                                                                        \
-    nlohmann::json to_json(const Type& recorded)                                                                                       \
-    {                                                                                                                                  \
-        using Recorded = Type;                                                                                                         \
-        static const auto fields = OptionFields<Type>(#Type) NLOHMANN_JSON_EXPAND(NLOHMANN_JSON_PASTE(RECORDED_MEMBER, __VA_ARGS__))   \
-            further.complete();                                                                                                        \
-        return fields.json(recorded);                                                                                                  \
+#define RECORD_SETTINGS_AND(Type, further, ...)                                                                                   \
+    nlohmann::json to_json(const Type& recorded)                                                                                  \
+    {                                                                                                                             \
+        using Recorded = Type;                                                                                                    \
+        static const auto fields =                                                                                                \
+            OptionFields<Type>(#Type) NLOHMANN_JSON_EXPAND(NLOHMANN_JSON_PASTE(RECORDED_MEMBER, __VA_ARGS__)) further.complete(); \
+        return fields.json(recorded);                                                                                             \
     }
 #define RECORD_SETTINGS(Type, ...) RECORD_SETTINGS_AND(Type, , __VA_ARGS__)

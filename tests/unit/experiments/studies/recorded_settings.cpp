@@ -10,7 +10,7 @@
 #include "experiments/studies/ensemble/ensemble.hpp"
 #include "experiments/studies/equal_quality/equal_quality.hpp"
 #include "experiments/studies/features/feature_cost.hpp"
-#include "experiments/studies/fit/poisson_run.hpp"
+#include "experiments/studies/fit/fit.hpp"
 #include "experiments/studies/jiggle/jiggle_records.hpp"
 #include "experiments/studies/scale/scale_records.hpp"
 #include "experiments/studies/setup/body_setup.hpp"
@@ -169,8 +169,6 @@ TEST(RecordedSettings, OfStiffness)
 TEST(RecordedSettings, OfFit)
 {
     EXPECT_GE(expect_each_change_repeats(SagCase{}), 7);
-    EXPECT_GE(expect_each_change_repeats(SwingCase{}), 7);
-    EXPECT_GE(expect_each_change_repeats(PoissonCase{.elastic = {{}}, .angles_deg = {30.0}}), 12);
 }
 
 TEST(RecordedSettings, OfBodySetup)
