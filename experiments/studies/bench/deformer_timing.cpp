@@ -1,6 +1,5 @@
 #include "experiments/studies/bench/deformer_timing.hpp"
 
-#include "experiments/deformers/deformer_options.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/scene/scene.hpp"
 #include "experiments/settings/scene_values.hpp"
@@ -148,29 +147,25 @@ std::size_t place_of_plain(const std::vector<DeformerSetting>& settings, const s
 std::vector<DeformerSetting> deformer_settings(const DeformerKind& kind)
 {
     std::vector<DeformerSetting> settings;
-    const bool is_blend = options_if<BlendOptions>(default_spec(kind.name)) != nullptr;
+    const bool has_packed = key_of(kind, "packed") != nullptr;
     for (const std::string& order : choices_of(kind, "order"))
         for (const std::string& precision : choices_of(kind, "precision"))
-            for (const std::string& arithmetic : choices_of(kind, "arithmetic")) {
+            for (const std::string packed : {"true", "false"}) {
+                if (packed == "false" && (!has_packed || precision == "f32")) continue;  // plain code is in f64
                 std::vector<Choice> choices;
                 if (!order.empty()) choices.push_back({"order", '"' + order + '"'});
                 if (!precision.empty()) choices.push_back({"precision", '"' + precision + '"'});
-                if (!arithmetic.empty()) choices.push_back({"arithmetic", '"' + arithmetic + '"'});
+                if (has_packed) choices.push_back({"packed", packed});
                 DeformerSetting setting{spec_with(kind, choices), {}, order, precision};
                 const DeformerTraits traits = traits_of(setting.spec);
                 if (precision.empty()) setting.precision = traits.precision;
-                if (!arithmetic.empty() || is_blend) setting.order = traits.packed ? "packed" : "plain";
+                if (has_packed) setting.order = traits.packed ? "packed" : "plain";
                 if (key_of(kind, "iterations") && traits.iterations.value_or(0) > 0) {
                     choices.push_back({"iterations", std::to_string(2 * *traits.iterations)});
                     setting.twice = spec_with(kind, choices);
                 }
                 settings.push_back(std::move(setting));
             }
-    if (is_blend) {
-        DeformerSpec plain = default_spec(kind.name);
-        options_of<BlendOptions>(plain).packed = false;
-        settings.push_back({plain, {}, "plain", "f64"});
-    }
     for (DeformerSetting& setting : settings) setting.plain = place_of_plain(settings, setting.precision);
     return settings;
 }

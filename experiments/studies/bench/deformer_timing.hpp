@@ -1,7 +1,7 @@
 // How long a frame and an iteration of every registered deformer take, in each precision and order that it offers, relative to the plain
 // implementation of the same method in the same run.
 //   for (const DeformerTiming& timing : time_deformers(body, rounds)) ...
-// The list is the registry's: a deformer with a key `precision`, `order` or `arithmetic` is timed for each of its values. Processor time of
+// The list is the registry's: a deformer with a key `precision`, `order` or `packed` is timed for each of its values. Processor time of
 // one thread.
 #pragma once
 
@@ -21,13 +21,13 @@ struct DeformerKind;
 struct DeformerSetting {
     DeformerSpec spec;
     std::optional<DeformerSpec> twice;  // with twice the iterations; nothing if it has no key `iterations`
-    // order: `packed` or `plain` of a blend or a kind with the key `arithmetic`; empty without either key. precision: that of its traits
-    // without a key.
+    // order: that of the key, or `packed` or `plain` of a kind with the key `packed`; empty without either key. precision: that of its
+    // traits without a key.
     std::string order, precision;
     std::size_t plain = 0;  // its place in the list of the kind's settings
 };
 
-// One per value of `order`, `precision` and `arithmetic`, and the plain blend of LBS and DQS. The key of a list counts as that of its first
+// One per value of `order`, `precision` and `packed`, of which plain code has f64 alone. The key of a list counts as that of its first
 // table.
 std::vector<DeformerSetting> deformer_settings(const DeformerKind& kind);
 

@@ -1,7 +1,8 @@
-// Work in several processes at once: results are returned, and a worker's failure or death does not affect the others.
-#include "experiments/process/child_process.hpp"
+// Work in a separate process. Reference: the contract of the header.
 
+#include "experiments/process/child_process.hpp"
 #include "pbs/geometry/input_error.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 #include <gtest/gtest.h>
 #include <poll.h>
@@ -9,10 +10,118 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <functional>
+#include <stdexcept>
+#include <string>
 
 namespace {
+
+using experiments::in_own_process;
+
+TEST(OwnProcess, TellsItsResult)
+{
+    EXPECT_EQ(in_own_process([] { return nlohmann::json{{"frames", 3}}; }).at("frames"), 3);
+}
+
+TEST(OwnProcess, TellsMoreThanAPipeHolds)
+{
+    const std::string text(300'000, 'x');
+    EXPECT_EQ(in_own_process([&] { return nlohmann::json(text); }).get<std::string>(), text);
+}
+
+TEST(OwnProcess, LeavesNothingBehind)
+{
+    int mine = 1;
+    in_own_process([&] { return nlohmann::json(++mine); });
+    EXPECT_EQ(mine, 1);
+}
+
+template <typename Exception>
+std::string words_of(const std::function<nlohmann::json()>& work)
+{
+    try {
+        in_own_process(work);
+    } catch (const Exception& error) {
+        return error.what();
+    }
+    return "accepted";
+}
+
+TEST(OwnProcess, AFailureIsToldWithItsWordsAndItsKind)
+{
+    EXPECT_EQ(words_of<pbs::InputError>([]() -> nlohmann::json { throw pbs::InputError("a.bvh", 0, "", "", "no such clip"); }),
+              "a.bvh: no such clip");
+    const auto internal = []() -> nlohmann::json { throw std::out_of_range("no such row"); };
+    EXPECT_EQ(words_of<std::runtime_error>(internal), "no such row");
+    EXPECT_THROW(words_of<pbs::InputError>(internal), std::runtime_error);
+    EXPECT_THROW(in_own_process([]() -> nlohmann::json { throw std::string("not an exception"); }), std::runtime_error);
+}
+
+TEST(OwnProcess, WordsThatAreNotUtf8ArriveAllTheSame)
+{
+    EXPECT_EQ(in_own_process([] { return nlohmann::json("li\xffmb"); }), "li\xef\xbf\xbdmb");
+    EXPECT_EQ(words_of<pbs::InputError>([]() -> nlohmann::json { throw pbs::InputError("li\xffmb", 0, "", "", "cannot be read"); }),
+              "li\xef\xbf\xbdmb: cannot be read");
+}
+
+TEST(OwnProcess, ADeathIsAnError)
+{
+    EXPECT_THROW(in_own_process([]() -> nlohmann::json {
+                     std::raise(SIGKILL);
+                     return {};
+                 }),
+                 pbs::InputError);
+}
+
+// Whether a program can be started is known before it is. Reference: execvp of POSIX, which seeks names without a slash on the PATH.
+
+using namespace experiments;
+
+TEST(ProgramRun, KnowsWhetherAProgramCanBeStarted)
+{
+    const test_support::ScratchFolder folder;
+    const std::string program = folder.file("program", "#!/bin/sh\n");
+    EXPECT_EQ(why_not_startable("sh"), "");
+    EXPECT_EQ(why_not_startable("/bin/sh"), "");
+    EXPECT_EQ(why_not_startable(program), "Permission denied");
+    std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+    EXPECT_EQ(why_not_startable(program), "");
+    EXPECT_EQ(why_not_startable(folder.path().string()), "No such file or directory") << "a folder";
+    EXPECT_EQ(why_not_startable("no_such_program"), "No such file or directory");
+    EXPECT_EQ(why_not_startable(""), "No such file or directory");
+}
+
+// It is sought after the change to the folder of its run.
+TEST(ProgramRun, DoesNotFindProgramsFromTheCurrentFolder)
+{
+    namespace fs = std::filesystem;
+    const test_support::ScratchFolder folder, exchange;
+    const std::string program = folder.file("own_program", "#!/bin/sh\n"), missing = "No such file or directory";
+    fs::permissions(program, fs::perms::owner_all);
+    fs::create_directory(folder.path() / "bin");
+    fs::copy(program, folder.path() / "bin");
+    const fs::path before = fs::current_path();
+    const std::string folders = std::getenv("PATH");
+    fs::current_path(folder.path());
+    for (const char* word : {"./own_program", "bin/own_program"}) {
+        EXPECT_EQ(why_not_startable(word), missing);
+        EXPECT_FALSE(run_program({word}, exchange.path().string()).started);
+    }
+    for (const std::string entry : {".", "", "bin"}) {
+        setenv("PATH", ("/nowhere:" + entry + ":/also_nowhere").c_str(), 1);
+        EXPECT_EQ(why_not_startable("own_program"), missing) << entry;
+    }
+    setenv("PATH", folder.path().c_str(), 1);
+    EXPECT_EQ(why_not_startable("own_program"), "");
+    EXPECT_TRUE(run_program({"own_program"}, exchange.path().string()).succeeded());
+    setenv("PATH", folders.c_str(), 1);
+    fs::current_path(before);
+}
+
+// Work in several processes at once: results are returned, and a worker's failure or death does not affect the others.
 
 using experiments::PooledWork;
 using experiments::run_in_pool;

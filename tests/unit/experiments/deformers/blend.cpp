@@ -68,8 +68,9 @@ TEST(OwnPrecision, FloatsDifferByRounding)
         EXPECT_EQ(traits_of(f64).precision, "f64");
         DeformerSpec f32 = f64;
         if (auto* blend = std::any_cast<BlendOptions>(&f32.options)) blend->precision = pbs::Precision::f32;
-        if (auto* mush = std::any_cast<pbs::DeltaMushOptions>(&f32.options)) mush->precision = pbs::Precision::f32;
-        if (auto* direct = std::any_cast<pbs::DirectDeltaMushOptions>(&f32.options)) direct->precision = pbs::Precision::f32;
+        if (auto* mush = std::any_cast<pbs::DeltaMushOptions>(&f32.options)) mush->precision = pbs::Precision::f32, mush->packed = true;
+        if (auto* direct = std::any_cast<pbs::DirectDeltaMushOptions>(&f32.options))
+            direct->precision = pbs::Precision::f32, direct->packed = true;
         EXPECT_EQ(traits_of(f32).precision, "f32") << kind;
         const pbs::Positions in_float = posed(f32, thin_bar), in_double = posed(f64, thin_bar);
         EXPECT_NE(in_float, in_double) << kind;
@@ -137,6 +138,7 @@ TEST(OwnWeights, AreReadFromScenes)
     EXPECT_EQ(traits_of(scene.deformers[2]).precision, "f32");
     EXPECT_EQ(scene.deformers[3].weights, pbs::WeightKind::smooth);
     EXPECT_EQ(options_of<pbs::DeltaMushOptions>(scene.deformers[3]).precision, pbs::Precision::f32);
+    EXPECT_TRUE(options_of<pbs::DeltaMushOptions>(scene.deformers[3]).packed) << "plain code has no f32";
     const auto& direct = options_of<pbs::DirectDeltaMushOptions>(scene.deformers[4]);
     EXPECT_EQ(direct.iterations, 3);
     EXPECT_EQ(direct.kappa, 0.25);
