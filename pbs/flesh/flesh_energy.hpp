@@ -94,8 +94,4 @@ Eigen::Matrix3d deviatoric_gradient(const Eigen::Matrix3d& F);
 // dC/dx_i [1/m], one per column, from dC/dF. They add up to zero.
 Eigen::Matrix<double, 3, 4> vertex_gradients(const NeoHookeanTet& tet, const Eigen::Matrix3d& dC_dF);
 
-// How a deformer computes. plain_f64: one number after the other, as the equations read, in double. packed_f32 and packed_f64: several
-// elements side by side in the registers of the machine, in float or double. In float, positions are relative to the middle of the body.
-enum class Arithmetic { packed_f32, packed_f64, plain_f64 };
-
 }  // namespace pbs

@@ -20,7 +20,7 @@ namespace pbs {
 
 // Sweeps of vertex block descent on rows of numbers. One implementation is plain, the other one packed; both move the vertices by the same
 // colours (../packed/vertex_order.hpp), one colour after the other.
-//   auto sweep = make_vertex_sweep<float>(mesh, energy, Arithmetic::packed_f32, threads);
+//   auto sweep = make_vertex_sweep<float>(mesh, energy, true, threads);
 //   sweep->set_centres(centres);
 //   sweep->load(positions, x);
 //   sweep->move(1.88, x);   // x_i -= omega H_i^-1 g_i for each vertex, each with the latest positions of the others
@@ -35,9 +35,9 @@ protected:
     using RowSystem<Scalar>::RowSystem;
 };
 
-// Scalar is that of `arithmetic` (unchecked).
+// packed: false is plain code, which is in double and exists for Scalar double alone.
 template <typename Scalar>
-std::unique_ptr<VertexSweep<Scalar>> make_vertex_sweep(const TetMesh& mesh, const FleshEnergy& energy, Arithmetic arithmetic, int threads);
+std::unique_ptr<VertexSweep<Scalar>> make_vertex_sweep(const TetMesh& mesh, const FleshEnergy& energy, bool packed, int threads);
 
 // over_relaxation: each vertex moves by omega times the way to its minimum, which decreases the energy for 0 < omega < 2. The energy has
 // several minima; from a poor initial guess, a large omega may end in another one than a small omega.
@@ -52,8 +52,8 @@ struct VertexBlockOptions {
     int iterations = 64;  // sweeps over all vertices
     Acceleration acceleration = Acceleration::over_relaxation;
     double omega = 1.88;
-    double rho = 0.95;  // the estimated spectral radius of a sweep, from 0 inclusive to 1 exclusive
-    Arithmetic arithmetic = Arithmetic::packed_f32;
+    double rho = 0.95;   // the estimated spectral radius of a sweep, from 0 inclusive to 1 exclusive
+    bool packed = true;  // several elements side by side; false: plain code, one after the other, in double
     int threads = 1;
 };
 

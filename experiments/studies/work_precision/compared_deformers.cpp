@@ -130,7 +130,7 @@ ComparedDeformer elastic(const std::string& kind, const std::vector<SettingChang
             .iterations = of_minimisers,
             .few_iterations = few_of_minimisers,
             .grid = grid,
-            .codes = {set(kind, "arithmetic", "packed_f32"), set(kind, "arithmetic", "plain_f64")},
+            .codes = {set(kind, "packed", "true"), set(kind, "packed", "false")},
             .poisson_key = kind + ".poisson"};
 }
 

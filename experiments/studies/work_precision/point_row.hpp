@@ -24,9 +24,7 @@ enum class Half { training, evaluation };
 std::vector<Half> halves_of(const std::vector<std::string>& bodies);
 
 template <>
-struct OptionNames<Half> {
-    static constexpr std::array<std::pair<Half, const char*>, 2> table{{{Half::training, "training"}, {Half::evaluation, "evaluation"}}};
-};
+inline constexpr NameTable<Half, 2> option_names<Half>{{{Half::training, "training"}, {Half::evaluation, "evaluation"}}};
 
 inline constexpr std::array<int, 3> budget_iterations = {4, 24, 96};  // of PBS: a change is compared with it in the time of these
 

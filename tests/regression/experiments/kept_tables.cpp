@@ -138,16 +138,15 @@ TEST(KeptTables, OfAmbiguity)
 TEST(KeptTables, OfTimedStudies)
 {
     expect_same_records(experiments::timing_columns, "timing", "timing.csv");
-    expect_same_records(experiments::feature_columns, "features", "features.csv");
+    expect_same_records(experiments::feature_columns, "timing", "features.csv");
     expect_same_records(experiments::change_columns, "work_precision", "changes.csv");
 }
 
 TEST(KeptTables, OfTheOrders)
 {
-    expect_same_records(experiments::order_columns, "equal_quality", "orders.csv");
-    expect_same_records(experiments::target_columns, "equal_quality", "targets.csv");
-    expect_same_sum(experiments::summary_columns, "equal_quality/summary.csv");
-    expect_same_sum(experiments::answer_columns, "equal_quality/answers.csv");
+    expect_same_records(experiments::order_columns, "timing", "orders.csv");
+    expect_same_records(experiments::target_columns, "timing", "targets.csv");
+    expect_same_sum(experiments::answer_columns, "timing/answers.csv");
 }
 
 TEST(KeptTables, OfTheVerification)

@@ -9,7 +9,6 @@
 #include "experiments/studies/ensemble/ensemble.hpp"
 #include "experiments/studies/fit/fit.hpp"
 #include "experiments/studies/jiggle/jiggle_records.hpp"
-#include "experiments/studies/scale/scale_records.hpp"
 #include "experiments/studies/setup/body_setup.hpp"
 #include "experiments/studies/stability/stability_cells.hpp"
 #include "experiments/studies/stiffness/stiffness_ratios.hpp"
@@ -182,13 +181,6 @@ TEST(RecordedSettings, OfTimedStudies)
     EXPECT_GE(expect_each_change_repeats(BenchOptions{.mesh = "bar.msh", .sizes = {1000}}), 7);
     EXPECT_GE(expect_each_change_repeats(TimedCase{.scene = limb(), .model = "Man"}), 6);
     EXPECT_GE(expect_each_change_repeats(FeaturesCase{.name = "limb", .scene = "limb_bend", .cut = {"motion.frames=11"}}), 8);
-}
-
-// The scale study's scene is the human.
-TEST(RecordedSettings, OfScale)
-{
-    if (!pbs::body_is_installed("human")) GTEST_SKIP() << "the human is not installed";
-    EXPECT_GE(expect_each_change_repeats(ScaleCase{{2400}}), 2);
 }
 
 TEST(RecordedSettings, OfATimedCaseHasTheRefinementsOfItsMesh)
