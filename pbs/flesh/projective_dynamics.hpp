@@ -1,4 +1,4 @@
-// Projective dynamics in equilibrium: minimises ProjectiveEnergy (projective_dynamics.hpp, where its sources are).
+// Projective dynamics in equilibrium: minimises ProjectiveEnergy, where its sources are.
 //   const double share = volume_share_of_projective(poisson, true);
 //   const HeldFlesh flesh(mesh, springs, bones, {.poisson = poisson, .volume_share = share});
 //   const ProjectiveEnergy energy(mesh, projective_weights(poisson, true), flesh.hold());

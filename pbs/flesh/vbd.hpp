@@ -1,6 +1,6 @@
 // Vertex block descent for elastic bodies in equilibrium (A. H. Chen, Z. Liu, Y. Yang, C. Yuksel, Vertex block descent, ACM TOG 43(4),
 // 2024), without inertia: nonlinear Gauss-Seidel over vertices (Y. Chen et al., Position-based nonlinear Gauss-Seidel for quasistatic
-// hyperelasticity, 2023). The energy along one vertex is exactly quadratic here (vbd.hpp), so that one step of Newton's method is
+// hyperelasticity, 2023). The energy along one vertex is exactly quadratic here (VertexStar), so that one step of Newton's method is
 // its minimum and needs neither a projection of its matrix nor a line search.
 //   VertexBlockDescent<float> solver(mesh, energy, options);
 //   VertexBlockSummary summary = solver.minimise(centres, x);   // x: the initial guess in, the last iterate out
@@ -19,7 +19,7 @@
 namespace pbs {
 
 // Sweeps of vertex block descent on rows of numbers. One implementation is plain, the other one packed; both move the vertices by the same
-// colours (../packed/vertex_order.hpp), one colour after the other.
+// colours (vertex_colours), one colour after the other.
 //   auto sweep = make_vertex_sweep<float>(mesh, energy, true, threads);
 //   sweep->set_centres(centres);
 //   sweep->load(positions, x);
