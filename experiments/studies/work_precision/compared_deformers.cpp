@@ -151,7 +151,8 @@ ComparedDeformer change(const std::string& name, const KeyValues& fixed, const s
     ComparedDeformer entry = projecting("pbs", "pbs", {{}});
     entry.name = name;
     entry.fixed = fixed;
-    entry.iterations.pop_back();  // as many as the largest budget has
+    entry.iterations.pop_back();            // as many as the largest budget has
+    entry.few_iterations = {1, 4, 24, 96};  // a change that takes longer than PBS is interpolated from one iteration on
     entry.codes = {{"pbs.order=ordered", "pbs.precision=f32"}};
     if (values.empty()) return entry;
     entry.grid = each_of(key, values);

@@ -283,14 +283,14 @@ TEST(MeasuredPoints, HaveTheirDistanceFromTheOwnLimitOfTheDeformers)
     EXPECT_LT(distance_pct.at("fem_neo_hookean"), 0.1 * distance_pct.at("lbs")) << "the laws are near each other";
 }
 
-// The first rung has 4 iterations, and the others take too long. In the quick form the bound is the distance of linear elements.
+// The first rung has 4 iterations of PBS and one of a change, and the others take too long. In the quick form the bound is the distance of linear elements.
 TEST(MeasuredPoints, HaveTheChangesToPbsInATableOfTheirOwn)
 {
     std::map<std::string, int> finished;
     for (const PointRow& row : small_points().changes) {
         if (row.outcome != "finished") continue;
         ++finished[row.key.deformer];
-        EXPECT_EQ(row.key.iterations, 4);
+        EXPECT_EQ(row.key.iterations, row.key.deformer == baseline ? 4 : 1);
         EXPECT_EQ(row.reference, "quadratic");
         EXPECT_GT(row.reference_error_joint_pct.value(), 0.0);
         ASSERT_TRUE(row.from_pbs_pct[0]) << row.key.deformer;
