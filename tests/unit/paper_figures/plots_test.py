@@ -101,7 +101,7 @@ class Plots(unittest.TestCase):
         self.assertEqual([(row["deformer"], row["missing"], row["points"]) for row in added], [("vbd", 2, 6)])
 
     def test_improvements(self):
-        synthetic_tables.write_improvements(self.results / "improvements")
+        synthetic_tables.write_improvements(self.results / "work_precision")
         rows = self.drawn("improvements")
         self.assertEqual(len([row for row in rows if row["shown"] == "curve"]), 2 * 4)
         gains = {row["budget_iterations"]: row for row in rows if row["shown"] == "gain"}
@@ -117,7 +117,7 @@ class Plots(unittest.TestCase):
                                                         "not ranked: volumes of regions in the time of 24 iterations: 0 of 8 poses"])
 
     def test_an_attachment_that_was_not_reached_keeps_its_place_and_says_so(self):
-        synthetic_tables.write_error_split(self.results / "error_split")
+        synthetic_tables.write_error_split(self.results / "ensemble")
         axes, save = [], style.save
 
         def kept(figure, *others):
@@ -207,7 +207,7 @@ class Plots(unittest.TestCase):
         self.assertIn("paper, by CT: 1654, 0.52", shown)
 
     def test_costs_of_features(self):
-        synthetic_tables.write_features(self.results / "features")
+        synthetic_tables.write_features(self.results / "timing")
         self.assertEqual(len(self.drawn("features_cost")), 3)
         shown = self.titles("processor time per frame, with over without [1]")
         self.assertEqual(shown, ["limb: 0.5, sleep", "human: 0.5, sleep", "human: 1.5, rendered surface"])
