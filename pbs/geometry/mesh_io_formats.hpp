@@ -4,12 +4,15 @@
 
 #include "pbs/geometry/content_format.hpp"
 #include "pbs/geometry/files.hpp"
-#include "pbs/geometry/guarded_reading.hpp"
 #include "pbs/geometry/mesh_io.hpp"
 
-#include <functional>
-
 namespace pbs {
+
+// A mesh of one kind of cell, as a reader returns it: nothing is checked.
+struct IndexedPoints {
+    Positions points;                                                           // [m], #V x 3
+    Eigen::Matrix<int, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> cells;  // vertex indices, #C x corners
+};
 
 IndexedPoints read_vtk(const std::string& path);  // .vtu, .vtk, by VTK
 // .msh 2.2 and 4.1, .mesh, by Gmsh, in a module. named: the path, or a link to it, with the extension that fits the content.
