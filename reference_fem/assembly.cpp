@@ -1,8 +1,5 @@
 #include "reference_fem/assembly.hpp"
 
-#include "pbs/geometry/tet_mesh.hpp"
-#include "reference_fem/options.hpp"
-
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/fe_simplex_p.h>
@@ -14,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include <vector>
 
 namespace reference_fem {
 

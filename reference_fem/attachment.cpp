@@ -1,8 +1,5 @@
 #include "reference_fem/attachment.hpp"
 
-#include "pbs/geometry/tet_mesh.hpp"
-#include "reference_fem/assembly.hpp"
-#include "reference_fem/linear_solvers.hpp"
 #include "reference_fem/options.hpp"
 
 #include <Eigen/Eigenvalues>
@@ -134,25 +131,6 @@ bool span_a_plane(const std::vector<pbs::Vec3>& points)
     return spread(1) > 1e-12 * spread(2);
 }
 
-}  // namespace
-
-void require_held(const pbs::TetMesh& mesh, const pbs::Positions& points, const std::vector<int>& tets)
-{
-    const std::vector<int> part = part_of_vertices(mesh);
-    std::map<int, std::vector<pbs::Vec3>> held;
-    for (Eigen::Index p = 0; p < points.rows(); ++p)
-        if (tets[p] >= 0) held[part[mesh.tets(tets[p], 0)]].push_back(points.row(p));
-    std::set<int> checked;
-    for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t) {
-        const int of_tet = part[mesh.tets(t, 0)];
-        if (!checked.insert(of_tet).second) continue;
-        require(span_a_plane(held[of_tet]), "attachment of the part with tet", t,
-                "expected three held points inside that are not on one line");
-    }
-}
-
-namespace {
-
 // Every point that the attachment holds: the springs' points, the corners of prescribed tets, bound vertices.
 void check_held(const pbs::TetMesh& mesh, const Attachment& attachment, const std::vector<int>& spring_tets)
 {
@@ -202,6 +180,21 @@ const pbs::TetMesh& checked(const pbs::TetMesh& mesh, double density_kg_m3, cons
 }
 
 }  // namespace
+
+void require_held(const pbs::TetMesh& mesh, const pbs::Positions& points, const std::vector<int>& tets)
+{
+    const std::vector<int> part = part_of_vertices(mesh);
+    std::map<int, std::vector<pbs::Vec3>> held;
+    for (Eigen::Index p = 0; p < points.rows(); ++p)
+        if (tets[p] >= 0) held[part[mesh.tets(tets[p], 0)]].push_back(points.row(p));
+    std::set<int> checked;
+    for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t) {
+        const int of_tet = part[mesh.tets(t, 0)];
+        if (!checked.insert(of_tet).second) continue;
+        require(span_a_plane(held[of_tet]), "attachment of the part with tet", t,
+                "expected three held points inside that are not on one line");
+    }
+}
 
 void check_attachment(const pbs::TetMesh& mesh, const Attachment& attachment)
 {

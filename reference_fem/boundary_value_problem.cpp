@@ -2,7 +2,6 @@
 
 #include "pbs/geometry/topology.hpp"
 #include "reference_fem/linear_flesh.hpp"
-#include "reference_fem/linear_solvers.hpp"
 #include "reference_fem/potentials/potentials.hpp"
 
 #include <algorithm>

@@ -1,9 +1,6 @@
 #include "reference_fem/elastic_body.hpp"
 
-#include "reference_fem/attachment.hpp"
 #include "reference_fem/dynamics/time_stepper.hpp"
-#include "reference_fem/options.hpp"
-#include "reference_fem/potentials/potentials.hpp"
 
 namespace reference_fem {
 namespace {

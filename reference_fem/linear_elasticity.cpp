@@ -1,10 +1,8 @@
 #include "reference_fem/linear_elasticity.hpp"
 
 #include "pbs/geometry/cost.hpp"
-#include "reference_fem/attachment.hpp"
 #include "reference_fem/linear_flesh.hpp"
 #include "reference_fem/linear_solvers.hpp"
-#include "reference_fem/options.hpp"
 
 namespace reference_fem {
 

@@ -1,7 +1,5 @@
 #include "reference_fem/linear_flesh.hpp"
 
-#include "reference_fem/assembly.hpp"
-#include "reference_fem/options.hpp"
 #include "reference_fem/potentials/potentials.hpp"
 
 #include <cmath>
@@ -25,24 +23,6 @@ void add_blocks(const Gradients& gradients, const Lame& material, double weight,
             block.diagonal().array() += material.mu_pa * outer.trace();
         }
 }
-
-}  // namespace
-
-SparseMatrix stiffness_matrix(const SimplexSpace& space, const Lame& material)
-{
-    // Products of gradients have degree 2 (order - 1); n points a direction integrate degree 2 n - 1.
-    const ElementTables tables = element_tables(space, space.element_order());
-    NodalMatrix stiffness(space);
-    TetMatrix of_tet(3 * tables.nodes_per_tet, 3 * tables.nodes_per_tet);
-    for (Eigen::Index tet = 0; tet < space.tet_nodes().rows(); ++tet) {
-        of_tet.setZero();
-        for (int q = 0; q < tables.points_per_tet; ++q) add_blocks(tables.gradients(tet, q), material, tables.weight(tet, q), of_tet);
-        stiffness.add_tet(tet, of_tet);
-    }
-    return std::move(stiffness).matrix();
-}
-
-namespace {
 
 using Triplets = std::vector<Eigen::Triplet<double, SparseMatrix::StorageIndex>>;
 
@@ -101,6 +81,20 @@ ElasticPotential mean_dilatation(const SimplexSpace& space, const Lame& lame)
 }
 
 }  // namespace
+
+SparseMatrix stiffness_matrix(const SimplexSpace& space, const Lame& material)
+{
+    // Products of gradients have degree 2 (order - 1); n points a direction integrate degree 2 n - 1.
+    const ElementTables tables = element_tables(space, space.element_order());
+    NodalMatrix stiffness(space);
+    TetMatrix of_tet(3 * tables.nodes_per_tet, 3 * tables.nodes_per_tet);
+    for (Eigen::Index tet = 0; tet < space.tet_nodes().rows(); ++tet) {
+        of_tet.setZero();
+        for (int q = 0; q < tables.points_per_tet; ++q) add_blocks(tables.gradients(tet, q), material, tables.weight(tet, q), of_tet);
+        stiffness.add_tet(tet, of_tet);
+    }
+    return std::move(stiffness).matrix();
+}
 
 LinearFlesh::LinearFlesh(const SimplexSpace& space, const Lame& lame, Formulation formulation, const std::vector<int>& held_tets)
     : space_(space), lame_(lame), formulation_(formulation)

@@ -12,6 +12,8 @@
 #include <cstdlib>
 #include <limits>
 
+extern "C" void dgemm_();
+
 namespace reference_fem {
 
 std::unique_ptr<PreparedSolver> prepare(const SparseMatrix& matrix, LinearSolver solver, const NearNullSpace& near_null_space)
@@ -28,11 +30,6 @@ std::unique_ptr<PreparedSolver> prepare(const SparseMatrix& matrix, LinearSolver
     return prepare_cholmod(matrix);
 }
 
-}  // namespace reference_fem
-
-extern "C" void dgemm_();
-
-namespace reference_fem {
 namespace {
 
 // OpenBLAS's own functions, looked up at run time: the program must also run on another BLAS.

@@ -21,7 +21,7 @@ pbs_tests(claims experiments FOLDERS experiments EXCEPT ${left_out}
     LIBRARIES experiments)
 target_compile_definitions(test_claims_experiments PRIVATE ${claims_file})
 pbs_tests(unit experiments BLAS
-    FOLDERS experiments/process experiments/scene experiments/run experiments/deformers experiments/trial experiments/verdicts
+    FOLDERS experiments/process experiments/scene experiments/run experiments/deformers experiments/trial
         experiments/command_line
     FILES experiments/deformers/fem/fem_module
     EXCEPT experiments/deformers/fem ${left_out}

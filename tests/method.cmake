@@ -23,7 +23,8 @@ pbs_tests(unit pbs_solver FOLDERS pbs/packed pbs/solver pbs/author
 pbs_tests(unit analysis FOLDERS analysis
     ALONE analysis/statistics/minimise analysis/records/tables analysis/metrics/frame_metrics analysis/metrics/error_norms
     LIBRARIES analysis GSL::gsl)
-set_source_files_properties(unit/analysis/verdicts/claims.cpp unit/analysis/verdicts/verdict.cpp PROPERTIES COMPILE_DEFINITIONS ${claims_file})
+set_source_files_properties(unit/analysis/verdicts/claims.cpp unit/analysis/verdicts/verdict.cpp PROPERTIES
+    COMPILE_DEFINITIONS ${claims_file})
 pbs_tests(properties method FOLDERS pbs analysis
     EXCEPT pbs/geometry/meshing_repeats pbs/solver/orders
     ALONE pbs/skinning/invariance pbs/solver/invariance pbs/solver/left_out pbs/solver/sleep pbs/solver/threads

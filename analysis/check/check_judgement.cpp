@@ -83,24 +83,6 @@ std::string values_text(const CheckBound& bound, const Seen& seen, const std::st
     return fmt::format("frame {}: {} of {} = {:.6g}{}", seen.worst.frame, bound.metric, bound.deformer, seen.worst.value, unit);
 }
 
-}  // namespace
-
-CheckCase judge_bound(const CheckBound& bound, const std::string& unit, const CsvTable& metrics, const std::string& rules_file)
-{
-    if (!metrics.has_column(bound.metric)) refuse(bound, rules_file, "metric", bound.metric, "the scene does not measure it");
-    const Seen seen = look_at(bound, metrics, rules_file);
-    const std::string of_unit = unit.empty() ? "" : " " + unit;
-    CheckCase check{bound.scene, bound.name,       seen.outside > 0 ? CheckState::failed : CheckState::held,
-                    "",          seen.worst.frame, seen.worst.value,
-                    rules_file,  bound.line};
-    check.message = fmt::format("{}, expected {}{}", values_text(bound, seen, of_unit), interval_text(bound), of_unit);
-    if (seen.outside > 1)
-        check.message += fmt::format(" ({} of {} frames outside, the first is {})", seen.outside, seen.frames, seen.first_outside);
-    return check;
-}
-
-namespace {
-
 const std::vector<std::string> count_columns = {"vertices", "tets", "iterations"};
 
 std::vector<std::string> columns_of(const CheckRules& rules)
@@ -216,6 +198,20 @@ double median_step_ms(const CsvTable& table, const std::map<int, int>& rows)
 }
 
 }  // namespace
+
+CheckCase judge_bound(const CheckBound& bound, const std::string& unit, const CsvTable& metrics, const std::string& rules_file)
+{
+    if (!metrics.has_column(bound.metric)) refuse(bound, rules_file, "metric", bound.metric, "the scene does not measure it");
+    const Seen seen = look_at(bound, metrics, rules_file);
+    const std::string of_unit = unit.empty() ? "" : " " + unit;
+    CheckCase check{bound.scene, bound.name,       seen.outside > 0 ? CheckState::failed : CheckState::held,
+                    "",          seen.worst.frame, seen.worst.value,
+                    rules_file,  bound.line};
+    check.message = fmt::format("{}, expected {}{}", values_text(bound, seen, of_unit), interval_text(bound), of_unit);
+    if (seen.outside > 1)
+        check.message += fmt::format(" ({} of {} frames outside, the first is {})", seen.outside, seen.frames, seen.first_outside);
+    return check;
+}
 
 CsvTable baseline_columns(const CheckRules& rules)
 {

@@ -19,19 +19,8 @@ int count(const std::vector<CheckSuite>& suites, CheckState state)
 
 const char* to_string(CheckState state)
 {
-    switch (state) {
-        case CheckState::held:
-            return "holds";
-        case CheckState::failed:
-            return "FAILS";
-        case CheckState::left_out:
-            return "left out";
-        case CheckState::broke_down:
-            return "BREAKDOWN";
-        case CheckState::refused:
-            return "REFUSED";
-    }
-    return "";
+    constexpr const char* names[] = {"holds", "FAILS", "left out", "BREAKDOWN", "REFUSED"};
+    return names[static_cast<int>(state)];
 }
 
 std::string check_table(const std::vector<CheckSuite>& suites)
@@ -75,35 +64,6 @@ std::string table_cell(std::string text)
     return text;
 }
 
-}  // namespace
-
-std::string github_annotations(const std::vector<CheckSuite>& suites)
-{
-    std::string text;
-    for (const CheckSuite& suite : suites)
-        for (const CheckCase& check : suite.cases)
-            if (check.state != CheckState::held) text += annotation(check);
-    return text;
-}
-
-std::string github_summary(const std::vector<CheckSuite>& suites)
-{
-    std::string text = fmt::format(
-        "### pbskin: {} hold, {} fail, {} left out\n\n| | scene | bound | measured |\n|---|---|---|---|\n", count(suites, CheckState::held),
-        count(suites, CheckState::failed) + count(suites, CheckState::broke_down) + count(suites, CheckState::refused),
-        count(suites, CheckState::left_out));
-    for (const CheckSuite& suite : suites) {
-        for (const CheckCase& check : suite.cases)
-            text += fmt::format("| {} | {} | {} | {} |\n", to_string(check.state), table_cell(suite.name), table_cell(check.name),
-                                table_cell(check.message));
-        for (const auto& [name, value] : suite.properties)
-            text += fmt::format("| | {} | {} | {} |\n", table_cell(suite.name), table_cell(name), table_cell(value));
-    }
-    return text + "\n";
-}
-
-namespace {
-
 void set(pugi::xml_node node, const char* name, const std::string& value)
 {
     node.append_attribute(name) = value.c_str();
@@ -143,6 +103,31 @@ void add_case(pugi::xml_node parent, const CheckCase& check)
 }
 
 }  // namespace
+
+std::string github_annotations(const std::vector<CheckSuite>& suites)
+{
+    std::string text;
+    for (const CheckSuite& suite : suites)
+        for (const CheckCase& check : suite.cases)
+            if (check.state != CheckState::held) text += annotation(check);
+    return text;
+}
+
+std::string github_summary(const std::vector<CheckSuite>& suites)
+{
+    std::string text = fmt::format(
+        "### pbskin: {} hold, {} fail, {} left out\n\n| | scene | bound | measured |\n|---|---|---|---|\n", count(suites, CheckState::held),
+        count(suites, CheckState::failed) + count(suites, CheckState::broke_down) + count(suites, CheckState::refused),
+        count(suites, CheckState::left_out));
+    for (const CheckSuite& suite : suites) {
+        for (const CheckCase& check : suite.cases)
+            text += fmt::format("| {} | {} | {} | {} |\n", to_string(check.state), table_cell(suite.name), table_cell(check.name),
+                                table_cell(check.message));
+        for (const auto& [name, value] : suite.properties)
+            text += fmt::format("| | {} | {} | {} |\n", table_cell(suite.name), table_cell(name), table_cell(value));
+    }
+    return text + "\n";
+}
 
 std::string junit_report(const std::vector<CheckSuite>& suites)
 {

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace analysis {
 namespace {
@@ -95,34 +94,6 @@ void require_once(const std::vector<Entry>& entries, std::string Entry::*name, c
             if (entries[i].*name == entries[j].*name) throw pbs::InputError(file, entries[i].line, key, entries[i].*name, "expected once");
 }
 
-}  // namespace
-
-CheckRules parse_check_rules(const std::string& text, const std::string& file, const std::vector<std::string>& metrics)
-{
-    const toml::table document = parse_toml_document(text, file, {"check", "claim", "quantity"});
-    const toml::table* check = document["check"].as_table();
-    if (!check) throw pbs::InputError(file, 0, "check", "", "expected [[check.scene]] and [[check.bound]] tables");
-    TomlKeys keys(*check, file, "check");
-    for (const char* known : {"scene", "bound", "tolerance"}) keys.mark_read(known);
-    keys.require_nothing_unknown();
-
-    CheckRules rules{file, {}, {}, {}};
-    Names scenes;
-    for (const toml::table* table : toml_tables(*check, "scene", file)) {
-        rules.scenes.push_back(read_scene(*table, file, scenes));
-        scenes.push_back(rules.scenes.back().name);
-    }
-    if (scenes.empty()) throw pbs::InputError(file, 0, "check.scene", "", "expected at least one [[check.scene]]");
-    for (const toml::table* table : toml_tables(*check, "bound", file)) rules.bounds.push_back(read_bound(*table, file, scenes, metrics));
-    for (const toml::table* table : toml_tables(*check, "tolerance", file))
-        rules.tolerances.push_back(read_tolerance(*table, file, metrics));
-    require_once(rules.bounds, &CheckBound::name, "name", file);
-    require_once(rules.tolerances, &CheckTolerance::metric, "metric", file);
-    return rules;
-}
-
-namespace {
-
 bool holds(const FrameBound& bound, double value)
 {
     return bound.is_upper ? value <= *bound.value : value >= *bound.value;
@@ -158,6 +129,30 @@ CheckCase judged(const std::string& suite, const FrameBound& bound, const std::v
 }
 
 }  // namespace
+
+CheckRules parse_check_rules(const std::string& text, const std::string& file, const std::vector<std::string>& metrics)
+{
+    const toml::table document = parse_toml_document(text, file, {"check", "claim", "quantity"});
+    const toml::table* check = document["check"].as_table();
+    if (!check) throw pbs::InputError(file, 0, "check", "", "expected [[check.scene]] and [[check.bound]] tables");
+    TomlKeys keys(*check, file, "check");
+    for (const char* known : {"scene", "bound", "tolerance"}) keys.mark_read(known);
+    keys.require_nothing_unknown();
+
+    CheckRules rules{file, {}, {}, {}};
+    Names scenes;
+    for (const toml::table* table : toml_tables(*check, "scene", file)) {
+        rules.scenes.push_back(read_scene(*table, file, scenes));
+        scenes.push_back(rules.scenes.back().name);
+    }
+    if (scenes.empty()) throw pbs::InputError(file, 0, "check.scene", "", "expected at least one [[check.scene]]");
+    for (const toml::table* table : toml_tables(*check, "bound", file)) rules.bounds.push_back(read_bound(*table, file, scenes, metrics));
+    for (const toml::table* table : toml_tables(*check, "tolerance", file))
+        rules.tolerances.push_back(read_tolerance(*table, file, metrics));
+    require_once(rules.bounds, &CheckBound::name, "name", file);
+    require_once(rules.tolerances, &CheckTolerance::metric, "metric", file);
+    return rules;
+}
 
 std::vector<FrameBound> known_frame_bounds()
 {

@@ -77,41 +77,7 @@ void require_station(const SectionStation& station, std::size_t number, Eigen::I
         if (t < 0 || t >= tets) throw pbs::InputError("", 0, name, fmt::format("tet {}", t), fmt::format("expected 0 <= tet < {}", tets));
 }
 
-}  // namespace
-
-double cross_section_area(const pbs::Positions& positions, const pbs::Tets& tets, const std::vector<int>& chosen, const Plane& plane)
-{
-    CompensatedSum area;
-    for (int t : chosen)
-        if (is_cut(positions, tets, t, plane)) area += cut_area(split(positions, tets, t, plane));
-    return area.value();
-}
-
-SectionExtremes section_extremes(const pbs::Positions& rest, const pbs::Positions& positions, const pbs::Tets& tets,
-                                 const std::vector<SectionStation>& stations)
-{
-    require_points(positions, rest.rows(), "the frame");
-    SectionExtremes result;
-    for (std::size_t i = 0; i < stations.size(); ++i) {
-        const SectionStation& station = stations[i];
-        require_station(station, i, tets.rows());
-        const double rest_area =
-            station.rest_area_m2 > 0.0 ? station.rest_area_m2 : cross_section_area(rest, tets, station.tets, station.rest);
-        if (!(rest_area > 0.0)) throw pbs::InputError("", 0, fmt::format("station {}", i), "", "its plane misses its tets at rest");
-        result.area_m2.push_back(cross_section_area(positions, tets, station.tets, station.posed));
-        result.ratio.push_back(result.area_m2.back() / rest_area);
-        if (result.smallest < 0 || result.ratio.back() < result.ratio[result.smallest]) result.smallest = static_cast<int>(i);
-        if (result.largest < 0 || result.ratio.back() > result.ratio[result.largest]) result.largest = static_cast<int>(i);
-    }
-    if (result.smallest >= 0) result.smallest_ratio = result.ratio[result.smallest];
-    if (result.largest >= 0) result.largest_ratio = result.ratio[result.largest];
-    return result;
-}
-
-namespace {
-
 using pbs::Positions;
-using pbs::Vec3;
 
 Vec3 point_of(const Positions& outline, Eigen::Index i)
 {
@@ -145,7 +111,64 @@ Vec3 centroid_of_length(const Positions& outline)
     return length > 0.0 ? Vec3(sum / length) : point_of(outline, 0);
 }
 
+struct EdgeCrossing {
+    Vec3 point;
+    bool is_chosen;  // the nearer vertex of its edge
+};
+
+std::vector<EdgeCrossing> crossings_of(const Plane& plane, const pbs::Positions& positions, const pbs::Triangles& skin,
+                                       const std::vector<bool>& chosen)
+{
+    const Eigen::VectorXd height = (positions.rowwise() - plane.point.transpose()) * plane.normal;
+    std::vector<EdgeCrossing> crossings;
+    for (Eigen::Index t = 0; t < skin.rows(); ++t)
+        for (int corner = 0; corner < 3; ++corner) {
+            const int a = skin(t, corner), b = skin(t, (corner + 1) % 3);
+            if (a > b || (height(a) >= 0.0) == (height(b) >= 0.0)) continue;  // the neighbouring triangle has the edge from b to a
+            const double share = height(a) / (height(a) - height(b));
+            crossings.push_back({positions.row(a) + share * (positions.row(b) - positions.row(a)), chosen[share < 0.5 ? a : b]});
+        }
+    return crossings;
+}
+
+bool is_on_chosen(const std::vector<EdgeCrossing>& crossings, const Vec3& point)
+{
+    const auto nearest = std::min_element(crossings.begin(), crossings.end(), [&](const EdgeCrossing& a, const EdgeCrossing& b) {
+        return (a.point - point).squaredNorm() < (b.point - point).squaredNorm();
+    });
+    return nearest != crossings.end() && nearest->is_chosen;
+}
+
 }  // namespace
+
+double cross_section_area(const pbs::Positions& positions, const pbs::Tets& tets, const std::vector<int>& chosen, const Plane& plane)
+{
+    CompensatedSum area;
+    for (int t : chosen)
+        if (is_cut(positions, tets, t, plane)) area += cut_area(split(positions, tets, t, plane));
+    return area.value();
+}
+
+SectionExtremes section_extremes(const pbs::Positions& rest, const pbs::Positions& positions, const pbs::Tets& tets,
+                                 const std::vector<SectionStation>& stations)
+{
+    require_points(positions, rest.rows(), "the frame");
+    SectionExtremes result;
+    for (std::size_t i = 0; i < stations.size(); ++i) {
+        const SectionStation& station = stations[i];
+        require_station(station, i, tets.rows());
+        const double rest_area =
+            station.rest_area_m2 > 0.0 ? station.rest_area_m2 : cross_section_area(rest, tets, station.tets, station.rest);
+        if (!(rest_area > 0.0)) throw pbs::InputError("", 0, fmt::format("station {}", i), "", "its plane misses its tets at rest");
+        result.area_m2.push_back(cross_section_area(positions, tets, station.tets, station.posed));
+        result.ratio.push_back(result.area_m2.back() / rest_area);
+        if (result.smallest < 0 || result.ratio.back() < result.ratio[result.smallest]) result.smallest = static_cast<int>(i);
+        if (result.largest < 0 || result.ratio.back() > result.ratio[result.largest]) result.largest = static_cast<int>(i);
+    }
+    if (result.smallest >= 0) result.smallest_ratio = result.ratio[result.smallest];
+    if (result.largest >= 0) result.largest_ratio = result.ratio[result.largest];
+    return result;
+}
 
 OutlineSize outline_size(const Positions& outline)
 {
@@ -188,40 +211,6 @@ const Positions* enclosing_outline(const std::vector<Positions>& outlines, const
     }
     return best;
 }
-
-namespace {
-
-using pbs::Vec3;
-
-struct EdgeCrossing {
-    Vec3 point;
-    bool is_chosen;  // the nearer vertex of its edge
-};
-
-std::vector<EdgeCrossing> crossings_of(const Plane& plane, const pbs::Positions& positions, const pbs::Triangles& skin,
-                                       const std::vector<bool>& chosen)
-{
-    const Eigen::VectorXd height = (positions.rowwise() - plane.point.transpose()) * plane.normal;
-    std::vector<EdgeCrossing> crossings;
-    for (Eigen::Index t = 0; t < skin.rows(); ++t)
-        for (int corner = 0; corner < 3; ++corner) {
-            const int a = skin(t, corner), b = skin(t, (corner + 1) % 3);
-            if (a > b || (height(a) >= 0.0) == (height(b) >= 0.0)) continue;  // the neighbouring triangle has the edge from b to a
-            const double share = height(a) / (height(a) - height(b));
-            crossings.push_back({positions.row(a) + share * (positions.row(b) - positions.row(a)), chosen[share < 0.5 ? a : b]});
-        }
-    return crossings;
-}
-
-bool is_on_chosen(const std::vector<EdgeCrossing>& crossings, const Vec3& point)
-{
-    const auto nearest = std::min_element(crossings.begin(), crossings.end(), [&](const EdgeCrossing& a, const EdgeCrossing& b) {
-        return (a.point - point).squaredNorm() < (b.point - point).squaredNorm();
-    });
-    return nearest != crossings.end() && nearest->is_chosen;
-}
-
-}  // namespace
 
 double share_of_outline(const pbs::Positions& outline, const Plane& plane, const pbs::Positions& positions, const pbs::Triangles& skin,
                         const std::vector<bool>& chosen)

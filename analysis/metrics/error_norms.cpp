@@ -3,7 +3,6 @@
 #include "analysis/metrics/frame_metrics.hpp"
 #include "analysis/statistics/statistics.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/geometry/topology.hpp"
 
 #include <Eigen/Geometry>
@@ -64,6 +63,40 @@ std::vector<int> without(const std::vector<int>& vertices, const std::vector<boo
     std::vector<int> rest;
     std::copy_if(vertices.begin(), vertices.end(), std::back_inserter(rest), [&](int vertex) { return !left_out[vertex]; });
     return rest;
+}
+
+using pbs::Positions;
+using pbs::Vec3;
+
+Vec3 point_of(const Positions& positions, int vertex)
+{
+    return positions.row(vertex);
+}
+
+double triangle_area(const Positions& positions, const std::array<int, 3>& face)
+{
+    const Vec3 a = point_of(positions, face[0]);
+    return 0.5 * (point_of(positions, face[1]) - a).cross(point_of(positions, face[2]) - a).norm();
+}
+
+// The signed angle between the normals of the triangles (first, second, left) and (second, first, right); zero where the skin is flat.
+double dihedral_angle(const Positions& positions, int first, int second, int left, int right)
+{
+    const Vec3 a = point_of(positions, first), edge = point_of(positions, second) - a;
+    const Vec3 normal = edge.cross(point_of(positions, left) - a), other = (point_of(positions, right) - a).cross(edge);
+    if (!(edge.norm() > 0.0)) return 0.0;
+    return std::atan2(normal.cross(other).dot(edge.normalized()), normal.dot(other));
+}
+
+template <std::size_t n>
+bool all_near(const std::array<int, n>& vertices, const std::vector<bool>& near)
+{
+    return std::all_of(vertices.begin(), vertices.end(), [&](int v) { return near[v]; });
+}
+
+double rms(double weighted_squares, double weights)
+{
+    return weights > 0.0 ? std::sqrt(weighted_squares / weights) : 0.0;
 }
 
 }  // namespace
@@ -131,52 +164,6 @@ double error_h1_pct(const pbs::Positions& rest, const pbs::Tets& tets, const pbs
     return 100.0 * std::sqrt(sum.value() / total.value());
 }
 
-namespace {
-
-using pbs::Positions;
-using pbs::Vec3;
-
-Vec3 point_of(const Positions& positions, int vertex)
-{
-    return positions.row(vertex);
-}
-
-double triangle_area(const Positions& positions, const std::array<int, 3>& face)
-{
-    const Vec3 a = point_of(positions, face[0]);
-    return 0.5 * (point_of(positions, face[1]) - a).cross(point_of(positions, face[2]) - a).norm();
-}
-
-Eigen::Matrix3d edges_from_first(const Positions& positions, const pbs::Tets& tets, int tet)
-{
-    Eigen::Matrix3d edges;
-    for (int corner = 1; corner < 4; ++corner)
-        edges.col(corner - 1) = point_of(positions, tets(tet, corner)) - point_of(positions, tets(tet, 0));
-    return edges;
-}
-
-// The signed angle between the normals of the triangles (first, second, left) and (second, first, right); zero where the skin is flat.
-double dihedral_angle(const Positions& positions, int first, int second, int left, int right)
-{
-    const Vec3 a = point_of(positions, first), edge = point_of(positions, second) - a;
-    const Vec3 normal = edge.cross(point_of(positions, left) - a), other = (point_of(positions, right) - a).cross(edge);
-    if (!(edge.norm() > 0.0)) return 0.0;
-    return std::atan2(normal.cross(other).dot(edge.normalized()), normal.dot(other));
-}
-
-template <std::size_t n>
-bool all_near(const std::array<int, n>& vertices, const std::vector<bool>& near)
-{
-    return std::all_of(vertices.begin(), vertices.end(), [&](int v) { return near[v]; });
-}
-
-double rms(double weighted_squares, double weights)
-{
-    return weights > 0.0 ? std::sqrt(weighted_squares / weights) : 0.0;
-}
-
-}  // namespace
-
 SmoothnessMetrics::SmoothnessMetrics(const Positions& rest, const pbs::Tets& tets, const std::vector<bool>& near) : rest_(rest), tets_(tets)
 {
     checked_rest_volumes(rest, tets);
@@ -217,7 +204,7 @@ void SmoothnessMetrics::find_skin_edges(const std::vector<bool>& near)
 
 Eigen::Matrix3d SmoothnessMetrics::green_strain(const Positions& positions, int tet) const
 {
-    const Eigen::Matrix3d f = edges_from_first(positions, tets_, tet) * edges_from_first(rest_, tets_, tet).inverse();
+    const Eigen::Matrix3d f = edge_matrix(positions, tets_, tet) * edge_matrix(rest_, tets_, tet).inverse();
     return 0.5 * (f.transpose() * f - Eigen::Matrix3d::Identity());
 }
 

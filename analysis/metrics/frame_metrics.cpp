@@ -2,15 +2,12 @@
 
 #include "analysis/statistics/statistics.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/geometry/topology.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
-#include <vector>
 
 namespace analysis {
 
@@ -43,6 +40,34 @@ Eigen::VectorXd edge_lengths(const pbs::Positions& positions, const pbs::Edges& 
     Eigen::VectorXd lengths(edges.rows());
     for (Eigen::Index e = 0; e < edges.rows(); ++e) lengths(e) = (positions.row(edges(e, 0)) - positions.row(edges(e, 1))).norm();
     return lengths;
+}
+
+std::vector<double> edge_ratios(const pbs::Positions& rest, const pbs::Edges& edges, const pbs::Positions& positions)
+{
+    require_points(positions, rest.rows(), "the frame");
+    const auto length = [&](const pbs::Positions& x, Eigen::Index e) { return (x.row(edges(e, 0)) - x.row(edges(e, 1))).norm(); };
+    std::vector<double> ratios;
+    for (Eigen::Index e = 0; e < edges.rows(); ++e) ratios.push_back(length(positions, e) / length(rest, e));
+    return ratios;
+}
+
+void require_closed(const pbs::Positions& points, const pbs::Triangles& triangles)
+{
+    if (triangles.rows() == 0) throw pbs::InputError("", 0, "triangles", "0", "expected a closed surface");
+    if (triangles.minCoeff() < 0 || triangles.maxCoeff() >= points.rows())
+        throw pbs::InputError("", 0, "triangles", "", fmt::format("expected 0 <= vertex < {}", points.rows()));
+    const auto edge = pbs::open_edge(triangles);
+    if (!edge) return;
+    throw pbs::InputError("", 0, "edge", fmt::format("{}-{}", edge->first, edge->second), "expected a closed, oriented surface");
+}
+
+double volume_within(const pbs::Positions& points, const pbs::Triangles& triangles)
+{
+    const pbs::Vec3 origin = points.row(triangles(0, 0));  // a nearby origin, so that a surface far from zero loses no digits
+    CompensatedSum volume;
+    for (Eigen::Index f = 0; f < triangles.rows(); ++f)
+        volume += pbs::tet_volume(origin, points.row(triangles(f, 0)), points.row(triangles(f, 1)), points.row(triangles(f, 2)));
+    return volume.value();
 }
 
 }  // namespace
@@ -108,19 +133,6 @@ double bind_rms(const pbs::Positions& positions, const pbs::Positions& bind_poin
     return positions.rows() == 0 ? 0.0 : std::sqrt(squares.value() / static_cast<double>(positions.rows()));
 }
 
-namespace {
-
-std::vector<double> edge_ratios(const pbs::Positions& rest, const pbs::Edges& edges, const pbs::Positions& positions)
-{
-    require_points(positions, rest.rows(), "the frame");
-    const auto length = [&](const pbs::Positions& x, Eigen::Index e) { return (x.row(edges(e, 0)) - x.row(edges(e, 1))).norm(); };
-    std::vector<double> ratios;
-    for (Eigen::Index e = 0; e < edges.rows(); ++e) ratios.push_back(length(positions, e) / length(rest, e));
-    return ratios;
-}
-
-}  // namespace
-
 double largest_edge_strain(const pbs::Positions& rest, const pbs::Edges& edges, const pbs::Positions& positions)
 {
     double largest = 0.0;
@@ -158,29 +170,6 @@ std::vector<RegionVolume> RegionMetrics::measure(const pbs::Positions& positions
     }
     return changes;
 }
-
-namespace {
-
-void require_closed(const pbs::Positions& points, const pbs::Triangles& triangles)
-{
-    if (triangles.rows() == 0) throw pbs::InputError("", 0, "triangles", "0", "expected a closed surface");
-    if (triangles.minCoeff() < 0 || triangles.maxCoeff() >= points.rows())
-        throw pbs::InputError("", 0, "triangles", "", fmt::format("expected 0 <= vertex < {}", points.rows()));
-    const auto edge = pbs::open_edge(triangles);
-    if (!edge) return;
-    throw pbs::InputError("", 0, "edge", fmt::format("{}-{}", edge->first, edge->second), "expected a closed, oriented surface");
-}
-
-double volume_within(const pbs::Positions& points, const pbs::Triangles& triangles)
-{
-    const pbs::Vec3 origin = points.row(triangles(0, 0));  // a nearby origin, so that a surface far from zero loses no digits
-    CompensatedSum volume;
-    for (Eigen::Index f = 0; f < triangles.rows(); ++f)
-        volume += pbs::tet_volume(origin, points.row(triangles(f, 0)), points.row(triangles(f, 1)), points.row(triangles(f, 2)));
-    return volume.value();
-}
-
-}  // namespace
 
 double enclosed_volume(const pbs::Positions& points, const pbs::Triangles& triangles)
 {

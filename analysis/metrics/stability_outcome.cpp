@@ -1,7 +1,5 @@
 #include "analysis/metrics/stability_outcome.hpp"
 
-#include "pbs/geometry/tet_mesh.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -54,19 +52,8 @@ bool settled(const StabilityStep& step, const StabilityBounds& bounds)
 
 std::string name_of(StabilityOutcome outcome)
 {
-    switch (outcome) {
-        case StabilityOutcome::converged:
-            return "converged";
-        case StabilityOutcome::bounded:
-            return "bounded";
-        case StabilityOutcome::inverted:
-            return "inverted";
-        case StabilityOutcome::diverged:
-            return "diverged";
-        case StabilityOutcome::not_finite:
-            return "not_finite";
-    }
-    return "";
+    constexpr const char* names[] = {"converged", "bounded", "inverted", "diverged", "not_finite"};
+    return names[static_cast<int>(outcome)];
 }
 
 std::string criteria_text(const StabilityBounds& bounds)

@@ -2,17 +2,10 @@
 
 #include "pbs/geometry/child_process.hpp"
 #include "pbs/geometry/files.hpp"
-#include "pbs/geometry/input_error.hpp"
 
-#include <nlohmann/json.hpp>
 #include <unistd.h>
 
-#include <cerrno>
-#include <filesystem>
 #include <regex>
-#include <string>
-#include <system_error>
-#include <vector>
 
 namespace analysis {
 
@@ -42,6 +35,11 @@ bool is_abandoned(const fs::path& file)
     std::smatch match;
     const std::string name = file.filename().string();
     return std::regex_match(name, match, temporary_name) && pbs::process_is_gone(std::stoi(match[1]));
+}
+
+void require(const std::error_code& error, const fs::path& path, const char* what)
+{
+    if (error) throw pbs::InputError(path.string(), 0, "", "", what + error.message());
 }
 
 }  // namespace
@@ -77,17 +75,6 @@ std::string read_text(const std::string& path)
 {
     return pbs::read_text_file(path);
 }
-
-namespace {
-
-namespace fs = std::filesystem;
-
-void require(const std::error_code& error, const fs::path& path, const char* what)
-{
-    if (error) throw pbs::InputError(path.string(), 0, "", "", what + error.message());
-}
-
-}  // namespace
 
 void remove_record(const fs::path& file)
 {

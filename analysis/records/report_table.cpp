@@ -7,7 +7,6 @@
 #include <numeric>
 #include <regex>
 #include <sstream>
-#include <vector>
 
 namespace analysis {
 namespace {
@@ -50,45 +49,6 @@ std::string coloured(const std::string& text, const std::string& colour)
     return colour.empty() || text.empty() ? text : colour + text + colours_off;
 }
 
-}  // namespace
-
-std::size_t characters(const std::string& text)
-{
-    return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), begins_character));
-}
-
-std::vector<std::string> wrapped(const std::string& text, std::size_t width)
-{
-    std::vector<std::string> lines;
-    std::istringstream paragraphs(text);
-    for (std::string paragraph; std::getline(paragraphs, paragraph);) wrap_paragraph(paragraph, std::max<std::size_t>(width, 1), lines);
-    return lines;
-}
-
-std::string side_by_side(const std::vector<TextColumn>& columns)
-{
-    std::vector<std::vector<std::string>> cells;
-    std::size_t height = 0;
-    for (const TextColumn& column : columns) {
-        cells.push_back(wrapped(column.text, column.width));
-        height = std::max(height, cells.back().size());
-    }
-    std::string text;
-    for (std::size_t row = 0; row < height; ++row) {
-        std::string line, blanks;
-        for (std::size_t i = 0; i < columns.size(); ++i) {
-            const std::string cell = row < cells[i].size() ? cells[i][row] : "";
-            if (!cell.empty()) line += blanks + coloured(cell, columns[i].colour);
-            blanks = cell.empty() ? blanks + std::string(columns[i].width, ' ') + gap
-                                  : std::string(columns[i].width - std::min(columns[i].width, characters(cell)), ' ') + gap;
-        }
-        text += line + "\n";
-    }
-    return text;
-}
-
-namespace {
-
 std::string shown(const CsvTable& table, int row, const ReportColumn& column)
 {
     const std::string& text = table.text_at(row, column.column);
@@ -107,54 +67,6 @@ std::vector<std::vector<std::string>> shown_rows(const CsvTable& table, const st
     }
     return rows;
 }
-
-}  // namespace
-
-std::vector<ReportColumn> report_columns(const std::string& names)
-{
-    std::vector<ReportColumn> columns;
-    std::istringstream words(names);
-    for (std::string word; words >> word;) {
-        const auto end = word.find(':');
-        const std::string name = word.substr(0, end);
-        columns.push_back({name, name, end == std::string::npos ? "" : fmt::format("{{{}}}", word.substr(end))});
-    }
-    return columns;
-}
-
-std::string markdown_table(const CsvTable& table, const std::vector<ReportColumn>& columns)
-{
-    std::string text;
-    for (const auto& row : shown_rows(table, columns)) {
-        for (const std::string& cell : row) text += "| " + cell + " ";
-        text += "|\n";
-        if (text.find('\n') == text.size() - 1) {  // there are no rows below the headings
-            for (std::size_t c = 0; c < columns.size(); ++c) text += "|---";
-            text += "|\n";
-        }
-    }
-    return text;
-}
-
-std::string text_table(const CsvTable& table, const std::vector<ReportColumn>& columns)
-{
-    const auto rows = shown_rows(table, columns);
-    std::vector<std::size_t> widths(columns.size(), 0);
-    for (const auto& row : rows)
-        for (std::size_t c = 0; c < columns.size(); ++c) widths[c] = std::max(widths[c], characters(row[c]));
-    std::string text;
-    for (const auto& row : rows) {
-        std::string line;
-        for (std::size_t c = 0; c < columns.size(); ++c) {
-            const std::string blanks(widths[c] - characters(row[c]), ' ');
-            line += (c ? "  " : "") + (columns[c].format.empty() ? row[c] + blanks : blanks + row[c]);
-        }
-        text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
-    }
-    return text;
-}
-
-namespace {
 
 using Row = std::vector<std::string>;
 
@@ -242,6 +154,85 @@ private:
 };
 
 }  // namespace
+
+std::size_t characters(const std::string& text)
+{
+    return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), begins_character));
+}
+
+std::vector<std::string> wrapped(const std::string& text, std::size_t width)
+{
+    std::vector<std::string> lines;
+    std::istringstream paragraphs(text);
+    for (std::string paragraph; std::getline(paragraphs, paragraph);) wrap_paragraph(paragraph, std::max<std::size_t>(width, 1), lines);
+    return lines;
+}
+
+std::string side_by_side(const std::vector<TextColumn>& columns)
+{
+    std::vector<std::vector<std::string>> cells;
+    std::size_t height = 0;
+    for (const TextColumn& column : columns) {
+        cells.push_back(wrapped(column.text, column.width));
+        height = std::max(height, cells.back().size());
+    }
+    std::string text;
+    for (std::size_t row = 0; row < height; ++row) {
+        std::string line, blanks;
+        for (std::size_t i = 0; i < columns.size(); ++i) {
+            const std::string cell = row < cells[i].size() ? cells[i][row] : "";
+            if (!cell.empty()) line += blanks + coloured(cell, columns[i].colour);
+            blanks = cell.empty() ? blanks + std::string(columns[i].width, ' ') + gap
+                                  : std::string(columns[i].width - std::min(columns[i].width, characters(cell)), ' ') + gap;
+        }
+        text += line + "\n";
+    }
+    return text;
+}
+
+std::vector<ReportColumn> report_columns(const std::string& names)
+{
+    std::vector<ReportColumn> columns;
+    std::istringstream words(names);
+    for (std::string word; words >> word;) {
+        const auto end = word.find(':');
+        const std::string name = word.substr(0, end);
+        columns.push_back({name, name, end == std::string::npos ? "" : fmt::format("{{{}}}", word.substr(end))});
+    }
+    return columns;
+}
+
+std::string markdown_table(const CsvTable& table, const std::vector<ReportColumn>& columns)
+{
+    std::string text;
+    for (const auto& row : shown_rows(table, columns)) {
+        for (const std::string& cell : row) text += "| " + cell + " ";
+        text += "|\n";
+        if (text.find('\n') == text.size() - 1) {  // there are no rows below the headings
+            for (std::size_t c = 0; c < columns.size(); ++c) text += "|---";
+            text += "|\n";
+        }
+    }
+    return text;
+}
+
+std::string text_table(const CsvTable& table, const std::vector<ReportColumn>& columns)
+{
+    const auto rows = shown_rows(table, columns);
+    std::vector<std::size_t> widths(columns.size(), 0);
+    for (const auto& row : rows)
+        for (std::size_t c = 0; c < columns.size(); ++c) widths[c] = std::max(widths[c], characters(row[c]));
+    std::string text;
+    for (const auto& row : rows) {
+        std::string line;
+        for (std::size_t c = 0; c < columns.size(); ++c) {
+            const std::string blanks(widths[c] - characters(row[c]), ' ');
+            line += (c ? "  " : "") + (columns[c].format.empty() ? row[c] + blanks : blanks + row[c]);
+        }
+        text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
+    }
+    return text;
+}
 
 std::string plain_text(const std::string& markdown, std::size_t width)
 {

@@ -5,11 +5,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <set>
-#include <stdexcept>
 #include <string_view>
 
 namespace analysis {
@@ -37,6 +35,99 @@ bool reads_whole(const std::string& text, Number& value)
     const char* end = text.data() + text.size();
     const auto [stop, error] = std::from_chars(text.data(), end, value);
     return error == std::errc{} && stop == end;
+}
+
+[[noreturn]] void refuse(const std::string& file, int line, std::size_t column, const std::string& value, const std::string& rule)
+{
+    throw pbs::InputError(fmt::format("{}:{}", file, line), static_cast<int>(column), value.empty() ? "" : "column", value, rule);
+}
+
+// Reads one record at a time from the text and resolves quotes and line ends.
+class RecordReader {
+public:
+    RecordReader(const std::string& text, const std::string& file) : text_(text), file_(file) {}
+
+    bool at_end() const { return at_ == text_.size(); }
+    int line() const { return line_; }
+
+    std::vector<std::string> next()
+    {
+        std::vector<std::string> fields;
+        do {
+            fields.emplace_back();
+            if (take('"'))
+                read_quoted(fields);
+            else
+                read_plain(fields);
+        } while (take(','));
+        take('\r');
+        if (!take('\n'))
+            refuse(file_, line_, fields.size(), "", at_end() ? "the file ends within a line: cut off?" : "unexpected text after a field");
+        ++line_;
+        return fields;
+    }
+
+private:
+    bool take(char c)
+    {
+        if (at_end() || text_[at_] != c) return false;
+        ++at_;
+        return true;
+    }
+
+    void read_plain(std::vector<std::string>& fields)
+    {
+        for (; !at_end() && std::string_view(",\r\n").find(text_[at_]) == std::string_view::npos; ++at_) {
+            if (text_[at_] == '"' || text_[at_] == '\0')
+                refuse(file_, line_, fields.size(), "", "unexpected quote or zero byte within a field");
+            fields.back() += text_[at_];
+        }
+    }
+
+    void read_quoted(std::vector<std::string>& fields)
+    {
+        const int first_line = line_;
+        while (!at_end()) {
+            const char c = text_[at_++];
+            if (c == '"' && !take('"')) return;
+            if (c == '\n') ++line_;
+            fields.back() += c;
+        }
+        refuse(file_, first_line, fields.size(), "", "a quote is never closed");
+    }
+
+    const std::string& text_;
+    const std::string& file_;
+    std::size_t at_ = 0;
+    int line_ = 1;
+};
+
+// Units as column names spell them and as they are written. If two endings fit a name, the longer one comes first.
+constexpr std::array<std::pair<const char*, const char*>, 22> units{{{"m_s2", "m/s^2"},   {"m_s", "m/s"},
+                                                                     {"n_m", "N/m"},      {"per_s", "1/s"},
+                                                                     {"kg_m3", "kg/m^3"}, {"m3", "m^3"},
+                                                                     {"m2", "m^2"},       {"pct", "%"},
+                                                                     {"deg", "deg"},      {"rad", "rad"},
+                                                                     {"mm", "mm"},        {"m", "m"},
+                                                                     {"ns", "ns"},        {"us", "us"},
+                                                                     {"ms", "ms"},        {"s", "s"},
+                                                                     {"hz", "Hz"},        {"pa", "Pa"},
+                                                                     {"kg", "kg"},        {"mb", "MB"},
+                                                                     {"n", "N"},          {"diagonals", "diagonals"}}};
+
+// The unit of the longest ending that is one.
+std::string unit_by_ending(const std::string& name)
+{
+    for (const auto& [ending, unit] : units)
+        if (name.ends_with(fmt::format("_{}", ending))) return unit;
+    return "";
+}
+
+bool is_inside(const std::string& name, const std::string& wanted)
+{
+    for (const auto& [part, unit] : units)
+        if (unit == wanted && fmt::format("_{}_", name).find(fmt::format("_{}_", part)) != std::string::npos) return true;
+    return false;
 }
 
 }  // namespace
@@ -140,75 +231,6 @@ CsvTable read_csv(const std::string& path)
     return parse_csv(read_text(path), path);
 }
 
-namespace {
-
-[[noreturn]] void refuse(const std::string& file, int line, std::size_t column, const std::string& value, const std::string& rule)
-{
-    throw pbs::InputError(fmt::format("{}:{}", file, line), static_cast<int>(column), value.empty() ? "" : "column", value, rule);
-}
-
-// Reads one record at a time from the text and resolves quotes and line ends.
-class RecordReader {
-public:
-    RecordReader(const std::string& text, const std::string& file) : text_(text), file_(file) {}
-
-    bool at_end() const { return at_ == text_.size(); }
-    int line() const { return line_; }
-
-    std::vector<std::string> next()
-    {
-        std::vector<std::string> fields;
-        do {
-            fields.emplace_back();
-            if (take('"'))
-                read_quoted(fields);
-            else
-                read_plain(fields);
-        } while (take(','));
-        take('\r');
-        if (!take('\n'))
-            refuse(file_, line_, fields.size(), "", at_end() ? "the file ends within a line: cut off?" : "unexpected text after a field");
-        ++line_;
-        return fields;
-    }
-
-private:
-    bool take(char c)
-    {
-        if (at_end() || text_[at_] != c) return false;
-        ++at_;
-        return true;
-    }
-
-    void read_plain(std::vector<std::string>& fields)
-    {
-        for (; !at_end() && std::string_view(",\r\n").find(text_[at_]) == std::string_view::npos; ++at_) {
-            if (text_[at_] == '"' || text_[at_] == '\0')
-                refuse(file_, line_, fields.size(), "", "unexpected quote or zero byte within a field");
-            fields.back() += text_[at_];
-        }
-    }
-
-    void read_quoted(std::vector<std::string>& fields)
-    {
-        const int first_line = line_;
-        while (!at_end()) {
-            const char c = text_[at_++];
-            if (c == '"' && !take('"')) return;
-            if (c == '\n') ++line_;
-            fields.back() += c;
-        }
-        refuse(file_, first_line, fields.size(), "", "a quote is never closed");
-    }
-
-    const std::string& text_;
-    const std::string& file_;
-    std::size_t at_ = 0;
-    int line_ = 1;
-};
-
-}  // namespace
-
 CsvTable parse_csv(const std::string& text, const std::string& file)
 {
     if (text.empty()) throw pbs::InputError(file, 0, "", "", "the file is empty: expected a line of column names");
@@ -227,38 +249,6 @@ CsvTable parse_csv(const std::string& text, const std::string& file)
     }
     return table;
 }
-
-namespace {
-
-// Units as column names spell them and as they are written. If two endings fit a name, the longer one comes first.
-constexpr std::array<std::pair<const char*, const char*>, 22> units{{{"m_s2", "m/s^2"},   {"m_s", "m/s"},
-                                                                     {"n_m", "N/m"},      {"per_s", "1/s"},
-                                                                     {"kg_m3", "kg/m^3"}, {"m3", "m^3"},
-                                                                     {"m2", "m^2"},       {"pct", "%"},
-                                                                     {"deg", "deg"},      {"rad", "rad"},
-                                                                     {"mm", "mm"},        {"m", "m"},
-                                                                     {"ns", "ns"},        {"us", "us"},
-                                                                     {"ms", "ms"},        {"s", "s"},
-                                                                     {"hz", "Hz"},        {"pa", "Pa"},
-                                                                     {"kg", "kg"},        {"mb", "MB"},
-                                                                     {"n", "N"},          {"diagonals", "diagonals"}}};
-
-// The unit of the longest ending that is one.
-std::string unit_by_ending(const std::string& name)
-{
-    for (const auto& [ending, unit] : units)
-        if (name.ends_with(fmt::format("_{}", ending))) return unit;
-    return "";
-}
-
-bool is_inside(const std::string& name, const std::string& wanted)
-{
-    for (const auto& [part, unit] : units)
-        if (unit == wanted && fmt::format("_{}_", name).find(fmt::format("_{}_", part)) != std::string::npos) return true;
-    return false;
-}
-
-}  // namespace
 
 void require_unit(const std::string& name, const std::string& unit)
 {

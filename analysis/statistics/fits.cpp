@@ -1,6 +1,5 @@
 #include "analysis/statistics/fits.hpp"
 
-#include "analysis/statistics/statistics.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 #include <Eigen/QR>

@@ -22,6 +22,9 @@ double richardson(double fine, double coarse, double ratio, double order)
     return fine + (fine - coarse) / (std::pow(ratio, order) - 1.0);
 }
 
+constexpr double lowest_order = 0.5, above_formal = 0.1;
+constexpr double reliable_factor = 1.25, other_factor = 3.0;
+
 }  // namespace
 
 GridConvergence two_grids(const std::array<double, 2>& values, double ratio, double order)
@@ -39,13 +42,6 @@ GridConvergence two_fields(double difference, double ratio, double order)
     convergence.extrapolated = std::numeric_limits<double>::quiet_NaN();
     return convergence;
 }
-
-namespace {
-
-constexpr double lowest_order = 0.5, above_formal = 0.1;
-constexpr double reliable_factor = 1.25, other_factor = 3.0;
-
-}  // namespace
 
 NestedOrder nested_order(const NestedDistances& distances, double formal_order)
 {

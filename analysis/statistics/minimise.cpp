@@ -1,6 +1,5 @@
 #include "analysis/statistics/minimise.hpp"
 
-#include "analysis/statistics/statistics.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 #include <fmt/format.h>
@@ -14,7 +13,6 @@
 #include <limits>
 #include <map>
 #include <memory>
-#include <optional>
 
 namespace analysis {
 namespace {
@@ -153,25 +151,23 @@ double rise_around(Recorder& recorder, const Evaluation& best, double low, doubl
     return rise;
 }
 
+bool is_candidate(const WorkPrecision& point)
+{
+    return std::isfinite(point.cost) && std::isfinite(point.error);
+}
+
+double error_within(const std::vector<WorkPrecision>& points, double budget)
+{
+    const auto best = best_within(points, budget);
+    return best ? points[*best].error : std::numeric_limits<double>::infinity();
+}
+
 }  // namespace
 
 const char* name_of(MinimumOutcome outcome)
 {
-    switch (outcome) {
-        case MinimumOutcome::converged:
-            return "converged";
-        case MinimumOutcome::at_lower_bound:
-            return "at_lower_bound";
-        case MinimumOutcome::at_upper_bound:
-            return "at_upper_bound";
-        case MinimumOutcome::flat:
-            return "flat";
-        case MinimumOutcome::not_finite:
-            return "not_finite";
-        case MinimumOutcome::iterations_exhausted:
-            return "iterations_exhausted";
-    }
-    return "";
+    constexpr const char* names[] = {"converged", "at_lower_bound", "at_upper_bound", "flat", "not_finite", "iterations_exhausted"};
+    return names[static_cast<int>(outcome)];
 }
 
 Minimum minimise(const Misfit& function, double low, double high, const MinimiseOptions& options)
@@ -219,21 +215,6 @@ FittedParameter fit_over_cases(const std::vector<Misfit>& misfits, double low, d
     fit.interval.high = std::min(high, fit.all.x + half_width);
     return fit;
 }
-
-namespace {
-
-bool is_candidate(const WorkPrecision& point)
-{
-    return std::isfinite(point.cost) && std::isfinite(point.error);
-}
-
-double error_within(const std::vector<WorkPrecision>& points, double budget)
-{
-    const auto best = best_within(points, budget);
-    return best ? points[*best].error : std::numeric_limits<double>::infinity();
-}
-
-}  // namespace
 
 bool dominates(const WorkPrecision& a, const WorkPrecision& b)
 {

@@ -1,7 +1,5 @@
 #include "analysis/statistics/statistics.hpp"
 
-#include "analysis/records/tables.hpp"
-
 #include <fmt/format.h>
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_rng.h>
@@ -18,6 +16,70 @@ namespace {
 bool has_nan(const std::vector<double>& values)
 {
     return std::any_of(values.begin(), values.end(), [](double value) { return std::isnan(value); });
+}
+
+using Random = std::unique_ptr<gsl_rng, decltype(&gsl_rng_free)>;
+
+// The mean of as many samples as the series has, drawn in blocks of neighbours; the last block is shortened to fit.
+double resampled_mean(const std::vector<double>& series, std::size_t block, gsl_rng* random)
+{
+    double sum = 0.0;
+    for (std::size_t drawn = 0; drawn < series.size();) {
+        const std::size_t first = gsl_rng_uniform_int(random, series.size() - block + 1);
+        const std::size_t count = std::min(block, series.size() - drawn);
+        for (std::size_t i = first; i < first + count; ++i) sum += series[i];
+        drawn += count;
+    }
+    return sum / static_cast<double>(series.size());
+}
+
+const std::array<std::string, 6> settings = {"scene", "deformer", "variant", "order", "precision", "iterations"};
+const std::array<std::string, 4> quantities = {"volume_change", "volume_abs_change", "error_l2", "error_joint"};  // each [%]
+const std::array<std::pair<std::string, double>, 5> shares = {{{"least", 0.0}, {"p10", 0.1}, {"median", 0.5}, {"p90", 0.9}, {"most", 1.0}}};
+
+struct Group {
+    std::array<std::string, 6> setting;
+    std::vector<int> rows = {};
+    int frames = 0;
+    std::array<std::array<std::optional<double>, 5>, 4> statistics = {};  // by quantity and share
+};
+
+Columns<Group> all_columns()
+{
+    Columns<Group> columns;
+    for (std::size_t i = 0; i < settings.size(); ++i)
+        columns.emplace_back(
+            settings[i], [i](auto& group) -> decltype(auto) { return (group.setting[i]); }, "", "as in metrics.csv");
+    columns.emplace_back("frames", &Group::frames, "", "number of frames");
+    for (std::size_t q = 0; q < quantities.size(); ++q)
+        for (std::size_t i = 0; i < shares.size(); ++i)
+            columns.emplace_back(
+                quantities[q] + "_" + shares[i].first + "_pct", [q, i](auto& group) -> decltype(auto) { return (group.statistics[q][i]); },
+                "%", fmt::format("{} quantile of {}_pct over the finite frames", shares[i].second, quantities[q]));
+    return columns;
+}
+
+// In order of first appearance.
+std::vector<Group> by_setting(const CsvTable& metrics)
+{
+    std::vector<Group> groups;
+    for (int row = 0; row < metrics.rows(); ++row) {
+        std::array<std::string, 6> setting;
+        for (std::size_t i = 0; i < settings.size(); ++i) setting[i] = metrics.text_at(row, settings[i]);
+        auto found = std::find_if(groups.begin(), groups.end(), [&](const Group& group) { return group.setting == setting; });
+        if (found == groups.end()) found = groups.insert(groups.end(), {setting});
+        found->rows.push_back(row);
+    }
+    return groups;
+}
+
+std::vector<double> values_of(const CsvTable& metrics, const std::vector<int>& rows, const std::string& column)
+{
+    std::vector<double> values;
+    if (!metrics.has_column(column)) return values;
+    for (const int row : rows)
+        if (const auto value = metrics.number_or_nothing(row, column); value && std::isfinite(*value)) values.push_back(*value);
+    return values;
 }
 
 }  // namespace
@@ -73,25 +135,6 @@ double integrated_autocorrelation_time(const std::vector<double>& series)
     return std::max(tau, 1.0);
 }
 
-namespace {
-
-using Random = std::unique_ptr<gsl_rng, decltype(&gsl_rng_free)>;
-
-// The mean of as many samples as the series has, drawn in blocks of neighbours; the last block is shortened to fit.
-double resampled_mean(const std::vector<double>& series, std::size_t block, gsl_rng* random)
-{
-    double sum = 0.0;
-    for (std::size_t drawn = 0; drawn < series.size();) {
-        const std::size_t first = gsl_rng_uniform_int(random, series.size() - block + 1);
-        const std::size_t count = std::min(block, series.size() - drawn);
-        for (std::size_t i = first; i < first + count; ++i) sum += series[i];
-        drawn += count;
-    }
-    return sum / static_cast<double>(series.size());
-}
-
-}  // namespace
-
 int block_length(const std::vector<double>& series)
 {
     const double tau = integrated_autocorrelation_time(series), n = static_cast<double>(series.size());
@@ -132,59 +175,6 @@ Interval share_interval(int counted, int all, double level)
     if (counted < all) share.high = gsl_cdf_beta_Pinv(1.0 - tail, counted + 1.0, all - counted);
     return share;
 }
-
-namespace {
-
-const std::array<std::string, 6> settings = {"scene", "deformer", "variant", "order", "precision", "iterations"};
-const std::array<std::string, 4> quantities = {"volume_change", "volume_abs_change", "error_l2", "error_joint"};  // each [%]
-const std::array<std::pair<std::string, double>, 5> shares = {{{"least", 0.0}, {"p10", 0.1}, {"median", 0.5}, {"p90", 0.9}, {"most", 1.0}}};
-
-struct Group {
-    std::array<std::string, 6> setting;
-    std::vector<int> rows = {};
-    int frames = 0;
-    std::array<std::array<std::optional<double>, 5>, 4> statistics = {};  // by quantity and share
-};
-
-Columns<Group> all_columns()
-{
-    Columns<Group> columns;
-    for (std::size_t i = 0; i < settings.size(); ++i)
-        columns.emplace_back(
-            settings[i], [i](auto& group) -> decltype(auto) { return (group.setting[i]); }, "", "as in metrics.csv");
-    columns.emplace_back("frames", &Group::frames, "", "number of frames");
-    for (std::size_t q = 0; q < quantities.size(); ++q)
-        for (std::size_t i = 0; i < shares.size(); ++i)
-            columns.emplace_back(
-                quantities[q] + "_" + shares[i].first + "_pct", [q, i](auto& group) -> decltype(auto) { return (group.statistics[q][i]); },
-                "%", fmt::format("{} quantile of {}_pct over the finite frames", shares[i].second, quantities[q]));
-    return columns;
-}
-
-// In order of first appearance.
-std::vector<Group> by_setting(const CsvTable& metrics)
-{
-    std::vector<Group> groups;
-    for (int row = 0; row < metrics.rows(); ++row) {
-        std::array<std::string, 6> setting;
-        for (std::size_t i = 0; i < settings.size(); ++i) setting[i] = metrics.text_at(row, settings[i]);
-        auto found = std::find_if(groups.begin(), groups.end(), [&](const Group& group) { return group.setting == setting; });
-        if (found == groups.end()) found = groups.insert(groups.end(), {setting});
-        found->rows.push_back(row);
-    }
-    return groups;
-}
-
-std::vector<double> values_of(const CsvTable& metrics, const std::vector<int>& rows, const std::string& column)
-{
-    std::vector<double> values;
-    if (!metrics.has_column(column)) return values;
-    for (const int row : rows)
-        if (const auto value = metrics.number_or_nothing(row, column); value && std::isfinite(*value)) values.push_back(*value);
-    return values;
-}
-
-}  // namespace
 
 CsvTable frame_statistics(const CsvTable& metrics)
 {

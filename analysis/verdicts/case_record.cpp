@@ -1,6 +1,5 @@
 #include "analysis/verdicts/case_record.hpp"
 
-#include "analysis/records/tables.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 #include <fmt/format.h>

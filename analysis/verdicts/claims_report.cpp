@@ -235,43 +235,6 @@ std::string markdown_cell(const std::string& text)
     return cell;
 }
 
-}  // namespace
-
-json claims_json(const std::vector<Verdict>& verdicts, const std::string& revision)
-{
-    json claims = json::array();
-    for (const Verdict& verdict : verdicts) claims.push_back(claim_object(verdict));
-    return {{"schema", 2}, {"revision", revision}, {"quantities", quantities_of(verdicts)}, {"claims", claims}};
-}
-
-std::string claims_markdown(const std::vector<Verdict>& verdicts)
-{
-    std::string text =
-        "| id | statement | verdict | within | n | quantity | value | interval | bound | case | study |\n"
-        "|---|---|---|---|---|---|---|---|---|---|---|\n";
-    for (const Verdict& verdict : verdicts) {
-        const PrimaryTexts primary = texts_of_primary(verdict);
-        text += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", markdown_cell(verdict.claim.id),
-                            markdown_cell(verdict.claim.statement), name_of(verdict.kind), verdict.within, verdict.n, primary.quantity,
-                            primary.value, primary.interval, primary.bound, markdown_cell(primary.of), verdict.claim.study);
-    }
-    return text;
-}
-
-PrimaryTexts texts_of_primary(const Verdict& verdict)
-{
-    if (!verdict.primary) return {};
-    const PrimaryFact& primary = *verdict.primary;
-    const bool plain = primary.statistic == "value" || primary.statistic == "printed";
-    const bool has_interval = primary.low != primary.high && !std::isnan(primary.low);
-    const std::string unit = primary.unit.empty() || primary.unit == "1" ? "" : " " + primary.unit;
-    return {plain ? primary.quantity : fmt::format("{} of {}", primary.statistic, primary.quantity),
-            fmt::format("{:.3g}{}", primary.value, unit), has_interval ? fmt::format("[{:.3g}, {:.3g}]", primary.low, primary.high) : "",
-            bound_text({"", primary.bound_low, primary.bound_high}), text_of(primary.of)};
-}
-
-namespace {
-
 constexpr std::array all_kinds = {VerdictKind::reproduced,
                                   VerdictKind::reproduced_only_for,
                                   VerdictKind::not_reproduced,
@@ -346,6 +309,39 @@ std::string counts_text(const std::vector<Verdict>& verdicts)
 }
 
 }  // namespace
+
+json claims_json(const std::vector<Verdict>& verdicts, const std::string& revision)
+{
+    json claims = json::array();
+    for (const Verdict& verdict : verdicts) claims.push_back(claim_object(verdict));
+    return {{"schema", 2}, {"revision", revision}, {"quantities", quantities_of(verdicts)}, {"claims", claims}};
+}
+
+std::string claims_markdown(const std::vector<Verdict>& verdicts)
+{
+    std::string text =
+        "| id | statement | verdict | within | n | quantity | value | interval | bound | case | study |\n"
+        "|---|---|---|---|---|---|---|---|---|---|---|\n";
+    for (const Verdict& verdict : verdicts) {
+        const PrimaryTexts primary = texts_of_primary(verdict);
+        text += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", markdown_cell(verdict.claim.id),
+                            markdown_cell(verdict.claim.statement), name_of(verdict.kind), verdict.within, verdict.n, primary.quantity,
+                            primary.value, primary.interval, primary.bound, markdown_cell(primary.of), verdict.claim.study);
+    }
+    return text;
+}
+
+PrimaryTexts texts_of_primary(const Verdict& verdict)
+{
+    if (!verdict.primary) return {};
+    const PrimaryFact& primary = *verdict.primary;
+    const bool plain = primary.statistic == "value" || primary.statistic == "printed";
+    const bool has_interval = primary.low != primary.high && !std::isnan(primary.low);
+    const std::string unit = primary.unit.empty() || primary.unit == "1" ? "" : " " + primary.unit;
+    return {plain ? primary.quantity : fmt::format("{} of {}", primary.statistic, primary.quantity),
+            fmt::format("{:.3g}{}", primary.value, unit), has_interval ? fmt::format("[{:.3g}, {:.3g}]", primary.low, primary.high) : "",
+            bound_text({"", primary.bound_low, primary.bound_high}), text_of(primary.of)};
+}
 
 std::string claims_table(const std::vector<Verdict>& verdicts, std::size_t width, bool colours)
 {

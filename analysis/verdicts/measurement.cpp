@@ -1,7 +1,6 @@
 #include "analysis/verdicts/measurement.hpp"
 
 #include "analysis/records/tables.hpp"
-#include "analysis/statistics/statistics.hpp"
 
 #include <fmt/format.h>
 
@@ -114,36 +113,6 @@ CaseKey key_of(const CaseRecord& record)
     return key;
 }
 
-}  // namespace
-
-CaseJudgement judge_case(const Claim& claim, const CaseRecord& record, const std::string& metric)
-{
-    const std::vector<double> values = metric_series(record, metric);
-    const std::vector<bool> holds = frames_within(claim, values);
-    CaseJudgement result;
-    result.rule = claim.rule;
-    result.scene = record.scene;
-    result.deformer = record.deformer;
-    result.variant = record.variant;
-    result.metric = metric;
-    result.of = key_of(record);
-    result.run = record.run;
-    result.iterations = record.iterations;
-    result.frames = static_cast<int>(values.size());
-    result.sweep = record.is_sweep();
-    if (values.empty()) return result;
-    find_extremes(values, result);
-    if (claim.rule == ClaimRule::share_within) result.deepest = deepest_failures(claim, record, values);
-    for (std::size_t i = 0; i < holds.size(); ++i) result.holding_with_inverted_tets += holds[i] && record.inverted_tets[i] > 0.0;
-    if (!result.sweep)
-        judge_clip(claim, values, holds, result);
-    else
-        judge_sweep(claim, record.angle_deg, values, holds, result);
-    return result;
-}
-
-namespace {
-
 const Columns<Measurement>& measurement_columns()
 {
     static const Columns<Measurement> columns =
@@ -172,6 +141,32 @@ bool is_of_a_metric(const Claim& claim, const Measurement& measured)
 }
 
 }  // namespace
+
+CaseJudgement judge_case(const Claim& claim, const CaseRecord& record, const std::string& metric)
+{
+    const std::vector<double> values = metric_series(record, metric);
+    const std::vector<bool> holds = frames_within(claim, values);
+    CaseJudgement result;
+    result.rule = claim.rule;
+    result.scene = record.scene;
+    result.deformer = record.deformer;
+    result.variant = record.variant;
+    result.metric = metric;
+    result.of = key_of(record);
+    result.run = record.run;
+    result.iterations = record.iterations;
+    result.frames = static_cast<int>(values.size());
+    result.sweep = record.is_sweep();
+    if (values.empty()) return result;
+    find_extremes(values, result);
+    if (claim.rule == ClaimRule::share_within) result.deepest = deepest_failures(claim, record, values);
+    for (std::size_t i = 0; i < holds.size(); ++i) result.holding_with_inverted_tets += holds[i] && record.inverted_tets[i] > 0.0;
+    if (!result.sweep)
+        judge_clip(claim, values, holds, result);
+    else
+        judge_sweep(claim, record.angle_deg, values, holds, result);
+    return result;
+}
 
 std::vector<Measurement> measurements(const std::string& csv)
 {

@@ -1,7 +1,6 @@
 #include "analysis/verdicts/verdict.hpp"
 
 #include "analysis/statistics/statistics.hpp"
-#include "analysis/verdicts/measurement.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +8,6 @@
 #include <limits>
 #include <map>
 #include <set>
-#include <utility>
 
 namespace analysis {
 namespace {
@@ -94,52 +92,21 @@ PrimaryFact worst_of(const Verdict& verdict)
     return {worst.quantity, "value", worst.unit, worst.value, worst.low, worst.high, bound.low, bound.high, worst.of};
 }
 
-}  // namespace
-
-Verdict judge_measurements(const Claim& claim, const Records& records)
-{
-    Verdict verdict = verdict_of(claim, VerdictKind::not_computable);
-    verdict.left_out = records.left_out;
-    verdict.missing = records.missing_runs;
-    if (!verdict.missing.empty()) return verdict;
-    add_of(claim.metrics, records, verdict.measurements, [&](const Measurement& measured) { return is_judged(claim, measured); });
-    add_of(claim.metrics, records, verdict.controls, [&](const Measurement& measured) { return is_control(claim, measured); });
-    add_of(claim.reported, records, verdict.controls, [&](const Measurement& measured) { return measured.claim == claim.id; });
-    if (verdict.measurements.empty()) {
-        if (!records.left_out.empty()) verdict.kind = VerdictKind::cannot_be_tested_here;
-        return verdict;
-    }
-    std::set<std::string> runs;
-    for (const Measurement& measured : verdict.measurements) {
-        verdict.within += extent_of(claim, measured) == Extent::whole;
-        if (!measured.run.empty()) runs.insert(measured.run);
-    }
-    verdict.n = static_cast<int>(verdict.measurements.size());
-    verdict.runs.assign(runs.begin(), runs.end());
-    const auto subjects = by_subject(verdict);
-    for (const auto& [name, subject] : subjects)
-        verdict.subjects.push_back({name, sum_of(subject).within, sum_of(subject).all, extent_of(subject)});
-    verdict.kind = kind_of(subjects);
-    verdict.primary = worst_of(verdict);
-    return verdict;
-}
-
-namespace {
-
 bool is_judged(const Claim& claim, const CaseRecord& record)
 {
     return (claim.iterations == 0 || record.iterations == claim.iterations) && !record.frame.empty();
 }
 
-bool is_own(const Claim& claim, const CaseRecord& record)
+bool is_asked_for(const Claim& claim, const CaseRecord& record)
 {
-    return record.deformer == claim.deformer && (record.variant.empty() || record.variant == "default") && is_judged(claim, record);
+    return record.deformer == claim.deformer && is_judged(claim, record);
 }
 
 const CaseRecord* own_record(const Claim& claim, const Records& records, const std::string& scene)
 {
-    const auto found = std::find_if(records.cases.begin(), records.cases.end(),
-                                    [&](const CaseRecord& record) { return record.scene == scene && is_own(claim, record); });
+    const auto found = std::ranges::find_if(records.cases, [&](const CaseRecord& record) {
+        return record.scene == scene && is_asked_for(claim, record) && (record.variant.empty() || record.variant == "default");
+    });
     return found == records.cases.end() ? nullptr : &*found;
 }
 
@@ -159,30 +126,6 @@ void add_case(const Claim& claim, const CaseRecord& other, const CaseRecord& own
         verdict.own_cases.push_back(judge_case(claim, own, metric));
         if (verdict.cases.back().extent != verdict.own_cases.back().extent) verdict.differing.push_back(verdict.cases.size() - 1);
     }
-}
-
-}  // namespace
-
-std::vector<OrderVerdict> judge_orders(const Claim& claim, const Records& records)
-{
-    std::vector<OrderVerdict> verdicts;
-    if (claim.orders.empty()) return verdicts;
-    for (const CaseRecord& record : records.cases) {
-        if (record.deformer != claim.orders || !is_judged(claim, record)) continue;
-        if (const CaseRecord* own = own_record(claim, records, record.scene)) add_case(claim, record, *own, entry_of(verdicts, record));
-    }
-    for (OrderVerdict& verdict : verdicts) {
-        verdict.kind = kind_of(claim, verdict.cases);
-        verdict.own_kind = kind_of(claim, verdict.own_cases);
-    }
-    return verdicts;
-}
-
-namespace {
-
-bool is_asked_for(const Claim& claim, const CaseRecord& record)
-{
-    return record.deformer == claim.deformer && (claim.iterations == 0 || record.iterations == claim.iterations) && !record.frame.empty();
 }
 
 // Scenes that were planned and have neither a record nor a reason for its absence.
@@ -292,6 +235,49 @@ Verdict judge_print(const Claim& claim, const std::vector<PrintedValue>& values)
 }
 
 }  // namespace
+
+Verdict judge_measurements(const Claim& claim, const Records& records)
+{
+    Verdict verdict = verdict_of(claim, VerdictKind::not_computable);
+    verdict.left_out = records.left_out;
+    verdict.missing = records.missing_runs;
+    if (!verdict.missing.empty()) return verdict;
+    add_of(claim.metrics, records, verdict.measurements, [&](const Measurement& measured) { return is_judged(claim, measured); });
+    add_of(claim.metrics, records, verdict.controls, [&](const Measurement& measured) { return is_control(claim, measured); });
+    add_of(claim.reported, records, verdict.controls, [&](const Measurement& measured) { return measured.claim == claim.id; });
+    if (verdict.measurements.empty()) {
+        if (!records.left_out.empty()) verdict.kind = VerdictKind::cannot_be_tested_here;
+        return verdict;
+    }
+    std::set<std::string> runs;
+    for (const Measurement& measured : verdict.measurements) {
+        verdict.within += extent_of(claim, measured) == Extent::whole;
+        if (!measured.run.empty()) runs.insert(measured.run);
+    }
+    verdict.n = static_cast<int>(verdict.measurements.size());
+    verdict.runs.assign(runs.begin(), runs.end());
+    const auto subjects = by_subject(verdict);
+    for (const auto& [name, subject] : subjects)
+        verdict.subjects.push_back({name, sum_of(subject).within, sum_of(subject).all, extent_of(subject)});
+    verdict.kind = kind_of(subjects);
+    verdict.primary = worst_of(verdict);
+    return verdict;
+}
+
+std::vector<OrderVerdict> judge_orders(const Claim& claim, const Records& records)
+{
+    std::vector<OrderVerdict> verdicts;
+    if (claim.orders.empty()) return verdicts;
+    for (const CaseRecord& record : records.cases) {
+        if (record.deformer != claim.orders || !is_judged(claim, record)) continue;
+        if (const CaseRecord* own = own_record(claim, records, record.scene)) add_case(claim, record, *own, entry_of(verdicts, record));
+    }
+    for (OrderVerdict& verdict : verdicts) {
+        verdict.kind = kind_of(claim, verdict.cases);
+        verdict.own_kind = kind_of(claim, verdict.own_cases);
+    }
+    return verdicts;
+}
 
 VerdictKind kind_of(const Claim& claim, const std::vector<CaseJudgement>& cases)
 {

@@ -4,9 +4,9 @@
 #include "experiments/command_line/verbs.hpp"
 #include "experiments/process/terminal.hpp"
 #include "experiments/run/run.hpp"
+#include "experiments/studies/reproduce.hpp"
 #include "experiments/studies/study.hpp"
 #include "experiments/verdicts/check/check_run.hpp"
-#include "experiments/verdicts/reproduce.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -4,10 +4,10 @@
 // The mesh size is (number of nodes)^(-1/3) (Celik et al. 2008). Order 1 and order 2 on the same tets are therefore two grids with a ratio
 // of about 1.9, and a refinement halves the mesh size.
 //
-// With two solutions nothing is observed: the bar is the grid convergence index (analysis/statistics/grid_convergence.hpp) with the theoretical order
-// and the safety factor 3. With four solutions, of both element orders on both meshes, the order of linear elements is observed at
-// the joints and used for all, between 0.5 and the theoretical one. The factor is 1.25 where the observed order is credible, and otherwise
-// 3 (analysis/statistics/grid_convergence.hpp).
+// With two solutions nothing is observed: the bar is the grid convergence index (analysis/statistics/grid_convergence.hpp) with the
+// theoretical order and the safety factor 3. With four solutions, of both element orders on both meshes, the order of linear elements is
+// observed at the joints and used for all, between 0.5 and the theoretical one. The factor is 1.25 where the observed order is credible,
+// and otherwise 3 (analysis/statistics/grid_convergence.hpp).
 //
 // The theoretical order depends on the attachment. The density of smooth springs has no jump. The displacement in the L2 norm then
 // converges with order 2 for linear and 3 for quadratic elements, of which the lower one is used, since the solutions are of both. In any

@@ -14,7 +14,7 @@ namespace experiments {
 // A bad frame is one that was not reached (its step did not converge; such a frame of a reference is compared with nothing), or a frame of
 // a converged reference with inverted tets (it is compared, and marked by their number). Both are recorded. `run`, `check` and `reproduce`
 // end with exit status 3 for bad frames and for breakdowns. In runs of a study that expects bad frames
-// (StudyRun::bad_frames_are_results), `reproduce` only lists them (verdicts/study_records.hpp).
+// (StudyRun::bad_frames_are_results), `reproduce` only lists them (studies/reproduce.hpp).
 struct RunResult {
     int frames = 0;
     double seconds = 0.0;

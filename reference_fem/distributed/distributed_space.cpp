@@ -1,6 +1,5 @@
 #include "reference_fem/distributed/distributed_space.hpp"
 
-#include "pbs/geometry/tet_mesh.hpp"
 #include "reference_fem/linear_solvers.hpp"
 
 #include <deal.II/base/mpi.h>

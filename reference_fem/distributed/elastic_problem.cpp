@@ -1,9 +1,5 @@
 #include "reference_fem/distributed/elastic_problem.hpp"
 
-#include "pbs/geometry/tet_mesh.hpp"
-#include "reference_fem/attachment.hpp"
-#include "reference_fem/options.hpp"
-
 #include <deal.II/base/mpi.h>
 #include <sys/resource.h>
 
@@ -50,6 +46,34 @@ void add_attached(const pbs::TetMesh& mesh, const Attachment& attachment, HeldPo
 void require_vertices(const pbs::TetMesh& mesh, const std::vector<int>& vertices, const char* field)
 {
     for (const int v : vertices) require(v >= 0 && v < mesh.rest.rows(), field, v, "expected an index below the number of vertices");
+}
+
+template <typename Container>
+void broadcast_as_bytes(Container& container, long long size)
+{
+    MPI_Bcast(&size, 1, MPI_LONG_LONG, 0, MPI_COMM_WORLD);
+    container.resize(size);
+    // MPI counts in int.
+    constexpr long long most_bytes = 1 << 30;
+    const long long bytes = size * static_cast<long long>(sizeof(*container.data()));
+    for (long long sent = 0; sent < bytes; sent += most_bytes)
+        MPI_Bcast(reinterpret_cast<char*>(container.data()) + sent, static_cast<int>(std::min(most_bytes, bytes - sent)), MPI_BYTE, 0,
+                  MPI_COMM_WORLD);
+}
+
+// Rows of a row-major matrix with a fixed number of columns.
+template <typename Matrix>
+struct AsFlat {
+    Matrix& matrix;
+    void resize(long long size) { matrix.resize(size / Matrix::ColsAtCompileTime, Eigen::NoChange); }
+    auto* data() { return matrix.data(); }
+};
+
+template <typename Matrix>
+void broadcast_rows(Matrix& matrix)
+{
+    AsFlat<Matrix> flat{matrix};
+    broadcast_as_bytes(flat, matrix.size());
 }
 
 }  // namespace
@@ -104,38 +128,6 @@ std::optional<pbs::Vec3> PrescribedNodes::displacement(const std::pair<int, int>
     const auto of_vertex = [&](int v) -> pbs::Vec3 { return vertex_targets_.row(v) - mesh_.rest.row(v); };
     return (of_vertex(ends.first) + of_vertex(ends.second)) / 2.0;
 }
-
-namespace {
-
-template <typename Container>
-void broadcast_as_bytes(Container& container, long long size)
-{
-    MPI_Bcast(&size, 1, MPI_LONG_LONG, 0, MPI_COMM_WORLD);
-    container.resize(size);
-    // MPI counts in int.
-    constexpr long long most_bytes = 1 << 30;
-    const long long bytes = size * static_cast<long long>(sizeof(*container.data()));
-    for (long long sent = 0; sent < bytes; sent += most_bytes)
-        MPI_Bcast(reinterpret_cast<char*>(container.data()) + sent, static_cast<int>(std::min(most_bytes, bytes - sent)), MPI_BYTE, 0,
-                  MPI_COMM_WORLD);
-}
-
-// Rows of a row-major matrix with a fixed number of columns.
-template <typename Matrix>
-struct AsFlat {
-    Matrix& matrix;
-    void resize(long long size) { matrix.resize(size / Matrix::ColsAtCompileTime, Eigen::NoChange); }
-    auto* data() { return matrix.data(); }
-};
-
-template <typename Matrix>
-void broadcast_rows(Matrix& matrix)
-{
-    AsFlat<Matrix> flat{matrix};
-    broadcast_as_bytes(flat, matrix.size());
-}
-
-}  // namespace
 
 class MpiSession::Implementation {
 public:

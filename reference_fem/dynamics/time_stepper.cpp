@@ -1,6 +1,5 @@
 #include "reference_fem/dynamics/time_stepper.hpp"
 
-#include "reference_fem/assembly.hpp"
 #include "reference_fem/options.hpp"
 
 namespace reference_fem {

@@ -34,6 +34,24 @@ Eigen::VectorXd scaled(const Eigen::VectorXd& shape)
     return shape / shape(largest);
 }
 
+std::vector<bool> held_dofs(const SimplexSpace& space, const std::function<Held(const pbs::Vec3&)>& held)
+{
+    std::vector<bool> dofs(space.dofs(), false);
+    for (int node = 0; held && node < space.nodes(); ++node) {
+        const Held components = held(space.node_positions().row(node));
+        dofs[3 * node] = components.x;
+        dofs[3 * node + 1] = components.y;
+        dofs[3 * node + 2] = components.z;
+    }
+    return dofs;
+}
+
+NodalMatrix linear_stiffness(const SimplexSpace& space, const VibratingOptions& options)
+{
+    const Lame lame = lame_parameters(options.young_pa, options.poisson);
+    return rest_stiffness(space, ElasticPotential(space, Model::linear, lame, Formulation::displacement));
+}
+
 }  // namespace
 
 Mode first_mode(const SparseMatrix& stiffness, const ConsistentMass& mass, const std::vector<bool>& prescribed, LinearSolver solver)
@@ -57,28 +75,6 @@ Mode first_mode(const SparseMatrix& stiffness, const ConsistentMass& mass, const
     }
     return mode;
 }
-
-namespace {
-
-std::vector<bool> held_dofs(const SimplexSpace& space, const std::function<Held(const pbs::Vec3&)>& held)
-{
-    std::vector<bool> dofs(space.dofs(), false);
-    for (int node = 0; held && node < space.nodes(); ++node) {
-        const Held components = held(space.node_positions().row(node));
-        dofs[3 * node] = components.x;
-        dofs[3 * node + 1] = components.y;
-        dofs[3 * node + 2] = components.z;
-    }
-    return dofs;
-}
-
-NodalMatrix linear_stiffness(const SimplexSpace& space, const VibratingOptions& options)
-{
-    const Lame lame = lame_parameters(options.young_pa, options.poisson);
-    return rest_stiffness(space, ElasticPotential(space, Model::linear, lame, Formulation::displacement));
-}
-
-}  // namespace
 
 VibratingBody::VibratingBody(const pbs::TetMesh& mesh, const VibratingOptions& options)
     : space_(mesh, options.element_order),

@@ -1,33 +1,95 @@
 #include "reference_fem/laws/constitutive_law.hpp"
 
-#include "reference_fem/laws/matrix_calculus.hpp"
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <Eigen/SVD>
 
+#include <algorithm>
 #include <cmath>
 
 namespace reference_fem {
+namespace {
 
-// The laws behind constitutive_law(), a file each.
+// [a]x b = a x b
+Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& a)
+{
+    Eigen::Matrix3d matrix;
+    matrix << 0.0, -a.z(), a.y(), a.z(), 0.0, -a.x(), -a.y(), a.x(), 0.0;
+    return matrix;
+}
 
-// psi = mu eps:eps + lambda / 2 (tr eps)^2, eps = (F + F^T) / 2 - I.
-std::unique_ptr<const ConstitutiveLaw> linear_law(const Lame& lame);
-// psi = mu |F - R|^2 + lambda / 2 (tr S - 3)^2, F = R S (E. Sifakis, J. Barbic, SIGGRAPH 2012 courses, part I, section 3.4). Defined for
-// every finite F.
-std::unique_ptr<const ConstitutiveLaw> corotational_law(const Lame& lame);
-// psi = mu / 2 (|F|^2 - 3) - mu (J - 1) + (lambda + mu) / 2 (J - 1)^2, J = det F (B. Smith, F. de Goes, T. Kim 2018, without their term in
-// ln(|F|^2 + 1)). Defined for every F.
-std::unique_ptr<const ConstitutiveLaw> stable_neo_hookean_law(const Lame& lame);
-// psi = mu / 2 (|F|^2 - 3) - mu ln J + lambda / 2 (ln J)^2, J > 0 (J. Bonet, R. Wood, Eq. 6.27).
-std::unique_ptr<const ConstitutiveLaw> neo_hookean_law(const Lame& lame);
-// psi = mu E:E + lambda / 2 (tr E)^2, E = (F^T F - I) / 2.
-std::unique_ptr<const ConstitutiveLaw> st_venant_kirchhoff_law(const Lame& lame);
-// psi = kappa / 4 (J^2 - 1 - 2 ln J) + mu / 2 (J^(-2/3) |F|^2 - 3), kappa = lambda + 2 mu / 3, J > 0 (after J. Simo, T. Hughes,
-// Computational Inelasticity). Not of two parts: no volume term.
-std::unique_ptr<const ConstitutiveLaw> isochoric_neo_hookean_law(const Lame& lame);
+}  // namespace
 
-// psi = mu eps:eps + lambda / 2 (tr eps)^2, eps = (F + F^T) / 2 - I.
+Eigen::Matrix3d cofactor(const Eigen::Matrix3d& f)
+{
+    Eigen::Matrix3d result;
+    for (int j = 0; j < 3; ++j) result.col(j) = f.col((j + 1) % 3).cross(f.col((j + 2) % 3));
+    return result;
+}
+
+Tangent cofactor_derivative(const Eigen::Matrix3d& f)
+{
+    Tangent result = Tangent::Zero();
+    for (int j = 0; j < 3; ++j) {  // column j is f_k x f_l
+        const int k = (j + 1) % 3, l = (j + 2) % 3;
+        result.block<3, 3>(3 * j, 3 * k) = -cross_matrix(f.col(l));
+        result.block<3, 3>(3 * j, 3 * l) = cross_matrix(f.col(k));
+    }
+    return result;
+}
+
+Tangent transposing_product(const Eigen::Matrix3d& a)
+{
+    Tangent result;
+    for (int j = 0; j < 3; ++j)
+        for (int l = 0; l < 3; ++l) result.block<3, 3>(3 * j, 3 * l) = a.col(l) * a.col(j).transpose();
+    return result;
+}
+
+double Invariants::log_volume() const
+{
+    return std::abs(volume_change) < 0.5 ? std::log1p(volume_change) : std::log(volume);
+}
+
+Invariants invariants(const Eigen::Matrix3d& f)
+{
+    const Eigen::Matrix3d g = f - Eigen::Matrix3d::Identity();
+    double second = 0.0;  // of the principal invariants: the sum of the principal minors
+    for (int i = 0, j = 1; i < 3; ++i, j = (j + 1) % 3) second += g(i, i) * g(j, j) - g(i, j) * g(j, i);
+    const double trace = g.trace(), determinant = g.determinant(), squared_norm = g.squaredNorm();
+    return {f.determinant(), trace + second + determinant, 2.0 * trace + squared_norm, 0.5 * squared_norm - second - determinant};
+}
+
+PolarDecomposition polar_decomposition(const Eigen::Matrix3d& f)
+{
+    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(f, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    PolarDecomposition polar{svd.matrixU(), svd.matrixV(), svd.singularValues(), {}};
+    polar.rotation.noalias() = polar.left * polar.right.transpose();
+    if (polar.rotation.determinant() < 0.0) {
+        polar.left.col(2) *= -1.0;
+        polar.stretches(2) *= -1.0;
+        polar.rotation.noalias() = polar.left * polar.right.transpose();
+    }
+    return polar;
+}
+
+Tangent rotation_derivative(const PolarDecomposition& polar)
+{
+    const double lowest_sum = 1e-8 * std::max(1.0, polar.stretches(0));
+    Tangent derivative = Tangent::Zero();
+    for (int k = 0; k < 3; ++k) {
+        const int i = (k + 1) % 3, j = (k + 2) % 3;
+        const Eigen::Matrix3d twist =
+            polar.left.col(j) * polar.right.col(i).transpose() - polar.left.col(i) * polar.right.col(j).transpose();
+        const double sum = std::max(polar.stretches(i) + polar.stretches(j), lowest_sum);
+        derivative += outer(twist, twist) / sum;
+    }
+    return derivative;
+}
 
 namespace {
 
+// psi = mu eps:eps + lambda / 2 (tr eps)^2, eps = (F + F^T) / 2 - I.
 class Linear : public ConstitutiveLaw {
 public:
     using ConstitutiveLaw::ConstitutiveLaw;
@@ -51,18 +113,8 @@ public:
     }
 };
 
-}  // namespace
-
-std::unique_ptr<const ConstitutiveLaw> linear_law(const Lame& lame)
-{
-    return std::make_unique<Linear>(lame);
-}
-
 // psi = mu |F - R|^2 + lambda / 2 (tr S - 3)^2, F = R S (E. Sifakis, J. Barbic, FEM Simulation of 3D Deformable Solids, SIGGRAPH 2012
 // courses, part I, section 3.4). Its derivatives by F: those through R vanish from the gradient, since R^T dR is skew and S symmetric.
-
-namespace {
-
 class Corotational : public ConstitutiveLaw {
 public:
     using ConstitutiveLaw::ConstitutiveLaw;
@@ -88,20 +140,10 @@ public:
     }
 };
 
-}  // namespace
-
-std::unique_ptr<const ConstitutiveLaw> corotational_law(const Lame& lame)
-{
-    return std::make_unique<Corotational>(lame);
-}
-
 // psi = mu / 2 (|F|^2 - 3) - mu (J - 1) + lambda' / 2 (J - 1)^2, J = det F, with lambda' = lambda + mu, without which the small-strain
 // limit would have lambda - mu. Smith, de Goes, Kim 2018, without their term in ln(|F|^2 + 1): like HOBAK, the code of T. Kim, D. Eberle,
 // Dynamic Deformables, SIGGRAPH 2020 courses, that leaves it out too. The price: the tet shrunk to a point, F = 0, is a local minimum.
 // With the square completed, this is mu / 2 (|F|^2 - 3) + lambda' / 2 (J - 1 - mu / lambda')^2 of M. Macklin, M. Mueller, MIG 2021.
-
-namespace {
-
 class StableNeoHookean : public ConstitutiveLaw {
 public:
     using ConstitutiveLaw::ConstitutiveLaw;
@@ -126,17 +168,7 @@ public:
     }
 };
 
-}  // namespace
-
-std::unique_ptr<const ConstitutiveLaw> stable_neo_hookean_law(const Lame& lame)
-{
-    return std::make_unique<StableNeoHookean>(lame);
-}
-
 // psi = mu / 2 (|F|^2 - 3) - mu ln J + lambda / 2 (ln J)^2, J = det F > 0 (Bonet, Wood, Eq. 6.27).
-
-namespace {
-
 class NeoHookean : public ConstitutiveLaw {
 public:
     using ConstitutiveLaw::ConstitutiveLaw;
@@ -165,17 +197,7 @@ public:
     }
 };
 
-}  // namespace
-
-std::unique_ptr<const ConstitutiveLaw> neo_hookean_law(const Lame& lame)
-{
-    return std::make_unique<NeoHookean>(lame);
-}
-
 // psi = mu E:E + lambda / 2 (tr E)^2, E = (F^T F - I) / 2.
-
-namespace {
-
 class StVenantKirchhoff : public ConstitutiveLaw {
 public:
     using ConstitutiveLaw::ConstitutiveLaw;
@@ -205,18 +227,8 @@ public:
     }
 };
 
-}  // namespace
-
-std::unique_ptr<const ConstitutiveLaw> st_venant_kirchhoff_law(const Lame& lame)
-{
-    return std::make_unique<StVenantKirchhoff>(lame);
-}
-
 // psi = kappa / 4 (J^2 - 1 - 2 ln J) + mu / 2 (J^(-2/3) |F|^2 - 3), kappa = lambda + 2 mu / 3, J = det F > 0: deal.II's step-44 and the
 // program Quasi-Static Finite-Strain Compressible Elasticity of its code gallery, after J. Simo, T. Hughes, Computational Inelasticity.
-
-namespace {
-
 class IsochoricNeoHookean : public ConstitutiveLaw {
 public:
     using ConstitutiveLaw::ConstitutiveLaw;
@@ -259,26 +271,21 @@ public:
 
 }  // namespace
 
-std::unique_ptr<const ConstitutiveLaw> isochoric_neo_hookean_law(const Lame& lame)
-{
-    return std::make_unique<IsochoricNeoHookean>(lame);
-}
-
 std::unique_ptr<const ConstitutiveLaw> constitutive_law(Model model, const Lame& lame)
 {
     switch (model) {
         case Model::linear:
-            return linear_law(lame);
+            return std::make_unique<Linear>(lame);
         case Model::corotational:
-            return corotational_law(lame);
+            return std::make_unique<Corotational>(lame);
         case Model::stable_neo_hookean:
-            return stable_neo_hookean_law(lame);
+            return std::make_unique<StableNeoHookean>(lame);
         case Model::neo_hookean:
-            return neo_hookean_law(lame);
+            return std::make_unique<NeoHookean>(lame);
         case Model::st_venant_kirchhoff:
-            return st_venant_kirchhoff_law(lame);
+            return std::make_unique<StVenantKirchhoff>(lame);
         case Model::isochoric_neo_hookean:
-            return isochoric_neo_hookean_law(lame);
+            return std::make_unique<IsochoricNeoHookean>(lame);
     }
     return nullptr;
 }

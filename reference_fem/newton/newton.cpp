@@ -1,8 +1,5 @@
 #include "reference_fem/newton/newton.hpp"
 
-#include "pbs/geometry/cost.hpp"
-#include "reference_fem/linear_solvers.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -33,19 +30,8 @@ bool all_quadratic(const Terms& terms)
 
 const char* name_of(NewtonOutcome outcome)
 {
-    switch (outcome) {
-        case NewtonOutcome::converged:
-            return "converged";
-        case NewtonOutcome::iterations_exhausted:
-            return "iterations_exhausted";
-        case NewtonOutcome::no_descent:
-            return "no_descent";
-        case NewtonOutcome::not_positive_definite:
-            return "not_positive_definite";
-        case NewtonOutcome::not_finite:
-            return "not_finite";
-    }
-    return "";
+    constexpr const char* names[] = {"converged", "iterations_exhausted", "no_descent", "not_positive_definite", "not_finite"};
+    return names[static_cast<int>(outcome)];
 }
 
 int NewtonSummary::steps() const

@@ -1,7 +1,5 @@
 #include "reference_fem/potentials/potentials.hpp"
 
-#include "reference_fem/options.hpp"
-
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>

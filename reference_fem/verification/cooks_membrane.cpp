@@ -1,7 +1,6 @@
 // Cook's membrane: a tapered panel, corners (0,0), (48,44), (48,60), (0,44) mm, clamped on the left, a uniform shear on the right
 // (R. Cook, J. Struct. Div. ASCE 100 (1974) 1851-1863). N and mm throughout.
 
-#include "reference_fem/boundary_value_problem.hpp"
 #include "reference_fem/verification/problems.hpp"
 
 #include <limits>

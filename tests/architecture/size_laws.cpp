@@ -18,10 +18,8 @@ const std::map<std::string, std::string> named_interfaces = {
     {"tests/support/precompiled.cpp", "the precompiled header of the tests"},
 };
 
-struct Sized {
-    std::string path;
-    int line;
-    int lines;
+struct Function {
+    int line, lines;
 };
 
 bool is_source(const std::string& path)
@@ -40,24 +38,11 @@ int columns_of(const std::string& line)
     return static_cast<int>(std::ranges::count_if(line, [](char byte) { return (byte & 0xC0) != 0x80; }));
 }
 
-// Violations for sizes above the limit, or if more than one in ten exceeds the usual size.
-Violations judge(const std::vector<Sized>& all, int longest, int usual, const std::string& thing)
-{
-    Violations violations, above_usual;
-    for (const auto& [path, line, lines] : all) {
-        const std::string what = at(path, line, thing + " of " + std::to_string(lines) + " lines");
-        if (lines > longest) violations.push_back(what + ", at most " + std::to_string(longest));
-        if (lines > usual) above_usual.push_back(what + ", and more than 1 in 10 have over " + std::to_string(usual));
-    }
-    if (10 * above_usual.size() > all.size()) violations.insert(violations.end(), above_usual.begin(), above_usual.end());
-    return violations;
-}
-
 // In this format a function's braces are alone on their lines, with the indentation of its signature; so are those of loops and branches.
-std::vector<Sized> functions_of(const std::string& path, const std::vector<std::string>& lines)
+std::vector<Function> functions_of(const std::vector<std::string>& lines)
 {
     static const std::regex control(R"(^\s*(for|if|else|while|switch|do|try|catch|struct|class|enum|union)\b)");
-    std::vector<Sized> functions;
+    std::vector<Function> functions;
     for (std::size_t open = 1; open < lines.size(); ++open) {
         const std::size_t indentation = lines[open].find('{');
         if (indentation == std::string::npos || lines[open].size() != indentation + 1 || lines[open].find_first_not_of(' ') != indentation)
@@ -66,7 +51,7 @@ std::vector<Sized> functions_of(const std::string& path, const std::vector<std::
         const std::string closing = std::string(indentation, ' ') + "}";
         std::size_t close = open;
         while (close + 1 < lines.size() && !lines[close].starts_with(closing)) ++close;
-        functions.push_back({path, static_cast<int>(open), static_cast<int>(close - open) + 1});
+        functions.push_back({static_cast<int>(open), static_cast<int>(close - open) + 1});
         open = close;
     }
     return functions;
@@ -120,10 +105,10 @@ const std::vector<Budget> the_budgets = {
     {.what = "pbs", .folders = {"pbs/"}, .endings = cpp, .most_lines = 25'900, .least_mean = 45, .small_files = 400},
     {.what = "reference_fem", .folders = {"reference_fem/"}, .endings = cpp, .most_lines = 9'600, .least_mean = 110, .small_files = 10},
     {.what = "analysis", .folders = {"analysis/"}, .endings = cpp, .most_lines = 6'650, .least_mean = 100, .small_files = 10},
-    {.what = "experiments", .folders = {"experiments/"}, .endings = cpp, .most_lines = 36'100, .least_mean = 45, .small_files = 400},
+    {.what = "experiments", .folders = {"experiments/"}, .endings = cpp, .most_lines = 36'100, .least_mean = 40, .small_files = 400},
     {.what = "production C++", .folders = {"pbs/", "reference_fem/", "analysis/", "experiments/"}, .endings = cpp, .most_lines = 79'200},
     {.what = "tests in C++", .folders = {"tests/"}, .endings = cpp, .most_lines = 52'800, .least_mean = 30, .small_files = 400},
-    {.what = "tests in Python and JavaScript", .folders = {"tests/"}, .endings = scripts, .most_lines = 13'000},
+    {.what = "tests in Python and JavaScript", .folders = {"tests/"}, .endings = scripts, .most_lines = 13'300},
     {.what = "paper_figures", .folders = {"paper_figures/"}, .endings = scripts, .most_lines = 8'700},
     {.what = "kept records", .folders = {"experiments/records/full/"}, .most_files = 745},
 };
@@ -132,10 +117,11 @@ const std::vector<Budget> the_budgets = {
 
 Violations file_sizes(const SourceTree& tree)
 {
-    std::vector<Sized> files;
+    Violations violations;
     for (const auto& [path, text] : tree)
-        if (is_source(path)) files.push_back({path, 1, static_cast<int>(lines_of(text).size())});
-    return judge(files, longest_file, longest_file, "file");
+        if (const int lines = static_cast<int>(lines_of(text).size()); is_source(path) && lines > longest_file)
+            violations.push_back(at(path, 1, "file of " + std::to_string(lines) + " lines, at most " + std::to_string(longest_file)));
+    return violations;
 }
 
 const std::vector<Budget>& budgets()
@@ -185,13 +171,17 @@ Violations small_files(const SourceTree& tree, const std::vector<Budget>& budget
 
 Violations function_sizes(const SourceTree& tree)
 {
-    std::vector<Sized> functions;
+    Violations violations, above_usual;
+    std::size_t functions = 0;
     for (const auto& [path, text] : tree)
-        if (is_cpp(path)) {
-            const std::vector<Sized> found = functions_of(path, lines_of(text));
-            functions.insert(functions.end(), found.begin(), found.end());
+        for (const auto& [line, lines] : is_cpp(path) ? functions_of(lines_of(text)) : std::vector<Function>{}) {
+            ++functions;
+            const std::string what = at(path, line, "function of " + std::to_string(lines) + " lines");
+            if (lines > longest_function) violations.push_back(what + ", at most " + std::to_string(longest_function));
+            if (lines > usual_function) above_usual.push_back(what + ", and more than 1 in 10 have over " + std::to_string(usual_function));
         }
-    return judge(functions, longest_function, usual_function, "function");
+    if (10 * above_usual.size() > functions) violations.insert(violations.end(), above_usual.begin(), above_usual.end());
+    return violations;
 }
 
 Violations line_lengths(const SourceTree& tree)

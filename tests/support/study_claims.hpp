@@ -6,8 +6,8 @@
 #include "analysis/records/record_files.hpp"
 #include "analysis/verdicts/claims.hpp"
 #include "analysis/verdicts/verdict.hpp"
+#include "experiments/studies/reproduce.hpp"
 #include "experiments/studies/study_run.hpp"
-#include "experiments/verdicts/study_records.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 #include <algorithm>

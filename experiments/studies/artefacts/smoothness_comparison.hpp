@@ -1,10 +1,10 @@
 // C06: the same poses with the weights of Eq. 2, or of the scene's weights file in their place, and with rigid weights, which bind every
 // vertex to its nearest bone alone.
 //   for (const analysis::Measurement& measurement : compare_weights(of).measurements) ...
-// Measured are, at each joint, the jump of strain between neighbouring tets and the bending of the skin (analysis/metrics/error_norms.hpp); for the
-// whole body, the absolute volume change; and the number of iterations after which PBS stays within the tolerance of its residual, by the
-// rule of shared/iteration_path.hpp with the two blends as initial guesses. Each value is a ratio of Eq. 2 to rigid weights, with its
-// spread over orders, precisions and meshes; for iterations over meshes only.
+// Measured are, at each joint, the jump of strain between neighbouring tets and the bending of the skin (analysis/metrics/error_norms.hpp);
+// for the whole body, the absolute volume change; and the number of iterations after which PBS stays within the tolerance of its residual,
+// by the rule of shared/iteration_path.hpp with the two blends as initial guesses. Each value is a ratio of Eq. 2 to rigid weights, with
+// its spread over orders, precisions and meshes; for iterations over meshes only.
 #pragma once
 
 #include "analysis/metrics/error_norms.hpp"

@@ -2,7 +2,8 @@
 // family of references, which differ in how the bones hold the flesh and in how compressible it is.
 //   const EnsembleRecords records = measure_ensemble(of);
 //   table_of(pair_columns, records.pairs).write("pairs.csv");
-// A pair of deformers is decided if every member orders it in the same way by more than its own error allows (analysis/verdicts/pair_order.hpp).
+// A pair of deformers is decided if every member orders it in the same way by more than its own error allows
+// (analysis/verdicts/pair_order.hpp).
 #pragma once
 
 #include "analysis/records/tables.hpp"

@@ -3,8 +3,8 @@
 //   const PosedReference reference(character, spec, pose, time_step_s);
 //   if (reference.is_reached()) reference.error_of(positions).joint_pct <= reference.bound().joint_pct ...
 // Errors are measured outside the part of the body that overlaps itself in one of the solutions (pbs::OverlapMask), since a fold without
-// contact has no limit under refinement. The bound is that of analysis/statistics/grid_convergence.hpp, with the order that is observed at the
-// joints outside that part.
+// contact has no limit under refinement. The bound is that of analysis/statistics/grid_convergence.hpp, with the order that is observed at
+// the joints outside that part.
 #pragma once
 
 #include "analysis/metrics/error_norms.hpp"

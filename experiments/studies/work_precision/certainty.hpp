@@ -1,7 +1,7 @@
 // Whether a statement "this point is nearer than that one" survives the choice of the reference and the references' own errors. Errors are
 // distances: relative to the exact solution, each may be larger or smaller by the error of the reference. A reference orders two points if
-// their errors differ by more than twice the bound of its own error (analysis/verdicts/pair_order.hpp with |A - B| <= e_A + e_B). A statement is
-// decided if every reference of the ensemble orders the points in this way.
+// their errors differ by more than twice the bound of its own error (analysis/verdicts/pair_order.hpp with |A - B| <= e_A + e_B). A
+// statement is decided if every reference of the ensemble orders the points in this way.
 //   decision_on(diagram, pbs, delta_mush).remark()
 #pragma once
 

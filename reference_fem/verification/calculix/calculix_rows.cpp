@@ -3,9 +3,6 @@
 #include "reference_fem/linear_elasticity.hpp"
 #include "reference_fem/linear_solvers.hpp"
 #include "reference_fem/potentials/potentials.hpp"
-#include "reference_fem/verification/calculix/calculix_deck.hpp"
-#include "reference_fem/verification/calculix/calculix_run.hpp"
-#include "reference_fem/verification/problems.hpp"
 
 #include <algorithm>
 #include <cmath>

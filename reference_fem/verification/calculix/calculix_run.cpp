@@ -23,7 +23,6 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <optional>
 #include <regex>
 #include <sstream>
 #include <stdexcept>
@@ -118,64 +117,6 @@ CalculixOutcome run_in(const std::string& folder, const std::string& program, co
     if (!in_time) return CalculixOutcome::out_of_time;
     return WIFEXITED(status) && WEXITSTATUS(status) == 0 ? CalculixOutcome::finished : CalculixOutcome::refused;
 }
-
-}  // namespace
-
-const char* name_of(CalculixOutcome outcome)
-{
-    constexpr std::array<const char*, 4> names = {"finished", "refused", "out of time", "not started"};
-    return names[static_cast<std::size_t>(outcome)];
-}
-
-std::string last_words(const std::string& output)
-{
-    constexpr std::size_t most = 400;
-    const std::size_t end = output.find_last_not_of(" \t\r\n") + 1;
-    return output.substr(end > most ? end - most : 0, std::min(end, most));
-}
-
-std::optional<std::string> calculix_on_path()
-{
-    const char* path = std::getenv("PATH");
-    std::istringstream folders(path ? path : "");
-    for (std::string folder; std::getline(folders, folder, ':');) {
-        const fs::path program = fs::absolute(fs::path(folder.empty() ? "." : folder) / "ccx");
-        std::error_code ignored;
-        if (fs::is_regular_file(program, ignored) && access(program.c_str(), X_OK) == 0) return program.string();
-    }
-    return std::nullopt;
-}
-
-std::string calculix_version(const std::string& program)
-{
-    const analysis::ScratchFolder folder;
-    double cpu_s = 0.0;
-    run_in(folder.path(), program, "-v", 10.0, cpu_s);
-    const std::string output = text_of(folder / "output.txt");
-    std::smatch match;
-    return std::regex_search(output, match, std::regex(R"(Version\s+([\w.]+))")) ? "CalculiX " + match[1].str() : "unknown version";
-}
-
-CalculixRun run_calculix(const std::string& program, const std::function<void(std::ostream&)>& write_deck, const CalculixLimits& limits)
-{
-    const analysis::ScratchFolder folder;
-    {
-        std::ofstream deck(folder / "deck.inp");
-        write_deck(deck);
-        if (!deck.flush()) throw pbs::InputError(folder / "deck.inp", 0, "", "", "cannot be written: is there space for CalculiX's deck?");
-    }
-    CalculixRun run;
-    const pbs::Stopwatch stopwatch;
-    run.outcome = run_in(folder.path(), program, "-i", limits.seconds, run.cpu_s);
-    run.wall_s = stopwatch.seconds();
-    run.output = text_of(folder / "output.txt");
-    run.printed = text_of(folder / "deck.dat");
-    run.restart = text_of(folder / "deck.rout");
-    if (run.outcome == CalculixOutcome::finished && run.output.find("*ERROR") != std::string::npos) run.outcome = CalculixOutcome::refused;
-    return run;
-}
-
-namespace {
 
 constexpr const char* printed_name = "deck.dat";
 constexpr const char* restart_name = "deck.rout";
@@ -293,6 +234,60 @@ std::optional<pbs::Positions> find_in_restart(const std::string& restart, const 
 }
 
 }  // namespace
+
+const char* name_of(CalculixOutcome outcome)
+{
+    constexpr std::array<const char*, 4> names = {"finished", "refused", "out of time", "not started"};
+    return names[static_cast<std::size_t>(outcome)];
+}
+
+std::string last_words(const std::string& output)
+{
+    constexpr std::size_t most = 400;
+    const std::size_t end = output.find_last_not_of(" \t\r\n") + 1;
+    return output.substr(end > most ? end - most : 0, std::min(end, most));
+}
+
+std::optional<std::string> calculix_on_path()
+{
+    const char* path = std::getenv("PATH");
+    std::istringstream folders(path ? path : "");
+    for (std::string folder; std::getline(folders, folder, ':');) {
+        const fs::path program = fs::absolute(fs::path(folder.empty() ? "." : folder) / "ccx");
+        std::error_code ignored;
+        if (fs::is_regular_file(program, ignored) && access(program.c_str(), X_OK) == 0) return program.string();
+    }
+    return std::nullopt;
+}
+
+std::string calculix_version(const std::string& program)
+{
+    const analysis::ScratchFolder folder;
+    double cpu_s = 0.0;
+    run_in(folder.path(), program, "-v", 10.0, cpu_s);
+    const std::string output = text_of(folder / "output.txt");
+    std::smatch match;
+    return std::regex_search(output, match, std::regex(R"(Version\s+([\w.]+))")) ? "CalculiX " + match[1].str() : "unknown version";
+}
+
+CalculixRun run_calculix(const std::string& program, const std::function<void(std::ostream&)>& write_deck, const CalculixLimits& limits)
+{
+    const analysis::ScratchFolder folder;
+    {
+        std::ofstream deck(folder / "deck.inp");
+        write_deck(deck);
+        if (!deck.flush()) throw pbs::InputError(folder / "deck.inp", 0, "", "", "cannot be written: is there space for CalculiX's deck?");
+    }
+    CalculixRun run;
+    const pbs::Stopwatch stopwatch;
+    run.outcome = run_in(folder.path(), program, "-i", limits.seconds, run.cpu_s);
+    run.wall_s = stopwatch.seconds();
+    run.output = text_of(folder / "output.txt");
+    run.printed = text_of(folder / "deck.dat");
+    run.restart = text_of(folder / "deck.rout");
+    if (run.outcome == CalculixOutcome::finished && run.output.find("*ERROR") != std::string::npos) run.outcome = CalculixOutcome::refused;
+    return run;
+}
 
 pbs::Positions read_printed_displacements(const std::string& text, const std::string& file, Eigen::Index nodes)
 {

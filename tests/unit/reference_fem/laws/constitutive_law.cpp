@@ -2,7 +2,7 @@
 // Comparisons are exact where every number is a small multiple of a power of two, so that nothing is rounded; the singular value
 // decomposition of a diagonal matrix takes no rotation.
 
-#include "reference_fem/laws/matrix_calculus.hpp"
+#include "reference_fem/laws/constitutive_law.hpp"
 #include "tests/support/law_points.hpp"
 #include "tests/support/rounding_error.hpp"
 

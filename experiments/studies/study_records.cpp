@@ -1,4 +1,4 @@
-#include "experiments/verdicts/study_records.hpp"
+#include "experiments/studies/reproduce.hpp"
 
 #include "analysis/records/record_files.hpp"
 #include "analysis/verdicts/measurement.hpp"

@@ -1,13 +1,13 @@
-#include "experiments/verdicts/reproduce.hpp"
+#include "experiments/studies/reproduce.hpp"
 
 #include "analysis/records/provenance.hpp"
+#include "analysis/verdicts/claims_report.hpp"
 #include "experiments/process/child_process.hpp"
 #include "experiments/process/terminal.hpp"
 #include "experiments/studies/shared/program_claims.hpp"
 #include "experiments/studies/study.hpp"
 #include "experiments/studies/study_costs.hpp"
 #include "experiments/studies/study_run.hpp"
-#include "experiments/verdicts/study_records.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 #include <fmt/format.h>
