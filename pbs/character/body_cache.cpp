@@ -8,6 +8,8 @@
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
+#define XXH_INLINE_ALL
 #include <xxhash.h>
 
 #include <algorithm>
@@ -20,9 +22,11 @@
 #include <string>
 #include <vector>
 
-#define XXH_INLINE_ALL
-
 namespace pbs {
+
+namespace fs = std::filesystem;
+
+namespace {
 
 // One process at a time makes the mesh of a key; the others wait, and find it in the cache.
 //   const MakingLock lock(cache_folder(), key);
@@ -59,13 +63,6 @@ MakingLock::~MakingLock()
 {
     if (file_ >= 0) ::close(file_);
 }
-
-}  // namespace pbs
-
-namespace fs = std::filesystem;
-
-namespace pbs {
-namespace {
 
 constexpr const char* format = ".vtu";  // Float64, so that what is read is what was made to the bit
 
@@ -177,8 +174,6 @@ TetMesh cached_mesh(const std::string& key, const std::function<TetMesh()>& make
 }
 
 namespace {
-
-namespace fs = std::filesystem;
 
 // The files that a glTF refers to. A buffer within the text ("data:...") is no file, and the reader refuses one that does not exist.
 std::vector<std::string> referred_files(const std::string& path)
