@@ -55,7 +55,7 @@ fuzz_target(fuzz/clip.cpp pbs_character
     pbs/character/clip.cpp pbs/character/retarget.cpp pbs/skinning/pose_path.cpp pbs/skinning/pose.cpp pbs/geometry/input_error.cpp)
 fuzz_target(fuzz/rig.cpp pbs_rig
     pbs/rig/rigged_body.cpp pbs/rig/gltf_rig.cpp pbs/rig/gltf_model.cpp pbs/rig/rig_pose.cpp
-    pbs/rig/rig_reader.cpp pbs/rig/tiny_gltf.cpp pbs/skinning/pose_path.cpp pbs/skinning/pose.cpp
+    pbs/rig/rig_reader.cpp pbs/skinning/pose_path.cpp pbs/skinning/pose.cpp
     pbs/geometry/content_format.cpp pbs/geometry/files.cpp pbs/geometry/input_error.cpp)
 fuzz_target(fuzz/texts.cpp experiments
     analysis/records/tables.cpp analysis/records/record_files.cpp
