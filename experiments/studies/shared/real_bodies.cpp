@@ -1,4 +1,4 @@
-#include "experiments/studies/shared/real_bodies.hpp"
+#include "experiments/studies/shared/bodies.hpp"
 
 #include "pbs/character/bodies.hpp"
 #include "pbs/geometry/input_error.hpp"
