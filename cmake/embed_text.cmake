@@ -1,6 +1,6 @@
 # embed_text(TARGET NAMESPACE FILE...): each text file becomes `NAMESPACE::<file_name_with_underscores>`, a const std::string declared in
-# <generated/NAMESPACE_texts.hpp>, so that the program needs no data folder. A README.md is named after its folder: `volume_README_md`.
-# `NAMESPACE::by_name` finds a text by the name of its file without the ending, and a README.md by the name of its folder.
+# <generated/NAMESPACE_texts.hpp>, so that the program needs no data folder. `NAMESPACE::by_name` finds a text by the name of its file
+# without the ending. A README.md and a cases.toml are named after their folder: `volume_README_md`, `volume_cases_toml`, "volume".
 function(embed_text target namespace)
     set(folder ${CMAKE_CURRENT_BINARY_DIR}/generated)
     set(declarations "#pragma once\n\n#include <map>\n#include <string>\n\nnamespace ${namespace} {\n")
@@ -9,7 +9,7 @@ function(embed_text target namespace)
     foreach(file IN LISTS ARGN)
         get_filename_component(name ${file} NAME)
         get_filename_component(key ${file} NAME_WLE)
-        if(name STREQUAL "README.md")
+        if(name STREQUAL "README.md" OR name STREQUAL "cases.toml")
             get_filename_component(folder_of_file ${file} DIRECTORY)
             get_filename_component(key ${folder_of_file} NAME)
             set(name ${key}_${name})

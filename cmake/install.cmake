@@ -26,7 +26,7 @@ function(pbs_install_headers component)
             "mesh_io_|meshing_|child_process|assimp_|content_format"
             "flesh/(local_shape|packed_|projective_|vbd|xpbd_)"
             "packed/(groups|lanes|parallel|vertex_order)"
-            "solver/(algorithm_1|plain_projection|project_plain)"
+            "solver/(algorithm_1|project_plain)"
             "rig/(assimp_|gltf_|tiny_gltf)"
             "character/json_file")
         list(JOIN no_call_for_users "|" no_call_for_users)

@@ -6,7 +6,7 @@ endif()
 # Tests that load deal.II at run time, in the module pbskin_fem.
 set(with_the_module experiments/deformers/fem/fem_module experiments/deformers/flesh_limits experiments/deformers/vbd_limit
     experiments/studies/convergence/convergence_case
-    experiments/studies/ensemble/ensemble experiments/studies/error_split/error_split experiments/studies/fit/young_fit
+    experiments/studies/ensemble/ensemble experiments/studies/error_split/error_split experiments/studies/fit/fit
     experiments/studies/shared/posed_reference experiments/studies/stability/broken_fem_starts experiments/broken_bulge)
 set(left_out)
 if(NOT PBS_WITH_FEM)
@@ -16,8 +16,8 @@ endif()
 # A verdict changes with its records: the project's own claims with the values of the studies. A broken solver changes the values and
 # verdicts that it must change by theory, and no others.
 pbs_tests(claims experiments FOLDERS experiments EXCEPT ${left_out}
-    ALONE experiments/broken_bulge experiments/broken_momentum experiments/broken_stiffness experiments/broken_weights
-        experiments/jiggle_verdict experiments/momentum_verdict experiments/setup_verdict experiments/stiffness_verdict
+    ALONE experiments/broken_bulge experiments/momentum experiments/stiffness experiments/broken_weights
+        experiments/jiggle experiments/setup_verdict
     LIBRARIES experiments)
 target_compile_definitions(test_claims_experiments PRIVATE ${claims_file})
 pbs_tests(unit experiments BLAS
@@ -28,10 +28,9 @@ pbs_tests(unit experiments BLAS
     ALONE experiments/deformers/vbd experiments/run/limb_stations experiments/run/reference_error_bar
     LIBRARIES experiments)
 pbs_tests(unit experiments_studies BLAS FOLDERS experiments/studies EXCEPT ${left_out}
-    ALONE experiments/studies/ambiguity/read_motion experiments/studies/ambiguity/reading_values
-        experiments/studies/ambiguity/reading_sections experiments/studies/ambiguity/untouched experiments/studies/convergence/starts
-        experiments/studies/fit/poisson_fit experiments/studies/recorded_settings experiments/studies/shared/iteration_path
-        experiments/studies/stability/cell_sweep experiments/studies/stiffness/stiffness_ratios experiments/studies/timing/timing_table
+    ALONE experiments/studies/ambiguity/reading experiments/studies/ambiguity/reading_values experiments/studies/convergence/starts
+        experiments/studies/recorded_settings experiments/studies/shared/iteration_path
+        experiments/studies/stability/stability_cells experiments/studies/stiffness/stiffness_ratios experiments/studies/timing/timing_table
         experiments/studies/work_precision/measured_points
     LIBRARIES experiments)
 pbs_tests(properties experiments FOLDERS experiments LIBRARIES experiments)

@@ -4,9 +4,7 @@
 #include "experiments/process/terminal.hpp"
 #include "experiments/run/metrics_table.hpp"
 #include "experiments/scene/scene.hpp"
-#include "experiments/studies/shared/program_claims.hpp"
 #include "experiments/studies/study.hpp"
-#include "experiments/studies/study_costs.hpp"
 #include "generated/pages_texts.hpp"
 #include "pbs/geometry/input_error.hpp"
 

@@ -4,10 +4,7 @@
 #include "analysis/verdicts/claims_report.hpp"
 #include "experiments/process/child_process.hpp"
 #include "experiments/process/terminal.hpp"
-#include "experiments/studies/shared/program_claims.hpp"
 #include "experiments/studies/study.hpp"
-#include "experiments/studies/study_costs.hpp"
-#include "experiments/studies/study_run.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 #include <fmt/format.h>

@@ -1,15 +1,50 @@
 // A study: its runs, and a conclusion from their records. experiments/README.md describes how to add one.
 #pragma once
 
+#include "analysis/records/tables.hpp"
 #include "analysis/verdicts/case_record.hpp"
+#include "analysis/verdicts/claims.hpp"
 #include "experiments/scene/scene.hpp"
-#include "experiments/studies/finished_runs.hpp"
 
 #include <functional>
+#include <optional>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace experiments {
+
+// The finished runs of a study. The conclusion of a study reads their records and writes summaries into the folder of the study.
+struct FinishedRuns {
+    std::string folder = {};                // of the study
+    std::vector<std::string> folders = {};  // one per finished run, in the order of the plan
+    std::vector<std::string> missing = {};  // names of the planned runs that did not finish
+
+    bool none() const { return folders.empty(); }
+
+    std::vector<std::string> files(const std::string& file) const;  // its path in every run that wrote it
+    // The tables `file` of all runs that wrote it, one below the other. InputError if their columns differ.
+    analysis::CsvTable gathered(const std::string& file) const;
+    // The rows of `file` of all runs that wrote it. InputError as rows_of.
+    template <typename Row>
+    std::vector<Row> rows(const analysis::Columns<Row>& columns, const std::string& file) const
+    {
+        std::vector<Row> all;
+        for (const std::string& path : files(file))
+            for (Row& row : rows_of(columns, analysis::read_csv(path))) all.push_back(std::move(row));
+        return all;
+    }
+
+    // Writes a record of the study. InputError if it cannot be written.
+    void write(const std::string& file, const std::string& text) const;
+    void write(const std::string& file, const analysis::CsvTable& table) const;
+    template <typename Row>
+    void write(const std::string& file, const analysis::Columns<Row>& columns, const std::vector<Row>& rows) const
+    {
+        write(file, table_of(columns, rows));
+    }
+};
 
 // The work of a run, in a process of its own. It writes its records into `folder`, which exists and has no earlier run.json, and returns
 // what broke down numerically, or "". An exception is a failure.
@@ -45,6 +80,50 @@ struct StudyPlan {
     std::vector<analysis::LeftOut> left_out = {};  // scenes whose bodies are not installed
     Extent extent = Extent::quick;                 // as asked for
 };
+
+// A case of studies/NAME/cases.toml: data from which the study makes a run. The file is a list of such tables:
+//   [[case]]
+//   name = "{body}_walk"             # of the run; {body} in any text is the name of the case's body
+//   bodies = ["human", "lady"]       # a case for each one that is installed; or body = "human"
+//   scene = "human_01_01"            # and overrides = ["motion.duration_s=2.5"], as `pbskin run SCENE --set KEY=VALUE`
+//   quick_s = 1.5                    # expected cost; a case without quick_s is no part of the quick form, one without full_s not of --full
+//   full_s = 4.0
+//   full = { k_stretch = [0.1, 0.7] }    # keys for one form, or for one of the bodies
+// The further keys are the study's own. A key that nothing reads is an error.
+class StudyCase {
+public:
+    StudyCase(const std::string& study, const nlohmann::json& values, bool full);
+
+    std::string name;
+    double cost_s = 0.0;
+    bool full = false;
+
+    bool has(const std::string& key) const;
+    template <typename T>
+    T value(const std::string& key) const  // std::logic_error if the case lacks it
+    {
+        return at(key).get<T>();
+    }
+    template <typename T>
+    T value(const std::string& key, const T& otherwise) const
+    {
+        return has(key) ? at(key).get<T>() : otherwise;
+    }
+    Scene scene(const std::vector<std::string>& further_overrides = {}) const;  // of `scene` and `overrides`
+    analysis::CaseKey key() const;                                              // body, motion, pose, angle_deg
+    void require_nothing_unread() const;
+
+private:
+    const nlohmann::json& at(const std::string& key) const;
+
+    std::string where_;
+    nlohmann::json values_;
+    mutable std::set<std::string> read_;
+};
+
+// The plan of a study whose cases are data: `add` makes the run of each case of this form. A body that is not installed, or that `add`
+// refuses by InputError, for example because a clip is missing, is left out with all of its further cases.
+StudyPlan plan_of_cases(const std::string& study, bool full, const std::function<void(const StudyCase& of, StudyPlan& plan)>& add);
 
 // The result of a study in addition to the verdicts on its claims.
 struct StudyConclusion {
@@ -96,5 +175,59 @@ Study features_study();
 Study scale_study();
 Study ensemble_study();
 Study improvements_study();
+
+// True if the run in `folder` finished with this scene or these settings and this revision, so that it need not be repeated.
+bool is_finished(const StudyRun& run, const std::string& folder);
+
+// Does the run and returns what broke down numerically, or "".
+std::string carry_out(const StudyRun& run, const std::string& folder);
+
+// The text that carry_out returned for the finished run in `folder`.
+std::string breakdown_on_record(const StudyRun& run, const std::string& folder);
+
+// The expected and the actual cost of the runs of a study, in DIR/STUDY/costs.csv. The file is kept when a study is resumed.
+//   StudyCosts costs(folder);
+//   costs.add("limb_twist", 80.0, 71.4);
+//   costs.write();
+struct RunCost {
+    std::string run;
+    double expected_s = 0.0, cpu_s = 0.0;  // processor time
+    std::optional<double> wall_s = {};     // wall time; older records have none
+};
+
+class StudyCosts {
+public:
+    explicit StudyCosts(const std::string& folder);  // with the rows of an earlier file, if there is one
+
+    void add(const std::string& run, double expected_s, double cpu_s);
+    // Keeps the rows of the finished runs, in the order of the plan. A finished run without a row, because its `reproduce` was killed, gets
+    // the cost that its run.json has.
+    void complete(const std::string& folder, const StudyPlan& plan);
+    void write() const;
+
+    double expected_s() const;
+    double cpu_s() const;
+
+private:
+    std::string file_;
+    std::vector<RunCost> runs_;
+};
+
+// The expected cost of a study, and the wall time with this number of runs in parallel.
+struct ExpectedCost {
+    std::string study;
+    int runs = 0;
+    double cpu_s = 0.0, wall_s = 0.0;
+};
+ExpectedCost expected_cost(const Study& study, const std::vector<StudyRun>& runs, int jobs);
+std::string expected_cost_table(const std::vector<ExpectedCost>& costs);  // one line per study, and their sum
+
+// Expected and actual processor time. A study outside a factor of two is marked.
+std::string cost_table(const std::vector<std::pair<std::string, StudyCosts>>& studies);
+
+// The claims of claims.toml, which is compiled into the program.
+const std::vector<analysis::Claim>& claims();
+
+const analysis::Claim& claim_named(const std::string& id);  // std::logic_error for an id that claims.toml does not contain
 
 }  // namespace experiments

@@ -1,4 +1,4 @@
-#include "experiments/studies/study_costs.hpp"
+#include "experiments/studies/study.hpp"
 
 #include "analysis/records/record_files.hpp"
 #include "analysis/records/tables.hpp"

@@ -1,14 +1,14 @@
 #include "pbs/flesh/flesh_system.hpp"
 
-#include "pbs/flesh/packed_flesh.hpp"
 #include "pbs/flesh/projective_dynamics.hpp"
-#include "pbs/packed/rows.hpp"
+#include "pbs/packed/groups.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
 #include <type_traits>
+#include <utility>
 
 namespace pbs {
 
@@ -22,22 +22,6 @@ double FleshSystem<Scalar>::smallest_step(const Rows<Scalar>& x, double share, d
 
 template double FleshSystem<float>::smallest_step(const Rows<float>&, double, double) const;
 template double FleshSystem<double>::smallest_step(const Rows<double>&, double, double) const;
-
-template <typename Scalar, typename Energy>
-std::unique_ptr<FleshSystem<Scalar>> make_flesh_system(const TetMesh& mesh, const Energy& energy, const CholeskyFactor& factor,
-                                                       Arithmetic arithmetic, int threads)
-{
-    if constexpr (std::is_same_v<Scalar, double>)
-        if (arithmetic == Arithmetic::plain_f64) return std::make_unique<PlainSystem<Energy>>(energy, factor);
-    return std::make_unique<PackedSystem<Scalar, Energy>>(mesh, energy, factor, threads);
-}
-
-template std::unique_ptr<FleshSystem<float>> make_flesh_system(const TetMesh&, const FleshEnergy&, const CholeskyFactor&, Arithmetic, int);
-template std::unique_ptr<FleshSystem<double>> make_flesh_system(const TetMesh&, const FleshEnergy&, const CholeskyFactor&, Arithmetic, int);
-template std::unique_ptr<FleshSystem<float>> make_flesh_system(const TetMesh&, const ProjectiveEnergy&, const CholeskyFactor&, Arithmetic,
-                                                               int);
-template std::unique_ptr<FleshSystem<double>> make_flesh_system(const TetMesh&, const ProjectiveEnergy&, const CholeskyFactor&, Arithmetic,
-                                                                int);
 
 namespace {
 
@@ -115,57 +99,191 @@ void solve_plainly(const CholeskyFactor& factor, const std::vector<int>& place, 
 template class TriangularSolve<float>;
 template class TriangularSolve<double>;
 
+namespace {
+
+// The plain implementation: the energy in file order and a loop per entry of the factor, in double. Energy: FleshEnergy or
+// ProjectiveEnergy.
 template <typename Energy>
-PlainSystem<Energy>::PlainSystem(const Energy& energy, const CholeskyFactor& factor)
-    : energy_(energy), factor_(factor), place_(static_cast<std::size_t>(energy.hold().size()))
+class PlainSystem : public FleshSystem<double> {
+public:
+    PlainSystem(const Energy& energy, const CholeskyFactor& factor)
+        : FleshSystem(static_cast<int>(energy.hold().size())), energy_(energy), factor_(factor)
+    {
+    }
+
+    void set_centres(const Positions& centres) override { centres_ = centres; }
+    double value_and_gradient(const Rows<double>& x, Rows<double>& gradient) override
+    {
+        store(x, x_);
+        const double value = energy_.value_and_gradient(x_, centres_, gradient_);
+        load(gradient_, gradient);
+        return value;
+    }
+    void precondition(Rows<double>& residual) override { solve_plainly(factor_, place_, residual.data(), work_); }
+    double dot(const Rows<double>& a, const Rows<double>& b) const override
+    {
+        double sum = 0.0;
+        for (const int i : place_)
+            for (int axis = 0; axis < 3; ++axis) sum += a[i][axis] * b[i][axis];
+        return sum;
+    }
+    void add(double factor, const Rows<double>& a, Rows<double>& to) const override
+    {
+        for (const int i : place_)
+            for (int axis = 0; axis < 3; ++axis) to[i][axis] += factor * a[i][axis];
+    }
+
+private:
+    Energy energy_;
+    CholeskyFactor factor_;
+    Positions centres_, x_, gradient_;
+    std::vector<double> work_;
+};
+
+// The tets of one slab, sixteen side by side: one specialisation for each energy.
+template <typename Scalar, typename Energy>
+struct PackedTets;
+
+template <typename Scalar>
+struct PackedTets<Scalar, FleshEnergy> {
+    explicit PackedTets(const FleshEnergy&) {}
+
+    void set_tet(int lane, const FleshTet& tet)
+    {
+        FleshBatch<Scalar>& batch = batches.back();
+        for (int e = 0; e < 6; ++e) batch.w[e][lane] = Scalar(tet.w[e]);
+        batch.kappa[lane] = Scalar(tet.kappa);
+        batch.d[lane] = Scalar(tet.d);
+    }
+    double add_gradient(const Scalar* x, Scalar* gradient)
+    {
+        return add_gradient_of_tets(batches.data(), static_cast<int>(batches.size()), x, gradient);
+    }
+
+    std::vector<FleshBatch<Scalar>> batches;
+    int refused_count = 0;
+};
+
+// A tet whose shapes the kernel refuses is computed by projective_forces.
+template <typename Scalar>
+struct PackedTets<Scalar, ProjectiveEnergy> {
+    explicit PackedTets(const ProjectiveEnergy& energy) : weights(energy.weights()) {}
+
+    void set_tet(int lane, const ProjectiveTet& tet)
+    {
+        ProjectiveBatch<Scalar>& batch = batches.back();
+        for (int k = 0; k < 9; ++k) batch.inverse_edges[k][lane] = Scalar(tet.inverse_edges(k / 3, k % 3));
+        batch.volume[lane] = Scalar(tet.volume);
+        for (int e = 0; e < 6; ++e) batch.w[e][lane] = Scalar(tet.w[e]);
+    }
+    double add_gradient(const Scalar* x, Scalar* gradient)
+    {
+        refused_count = 0;
+        refused.resize(batch_size * batches.size());
+        double value = add_gradient_of_projective_tets(batches.data(), static_cast<int>(batches.size()), Scalar(weights.strain),
+                                                       Scalar(weights.volume), x, gradient, refused.data(), &refused_count);
+        for (int i = 0; i < refused_count; ++i) value += add_gradient_of_refused(refused[i], x, gradient);
+        return value;
+    }
+    double add_gradient_of_refused(int place, const Scalar* x, Scalar* gradient) const
+    {
+        const ProjectiveBatch<Scalar>& batch = batches[place / batch_size];
+        const int lane = place % batch_size;
+        const auto corner = [&](int i) {
+            return Vec3(Eigen::Map<const Eigen::Matrix<Scalar, 3, 1>>(x + batch.offset[i][lane]).template cast<double>());
+        };
+        ProjectiveTet tet{{}, {}, double(batch.volume[lane]), {}};
+        for (int k = 0; k < 9; ++k) tet.inverse_edges(k / 3, k % 3) = double(batch.inverse_edges[k][lane]);
+        Eigen::Matrix3d edges;
+        for (int k = 0; k < 3; ++k) edges.col(k) = corner(k + 1) - corner(0);
+        const ProjectiveForces forces = projective_forces(tet, weights, edges);
+        for (int axis = 0; axis < 3; ++axis) {
+            for (int k = 0; k < 3; ++k) gradient[batch.offset[k + 1][lane] + axis] += Scalar(forces.columns(axis, k));
+            gradient[batch.offset[0][lane] + axis] -= Scalar(forces.columns.row(axis).sum());
+        }
+        return forces.value;
+    }
+
+    ProjectiveWeights weights;
+    std::vector<ProjectiveBatch<Scalar>> batches;
+    std::vector<int> refused;  // room for the places, 16 batch + lane, of refused tets
+    int refused_count = 0;     // in the last call of add_gradient
+};
+
+// The packed implementation: sixteen tets that share no vertex side by side, in the order of memory of the solvers of Algorithm 1. Threads
+// share the slabs of the mesh; their number changes no bit. The energy is read in the constructor alone.
+template <typename Scalar, typename Energy>
+class PackedSystem : public FleshSystem<Scalar> {
+public:
+    PackedSystem(const TetMesh& mesh, const Energy& energy, const CholeskyFactor& factor, int threads)
+        : PackedSystem(TetSlabs(mesh.tets, static_cast<int>(mesh.rest.rows()), threads), energy, factor)
+    {
+    }
+
+    void set_centres(const Positions& centres) override { this->origin_ = load_held_centres(centres, this->place_, centres_); }
+    double value_and_gradient(const Rows<Scalar>& x, Rows<Scalar>& gradient) override
+    {
+        const double of_hold = set_gradient_of_hold(centres_.data(), centres_.size(), x.data(), gradient.data());
+        slabs_.for_each([&](int slab) { slab_energy_[slab] = tets_[slab].add_gradient(x.data(), gradient.data()); });
+        return std::accumulate(slab_energy_.begin(), slab_energy_.end(), of_hold);
+    }
+    void precondition(Rows<Scalar>& residual) override { solve_.apply(residual.data()); }
+    double dot(const Rows<Scalar>& a, const Rows<Scalar>& b) const override { return pbs::dot(a.data(), b.data(), a.size()); }
+    void add(double factor, const Rows<Scalar>& a, Rows<Scalar>& to) const override
+    {
+        pbs::add(Scalar(factor), a.data(), a.size(), to.data());
+    }
+    int refused() const override
+    {
+        return std::accumulate(tets_.begin(), tets_.end(), 0, [](int sum, const auto& slab) { return sum + slab.refused_count; });
+    }
+
+private:
+    PackedSystem(TetSlabs slabs, const Energy& energy, const CholeskyFactor& factor)
+        : FleshSystem<Scalar>(slabs.order().new_of_old, slabs.rows()),
+          slabs_(std::move(slabs)),
+          slab_energy_(slabs_.slabs()),
+          centres_(slabs_.rows()),
+          solve_(factor, this->place_)
+    {
+        for (int slab = 0; slab < slabs_.slabs(); ++slab) {
+            PackedTets<Scalar, Energy>& packed = tets_.emplace_back(energy);
+            for (const std::vector<int>& members : slabs_.batches(slabs_.of_slab(slab))) {
+                auto& batch = packed.batches.emplace_back();
+                for (int lane = 0; lane < batch_size; ++lane) {
+                    const int tet = lane < static_cast<int>(members.size()) ? members[lane] : -1;
+                    const auto offset = slabs_.offset(slab, lane, tet);
+                    for (int i = 0; i < 4; ++i) batch.offset[i][lane] = offset[i];
+                    if (tet >= 0) packed.set_tet(lane, energy.tets()[tet]);
+                }
+            }
+        }
+        for (std::size_t i = 0; i < this->place_.size(); ++i) centres_[this->place_[i]][3] = Scalar(energy.hold()(i));
+    }
+
+    TetSlabs slabs_;
+    std::vector<PackedTets<Scalar, Energy>> tets_;  // of each slab
+    std::vector<double> slab_energy_;
+    Rows<Scalar> centres_;  // c_i - origin, a_i
+    TriangularSolve<Scalar> solve_;
+};
+
+}  // namespace
+
+template <typename Scalar, typename Energy>
+std::unique_ptr<FleshSystem<Scalar>> make_flesh_system(const TetMesh& mesh, const Energy& energy, const CholeskyFactor& factor,
+                                                       Arithmetic arithmetic, int threads)
 {
-    std::iota(place_.begin(), place_.end(), 0);
+    if constexpr (std::is_same_v<Scalar, double>)
+        if (arithmetic == Arithmetic::plain_f64) return std::make_unique<PlainSystem<Energy>>(energy, factor);
+    return std::make_unique<PackedSystem<Scalar, Energy>>(mesh, energy, factor, threads);
 }
 
-template <typename Energy>
-void PlainSystem<Energy>::load(const Positions& x, Rows<double>& rows) const
-{
-    load_rows(x, place_, Vec3::Zero(), rows);
-}
-
-template <typename Energy>
-void PlainSystem<Energy>::store(const Rows<double>& rows, Positions& x) const
-{
-    store_rows(rows, place_, Vec3::Zero(), x);
-}
-
-template <typename Energy>
-double PlainSystem<Energy>::value_and_gradient(const Rows<double>& x, Rows<double>& gradient)
-{
-    store(x, x_);
-    const double value = energy_.value_and_gradient(x_, centres_, gradient_);
-    load(gradient_, gradient);
-    return value;
-}
-
-template <typename Energy>
-void PlainSystem<Energy>::precondition(Rows<double>& residual)
-{
-    solve_plainly(factor_, place_, residual.data(), work_);
-}
-
-template <typename Energy>
-double PlainSystem<Energy>::dot(const Rows<double>& a, const Rows<double>& b) const
-{
-    double sum = 0.0;
-    for (int i = 0; i < static_cast<int>(place_.size()); ++i)
-        for (int axis = 0; axis < 3; ++axis) sum += a[i][axis] * b[i][axis];
-    return sum;
-}
-
-template <typename Energy>
-void PlainSystem<Energy>::add(double factor, const Rows<double>& a, Rows<double>& to) const
-{
-    for (int i = 0; i < static_cast<int>(place_.size()); ++i)
-        for (int axis = 0; axis < 3; ++axis) to[i][axis] += factor * a[i][axis];
-}
-
-template class PlainSystem<FleshEnergy>;
-template class PlainSystem<ProjectiveEnergy>;
+template std::unique_ptr<FleshSystem<float>> make_flesh_system(const TetMesh&, const FleshEnergy&, const CholeskyFactor&, Arithmetic, int);
+template std::unique_ptr<FleshSystem<double>> make_flesh_system(const TetMesh&, const FleshEnergy&, const CholeskyFactor&, Arithmetic, int);
+template std::unique_ptr<FleshSystem<float>> make_flesh_system(const TetMesh&, const ProjectiveEnergy&, const CholeskyFactor&, Arithmetic,
+                                                               int);
+template std::unique_ptr<FleshSystem<double>> make_flesh_system(const TetMesh&, const ProjectiveEnergy&, const CholeskyFactor&, Arithmetic,
+                                                                int);
 
 }  // namespace pbs

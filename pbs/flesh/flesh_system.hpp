@@ -19,20 +19,19 @@ namespace pbs {
 class ProjectiveEnergy;
 
 template <typename Scalar>
-class FleshSystem {
+class FleshSystem : public RowSystem<Scalar> {
 public:
-    virtual ~FleshSystem() = default;
-
-    virtual Rows<Scalar> rows() const = 0;                   // of a vector, zeros
     virtual void set_centres(const Positions& centres) = 0;  // c_i [m], #V x 3; packed: their mean becomes the origin of the rows
-    virtual void load(const Positions& x, Rows<Scalar>& rows) const = 0;
-    virtual void store(const Rows<Scalar>& rows, Positions& x) const = 0;
     virtual double value_and_gradient(const Rows<Scalar>& x, Rows<Scalar>& gradient) = 0;  // over Young's modulus [m^3], [m^2]
     virtual void precondition(Rows<Scalar>& residual) = 0;                                 // [m^2] -> [m]
     virtual double dot(const Rows<Scalar>& a, const Rows<Scalar>& b) const = 0;
     virtual void add(double factor, const Rows<Scalar>& a, Rows<Scalar>& to) const = 0;  // to += factor * a
+    virtual int refused() const { return 0; }  // tets of the last gradient whose shapes the packed formulae left to the plain code
     // The norm of a step that ends an iteration [m]: this share of the first one, or a few roundings of the positions, as at rest.
     double smallest_step(const Rows<Scalar>& x, double share, double first) const;
+
+protected:
+    using RowSystem<Scalar>::RowSystem;
 };
 
 // Energy: FleshEnergy or ProjectiveEnergy. factor: of flesh_laplacian. Scalar is that of `arithmetic` (unchecked).
@@ -62,33 +61,5 @@ private:
 
 // The same with a loop per entry of L: the plain implementation, in double.
 void solve_plainly(const CholeskyFactor& factor, const std::vector<int>& place, double* rows, std::vector<double>& work);
-
-// The plain implementation of FleshSystem: the energy in file order and a loop per entry of the factor, in double.
-
-// Energy: FleshEnergy or ProjectiveEnergy.
-template <typename Energy>
-class PlainSystem : public FleshSystem<double> {
-public:
-    PlainSystem(const Energy& energy, const CholeskyFactor& factor);
-
-    Rows<double> rows() const override { return Rows<double>(static_cast<int>(place_.size())); }
-    void set_centres(const Positions& centres) override { centres_ = centres; }
-    void load(const Positions& x, Rows<double>& rows) const override;
-    void store(const Rows<double>& rows, Positions& x) const override;
-    double value_and_gradient(const Rows<double>& x, Rows<double>& gradient) override;
-    void precondition(Rows<double>& residual) override;
-    double dot(const Rows<double>& a, const Rows<double>& b) const override;
-    void add(double factor, const Rows<double>& a, Rows<double>& to) const override;
-
-private:
-    Energy energy_;
-    CholeskyFactor factor_;
-    std::vector<int> place_;  // the identity, #V
-    Positions centres_, x_, gradient_;
-    std::vector<double> work_;
-};
-
-using PlainFlesh = PlainSystem<FleshEnergy>;
-using PlainProjective = PlainSystem<ProjectiveEnergy>;
 
 }  // namespace pbs

@@ -42,47 +42,23 @@ VertexBlockSummary VertexBlockDescent<Scalar>::minimise(const Positions& centres
 {
     sweep_->set_centres(centres);
     sweep_->load(x, x_);
-    if (options_.acceleration == Acceleration::chebyshev)
-        sweep_with_chebyshev();
-    else
-        sweep_over_relaxed();
+    if (options_.acceleration == Acceleration::chebyshev) {
+        before_ = x_;
+        for (const double weight : weights_) {
+            before_that_ = before_;
+            before_ = x_;
+            sweep_->move(1.0, x_);
+            if (weight != 1.0) sweep_->extrapolate(weight, before_that_, x_);
+        }
+    } else {
+        for (int k = 0; k < options_.iterations; ++k) sweep_->move(options_.omega, x_);
+    }
     sweep_->store(x_, x);
     return {options_.iterations, x.allFinite()};
 }
 
-template <typename Scalar>
-void VertexBlockDescent<Scalar>::sweep_over_relaxed()
-{
-    for (int k = 0; k < options_.iterations; ++k) sweep_->move(options_.omega, x_);
-}
-
-template <typename Scalar>
-void VertexBlockDescent<Scalar>::sweep_with_chebyshev()
-{
-    before_ = x_;
-    for (const double weight : weights_) {
-        before_that_ = before_;
-        before_ = x_;
-        sweep_->move(1.0, x_);
-        if (weight != 1.0) sweep_->extrapolate(weight, before_that_, x_);
-    }
-}
-
 template class VertexBlockDescent<float>;
 template class VertexBlockDescent<double>;
-
-template <>
-std::unique_ptr<VertexSweep<float>> make_vertex_sweep(const TetMesh& mesh, const FleshEnergy& energy, Arithmetic, int threads)
-{
-    return std::make_unique<PackedVertexSweep<float>>(mesh, energy, threads);
-}
-
-template <>
-std::unique_ptr<VertexSweep<double>> make_vertex_sweep(const TetMesh& mesh, const FleshEnergy& energy, Arithmetic arithmetic, int threads)
-{
-    if (arithmetic == Arithmetic::plain_f64) return std::make_unique<PlainVertexSweep>(mesh, energy);
-    return std::make_unique<PackedVertexSweep<double>>(mesh, energy, threads);
-}
 
 namespace {
 
@@ -144,127 +120,135 @@ Vec3 block_step(const VertexBlock& block)
     return {s0, s1, s2};
 }
 
-PlainVertexSweep::PlainVertexSweep(const TetMesh& mesh, const FleshEnergy& energy)
-    : stars_(vertex_stars(energy)), colours_(vertex_colours(mesh.tets, static_cast<int>(mesh.rest.rows())))
-{
-}
-
-void PlainVertexSweep::load(const Positions& x, Rows<double>& rows) const
-{
-    load_rows(x, rows);
-}
-
-void PlainVertexSweep::store(const Rows<double>& rows, Positions& x) const
-{
-    store_rows(rows, static_cast<Eigen::Index>(stars_.size()), x);
-}
-
-void PlainVertexSweep::move(double omega, Rows<double>& x)
-{
-    store(x, x_);
-    for (const std::vector<int>& colour : colours_)
-        for (const int i : colour) x_.row(i) -= omega * block_step(vertex_block(stars_[i], i, x_, centres_)).transpose();
-    load(x_, x);
-}
-
-void PlainVertexSweep::extrapolate(double omega, const Rows<double>& before, Rows<double>& x) const
-{
-    for (int i = 0; i < static_cast<int>(stars_.size()); ++i)
-        for (int axis = 0; axis < 3; ++axis) x[i][axis] = before[i][axis] + omega * (x[i][axis] - before[i][axis]);
-}
-
 namespace {
 
 constexpr int vertices_of_chunk = 512;       // some 10 us of work
 constexpr int vertices_for_threads = 16384;  // fewer are done sooner than threads wake
 
+// One vertex after the other, in double.
+class PlainVertexSweep : public VertexSweep<double> {
+public:
+    PlainVertexSweep(const TetMesh& mesh, const FleshEnergy& energy)
+        : VertexSweep(static_cast<int>(mesh.rest.rows())),
+          stars_(vertex_stars(energy)),
+          colours_(vertex_colours(mesh.tets, static_cast<int>(mesh.rest.rows())))
+    {
+    }
+
+    void set_centres(const Positions& centres) override { centres_ = centres; }
+    void move(double omega, Rows<double>& x) override
+    {
+        store(x, x_);
+        for (const std::vector<int>& colour : colours_)
+            for (const int i : colour) x_.row(i) -= omega * block_step(vertex_block(stars_[i], i, x_, centres_)).transpose();
+        load(x_, x);
+    }
+    void extrapolate(double omega, const Rows<double>& before, Rows<double>& x) const override
+    {
+        for (const int i : place_)
+            for (int axis = 0; axis < 3; ++axis) x[i][axis] = before[i][axis] + omega * (x[i][axis] - before[i][axis]);
+    }
+
+private:
+    std::vector<VertexStar> stars_;  // #V
+    std::vector<std::vector<int>> colours_;
+    Positions centres_, x_;
+};
+
+// Sixteen vertices of one colour side by side. The vertices of a colour are cut into chunks of neighbouring ones; in a chunk they are
+// sorted by their number of tets, so that few lanes wait for others. Threads share the chunks of a colour. Their number changes no bit,
+// because no vertex of a colour reads another one. Sixteen dummies follow the rows of the vertices.
+template <typename Scalar>
+class PackedVertexSweep : public VertexSweep<Scalar> {
+public:
+    PackedVertexSweep(const TetMesh& mesh, const FleshEnergy& energy, int threads)
+        : VertexSweep<Scalar>(breadth_first(mesh.tets, static_cast<int>(mesh.rest.rows())).new_of_old,
+                              static_cast<int>(mesh.rest.rows()) + batch_size),
+          parallel_(mesh.rest.rows() >= vertices_for_threads ? threads : 1),
+          centres_(this->rows_)
+    {
+        const std::vector<VertexStar> stars = vertex_stars(energy);
+        for (const std::vector<int>& colour : vertex_colours(mesh.tets, static_cast<int>(mesh.rest.rows()))) {
+            colours_.emplace_back();
+            for (auto begin = colour.begin(); begin != colour.end();) {
+                const auto end = begin + std::min<std::ptrdiff_t>(vertices_of_chunk, colour.end() - begin);
+                add_chunk(stars, {begin, end});
+                begin = end;
+            }
+        }
+        for (std::size_t i = 0; i < stars.size(); ++i) centres_[this->place_[i]][3] = Scalar(stars[i].hold);
+    }
+
+    void set_centres(const Positions& centres) override { this->origin_ = load_held_centres(centres, this->place_, centres_); }
+    void move(double omega, Rows<Scalar>& x) override
+    {
+        for (const std::vector<Chunk>& chunks : colours_)
+            parallel_.for_each(static_cast<int>(chunks.size()), [&](int c) {
+                move_vertices(batches_.data() + chunks[c].first, chunks[c].count, incidences_.data(), centres_.data(), Scalar(omega),
+                              x.data());
+            });
+    }
+    void extrapolate(double omega, const Rows<Scalar>& before, Rows<Scalar>& x) const override
+    {
+        pbs::extrapolate(Scalar(omega), before.data(), x.size(), x.data());
+    }
+
+private:
+    struct Chunk {
+        int first = 0, count = 0;  // batches
+    };
+
+    void add_chunk(const std::vector<VertexStar>& stars, std::vector<int> vertices)
+    {
+        std::stable_sort(vertices.begin(), vertices.end(), [&](int a, int b) { return stars[a].tets.size() > stars[b].tets.size(); });
+        const int before = static_cast<int>(batches_.size()), count = static_cast<int>(vertices.size());
+        for (int first = 0; first < count; first += batch_size)
+            add_batch(stars, vertices.data() + first, std::min(batch_size, count - first));
+        colours_.back().push_back({before, static_cast<int>(batches_.size()) - before});
+    }
+
+    void add_batch(const std::vector<VertexStar>& stars, const int* vertices, int count)
+    {
+        VertexBatch<Scalar>& batch = batches_.emplace_back();
+        batch.first = incidences_.size();
+        batch.count = static_cast<int>(stars[vertices[0]].tets.size());
+        incidences_.resize(batch.first + batch.count);
+        for (int lane = 0; lane < batch_size; ++lane) {
+            const VertexStar none, &star = lane < count ? stars[vertices[lane]] : none;
+            const std::uint32_t own = 4u * (lane < count ? this->place_[vertices[lane]] : this->rows_ - batch_size + lane);
+            batch.offset[lane] = own;
+            batch.diagonal[lane] = Scalar(star.diagonal);
+            for (int t = 0; t < batch.count; ++t) {
+                const bool is_tet = t < static_cast<int>(star.tets.size()) && star.diagonal > 0.0;
+                VertexIncidence<Scalar>& incidence = incidences_[batch.first + t];
+                for (int k = 0; k < 3; ++k) incidence.other[k][lane] = is_tet ? 4u * this->place_[star.tets[t].other[k]] : own;
+                for (int k = 0; k < 3; ++k) incidence.w[k][lane] = is_tet ? Scalar(star.tets[t].w[k]) : Scalar(0);
+                incidence.kappa[lane] = is_tet ? Scalar(star.tets[t].kappa) : Scalar(0);
+                incidence.d[lane] = is_tet ? Scalar(star.tets[t].d) : Scalar(0);
+            }
+        }
+    }
+
+    Parallel parallel_;
+    std::vector<std::vector<Chunk>> colours_;
+    std::vector<VertexBatch<Scalar>> batches_;
+    std::vector<VertexIncidence<Scalar>> incidences_;
+    Rows<Scalar> centres_;  // c_i - origin, a_i
+};
+
 }  // namespace
 
-template <typename Scalar>
-PackedVertexSweep<Scalar>::PackedVertexSweep(const TetMesh& mesh, const FleshEnergy& energy, int threads)
-    : order_(breadth_first(mesh.tets, static_cast<int>(mesh.rest.rows()))),
-      rows_(static_cast<int>(mesh.rest.rows()) + batch_size),
-      parallel_(mesh.rest.rows() >= vertices_for_threads ? threads : 1)
+template <>
+std::unique_ptr<VertexSweep<float>> make_vertex_sweep(const TetMesh& mesh, const FleshEnergy& energy, Arithmetic, int threads)
 {
-    const std::vector<VertexStar> stars = vertex_stars(energy);
-    for (const std::vector<int>& colour : vertex_colours(mesh.tets, static_cast<int>(mesh.rest.rows()))) {
-        colours_.emplace_back();
-        for (auto begin = colour.begin(); begin != colour.end();) {
-            const auto end = begin + std::min<std::ptrdiff_t>(vertices_of_chunk, colour.end() - begin);
-            add_chunk(stars, {begin, end});
-            begin = end;
-        }
-    }
-    centres_ = rows();
-    for (std::size_t i = 0; i < stars.size(); ++i) centres_[order_.new_of_old[i]][3] = Scalar(stars[i].hold);
+    return std::make_unique<PackedVertexSweep<float>>(mesh, energy, threads);
 }
 
-template <typename Scalar>
-void PackedVertexSweep<Scalar>::add_chunk(const std::vector<VertexStar>& stars, std::vector<int> vertices)
+template <>
+std::unique_ptr<VertexSweep<double>> make_vertex_sweep(const TetMesh& mesh, const FleshEnergy& energy, Arithmetic arithmetic, int threads)
 {
-    std::stable_sort(vertices.begin(), vertices.end(), [&](int a, int b) { return stars[a].tets.size() > stars[b].tets.size(); });
-    const int before = static_cast<int>(batches_.size()), count = static_cast<int>(vertices.size());
-    for (int first = 0; first < count; first += batch_size) add_batch(stars, vertices.data() + first, std::min(batch_size, count - first));
-    colours_.back().push_back({before, static_cast<int>(batches_.size()) - before});
+    if (arithmetic == Arithmetic::plain_f64) return std::make_unique<PlainVertexSweep>(mesh, energy);
+    return std::make_unique<PackedVertexSweep<double>>(mesh, energy, threads);
 }
-
-template <typename Scalar>
-void PackedVertexSweep<Scalar>::add_batch(const std::vector<VertexStar>& stars, const int* vertices, int count)
-{
-    VertexBatch<Scalar>& batch = batches_.emplace_back();
-    batch.first = incidences_.size();
-    batch.count = static_cast<int>(stars[vertices[0]].tets.size());
-    incidences_.resize(batch.first + batch.count);
-    for (int lane = 0; lane < batch_size; ++lane) {
-        const VertexStar none, &star = lane < count ? stars[vertices[lane]] : none;
-        const std::uint32_t own = 4u * (lane < count ? order_.new_of_old[vertices[lane]] : rows_ - batch_size + lane);
-        batch.offset[lane] = own;
-        batch.diagonal[lane] = Scalar(star.diagonal);
-        for (int t = 0; t < batch.count; ++t) {
-            const bool is_tet = t < static_cast<int>(star.tets.size()) && star.diagonal > 0.0;
-            VertexIncidence<Scalar>& incidence = incidences_[batch.first + t];
-            for (int k = 0; k < 3; ++k) incidence.other[k][lane] = is_tet ? 4u * order_.new_of_old[star.tets[t].other[k]] : own;
-            for (int k = 0; k < 3; ++k) incidence.w[k][lane] = is_tet ? Scalar(star.tets[t].w[k]) : Scalar(0);
-            incidence.kappa[lane] = is_tet ? Scalar(star.tets[t].kappa) : Scalar(0);
-            incidence.d[lane] = is_tet ? Scalar(star.tets[t].d) : Scalar(0);
-        }
-    }
-}
-
-template <typename Scalar>
-void PackedVertexSweep<Scalar>::set_centres(const Positions& centres)
-{
-    origin_ = load_held_centres(centres, order_.new_of_old, centres_);
-}
-
-template <typename Scalar>
-void PackedVertexSweep<Scalar>::load(const Positions& x, Rows<Scalar>& rows) const
-{
-    load_rows(x, order_.new_of_old, origin_, rows);
-}
-
-template <typename Scalar>
-void PackedVertexSweep<Scalar>::store(const Rows<Scalar>& rows, Positions& x) const
-{
-    store_rows(rows, order_.new_of_old, origin_, x);
-}
-
-template <typename Scalar>
-void PackedVertexSweep<Scalar>::move(double omega, Rows<Scalar>& x)
-{
-    for (const std::vector<Chunk>& chunks : colours_)
-        parallel_.for_each(static_cast<int>(chunks.size()), [&](int c) {
-            move_vertices(batches_.data() + chunks[c].first, chunks[c].count, incidences_.data(), centres_.data(), Scalar(omega), x.data());
-        });
-}
-
-template <typename Scalar>
-void PackedVertexSweep<Scalar>::extrapolate(double omega, const Rows<Scalar>& before, Rows<Scalar>& x) const
-{
-    pbs::extrapolate(Scalar(omega), before.data(), x.size(), x.data());
-}
-
-template class PackedVertexSweep<float>;
-template class PackedVertexSweep<double>;
 
 }  // namespace pbs

@@ -25,16 +25,14 @@ namespace pbs {
 //   sweep->load(positions, x);
 //   sweep->move(1.88, x);   // x_i -= omega H_i^-1 g_i for each vertex, each with the latest positions of the others
 template <typename Scalar>
-class VertexSweep {
+class VertexSweep : public RowSystem<Scalar> {
 public:
-    virtual ~VertexSweep() = default;
-
-    virtual Rows<Scalar> rows() const = 0;                   // of positions, zeros
     virtual void set_centres(const Positions& centres) = 0;  // c_i [m], #V x 3; packed: their mean becomes the origin of the rows
-    virtual void load(const Positions& x, Rows<Scalar>& rows) const = 0;
-    virtual void store(const Rows<Scalar>& rows, Positions& x) const = 0;
     virtual void move(double omega, Rows<Scalar>& x) = 0;
     virtual void extrapolate(double omega, const Rows<Scalar>& before, Rows<Scalar>& x) const = 0;  // x = before + omega (x - before)
+
+protected:
+    using RowSystem<Scalar>::RowSystem;
 };
 
 // Scalar is that of `arithmetic` (unchecked).
@@ -77,9 +75,6 @@ public:
     VertexBlockSummary minimise(const Positions& centres, Positions& x);
 
 private:
-    void sweep_over_relaxed();
-    void sweep_with_chebyshev();
-
     VertexBlockOptions options_;
     std::vector<double> weights_;  // of Chebyshev, #iterations; empty: over-relaxation
     std::unique_ptr<VertexSweep<Scalar>> sweep_;
@@ -120,56 +115,5 @@ VertexBlock vertex_block(const VertexStar& star, int vertex, const Positions& x,
 // H_i^-1 g_i [m] by H = L D L^T; zero where the diagonal is not above zero, as at a vertex without tets. A pivot is a Schur complement of
 // diagonal * I + sum kappa n n^T and at least the diagonal; rounding may not decrease it further.
 Vec3 block_step(const VertexBlock& block);
-
-// The plain implementation of VertexSweep: one vertex after the other, in double.
-class PlainVertexSweep : public VertexSweep<double> {
-public:
-    PlainVertexSweep(const TetMesh& mesh, const FleshEnergy& energy);
-
-    Rows<double> rows() const override { return Rows<double>(static_cast<int>(stars_.size())); }
-    void set_centres(const Positions& centres) override { centres_ = centres; }
-    void load(const Positions& x, Rows<double>& rows) const override;
-    void store(const Rows<double>& rows, Positions& x) const override;
-    void move(double omega, Rows<double>& x) override;
-    void extrapolate(double omega, const Rows<double>& before, Rows<double>& x) const override;
-
-private:
-    std::vector<VertexStar> stars_;  // #V
-    std::vector<std::vector<int>> colours_;
-    Positions centres_, x_;
-};
-
-// The packed implementation of VertexSweep: sixteen vertices of one colour side by side. The vertices of a colour are cut into chunks of
-// neighbouring ones; in a chunk they are sorted by their number of tets, so that few lanes wait for others. Threads share the chunks of a
-// colour. Their number changes no bit, because no vertex of a colour reads another one.
-template <typename Scalar>
-class PackedVertexSweep : public VertexSweep<Scalar> {
-public:
-    PackedVertexSweep(const TetMesh& mesh, const FleshEnergy& energy, int threads);
-
-    Rows<Scalar> rows() const override { return Rows<Scalar>(rows_); }
-    void set_centres(const Positions& centres) override;
-    void load(const Positions& x, Rows<Scalar>& rows) const override;
-    void store(const Rows<Scalar>& rows, Positions& x) const override;
-    void move(double omega, Rows<Scalar>& x) override;
-    void extrapolate(double omega, const Rows<Scalar>& before, Rows<Scalar>& x) const override;
-
-private:
-    struct Chunk {
-        int first = 0, count = 0;  // batches
-    };
-
-    void add_chunk(const std::vector<VertexStar>& stars, std::vector<int> vertices);
-    void add_batch(const std::vector<VertexStar>& stars, const int* vertices, int count);
-
-    VertexOrder order_;
-    int rows_ = 0;  // of vertices and, behind them, of sixteen dummies
-    Parallel parallel_;
-    std::vector<std::vector<Chunk>> colours_;
-    std::vector<VertexBatch<Scalar>> batches_;
-    std::vector<VertexIncidence<Scalar>> incidences_;
-    Rows<Scalar> centres_;  // c_i - origin, a_i
-    Vec3 origin_ = Vec3::Zero();
-};
 
 }  // namespace pbs

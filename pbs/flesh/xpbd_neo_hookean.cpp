@@ -3,7 +3,6 @@
 #include "pbs/flesh/flesh_kernels.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/packed/groups.hpp"
-#include "pbs/packed/rows.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -78,19 +77,6 @@ XpbdFlesh::XpbdFlesh(const TetMesh& mesh, const FleshEnergy& energy, const BoneH
     for (double& stiffness : w) stiffness = stiffness > 0.0 ? time_step * time_step / stiffness : 1.0;
 }
 
-template <>
-std::unique_ptr<XpbdSystem<float>> make_xpbd_system(const TetMesh& mesh, const XpbdFlesh& flesh, Arithmetic, int threads)
-{
-    return std::make_unique<PackedXpbd<float>>(mesh, flesh, threads);
-}
-
-template <>
-std::unique_ptr<XpbdSystem<double>> make_xpbd_system(const TetMesh& mesh, const XpbdFlesh& flesh, Arithmetic arithmetic, int threads)
-{
-    if (arithmetic == Arithmetic::plain_f64) return std::make_unique<PlainXpbd>(flesh);
-    return std::make_unique<PackedXpbd<double>>(mesh, flesh, threads);
-}
-
 namespace {
 
 std::vector<XpbdVisit> in_file_order(const XpbdFlesh& flesh)
@@ -114,7 +100,8 @@ PlainXpbd::PlainXpbd(const XpbdFlesh& flesh) : PlainXpbd(flesh, in_file_order(fl
 {
 }
 
-PlainXpbd::PlainXpbd(const XpbdFlesh& flesh, const std::vector<XpbdVisit>& visits) : flesh_(flesh), visits_(visits)
+PlainXpbd::PlainXpbd(const XpbdFlesh& flesh, const std::vector<XpbdVisit>& visits)
+    : XpbdSystem(static_cast<int>(flesh.w.size())), flesh_(flesh), visits_(visits)
 {
     for (const NeoHookeanTet& tet : flesh.tets) {
         Eigen::Matrix<double, 3, 4> g = vertex_gradients(tet, Eigen::Matrix3d::Identity());
@@ -127,19 +114,9 @@ PlainXpbd::PlainXpbd(const XpbdFlesh& flesh, const std::vector<XpbdVisit>& visit
 
 Rows<double> PlainXpbd::rows() const
 {
-    Rows<double> rows(static_cast<int>(flesh_.w.size()));
+    Rows<double> rows(rows_);
     for (int i = 0; i < rows.size(); ++i) rows[i][3] = i < flesh_.w.size() ? flesh_.w(i) : 1.0;
     return rows;
-}
-
-void PlainXpbd::load(const Positions& x, Rows<double>& rows) const
-{
-    load_rows(x, rows);
-}
-
-void PlainXpbd::store(const Rows<double>& rows, Positions& x) const
-{
-    store_rows(rows, flesh_.w.size(), x);
 }
 
 void PlainXpbd::forget()
@@ -202,173 +179,170 @@ void PlainXpbd::visit_tet(int t, Rows<double>& x, bool with_residual)
     for (int i = 0; i < 4; ++i) Vec3::Map(x[tet.vertex[i]]) += flesh_.w(tet.vertex[i]) * force.col(i);
 }
 
-template <typename Scalar>
-PackedXpbd<Scalar>::PackedXpbd(const TetMesh& mesh, const XpbdFlesh& flesh, int threads)
-    : order_(order_vertices(mesh.tets, static_cast<int>(mesh.rest.rows()), vertices_a_slab(static_cast<int>(mesh.rest.rows())))),
-      parallel_(order_.slabs() >= 3 ? threads : 1),
-      w_(flesh.w),
-      alpha_(Scalar(flesh.material.alpha)),
-      slabs_(order_.slabs()),
-      place_(flesh.hold.modes().size())
-{
-    rows_ = rows_with_dummies(static_cast<int>(mesh.rest.rows()), order_.slabs());
-    std::vector<std::array<int, 4>> vertex;
-    for (const NeoHookeanTet& tet : flesh.tets) vertex.push_back(tet.vertex);
-    const auto tets = slabs_of_tets(vertex, order_);
-    for (int slab = 0; slab < order_.slabs(); ++slab) fill_slab(slab, tets[slab], flesh);
-}
+namespace {
 
+// Sixteen tets that share no vertex side by side, in the order of memory of the solvers of Algorithm 1. In each slab of the mesh, first the
+// springs and then the tets are visited. Threads share the slabs; their number changes no bit.
 template <typename Scalar>
-void PackedXpbd<Scalar>::fill_slab(int s, const std::vector<int>& tets, const XpbdFlesh& flesh)
-{
-    Slab& slab = slabs_[s];
-    std::vector<int> held;
-    std::copy_if(tets.begin(), tets.end(), std::back_inserter(held), [&](int t) { return flesh.first_mode[t] < flesh.first_mode[t + 1]; });
-    BatchScheduler scheduler(static_cast<int>(order_.new_of_old.size()));
-    slab.hold_members = scheduled(scheduler, held, flesh);
-    slab.tet_members = scheduled(scheduler, tets, flesh);
-    slab.holds.resize(slab.hold_members.size());
-    slab.tets.resize(slab.tet_members.size());
-    const auto fill = [&](auto& batches, const Members& members, auto&& fill_lane) {
-        for (std::size_t b = 0; b < batches.size(); ++b)
-            for (int lane = 0; lane < batch_size; ++lane) {
-                const bool is_there = lane < static_cast<int>(members[b].size());
-                set_offsets(batches[b], lane, s, is_there ? &flesh.tets[members[b][lane]] : nullptr);
-                if (is_there) fill_lane(static_cast<int>(b), lane, members[b][lane]);
+class PackedXpbd : public XpbdSystem<Scalar> {
+public:
+    PackedXpbd(const TetMesh& mesh, const XpbdFlesh& flesh, int threads)
+        : PackedXpbd(TetSlabs(mesh.tets, static_cast<int>(mesh.rest.rows()), threads), flesh)
+    {
+    }
+
+    Rows<Scalar> rows() const override
+    {
+        Rows<Scalar> rows(this->rows_);
+        for (int i = 0; i < rows.size(); ++i) rows[i][3] = Scalar(1);
+        for (std::size_t i = 0; i < this->place_.size(); ++i) rows[this->place_[i]][3] = Scalar(w_(i));
+        return rows;
+    }
+
+    void set_targets(const Positions& targets) override
+    {
+        this->origin_.setZero();
+        if (targets.rows() > 0) this->origin_ = targets.colwise().mean();
+        for (Slab& slab : batches_)
+            for (HoldBatch<Scalar>& batch : slab.holds) std::fill_n(&batch.target[0][0][0], 4 * 3 * batch_size, Scalar(0));
+        for (std::size_t r = 0; r < mode_places_.size(); ++r) {
+            const auto& [slab, b, mode, lane] = mode_places_[r];
+            HoldBatch<Scalar>& batch = batches_[slab].holds[b];
+            double sum = 0.0;  // v^T (x - origin) = d - (sum of v) origin
+            for (int i = 0; i < 4; ++i) sum += double(batch.v[mode][i][lane]);
+            for (int axis = 0; axis < 3; ++axis)
+                batch.target[mode][axis][lane] = Scalar(targets(static_cast<Eigen::Index>(r), axis) - sum * this->origin_(axis));
+        }
+    }
+
+    void forget() override
+    {
+        for (Slab& slab : batches_) {
+            for (HoldBatch<Scalar>& batch : slab.holds) std::fill_n(&batch.multiplier[0][0][0], 4 * 3 * batch_size, Scalar(0));
+            for (NeoHookeanBatch<Scalar>& batch : slab.tets) {
+                std::fill_n(&batch.multiplier[0][0], 2 * batch_size, Scalar(0));
+                std::fill_n(&batch.applied[0][0], 9 * batch_size, Scalar(0));
             }
-    };
-    fill(slab.holds, slab.hold_members, [&](int b, int lane, int tet) {
-        for (int r = flesh.first_mode[tet]; r < flesh.first_mode[tet + 1]; ++r) place_[r] = {s, b, r - flesh.first_mode[tet], lane};
-        fill_hold(slab.holds[b], lane, tet, flesh);
-    });
-    fill(slab.tets, slab.tet_members, [&](int b, int lane, int tet) { fill_tet(slab.tets[b], lane, tet, flesh); });
-}
-
-template <typename Scalar>
-auto PackedXpbd<Scalar>::scheduled(BatchScheduler& scheduler, const std::vector<int>& tets, const XpbdFlesh& flesh) const -> Members
-{
-    std::vector<ConstraintGroup> groups;
-    for (const int t : tets) {
-        const auto& v = flesh.tets[t].vertex;
-        groups.push_back({GroupKind::tet, {v[0], v[1], v[2], v[3]}, {}});
-    }
-    Members batches = scheduler.schedule(groups);
-    for (std::vector<int>& batch : batches)
-        for (int& member : batch) member = tets[member];
-    return batches;
-}
-
-template <typename Scalar>
-template <typename Batch>
-void PackedXpbd<Scalar>::set_offsets(Batch& batch, int lane, int slab, const NeoHookeanTet* tet) const
-{
-    const int dummies = rows_ - (order_.slabs() - slab) * dummies_of_slab;
-    for (int i = 0; i < 4; ++i) batch.offset[i][lane] = 4u * (tet ? order_.new_of_old[tet->vertex[i]] : dummies + 4 * lane + i);
-}
-
-template <typename Scalar>
-void PackedXpbd<Scalar>::fill_hold(HoldBatch<Scalar>& batch, int lane, int t, const XpbdFlesh& flesh)
-{
-    for (int r = flesh.first_mode[t]; r < flesh.first_mode[t + 1]; ++r) {
-        const HoldMode& mode = flesh.hold.modes()[r];
-        const int place = r - flesh.first_mode[t];
-        double w_gradient2 = 0.0;
-        for (int i = 0; i < 4; ++i) {
-            batch.v[place][i][lane] = Scalar(mode.v(i));
-            w_gradient2 += flesh.w(flesh.tets[t].vertex[i]) * mode.v(i) * mode.v(i);
-        }
-        batch.stiffness[place][lane] = Scalar(mode.stiffness);
-        batch.share[place][lane] = Scalar(1.0 / (1.0 + mode.stiffness * w_gradient2));
-    }
-}
-
-template <typename Scalar>
-void PackedXpbd<Scalar>::fill_tet(NeoHookeanBatch<Scalar>& batch, int lane, int t, const XpbdFlesh& flesh)
-{
-    const NeoHookeanTet& tet = flesh.tets[t];
-    const Eigen::Matrix<double, 3, 4> g = vertex_gradients(tet, Eigen::Matrix3d::Identity());
-    Eigen::Matrix3d S = Eigen::Matrix3d::Zero();
-    for (int i = 0; i < 4; ++i) S += flesh.w(tet.vertex[i]) * g.col(i) * g.col(i).transpose();
-    for (int k = 0; k < 9; ++k) batch.rest_inverse[k][lane] = Scalar(tet.rest_inverse(k / 3, k % 3));
-    const double entries[6] = {S(0, 0), S(1, 1), S(2, 2), S(1, 2), S(0, 2), S(0, 1)};
-    for (int k = 0; k < 6; ++k) batch.weighted[k][lane] = Scalar(entries[k]);
-    batch.hydrostatic[lane] = Scalar(flesh.material.lambda * tet.volume);
-    batch.deviatoric[lane] = Scalar(flesh.material.mu * tet.volume);
-}
-
-template <typename Scalar>
-Rows<Scalar> PackedXpbd<Scalar>::rows() const
-{
-    Rows<Scalar> rows(rows_);
-    for (int i = 0; i < rows.size(); ++i) rows[i][3] = i < w_.size() ? Scalar(w_(order_.old_of_new[i])) : Scalar(1);
-    return rows;
-}
-
-template <typename Scalar>
-void PackedXpbd<Scalar>::set_targets(const Positions& targets)
-{
-    origin_.setZero();
-    if (targets.rows() > 0) origin_ = targets.colwise().mean();
-    for (Slab& slab : slabs_)
-        for (HoldBatch<Scalar>& batch : slab.holds) std::fill_n(&batch.target[0][0][0], 4 * 3 * batch_size, Scalar(0));
-    for (std::size_t r = 0; r < place_.size(); ++r) {
-        const auto& [slab, b, mode, lane] = place_[r];
-        HoldBatch<Scalar>& batch = slabs_[slab].holds[b];
-        double sum = 0.0;  // v^T (x - origin) = d - (sum of v) origin
-        for (int i = 0; i < 4; ++i) sum += double(batch.v[mode][i][lane]);
-        for (int axis = 0; axis < 3; ++axis)
-            batch.target[mode][axis][lane] = Scalar(targets(static_cast<Eigen::Index>(r), axis) - sum * origin_(axis));
-    }
-}
-
-template <typename Scalar>
-void PackedXpbd<Scalar>::load(const Positions& x, Rows<Scalar>& rows) const
-{
-    load_rows(x, order_.new_of_old, origin_, rows);
-}
-
-template <typename Scalar>
-void PackedXpbd<Scalar>::store(const Rows<Scalar>& rows, Positions& x) const
-{
-    store_rows(rows, order_.new_of_old, origin_, x);
-}
-
-template <typename Scalar>
-void PackedXpbd<Scalar>::forget()
-{
-    for (Slab& slab : slabs_) {
-        for (HoldBatch<Scalar>& batch : slab.holds) std::fill_n(&batch.multiplier[0][0][0], 4 * 3 * batch_size, Scalar(0));
-        for (NeoHookeanBatch<Scalar>& batch : slab.tets) {
-            std::fill_n(&batch.multiplier[0][0], 2 * batch_size, Scalar(0));
-            std::fill_n(&batch.applied[0][0], 9 * batch_size, Scalar(0));
         }
     }
-}
 
-template <typename Scalar>
-void PackedXpbd<Scalar>::iterate(Rows<Scalar>& x, bool with_residual)
-{
-    for (const int parity : {0, 1})
-        parallel_.for_each((order_.slabs() + 1 - parity) / 2, [&](int pair) {
-            Slab& slab = slabs_[2 * pair + parity];
+    void iterate(Rows<Scalar>& x, bool with_residual) override
+    {
+        slabs_.for_each([&](int s) {
+            Slab& slab = batches_[s];
             visit_holds(slab.holds.data(), static_cast<int>(slab.holds.size()), x.data());
             visit_tets(slab.tets.data(), static_cast<int>(slab.tets.size()), alpha_, with_residual, x.data());
         });
-}
+    }
 
-template <typename Scalar>
-std::vector<XpbdVisit> PackedXpbd<Scalar>::visits() const
+    std::vector<XpbdVisit> visits() const override
+    {
+        std::vector<XpbdVisit> visits;
+        for (const int parity : {0, 1})
+            for (std::size_t s = parity; s < batches_.size(); s += 2)
+                for (const bool is_hold : {true, false})
+                    for (const std::vector<int>& batch : is_hold ? batches_[s].hold_members : batches_[s].tet_members)
+                        for (const int tet : batch) visits.push_back({is_hold, tet});
+        return visits;
+    }
+
+private:
+    struct Slab {
+        std::vector<std::vector<int>> hold_members, tet_members;  // tets of each batch
+        std::vector<HoldBatch<Scalar>> holds;
+        std::vector<NeoHookeanBatch<Scalar>> tets;
+    };
+    struct ModePlace {
+        int slab, batch, mode, lane;
+    };
+
+    PackedXpbd(TetSlabs slabs, const XpbdFlesh& flesh)
+        : XpbdSystem<Scalar>(slabs.order().new_of_old, slabs.rows()),
+          slabs_(std::move(slabs)),
+          w_(flesh.w),
+          alpha_(Scalar(flesh.material.alpha)),
+          batches_(slabs_.slabs()),
+          mode_places_(flesh.hold.modes().size())
+    {
+        for (int s = 0; s < slabs_.slabs(); ++s) {
+            Slab& slab = batches_[s];
+            const std::vector<int>& tets = slabs_.of_slab(s);
+            std::vector<int> held;
+            std::copy_if(tets.begin(), tets.end(), std::back_inserter(held),
+                         [&](int t) { return flesh.first_mode[t] < flesh.first_mode[t + 1]; });
+            slab.hold_members = slabs_.batches(held);
+            slab.tet_members = slabs_.batches(tets);
+            fill(s, slab.hold_members, slab.holds, [&](HoldBatch<Scalar>& batch, int b, int lane, int tet) {
+                for (int r = flesh.first_mode[tet]; r < flesh.first_mode[tet + 1]; ++r)
+                    mode_places_[r] = {s, b, r - flesh.first_mode[tet], lane};
+                fill_hold(batch, lane, tet, flesh);
+            });
+            fill(s, slab.tet_members, slab.tets,
+                 [&](NeoHookeanBatch<Scalar>& batch, int, int lane, int tet) { fill_tet(batch, lane, tet, flesh); });
+        }
+    }
+
+    template <typename Batch, typename FillLane>
+    void fill(int slab, const std::vector<std::vector<int>>& members, std::vector<Batch>& batches, const FillLane& fill_lane) const
+    {
+        batches.resize(members.size());
+        for (std::size_t b = 0; b < batches.size(); ++b)
+            for (int lane = 0; lane < batch_size; ++lane) {
+                const int tet = lane < static_cast<int>(members[b].size()) ? members[b][lane] : -1;
+                const auto offset = slabs_.offset(slab, lane, tet);
+                for (int i = 0; i < 4; ++i) batches[b].offset[i][lane] = offset[i];
+                if (tet >= 0) fill_lane(batches[b], static_cast<int>(b), lane, tet);
+            }
+    }
+
+    static void fill_hold(HoldBatch<Scalar>& batch, int lane, int t, const XpbdFlesh& flesh)
+    {
+        for (int r = flesh.first_mode[t]; r < flesh.first_mode[t + 1]; ++r) {
+            const HoldMode& mode = flesh.hold.modes()[r];
+            const int place = r - flesh.first_mode[t];
+            double w_gradient2 = 0.0;
+            for (int i = 0; i < 4; ++i) {
+                batch.v[place][i][lane] = Scalar(mode.v(i));
+                w_gradient2 += flesh.w(flesh.tets[t].vertex[i]) * mode.v(i) * mode.v(i);
+            }
+            batch.stiffness[place][lane] = Scalar(mode.stiffness);
+            batch.share[place][lane] = Scalar(1.0 / (1.0 + mode.stiffness * w_gradient2));
+        }
+    }
+
+    static void fill_tet(NeoHookeanBatch<Scalar>& batch, int lane, int t, const XpbdFlesh& flesh)
+    {
+        const NeoHookeanTet& tet = flesh.tets[t];
+        const Eigen::Matrix<double, 3, 4> g = vertex_gradients(tet, Eigen::Matrix3d::Identity());
+        Eigen::Matrix3d S = Eigen::Matrix3d::Zero();
+        for (int i = 0; i < 4; ++i) S += flesh.w(tet.vertex[i]) * g.col(i) * g.col(i).transpose();
+        for (int k = 0; k < 9; ++k) batch.rest_inverse[k][lane] = Scalar(tet.rest_inverse(k / 3, k % 3));
+        const double entries[6] = {S(0, 0), S(1, 1), S(2, 2), S(1, 2), S(0, 2), S(0, 1)};
+        for (int k = 0; k < 6; ++k) batch.weighted[k][lane] = Scalar(entries[k]);
+        batch.hydrostatic[lane] = Scalar(flesh.material.lambda * tet.volume);
+        batch.deviatoric[lane] = Scalar(flesh.material.mu * tet.volume);
+    }
+
+    TetSlabs slabs_;
+    Eigen::VectorXd w_;
+    Scalar alpha_;
+    std::vector<Slab> batches_;
+    std::vector<ModePlace> mode_places_;  // of each mode
+};
+
+}  // namespace
+
+template <>
+std::unique_ptr<XpbdSystem<float>> make_xpbd_system(const TetMesh& mesh, const XpbdFlesh& flesh, Arithmetic, int threads)
 {
-    std::vector<XpbdVisit> visits;
-    for (const int parity : {0, 1})
-        for (std::size_t s = parity; s < slabs_.size(); s += 2)
-            for (const bool is_hold : {true, false})
-                for (const std::vector<int>& batch : is_hold ? slabs_[s].hold_members : slabs_[s].tet_members)
-                    for (const int tet : batch) visits.push_back({is_hold, tet});
-    return visits;
+    return std::make_unique<PackedXpbd<float>>(mesh, flesh, threads);
 }
 
-template class PackedXpbd<float>;
-template class PackedXpbd<double>;
+template <>
+std::unique_ptr<XpbdSystem<double>> make_xpbd_system(const TetMesh& mesh, const XpbdFlesh& flesh, Arithmetic arithmetic, int threads)
+{
+    if (arithmetic == Arithmetic::plain_f64) return std::make_unique<PlainXpbd>(flesh);
+    return std::make_unique<PackedXpbd<double>>(mesh, flesh, threads);
+}
 
 }  // namespace pbs

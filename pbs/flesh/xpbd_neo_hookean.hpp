@@ -14,11 +14,7 @@
 
 #include "pbs/flesh/bone_springs.hpp"
 #include "pbs/flesh/flesh_energy.hpp"
-#include "pbs/flesh/flesh_kernels.hpp"
-#include "pbs/packed/groups.hpp"
-#include "pbs/packed/parallel.hpp"
 #include "pbs/packed/rows.hpp"
-#include "pbs/packed/vertex_order.hpp"
 
 #include <memory>
 
@@ -61,18 +57,17 @@ struct XpbdVisit {
 };
 
 template <typename Scalar>
-class XpbdSystem {
+class XpbdSystem : public RowSystem<Scalar> {
 public:
-    virtual ~XpbdSystem() = default;
-
-    virtual Rows<Scalar> rows() const = 0;                   // of positions and w; in places without a vertex w is 1
+    Rows<Scalar> rows() const override = 0;                  // of positions and w; in places without a vertex w is 1
     virtual void set_targets(const Positions& targets) = 0;  // of the hold's modes [m]; packed: their mean becomes the origin of the rows
-    virtual void load(const Positions& x, Rows<Scalar>& rows) const = 0;
-    virtual void store(const Rows<Scalar>& rows, Positions& x) const = 0;
-    virtual void forget() = 0;  // sets all multipliers, and the forces that tets have applied, to zero
+    virtual void forget() = 0;                               // sets all multipliers, and the forces that tets have applied, to zero
     // Visits every constraint once. with_residual: r is corrected; otherwise it is neglected, as published.
     virtual void iterate(Rows<Scalar>& x, bool with_residual) = 0;
     virtual std::vector<XpbdVisit> visits() const = 0;  // an order in which one after the other gives the same result
+
+protected:
+    using RowSystem<Scalar>::RowSystem;
 };
 
 // Scalar is that of `arithmetic` (unchecked).
@@ -123,8 +118,6 @@ public:
 
     Rows<double> rows() const override;
     void set_targets(const Positions& targets) override { targets_ = targets; }
-    void load(const Positions& x, Rows<double>& rows) const override;
-    void store(const Rows<double>& rows, Positions& x) const override;
     void forget() override;
     void iterate(Rows<double>& x, bool with_residual) override;
     std::vector<XpbdVisit> visits() const override { return visits_; }
@@ -146,50 +139,6 @@ private:
     std::vector<Eigen::Matrix3d> weighted_;  // S = sum_i w_i g_i g_i^T of each tet
     std::vector<State> state_;
     Positions targets_, mode_multipliers_;
-};
-
-// The packed implementation of XpbdSystem: sixteen tets that share no vertex side by side, in the order of memory of the solvers of
-// Algorithm 1 (batched/vertex_order.hpp). In each slab of the mesh, first the springs and then the tets are visited. Threads share the
-// slabs; their number changes no bit.
-template <typename Scalar>
-class PackedXpbd : public XpbdSystem<Scalar> {
-public:
-    PackedXpbd(const TetMesh& mesh, const XpbdFlesh& flesh, int threads);
-
-    Rows<Scalar> rows() const override;
-    void set_targets(const Positions& targets) override;
-    void load(const Positions& x, Rows<Scalar>& rows) const override;
-    void store(const Rows<Scalar>& rows, Positions& x) const override;
-    void forget() override;
-    void iterate(Rows<Scalar>& x, bool with_residual) override;
-    std::vector<XpbdVisit> visits() const override;
-
-private:
-    using Members = std::vector<std::vector<int>>;  // tets of each batch
-    struct Slab {
-        Members hold_members, tet_members;
-        std::vector<HoldBatch<Scalar>> holds;
-        std::vector<NeoHookeanBatch<Scalar>> tets;
-    };
-    struct ModePlace {
-        int slab, batch, mode, lane;
-    };
-
-    void fill_slab(int slab, const std::vector<int>& tets, const XpbdFlesh& flesh);
-    Members scheduled(BatchScheduler& scheduler, const std::vector<int>& tets, const XpbdFlesh& flesh) const;
-    template <typename Batch>
-    void set_offsets(Batch& batch, int lane, int slab, const NeoHookeanTet* tet) const;
-    void fill_hold(HoldBatch<Scalar>& batch, int lane, int tet, const XpbdFlesh& flesh);
-    void fill_tet(NeoHookeanBatch<Scalar>& batch, int lane, int tet, const XpbdFlesh& flesh);
-
-    VertexOrder order_;
-    int rows_ = 0;  // of vertices and, behind them, of the dummies of each slab
-    Parallel parallel_;
-    Eigen::VectorXd w_;
-    Scalar alpha_;
-    std::vector<Slab> slabs_;
-    std::vector<ModePlace> place_;  // of each mode
-    Vec3 origin_ = Vec3::Zero();
 };
 
 }  // namespace pbs

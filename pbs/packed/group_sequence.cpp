@@ -163,35 +163,54 @@ bool BatchScheduler::rests(const ConstraintGroup& group, int since) const
 namespace {
 
 constexpr int tets_of_cluster = 4096;  // whose vertices stay in the cache from colour to colour
+constexpr int dummies_of_slab = 4 * batch_size;
 
 }  // namespace
 
-int rows_with_dummies(int vertices, int slabs)
+TetSlabs::TetSlabs(const Tets& tets, int vertices, int threads)
+    : tets_(tets),
+      order_(order_vertices(tets, vertices, vertices_a_slab(vertices))),
+      rows_((vertices + batch_size - 1) / batch_size * batch_size + order_.slabs() * dummies_of_slab),
+      parallel_(order_.slabs() >= slabs_worth_threads ? threads : 1),
+      of_slab_(order_.slabs())
 {
-    return (vertices + batch_size - 1) / batch_size * batch_size + slabs * dummies_of_slab;
-}
-
-std::vector<std::vector<int>> slabs_of_tets(const std::vector<std::array<int, 4>>& vertex, const VertexOrder& order)
-{
-    std::vector<int> sorted(vertex.size()), first_vertex;
-    for (const std::array<int, 4>& of_tet : vertex) {
-        int lowest = order.new_of_old[of_tet[0]];
-        for (const int v : of_tet) lowest = std::min(lowest, order.new_of_old[v]);
+    std::vector<std::array<int, 4>> corners;
+    std::vector<int> sorted(tets.rows()), first_vertex;
+    for (const auto tet : tets.rowwise()) {
+        corners.push_back({tet(0), tet(1), tet(2), tet(3)});
+        int lowest = order_.new_of_old[tet(0)];
+        for (const int v : corners.back()) lowest = std::min(lowest, order_.new_of_old[v]);
         first_vertex.push_back(lowest);
     }
     std::iota(sorted.begin(), sorted.end(), 0);
     std::stable_sort(sorted.begin(), sorted.end(), [&](int a, int b) { return first_vertex[a] < first_vertex[b]; });
-    const std::vector<int> slab_of = order.slab_of_new();
-    std::vector<std::vector<int>> slabs(order.slabs());
-    for (const int t : sorted) slabs[slab_of[first_vertex[t]]].push_back(t);
-    const std::vector<int> place = projection_sequence(single_tets(vertex), static_cast<int>(order.new_of_old.size()));
-    for (std::vector<int>& slab : slabs)
+    const std::vector<int> slab_of = order_.slab_of_new();
+    for (const int t : sorted) of_slab_[slab_of[first_vertex[t]]].push_back(t);
+    const std::vector<int> place = projection_sequence(single_tets(corners), vertices);
+    for (std::vector<int>& slab : of_slab_)
         for (auto first = slab.begin(); first != slab.end();) {
             const auto last = slab.end() - first < 3 * tets_of_cluster / 2 ? slab.end() : first + tets_of_cluster;  // no small last one
             std::sort(first, last, [&](int a, int b) { return place[a] < place[b]; });
             first = last;
         }
-    return slabs;
+}
+
+std::vector<std::vector<int>> TetSlabs::batches(const std::vector<int>& tets) const
+{
+    std::vector<ConstraintGroup> groups;
+    for (const int t : tets) groups.push_back({GroupKind::tet, {tets_(t, 0), tets_(t, 1), tets_(t, 2), tets_(t, 3)}, {}});
+    std::vector<std::vector<int>> batches = BatchScheduler(static_cast<int>(order_.new_of_old.size())).schedule(groups);
+    for (std::vector<int>& batch : batches)
+        for (int& member : batch) member = tets[member];
+    return batches;
+}
+
+std::array<std::uint32_t, 4> TetSlabs::offset(int slab, int lane, int tet) const
+{
+    const int dummies = rows_ - (slabs() - slab) * dummies_of_slab;
+    std::array<std::uint32_t, 4> offset;
+    for (int i = 0; i < 4; ++i) offset[i] = 4u * (tet >= 0 ? order_.new_of_old[tets_(tet, i)] : dummies + 4 * lane + i);
+    return offset;
 }
 
 }  // namespace pbs

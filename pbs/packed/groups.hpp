@@ -5,9 +5,12 @@
 
 #include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/packed/batch.hpp"
+#include "pbs/packed/parallel.hpp"
 #include "pbs/packed/vertex_order.hpp"
 
 #include <array>
+#include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace pbs {
@@ -38,7 +41,7 @@ std::vector<ConstraintGroup> grouped_tets(const std::vector<std::array<int, 4>>&
 // undone by half of its neighbours. By colours, those of the last colour are undone by none. Measured after 24 iterations on the limb, two
 // tapered limbs and the human, the absolute volume change is on average 7 % and at least 1 % below the median of random sequences; that of
 // sweeps is on average 3 % above. The page of the study `equal_quality` has the table.
-
+//
 // The place of each group in the sequence, #groups. groups: of one class, of a mesh of so many vertices.
 // Three colourings decide, one after the other: by shared faces (three vertices, ascending), by shared edges (two, descending, of groups of
 // one constraint only), by shared vertices (one, ascending). Each gives a group the first colour that no earlier group next to it has, in
@@ -48,7 +51,6 @@ std::vector<int> projection_sequence(const std::vector<ConstraintGroup>& groups,
 
 // Groups of constraints in batches: no two of a batch share a vertex, and none shares one with the batch before (with the two before, where
 // that can be had), so that a kernel may load ahead and need not wait for its own stores.
-
 // Keeps its memory from one cluster to the next; a cluster leaves no trace for the next.
 class BatchScheduler {
 public:
@@ -76,16 +78,29 @@ private:
     std::vector<int> turns_;                             // of each group, the number of its vertices at which it is the next one
 };
 
-// The layout that the packed solvers of this folder have in common: the tets of each slab of the mesh, and the rows of vertices and
-// dummies.
-inline constexpr int dummies_of_slab = 4 * batch_size;
+// The tets of a mesh for solvers that take sixteen of them at once: the order of the vertices, the tets of each slab, and batches of them.
+class TetSlabs {
+public:
+    // threads: among which the slabs are shared, where there are enough of them.
+    TetSlabs(const Tets& tets, int vertices, int threads);
 
-// Rows of `vertices` in whole batches and, behind them, of the dummies of each slab.
-int rows_with_dummies(int vertices, int slabs);
+    const VertexOrder& order() const { return order_; }
+    int rows() const { return rows_; }  // of vertices in whole batches and, behind them, of the dummies of each slab
+    int slabs() const { return order_.slabs(); }
+    // A tet belongs to the slab of the first of its vertices in memory. Within a slab, clusters of neighbours follow each other, and each
+    // cluster goes colour by colour (projection_sequence), so that batches fill.
+    const std::vector<int>& of_slab(int slab) const { return of_slab_[slab]; }
+    std::vector<std::vector<int>> batches(const std::vector<int>& tets) const;  // the tets of each batch, by BatchScheduler
+    // 4 * row of the corners of a tet in this lane of a batch of this slab; tet -1: of the lane's dummies.
+    std::array<std::uint32_t, 4> offset(int slab, int lane, int tet) const;
+    void for_each(const std::function<void(int)>& task) const { parallel_.for_each_slab(slabs(), task); }
 
-// vertex: of each tet. Returns indices of the tets of each slab; a tet belongs to the slab of the first of its vertices in memory. Within a
-// slab, clusters of neighbours follow each other, and each cluster goes colour by colour (groups.hpp), so that BatchScheduler
-// fills its batches.
-std::vector<std::vector<int>> slabs_of_tets(const std::vector<std::array<int, 4>>& vertex, const VertexOrder& order);
+private:
+    Tets tets_;
+    VertexOrder order_;
+    int rows_;
+    Parallel parallel_;
+    std::vector<std::vector<int>> of_slab_;
+};
 
 }  // namespace pbs

@@ -113,4 +113,9 @@ void Parallel::for_each(int count, const std::function<void(int)>& task) const
     for (int i = 0; i < count; ++i) task(i);
 }
 
+void Parallel::for_each_slab(int slabs, const std::function<void(int)>& task) const
+{
+    for (const int parity : {0, 1}) for_each((slabs + 1 - parity) / 2, [&](int pair) { task(2 * pair + parity); });
+}
+
 }  // namespace pbs

@@ -18,6 +18,8 @@ public:
 
     // task(0) .. task(count - 1), in any order; returns when all are done.
     void for_each(int count, const std::function<void(int)>& task) const;
+    // The same for slabs that touch the next one alone (vertex_order.hpp): all even ones, then all odd ones.
+    void for_each_slab(int slabs, const std::function<void(int)>& task) const;
 
 private:
     class Arena;  // threads that stay near from one call to the next

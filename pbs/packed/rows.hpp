@@ -3,6 +3,8 @@
 
 #include "pbs/geometry/tet_mesh.hpp"
 
+#include <numeric>
+#include <utility>
 #include <vector>
 
 namespace pbs {
@@ -44,20 +46,6 @@ void store_rows(const Rows<Scalar>& rows, const std::vector<int>& place, const V
         for (int axis = 0; axis < 3; ++axis) x(i, axis) = double(rows[place[i]][axis]) + origin(axis);
 }
 
-// Row i is vertex i.
-inline void load_rows(const Positions& x, Rows<double>& rows)
-{
-    for (Eigen::Index i = 0; i < x.rows(); ++i)
-        for (int axis = 0; axis < 3; ++axis) rows[static_cast<int>(i)][axis] = x(i, axis);
-}
-
-inline void store_rows(const Rows<double>& rows, Eigen::Index vertices, Positions& x)
-{
-    x.resize(vertices, 3);
-    for (Eigen::Index i = 0; i < vertices; ++i)
-        for (int axis = 0; axis < 3; ++axis) x(i, axis) = rows[static_cast<int>(i)][axis];
-}
-
 // Loads the centres c_i of the hold, whose stiffness a_i is the fourth number of each row already, relative to their mean weighted by a_i.
 // Returns that mean [m]; zero where nothing is held.
 template <typename Scalar>
@@ -74,5 +62,24 @@ Vec3 load_held_centres(const Positions& centres, const std::vector<int>& place, 
     load_rows(centres, place, origin, rows);
     return origin;
 }
+
+// What solvers on rows have in common: where the rows of the vertices lie, and the origin to which positions are relative.
+template <typename Scalar>
+class RowSystem {
+public:
+    virtual ~RowSystem() = default;
+
+    virtual Rows<Scalar> rows() const { return Rows<Scalar>(rows_); }  // zeros, of vertices and what the kernels need behind them
+    void load(const Positions& x, Rows<Scalar>& rows) const { load_rows(x, place_, origin_, rows); }
+    void store(const Rows<Scalar>& rows, Positions& x) const { store_rows(rows, place_, origin_, x); }
+
+protected:
+    RowSystem(std::vector<int> place, int rows) : place_(std::move(place)), rows_(rows) {}
+    explicit RowSystem(int vertices) : place_(vertices), rows_(vertices) { std::iota(place_.begin(), place_.end(), 0); }  // plain
+
+    std::vector<int> place_;  // the row of each vertex, #V
+    int rows_;
+    Vec3 origin_ = Vec3::Zero();
+};
 
 }  // namespace pbs

@@ -2,101 +2,62 @@
 
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/solver/batched/batched_projection.hpp"
-#include "pbs/solver/plain_projection.hpp"
 #include "pbs/solver/project_plain.hpp"
-#include "pbs/solver/step_summary.hpp"
+
+#include <array>
 
 namespace pbs {
 namespace {
 
+// Order `plain`: file order, one constraint after the other, as the paper reads. Every other order is tested against it. No constraint
+// sleeps. volume_form: derived, or Eq. 12-20 as printed, which take all masses for one.
 template <typename Scalar>
-std::unique_ptr<Projection<Scalar>> in_own_class_order(ConstraintSet<Scalar> constraints, const Tets& tets, const PbsOptions& options)
-{
-    if (options.sleep && options.order == Order::plain)
-        throw InputError("pbs", 0, "sleep", "true", "expected false with order plain, which projects all");
-    if (options.order == Order::plain) return std::make_unique<PlainProjection<Scalar>>(std::move(constraints), options.volume_form);
-    if (options.volume_form != VolumeForm::derived)
-        throw InputError("pbs", 0, "order", "ordered or grouped", "expected plain with a printed volume_form");
-    return std::make_unique<BatchedProjection<Scalar>>(constraints, tets, options);
-}
-
-}  // namespace
-
-template <typename Scalar>
-std::unique_ptr<Projection<Scalar>> make_projection(ConstraintSet<Scalar> constraints, const Tets& tets, const PbsOptions& options)
-{
-    auto projection = in_own_class_order(std::move(constraints), tets, options);
-    if (options.class_order == ClassOrder::bind_stretch_volume) return projection;
-    return std::make_unique<ReorderedProjection<Scalar>>(std::move(projection), options.class_order);
-}
-
-template std::unique_ptr<Projection<float>> make_projection(ConstraintSet<float>, const Tets&, const PbsOptions&);
-template std::unique_ptr<Projection<double>> make_projection(ConstraintSet<double>, const Tets&, const PbsOptions&);
-
-template <typename Scalar>
-PlainProjection<Scalar>::PlainProjection(ConstraintSet<Scalar> constraints, VolumeForm volume_form)
-    : constraints_(std::move(constraints)),
-      volume_form_(volume_form),
-      p_(constraints_.inverse_mass.size(), Vector3<Scalar>::Zero()),
-      q_(constraints_.inverse_mass.size(), Vector3<Scalar>::Zero())
-{
-}
-
-template <typename Scalar>
-void PlainProjection<Scalar>::load(const Positions& p, const Positions& q, const Vec3& origin)
-{
-    for (std::size_t i = 0; i < p_.size(); ++i) {
-        p_[i] = (p.row(i).transpose() - origin).template cast<Scalar>();
-        q_[i] = (q.row(i).transpose() - origin).template cast<Scalar>();
+class PlainProjection : public Projection<Scalar> {
+public:
+    PlainProjection(ConstraintSet<Scalar> constraints, VolumeForm volume_form)
+        : constraints_(std::move(constraints)),
+          volume_form_(volume_form),
+          p_(constraints_.inverse_mass.size(), Vector3<Scalar>::Zero()),
+          q_(constraints_.inverse_mass.size(), Vector3<Scalar>::Zero())
+    {
     }
-}
 
-template <typename Scalar>
-void PlainProjection<Scalar>::project_bind_constraints()
-{
-    pbs::project_bind_constraints(constraints_, q_, p_);
-}
-
-template <typename Scalar>
-void PlainProjection<Scalar>::project_stretch_constraints()
-{
-    pbs::project_stretch_constraints(constraints_, p_);
-}
-
-template <typename Scalar>
-void PlainProjection<Scalar>::project_volume_constraints()
-{
-    switch (volume_form_) {
-        case VolumeForm::derived:
-            pbs::project_volume_constraints(constraints_, p_);
-            return pbs::project_region_constraints(constraints_, p_);
-        case VolumeForm::labels_relative:
-            return project_volume_constraints_printed<Printed::labels_relative>(constraints_, p_);
-        case VolumeForm::labels_absolute:
-            return project_volume_constraints_printed<Printed::labels_absolute>(constraints_, p_);
-        case VolumeForm::as_printed:
-            return project_volume_constraints_printed<Printed::as_printed>(constraints_, p_);
-        case VolumeForm::sign:
-            return project_volume_constraints_printed<Printed::sign>(constraints_, p_);
+    void load(const Positions& p, const Positions& q, const Vec3& origin) override
+    {
+        for (std::size_t i = 0; i < p_.size(); ++i) {
+            p_[i] = (p.row(i).transpose() - origin).template cast<Scalar>();
+            q_[i] = (q.row(i).transpose() - origin).template cast<Scalar>();
+        }
     }
-}
+    void project_bind_constraints() override { pbs::project_bind_constraints(constraints_, q_, p_); }
+    void project_stretch_constraints() override { pbs::project_stretch_constraints(constraints_, p_); }
+    void project_volume_constraints() override
+    {
+        switch (volume_form_) {
+            case VolumeForm::derived:
+                pbs::project_volume_constraints(constraints_, p_);
+                return pbs::project_region_constraints(constraints_, p_);
+            case VolumeForm::labels_relative:
+                return project_volume_constraints_printed<Printed::labels_relative>(constraints_, p_);
+            case VolumeForm::labels_absolute:
+                return project_volume_constraints_printed<Printed::labels_absolute>(constraints_, p_);
+            case VolumeForm::as_printed:
+                return project_volume_constraints_printed<Printed::as_printed>(constraints_, p_);
+            case VolumeForm::sign:
+                return project_volume_constraints_printed<Printed::sign>(constraints_, p_);
+        }
+    }
+    void store(const Vec3& origin, Positions& p) const override
+    {
+        for (std::size_t i = 0; i < p_.size(); ++i) p.row(i) = p_[i].template cast<double>() + origin;
+    }
+    Residuals residuals() const override { return residuals_of(constraints_, p_, q_); }
 
-template <typename Scalar>
-void PlainProjection<Scalar>::store(const Vec3& origin, Positions& p) const
-{
-    for (std::size_t i = 0; i < p_.size(); ++i) p.row(i) = p_[i].template cast<double>() + origin;
-}
-
-template <typename Scalar>
-Residuals PlainProjection<Scalar>::residuals() const
-{
-    return residuals_of(constraints_, p_, q_);
-}
-
-template class PlainProjection<float>;
-template class PlainProjection<double>;
-
-namespace {
+private:
+    ConstraintSet<Scalar> constraints_;
+    VolumeForm volume_form_;
+    std::vector<Vector3<Scalar>> p_, q_;  // relative to the origin [m], #V
+};
 
 template <typename Scalar>
 std::array<void (Projection<Scalar>::*)(), 3> classes_in(ClassOrder order)
@@ -121,15 +82,54 @@ std::array<void (Projection<Scalar>::*)(), 3> classes_in(ClassOrder order)
     return {bind, stretch, volume};
 }
 
+// Any projection with its classes in another order: lines 11, 12 and 13 of Algorithm 1, whose names the three calls have, then project the
+// first, second and third class of `class_order`. In Algorithm 1's own order there is no need of it.
+template <typename Scalar>
+class ReorderedProjection : public Projection<Scalar> {
+public:
+    // Takes the projection over; all but the order of classes is its own.
+    ReorderedProjection(std::unique_ptr<Projection<Scalar>> projection, ClassOrder class_order)
+        : projection_(std::move(projection)), in_place_(classes_in<Scalar>(class_order))
+    {
+    }
+
+    void load(const Positions& p, const Positions& q, const Vec3& origin) override { projection_->load(p, q, origin); }
+    void project_bind_constraints() override { (projection_.get()->*in_place_[0])(); }
+    void project_stretch_constraints() override { (projection_.get()->*in_place_[1])(); }
+    void project_volume_constraints() override { (projection_.get()->*in_place_[2])(); }
+    void store(const Vec3& origin, Positions& p) const override { projection_->store(origin, p); }
+    Residuals residuals() const override { return projection_->residuals(); }
+    void sleep(const SleepTolerance& tolerance) override { projection_->sleep(tolerance); }
+    int wake(const SleepTolerance& tolerance) override { return projection_->wake(tolerance); }
+    double sleeping_share() const override { return projection_->sleeping_share(); }
+
+private:
+    std::unique_ptr<Projection<Scalar>> projection_;
+    std::array<void (Projection<Scalar>::*)(), 3> in_place_;
+};
+
+template <typename Scalar>
+std::unique_ptr<Projection<Scalar>> in_own_class_order(ConstraintSet<Scalar> constraints, const Tets& tets, const PbsOptions& options)
+{
+    if (options.sleep && options.order == Order::plain)
+        throw InputError("pbs", 0, "sleep", "true", "expected false with order plain, which projects all");
+    if (options.order == Order::plain) return std::make_unique<PlainProjection<Scalar>>(std::move(constraints), options.volume_form);
+    if (options.volume_form != VolumeForm::derived)
+        throw InputError("pbs", 0, "order", "ordered or grouped", "expected plain with a printed volume_form");
+    return std::make_unique<BatchedProjection<Scalar>>(constraints, tets, options);
+}
+
 }  // namespace
 
 template <typename Scalar>
-ReorderedProjection<Scalar>::ReorderedProjection(std::unique_ptr<Projection<Scalar>> projection, ClassOrder class_order)
-    : projection_(std::move(projection)), in_place_(classes_in<Scalar>(class_order))
+std::unique_ptr<Projection<Scalar>> make_projection(ConstraintSet<Scalar> constraints, const Tets& tets, const PbsOptions& options)
 {
+    auto projection = in_own_class_order(std::move(constraints), tets, options);
+    if (options.class_order == ClassOrder::bind_stretch_volume) return projection;
+    return std::make_unique<ReorderedProjection<Scalar>>(std::move(projection), options.class_order);
 }
 
-template class ReorderedProjection<float>;
-template class ReorderedProjection<double>;
+template std::unique_ptr<Projection<float>> make_projection(ConstraintSet<float>, const Tets&, const PbsOptions&);
+template std::unique_ptr<Projection<double>> make_projection(ConstraintSet<double>, const Tets&, const PbsOptions&);
 
 }  // namespace pbs

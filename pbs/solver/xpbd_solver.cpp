@@ -4,7 +4,8 @@
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/geometry/topology.hpp"
-#include "pbs/solver/batched/batched_xpbd_projection.hpp"
+#include "pbs/solver/batched/batched_projection.hpp"
+#include "pbs/solver/batched/pbs_kernels.hpp"
 #include "pbs/solver/particles.hpp"
 
 #include <algorithm>
@@ -130,6 +131,27 @@ XpbdConstraints make_xpbd_constraints(const TetMesh& mesh, const Eigen::VectorXd
     return constraints;
 }
 
+template <typename Scalar>
+BatchedConstraints<Scalar> make_batched_constraints(const XpbdConstraints& constraints, const Tets& tets, Order order)
+{
+    ConstraintClassData<Scalar, 2> stretch;
+    for (const auto& [edge, compliance] : constraints.stretch) {
+        stretch.vertex.push_back(edge.vertex);
+        stretch.values.rest.push_back(Scalar(edge.rest_length));
+        stretch.values.stiffness.push_back(Scalar(1.0 / compliance));
+    }
+    ConstraintClassData<Scalar, 4> volume;
+    for (const auto& [tet, compliance] : constraints.volume) {
+        volume.vertex.push_back(tet.vertex);
+        volume.values.rest.push_back(Scalar(6.0 * tet.rest_volume));
+        volume.values.stiffness.push_back(Scalar(1.0 / (36.0 * compliance)));
+    }
+    return make_batched_constraints(stretch, volume, static_cast<int>(constraints.inverse_mass.size()), tets, order);
+}
+
+template BatchedConstraints<float> make_batched_constraints(const XpbdConstraints&, const Tets&, Order);
+template BatchedConstraints<double> make_batched_constraints(const XpbdConstraints&, const Tets&, Order);
+
 namespace {
 
 // The change of lambda by Eq. 18 of Macklin 2016; zero if nothing can move.
@@ -140,95 +162,181 @@ Scalar multiplier_step(Scalar C, Scalar compliance_per_dt2, Scalar lambda, Scala
     return w_gradient2 > Scalar(0) ? (-C - compliance_per_dt2 * lambda) / denominator : Scalar(0);
 }
 
-}  // namespace
-
+// Order `plain`: one constraint after the other in the order given. The packed orders are tested against it.
 template <typename Scalar>
-PlainXpbdProjection<Scalar>::PlainXpbdProjection(const XpbdConstraints& constraints)
-    : w_(constraints.inverse_mass.begin(), constraints.inverse_mass.end()), x_(w_.size()), q_(w_.size())
-{
-    for (const auto& [bind, compliance] : constraints.bind)
-        bind_.push_back({{bind.vertex, Scalar(bind.rest_distance), Scalar(1)}, Scalar(compliance), Scalar(0)});
-    for (const auto& [edge, compliance] : constraints.stretch)
-        stretch_.push_back({{edge.vertex, Scalar(edge.rest_length), Scalar(1)}, Scalar(compliance), Scalar(0)});
-    for (const auto& [tet, compliance] : constraints.volume)
-        volume_.push_back({{tet.vertex, Scalar(tet.rest_volume), Scalar(1)}, Scalar(compliance), Scalar(0)});
-}
-
-template <typename Scalar>
-void PlainXpbdProjection<Scalar>::load(const Positions& p, const Positions& q, const Vec3& origin)
-{
-    for (std::size_t i = 0; i < x_.size(); ++i) {
-        x_[i] = (p.row(i).transpose() - origin).template cast<Scalar>();
-        q_[i] = (q.row(i).transpose() - origin).template cast<Scalar>();
+class PlainXpbdProjection : public XpbdProjection {
+public:
+    explicit PlainXpbdProjection(const XpbdConstraints& constraints)
+        : w_(constraints.inverse_mass.begin(), constraints.inverse_mass.end()), x_(w_.size()), q_(w_.size())
+    {
+        for (const auto& [bind, compliance] : constraints.bind)
+            bind_.push_back({{bind.vertex, Scalar(bind.rest_distance), Scalar(1)}, Scalar(compliance), Scalar(0)});
+        for (const auto& [edge, compliance] : constraints.stretch)
+            stretch_.push_back({{edge.vertex, Scalar(edge.rest_length), Scalar(1)}, Scalar(compliance), Scalar(0)});
+        for (const auto& [tet, compliance] : constraints.volume)
+            volume_.push_back({{tet.vertex, Scalar(tet.rest_volume), Scalar(1)}, Scalar(compliance), Scalar(0)});
     }
-}
 
-template <typename Scalar>
-void PlainXpbdProjection<Scalar>::begin_substep(double dt_s)
-{
-    dt2_ = Scalar(dt_s * dt_s);
-    forget_multipliers();
-}
-
-template <typename Scalar>
-void PlainXpbdProjection<Scalar>::forget_multipliers()
-{
-    for (auto& multiplied : bind_) multiplied.multiplier = Scalar(0);
-    for (auto& multiplied : stretch_) multiplied.multiplier = Scalar(0);
-    for (auto& multiplied : volume_) multiplied.multiplier = Scalar(0);
-}
-
-template <typename Scalar>
-void PlainXpbdProjection<Scalar>::project_bind_constraints()
-{
-    for (auto& [constraint, compliance, lambda] : bind_) {
-        const int i = constraint.vertex;
-        const Point g = gradient(constraint, x_[i], q_[i]);
-        const Scalar step = multiplier_step(value(constraint, x_[i], q_[i]), compliance / dt2_, lambda, w_[i] * g.squaredNorm());
-        lambda += step;
-        x_[i] += w_[i] * step * g;
+    void load(const Positions& p, const Positions& q, const Vec3& origin) override
+    {
+        for (std::size_t i = 0; i < x_.size(); ++i) {
+            x_[i] = (p.row(i).transpose() - origin).template cast<Scalar>();
+            q_[i] = (q.row(i).transpose() - origin).template cast<Scalar>();
+        }
     }
-}
 
-template <typename Scalar>
-void PlainXpbdProjection<Scalar>::project_stretch_constraints()
-{
-    for (auto& [constraint, compliance, lambda] : stretch_) {
-        const auto [i, j] = constraint.vertex;
-        const auto [g1, g2] = gradient(constraint, x_[i], x_[j]);
-        const Scalar w_gradient2 = w_[i] * g1.squaredNorm() + w_[j] * g2.squaredNorm();
-        const Scalar step = multiplier_step(value(constraint, x_[i], x_[j]), compliance / dt2_, lambda, w_gradient2);
-        lambda += step;
-        x_[i] += w_[i] * step * g1;
-        x_[j] += w_[j] * step * g2;
+    void begin_substep(double dt_s) override
+    {
+        dt2_ = Scalar(dt_s * dt_s);
+        forget_multipliers();
     }
-}
 
-template <typename Scalar>
-void PlainXpbdProjection<Scalar>::project_volume_constraints()
-{
-    for (auto& [constraint, compliance, lambda] : volume_) {
-        const auto& v = constraint.vertex;
-        const auto g = gradient(constraint, x_[v[0]], x_[v[1]], x_[v[2]], x_[v[3]]);
-        Scalar w_gradient2 = Scalar(0);
-        for (int c = 0; c < 4; ++c) w_gradient2 += w_[v[c]] * g[c].squaredNorm();
-        const Scalar C = value(constraint, x_[v[0]], x_[v[1]], x_[v[2]], x_[v[3]]);
-        const Scalar step = multiplier_step(C, compliance / dt2_, lambda, w_gradient2);
-        lambda += step;
-        for (int c = 0; c < 4; ++c) x_[v[c]] += w_[v[c]] * step * g[c];
+    void forget_multipliers() override
+    {
+        for (auto& multiplied : bind_) multiplied.multiplier = Scalar(0);
+        for (auto& multiplied : stretch_) multiplied.multiplier = Scalar(0);
+        for (auto& multiplied : volume_) multiplied.multiplier = Scalar(0);
     }
-}
+
+    void project_bind_constraints() override
+    {
+        for (auto& [constraint, compliance, lambda] : bind_) {
+            const int i = constraint.vertex;
+            const Point g = gradient(constraint, x_[i], q_[i]);
+            const Scalar step = multiplier_step(value(constraint, x_[i], q_[i]), compliance / dt2_, lambda, w_[i] * g.squaredNorm());
+            lambda += step;
+            x_[i] += w_[i] * step * g;
+        }
+    }
+
+    void project_stretch_constraints() override
+    {
+        for (auto& [constraint, compliance, lambda] : stretch_) {
+            const auto [i, j] = constraint.vertex;
+            const auto [g1, g2] = gradient(constraint, x_[i], x_[j]);
+            const Scalar w_gradient2 = w_[i] * g1.squaredNorm() + w_[j] * g2.squaredNorm();
+            const Scalar step = multiplier_step(value(constraint, x_[i], x_[j]), compliance / dt2_, lambda, w_gradient2);
+            lambda += step;
+            x_[i] += w_[i] * step * g1;
+            x_[j] += w_[j] * step * g2;
+        }
+    }
+
+    void project_volume_constraints() override
+    {
+        for (auto& [constraint, compliance, lambda] : volume_) {
+            const auto& v = constraint.vertex;
+            const auto g = gradient(constraint, x_[v[0]], x_[v[1]], x_[v[2]], x_[v[3]]);
+            Scalar w_gradient2 = Scalar(0);
+            for (int c = 0; c < 4; ++c) w_gradient2 += w_[v[c]] * g[c].squaredNorm();
+            const Scalar C = value(constraint, x_[v[0]], x_[v[1]], x_[v[2]], x_[v[3]]);
+            const Scalar step = multiplier_step(C, compliance / dt2_, lambda, w_gradient2);
+            lambda += step;
+            for (int c = 0; c < 4; ++c) x_[v[c]] += w_[v[c]] * step * g[c];
+        }
+    }
+
+    void store(const Vec3& origin, Positions& p) const override
+    {
+        for (std::size_t i = 0; i < x_.size(); ++i) p.row(i) = x_[i].template cast<double>() + origin;
+    }
+
+private:
+    using Point = Vector3<Scalar>;
+    template <typename Constraint>
+    struct Multiplied {
+        Constraint constraint;
+        Scalar compliance;  // alpha
+        Scalar multiplier;  // lambda of this substep
+    };
+
+    Scalar dt2_ = Scalar(0);  // the square of the substep [s^2]
+    std::vector<Scalar> w_;   // inverse masses [1/kg], #V
+    std::vector<Multiplied<BindConstraint<Scalar>>> bind_;
+    std::vector<Multiplied<StretchConstraint<Scalar>>> stretch_;
+    std::vector<Multiplied<VolumeConstraint<Scalar>>> volume_;
+    std::vector<Point> x_, q_;  // relative to the origin [m], #V
+};
 
 template <typename Scalar>
-void PlainXpbdProjection<Scalar>::store(const Vec3& origin, Positions& p) const
+std::vector<BindConstraint<Scalar>> rigid_binds(const XpbdConstraints& constraints)
 {
-    for (std::size_t i = 0; i < x_.size(); ++i) p.row(i) = x_[i].template cast<double>() + origin;
+    std::vector<BindConstraint<Scalar>> binds;
+    for (const auto& [bind, compliance] : constraints.bind) binds.push_back({bind.vertex, Scalar(bind.rest_distance), Scalar(1)});
+    return binds;
 }
 
-template class PlainXpbdProjection<float>;
-template class PlainXpbdProjection<double>;
+// The orders `ordered` and `grouped`: the batches, the slabs and the sequence of BatchedProjection, with a compliance and a multiplier for
+// each constraint. Any machine and any number of threads project alike, and threads give the same bits.
+template <typename Scalar>
+class BatchedXpbdProjection : public XpbdProjection {
+public:
+    BatchedXpbdProjection(const XpbdConstraints& constraints, const Tets& tets, Order order, int threads)
+        : batched_(make_batched_constraints<Scalar>(constraints, tets, order)),
+          parallel_(batched_.order.slabs() >= slabs_worth_threads ? threads : 1),
+          particles_(batched_, {constraints.inverse_mass.begin(), constraints.inverse_mass.end()}, rigid_binds<Scalar>(constraints)),
+          stretch_(multipliers_of(batched_.stretch)),
+          volume_(multipliers_of(batched_.volume))
+    {
+    }
 
-namespace {
+    void load(const Positions& p, const Positions& q, const Vec3& origin) override { particles_.load(p, q, origin); }
+    void begin_substep(double dt_s) override
+    {
+        dt2_ = Scalar(dt_s * dt_s);
+        forget_multipliers();
+    }
+    void forget_multipliers() override
+    {
+        for (Multipliers* multipliers : {&stretch_, &volume_})
+            std::fill(multipliers->lambdas.begin(), multipliers->lambdas.end(), Lambdas{});
+    }
+    // Compliance zero: their multipliers change nothing and are not kept.
+    void project_bind_constraints() override { particles_.project_bind_constraints(parallel_); }
+    void project_stretch_constraints() override { project(batched_.stretch, stretch_); }
+    void project_volume_constraints() override { project(batched_.volume, volume_); }
+    void store(const Vec3& origin, Positions& p) const override { particles_.store(origin, p); }
+
+private:
+    struct alignas(64) Lambdas {  // of one constraint of each group of a batch
+        Scalar of_lane[batch_size];
+    };
+    struct Multipliers {
+        std::vector<Lambdas> lambdas;                        // by runs, then batches, then constraints
+        std::vector<std::vector<std::size_t>> first_of_run;  // of each slab
+    };
+
+    static Multipliers multipliers_of(const BatchProgram<Scalar>& program)
+    {
+        Multipliers multipliers;
+        std::size_t next = 0;
+        for (int slab = 0; slab < program.slabs(); ++slab) {
+            std::vector<std::size_t>& first = multipliers.first_of_run.emplace_back();
+            for (const BatchRun& run : program.runs(slab)) {
+                first.push_back(next);
+                next += static_cast<std::size_t>(run.count) * constraints_of(run.kind);
+            }
+        }
+        multipliers.lambdas.resize(next, Lambdas{});
+        return multipliers;
+    }
+
+    void project(const BatchProgram<Scalar>& program, Multipliers& multipliers)
+    {
+        parallel_.for_each_slab(program.slabs(), [&](int slab) {
+            const std::vector<BatchRun>& runs = program.runs(slab);
+            for (std::size_t r = 0; r < runs.size(); ++r)
+                project_compliant_batches(runs[r].kind, program.batches(runs[r]), runs[r].count, dt2_,
+                                          multipliers.lambdas[multipliers.first_of_run[slab][r]].of_lane, particles_.xyzw());
+        });
+    }
+
+    BatchedConstraints<Scalar> batched_;
+    Parallel parallel_;
+    BatchedParticles<Scalar> particles_;
+    Multipliers stretch_, volume_;
+    Scalar dt2_ = Scalar(0);  // the square of the substep [s^2]
+};
 
 template <typename Scalar>
 std::unique_ptr<XpbdProjection> in_precision(const XpbdConstraints& constraints, const Tets& tets, const XpbdOptions& options)

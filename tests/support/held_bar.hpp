@@ -1,9 +1,12 @@
 // The bar of two bones with springs of its own: inputs for the energy of elastic flesh, without a character.
 #pragma once
 
-#include "pbs/flesh/bone_springs.hpp"
+#include "pbs/flesh/flesh_energy.hpp"
 #include "tests/support/random_points.hpp"
 #include "tests/support/two_bone_limb.hpp"
+
+#include <array>
+#include <utility>
 
 namespace test_support {
 
@@ -36,5 +39,42 @@ inline pbs::Positions jittered(pbs::Positions positions, double size, unsigned s
     for (auto point : positions.rowwise()) point += random.point(size).transpose();
     return positions;
 }
+
+// The bar of two bones, bent by 70 degrees about this joint, with the energy of its flesh (nu = 0.45).
+struct HeldBar {
+    explicit HeldBar(const std::array<int, 3>& cells, const pbs::Vec3& joint = pbs::Vec3::Zero())
+        : HeldBar(two_bone_limb(cells, pbs::Vec3::UnitZ(), 70.0, joint), springs_at(joint))
+    {
+    }
+    HeldBar(TwoBoneLimb limb, const pbs::BoneSprings& held_by)
+        : bent(std::move(limb)), springs(held_by), hold(bent.mesh, springs, 2), energy(bent.mesh, material, hold)
+    {
+        hold.centres(bent.pose, centres);
+    }
+    // The first tet alone, with a spring in its middle; the other vertices have no tets.
+    static HeldBar one_tet(const std::array<int, 3>& cells, double stiffness = 1.0, int bone = 0)
+    {
+        TwoBoneLimb limb = two_bone_limb(cells, pbs::Vec3::UnitZ(), 70.0);
+        limb.mesh.tets = pbs::Tets(limb.mesh.tets.topRows(1));
+        pbs::BoneSprings spring{pbs::Positions::Zero(1, 3), Eigen::VectorXd::Constant(1, stiffness), {bone}};
+        for (const int v : limb.mesh.tets.row(0)) spring.points.row(0) += limb.mesh.rest.row(v) / 4.0;
+        return {limb, spring};
+    }
+
+    pbs::Positions gradient(const pbs::Positions& x) const
+    {
+        pbs::Positions of_energy;
+        energy.value_and_gradient(x, centres, of_energy);
+        return of_energy;
+    }
+    int vertices() const { return static_cast<int>(bent.mesh.rest.rows()); }
+
+    TwoBoneLimb bent;
+    pbs::FleshMaterial material = pbs::flesh_material(0.45);
+    pbs::BoneSprings springs;
+    pbs::BoneHold hold;
+    pbs::FleshEnergy energy;
+    pbs::Positions centres;
+};
 
 }  // namespace test_support

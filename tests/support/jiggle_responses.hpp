@@ -1,7 +1,7 @@
 // Invented responses of flesh to a jolt, from which the values of C09 are computed.
 #pragma once
 
-#include "experiments/studies/jiggle/jiggle_values.hpp"
+#include "experiments/studies/jiggle/jiggle_records.hpp"
 
 namespace test_support {
 

@@ -7,7 +7,7 @@
 #include "analysis/verdicts/claims.hpp"
 #include "analysis/verdicts/verdict.hpp"
 #include "experiments/studies/reproduce.hpp"
-#include "experiments/studies/study_run.hpp"
+#include "experiments/studies/study.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 #include <algorithm>

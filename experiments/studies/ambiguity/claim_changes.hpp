@@ -6,13 +6,52 @@
 #pragma once
 
 #include "analysis/records/tables.hpp"
+#include "analysis/verdicts/measurement.hpp"
 #include "analysis/verdicts/verdict.hpp"
-#include "experiments/studies/ambiguity/judged_value.hpp"
+#include "experiments/studies/ambiguity/reading.hpp"
+#include "experiments/studies/study.hpp"
 
 #include <functional>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace experiments {
+
+// A value that a claim is judged by, for a character that is moved by one reading, and whether it lies in the claim's bound.
+//   const std::vector<JudgedValue> values = judged(measurements);   // only of quantities that a claim is judged by
+//   const std::vector<JudgedValue> of_sweep = judged(read_motion);   // C01, C02
+struct JudgedValue {
+    std::string claim, quantity;
+    analysis::CaseKey of;
+    std::string unit, bound;
+    double value = 0.0;
+    analysis::Extent extent = analysis::Extent::none;  // of the claim, by this value
+    analysis::Limit limit = analysis::Limit::none;     // where the value only bounds the quantity
+};
+
+// A quantity that a claim is judged by and that is not measured of readings.
+struct LeftOutQuantity {
+    std::string claim, quantity, reason;
+};
+
+// The values of the measured claims by one reading.
+struct ReadingValues {
+    std::vector<JudgedValue> values;
+    bool broke_down = false;  // some positions are not finite
+    std::vector<LeftOutQuantity> left_out = {};
+};
+
+// The quantities that the claim is judged by and that are not among those measured.
+std::vector<LeftOutQuantity> all_but(const std::string& claim, const std::vector<std::string>& measured, const std::string& reason);
+
+std::vector<JudgedValue> judged(const std::vector<analysis::Measurement>& measured);
+
+// C01: the mean of its metrics over the frames; C02: the share of frames within; both judged as analysis::judge_case does.
+std::vector<JudgedValue> judged(const ReadMotion& moved);
+
+// A hash of everything that decides whether a value holds: another bound gives another digest.
+std::string digest_of(const std::vector<analysis::Claim>& claims);
 
 // verdict_flips: yes, no, not_touched, no_value. A value that B lacks because the reading broke down does not hold, so the verdict flips
 // where A's held. Where A or B has no value for another reason, there is no statement about the verdict. A quantity that is left out of
@@ -52,5 +91,11 @@ private:
     std::vector<Reading> readings_;
     std::vector<ClaimChange> changes_;
 };
+
+// The changes as people read them.
+
+// At most 120 columns wide: one block per body, one line per reading, one column per claim. A cell is B over A of the value whose verdict
+// flips, or else of the one that changes most. The lines below state by which readings each claim flips, and why others cannot touch it.
+std::string claim_changes_text(const std::vector<ClaimChange>& changes);
 
 }  // namespace experiments

@@ -5,17 +5,102 @@
 // reference also run on the body's other meshes. Their spread is the uncertainty of a value.
 #pragma once
 
+#include "analysis/metrics/cross_section.hpp"
 #include "analysis/records/tables.hpp"
 #include "analysis/verdicts/case_record.hpp"
 #include "experiments/settings/option_names.hpp"
-#include "experiments/studies/artefacts/joint_sections.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
+#include "pbs/character/character.hpp"
+#include "pbs/geometry/meshing.hpp"
 
 #include <array>
 #include <string>
 #include <vector>
 
 namespace experiments {
+
+// The joints of a body that lie inside a limb, and the axes about which each is turned to show what blending does to it.
+//   for (const LimbJoint& joint : limb_joints(character)) ...   // elbow, mid-forearm, wrist, knee
+struct LimbJoint {
+    std::string name;                      // "thigh.L|shin.L"
+    int parent, child;                     // bones
+    pbs::Vec3 point;                       // rest [m]
+    double radius_m;                       // of the limb there: mean rest distance of the skin's vertices that are bound to the two bones
+    double reach_parent_m, reach_child_m;  // how far along each bone sections are taken
+};
+
+// A joint lies between two bones that meet at less than 60 degrees at rest and share their flesh with no other bone
+// (frame_measurement.hpp). Its reach is half of each bone. Bodies with two sides have the joints of their left side (x >= 0). Where the
+// rule misjudges the bones, the joints are given by hand (joints_by_hand); their radius is that of the circle with the area of the section
+// across the joint.
+std::vector<LimbJoint> limb_joints(const pbs::Character& character);
+
+// A joint given by its bones, and the share of each bone on which a section's outline encloses the limb alone.
+struct JointByHand {
+    std::string parent, child;
+    double reach_parent, reach_child;
+    std::string no_section;  // why it has no section; empty: it has
+};
+std::string name_of(const JointByHand& joint);
+// Why the character has no sections there: no_section, or a bone or flesh that it lacks. Empty: it has sections.
+std::string why_left_out(const pbs::Character& character, const JointByHand& joint);
+std::vector<JointByHand> joints_by_hand(const std::string& body);  // none: the body follows the rule
+
+pbs::Vec3 twist_axis(const pbs::Skeleton& skeleton, const LimbJoint& joint);  // the child's direction
+
+// Across both bones, so that a turn about it bends the limb further in the direction in which it is bent at rest; z for a straight limb.
+pbs::Vec3 hinge_axis(const pbs::Skeleton& skeleton, const LimbJoint& joint);
+
+// The vertices of the two bones that are no farther from the joint, along the bone, than a third of its length, #V.
+std::vector<bool> near_joint(const pbs::Character& character, const LimbJoint& joint);
+
+// Cross-sections of a limb from one side of a joint to the other, in any pose, relative to rest.
+//   const JointSections sections(character, joint);
+//   sections.measure(positions, pose);            // a profile, one section per station
+//   extremes_of(profile).smallest_area;           // of the narrowest section, over the same at rest
+// Stations lie on the bones, up to 2 limb radii or the joint's reach away from it. Over 3 radii on each side, their planes turn evenly from
+// the direction of one bone to that of the other. On the inside of a joint that is bent by an angle they meet 6 radii / angle away from it,
+// so that they do not cut the limb's other half. The planes move with the bones and are the same for all deformers. Only the limb's own
+// outline is measured, the one that encloses the bone. Where the skin is folded deeply into a joint, this outline may enclose both halves.
+struct JointSection {
+    double offset_m = 0.0;                                           // from the joint in the rest pose, negative on the parent
+    double area = 1.0, smallest_radius = 1.0, largest_radius = 1.0;  // over the same station's at rest
+    int outlines = 0;                                                // that the plane cuts out of the whole body
+    double limb_share = 1.0;  // share of the outline's length whose skin is bound to the parent or a bone below it
+};
+using JointProfile = std::vector<JointSection>;
+
+struct SectionExtremesOverRest {
+    double smallest_radius = 1.0, smallest_area = 1.0, largest_radius = 1.0, largest_area = 1.0;
+    double limb_share_of_widest = 1.0;  // where the largest radius is
+};
+SectionExtremesOverRest extremes_of(const JointProfile& profile);
+
+class JointSections {
+public:
+    JointSections(const pbs::Character& character, const LimbJoint& joint);
+
+    double bend_deg(const pbs::Pose& pose) const;  // between the directions of the two bones; 0: straight
+
+    // A station whose plane no longer meets the skin has size 0.
+    JointProfile measure(const pbs::Positions& positions, const pbs::Pose& pose) const;
+
+private:
+    std::vector<pbs::CuttingPlane> planes(const pbs::Pose& pose) const;
+    struct Cut {
+        analysis::OutlineSize size = {};
+        int outlines = 0;
+        double limb_share = 1.0;
+    };
+    std::vector<Cut> cuts(const pbs::Positions& positions, const pbs::Pose& pose) const;
+
+    pbs::Skeleton skeleton_;
+    LimbJoint joint_;
+    pbs::Triangles skin_;
+    std::vector<bool> on_limb_;  // #V
+    std::vector<double> offsets_m_;
+    std::vector<Cut> rest_;  // of each station
+};
 
 struct ArtefactPose {
     int frame = 0;

@@ -17,9 +17,8 @@
 #include "analysis/records/record_files.hpp"
 #include "analysis/records/report_table.hpp"
 #include "experiments/studies/artefacts/artefact_values.hpp"
-#include "experiments/studies/artefacts/smoothness_comparison.hpp"
-#include "experiments/studies/shared/clip_frames.hpp"
-#include "experiments/studies/shared/real_bodies.hpp"
+#include "experiments/studies/shared/bodies.hpp"
+#include "experiments/studies/shared/posed_character.hpp"
 #include "experiments/studies/study.hpp"
 
 #include <fmt/format.h>

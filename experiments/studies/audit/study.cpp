@@ -1,14 +1,20 @@
 // The paper against itself: its mesh sizes, its Table 1 and its equations for the volume constraint. Writes DIR/audit/print/printed.csv,
 // by which C13 to C15 are judged, and audit.md.
+
 #include "analysis/records/record_files.hpp"
-#include "experiments/settings/option_fields.hpp"
+#include "experiments/settings/recorded_settings.hpp"
 #include "experiments/studies/audit/printed_equations.hpp"
-#include "experiments/studies/shared/table_1.hpp"
+#include "experiments/studies/shared/bodies.hpp"
 #include "experiments/studies/study.hpp"
+#include "pbs/constraints/volume_printed.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <random>
+#include <string>
 
 namespace experiments {
 namespace {
@@ -19,12 +25,7 @@ struct AuditCase {
     unsigned seed = 1;
 };
 
-nlohmann::json to_json(const AuditCase& of)
-{
-    static const auto fields =
-        OptionFields<AuditCase>("audit").record("tets", &AuditCase::tets).record("seed", &AuditCase::seed).complete();
-    return fields.json(of);
-}
+RECORD_SETTINGS(AuditCase, tets, seed)
 
 std::string audit_print(const AuditCase& of, const std::string& folder)
 {
@@ -63,6 +64,117 @@ StudyConclusion conclude(const FinishedRuns& finished)
 Study audit_study()
 {
     return {"audit", plan, quick_and_full, conclude};
+}
+
+namespace {
+
+using Point = pbs::Vector3<double>;
+using Corners = std::array<Point, 4>;
+using Tet = pbs::VolumeConstraint<double>;
+
+double value_at(const Tet& tet, const Corners& p)
+{
+    return value(tet, p[0], p[1], p[2], p[3]);
+}
+
+// Central differences. C is cubic, and linear in each coordinate, so that their only error is rounding.
+Point difference_quotient(const Tet& tet, Corners p, int corner)
+{
+    constexpr double step = 1e-2;
+    Point gradient;
+    for (int axis = 0; axis < 3; ++axis) {
+        Corners forward = p, backward = p;
+        forward[corner](axis) += step;
+        backward[corner](axis) -= step;
+        gradient(axis) = (value_at(tet, forward) - value_at(tet, backward)) / (2.0 * step);
+    }
+    return gradient;
+}
+
+// Tets with edges of about 1 m, at about 1 m from the origin, with 1.3 times their rest volume.
+struct RandomTets {
+    explicit RandomTets(unsigned seed) : random(seed) {}
+
+    std::pair<Tet, Corners> next()
+    {
+        std::normal_distribution<double> normal;
+        Corners p;
+        do {
+            const Point middle(normal(random), normal(random), normal(random));
+            for (Point& corner : p) corner = middle + Point(normal(random), normal(random), normal(random));
+            if (value_at(Tet{}, p) < 0.0) std::swap(p[2], p[3]);
+        } while (value_at(Tet{}, p) < 0.05);  // rounding of a sliver would be taken for an error
+        return {Tet{{0, 1, 2, 3}, value_at(Tet{}, p) / 1.3, 1.0}, p};
+    }
+
+    std::mt19937 random;
+};
+
+// Eq. 11-16 in double: about ten roundings of products of about 10 m^3, over a step of 1e-2 m and a gradient of about 0.1 m^2.
+constexpr double rounding = 1e-10;
+
+template <typename Gradient>
+analysis::PrintedValue gradient_value(const analysis::CaseKey& of, int corner, int tets, unsigned seed, Gradient gradient)
+{
+    RandomTets random(seed);
+    double largest = 0.0;
+    for (int i = 0; i < tets; ++i) {
+        const auto [tet, p] = random.next();
+        const Point quotient = difference_quotient(tet, p, corner);
+        largest = std::max(largest, (gradient(tet, p)[corner] - quotient).norm() / quotient.norm());
+    }
+    return {"C15", "gradient_error", of, largest, 0.0, rounding};
+}
+
+template <typename Projection>
+analysis::PrintedValue correction_value(const analysis::CaseKey& of, int tets, unsigned seed, Projection project)
+{
+    RandomTets random(seed);
+    double largest = 0.0;
+    for (int i = 0; i < tets; ++i) {
+        auto [tet, p] = random.next();
+        const double before = value_at(tet, p);
+        project(tet, p);
+        largest = std::max(largest, std::abs(value_at(tet, p) / before));
+    }
+    return {"C15", "constraint_after_over_before", of, largest, 0.0, 1.0};
+}
+
+template <pbs::Printed form>
+auto printed_gradient()
+{
+    return [](const Tet& tet, const Corners& p) { return pbs::gradient_printed<form>(tet, p[0], p[1], p[2], p[3]); };
+}
+
+template <pbs::Printed form>
+auto printed_projection()
+{
+    return [](const Tet& tet, Corners& p) { pbs::project_printed<form>(tet, p[0], p[1], p[2], p[3]); };
+}
+
+}  // namespace
+
+std::vector<analysis::PrintedValue> equation_values(int tets, unsigned seed)
+{
+    using pbs::Printed;
+    const std::array<std::string, 4> equations = {"15-16", "12", "13", "14"};
+    const auto gradient = [&](int corner, const std::string& reading) {
+        return analysis::CaseKey{.equation = equations[corner], .gradient_of = "p" + std::to_string(corner + 1), .reading = reading};
+    };
+    std::vector<analysis::PrintedValue> values;
+    for (int corner = 0; corner < 4; ++corner)
+        values.push_back(gradient_value(gradient(corner, "as_printed"), corner, tets, seed, printed_gradient<Printed::labels_absolute>()));
+    for (int corner = 1; corner < 4; ++corner)
+        values.push_back(
+            gradient_value(gradient(corner, "relative_to_p1"), corner, tets, seed, printed_gradient<Printed::labels_relative>()));
+    const auto correction = [&](const std::string& equation, const std::string& reading, auto project) {
+        values.push_back(correction_value({.equation = equation, .reading = reading}, tets, seed, project));
+    };
+    correction("17-20", "derived_gradients", printed_projection<Printed::sign>());
+    correction("12-20", "as_printed", printed_projection<Printed::as_printed>());
+    correction("8", "derived_gradients", [](const Tet& tet, Corners& p) { pbs::project(tet, 1.0, 1.0, 1.0, 1.0, p[0], p[1], p[2], p[3]); });
+    values.back().claim = "control_of_C15";
+    return values;
 }
 
 }  // namespace experiments

@@ -1,7 +1,7 @@
 #include "experiments/studies/bench/step_loops.hpp"
 
 #include "experiments/studies/bench/plain_loops.hpp"
-#include "experiments/studies/shared/constraint_sequence.hpp"
+#include "experiments/studies/shared/iteration_path.hpp"
 #include "pbs/geometry/module.hpp"
 #include "pbs/packed/parallel.hpp"
 #include "pbs/solver/batched/batched_projection.hpp"

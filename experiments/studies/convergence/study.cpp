@@ -17,10 +17,9 @@
 #include "experiments/deformers/deformer_options.hpp"
 #include "experiments/studies/convergence/convergence_records.hpp"
 #include "experiments/studies/convergence/convergence_values.hpp"
-#include "experiments/studies/shared/clip_frames.hpp"
+#include "experiments/studies/shared/bodies.hpp"
+#include "experiments/studies/shared/posed_character.hpp"
 #include "experiments/studies/shared/posed_reference.hpp"
-#include "experiments/studies/shared/real_bodies.hpp"
-#include "experiments/studies/shared/table_1.hpp"
 #include "experiments/studies/study.hpp"
 
 #include <fmt/format.h>

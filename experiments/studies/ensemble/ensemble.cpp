@@ -3,7 +3,7 @@
 #include "experiments/deformers/registry.hpp"
 #include "experiments/scene/scene.hpp"
 #include "experiments/settings/option_fields.hpp"
-#include "experiments/studies/shared/pose_columns.hpp"
+#include "experiments/studies/shared/posed_character.hpp"
 
 #include "analysis/metrics/frame_metrics.hpp"
 

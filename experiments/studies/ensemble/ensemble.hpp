@@ -10,7 +10,6 @@
 #include "analysis/verdicts/case_record.hpp"
 #include "analysis/verdicts/pair_order.hpp"
 #include "experiments/studies/shared/posed_reference.hpp"
-#include "experiments/studies/shared/reference_family.hpp"
 
 #include "experiments/scene/scene.hpp"
 

@@ -9,8 +9,6 @@
 #include "analysis/records/record_files.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/studies/ensemble/ensemble_page.hpp"
-#include "experiments/studies/shared/case_name.hpp"
-#include "experiments/studies/shared/clip_frames.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 #include "experiments/studies/study.hpp"
 #include "pbs/geometry/input_error.hpp"

@@ -4,7 +4,7 @@
 #include "experiments/scene/scene.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "experiments/studies/equal_quality/tapered_limb.hpp"
-#include "experiments/studies/shared/constraint_sequence.hpp"
+#include "experiments/studies/shared/iteration_path.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 #include "pbs/character/bodies.hpp"
 #include "pbs/skinning/blend.hpp"

@@ -7,7 +7,7 @@
 // Writes DIR/equal_quality/CASE/orders.csv and targets.csv; summary.csv, answers.csv and equal_quality.md over all cases.
 #include "analysis/records/record_files.hpp"
 #include "experiments/studies/equal_quality/order_report.hpp"
-#include "experiments/studies/shared/clip_frames.hpp"
+#include "experiments/studies/shared/posed_character.hpp"
 #include "experiments/studies/study.hpp"
 #include "pbs/geometry/input_error.hpp"
 

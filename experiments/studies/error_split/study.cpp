@@ -8,7 +8,7 @@
 #include "analysis/records/record_files.hpp"
 #include "analysis/records/report_table.hpp"
 #include "experiments/studies/error_split/error_split.hpp"
-#include "experiments/studies/shared/clip_frames.hpp"
+#include "experiments/studies/shared/posed_character.hpp"
 #include "experiments/studies/shared/posed_reference.hpp"
 #include "experiments/studies/study.hpp"
 #include "pbs/geometry/input_error.hpp"

@@ -10,7 +10,7 @@
 #include "experiments/process/child_process.hpp"
 #include "experiments/process/terminal.hpp"
 #include "experiments/studies/features/feature_cost.hpp"
-#include "experiments/studies/shared/scene_alone.hpp"
+#include "experiments/studies/shared/timed_rounds.hpp"
 #include "experiments/studies/study.hpp"
 #include "pbs/geometry/input_error.hpp"
 

@@ -2,198 +2,270 @@
 //
 //   sag_N      ###=========      A bar of N vertices that is held at one end settles under gravity: Young's modulus against k_stretch,
 //              ###      \  g     k_volume and iterations. The modulus scales with density / (time step)^2, exactly.
-//   swing_N    ###=========~~    The same bar is let go: Young's modulus again, by the first frequency, in time.
-//   poisson_*  o====o~~~~o       The limb is twisted and bent by 30, 60, 90 deg: Poisson's ratio of the finite elements nearest to the
-//                                constraints, after 24 iterations and converged. Young's modulus cancels.
 //
-// Writes DIR/fit/{sag,swing,poisson,poisson_poses,valley}.csv, fit.json and fit.md.
-#include "analysis/records/json_rows.hpp"
+// Writes DIR/fit/sag.csv.
+#include "experiments/studies/fit/fit.hpp"
+
+#include "analysis/records/record_files.hpp"
 #include "analysis/records/report_table.hpp"
-#include "analysis/statistics/fits.hpp"
-#include "experiments/studies/fit/poisson_run.hpp"
+#include "analysis/statistics/statistics.hpp"
+#include "experiments/deformers/deformer_options.hpp"
+#include "experiments/deformers/registry.hpp"
+#include "experiments/settings/recorded_settings.hpp"
 #include "experiments/studies/study.hpp"
+#include "pbs/character/bodies.hpp"
+#include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/topology.hpp"
+#include "pbs/near_rest/near_rest.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <set>
 
 namespace experiments {
 namespace {
 
+constexpr double past_the_corners = 2.0;  // capsule radius over the mean distance of the skin
+constexpr double range = 5.0;             // the modulus is searched within this factor of that by least squares
+
+// The capsule of a bone is its middle, from 1/6 to 5/6: it begins before the bar and ends where the held part ends.
+pbs::Skeleton bone_in_held_end(const pbs::Positions& rest)
+{
+    const pbs::Vec3 lower = rest.colwise().minCoeff(), upper = rest.colwise().maxCoeff();
+    const pbs::Vec3 centre = (lower + upper) / 2.0;
+    const double length = upper.x() - lower.x();
+    const double first = lower.x() - 0.01 * length, last = lower.x() + held_share * length, sixth = (last - first) / 4.0;
+    const auto on_axis = [&](double x) { return pbs::Vec3(x, centre.y(), centre.z()); };
+    return {{{"held", -1, on_axis(first - sixth), on_axis(last + sixth)}}};
+}
+
+std::vector<std::vector<int>> fifths_of(const pbs::Positions& rest, const std::vector<bool>& held)
+{
+    const double last = rest.col(0).maxCoeff(), first = rest.col(0).minCoeff() + held_share * (last - rest.col(0).minCoeff());
+    std::vector<std::vector<int>> fifths(5);
+    for (Eigen::Index v = 0; v < rest.rows(); ++v)
+        if (!held[v])
+            fifths[std::clamp(static_cast<int>(5.0 * (rest(v, 0) - first) / (last - first)), 0, 4)].push_back(static_cast<int>(v));
+    return fifths;
+}
+
+// One bone in the held end, whose vertices the finite elements hold exactly.
+pbs::Character gripped(const pbs::TetMesh& bar)
+{
+    pbs::Character character;
+    character.name = "cantilever";
+    character.mesh = bar;
+    character.skeleton = bone_in_held_end(bar.rest);
+    character.binding = pbs::bind_to_nearest_bone(bar.rest, character.skeleton);
+    character.weights = pbs::rigid_weights(character.binding);
+    character.blended.assign(bar.rest.rows(), false);
+    return character;
+}
+
+// Sum over some vertices of m a . b.
+double product(const Cantilever& cantilever, const std::vector<int>& vertices, const pbs::Positions& a, const pbs::Positions& b)
+{
+    double sum = 0.0;
+    for (const int v : vertices) sum += cantilever.body.mass_kg(v) * a.row(v).dot(b.row(v));
+    return sum;
+}
+
+}  // namespace
+
+Cantilever make_cantilever(const pbs::TetMesh& bar)
+{
+    Cantilever cantilever;
+    cantilever.body = hanging_bar(bar);
+    cantilever.fifths = fifths_of(bar.rest, cantilever.body.held);
+    const pbs::Edges edges = pbs::edges_of(bar.tets);
+    for (const auto& edge : edges.rowwise())
+        cantilever.mean_edge_m += (bar.rest.row(edge(0)) - bar.rest.row(edge(1))).norm() / static_cast<double>(edges.rows());
+    const double end = bar.rest.col(0).maxCoeff() - cantilever.mean_edge_m;
+    for (Eigen::Index v = 0; v < bar.rest.rows(); ++v)
+        if (bar.rest(v, 0) >= end) cantilever.tip.push_back(static_cast<int>(v));
+    return cantilever;
+}
+
+double mean_sag_m(const Cantilever& cantilever, const pbs::Positions& displacement)
+{
+    double sum = 0.0;
+    for (const int v : cantilever.tip) sum -= displacement(v, 2);
+    return sum / static_cast<double>(cantilever.tip.size());
+}
+
+ElasticSag elastic_sag(const Cantilever& cantilever, FemOptions options)
+{
+    options.attachment = FemAttachment::nodes;
+    options.core_radius = past_the_corners;
+    options.model = reference_fem::Model::linear;
+    options.gravity_m_s2 = -pbs::Vec3::UnitZ();
+    DeformerSpec spec = default_spec("fem");
+    spec.options = options;
+    const pbs::Character character = gripped(cantilever.body.mesh);
+    const auto fem = make_deformer(spec);
+    fem->reset(character);
+    if (fem->prescribed() != cantilever.body.held)
+        throw pbs::InputError("cantilever", 0, "held", "", "expected the finite elements to hold the same vertices");
+    fem->advance({Eigen::Isometry3d::Identity()}, 1.0);
+    return {fem->positions() - character.mesh.rest, options};
+}
+
+YoungFit fit_young(const Cantilever& cantilever, const ElasticSag& elastic, const pbs::Positions& displacement, double gravity_m_s2)
+{
+    // Linear: the elastic body of modulus E is displaced by per_pa / E.
+    const pbs::Positions per_pa = elastic.options.young_pa * gravity_m_s2 * elastic.displacement;
+    std::vector<analysis::Misfit> misfits;
+    double squares = 0.0, mixed = 0.0;
+    for (const std::vector<int>& fifth : cantilever.fifths) {
+        const double uu = product(cantilever, fifth, displacement, displacement), ue = product(cantilever, fifth, displacement, per_pa),
+                     ee = product(cantilever, fifth, per_pa, per_pa);
+        misfits.push_back([=](double young_pa) {
+            return 100.0 * std::sqrt(std::max(0.0, (uu - 2.0 * ue / young_pa + ee / (young_pa * young_pa)) / uu));
+        });
+        squares += ee / uu;
+        mixed += ue / uu;
+    }
+    const double least_squares_pa = squares / mixed;  // minimises the sum of squared misfits in closed form
+    if (!(least_squares_pa > 0.0 && std::isfinite(least_squares_pa))) {
+        YoungFit none;
+        none.young_pa.estimate = none.young_pa.low = none.young_pa.high = analysis::not_known;
+        return none;
+    }
+    const analysis::FittedParameter fit = analysis::fit_over_cases(misfits, least_squares_pa / range, least_squares_pa * range);
+    return {fit.interval, fit.all};
+}
+
+namespace {
+
+const analysis::Columns<BarSetting> bar_columns = {{"vertices", &BarSetting::vertices, "", "number of vertices"},
+                                                   {"mean_edge_m", &BarSetting::mean_edge_m, "m", "mean length of the edges"},
+                                                   {"k_stretch", &BarSetting::k_stretch, "", "stiffness of the stretch constraints"},
+                                                   {"k_volume", &BarSetting::k_volume, "", "stiffness of the volume constraints"},
+                                                   {"iterations", &BarSetting::iterations, "", "iterations per step"},
+                                                   {"time_step_s", &BarSetting::time_step_s, "s", "time step"},
+                                                   {"masses", &BarSetting::masses, "", "masses of PBS"},
+                                                   {"density_kg_m3", &BarSetting::density_kg_m3, "kg/m^3", "density of the elastic body"},
+                                                   {"poisson", &BarSetting::poisson, "", "Poisson's ratio of the elastic body"}};
+
+}  // namespace
+
+const analysis::Columns<SagRow> sag_columns =
+    within(&SagRow::setting, bar_columns) +
+    analysis::Columns<SagRow>{
+        {"young_pa", &SagRow::young_pa, "Pa", "Young's modulus of the elastic bar that sags as PBS does"},
+        {"young_low_pa", &SagRow::young_low_pa, "Pa", "lower end of its interval"},
+        {"young_high_pa", &SagRow::young_high_pa, "Pa", "upper end of its interval"},
+        {"misfit_pct", &SagRow::misfit_pct, "%", "what no value of the parameter removes"},
+        {"rise", &SagRow::rise, "", "share by which the misfit rises when the parameter changes by 10 %"},
+        {"outcome", &SagRow::outcome, "", "how the search ended"},
+        {"identifiable", &SagRow::identifiable, "", "the misfit has a minimum that determines the parameter"},
+        {"young_dt2_over_density_edge2_iterations", &SagRow::scaled_young, "", "E dt^2 / (density edge^2 iterations)"},
+        {"tip_sag_over_g_dt2", &SagRow::tip_sag_over_g_dt2, "", "sag of the tip over gravity times the square of the time step"},
+        {"settled", &SagRow::settled, "", "a state of rest was found"},
+        {"residual", &SagRow::residual, "", "what is left of the equation of rest"},
+        {"solver_steps", &SagRow::solver_steps, "", "applications of the linear map"}};
+
+namespace {
+
+constexpr double sag_time_step_s = 0.01, density_kg_m3 = 1000.0, elastic_poisson = 0.45;
+
+struct Rig {
+    Cantilever cantilever;
+    ElasticSag elastic;  // of 1 Pa under 1 m/s^2
+};
+
+Rig make_rig(int vertices)
+{
+    FemOptions options;  // linear, P2
+    options.young_pa = 1.0;
+    options.poisson = elastic_poisson;
+    options.density_kg_m3 = density_kg_m3;
+    Cantilever cantilever = make_cantilever(pbs::make_character({.body = "bar", .vertices = vertices}).mesh);
+    ElasticSag elastic = elastic_sag(cantilever, options);
+    return {std::move(cantilever), std::move(elastic)};
+}
+
+BarSetting setting_of(const Rig& rig, double k_stretch, double k_volume, int iterations)
+{
+    return {.vertices = static_cast<int>(rig.cantilever.body.mesh.rest.rows()),
+            .mean_edge_m = rig.cantilever.mean_edge_m,
+            .k_stretch = k_stretch,
+            .k_volume = k_volume,
+            .iterations = iterations,
+            .time_step_s = sag_time_step_s,
+            .density_kg_m3 = density_kg_m3,
+            .poisson = elastic_poisson};
+}
+
+pbs::PbsOptions pbs_options(const BarSetting& setting)
+{
+    pbs::PbsOptions options;
+    options.k_stretch = setting.k_stretch;
+    options.k_volume = setting.k_volume;
+    options.k_bind = 0.0;
+    options.iterations = setting.iterations;
+    options.masses = option_of<pbs::Masses>(setting.masses);
+    return options;
+}
+
+SagRow sag_row(const Rig& rig, const BarSetting& setting)
+{
+    const pbs::RestingState state =
+        pbs::settle(rig.cantilever.body.mesh, rig.cantilever.body.held, pbs_options(setting), -pbs::Vec3::UnitZ());
+    const pbs::Positions displacement_m = setting.time_step_s * setting.time_step_s * state.displacement;  // under 1 m/s^2
+    const YoungFit fit = fit_young(rig.cantilever, rig.elastic, displacement_m, 1.0);
+    const double dt_edge = setting.time_step_s / setting.mean_edge_m;
+    return {.setting = setting,
+            .young_pa = fit.young_pa.estimate,
+            .young_low_pa = fit.young_pa.low,
+            .young_high_pa = fit.young_pa.high,
+            .misfit_pct = fit.minimum.value,
+            .rise = fit.minimum.rise,
+            .outcome = analysis::name_of(fit.minimum.outcome),
+            .identifiable = fit.minimum.identifiable(),
+            .scaled_young = fit.young_pa.estimate * dt_edge * dt_edge / setting.density_kg_m3 / setting.iterations,
+            .tip_sag_over_g_dt2 = mean_sag_m(rig.cantilever, state.displacement),
+            .settled = state.converged,
+            .residual = state.residual,
+            .solver_steps = state.steps};
+}
+
+}  // namespace
+
+RECORD_SETTINGS_AND(SagCase,
+                    .constant("time_step_s", sag_time_step_s).constant("density_kg_m3", density_kg_m3).constant("poisson", elastic_poisson),
+                    vertices, k_stretch, k_volume, iterations)
+
+std::string record_sags(const SagCase& of, const std::string& folder)
+{
+    const Rig rig = make_rig(of.vertices);
+    std::vector<SagRow> rows;
+    for (const double k_stretch : of.k_stretch)
+        for (const double k_volume : of.k_volume)
+            for (const int n : of.iterations) rows.push_back(sag_row(rig, setting_of(rig, k_stretch, k_volume, n)));
+    table_of(sag_columns, rows).write(analysis::path_in(folder, "sag.csv"));
+    return "";
+}
+
+namespace {
+
 StudyPlan plan(bool full)
 {
-    StudyPlan plan;
-    for (const int vertices : full ? std::vector<int>{300, 1000, 3000} : std::vector<int>{300, 1000})
-        plan.runs.push_back(work_run<SagCase>(fmt::format("sag_{}", vertices), {vertices}, vertices / 20.0, record_sags));
-    for (const int vertices : full ? std::vector<int>{300, 1000} : std::vector<int>{300})
-        plan.runs.push_back(work_run<SwingCase>(fmt::format("swing_{}", vertices), {vertices}, vertices / 5.0, record_swings));
-
-    using reference_fem::Model;
-    PoissonCase large{.elastic = {{Model::neo_hookean, 1}, {Model::neo_hookean, 2}}, .angles_deg = {30.0, 60.0, 90.0}};
-    if (full) large.vertices = 1775, large.ratios = 9, large.most_iterations = 40000;
-    PoissonCase small = large;
-    small.elastic = {{Model::linear, 2}};
-    small.angles_deg = {5.0};
-    plan.runs.push_back(work_run("poisson_large", large, full ? 1200.0 : 120.0, record_poisson));
-    plan.runs.push_back(work_run("poisson_small", small, full ? 150.0 : 15.0, record_poisson));
-    return plan;
-}
-
-int finest(const std::vector<SagRow>& rows)
-{
-    int vertices = 0;
-    for (const SagRow& row : rows) vertices = std::max(vertices, row.setting.vertices);
-    return vertices;
-}
-
-// The exponent with which Young's modulus grows over x, from rows that are alike in all else; null for fewer than two settled ones.
-nlohmann::json exponent(const std::vector<SagRow>& rows, const std::function<double(const BarSetting&)>& x)
-{
-    std::vector<double> xs, young;
-    for (const SagRow& row : rows)
-        if (row.settled) xs.push_back(x(row.setting)), young.push_back(row.young_pa);
-    if (xs.size() < 2) return nullptr;
-    return analysis::observed_order(xs, young).slope.estimate;
-}
-
-// The exponents with which Young's modulus grows, for each k_stretch: the iterations on the finest mesh, the mean edge at 24 iterations.
-nlohmann::json exponents(const std::vector<SagRow>& rows)
-{
-    nlohmann::json json = nlohmann::json::array();
-    std::set<std::pair<double, double>> stiffnesses;
-    for (const SagRow& row : rows) stiffnesses.insert({row.setting.k_volume, row.setting.k_stretch});
-    for (const auto& [k_volume, k_stretch] : stiffnesses) {
-        std::vector<SagRow> over_iterations, over_edge;
-        for (const SagRow& row : rows) {
-            if (row.setting.k_volume != k_volume || row.setting.k_stretch != k_stretch) continue;
-            if (row.setting.vertices == finest(rows)) over_iterations.push_back(row);
-            if (row.setting.iterations == 24) over_edge.push_back(row);
-        }
-        json.push_back({{"k_volume", k_volume},
-                        {"k_stretch", k_stretch},
-                        {"of_iterations", exponent(over_iterations, &BarSetting::iterations)},
-                        {"of_mean_edge", exponent(over_edge, &BarSetting::mean_edge_m)},
-                        {"of_time_step", -2.0}});
-    }
-    return json;
-}
-
-// Sag with volume constraints over sag without: 5/6 where they do what incompressibility does to a body of the same shear modulus whose
-// central forces make nu = 1/4 (E = 2.5 mu against 3 mu); less is locking.
-nlohmann::json volume_locking(const std::vector<SagRow>& rows)
-{
-    const auto is_pair = [](const SagRow& with, const SagRow& without) {
-        const BarSetting &a = with.setting, &b = without.setting;
-        return a.k_volume == 1.0 && b.k_volume == 0.0 && with.settled && without.settled && a.vertices == b.vertices &&
-               a.k_stretch == b.k_stretch && a.iterations == b.iterations;
-    };
-    nlohmann::json json = nlohmann::json::array();
-    for (const SagRow& with : rows)
-        for (const SagRow& without : rows)
-            if (is_pair(with, without))
-                json.push_back({{"vertices", double(with.setting.vertices)},
-                                {"k_stretch", with.setting.k_stretch},
-                                {"iterations", double(with.setting.iterations)},
-                                {"sag_over_sag_without_volume", without.young_pa / with.young_pa},
-                                {"unlocked", 5.0 / 6.0}});
-    return json;
-}
-
-std::string young_markdown(std::vector<SagRow> rows)
-{
-    std::erase_if(rows, [](const SagRow& row) { return row.setting.k_volume != 1.0; });
-    return "## What k_stretch is worth\n\nYoung's modulus of the linear elastic bar (P2, nu 0.45, the same tets, the same vertices held) "
-           "that sags as PBS does: k_volume 1, masses lumped, density 1000 kg/m^3, time step 10 ms. Every value scales with density / "
-           "(time step)^2 exactly. The interval leaves out one fifth of the bar at a time; the misfit is what no modulus removes. Where a "
-           "row is not settled (0), no state of rest was found, and its values have no meaning.\n\n" +
-           markdown_table(table_of(sag_columns, rows),
-                          {{"vertices", "vertices"},
-                           {"mean edge [mm]", "mean_edge_m", "{:.1f}", 1e3},
-                           {"k_stretch", "k_stretch"},
-                           {"iterations", "iterations"},
-                           {"E [kPa]", "young_pa", "{:.4g}", 1e-3},
-                           {"E, low [kPa]", "young_low_pa", "{:.4g}", 1e-3},
-                           {"E, high [kPa]", "young_high_pa", "{:.4g}", 1e-3},
-                           {"misfit [%]", "misfit_pct", "{:.2g}"},
-                           {"E dt^2 / (density edge^2 iterations)", "young_dt2_over_density_edge2_iterations", "{:.3g}"},
-                           {"settled", "settled"},
-                           {"identifiable", "identifiable"}});
-}
-
-std::string swing_markdown(const std::vector<SwingRow>& rows)
-{
-    return "\n## The same by the first frequency\n\nThe bar is let go from its sag at 0.1 % of its length, and zero crossings of the tip "
-           "are measured. *expected* is what the recurrence of Algorithm 1 makes of the sag's modulus at that time step. Where the "
-           "outcome is another than finished, there is no frequency.\n\n" +
-           markdown_table(table_of(swing_columns, rows), {{"vertices", "vertices"},
-                                                          {"k_stretch", "k_stretch"},
-                                                          {"iterations", "iterations"},
-                                                          {"time step [ms]", "time_step_s", "{:g}", 1e3},
-                                                          {"outcome", "outcome"},
-                                                          {"frequency [Hz]", "frequency_hz", "{:.4g}"},
-                                                          {"damping ratio", "damping_ratio", "{:.3g}"},
-                                                          {"E [kPa]", "young_pa", "{:.4g}", 1e-3},
-                                                          {"E by sag [kPa]", "young_sag_pa", "{:.4g}", 1e-3},
-                                                          {"ratio", "young_over_sag", "{:.4f}"},
-                                                          {"expected", "expected_over_sag", "{:.4f}"}});
-}
-
-std::string poisson_markdown(const std::vector<PoissonRow>& fits)
-{
-    return "\n## Poisson's ratio\n\nThe nu of the finite elements nearest to PBS over all poses (error_joint, root mean square). The "
-           "interval leaves out one pose at a time. Young's modulus cancels. The misfit is what no nu removes; *rise* is the share by "
-           "which it rises when nu changes by 10 %. Where a fit is not identifiable (0), its nu has no meaning.\n\n" +
-           markdown_table(table_of(poisson_columns, fits), {{"elements", "model"},
-                                                            {"order", "element_order"},
-                                                            {"formulation", "formulation"},
-                                                            {"attachment", "attachment"},
-                                                            {"body", "body"},
-                                                            {"iterations", "iterations"},
-                                                            {"k_stretch", "k_stretch"},
-                                                            {"nu", "poisson", "{:.3f}"},
-                                                            {"nu, low", "poisson_low", "{:.3f}"},
-                                                            {"nu, high", "poisson_high", "{:.3f}"},
-                                                            {"misfit [%]", "misfit_pct", "{:.3g}"},
-                                                            {"misfit at nu 0", "misfit_at_0_pct", "{:.3g}"},
-                                                            {"misfit at the highest nu", "misfit_at_highest_pct", "{:.3g}"},
-                                                            {"highest nu that converged", "highest_poisson", "{:.4g}"},
-                                                            {"outcome", "outcome"},
-                                                            {"rise", "rise", "{:.2g}"},
-                                                            {"identifiable", "identifiable"}});
-}
-
-std::string summary(std::vector<SagRow> sags, const std::vector<PoissonRow>& fits)
-{
-    std::erase_if(sags, [](const SagRow& row) { return row.setting.k_volume != 1.0 || row.setting.iterations != 24 || !row.settled; });
-    const auto identifiable = std::ranges::count_if(fits, [](const PoissonRow& row) { return row.quality.identifiable; });
-    return "fit: Young's modulus of a bar, k_volume 1, 24 iterations, time step 10 ms, density 1000 kg/m^3\n" +
-           text_table(table_of(sag_columns, sags),
-                      {{"vertices", "vertices"}, {"k_stretch", "k_stretch"}, {"E [kPa]", "young_pa", "{:.4g}", 1e-3}}) +
-           fmt::format("fit: Poisson's ratio is identifiable in {} of {} fits; see fit.md\n", identifiable, fits.size());
+    return plan_of_cases("fit", full, [](const StudyCase& of, StudyPlan& plan) {
+        plan.runs.push_back(work_run<SagCase>(of.name, {of.value<int>("vertices")}, of.cost_s, record_sags));
+    });
 }
 
 StudyConclusion conclude(const FinishedRuns& finished)
 {
-    const auto sags = finished.rows(sag_columns, "sag.csv");
-    const auto swings = finished.rows(swing_columns, "swing.csv");
-    const auto fits = finished.rows(poisson_columns, "poisson.csv");
+    auto sags = finished.rows(sag_columns, "sag.csv");
     finished.write("sag.csv", sag_columns, sags);
-    finished.write("swing.csv", swing_columns, swings);
-    finished.write("poisson.csv", poisson_columns, fits);
-    finished.write("poisson_poses.csv", poisson_pose_columns, finished.rows(poisson_pose_columns, "poisson_poses.csv"));
-    finished.write("valley.csv", valley_columns, finished.rows(valley_columns, "valley.csv"));
-    const nlohmann::json json = {{"schema", 1},
-                                 {"young_by_sag", json_of(sag_columns, sags)},
-                                 {"young_exponents", exponents(sags)},
-                                 {"volume_locking", volume_locking(sags)},
-                                 {"young_by_frequency", json_of(swing_columns, swings)},
-                                 {"poisson", json_of(poisson_columns, fits)}};
-    finished.write("fit.json", json.dump(2) + "\n");
-    finished.write("fit.md", "# The fit\n\n" + young_markdown(sags) + swing_markdown(swings) + poisson_markdown(fits));
-    return {summary(sags, fits), true};
+    std::erase_if(sags, [](const SagRow& row) { return row.setting.k_volume != 1.0 || row.setting.iterations != 24 || !row.settled; });
+    return {"fit: Young's modulus of a bar, k_volume 1, 24 iterations, time step 10 ms, density 1000 kg/m^3\n" +
+                text_table(table_of(sag_columns, sags),
+                           {{"vertices", "vertices"}, {"k_stretch", "k_stretch"}, {"E [kPa]", "young_pa", "{:.4g}", 1e-3}}),
+            true};
 }
 
 }  // namespace

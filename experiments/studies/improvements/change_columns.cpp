@@ -1,6 +1,6 @@
 // The columns of points.csv.
 #include "experiments/studies/improvements/measured_changes.hpp"
-#include "experiments/studies/shared/pose_columns.hpp"
+#include "experiments/studies/shared/posed_character.hpp"
 
 #include <fmt/format.h>
 

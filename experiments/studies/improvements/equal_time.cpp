@@ -1,6 +1,6 @@
 #include "experiments/studies/improvements/equal_time.hpp"
 
-#include "experiments/studies/shared/pose_columns.hpp"
+#include "experiments/studies/shared/posed_character.hpp"
 
 #include <algorithm>
 #include <cmath>

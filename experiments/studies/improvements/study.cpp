@@ -7,8 +7,7 @@
 // seconds; --full: half an hour of processor time.
 #include "analysis/records/record_files.hpp"
 #include "experiments/studies/improvements/gains_page.hpp"
-#include "experiments/studies/shared/case_name.hpp"
-#include "experiments/studies/shared/clip_frames.hpp"
+#include "experiments/studies/shared/posed_character.hpp"
 #include "experiments/studies/study.hpp"
 #include "pbs/geometry/input_error.hpp"
 

@@ -4,16 +4,99 @@
 #pragma once
 
 #include "analysis/records/tables.hpp"
+#include "analysis/statistics/fits.hpp"
+#include "analysis/verdicts/case_record.hpp"
+#include "analysis/verdicts/measurement.hpp"
+#include "experiments/deformers/registry.hpp"
 #include "experiments/scene/scene.hpp"
-#include "experiments/studies/jiggle/jiggle_settings.hpp"
-#include "experiments/studies/jiggle/jolt_response.hpp"
-#include "experiments/studies/jiggle/walk_response.hpp"
 #include "pbs/character/overlap_and_jiggle.hpp"
+#include "pbs/solver/options.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace experiments {
+
+// The settings at which the values of C09 are measured.
+//   for (const JiggleSetting& setting : jiggle_settings()) responses.push_back(jolt_response(character, jiggling(pbs, setting), ...));
+struct JiggleSetting {
+    double k_stretch = 0.1;  // in the zone; 1 elsewhere
+    double time_step_s = 0.01;
+    int iterations = 24;
+    double k_bind = 1.0;  // in the zone; 1 elsewhere
+    pbs::Masses masses = pbs::Masses::unit;
+    bool operator==(const JiggleSetting&) const = default;
+};
+
+// The default, then one change at a time: k_stretch 0.05 to 1, steps of 2.5 to 40 ms, 6 to 96 iterations, lumped masses, an unbound zone.
+std::vector<JiggleSetting> jiggle_settings();
+
+// The zone is bound and all masses are 1, as in the paper. Other settings are other readings of the paper.
+bool is_of_the_paper(const JiggleSetting& setting);
+
+nlohmann::json to_json(const JiggleSetting& setting);
+
+DeformerSpec jiggling(DeformerSpec pbs, const JiggleSetting& setting);  // with the gravity of `pbs`
+analysis::CaseKey key_of(const std::string& body, const JiggleSetting& setting);
+std::string text_of(const JiggleSetting& setting);  // "k_stretch 0.1, 10 ms, 24 iterations, unit masses"; a k_bind below 1 is appended
+
+// The step response of a body's flesh: the skeleton is moved by a jolt in one time step and then held still.
+//   const JoltResponse response = jolt_response(character, spec, probe, {});
+//   response.swing.frequency_hz.estimate, response.left_over_peak
+// The quantity that swings is the mean displacement of the probe's vertices along the jolt, from where they lay before, moved with the
+// skeleton.
+struct Jolt {
+    pbs::Vec3 direction = pbs::Vec3::UnitY();  // unit
+    double length_m = 0.02;
+    double time_step_s = 0.01;
+    int still_steps = 2;  // before it
+    int steps = 150;      // including that of the jolt
+};
+
+struct JoltResponse {
+    std::vector<double> excursion_m;    // of the probe, one per step, beginning with that of the jolt
+    std::vector<double> speed_rms_m_s;  // of all the body's vertices
+    analysis::DampedOscillation swing;  // fitted to the excursion
+    double peak_over_jolt = 0.0;        // largest excursion, either way; 1 where flesh stays behind at first
+    double overshoot_over_jolt = 0.0;   // largest excursion beyond the place on the skeleton
+    double left_over_peak = 0.0;        // largest excursion of the last tenth
+    double speed_growth = 0.0;          // largest speed after the first tenth over that within it; above 1, energy has grown
+    bool finished = true;               // every step
+};
+
+JoltResponse jolt_response(const pbs::Character& character, const DeformerSpec& spec, const std::vector<int>& probe, const Jolt& jolt);
+JoltResponse jolt_response(const pbs::Character& character, Deformer& deformer, const std::vector<int>& probe, const Jolt& jolt);
+
+// The same flesh as an elastic body in time. The Young's modulus of the finite elements is chosen so that they swing as fast as PBS does at
+// one setting; damping and amplitude can then be compared.
+struct JiggleReference {
+    double young_pa = 0.0;  // the frequency is proportional to sqrt(E): chosen by that of the first modulus, then solved again
+    double time_step_s = 0.0;
+    JoltResponse response;  // with this modulus
+};
+inline constexpr int reference_steps_a_period = 24, reference_periods = 4;  // of the wanted frequency
+
+// fem: dynamic, with any Young's modulus to begin with. Nothing where the body does not swing.
+std::optional<JiggleReference> match_reference(const pbs::Character& character, DeformerSpec fem, const std::vector<int>& probe,
+                                               const Jolt& jolt, double frequency_hz);
+
+// Neo-Hookean, linear elements, generalised alpha.
+DeformerSpec dynamic_reference(double young_pa);
+
+// How far the jiggling flesh lags behind the skeleton through a motion, and whether it comes to rest when the motion does.
+//   const WalkResponse response = walk_response(character, motion, spec, zone);
+struct WalkResponse {
+    std::vector<double> lag_rms_m;      // over the zone, from the shape without jiggle in the same pose; one per step, the still ones last
+    std::vector<double> speed_rms_m_s;  // of the zone's vertices
+    double moving_lag_mm = 0.0, most_lag_mm = 0.0;  // root mean square and largest over the motion
+    double last_speed_share = 0.0;                  // of the last tenth of the still steps, over the motion's mean
+    bool finished = true;
+};
+
+// The last pose is held for `still_steps` more steps. The same deformer without jiggle runs for comparison.
+WalkResponse walk_response(const pbs::Character& character, const pbs::Motion& motion, const DeformerSpec& spec,
+                           const std::vector<bool>& zone, int still_steps);
 
 // The response of the zone's largest piece to a jolt, at each setting.
 struct JoltCase {
@@ -68,5 +151,23 @@ nlohmann::json to_json(const WalkCase& of);
 // Both return what broke down, if anything.
 std::string record_jolts(const JoltCase& of, const std::string& folder);
 std::string record_walk(const WalkCase& of, const std::string& folder);
+
+// The values that C09 is judged by, from the responses of one body at all settings.
+//   for (const analysis::Measurement& measurement : jiggle_values("limb", measured)) ...
+struct MeasuredJiggle {
+    JiggleSetting setting;
+    JoltResponse response;
+};
+
+// The values of one body:
+// - the share of the paper's own settings, all time steps included, at which the zone swings (DampedOscillation::found);
+// - for those that swing: the frequency; the damping ratio, with that of other readings (unbound, lumped masses) as a quantity of its own;
+//   the rank correlation of frequency and k_stretch, with its range when one setting is left out, and the ratio of frequencies at the ends;
+//   the ratio of frequencies with twice the iterations and with the default;
+// - for those that finish: the amplitude, which is the overshoot over the jolt;
+// - the ratio of frequencies with half the time step and with the whole, for the first setting, with its range over all halvings. Without
+//   gravity Algorithm 1 makes it 2 on any body: by lines 7, 8 and 16 a particle moves on by its last movement, x_n + (x_n - x_n-1), however
+//   long a step is, so that the frequency is one per step.
+std::vector<analysis::Measurement> jiggle_values(const std::string& body, const std::vector<MeasuredJiggle>& measured);
 
 }  // namespace experiments

@@ -11,7 +11,6 @@
 #include "analysis/records/record_files.hpp"
 #include "analysis/records/report_table.hpp"
 #include "experiments/studies/jiggle/jiggle_records.hpp"
-#include "experiments/studies/shared/real_bodies.hpp"
 #include "experiments/studies/study.hpp"
 
 #include <fmt/format.h>
@@ -21,35 +20,28 @@
 namespace experiments {
 namespace {
 
-void plan_limb(bool full, StudyPlan& plan)
+JoltCase jolt_case(const StudyCase& of)
 {
-    const Jolt along_the_bones{.direction = pbs::Vec3::UnitX()};
-    const Scene limb = read_scene("limb_twist", {});
-    plan.runs.push_back(work_run<JoltCase>("limb_jolt", {limb, along_the_bones, jiggle_settings()}, 2.5, record_jolts));
-    const Scene small = read_scene("limb_twist", {"character.vertices=400"});
-    std::vector<JiggleSetting> compared = {JiggleSetting{}};
-    if (full) compared = {{.k_stretch = 0.05}, {}, {.k_stretch = 0.2}, {.iterations = 6}};
-    plan.runs.push_back(work_run<JoltCase>("limb_reference", {small, along_the_bones, compared, true}, full ? 10.0 : 4.0, record_jolts));
-}
-
-void plan_body(const std::string& body, bool full, StudyPlan& plan)
-{
-    std::vector<std::string> overrides = {"character.body=" + body, "motion.clip=01_03.bvh", "motion.duration_s=2.5",
-                                          "deformers.use=[\"lbs\",\"pbs\"]", "reference.name=\"\""};
-    const Scene walking = read_scene("human_01_01", overrides);
-    overrides.push_back("pbs.gravity_m_s2=[0.0,0.0,0.0]");
-    plan.runs.push_back(
-        work_run<JoltCase>(body + "_jolt", {read_scene("human_01_01", overrides), {}, jiggle_settings()}, 3.0, record_jolts));
-    const std::vector<double> k = full ? std::vector<double>{0.05, 0.1, 0.2, 0.5, 0.7, 0.9} : std::vector<double>{0.1, 0.7};
-    plan.runs.push_back(work_run<WalkCase>(body + "_walk", {walking, k}, full ? 4.0 : 1.5, record_walk));
+    JoltCase jolt{of.scene(), {}, jiggle_settings(), of.value("with_reference", false)};
+    const auto along = of.value<std::vector<double>>("along", {0.0, 1.0, 0.0});
+    jolt.jolt.direction = pbs::Vec3(along.at(0), along.at(1), along.at(2));
+    if (!of.has("settings")) return jolt;
+    jolt.settings.clear();
+    for (const nlohmann::json& differs : of.value<nlohmann::json>("settings"))
+        jolt.settings.push_back({.k_stretch = differs.value("k_stretch", JiggleSetting{}.k_stretch),
+                                 .iterations = differs.value("iterations", JiggleSetting{}.iterations)});
+    return jolt;
 }
 
 StudyPlan plan(bool full)
 {
-    StudyPlan plan;
-    plan_limb(full, plan);
-    for_each_installed_body(plan.left_out, [&](const std::string& body) { plan_body(body, full, plan); });
-    return plan;
+    return plan_of_cases("jiggle", full, [](const StudyCase& of, StudyPlan& plan) {
+        if (of.value<std::string>("measure") == "jolt")
+            plan.runs.push_back(work_run(of.name, jolt_case(of), of.cost_s, record_jolts));
+        else
+            plan.runs.push_back(
+                work_run<WalkCase>(of.name, {of.scene(), of.value<std::vector<double>>("k_stretch")}, of.cost_s, record_walk));
+    });
 }
 
 // Records the zone on the body, and the response at each setting.

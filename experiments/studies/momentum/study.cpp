@@ -4,15 +4,13 @@
 // Writes DIR/momentum/CASE/measurements.csv.
 #include "experiments/deformers/deformer_options.hpp"
 #include "experiments/scene/scene.hpp"
-#include "experiments/settings/option_fields.hpp"
+#include "experiments/settings/recorded_settings.hpp"
 #include "experiments/studies/momentum/momentum_drift.hpp"
-#include "experiments/studies/shared/clip_frames.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 #include "experiments/studies/study.hpp"
 
 #include "analysis/records/record_files.hpp"
 #include "analysis/verdicts/measurement.hpp"
-#include "pbs/geometry/input_error.hpp"
 
 namespace experiments {
 namespace {
@@ -25,15 +23,7 @@ const std::vector<Setting> settings = {{"equal", pbs::Masses::unit, pbs::Masses:
                                        {"unequal", pbs::Masses::lumped, pbs::Masses::lumped},
                                        {"unequal_by_eq_8_9", pbs::Masses::unit, pbs::Masses::lumped}};
 
-nlohmann::json to_json(const Setting& setting)
-{
-    static const auto fields = OptionFields<Setting>("setting")
-                                   .record("name", &Setting::name)
-                                   .record("known", &Setting::known)
-                                   .record("counted", &Setting::counted)
-                                   .complete();
-    return fields.json(setting);
-}
+RECORD_SETTINGS(Setting, name, known, counted)
 
 struct MomentumCase {
     std::string name;
@@ -41,16 +31,7 @@ struct MomentumCase {
     int frame = 0;
 };
 
-nlohmann::json to_json(const MomentumCase& of)
-{
-    static const auto fields = OptionFields<MomentumCase>("momentum")
-                                   .record("name", &MomentumCase::name)
-                                   .record("scene", &MomentumCase::scene)
-                                   .record("frame", &MomentumCase::frame)
-                                   .constant("masses", option_json(settings))
-                                   .complete();
-    return fields.json(of);
-}
+RECORD_SETTINGS_AND(MomentumCase, .constant("masses", option_json(settings)), name, scene, frame)
 
 const std::pair<ProjectedClass, const char*> classes[] = {
     {ProjectedClass::stretch, "stretch"}, {ProjectedClass::volume, "volume"}, {ProjectedClass::bind, "bind"}};
@@ -89,18 +70,11 @@ std::string measure_drift(const MomentumCase& of, const std::string& folder)
     return {};
 }
 
-StudyPlan plan(bool)
+StudyPlan plan(bool full)
 {
-    StudyPlan plan;
-    plan.runs.push_back(work_run<MomentumCase>("limb", {"limb", read_scene("limb_bend", {"motion.angle_deg=90", "motion.frames=2"}), 1},
-                                               1.0, measure_drift));
-    try {
-        plan.runs.push_back(
-            work_run<MomentumCase>("human", {"human", read_scene("human_01_01", {}), clip_frames::crouch}, 1.0, measure_drift));
-    } catch (const pbs::InputError& error) {
-        plan.left_out.push_back({"human", error.what()});
-    }
-    return plan;
+    return plan_of_cases("momentum", full, [](const StudyCase& of, StudyPlan& plan) {
+        plan.runs.push_back(work_run<MomentumCase>(of.name, {of.name, of.scene(), of.value<int>("frame")}, of.cost_s, measure_drift));
+    });
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 #include "analysis/statistics/fits.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "experiments/studies/scale/scale_records.hpp"
-#include "experiments/studies/shared/scene_alone.hpp"
+#include "experiments/studies/shared/timed_rounds.hpp"
 #include "experiments/studies/study.hpp"
 #include "pbs/geometry/input_error.hpp"
 

@@ -4,7 +4,7 @@
 #include "analysis/records/tables.hpp"
 #include "analysis/statistics/statistics.hpp"
 #include "experiments/run/run.hpp"
-#include "experiments/settings/option_fields.hpp"
+#include "experiments/settings/recorded_settings.hpp"
 #include "pbs/character/body_cache.hpp"
 #include "pbs/geometry/input_error.hpp"
 
@@ -106,27 +106,13 @@ Scene scene_of(const BodySetup& setup, double rate_hz)
     return read_scene("human_01_01", overrides);
 }
 
-nlohmann::json to_json(const BodySetup& setup)
-{
-    static const auto fields = OptionFields<BodySetup>("setup")
-                                   .record("body", &BodySetup::body)
-                                   .record("vertices", &BodySetup::vertices)
-                                   .record("further", &BodySetup::further)
-                                   .complete();
-    return fields.json(setup);
-}
+RECORD_SETTINGS(BodySetup, body, vertices, further)
 
-nlohmann::json to_json(const SetupCase& of)
-{
-    static const auto fields = OptionFields<SetupCase>("setup")
-                                   .record("setup", &SetupCase::setup)
-                                   .record("rate_hz", &SetupCase::rate_hz)
-                                   .derived("scene", [](const SetupCase& one) { return to_json(scene_of(one.setup, one.rate_hz)); })
-                                   .derived("compared_with", [](const SetupCase& one) { return shared_scene(one.rate_hz).resolved; })
-                                   .constant("further_keys", further_keys())
-                                   .complete();
-    return fields.json(of);
-}
+RECORD_SETTINGS_AND(SetupCase,
+                    .derived("scene", [](const SetupCase& one) { return to_json(scene_of(one.setup, one.rate_hz)); })
+                        .derived("compared_with", [](const SetupCase& one) { return shared_scene(one.rate_hz).resolved; })
+                        .constant("further_keys", further_keys()),
+                    setup, rate_hz)
 
 std::vector<std::string> keys_changed(const nlohmann::json& shared, const nlohmann::json& own)
 {

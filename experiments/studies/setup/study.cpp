@@ -7,22 +7,12 @@
 #include "analysis/records/report_table.hpp"
 #include "analysis/verdicts/measurement.hpp"
 #include "experiments/studies/setup/body_setup.hpp"
-#include "experiments/studies/shared/real_bodies.hpp"
 #include "experiments/studies/study.hpp"
-#include "pbs/geometry/input_error.hpp"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 
 namespace experiments {
 namespace {
-
-StudyRun setup_run(const BodySetup& setup, double rate_hz, double cost_s)
-{
-    const std::string name = setup.vertices > 0 ? fmt::format("{}_{}", setup.body, setup.vertices) : setup.body;
-    return work_run<SetupCase>(name, {setup, rate_hz}, cost_s, set_up_and_record);
-}
 
 // A measured value with its interval, for the terminal.
 struct ValueRow {
@@ -39,22 +29,10 @@ const analysis::Columns<ValueRow> value_columns = {{"of", &ValueRow::of, "", "bo
 
 StudyPlan plan(bool full)
 {
-    StudyPlan plan;
-    std::vector<BodySetup> setups;
-    for (const std::string& body : installed_bodies(plan.left_out))
-        if (body == "human")
-            setups.insert(setups.end(), {{body, 1200}, {body, 2400}, {body, 4800}});
-        else
-            setups.push_back({body});
-    setups.push_back({"ring"});
-    for (const BodySetup& setup : setups) {
-        try {
-            plan.runs.push_back(setup_run(setup, full ? 100.0 : 5.0, full ? 9.0 : 5.5));
-        } catch (const pbs::InputError& error) {  // the clip is missing
-            plan.left_out.push_back({setup.body, error.what()});
-        }
-    }
-    return plan;
+    return plan_of_cases("setup", full, [](const StudyCase& of, StudyPlan& plan) {
+        const BodySetup setup{of.value<std::string>("body"), of.value("vertices", 0)};
+        plan.runs.push_back(work_run<SetupCase>(of.name, {setup, of.value<double>("rate_hz")}, of.cost_s, set_up_and_record));
+    });
 }
 
 StudyConclusion conclude(const FinishedRuns& finished)

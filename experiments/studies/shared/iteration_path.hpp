@@ -14,6 +14,7 @@
 #include "analysis/metrics/frame_metrics.hpp"
 #include "analysis/statistics/statistics.hpp"
 #include "pbs/character/character.hpp"
+#include "pbs/solver/constraint_set.hpp"
 #include "pbs/solver/options.hpp"
 #include "pbs/solver/projection.hpp"
 
@@ -93,5 +94,19 @@ Rate rate_of(const IterationPath& path, double floor);
 
 const Look& look_at(const IterationPath& path, int iteration);  // the last look that is not after the iteration
 const Look& nearest_to_reference(const IterationPath& path);    // the look with the least error_joint_pct
+
+// The sequences in which a constraint set can list its edges and tets. Order `plain` projects in this sequence, and the batched orders
+// derive theirs from it.
+//   pbs::ConstraintSet<float> constraints = pbs::make_constraint_set<float>(...);   // in file order
+//   in_random_sequence(constraints, 1);
+//
+// Spread: neighbours in the list come from eight distant parts of the old list in turn, so that no projection waits for the stores of the
+// one before. Sorted edges share their first vertex with their neighbours.
+template <typename Scalar>
+void in_spread_sequence(pbs::ConstraintSet<Scalar>& constraints);
+
+// Random: a permutation that depends on the seed alone: the same on every machine and for float and double.
+template <typename Scalar>
+void in_random_sequence(pbs::ConstraintSet<Scalar>& constraints, unsigned seed);
 
 }  // namespace experiments

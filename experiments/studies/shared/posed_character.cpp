@@ -9,6 +9,8 @@
 #include "pbs/skinning/blend.hpp"
 #include "pbs/solver/pbs_solver.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 
@@ -92,6 +94,33 @@ const DeformerSpec& spec_of(const Scene& scene, const std::string& name)
     const auto found = std::find_if(scene.deformers.begin(), scene.deformers.end(), [&](const auto& spec) { return spec.name == name; });
     if (found == scene.deformers.end()) throw pbs::InputError(scene.file, 0, "deformers.use", name, "expected this deformer in the scene");
     return *found;
+}
+
+std::string case_name(const analysis::CaseKey& of)
+{
+    return of.angle_deg ? fmt::format("{}_{}_{:g}", of.body, of.motion, *of.angle_deg) : of.body + "_" + of.pose;
+}
+
+using analysis::CaseKey;
+using analysis::Columns;
+using analysis::FrameMetrics;
+
+const Columns<CaseKey>& pose_columns()
+{
+    static const Columns<CaseKey> columns = {{"body", &CaseKey::body, "", "name of the body"},
+                                             {"motion", &CaseKey::motion, "", "twist, bend, or the name of a clip"},
+                                             {"pose", &CaseKey::pose, "", "name of a pose in a clip"},
+                                             {"angle_deg", &CaseKey::angle_deg, "deg", "angle of a joint that is twisted or bent"}};
+    return columns;
+}
+
+const Columns<FrameMetrics>& volume_columns()
+{
+    static const Columns<FrameMetrics> columns = {
+        {"volume_change_pct", &FrameMetrics::volume_change_pct, "%", "signed change of the whole volume"},
+        {"volume_abs_change_pct", &FrameMetrics::volume_abs_change_pct, "%", "sum of the absolute changes of each tet"},
+        {"inverted", &FrameMetrics::inverted_tets, "", "number of inverted tets"}};
+    return columns;
 }
 
 }  // namespace experiments

@@ -5,14 +5,37 @@
 #pragma once
 
 #include "analysis/metrics/error_norms.hpp"
+#include "analysis/metrics/frame_metrics.hpp"
+#include "analysis/records/tables.hpp"
+#include "analysis/verdicts/case_record.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/scene/scene.hpp"
 #include "pbs/solver/options.hpp"
 
 #include <optional>
+#include <string>
 #include <vector>
 
+namespace experiments::clip_frames {
+
+// The frames of CMU's clip 01_01 (100 Hz) that several studies measure.
+//   read_scene("human_01_01", {}), clip_frames::crouch
+inline constexpr int standing = 0, crouch = 164, in_the_air = 672, landing = 708;
+
+}  // namespace experiments::clip_frames
+
 namespace experiments {
+
+// The name of a pose's run, and of its diagram in the tables: limb_twist_90, human_crouch.
+
+// body_motion_angle if the pose is an angle, otherwise body_pose.
+std::string case_name(const analysis::CaseKey& of);
+
+// Columns that the tables of several studies share.
+//   const Columns<Row> columns = within(&Row::of, pose_columns()) + within(&Row::metrics, volume_columns()) + ...;
+// They are functions, since columns of other files are made from them before main() begins.
+const analysis::Columns<analysis::CaseKey>& pose_columns();         // body, motion, pose, angle_deg
+const analysis::Columns<analysis::FrameMetrics>& volume_columns();  // volume_change_pct, volume_abs_change_pct, inverted
 
 // The shape that linear blend skinning gives [m], #V x 3.
 pbs::Positions blended(const pbs::Character& character, const pbs::Pose& pose);

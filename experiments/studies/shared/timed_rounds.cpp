@@ -1,7 +1,10 @@
 #include "experiments/studies/shared/timed_rounds.hpp"
 
+#include "analysis/records/record_files.hpp"
 #include "analysis/statistics/statistics.hpp"
-#include "experiments/settings/option_fields.hpp"
+#include "experiments/process/child_process.hpp"
+#include "experiments/run/run.hpp"
+#include "experiments/settings/recorded_settings.hpp"
 #include "pbs/geometry/cost.hpp"
 
 #include <nlohmann/json.hpp>
@@ -10,15 +13,7 @@
 
 namespace experiments {
 
-nlohmann::json to_json(const Rounds& rounds)
-{
-    static const auto fields = OptionFields<Rounds>("rounds")
-                                   .record("seconds", &Rounds::seconds)
-                                   .record("fewest", &Rounds::fewest)
-                                   .record("most", &Rounds::most)
-                                   .complete();
-    return fields.json(rounds);
-}
+RECORD_SETTINGS(Rounds, seconds, fewest, most)
 
 std::vector<Samples> take_turns(const std::vector<TimedVariant>& variants, const Rounds& rounds)
 {
@@ -66,6 +61,15 @@ analysis::Columns<Spread> spread_columns(const std::string& name, const std::str
     return {{name, &Spread::median, unit, meaning + ", median of the rounds"},
             {name + endings.lower, &Spread::lower, unit, meaning + ", lower quartile"},
             {name + endings.upper, &Spread::upper, unit, meaning + ", upper quartile"}};
+}
+
+nlohmann::json run_scene_alone(const Scene& scene, const std::string& folder, const std::function<void()>& prepare)
+{
+    return in_own_process([&] {
+        if (prepare) prepare();
+        run_scene(scene, folder);
+        return analysis::read_record(analysis::path_in(folder, "run.json"));
+    });
 }
 
 }  // namespace experiments

@@ -8,6 +8,7 @@
 
 #include "analysis/records/tables.hpp"
 #include "experiments/process/machine.hpp"
+#include "experiments/scene/scene.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -58,5 +59,12 @@ double cpu_seconds(const Work& work)
     work();
     return thread_cpu_s() - start;
 }
+
+// A scene that runs in a process of its own, so that its peak memory, its loaded libraries and its breakdowns are its own.
+//   const nlohmann::json run = run_scene_alone(scene, folder);
+//   run.at("cost").at("peak_memory_mb")
+
+// The run.json of the run in `folder`. The new process calls `prepare` first. Errors as in_own_process and run_scene.
+nlohmann::json run_scene_alone(const Scene& scene, const std::string& folder, const std::function<void()>& prepare = {});
 
 }  // namespace experiments

@@ -1,4 +1,4 @@
-#include "experiments/studies/stability/broken_start.hpp"
+#include "experiments/studies/stability/cell_table.hpp"
 
 #include "analysis/metrics/error_norms.hpp"
 #include "analysis/metrics/stability_outcome.hpp"
@@ -6,8 +6,8 @@
 #include "experiments/process/machine.hpp"
 #include "experiments/process/terminal.hpp"
 #include "experiments/run/frame_measurement.hpp"
-#include "experiments/studies/stability/deformer_option.hpp"
-#include "experiments/studies/stability/stability_body.hpp"
+#include "experiments/studies/stability/cell_run.hpp"
+#include "experiments/studies/stability/stability_cells.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 
 #include <fmt/format.h>

@@ -1,16 +1,252 @@
 #include "experiments/studies/stability/cell_run.hpp"
 
+#include "experiments/deformers/registry.hpp"
 #include "experiments/process/machine.hpp"
 #include "experiments/process/terminal.hpp"
-#include "experiments/studies/stability/driven_body.hpp"
+#include "experiments/scene/scene.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
+#include "pbs/skinning/blend.hpp"
+#include "pbs/solver/particles.hpp"
+#include "pbs/solver/pbs_solver.hpp"
+#include "pbs/solver/projection.hpp"
+#include "pbs/solver/xpbd_solver.hpp"
 
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numeric>
+#include <random>
 
 namespace experiments {
+namespace {
+
+constexpr int limb_vertices = 400;
+
+pbs::Character spoilt(pbs::Character character, Defect defect, double thinness)
+{
+    character.mesh = distorted(character.mesh, defect, thinness);
+    character.binding = pbs::bind_to_nearest_bone(character.mesh.rest, character.skeleton);
+    character.weights = pbs::paper_weights(character.binding, character.skeleton);
+    for (int vertex = 0; vertex < character.weights.vertices(); ++vertex) character.blended[vertex] = character.weights.blended(vertex);
+    return character;
+}
+
+std::vector<pbs::Pose> way_of(const StabilityCell& cell, const pbs::Skeleton& skeleton)
+{
+    const Disturbance& disturbance = cell.disturbance;
+    std::vector<pbs::Pose> way;
+    if (cell.body == "limb") {
+        const int forearm = pbs::find_bone(skeleton, "forearm");
+        way = pbs::joint_sweep(skeleton, forearm, disturbance.axis, disturbance.angle_deg, disturbance.turning_steps + 1, cell.time_step_s)
+                  .steps;
+    } else {
+        const Scene scene = stability_scene(cell.body);
+        way = make_motion(scene.motion, skeleton, scene.file).steps;
+    }
+    if (disturbance.teleport_m > 0.0) {
+        way = {way.back(), way.back()};
+        for (Eigen::Isometry3d& bone : way.back()) bone.pretranslate(disturbance.teleport_m * pbs::Vec3::Ones().normalized());
+    }
+    if (disturbance.stays || disturbance.start != Start::none) way = {way.back()};
+    return way;
+}
+
+pbs::Positions random_shape(const pbs::Positions& blended)
+{
+    std::mt19937 engine(stability_seed);
+    const Eigen::RowVector3d lower = blended.colwise().minCoeff(), size = blended.colwise().maxCoeff() - lower;
+    pbs::Positions shape(blended.rows(), 3);
+    for (Eigen::Index i = 0; i < shape.size(); ++i)
+        shape.data()[i] = lower(i % 3) + size(i % 3) * std::uniform_real_distribution<double>(0.0, 1.0)(engine);
+    return shape;
+}
+
+// Scaled about the centre of the blended shape; flattened and mirrored in z.
+pbs::Positions started(Start start, const pbs::Positions& blended)
+{
+    const Eigen::RowVector3d middle = blended.colwise().mean();
+    const auto scaled = [&](double x, double y, double z) -> pbs::Positions {
+        return ((blended.rowwise() - middle) * pbs::Vec3(x, y, z).asDiagonal()).rowwise() + middle;
+    };
+    switch (start) {
+        case Start::flattened:
+            return scaled(1.0, 1.0, 0.0);
+        case Start::mirrored:
+            return scaled(1.0, 1.0, -1.0);
+        case Start::point:
+            return scaled(0.0, 0.0, 0.0);
+        case Start::random:
+            return random_shape(blended);
+        case Start::none:
+            break;
+    }
+    return blended;
+}
+
+}  // namespace
+
+Scene stability_scene(const std::string& body)
+{
+    if (body == "limb") return read_scene("limb_bend", {"character.vertices=" + std::to_string(limb_vertices)});
+    return read_scene("human_01_01", {"character.body=" + body, "motion.start_s=6.72", "motion.duration_s=0.36"});
+}
+
+const pbs::Character& stability_character(const StabilityCell& cell)
+{
+    static std::map<std::string, pbs::Character> kept;
+    const std::string key = cell.body + std::to_string(static_cast<int>(cell.defect)) + std::to_string(std::log10(cell.thinness));
+    if (const auto found = kept.find(key); found != kept.end()) return found->second;
+    pbs::Character character = pbs::make_character(stability_scene(cell.body).character);
+    if (cell.defect != Defect::none) character = spoilt(std::move(character), cell.defect, cell.thinness);
+    return kept.emplace(key, std::move(character)).first->second;
+}
+
+StabilityBody::StabilityBody(const StabilityCell& cell)
+    : character_(stability_character(cell)),
+      way_(way_of(cell, character_.skeleton)),
+      start_(cell.disturbance.start),
+      still_steps_(cell.still_steps),
+      diagonal_m_((character_.mesh.rest.colwise().maxCoeff() - character_.mesh.rest.colwise().minCoeff()).norm())
+{
+}
+
+Drive StabilityBody::drive(int step)
+{
+    const int posed = std::min(step, disturbed_steps() - 1);
+    const pbs::Pose& pose = way_[posed];
+    if (posed != posed_ || step <= 1) {
+        pbs::linear_blend_skinning(character_.mesh.rest, character_.weights, pose, blended_);
+        bind_points_ = pbs::posed_bind_points(character_.binding, pose);
+    }
+    if (step == 0) blended_ = started(start_, blended_);
+    posed_ = posed;
+    return {pose, blended_, bind_points_};
+}
+
+namespace {
+
+std::vector<bool> zone_of(const pbs::Character& character, bool jiggles)
+{
+    return jiggles ? pbs::jiggle_zone(character.binding) : std::vector<bool>{};
+}
+
+// The last tenth of the body along x.
+std::vector<bool> end_of(const pbs::Character& character)
+{
+    const Eigen::VectorXd x = character.mesh.rest.col(0);
+    const double limit = x.minCoeff() + 0.1 * (x.maxCoeff() - x.minCoeff());
+    std::vector<bool> held;
+    for (const double at : x) held.push_back(at < limit);
+    return held;
+}
+
+template <typename Solver>
+class Solved : public DrivenBody {
+public:
+    template <typename... Arguments>
+    explicit Solved(const Arguments&... arguments) : solver_(arguments...)
+    {
+    }
+    pbs::StepSummary advance(const Drive& drive, double dt_s) override { return solver_.advance(drive.blended, drive.bind_points, dt_s); }
+    const pbs::Positions& positions() const override { return solver_.positions(); }
+
+private:
+    Solver solver_;
+};
+
+// Algorithm 1 with particles of unequal masses, which the paper's m_i = 1 excludes: seeded masses from 1 to `ratio` with logarithms that
+// are uniformly distributed over the vertices.
+template <typename Scalar>
+class UnequalMasses : public DrivenBody {
+public:
+    UnequalMasses(const pbs::Character& character, const std::vector<bool>& jiggle_zone, const pbs::PbsOptions& options, double ratio)
+        : options_(options), particles_(character.mesh.rest, jiggle_zone, options)
+    {
+        auto constraints = pbs::make_constraint_set<Scalar>(character.mesh, character.binding.distance, jiggle_zone, options);
+        std::mt19937 engine(stability_seed);
+        std::uniform_real_distribution<double> share(0.0, 1.0);
+        for (Scalar& inverse_mass : constraints.inverse_mass) inverse_mass = static_cast<Scalar>(std::pow(ratio, -share(engine)));
+        projection_ = pbs::make_projection<Scalar>(std::move(constraints), character.mesh.tets, options);
+    }
+    pbs::StepSummary advance(const Drive& drive, double dt_s) override
+    {
+        particles_.predict(drive.blended, dt_s);
+        const pbs::Vec3 origin = pbs::local_origin<Scalar>(particles_.predicted());
+        projection_->load(particles_.predicted(), drive.bind_points, origin);
+        for (int iteration = 0; iteration < options_.iterations; ++iteration) {
+            projection_->project_bind_constraints();
+            projection_->project_stretch_constraints();
+            projection_->project_volume_constraints();
+        }
+        projection_->store(origin, particles_.predicted());
+        particles_.update(dt_s);
+        pbs::StepSummary summary;
+        summary.iterations = options_.iterations;
+        if (!particles_.positions().allFinite()) summary.outcome = pbs::Outcome::not_finite;
+        return summary;
+    }
+    const pbs::Positions& positions() const override { return particles_.positions(); }
+
+private:
+    pbs::PbsOptions options_;
+    pbs::Particles particles_;
+    std::unique_ptr<pbs::Projection<Scalar>> projection_;
+};
+
+// The deformers of the registry. They take only the pose and, where the initial state is broken, its shape.
+class Posed : public DrivenBody {
+public:
+    Posed(const StabilityCell& cell, const pbs::Character& character)
+        : deformer_(make_deformer(cell.spec)), is_to_start_(cell.disturbance.start != Start::none), nudge_m_(cell.nudge_m)
+    {
+        deformer_->reset(character);
+    }
+    pbs::StepSummary advance(const Drive& drive, double dt_s) override
+    {
+        if (is_to_start_) deformer_->start_from(drive.blended);
+        is_to_start_ = false;
+        is_nudged_ = !is_nudged_;
+        if (nudge_m_ == 0.0 || !is_nudged_) return deformer_->advance(drive.pose, dt_s);
+        pbs::Pose pose = drive.pose;
+        for (Eigen::Isometry3d& bone : pose) bone.pretranslate(nudge_m_ * pbs::Vec3::UnitX());
+        return deformer_->advance(pose, dt_s);
+    }
+    const pbs::Positions& positions() const override { return deformer_->positions(); }
+
+private:
+    std::unique_ptr<Deformer> deformer_;
+    bool is_to_start_, is_nudged_ = false;
+    double nudge_m_;
+};
+
+std::unique_ptr<DrivenBody> make_pbs(const StabilityCell& cell, const pbs::Character& character)
+{
+    const auto& options = options_of<pbs::PbsOptions>(cell.spec);
+    std::vector<bool> zone = zone_of(character, options.jiggle.has_value());
+    const pbs::TetMesh& mesh = character.mesh;
+    const Eigen::VectorXd& distance = character.binding.distance;
+    if (cell.mass_ratio > 1.0 && options.precision == pbs::Precision::f32)
+        return std::make_unique<UnequalMasses<float>>(character, zone, options, cell.mass_ratio);
+    if (cell.mass_ratio > 1.0) return std::make_unique<UnequalMasses<double>>(character, zone, options, cell.mass_ratio);
+    const std::vector<bool> held = cell.held_end ? end_of(character) : std::vector<bool>{};
+    for (std::size_t i = 0; i < std::min(held.size(), zone.size()); ++i) zone[i] = zone[i] && !held[i];  // a held vertex does not jiggle
+    return std::make_unique<Solved<pbs::PbsSolver>>(mesh, distance, zone, options, held);
+}
+
+}  // namespace
+
+std::unique_ptr<DrivenBody> make_driven_body(const StabilityCell& cell, const pbs::Character& character)
+{
+    if (options_if<pbs::PbsOptions>(cell.spec)) return make_pbs(cell, character);
+    if (const auto* xpbd = options_if<pbs::XpbdOptions>(cell.spec))
+        return std::make_unique<Solved<pbs::XpbdSolver>>(character.mesh, character.binding.distance, zone_of(character, xpbd->jiggle),
+                                                         *xpbd);
+    return std::make_unique<Posed>(cell, character);
+}
+
 namespace {
 
 constexpr int settled_for_good = 50;  // steps at rest after which a run ends early
@@ -104,6 +340,69 @@ CellResult run_cell(const StabilityCell& cell)
     result.has_undisturbed = undisturbed.has_value();
     result.cpu_s = process_cpu_s() - start_s;
     return result;
+}
+
+namespace {
+
+constexpr double share_of_vertices = 0.05;
+
+std::vector<std::vector<int>> tets_around(const pbs::TetMesh& mesh)
+{
+    std::vector<std::vector<int>> around(mesh.rest.rows());
+    for (int t = 0; t < mesh.tets.rows(); ++t)
+        for (const int v : mesh.tets.row(t)) around[v].push_back(t);
+    return around;
+}
+
+// The new place of the vertex: closer to the plane of the tet's other three corners, or closer to one of them.
+pbs::Vec3 moved(const pbs::TetMesh& mesh, int vertex, int tet, Defect defect, double thinness)
+{
+    std::vector<pbs::Vec3> others;
+    for (const int v : mesh.tets.row(tet))
+        if (v != vertex) others.push_back(mesh.rest.row(v));
+    const pbs::Vec3 p = mesh.rest.row(vertex);
+    if (defect == Defect::needles) return others[0] + thinness * (p - others[0]);
+    const pbs::Vec3 normal = (others[1] - others[0]).cross(others[2] - others[0]).normalized();
+    return p - (1.0 - thinness) * normal.dot(p - others[0]) * normal;
+}
+
+bool all_upright(const pbs::TetMesh& mesh, const std::vector<int>& tets)
+{
+    for (const int t : tets) {
+        const auto corner = [&](int c) -> pbs::Vec3 { return mesh.rest.row(mesh.tets(t, c)); };
+        if (!(pbs::tet_volume(corner(0), corner(1), corner(2), corner(3)) > 0.0)) return false;
+    }
+    return true;
+}
+
+}  // namespace
+
+pbs::TetMesh distorted(const pbs::TetMesh& mesh, Defect defect, double thinness)
+{
+    if (defect == Defect::none) return mesh;
+    pbs::TetMesh spoilt = mesh;
+    const auto around = tets_around(mesh);
+    std::vector<int> order(mesh.rest.rows());
+    std::iota(order.begin(), order.end(), 0);
+    std::shuffle(order.begin(), order.end(), std::mt19937(stability_seed));
+    std::vector<bool> touched(mesh.rest.rows(), false);
+    int wanted = static_cast<int>(share_of_vertices * static_cast<double>(mesh.rest.rows()));
+    for (const int vertex : order) {
+        if (wanted == 0) break;
+        if (touched[vertex]) continue;
+        for (const int tet : around[vertex]) {
+            const pbs::Vec3 before = spoilt.rest.row(vertex);
+            spoilt.rest.row(vertex) = moved(spoilt, vertex, tet, defect, thinness);
+            if (all_upright(spoilt, around[vertex])) {
+                for (const int t : around[vertex])
+                    for (const int v : mesh.tets.row(t)) touched[v] = true;
+                --wanted;
+                break;
+            }
+            spoilt.rest.row(vertex) = before;
+        }
+    }
+    return spoilt;
 }
 
 }  // namespace experiments

@@ -1,5 +1,4 @@
 #include "experiments/deformers/fem/fem_options.hpp"
-#include "experiments/studies/stability/cell_sweep.hpp"
 #include "experiments/studies/stability/stability_cells.hpp"
 
 namespace experiments {

@@ -1,6 +1,4 @@
 #include "experiments/deformers/registry.hpp"
-#include "experiments/studies/stability/cell_sweep.hpp"
-#include "experiments/studies/stability/deformer_option.hpp"
 #include "experiments/studies/stability/stability_cells.hpp"
 #include "pbs/author/author_solver.hpp"
 

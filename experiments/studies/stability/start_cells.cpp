@@ -1,7 +1,5 @@
 #include "experiments/deformers/registry.hpp"
-#include "experiments/studies/stability/broken_start.hpp"
-#include "experiments/studies/stability/cell_sweep.hpp"
-#include "experiments/studies/stability/deformer_option.hpp"
+#include "experiments/studies/stability/cell_table.hpp"
 #include "experiments/studies/stability/stability_cells.hpp"
 
 #include <nlohmann/json.hpp>

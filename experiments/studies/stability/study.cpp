@@ -9,7 +9,7 @@
 //   controls          Eq. 12-20 as printed, and teleports beyond the range of the numbers: here instability must be seen
 //   xpbd              the same limb with a material, also in small steps
 //   other_deformers   the same limb with the methods that minimise the energy of flesh, with both delta mushes and with pbs_author
-//   broken_starts     these methods from broken initial shapes: whether each finds its own result again (broken_start.hpp)
+//   broken_starts     these methods from broken initial shapes: whether each finds its own result again (cell_table.hpp)
 //   fem_static        linear, corotational and stable neo-Hookean in equilibrium
 //   fem_in_time       the last two by generalised-alpha
 // The finite elements in equilibrium take a broken initial state as the initial guess of Newton's method in the last pose, without a load
@@ -21,11 +21,9 @@
 // Writes DIR/stability/RUN/cells.csv and measurements.csv, and cells.csv, the maps, starts.csv, outcomes.md and criteria.md. The study
 // fails where an outcome occurs in no cell, or where the printed sign does not diverge: then the map could not tell stable from unstable.
 #include "analysis/records/record_files.hpp"
-#include "experiments/settings/option_fields.hpp"
-#include "experiments/studies/shared/real_bodies.hpp"
-#include "experiments/studies/stability/broken_start.hpp"
+#include "experiments/settings/recorded_settings.hpp"
+#include "experiments/studies/stability/cell_run.hpp"
 #include "experiments/studies/stability/cell_table.hpp"
-#include "experiments/studies/stability/stability_body.hpp"
 #include "experiments/studies/stability/stability_cells.hpp"
 #include "experiments/studies/study.hpp"
 
@@ -54,28 +52,17 @@ nlohmann::json scenes_of(const Cells& cells)
     return scenes;
 }
 
-nlohmann::json to_json(const StabilityCase& of)
-{
-    static const auto fields = OptionFields<StabilityCase>("stability")
-                                   .record("cells", &StabilityCase::cells)
-                                   .derived("scenes", [](const StabilityCase& of) { return scenes_of(of.cells); })
-                                   .constant("seed", stability_seed)
-                                   .constant("criteria", analysis::criteria_text() + endings_text())
-                                   .complete();
-    return fields.json(of);
-}
+RECORD_SETTINGS_AND(StabilityCase,
+                    .derived("scenes", [](const StabilityCase& of) { return scenes_of(of.cells); })
+                        .constant("seed", stability_seed)
+                        .constant("criteria", analysis::criteria_text() + endings_text()),
+                    cells)
 
-nlohmann::json to_json(const BrokenStartsCase& of)
-{
-    static const auto fields = OptionFields<BrokenStartsCase>("broken_starts")
-                                   .record("cells", &BrokenStartsCase::cells)
-                                   .record("most_iterations", &BrokenStartsCase::most_iterations)
-                                   .derived("scenes", [](const BrokenStartsCase& of) { return scenes_of(of.cells); })
-                                   .constant("seed", stability_seed)
-                                   .derived("criteria", [](const BrokenStartsCase& of) { return start_criteria_text(of.most_iterations); })
-                                   .complete();
-    return fields.json(of);
-}
+RECORD_SETTINGS_AND(BrokenStartsCase,
+                    .derived("scenes", [](const BrokenStartsCase& of) { return scenes_of(of.cells); })
+                        .constant("seed", stability_seed)
+                        .derived("criteria", [](const BrokenStartsCase& of) { return start_criteria_text(of.most_iterations); }),
+                    cells, most_iterations)
 
 std::string run_and_record(const StabilityCase& of, const std::string& folder)
 {
@@ -100,37 +87,30 @@ std::string start_and_record(const BrokenStartsCase& of, const std::string& fold
     return {};
 }
 
-StudyRun stability_run(const std::string& name, const Cells& cells, double cost_s)
+Cells cells_named(const std::string& name, const std::string& body, bool full)
 {
-    return work_run<StabilityCase>(name, {cells}, cost_s, run_and_record);
-}
-
-// Without --full only the default character is run.
-void add_characters(StudyPlan& plan, bool full)
-{
-    const auto is_run = [full](const std::string& body) { return full || body == "human"; };
-    std::vector<analysis::LeftOut> left_out;
-    for_each_installed_body(left_out, [&](const std::string& body) {
-        if (is_run(body)) plan.runs.push_back(stability_run("pbs_" + body, pbs_character_cells(body, full), full ? 20.0 : 9.0));
-    });
-    for (const analysis::LeftOut& body : left_out)
-        if (is_run(body.scene)) plan.left_out.push_back(body);
+    static const std::map<std::string, Cells (*)(bool full)> known = {{"pbs", [](bool full) { return pbs_cells(false, full); }},
+                                                                      {"pbs_jiggle", [](bool full) { return pbs_cells(true, full); }},
+                                                                      {"pbs_maps", pbs_map_cells},
+                                                                      {"controls", [](bool) { return negative_controls(); }},
+                                                                      {"xpbd", xpbd_cells},
+                                                                      {"other_deformers", other_cells},
+                                                                      {"broken_starts", start_cells},
+                                                                      {"fem_static", fem_static_cells},
+                                                                      {"fem_in_time", fem_dynamic_cells}};
+    return body.empty() ? known.at(name)(full) : pbs_character_cells(body, full);
 }
 
 StudyPlan plan(bool full)
 {
-    StudyPlan plan;
-    plan.runs.push_back(stability_run("pbs", pbs_cells(false, full), full ? 8.0 : 2.0));
-    plan.runs.push_back(stability_run("pbs_jiggle", pbs_cells(true, full), full ? 95.0 : 21.0));
-    plan.runs.push_back(stability_run("pbs_maps", pbs_map_cells(full), full ? 105.0 : 18.0));
-    add_characters(plan, full);
-    plan.runs.push_back(stability_run("controls", negative_controls(), 2.0));
-    plan.runs.push_back(stability_run("xpbd", xpbd_cells(full), full ? 80.0 : 14.0));
-    plan.runs.push_back(stability_run("other_deformers", other_cells(full), full ? 18.0 : 7.0));
-    plan.runs.push_back(
-        work_run<BrokenStartsCase>("broken_starts", {start_cells(full), full ? 4096 : 1024}, full ? 60.0 : 13.0, start_and_record));
-    plan.runs.push_back(stability_run("fem_static", fem_static_cells(full), full ? 208.0 : 40.0));
-    plan.runs.push_back(stability_run("fem_in_time", fem_dynamic_cells(full), full ? 350.0 : 22.0));
+    StudyPlan plan = plan_of_cases("stability", full, [](const StudyCase& of, StudyPlan& plan) {
+        const Cells cells = cells_named(of.value<std::string>("cells"), of.value<std::string>("body", ""), of.full);
+        if (of.has("most_iterations"))
+            plan.runs.push_back(
+                work_run<BrokenStartsCase>(of.name, {cells, of.value<int>("most_iterations")}, of.cost_s, start_and_record));
+        else
+            plan.runs.push_back(work_run<StabilityCase>(of.name, {cells}, of.cost_s, run_and_record));
+    });
     std::string counts;
     std::size_t all = 0;
     for (const StudyRun& run : plan.runs) {

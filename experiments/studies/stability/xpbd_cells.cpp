@@ -1,4 +1,3 @@
-#include "experiments/studies/stability/cell_sweep.hpp"
 #include "experiments/studies/stability/stability_cells.hpp"
 #include "pbs/solver/options.hpp"
 

@@ -8,41 +8,21 @@
 // Writes DIR/stiffness/{iterations,time_step,resolution}_BODY/stiffness.csv and measurements.csv; DIR/stiffness/stiffness.csv,
 // exponents.csv and stiffness.md.
 #include "analysis/records/tables.hpp"
-#include "experiments/studies/shared/program_claims.hpp"
-#include "experiments/studies/shared/real_bodies.hpp"
-#include "experiments/studies/stiffness/stiffness_report.hpp"
-#include "experiments/studies/stiffness/stiffness_sweep.hpp"
+#include "experiments/studies/stiffness/stiffness_ratios.hpp"
 #include "experiments/studies/study.hpp"
-
-#include <fmt/format.h>
 
 #include <filesystem>
 
 namespace experiments {
 namespace {
 
-void plan_body(StudyPlan& plan, const std::string& body, const std::vector<int>& vertices, bool full)
-{
-    const auto add = [&](const StiffnessSweep& sweep, double cost_s) {
-        plan.runs.push_back(work_run(fmt::format("{}_{}", name_of(sweep.varied), body), sweep, cost_s, record_stiffness));
-    };
-    add({Varied::iterations, body, full}, full ? 40.0 : 4.0);
-    add({Varied::time_step, body, full}, full ? 30.0 : 6.0);
-    if (!vertices.empty()) add({Varied::resolution, body, full, vertices}, full ? 60.0 : 5.0);
-}
-
 StudyPlan plan(bool full)
 {
-    StudyPlan plan;
-    plan_body(plan, "bar", full ? std::vector<int>{300, 600, 1200, 2400, 4800} : std::vector<int>{300, 600, 1200}, full);
-    plan_body(plan, "limb", full ? std::vector<int>{300, 600, 1200, 2400, 4800, 9600, 20000} : std::vector<int>{300, 600, 1200, 2400},
-              full);
-    for (const std::string& body : installed_bodies(plan.left_out)) {
-        std::vector<int> vertices;
-        if (body == "human") vertices = full ? std::vector<int>{1200, 2400, 4800, 9600} : std::vector<int>{1200, 2400, 4800};
-        plan_body(plan, body, vertices, full);
-    }
-    return plan;
+    return plan_of_cases("stiffness", full, [](const StudyCase& of, StudyPlan& plan) {
+        const StiffnessSweep sweep{option_of<Varied>(of.value<std::string>("varied")), of.value<std::string>("body"), of.full,
+                                   of.value<std::vector<int>>("vertices", {0})};
+        plan.runs.push_back(work_run(of.name, sweep, of.cost_s, record_stiffness));
+    });
 }
 
 std::vector<StiffnessRow> rows_of_sweep(FinishedRuns finished, Varied varied)

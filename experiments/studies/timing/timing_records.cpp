@@ -1,6 +1,6 @@
 #include "experiments/studies/timing/timing_records.hpp"
 
-#include "experiments/studies/shared/table_1.hpp"
+#include "experiments/studies/shared/bodies.hpp"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 // .json and .md.
 #include "analysis/records/record_files.hpp"
 #include "experiments/process/machine.hpp"
-#include "experiments/settings/option_fields.hpp"
+#include "experiments/settings/recorded_settings.hpp"
 #include "experiments/studies/study.hpp"
 #include "experiments/studies/verification/problem.hpp"
 #include "pbs/character/bodies.hpp"
@@ -37,14 +37,7 @@ struct VerificationCase {
     bool full = false;
 };
 
-nlohmann::json to_json(const VerificationCase& of)
-{
-    static const auto fields = OptionFields<VerificationCase>("verification")
-                                   .record("problem", &VerificationCase::problem)
-                                   .record("full", &VerificationCase::full)
-                                   .complete();
-    return fields.json(of);
-}
+RECORD_SETTINGS(VerificationCase, problem, full)
 
 std::string solve_and_record(const VerificationCase& of, const std::string& folder)
 {

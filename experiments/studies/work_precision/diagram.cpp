@@ -1,6 +1,6 @@
 #include "experiments/studies/work_precision/diagram.hpp"
 
-#include "experiments/studies/shared/case_name.hpp"
+#include "experiments/studies/shared/posed_character.hpp"
 #include "experiments/studies/work_precision/mean_diagram.hpp"
 
 #include <fmt/format.h>

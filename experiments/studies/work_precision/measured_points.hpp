@@ -3,7 +3,7 @@
 //   table_of(point_columns, points.rows).write("points.csv");
 // The reference is that of shared/posed_reference.hpp, with its bound. Errors are measured outside the part of the body that
 // overlaps itself and, as one more column, on the whole body. A point whose error is not above the bound may be as good as the reference
-// and is marked. Further references of the family (shared/reference_family.hpp) decide how far an order of deformers depends on the
+// and is marked. Further references of the family (shared/posed_reference.hpp) decide how far an order of deformers depends on the
 // choice of the reference. The error of PBS is split into solver, model and discretisation (error_split/error_split.hpp). A ladder of
 // iterations ends where a frame takes longer than the limit. The limit of the deformers that minimise an energy, from which their distance
 // is measured, is the point of linear elements with their law on the case's own tets (PointSetting::is_limit_of_deformers).

@@ -1,6 +1,6 @@
 #include "experiments/studies/work_precision/omissions.hpp"
 
-#include "experiments/studies/shared/case_name.hpp"
+#include "experiments/studies/shared/posed_character.hpp"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // The columns of points.csv and members.csv.
-#include "experiments/studies/shared/pose_columns.hpp"
+#include "experiments/studies/shared/posed_character.hpp"
 #include "experiments/studies/work_precision/point_row.hpp"
 
 #include <algorithm>

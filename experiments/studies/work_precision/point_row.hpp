@@ -6,7 +6,6 @@
 #include "analysis/records/tables.hpp"
 #include "analysis/verdicts/case_record.hpp"
 #include "experiments/studies/shared/posed_reference.hpp"
-#include "experiments/studies/shared/reference_family.hpp"
 #include "experiments/studies/shared/timed_rounds.hpp"
 #include "experiments/studies/work_precision/body_mesh.hpp"
 #include "experiments/studies/work_precision/case_split.hpp"

@@ -1,10 +1,10 @@
-// The references of one case: the first member of the family (shared/reference_family.hpp) and further ones.
+// The references of one case: the first member of the family (shared/posed_reference.hpp) and further ones.
 //   ReferenceSet references(of, character, poses);
 //   references.add_errors(row, positions);
 #pragma once
 
-#include "experiments/studies/work_precision/work_precision_case.hpp"
 #include "experiments/studies/work_precision/posed_deformer.hpp"
+#include "experiments/studies/work_precision/work_precision_case.hpp"
 
 #include <deque>
 

@@ -1,7 +1,7 @@
 #include "experiments/studies/work_precision/report_page.hpp"
 
 #include "analysis/records/report_table.hpp"
-#include "experiments/studies/shared/case_name.hpp"
+#include "experiments/studies/shared/posed_character.hpp"
 #include "experiments/studies/work_precision/data_profile.hpp"
 #include "experiments/studies/work_precision/diagram_tables.hpp"
 #include "experiments/studies/work_precision/findings.hpp"

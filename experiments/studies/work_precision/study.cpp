@@ -9,9 +9,8 @@
 // best_within.csv, data_profiles.csv, omissions.csv, work_precision.md.
 #include "analysis/records/record_files.hpp"
 #include "experiments/scene/scene.hpp"
-#include "experiments/studies/shared/case_name.hpp"
-#include "experiments/studies/shared/clip_frames.hpp"
-#include "experiments/studies/shared/real_bodies.hpp"
+#include "experiments/studies/shared/bodies.hpp"
+#include "experiments/studies/shared/posed_character.hpp"
 #include "experiments/studies/study.hpp"
 #include "experiments/studies/work_precision/data_profile.hpp"
 #include "experiments/studies/work_precision/diagram_tables.hpp"

@@ -115,4 +115,9 @@ BatchedConstraints<Scalar> make_batched_constraints(const ConstraintClassData<Sc
 template <typename Scalar>
 BatchedConstraints<Scalar> make_batched_constraints(const ConstraintSet<Scalar>& constraints, const Tets& tets, Order order);
 
+// Batches those of XPBD, whose stiffness is 1 / alpha here: of an edge [N/m], and of six times the volume of a tet [N/m^5].
+struct XpbdConstraints;
+template <typename Scalar>
+BatchedConstraints<Scalar> make_batched_constraints(const XpbdConstraints& constraints, const Tets& tets, Order order);
+
 }  // namespace pbs

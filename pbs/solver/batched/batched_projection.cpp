@@ -10,33 +10,17 @@
 #include <utility>
 
 namespace pbs {
-namespace {
-
-int blocks_of(int vertices)
-{
-    return (vertices + batch_size - 1) / batch_size;
-}
-
-}  // namespace
 
 template <typename Scalar>
 BatchedParticles<Scalar>::BatchedParticles(const BatchedConstraints<Scalar>& batched, const std::vector<Scalar>& inverse_mass,
                                            const std::vector<BindConstraint<Scalar>>& bind)
-    : old_of_new_(batched.order.old_of_new),
-      blocks_(blocks_of(batched.dummy_begin + batched.order.slabs() * BatchProgram<Scalar>::dummies_a_slab), Block{})
+    : new_of_old_(batched.order.new_of_old),
+      rows_(batched.dummy_begin + batched.order.slabs() * BatchProgram<Scalar>::dummies_a_slab),
+      bind_(bind.empty() ? 0 : (vertices() + batch_size - 1) / batch_size, BindBatch<Scalar>{})
 {
-    for (int i = 0; i < vertices(); ++i) xyzw()[4 * i + 3] = inverse_mass[old_of_new_[i]];
-    fill_bind(batched.order.new_of_old, inverse_mass, bind);
-}
-
-template <typename Scalar>
-void BatchedParticles<Scalar>::fill_bind(const std::vector<int>& new_of_old, const std::vector<Scalar>& inverse_mass,
-                                         const std::vector<BindConstraint<Scalar>>& bind)
-{
-    if (bind.empty()) return;
-    bind_.resize(blocks_of(vertices()), BindBatch<Scalar>{});
+    for (int i = 0; i < vertices(); ++i) rows_[new_of_old_[i]][3] = inverse_mass[i];
     for (const BindConstraint<Scalar>& constraint : bind) {
-        const int i = new_of_old[constraint.vertex];
+        const int i = new_of_old_[constraint.vertex];
         BindBatch<Scalar>& batch = bind_[i / batch_size];
         batch.rest_distance[i % batch_size] = constraint.rest_distance;
         batch.stiffness[i % batch_size] = inverse_mass[constraint.vertex] > Scalar(0) ? constraint.stiffness : Scalar(0);
@@ -46,22 +30,20 @@ void BatchedParticles<Scalar>::fill_bind(const std::vector<int>& new_of_old, con
 template <typename Scalar>
 void BatchedParticles<Scalar>::load(const Positions& p, const Positions& q, const Vec3& origin)
 {
-    for (std::size_t i = 0; i < old_of_new_.size(); ++i) {
-        const int old = old_of_new_[i];
-        for (int axis = 0; axis < 3; ++axis) xyzw()[4 * i + axis] = Scalar(p(old, axis) - origin(axis));
-        if (bind_.empty()) continue;
+    load_rows(p, new_of_old_, origin, rows_);
+    for (std::size_t old = 0; !bind_.empty() && old < new_of_old_.size(); ++old) {
+        const int i = new_of_old_[old], lane = i % batch_size;
         BindBatch<Scalar>& batch = bind_[i / batch_size];
-        batch.x[i % batch_size] = Scalar(q(old, 0) - origin(0));
-        batch.y[i % batch_size] = Scalar(q(old, 1) - origin(1));
-        batch.z[i % batch_size] = Scalar(q(old, 2) - origin(2));
+        batch.x[lane] = Scalar(q(old, 0) - origin(0));
+        batch.y[lane] = Scalar(q(old, 1) - origin(1));
+        batch.z[lane] = Scalar(q(old, 2) - origin(2));
     }
 }
 
 template <typename Scalar>
 void BatchedParticles<Scalar>::store(const Vec3& origin, Positions& p) const
 {
-    for (std::size_t i = 0; i < old_of_new_.size(); ++i)
-        for (int axis = 0; axis < 3; ++axis) p(old_of_new_[i], axis) = double(xyzw()[4 * i + axis]) + origin(axis);
+    store_rows(rows_, new_of_old_, origin, p);
 }
 
 template <typename Scalar>
@@ -71,7 +53,7 @@ void BatchedParticles<Scalar>::project_bind_constraints(const Parallel& parallel
     const int blocks = static_cast<int>(bind_.size()), tasks = (blocks + blocks_a_task - 1) / blocks_a_task;
     parallel.for_each(tasks, [&](int task) {
         const int first = task * blocks_a_task;
-        project_bind_batches(bind_.data() + first, std::min(blocks_a_task, blocks - first), blocks_[first].xyzw);
+        project_bind_batches(bind_.data() + first, std::min(blocks_a_task, blocks - first), rows_[first * batch_size]);
     });
 }
 
@@ -109,24 +91,6 @@ BatchedProjection<Scalar>::BatchedProjection(const ConstraintSet<Scalar>& constr
 }
 
 template <typename Scalar>
-void BatchedProjection<Scalar>::load(const Positions& p, const Positions& q, const Vec3& origin)
-{
-    particles_.load(p, q, origin);
-}
-
-template <typename Scalar>
-void BatchedProjection<Scalar>::store(const Vec3& origin, Positions& p) const
-{
-    particles_.store(origin, p);
-}
-
-template <typename Scalar>
-void BatchedProjection<Scalar>::project_bind_constraints()
-{
-    particles_.project_bind_constraints(parallel_);
-}
-
-template <typename Scalar>
 void BatchedProjection<Scalar>::project_stretch_constraints()
 {
     project(batched_.stretch, stretch_runs_);
@@ -142,10 +106,9 @@ void BatchedProjection<Scalar>::project_volume_constraints()
 template <typename Scalar>
 void BatchedProjection<Scalar>::project(const BatchProgram<Scalar>& program, const std::vector<std::vector<BatchRun>>& runs)
 {
-    for (const int parity : {0, 1})
-        parallel_.for_each((batched_.order.slabs() + 1 - parity) / 2, [&](int pair) {
-            for (const BatchRun& run : runs[2 * pair + parity]) project_batches(run.kind, program.batches(run), run.count, vertices());
-        });
+    parallel_.for_each_slab(batched_.order.slabs(), [&](int slab) {
+        for (const BatchRun& run : runs[slab]) project_batches(run.kind, program.batches(run), run.count, vertices());
+    });
 }
 
 template <typename Scalar>
@@ -169,7 +132,7 @@ Residuals BatchedProjection<Scalar>::residuals() const
 template <typename Scalar>
 std::vector<char> BatchedProjection<Scalar>::unsatisfied(const SleepTolerance& tolerance) const
 {
-    std::vector<char> vertices(particles_.blocks().size() * batch_size, false);
+    std::vector<char> vertices(particles_.rows().size(), false);
     batched_.stretch.mark_unsatisfied(this->vertices(), tolerance.ratio, vertices);
     batched_.volume.mark_unsatisfied(this->vertices(), tolerance.ratio, vertices);
     for (std::size_t i = 0; !particles_.bind().empty() && i < batched_.order.old_of_new.size(); ++i) {
@@ -188,7 +151,7 @@ void BatchedProjection<Scalar>::sleep(const SleepTolerance& tolerance)
     if (neighbours_.first.empty()) return;
     std::vector<char> needed = unsatisfied(tolerance);
     for (std::size_t i = 0; i < moved_.size(); ++i) needed[i] = needed[i] || moved_[i];
-    loaded_ = particles_.blocks();
+    loaded_ = particles_.rows();
     awake_.assign(needed.size(), false);
     keep_awake(needed);
 }
@@ -207,7 +170,7 @@ int BatchedProjection<Scalar>::wake(const SleepTolerance& tolerance)
     }
     moved_.assign(awake_.size(), false);
     for (std::size_t i = 0; i < batched_.order.old_of_new.size(); ++i) {
-        const Scalar *now = this->vertices() + 4 * i, *before = loaded_.front().xyzw + 4 * i;
+        const Scalar *now = this->vertices() + 4 * i, *before = loaded_[static_cast<int>(i)];
         moved_[i] = !(length(now[0] - before[0], now[1] - before[1], now[2] - before[2]) <= tolerance.length_m);
     }
     return 0;

@@ -7,6 +7,7 @@
 #include "pbs/constraints/bind.hpp"
 #include "pbs/geometry/topology.hpp"
 #include "pbs/packed/parallel.hpp"
+#include "pbs/packed/rows.hpp"
 #include "pbs/solver/batched/batch_program.hpp"
 #include "pbs/solver/projection.hpp"
 
@@ -15,16 +16,10 @@
 namespace pbs {
 
 // Particles in the order of memory of the batches (../../packed/vertex_order.hpp), with the dummies of each slab behind them, and their
-// bind constraints, each of which moves its own vertex alone.
-
-// Scalar: float or double.
+// bind constraints, each of which moves its own vertex alone. Scalar: float or double.
 template <typename Scalar>
 class BatchedParticles {
 public:
-    struct alignas(64) Block {  // sixteen vertices of x, y, z [m], w
-        Scalar xyzw[4 * batch_size];
-    };
-
     // inverse_mass: #V, in the mesh's numbering; zero: held. bind: at most one per vertex, in the mesh's numbering.
     BatchedParticles(const BatchedConstraints<Scalar>& batched, const std::vector<Scalar>& inverse_mass,
                      const std::vector<BindConstraint<Scalar>>& bind);
@@ -34,19 +29,16 @@ public:
     void store(const Vec3& origin, Positions& p) const;
     void project_bind_constraints(const Parallel& parallel);
 
-    Scalar* xyzw() { return blocks_.front().xyzw; }
-    const Scalar* xyzw() const { return blocks_.front().xyzw; }
-    int vertices() const { return static_cast<int>(old_of_new_.size()); }  // #V of the mesh, dummies not counted
-    const std::vector<Block>& blocks() const { return blocks_; }           // of the vertices, then of the dummies
+    Scalar* xyzw() { return rows_.data(); }
+    const Scalar* xyzw() const { return rows_.data(); }
+    int vertices() const { return static_cast<int>(new_of_old_.size()); }  // #V of the mesh, dummies not counted
+    const Rows<Scalar>& rows() const { return rows_; }                     // x, y, z [m], w of the vertices, then of the dummies
     const std::vector<BindBatch<Scalar>>& bind() const { return bind_; }   // of all vertices; empty: no bind constraints
 
 private:
-    void fill_bind(const std::vector<int>& new_of_old, const std::vector<Scalar>& inverse_mass,
-                   const std::vector<BindConstraint<Scalar>>& bind);
-
-    std::vector<int> old_of_new_;
+    std::vector<int> new_of_old_;
+    Rows<Scalar> rows_;
     std::vector<BindBatch<Scalar>> bind_;
-    std::vector<Block> blocks_;
 };
 
 // See Projection. This class reads the options order, threads and sleep.
@@ -56,11 +48,11 @@ public:
     // tets: those whose edges may be grouped, constrained or not.
     BatchedProjection(const ConstraintSet<Scalar>& constraints, const Tets& tets, const PbsOptions& options);
 
-    void load(const Positions& p, const Positions& q, const Vec3& origin) override;
-    void project_bind_constraints() override;
+    void load(const Positions& p, const Positions& q, const Vec3& origin) override { particles_.load(p, q, origin); }
+    void project_bind_constraints() override { particles_.project_bind_constraints(parallel_); }
     void project_stretch_constraints() override;
     void project_volume_constraints() override;
-    void store(const Vec3& origin, Positions& p) const override;
+    void store(const Vec3& origin, Positions& p) const override { particles_.store(origin, p); }
     Residuals residuals() const override;
 
     void sleep(const SleepTolerance& tolerance) override;
@@ -89,7 +81,7 @@ private:
     std::vector<std::vector<BatchRun>> stretch_runs_, volume_runs_;  // what is projected, of each slab
     std::vector<char> awake_;                                        // vertices, dummies included; empty: all are
     std::vector<char> moved_;                                        // in the last step, by more than the tolerance; they start awake
-    std::vector<typename BatchedParticles<Scalar>::Block> loaded_;   // particles_ before the step, with sleep
+    Rows<Scalar> loaded_;                                            // particles_ before the step, with sleep
     Adjacency neighbours_;                                           // in the new order; empty without sleep
 };
 

@@ -11,7 +11,7 @@
 #include "tests/support/measured_condition.hpp"
 #include "tests/support/study_claims.hpp"
 
-#include "experiments/studies/artefacts/smoothness_comparison.hpp"
+#include "experiments/studies/artefacts/artefact_values.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,20 +2,18 @@
 #include "analysis/records/record_files.hpp"
 #include "experiments/run/metrics_table.hpp"
 #include "experiments/run/run_records.hpp"
-#include "experiments/studies/ambiguity/volume_readings.hpp"
+#include "experiments/studies/ambiguity/reading_values.hpp"
 #include "experiments/studies/artefacts/artefact_values.hpp"
-#include "experiments/studies/artefacts/smoothness_comparison.hpp"
 #include "experiments/studies/convergence/convergence_records.hpp"
 #include "experiments/studies/ensemble/ensemble.hpp"
 #include "experiments/studies/equal_quality/order_report.hpp"
 #include "experiments/studies/equal_quality/order_rows.hpp"
 #include "experiments/studies/error_split/error_split.hpp"
 #include "experiments/studies/features/feature_cost.hpp"
-#include "experiments/studies/fit/poisson_run.hpp"
+#include "experiments/studies/fit/fit.hpp"
 #include "experiments/studies/improvements/gains.hpp"
 #include "experiments/studies/jiggle/jiggle_records.hpp"
 #include "experiments/studies/setup/body_setup.hpp"
-#include "experiments/studies/stability/broken_start.hpp"
 #include "experiments/studies/stability/cell_table.hpp"
 #include "experiments/studies/stiffness/stiffness_ratios.hpp"
 #include "experiments/studies/timing/timing_records.hpp"
@@ -133,10 +131,6 @@ TEST(KeptTables, OfBodiesUnderLoad)
     expect_same_records(experiments::stiffness_columns, "stiffness", "stiffness.csv");
     expect_same_sum(experiments::exponent_columns(), "stiffness/exponents.csv");
     expect_same_records(experiments::sag_columns, "fit", "sag.csv");
-    expect_same_records(experiments::swing_columns, "fit", "swing.csv");
-    expect_same_records(experiments::poisson_columns, "fit", "poisson.csv");
-    expect_same_records(experiments::poisson_pose_columns, "fit", "poisson_poses.csv");
-    expect_same_records(experiments::valley_columns, "fit", "valley.csv");
 }
 
 TEST(KeptTables, OfAmbiguity)

@@ -3,15 +3,17 @@
 #include "experiments/run/run_records.hpp"
 
 #include "analysis/metrics/frame_metrics.hpp"
-#include "experiments/studies/volume/region_table.hpp"
+#include "experiments/studies/study.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 #include "tests/support/limb_character.hpp"
 #include "tests/support/motion_rounding.hpp"
+#include "tests/support/scratch_folder.hpp"
 #include "tests/support/volume_rounding.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 
 namespace {
 
@@ -113,21 +115,28 @@ TEST(RegionRecord, MeansAndExtremesOverFramesAndNoBrokenFrame)
     }
 }
 
-TEST(RegionTable, NamesTheGreatestLossFirst)
+TEST(RegionTable, NamesTheThreeGreatestLossesFirst)
 {
     const auto change = [](const char* deformer, const char* region, double change_pct, double own_change_pct) {
         return RegionChange{deformer, "bone", {region}, 50.0, change_pct, 0.0, 0.0, 0.0, own_change_pct, 1};
     };
     const std::vector<RegionChange> regions = {change("lbs", "shin", -1.0, -2.0), change("lbs", "thigh", -3.0, -4.0),
+                                               change("lbs", "hand", -0.25, -0.5), change("lbs", "foot", -0.5, -0.5),
                                                change("dqs", "head", -9.0, -9.0)};
-    const std::string text = region_text({{"clip", regions}}, 1);
-    EXPECT_NE(text.find("-4.00  thigh -3.00 (-4.0)"), std::string::npos) << text;
-    EXPECT_EQ(text.find("shin"), std::string::npos);
+    const test_support::ScratchFolder folder;
+    FinishedRuns runs{.folder = folder.path().string(), .folders = {folder / "clip", folder / "sweep"}};
+    for (const std::string& run : runs.folders) {
+        std::filesystem::create_directory(run);
+        table_of(region_columns, regions).write(run + "/regions.csv");
+    }
+    const std::string text = volume_study().conclude(runs).text;
+    EXPECT_NE(text.find("-4.75  thigh -3.00 (-4.0), shin -1.00 (-2.0), foot -0.50 (-0.5)"), std::string::npos) << text;
+    EXPECT_EQ(text.find("hand"), std::string::npos);
     EXPECT_EQ(text.find("head"), std::string::npos);
     EXPECT_EQ((RegionBones{"thigh.L", "shin.L"}.text()), "thigh.L - shin.L");
-    const analysis::CsvTable all = region_csv({{"clip", regions}, {"sweep", regions}});
-    EXPECT_EQ(all.rows(), 6);
-    EXPECT_EQ(all.text_at(3, "run"), "sweep");
+    const analysis::CsvTable all = analysis::read_csv(folder / "regions.csv");
+    EXPECT_EQ(all.rows(), 10);
+    EXPECT_EQ(all.text_at(5, "run"), "sweep");
 }
 
 }  // namespace

@@ -1,9 +1,8 @@
-// Reference: the volumes of a box and of single tets, by hand; the gradient by an eps sweep. Tolerances: roundings are counted as in
+// Reference: the volumes of a box and of single tets, by hand. Tolerances: roundings are counted as in
 // projection_rounding.hpp, over all triangles of the surface.
 #include "pbs/constraints/region_volume.hpp"
 
 #include "pbs/geometry/topology.hpp"
-#include "tests/support/eps_sweep.hpp"
 #include "tests/support/random_points.hpp"
 #include "tests/support/rounding_error.hpp"
 #include "tests/support/structured_bar.hpp"
@@ -30,30 +29,10 @@ Points at_rest()
     return p;
 }
 
-Points disturbed(unsigned seed, double size_m)
-{
-    RandomPoints random(seed);
-    Points p = at_rest();
-    for (Vec3& point : p) point += random.point(size_m);
-    return p;
-}
-
 Points projected(const RegionVolumeConstraint<double>& constraint, const std::vector<double>& w, Points p)
 {
     Points g;
     project(constraint, w, p, g);
-    return p;
-}
-
-Eigen::VectorXd stacked(const Points& p)
-{
-    return Eigen::VectorXd::Map(p.front().data(), 3 * Eigen::Index(p.size()));
-}
-
-Points unstacked(const Eigen::VectorXd& x)
-{
-    Points p;
-    for (Eigen::Index i = 0; i < x.size(); i += 3) p.emplace_back(x.segment<3>(i));
     return p;
 }
 
@@ -86,73 +65,6 @@ TEST(RegionVolume, OfOneTetIsItsVolumeConstraint)
         EXPECT_GT((of_region[at] - before[at]).norm(), 1e-4);
         EXPECT_LT((of_region[at] - p[i]).norm(), rounding_error(100, 1.0));  // some forty roundings each, of a well-shaped tet
     }
-}
-
-TEST(RegionVolume, GradientByEpsSweep)
-{
-    for (unsigned trial = 0; trial < 10; ++trial) {
-        const Points p = disturbed(trial, 0.2);
-        RandomPoints random(100 + trial);
-        Points direction(p.size());
-        for (Vec3& d : direction) d = random.point(1.0);
-        const double slope = stacked(gradient(box, p)).dot(stacked(direction));
-        expect_slope_by_eps_sweep([](const Eigen::VectorXd& x) { return value(box, unstacked(x)); }, stacked(p), stacked(direction), slope,
-                                  1.0);
-    }
-}
-
-// Gradients of an invariant under shifts and turns add up to zero, and so do their moments; corrections w g with masses 1 / w then conserve
-// both momenta. Each of them is a sum over three corners of every triangle.
-TEST(RegionVolume, ProjectionConservesLinearAndAngularMomentum)
-{
-    Points before = disturbed(7, 0.2);
-    for (Vec3& p : before) p *= 1.2;  // so that there is volume to lose
-    std::vector<double> w;
-    RandomPoints random(8);
-    for (std::size_t i = 0; i < before.size(); ++i) w.push_back(random.number(0.25, 4.0));
-    const Points after = projected(box, w, before);
-    Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();
-    double moved = 0.0;
-    for (std::size_t i = 0; i < w.size(); ++i) {
-        const Vec3 momentum = (after[i] - before[i]) / w[i];
-        linear += momentum;
-        angular += before[i].cross(momentum);
-        moved += momentum.norm();
-    }
-    ASSERT_GT(moved, 1e-2);
-    const double rounding = rounding_error(double(w.size()) * 4.0 * 2.5, 4.0);  // positions up to 2.5 m, over w of 0.25, and their sums
-    EXPECT_LT(linear.norm(), rounding);
-    EXPECT_LT(angular.norm(), 2.5 * rounding);
-}
-
-// As VolumeConstraint.StiffnessIsTheShareOfTheErrorRemoved: what is left is of second order in the error.
-TEST(RegionVolume, StiffnessIsTheShareOfTheErrorRemoved)
-{
-    const Points p = disturbed(9, 1e-5);
-    const double before = value(box, p);
-    for (const double k : {0.0, 0.25, 0.5, 1.0}) {
-        RegionVolumeConstraint<double> soft = box;
-        soft.stiffness = k;
-        EXPECT_NEAR(value(box, projected(soft, unit, p)) / before, 1.0 - k, 10.0 * std::abs(before) + 2.0 * rounding_m3 / std::abs(before));
-    }
-}
-
-TEST(RegionVolume, HeldVerticesStay)
-{
-    std::vector<double> w = unit;
-    w[3] = w[5] = 0.0;
-    const Points before = disturbed(10, 0.2), after = projected(box, w, before);
-    for (std::size_t i = 0; i < w.size(); ++i) EXPECT_EQ(after[i] == before[i], w[i] == 0.0) << i;
-    EXPECT_EQ(projected(box, std::vector<double>(unit.size(), 0.0), before), before);
-}
-
-TEST(RegionVolume, RegionCollapsedToALineOrAPointStays)
-{
-    Points line = at_rest(), point = at_rest();
-    for (Vec3& p : line) p = p.x() * Vec3(0.3, 0.1, 0.7);
-    for (Vec3& p : point) p = Vec3(0.1, 0.2, 0.3);
-    EXPECT_EQ(projected(box, unit, line), line);
-    EXPECT_EQ(projected(box, unit, point), point);
 }
 
 TEST(RegionVolume, FlattenedRegionIsInflatedAndAMirroredOneTurnedBack)

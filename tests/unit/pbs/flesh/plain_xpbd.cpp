@@ -21,7 +21,7 @@ HeldXpbd one_tet(const pbs::BoneSprings& springs)
 {
     test_support::TwoBoneLimb limb = test_support::two_bone_limb({8, 2, 2}, pbs::Vec3::UnitZ(), 70.0);
     limb.mesh.tets = pbs::Tets(limb.mesh.tets.topRows(1));
-    return {limb, 0.8, springs};
+    return HeldXpbd(test_support::HeldBar(limb, springs));
 }
 
 Matrix3d deformation(const pbs::NeoHookeanTet& tet, const Positions& x)
@@ -121,13 +121,7 @@ TEST(PlainXpbd, AVertexWithoutTetsStays)
 // k C + lambda = 0 holds exactly for a linear constraint after its visit; here for the only mode.
 TEST(PlainXpbd, OneVisitSolvesTheEquationOfASpring)
 {
-    const HeldXpbd held = [] {
-        HeldXpbd all = one_tet(no_springs);
-        pbs::BoneSprings spring{Positions(1, 3), Eigen::VectorXd::Constant(1, 0.7), {1}};
-        spring.points.row(0).setZero();
-        for (const int v : all.flesh.tets.front().vertex) spring.points.row(0) += all.bent.mesh.rest.row(v) / 4.0;
-        return one_tet(spring);
-    }();
+    const HeldXpbd held(test_support::HeldBar::one_tet({8, 2, 2}, 0.7, 1));
     ASSERT_EQ(held.flesh.hold.modes().size(), 1u);
     pbs::PlainXpbd plain(held.flesh, {{true, 0}});
     pbs::Rows<double> rows = plain.rows();

@@ -1,5 +1,5 @@
 // Reference: the classes projected by hand in the order that the class order states.
-#include "pbs/solver/plain_projection.hpp"
+#include "pbs/solver/projection.hpp"
 
 #include "tests/support/two_bone_limb.hpp"
 
@@ -62,11 +62,6 @@ TEST(ReorderedProjection, OrdersDiffer)
         if (named.order == ClassOrder::bind_stretch_volume) continue;
         EXPECT_NE(after(*projection(named.order), {bind, stretch, volume}), own) << int(named.order);
     }
-}
-
-TEST(ReorderedProjection, IsNotThereInAlgorithm1sOwnOrder)
-{
-    EXPECT_EQ(dynamic_cast<pbs::ReorderedProjection<double>*>(projection(ClassOrder::bind_stretch_volume).get()), nullptr);
 }
 
 }  // namespace

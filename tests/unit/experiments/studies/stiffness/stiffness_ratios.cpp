@@ -1,8 +1,6 @@
 // Reference: stiffnesses that are powers of what is varied, so that ratios and exponents are known.
 #include "experiments/studies/stiffness/stiffness_ratios.hpp"
 
-#include "experiments/studies/stiffness/stiffness_report.hpp"
-
 #include "tests/support/fit_rounding.hpp"
 
 #include <gtest/gtest.h>

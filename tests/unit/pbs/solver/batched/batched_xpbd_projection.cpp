@@ -1,7 +1,6 @@
 // Reference: the plain projection of the same constraints in the sequence of the program, since the kernels project in exactly that order.
 // Another sequence exceeds the tolerance in either precision, which AnotherSequenceIsFarOff confirms.
-#include "pbs/solver/batched/batched_xpbd_projection.hpp"
-
+#include "pbs/solver/batched/batch_program.hpp"
 #include "pbs/solver/xpbd_solver.hpp"
 #include "tests/support/two_bone_limb.hpp"
 #include "tests/support/xpbd_rounding.hpp"
@@ -80,25 +79,33 @@ Positions projected(pbs::XpbdProjection& projection)
 }
 
 template <typename Scalar>
+XpbdOptions options_of(Order order)
+{
+    return {.iterations = 3, .order = order, .precision = sizeof(Scalar) == 4 ? pbs::Precision::f32 : pbs::Precision::f64};
+}
+
+template <typename Scalar>
+std::unique_ptr<pbs::XpbdProjection> projection_of(Order order, const XpbdConstraints& constraints)
+{
+    return make_xpbd_projection(constraints, limb_of_xpbd.mesh.tets, options_of<Scalar>(order));
+}
+
+template <typename Scalar>
 Positions by_batches(Order order, const XpbdConstraints& constraints = constraints_of_limb())
 {
-    pbs::BatchedXpbdProjection<Scalar> projection(constraints, limb_of_xpbd.mesh.tets, order, 1);
-    return projected(projection);
+    return projected(*projection_of<Scalar>(order, constraints));
 }
 
 template <typename Scalar>
 Positions one_by_one(Order order)
 {
-    pbs::PlainXpbdProjection<Scalar> projection(in_sequence_of<Scalar>(order, constraints_of_limb()));
-    return projected(projection);
+    return projected(*projection_of<Scalar>(Order::plain, in_sequence_of<Scalar>(order, constraints_of_limb())));
 }
 
 template <typename Scalar>
 double rounding_of_three_iterations(Order order)
 {
-    return xpbd_rounding_m(
-        limb_of_xpbd,
-        {.iterations = 3, .order = order, .precision = std::is_same_v<Scalar, float> ? pbs::Precision::f32 : pbs::Precision::f64});
+    return xpbd_rounding_m(limb_of_xpbd, options_of<Scalar>(order));
 }
 
 TYPED_TEST(BatchedXpbd, EqualsThePlainProjectionInTheSameSequence)
@@ -141,9 +148,9 @@ TYPED_TEST(BatchedXpbd, ProjectsEachConstraintOnce)
 TYPED_TEST(BatchedXpbd, ASubstepForgetsTheMultipliers)
 {
     for (const Order order : packed_orders) {
-        pbs::BatchedXpbdProjection<TypeParam> used(constraints_of_limb(), limb_of_xpbd.mesh.tets, order, 1);
-        const Positions first = projected(used);
-        EXPECT_EQ(projected(used), first);
+        const auto used = projection_of<TypeParam>(order, constraints_of_limb());
+        const Positions first = projected(*used);
+        EXPECT_EQ(projected(*used), first);
     }
 }
 

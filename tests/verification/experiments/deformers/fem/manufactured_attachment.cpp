@@ -1,7 +1,7 @@
 // Reference: a manufactured solution of stable neo-Hookean flesh that is held by smooth springs
-// (experiments/studies/verification/manufactured_attachment.hpp). The verification record's problem nested_convergence shows the order and
+// (experiments/studies/verification/attachment_problems.hpp). The verification record's problem nested_convergence shows the order and
 // the bound of nested solutions on it.
-#include "experiments/studies/verification/manufactured_attachment.hpp"
+#include "experiments/studies/verification/attachment_problems.hpp"
 
 #include "pbs/geometry/tet_mesh.hpp"
 #include "tests/verification/reference_fem/jittered_cube.hpp"

@@ -2,7 +2,6 @@
 // distorted shapes.
 #include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/studies/stability/cell_run.hpp"
-#include "experiments/studies/stability/driven_body.hpp"
 #include "experiments/studies/stability/stability_cells.hpp"
 #include "tests/support/newton_rounding.hpp"
 

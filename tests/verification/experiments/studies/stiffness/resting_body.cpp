@@ -2,7 +2,7 @@
 // second order is proportional to it, so that twice the load shows how large it is. The distance that remains when stepping stops follows
 // from the changes per step. The limb has vertices on its bones, d = 0. The other reference is theory: a step of the
 // position based solver does not depend on dt, so its stiffness scales with 1 / dt^2; that of converged XPBD is the material's.
-#include "experiments/studies/stiffness/resting_body.hpp"
+#include "experiments/studies/stiffness/stiffness_ratios.hpp"
 
 #include "tests/support/limb_character.hpp"
 

@@ -1,0 +1,125 @@
+#include "analysis/records/toml_keys.hpp"
+#include "experiments/studies/study.hpp"
+#include "generated/cases_texts.hpp"
+#include "pbs/character/bodies.hpp"
+#include "pbs/geometry/input_error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <sstream>
+#include <stdexcept>
+
+namespace experiments {
+namespace {
+
+nlohmann::json cases_of(const std::string& study)
+{
+    const toml::table document = analysis::parse_toml_document(*::cases::by_name.at(study), study + "/cases.toml", {"case"});
+    std::ostringstream json;
+    json << toml::json_formatter{document};
+    return nlohmann::json::parse(json.str()).at("case");
+}
+
+// The keys of a form or a body replace those that all have in common.
+void select(nlohmann::json& values, const std::vector<std::string>& tables, const std::string& selected)
+{
+    const nlohmann::json chosen = values.value(selected, nlohmann::json::object());
+    for (const std::string& table : tables) values.erase(table);
+    values.update(chosen);
+}
+
+// The case of one body and one form.
+nlohmann::json resolved(nlohmann::json values, const std::string& body, bool full)
+{
+    std::vector<std::string> bodies;
+    if (values.contains("bodies")) {
+        bodies = values.at("bodies").get<std::vector<std::string>>();
+        values.erase("bodies");
+        values["body"] = body;
+    }
+    select(values, bodies, body);
+    select(values, {"quick", "full"}, full ? "full" : "quick");
+    std::string text = values.dump();
+    for (std::size_t at = 0; (at = text.find("{body}", at)) != std::string::npos;) text.replace(at, 6, body);
+    return nlohmann::json::parse(text);
+}
+
+}  // namespace
+
+StudyCase::StudyCase(const std::string& study, const nlohmann::json& values, bool is_full)
+    : full(is_full), where_(study + "/cases.toml"), values_(values)
+{
+    name = value<std::string>("name");
+    where_ += ": case " + name;
+    cost_s = value<double>(full ? "full_s" : "quick_s");
+    read_.insert({"body", "quick_s", "full_s"});
+}
+
+const nlohmann::json& StudyCase::at(const std::string& key) const
+{
+    read_.insert(key);
+    if (!values_.contains(key)) throw std::logic_error(fmt::format("{}: no key {}", where_, key));
+    return values_.at(key);
+}
+
+bool StudyCase::has(const std::string& key) const
+{
+    read_.insert(key);
+    return values_.contains(key);
+}
+
+Scene StudyCase::scene(const std::vector<std::string>& further) const
+{
+    auto overrides = value<std::vector<std::string>>("overrides", {});
+    overrides.insert(overrides.end(), further.begin(), further.end());
+    return read_scene(value<std::string>("scene"), overrides);
+}
+
+analysis::CaseKey StudyCase::key() const
+{
+    analysis::CaseKey key{.body = value<std::string>("body", ""), .motion = value<std::string>("motion")};
+    key.pose = value<std::string>("pose", "");
+    if (has("angle_deg")) key.angle_deg = value<double>("angle_deg");
+    return key;
+}
+
+void StudyCase::require_nothing_unread() const
+{
+    for (const auto& [key, value] : values_.items())
+        if (!read_.contains(key)) throw std::logic_error(fmt::format("{}: nothing reads the key {}", where_, key));
+}
+
+StudyPlan plan_of_cases(const std::string& study, bool full, const std::function<void(const StudyCase& of, StudyPlan& plan)>& add)
+{
+    StudyPlan plan;
+    const nlohmann::json cases = cases_of(study);
+    const auto is_left_out = [&](const std::string& body) {
+        return std::ranges::count(plan.left_out, body, &analysis::LeftOut::scene) > 0;
+    };
+    const auto add_case = [&](const nlohmann::json& values, const std::string& body) {
+        const nlohmann::json own = resolved(values, body, full);
+        if (!own.contains(full ? "full_s" : "quick_s") || is_left_out(body)) return;
+        try {
+            if (values.contains("bodies")) pbs::require_body(body);
+            const StudyCase of(study, own, full);
+            add(of, plan);
+            of.require_nothing_unread();
+        } catch (const pbs::InputError& error) {
+            if (body.empty()) throw;
+            plan.left_out.push_back({body, error.what()});
+        }
+    };
+    for (std::size_t first = 0, last = 0; first < cases.size(); first = last) {
+        const nlohmann::json bodies = cases[first].value("bodies", nlohmann::json::array({cases[first].value("body", "")}));
+        // A list of bodies goes through the cases that have it, body by body.
+        for (last = first + 1;
+             cases[first].contains("bodies") && last < cases.size() && cases[last].value("bodies", nlohmann::json()) == bodies;)
+            ++last;
+        for (const std::string body : bodies)
+            for (std::size_t one = first; one < last; ++one) add_case(cases[one], body);
+    }
+    return plan;
+}
+
+}  // namespace experiments

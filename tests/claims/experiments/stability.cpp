@@ -1,0 +1,251 @@
+// C08 judged from records like those of the stability study: a single cell that diverges changes the verdict.
+
+#include "analysis/records/record_files.hpp"
+#include "analysis/verdicts/claims.hpp"
+#include "analysis/verdicts/measurement.hpp"
+#include "analysis/verdicts/verdict.hpp"
+#include "experiments/deformers/registry.hpp"
+#include "experiments/studies/stability/cell_table.hpp"
+#include "experiments/studies/stability/stability_cells.hpp"
+#include "pbs/solver/options.hpp"
+#include "tests/support/broken_solver.hpp"
+#include "tests/support/rounding_error.hpp"
+#include "tests/support/scratch_folder.hpp"
+#include "tests/support/study_claims.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace {
+
+using namespace experiments;
+using analysis::StabilityOutcome;
+using analysis::VerdictKind;
+
+MeasuredCell cell_of(const std::string& factor, StabilityOutcome outcome, bool as_published = true)
+{
+    MeasuredCell measured;
+    measured.cell.model = "pbs";
+    measured.cell.spec = default_spec("pbs");
+    measured.cell.factor = factor;
+    measured.cell.as_published = as_published;
+    measured.result.stability.outcome = outcome;
+    measured.result.steps.resize(1);
+    return measured;
+}
+
+VerdictKind verdict_on(const std::vector<MeasuredCell>& cells)
+{
+    const test_support::ScratchFolder folder;
+    const std::string file = folder / "measurements.csv";
+    stability_measurements(cells).write(file);
+    analysis::Records records;
+    records.measurements = analysis::measurements(file);
+    for (const auto& claim : analysis::parse_claims(analysis::read_text(PBS_CLAIMS_FILE), "claims.toml"))
+        if (claim.id == "C08") return analysis::judge(claim, records).kind;
+    ADD_FAILURE() << "no claim C08";
+    return VerdictKind::not_computable;
+}
+
+const std::vector<MeasuredCell> stable = {cell_of("time_step", StabilityOutcome::converged),
+                                          cell_of("time_step", StabilityOutcome::inverted),
+                                          cell_of("k_stretch", StabilityOutcome::bounded)};
+
+std::vector<MeasuredCell> altered(std::size_t index, StabilityOutcome outcome)
+{
+    std::vector<MeasuredCell> cells = stable;
+    cells[index].result.stability.outcome = outcome;
+    return cells;
+}
+
+TEST(StabilityVerdict, NoCellThatRunsAwayIsReproduced)
+{
+    EXPECT_EQ(verdict_on(stable), VerdictKind::reproduced);
+}
+
+TEST(StabilityVerdict, OneCellThatRunsAwayLeavesTheOtherSweeps)
+{
+    for (const StabilityOutcome outcome : {StabilityOutcome::diverged, StabilityOutcome::not_finite})
+        EXPECT_EQ(verdict_on(altered(0, outcome)), VerdictKind::reproduced_only_for);
+}
+
+TEST(StabilityVerdict, ACellInEverySweepIsNotReproduced)
+{
+    std::vector<MeasuredCell> cells = altered(0, StabilityOutcome::diverged);
+    cells[2].result.stability.outcome = StabilityOutcome::not_finite;
+    EXPECT_EQ(verdict_on(cells), VerdictKind::not_reproduced);
+}
+
+TEST(StabilityVerdict, CellsThatThePaperDoesNotClaimDoNotCount)
+{
+    std::vector<MeasuredCell> cells = stable;
+    cells.push_back(cell_of("printed_form", StabilityOutcome::not_finite, false));
+    EXPECT_EQ(verdict_on(cells), VerdictKind::reproduced);
+}
+
+std::vector<experiments::CellRow> rows_of_cells(const std::vector<MeasuredCell>& cells)
+{
+    std::vector<experiments::CellRow> rows;
+    for (const MeasuredCell& cell : cells) rows.push_back(experiments::cell_row(cell));
+    return rows;
+}
+
+// A map in which the printed sign looks stable, or in which an outcome never occurs, is meaningless: the study fails.
+TEST(StabilityVerdict, AMapThatCannotTellIsRefused)
+{
+    std::vector<MeasuredCell> cells;
+    for (const StabilityOutcome outcome : {StabilityOutcome::converged, StabilityOutcome::bounded, StabilityOutcome::inverted,
+                                           StabilityOutcome::diverged, StabilityOutcome::not_finite})
+        cells.push_back(cell_of("time_step", outcome));
+    cells.push_back(cell_of("printed_form", StabilityOutcome::diverged, false));
+    cells.back().cell.named = "sign";
+    EXPECT_EQ(blind_spots(rows_of_cells(cells)), "");
+    cells.back().result.stability.outcome = StabilityOutcome::converged;
+    EXPECT_NE(blind_spots(rows_of_cells(cells)), "");
+    cells.back().result.stability.outcome = StabilityOutcome::not_finite;
+    cells.erase(cells.begin() + 1);
+    EXPECT_EQ(blind_spots(rows_of_cells(cells)), "no cell is bounded\n");
+}
+
+// The quantities of a sweep have the order of claims.toml.
+TEST(StabilityVerdict, SharesAreOfTheCellsOfTheirSweep)
+{
+    const analysis::CsvTable shares = stability_measurements(altered(0, StabilityOutcome::diverged));
+    ASSERT_EQ(shares.rows(), 8);
+    EXPECT_EQ(analysis::text_of(rows_of(analysis::case_key_columns(), shares).front()), "limb, pbs, f32, factor time_step");
+    EXPECT_EQ(shares.integer(0, "n"), 2);
+    EXPECT_EQ(shares.number(0, "value"), 0.5);  // one of two
+    EXPECT_EQ(shares.number(1, "value"), 0.5);  // the inverted one
+    EXPECT_EQ(shares.number(2, "value"), 0.0);
+    EXPECT_EQ(shares.number(3, "value"), 0.0);
+    EXPECT_EQ(shares.number(4, "value"), 0.0);  // share for k_stretch
+}
+
+// Theory: none of n is at most 1 - 0.025^(1 / n), all of n at least that.
+TEST(StabilityVerdict, ReportedSharesHaveAnIntervalAndTheJudgedOneHasNone)
+{
+    const analysis::CsvTable shares = stability_measurements(stable);
+    for (int row = 0; row < shares.rows(); row += 4) EXPECT_EQ(shares.number(row, "high"), shares.number(row, "value"));
+    EXPECT_EQ(shares.text_at(5, "quantity"), "share_of_cells_inverted");  // none of one
+    // The probability 1 - p = 0.025 comes from logarithms of magnitude 9 at most, of ten roundings
+    // (tests/unit/analysis/statistics/statistics.cpp).
+    EXPECT_NEAR(shares.number(5, "high"), 0.975, test_support::rounding_error(10, 9.0 / 0.025));
+    EXPECT_EQ(shares.number(5, "low"), 0.0);
+}
+
+// A motion of 1e-4 diagonals per step exceeds the 1e-5 that count as rest, whether or not tets are inverted.
+TEST(StabilityVerdict, WhatMovesToTheEndIsNotAtRest)
+{
+    const auto moving = [](StabilityOutcome outcome, std::vector<double> motions) {
+        MeasuredCell cell = cell_of("time_step", outcome);
+        cell.result.steps.resize(motions.size());
+        for (std::size_t i = 0; i < motions.size(); ++i) cell.result.steps[i].motion = motions[i];
+        return cell;
+    };
+    const auto share = [](const MeasuredCell& cell) {
+        const analysis::CsvTable shares = stability_measurements({cell});
+        EXPECT_EQ(shares.text_at(2, "quantity"), "share_of_cells_in_motion");
+        return shares.number(2, "value");
+    };
+    const std::vector<double> still(12, 0.0), to_the_end(12, 1e-4);
+    std::vector<double> long_ago = still;
+    long_ago[0] = 1e-4;
+    for (const StabilityOutcome outcome : {StabilityOutcome::bounded, StabilityOutcome::inverted}) {
+        EXPECT_EQ(share(moving(outcome, to_the_end)), 1.0);
+        EXPECT_EQ(share(moving(outcome, still)), 0.0);
+        EXPECT_EQ(share(moving(outcome, long_ago)), 0.0);
+    }
+    EXPECT_EQ(share(moving(StabilityOutcome::diverged, to_the_end)), 0.0);  // counted as diverged
+}
+
+// Without jiggle the time step has no effect, so that sweep holds for any method and is not a value of the claim.
+TEST(StabilityVerdict, TimeStepsThatDoNotEnterAreNoFigure)
+{
+    for (const bool full : {false, true}) {
+        int controls = 0;
+        for (const StabilityCell& cell : pbs_cells(false, full)) {
+            EXPECT_FALSE(cell.factor == "time_step" && cell.as_published);
+            controls += cell.model == "pbs_no_memory";
+        }
+        EXPECT_GT(controls, 0);
+    }
+    for (const StabilityCell& cell : pbs_cells(true, false)) EXPECT_TRUE(cell.factor != "time_step" || cell.as_published);
+}
+
+// C08 from cells of a jiggling limb with a distorted initial state, with the correct solver and with broken ones. Reference:
+// - volume sign: each projection doubles the error that it should remove, so the limb diverges and the claim is not reproduced.
+// - nothing projected: flesh falls freely, g t^2 / 2 = 4.9 m in a second, and diverges; without jiggle nothing moves at all.
+// - one class dropped: a projection removes at most its own error, and the other classes still hold the body, so the verdict stays.
+// - multipliers forgotten: XPBD is not part of the claim; each of its projections still takes a share below one, so it is as stable as with
+//   them.
+
+using test_support::broken;
+using test_support::Broken;
+
+constexpr int still_steps = 100;  // one second
+
+std::vector<StabilityCell> chosen(const std::vector<StabilityCell>& cells, const std::string& factor)
+{
+    std::vector<StabilityCell> found;
+    for (const StabilityCell& cell : cells)
+        if (cell.factor == factor && cell.second_factor.empty() &&
+            (!options_if<pbs::PbsOptions>(cell.spec) || precision_of(cell) == "f32")) {
+            found.push_back(cell);
+            found.back().still_steps = still_steps;
+        }
+    EXPECT_FALSE(found.empty()) << factor;
+    return found;
+}
+
+VerdictKind verdict(bool jiggle, Broken how)
+{
+    std::vector<MeasuredCell> measured;
+    for (StabilityCell cell : chosen(pbs_cells(jiggle, false), "start")) {
+        options_of<pbs::PbsOptions>(cell.spec) = broken(options_of<pbs::PbsOptions>(cell.spec), how);
+        measured.push_back({cell, run_cell(cell)});
+    }
+    analysis::Records records;
+    const test_support::ScratchFolder folder;
+    stability_measurements(measured).write(folder / "measurements.csv");
+    records.measurements = analysis::measurements(folder / "measurements.csv");
+    return judge(test_support::claim("C08"), records).kind;
+}
+
+bool ran_away(const CellResult& result)
+{
+    return result.stability.outcome == StabilityOutcome::diverged || result.stability.outcome == StabilityOutcome::not_finite;
+}
+
+TEST(BrokenStability, TheSignTurnedRoundRunsAway)
+{
+    for (const Broken sound : {Broken::nothing, Broken::nothing_in_plain_order})
+        EXPECT_EQ(verdict(true, sound), VerdictKind::reproduced) << name_of(sound);
+    EXPECT_EQ(verdict(true, Broken::volume_sign), VerdictKind::not_reproduced);
+}
+
+TEST(BrokenStability, OneClassLessTakesNoBoundAway)
+{
+    for (const Broken how : {Broken::bind_dropped, Broken::stretch_dropped, Broken::volume_dropped})
+        EXPECT_EQ(verdict(true, how), VerdictKind::reproduced) << name_of(how);
+}
+
+TEST(BrokenStability, WithNothingProjectedFleshFallsAndWhatHasNoWeightStays)
+{
+    EXPECT_EQ(verdict(true, Broken::nothing_projected), VerdictKind::not_reproduced);
+    EXPECT_EQ(verdict(false, Broken::nothing_projected), VerdictKind::reproduced);
+}
+
+TEST(BrokenStability, ForgottenMultipliersRunAwayNowhereAndAreNoPartOfTheClaim)
+{
+    std::vector<MeasuredCell> measured;
+    for (StabilityCell cell : chosen(xpbd_cells(false), "start"))
+        for (const bool keep : {true, false}) {
+            options_of<pbs::XpbdOptions>(cell.spec).keep_multipliers = keep;
+            measured.push_back({cell, run_cell(cell)});
+            EXPECT_FALSE(ran_away(measured.back().result)) << cell.named << (keep ? "" : ", multipliers forgotten");
+        }
+    EXPECT_EQ(stability_measurements(measured).rows(), 0);
+}
+
+}  // namespace

@@ -1,0 +1,114 @@
+// C01 and C02 are judged from metrics.csv, frame by frame: if the frames of one body are altered, the verdicts change. Reference: the
+// project's own claims.toml; the frames are invented.
+
+#include "analysis/records/record_files.hpp"
+#include "analysis/verdicts/claims.hpp"
+#include "analysis/verdicts/verdict.hpp"
+#include "tests/support/broken_solver.hpp"
+#include "tests/support/study_claims.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace {
+
+using analysis::VerdictKind;
+
+// 200 frames of a clip around a mean change.
+analysis::CaseRecord clip(const std::string& scene, const std::string& deformer, double change_pct)
+{
+    analysis::CaseRecord record;
+    record.scene = scene;
+    record.deformer = deformer;
+    record.variant = "default";
+    record.iterations = deformer == "pbs" ? 24 : 0;
+    for (int frame = 0; frame < 200; ++frame) {
+        record.frame.push_back(frame);
+        record.time_s.push_back(0.04 * frame);
+        record.volume_change_pct.push_back(change_pct * (1.0 + 0.05 * (frame % 5 - 2)));
+        record.volume_abs_change_pct.push_back(std::abs(record.volume_change_pct.back()));
+        record.inverted_tets.push_back(0.0);
+    }
+    return record;
+}
+
+VerdictKind verdict(const std::string& id, const std::vector<analysis::CaseRecord>& cases)
+{
+    const auto claims = analysis::parse_claims(analysis::read_text(PBS_CLAIMS_FILE), PBS_CLAIMS_FILE);
+    const auto claim = std::find_if(claims.begin(), claims.end(), [&](const auto& one) { return one.id == id; });
+    analysis::Records records;
+    records.cases = cases;
+    return judge(*claim, records).kind;
+}
+
+TEST(VolumeVerdict, FourteenPerCentIsAMeanLoss)
+{
+    EXPECT_EQ(verdict("C01", {clip("man_01_01", "lbs", -14.0), clip("lady_01_01", "lbs", -13.0)}), VerdictKind::reproduced);
+    EXPECT_EQ(verdict("C01", {clip("man_01_01", "lbs", -14.0), clip("frankie_01_01", "lbs", -8.0)}), VerdictKind::reproduced_only_for);
+    EXPECT_EQ(verdict("C01", {clip("man_01_01", "lbs", -6.0), clip("lady_01_01", "lbs", 6.0)}), VerdictKind::not_reproduced);
+}
+
+TEST(VolumeVerdict, HalfAPerCentIsHeldByEveryBodyOrNotByAll)
+{
+    EXPECT_EQ(verdict("C02", {clip("man_01_01", "pbs", -0.3), clip("lady_01_01", "pbs", 0.3)}), VerdictKind::reproduced);
+    EXPECT_EQ(verdict("C02", {clip("man_01_01", "pbs", -0.3), clip("lady_01_01", "pbs", -2.0)}), VerdictKind::reproduced_only_for);
+    EXPECT_EQ(verdict("C02", {clip("man_01_01", "pbs", -1.0), clip("lady_01_01", "pbs", -2.0)}), VerdictKind::not_reproduced);
+}
+
+// C01 is about blending: no defect of the solver may change its verdict, value by value and to the bit, while the values measured for the
+// solver change. A broken blend must change it. Reference: LBS does not depend on Algorithm 1; weights that bind every vertex to one bone
+// distort only the tets across the joint, so a twist loses less.
+
+using test_support::Broken;
+using test_support::claim;
+
+analysis::Records limb_twist(Broken how, const std::string& weights = "paper")
+{
+    const experiments::Scene scene = experiments::read_scene(
+        "limb_twist", {"character.vertices=400", "motion.frames=10", "output.frames_every=0", R"(reference.name="")",
+                       R"(deformers.use=["lbs", "pbs"])", "skinning.weights=\"" + weights + "\""});
+    experiments::StudyPlan plan;
+    plan.runs.push_back({.name = "limb_twist", .scene = broken(scene, how), .cost_s = 1.0});
+    return test_support::records_of(plan);
+}
+
+const std::vector<double>& volume_change_pct(const analysis::Records& records, const std::string& deformer)
+{
+    return std::find_if(records.cases.begin(), records.cases.end(), [&](const auto& one) { return one.deformer == deformer; })
+        ->volume_change_pct;
+}
+
+double mean_loss_pct(const analysis::Records& records)
+{
+    const std::vector<double>& change = volume_change_pct(records, "lbs");
+    return -std::accumulate(change.begin(), change.end(), 0.0) / static_cast<double>(change.size());
+}
+
+TEST(BrokenVolume, WhatIsSaidOfBlendingStays)
+{
+    const analysis::Records sound = limb_twist(Broken::nothing), plain = limb_twist(Broken::nothing_in_plain_order);
+    const analysis::Verdict whole = judge(claim("C01"), sound);
+    ASSERT_FALSE(whole.cases.empty());
+    for (const Broken how : test_support::every_broken) {
+        const bool in_plain_order = sound_beside(how) == Broken::nothing_in_plain_order;
+        const analysis::Records records = limb_twist(how);
+        const analysis::Verdict verdict = judge(claim("C01"), records);
+        EXPECT_EQ(verdict.kind, whole.kind) << name_of(how);
+        EXPECT_EQ(verdict.within, whole.within) << name_of(how);
+        EXPECT_EQ(verdict.cases.front().least, whole.cases.front().least) << name_of(how);
+        EXPECT_EQ(verdict.cases.front().most, whole.cases.front().most) << name_of(how);
+        EXPECT_EQ(volume_change_pct(records, "lbs"), volume_change_pct(sound, "lbs")) << name_of(how);
+        EXPECT_NE(volume_change_pct(records, "pbs"), volume_change_pct(in_plain_order ? plain : sound, "pbs")) << name_of(how);
+    }
+}
+
+TEST(BrokenVolume, ABlendByOneBoneLosesLess)
+{
+    const double own_pct = mean_loss_pct(limb_twist(Broken::nothing)), rigid_pct = mean_loss_pct(limb_twist(Broken::nothing, "rigid"));
+    EXPECT_GT(rigid_pct, 0.0);
+    EXPECT_LT(rigid_pct, own_pct);
+}
+
+}  // namespace

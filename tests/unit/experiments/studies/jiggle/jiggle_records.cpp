@@ -1,0 +1,241 @@
+// Reference: the definition of one-at-a-time variation, and the paper's own method (all masses 1, every vertex bound).
+
+#include "experiments/studies/jiggle/jiggle_records.hpp"
+#include "pbs/character/bodies.hpp"
+#include "pbs/character/overlap_and_jiggle.hpp"
+#include "pbs/solver/options.hpp"
+#include "tests/support/jiggle_responses.hpp"
+#include "tests/support/rounding_error.hpp"
+#include "tests/support/step_rounding.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace {
+
+using experiments::JiggleSetting;
+
+TEST(JiggleSettings, ChangeOneThingAtATimeAndHoldPairs)
+{
+    const auto settings = experiments::jiggle_settings();
+    ASSERT_EQ(settings.front(), JiggleSetting{});
+    for (const JiggleSetting& s : settings) {
+        const JiggleSetting base;
+        EXPECT_LE((s.k_stretch != base.k_stretch) + (s.time_step_s != base.time_step_s) + (s.iterations != base.iterations) +
+                      (s.masses != base.masses) + (s.k_bind != base.k_bind),
+                  1);
+    }
+    for (const int twice : {12, 24, 48, 96})
+        EXPECT_TRUE(std::any_of(settings.begin(), settings.end(), [&](const auto& s) { return s.iterations == twice / 2; })) << twice;
+}
+
+TEST(JiggleSettings, LooseFleshAndLumpedMassesAreNotThePapers)
+{
+    EXPECT_TRUE(experiments::is_of_the_paper({.k_stretch = 0.9, .time_step_s = 0.04, .iterations = 96}));
+    EXPECT_FALSE(experiments::is_of_the_paper({.k_bind = 0.0}));
+    EXPECT_FALSE(experiments::is_of_the_paper({.masses = pbs::Masses::lumped}));
+}
+
+TEST(JiggleSettings, LeaveGravityAsItIs)
+{
+    experiments::DeformerSpec spec = experiments::default_spec("pbs");
+    experiments::options_of<pbs::PbsOptions>(spec).gravity_m_s2 = {0.0, -9.81, 0.0};
+    const auto jiggling = experiments::options_of<pbs::PbsOptions>(experiments::jiggling(spec, {.iterations = 6}));
+    EXPECT_EQ(jiggling.gravity_m_s2, pbs::Vec3(0.0, -9.81, 0.0));
+    EXPECT_EQ(jiggling.iterations, 6);
+}
+
+// The values of C09 from invented responses. Reference: the ratios and ranks of the given frequencies.
+
+using experiments::MeasuredJiggle;
+using test_support::creeping;
+using test_support::swinging;
+
+std::vector<analysis::Measurement> of_quantity(const std::vector<MeasuredJiggle>& measured, const std::string& quantity)
+{
+    std::vector<analysis::Measurement> chosen;
+    for (const auto& measurement : experiments::jiggle_values("limb", measured))
+        if (measurement.quantity == quantity) chosen.push_back(measurement);
+    return chosen;
+}
+
+const char* const share = "share_of_settings_that_swing";
+const char* const half_step = "frequency_ratio_at_half_time_step";
+const char* const correlation = "rank_correlation_of_frequency_and_k_stretch";
+const char* const range = "frequency_ratio_over_k_stretch";
+
+TEST(JiggleFigures, WhatDoesNotSwingCountsInTheShare)
+{
+    const auto shares = of_quantity({swinging({}, 3.0), creeping({.iterations = 96}), creeping({.iterations = 48}),
+                                     swinging({.k_stretch = 0.5}, 4.0), creeping({.masses = pbs::Masses::lumped})},
+                                    share);
+    ASSERT_EQ(shares.size(), 1u);
+    EXPECT_DOUBLE_EQ(shares[0].value, 0.5);
+    EXPECT_EQ(shares[0].of, analysis::CaseKey{.body = "limb"});
+    EXPECT_EQ(shares[0].n, 4);
+}
+
+TEST(JiggleFigures, WhatDoesNotSwingHasNeitherFrequencyNorDamping)
+{
+    const auto measurements = experiments::jiggle_values("limb", {creeping({})});
+    ASSERT_EQ(measurements.size(), 2u);  // share, amplitude
+    EXPECT_EQ(measurements[0].value, 0.0);
+    EXPECT_EQ(measurements[1].quantity, "amplitude");
+    EXPECT_TRUE(experiments::jiggle_values("limb", {}).empty());
+}
+
+TEST(JiggleFigures, WhatBrokeDownHasNoAmplitude)
+{
+    MeasuredJiggle broken = creeping({});
+    broken.response.finished = false;
+    EXPECT_TRUE(of_quantity({broken}, "amplitude").empty());
+    EXPECT_EQ(of_quantity({broken}, share).size(), 1u);
+}
+
+TEST(JiggleFigures, OtherReadingsHaveTheirOwnDampingRatio)
+{
+    const std::vector<MeasuredJiggle> measured = {swinging({}, 3.0), swinging({.k_bind = 0.0}, 3.0),
+                                                  swinging({.masses = pbs::Masses::lumped}, 3.0)};
+    EXPECT_EQ(of_quantity(measured, "damping_ratio").size(), 1u);
+    EXPECT_EQ(of_quantity(measured, "damping_ratio_in_other_readings").size(), 2u);
+    EXPECT_DOUBLE_EQ(of_quantity(measured, share)[0].value, 1.0);
+}
+
+TEST(JiggleFigures, HalfTheStepIsOneFigureWithTheRangeOverAllHalvings)
+{
+    const auto ratios = of_quantity({swinging({}, 6.0), swinging({.time_step_s = 0.005}, 12.0), swinging({.time_step_s = 0.0025}, 27.0),
+                                     swinging({.time_step_s = 0.02}, 4.0), swinging({.iterations = 48}, 9.0)},
+                                    half_step);
+    ASSERT_EQ(ratios.size(), 1u);
+    EXPECT_DOUBLE_EQ(ratios[0].value, 12.0 / 6.0);
+    EXPECT_DOUBLE_EQ(ratios[0].low, 6.0 / 4.0);
+    EXPECT_DOUBLE_EQ(ratios[0].high, 27.0 / 12.0);
+    EXPECT_EQ(text_of(ratios[0].of), "limb, k_stretch 0.1, masses unit, iterations 24, time_step 0.01 s");
+    EXPECT_EQ(ratios[0].n, 3);
+}
+
+TEST(JiggleFigures, RatioOfTwiceTheIterationsHasTheEndsOfBothIntervals)
+{
+    const auto ratios = of_quantity({swinging({}, 6.0), swinging({.iterations = 48}, 9.0)}, "frequency_ratio_at_twice_iterations");
+    ASSERT_EQ(ratios.size(), 1u);
+    EXPECT_DOUBLE_EQ(ratios[0].value, 1.5);
+    // The ends, 1 -+ 0.1 times a frequency, go through three roundings each, and their ratio through one; the numbers here go through four.
+    EXPECT_NEAR(ratios[0].low, 1.5 * 0.9 / 1.1, test_support::rounding_error(2 * 3 + 1 + 4, 1.5 * 0.9 / 1.1));
+    EXPECT_NEAR(ratios[0].high, 1.5 * 1.1 / 0.9, test_support::rounding_error(2 * 3 + 1 + 4, 1.5 * 1.1 / 0.9));
+}
+
+// The correlation of ranks 1 to n is a sum of n products of differences from the mean over the sum of n squares, (n^3 - n) / 12. A
+// difference of at most n goes through three roundings of the running mean for each of the n ranks, and so do sums and squares.
+double correlation_error(int n)
+{
+    const double sum = n * (2.0 * 3.0 * n + 3.0) * double(n) * double(n);
+    return test_support::rounding_error(2.0 * sum, 12.0 / (std::pow(n, 3) - n)) + test_support::rounding_error(4, 1.0);
+}
+
+TEST(JiggleFigures, CorrelationIsOfRanksAndTakesTheLeastWithoutOne)
+{
+    std::vector<MeasuredJiggle> measured = {swinging({.k_stretch = 0.05}, 2.0), swinging({}, 3.0), swinging({.k_stretch = 0.2}, 50.0),
+                                            swinging({.k_stretch = 0.5}, 51.0)};
+    ASSERT_EQ(of_quantity(measured, correlation).size(), 1u);
+    EXPECT_DOUBLE_EQ(of_quantity(measured, correlation)[0].value, 1.0);
+    measured.push_back(swinging({.k_stretch = 1.0}, 1.0));
+    // The sum of squared differences of ranks is 20: 1 - 6 * 20 / (5 * 24).
+    EXPECT_NEAR(of_quantity(measured, correlation)[0].value, 0.0, correlation_error(5));
+    EXPECT_LT(of_quantity(measured, correlation)[0].low, 0.0);
+}
+
+// For any number of settings, rounding must neither move the correlation of a perfect order out of [-1, 1] nor the value out of its
+// interval.
+TEST(JiggleFigures, CorrelationOfAPerfectOrderIsOneAndInItsInterval)
+{
+    std::vector<MeasuredJiggle> measured;
+    for (int n = 1; n <= 12; ++n) {
+        measured.push_back(swinging({.k_stretch = 0.07 * n}, 1.0 + 0.1 * n));
+        for (const auto& measurement : of_quantity(measured, correlation)) {
+            EXPECT_LE(measurement.low, measurement.value) << n;
+            EXPECT_GE(measurement.high, measurement.value) << n;
+            EXPECT_LE(measurement.high, 1.0) << n;
+            EXPECT_NEAR(measurement.value, 1.0, correlation_error(n)) << n;
+        }
+    }
+}
+
+TEST(JiggleFigures, RangeIsOfTheEndsThatSwing)
+{
+    std::vector<MeasuredJiggle> measured = {swinging({}, 3.0), swinging({.k_stretch = 1.0}, 12.0), swinging({.k_stretch = 0.05}, 2.0),
+                                            swinging({.k_stretch = 0.5}, 4.0)};
+    ASSERT_EQ(of_quantity(measured, range).size(), 1u);
+    EXPECT_DOUBLE_EQ(of_quantity(measured, range)[0].value, 6.0);
+    measured[1] = creeping({.k_stretch = 1.0});
+    EXPECT_DOUBLE_EQ(of_quantity(measured, range)[0].value, 2.0);
+    EXPECT_EQ(text_of(of_quantity(measured, range)[0].of), "limb, k_stretch 0.05 to 0.5");
+    EXPECT_TRUE(of_quantity({swinging({}, 3.0)}, range).empty());
+}
+
+// Reference: necessary behaviour. Flesh that does not jiggle follows the bones; flesh without constraints stays behind, at rest; a jolt in
+// the opposite direction gives the mirror image.
+
+class JoltResponseOfLimb : public testing::Test {
+protected:
+    JoltResponseOfLimb()
+    {
+        options().precision = pbs::Precision::f64;
+        jolt.direction = pbs::Vec3::UnitX();
+        jolt.steps = 40;
+    }
+    pbs::PbsOptions& options() { return experiments::options_of<pbs::PbsOptions>(spec); }
+    experiments::JoltResponse response() const { return experiments::jolt_response(limb, spec, probe, jolt); }
+
+    pbs::Character limb = pbs::make_character({.body = "limb", .vertices = 400});
+    std::vector<int> probe = pbs::zone_contents(limb).pieces.front();
+    experiments::DeformerSpec spec = experiments::default_spec("pbs");
+    experiments::Jolt jolt;
+};
+
+TEST_F(JoltResponseOfLimb, NothingSwingsWithoutJiggle)
+{
+    options().jiggle.reset();
+    const auto still = response();
+    // Every step begins with LBS, so that two steps differ by their roundings alone.
+    const double rounding_m = 2.0 * test_support::step_rounding_m(test_support::two_bones_in(limb.mesh), options());
+    EXPECT_LT(still.peak_over_jolt, rounding_m / jolt.length_m);
+    EXPECT_FALSE(still.swing.found());
+}
+
+TEST_F(JoltResponseOfLimb, FreeFleshStaysBehind)
+{
+    options().k_stretch = options().k_volume = options().k_bind = 0.0;
+    options().jiggle = pbs::Jiggle{.k_stretch = 0.0};
+    const auto free = response();
+    const double rounding_m = test_support::mean_error(probe.size(), jolt.length_m);
+    for (const double excursion_m : free.excursion_m) EXPECT_NEAR(excursion_m, -jolt.length_m, rounding_m);
+    EXPECT_EQ(free.left_over_peak, 1.0);  // all excursions are equal
+    EXPECT_EQ(free.overshoot_over_jolt, 0.0);
+}
+
+// The motion from step to step does not depend on time (Algorithm 1, lines 7, 8 and 16). A quarter of a time step and four times a velocity
+// are exact.
+TEST_F(JoltResponseOfLimb, WithoutWeightTheSeriesIsTheSameAtEveryTimeStep)
+{
+    spec = experiments::jiggling(spec, {});
+    const auto slow = response();
+    jolt.time_step_s /= 4.0;
+    const auto quick = response();
+    EXPECT_EQ(quick.excursion_m, slow.excursion_m);
+}
+
+// The bones hold the skin: it swings about the place to which they move it, and comes to rest.
+TEST_F(JoltResponseOfLimb, HeldFleshSwingsAndCalmsDown)
+{
+    spec = experiments::jiggling(spec, {});
+    const auto held = response();
+    EXPECT_TRUE(held.finished);
+    EXPECT_GT(held.peak_over_jolt, 0.05);
+    EXPECT_LT(held.peak_over_jolt, 1.0);
+    EXPECT_LT(held.left_over_peak, 0.5);
+    EXPECT_LT(held.speed_growth, 1.0);
+}
+
+}  // namespace

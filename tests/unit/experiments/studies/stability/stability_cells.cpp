@@ -1,0 +1,248 @@
+// Reference: the requirements on a sweep; a cell counts for the claim if its base and all its factors are the paper's.
+
+#include "experiments/deformers/registry.hpp"
+#include "experiments/studies/stability/cell_run.hpp"
+#include "experiments/studies/stability/cell_table.hpp"
+#include "experiments/studies/stability/stability_cells.hpp"
+#include "pbs/author/author_solver.hpp"
+#include "pbs/solver/options.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace {
+
+using namespace experiments;
+
+StabilityCell pbs_cell()
+{
+    StabilityCell cell;
+    cell.spec = default_spec("pbs");
+    return cell;
+}
+
+Sweep iterations(bool as_published)
+{
+    return {"iterations",
+            "1",
+            {24.0, 1.0},
+            {4.0},
+            [](StabilityCell& cell, double n) { options_of<pbs::PbsOptions>(cell.spec).iterations = int(n); },
+            as_published};
+}
+
+Sweep mass_ratio(bool as_published)
+{
+    return {"mass_ratio", "1", {10.0, 100.0}, {}, [](StabilityCell& cell, double ratio) { cell.mass_ratio = ratio; }, as_published};
+}
+
+TEST(CellSweep, HasItsValuesInOrder)
+{
+    const auto quick = cells_of(iterations(true), pbs_cell(), false), full = cells_of(iterations(true), pbs_cell(), true);
+    ASSERT_EQ(quick.size(), 2u);
+    ASSERT_EQ(full.size(), 3u);
+    EXPECT_EQ(options_of<pbs::PbsOptions>(full[1].spec).iterations, 4);
+    EXPECT_EQ(full[1].value, 4.0);
+}
+
+TEST(CellSweep, AMapIsAsPublishedWhereAllOfItIs)
+{
+    for (const bool base : {false, true})
+        for (const bool rows : {false, true})
+            for (const bool columns : {false, true}) {
+                StabilityCell from = pbs_cell();
+                from.as_published = base;
+                const auto cells = cells_of_map(iterations(rows), mass_ratio(columns), from, false);
+                ASSERT_EQ(cells.size(), 4u);
+                for (const StabilityCell& cell : cells) EXPECT_EQ(cell.as_published, base && rows && columns);
+                EXPECT_EQ(options_of<pbs::PbsOptions>(cells[1].spec).iterations, 1);
+                EXPECT_EQ(cells[1].mass_ratio, 100.0);
+            }
+}
+
+// --resume compares to_json; setting_of identifies shared undisturbed states.
+TEST(CellSweep, ARecordTellsWhatACellStandsForAndItsSettingDoesNot)
+{
+    StabilityCell cell = cells_of_map(iterations(true), mass_ratio(true), pbs_cell(), false).front();
+    const auto expect_on_record_alone = [&](auto change) {
+        StabilityCell changed = cell;
+        change(changed);
+        EXPECT_NE(to_json(changed), to_json(cell));
+        EXPECT_EQ(setting_of(changed), setting_of(cell));
+    };
+    expect_on_record_alone([](StabilityCell& of) { of.as_published = !of.as_published; });
+    expect_on_record_alone([](StabilityCell& of) { of.unit = std::string("s"); });
+    expect_on_record_alone([](StabilityCell& of) { of.second_factor = std::string("twist"); });
+    expect_on_record_alone([](StabilityCell& of) { of.second_unit = std::string("deg"); });
+    StabilityCell elsewhere = cell;
+    elsewhere.disturbance.angle_deg += 1.0;
+    EXPECT_NE(setting_of(elsewhere), setting_of(cell));
+}
+
+// The deformers that are compared with PBS in the study of stability. Reference: the list of methods and of extreme cases that the study
+// must have, written down here again; and settings beyond the limit of a method, which must be seen to fail.
+
+using analysis::StabilityOutcome;
+
+const std::set<std::string> minimising_kinds = {"quasi_newton", "vbd", "xpbd_neo_hookean", "projective_dynamics"};
+const std::set<std::string> other_kinds = {"delta_mush", "direct_delta_mush", "pbs_author"};
+
+std::set<std::string> factors_of(const std::vector<StabilityCell>& cells, const std::string& model)
+{
+    std::set<std::string> factors;
+    for (const StabilityCell& cell : cells)
+        if (cell.model == model) factors.insert(cell.factor);
+    return factors;
+}
+
+StabilityCell cell_with(const std::string& model, const std::string& factor, double value)
+{
+    for (const StabilityCell& cell : other_cells(true))
+        if (cell.model == model && cell.factor == factor && cell.value == value) return cell;
+    ADD_FAILURE() << "no cell of " << model << " with " << factor << " = " << value;
+    return {};
+}
+
+StabilityCell start_of(const std::string& model, Start start, const std::string& setting, double value)
+{
+    for (const StabilityCell& cell : start_cells(true))
+        if (cell.model == model && cell.disturbance.start == start && cell.second_factor == setting &&
+            (setting.empty() ? cell.disturbance.axis == pbs::Vec3::UnitX() : cell.second_value == value))
+            return cell;
+    ADD_FAILURE() << "no broken start of " << model << " with " << setting << " = " << value;
+    return {};
+}
+
+TEST(OtherCells, EveryDeformerHasEveryExtremeCase)
+{
+    std::set<std::string> kinds = minimising_kinds;
+    kinds.insert(other_kinds.begin(), other_kinds.end());
+    for (const bool full : {false, true}) {
+        const std::vector<StabilityCell> cells = other_cells(full);
+        std::set<std::string> models;
+        for (const StabilityCell& cell : cells) models.insert(cell.model);
+        EXPECT_EQ(models, kinds);
+        for (const std::string& model : kinds) {
+            const std::set<std::string> factors = factors_of(cells, model);
+            for (const char* factor : {"time_step", "twist", "bend_in_one_step", "teleport", "slivers_height_kept", "needles_edge_kept"})
+                EXPECT_TRUE(factors.count(factor)) << model << ", " << factor;
+            EXPECT_EQ(factors.count("poisson"), minimising_kinds.count(model)) << model;
+        }
+        EXPECT_TRUE(factors_of(cells, "pbs_author").count("own_time_step"));
+    }
+}
+
+TEST(OtherCells, NoneOfThemIsJudged)
+{
+    for (const StabilityCell& cell : other_cells(true)) EXPECT_FALSE(cell.as_published) << cell.model;
+    for (const StabilityCell& cell : start_cells(true)) EXPECT_FALSE(cell.as_published) << cell.model;
+}
+
+// Each minimising deformer has each broken start, and each other deformer states why it has none.
+TEST(OtherCells, EveryDeformerHasItsBrokenStarts)
+{
+    for (const bool full : {false, true}) {
+        std::set<std::pair<std::string, Start>> found, expected;
+        for (const StabilityCell& cell : start_cells(full))
+            if (cell.second_factor.empty()) found.insert({cell.model, cell.disturbance.start});
+        for (const std::string& model : minimising_kinds)
+            for (const Start start : {Start::flattened, Start::mirrored, Start::random, Start::point}) expected.insert({model, start});
+        EXPECT_EQ(found, expected);
+    }
+    std::set<std::string> without;
+    for (const StartRow& row : starts_not_applicable()) {
+        EXPECT_EQ(row.outcome, StartOutcome::not_applicable);
+        EXPECT_FALSE(row.reason.empty()) << row.model;
+        without.insert(row.model);
+    }
+    EXPECT_EQ(without, other_kinds);
+}
+
+// One cell stands for all time steps of a method, which is right only if no time step changes a bit.
+TEST(OtherCells, AMethodWithOneTimeStepCellUsesNone)
+{
+    for (const StabilityCell& cell : other_cells(false)) {
+        if (cell.factor != "time_step") continue;
+        EXPECT_EQ(cell.named, "not_used") << cell.model;
+        const auto after_a_step = [&](double time_step_s) {
+            StabilityBody body(cell);
+            const auto driven = make_driven_body(cell, body.character());
+            driven->advance(body.drive(0), time_step_s);
+            driven->advance(body.drive(1), time_step_s);
+            return driven->positions();
+        };
+        EXPECT_EQ((after_a_step(1e-4) - after_a_step(1.0)).cwiseAbs().maxCoeff(), 0.0) << cell.model;
+    }
+}
+
+// The method does not step a pose that equals the last one, so that its flesh would be at rest by definition.
+TEST(OtherCells, PbsAuthorIsSteppedWhileItsPoseIsStill)
+{
+    StabilityCell cell = cell_with("pbs_author", "teleport", 10.0);
+    cell.still_steps = 12;
+    const auto moves_in_the_third_step = [&] { return run_cell(cell).steps.at(2).motion > 1e-6; };
+    EXPECT_TRUE(moves_in_the_third_step());
+    cell.nudge_m = 0.0;
+    EXPECT_FALSE(moves_in_the_third_step());
+}
+
+// With gravity the published code's own time step matters: a step of a second lets flesh fall by g h^2 = 9.8 m per frame.
+TEST(OtherCells, TheOwnTimeStepOfPbsAuthorMatters)
+{
+    const auto reach = [](double time_step_s) {
+        StabilityCell cell = cell_with("pbs_author", "own_time_step", time_step_s);
+        cell.still_steps = 12;
+        return run_cell(cell).steps.back().reach;
+    };
+    EXPECT_GT(reach(1.0), 10.0 * reach(1e-3));
+}
+
+// Negative control: Chebyshev's weights for a spectral radius above that of the sweeps.
+TEST(OtherCells, ChebyshevsWeightsBeyondTheirLimitAreSeenToFail)
+{
+    const StabilityOutcome within = run_cell(cell_with("vbd", "chebyshev_rho", 0.9)).stability.outcome;
+    EXPECT_EQ(within, StabilityOutcome::converged);
+    const StabilityOutcome beyond = run_cell(cell_with("vbd", "chebyshev_rho", 0.9999)).stability.outcome;
+    EXPECT_TRUE(beyond == StabilityOutcome::diverged || beyond == StabilityOutcome::not_finite);
+}
+
+// Negative control: time steps beyond 0.8 of the time in which the stiffness of a vertex moves its mass.
+TEST(OtherCells, TimeStepsOfXpbdBeyondTheirLimitAreSeenToFail)
+{
+    const StabilityOutcome within = run_cell(cell_with("xpbd_neo_hookean", "step_of_stiffness", 0.8)).stability.outcome;
+    EXPECT_EQ(within, StabilityOutcome::converged);
+    const StabilityOutcome beyond = run_cell(cell_with("xpbd_neo_hookean", "step_of_stiffness", 16.0)).stability.outcome;
+    EXPECT_TRUE(beyond == StabilityOutcome::diverged || beyond == StabilityOutcome::not_finite);
+}
+
+TEST(BrokenStart, IsReachedBySoundSettings)
+{
+    for (const std::string& model : minimising_kinds) {
+        const StartRow row = run_broken_start(start_of(model, Start::flattened, "", 0.0), 512);
+        EXPECT_EQ(row.outcome, StartOutcome::reached) << model;
+        ASSERT_TRUE(row.iterations_until_reached) << model;
+        EXPECT_GT(*row.iterations_until_reached, 1) << model;
+        EXPECT_LE(*row.from_own_result_pct, reached_within_pct) << model;
+    }
+}
+
+// One iteration leaves a body where it began.
+TEST(BrokenStart, IsNotReachedByTooFewIterations)
+{
+    const StartRow row = run_broken_start(start_of("vbd", Start::mirrored, "", 0.0), 2);
+    EXPECT_EQ(row.outcome, StartOutcome::not_reached);
+    EXPECT_FALSE(row.iterations_until_reached);
+    EXPECT_GT(*row.from_own_result_pct, reached_within_pct);
+}
+
+TEST(BrokenStart, DivergesBeyondTheLimitOfTheMethod)
+{
+    for (const auto& [model, setting, value] :
+         {std::tuple("vbd", "chebyshev_rho", 0.9999), std::tuple("xpbd_neo_hookean", "step_of_stiffness", 16.0)}) {
+        const StartRow row = run_broken_start(start_of(model, Start::flattened, setting, value), 512);
+        EXPECT_TRUE(row.outcome == StartOutcome::diverged || row.outcome == StartOutcome::not_finite) << model;
+    }
+}
+
+}  // namespace
