@@ -132,11 +132,7 @@ TEST(GuardedReading, AFileThatShrinksWhileItIsMapped)
     EXPECT_EQ(message_of(read, path), path + ": damaged: the reader broke down on it: Bus error");
 }
 
-}  // namespace
-
 // Reference: the state of this process's own children.
-
-namespace {
 
 TEST(Process, IsGoneOnceItHasEndedThoughNobodyHasAskedHow)
 {

@@ -169,11 +169,7 @@ TEST(Frame, AsksForIndicesAndPlacesAlone)
     EXPECT_NO_THROW(pbs::check_frame("m.vtu", with(unit_tet(), {{0.2, 0.2, 0.5}}, {0, 1, 2, 2})));
 }
 
-}  // namespace
-
 // Reference: two or three tets, of which each vertex and each face is counted by hand.
-
-namespace {
 
 // The unit tet with further points and one further tet.
 pbs::TetMesh unit_tet_and(const std::vector<pbs::Vec3>& points, const std::array<int, 4>& tet)

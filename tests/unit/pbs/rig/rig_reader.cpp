@@ -146,13 +146,7 @@ TEST(RigReader, RemarksReachTheCaller)
     EXPECT_EQ(read_rig(folder.file("a.gltf", gltf.text())).remarks.size(), 1u);
 }
 
-}  // namespace
-
 // Reference: the definition. The weights of a point are those of its joints divided by their sum.
-
-namespace {
-
-using namespace pbs;
 
 Weights weights_of_one_point(const std::vector<JointShare>& shares, std::vector<std::string>& remarks)
 {
