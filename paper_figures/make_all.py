@@ -1,8 +1,8 @@
 """Deletes the figures of DIR and draws those of figures.toml anew from its records. A figure whose records are missing or stale is not
-drawn; its reason is printed and the exit status is 1. A figure whose study has no folder in DIR was not requested: it is named and left
-out, and the status stays 0. Status 0 therefore means that every figure of the studies in DIR was drawn. If DIR holds no study at all, the
-status is 1. If only some of the planned runs have records, the figure is drawn and its caption names the others. If a file cannot be
-written, it is named and the exit status is 2.
+drawn; its reason is printed and the exit status is 1. A figure whose study has no folder in DIR, or whose run the quick form of its study
+does not have, was not requested: it is named and left out, and the status stays 0. Status 0 therefore means that every figure of the studies
+in DIR was drawn. If DIR holds no study at all, the status is 1. If only some of the planned runs have records, the figure is drawn and its
+caption names the others. If a file cannot be written, it is named and the exit status is 2.
 
     xvfb-run -a python3 paper_figures/make_all.py results/reproduce
     xvfb-run -a python3 paper_figures/make_all.py results/reproduce --only work_precision --into elsewhere
@@ -24,8 +24,14 @@ def delete(name, folder):
         (folder / f"{name}.{ending}").unlink(missing_ok=True)
 
 
-def absent_study(entry, results):
-    return next((study for study in entry.studies() if not (results / study).is_dir()), None)
+def not_asked_for(entry, results):
+    """Why the figure was not requested: its study was not run, or the quick form of the study does not plan its run."""
+    for study, *below in (pattern.split("/") for pattern in entry.records):
+        if not (results / study).is_dir():
+            return f"the study {study} was not run"
+        if len(below) == 2 and "*" not in below[0] and not entries.is_in_form(results / study, below[0]):
+            return f"the quick form of the study {study} has no run {below[0]}"
+    return None
 
 
 def draw(entry, results, folder):
@@ -61,9 +67,9 @@ def main(results, only=None, folder=None):
         if only not in (None, entry.name):
             continue
         delete(entry.name, folder)
-        study = absent_study(entry, results)
-        if study and not only:
-            print(f"figures: {entry.name} left out: the study {study} was not run")
+        reason = not_asked_for(entry, results)
+        if reason and not only:
+            print(f"figures: {entry.name} left out: {reason}")
         else:
             drawn.append(draw(entry, results, folder))
     return 0 if all(drawn) else 1

@@ -4,7 +4,7 @@ if(NOT TARGET pbskin)
 endif()
 
 # Tests that load deal.II at run time, in the module pbskin_fem.
-set(with_the_module experiments/deformers/fem/fem_module experiments/deformers/flesh_limits experiments/deformers/vbd_limit
+set(with_the_module experiments/deformers/fem/fem_module experiments/deformers/flesh_limits
     experiments/studies/convergence/convergence_case
     experiments/studies/ensemble/ensemble experiments/studies/error_split/error_split experiments/studies/fit/fit
     experiments/studies/shared/posed_reference experiments/studies/stability/broken_fem_starts experiments/broken_bulge)
@@ -25,7 +25,7 @@ pbs_tests(unit experiments BLAS
         experiments/command_line
     FILES experiments/deformers/fem/fem_module
     EXCEPT experiments/deformers/fem ${left_out}
-    ALONE experiments/deformers/vbd experiments/run/limb_stations experiments/run/reference_error_bar
+    ALONE experiments/run/frame_measurement experiments/run/reference_error_bar
     LIBRARIES experiments)
 pbs_tests(unit experiments_studies BLAS FOLDERS experiments/studies EXCEPT ${left_out}
     ALONE experiments/studies/ambiguity/reading experiments/studies/ambiguity/reading_values experiments/studies/convergence/starts

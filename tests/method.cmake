@@ -12,12 +12,12 @@ pbs_tests(unit pbs_geometry FOLDERS pbs/geometry
     ALONE pbs/geometry/topology
     LIBRARIES pbs_method)
 pbs_tests(unit pbs_skinning FOLDERS pbs/skinning pbs/constraints
-    ALONE pbs/skinning/bone_binding pbs/skinning/pose_path pbs/skinning/root_frame pbs/constraints/volume_printed
-        pbs/constraints/region_volume
+    ALONE pbs/skinning/blend pbs/skinning/delta_mush pbs/skinning/pose pbs/skinning/pose_path pbs/skinning/weights
+        pbs/constraints/contract pbs/constraints/region_volume pbs/constraints/volume_printed
     LIBRARIES pbs_method)
 pbs_tests(unit pbs_solver FOLDERS pbs/packed pbs/solver pbs/author
-    ALONE pbs/solver/batched/batched_constraints pbs/solver/batched/batched_projection pbs/packed/groups
-        pbs/packed/vertex_order pbs/solver/constraint_set pbs/solver/poses_solver pbs/solver/reordered_projection
+    ALONE pbs/solver/batched/batch_program pbs/solver/batched/batched_projection pbs/packed/groups
+        pbs/packed/vertex_order pbs/solver/constraint_set pbs/solver/pbs_solver pbs/solver/projection
         pbs/solver/xpbd_solver
     LIBRARIES pbs_method ${threads})
 pbs_tests(unit analysis FOLDERS analysis

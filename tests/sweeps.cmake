@@ -1,9 +1,7 @@
 # Tests of parameter sweeps; only ./check --long runs those on a Slurm cluster.
-foreach(test atomic_text sweep_file sweep_merge sweep_runs sweep_start)
-    add_test(NAME unit/experiments/sweeps/${test}
-        COMMAND ${PBS_TEST_PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/unit/experiments/sweeps/${test}_test.py)
-    set_tests_properties(unit/experiments/sweeps/${test} PROPERTIES LABELS unit TIMEOUT 120)
-endforeach()
+add_test(NAME unit/experiments/sweeps/sweep
+    COMMAND ${PBS_TEST_PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/unit/experiments/sweeps/sweep_test.py)
+set_tests_properties(unit/experiments/sweeps/sweep PROPERTIES LABELS unit TIMEOUT 240)
 
 if(TARGET pbskin)
     add_test(NAME robustness/experiments/slurm_sweep

@@ -1,8 +1,7 @@
-// pbskin bench [--mesh TETS] [--threads N] [--json]: times a step and every deformer, and compares them with plain loops in the same run
-// and with the limits of the machine.
+// pbskin bench [--mesh TETS] [--threads N] [--json]: times a step and every deformer, and compares them with plain loops in the same run.
 #include "analysis/records/record_files.hpp"
 #include "experiments/command_line/verbs.hpp"
-#include "experiments/studies/bench/bench.hpp"
+#include "experiments/studies/timing/bench.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 #include <CLI/CLI.hpp>
@@ -40,8 +39,8 @@ int bench(BenchArguments arguments)
     for (const std::string& size : arguments.sizes) arguments.options.sizes.push_back(parse_size(size));
     std::sort(arguments.options.sizes.begin(), arguments.options.sizes.end());  // so that the peak of memory belongs to the latest
     const std::string file = writable_record(arguments.folder);
-    const BenchRecord record = run_bench(arguments.options);
-    const std::string json = bench_json(record).dump(2) + "\n";
+    const nlohmann::json record = run_bench(arguments.options);
+    const std::string json = record.dump(2) + "\n";
     if (!file.empty()) analysis::write_text_atomically(file, json);
     fmt::print("{}", arguments.json ? json : bench_table(record));
     return exit_finished;

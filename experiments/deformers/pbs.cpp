@@ -1,10 +1,11 @@
-// The paper's two-layered deformer: LBS, then position based dynamics (Algorithm 1).
-#include "experiments/deformers/deformer_options.hpp"
-#include "experiments/deformers/registry.hpp"
-#include "experiments/settings/option_fields.hpp"
+// LBS, then position based dynamics: the paper's two-layered deformer (Algorithm 1), XPBD, which costs what PBS costs (n iterations, or n
+// substeps with one iteration each) and whose jiggling vertices are those of PBS, and the code that the paper's first author published.
+#include "experiments/deformers/deformer_kind.hpp"
+#include "pbs/author/author_solver.hpp"
 #include "pbs/geometry/cost.hpp"
 #include "pbs/skinning/blend.hpp"
 #include "pbs/solver/pbs_solver.hpp"
+#include "pbs/solver/xpbd_solver.hpp"
 
 #include <algorithm>
 #include <optional>
@@ -12,27 +13,56 @@
 namespace experiments {
 namespace {
 
-class PbsDeformer : public Deformer {
+// Blends, and projects what LBS leaves. The positions are the solver's.
+template <typename Options, typename Solver>
+class ProjectingDeformer : public Deformer {
 public:
-    explicit PbsDeformer(const pbs::PbsOptions& options) : options_(options) {}
+    explicit ProjectingDeformer(const Options& options) : options_(options) {}
+    void reset(const pbs::Character& character) override
+    {
+        character_ = &character;
+        skinning_.emplace(character.mesh.rest, character.weights);
+        const std::vector<bool> zone = options_.jiggle ? pbs::jiggle_zone(character.binding) : std::vector<bool>{};
+        solver_ = std::make_unique<Solver>(character.mesh, character.binding.distance, zone, options_);
+    }
+    pbs::StepSummary advance(const pbs::Pose& pose, double dt_s) override
+    {
+        const pbs::Stopwatch stopwatch;
+        skinning_->linear(pose, lbs_);
+        pbs::StepSummary summary = solver_->advance(lbs_, pbs::posed_bind_points(character_->binding, pose), dt_s);
+        summary.seconds = stopwatch.seconds();
+        summary.work.vertex_visits += lbs_.rows();
+        return summary;
+    }
+    const pbs::Positions& positions() const override { return solver_->positions(); }
+    bool has_memory() const override { return bool(options_.jiggle); }
 
-    void reset(const pbs::Character& character) override;
+protected:
+    Options options_;
+    const pbs::Character* character_ = nullptr;
+    std::optional<pbs::BlendSkinning<double>> skinning_;
+
+private:
+    std::unique_ptr<Solver> solver_;
+    pbs::Positions lbs_;
+};
+
+class PbsDeformer : public ProjectingDeformer<pbs::PbsOptions, pbs::PbsSolver> {
+public:
+    using ProjectingDeformer::ProjectingDeformer;
     pbs::StepSummary advance(const pbs::Pose& pose, double dt_s) override;
     // With several threads, on a mesh whose steps cannot be shared among them, frames are projected in parallel, sixteen per thread. The
     // results are equal to the bit to those of single frames.
     void foresee(const std::vector<pbs::Pose>& poses) override;
-    const pbs::Positions& positions() const override { return ahead_ ? ahead_->positions(done_ahead_ - 1) : solver_->positions(); }
+    const pbs::Positions& positions() const override
+    {
+        return ahead_ ? ahead_->positions(done_ahead_ - 1) : ProjectingDeformer::positions();
+    }
     bool has_memory() const override { return options_.jiggle || options_.lbs_entry == pbs::LbsEntry::increment; }
 
 private:
     bool works_ahead() const;
     pbs::StepSummary advance_ahead(double dt_s);
-
-    pbs::PbsOptions options_;
-    const pbs::Character* character_ = nullptr;
-    std::optional<pbs::BlendSkinning<double>> skinning_;
-    std::unique_ptr<pbs::PbsSolver> solver_;
-    pbs::Positions lbs_;
 
     std::vector<pbs::Pose> foreseen_;            // coming poses; empty: they are not known, or working ahead does not pay
     std::size_t next_ = 0;                       // the next one of them
@@ -40,14 +70,6 @@ private:
     std::vector<pbs::StepSummary> steps_ahead_;  // of these frames
     int done_ahead_ = 0;
 };
-
-void PbsDeformer::reset(const pbs::Character& character)
-{
-    character_ = &character;
-    skinning_.emplace(character.mesh.rest, character.weights);
-    const std::vector<bool> zone = options_.jiggle ? pbs::jiggle_zone(character.binding) : std::vector<bool>{};
-    solver_ = std::make_unique<pbs::PbsSolver>(character.mesh, character.binding.distance, zone, options_);
-}
 
 bool PbsDeformer::works_ahead() const
 {
@@ -97,39 +119,139 @@ pbs::StepSummary PbsDeformer::advance(const pbs::Pose& pose, double dt_s)
 {
     if (next_ < foreseen_.size()) return advance_ahead(dt_s);
     ahead_.reset();
-    const pbs::Stopwatch stopwatch;
-    skinning_->linear(pose, lbs_);
-    pbs::StepSummary summary = solver_->advance(lbs_, pbs::posed_bind_points(character_->binding, pose), dt_s);
-    summary.seconds = stopwatch.seconds();
-    summary.work.vertex_visits += lbs_.rows();
-    return summary;
+    return ProjectingDeformer::advance(pose, dt_s);
+}
+
+using pbs::XpbdOptions;
+using XpbdDeformer = ProjectingDeformer<XpbdOptions, pbs::XpbdSolver>;
+
+// Position based skinning as in the code that the paper's first author published in 2018 (pbs/author/author_solver.hpp). pbs_author.md
+// lists where that code departs from the paper; `pbskin explain pbs_author` prints it. It has its own weights, whatever those of the scene
+// are, and its own time step, whatever the frame rate.
+class PbsAuthorDeformer : public Deformer {
+public:
+    explicit PbsAuthorDeformer(const pbs::AuthorOptions& options) : options_(options) {}
+    void reset(const pbs::Character& character) override
+    {
+        solver_.emplace(character.mesh, character.skeleton, character.binding, options_);
+    }
+    pbs::StepSummary advance(const pbs::Pose& pose, double /*dt_s*/) override { return solver_->advance(pose); }
+    const pbs::Positions& positions() const override { return solver_->positions(); }
+    bool has_memory() const override { return true; }
+
+private:
+    pbs::AuthorOptions options_;
+    std::optional<pbs::AuthorSolver> solver_;
+};
+
+// Both kinds of XPBD share one table of a scene; iterations, gravity and jiggle are those of PBS.
+void read_with_pbs(const SceneValues& values, const std::string& /*table*/, XpbdOptions& options, DeformerSpec& spec)
+{
+    options.iterations = values.integer("pbs.iterations");
+    options.gravity_m_s2 = read_option<pbs::Vec3>(values, "pbs.gravity_m_s2");
+    options.jiggle = values.has_table("pbs.jiggle");
+    if (options.jiggle) spec.variant = "jiggle";
+}
+
+void read_small_steps(const SceneValues& values, const std::string& table, XpbdOptions& options, DeformerSpec& spec)
+{
+    read_with_pbs(values, table, options, spec);
+    options.substeps = std::max(options.iterations, 1);
+    options.iterations = 1;
+}
+
+DeformerKind kind_of_xpbd(const std::string& name, const std::string& meaning, CheckOptions<XpbdOptions> check)
+{
+    const auto fields =
+        OptionFields<XpbdOptions>("xpbd")
+            .add("young_pa", &XpbdOptions::young_pa,
+                 {.unit = "Pa", .lowest = above_zero, .meaning = "Young's modulus of xpbd and xpbd_small_steps"})
+            .add("poisson", &XpbdOptions::poisson,
+                 {.lowest = 0.25, .highest = 0.499999, .meaning = "Poisson's ratio; springs alone have 1/4, volume constraints raise it"})
+            .add("density_kg_m3", &XpbdOptions::density_kg_m3, {.unit = "kg/m^3", .lowest = above_zero, .meaning = "density, lumped"})
+            .add("order", &XpbdOptions::order,
+                 {.meaning =
+                      "order of projection within a class: plain is the order of the file; ordered and grouped are those of pbs, which "
+                      "project sixteen constraints at once"})
+            .add("precision", &XpbdOptions::precision, {.meaning = "floating point of the projections and their multipliers"})
+            .record("iterations", &XpbdOptions::iterations)
+            .record("substeps", &XpbdOptions::substeps)
+            .record("gravity_m_s2", &XpbdOptions::gravity_m_s2)
+            .record("jiggle", &XpbdOptions::jiggle)
+            .record("keep_multipliers", &XpbdOptions::keep_multipliers);
+    DeformerKind kind = kind_of<XpbdDeformer>(name, meaning, fields, check);
+    kind.traits = [](const DeformerSpec& spec) {
+        const auto& options = options_of<XpbdOptions>(spec);
+        DeformerTraits traits = traits_from(options, spec);
+        traits.iterations = options.iterations * options.substeps;
+        if (!traits.packed) traits.threads = 1;
+        return traits;
+    };
+    return kind;
 }
 
 }  // namespace
 
 DeformerKind pbs_kind()
 {
-    return {.name = "pbs",
-            .meaning = "the paper: LBS, then bind, stretch and volume constraints (Algorithm 1)",
-            .make = [](const DeformerSpec& spec) -> std::unique_ptr<Deformer> {
-                pbs::PbsOptions options = options_of<pbs::PbsOptions>(spec);
-                options.threads = spec.threads;
-                return std::make_unique<PbsDeformer>(options);
-            },
-            .options = pbs::PbsOptions{},
-            .keys = pbs_fields().keys(),
-            .read = read_pbs,
-            .options_json = [](const DeformerSpec& spec) { return pbs_fields().json(options_of<pbs::PbsOptions>(spec)); },
-            .traits = [](const DeformerSpec& spec) -> DeformerTraits {
-                const auto& options = options_of<pbs::PbsOptions>(spec);
-                return {.order = name_of(options.order),
-                        .precision = name_of(options.precision),
-                        .packed = options.order != pbs::Order::plain,
-                        .iterations = options.iterations,
-                        .threads = spec.threads,
-                        .sleeps = options.sleep,
-                        .is_negative_control = options.volume_form != pbs::VolumeForm::derived};
-            }};
+    DeformerKind kind =
+        kind_of<PbsDeformer>("pbs", "the paper: LBS, then bind, stretch and volume constraints (Algorithm 1)", pbs_fields(), check_pbs);
+    kind.traits = [](const DeformerSpec& spec) {
+        const auto& options = options_of<pbs::PbsOptions>(spec);
+        DeformerTraits traits = traits_from(options, spec);
+        traits.sleeps = options.sleep;
+        traits.is_negative_control = options.volume_form != pbs::VolumeForm::derived;
+        return traits;
+    };
+    return kind;
+}
+
+DeformerKind xpbd_kind()
+{
+    return kind_of_xpbd(
+        "xpbd", "LBS, then extended position based dynamics (Macklin 2016) with an elastic material; multipliers are kept through a step",
+        read_with_pbs);
+}
+
+DeformerKind xpbd_small_steps_kind()
+{
+    DeformerKind kind = kind_of_xpbd("xpbd_small_steps",
+                                     "xpbd with as many substeps as xpbd has iterations, of one iteration each (Macklin 2019): equal cost",
+                                     read_small_steps);
+    kind.keys.clear();  // those of xpbd
+    return kind;
+}
+
+DeformerKind pbs_author_kind()
+{
+    using Options = pbs::AuthorOptions;
+    DeformerKind kind = kind_of<PbsAuthorDeformer>(
+        "pbs_author", "PBS as in the code that the paper's first author published in 2018, which departs from the paper",
+        OptionFields<Options>("pbs_author")
+            .add("iterations", &Options::iterations, {.lowest = 0, .highest = 1e6, .meaning = "iterations per frame"})
+            .add("time_step_s", &Options::time_step_s,
+                 {.unit = "s", .lowest = above_zero, .meaning = "h, whatever the time between two frames is; without gravity it cancels"})
+            .add("gravity_m_s2", &Options::gravity_m_s2,
+                 {.unit = "m/s^2",
+                  .meaning = "acceleration of every particle; the published code has (0, -9.81, 0) in its own unit of length"})
+            .add("length_unit_m", &Options::length_unit_m,
+                 {.unit = "m",
+                  .lowest = 1e-6,
+                  .highest = 1e6,
+                  .meaning = "unit of length of the threshold 1e-6, below which the sum of a tet's squared volume gradients leaves it out"})
+            .add("k_compression", &Options::k_compression,
+                 {.lowest = 0, .highest = 1, .meaning = "stiffness of edges and binds that are shorter than at rest"})
+            .add("k_stretch", &Options::k_stretch, {.lowest = 0, .highest = 1, .meaning = "stiffness of all other edges and binds"})
+            .add("k_volume_inverted", &Options::k_volume_inverted,
+                 {.lowest = 0, .highest = 6, .meaning = "stiffness of tets with negative volume; as k_volume"})
+            .add("k_volume", &Options::k_volume,
+                 {.lowest = 0,
+                  .highest = 6,
+                  .meaning = "stiffness of all other tets; a projection removes k_volume / 6 of the error, since the gradients lack 1/6"}));
+    kind.traits = [](const DeformerSpec& spec) {
+        return DeformerTraits{.order = "first_fit", .iterations = options_of<Options>(spec).iterations};
+    };
+    return kind;
 }
 
 }  // namespace experiments

@@ -137,9 +137,8 @@ const OptionFields<PbsOptions>& pbs_fields()
     return fields;
 }
 
-void read_pbs(const SceneValues& values, const std::string& table, DeformerSpec& spec)
+void check_pbs(const SceneValues& values, const std::string& table, PbsOptions& options, DeformerSpec& spec)
 {
-    PbsOptions options = pbs_fields().read(values, table);
     if (options.sleep && options.order == pbs::Order::plain)
         values.refuse(table + ".sleep", "expected false with order plain, which projects all");
     if (options.volume_form != pbs::VolumeForm::derived) {  // the printed forms are written in the plain order alone
@@ -150,7 +149,6 @@ void read_pbs(const SceneValues& values, const std::string& table, DeformerSpec&
     if (options.volume_of != pbs::VolumeOf::tets && (options.sleep || options.volume_form != pbs::VolumeForm::derived))
         values.refuse(table + ".improved.volume_of", "expected tets with sleep or a printed volume_form");
     spec.variant = variant_of(options);
-    spec.options = options;
 }
 
 }  // namespace experiments

@@ -1,9 +1,5 @@
-// The list of all deformers. To add one:
-//   1. Write a folder with a Deformer, a struct of its options if it has any, and a function that returns its DeformerKind. The options'
-//      keys, defaults, ranges and meanings are declared once, with OptionFields (experiments/settings/option_fields.hpp).
-//   2. Declare that function below, add it to the list in registry.cpp, and name the folder in CMakeLists.txt.
-// Scenes, `pbskin list`, `explain`, records and metrics take it from there. Code depends on its name only where a
-// study is about that deformer.
+// The list of all deformers. Scenes, `pbskin list`, `explain`, records and metrics take from it what they need of a deformer, so that code
+// depends on its name only where a study is about that deformer. README.md describes how to add one.
 #pragma once
 
 #include "experiments/deformers/deformer.hpp"
@@ -11,6 +7,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -32,56 +29,56 @@ struct DeformerTraits {
     bool has_own_clock = false;          // it works in another process, so that only StepSummary::seconds has its time
 };
 
+// kind_of (deformer_kind.hpp) fills all of it from the struct of options and the class of the deformer.
 struct DeformerKind {
     std::string name;     // in scenes and records
     std::string meaning;  // a line of `pbskin list deformers`
-    std::unique_ptr<Deformer> (*make)(const DeformerSpec& spec) = nullptr;
+    std::function<std::unique_ptr<Deformer>(const DeformerSpec& spec)> make = {};
 
     // For a kind with options:
-    std::any options = {};            // the defaults
-    std::vector<SceneKey> keys = {};  // of its tables in a scene
-    bool has_list = false;            // each [[kind]] table of a scene is a deformer, named by the table's key `name`
-    bool needs_list = false;          // and there is none without a table
+    std::any options = {};                      // the defaults
+    std::vector<SceneKey> keys = {};            // of its tables in a scene
+    std::vector<RenamedKey> renamed_keys = {};  // of an earlier release, which scenes may still have
+    bool has_list = false;                      // each [[kind]] table of a scene is a deformer, named by the table's key `name`
+    bool needs_list = false;                    // and there is none without a table
     // Sets options and variant from a table of a scene (pbs, fem.0). InputError for keys that contradict each other.
-    void (*read)(const SceneValues& values, const std::string& table, DeformerSpec& spec) = nullptr;
-    nlohmann::json (*options_json)(const DeformerSpec& spec) = nullptr;
-    DeformerTraits (*traits)(const DeformerSpec& spec) = nullptr;  // null: the default ones
+    std::function<void(const SceneValues& values, const std::string& table, DeformerSpec& spec)> read = {};
+    std::function<nlohmann::json(const DeformerSpec& spec)> options_json = {};
+    std::function<DeformerTraits(const DeformerSpec& spec)> traits = {};  // null: the default ones
 };
 
 const std::vector<DeformerKind>& deformer_kinds();
-void add_deformer_kind(DeformerKind kind);  // for programs with deformers of their own
+void add_deformer_kind(DeformerKind kind);                        // for programs with deformers of their own
+const DeformerKind* find_deformer_kind(const std::string& name);  // null: there is no such kind
 
-// Each is defined in the folder of its deformer.
+// Each is defined in the file of its deformer.
 DeformerKind lbs_kind();
 DeformerKind dqs_kind();
+DeformerKind delta_mush_kind();
+DeformerKind direct_delta_mush_kind();
 DeformerKind pbs_kind();
 DeformerKind pbs_author_kind();
 DeformerKind xpbd_kind();
 DeformerKind xpbd_small_steps_kind();
-DeformerKind delta_mush_kind();
-DeformerKind direct_delta_mush_kind();
 DeformerKind quasi_newton_kind();
+DeformerKind vbd_kind();
 DeformerKind xpbd_neo_hookean_kind();
 DeformerKind projective_dynamics_kind();
-DeformerKind vbd_kind();
 DeformerKind fem_kind();
 DeformerKind external_kind();
-
-const DeformerKind* find_deformer_kind(const std::string& name);  // null: there is no such kind
 
 DeformerSpec default_spec(const std::string& kind);  // named and labelled by its kind
 std::unique_ptr<Deformer> make_deformer(const DeformerSpec& spec);
 DeformerTraits traits_of(const DeformerSpec& spec);
 nlohmann::json to_json(const DeformerSpec& spec);  // name, label, kind, variant and options, for records
 
-// A deformer on a character whose skinning weights follow another rule, for comparisons such as LBS with Eq. 2's and with smooth weights on
-// the same mesh. make_deformer applies it wherever DeformerSpec::weights is set; scenes set that by the key `weights` of a deformer's
-// table. The deformer sees the character with weights by the rule (pbs::with_weights). InputError at reset where the character brings no
-// such weights.
+// The deformer on a character whose skinning weights follow another rule, for comparisons such as LBS with Eq. 2's and with smooth weights
+// on the same mesh. make_deformer applies it wherever DeformerSpec::weights is set; scenes set that by the key `weights` of a deformer's
+// table. InputError at reset where the character brings no such weights.
 std::unique_ptr<Deformer> with_own_weights(std::unique_ptr<Deformer> deformer, pbs::WeightKind weights);
 
-// The key `weights` of a deformer's table: scene (the default), paper, rigid, smooth, diffused or artist.
-SceneKey own_weights_key(const std::string& table, bool in_list = false);
+// The values of the key `weights` of a deformer's table: scene (the default), paper, rigid, smooth, diffused or artist.
+std::vector<std::string> own_weights_choices();
 
 // Sets the weights and, unless they are the scene's, the variant: weights_smooth.
 void read_own_weights(const SceneValues& values, const std::string& table, DeformerSpec& spec);

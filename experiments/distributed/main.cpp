@@ -28,7 +28,6 @@
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
-#include <nlohmann/json_fwd.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -40,6 +39,7 @@
 #include <string>
 
 namespace experiments {
+namespace {
 
 // The bodies of pbskin_distributed: tets with their supports and loads.
 struct BodyArguments {
@@ -63,14 +63,6 @@ struct LoadedBody {
     std::optional<FemOptions> held_by = {};  // the options of the attachment to bones; nothing if the body has none. On rank 0 only
 };
 
-// pbs::InputError if the file cannot be read, or if not exactly one body is asked for.
-LoadedBody load_body(const BodyArguments& arguments, const reference_fem::LinearOptions& options);
-
-// Sends the body from rank 0 to all ranks, without its options.
-void broadcast(const reference_fem::MpiSession& session, LoadedBody& body);
-
-// The records of pbskin_distributed: record.json and, if asked for, nodes.csv.
-
 // Everything that a solution depends on.
 struct DistributedSettings {
     BodyArguments body;
@@ -78,20 +70,10 @@ struct DistributedSettings {
     reference_fem::IterativeOptions iterative;
     bool serial = false;  // on one process, by the serial reference
 };
-nlohmann::json to_json(const DistributedSettings& settings);
-
-nlohmann::json to_json(const DistributedSettings& settings, const LoadedBody& body, const reference_fem::ElasticSolution& solution);
-
 struct DisplacedNode {
     int first = 0, second = 0;
     pbs::Vec3 displacement_m;
 };
-extern const analysis::Columns<DisplacedNode> node_columns;  // nodes.csv
-
-void write_nodes(const std::string& path, const reference_fem::ElasticSolution& solution);
-
-namespace {
-
 // Cubes of 6 tets each: n along each side of the section, and as many along the bar as give the wanted number of tets.
 pbs::TetMesh bar(int tets)
 {
@@ -142,8 +124,7 @@ LoadedBody limb(const BodyArguments& arguments, const reference_fem::LinearOptio
     return body;
 }
 
-}  // namespace
-
+// pbs::InputError if the file cannot be read, or if not exactly one body is asked for.
 LoadedBody load_body(const BodyArguments& arguments, const reference_fem::LinearOptions& options)
 {
     if ((arguments.bar_tets > 0) + (arguments.limb_vertices > 0) + !arguments.mesh_file.empty() != 1)
@@ -151,6 +132,7 @@ LoadedBody load_body(const BodyArguments& arguments, const reference_fem::Linear
     return arguments.limb_vertices > 0 ? limb(arguments, options) : held_at_the_end(arguments, options);
 }
 
+// Sends the body from rank 0 to all ranks, without its options.
 void broadcast(const reference_fem::MpiSession& session, LoadedBody& body)
 {
     session.broadcast(body.name);
@@ -171,8 +153,6 @@ const analysis::Columns<DisplacedNode> node_columns = {
     {"x_m", [](auto& node) -> decltype(auto) { return (node.displacement_m.x()); }, "m", "x of its displacement"},
     {"y_m", [](auto& node) -> decltype(auto) { return (node.displacement_m.y()); }, "m", "y of its displacement"},
     {"z_m", [](auto& node) -> decltype(auto) { return (node.displacement_m.z()); }, "m", "z of its displacement"}};
-
-namespace {
 
 // Mean displacement [m] of the vertices with the greatest x.
 pbs::Vec3 tip_displacement(const pbs::TetMesh& mesh, const reference_fem::ElasticSolution& solution)
@@ -197,38 +177,28 @@ analysis::Provenance provenance()
     return provenance;
 }
 
-}  // namespace
-
 nlohmann::json to_json(const DistributedSettings& settings)
 {
-    using reference_fem::IterativeOptions;
-    using reference_fem::LinearOptions;
-    static const auto body = OptionFields<BodyArguments>("body")
-                                 .record("bar_tets", &BodyArguments::bar_tets)
-                                 .record("limb_vertices", &BodyArguments::limb_vertices)
-                                 .record("mesh_file", &BodyArguments::mesh_file)
-                                 .record("held_below_m", &BodyArguments::held_below_m)
-                                 .record("pulled_above_m", &BodyArguments::pulled_above_m)
-                                 .record("traction_pa", &BodyArguments::traction_pa)
-                                 .record("twist_deg", &BodyArguments::twist_deg)
-                                 .record("bend_deg", &BodyArguments::bend_deg)
-                                 .complete();
-    static const auto elastic = OptionFields<LinearOptions>("elastic")
-                                    .record("element_order", &LinearOptions::element_order)
-                                    .record("young_pa", &LinearOptions::young_pa)
-                                    .record("poisson", &LinearOptions::poisson)
-                                    .record("density_kg_m3", &LinearOptions::density_kg_m3)
-                                    .record("gravity_m_s2", &LinearOptions::gravity_m_s2)
-                                    .record("solver", &LinearOptions::solver)
-                                    .record("formulation", &LinearOptions::formulation)
-                                    .complete();
-    static const auto iterative = OptionFields<IterativeOptions>("iterative")
-                                      .record("tolerance", &IterativeOptions::tolerance)
-                                      .record("most_iterations", &IterativeOptions::most_iterations)
-                                      .complete();
-    return {{"body", body.json(settings.body)},
-            {"elastic", elastic.json(settings.elastic)},
-            {"iterative", iterative.json(settings.iterative)},
+    const BodyArguments& body = settings.body;
+    const reference_fem::LinearOptions& elastic = settings.elastic;
+    return {{"body",
+             {{"bar_tets", body.bar_tets},
+              {"limb_vertices", body.limb_vertices},
+              {"mesh_file", body.mesh_file},
+              {"held_below_m", body.held_below_m},
+              {"pulled_above_m", body.pulled_above_m},
+              {"traction_pa", option_json(body.traction_pa)},
+              {"twist_deg", body.twist_deg},
+              {"bend_deg", body.bend_deg}}},
+            {"elastic",
+             {{"element_order", elastic.element_order},
+              {"young_pa", elastic.young_pa},
+              {"poisson", elastic.poisson},
+              {"density_kg_m3", elastic.density_kg_m3},
+              {"gravity_m_s2", option_json(elastic.gravity_m_s2)},
+              {"solver", name_of(elastic.solver)},
+              {"formulation", name_of(elastic.formulation)}}},
+            {"iterative", {{"tolerance", settings.iterative.tolerance}, {"most_iterations", settings.iterative.most_iterations}}},
             {"serial", settings.serial}};
 }
 
@@ -272,8 +242,6 @@ void write_nodes(const std::string& path, const reference_fem::ElasticSolution& 
         nodes.push_back({solution.nodes(n, 0), solution.nodes(n, 1), solution.displacement.row(n)});
     table_of(node_columns, nodes).write(path);
 }
-
-namespace {
 
 struct Arguments : DistributedSettings {
     std::vector<double> gravity_m_s2 = {0, 0, 0}, traction_pa = {0, 0, 0};

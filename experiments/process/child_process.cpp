@@ -33,6 +33,21 @@
 namespace experiments {
 namespace {
 
+struct ProcessEnd {
+    std::string text;
+    int status = 0;
+};
+
+// A forked process that returns a text to its parent, however long the text is. It ends with its parent, however that ends.
+//   ForkedProcess process = start_process([] { return ProcessEnd{"text", exit_finished}; });
+//   while (process.from >= 0) wait_for_text({process.from}), listen(process);
+struct ForkedProcess {
+    pid_t id = -1;
+    int from = -1;          // the pipe that its text comes from; below 0 when no process can write any more
+    std::string text = {};  // as far as it has arrived
+    bool told_to_stop = false;
+};
+
 // Until all is written, signals or not, or nobody reads any more.
 void write_whole(int to, const std::string& text)
 {
@@ -43,8 +58,7 @@ void write_whole(int to, const std::string& text)
     }
 }
 
-}  // namespace
-
+// std::runtime_error where no process or pipe can be had. Programs that either process starts do not inherit the pipe.
 ForkedProcess start_process(const std::function<ProcessEnd()>& work)
 {
     int ends[2];
@@ -65,6 +79,7 @@ ForkedProcess start_process(const std::function<ProcessEnd()>& work)
     return {process, ends[0]};
 }
 
+// Appends what has arrived without waiting. Parents must listen while the process works, for it waits when the pipe is full.
 void listen(ForkedProcess& process)
 {
     char buffer[4096];
@@ -79,11 +94,15 @@ void listen(ForkedProcess& process)
     }
 }
 
+// Passes an interruption of this process on to a process that has not been waited for, once: a second signal would end its work in the
+// middle.
 void pass_on_interruption(ForkedProcess& process)
 {
     if (interrupted() && !std::exchange(process.told_to_stop, true)) kill(process.id, SIGTERM);
 }
 
+// Waits until one of the pipes has something to read, but only for a moment, so that a signal before the wait is noticed after it.
+// Pipes below 0 are left out.
 void wait_for_text(const std::vector<int>& pipes)
 {
     constexpr int moment_ms = 20;
@@ -91,8 +110,6 @@ void wait_for_text(const std::vector<int>& pipes)
     for (const int pipe : pipes) polled.push_back({pipe, POLLIN, 0});  // poll leaves out those below 0
     poll(polled.data(), polled.size(), moment_ms);
 }
-
-namespace {
 
 ProcessEnd result_or_failure(const std::function<nlohmann::json()>& work)
 {

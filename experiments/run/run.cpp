@@ -74,7 +74,7 @@ std::vector<bool> prescribed_by_any(const std::vector<Runner>& runners)
 {
     std::vector<bool> any;
     for (const Runner& runner : runners) {
-        const std::vector<bool> own = runner.deformer->prescribed();
+        const std::vector<bool> own = prescribed_vertices(*runner.deformer);
         if (any.size() < own.size()) any.resize(own.size(), false);
         for (std::size_t v = 0; v < own.size(); ++v) any[v] = any[v] || own[v];
     }
@@ -275,7 +275,7 @@ private:
         if (scene_.output.writes(frame))
             cost_.time("frames", [&] {
                 folder_.write_frame(runner.spec, frame, time_s, character_, positions, measurer_.volume_ratios(positions),
-                                    runner.deformer->prescribed());
+                                    prescribed_vertices(*runner.deformer));
             });
         runner.steps = {};
     }
@@ -284,7 +284,8 @@ private:
     bool has_inverted_flesh(const Runner& runner) const
     {
         if (!runner.traits.solves_equations) return false;
-        const std::optional<double> lowest_det_f = runner.deformer->lowest_det_f();
+        const FemFacts* facts = runner.deformer->facts();
+        const std::optional<double> lowest_det_f = facts ? facts->lowest_det_f : std::nullopt;
         return lowest_det_f.value_or(measurer_.volume_ratios(runner.deformer->positions()).minCoeff()) <= 0.0;
     }
 
@@ -299,7 +300,7 @@ private:
     {
         const pbs::Outcome outcome = runner.steps.summary().outcome;
         const pbs::Positions positions =
-            outcome == pbs::Outcome::not_converged ? runner.deformer->last_state() : runner.deformer->positions();
+            outcome == pbs::Outcome::not_converged ? last_state(*runner.deformer) : runner.deformer->positions();
         BrokenFrame broken = broken_frame(frame, outcome, positions, measurer_.volume_ratios(positions));
         if (const int step = static_cast<int>(runner.steps.worst_step()); step != frame * motion_.steps_per_frame) broken.step = step;
         broken_frames_[runner.spec.label].push_back(broken);

@@ -4,7 +4,6 @@
 #include "analysis/statistics/statistics.hpp"
 #include "experiments/run/metrics_table.hpp"
 #include "experiments/run/run.hpp"
-#include "experiments/run/run_records.hpp"
 #include "experiments/scene/scene.hpp"
 #include "pbs/character/body_cache.hpp"
 #include "pbs/character/model_character.hpp"

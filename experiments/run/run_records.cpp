@@ -1,4 +1,4 @@
-#include "experiments/run/run_records.hpp"
+#include "experiments/run/run_folder.hpp"
 
 #include "experiments/process/machine.hpp"
 #include "pbs/character/body_cache.hpp"

@@ -3,7 +3,8 @@
 #include "analysis/records/record_files.hpp"
 #include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/deformers/registry.hpp"
-#include "experiments/settings/scene_values.hpp"
+#include "experiments/process/terminal.hpp"
+#include "experiments/settings/option_fields.hpp"
 #include "generated/scenes_texts.hpp"
 #include "pbs/character/clip.hpp"
 #include "pbs/character/model_character.hpp"
@@ -25,11 +26,6 @@ namespace experiments {
 namespace {
 
 namespace fs = std::filesystem;
-
-pbs::Vec3 vec3(const std::vector<double>& values)
-{
-    return {values[0], values[1], values[2]};
-}
 
 // Messages name the file as briefly as its folders allow.
 std::string in_folder(const std::string& folder, const std::string& path)
@@ -55,18 +51,11 @@ void check_character(const SceneValues& values, const pbs::CharacterSource& sour
 
 pbs::CharacterSource read_character(const SceneValues& values, const std::string& folder)
 {
-    pbs::CharacterSource source;
-    source.body = values.text("character.body");
-    source.model_file = in_folder(folder, values.text("character.model"));
-    source.model_scale = values.number("character.scale");
+    pbs::CharacterSource source = character_fields().read(values, "character");
     source.animation = values.text("motion.animation");
-    source.mesh_file = in_folder(folder, values.text("character.mesh"));
-    const std::string skeleton = values.text("character.skeleton");
-    const bool is_named = !source.model_file.empty() && skeleton == "human";
-    source.skeleton_file = is_named ? skeleton : in_folder(folder, skeleton);
-    source.skeleton_scale = values.number("character.skeleton_scale");
-    source.vertices = values.integer("character.vertices");
-    source.refinements = values.integer("character.refine");
+    const bool has_named_skeleton = !source.model_file.empty() && source.skeleton_file == "human";
+    for (std::string* file : {&source.model_file, &source.mesh_file, &source.skeleton_file})
+        if (file != &source.skeleton_file || !has_named_skeleton) *file = in_folder(folder, *file);
     check_character(values, source);
     const std::string weights = values.text("skinning.weights");
     for (const pbs::WeightKind kind :
@@ -98,18 +87,8 @@ void fit_time_step(const SceneValues& values, MotionSpec& motion)
 
 MotionSpec read_motion(const SceneValues& values, const std::string& folder)
 {
-    MotionSpec motion;
-    motion.joint = values.text("motion.joint");
-    motion.axis = vec3(values.numbers("motion.axis"));
-    motion.angle_deg = values.number("motion.angle_deg");
-    motion.frames = values.integer("motion.frames");
-    motion.clip = values.text("motion.clip");
-    motion.start_s = values.number("motion.start_s");
-    motion.duration_s = values.number("motion.duration_s");
-    motion.rate_hz = values.number("motion.rate_hz");
+    MotionSpec motion = motion_fields().read(values, "motion");
     motion.time_step_s = values.number("pbs.time_step_s");
-    motion.animation = values.text("motion.animation");
-    motion.allow_partial = values.boolean("motion.allow_partial");
     const bool has_model = !values.text("character.model").empty();
     if (!motion.animation.empty() && !has_model) values.refuse("motion.animation", "expected a character.model, which has animations");
     const int motions = !motion.joint.empty() + !motion.clip.empty() + !motion.animation.empty();
@@ -167,9 +146,7 @@ std::string read_reference(const SceneValues& values, const std::vector<Deformer
 
 OutputSpec read_output(const SceneValues& values)
 {
-    OutputSpec output;
-    output.frames_every = values.integer("output.frames_every");
-    output.frames = values.integers("output.frames");
+    OutputSpec output = output_fields().read(values, "output");
     if (const auto names = values.texts("output.frame_names"); !names.empty() && names.size() != output.frames.size())
         values.refuse("output.frame_names", "expected a name for each of output.frames");
     const auto groups = values.texts("output.metrics");
@@ -182,7 +159,6 @@ OutputSpec read_output(const SceneValues& values)
     output.errors = asked("errors");
     output.sections = asked("sections");
     output.surface = asked("surface");
-    output.glb = values.boolean("output.glb");
     return output;
 }
 
@@ -237,11 +213,7 @@ std::vector<DeformerSpec> listed_deformers(const SceneValues& values)
 
 SceneSchema scene_schema()
 {
-    SceneSchema schema{character_and_motion_keys()};
-    const auto append = [&](const std::vector<SceneKey>& keys) { schema.keys.insert(schema.keys.end(), keys.begin(), keys.end()); };
-    for (const DeformerKind& kind : deformer_kinds()) append(kind.keys);
-    append(output_keys());
-    return schema;
+    return scene_schema(deformer_kinds());
 }
 
 bool OutputSpec::writes(int frame) const
@@ -282,6 +254,7 @@ Scene read_scene(const std::string& file_or_name, const std::vector<std::string>
     const std::string file = from_file ? file_or_name : file_or_name + ".toml";
     const std::string folder = from_file ? fs::path(file).parent_path().string() : "";
     const SceneValues values(from_file ? read_scene_text(file) : found->text, file, overrides, scene_schema());
+    warn(values.remarks());
 
     Scene scene;
     scene.file = file;

@@ -17,13 +17,15 @@
 
 namespace experiments {
 
-class SceneValues;
+struct DeformerKind;
+template <typename Options>
+class OptionFields;
 
 struct MotionSpec {
     std::string joint;                    // a sweep of this joint
     pbs::Vec3 axis = pbs::Vec3::UnitX();  // in rest world axes, of any length
     double angle_deg = 0.0;               // of the last frame
-    int frames = 0;
+    int frames = 18;
     std::string clip;            // or a clip: its path
     bool of_model = false;       // or an animation of the character's model, which may have none
     std::string animation;       // its name; empty: the first one
@@ -46,10 +48,8 @@ struct OutputSpec {
 enum class ErrorBar { none, orders, refined, both };
 
 template <>
-struct OptionNames<ErrorBar> {
-    static constexpr std::array<std::pair<ErrorBar, const char*>, 4> table{
-        {{ErrorBar::none, "none"}, {ErrorBar::orders, "orders"}, {ErrorBar::refined, "refined"}, {ErrorBar::both, "both"}}};
-};
+inline constexpr NameTable<ErrorBar, 4> option_names<ErrorBar>{
+    {{ErrorBar::none, "none"}, {ErrorBar::orders, "orders"}, {ErrorBar::refined, "refined"}, {ErrorBar::both, "both"}}};
 
 struct Scene {
     std::string name, file;
@@ -108,10 +108,13 @@ pbs::ClipMatch accepted_match(const MotionSpec& spec, const pbs::Clip& clip, con
 
 pbs::MotionSampling sampling_of(const MotionSpec& spec);
 
-// The keys of a scene, and those of all registered deformers.
-std::vector<SceneKey> character_and_motion_keys();
-std::vector<SceneKey> output_keys();
+// All keys of a scene, those of the deformers among them: of these kinds, or of all that are registered.
+SceneSchema scene_schema(const std::vector<DeformerKind>& kinds);
+SceneSchema scene_schema();
 
-SceneSchema scene_schema();  // all keys; those of the deformers come before the output keys
+// The keys that are members of these structs.
+const OptionFields<pbs::CharacterSource>& character_fields();
+const OptionFields<MotionSpec>& motion_fields();
+const OptionFields<OutputSpec>& output_fields();
 
 }  // namespace experiments

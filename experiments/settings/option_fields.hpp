@@ -6,7 +6,8 @@
 //   fields.keys()               the keys, for a schema; the defaults are those of pbs::XpbdOptions{}
 //   fields.read(values, "xpbd") the options as a scene states them
 //   fields.json(options)        all fields by name, for a record
-// A member is a number, a bool, a text, a Vec3, or an enumeration with OptionNames.
+// A member is a number, a bool, a text, a Vec3, a list of integers or texts, or an enumeration with option_names. It may belong to a base
+// class of the options.
 #pragma once
 
 #include "experiments/settings/option_names.hpp"
@@ -17,6 +18,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <map>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -89,6 +91,10 @@ constexpr KeyType key_type()
         return KeyType::number;
     else if constexpr (std::is_same_v<Value, pbs::Vec3>)
         return KeyType::vec3;
+    else if constexpr (std::is_same_v<Value, std::vector<int>>)
+        return KeyType::integers;
+    else if constexpr (std::is_same_v<Value, std::vector<std::string>>)
+        return KeyType::texts;
     else
         return KeyType::text;
 }
@@ -100,20 +106,15 @@ Value read_option(const SceneValues& values, const std::string& path)
         return option_of<Value>(values.text(path));
     else if constexpr (std::is_same_v<Value, pbs::Vec3>)
         return pbs::Vec3::Map(values.numbers(path).data());
-    else if constexpr (std::is_same_v<Value, bool>)
-        return values.boolean(path);
-    else if constexpr (std::is_same_v<Value, int>)
-        return values.integer(path);
-    else if constexpr (std::is_same_v<Value, double>)
-        return values.number(path);
     else
-        return values.text(path);
+        return values.value(path).get<Value>();
 }
 
 struct FieldText {
     std::string unit = {};
     double lowest = -infinite, highest = infinite;
-    bool is_stated = false;  // every scene must state it, for there is no default
+    std::vector<std::string> choices = {};  // of a text; those of an enumeration are its names
+    bool is_stated = false;                 // every scene must state it, for there is no default
     std::string meaning = {};
 };
 
@@ -132,8 +133,8 @@ public:
         return *this;
     }
 
-    template <typename Member>
-    OptionFields& add(const std::string& name, Member Options::*member, const FieldText& text)
+    template <typename Member, typename Owner>
+    OptionFields& add(const std::string& name, Member Owner::*member, const FieldText& text)
     {
         SceneKey key = key_of(name, key_type<Member>(), text, option_json(Options{}.*member));
         if constexpr (std::is_enum_v<Member>) key.choices = names_of_options<Member>();
@@ -158,9 +159,16 @@ public:
         return add(key_of(name, type, text, default_value), nullptr, nullptr);
     }
 
+    // A key of an earlier release: for each of its values the keys of this table that replace it, as in --set.
+    OptionFields& renamed(const std::string& name, std::map<std::string, std::vector<std::string>> now)
+    {
+        renamed_keys_.push_back({table_ + "." + name, std::move(now)});
+        return *this;
+    }
+
     // A member that only studies set, not scenes.
-    template <typename Member>
-    OptionFields& record(const std::string& name, Member Options::*member)
+    template <typename Member, typename Owner>
+    OptionFields& record(const std::string& name, Member Owner::*member)
     {
         ++members_;
         return derived(name, [member](const Options& options) { return option_json(options.*member); });
@@ -191,6 +199,9 @@ public:
             if (!field.key.name.empty()) keys.push_back(field.key);
         return keys;
     }
+
+    const std::vector<RenamedKey>& renamed_keys() const { return renamed_keys_; }
+    const std::string& table() const { return root_; }
 
     // `table`: the fields' own, or one of a list, e.g. fem.0.
     Options read(const SceneValues& values, const std::string& table) const
@@ -233,6 +244,7 @@ private:
                 .unit = text.unit,
                 .lowest = text.lowest,
                 .highest = text.highest,
+                .choices = text.choices,
                 .meaning = text.meaning,
                 .in_list = in_list_};
     }
@@ -241,6 +253,7 @@ private:
     bool in_list_;
     std::size_t members_ = 0;  // that are recorded
     std::vector<Field> fields_;
+    std::vector<RenamedKey> renamed_keys_;
 };
 
 }  // namespace experiments

@@ -1,8 +1,7 @@
-// The names of an option's values in scenes and records. A folder with such an option specialises OptionNames for it:
+// The names of an option's values in scenes, records and keys: one table per enumeration, in the folder of the option.
 //   template <>
-//   struct OptionNames<Colour> {
-//       static constexpr std::array<std::pair<Colour, const char*>, 2> table{{{Colour::red, "red"}, {Colour::blue, "blue"}}};
-//   };
+//   inline constexpr NameTable<Colour, 2> option_names<Colour>{{{Colour::red, "red"}, {Colour::blue, "blue"}}};
+//   name_of(Colour::red)   "red"
 #pragma once
 
 #include <array>
@@ -12,8 +11,17 @@
 
 namespace experiments {
 
+template <typename Enum, std::size_t count>
+using NameTable = std::array<std::pair<Enum, const char*>, count>;
+
 template <typename Enum>
-struct OptionNames;
+inline constexpr NameTable<Enum, 0> option_names;  // to be specialised
+
+// The same table as a member, for analysis::EnumNames.
+template <typename Enum>
+struct OptionNames {
+    static constexpr const auto& table = option_names<Enum>;
+};
 
 template <typename Enum>
 std::string name_of(Enum value)

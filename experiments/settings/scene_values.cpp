@@ -251,12 +251,31 @@ public:
     {
         const std::string of_schema = scene_.schema_path(path);
         const SceneKey* key = scene_.schema_.find(of_schema);
+        for (const RenamedKey& renamed : scene_.schema_.renamed)
+            if (!key && renamed.path == of_schema) return take_renamed(renamed, path, node, source, line);
         if (!key)
             throw pbs::InputError(source, line, path, node.is_table() ? "" : shown(node),
                                   "unknown key; the nearest known one is " + scene_.schema_.nearest_key(of_schema));
         const json value = to_json(node);
         if (!obeys(value, *key)) throw pbs::InputError(source, line, path, shown(node), key->rule());
         scene_.values_[path] = {value, source, line, false};
+    }
+
+    void take_renamed(const RenamedKey& renamed, const std::string& path, const toml::node& node, const std::string& source, int line)
+    {
+        const auto now = renamed.now.find(shown(node));
+        if (now == renamed.now.end()) {
+            std::vector<std::string> values;
+            for (const auto& [value, keys] : renamed.now) values.push_back(value);
+            throw pbs::InputError(source, line, path, shown(node), fmt::format("expected one of {}", fmt::join(values, ", ")));
+        }
+        const std::string table = path.substr(0, path.rfind('.') + 1);
+        for (const std::string& key : now->second) {
+            const auto equals = key.find('=');
+            take_value(table + key.substr(0, equals), *parse_override(key.substr(equals + 1)).get("value"), source, line);
+        }
+        scene_.remarks_.push_back(
+            pbs::InputError(source, line, path, shown(node), fmt::format("is renamed: write {}", fmt::join(now->second, " and "))).what());
     }
 
     void add_defaults()

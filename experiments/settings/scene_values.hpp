@@ -37,8 +37,15 @@ struct SceneKey {
     std::string rule() const;  // what a value must be: "expected a number from 0 to 1"
 };
 
+// A key of an earlier release, which a scene may still have: it is read with a warning that names the keys in its place.
+struct RenamedKey {
+    std::string path;                                     // e.g. vbd.arithmetic; in a list fem.x for fem.0.x
+    std::map<std::string, std::vector<std::string>> now;  // its value -> KEY=VALUE of the same table, VALUE in TOML
+};
+
 struct SceneSchema {
     std::vector<SceneKey> keys;
+    std::vector<RenamedKey> renamed = {};
 
     const SceneKey* find(const std::string& path) const;  // e.g. "pbs.k_volume"; null: there is no such key
     bool is_table(const std::string& path) const;         // a table that has keys or tables
@@ -52,6 +59,7 @@ public:
     // the line for unknown keys, wrong types and values out of range.
     SceneValues(const std::string& text, const std::string& file, const std::vector<std::string>& overrides, SceneSchema schema);
 
+    const nlohmann::json& value(const std::string& path) const;
     double number(const std::string& path) const { return value(path).get<double>(); }
     int integer(const std::string& path) const { return static_cast<int>(value(path).get<double>()); }
     bool boolean(const std::string& path) const { return value(path).get<bool>(); }
@@ -67,7 +75,8 @@ public:
 
     // Throws an InputError at the line of the key, or of the header of the table.
     [[noreturn]] void refuse(const std::string& path, const std::string& rule) const;
-    nlohmann::json resolved() const;  // all keys, nested, for run.json
+    nlohmann::json resolved() const;                                      // all keys, nested, for run.json
+    const std::vector<std::string>& remarks() const { return remarks_; }  // a warning for each renamed key
     const std::string& file() const { return file_; }
 
 private:
@@ -77,7 +86,6 @@ private:
         int line = 0;
         bool is_default = false;
     };
-    const nlohmann::json& value(const std::string& path) const;
     int index_in_list(const std::string& path) const;
     std::string schema_path(const std::string& path) const;
     friend class SceneReader;  // fills this object
@@ -87,6 +95,7 @@ private:
     std::map<std::string, Entry> values_;
     std::map<std::string, int> tables_;  // table -> line of its header; 0: from --set
     std::map<std::string, int> lists_;   // list -> number of its tables
+    std::vector<std::string> remarks_;
 };
 
 }  // namespace experiments

@@ -18,9 +18,11 @@
 #include <vector>
 
 namespace experiments {
+namespace {
 
-// The studies that `pbskin reproduce` runs, and which of their runs it carries out.
-//   for (const PlannedStudy& planned : plan_studies(arguments)) run(planned.to_do);
+namespace fs = std::filesystem;
+
+// A study that `pbskin reproduce` runs, and which of its runs it carries out.
 struct PlannedStudy {
     const Study* study;
     StudyPlan plan;
@@ -30,19 +32,14 @@ struct PlannedStudy {
     std::vector<StudyRun> absent = {};  // those that ReproduceArguments::only leaves out and that are not finished
 };
 
-// InputError for a name that is neither a claim nor a study.
-void refuse_unknown(const std::vector<std::string>& names);
-
-// Returns whether the study or one of its claims is among these names.
-bool is_named(const Study& study, const std::vector<std::string>& names);
-
-// Returns the studies that have a run to do, or all studies without ReproduceArguments::only. Throws an InputError for the name of a run
-// that no study has, for deformers of the user's own without a study that compares them, and where Study::plan_with does.
-std::vector<PlannedStudy> plan_studies(const ReproduceArguments& arguments);
-
-namespace {
-
-namespace fs = std::filesystem;
+// Whether the study or one of its claims is among these names.
+bool is_named(const Study& study, const std::vector<std::string>& names)
+{
+    return std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+        const auto of_study = [&](const analysis::Claim& claim) { return claim.id == name && claim.study == study.name; };
+        return name == study.name || std::any_of(claims().begin(), claims().end(), of_study);
+    });
+}
 
 // A named study runs in the extent that is asked for; without names, each runs in the extent of the set.
 Extent asked_for(const Study& study, const std::vector<std::string>& names, bool full)
@@ -94,8 +91,7 @@ void choose_runs(PlannedStudy& planned, const std::vector<std::string>& only, bo
     }
 }
 
-}  // namespace
-
+// InputError for a name that is neither a claim nor a study.
 void refuse_unknown(const std::vector<std::string>& names)
 {
     std::vector<std::string> known;
@@ -107,14 +103,8 @@ void refuse_unknown(const std::vector<std::string>& names)
                                   "unknown claim or study; expected one of " + fmt::format("{}", fmt::join(known, ", ")));
 }
 
-bool is_named(const Study& study, const std::vector<std::string>& names)
-{
-    return std::any_of(names.begin(), names.end(), [&](const std::string& name) {
-        const auto of_study = [&](const analysis::Claim& claim) { return claim.id == name && claim.study == study.name; };
-        return name == study.name || std::any_of(claims().begin(), claims().end(), of_study);
-    });
-}
-
+// Returns the studies that have a run to do, or all studies without ReproduceArguments::only. InputError for the name of a run that no
+// study has, for deformers of the user's own without a study that compares them, and where Study::plan_with does.
 std::vector<PlannedStudy> plan_studies(const ReproduceArguments& arguments)
 {
     if (arguments.external && arguments.external->empty()) throw pbs::InputError("", 0, "--external", "", "expected a file");
@@ -136,10 +126,6 @@ std::vector<PlannedStudy> plan_studies(const ReproduceArguments& arguments)
     for (PlannedStudy& of : planned) choose_runs(of, arguments.only, arguments.resume);
     return planned;
 }
-
-namespace {
-
-namespace fs = std::filesystem;
 
 struct StudyOutcome {
     FinishedRuns finished = {};  // without failed runs, which are reported and whose verdicts cannot be computed

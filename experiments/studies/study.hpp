@@ -169,10 +169,6 @@ Study verification_study();
 Study fit_study();
 Study work_precision_study();
 Study error_split_study();
-Study bench_study();
-Study equal_quality_study();
-Study features_study();
-Study scale_study();
 Study ensemble_study();
 Study improvements_study();
 

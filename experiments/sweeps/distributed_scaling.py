@@ -15,8 +15,6 @@ import shlex
 import subprocess
 import sys
 
-from atomic_text import atomic_text
-
 FROM_RECORD = ["element_order", "tets", "vertices", "dofs", "ranks", "iterations", "mesh_s", "assembly_s", "setup_s", "solve_s",
                "mesh_cpu_s", "assembly_cpu_s", "setup_cpu_s", "solve_cpu_s",
                "peak_mb_of_rank_max", "tets_of_rank_min", "tets_of_rank_max", "relative_residual", "compliance_j", "converged"]
@@ -72,10 +70,13 @@ def sweep(options):
 
 
 def write(path, rows):
-    with atomic_text(path) as file:
+    os.makedirs(os.path.dirname(path) or ".", exist_ok=True)
+    part = f"{path}.part"  # renamed when it is whole
+    with open(part, "w", newline="", encoding="utf-8") as file:
         writer = csv.DictWriter(file, COLUMNS)
         writer.writeheader()
         writer.writerows(rows)
+    os.replace(part, path)
 
 
 def main():

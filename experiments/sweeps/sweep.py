@@ -1,86 +1,191 @@
 #!/usr/bin/python3 -B
-"""Parameter sweeps: many runs of one scene, by Snakemake, on this machine or on a Slurm cluster, and one table of all of them.
+"""Parameter sweeps: many runs of one scene by Snakemake, on this machine or on a Slurm cluster, and one table of all of them.
 
-    experiments/sweeps/sweep.py check SWEEP.toml                            the runs that it makes
-    experiments/sweeps/sweep.py size SWEEP.toml --runs 10000 --cores 64     what that takes, from some runs that are measured
-    experiments/sweeps/sweep.py run SWEEP.toml -o results/stiffness -j 2    DIR/sweep.csv, costs.csv, sweep.json, runs/NAME/
-    experiments/sweeps/sweep.py run SWEEP.toml -o results/stiffness --slurm
+    sweep.py check SWEEP.toml                         lists the runs
+    sweep.py run SWEEP.toml -o DIR -j 2               DIR/sweep.csv, costs.csv, sweep.json, runs/NAME/
+    sweep.py run SWEEP.toml -o DIR --slurm            the same as Slurm jobs, by the profile slurm next to this script
 
-`run` goes on where it was stopped. More options of snakemake follow after `--`. sweep_file.py describes the sweep file. Installed, this is
-`pbskin-sweep`. The pbskin of a checkout is its build's, that of an installation the one beside, where they are there, else the PATH's.
-Exit status: 0 finished (runs that broke down numerically are in the table), 1 snakemake or a program failed, 2 bad input or usage,
-130 interrupted."""
+`run` continues where it was stopped. Further arguments go to snakemake, whose exit status it returns (2: bad input). README.md describes the
+sweep file. An installation has this script as `pbskin-sweep`."""
 import argparse
+import fcntl
+import hashlib
+import itertools
+import json
+import math
+import os
 import pathlib
+import re
+import shutil
 import sys
+import tomllib
 
-import pbskin_program
-import sweep_file
-import sweep_merge
-import sweep_runs
-import sweep_size
-import sweep_start
+HERE = pathlib.Path(__file__).resolve().parent
+KEY = re.compile(r"[A-Za-z_]\w*(\.\w+)+")
 
 
-def arguments(given):
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    verbs = parser.add_subparsers(dest="verb", required=True)
-    made = {}
-    for name, about in (("check", "reads a sweep and lists its runs"), ("run", "all runs, then the tables"),
-                        ("size", "what many runs would take"), ("batch", "one job (started by snakemake)"),
-                        ("merge", "the tables of runs that are there (started by snakemake)")):
-        made[name] = verb = verbs.add_parser(name, help=about)
-        verb.add_argument("sweep")
-        verb.add_argument("--pbskin", type=pathlib.Path, default=pbskin_program.found())
-        verb.add_argument("-o", "--output", type=pathlib.Path, required=name in ("run", "batch", "merge"))
-    made["run"].add_argument("-j", "--jobs", type=int, default=1, help="runs at once; on Slurm the profile says")
-    made["run"].add_argument("--slurm", action="store_true", help="as Slurm jobs, by the profile slurm beside this script")
-    made["batch"].add_argument("name")
-    sweep_size.add_options(made["size"])
-    own, rest = (given[:given.index("--")], given[given.index("--") + 1:]) if "--" in given else (given, [])
-    options = parser.parse_args(own)
-    if rest and options.verb != "run":
-        parser.error("only run takes options of snakemake")
-    return options, rest
+class SweepError(Exception):
+    """FILE:LINE: FIELD = VALUE: RULE"""
 
 
-def check(sweep):
-    for run in sweep.runs:
-        print(run.name, *(f"{key}={value}" for key, value in run.varied.items()))
-    print(f"{len(sweep.runs)} runs in {len(sweep.batches())} jobs")
+class Sweep:
+    """A sweep file. scene: as pbskin takes it. rows: deformers or frames. batch: runs per Slurm job. runs: name -> {key: value as TOML}, of the keys that vary. The name is the hash of
+    scene and keys, so that a sweep that grows keeps the runs that it has. files: that scene or keys name."""
+
+    def __init__(self, file):
+        self.file = pathlib.Path(file)
+        try:
+            self.text = self.file.read_text(encoding="utf-8")
+            document = tomllib.loads(self.text)
+        except (OSError, ValueError) as error:
+            raise SweepError(f"{file}: {error}") from None
+        for key in document:
+            if key not in ("schema", "scene", "set", "grid", "run", "output"):
+                self.refuse(key, document[key], "unknown key; expected one of schema, scene, set, grid, run, output")
+        if document.get("schema") != 1:
+            self.refuse("schema", document.get("schema"), "expected 1")
+        self.scene = document.get("scene")
+        if not isinstance(self.scene, str) or not self.scene:
+            self.refuse("scene", self.scene, "expected the name of a built-in scene (pbskin list scenes), or a scene file")
+        if self.scene.endswith(".toml"):
+            self.scene = str((self.file.parent / self.scene).resolve())
+            if not os.path.isfile(self.scene):
+                self.refuse("scene", self.scene, "no such file")
+        for table, kind in (("set", dict), ("grid", dict), ("run", list), ("output", dict)):
+            if not isinstance(document.get(table, kind()), kind):
+                self.refuse(table, document[table], "expected [[run]] tables" if kind is list else "expected a table")
+        output = document.get("output", {})
+        self.rows = output.get("rows", "deformers")
+        self.batch = output.get("batch", 1)
+        if self.rows not in ("deformers", "frames") or set(output) - {"rows", "batch"}:
+            self.refuse("output", output, "expected rows = \"deformers\" or \"frames\", and batch = a number of runs")
+        if type(self.batch) is not int or self.batch < 1:
+            self.refuse("output.batch", self.batch, "expected a whole number of at least 1")
+        self.fixed = self.flat("set", document.get("set", {}))
+        self.runs = self.expanded(self.flat("grid", document.get("grid", {})), [self.flat("run", row) for row in document.get("run", [])])
+        keys = " ".join(value for entries in (self.fixed, *self.runs.values()) for value in entries.values())
+        folder = pathlib.Path(self.scene).parent
+        self.files = sorted(named_files(json.dumps(self.scene) if self.scene.endswith(".toml") else "", folder) | named_files(keys, folder))
+
+    def refuse(self, field, value, rule):
+        name = re.escape(field.split(".")[-1])
+        line = next((number for number, text in enumerate(self.text.splitlines(), 1) if re.match(rf"\s*\[*\s*([\w.]+\.)?{name}\b", text)), 1)
+        raise SweepError(f"{self.file}:{line}: {field} = {str(value)[:80]}: {rule}")
+
+    def flat(self, table, content):
+        """Keys of the scene with their values, whichever way they are nested."""
+        entries = {}
+
+        def walk(prefix, value):
+            if isinstance(value, dict):
+                for key, part in value.items():
+                    walk(f"{prefix}.{key}" if prefix else key, part)
+                return
+            if not KEY.fullmatch(prefix):
+                self.refuse(f"{table}.{prefix}", value, "expected a key of the scene, such as pbs.iterations")
+            if table == "grid" and (not isinstance(value, list) or not value or any(value.count(one) > 1 for one in value)):
+                self.refuse(f"grid.{prefix}", value, "expected a list of different values")
+            if toml_of(value) is None:
+                self.refuse(f"{table}.{prefix}", value, "expected a finite number, a text, true, false, or a list of these")
+            entries[prefix] = value if table == "grid" else toml_of(value)
+
+        walk("", content)
+        return entries
+
+    def expanded(self, grid, rows):
+        taken = [*self.fixed, *grid, *(rows[0] if rows else [])]
+        for key in taken:
+            if taken.count(key) > 1:
+                self.refuse(key, grid.get(key, self.fixed.get(key)), "expected in one of [set], [grid] and [[run]] only")
+        if not grid and not rows:
+            self.refuse("grid", "", "expected a [grid] or [[run]] tables: nothing varies")
+        runs = {}
+        for row in rows or [{}]:
+            if rows and row.keys() != rows[0].keys():
+                self.refuse("run", ", ".join(row), "expected the keys of the first [[run]]: " + ", ".join(rows[0]))
+            for values in itertools.product(*grid.values()):
+                keys = row | {key: toml_of(value) for key, value in zip(grid, values)}
+                name = hashlib.sha256(json.dumps([self.scene, sorted((self.fixed | keys).items())]).encode()).hexdigest()[:16]
+                if name in runs:
+                    self.refuse("run", row, "expected every run once")
+                runs[name] = keys
+        return runs
+
+    def arguments(self, name):
+        return [part for key, value in (self.fixed | self.runs[name]).items() for part in ("--set", f"{key}={value}")]
 
 
-def act(options, more):
-    sweep = sweep_file.read(options.sweep)
-    if options.verb == "check":
-        check(sweep)
-    elif options.verb == "run":
-        return sweep_start.run(sweep, options, more)
-    elif options.verb == "size":
-        return sweep_size.size(sweep, options)
-    elif options.verb == "batch":
-        sweep_runs.finish_batch(sweep, options.name, options.output, options.pbskin)
-    else:
-        told = sweep_merge.merge(sweep, options.output)
-        if len(told["provenance"]["git_revision"]) > 1:
-            print("sweep: the runs are of several revisions, see sweep.json", file=sys.stderr)
-    return 0
+def named_files(text, folder):
+    """The files that quoted texts name, what these name in turn (a scene's mesh, a glTF's buffers), and their companions (.node and .ele)."""
+    found = set()
+    for name in re.findall(r'"([^"\\\n]{1,250})"', text):
+        path = folder / name
+        if not path.suffix or not path.is_file():
+            continue
+        found |= {str(beside) for beside in path.parent.glob(f"{path.stem}.*") if beside.suffix in (path.suffix, ".node", ".ele")}
+        if path.suffix in (".toml", ".gltf"):
+            found |= named_files(path.read_text(encoding="utf-8", errors="replace"), path.parent)
+    return found
+
+
+def toml_of(value):
+    """A value as --set reads it, or nothing for one that no scene has."""
+    if isinstance(value, list):
+        parts = [toml_of(part) for part in value]
+        return None if None in parts else "[" + ", ".join(parts) + "]"
+    if isinstance(value, float) and not math.isfinite(value) or not isinstance(value, (bool, int, float, str)):
+        return None
+    return json.dumps(value, ensure_ascii=False)
+
+
+read = Sweep
+
+
+def program():
+    """The pbskin next to an installation PREFIX/share/pbskin/sweeps, the one built in a checkout, or the one on the PATH."""
+    place = HERE.parents[2] / "bin/pbskin" if HERE.parent.name == "pbskin" else HERE.parents[1] / "build/release/bin/pbskin"
+    return str(place) if place.is_file() else shutil.which("pbskin") or str(place)
+
+
+def run(plan, options, more):
+    if not shutil.which("snakemake"):
+        raise SweepError("snakemake is not installed")
+    if not os.access(options.pbskin, os.X_OK):
+        raise SweepError(f"{options.pbskin}: no such program")
+    os.makedirs(options.output, exist_ok=True)
+    lock = os.open(options.output / ".lock", os.O_CREAT | os.O_RDWR)
+    try:
+        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        raise SweepError(f"{options.output}: another sweep runs there") from None
+    os.set_inheritable(lock, True)  # unlike snakemake's own lock, this one ends with snakemake, however it ends
+    slurm = ["--profile", str(HERE / "slurm"), "--group-components", f"runs={plan.batch}"]
+    where = slurm if options.slurm else ["--cores", str(options.jobs), "--quiet", "rules", "--scheduler", "greedy"]
+    os.execvp("snakemake", ["snakemake", "-s", str(HERE / "Snakefile"), "-d", str(options.output), "--nolock", "--rerun-incomplete",
+                            "--rerun-triggers", "mtime", "params", "input", *where, *more, "--config",
+                            f"sweep={os.path.abspath(options.sweep)}", f"pbskin={os.path.abspath(options.pbskin)}"])
 
 
 def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("verb", choices=["check", "run"])
+    parser.add_argument("sweep")
+    parser.add_argument("-o", "--output", type=pathlib.Path, default=pathlib.Path("results/sweep"))
+    parser.add_argument("-j", "--jobs", type=int, default=1, help="runs at once; on Slurm the profile states it")
+    parser.add_argument("--slurm", action="store_true")
+    parser.add_argument("--pbskin", default=program())
+    options, more = parser.parse_known_args()
     try:
-        return act(*arguments(sys.argv[1:]))
-    except (sweep_file.SweepError, sweep_start.StartError) as error:
+        plan = read(options.sweep)
+        if options.verb == "run":
+            run(plan, options, [option for option in more if option != "--"])
+        for name, keys in plan.runs.items():
+            print(name, *(f"{key}={value}" for key, value in keys.items()))
+        print(f"{len(plan.runs)} runs")
+    except (SweepError, OSError) as error:
         print(f"sweep: {error}", file=sys.stderr)
         return 2
-    except sweep_runs.RunFailed as error:
-        print(error, file=sys.stderr)
-        return 2 if error.status == 2 else 1
-    except (sweep_merge.MergeError, OSError) as error:
-        print(f"sweep: {error}", file=sys.stderr)
-        return 1
-    except KeyboardInterrupt:
-        return sweep_start.INTERRUPTED
+    return 0
 
 
 if __name__ == "__main__":

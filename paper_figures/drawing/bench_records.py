@@ -1,4 +1,4 @@
-"""The timings of `pbskin bench` (DIR/bench/bench.json), for the figures that show them."""
+"""The timings of `pbskin bench` (DIR/timing/bench/bench.json), for the figures that show them."""
 import records
 from drawing import style
 
@@ -14,10 +14,10 @@ names = {"plain": "plain", "plain_native": "plain, native build", "plain_spread"
 
 
 def read(results):
-    file = results / "bench" / "bench.json"
+    file = results / "timing" / "bench" / "bench.json"
     record = records.read_json(file)
     if record.get("schema") != schema:
-        raise records.RecordsMissing(f"{file}: schema {record.get('schema')}, expected {schema}; repeat `pbskin reproduce bench`")
+        raise records.RecordsMissing(f"{file}: schema {record.get('schema')}, expected {schema}; repeat `pbskin reproduce timing --full --only bench`")
     for key in ("context", "meshes"):
         if key not in record:
             raise records.RecordsMissing(f"{file}: no {key}")

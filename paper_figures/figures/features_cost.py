@@ -21,8 +21,7 @@ def draw_scene(axes, rows, measure, number, names):
 
 
 def features_cost(results, figures):
-    folder = results / "features"
-    found = {scene: records.table(folder / scene / "features.csv", columns) for scene in scenes}
+    found = {scene: records.table(results / "timing" / f"features_{scene}" / "features.csv", columns) for scene in scenes}
     names = list(dict.fromkeys(row["feature"] for rows in found.values() for row in rows))
     figure, axes = style.panels(1, 2, height_in=0.7 + 0.14 * len(names), sharey=True)
     for panel, (measure, label) in zip(axes[0], measures):

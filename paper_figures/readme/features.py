@@ -1,10 +1,10 @@
-"""Copies the human's rows of DIR/features/human/features.csv into the README of the study `features`, so that nobody edits that table.
+"""Copies the human's rows of DIR/timing/features_human/features.csv into the README of the study `timing`, so that nobody edits that table.
 """
 import records
 from readme import part
 from words import case_words
 
-page = part.source / "experiments" / "studies" / "features" / "README.md"
+page = part.source / "experiments" / "studies" / "timing" / "README.md"
 head = ["| feature | processor ms per frame without | with | ratio [quartiles] | start [s] without | with | peak [MB] without | with "
         "| the result moves |", "|---|---|---|---|---|---|---|---|---|"]
 
@@ -21,7 +21,7 @@ def line(row):
 
 
 def lines_of(results):
-    rows = records.table(results / "features" / "human" / "features.csv", {"feature", "frame_cpu_ms_ratio"})
-    facts = records.provenance(results / "features")
+    rows = records.table(results / "timing" / "features_human" / "features.csv", {"feature", "frame_cpu_ms_ratio"})
+    facts = records.provenance(results / "timing" / "features_human")
     revision = facts.get("git_revision", "unknown")[:12] + (" with local changes" if facts.get("git_dirty") else "")
     return [*head, *map(line, rows), "", f"Measured at revision {revision}."]

@@ -125,6 +125,13 @@ def planned_runs(study):
         raise records.RecordsMissing(f"{plan}: runs: expected a list of runs with their names") from None
 
 
+def is_in_form(study, run):
+    """False for a run that the quick form of the study does not have."""
+    plan = records.read_json(study / "plan.json") if (study / "plan.json").is_file() else {}
+    left_out = [left.get("scene") for left in plan.get("left_out", [])]
+    return plan.get("extent") != "quick" or run in planned_runs(study) or run in left_out
+
+
 def check_plan(run):
     if not is_planned(run):
         raise RecordsStale(f"stale: {run.parent} is no run of its study's plan.json: left from an earlier one")

@@ -40,7 +40,7 @@ std::vector<ConstraintGroup> grouped_tets(const std::vector<std::array<int, 4>>&
 // an edge, then those that share a vertex. Where neighbours follow each other like the tets of a sweep through the body, each one is
 // undone by half of its neighbours. By colours, those of the last colour are undone by none. Measured after 24 iterations on the limb, two
 // tapered limbs and the human, the absolute volume change is on average 7 % and at least 1 % below the median of random sequences; that of
-// sweeps is on average 3 % above. The page of the study `equal_quality` has the table.
+// sweeps is on average 3 % above. The page of the study `timing` has the table.
 //
 // The place of each group in the sequence, #groups. groups: of one class, of a mesh of so many vertices.
 // Three colourings decide, one after the other: by shared faces (three vertices, ascending), by shared edges (two, descending, of groups of

@@ -21,8 +21,9 @@ namespace pbs {
 struct DeltaMushOptions {
     int iterations = 20;  // of smoothing
     double step = 0.5;    // share of the way to the neighbours' mean
-    // Which code a deformer runs: f64 this plain one, f32 PackedDeltaMush<float>. Neither class reads it.
+    // Which code a deformer runs: this plain one in f64, or PackedDeltaMush. Neither class reads it.
     Precision precision = Precision::f64;
+    bool packed = false;
 };
 
 class DeltaMush {

@@ -31,8 +31,9 @@ struct DirectDeltaMushOptions {
     double alpha = 0.5;        // share of w' in the translations, in [0, 1]
     double negligible = 1e-4;  // weight below which a bone is dropped from a vertex; from 0 to 1e-3
     MushSmoothing smoothing = MushSmoothing::implicit_steps;
-    // Which code a deformer runs: f64 this plain one, f32 PackedDirectMush<float>. Neither class reads it.
+    // Which code a deformer runs: this plain one in f64, or PackedDirectMush. Neither class reads it.
     Precision precision = Precision::f64;
+    bool packed = false;
 };
 
 class DirectDeltaMush {

@@ -4,16 +4,14 @@
 
 #include "experiments/deformers/deformer_options.hpp"
 #include "experiments/deformers/fem/fem_options.hpp"
+#include "experiments/deformers/registry.hpp"
 #include "experiments/scene/scene.hpp"
 #include "experiments/settings/option_fields.hpp"
 
 inline const experiments::SceneSchema& fuzzed_schema()
 {
-    static const experiments::SceneSchema schema = [] {
-        experiments::SceneSchema all{experiments::character_and_motion_keys()};
-        for (const auto& keys : {experiments::pbs_fields().keys(), experiments::fem_fields().keys(), experiments::output_keys()})
-            all.keys.insert(all.keys.end(), keys.begin(), keys.end());
-        return all;
-    }();
+    using namespace experiments;
+    static const SceneSchema schema =
+        scene_schema({{.name = "pbs", .keys = pbs_fields().keys()}, {.name = "fem", .keys = fem_fields().keys()}});
     return schema;
 }

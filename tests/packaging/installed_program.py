@@ -50,8 +50,7 @@ class InstalledProgram(unittest.TestCase):
     def test_sweeps_by_the_program_beside(self):
         (folder / "elsewhere").mkdir(exist_ok=True)
         example = prefix / "share/pbskin/sweeps/examples/limb_bend.toml"
-        self.assertRegex(self.sweep("check", example), r"(?m)^\d+ runs in \d+ jobs$")
-        self.assertRegex(self.sweep("size", example, "--sample", "1"), r"(?m)^a run: \d+\.\d+ processor seconds")
+        self.assertRegex(self.sweep("check", example), r"(?m)^\d+ runs$")
         if shutil.which("snakemake", path="/usr/bin:/bin"):
             self.sweep("run", example, "-o", "sweep", "-j", "2")
             self.assertTrue((folder / "elsewhere/sweep/sweep.csv").is_file())

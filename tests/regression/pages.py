@@ -19,7 +19,7 @@ from records import kept  # noqa: E402
 KEPT = kept.opened(SOURCE / "experiments" / "records" / "full")
 STUDY_SECTIONS = ["Cases", "Records", "Claims, figures, cost", "What it cannot show"]
 CLAIM_SECTIONS = ["What is measured", "Formula", "Bound", "What would make it fail", "How the paper can be read", "Result"]
-WITHOUT_KEPT_TABLES = {"bench", "frames", "scale"}  # their records are large, and no verdict needs them
+WITHOUT_KEPT_TABLES = {"frames"}  # its records are large, and no verdict needs them
 
 
 def sections(text):

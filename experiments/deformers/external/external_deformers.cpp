@@ -1,8 +1,7 @@
 #include "experiments/deformers/external/external_deformers.hpp"
 
+#include "experiments/deformers/deformer_kind.hpp"
 #include "experiments/deformers/external/pbskin_deformer.h"
-#include "experiments/deformers/registry.hpp"
-#include "experiments/settings/scene_values.hpp"
 #include "pbs/character/body_cache.hpp"
 #include "pbs/geometry/cost.hpp"
 #include "pbs/geometry/files.hpp"
@@ -46,7 +45,7 @@ std::string load(const std::string& library, LibraryFunctions& functions)
     return missing;
 }
 
-class LibraryDeformer : public Deformer {
+class LibraryDeformer : public TimedDeformer {
 public:
     explicit LibraryDeformer(const ExternalOptions& options) : options_(options)
     {
@@ -57,7 +56,10 @@ public:
     LibraryDeformer(const LibraryDeformer&) = delete;
     LibraryDeformer& operator=(const LibraryDeformer&) = delete;
 
-    void reset(const pbs::Character& character) override
+    bool has_memory() const override { return options_.has_memory; }
+
+private:
+    void set_up(const pbs::Character& character) override
     {
         release();
         const std::size_t bones = character.skeleton.bones.size();
@@ -79,25 +81,14 @@ public:
                                         parents.data()};
         deformer_ = functions_.create(&given);
         if (!deformer_) refuse_external(options_, "pbskin_deformer_create returned null: expected a deformer");
-        positions_ = character.mesh.rest;
     }
-
-    bool has_memory() const override { return options_.has_memory; }
-    const pbs::Positions& positions() const override { return positions_; }
-
-    pbs::StepSummary advance(const pbs::Pose& pose, double dt_s) override
+    pbs::StepSummary deform(const pbs::Pose& pose, double dt_s, pbs::Positions& x) override
     {
         const std::vector<double> transforms = transform_rows(pose);
-        const pbs::Stopwatch stopwatch;
-        const int status = functions_.advance(deformer_, transforms.data(), dt_s, positions_.data());
-        pbs::StepSummary summary;
-        summary.seconds = stopwatch.seconds();
+        const int status = functions_.advance(deformer_, transforms.data(), dt_s, x.data());
         if (status != 0) refuse_external(options_, fmt::format("pbskin_deformer_advance returned {}: expected 0", status));
-        if (!positions_.allFinite()) summary.outcome = pbs::Outcome::not_finite;
-        return summary;
+        return {};
     }
-
-private:
     void release()
     {
         if (deformer_) functions_.destroy(deformer_);
@@ -107,7 +98,6 @@ private:
     ExternalOptions options_;
     LibraryFunctions functions_;
     void* deformer_ = nullptr;
-    pbs::Positions positions_;
 };
 
 }  // namespace
@@ -123,21 +113,9 @@ std::unique_ptr<Deformer> make_library_deformer(const ExternalOptions& options)
     return std::make_unique<LibraryDeformer>(options);
 }
 
-// The registration of external deformers.
-
 namespace {
 
 namespace fs = std::filesystem;
-
-SceneKey key(std::string name, KeyType type, std::string default_json, std::string meaning)
-{
-    return {.table = "external",
-            .name = std::move(name),
-            .type = type,
-            .default_json = std::move(default_json),
-            .meaning = std::move(meaning),
-            .in_list = true};
-}
 
 // Files of the scene's folder by their absolute paths; other words stay.
 std::string word_of(const std::string& word, const fs::path& folder)
@@ -155,20 +133,16 @@ std::string hash_of(const std::string& word)
     return is_file ? pbs::content_hash(pbs::read_text_file(word, pbs::most_mesh_bytes)) : "";
 }
 
-void read_external(const SceneValues& values, const std::string& table, DeformerSpec& spec)
+void find_files(const SceneValues& values, const std::string& table, ExternalOptions& options, DeformerSpec& spec)
 {
     const fs::path folder = fs::path(values.file()).parent_path();
-    ExternalOptions options;
-    for (const std::string& word : values.texts(table + ".command")) options.command.push_back(word_of(word, folder));
-    options.library = values.text(table + ".library");
-    options.has_memory = values.boolean(table + ".has_memory");
+    for (std::string& word : options.command) word = word_of(word, folder);
     options.scene = values.file();
     options.name = spec.name;
     if (options.command.empty() == options.library.empty()) values.refuse(table + ".command", "expected either a command or a library");
     if (!options.library.empty()) options.library = fs::absolute(folder / options.library).string();
     const std::vector<std::string> files = options.library.empty() ? options.command : std::vector{options.library};
     for (const std::string& file : files) options.file_hashes.push_back(hash_of(file));
-    spec.options = options;
 }
 
 // A file is recorded by its name without the folder, and by its hash.
@@ -197,26 +171,27 @@ void refuse_external(const ExternalOptions& options, const std::string& rule)
 
 DeformerKind external_kind()
 {
-    return {
-        .name = "external",
-        .meaning = "a deformer of the user's own: a program that reads poses and writes positions, or a shared library",
-        .make = [](const DeformerSpec& spec) -> std::unique_ptr<Deformer> {
-            const auto& options = options_of<ExternalOptions>(spec);
-            return options.library.empty() ? make_program_deformer(options) : make_library_deformer(options);
-        },
-        .options = ExternalOptions{},
-        .keys = {key("name", KeyType::text, "", "the name of this deformer in deformers.use and in the records"),
-                 key("command", KeyType::texts, "[]",
-                     "the program and its arguments; files are relative to the scene; the folder of the exchanged files is added as the "
-                     "last argument"),
-                 key("library", KeyType::text, "\"\"", "a shared library with the functions of pbskin_deformer.h, relative to the scene"),
-                 key("has_memory", KeyType::boolean, "false", "it gets every time step in order, not only the frames")},
-        .has_list = true,
-        .needs_list = true,
-        .read = read_external,
-        .options_json = external_json,
-        .traits =
-            [](const DeformerSpec& spec) { return DeformerTraits{.has_own_clock = options_of<ExternalOptions>(spec).library.empty()}; }};
+    using Options = ExternalOptions;
+    DeformerKind kind = kind_of<void>(
+        "external", "a deformer of the user's own: a program that reads poses and writes positions, or a shared library",
+        OptionFields<Options>("external", true)
+            .key("name", KeyType::text, "", {.is_stated = true, .meaning = "the name of this deformer in deformers.use and in the records"})
+            .add(
+                "command", &Options::command,
+                {.meaning = "the program and its arguments; files are relative to the scene; the folder of the exchanged files is added as "
+                            "the last argument"})
+            .add("library", &Options::library,
+                 {.meaning = "a shared library with the functions of pbskin_deformer.h, relative to the scene"})
+            .add("has_memory", &Options::has_memory, {.meaning = "it gets every time step in order, not only the frames"}),
+        find_files);
+    kind.needs_list = true;
+    kind.make = [](const DeformerSpec& spec) -> std::unique_ptr<Deformer> {
+        const auto& options = options_of<Options>(spec);
+        return options.library.empty() ? make_program_deformer(options) : make_library_deformer(options);
+    };
+    kind.options_json = external_json;
+    kind.traits = [](const DeformerSpec& spec) { return DeformerTraits{.has_own_clock = options_of<Options>(spec).library.empty()}; };
+    return kind;
 }
 
 }  // namespace experiments

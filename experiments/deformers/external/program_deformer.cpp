@@ -124,18 +124,9 @@ std::string end_of(const ProgramRun& program)
     return end + ": expected status 0" + (last_line.empty() ? "" : "; its last line: " + last_line);
 }
 
-class ProgramDeformer : public Deformer {
+class ProgramDeformer : public TimedDeformer {
 public:
     explicit ProgramDeformer(const ExternalOptions& options) : options_(options) {}
-
-    void reset(const pbs::Character& character) override
-    {
-        character_ = &character;
-        positions_ = character.mesh.rest;
-        foreseen_.clear();
-        done_ = {};
-        next_ = 0;
-    }
 
     void foresee(const std::vector<pbs::Pose>& poses) override
     {
@@ -145,27 +136,27 @@ public:
     }
 
     bool has_memory() const override { return options_.has_memory; }
-    const pbs::Positions& positions() const override { return positions_; }
-
-    pbs::StepSummary advance(const pbs::Pose& pose, double dt_s) override
-    {
-        const bool is_next = next_ < foreseen_.size() && same(foreseen_[next_], pose);
-        if (!is_next) {
-            foreseen_ = {pose};
-            next_ = 0;
-        }
-        if (next_ == 0) run(dt_s);
-        pbs::StepSummary summary;
-        positions_ = done_.positions[next_];
-        summary.seconds = done_.seconds ? (*done_.seconds)[next_] : wall_s_ / static_cast<double>(foreseen_.size());
-        if (!positions_.allFinite()) summary.outcome = pbs::Outcome::not_finite;
-        ++next_;
-        return summary;
-    }
 
     nlohmann::json record() const override { return {{"own_times", done_.seconds.has_value()}}; }
 
 private:
+    bool has_own_clock() const override { return true; }
+    void set_up(const pbs::Character& character) override
+    {
+        character_ = &character;
+        foresee({});
+    }
+    pbs::StepSummary deform(const pbs::Pose& pose, double dt_s, pbs::Positions& x) override
+    {
+        const bool is_next = next_ < foreseen_.size() && same(foreseen_[next_], pose);
+        if (!is_next) foresee({pose});
+        if (next_ == 0) run(dt_s);
+        pbs::StepSummary summary;
+        x = done_.positions[next_];
+        summary.seconds = done_.seconds ? (*done_.seconds)[next_] : wall_s_ / static_cast<double>(foreseen_.size());
+        ++next_;
+        return summary;
+    }
     void run(double dt_s)
     {
         const analysis::ScratchFolder folder;
@@ -190,7 +181,6 @@ private:
     ExchangedPositions done_;  // of the foreseen poses
     std::size_t next_ = 0;     // of them
     double wall_s_ = 0.0;      // of the program for all of them
-    pbs::Positions positions_;
 };
 
 }  // namespace

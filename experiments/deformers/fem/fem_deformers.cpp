@@ -35,7 +35,9 @@ void LinearFemDeformer::reset(const pbs::Character& character)
     frames_not_finite_ = 0;
     largest_residual_ = 0.0;
     most_iterations_ = 0;
-    positions_ = character.mesh.rest;
+    facts_ = {};
+    if (options_.attachment == FemAttachment::nodes) facts_.prescribed = elasticity_->prescribed_vertices();
+    facts_.last_state = positions_ = character.mesh.rest;
 }
 
 pbs::StepSummary LinearFemDeformer::advance(const pbs::Pose& pose, double)
@@ -44,7 +46,7 @@ pbs::StepSummary LinearFemDeformer::advance(const pbs::Pose& pose, double)
     const pbs::RootFrame frame(character_->skeleton, pose);
     const reference_fem::Targets held = targets(bones_, character_->mesh.rest, frame.pose());
     const reference_fem::SolveSummary solve = elasticity_->solve(held.springs, held.vertices, frame.from_world(options_.gravity_m_s2));
-    positions_ = frame.to_world(elasticity_->positions());
+    facts_.last_state = positions_ = frame.to_world(elasticity_->positions());
 
     pbs::StepSummary summary;
     summary.outcome = solve.finite && positions_.allFinite() ? pbs::Outcome::finished : pbs::Outcome::not_finite;
@@ -59,12 +61,6 @@ pbs::StepSummary LinearFemDeformer::advance(const pbs::Pose& pose, double)
     else
         ++frames_not_finite_;
     return summary;
-}
-
-std::vector<bool> LinearFemDeformer::prescribed() const
-{
-    if (!elasticity_ || options_.attachment != FemAttachment::nodes) return {};
-    return elasticity_->prescribed_vertices();
 }
 
 nlohmann::json LinearFemDeformer::record() const
@@ -159,13 +155,13 @@ void ElasticFemDeformer::reset(const pbs::Character& character)
     unspent_s_ = 0.0;
     start_ = {};
     is_started_ = false;
-    set_out_from_ = {};
-    lowest_det_f_.reset();
+    facts_ = {};
+    if (options_.attachment == FemAttachment::nodes) facts_.prescribed = body_->prescribed_vertices();
     failures_in_a_row_ = 0;
     record_ = FemRecord(character, options_, bones_, body_->setup().spring_tet);
     newton_record_ = NewtonRecord(pbs::tet_volumes(character.mesh.rest, character.mesh.tets).sum());
     has_tried_ = true;
-    positions_ = last_state_ = character.mesh.rest;
+    positions_ = facts_.last_state = character.mesh.rest;
 }
 
 pbs::StepSummary ElasticFemDeformer::advance(const pbs::Pose& pose, double dt_s)
@@ -173,7 +169,7 @@ pbs::StepSummary ElasticFemDeformer::advance(const pbs::Pose& pose, double dt_s)
     const pbs::Stopwatch stopwatch;
     const pbs::RootFrame frame(character_->skeleton, pose);
     FrameSolve solve;
-    set_out_from_ = {};
+    facts_.fewer_nodes = {};
     if (!has_memory()) {
         if (start_.rows() > 0)
             solve = settle_from_start(frame);
@@ -181,11 +177,11 @@ pbs::StepSummary ElasticFemDeformer::advance(const pbs::Pose& pose, double dt_s)
             solve = settle(frame);
         has_tried_ = !solve.stages.empty();
         positions_ = frame.to_world(body_->positions());
-        last_state_ = solve.converged() ? positions_ : frame.to_world(last_iterate_at(character_->mesh.rest));
+        facts_.last_state = solve.converged() ? positions_ : frame.to_world(last_iterate_at(character_->mesh.rest));
     } else {
         solve = is_started_ ? move(pose, dt_s) : start_at(frame);
         positions_ = body_->positions();
-        last_state_ = solve.converged() ? positions_ : last_iterate_at(character_->mesh.rest);
+        facts_.last_state = solve.converged() ? positions_ : last_iterate_at(character_->mesh.rest);
     }
     is_started_ = true;
     pbs::StepSummary summary;
@@ -194,7 +190,7 @@ pbs::StepSummary ElasticFemDeformer::advance(const pbs::Pose& pose, double dt_s)
         summary.iterations += stage.newton_steps();
         summary.work += stage.work();
     }
-    if (set_out_from_.deformer) summary.work += set_out_from_.step.work;
+    if (facts_.fewer_nodes.deformer) summary.work += facts_.fewer_nodes.step.work;
     summary.seconds = stopwatch.seconds();
 
     record_.add_frame(frame.pose());
@@ -205,7 +201,7 @@ pbs::StepSummary ElasticFemDeformer::advance(const pbs::Pose& pose, double dt_s)
 void ElasticFemDeformer::record_solve(const FrameSolve& solve)
 {
     const reference_fem::Jacobians jacobians = body_->jacobians();
-    lowest_det_f_ = jacobians.lowest;
+    facts_.lowest_det_f = jacobians.lowest;
     if (solve.converged()) {
         newton_record_.add_frame(solve, jacobians);
         record_grip();
@@ -250,7 +246,7 @@ bool ElasticFemDeformer::may_go_the_way(const FrameSolve& solve) const
     if (options_.most_newton_steps == 0) return true;
     const bool has_spent_its_steps =
         !solve.stages.empty() && solve.stages.back().steps.back().newton.outcome == reference_fem::NewtonOutcome::iterations_exhausted;
-    const bool fewer_nodes_failed = set_out_from_.deformer && set_out_from_.step.outcome != pbs::Outcome::finished;
+    const bool fewer_nodes_failed = facts_.fewer_nodes.deformer && facts_.fewer_nodes.step.outcome != pbs::Outcome::finished;
     return !has_spent_its_steps && !fewer_nodes_failed;
 }
 
@@ -260,8 +256,8 @@ bool ElasticFemDeformer::settle_from_fewer_nodes(const pbs::Pose& pose, const pb
     if (!fewer_nodes_) return false;
     const pbs::PosePath from_last_pose(character_->skeleton, reached_pose_, frame.pose());
     if (is_started_ && from_last_pose.largest_turn_deg() <= far_turn_deg) return false;
-    set_out_from_ = {fewer_nodes_.get(), fewer_nodes_->advance(pose, 0.0)};
-    if (set_out_from_.step.outcome != pbs::Outcome::finished) return false;
+    facts_.fewer_nodes = {fewer_nodes_.get(), fewer_nodes_->advance(pose, 0.0)};
+    if (facts_.fewer_nodes.step.outcome != pbs::Outcome::finished) return false;
     const pbs::Positions& rest = body_->nodes_at_rest();
     const pbs::Positions before = rest + Eigen::Map<const pbs::Positions>(body_->displacement().data(), rest.rows(), 3);
     body_->start_from_nodes(fewer_nodes_->body_->moved(rest));
@@ -332,12 +328,6 @@ void ElasticFemDeformer::record_grip()
     if (held.springs.rows() > 0) record_.add_grip(held.springs, (held.springs - body_->spring_points_deformed()).rowwise().norm());
     if (options_.attachment == FemAttachment::bind)
         record_.add_grip(held.bind_points, (body_->positions() - held.bind_points).rowwise().norm() - bones_.attachment.bind_distance);
-}
-
-std::vector<bool> ElasticFemDeformer::prescribed() const
-{
-    if (!body_ || options_.attachment != FemAttachment::nodes) return {};
-    return body_->prescribed_vertices();
 }
 
 nlohmann::json ElasticFemDeformer::record() const

@@ -114,7 +114,7 @@ public:
     pbs::StepSummary advance(const pbs::Pose& pose, double dt_s) override;
 
     const pbs::Positions& positions() const override { return positions_; }
-    std::vector<bool> prescribed() const override;
+    const FemFacts* facts() const override { return &facts_; }
     nlohmann::json record() const override;
 
 private:
@@ -125,7 +125,8 @@ private:
     FemRecord record_;
     int frames_not_finite_ = 0;
     double largest_residual_ = 0.0;
-    int most_iterations_ = 0;   // of an iterative solver, per frame
+    int most_iterations_ = 0;  // of an iterative solver, per frame
+    FemFacts facts_;
     pbs::Positions positions_;  // [m], #V x 3
 };
 
@@ -134,9 +135,9 @@ private:
 //
 // Quasi-static: the path from the last solved pose to the frame's pose is followed in stages. No bone turns by more than 45 degrees in a
 // stage, and each stage is halved until its parts converge. Where a frame is not reached, the positions are those of the last equilibrium
-// on the path, the outcome is not_converged, and the next frame begins there; last_state() and the record's worst tet are those in which
-// Newton's method ended. The second such frame in a row is tried again from rest, once. nested_start: a body with fewer nodes follows the
-// path to a pose far from the last one, and its solution, interpolated by its own elements, is the initial guess of this body, which
+// on the path, the outcome is not_converged, and the next frame begins there; FemFacts::last_state and the record's worst tet are those in
+// which Newton's method ended. The second such frame in a row is tried again from rest, once. nested_start: a body with fewer nodes follows
+// the path to a pose far from the last one, and its solution, interpolated by its own elements, is the initial guess of this body, which
 // follows the path itself only where that fails. It has order 1 on the same tets if this body has order 2, and otherwise the unrefined
 // tets. F is constant in a tet of order 1 and thus the same at all quadrature points of the finer elements, so that an energy which is
 // infinite at det F <= 0 is finite in every initial guess. start_from(): the next frame is Newton's method alone, in the frame's own pose,
@@ -156,10 +157,7 @@ public:
     const pbs::Positions& positions() const override { return positions_; }
     void start_from(const pbs::Positions& shape) override { start_ = shape; }
     bool has_memory() const override { return options_.dynamics != reference_fem::Dynamics::quasi_static; }
-    std::vector<bool> prescribed() const override;
-    FewerNodes set_out_from() const override { return set_out_from_; }
-    std::optional<double> lowest_det_f() const override { return lowest_det_f_; }
-    pbs::Positions last_state() const override { return last_state_; }
+    const FemFacts* facts() const override { return &facts_; }
     nlohmann::json record() const override;
 
 private:
@@ -186,12 +184,11 @@ private:
     bool is_started_ = false;  // a pose has been solved
     int failures_in_a_row_ = 0;
     std::unique_ptr<ElasticFemDeformer> fewer_nodes_;  // nested_start
-    FewerNodes set_out_from_;
     bool has_tried_ = true;  // to reach the last pose by Newton's method; if not, the solution with fewer nodes was not reached
-    std::optional<double> lowest_det_f_;
     FemRecord record_;
     NewtonRecord newton_record_;
-    pbs::Positions positions_, last_state_;  // [m], #V x 3
+    FemFacts facts_;
+    pbs::Positions positions_;  // [m], #V x 3
 };
 
 }  // namespace experiments

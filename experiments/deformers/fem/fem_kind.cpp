@@ -1,12 +1,8 @@
 // The registration of the finite element reference.
 
+#include "experiments/deformers/deformer_kind.hpp"
 #include "experiments/deformers/fem/fem_options.hpp"
-#include "experiments/deformers/registry.hpp"
 #include "experiments/process/machine.hpp"
-#include "experiments/settings/option_fields.hpp"
-
-#include <algorithm>
-#include <cctype>
 
 namespace experiments {
 namespace {
@@ -132,7 +128,7 @@ void add_solution_keys(OptionFields<FemOptions>& fields)
 }
 
 // The rules that involve more than one key.
-void check(const SceneValues& values, const std::string& table, const FemOptions& options)
+void check(const SceneValues& values, const std::string& table, FemOptions& options, DeformerSpec& /*spec*/)
 {
     const bool linear = options.model == reference_fem::Model::linear;
     const bool quasi_static = options.dynamics == reference_fem::Dynamics::quasi_static;
@@ -181,13 +177,6 @@ const OptionFields<FemOptions>& fem_fields()
     return fields;
 }
 
-void read_fem(const SceneValues& values, const std::string& table, DeformerSpec& spec)
-{
-    const FemOptions options = fem_fields().read(values, table);
-    check(values, table, options);
-    spec.options = options;
-}
-
 namespace {
 
 // Loads deal.II and some 200 shared objects, when a scene first uses a reference.
@@ -207,19 +196,16 @@ DeformerTraits fem_traits(const DeformerSpec& spec)
 
 DeformerKind fem_kind()
 {
-    return {.name = "fem",
-            .meaning =
-                "finite elements on the same tets (deal.II, CHOLMOD): linear (fictitious strain 1 - cos(rotation)), corotational, "
-                "neo-Hookean (also stable), St Venant-Kirchhoff; in equilibrium or in time; a frame that is not reached is marked "
-                "not_converged",
-            .make = make_fem,
-            .options = FemOptions{},
-            .keys = fem_fields().keys(),
-            .has_list = true,
-            .needs_list = true,
-            .read = read_fem,
-            .options_json = [](const DeformerSpec& spec) { return fem_fields().json(options_of<FemOptions>(spec)); },
-            .traits = fem_traits};
+    DeformerKind kind =
+        kind_of<void>("fem",
+                      "finite elements on the same tets (deal.II, CHOLMOD): linear (fictitious strain 1 - cos(rotation)), corotational, "
+                      "neo-Hookean (also "
+                      "stable), St Venant-Kirchhoff; in equilibrium or in time; a frame that is not reached is marked not_converged",
+                      fem_fields(), check);
+    kind.needs_list = true;
+    kind.make = make_fem;
+    kind.traits = fem_traits;
+    return kind;
 }
 
 }  // namespace experiments

@@ -69,53 +69,38 @@ inline double spring_factor_of(const FemOptions& options)
 
 // The names of the values of the reference's options in scenes and records.
 template <>
-struct OptionNames<reference_fem::Model> {
-    static constexpr std::array<std::pair<reference_fem::Model, const char*>, 5> table{
-        {{reference_fem::Model::linear, "linear"},
-         {reference_fem::Model::corotational, "corotational"},
-         {reference_fem::Model::stable_neo_hookean, "stable_neo_hookean"},
-         {reference_fem::Model::neo_hookean, "neo_hookean"},
-         {reference_fem::Model::st_venant_kirchhoff, "st_venant_kirchhoff"}}};
-};
+inline constexpr NameTable<reference_fem::Model, 5> option_names<reference_fem::Model>{
+    {{reference_fem::Model::linear, "linear"},
+     {reference_fem::Model::corotational, "corotational"},
+     {reference_fem::Model::stable_neo_hookean, "stable_neo_hookean"},
+     {reference_fem::Model::neo_hookean, "neo_hookean"},
+     {reference_fem::Model::st_venant_kirchhoff, "st_venant_kirchhoff"}}};
 template <>
-struct OptionNames<reference_fem::Formulation> {
-    static constexpr std::array<std::pair<reference_fem::Formulation, const char*>, 3> table{
-        {{reference_fem::Formulation::displacement, "displacement"},
-         {reference_fem::Formulation::mean_dilatation, "mean_dilatation"},
-         {reference_fem::Formulation::taylor_hood, "taylor_hood"}}};
-};
+inline constexpr NameTable<reference_fem::Formulation, 3> option_names<reference_fem::Formulation>{
+    {{reference_fem::Formulation::displacement, "displacement"},
+     {reference_fem::Formulation::mean_dilatation, "mean_dilatation"},
+     {reference_fem::Formulation::taylor_hood, "taylor_hood"}}};
 template <>
-struct OptionNames<reference_fem::Dynamics> {
-    static constexpr std::array<std::pair<reference_fem::Dynamics, const char*>, 3> table{
-        {{reference_fem::Dynamics::quasi_static, "quasi_static"},
-         {reference_fem::Dynamics::newmark, "newmark"},
-         {reference_fem::Dynamics::generalized_alpha, "generalized_alpha"}}};
-};
+inline constexpr NameTable<reference_fem::Dynamics, 3> option_names<reference_fem::Dynamics>{
+    {{reference_fem::Dynamics::quasi_static, "quasi_static"},
+     {reference_fem::Dynamics::newmark, "newmark"},
+     {reference_fem::Dynamics::generalized_alpha, "generalized_alpha"}}};
 template <>
-struct OptionNames<FemAttachment> {
-    static constexpr std::array<std::pair<FemAttachment, const char*>, 4> table{{{FemAttachment::smooth, "smooth"},
-                                                                                 {FemAttachment::embedded, "embedded"},
-                                                                                 {FemAttachment::nodes, "nodes"},
-                                                                                 {FemAttachment::bind, "bind"}}};
-};
+inline constexpr NameTable<FemAttachment, 4> option_names<FemAttachment>{{{FemAttachment::smooth, "smooth"},
+                                                                          {FemAttachment::embedded, "embedded"},
+                                                                          {FemAttachment::nodes, "nodes"},
+                                                                          {FemAttachment::bind, "bind"}}};
 template <>
-struct OptionNames<pbs::AttachmentKernel> {
-    static constexpr std::array<std::pair<pbs::AttachmentKernel, const char*>, 2> table{
-        {{pbs::AttachmentKernel::biweight, "biweight"}, {pbs::AttachmentKernel::wendland, "wendland"}}};
-};
+inline constexpr NameTable<pbs::AttachmentKernel, 2> option_names<pbs::AttachmentKernel>{
+    {{pbs::AttachmentKernel::biweight, "biweight"}, {pbs::AttachmentKernel::wendland, "wendland"}}};
 template <>
-struct OptionNames<reference_fem::LinearSolver> {
-    static constexpr std::array<std::pair<reference_fem::LinearSolver, const char*>, 3> table{
-        {{reference_fem::LinearSolver::cholmod, "cholmod"},
-         {reference_fem::LinearSolver::umfpack, "umfpack"},
-         {reference_fem::LinearSolver::cg_ml, "cg_ml"}}};
-};
+inline constexpr NameTable<reference_fem::LinearSolver, 3> option_names<reference_fem::LinearSolver>{
+    {{reference_fem::LinearSolver::cholmod, "cholmod"},
+     {reference_fem::LinearSolver::umfpack, "umfpack"},
+     {reference_fem::LinearSolver::cg_ml, "cg_ml"}}};
 
 // The options of the finite element reference in scenes and records: their keys, and how they are read.
 const OptionFields<FemOptions>& fem_fields();
-
-// Sets the options from one [[fem]] table. A name that cannot name files and contradicting keys are an InputError.
-void read_fem(const SceneValues& values, const std::string& table, DeformerSpec& spec);
 
 }  // namespace experiments
 

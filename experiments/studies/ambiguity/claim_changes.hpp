@@ -92,10 +92,9 @@ private:
     std::vector<ClaimChange> changes_;
 };
 
-// The changes as people read them.
-
-// At most 120 columns wide: one block per body, one line per reading, one column per claim. A cell is B over A of the value whose verdict
-// flips, or else of the one that changes most. The lines below state by which readings each claim flips, and why others cannot touch it.
+// The changes as people read them, at most 120 columns wide: one block per body, one line per reading, one column per claim. A cell is B
+// over A of the value whose verdict flips, or else of the one that changes most. The lines below state by which readings each claim flips,
+// and why others cannot touch it.
 std::string claim_changes_text(const std::vector<ClaimChange>& changes);
 
 }  // namespace experiments

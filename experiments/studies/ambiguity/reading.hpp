@@ -23,21 +23,15 @@ namespace experiments {
 
 enum class BindPoint { carried, reprojected };  // a material point of the bone; or the LBS position projected on the posed bone, each step
 template <>
-struct OptionNames<BindPoint> {
-    static constexpr std::array<std::pair<BindPoint, const char*>, 2> table{
-        {{BindPoint::carried, "carried"}, {BindPoint::reprojected, "reprojected"}}};
-};
+inline constexpr NameTable<BindPoint, 2> option_names<BindPoint>{
+    {{BindPoint::carried, "carried"}, {BindPoint::reprojected, "reprojected"}}};
 enum class BlendedBones { nearest_end, either_end };  // Eq. 2's n_joints
 template <>
-struct OptionNames<BlendedBones> {
-    static constexpr std::array<std::pair<BlendedBones, const char*>, 2> table{
-        {{BlendedBones::nearest_end, "nearest_end"}, {BlendedBones::either_end, "either_end"}}};
-};
+inline constexpr NameTable<BlendedBones, 2> option_names<BlendedBones>{
+    {{BlendedBones::nearest_end, "nearest_end"}, {BlendedBones::either_end, "either_end"}}};
 enum class ZoneMean { of_all, of_bone };  // whose mean distance a jiggling vertex exceeds
 template <>
-struct OptionNames<ZoneMean> {
-    static constexpr std::array<std::pair<ZoneMean, const char*>, 2> table{{{ZoneMean::of_all, "of_all"}, {ZoneMean::of_bone, "of_bone"}}};
-};
+inline constexpr NameTable<ZoneMean, 2> option_names<ZoneMean>{{{ZoneMean::of_all, "of_all"}, {ZoneMean::of_bone, "of_bone"}}};
 
 struct Reading {
     std::string place;  // of the paper, an identifier: title_of_place; empty: a baseline

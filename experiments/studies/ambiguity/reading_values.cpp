@@ -427,4 +427,25 @@ std::string record_volume(const VolumeReadings& of, const std::string& folder)
     return breakdown;
 }
 
+std::string volume_markdown(const std::vector<VolumeChange>& changes)
+{
+    std::string text =
+        "| scene | place | B | signed A -> B [%] | absolute A -> B [%] | within 0.5 % A -> B | distance of B from A [mm] | jiggle A -> B "
+        "[mm] | verdict changed |\n|---|---|---|---|---|---|---|---|---|\n";
+    for (const VolumeChange& first : changes) {
+        if (first.quantity != mean_change) continue;
+        const auto of = [&](const char* quantity) -> const VolumeChange& {
+            return *std::ranges::find_if(changes, [&](const VolumeChange& other) {
+                return other.quantity == quantity && other.scene == first.scene && other.place == first.place &&
+                       other.reading_b == first.reading_b;
+            });
+        };
+        text += fmt::format("| {} | {} | {} | {:.2f} -> {:.2f} | {:.2f} -> {:.2f} | {:.2f} -> {:.2f} | {:.3f} | {:.2f} -> {:.2f} | {} |\n",
+                            first.scene, title_of_place(first.place), first.reading_b, first.a, first.b, of(mean_abs_change).a,
+                            of(mean_abs_change).b, of(share_within_printed).a, of(share_within_printed).b, 1e3 * of(distance_from_a).b,
+                            1e3 * of(distance_by_jiggle).a, 1e3 * of(distance_by_jiggle).b, first.verdict_changed);
+    }
+    return text;
+}
+
 }  // namespace experiments

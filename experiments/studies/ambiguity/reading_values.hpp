@@ -77,4 +77,7 @@ std::vector<VolumeChange> volume_changes(const std::string& scene, const Reading
 // Writes figures.csv and ambiguity.csv.
 std::string record_volume(const VolumeReadings& of, const std::string& folder);
 
+// One line per reading and scene, as Markdown.
+std::string volume_markdown(const std::vector<VolumeChange>& changes);
+
 }  // namespace experiments

@@ -10,7 +10,7 @@
 //   BODY_step                   C07, C09, C10: momentum of projections there, a jolt, and the time per frame in turns (the human's: --full)
 //
 // Writes DIR/ambiguity/RUN/ambiguity.csv and, for the first four, figures.csv (volume, jiggling, distance); and ambiguity.csv,
-// ambiguity.txt (the table that is printed) and figures.csv for all of them.
+// ambiguity.txt (the table that is printed), figures.csv and figures.md for all of them.
 #include "analysis/records/record_files.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "experiments/studies/ambiguity/claim_changes.hpp"
@@ -157,6 +157,7 @@ StudyConclusion conclude(const FinishedRuns& finished)
     const auto volumes = finished.rows(volume_change_columns, "figures.csv");
     finished.write("ambiguity.csv", used_columns(claim_change_columns(), changes), changes);
     finished.write("figures.csv", volume_change_columns, volumes);
+    finished.write("figures.md", volumes.empty() ? "" : volume_markdown(volumes));
     const std::string text = changes.empty() ? "" : claim_changes_text(changes);
     finished.write("ambiguity.txt", text);
     return {text, !finished.none()};

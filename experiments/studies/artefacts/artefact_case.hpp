@@ -120,10 +120,8 @@ struct ArtefactCase {
 };
 
 template <>
-struct OptionNames<ArtefactCase::Claim> {
-    static constexpr std::array<std::pair<ArtefactCase::Claim, const char*>, 2> table{
-        {{ArtefactCase::Claim::candy_wrapper, "C04"}, {ArtefactCase::Claim::bulge, "C05"}}};
-};
+inline constexpr NameTable<ArtefactCase::Claim, 2> option_names<ArtefactCase::Claim>{
+    {{ArtefactCase::Claim::candy_wrapper, "C04"}, {ArtefactCase::Claim::bulge, "C05"}}};
 
 // The body on one mesh.
 struct ArtefactBody {

@@ -105,7 +105,7 @@ ElasticSag elastic_sag(const Cantilever& cantilever, FemOptions options)
     const pbs::Character character = gripped(cantilever.body.mesh);
     const auto fem = make_deformer(spec);
     fem->reset(character);
-    if (fem->prescribed() != cantilever.body.held)
+    if (prescribed_vertices(*fem) != cantilever.body.held)
         throw pbs::InputError("cantilever", 0, "held", "", "expected the finite elements to hold the same vertices");
     fem->advance({Eigen::Isometry3d::Identity()}, 1.0);
     return {fem->positions() - character.mesh.rest, options};

@@ -55,7 +55,7 @@ Shapes PosedCharacter::shapes(const DeformerSpec& spec, std::optional<std::size_
     for (std::size_t pose = 0; pose < count; ++pose) {
         stop_if_interrupted();
         const pbs::StepSummary step = deformer->advance(poses_[pose], time_step_s_);
-        shapes.push_back(shape_of(step, deformer->positions(), deformer->last_state()));
+        shapes.push_back(shape_of(step, deformer->positions(), last_state(*deformer)));
     }
     return shapes;
 }

@@ -93,31 +93,31 @@ void PosedReference::solve(const DeformerSpec& spec, const pbs::Pose& pose, doub
     if (options.element_order == 1) options.formulation = reference_fem::Formulation::displacement;  // mean dilatation is the same there
     const std::unique_ptr<Deformer> deformer = make_deformer(nested);
     deformer->reset(levels.front().character);
-    Deformer::FewerNodes solution{deformer.get(), deformer->advance(pose, time_step_s)};
+    TriedSolution solution{deformer.get(), deformer->advance(pose, time_step_s)};
     for (const Level& level : levels) {
         if (!solution.deformer) break;
-        const Deformer::FewerNodes coarser = solution.deformer->set_out_from();
+        const TriedSolution coarser = solution.deformer->facts()->fewer_nodes;
         solution.step.seconds -= coarser.step.seconds;
         add(solution, level);
         solution = coarser;
     }
 }
 
-void PosedReference::add(const Deformer::FewerNodes& of, const Level& level)
+void PosedReference::add(const TriedSolution& of, const Level& level)
 {
     NestedSolution solution;
     solution.element_order = level.element_order;
     solution.refinements = level.character.refinements;
     solution.finished = of.step.outcome == pbs::Outcome::finished;
     solution.seconds = of.step.seconds;
-    const pbs::Positions positions = of.deformer->last_state();
+    const pbs::Positions positions = last_state(*of.deformer);
     solution.positions = positions.topRows(character_.mesh.rest.rows());
     const nlohmann::json newton = of.deformer->record().at("newton");
     solution.newton_steps = newton.at("newton_steps").at("most");
     solution.projected = newton.at("projected_hessians");
     const std::vector<Eigen::Index> inverted = measure_volumes(character_.mesh, solution);
     if (solution.finished) {
-        solution.lowest_det_f = of.deformer->lowest_det_f().value();
+        solution.lowest_det_f = of.deformer->facts()->lowest_det_f.value();
         for (const Eigen::Index tet : inverted)
             for (const int v : character_.mesh.tets.row(tet)) masked_[v] = true;
         const std::vector<bool> overlaps = pbs::OverlapMask(level.character).of(positions);

@@ -86,7 +86,7 @@ private:
         int element_order;
     };
     void solve(const DeformerSpec& spec, const pbs::Pose& pose, double time_step_s, const std::vector<Level>& levels);
-    void add(const Deformer::FewerNodes& of, const Level& level);
+    void add(const TriedSolution& of, const Level& level);
     void observe_order(double formal_order);
     void observe_order_without_finest(double formal_order);
 

@@ -17,8 +17,7 @@ namespace experiments {
 // The body of a cell and its motion: the pose, the blended shape and the bind points of each step.
 //   StabilityBody body(cell);
 //   for (int step = 0; step < body.steps(); ++step) driven->advance(body.drive(step), cell.time_step_s);
-
-// The input of every method in a step.
+// A drive is the input of every method in a step.
 struct Drive {
     const pbs::Pose& pose;
     const pbs::Positions& blended;      // LBS, or the broken initial shape [m], #V x 3
@@ -77,7 +76,6 @@ std::string endings_text();  // when a run ends early, as Markdown
 
 // A good mesh made bad on purpose: some vertices are moved so that a tet at each becomes thin, without inverting any tet.
 //   const pbs::TetMesh spoilt = distorted(mesh, Defect::slivers, 1e-4);
-
 // slivers: a vertex keeps the share `thinness` of its height over the opposite face of one tet. needles: it keeps that share of the length
 // of one edge. A seeded twentieth of the vertices is moved, no two of the same tet. Vertices that would invert a tet are skipped.
 pbs::TetMesh distorted(const pbs::TetMesh& mesh, Defect defect, double thinness);

@@ -12,8 +12,6 @@
 
 namespace experiments {
 
-// One cell of the map of stability: a body, a method with its settings, a disturbance, and the factor that the cell varies.
-
 // The shape that the first step receives instead of the blended one. none: the blended one.
 enum class Start { none, flattened, mirrored, random, point };
 
@@ -51,6 +49,7 @@ inline constexpr double g_m_s2 = 9.81;  // one g
 // The seed of masses, distorted tets and random initial shapes.
 inline constexpr unsigned stability_seed = 20140528;
 
+// A body, a method with its settings, a disturbance, and the factor that the cell varies.
 struct StabilityCell {
     std::string body = "limb";  // or a character
     std::string model, factor;  // e.g. pbs_jiggle, time_step

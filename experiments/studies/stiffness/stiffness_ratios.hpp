@@ -90,10 +90,8 @@ namespace experiments {
 // time_step: halved. resolution: the number of vertices, whose meshes are never exactly twice each other.
 enum class Varied { iterations, time_step, resolution };
 template <>
-struct OptionNames<Varied> {
-    static constexpr std::array<std::pair<Varied, const char*>, 3> table{
-        {{Varied::iterations, "iterations"}, {Varied::time_step, "time_step"}, {Varied::resolution, "resolution"}}};
-};
+inline constexpr NameTable<Varied, 3> option_names<Varied>{
+    {{Varied::iterations, "iterations"}, {Varied::time_step, "time_step"}, {Varied::resolution, "resolution"}}};
 
 struct VariedText {
     const char *factor, *doubled;  // "1 / time step", "half the time step"

@@ -5,7 +5,6 @@
 
 #include "analysis/statistics/minimise.hpp"
 #include "experiments/deformers/fem/fem_deformers.hpp"
-#include "experiments/studies/verification/attachment_problems.hpp"
 #include "experiments/studies/verification/problem.hpp"
 #include "pbs/character/bone_capsules.hpp"
 #include "pbs/geometry/cost.hpp"

@@ -6,7 +6,6 @@
 //
 // If ccx is not on the PATH, one row states that the comparison was not made.
 
-#include "experiments/studies/verification/attachment_problems.hpp"
 #include "experiments/studies/verification/problem.hpp"
 #include "pbs/character/character.hpp"
 #include "reference_fem/verification/calculix/calculix_rows.hpp"

@@ -5,7 +5,6 @@
 #include "analysis/statistics/fits.hpp"
 #include "analysis/statistics/grid_convergence.hpp"
 #include "experiments/deformers/fem/fem_deformers.hpp"
-#include "experiments/studies/verification/attachment_problems.hpp"
 #include "experiments/studies/verification/problem.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/skinning/blend.hpp"

@@ -1,7 +1,11 @@
 // The problems that verify the reference. A new problem is a function that returns its rows, and one line in problem_list.cpp.
 #pragma once
 
+#include "experiments/deformers/fem/bone_attachment.hpp"
 #include "pbs/character/character.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
+#include "reference_fem/boundary_value_problem.hpp"
+#include "reference_fem/verification/calculix/calculix_rows.hpp"
 #include "reference_fem/verification/verification_record.hpp"
 
 #include <functional>
@@ -33,6 +37,44 @@ struct VerificationProblem {
     std::function<VerificationRows(const Effort& effort)> rows;
 };
 const std::vector<VerificationProblem>& verification_problems();
+
+// A frame of a character that its bones hold, as a problem that CalculiX can solve too. pose_at(1) is the frame; pose_at(0), where a large
+// rotation starts from, is the rest pose. Poses are relative to the root.
+struct HeldFrame {
+    reference_fem::ElasticMaterial material;
+    FemAttachment attachment = FemAttachment::nodes;  // or smooth, embedded
+    reference_fem::BodyModel model = reference_fem::BodyModel::linear;
+    int element_order = 1;
+    std::function<pbs::Pose(double fraction)> pose_at;
+};
+reference_fem::HeldBody held_body(const pbs::Character& character, const HeldFrame& frame);
+
+// A manufactured solution u_i = A sin(a_i . x + phi_i) of stable neo-Hookean flesh in the unit cube that is held by springs with the
+// density k of a smooth attachment. The springs' targets lie a given offset c from the exact positions, so that the body force is f = -div
+// P - k(x) c.
+//   const AttachedSolution solution = solve_manufactured(mesh, 2, {});
+//   solution.positions - exact_positions(mesh.rest)
+// Elements of order p converge with h^(p+1) (Brenner and Scott, ch. 5) down to the error of the sample points, which grows with c: a small
+// c serves the orders, and a large one shows whether the springs have the weight that the body force assumes.
+inline const reference_fem::ElasticMaterial manufactured_material = {1.0, 0.3};  // Young's modulus [Pa], Poisson's ratio
+
+struct ManufacturedSprings {
+    pbs::Vec3 offset_m = {2e-6, -1e-6, 3e-6};  // c
+    double weight = 1.0;                       // times the density that the body force assumes
+};
+
+struct AttachedSolution {
+    pbs::Positions positions;  // vertices [m]
+    double error = 0.0;        // of the displacement in L2, over the exact one
+    int dofs = 0;
+    bool converged = false;
+};
+
+// material: that of the solver; the body force belongs to manufactured_material.
+AttachedSolution solve_manufactured(const pbs::TetMesh& mesh, int element_order, const ManufacturedSprings& springs,
+                                    const reference_fem::ElasticMaterial& material = manufactured_material);
+
+pbs::Positions exact_positions(const pbs::Positions& rest);  // [m]
 
 }  // namespace experiments
 

@@ -36,3 +36,8 @@ const std::vector<VerificationProblem>& verification_problems()
 }
 
 }  // namespace experiments
+
+const std::vector<experiments::VerificationProblem>* pbskin_verification_problems()
+{
+    return &experiments::verification_problems();
+}

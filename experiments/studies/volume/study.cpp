@@ -15,7 +15,7 @@
 // writes regions.csv; the study sums them up in regions.csv and regions.txt.
 #include "analysis/records/report_table.hpp"
 #include "experiments/deformers/deformer_options.hpp"
-#include "experiments/run/run_records.hpp"
+#include "experiments/run/run_folder.hpp"
 #include "experiments/studies/study.hpp"
 
 #include <fmt/format.h>

@@ -17,9 +17,7 @@ enum class Half { training, evaluation };
 std::vector<Half> halves_of(const std::vector<std::string>& bodies);
 
 template <>
-struct OptionNames<Half> {
-    static constexpr std::array<std::pair<Half, const char*>, 2> table{{{Half::training, "training"}, {Half::evaluation, "evaluation"}}};
-};
+inline constexpr NameTable<Half, 2> option_names<Half>{{{Half::training, "training"}, {Half::evaluation, "evaluation"}}};
 
 }  // namespace experiments
 

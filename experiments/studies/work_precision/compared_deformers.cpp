@@ -137,7 +137,7 @@ ComparedDeformer elastic(const std::string& kind, const std::string& words)
             .iterations_key = kind + ".iterations",
             .iterations = of_minimisers,
             .few_iterations = few_of_minimisers,
-            .codes = {set(kind, "arithmetic", "packed_f32"), set(kind, "arithmetic", "plain_f64")},
+            .codes = {set(kind, "packed", "true"), set(kind, "packed", "false")},
             .poisson_key = kind + ".poisson"};
 }
 

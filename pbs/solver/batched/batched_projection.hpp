@@ -1,7 +1,7 @@
 // Orders `ordered` and `grouped` as a Projection: constraints in batches of sixteen that share no vertex (../../packed/batch.hpp), vertices
 // reordered for locality, slabs of the mesh in parallel (../../packed/vertex_order.hpp). The order of projection belongs to the mesh: any
 // machine and any number of threads project alike, and threads give the same bits. It is another order than `plain`; stretch, volume and
-// bind contradict each other, so the two settle on different limits (the study `equal_quality`).
+// bind contradict each other, so the two settle on different limits (the study `timing`).
 #pragma once
 
 #include "pbs/constraints/bind.hpp"

@@ -3,7 +3,7 @@
 #include "analysis/verdicts/verdict.hpp"
 
 #include "analysis/records/record_files.hpp"
-#include "experiments/studies/timing/timing_records.hpp"
+#include "experiments/studies/timing/frames.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,22 +1,21 @@
 // The kept records, read as rows and written again, have the same columns and cells. Reference: the files, which earlier versions wrote.
 #include "analysis/records/record_files.hpp"
 #include "experiments/run/metrics_table.hpp"
-#include "experiments/run/run_records.hpp"
+#include "experiments/run/run_folder.hpp"
 #include "experiments/studies/ambiguity/reading_values.hpp"
 #include "experiments/studies/artefacts/artefact_values.hpp"
 #include "experiments/studies/convergence/convergence_records.hpp"
 #include "experiments/studies/ensemble/ensemble.hpp"
-#include "experiments/studies/equal_quality/order_report.hpp"
-#include "experiments/studies/equal_quality/order_rows.hpp"
 #include "experiments/studies/error_split/error_split.hpp"
-#include "experiments/studies/features/feature_cost.hpp"
 #include "experiments/studies/fit/fit.hpp"
 #include "experiments/studies/improvements/gains.hpp"
 #include "experiments/studies/jiggle/jiggle_records.hpp"
 #include "experiments/studies/setup/body_setup.hpp"
 #include "experiments/studies/stability/cell_table.hpp"
 #include "experiments/studies/stiffness/stiffness_ratios.hpp"
-#include "experiments/studies/timing/timing_records.hpp"
+#include "experiments/studies/timing/equal_quality.hpp"
+#include "experiments/studies/timing/features.hpp"
+#include "experiments/studies/timing/frames.hpp"
 #include "experiments/studies/work_precision/chosen_settings.hpp"
 #include "experiments/studies/work_precision/data_profile.hpp"
 #include "experiments/studies/work_precision/diagram_tables.hpp"
@@ -142,16 +141,15 @@ TEST(KeptTables, OfAmbiguity)
 TEST(KeptTables, OfTimedStudies)
 {
     expect_same_records(experiments::timing_columns, "timing", "timing.csv");
-    expect_same_records(experiments::feature_columns, "features", "features.csv");
+    expect_same_records(experiments::feature_columns, "timing", "features.csv");
     expect_same_records(experiments::change_columns, "improvements", "points.csv");
 }
 
 TEST(KeptTables, OfTheOrders)
 {
-    expect_same_records(experiments::order_columns, "equal_quality", "orders.csv");
-    expect_same_records(experiments::target_columns, "equal_quality", "targets.csv");
-    expect_same_sum(experiments::summary_columns, "equal_quality/summary.csv");
-    expect_same_sum(experiments::answer_columns, "equal_quality/answers.csv");
+    expect_same_records(experiments::order_columns, "timing", "orders.csv");
+    expect_same_records(experiments::target_columns, "timing", "targets.csv");
+    expect_same_sum(experiments::answer_columns, "timing/answers.csv");
 }
 
 TEST(KeptTables, OfTheVerification)

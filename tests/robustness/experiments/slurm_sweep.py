@@ -109,11 +109,11 @@ class Sweeps(program.ProgramTest):
                                    stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         runs = pathlib.Path(self.path("human_slurm", "runs"))
         try:
-            slurm_cluster.wait_for("two runs", lambda: len(list(runs.glob("[!.]*"))) >= 2, 300)
+            slurm_cluster.wait_for("two runs", lambda: len(list(runs.glob("*/run.json"))) >= 2, 300)
         finally:
             os.killpg(process.pid, signal.SIGKILL)
             process.wait()
-        first = {path: path.stat().st_ino for path in runs.glob("[!.]*/run.json")}
+        first = {path: path.stat().st_ino for path in runs.glob("*/run.json")}
         self.assertFalse(pathlib.Path(self.path("human_slurm", "sweep.csv")).exists())
         self.assertTrue(self.cluster.told("squeue", "-h").strip())
         self.sweep(example, "human_slurm", "--slurm")
@@ -124,14 +124,14 @@ class Sweeps(program.ProgramTest):
         process = subprocess.Popen(self.command(self.write("long.toml", LONG), "ended", "--slurm"), text=True,
                                    env=self.cluster.environment, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
         slurm_cluster.wait_for("a job that runs", lambda: self.cluster.told("squeue", "-h", "-t", "R").strip(), 120)
-        process.terminate()
+        process.send_signal(signal.SIGINT)
         told = process.communicate(timeout=120)[1]
-        self.assertEqual(process.returncode, 130, told)
+        self.assertNotEqual(process.returncode, 0, told)
         slurm_cluster.wait_for("an empty queue", lambda: not self.cluster.told("squeue", "-h").strip(), 60)
 
-    def test_bad_input_stops_the_sweep_and_is_told_from_the_job(self):
-        process = self.sweep(self.write("bad.toml", BAD), "bad", "--slurm", status=2)
-        self.assertIn("pbs.k_volume = 1.4", process.stderr)
+    def test_bad_input_stops_the_sweep_and_is_in_the_log_of_the_job(self):
+        self.sweep(self.write("bad.toml", BAD), "bad", "--slurm", status=1)
+        self.assertIn("pbs.k_volume = 1.4", "".join(log.read_text(errors="replace") for log in self.jobs_of("bad")))
         self.assertFalse(pathlib.Path(self.path("bad", "sweep.csv")).exists())
 
     def test_a_breakdown_is_a_row_of_the_table(self):

@@ -111,7 +111,7 @@ class Captions(unittest.TestCase):
         self.assertIn("lock: they keep 1.25 to 50 % of the bending and miss benchmarks by up to 47 %.", text)
 
     def test_figures_of_time_name_the_processor(self):
-        timed = [entry for entry in listed.values() if set(entry.studies()) & {"timing", "work_precision", "bench", "features"}]
+        timed = [entry for entry in listed.values() if set(entry.studies()) & {"timing", "work_precision"}]
         timed = [entry for entry in timed if entry.name != "error_parts"]
         self.assertEqual(len(timed), 7)
         for entry in timed:

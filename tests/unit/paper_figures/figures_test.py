@@ -198,7 +198,7 @@ class Figures(unittest.TestCase):
             results = pathlib.Path(folder)
             synthetic_records.write_bench(results)
             with contextlib.redirect_stdout(io.StringIO()):
-                self.assertEqual(make_all.main(results), 0)
+                self.assertEqual(make_all.main(results, "scaling"), 0)
             self.assertIn(synthetic_records.revision.encode(), (results / "figures" / "scaling.png").read_bytes())
             with open(results / "figures" / "scaling.csv", newline="") as stream:
                 rows = list(csv.DictReader(stream))
@@ -213,14 +213,13 @@ class Figures(unittest.TestCase):
             self.assertAlmostEqual(float(band["high"]), 1100.0)
             fits = [(row["order"], row["precision"], row["value"], row["low"]) for row in rows if row["shown"] == "exponent"]
             self.assertEqual(fits, [("ordered", "f32", "1.0", "")])
-            bench = results / "bench" / "bench.json"
+            bench = results / "timing" / "bench" / "bench.json"
             bench.write_text(json.dumps(json.loads(bench.read_text()) | {"schema": 1}))
             with self.assertRaisesRegex(records.RecordsMissing, "schema 1, expected 2"):
                 bench_records.read(results)
             bench.unlink()
             with contextlib.redirect_stderr(io.StringIO()) as said:
-                with contextlib.redirect_stdout(io.StringIO()):
-                    self.assertEqual(make_all.main(results), 1)
+                self.assertEqual(make_all.main(results, "scaling"), 1)
             self.assertIn("bench.json: does not exist", said.getvalue())
 
 

@@ -207,7 +207,7 @@ class Plots(unittest.TestCase):
         self.assertIn("paper, by CT: 1654, 0.52", shown)
 
     def test_costs_of_features(self):
-        synthetic_tables.write_features(self.results / "features")
+        synthetic_tables.write_features(self.results / "timing")
         self.assertEqual(len(self.drawn("features_cost")), 3)
         shown = self.titles("processor time per frame, with over without [1]")
         self.assertEqual(shown, ["limb: 0.5, sleep", "human: 0.5, sleep", "human: 1.5, rendered surface"])

@@ -171,7 +171,7 @@ class Tables(ReadmeTest):
 
     def test_features(self):
         synthetic_records.write_study(self.results)
-        folder = self.results / "features" / "human"
+        folder = self.results / "timing" / "features_human"
         folder.mkdir(parents=True)
         other = self.results / "ambiguity" / "human"  # a study that comes first
         other.mkdir(parents=True)

@@ -179,9 +179,9 @@ def add_own_deformers(folder, clocks):
 def write_bench(results):
     """A step takes c microseconds per constraint, c = 24 for plain, 3 for ordered in f32, twice that in f64; two threads give a speedup of
     1.5."""
-    folder = results / "bench"
-    (folder / "timings").mkdir(parents=True)
-    (folder / "timings" / "run.json").write_text(json.dumps(origin))
+    folder = results / "timing" / "bench"
+    folder.mkdir(parents=True)
+    (folder / "run.json").write_text(json.dumps(origin))
 
     def timing(variant, precision, threads, ms_step):
         single = {} if threads == 1 else {"speedup_by_threads": 1.5}

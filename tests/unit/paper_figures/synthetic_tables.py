@@ -178,7 +178,7 @@ def write_timing(study):
 def write_features(study):
     """Sleep halves the time of a frame of the limb; the human has one more feature."""
     for scene, features in (("limb", ("sleep",)), ("human", ("sleep", "rendered surface"))):
-        write_origin(study / scene)
-        write(study / scene / "features.csv",
+        write_origin(study / f"features_{scene}")
+        write(study / f"features_{scene}" / "features.csv",
               [{"feature": feature} | {f"{of}_cpu_ms_ratio{part}": factor * (0.5 if feature == "sleep" else 1.5) for of in ("frame", "step")
                                        for part, factor in (("", 1.0), ("_lower", 0.9), ("_upper", 1.1))} for feature in features])

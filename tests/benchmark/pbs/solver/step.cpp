@@ -1,7 +1,7 @@
 // One step of 24 iterations in each order and precision, on bars of about 2,200 and 19,500 vertices twisted by 90 degrees. Ratios of one
 // run are meaningful; absolute times depend on the machine and its state. `pbskin bench` compares more cases, in turn.
 //   build/release/tests/benchmark_step --benchmark_filter=ordered
-#include "experiments/studies/bench/bench_body.hpp"
+#include "experiments/studies/timing/bench.hpp"
 #include "pbs/solver/pbs_solver.hpp"
 
 #include <benchmark/benchmark.h>

@@ -1,7 +1,8 @@
 // The metrics of one frame, combined. Reference: maps with known results on the built-in limb. The planes that cut it have axes as normals,
 // so that nothing of them is rounded.
-#include "experiments/run/frame_measurement.hpp"
 
+#include "analysis/metrics/cross_section.hpp"
+#include "experiments/run/frame_measurement.hpp"
 #include "pbs/character/bodies.hpp"
 #include "pbs/character/overlap_and_jiggle.hpp"
 #include "tests/support/bar_character.hpp"
@@ -10,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <numbers>
 
 namespace {
@@ -17,12 +19,9 @@ namespace {
 using experiments::FrameContext;
 using experiments::FrameMeasurer;
 
-pbs::Character small_limb()
+pbs::Character small_limb(int vertices = 400)
 {
-    pbs::CharacterSource source;
-    source.body = "limb";
-    source.vertices = 400;
-    return pbs::make_character(source);
+    return pbs::make_character({.body = "limb", .vertices = vertices});
 }
 
 pbs::Pose rest_pose(const pbs::Character& character)
@@ -143,6 +142,108 @@ TEST(FrameMeasurement, AnErrorNotAboveTheReferencesOwnIsMarked)
     EXPECT_TRUE(measured.error_below_reference_error());
     measured.errors->l2_pct = 0.6;
     EXPECT_FALSE(measured.error_below_reference_error());
+}
+
+// The places at which limbs are cut. Reference: the built-in limb's geometry, a capsule of radius 0.15 m around (-1,0,0) -> 0 -> (1,0,0).
+// Tolerances: the rounding of a motion, and of the mean of two directions, which counts as another.
+
+TEST(LimbStations, StandAlongBothBonesAndAcrossTheJoint)
+{
+    const auto stations = experiments::limb_stations(small_limb(600));
+    ASSERT_EQ(stations.size(), 11u);
+    int joints = 0;
+    for (const auto& station : stations) {
+        EXPECT_EQ(station.point.tail<2>().norm(), 0.0);
+        EXPECT_EQ(station.normal, pbs::Vec3::UnitX());
+        joints += station.carriers.size() == 2;
+    }
+    EXPECT_EQ(joints, 1);
+}
+
+// The polygon inscribed in the circle of radius r has at least half the area of the circle, and at most all of it.
+TEST(LimbStations, CutTheWholeLimb)
+{
+    const pbs::Character limb = small_limb(600);
+    const double circle = std::numbers::pi * 0.15 * 0.15;
+    for (const auto& station : experiments::limb_stations(limb)) {
+        const double area = analysis::cross_section_area(limb.mesh.rest, limb.mesh.tets, station.tets, {station.point, station.normal});
+        EXPECT_GT(area, 0.8 * circle) << station.name;
+        EXPECT_LT(area, 1.01 * circle) << station.name;
+    }
+}
+
+TEST(LimbStations, MoveWithTheirBones)
+{
+    const pbs::Character limb = small_limb(600);
+    const auto motion = pbs::joint_sweep(limb.skeleton, 1, pbs::Vec3::UnitZ(), 90.0, 2, 0.01);
+    for (const auto& station : experiments::limb_stations(limb)) {
+        const pbs::Vec3 normal = experiments::posed_normal(station, motion.steps[1]);
+        pbs::Vec3 expected = station.carriers.front() == 1 ? pbs::Vec3::UnitY() : pbs::Vec3::UnitX();
+        if (station.carriers.size() == 2) expected = pbs::Vec3(1, 1, 0).normalized();
+        EXPECT_LE((normal - expected).norm(), test_support::motion_error(2, 1.0)) << station.name;
+    }
+}
+
+// Opposite directions have no mean, so the direction of the first bone is used.
+TEST(LimbStations, AJointFoldedBackStillHasANormal)
+{
+    const pbs::Character limb = small_limb(600);
+    const auto motion = pbs::joint_sweep(limb.skeleton, 1, pbs::Vec3::UnitZ(), 180.0, 2, 0.01);
+    for (const auto& station : experiments::limb_stations(limb))
+        EXPECT_NEAR(experiments::posed_normal(station, motion.steps[1]).norm(), 1.0, test_support::motion_error(2, 1.0));
+}
+
+// Reference: the vertices and tets that were broken.
+
+using namespace experiments;
+
+pbs::Positions four_points()
+{
+    return pbs::Positions::Random(4, 3);
+}
+
+Eigen::VectorXd ratios(std::initializer_list<double> values)
+{
+    return Eigen::Map<const Eigen::VectorXd>(values.begin(), static_cast<Eigen::Index>(values.size()));
+}
+
+TEST(BrokenFrame, NamesTheFirstVertexThatIsNotFinite)
+{
+    pbs::Positions points = four_points();
+    points(3, 0) = std::numeric_limits<double>::infinity();
+    points(2, 1) = std::numeric_limits<double>::quiet_NaN();
+    const BrokenFrame broken = broken_frame(5, pbs::Outcome::not_finite, points, ratios({std::nan("")}));
+    EXPECT_EQ(text_of(broken), "not finite in frame 5: first at vertex 2, 2 not finite");
+    EXPECT_EQ(nlohmann::json(broken),
+              (nlohmann::json{{"frame", 5}, {"what", "not_finite"}, {"first_vertex", 2}, {"vertices_not_finite", 2}}));
+}
+
+TEST(BrokenFrame, NamesTheWorstTet)
+{
+    const BrokenFrame broken = broken_frame(7, pbs::Outcome::finished, four_points(), ratios({1.0, 0.0, -0.25, 0.5}));
+    EXPECT_EQ(text_of(broken), "inverted in frame 7: worst tet 2 of volume ratio -0.25, 2 inverted");
+    EXPECT_EQ(nlohmann::json(broken),
+              (nlohmann::json{{"frame", 7}, {"what", "inverted"}, {"worst_tet", 2}, {"volume_ratio", -0.25}, {"inverted_tets", 2}}));
+}
+
+TEST(BrokenFrame, AStepThatDidNotConvergeNamesTheWorstTetWithoutAnyInverted)
+{
+    const BrokenFrame broken = broken_frame(0, pbs::Outcome::not_converged, four_points(), ratios({1.0, 0.9}));
+    EXPECT_EQ(text_of(broken), "not converged in frame 0: worst tet 1 of volume ratio 0.9, 0 inverted");
+}
+
+TEST(BrokenFrame, AStepBeforeTheFramesOwnIsNamed)
+{
+    BrokenFrame broken = broken_frame(2, pbs::Outcome::not_finite, four_points(), ratios({1.0, 0.9}));
+    broken.step = 7;
+    EXPECT_EQ(text_of(broken), "not finite in frame 2 (in step 7, before it): worst tet 1 of volume ratio 0.9, 0 inverted");
+    EXPECT_EQ(nlohmann::json(broken).at("step"), 7);
+    EXPECT_EQ(text_of(nlohmann::json(broken).get<BrokenFrame>()), text_of(broken));
+}
+
+TEST(BrokenFrame, WithoutTetsThereIsNone)
+{
+    EXPECT_EQ(broken_frame(0, pbs::Outcome::not_converged, pbs::Positions(0, 3), Eigen::VectorXd()).tet, -1);
 }
 
 }  // namespace

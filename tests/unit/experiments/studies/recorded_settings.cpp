@@ -5,21 +5,20 @@
 #include "experiments/deformers/registry.hpp"
 #include "experiments/studies/ambiguity/reading_values.hpp"
 #include "experiments/studies/artefacts/artefact_values.hpp"
-#include "experiments/studies/bench/bench.hpp"
 #include "experiments/studies/convergence/convergence_case.hpp"
 #include "experiments/studies/ensemble/ensemble.hpp"
-#include "experiments/studies/equal_quality/equal_quality.hpp"
 #include "experiments/studies/error_split/error_split.hpp"
-#include "experiments/studies/features/feature_cost.hpp"
 #include "experiments/studies/fit/fit.hpp"
 #include "experiments/studies/improvements/measured_changes.hpp"
 #include "experiments/studies/jiggle/jiggle_records.hpp"
-#include "experiments/studies/scale/scale_records.hpp"
 #include "experiments/studies/setup/body_setup.hpp"
 #include "experiments/studies/stability/stability_cells.hpp"
 #include "experiments/studies/stiffness/stiffness_ratios.hpp"
 #include "experiments/studies/study.hpp"
-#include "experiments/studies/timing/timing_records.hpp"
+#include "experiments/studies/timing/bench.hpp"
+#include "experiments/studies/timing/equal_quality.hpp"
+#include "experiments/studies/timing/features.hpp"
+#include "experiments/studies/timing/frames.hpp"
 #include "experiments/studies/work_precision/measured_points.hpp"
 #include "pbs/author/author_solver.hpp"
 #include "pbs/skinning/delta_mush.hpp"
@@ -199,13 +198,6 @@ TEST(RecordedSettings, OfTimedStudies)
     EXPECT_GE(expect_each_change_repeats(BenchOptions{.mesh = "bar.msh", .sizes = {1000}}), 7);
     EXPECT_GE(expect_each_change_repeats(TimedCase{.scene = limb(), .model = "Man"}), 6);
     EXPECT_GE(expect_each_change_repeats(FeaturesCase{.name = "limb", .scene = "limb_bend", .cut = {"motion.frames=11"}}), 8);
-}
-
-// The scale study's scene is the human.
-TEST(RecordedSettings, OfScale)
-{
-    if (!pbs::body_is_installed("human")) GTEST_SKIP() << "the human is not installed";
-    EXPECT_GE(expect_each_change_repeats(ScaleCase{{2400}}), 2);
 }
 
 TEST(RecordedSettings, OfATimedCaseHasTheRefinementsOfItsMesh)

@@ -3,11 +3,13 @@
 #include "analysis/records/record_files.hpp"
 #include "experiments/run/run.hpp"
 #include "experiments/studies/study.hpp"
+#include "pbs/character/bodies.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -208,6 +210,43 @@ TEST(StudyCosts, PointAtWhatIsNotWithinAFactorOfTwo)
     EXPECT_EQ(cost_table({{"met", met}}).find("not within"), std::string::npos);
     EXPECT_NE(cost_table({{"missed", missed}}).find("2.10  not within a factor of 2"), std::string::npos);
     EXPECT_EQ(cost_table({{"tiny", tiny}}).find("not within"), std::string::npos);
+}
+
+// Reference: cases.toml of the study setup, whose ring is built in.
+TEST(StudyCases, HaveTheKeysAndTheCostOfTheirForm)
+{
+    for (const bool full : {false, true}) {
+        std::vector<std::string> rings;
+        plan_of_cases("setup", full, [&](const StudyCase& of, StudyPlan&) {
+            EXPECT_EQ(of.full, full);
+            EXPECT_EQ(of.value<double>("rate_hz"), full ? 100.0 : 5.0);
+            EXPECT_EQ(of.cost_s, full ? 9.0 : 5.5);
+            if (!of.has("vertices")) rings.push_back(of.name + " " + of.value<std::string>("body"));
+        });
+        EXPECT_EQ(std::ranges::count(rings, "ring ring"), 1);
+    }
+}
+
+TEST(StudyCases, LeaveOutABodyWithAllOfItsCases)
+{
+    int asked = 0;
+    const StudyPlan plan = plan_of_cases("setup", false, [&](const StudyCase&, StudyPlan&) {
+        ++asked;
+        throw pbs::InputError("scene.toml", 1, "motion.clip", "", "missing");
+    });
+    EXPECT_EQ(asked, 1 + pbs::body_is_installed("human") + pbs::body_is_installed("man") + pbs::body_is_installed("lady") +
+                         pbs::body_is_installed("frankie"));
+    EXPECT_EQ(std::ranges::count(plan.left_out, "human", &analysis::LeftOut::scene), 1);
+    EXPECT_EQ(std::ranges::count(plan.left_out, "ring", &analysis::LeftOut::scene), 1);
+}
+
+TEST(StudyCases, RefuseKeysThatAreMissingOrThatNothingReads)
+{
+    const StudyCase of("made_up", {{"name", "bend"}, {"quick_s", 1.0}, {"angel_deg", 90.0}}, false);
+    EXPECT_THROW(of.value<double>("angle_deg"), std::logic_error);
+    EXPECT_THROW(of.require_nothing_unread(), std::logic_error);
+    EXPECT_EQ(of.value("angel_deg", 0.0), 90.0);
+    EXPECT_NO_THROW(of.require_nothing_unread());
 }
 
 }  // namespace

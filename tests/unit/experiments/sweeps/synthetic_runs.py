@@ -1,12 +1,9 @@
 """A substitute for pbskin that a sweep starts, with known metrics. As a program: `run SCENE --quiet -o DIR --set k=v...`; pbs.iterations
-determines the metrics (100: refused, 101: a breakdown, 102: killed, 103: a minute, with the process in `slow` next to STARTS), and every
-start appends a line to the file that STARTS names."""
+determines the metrics (100: refused, 101: a breakdown), and every start appends a line to the file that STARTS names."""
 import json
 import os
 import pathlib
-import signal
 import sys
-import time
 
 COLUMNS = "scene,deformer,variant,order,precision,iterations,threads,frame,time_s,volume_change_pct,bind_rms_m,step_ms,outcome"
 
@@ -22,17 +19,14 @@ def write(folder, iterations, step_ms=1.0, status=0, volumes=(0.1, 0.2, 0.6)):
             lines.append(f"s,{deformer},default,ordered,f32,{iterations},1,{frame},{frame / 100},{value!r},,{step_ms + frame},finished")
     (folder / "metrics.csv").write_text("\n".join(lines) + "\n")
     runs = [{"name": name, "label": name, "variant": "default", "kind": name} for name in ("lbs", "pbs")]
-    record = {"scene": {"runs": runs}, "state_hash": {"lbs": "aa", "pbs": f"{iterations:04d}"}, "cost": {"peak_memory_mb": 10 * step_ms},
-              "outcome": {"breakdowns": {"pbs": [1, 2]} if status == 3 else {}, "not_converged": {},
+    record = {"scene": {"runs": runs}, "state_hash": {"lbs": "aa", "pbs": f"{iterations:04d}"}, "cost": {"peak_memory_mb": 10 * step_ms, "seconds": {"total": step_ms}, "cpu_seconds": {"total": step_ms}},
+              "outcome": {"breakdown": "pbs ceased to be finite" if status == 3 else "", "breakdowns": {"pbs": [1, 2]} if status == 3 else {}, "not_converged": {},
                           "broken_frames": {"pbs": [{"frame": 1, "what": "inverted"}]} if status == 3 else {}},
               "provenance": {"git_revision": "abc", "threads": 1}}
     (folder / "run.json").write_text(json.dumps(record))
 
 
 def main(arguments):
-    if arguments == ["--version", "--json"]:
-        print(json.dumps({"version": "0.1.0", "git_revision": "abc", "git_dirty": False}))
-        return 0
     folder = arguments[arguments.index("-o") + 1]
     iterations = next(int(part.split("=")[1]) for part in arguments if part.startswith("pbs.iterations="))
     with open(os.environ["STARTS"], "a", encoding="utf-8") as file:
@@ -40,13 +34,6 @@ def main(arguments):
     if iterations == 100:
         print("pbskin: --set: pbs.iterations = 100: refused", file=sys.stderr)
         return 2
-    if iterations == 102:
-        os.kill(os.getpid(), signal.SIGKILL)
-    if iterations == 103:
-        slow = pathlib.Path(os.environ["STARTS"]).parent / "slow"
-        slow.with_suffix(".new").write_text(str(os.getpid()))
-        slow.with_suffix(".new").rename(slow)
-        time.sleep(60)
     status = 3 if iterations == 101 else 0
     write(folder, iterations, status=status)
     return status

@@ -1,10 +1,12 @@
 // Reference: the energy's own value (descent, gradient), and linear elasticity where strains are small.
-#include "pbs/flesh/projective_dynamics.hpp"
-
+#include "pbs/flesh/flesh_energy.hpp"
 #include "pbs/flesh/held_flesh.hpp"
+#include "pbs/flesh/projective_dynamics.hpp"
 #include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/nearest_rotation.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 #include "tests/support/eps_sweep.hpp"
+#include "tests/support/held_bar.hpp"
 #include "tests/support/random_points.hpp"
 #include "tests/support/rounding_error.hpp"
 #include "tests/support/two_bone_limb.hpp"
@@ -12,7 +14,9 @@
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace {
 
@@ -247,6 +251,130 @@ TEST(ProjectiveDynamics, BadInputIsRefused)
     pbs::TetMesh inverted = held().limb.mesh;
     std::swap(inverted.tets(4, 0), inverted.tets(4, 1));
     EXPECT_THROW(ProjectiveEnergy(inverted, pbs::projective_weights(0.3, true), held().hold), pbs::InputError);
+}
+
+// Reference: the definition of the global step, evaluated with the deformation gradients of a displacement. The energy itself is tested in
+// projective_dynamics.cpp.
+
+constexpr int ends_of_edge[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
+
+// Twice the energy of a displacement d, with R and D zero: sum of V0 (2 mu + 3 lambda) |F(d)|^2 and of the springs.
+double quadratic_form(const pbs::ProjectiveEnergy& energy, const Positions& d)
+{
+    double value = 0.0;
+    for (Eigen::Index i = 0; i < d.rows(); ++i) value += energy.hold()(i) * d.row(i).squaredNorm();
+    for (const pbs::ProjectiveTet& tet : energy.tets()) {
+        Eigen::Matrix3d edges;
+        for (int k = 0; k < 3; ++k) edges.col(k) = (d.row(tet.vertex[k + 1]) - d.row(tet.vertex[0])).transpose();
+        value += tet.volume * (energy.weights().strain + energy.weights().volume) * (edges * tet.inverse_edges).squaredNorm();
+        for (int e = 0; e < 6; ++e)
+            value += tet.w[e] * (d.row(tet.vertex[ends_of_edge[e][0]]) - d.row(tet.vertex[ends_of_edge[e][1]])).squaredNorm();
+    }
+    return value;
+}
+
+// The factor that gives the initial guess its weights serves the global step, too. The Laplacian adds 1e-9 of its diagonal, whose part of
+// the form is below ten times the form for displacements of independent vertices.
+TEST(ProjectiveEnergy, TheLaplacianOfItsShareIsTheMatrixOfTheGlobalStep)
+{
+    const auto bar = test_support::two_bone_limb({8, 2, 2}, pbs::Vec3::UnitZ(), 0.0);
+    const pbs::BoneHold hold(bar.mesh, test_support::random_springs(40, 0.3), 2);
+    const Positions d = test_support::jittered(Positions::Zero(bar.mesh.rest.rows(), 3), 1.0);
+    for (const double poisson : {0.0, 0.3, 0.45})
+        for (const bool keeps_volume : {true, false}) {
+            const pbs::FleshMaterial material = pbs::flesh_material(poisson);
+            const pbs::ProjectiveEnergy energy(bar.mesh, pbs::projective_weights(poisson, keeps_volume), hold);
+            const double share = pbs::volume_share_of_projective(poisson, keeps_volume);
+            const Eigen::SparseMatrix<double> lower =
+                pbs::flesh_laplacian(bar.mesh, material, pbs::FleshEnergy(bar.mesh, material, hold), share);
+            const double form = (d.transpose() * (lower.selfadjointView<Eigen::Lower>() * d)).trace(), expected = quadratic_form(energy, d);
+            EXPECT_NEAR(form, expected, (10.0 * 1e-9 + test_support::rounding_error(100, 10.0)) * expected) << poisson << keeps_volume;
+        }
+}
+
+TEST(ProjectiveEnergy, ItsWeightsAreLamesConstants)
+{
+    const double mu = 0.5 / 1.3, lambda = 0.3 / (1.3 * 0.4);
+    EXPECT_NEAR(pbs::projective_weights(0.3, true).strain, 2.0 * mu, 1e-15);
+    EXPECT_NEAR(pbs::projective_weights(0.3, true).volume, 3.0 * lambda, 1e-15);
+    EXPECT_EQ(pbs::projective_weights(0.3, false).volume, 0.0);
+    EXPECT_NEAR(pbs::projective_weights(0.0, true).volume, 0.0, 1e-15);
+}
+
+// Reference: the conditions of the minimum, and a search over matrices of determinant one.
+
+using pbs::local_shapes;
+using pbs::nearest_unit_product;
+
+Vec3 random_stretches(test_support::RandomPoints& random)
+{
+    Vec3 s(random.number(0.0, 3.0), random.number(0.0, 3.0), random.number(0.0, 3.0));
+    std::sort(s.begin(), s.end(), std::greater<>());
+    if (random.number(0.0, 1.0) < 0.5) s(2) *= -1.0;
+    return s;
+}
+
+// The unknown is found to the last digit, and the product of three numbers of its size goes through some ten roundings. Where a double root
+// makes it sensitive, its error appears squared in the product.
+TEST(VolumeProjection, HasTheProductOneAndOneMultiplier)
+{
+    test_support::RandomPoints random(61);
+    for (int i = 0; i < 2000; ++i) {
+        const Vec3 s = random_stretches(random), nearest = nearest_unit_product(s);
+        EXPECT_GT(nearest.minCoeff(), 0.0);
+        EXPECT_NEAR(nearest.prod(), 1.0, test_support::rounding_error(40, 1.0) * (1.0 + nearest.maxCoeff() / nearest.minCoeff())) << s;
+        const Vec3 multiplier = nearest.cwiseProduct(nearest - s);  // -kappa, three times
+        const double rounding = test_support::rounding_error(10, nearest.maxCoeff() * (nearest.maxCoeff() + s.cwiseAbs().maxCoeff()));
+        EXPECT_NEAR(multiplier(0), multiplier(2), rounding) << s;
+        EXPECT_NEAR(multiplier(1), multiplier(2), rounding) << s;
+    }
+}
+
+TEST(VolumeProjection, NoOtherNumbersOfProductOneAreNearer)
+{
+    test_support::RandomPoints random(62);
+    for (int i = 0; i < 300; ++i) {
+        const Vec3 s = random_stretches(random);
+        const double distance = (nearest_unit_product(s) - s).norm();
+        for (int other = 0; other < 200; ++other) {
+            const double a = std::exp(random.number(-3.0, 3.0)), b = std::exp(random.number(-3.0, 3.0));
+            EXPECT_GE((Vec3(a, b, 1.0 / (a * b)) - s).norm(), distance - test_support::rounding_error(40, 1.0 + s.norm())) << s;
+        }
+    }
+}
+
+TEST(VolumeProjection, KnownCases)
+{
+    const double rounding = test_support::rounding_error(20, 1.0);
+    EXPECT_LT((nearest_unit_product({1, 1, 1}) - Vec3(1, 1, 1)).norm(), rounding);
+    EXPECT_LT((nearest_unit_product({0, 0, 0}) - Vec3(1, 1, 1)).norm(), rounding);              // symmetric, volume zero
+    EXPECT_LT((nearest_unit_product({0.5, 0.5, 0.5}) - Vec3(1, 1, 1)).norm(), rounding);        // symmetric, volume too small
+    EXPECT_LT((nearest_unit_product({1.1, 1.1, 1.1}) - Vec3(1, 1, 1)).norm(), 10 * rounding);   // symmetric, volume too large
+    EXPECT_LT((nearest_unit_product({2, 1, 0.5}) - Vec3(2, 1, 0.5)).norm(), 10 * rounding);     // of product one already
+    EXPECT_LT(std::abs(nearest_unit_product({1, 1, -1}).prod() - 1.0), 10 * rounding);          // a reflection
+    EXPECT_LT(std::abs(nearest_unit_product({1e-9, 1e-9, 1e-9}).prod() - 1.0), 10 * rounding);  // collapsed
+    EXPECT_LT(std::abs(nearest_unit_product({1e3, 1e3, 1e3}).prod() - 1.0), 1e-9);              // blown up: large over small
+}
+
+TEST(VolumeProjection, OfAMatrixTurnsWithIt)
+{
+    test_support::RandomPoints random(63);
+    for (int i = 0; i < 200; ++i) {
+        Eigen::Matrix3d f = Eigen::Matrix3d::Identity();
+        for (double& entry : f.reshaped()) entry += random.number(-0.4, 0.4);
+        const Eigen::Matrix3d turn = random.rigid_motion(0.0).linear();
+        const pbs::LocalShapes here = local_shapes(f), there = local_shapes(turn * f);
+        EXPECT_NEAR(here.unit_volume.determinant(), 1.0, test_support::rounding_error(100, here.unit_volume.cwiseAbs().prod() + 6.0));
+        EXPECT_LT((there.rotation - turn * here.rotation).norm(), 1e-12);
+        EXPECT_LT((there.unit_volume - turn * here.unit_volume).norm(), 1e-12);
+    }
+}
+
+TEST(VolumeProjection, NotFiniteIsNoShape)
+{
+    Eigen::Matrix3d f = Eigen::Matrix3d::Identity();
+    f(0, 1) = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_TRUE(local_shapes(f).unit_volume.array().isNaN().all());
 }
 
 }  // namespace

@@ -1,5 +1,4 @@
 // Reference: colours found by hand, the definition of a colouring, and the same projections in random sequences.
-
 #include "pbs/constraints/volume.hpp"
 #include "pbs/geometry/topology.hpp"
 #include "pbs/packed/groups.hpp"
@@ -132,16 +131,10 @@ TEST(ProjectionSequence, LeavesNoMoreVolumeChangeThanRandomSequences)
     }
 }
 
-}  // namespace
-
 // Reference: the conditions on which the kernels rely, checked for every batch: at most sixteen groups, no vertex twice, none of the
 // previous batch; and the order given, which groups that share a vertex keep.
 
-namespace {
-
-using namespace test_support;
 using pbs::BatchScheduler;
-using pbs::ConstraintGroup;
 using Batches = std::vector<std::vector<int>>;
 
 Batches expect_sound(BatchScheduler& scheduler, const std::vector<ConstraintGroup>& groups)

@@ -1,5 +1,4 @@
 // Reference: the shapes written by hand, and that groups of one are the constraints in file order.
-
 #include "pbs/geometry/topology.hpp"
 #include "pbs/packed/groups.hpp"
 #include "tests/support/expect_groups.hpp"
@@ -64,14 +63,8 @@ TEST(ConstraintGroups, NoConstraintsAreNoGroups)
     EXPECT_TRUE(pbs::grouped_tets({}).empty());
 }
 
-}  // namespace
-
 // Reference: each edge in one group, and small meshes whose groups are counted by hand.
 
-namespace {
-
-using namespace test_support;
-using pbs::GroupKind;
 using pbs::Tets;
 using EdgeList = std::vector<std::array<int, 2>>;
 using Counts = std::map<GroupKind, int>;
@@ -170,17 +163,9 @@ TEST(GroupedEdges, EdgesOfNoTet)
     EXPECT_EQ(count_by_kind(expect_sound(star, Tets(0, 4))), (Counts{{GroupKind::edge_wedge, 3}, {GroupKind::edge, 1}}));
 }
 
-}  // namespace
-
 // Reference: each tet in one group with its own orientation, and small meshes whose fans are counted by hand.
 
-namespace {
-
-using namespace test_support;
-using pbs::GroupKind;
-using pbs::Tets;
 using TetList = std::vector<std::array<int, 4>>;
-using Counts = std::map<GroupKind, int>;
 
 std::vector<pbs::ConstraintGroup> expect_sound(const TetList& tets)
 {

@@ -139,11 +139,7 @@ TEST(VertexOrder, ManySmallComponents)
     for (const int vertices_a_slab : {1, 4, 7}) expect_sound(tets, 80, vertices_a_slab);
 }
 
-}  // namespace
-
 // Reference: the definition of a colouring, checked tet by tet.
-
-namespace {
 
 // The colour of each vertex, -1 for none; a vertex with two colours is a failure.
 std::vector<int> colour_of_vertex(const std::vector<std::vector<int>>& colours, int vertices)

@@ -1,8 +1,8 @@
 // Reference: rigid motions, and the definition's limits. Tolerances: the rounding of means, and that of the polar decomposition by its
 // condition.
-#include "pbs/skinning/delta_mush.hpp"
 
 #include "pbs/geometry/tet_mesh.hpp"
+#include "pbs/skinning/delta_mush.hpp"
 #include "tests/support/mush_rounding.hpp"
 #include "tests/support/rounding_error.hpp"
 #include "tests/support/two_bone_limb.hpp"
@@ -85,6 +85,110 @@ TEST(DeltaMush, NotANumberIsNoRotation)
     Positions blended = bent.lbs;
     blended(3, 0) = std::nan("");
     EXPECT_FALSE(mushed(blended).allFinite());
+}
+
+// Reference: the plain code in double. Tolerance: the rounding of delta mush in float or double, to which LBS adds its own.
+
+using pbs::PackedDeltaMush;
+
+template <class Scalar>
+class PackedDeltaMushOf : public testing::Test {
+};
+using Scalars = testing::Types<float, double>;
+TYPED_TEST_SUITE(PackedDeltaMushOf, Scalars);
+
+const test_support::TwoBoneLimb sharp_bend = test_support::two_bone_limb({16, 4, 4}, Vec3::UnitZ(), 60.0);
+
+template <class Scalar>
+Positions packed_mush(const test_support::TwoBoneLimb& limb, const pbs::Pose& pose, const pbs::DeltaMushOptions& options = {})
+{
+    pbs::BlendSkinning<Scalar> skinning(limb.mesh.rest, limb.weights);
+    Positions posed;
+    PackedDeltaMush<Scalar>(limb.mesh, options).apply(skinning, pose, posed);
+    return posed;
+}
+
+Positions plain_mush(const test_support::TwoBoneLimb& limb, const Positions& blended, const pbs::DeltaMushOptions& options = {})
+{
+    Positions posed;
+    DeltaMush(limb.mesh, options).apply(blended, posed);
+    return posed;
+}
+
+// LBS goes through some fifteen roundings, and both sides are rounded.
+template <class Scalar>
+double packed_error(int iterations = pbs::DeltaMushOptions().iterations)
+{
+    return 2.0 * test_support::mush_error<Scalar>(sharp_bend.mesh, sharp_bend.lbs, true, 1.1, iterations) +
+           test_support::rounding_error_in<Scalar>(15, 1.1);
+}
+
+// The bound grows with the iterations, for rounding is assumed to add up, and the smoothed covariances become flat. With three iterations
+// it is far below what delta mush changes, so that it proves the code; with twenty it still holds.
+TYPED_TEST(PackedDeltaMushOf, IsThePlainOne)
+{
+    for (const int iterations : {1, 3, 20}) {
+        const pbs::DeltaMushOptions options{.iterations = iterations};
+        const Positions expected = plain_mush(sharp_bend, sharp_bend.lbs, options);
+        const double tolerance = packed_error<TypeParam>(iterations);
+        EXPECT_LT((packed_mush<TypeParam>(sharp_bend, sharp_bend.pose, options) - expected).rowwise().norm().maxCoeff(), tolerance);
+        if (iterations == 20) continue;
+        EXPECT_GT((expected - sharp_bend.lbs).rowwise().norm().maxCoeff(), 10.0 * tolerance) << "a bound that passes LBS proves nothing";
+    }
+}
+
+TYPED_TEST(PackedDeltaMushOf, LosesNoDigitsFarFromTheOrigin)
+{
+    const Vec3 far(1000.0, -2000.0, 500.0);
+    pbs::Pose pose = sharp_bend.pose;
+    for (Eigen::Isometry3d& bone : pose) bone.pretranslate(far);
+    const Positions there = packed_mush<TypeParam>(sharp_bend, pose).rowwise() - far.transpose();
+    const double of_translation = std::sqrt(3.0) * test_support::rounding_error_in<double>(4, far.norm() + 2.0);
+    const double amplified = packed_error<double>() / test_support::rounding_error_in<double>(1, 1.1) * of_translation;
+    EXPECT_LT((there - packed_mush<TypeParam>(sharp_bend, sharp_bend.pose)).rowwise().norm().maxCoeff(),
+              2.0 * packed_error<TypeParam>() + amplified);
+}
+
+TYPED_TEST(PackedDeltaMushOf, WithoutSmoothingItIsTheBlend)
+{
+    for (const pbs::DeltaMushOptions& options : {pbs::DeltaMushOptions{.iterations = 0}, {.iterations = 5, .step = 0.0}})
+        EXPECT_LT((packed_mush<TypeParam>(sharp_bend, sharp_bend.pose, options) - sharp_bend.lbs).cwiseAbs().maxCoeff(),
+                  (test_support::rounding_error_in<TypeParam>(15, 1.1)));
+}
+
+// Vertices on a line have no rotation of their own: the formulae refuse it, and the decomposition takes one of those that are nearest. The
+// sharp end of a flat tet is refused likewise. All must be finite, and without a detail they are the smoothed blend.
+TYPED_TEST(PackedDeltaMushOf, FlatMeshesAreMovedToo)
+{
+    test_support::TwoBoneLimb flat = sharp_bend;
+    flat.mesh.rest.col(1) *= 1e-6;
+    flat.mesh.rest.col(2) *= 1e-6;
+    pbs::linear_blend_skinning(flat.mesh.rest, flat.weights, flat.pose, flat.lbs);
+    const Positions posed = packed_mush<TypeParam>(flat, flat.pose), expected = plain_mush(flat, flat.lbs);
+    EXPECT_TRUE(posed.allFinite());
+    // The detail along the bar has the rotation of the bar, which only the turn about its own axis leaves open.
+    EXPECT_LT((posed - expected).rowwise().norm().maxCoeff(), 1e-3 * (expected - flat.mesh.rest).rowwise().norm().maxCoeff());
+}
+
+TYPED_TEST(PackedDeltaMushOf, AVertexThatNoTetUsesFollowsTheBlend)
+{
+    test_support::TwoBoneLimb limb = sharp_bend;
+    const Eigen::Index last = limb.mesh.rest.rows();
+    limb.mesh.rest.conservativeResize(last + 1, 3);
+    limb.mesh.rest.row(last) << 0.9, 0.5, 0.25;
+    limb.weights.first.push_back(limb.weights.first.back() + 1);
+    limb.weights.bone.push_back(1);
+    limb.weights.weight.push_back(1.0);
+    const Vec3 expected = limb.pose[1] * Vec3(0.9, 0.5, 0.25);
+    EXPECT_LT((packed_mush<TypeParam>(limb, limb.pose).row(last).transpose() - expected).norm(),
+              std::sqrt(3.0) * test_support::rounding_error_in<TypeParam>(15, 1.5));
+}
+
+TYPED_TEST(PackedDeltaMushOf, NotANumberIsNoRotation)
+{
+    pbs::Pose pose = sharp_bend.pose;
+    pose[1].linear()(0, 0) = std::nan("");
+    EXPECT_FALSE(packed_mush<TypeParam>(sharp_bend, pose).allFinite());
 }
 
 }  // namespace

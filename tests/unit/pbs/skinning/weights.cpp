@@ -1,13 +1,113 @@
 // Reference: Eq. 2 evaluated by hand.
+#include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/topology.hpp"
 #include "pbs/skinning/weights.hpp"
-
+#include "tests/support/motion_rounding.hpp"
 #include "tests/support/rounding_error.hpp"
+#include "tests/support/structured_bar.hpp"
+#include "tests/support/two_bone_limb.hpp"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+// Reference: projections on segments along the axes, by hand. Tolerances: the rounding of motions.
 
 namespace {
 
 using pbs::Vec3;
+using test_support::motion_error;
+
+const pbs::Skeleton limb = {{{"upper", -1, {-1, 0, 0}, {0, 0, 0}}, {"forearm", 0, {0, 0, 0}, {1, 0, 0}}}};
+
+pbs::BoneBinding bind_one(const Vec3& vertex, const pbs::Skeleton& skeleton)
+{
+    return pbs::bind_to_nearest_bone(pbs::Positions(vertex.transpose()), skeleton);
+}
+
+TEST(BoneBinding, BesideABoneIsItsFoot)
+{
+    const pbs::BoneBinding binding = bind_one({0.25, 0.3, 0.4}, limb);
+    EXPECT_EQ(binding.bone[0], 1);
+    EXPECT_DOUBLE_EQ(binding.parameter(0), 0.25);
+    EXPECT_EQ(Vec3(binding.rest_point.row(0)), Vec3(0.25, 0, 0));
+    EXPECT_DOUBLE_EQ(binding.distance(0), 0.5);
+}
+
+TEST(BoneBinding, BeyondAnEndIsTheEndWithAnUnclampedParameter)
+{
+    const pbs::BoneBinding binding = bind_one({1.5, 0, 0}, limb);
+    EXPECT_DOUBLE_EQ(binding.parameter(0), 1.5);
+    EXPECT_EQ(Vec3(binding.rest_point.row(0)), Vec3(1, 0, 0));
+    EXPECT_DOUBLE_EQ(binding.distance(0), 0.5);
+    const pbs::BoneBinding before_head = bind_one({-3, 0, 0}, limb);
+    EXPECT_DOUBLE_EQ(before_head.parameter(0), -2.0);
+    EXPECT_EQ(Vec3(before_head.rest_point.row(0)), Vec3(-1, 0, 0));
+    EXPECT_DOUBLE_EQ(before_head.distance(0), 2.0);
+}
+
+TEST(BoneBinding, FirstOfEquals)
+{
+    EXPECT_EQ(bind_one({0, 0.2, 0}, limb).bone[0], 0);
+}
+
+TEST(BoneBinding, VertexOnTheBoneHasDistanceZero)
+{
+    EXPECT_EQ(bind_one({0.5, 0, 0}, limb).distance(0), 0.0);
+}
+
+TEST(BoneBinding, ZeroLengthBoneIsAPoint)
+{
+    const pbs::Skeleton point = {{{"point", -1, {1, 1, 1}, {1, 1, 1}}}};
+    const pbs::BoneBinding binding = bind_one({1, 1, 3}, point);
+    EXPECT_EQ(binding.bone[0], 0);
+    EXPECT_EQ(binding.parameter(0), 0.0);
+    EXPECT_EQ(Vec3(binding.rest_point.row(0)), Vec3(1, 1, 1));
+    EXPECT_DOUBLE_EQ(binding.distance(0), 2.0);
+}
+
+TEST(BoneBinding, WithoutBonesIsRefused)
+{
+    EXPECT_THROW(bind_one({0, 0, 0}, {}), pbs::InputError);
+}
+
+TEST(PosedBindPoints, AreCarriedByTheirBones)
+{
+    pbs::Positions rest(2, 3);
+    rest << -0.5, 0.1, 0, 0.5, 0.1, 0;
+    const pbs::BoneBinding binding = pbs::bind_to_nearest_bone(rest, limb);
+    const pbs::Pose pose = pbs::joint_sweep(limb, 1, Vec3::UnitZ(), 90.0, 2, 0.01).steps[1];
+    const pbs::Positions points = pbs::posed_bind_points(binding, pose);
+    EXPECT_LT((Vec3(points.row(0)) - Vec3(-0.5, 0, 0)).norm(), motion_error(1, 0.5));
+    EXPECT_LT((Vec3(points.row(1)) - Vec3(0, 0.5, 0)).norm(), motion_error(2, 0.5));
+}
+
+// The forearm turned by 90 degrees about z lies along y; (0.1, 0.4, 0) is 0.4 along it, and (0.3, 2, 0) beyond its tail.
+TEST(ReprojectedBindPoints, AreOnThePosedSegment)
+{
+    pbs::Positions rest(2, 3);
+    rest << 0.5, 0.1, 0, 0.9, 0.1, 0;
+    const pbs::BoneBinding binding = pbs::bind_to_nearest_bone(rest, limb);
+    const pbs::Pose bent = pbs::joint_sweep(limb, 1, Vec3::UnitZ(), 90.0, 2, 0.01).steps.back();
+    pbs::Positions moved(2, 3);
+    moved << 0.1, 0.4, 0, 0.3, 2.0, 0;
+    const pbs::Positions points = pbs::reprojected_bind_points(binding, limb, bent, moved);
+    EXPECT_LT((Vec3(points.row(0)) - Vec3(0, 0.4, 0)).norm(), motion_error(3, 1.0));  // two of the bone, one for the projection
+    EXPECT_LT((Vec3(points.row(1)) - Vec3(0, 1, 0)).norm(), motion_error(3, 1.0));
+}
+
+TEST(ReprojectedBindPoints, OfARigidlyMovedBodyAreTheCarriedOnes)
+{
+    pbs::Positions rest(2, 3);
+    rest << -0.5, 0.1, 0.2, 0.9, 0.1, 0;
+    const pbs::BoneBinding binding = pbs::bind_to_nearest_bone(rest, limb);
+    const pbs::Pose turned(2, Eigen::Isometry3d(Eigen::Translation3d(1, 2, 3) * Eigen::AngleAxisd(0.7, Vec3(1, 2, 2) / 3.0)));
+    pbs::Positions moved(2, 3);
+    for (int i = 0; i < 2; ++i) moved.row(i) = turned[0] * Vec3(rest.row(i));
+    EXPECT_LT((pbs::reprojected_bind_points(binding, limb, turned, moved) - pbs::posed_bind_points(binding, turned)).norm(),
+              std::sqrt(2.0) * motion_error(1 + 1 + 3, 5.0));  // of two points: the body, the points, and the projection on the moved bone
+}
 
 pbs::Weights weights_at(const pbs::Skeleton& skeleton, const Vec3& vertex)
 {
@@ -102,6 +202,200 @@ TEST(EitherEndWeights, AreOfAllBonesThatTouchTheBone)
     EXPECT_EQ(weights.first, (std::vector{0, 3, 4, 6}));
     EXPECT_EQ(weights.bone, (std::vector{1, 0, 2, 1, 0, 1}));
     EXPECT_EQ(weights.weight, (std::vector{1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0, 1.0, 0.5, 0.5}));
+}
+
+// Reference: harmonic functions of one coordinate are linear in it, and linear elements represent those exactly.
+
+using pbs::harmonic_weights;
+
+const pbs::TetMesh bar = test_support::structured_bar({0, 0, 0}, {1, 0.2, 0.2}, {10, 2, 2});
+
+double weight_of(const pbs::Weights& weights, int vertex, int bone)
+{
+    for (int k = weights.first[vertex]; k < weights.first[vertex + 1]; ++k)
+        if (weights.bone[k] == bone) return weights.weight[k];
+    return 0.0;
+}
+
+// Whole cross-sections are gripped beyond x = 0.2 and x = 0.7. The term that keeps the matrix L regular, 1e-9 of its diagonal D, changes
+// the weights by at most 1e-9 max(L^-1 D 1), by the maximum principle. With w the weight of the edges along x at a vertex and h the cell,
+// L f = w h^2 for f = (x - 0.2) (0.7 - x) / 2, and D <= 10 w in cubes of six tets, whose edges have a weight of h / 6 or h / 3. Rounding is
+// a millionth of that.
+TEST(HarmonicWeights, AreLinearBetweenGrippedCrossSections)
+{
+    std::vector<int> gripping(bar.rest.rows(), -1);
+    for (Eigen::Index v = 0; v < bar.rest.rows(); ++v) {
+        if (bar.rest(v, 0) < 0.2 + 1e-9) gripping[v] = 0;
+        if (bar.rest(v, 0) > 0.7 - 1e-9) gripping[v] = 1;
+    }
+    const pbs::Weights weights = harmonic_weights(bar, gripping, 2);
+    const double of_regularity = 1e-9 * 10.0 * (0.5 * 0.5 / 8.0) / (0.1 * 0.1);
+    for (int v = 0; v < bar.rest.rows(); ++v) {
+        const double expected = std::clamp((bar.rest(v, 0) - 0.2) / 0.5, 0.0, 1.0);
+        EXPECT_NEAR(weight_of(weights, v, 1), expected, of_regularity);
+        EXPECT_NEAR(weight_of(weights, v, 0) + weight_of(weights, v, 1), 1.0, test_support::mean_error(2, 1.0));
+    }
+}
+
+TEST(HarmonicWeights, APartThatNothingGripsGoesWithTheFirstBone)
+{
+    const pbs::Weights weights = harmonic_weights(bar, std::vector<int>(bar.rest.rows(), -1), 2);
+    for (int v = 0; v < bar.rest.rows(); ++v) EXPECT_EQ(weight_of(weights, v, 0), 1.0);
+}
+
+// Reference: functions that are linear in the place are harmonic, and linear elements represent them exactly. The term 1e-9 that keeps the
+// system regular and the removal of weights below 1e-6 change weights by less than 3e-6.
+
+using pbs::harmonic_extension;
+
+constexpr double extension_tolerance = 3e-6;
+const pbs::TetMesh extension_bar = test_support::structured_bar({0, 0, 0}, {1, 1, 0.5}, {6, 5, 4});
+
+Eigen::MatrixXd dense(const pbs::Weights& weights, int bones)
+{
+    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(weights.vertices(), bones);
+    for (int v = 0; v < weights.vertices(); ++v)
+        for (int e = weights.first[v]; e < weights.first[v + 1]; ++e) matrix(v, weights.bone[e]) += weights.weight[e];
+    return matrix;
+}
+
+// Three weights that are linear in the place and sum to one.
+Eigen::MatrixXd linear_weights_of(const pbs::Positions& rest)
+{
+    Eigen::MatrixXd weights(rest.rows(), 3);
+    weights.col(0) = 0.2 + 0.3 * rest.col(0).array();
+    weights.col(1) = 0.1 + 0.2 * rest.col(1).array() + 0.1 * rest.col(2).array();
+    weights.col(2) = 1.0 - weights.col(0).array() - weights.col(1).array();
+    return weights;
+}
+
+TEST(HarmonicExtension, ReproducesLinearWeightsFromTheBoundary)
+{
+    const std::vector<bool> boundary = pbs::boundary_vertices(extension_bar.tets, extension_bar.rest.rows());
+    const Eigen::MatrixXd expected = linear_weights_of(extension_bar.rest);
+    Eigen::MatrixXd given = expected;
+    int inside = 0;
+    for (Eigen::Index v = 0; v < given.rows(); ++v)
+        if (!boundary[std::size_t(v)]) {
+            given.row(v).setConstant(77.0);  // not read
+            ++inside;
+        }
+    EXPECT_EQ(inside, 5 * 4 * 3);
+    EXPECT_LE((dense(harmonic_extension(extension_bar, boundary, given), 3) - expected).cwiseAbs().maxCoeff(), extension_tolerance);
+}
+
+TEST(HarmonicExtension, KeepsWeightsThatAreAllKnown)
+{
+    const Eigen::MatrixXd given = linear_weights_of(extension_bar.rest);
+    const std::vector<bool> all(std::size_t(given.rows()), true);
+    EXPECT_LE((dense(harmonic_extension(extension_bar, all, given), 3) - given).cwiseAbs().maxCoeff(), 1e-14);
+}
+
+// Weights are from the least to the greatest known one (maximum principle, whose condition the Kuhn tets of cubes fulfil).
+TEST(HarmonicExtension, StaysBetweenTheKnownWeightsAndSumsToOne)
+{
+    std::vector<bool> known(std::size_t(extension_bar.rest.rows()), false);
+    Eigen::MatrixXd given = Eigen::MatrixXd::Zero(extension_bar.rest.rows(), 2);
+    for (Eigen::Index v = 0; v < given.rows(); ++v) {
+        if (v % 5 != 0) continue;
+        known[std::size_t(v)] = true;
+        given(v, 0) = v % 2 == 0 ? 0.25 : 0.75;
+        given(v, 1) = 1.0 - given(v, 0);
+    }
+    const Eigen::MatrixXd extended = dense(harmonic_extension(extension_bar, known, given), 2);
+    EXPECT_GE(extended.minCoeff(), 0.25 - extension_tolerance);
+    EXPECT_LE(extended.maxCoeff(), 0.75 + extension_tolerance);
+    EXPECT_LE((extended.rowwise().sum().array() - 1.0).abs().maxCoeff(), 1e-14);
+}
+
+TEST(HarmonicExtension, RemovesWeightsOfAMillionthAndDividesByTheSumOfTheOthers)
+{
+    const std::vector<bool> all(std::size_t(extension_bar.rest.rows()), true);
+    Eigen::MatrixXd given = Eigen::MatrixXd::Zero(extension_bar.rest.rows(), 3);
+    given.col(0).setConstant(0.5);
+    given.col(1).setConstant(5e-7);
+    given.col(2).setConstant(1.5);
+    const Eigen::MatrixXd weights = dense(harmonic_extension(extension_bar, all, given), 3);
+    EXPECT_EQ(weights.col(0).minCoeff(), 0.25);
+    EXPECT_EQ(weights.col(1).maxCoeff(), 0.0);
+    EXPECT_EQ(weights.col(2).maxCoeff(), 0.75);
+}
+
+TEST(HarmonicExtension, WithoutAnyKnownWeightBelongsToTheFirstBone)
+{
+    const std::vector<bool> none(std::size_t(extension_bar.rest.rows()), false);
+    const Eigen::MatrixXd given = Eigen::MatrixXd::Zero(extension_bar.rest.rows(), 2);
+    EXPECT_EQ(dense(harmonic_extension(extension_bar, none, given), 2).col(0).minCoeff(), 1.0);
+}
+
+// Reference: the definition on rows of cross-sections, and what diffusion conserves.
+
+using pbs::diffused_weights;
+
+const test_support::TwoBoneLimb straight = test_support::two_bone_limb({16, 3, 3}, pbs::Vec3::UnitZ(), 0.0);
+
+double diffused_weight(const pbs::Weights& weights, int vertex, int bone)
+{
+    for (int k = weights.first[vertex]; k < weights.first[vertex + 1]; ++k)
+        if (weights.bone[k] == bone) return weights.weight[k];
+    return 0.0;
+}
+
+// The largest difference of the forearm's weight between two ends of an edge.
+double largest_jump(const pbs::Weights& weights)
+{
+    double largest = 0.0;
+    for (Eigen::Index t = 0; t < straight.mesh.tets.rows(); ++t)
+        for (int a = 0; a < 4; ++a)
+            for (int b = 0; b < a; ++b)
+                largest = std::max(largest, std::abs(diffused_weight(weights, straight.mesh.tets(t, a), 1) -
+                                                     diffused_weight(weights, straight.mesh.tets(t, b), 1)));
+    return largest;
+}
+
+TEST(DiffusedWeights, AreNotNegativeAndAddUpToOne)
+{
+    for (const int steps : {0, 1, 8, 100}) {
+        const pbs::Weights weights = diffused_weights(straight.mesh, straight.weights, steps);
+        ASSERT_EQ(weights.vertices(), straight.mesh.rest.rows());
+        for (int v = 0; v < weights.vertices(); ++v) {
+            double sum = 0.0;
+            for (int k = weights.first[v]; k < weights.first[v + 1]; ++k) {
+                EXPECT_GT(weights.weight[k], 0.0);
+                sum += weights.weight[k];
+            }
+            EXPECT_NEAR(sum, 1.0, test_support::mean_error(3, 1.0));
+        }
+    }
+}
+
+TEST(DiffusedWeights, WithoutStepsAreTheGivenOnes)
+{
+    const pbs::Weights weights = diffused_weights(straight.mesh, straight.weights, 0);
+    for (int v = 0; v < weights.vertices(); ++v)
+        for (const int bone : {0, 1}) EXPECT_EQ(diffused_weight(weights, v, bone), diffused_weight(straight.weights, v, bone));
+}
+
+TEST(DiffusedWeights, OneStepGoesHalfWayToTheMeanOfTheNeighbours)
+{
+    pbs::TetMesh tet;
+    tet.rest = (pbs::Positions(5, 3) << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 2, 2, 2).finished();
+    tet.tets = (pbs::Tets(1, 4) << 0, 1, 2, 3).finished();
+    const pbs::Weights given = {{0, 1, 2, 3, 4, 5}, {0, 1, 1, 1, 0}, {1.0, 1.0, 1.0, 1.0, 1.0}};
+    const pbs::Weights weights = diffused_weights(tet, given, 1);
+    EXPECT_NEAR(diffused_weight(weights, 0, 0), 0.5, test_support::rounding_error(6, 1.0));
+    EXPECT_NEAR(diffused_weight(weights, 1, 0), 0.5 / 3.0, test_support::rounding_error(6, 1.0));
+    EXPECT_EQ(diffused_weight(weights, 4, 0), 1.0) << "a vertex without tets keeps its own";
+}
+
+// A step takes means, so that the jumps along edges do not grow, and spread over several edges they fall.
+TEST(DiffusedWeights, JumpLessFromVertexToVertex)
+{
+    const double given = largest_jump(straight.weights), once = largest_jump(diffused_weights(straight.mesh, straight.weights, 1)),
+                 eight = largest_jump(diffused_weights(straight.mesh, straight.weights));
+    EXPECT_EQ(given, 0.5);
+    EXPECT_LT(once, given);
+    EXPECT_LT(eight, 0.5 * given);
 }
 
 }  // namespace

@@ -67,7 +67,7 @@ TEST(ComparedDeformers, SkipSettingsAndCodesWhoseKeysDoNotExist)
     EXPECT_EQ(codes_of({.kind = "pbs", .codes = {{"pbs.wishes=f32"}}}), std::vector<KeyValues>{{}});
 }
 
-// A kind whose precision or arithmetic can be chosen is compared in both.
+// A kind whose precision can be chosen is compared in both.
 TEST(ComparedDeformers, PutTheirPackedCodeFirstAndThenPlainF64)
 {
     const Scene scene = read_scene("limb_twist", {});
@@ -75,9 +75,8 @@ TEST(ComparedDeformers, PutTheirPackedCodeFirstAndThenPlainF64)
         if (!is_available(one)) continue;
         const std::vector<SceneKey>& keys = find_deformer_kind(one.kind)->keys;
         const bool has_keys_of_xpbd = one.kind == "xpbd_small_steps";
-        const bool may_choose = has_keys_of_xpbd || std::ranges::any_of(keys, [](const SceneKey& key) {
-                                    return key.name == "precision" || key.name == "arithmetic";
-                                });
+        const bool may_choose =
+            has_keys_of_xpbd || std::ranges::any_of(keys, [](const SceneKey& key) { return key.name == "precision"; });
         const std::vector<KeyValues> codes = codes_of(one);
         EXPECT_EQ(codes.size(), may_choose ? 2u : 1u) << one.name;
         if (codes.size() < 2) continue;

@@ -1,9 +1,14 @@
 // Reference: rigid motion and objectivity, which are exact for a linear law since the root's motion is removed; the limit of stiff springs;
 // a second solver. The body is the bar of two bones, with both attachments and both element orders.
+
 #include "experiments/deformers/fem/fem_deformers.hpp"
+#include "experiments/studies/verification/problem.hpp"
+#include "pbs/character/bodies.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 #include "tests/support/bar_character.hpp"
 #include "tests/support/newton_rounding.hpp"
 #include "tests/support/solve_rounding.hpp"
+#include "tests/verification/reference_fem/jittered_cube.hpp"
 
 #include <gtest/gtest.h>
 
@@ -173,6 +178,91 @@ TEST(EmbeddedBar, ElementOrderDoesNotChangeWhatIsGripped)
         grips[order - 1] = fem.record()["attachment"];
     }
     EXPECT_EQ(grips[0], grips[1]);
+}
+
+// Reference: a manufactured solution of stable neo-Hookean flesh that is held by smooth springs
+// (experiments/studies/verification/problem.hpp). The verification record's problem nested_convergence shows the order and
+// the bound of nested solutions on it.
+
+double error_of(const pbs::TetMesh& mesh, int element_order, const ManufacturedSprings& springs = {})
+{
+    const AttachedSolution solution = solve_manufactured(mesh, element_order, springs);
+    EXPECT_TRUE(solution.converged);
+    return solution.error;
+}
+
+// Errors C h^p (1 + c h) show an order that differs from p by c h / (2 ln 2), half as much on meshes twice as fine. The order of the finest
+// two is therefore within 0.1 (jittered meshes: their constants differ by a few per cent) or closer than that of the coarser two by
+// nearly a half.
+void expect_order(int element_order, int coarsest)
+{
+    const double order = element_order + 1;
+    pbs::TetMesh mesh = test_support::jittered_cube(coarsest);
+    std::vector<double> errors;
+    for (int level = 0; level < 3; ++level) {
+        errors.insert(errors.begin(), error_of(mesh, element_order));
+        mesh = pbs::refine(mesh).mesh;
+    }
+    const double coarser = std::abs(std::log2(errors[2] / errors[1]) - order), finer = std::abs(std::log2(errors[1] / errors[0]) - order);
+    testing::Test::RecordProperty("order_differs_by", std::to_string(finer));
+    EXPECT_LT(finer, std::max(0.1, 0.6 * coarser));
+}
+
+TEST(ManufacturedAttachment, LinearTetsConvergeWithOrderTwo)
+{
+    expect_order(1, 4);
+}
+
+TEST(ManufacturedAttachment, QuadraticTetsConvergeWithOrderThree)
+{
+    expect_order(2, 2);
+}
+
+// Springs of twice or half the weight pull with another force than the body force balances. Where they are stiff, the flesh then moves by
+// the offset times 1 / 2 or 1; right ones leave only the error of the elements and of the sample points.
+TEST(ManufacturedAttachment, SpringsOfAnotherWeightLeaveAnotherForce)
+{
+    const pbs::Vec3 large_offset(0.02, -0.01, 0.03);
+    const pbs::TetMesh mesh = test_support::jittered_cube(8);
+    const double right = error_of(mesh, 1, {large_offset});
+    for (const double weight : {0.5, 2.0}) EXPECT_GT(error_of(mesh, 1, {large_offset, weight}), 3.0 * right) << weight;
+}
+
+// Reference: the theory of quadrature. Twice as many sample points of the springs in every direction are a finer midpoint rule, whose error
+// falls to a quarter. The body is the bar of two bones, bent by 40 degrees, with stable neo-Hookean flesh.
+
+pbs::Positions bent_bar(const std::array<int, 3>& cells, const FemOptions& options)
+{
+    const pbs::Character bar = test_support::bar_character(cells);
+    ElasticFemDeformer fem(options);
+    fem.reset(bar);
+    const pbs::Pose pose = pbs::joint_sweep(bar.skeleton, 1, pbs::Vec3::UnitZ(), 40.0, 2, 0.01).steps.back();
+    EXPECT_EQ(fem.advance(pose, 0.01).outcome, pbs::Outcome::finished);
+    EXPECT_EQ(fem.record()["newton"]["most_inverted_points"].get<int>(), 0);
+    return fem.positions();
+}
+
+FemOptions smooth(int element_order)
+{
+    return {.model = reference_fem::Model::stable_neo_hookean, .element_order = element_order, .attachment = FemAttachment::smooth};
+}
+
+// Errors of order h^2 leave a quarter of the first difference: |x_2 - x_4| = (1/4 - 1/16) C, |x_1 - x_2| = (1 - 1/4) C.
+// Points that fall into other tets add an error that is not smooth, so that the test requires a half instead of a quarter.
+TEST(SmoothAttachment, MoreSamplePointsChangeLessAndLess)
+{
+    std::vector<pbs::Positions> shapes;
+    for (const int samples : {1, 2, 4}) {
+        FemOptions options = smooth(1);
+        options.attachment_samples = samples;
+        shapes.push_back(bent_bar({16, 4, 4}, options));
+    }
+    const double first = (shapes[1] - shapes[0]).norm(), second = (shapes[2] - shapes[1]).norm();
+    const double motion = (shapes[2] - test_support::bar_character({16, 4, 4}).mesh.rest).norm();
+    RecordProperty("first_change_over_motion", std::to_string(first / motion * 1e6) + "e-6");
+    RecordProperty("second_change_over_motion", std::to_string(second / motion * 1e6) + "e-6");
+    EXPECT_LT(second, 0.5 * first);
+    EXPECT_LT(first, 1e-3 * motion);
 }
 
 }  // namespace

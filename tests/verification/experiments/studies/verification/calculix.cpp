@@ -5,7 +5,7 @@
 // With the smooth attachment both programs have the same springs: here they are summed by tet and split into eigenvectors, with a search
 // for points and shape functions of their own. Tolerance: the rounding and the last Newton steps of both, by the condition number of this
 // very matrix (difference_bound()). Skipped where ccx is not on the PATH.
-#include "experiments/studies/verification/attachment_problems.hpp"
+#include "experiments/studies/verification/problem.hpp"
 #include "pbs/character/bodies.hpp"
 #include "reference_fem/verification/calculix/calculix_rows.hpp"
 #include "reference_fem/verification/calculix/calculix_run.hpp"

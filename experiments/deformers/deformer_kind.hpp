@@ -1,0 +1,70 @@
+// From the options and the class of a deformer to its DeformerKind:
+//   struct LiftOptions { double height_m = 0.5; };
+//   class Lift : public TimedDeformer { public: explicit Lift(const LiftOptions& options); ... };
+//   DeformerKind lift_kind()
+//   {
+//       return kind_of<Lift>("lift", "the rest shape, lifted",
+//                            OptionFields<LiftOptions>("lift").add("height_m", &LiftOptions::height_m, {.unit = "m", .meaning = "by how
+//                            much"}));
+//   }
+#pragma once
+
+#include "experiments/deformers/deformer_options.hpp"
+#include "experiments/deformers/registry.hpp"
+#include "experiments/settings/option_fields.hpp"
+
+#include <algorithm>
+#include <type_traits>
+
+namespace experiments {
+
+// The traits that options state themselves: members named order, precision, packed, iterations and threads. Iterations count only for
+// options with threads: the others' steps of smoothing are no iterations of a solver.
+template <typename Options>
+DeformerTraits traits_from(const Options& options, const DeformerSpec& spec)
+{
+    DeformerTraits traits;
+    if constexpr (requires { options.order; }) {
+        traits.order = name_of(options.order);
+        traits.packed = options.order != pbs::Order::plain;
+    }
+    if constexpr (requires { options.precision; }) traits.precision = name_of(options.precision);
+    if constexpr (requires { options.packed; }) traits.packed = options.packed;
+    if constexpr (requires { options.threads; }) {
+        traits.iterations = options.iterations;
+        traits.threads = spec.threads;
+    }
+    return traits;
+}
+
+// For keys that contradict each other, or name a variant; may change the options.
+template <typename Options>
+using CheckOptions = void (*)(const SceneValues& values, const std::string& table, Options& options, DeformerSpec& spec);
+
+// Made is constructed from Options, whose member `threads` has the number of the spec. void: the caller sets `make`.
+template <typename Made, typename Options>
+DeformerKind kind_of(const std::string& name, const std::string& meaning, const OptionFields<Options>& fields,
+                     CheckOptions<Options> check = nullptr)
+{
+    DeformerKind kind{.name = name, .meaning = meaning, .options = Options{}, .keys = fields.keys(), .renamed_keys = fields.renamed_keys()};
+    if constexpr (!std::is_void_v<Made>)
+        kind.make = [](const DeformerSpec& spec) -> std::unique_ptr<Deformer> {
+            Options options = options_of<Options>(spec);
+            if constexpr (requires { options.threads; }) options.threads = spec.threads;
+            return std::make_unique<Made>(options);
+        };
+    kind.has_list = std::any_of(kind.keys.begin(), kind.keys.end(), [](const SceneKey& key) { return key.in_list; });
+    kind.read = [fields, check, in_list = kind.has_list](const SceneValues& values, const std::string& of_scene, DeformerSpec& spec) {
+        if (in_list && of_scene == spec.kind) return;  // not from a list: the defaults
+        const std::string table = in_list ? of_scene : fields.table();
+        Options options = fields.read(values, table);
+        if constexpr (requires { options.packed; }) agree_on_code(values, table, options.precision, options.packed);
+        if (check) check(values, table, options, spec);
+        spec.options = options;
+    };
+    kind.options_json = [fields](const DeformerSpec& spec) { return fields.json(options_of<Options>(spec)); };
+    kind.traits = [](const DeformerSpec& spec) { return traits_from(options_of<Options>(spec), spec); };
+    return kind;
+}
+
+}  // namespace experiments

@@ -1,0 +1,265 @@
+#include "experiments/studies/timing/features.hpp"
+
+#include "analysis/metrics/frame_metrics.hpp"
+#include "analysis/records/record_files.hpp"
+#include "experiments/deformers/registry.hpp"
+#include "experiments/process/child_process.hpp"
+#include "experiments/process/terminal.hpp"
+#include "experiments/scene/scene.hpp"
+#include "experiments/settings/option_fields.hpp"
+#include "experiments/studies/shared/timed_rounds.hpp"
+#include "pbs/solver/options.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <stdexcept>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+namespace experiments {
+namespace {
+
+constexpr const char* errors = R"(output.metrics=["errors"])";
+constexpr const char* with_lbs = R"(deformers.use=["lbs","pbs"])";
+const Variant quadratic_reference = {{R"(deformers.use=["pbs","fem_p2"])", R"(reference.name="fem_p2")", errors}};
+
+}  // namespace
+
+const std::vector<Feature>& features()
+{
+    static const std::vector<Feature> all = {
+        // The bare scene has these three. Their cost is what their absence saves.
+        {.name = "stretch_constraints", .without = {{"pbs.k_stretch=0"}}, .changes_result = true},
+        {.name = "volume_constraints", .without = {{"pbs.k_volume=0"}}, .changes_result = true},
+        {.name = "bind_constraints", .without = {{"pbs.k_bind=0"}}, .changes_result = true},
+        {.name = "jiggling_zone", .with = {{"pbs.jiggle.k_stretch=0.1"}}, .changes_result = true},
+        {.name = "residuals_of_every_iteration", .with = {{"pbs.record_iterations=true"}}},
+        {.name = "stop_residual_0.1", .with = {{"pbs.stop_residual=0.1"}}, .changes_result = true},
+        {.name = "sleep", .with = {{"pbs.sleep=true"}}, .changes_result = true},
+        {.name = "lumped_masses", .with = {{"pbs.masses=lumped"}}, .changes_result = true},
+        {.name = "precision_f64_for_f32", .with = {{"pbs.precision=f64"}}, .changes_result = true},
+        {.name = "order_plain_for_ordered", .with = {{"pbs.order=plain"}}, .changes_result = true},
+        {.name = "order_grouped_for_ordered", .with = {{"pbs.order=grouped"}}, .changes_result = true},
+        {.name = "two_threads_for_one", .with = {.threads = 2}, .changes_result = true},
+        {.name = "LBS_for_comparison", .with = {{with_lbs}}},
+        {.name = "DQS_for_comparison", .with = {{R"(deformers.use=["dqs","pbs"])"}}},
+        {.name = "errors_against_LBS", .without = {{with_lbs}}, .with = {{with_lbs, R"(reference.name="lbs")", errors}}},
+        {.name = "smallest_cross_sections", .with = {{R"(output.metrics=["sections"])"}}},
+        {.name = "volume_of_the_rendered_surface", .with = {{R"(output.metrics=["surface"])"}}, .needs_surface = true},
+        {.name = "every_frame_written", .with = {{"output.frames_every=1"}}},
+        {.name = "linear_reference_order_1", .with = {{R"(deformers.use=["pbs","fem_p1"])", R"(reference.name="fem_p1")", errors}}},
+        {.name = "linear_reference_order_2", .with = quadratic_reference},
+        {.name = "error_bar_of_the_reference_orders",
+         .without = quadratic_reference,
+         .with = {{quadratic_reference.overrides[0], quadratic_reference.overrides[1], errors, R"(reference.error_bar="orders")"}}},
+        {.name = "progress_bar_on_a_terminal", .with = {.progress = true}},
+    };
+    return all;
+}
+
+Scene scene_of(const std::string& name, const std::vector<std::string>& cut, const Variant& variant)
+{
+    std::vector<std::string> overrides = {R"(deformers.use=["pbs"])", R"(reference.name="")",  "output.frames_every=0",
+                                          "output.frames=[]",         "output.frame_names=[]", "output.metrics=[]"};
+    overrides.insert(overrides.end(), cut.begin(), cut.end());
+    overrides.insert(overrides.end(), variant.overrides.begin(), variant.overrides.end());
+    Scene scene = read_scene(name, overrides);
+    for (DeformerSpec& spec : scene.deformers) spec.threads = variant.threads;
+    return scene;
+}
+
+namespace {
+
+using analysis::Columns;
+using analysis::within;
+
+constexpr Compared FeatureRow::*compared_costs[] = {&FeatureRow::frame_ms,    &FeatureRow::frame_cpu_ms, &FeatureRow::step_ms,
+                                                    &FeatureRow::step_cpu_ms, &FeatureRow::start_s,      &FeatureRow::peak_mb};
+
+Columns<FeatureRow> pair_columns(Compared FeatureRow::*part, const std::string& name, const std::string& unit, const std::string& meaning)
+{
+    const QuartileEndings endings = {"_lower", "_upper"};
+    const Columns<Compared> columns = within(&Compared::without, spread_columns(name + "_without", unit, meaning + ", without", endings)) +
+                                      within(&Compared::with, spread_columns(name + "_with", unit, meaning + ", with", endings)) +
+                                      within(&Compared::ratio, spread_columns(name + "_ratio", "", meaning + ", with / without", endings));
+    return within(part, columns);
+}
+
+const DeformerSpec& pbs_of(const Scene& scene)
+{
+    const DeformerSpec* pbs = find_deformer_with<pbs::PbsOptions>(scene);
+    if (!pbs) throw std::logic_error("a scene without PBS");
+    return *pbs;
+}
+
+// Seconds before the first frame.
+double start_of(const nlohmann::json& seconds)
+{
+    double sum = seconds.value("error_bar_set_up", 0.0);  // only a reference with an error bar has it
+    for (const char* part : {"character", "motion", "set_up", "metrics_set_up"}) sum += seconds.at(part).get<double>();
+    return sum;
+}
+
+}  // namespace
+
+using Rows = Columns<FeatureRow>;
+const Rows feature_columns =
+    Rows{{"scene", &FeatureRow::scene, "", "name of the run"},
+         {"feature", &FeatureRow::feature, "", "what the second scene of the pair has"},
+         {"rounds", &FeatureRow::rounds, "", "runs of each scene"}} +
+    pair_columns(&FeatureRow::frame_ms, "frame_ms", "ms", "wall time per frame, everything included") +
+    pair_columns(&FeatureRow::frame_cpu_ms, "frame_cpu_ms", "ms", "processor time of all threads per frame, everything included") +
+    pair_columns(&FeatureRow::step_ms, "step_ms", "ms", "wall time of PBS's step") +
+    pair_columns(&FeatureRow::step_cpu_ms, "step_cpu_ms", "ms", "processor time of PBS's step") +
+    pair_columns(&FeatureRow::start_s, "start_s", "s", "wall time before the first frame") +
+    pair_columns(&FeatureRow::peak_mb, "peak_mb", "MB", "peak memory, 10^6 bytes") +
+    Rows{{"shared_objects_without", &FeatureRow::shared_objects_without, "", "loaded libraries, without"},
+         {"shared_objects_with", &FeatureRow::shared_objects_with, "", "loaded libraries, with"}} +
+    within(&FeatureRow::change,
+           Columns<ResultChange>{
+               {"largest_distance_m", &ResultChange::distance_m, "m", "largest distance of a vertex between the two results"},
+               {"volume_difference_pct", &ResultChange::volume_difference_pct, "%", "largest difference of the two volume changes"}});
+
+nlohmann::json to_json(const FeaturesCase& of)
+{
+    static const auto fields = OptionFields<FeaturesCase>("features")
+                                   .record("name", &FeaturesCase::name)
+                                   .record("scene", &FeaturesCase::scene)
+                                   .record("cut", &FeaturesCase::cut)
+                                   .record("has_surface", &FeaturesCase::has_surface)
+                                   .record("sizes", &FeaturesCase::sizes)
+                                   .record("rounds", &FeaturesCase::rounds)
+                                   .complete();
+    return fields.json(of);
+}
+
+Compared compare(const std::vector<double>& without, const std::vector<double>& with)
+{
+    const Spread ratio = spread_of_ratios(with, without);
+    return {spread_of(without), spread_of(with), ratio};
+}
+
+std::vector<double> costs_of_run(const nlohmann::json& run, const Scene& scene)
+{
+    const nlohmann::json& cost = run.at("cost");
+    const double ms_per_frame = 1e3 / run.at("outcome").at("frames").get<double>();
+    const auto frame_and_step = [&](const nlohmann::json& seconds) {
+        const double frames = seconds.at("total").get<double>() - start_of(seconds);
+        const double step = seconds.at("deformers").at(pbs_of(scene).label).at("step");
+        return std::pair(ms_per_frame * frames, ms_per_frame * step);
+    };
+    const auto [frame_ms, step_ms] = frame_and_step(cost.at("seconds"));
+    const auto [frame_cpu_ms, step_cpu_ms] = frame_and_step(cost.at("cpu_seconds"));
+    return {
+        frame_ms, frame_cpu_ms, step_ms, step_cpu_ms, start_of(cost.at("seconds")), cost.at("peak_memory_mb"), cost.at("shared_objects")};
+}
+
+FeatureRow feature_row(const std::string& scene, const std::string& feature, const Samples& without, const Samples& with,
+                       const std::optional<ResultChange>& change)
+{
+    FeatureRow row;
+    row.scene = scene;
+    row.feature = feature;
+    row.change = change;
+    std::size_t cost = 0;
+    for (Compared FeatureRow::*part : compared_costs) row.*part = compare(without.at(cost), with.at(cost)), ++cost;
+    row.rounds = row.frame_ms.ratio.rounds;
+    row.shared_objects_without = static_cast<int>(without.at(cost).back());
+    row.shared_objects_with = static_cast<int>(with.at(cost).back());
+    return row;
+}
+
+ResultChange change_between(const Scene& without, const Scene& with)
+{
+    const pbs::Character character = pbs::make_character(without.character);
+    const pbs::Motion motion = make_motion(without.motion, character.skeleton, without.file);
+    const analysis::MeshMetrics mesh_metrics(character.mesh.rest, character.mesh.tets);
+    const auto before = make_deformer(pbs_of(without)), after = make_deformer(pbs_of(with));
+    before->reset(character);
+    after->reset(character);
+    ResultChange change;
+    for (const pbs::Pose& pose : motion.steps) {
+        before->advance(pose, motion.time_step_s);
+        after->advance(pose, motion.time_step_s);
+        const double distance = (before->positions() - after->positions()).rowwise().norm().maxCoeff();
+        const double volume =
+            mesh_metrics.measure(before->positions()).volume_change_pct - mesh_metrics.measure(after->positions()).volume_change_pct;
+        change.distance_m = std::max(change.distance_m, distance);
+        change.volume_difference_pct = std::max(change.volume_difference_pct, std::abs(volume));
+    }
+    return change;
+}
+
+namespace {
+
+// Gives stderr a terminal of its own, so that the bar is drawn and nobody sees it.
+void draw_progress_unseen()
+{
+    const int master = posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK);
+    if (master < 0 || grantpt(master) != 0 || unlockpt(master) != 0) throw std::runtime_error("no terminal to draw a bar on");
+    const int slave = open(ptsname(master), O_RDWR | O_NOCTTY | O_NONBLOCK);
+    if (slave < 0 || dup2(slave, STDERR_FILENO) < 0) throw std::runtime_error("no terminal to draw a bar on");
+    show_progress();
+}
+
+std::optional<ResultChange> change_by(const Feature& feature, const FeaturesCase& of)
+{
+    if (!feature.changes_result) return std::nullopt;
+    const Scene without = scene_of(of.scene, of.cut, feature.without), with = scene_of(of.scene, of.cut, feature.with);
+    const nlohmann::json change = in_own_process([&] {
+        const ResultChange found = change_between(without, with);
+        return nlohmann::json{found.distance_m, found.volume_difference_pct};
+    });
+    return ResultChange{change.at(0), change.at(1)};
+}
+
+// Each mesh against the smallest one.
+std::vector<Feature> growing(const std::vector<int>& vertices)
+{
+    std::vector<Feature> sizes;
+    const auto of = [](int count) { return Variant{{"character.vertices=" + std::to_string(count)}}; };
+    for (const int count : vertices)
+        if (count != vertices.front())
+            sizes.push_back({.name = "vertices_" + std::to_string(count), .without = of(vertices.front()), .with = of(count)});
+    return sizes;
+}
+
+}  // namespace
+
+// Returns the first breakdown. A bad frame is no failure here, since no reference has to reach a bend of 150 degrees.
+std::string measure_features(const FeaturesCase& of, const std::string& folder)
+{
+    std::vector<Feature> asked;
+    std::vector<Variant> variants;  // each once, however many features it is a part of
+    for (const Feature& feature : of.sizes.empty() ? features() : growing(of.sizes)) {
+        if (feature.needs_surface && !of.has_surface) continue;
+        asked.push_back(feature);
+        for (const Variant& variant : {feature.without, feature.with})
+            if (std::find(variants.begin(), variants.end(), variant) == variants.end()) variants.push_back(variant);
+    }
+    const std::string scratch = analysis::path_in(folder, "scratch");
+    std::string breakdown;
+    std::vector<TimedVariant> turns;
+    for (const Variant& variant : variants)
+        turns.push_back([&] {
+            const Scene scene = scene_of(of.scene, of.cut, variant);
+            const nlohmann::json run = run_scene_alone(scene, scratch, variant.progress ? draw_progress_unseen : nullptr);
+            if (breakdown.empty()) breakdown = run.at("outcome").at("breakdown");
+            return costs_of_run(run, scene);
+        });
+    const std::vector<Samples> costs = take_turns(turns, of.rounds);
+    std::filesystem::remove_all(scratch);
+
+    const auto costs_with = [&](const Variant& variant) {
+        return costs[std::find(variants.begin(), variants.end(), variant) - variants.begin()];
+    };
+    std::vector<FeatureRow> rows;
+    for (const Feature& feature : asked)
+        rows.push_back(feature_row(of.name, feature.name, costs_with(feature.without), costs_with(feature.with), change_by(feature, of)));
+    table_of(feature_columns, rows).write(analysis::path_in(folder, "features.csv"));
+    return breakdown;
+}
+
+}  // namespace experiments

@@ -1,0 +1,230 @@
+// Work in a separate process. Reference: the contract of the header.
+
+#include "experiments/process/child_process.hpp"
+#include "pbs/geometry/input_error.hpp"
+#include "tests/support/scratch_folder.hpp"
+
+#include <gtest/gtest.h>
+#include <poll.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <stdexcept>
+#include <string>
+
+namespace {
+
+using experiments::in_own_process;
+
+TEST(OwnProcess, TellsItsResult)
+{
+    EXPECT_EQ(in_own_process([] { return nlohmann::json{{"frames", 3}}; }).at("frames"), 3);
+}
+
+TEST(OwnProcess, TellsMoreThanAPipeHolds)
+{
+    const std::string text(300'000, 'x');
+    EXPECT_EQ(in_own_process([&] { return nlohmann::json(text); }).get<std::string>(), text);
+}
+
+TEST(OwnProcess, LeavesNothingBehind)
+{
+    int mine = 1;
+    in_own_process([&] { return nlohmann::json(++mine); });
+    EXPECT_EQ(mine, 1);
+}
+
+template <typename Exception>
+std::string words_of(const std::function<nlohmann::json()>& work)
+{
+    try {
+        in_own_process(work);
+    } catch (const Exception& error) {
+        return error.what();
+    }
+    return "accepted";
+}
+
+TEST(OwnProcess, AFailureIsToldWithItsWordsAndItsKind)
+{
+    EXPECT_EQ(words_of<pbs::InputError>([]() -> nlohmann::json { throw pbs::InputError("a.bvh", 0, "", "", "no such clip"); }),
+              "a.bvh: no such clip");
+    const auto internal = []() -> nlohmann::json { throw std::out_of_range("no such row"); };
+    EXPECT_EQ(words_of<std::runtime_error>(internal), "no such row");
+    EXPECT_THROW(words_of<pbs::InputError>(internal), std::runtime_error);
+    EXPECT_THROW(in_own_process([]() -> nlohmann::json { throw std::string("not an exception"); }), std::runtime_error);
+}
+
+TEST(OwnProcess, WordsThatAreNotUtf8ArriveAllTheSame)
+{
+    EXPECT_EQ(in_own_process([] { return nlohmann::json("li\xffmb"); }), "li\xef\xbf\xbdmb");
+    EXPECT_EQ(words_of<pbs::InputError>([]() -> nlohmann::json { throw pbs::InputError("li\xffmb", 0, "", "", "cannot be read"); }),
+              "li\xef\xbf\xbdmb: cannot be read");
+}
+
+TEST(OwnProcess, ADeathIsAnError)
+{
+    EXPECT_THROW(in_own_process([]() -> nlohmann::json {
+                     std::raise(SIGKILL);
+                     return {};
+                 }),
+                 pbs::InputError);
+}
+
+// Whether a program can be started is known before it is. Reference: execvp of POSIX, which seeks names without a slash on the PATH.
+
+using namespace experiments;
+
+TEST(ProgramRun, KnowsWhetherAProgramCanBeStarted)
+{
+    const test_support::ScratchFolder folder;
+    const std::string program = folder.file("program", "#!/bin/sh\n");
+    EXPECT_EQ(why_not_startable("sh"), "");
+    EXPECT_EQ(why_not_startable("/bin/sh"), "");
+    EXPECT_EQ(why_not_startable(program), "Permission denied");
+    std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+    EXPECT_EQ(why_not_startable(program), "");
+    EXPECT_EQ(why_not_startable(folder.path().string()), "No such file or directory") << "a folder";
+    EXPECT_EQ(why_not_startable("no_such_program"), "No such file or directory");
+    EXPECT_EQ(why_not_startable(""), "No such file or directory");
+}
+
+// It is sought after the change to the folder of its run.
+TEST(ProgramRun, DoesNotFindProgramsFromTheCurrentFolder)
+{
+    namespace fs = std::filesystem;
+    const test_support::ScratchFolder folder, exchange;
+    const std::string program = folder.file("own_program", "#!/bin/sh\n"), missing = "No such file or directory";
+    fs::permissions(program, fs::perms::owner_all);
+    fs::create_directory(folder.path() / "bin");
+    fs::copy(program, folder.path() / "bin");
+    const fs::path before = fs::current_path();
+    const std::string folders = std::getenv("PATH");
+    fs::current_path(folder.path());
+    for (const char* word : {"./own_program", "bin/own_program"}) {
+        EXPECT_EQ(why_not_startable(word), missing);
+        EXPECT_FALSE(run_program({word}, exchange.path().string()).started);
+    }
+    for (const std::string entry : {".", "", "bin"}) {
+        setenv("PATH", ("/nowhere:" + entry + ":/also_nowhere").c_str(), 1);
+        EXPECT_EQ(why_not_startable("own_program"), missing) << entry;
+    }
+    setenv("PATH", folder.path().c_str(), 1);
+    EXPECT_EQ(why_not_startable("own_program"), "");
+    EXPECT_TRUE(run_program({"own_program"}, exchange.path().string()).succeeded());
+    setenv("PATH", folders.c_str(), 1);
+    fs::current_path(before);
+}
+
+// Work in several processes at once: results are returned, and a worker's failure or death does not affect the others.
+
+using experiments::PooledWork;
+using experiments::run_in_pool;
+
+TEST(WorkerPool, FinishesEverythingInTheOrderAsked)
+{
+    const auto folder = std::filesystem::temp_directory_path() / ("worker_pool_" + std::to_string(getpid()));
+    std::filesystem::create_directories(folder);
+    std::vector<PooledWork> work;
+    for (int i = 0; i < 5; ++i)
+        work.push_back({"work " + std::to_string(i), 1.0 * i, [folder, i] {
+                            std::ofstream(folder / std::to_string(i)) << i;
+                            return "";
+                        }});
+    const auto results = run_in_pool(work, 2);
+    ASSERT_EQ(results.size(), 5u);
+    for (int i = 0; i < 5; ++i) {
+        EXPECT_EQ(results[i].name, "work " + std::to_string(i));
+        EXPECT_TRUE(results[i].finished);
+        EXPECT_TRUE(std::filesystem::exists(folder / std::to_string(i)));
+    }
+    std::filesystem::remove_all(folder);
+}
+
+TEST(WorkerPool, AnExceptionIsReportedWithItsWords)
+{
+    const auto results = run_in_pool(
+        {{"bad", 1.0, []() -> std::string { throw std::runtime_error("the mesh is empty"); }}, {"good", 1.0, [] { return ""; }}}, 2);
+    EXPECT_FALSE(results[0].finished);
+    EXPECT_EQ(results[0].failure, "internal error: the mesh is empty; please report it with the command line");
+    EXPECT_TRUE(results[1].finished);
+}
+
+TEST(WorkerPool, WhatIsThrownNeedBeNoException)
+{
+    const auto results = run_in_pool({{"bad", 1.0, []() -> std::string { throw std::string("Unknown mesh format"); }}}, 1);
+    EXPECT_FALSE(results[0].finished);
+    EXPECT_NE(results[0].failure.find("internal error"), std::string::npos) << results[0].failure;
+}
+
+// Texts that exceed the capacity of a pipe, from both workers at once.
+TEST(WorkerPool, WordsOfAnyLengthArrive)
+{
+    const std::string words(300'000, 'x');
+    const auto results = run_in_pool({{"one", 1.0, [&] { return words; }}, {"other", 1.0, [&] { return words + "y"; }}}, 2);
+    EXPECT_EQ(results[0].breakdown, words);
+    EXPECT_EQ(results[1].breakdown, words + "y");
+}
+
+TEST(WorkerPool, RefusedInputIsToldFromOtherFailures)
+{
+    const auto results = run_in_pool({{"full", 1.0, []() -> std::string { throw pbs::InputError("metrics.csv", 0, "", "", "no space"); }},
+                                      {"bad", 1.0, []() -> std::string { throw std::runtime_error("no"); }}},
+                                     2);
+    EXPECT_TRUE(results[0].refused);
+    EXPECT_EQ(results[0].failure, "metrics.csv: no space");
+    EXPECT_FALSE(results[1].refused);
+}
+
+// The process that owns the pool is killed. Its worker, which reports its number and would sleep for a minute, ends too.
+TEST(WorkerPool, WorkersEndWithTheirParent)
+{
+    int ends[2];
+    ASSERT_EQ(pipe(ends), 0);
+    const pid_t owner = fork();
+    if (owner == 0) {
+        run_in_pool({{"sleeper", 1.0,
+                      [&] {
+                          const pid_t self = getpid();
+                          return write(ends[1], &self, sizeof self) == sizeof self && sleep(60) == 0 ? "" : "not asleep";
+                      }}},
+                    1);
+        _exit(0);
+    }
+    pid_t worker = 0;
+    ASSERT_EQ(read(ends[0], &worker, sizeof worker), static_cast<ssize_t>(sizeof worker));
+    kill(owner, SIGKILL);
+    waitpid(owner, nullptr, 0);
+    close(ends[1]);
+    pollfd end{ends[0], POLLIN, 0};
+    EXPECT_EQ(poll(&end, 1, 10'000), 1) << "the worker goes on";  // the pipe ends with the last process that could write
+    if (!end.revents) kill(worker, SIGKILL);
+    close(ends[0]);
+}
+
+TEST(WorkerPool, AKilledWorkerIsReportedByItsSignal)
+{
+    const auto results = run_in_pool({{"killed", 1.0, []() -> std::string { return std::raise(SIGKILL) == 0 ? "" : "not raised"; }}}, 1);
+    EXPECT_FALSE(results[0].finished);
+    EXPECT_EQ(results[0].failure, "ended by signal 9");
+}
+
+TEST(WorkerPool, ABreakdownIsFinishedAndSaid)
+{
+    const auto results = run_in_pool({{"broken", 1.0, [] { return "pbs is not finite in frame 3"; }}}, 1);
+    EXPECT_TRUE(results[0].finished);
+    EXPECT_EQ(results[0].breakdown, "pbs is not finite in frame 3");
+    EXPECT_EQ(results[0].failure, "");
+}
+
+TEST(WorkerPool, NoWorkIsNoResult)
+{
+    EXPECT_TRUE(run_in_pool({}, 4).empty());
+}
+
+}  // namespace

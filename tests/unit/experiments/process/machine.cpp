@@ -1,0 +1,194 @@
+// Reference: which instructions each processor has, by its data sheet, and which kernels OpenBLAS 0.3.21 selects for its family and model;
+// the library's own report of the kernels it uses.
+
+#include "experiments/process/machine.hpp"
+
+#include <dlfcn.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+#ifdef __x86_64__
+#include "tests/support/other_processor.hpp"
+#endif
+
+namespace {
+
+using namespace experiments;
+
+struct Case {
+    const char* processor;
+    const char* selected;  // by OpenBLAS 0.3.21 of Debian 12
+    Processor has;
+    const char* better;
+};
+
+constexpr Processor sse{}, intel_avx2{.has_avx2 = true}, intel_avx512{.has_avx2 = true, .has_avx512 = true},
+    zen{.is_zen = true, .has_avx2 = true}, zen_4{.is_zen = true, .has_avx2 = true, .has_avx512 = true};
+
+TEST(BetterCoreType, IsThatOfTheInstructionsWhereOpenBlasDoesNotKnowTheModel)
+{
+    for (const Case& c : {Case{"Emerald Rapids, family 6, model 207", "Prescott", intel_avx512, "SkylakeX"},
+                          Case{"the same without AVX-512", "Prescott", intel_avx2, "Haswell"},
+                          Case{"an AMD of a family of its own", "Barcelona", zen, "Zen"},
+                          Case{"an Intel whose AVX-512 the library does not expect", "Haswell", intel_avx512, "SkylakeX"}})
+        EXPECT_EQ(better_core_type(c.selected, c.has), c.better) << c.processor;
+}
+
+TEST(BetterCoreType, IsNoneWhereAllInstructionsAreUsed)
+{
+    for (const Case& c :
+         {Case{"Sapphire Rapids, family 6, model 143", "Cooperlake", intel_avx512, ""},
+          Case{"Skylake, family 6, model 85", "SkylakeX", intel_avx512, ""},
+          Case{"Broadwell, family 6, model 79", "Haswell", intel_avx2, ""},
+          Case{"Sandy Bridge, family 6, model 42", "Sandybridge", sse, ""}, Case{"Nehalem, family 6, model 26", "Nehalem", sse, ""},
+          Case{"Prescott, family 15, model 3", "Prescott", sse, ""}, Case{"Zen 2, family 17h", "Zen", zen, ""},
+          Case{"Zen 4, family 19h: OpenBLAS 0.3.21 selects Zen", "Zen", zen_4, ""},
+          Case{"a core type of a later OpenBLAS", "GraniteRapids", intel_avx512, ""}})
+        EXPECT_EQ(better_core_type(c.selected, c.has), c.better) << c.processor;
+}
+
+// A process loads OpenBLAS once and selects its kernels once, so each test starts this program anew for itself alone: whatever ran before,
+// BLAS is not loaded there yet.
+class SelectBlasKernels : public testing::Test {
+protected:
+    // True in the process that runs the test's body; elsewhere false, after that process has run.
+    static bool is_own_process()
+    {
+        if (std::getenv(mark)) {
+            unsetenv("OPENBLAS_CORETYPE");
+            EXPECT_TRUE(blas_in_use().empty()) << "this program must not be linked with BLAS";
+            return true;
+        }
+        const testing::TestInfo& test = *testing::UnitTest::GetInstance()->current_test_info();
+        const std::string filter = std::string("--gtest_filter=") + test.test_suite_name() + "." + test.name();
+        std::fflush(nullptr);
+        const pid_t child = fork();
+        if (child == 0) {
+            setenv(mark, "1", 1);
+            execl("/proc/self/exe", "/proc/self/exe", filter.c_str(), static_cast<char*>(nullptr));
+            _exit(127);
+        }
+        int status = -1;
+        waitpid(child, &status, 0);
+        EXPECT_TRUE(WIFEXITED(status)) << "status " << status;
+        if (WEXITSTATUS(status) == skipped)
+            report_skip();
+        else
+            EXPECT_EQ(WEXITSTATUS(status), 0) << "see the output of the test's own process above";
+        return false;
+    }
+
+    void TearDown() override
+    {
+        if (!std::getenv(mark) || !IsSkipped()) return;
+        std::fflush(nullptr);
+        _exit(skipped);
+    }
+
+    static constexpr const char* mark = "PBS_TEST_OWN_PROCESS";
+    static constexpr int skipped = 77;
+    static void report_skip() { GTEST_SKIP() << "in the test's own process, see above"; }
+
+    // Loads BLAS as a module that needs it does.
+    static std::map<std::string, std::string> loaded_blas()
+    {
+        if (!dlopen("libblas.so.3", RTLD_NOW)) ADD_FAILURE() << dlerror();
+        return blas_in_use();
+    }
+};
+
+TEST_F(SelectBlasKernels, AUsersOwnChoiceStands)
+{
+    if (!is_own_process()) return;
+    setenv("OPENBLAS_CORETYPE", "Nehalem", 1);
+    select_blas_kernels();
+    auto blas = loaded_blas();
+    if (blas.empty()) GTEST_SKIP() << "libblas.so.3 is not OpenBLAS";
+    EXPECT_EQ(blas["core_type"], "Nehalem");
+    EXPECT_EQ(blas["core_type_selected_by"], "user");
+}
+
+TEST_F(SelectBlasKernels, OnThisProcessorNoInstructionIsLeftUnused)
+{
+    if (!is_own_process()) return;
+    select_blas_kernels();
+    auto blas = loaded_blas();
+    if (blas.empty()) GTEST_SKIP() << "libblas.so.3 is not OpenBLAS";
+    EXPECT_EQ(better_core_type(blas["core_type"], this_processor()), "");
+    EXPECT_EQ(blas["core_type_selected_by"], std::getenv("OPENBLAS_CORETYPE") ? "pbskin" : "OpenBLAS");
+}
+
+#ifdef __x86_64__
+// Model 255 of Intel's family 6 does not exist. This processor pretends to be one, with its own instructions.
+TEST_F(SelectBlasKernels, OnAModelThatOpenBlasDoesNotKnowTheInstructionsDecide)
+{
+    if (!is_own_process()) return;
+    const std::string expected = better_core_type("Prescott", this_processor());
+    if (expected.empty() || this_processor().is_zen) GTEST_SKIP() << "not an Intel processor with AVX2";
+    const test_support::OtherProcessor unknown(6, 255);
+    if (!unknown.works()) GTEST_SKIP() << "CPUID cannot be made to fault here";
+    select_blas_kernels();
+    auto blas = loaded_blas();
+    if (blas.empty()) GTEST_SKIP() << "libblas.so.3 is not OpenBLAS";
+    EXPECT_EQ(blas["core_type"], expected);
+    EXPECT_EQ(blas["core_type_selected_by"], "pbskin");
+}
+
+TEST_F(SelectBlasKernels, AnOpenBlasThatIsLoadedAlreadyIsLeftAsItIs)
+{
+    if (!is_own_process()) return;
+    const test_support::OtherProcessor unknown(6, 255);
+    auto before = loaded_blas();
+    if (before.empty()) GTEST_SKIP() << "libblas.so.3 is not OpenBLAS";
+    select_blas_kernels();
+    EXPECT_EQ(blas_in_use(), before);
+    EXPECT_EQ(before["core_type_selected_by"], "OpenBLAS");
+    EXPECT_EQ(std::getenv("OPENBLAS_CORETYPE"), nullptr);
+}
+#endif
+
+// Processors kept busy, from texts of /proc/stat. Reference: the columns of proc(5), added by hand.
+
+using experiments::busy_processors;
+using experiments::processor_ticks;
+using experiments::ProcessorTicks;
+
+// user nice system idle iowait irq softirq steal guest guest_nice
+const std::string before_it = "cpu  100 10 20 1000 5 1 2 3 50 0\ncpu0 50 5 10 500 2 0 1 1 25 0\ncpu1 50 5 10 500 3 1 1 2 25 0\nctxt 7\n";
+const std::string after_it = "cpu  130 15 25 1050 11 2 3 7 60 0\ncpu0 65 8 12 525 5 1 2 3 30 0\ncpu1 65 7 13 525 6 1 1 4 30 0\nctxt 9\n";
+
+TEST(OtherWork, IsTheBusyShareOfAllProcessors)
+{
+    const auto before = processor_ticks(before_it), after = processor_ticks(after_it);
+    ASSERT_TRUE(before && after);
+    EXPECT_EQ(before->busy, 136.0);
+    EXPECT_EQ(before->idle, 1005.0);
+    EXPECT_EQ(before->processors, 2);
+    // 46 ticks busy and 56 idle on two processors.
+    EXPECT_DOUBLE_EQ(*busy_processors(*before, *after), 2.0 * 46.0 / 102.0);
+}
+
+TEST(OtherWork, OldKernelsReportFourColumns)
+{
+    const auto ticks = processor_ticks("cpu 10 20 30 40\ncpu0 10 20 30 40\n");
+    ASSERT_TRUE(ticks);
+    EXPECT_EQ(ticks->busy, 60.0);
+    EXPECT_EQ(ticks->idle, 40.0);
+}
+
+TEST(OtherWork, IsUnknownWithoutProcessorsOrTicks)
+{
+    EXPECT_FALSE(processor_ticks(""));
+    EXPECT_FALSE(processor_ticks("cpu 10 20 30\ncpu0 10 20 30\n"));
+    EXPECT_FALSE(processor_ticks("cpu 10 20 30 40\ncpufreq 1\n"));
+    EXPECT_FALSE(processor_ticks("intr 10 20 30 40\n"));
+    const ProcessorTicks moment{1.0, 2.0, 4};
+    EXPECT_FALSE(busy_processors(moment, moment));
+}
+
+}  // namespace

@@ -1,0 +1,245 @@
+// The rows and the report by hand, the orders against random ones, and the tapered limb.
+#include "experiments/studies/timing/equal_quality.hpp"
+
+#include "analysis/statistics/statistics.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
+#include "pbs/geometry/topology.hpp"
+#include "tests/support/iteration_paths.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+
+namespace {
+
+using namespace experiments;
+
+// Reference: paths of iterations that are defined by formulas, whose times and targets are found by hand.
+
+using test_support::path_by;
+using test_support::path_to_floor;
+
+MeasuredOrder measured(const std::string& order, const std::string& sequence, IterationPath path, double ms)
+{
+    return {order, "f32", sequence, std::move(path), {ms, ms, ms, 5}};
+}
+
+// 4, 2, 4/3, 1 ...: at or below 1 from iteration 3 on.
+IterationPath falling(int most)
+{
+    return path_by(most, [](int n) { return 4.0 / (n + 1); });
+}
+
+TEST(FirstWithin, TheFirstLookNotAboveTheBound)
+{
+    EXPECT_EQ(first_within(falling(10), &Look::combined, 1.0), 3);
+    EXPECT_EQ(first_within(falling(10), &Look::combined, 4.0), 0);
+}
+
+TEST(FirstWithin, NothingWhereItIsNeverReached)
+{
+    EXPECT_EQ(first_within(falling(10), &Look::combined, 0.1), std::nullopt);
+    EXPECT_EQ(first_within({}, &Look::combined, 1.0), std::nullopt);
+}
+
+// A path that falls below the bound and rises again has reached it.
+TEST(FirstWithin, ARisingPathHasReachedIt)
+{
+    EXPECT_EQ(first_within(path_by(10, [](int n) { return std::abs(n - 5.0); }), &Look::combined, 1.0), 4);
+}
+
+TEST(FirstWithin, NotANumberIsNotReached)
+{
+    EXPECT_EQ(first_within(path_by(3, [](int) { return std::numeric_limits<double>::quiet_NaN(); }), &Look::combined, 1.0), std::nullopt);
+}
+
+TEST(TargetRows, IterationsAndTimeToPlainsResidual)
+{
+    const analysis::CaseKey of = {.body = "limb"};
+    // plain: 4 / 25 = 0.16 after 24 iterations; the other order halves its value in each iteration: 4, 2, 1, 1/2, 1/4, 1/8.
+    const std::vector<MeasuredOrder> all = {measured("plain", file_sequence, falling(100), 2.0),
+                                            measured("ordered", "random_1", path_to_floor(100, 0.0, 4.0, 0.5), 0.25)};
+    const std::vector<TargetRow> rows = target_rows(of, all);
+    ASSERT_EQ(rows.size(), 2u * 4);
+    EXPECT_EQ(rows[0].target, "residual_of_plain");
+    EXPECT_DOUBLE_EQ(rows[0].bound, 0.16);
+    EXPECT_EQ(rows[0].iterations, 24);
+    EXPECT_DOUBLE_EQ(*rows[0].ms, 48.0);
+    EXPECT_EQ(rows[4].of.order, "ordered");
+    EXPECT_EQ(rows[4].sequence, "random_1");
+    EXPECT_EQ(rows[4].iterations, 5);
+    EXPECT_DOUBLE_EQ(*rows[4].ms, 1.25);
+}
+
+TEST(TargetRows, AnOrderWithAHigherLimitNeverReachesIt)
+{
+    const std::vector<MeasuredOrder> all = {measured("plain", file_sequence, falling(100), 2.0),
+                                            measured("grouped", file_sequence, path_to_floor(100, 1.0, 3.0, 0.5), 0.2)};
+    const std::vector<TargetRow> rows = target_rows({}, all);
+    ASSERT_EQ(rows.size(), 8u);
+    for (std::size_t i = 4; i < 8; ++i) {
+        const bool within = rows[i].bound >= 1.0;  // 2 % alone is above its limit
+        EXPECT_EQ(rows[i].reached, within) << rows[i].target;
+        EXPECT_EQ(rows[i].iterations.has_value(), within);
+        EXPECT_EQ(rows[i].ms.has_value(), within);
+        EXPECT_NEAR(rows[i].limit, 1.0, 1e-15);
+    }
+}
+
+TEST(TargetRows, WithoutPlainInFileOrderThereIsNoTarget)
+{
+    EXPECT_THROW(target_rows({}, {measured("plain", spread_sequence, falling(30), 1.0)}), std::logic_error);
+}
+
+TEST(OrderRows, ValuesAfter24AndInTheLimit)
+{
+    const std::vector<OrderRow> rows = order_rows({.body = "limb"}, {measured("plain", file_sequence, falling(100), 2.0)});
+    ASSERT_EQ(rows.size(), 1u);
+    EXPECT_DOUBLE_EQ(rows[0].residual_24, 4.0 / 25);
+    EXPECT_DOUBLE_EQ(rows[0].volume_abs_change_limit_pct, 4.0 / 101);
+    EXPECT_DOUBLE_EQ(rows[0].volume_abs_change_half_pct, 4.0 / 51);
+    EXPECT_EQ(rows[0].iterations, 100);
+    EXPECT_EQ(rows[0].of.order, "plain");
+}
+
+// A table is read as it was written.
+TEST(OrderRows, TablesAreReadBack)
+{
+    const std::vector<MeasuredOrder> all = {measured("plain", file_sequence, falling(30), 2.0)};
+    const std::vector<TargetRow> read = rows_of(target_columns, table_of(target_columns, target_rows({.body = "limb"}, all)));
+    ASSERT_EQ(read.size(), 4u);
+    EXPECT_EQ(read[0].iterations, 24);
+    EXPECT_EQ(read[3].iterations, 7);  // 4 / 8 = 0.5
+}
+
+// Reference: ratios and medians found by hand.
+
+TargetRow target_row(const std::string& order, const std::string& sequence, std::optional<double> ms)
+{
+    TargetRow row{{.body = "limb", .order = order, .precision = "f32"}, sequence, "volume_2_pct", 2.0};
+    row.reached = ms.has_value();
+    row.ms = ms;
+    if (ms) row.iterations = 10;
+    return row;
+}
+
+TEST(EqualAnswers, SpeedUpsAreRatiosOfTimesToTheTarget)
+{
+    const std::vector<EqualAnswer> all =
+        equal_answers({target_row("plain", "file", 80.0), target_row("plain", "spread", 40.0), target_row("plain", "random_1", 60.0),
+                       target_row("ordered", "file", 10.0), target_row("ordered", "random_1", 11.0)});
+    ASSERT_EQ(all.size(), 2u);
+    EXPECT_DOUBLE_EQ(*all[1].speedup_to_plain, 8.0);
+    EXPECT_DOUBLE_EQ(*all[1].speedup_to_plain_spread, 4.0);
+}
+
+// Where either never reaches the target, there is no speed-up.
+TEST(EqualAnswers, NeverReachedIsNoSpeedUp)
+{
+    const std::vector<EqualAnswer> all = equal_answers({target_row("plain", "file", 80.0), target_row("plain", "spread", {}),
+                                                        target_row("ordered", "file", 10.0), target_row("grouped", "file", {})});
+    ASSERT_EQ(all.size(), 3u);
+    EXPECT_EQ(all[1].speedup_to_plain, 8.0);
+    EXPECT_EQ(all[1].speedup_to_plain_spread, std::nullopt);
+    EXPECT_EQ(all[2].speedup_to_plain, std::nullopt);
+}
+
+TEST(EqualAnswers, WithoutTheSpreadBaselineThereIsNoRatio)
+{
+    EXPECT_THROW(equal_answers({target_row("plain", "file", 80.0)}), std::out_of_range);
+}
+
+// The order `ordered` gives an answer that is no worse than the median of random orders. Reference: `plain` in the five random sequences of
+// the study, on two of its bodies.
+
+// The absolute volume change after 24 iterations in file order over the median of `plain` in random orders, by order and precision.
+std::map<std::pair<std::string, std::string>, double> volume_to_random_plain(const std::string& body, double angle_deg)
+{
+    EqualQualityCase of;
+    of.of = {.body = body, .motion = "twist", .angle_deg = angle_deg};
+    of.scene = read_scene("limb_twist", {"motion.angle_deg=" + std::to_string(angle_deg), "motion.frames=2"});
+    of.frame = 1;
+    of.is_tapered = body == "tapered_limb";
+    of.random = {1, 2, 3, 4, 5};
+    of.most_iterations = paper_iterations;
+    of.rounds = {.seconds = 0.0, .fewest = 1, .most = 1};
+    const std::vector<OrderRow> rows = order_rows(of.of, measure_orders(of));
+    std::map<std::pair<std::string, std::string>, double> ratios;
+    for (const OrderRow& row : rows) {
+        if (row.sequence != file_sequence) continue;
+        std::vector<double> random;
+        for (const OrderRow& one : rows)
+            if (one.of.order == "plain" && one.of.precision == row.of.precision && one.sequence.starts_with("random_"))
+                random.push_back(one.volume_abs_change_24_pct);
+        EXPECT_EQ(random.size(), 5u);
+        ratios[{row.of.order, row.of.precision}] = row.volume_abs_change_24_pct / analysis::median(random);
+    }
+    return ratios;
+}
+
+// The order `grouped` is faster, and its answer is worse than that of random orders. `poses` has the bits of `ordered`.
+TEST(RandomOrders, OrderedIsNoWorseThanTheirMedianOnTheTwistedLimbAndGroupedIs)
+{
+    const auto ratios = volume_to_random_plain("limb", 150.0);
+    for (const std::string precision : {"f32", "f64"}) {
+        for (const std::string order : {"ordered", "poses"}) EXPECT_LE(ratios.at({order, precision}), 1.0) << order << ", " << precision;
+        EXPECT_GT(ratios.at({"grouped", precision}), 1.0) << precision;
+    }
+}
+
+TEST(RandomOrders, OrderedIsNoWorseThanTheirMedianOnTheTaperedLimb)
+{
+    const auto ratios = volume_to_random_plain("tapered_limb", 165.0);
+    for (const std::string precision : {"f32", "f64"})
+        for (const std::string order : {"ordered", "poses"}) EXPECT_LE(ratios.at({order, precision}), 1.0) << order << ", " << precision;
+}
+
+const pbs::Character limb = experiments::tapered_limb();
+
+TEST(TaperedLimb, Counts)
+{
+    EXPECT_EQ(limb.mesh.rest.rows(), 25 * 9 * 9);
+    EXPECT_EQ(limb.mesh.tets.rows(), 6 * 24 * 8 * 8);
+    // V - E + F - T = 1 of a ball, with 2 F = 4 T + B; each outer square has two of the B triangles.
+    const int boundary = 2 * (2 * 8 * 8 + 4 * 24 * 8);
+    EXPECT_EQ(pbs::edges_of(limb.mesh.tets).rows(), 2025 + 9216 + boundary / 2 - 1);
+}
+
+TEST(TaperedLimb, EveryTetHasAPositiveVolume)
+{
+    EXPECT_GT(pbs::tet_volumes(limb.mesh.rest, limb.mesh.tets).minCoeff(), 0.0);
+}
+
+// The outline of a layer has 32 points on a circle. Its area is below that of the disc and above that of the inscribed square, which has
+// the share 2 / pi of the disc. Frustum: pi (R^2 + R r + r^2) / 3 times its length.
+TEST(TaperedLimb, VolumeIsNearlyThatOfTheFrustum)
+{
+    const double frustum = std::numbers::pi * (0.24 * 0.24 + 0.24 * 0.12 + 0.12 * 0.12) / 3.0 * 2.0;
+    const double volume = pbs::tet_volumes(limb.mesh.rest, limb.mesh.tets).sum();
+    EXPECT_LT(volume, frustum);
+    EXPECT_GT(volume, 2.0 / std::numbers::pi * frustum);
+}
+
+// The outline lies on the circle to the last digits: u^2 (1 - v^2 / 2) + v^2 (1 - u^2 / 2) = 1 where |u| = 1.
+TEST(TaperedLimb, TheOutlineOfALayerIsACircle)
+{
+    for (const int i : {0, 12, 24})
+        for (int k = 0; k < 9; ++k) {
+            const Eigen::RowVector3d point = limb.mesh.rest.row(i * 81 + k);  // u = -1
+            EXPECT_NEAR(std::hypot(point(1), point(2)), 0.24 - 0.12 * i / 24, 1e-15);
+        }
+}
+
+TEST(TaperedLimb, BindsToTwoBones)
+{
+    EXPECT_EQ(limb.skeleton.bones.size(), 2u);
+    EXPECT_EQ(limb.weights.vertices(), 2025);
+    EXPECT_EQ(limb.binding.distance.size(), 2025);
+}
+
+}  // namespace

@@ -1,0 +1,246 @@
+// The scene that is made of a model. Reference: the contract of scene files, by reading the scene again, and the options by hand.
+
+#include "experiments/trial/trial.hpp"
+#include "pbs/character/clip.hpp"
+#include "pbs/character/model_character.hpp"
+#include "tests/support/rigged_gltf.hpp"
+#include "tests/support/scratch_folder.hpp"
+#include "tests/unit/pbs/character/expect_input_error.hpp"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+
+namespace {
+
+using namespace experiments;
+namespace fs = std::filesystem;
+
+// A chain of joints, each of which turns by 90 degrees in the second of three frames.
+std::string write_clip(const test_support::ScratchFolder& folder, const std::vector<std::string>& joints)
+{
+    const std::string file = folder / "clip.bvh";
+    std::ofstream out(file);
+    std::string closing, rows[3];
+    out << "HIERARCHY\n";
+    for (const std::string& joint : joints) {
+        out << (closing.empty() ? "ROOT " : "JOINT ") << joint << "\n{\nOFFSET 1 0 0\nCHANNELS 3 Zrotation Yrotation Xrotation\n";
+        closing += "}\n";
+        for (int frame = 0; frame < 3; ++frame) rows[frame] += frame == 1 ? "90 0 0 " : "0 0 0 ";
+    }
+    out << "End Site\n{\nOFFSET 1 0 0\n}\n" << closing << "MOTION\nFrames: 3\nFrame Time: 0.1\n";
+    for (const std::string& row : rows) out << row << "\n";
+    return file;
+}
+
+class TrialSceneTest : public testing::Test {
+protected:
+    TrialOptions options_for(const std::string& file) const
+    {
+        TrialOptions options;
+        options.model = file;
+        options.folder = (folder.path() / "out").string();
+        return options;
+    }
+
+    // The scene as `pbskin run` reads it.
+    Scene read(const TrialOptions& options) const
+    {
+        fs::create_directories(options.folder);
+        const std::string file = (fs::path(options.folder) / "scene.toml").string();
+        std::ofstream(file) << trial_scene(options).text;
+        return read_scene(file, {});
+    }
+
+    test_support::ScratchFolder folder;
+};
+
+TEST_F(TrialSceneTest, IsASceneOfTheModelAndItsFirstAnimation)
+{
+    TrialOptions options = options_for(test_support::write_rigged_gltf(folder, "arm.gltf", {"Bend"}));
+    options.frames = 11;
+    options.vertices = 321;
+    const Scene scene = read(options);
+    EXPECT_TRUE(fs::equivalent(scene.character.model_file, options.model));
+    EXPECT_EQ(scene.character.vertices, 321);
+    EXPECT_EQ(scene.character.model_scale, 1.0);
+    EXPECT_TRUE(scene.motion.of_model);
+    EXPECT_EQ(scene.motion.animation, "Bend");
+    EXPECT_DOUBLE_EQ(scene.motion.rate_hz, 5.0);  // 11 frames in two seconds
+    std::vector<std::string> names;
+    for (const DeformerSpec& spec : scene.deformers) names.push_back(spec.name);
+    EXPECT_EQ(names, (std::vector<std::string>{"lbs", "dqs", "lbs_paper", "delta_mush", "pbs", "nh_p1"}));
+    EXPECT_EQ(scene.reference, "nh_p1");
+    EXPECT_TRUE(scene.output.writes(7));
+    EXPECT_TRUE(trial_scene(options).remarks.empty());
+}
+
+TEST_F(TrialSceneTest, AShortMotionHasNoMoreFramesThanThirtyPerSecond)
+{
+    TrialOptions options = options_for(test_support::write_rigged_gltf(folder, "arm.gltf", {"Bend"}, 0.5f));
+    EXPECT_EQ(read(options).motion.rate_hz, 30.0);
+    options.frames = 2;
+    EXPECT_EQ(read(options).motion.rate_hz, 2.0);
+}
+
+TEST_F(TrialSceneTest, TakesTheAnimationThatIsNamed)
+{
+    TrialOptions options = options_for(test_support::write_rigged_gltf(folder, "arm.gltf", {"Bend", "Wave"}));
+    EXPECT_NE(trial_scene(options).remarks.at(0).find("it has 2 animations; Bend is taken"), std::string::npos);
+    options.animation = "Wave";
+    EXPECT_TRUE(trial_scene(options).remarks.empty());
+    EXPECT_EQ(read(options).motion.animation, "Wave");
+    options.animation = "Walk";
+    expect_input_error([&] { trial_scene(options); }, options.model + ": animation = Walk: ", "expected one of Bend, Wave");
+}
+
+TEST_F(TrialSceneTest, AClipOfAnotherSkeletonIsRefusedBeforeThereAreTets)
+{
+    TrialOptions options = options_for(test_support::write_rigged_gltf(folder, "arm.gltf", {"Bend"}));
+    options.animation = write_clip(folder, {"a", "b"});
+    expect_input_error([&] { trial_scene(options); }, options.animation + ": joints = a, b", "no joint has the name of a bone");
+    options.animation = write_clip(folder, {"elbow", "a", "b"});
+    expect_input_error([&] { trial_scene(options); }, options.animation + ": joints = 1 of 3 moving joints: ", "--allow-partial");
+    options.allow_partial = true;
+    EXPECT_NO_THROW(trial_scene(options));
+    options.animation = "01_01.bvh";  // an installed clip, by name
+    expect_input_error([&] { trial_scene(options); }, pbs::find_clip("01_01.bvh", "") + ": joints = ", "no joint has the name of a bone");
+    EXPECT_FALSE(fs::exists(options.folder));
+}
+
+TEST_F(TrialSceneTest, BendsAModelWithoutAnimation)
+{
+    TrialOptions options = options_for(test_support::write_rigged_gltf(folder, "arm.gltf", {}));
+    options.frames = 9;
+    const Scene scene = read(options);
+    EXPECT_EQ(scene.motion.joint, "elbow");
+    EXPECT_EQ(scene.motion.angle_deg, 60.0);
+    EXPECT_EQ(scene.motion.frames, 9);
+    const auto model = pbs::read_model(options.model, "", 1.0);
+    const pbs::Bone& elbow = model->body.skeleton.bones.at(1);
+    EXPECT_NEAR(scene.motion.axis.dot((elbow.tail - elbow.head).normalized()), 0.0, 4 * std::numeric_limits<double>::epsilon());
+    EXPECT_NEAR(scene.motion.axis.norm(), 1.0, 4 * std::numeric_limits<double>::epsilon());
+    EXPECT_NE(trial_scene(options).remarks.at(0).find("the joint elbow is bent by 60 degrees"), std::string::npos);
+}
+
+TEST_F(TrialSceneTest, OptionsReachTheScene)
+{
+    TrialOptions options = options_for(test_support::write_rigged_gltf(folder, "arm.gltf", {"Bend"}));
+    options.scale = 0.01;
+    options.reference = false;
+    const Scene scene = read(options);
+    EXPECT_EQ(scene.character.model_scale, 0.01);
+    EXPECT_TRUE(scene.reference.empty());
+    EXPECT_EQ(scene.deformers.size(), 5u);
+}
+
+TEST_F(TrialSceneTest, NamesOfAnyCharactersAreKept)
+{
+    for (const std::string name : {"a \"b\" c.gltf", "it's #1.gltf", "back\\slash.gltf", "\xc3\xbc \xe6\xbc\xa2 \xf0\x9f\x98\x80.gltf",
+                                   "tab\t.gltf", "new\nline = 3.gltf", "delete\x7f.gltf"}) {
+        TrialOptions options = options_for(test_support::write_rigged_gltf(folder, name, {name}));
+        options.folder = (folder.path() / ("out of " + name)).string();
+        const Scene scene = read(options);
+        EXPECT_TRUE(fs::equivalent(scene.character.model_file, options.model)) << name;
+        EXPECT_EQ(scene.motion.animation, name);
+    }
+}
+
+TEST_F(TrialSceneTest, RefusesWhatNoSceneCanHold)
+{
+    TrialOptions options = options_for(test_support::write_rigged_gltf(folder, "arm.gltf", {"Bend"}));
+    for (const auto& [scale, shown] :
+         {std::pair{0.0, "0"}, {-1.0, "-1"}, {std::nan(""), "nan"}, {INFINITY, "inf"}, {1e-300, "1e-300"}, {1e7, "1"}}) {
+        options.scale = scale;
+        expect_input_error([&] { trial_scene(options); }, std::string("--scale = ") + shown, "expected a number from 1e-6 to 1e6");
+    }
+    options.scale = 1.0;
+    options.frames = 1;
+    expect_input_error([&] { trial_scene(options); }, "--frames = 1: ", "expected at least 2");
+    options.frames = 2;
+    options.skeleton = folder / "none.toml";
+    expect_input_error([&] { trial_scene(options); }, options.skeleton, "no such file");
+    const TrialOptions latin_1 = options_for(test_support::write_rigged_gltf(folder, "caf\xe9.gltf", {"Bend"}));
+    expect_input_error([&] { trial_scene(latin_1); }, "", "expected a name in UTF-8");
+    expect_input_error([&] { trial_scene(options_for(folder / "none.gltf")); }, folder / "none.gltf", "no such file");
+}
+
+// The findings of a trial. Reference: records written by hand, evaluated by hand.
+
+const std::string metrics_header = "deformer,frame,volume_change_pct,inverted_tets,step_ms,error_joint_pct\n";
+const std::string regions_header = "deformer,kind,bone,second_bone,rest_share_pct,change_pct\n";
+
+class TrialSummary : public testing::Test {
+protected:
+    TrialSummary()
+    {
+        folder.file("run.json", R"({"character": {"model": {"file": "hero.glb"}, "tets": 7, "vertices": 5},
+                                    "outcome": {"motion": {"largest_rotation_deg": 30.0}, "frames": 3, "warnings": ["one", "two"]}})");
+        folder.file("metrics.csv", metrics_header + "lbs,0,-0.25,0,0.125,\nlbs,1,-4,3,0.5,8\nlbs,2,1.5,2,0.25,6\n" +
+                                       "pbs,0,0,0,2,\npbs,1,-0.5,1,1,2\npbs,2,0.25,0,4,7\n");
+        folder.file("regions.csv", regions_header + "lbs,joint,hips,knee,10,-0.5\npbs,joint,hips,knee,10,-0.25\n" +
+                                       "lbs,joint,chest,arm,30,-1.5\npbs,joint,chest,arm,30,0.25\n" +
+                                       "lbs,joint,hand,thumb,5,-0.125\npbs,joint,hand,thumb,5,0\nlbs,bone,hips,,90,-9\n");
+    }
+
+    nlohmann::json facts() const { return trial_facts(folder.path().string()); }
+
+    test_support::ScratchFolder folder;
+};
+
+TEST_F(TrialSummary, TakesTheFactsFromTheRecords)
+{
+    const nlohmann::json found = facts();
+    EXPECT_EQ(found.at("model"), (nlohmann::json{{"file", "hero.glb"}}));
+    EXPECT_EQ(found.at("tets"), 7);
+    EXPECT_EQ(found.at("frames"), 3);
+    EXPECT_EQ(found.at("warnings"), (nlohmann::json{"one", "two"}));
+    EXPECT_EQ(found.at("volume").at("lbs"), (nlohmann::json{{"lowest_pct", -4.0}, {"highest_pct", 1.5}, {"most_inverted_tets", 3}}));
+    EXPECT_EQ(found.at("volume").at("pbs"), (nlohmann::json{{"lowest_pct", -0.5}, {"highest_pct", 0.25}, {"most_inverted_tets", 1}}));
+    EXPECT_EQ(found.at("frame_ms"), (nlohmann::json{{"lbs", 0.25}, {"pbs", 2.0}}));
+}
+
+// The two joints where lbs loses most: -1.5 and -0.5 % of the body's volume, of parts with 30 and 10 % of it.
+TEST_F(TrialSummary, JoinsTheTwoWorstJoints)
+{
+    const nlohmann::json joints = facts().at("joints");
+    EXPECT_EQ(joints.at("names"), (nlohmann::json{"chest - arm", "hips - knee"}));
+    EXPECT_EQ(joints.at("lbs_pct"), 100.0 * -2.0 / 40.0);
+    EXPECT_EQ(joints.at("pbs_pct"), 0.0);
+}
+
+TEST_F(TrialSummary, CountsTheFramesThatCanBeCompared)
+{
+    EXPECT_EQ(facts().at("nearer"), (nlohmann::json{{"frames", 1}, {"of", 2}}));
+    folder.file("metrics.csv", metrics_header + "lbs,0,0,0,1,\npbs,0,0,0,1,\n");
+    EXPECT_TRUE(facts().at("nearer").is_null());
+}
+
+TEST_F(TrialSummary, SaysItInOneSentence)
+{
+    EXPECT_EQ(
+        trial_sentence(facts()),
+        "PBS changes the volume by -0.5 to +0.3 %, LBS by -4.0 to +1.5 %; at the joints chest - arm and hips - knee by +0.0 % instead of "
+        "-5.0 % on average; it is closer to the finite elements in 1 of 2 frames; a frame takes 2 ms.");
+}
+
+TEST_F(TrialSummary, LeavesOutWhatTheRecordsDoNotHold)
+{
+    folder.file("metrics.csv", "deformer,frame,volume_change_pct,inverted_tets,step_ms\nlbs,0,-0.001,0,1\npbs,0,0.001,0,0.5\n");
+    folder.file("regions.csv", regions_header);
+    EXPECT_EQ(trial_sentence(facts()), "PBS changes the volume by +0.0 to +0.0 %, LBS by +0.0 to +0.0 %; a frame takes 0.5 ms.");
+}
+
+TEST_F(TrialSummary, FramesThatBrokeDownAreLeftOut)
+{
+    for (const std::string broken : {"", "nan"}) {
+        folder.file("metrics.csv", metrics_header + "lbs,0,-1,0,1,\npbs,0,-2,0,1,\npbs,1," + broken + ",0,3," + broken + "\n");
+        EXPECT_EQ(facts().at("volume").at("pbs").at("lowest_pct"), -2.0) << broken;
+        EXPECT_TRUE(facts().at("nearer").is_null()) << broken;
+    }
+    folder.file("metrics.csv", metrics_header + "lbs,0,-1,0,1,\npbs,0,nan,0,1,\n");
+    EXPECT_EQ(trial_sentence(facts()), "PBS or LBS broke down in every frame.");
+}
+
+}  // namespace
