@@ -30,7 +30,7 @@ pbs_tests(unit experiments BLAS
 pbs_tests(unit experiments_studies BLAS FOLDERS experiments/studies EXCEPT ${left_out}
     ALONE experiments/studies/ambiguity/reading experiments/studies/ambiguity/reading_values experiments/studies/convergence/starts
         experiments/studies/recorded_settings experiments/studies/shared/iteration_path
-        experiments/studies/stability/stability_cells experiments/studies/stiffness/stiffness_ratios experiments/studies/timing/timing_table
+        experiments/studies/stability/stability_cells experiments/studies/stiffness/stiffness_ratios experiments/studies/timing/frames
         experiments/studies/work_precision/measured_points
     LIBRARIES experiments)
 pbs_tests(properties experiments FOLDERS experiments LIBRARIES experiments)
