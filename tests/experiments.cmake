@@ -6,7 +6,7 @@ endif()
 # Tests that load deal.II at run time, in the module pbskin_fem.
 set(with_the_module experiments/deformers/fem/fem_module experiments/deformers/flesh_limits
     experiments/studies/convergence/convergence_case
-    experiments/studies/ensemble/ensemble experiments/studies/error_split/error_split experiments/studies/fit/fit
+    experiments/studies/ensemble/ensemble experiments/studies/fit/fit
     experiments/studies/shared/posed_reference experiments/studies/stability/broken_fem_starts experiments/broken_bulge)
 set(left_out)
 if(NOT PBS_WITH_FEM)
@@ -30,7 +30,7 @@ pbs_tests(unit experiments BLAS
 pbs_tests(unit experiments_studies BLAS FOLDERS experiments/studies EXCEPT ${left_out}
     ALONE experiments/studies/ambiguity/reading experiments/studies/ambiguity/reading_values experiments/studies/convergence/starts
         experiments/studies/recorded_settings experiments/studies/shared/iteration_path
-        experiments/studies/stability/stability_cells experiments/studies/stiffness/stiffness_ratios experiments/studies/timing/timing_table
+        experiments/studies/stability/stability_cells experiments/studies/stiffness/stiffness_ratios experiments/studies/timing/frames
         experiments/studies/work_precision/measured_points
     LIBRARIES experiments)
 pbs_tests(properties experiments FOLDERS experiments LIBRARIES experiments)

@@ -31,13 +31,12 @@ inline constexpr NameTable<pbs::XpbdMultipliers, 3> option_names<pbs::XpbdMultip
 
 namespace {
 
-// The options of a solver of pbs/flesh, and those of the flesh that it moves. `arithmetic` follows from precision and packed.
+// The options of a solver of pbs/flesh, and those of the flesh that it moves.
 template <typename SolverOptions>
 struct FleshOptions : SolverOptions {
     double poisson = 0.45, core_radius = 0.7, spring_factor = 10.0;
     pbs::FleshStart start = pbs::FleshStart::smooth_dqs;
     pbs::Precision precision = pbs::Precision::f32;
-    bool packed = true;
 };
 
 template <typename Options>
@@ -75,12 +74,7 @@ pbs::HeldFlesh held_flesh(const pbs::Character& character, const pbs::SmoothSpri
 template <typename Options, template <typename> class Solver>
 class FleshDeformer : public TimedDeformer {
 public:
-    explicit FleshDeformer(const Options& options) : options_(options)
-    {
-        options_.arithmetic = !options.packed                            ? pbs::Arithmetic::plain_f64
-                              : options.precision == pbs::Precision::f32 ? pbs::Arithmetic::packed_f32
-                                                                         : pbs::Arithmetic::packed_f64;
-    }
+    explicit FleshDeformer(const Options& options) : options_(options) {}
     void start_from(const pbs::Positions& shape) final { next_start_ = shape; }
     nlohmann::json record() const override
     {

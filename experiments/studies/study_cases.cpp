@@ -48,12 +48,13 @@ nlohmann::json resolved(nlohmann::json values, const std::string& body, bool ful
 }  // namespace
 
 StudyCase::StudyCase(const std::string& study, const nlohmann::json& values, bool is_full)
-    : full(is_full), where_(study + "/cases.toml"), values_(values)
+    : name(values.at("name").get<std::string>()),
+      cost_s(values.at(is_full ? "full_s" : "quick_s").get<double>()),
+      full(is_full),
+      where_(study + "/cases.toml: case " + name),
+      values_(values),
+      read_({"name", "body", "quick_s", "full_s"})
 {
-    name = value<std::string>("name");
-    where_ += ": case " + name;
-    cost_s = value<double>(full ? "full_s" : "quick_s");
-    read_.insert({"body", "quick_s", "full_s"});
 }
 
 const nlohmann::json& StudyCase::at(const std::string& key) const

@@ -23,7 +23,7 @@
 
 namespace pbs {
 
-// The order of projection in the code published by the paper's first author (author_solver.hpp). Its constraints are listed as volume by
+// The order of projection in the code published by the paper's first author. Its constraints are listed as volume by
 // tet, bind by vertex, and stretch by edge. Each one joins the first group in which no constraint of any kind has one of its vertices. The
 // groups are projected in turn; within a group the order does not matter, to the bit.
 //   for (const AuthorGroup& group : author_groups(mesh, binding)) project_all(group);
@@ -40,8 +40,6 @@ Edges edges_by_appearance(const Tets& tets);
 
 // mesh: indices in range (unchecked). binding: of its vertices.
 std::vector<AuthorGroup> author_groups(const TetMesh& mesh, const BoneBinding& binding);
-
-// Options of the deformer that follows the code published by the paper's first author (author_solver.hpp).
 
 // The defaults are those of that code, with two exceptions. It has gravity (0, -9.81, 0) in its unit of length, which moves every particle
 // by g h^2 = 98 mm a step in metres; here gravity is off, as in the scenes of this project. It leaves the unit of length open; here it is a
@@ -87,7 +85,7 @@ private:
     std::vector<Vector3<double>> x_, v_;  // [m], [m/s], #V
 };
 
-// The weights of Eq. 2 as the code published by the paper's first author reads them (author_solver.hpp). Eq. 2 leaves n_joints open: at the
+// The weights of Eq. 2 as the code published by the paper's first author reads them. Eq. 2 leaves n_joints open: at the
 // head of a bone that code counts the bone and its parent, at the tail the bone and all of its children.
 //   const Weights weights = author_weights(binding, skeleton);
 // paper_weights (pbs/skinning/weights.hpp) differ where siblings start at the same head, and where a child starts elsewhere than at the

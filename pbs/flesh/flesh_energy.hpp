@@ -1,6 +1,6 @@
 // The energy of elastic flesh on linear tets that its bones hold, as sums over tets and vertices:
 //   E(x) = sum_tets [ sum_{i<j} w_ij / 2 |x_i - x_j|^2 + kappa / 2 (6 V(x) - d)^2 ] + sum_i a_i / 2 |x_i - c_i|^2 + constant.
-// V(x) is the signed volume of a tet. w_ij = -mu V0 grad N_i . grad N_j - sum_s k_s beta_i beta_j (flesh_energy.hpp, bone_springs.hpp),
+// V(x) is the signed volume of a tet. w_ij = -mu V0 grad N_i . grad N_j - sum_s k_s beta_i beta_j (FleshMaterial, bone_springs.hpp),
 // kappa = lambda / (36 V0) and d = 6 alpha V0. Only the centres c_i depend on the pose. |F|^2 is quadratic and V(x) is affine in each
 // single vertex, so that the energy along one vertex is exactly quadratic.
 //   const FleshEnergy energy(mesh, flesh_material(0.45), hold);
@@ -68,7 +68,7 @@ Eigen::SparseMatrix<double> flesh_laplacian(const TetMesh& mesh, const FleshMate
 // 2021, as functions of the deformation gradient F:
 //   hydrostatic  C_H = det F - alpha        of compliance 1 / (lambda V),
 //   deviatoric   C_D = sqrt(tr(F^T F))      of compliance 1 / (mu V).
-// The energies C^2 / (2 compliance) add up to V psi(F) of flesh_energy.hpp, except for the constant -3 mu V / 2.
+// The energies C^2 / (2 compliance) add up to V psi(F) of FleshMaterial, except for the constant -3 mu V / 2.
 //   const Eigen::Matrix3d F = deformation_gradient(tet, p1, p2, p3, p4);
 //   double C = hydrostatic_value(F, material.alpha);
 //   Eigen::Matrix<double, 3, 4> of_vertices = vertex_gradients(tet, hydrostatic_gradient(F));
@@ -93,9 +93,5 @@ Eigen::Matrix3d deviatoric_gradient(const Eigen::Matrix3d& F);
 
 // dC/dx_i [1/m], one per column, from dC/dF. They add up to zero.
 Eigen::Matrix<double, 3, 4> vertex_gradients(const NeoHookeanTet& tet, const Eigen::Matrix3d& dC_dF);
-
-// How a deformer computes. plain_f64: one number after the other, as the equations read, in double. packed_f32 and packed_f64: several
-// elements side by side in the registers of the machine, in float or double. In float, positions are relative to the middle of the body.
-enum class Arithmetic { packed_f32, packed_f64, plain_f64 };
 
 }  // namespace pbs

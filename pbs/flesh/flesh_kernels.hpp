@@ -43,7 +43,7 @@ template <typename Scalar>
 void solve_supernodes(const Supernode* nodes, int count, const std::uint32_t* below, const Scalar* values, const std::uint32_t* place,
                       int rows, Scalar* b, Scalar* work);
 
-// The inner loop of packed projective dynamics, compiled for the machine (PBS_NATIVE): raw pointers only. See flesh_kernels.hpp for rows.
+// Projective dynamics.
 
 // Sixteen tets that share no vertex; see ProjectiveTet. A lane without a tet has zeros and dummy vertices of its own.
 template <typename Scalar>
@@ -61,8 +61,7 @@ template <typename Scalar>
 double add_gradient_of_projective_tets(const ProjectiveBatch<Scalar>* batches, int count, Scalar strain, Scalar volume, const Scalar* x,
                                        Scalar* gradient, int* refused, int* refused_count);
 
-// The inner loop of packed vertex block descent, compiled for the machine (PBS_NATIVE): raw pointers only. A row of an array is four
-// numbers: x, y, z and one more. Arrays are 64 bytes aligned.
+// Vertex block descent.
 
 // Sixteen vertices that share no tet. A lane without a vertex has a dummy row of its own and the diagonal 0.
 template <typename Scalar>
@@ -91,8 +90,7 @@ void move_vertices(const VertexBatch<Scalar>* batches, int count, const VertexIn
 template <typename Scalar>
 void extrapolate(Scalar omega, const Scalar* before, int rows, Scalar* x);
 
-// The inner loops of packed XPBD with neo-Hookean constraints, compiled for the machine (PBS_NATIVE): raw pointers only. x: rows x, y, z
-// [m] and the inverse mass w [1/m], 64 bytes aligned. See xpbd_neo_hookean.hpp for the equations.
+// XPBD with neo-Hookean constraints (xpbd_neo_hookean.hpp). x: rows x, y, z [m] and the inverse mass w [1/m].
 
 // Sixteen tets that share no vertex. A lane without a tet has zeros and dummy vertices of its own.
 template <typename Scalar>

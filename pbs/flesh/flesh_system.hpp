@@ -1,6 +1,6 @@
 // The energy of the flesh (flesh_energy.hpp, or projective_dynamics.hpp) as a minimiser needs it: values, gradients and steps of a
 // quasi-Newton method, on rows of numbers. One implementation is plain, the other one packed; both have the same constants.
-//   auto system = make_flesh_system<float>(mesh, energy, factor, Arithmetic::packed_f32, threads);
+//   auto system = make_flesh_system<float>(mesh, energy, factor, true, threads);
 //   system->set_centres(centres);
 //   system->load(positions, x);
 //   double e = system->value_and_gradient(x, g);
@@ -34,10 +34,11 @@ protected:
     using RowSystem<Scalar>::RowSystem;
 };
 
-// Energy: FleshEnergy or ProjectiveEnergy. factor: of flesh_laplacian. Scalar is that of `arithmetic` (unchecked).
+// Energy: FleshEnergy or ProjectiveEnergy. factor: of flesh_laplacian. packed: false is plain code, which is in double and exists for
+// Scalar double alone.
 template <typename Scalar, typename Energy>
-std::unique_ptr<FleshSystem<Scalar>> make_flesh_system(const TetMesh& mesh, const Energy& energy, const CholeskyFactor& factor,
-                                                       Arithmetic arithmetic, int threads);
+std::unique_ptr<FleshSystem<Scalar>> make_flesh_system(const TetMesh& mesh, const Energy& energy, const CholeskyFactor& factor, bool packed,
+                                                       int threads);
 
 // Solves L L^T x = b with a kept factor, for x, y and z side by side.
 //   const TriangularSolve<float> solve(factor, place);

@@ -18,7 +18,7 @@ template <typename Scalar>
 ProjectiveDynamics<Scalar>::ProjectiveDynamics(const TetMesh& mesh, const ProjectiveEnergy& energy, const CholeskyFactor& factor,
                                                const ProjectiveOptions& options)
     : options_(options),
-      system_(make_flesh_system<Scalar>(mesh, energy, factor, options.arithmetic, options.threads)),
+      system_(make_flesh_system<Scalar>(mesh, energy, factor, options.packed, options.threads)),
       x_(system_->rows()),
       step_(x_)
 {

@@ -1,4 +1,4 @@
-// Projective dynamics in equilibrium: minimises ProjectiveEnergy (projective_dynamics.hpp, where its sources are).
+// Projective dynamics in equilibrium: minimises ProjectiveEnergy, where its sources are.
 //   const double share = volume_share_of_projective(poisson, true);
 //   const HeldFlesh flesh(mesh, springs, bones, {.poisson = poisson, .volume_share = share});
 //   const ProjectiveEnergy energy(mesh, projective_weights(poisson, true), flesh.hold());
@@ -22,7 +22,7 @@ namespace pbs {
 struct ProjectiveOptions {
     int iterations = 30;     // at most
     double stop_step = 0.0;  // stop where the norm of a step is below this share of the first one, or rounding; 0: never
-    Arithmetic arithmetic = Arithmetic::packed_f32;
+    bool packed = true;      // several elements side by side; false: plain code, one after the other, in double
     int threads = 1;
 };
 
@@ -36,7 +36,7 @@ struct ProjectiveSummary {
 template <typename Scalar>
 class ProjectiveDynamics {
 public:
-    // factor: of the matrix of the global step. Scalar is that of the arithmetic (unchecked).
+    // factor: of the matrix of the global step. Plain code is in double: packed false needs Scalar double (unchecked).
     ProjectiveDynamics(const TetMesh& mesh, const ProjectiveEnergy& energy, const CholeskyFactor& factor, const ProjectiveOptions& options);
 
     ProjectiveSummary minimise(const Positions& centres, Positions& x);  // x [m], #V x 3; a step that is not finite ends it

@@ -11,7 +11,7 @@ template <typename Scalar>
 QuasiNewton<Scalar>::QuasiNewton(const TetMesh& mesh, const FleshEnergy& energy, const CholeskyFactor& factor,
                                  const QuasiNewtonOptions& options)
     : options_(options),
-      system_(make_flesh_system<Scalar>(mesh, energy, factor, options.arithmetic, options.threads)),
+      system_(make_flesh_system<Scalar>(mesh, energy, factor, options.packed, options.threads)),
       x_(system_->rows()),
       gradient_(x_),
       direction_(x_),

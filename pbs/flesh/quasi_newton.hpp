@@ -14,7 +14,7 @@ struct QuasiNewtonOptions {
     int iterations = 24;         // at most
     int history = 5;             // pairs of steps and changes of the gradient that L-BFGS keeps
     double stop_gradient = 0.0;  // stop where the norm of H^-1 g is below this share of its first value, or is rounding; 0: never
-    Arithmetic arithmetic = Arithmetic::packed_f32;
+    bool packed = true;          // several elements side by side; false: plain code, one after the other, in double
     int threads = 1;
 };
 

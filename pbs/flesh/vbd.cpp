@@ -32,7 +32,7 @@ std::vector<double> chebyshev_weights(double rho, int count)
 
 template <typename Scalar>
 VertexBlockDescent<Scalar>::VertexBlockDescent(const TetMesh& mesh, const FleshEnergy& energy, const VertexBlockOptions& options)
-    : options_(checked(options)), sweep_(make_vertex_sweep<Scalar>(mesh, energy, options.arithmetic, options.threads)), x_(sweep_->rows())
+    : options_(checked(options)), sweep_(make_vertex_sweep<Scalar>(mesh, energy, options.packed, options.threads)), x_(sweep_->rows())
 {
     if (options.acceleration == Acceleration::chebyshev) weights_ = chebyshev_weights(options.rho, options.iterations);
 }
@@ -239,15 +239,15 @@ private:
 }  // namespace
 
 template <>
-std::unique_ptr<VertexSweep<float>> make_vertex_sweep(const TetMesh& mesh, const FleshEnergy& energy, Arithmetic, int threads)
+std::unique_ptr<VertexSweep<float>> make_vertex_sweep(const TetMesh& mesh, const FleshEnergy& energy, bool, int threads)
 {
     return std::make_unique<PackedVertexSweep<float>>(mesh, energy, threads);
 }
 
 template <>
-std::unique_ptr<VertexSweep<double>> make_vertex_sweep(const TetMesh& mesh, const FleshEnergy& energy, Arithmetic arithmetic, int threads)
+std::unique_ptr<VertexSweep<double>> make_vertex_sweep(const TetMesh& mesh, const FleshEnergy& energy, bool packed, int threads)
 {
-    if (arithmetic == Arithmetic::plain_f64) return std::make_unique<PlainVertexSweep>(mesh, energy);
+    if (!packed) return std::make_unique<PlainVertexSweep>(mesh, energy);
     return std::make_unique<PackedVertexSweep<double>>(mesh, energy, threads);
 }
 

@@ -1,6 +1,6 @@
 // Vertex block descent for elastic bodies in equilibrium (A. H. Chen, Z. Liu, Y. Yang, C. Yuksel, Vertex block descent, ACM TOG 43(4),
 // 2024), without inertia: nonlinear Gauss-Seidel over vertices (Y. Chen et al., Position-based nonlinear Gauss-Seidel for quasistatic
-// hyperelasticity, 2023). The energy along one vertex is exactly quadratic here (vbd.hpp), so that one step of Newton's method is
+// hyperelasticity, 2023). The energy along one vertex is exactly quadratic here (VertexStar), so that one step of Newton's method is
 // its minimum and needs neither a projection of its matrix nor a line search.
 //   VertexBlockDescent<float> solver(mesh, energy, options);
 //   VertexBlockSummary summary = solver.minimise(centres, x);   // x: the initial guess in, the last iterate out
@@ -19,8 +19,8 @@
 namespace pbs {
 
 // Sweeps of vertex block descent on rows of numbers. One implementation is plain, the other one packed; both move the vertices by the same
-// colours (../packed/vertex_order.hpp), one colour after the other.
-//   auto sweep = make_vertex_sweep<float>(mesh, energy, Arithmetic::packed_f32, threads);
+// colours (vertex_colours), one colour after the other.
+//   auto sweep = make_vertex_sweep<float>(mesh, energy, true, threads);
 //   sweep->set_centres(centres);
 //   sweep->load(positions, x);
 //   sweep->move(1.88, x);   // x_i -= omega H_i^-1 g_i for each vertex, each with the latest positions of the others
@@ -35,9 +35,9 @@ protected:
     using RowSystem<Scalar>::RowSystem;
 };
 
-// Scalar is that of `arithmetic` (unchecked).
+// packed: false is plain code, which is in double and exists for Scalar double alone.
 template <typename Scalar>
-std::unique_ptr<VertexSweep<Scalar>> make_vertex_sweep(const TetMesh& mesh, const FleshEnergy& energy, Arithmetic arithmetic, int threads);
+std::unique_ptr<VertexSweep<Scalar>> make_vertex_sweep(const TetMesh& mesh, const FleshEnergy& energy, bool packed, int threads);
 
 // over_relaxation: each vertex moves by omega times the way to its minimum, which decreases the energy for 0 < omega < 2. The energy has
 // several minima; from a poor initial guess, a large omega may end in another one than a small omega.
@@ -52,8 +52,8 @@ struct VertexBlockOptions {
     int iterations = 64;  // sweeps over all vertices
     Acceleration acceleration = Acceleration::over_relaxation;
     double omega = 1.88;
-    double rho = 0.95;  // the estimated spectral radius of a sweep, from 0 inclusive to 1 exclusive
-    Arithmetic arithmetic = Arithmetic::packed_f32;
+    double rho = 0.95;   // the estimated spectral radius of a sweep, from 0 inclusive to 1 exclusive
+    bool packed = true;  // several elements side by side; false: plain code, one after the other, in double
     int threads = 1;
 };
 

@@ -15,7 +15,7 @@ namespace pbs {
 template <typename Scalar>
 XpbdNeoHookean<Scalar>::XpbdNeoHookean(const TetMesh& mesh, const XpbdFlesh& flesh, const XpbdNeoHookeanOptions& options)
     : options_(options),
-      system_(make_xpbd_system<Scalar>(mesh, flesh, options.arithmetic, options.threads)),
+      system_(make_xpbd_system<Scalar>(mesh, flesh, options.packed, options.threads)),
       x_(system_->rows()),
       before_(x_),
       predicted_(x_)
@@ -333,15 +333,15 @@ private:
 }  // namespace
 
 template <>
-std::unique_ptr<XpbdSystem<float>> make_xpbd_system(const TetMesh& mesh, const XpbdFlesh& flesh, Arithmetic, int threads)
+std::unique_ptr<XpbdSystem<float>> make_xpbd_system(const TetMesh& mesh, const XpbdFlesh& flesh, bool, int threads)
 {
     return std::make_unique<PackedXpbd<float>>(mesh, flesh, threads);
 }
 
 template <>
-std::unique_ptr<XpbdSystem<double>> make_xpbd_system(const TetMesh& mesh, const XpbdFlesh& flesh, Arithmetic arithmetic, int threads)
+std::unique_ptr<XpbdSystem<double>> make_xpbd_system(const TetMesh& mesh, const XpbdFlesh& flesh, bool packed, int threads)
 {
-    if (arithmetic == Arithmetic::plain_f64) return std::make_unique<PlainXpbd>(flesh);
+    if (!packed) return std::make_unique<PlainXpbd>(flesh);
     return std::make_unique<PackedXpbd<double>>(mesh, flesh, threads);
 }
 

@@ -23,7 +23,7 @@ namespace pbs {
 // Elastic flesh as compliant constraints, and one pass of XPBD over them: the springs of the bones (bone_springs.hpp) and the two coupled
 // constraints of each tet (flesh_energy.hpp). One implementation is plain, the other one packed; both have the same constants.
 //   const XpbdFlesh flesh(mesh, energy, hold, material, time_step);
-//   auto system = make_xpbd_system<float>(mesh, flesh, Arithmetic::packed_f32, threads);
+//   auto system = make_xpbd_system<float>(mesh, flesh, true, threads);
 //   system->set_targets(targets);
 //   system->load(positions, x);
 //   system->iterate(x, true);
@@ -70,9 +70,9 @@ protected:
     using RowSystem<Scalar>::RowSystem;
 };
 
-// Scalar is that of `arithmetic` (unchecked).
+// packed: false is plain code, which is in double and exists for Scalar double alone.
 template <typename Scalar>
-std::unique_ptr<XpbdSystem<Scalar>> make_xpbd_system(const TetMesh& mesh, const XpbdFlesh& flesh, Arithmetic arithmetic, int threads);
+std::unique_ptr<XpbdSystem<Scalar>> make_xpbd_system(const TetMesh& mesh, const XpbdFlesh& flesh, bool packed, int threads);
 
 // kept: multipliers and applied forces are kept over all steps of a frame, and the residual is corrected. of_step: they begin at zero in
 // each step, and the residual is neglected, as published. reset: zero in each iteration, a common mistake; a negative control.
@@ -83,7 +83,7 @@ struct XpbdNeoHookeanOptions {
     int iterations_per_step = 1;  // the last step may have fewer
     XpbdMultipliers multipliers = XpbdMultipliers::kept;
     bool momentum = true;  // false: b = 0
-    Arithmetic arithmetic = Arithmetic::packed_f32;
+    bool packed = true;    // several elements side by side; false: plain code, one after the other, in double
     int threads = 1;
 };
 

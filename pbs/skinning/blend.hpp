@@ -59,14 +59,13 @@ struct PackedWeights {
 template <class Scalar>
 PackedWeights<Scalar> pack_weights(const Weights& weights);
 
-// The blends of blend.hpp for many poses of one body: what does not depend on the pose is packed once, and weights that several vertices
+// The blends for many poses of one body: what does not depend on the pose is packed once, and weights that several vertices
 // have (Eq. 2 knows few) are blended once a pose. A vertex of one bone or of such weights then costs one matrix times a point.
 //   BlendSkinning<float> skinning(rest, weights);
 //   skinning.linear(pose, posed);           // as linear_blend_skinning(rest, weights, pose, posed)
 //   skinning.dual_quaternion(pose, posed);  // as dual_quaternion_skinning(rest, weights, pose, posed)
-// A pose has every bone that the weights name. One thread at a time: the transforms of the last pose are kept in it.
-
-// Scalar: float or double.
+// A pose has every bone that the weights name. One thread at a time: the transforms of the last pose are kept in it. Scalar: float or
+// double.
 template <class Scalar>
 class BlendSkinning {
 public:

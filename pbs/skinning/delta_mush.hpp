@@ -4,7 +4,7 @@
 //   mush.apply(lbs_positions, posed);
 // The local frames of that paper are those of the normals of a surface. Here every vertex of the tet mesh, also in the interior, has the
 // rotation that best maps its smoothed rest edges to its smoothed posed edges (nearest_rotation.hpp). Smoothing is Laplacian with uniform
-// weights. This is plain code in double; delta_mush.hpp computes the same in packed float.
+// weights. DeltaMush is plain code in double; PackedDeltaMush computes the same in packed float.
 #pragma once
 
 #include "pbs/geometry/precision.hpp"
@@ -50,7 +50,7 @@ private:
 
 // The parts that the deformers in packed code share: rows of four numbers, the vertices whose rotation the formulae refuse, and the way
 // back to positions in the world.
-
+//
 // Rows x, y, z, `fourth` of points relative to an origin.
 template <class Scalar>
 std::vector<Scalar> padded_rows(const Positions& points, const Vec3& origin, Scalar fourth = 0);
@@ -81,7 +81,7 @@ private:
     std::vector<Scalar> covariance_;
 };
 
-// Delta mush (delta_mush.hpp) in packed float or double: every vertex is a row of four numbers, and rotations are computed in all lanes of
+// Delta mush in packed float or double: every vertex is a row of four numbers, and rotations are computed in all lanes of
 // a register at once.
 //   PackedDeltaMush<float> mush(mesh, {.iterations = 20});
 //   BlendSkinning<float> skinning(mesh.rest, weights);
@@ -90,7 +90,6 @@ private:
 // are lost. Smoothing averages, and its error is that of a coordinate, a few eps times the size of the body. A rotation is in error by a
 // few eps times the size of the body over the smoothed edges' length, divided by the share s of the second and third singular value in the
 // covariance, and moves the detail by that share of its length. On bodies of this project that is below a micrometre per metre.
-
 // Scalar: float or double. One thread at a time: the last pose is kept in it.
 template <class Scalar>
 class PackedDeltaMush {

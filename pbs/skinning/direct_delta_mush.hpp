@@ -63,15 +63,13 @@ private:
     Positions centre_, detail_;
 };
 
-// Direct delta mush (direct_delta_mush.hpp) in packed float or double.
+// Direct delta mush in packed float or double.
 //   PackedDirectMush<float> mush(mesh, weights, {.iterations = 10});
 //   mush.apply(pose, posed);
 // Float differs from double by rounding, eps = 1.2e-7. Everything is relative to the middle of the body, so that far from the origin no
 // digits are lost, and moments are relative to the vertex's own centre p_i. A position is in error by a few eps times the size of the body,
 // and by its detail times the error of its rotation: a few eps times the size of the body over the root of the second singular value of the
-// moments.
-
-// Scalar: float or double. One thread at a time: the last pose is kept in it.
+// moments. Scalar: float or double. One thread at a time: the last pose is kept in it.
 template <class Scalar>
 class PackedDirectMush {
 public:

@@ -39,9 +39,7 @@ private:
     Particles particles_;
 };
 
-// Algorithm 1 for many poses of one mesh, in one precision. PosesSolver is the door to it.
-
-// Scalar: float or double.
+// Algorithm 1 for many poses of one mesh, in one precision, float or double. PosesSolver is its public interface.
 template <typename Scalar>
 class PosesAlgorithm1 {
 public:

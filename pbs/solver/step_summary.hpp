@@ -32,9 +32,8 @@ struct StepSummary {
     std::vector<Residuals> history;       // one per iteration, if requested
 };
 
-// How far particles are from satisfying their constraints; summed in double.
-
-// p: particle positions [m], #V; q: posed bind points [m], #V; sizes are not checked. A class that was left out has the residual zero.
+// How far particles are from satisfying their constraints; summed in double. p: particle positions [m], #V; q: posed bind points [m], #V;
+// sizes are not checked. A class that was left out has the residual zero.
 template <typename Scalar>
 Residuals residuals_of(const ConstraintSet<Scalar>& constraints, const std::vector<Vector3<Scalar>>& p,
                        const std::vector<Vector3<Scalar>>& q);

@@ -78,7 +78,7 @@ struct JiggleReference {
 inline constexpr int reference_steps_a_period = 24, reference_periods = 4;  // of the wanted frequency
 
 // fem: dynamic, with any Young's modulus to begin with. Nothing where the body does not swing.
-std::optional<JiggleReference> match_reference(const pbs::Character& character, DeformerSpec fem, const std::vector<int>& probe,
+std::optional<JiggleReference> match_reference(const pbs::Character& character, const DeformerSpec& fem, const std::vector<int>& probe,
                                                const Jolt& jolt, double frequency_hz);
 
 // Neo-Hookean, linear elements, generalised alpha.

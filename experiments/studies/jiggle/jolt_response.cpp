@@ -88,15 +88,16 @@ JoltResponse jolt_response(const pbs::Character& character, Deformer& deformer, 
     return response;
 }
 
-std::optional<JiggleReference> match_reference(const pbs::Character& character, DeformerSpec fem, const std::vector<int>& probe,
+std::optional<JiggleReference> match_reference(const pbs::Character& character, const DeformerSpec& fem, const std::vector<int>& probe,
                                                const Jolt& jolt, double frequency_hz)
 {
     const JoltResponse first = at_frequency(character, fem, probe, jolt, frequency_hz);
     if (!first.finished || !first.swing.found()) return std::nullopt;
-    double& young_pa = options_of<FemOptions>(fem).young_pa;
+    DeformerSpec matching = fem;
+    double& young_pa = options_of<FemOptions>(matching).young_pa;
     young_pa *= std::pow(frequency_hz / first.swing.frequency_hz.estimate, 2);
     JiggleReference matched{young_pa, 1.0 / (reference_steps_a_period * frequency_hz),
-                            at_frequency(character, fem, probe, jolt, frequency_hz)};
+                            at_frequency(character, matching, probe, jolt, frequency_hz)};
     if (!matched.response.finished || !matched.response.swing.found()) return std::nullopt;
     return matched;
 }

@@ -72,7 +72,7 @@ ProjectiveEnergy energy_of(const Material& material)
 // In plain code.
 ProjectiveDynamics<double> solver_of(const Material& material, ProjectiveOptions options)
 {
-    options.arithmetic = pbs::Arithmetic::plain_f64;
+    options.packed = false;
     const pbs::HeldFlesh flesh(
         held().limb.mesh, springs_along_bones(), 2,
         {.poisson = material.poisson, .volume_share = pbs::volume_share_of_projective(material.poisson, material.keeps_volume)});

@@ -136,7 +136,6 @@ TEST(VertexBlock, CoincidentVerticesLeaveTheDiagonal)
 // The method: theory of relaxation and of Chebyshev polynomials, and sweeps written out with the plain blocks.
 
 using pbs::Acceleration;
-using pbs::Arithmetic;
 
 Positions mirrored()
 {
@@ -177,7 +176,7 @@ TEST(VertexBlockDescent, NoSweepIncreasesTheEnergy)
             Positions x = start;
             double last = energy.value(x, centres);
             for (int sweep = 0; sweep < 12; ++sweep) {
-                x = minimised<double>({.iterations = 1, .omega = omega, .arithmetic = Arithmetic::packed_f64}, x);
+                x = minimised<double>({.iterations = 1, .omega = omega}, x);
                 const double now = energy.value(x, centres);
                 EXPECT_LE(now, last + test_support::rounding_error(40.0 * tets, last)) << "omega " << omega << ", sweep " << sweep;
                 last = now;
@@ -199,8 +198,7 @@ TEST(VertexBlockDescent, ASweepLowersTheEnergyAsTheoryStates)
                 x.row(i) -= omega * step.transpose();
             }
         const double before = energy.value(bent.lbs, centres);
-        const double after =
-            energy.value(minimised<double>({.iterations = 1, .omega = omega, .arithmetic = Arithmetic::plain_f64}, bent.lbs), centres);
+        const double after = energy.value(minimised<double>({.iterations = 1, .omega = omega, .packed = false}, bent.lbs), centres);
         EXPECT_NEAR(before - after, decrease, test_support::rounding_error(4.0 * 40 * tets, before)) << omega;
         EXPECT_GT(decrease, 1e-3 * before);
     }
@@ -216,8 +214,8 @@ TEST(VertexBlockDescent, BeyondTwoTheEnergyIncreases)
 
 TEST(VertexBlockDescent, EndsWhereTheGradientVanishes)
 {
-    for (const Arithmetic arithmetic : {Arithmetic::plain_f64, Arithmetic::packed_f64}) {
-        const Positions x = minimised<double>({.iterations = 600, .arithmetic = arithmetic}, bent.lbs);
+    for (const bool packed : {false, true}) {
+        const Positions x = minimised<double>({.iterations = 600, .packed = packed}, bent.lbs);
         EXPECT_LT(gradient_norm(x), 1e-6 * gradient_norm(bent.lbs));
     }
 }
@@ -225,13 +223,12 @@ TEST(VertexBlockDescent, EndsWhereTheGradientVanishes)
 TEST(VertexBlockDescent, TheMinimumDependsNeitherOnTheStartNorOnOmegaNorOnTheAcceleration)
 {
     const double size = (bent.lbs - bent.mesh.rest).norm();
-    const Positions expected = minimised<double>({.iterations = 800, .arithmetic = Arithmetic::packed_f64}, bent.lbs);
+    const Positions expected = minimised<double>({.iterations = 800}, bent.lbs);
     const Positions jittered = test_support::jittered(bent.lbs, 0.05);
-    EXPECT_LT((minimised<double>({.iterations = 800, .arithmetic = Arithmetic::packed_f64}, jittered) - expected).norm(), 1e-6 * size);
-    const pbs::VertexBlockOptions slow{.iterations = 2000, .omega = 1.5, .arithmetic = Arithmetic::packed_f64};
+    EXPECT_LT((minimised<double>({.iterations = 800}, jittered) - expected).norm(), 1e-6 * size);
+    const pbs::VertexBlockOptions slow{.iterations = 2000, .omega = 1.5};
     for (const Positions& start : {bent.lbs, bent.mesh.rest}) EXPECT_LT((minimised<double>(slow, start) - expected).norm(), 1e-6 * size);
-    const pbs::VertexBlockOptions chebyshev{
-        .iterations = 3000, .acceleration = Acceleration::chebyshev, .rho = 0.95, .arithmetic = Arithmetic::packed_f64};
+    const pbs::VertexBlockOptions chebyshev{.iterations = 3000, .acceleration = Acceleration::chebyshev, .rho = 0.95};
     EXPECT_LT((minimised<double>(chebyshev, bent.lbs) - expected).norm(), 1e-6 * size);
 }
 
@@ -239,14 +236,14 @@ TEST(VertexBlockDescent, TheMinimumDependsNeitherOnTheStartNorOnOmegaNorOnTheAcc
 TEST(VertexBlockDescent, InvertedAndCollapsedStartsEndWhereTheGradientVanishes)
 {
     for (const Positions& start : {mirrored(), collapsed}) {
-        const Positions x = minimised<double>({.iterations = 1500, .arithmetic = Arithmetic::packed_f64}, start);
+        const Positions x = minimised<double>({.iterations = 1500}, start);
         EXPECT_LT(gradient_norm(x), 1e-6 * gradient_norm(start));
     }
 }
 
 TEST(VertexBlockDescent, FloatEndsNearTheSameMinimum)
 {
-    const Positions in_double = minimised<double>({.iterations = 600, .arithmetic = Arithmetic::plain_f64}, bent.lbs);
+    const Positions in_double = minimised<double>({.iterations = 600, .packed = false}, bent.lbs);
     const Positions in_float = minimised<float>({.iterations = 600}, bent.lbs);
     EXPECT_LT((in_float - in_double).norm(), test_support::displaced_by_rounding<float>(energy, centres, in_double));
 }
@@ -254,7 +251,7 @@ TEST(VertexBlockDescent, FloatEndsNearTheSameMinimum)
 TEST(VertexBlockDescent, OverRelaxationSavesSweeps)
 {
     const auto gradient_after_60 = [](double omega) {
-        return gradient_norm(minimised<double>({.iterations = 60, .omega = omega, .arithmetic = Arithmetic::packed_f64}, bent.lbs));
+        return gradient_norm(minimised<double>({.iterations = 60, .omega = omega}, bent.lbs));
     };
     EXPECT_LT(10.0 * gradient_after_60(1.8), gradient_after_60(1.0));
 }
@@ -290,9 +287,9 @@ TEST(VertexBlockDescent, ChebyshevFollowsItsRecurrence)
         const double omega = 2.0 * std::cosh(k * angle) / (rho * std::cosh((k + 1) * angle));
         x.push_back(omega * (swept(1.0, x[k]) - x[k - 1]) + x[k - 1]);
     }
-    for (const Arithmetic arithmetic : {Arithmetic::plain_f64, Arithmetic::packed_f64}) {
+    for (const bool packed : {false, true}) {
         const Positions found =
-            minimised<double>({.iterations = 5, .acceleration = Acceleration::chebyshev, .rho = rho, .arithmetic = arithmetic}, bent.lbs);
+            minimised<double>({.iterations = 5, .acceleration = Acceleration::chebyshev, .rho = rho, .packed = packed}, bent.lbs);
         EXPECT_LT((found - x[5]).cwiseAbs().maxCoeff(), std::pow(3.0, 5) * test_support::rounding_error(1000.0, 2.0));
     }
     EXPECT_GT((x[5] - x[4]).cwiseAbs().maxCoeff(), 1e-4);
@@ -301,8 +298,7 @@ TEST(VertexBlockDescent, ChebyshevFollowsItsRecurrence)
 TEST(VertexBlockDescent, ChebyshevSavesSweeps)
 {
     const auto gradient_after_60 = [](double rho) {
-        return gradient_norm(minimised<double>(
-            {.iterations = 60, .acceleration = Acceleration::chebyshev, .rho = rho, .arithmetic = Arithmetic::packed_f64}, bent.lbs));
+        return gradient_norm(minimised<double>({.iterations = 60, .acceleration = Acceleration::chebyshev, .rho = rho}, bent.lbs));
     };
     EXPECT_LT(4.0 * gradient_after_60(0.95), gradient_after_60(0.0));
 }
@@ -316,8 +312,7 @@ TEST(VertexBlockDescent, ARadiusOfZeroIsPlainGaussSeidel)
 TEST(VertexBlockDescent, NoSweepsLeaveTheStart)
 {
     for (const Acceleration acceleration : {Acceleration::over_relaxation, Acceleration::chebyshev})
-        EXPECT_EQ(minimised<double>({.iterations = 0, .acceleration = acceleration, .arithmetic = Arithmetic::plain_f64}, bent.lbs),
-                  bent.lbs);
+        EXPECT_EQ(minimised<double>({.iterations = 0, .acceleration = acceleration, .packed = false}, bent.lbs), bent.lbs);
 }
 
 TEST(VertexBlockDescent, AStartThatIsNotANumberIsReported)

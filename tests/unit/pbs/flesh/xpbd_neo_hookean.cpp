@@ -12,7 +12,6 @@
 
 namespace {
 
-using pbs::Arithmetic;
 using pbs::Positions;
 using pbs::XpbdMultipliers;
 using test_support::HeldXpbd;
@@ -35,16 +34,14 @@ double gradient_after(const pbs::XpbdNeoHookeanOptions& options, Positions x = l
 
 TEST(XpbdNeoHookean, EndsWhereTheGradientVanishes)
 {
-    for (const Arithmetic arithmetic : {Arithmetic::plain_f64, Arithmetic::packed_f64})
-        EXPECT_LT(gradient_after({.iterations = 500, .arithmetic = arithmetic}), 1e-9);
+    for (const bool packed : {false, true}) EXPECT_LT(gradient_after({.iterations = 500, .packed = packed}), 1e-9);
 }
 
 // Multipliers that begin at zero in each iteration, or that are kept within a step only and without the residual, end elsewhere.
 TEST(XpbdNeoHookean, OnlyKeptMultipliersEndWhereTheGradientVanishes)
 {
     for (const XpbdMultipliers multipliers : {XpbdMultipliers::reset, XpbdMultipliers::of_step}) {
-        pbs::XpbdNeoHookeanOptions options{
-            .iterations = 1200, .iterations_per_step = 6, .multipliers = multipliers, .arithmetic = Arithmetic::plain_f64};
+        pbs::XpbdNeoHookeanOptions options{.iterations = 1200, .iterations_per_step = 6, .multipliers = multipliers, .packed = false};
         EXPECT_GT(gradient_after(options), 1e-3);
         options.multipliers = XpbdMultipliers::kept;
         EXPECT_LT(gradient_after(options), 1e-6);
@@ -54,7 +51,7 @@ TEST(XpbdNeoHookean, OnlyKeptMultipliersEndWhereTheGradientVanishes)
 // One step whose iterations have converged: the gradient of the energy balances the inertia to rounding. A step as published does not.
 TEST(XpbdNeoHookean, TheFixedPointOfAStepIsImplicitEuler)
 {
-    pbs::XpbdNeoHookeanOptions options{.iterations = 300, .iterations_per_step = 300, .arithmetic = Arithmetic::plain_f64};
+    pbs::XpbdNeoHookeanOptions options{.iterations = 300, .iterations_per_step = 300, .packed = false};
     Positions x = lbs();
     EXPECT_EQ(bar().minimise<double>(options, x).steps, 1);
     const double first = bar().gradient(lbs()).norm();
@@ -73,7 +70,7 @@ TEST(XpbdNeoHookean, TheLimitDoesNotDependOnIterationsPerStepTimeStepOrMomentum)
 {
     const double first = bar().gradient(lbs()).norm();
     Positions expected = lbs();
-    bar().minimise<double>({.iterations = 800, .arithmetic = Arithmetic::plain_f64}, expected);
+    bar().minimise<double>({.iterations = 800, .packed = false}, expected);
     const double lowest = test_support::stiffnesses(bar().energy, bar().centres, expected)(0);
     const auto expect_the_limit = [&](const HeldXpbd& held, const pbs::XpbdNeoHookeanOptions& options) {
         Positions x = lbs();
@@ -83,9 +80,9 @@ TEST(XpbdNeoHookean, TheLimitDoesNotDependOnIterationsPerStepTimeStepOrMomentum)
         EXPECT_LT((x - expected).norm(), remaining / (0.5 * lowest));
     };
     for (const int per_step : {2, 5})
-        expect_the_limit(bar(), {.iterations = 500 * per_step, .iterations_per_step = per_step, .arithmetic = Arithmetic::plain_f64});
-    expect_the_limit(HeldXpbd({8, 2, 2}, 0.5), {.iterations = 1200, .arithmetic = Arithmetic::plain_f64});
-    expect_the_limit(bar(), {.iterations = 600, .momentum = false, .arithmetic = Arithmetic::plain_f64});
+        expect_the_limit(bar(), {.iterations = 500 * per_step, .iterations_per_step = per_step, .packed = false});
+    expect_the_limit(HeldXpbd({8, 2, 2}, 0.5), {.iterations = 1200, .packed = false});
+    expect_the_limit(bar(), {.iterations = 600, .momentum = false, .packed = false});
 }
 
 // The multipliers are sums over the iterations, each with a rounding of its own.
@@ -93,7 +90,7 @@ TEST(XpbdNeoHookean, FloatComesAsNearAsItsRoundingAllows)
 {
     constexpr int iterations = 100;
     Positions expected = lbs(), in_float = lbs();
-    bar().minimise<double>({.iterations = 800, .arithmetic = Arithmetic::packed_f64}, expected);
+    bar().minimise<double>({.iterations = 800}, expected);
     bar().minimise<float>({.iterations = iterations}, in_float);
     EXPECT_LT((in_float - expected).norm(), test_support::displaced_by_rounding<float>(bar().energy, bar().centres, expected, iterations));
 }
@@ -104,10 +101,9 @@ TEST(XpbdNeoHookean, InvertedInitialGuessesEndInTheSameMinimum)
     Positions mirrored = bar().bent.mesh.rest;
     mirrored.col(2) *= -1.0;
     const Positions inverted = test_support::jittered(lbs(), 0.15), collapsed = 0.01 * lbs();
-    for (const Positions& from : {inverted, collapsed})
-        EXPECT_LT(gradient_after({.iterations = 800, .arithmetic = Arithmetic::plain_f64}, from), 1e-6);
+    for (const Positions& from : {inverted, collapsed}) EXPECT_LT(gradient_after({.iterations = 800, .packed = false}, from), 1e-6);
     Positions x = mirrored;
-    bar().minimise<double>({.iterations = 800, .arithmetic = Arithmetic::plain_f64}, x);
+    bar().minimise<double>({.iterations = 800, .packed = false}, x);
     EXPECT_TRUE(x.allFinite());
     EXPECT_LT(bar().energy.value(x, bar().centres), bar().energy.value(mirrored, bar().centres));
 }
@@ -115,14 +111,14 @@ TEST(XpbdNeoHookean, InvertedInitialGuessesEndInTheSameMinimum)
 TEST(XpbdNeoHookean, ZeroIterationsReturnTheInitialGuess)
 {
     Positions x = lbs();
-    EXPECT_EQ(bar().minimise<double>({.iterations = 0, .arithmetic = Arithmetic::plain_f64}, x).steps, 0);
+    EXPECT_EQ(bar().minimise<double>({.iterations = 0, .packed = false}, x).steps, 0);
     EXPECT_EQ(x, lbs());
 }
 
 TEST(XpbdNeoHookean, TheLastStepMayBeShort)
 {
     Positions x = lbs();
-    const auto summary = bar().minimise<double>({.iterations = 7, .iterations_per_step = 3, .arithmetic = Arithmetic::plain_f64}, x);
+    const auto summary = bar().minimise<double>({.iterations = 7, .iterations_per_step = 3, .packed = false}, x);
     EXPECT_EQ(summary.iterations, 7);
     EXPECT_EQ(summary.steps, 3);
 }
