@@ -57,7 +57,6 @@ std::string junit_report(const std::vector<CheckSuite>& suites);
 // The rules of a check: scenes, bounds on their frames, and tolerances for the comparison with a baseline. They are data in TOML; the keys
 // are documented at [[check.scene]] in experiments/verdicts/claims.toml.
 //   const CheckRules rules = parse_check_rules(text, "check.toml", known_metrics);
-
 // One table [[check.scene]].
 struct CheckScene {
     std::string name;              // the name by which bounds refer to it
@@ -136,7 +135,6 @@ CheckSuite frame_suite(const std::string& name, const std::vector<FrameBound>& b
                        const std::vector<RefusedFrame>& refused, double seconds);
 
 // Compares a scene's metrics.csv with a bound and with a baseline.
-
 // Every frame of the bound must lie within it. The case names the frame farthest outside or, if all hold, the one nearest to the bound. For
 // a two-sided bound that holds, it names the smallest and the largest value. InputError if the scene lacks the deformer, the frames or the
 // values.

@@ -27,11 +27,6 @@ double mean_motion(Steps::const_iterator begin, Steps::const_iterator end)
     return std::accumulate(begin, end, 0.0, [](double sum, const auto& step) { return sum + step.motion; }) / double(end - begin);
 }
 
-bool went_far(const Ending& ending, const StabilityBounds& bounds)
-{
-    return std::any_of(ending.begin, ending.end, [&](const auto& step) { return step.solved && !(step.reach <= bounds.farthest); });
-}
-
 bool motion_grows(const Ending& ending, double put_in, const StabilityBounds& bounds)
 {
     const auto third = (ending.end - ending.begin) / 3;
@@ -101,7 +96,8 @@ StabilityResult outcome_of(const std::vector<StabilityStep>& steps, int disturbe
     const Ending ending(steps, disturbed);
     double put_in = 0.0;
     for (int i = 0; i < std::min(disturbed, static_cast<int>(steps.size())); ++i) put_in = std::max(put_in, steps[i].motion);
-    if (went_far(ending, bounds) || motion_grows(ending, put_in, bounds)) return {StabilityOutcome::diverged, {}};
+    const auto is_far = [&](const StabilityStep& step) { return step.solved && !(step.reach <= bounds.farthest); };
+    if (std::any_of(ending.begin, ending.end, is_far) || motion_grows(ending, put_in, bounds)) return {StabilityOutcome::diverged, {}};
     if (steps.back().inverted_tets > 0) return {StabilityOutcome::inverted, {}};
     const int settled = settled_steps(steps, bounds);
     if (settled < bounds.still_steps) return {StabilityOutcome::bounded, {}};

@@ -182,14 +182,6 @@ Fit refine(Samples& samples, const Parameters& start)
     return fit;
 }
 
-double sum_of_squares(const std::vector<double>& y)
-{
-    const double centre = mean(y);
-    double sum = 0.0;
-    for (const double value : y) sum += (value - centre) * (value - centre);
-    return sum;
-}
-
 void add_values(DampedOscillation& swing, const Fit& fit, double level)
 {
     const double d = fit.value[0], w = std::abs(fit.value[1]), undamped = std::hypot(d, w);
@@ -222,7 +214,9 @@ DampedOscillation fit_damped_oscillation(const std::vector<double>& series, doub
         swing.outcome = OscillationOutcome::too_short;
         return swing;
     }
-    const double spread = sum_of_squares(samples.y);
+    const double centre = mean(samples.y);
+    double spread = 0.0;
+    for (const double y : samples.y) spread += (y - centre) * (y - centre);
     const Fit fit = refine(samples, best_start(samples));
     swing.explained = 1.0 - fit.residual / spread;
     add_values(swing, fit, level);

@@ -101,7 +101,6 @@ std::vector<OrderVerdict> judge_orders(const Claim& claim, const Records& record
 // Verdicts as files: claims.json holds the facts for programs, claims.md the most important of them as a table.
 //   write_text_atomically(folder + "/claims.json", claims_json(verdicts, revision).dump(2) + "\n");
 //   write_text_atomically(folder + "/claims.md", claims_markdown(verdicts));
-
 // {"schema": 2, "revision", "quantities": {NAME: {"title", "unit"}}, "claims": [{id, statement, place, study, rule, verdict, ...}]}. The
 // document holds facts alone and no sentences. The fields of a key (case_record.hpp) are members of the object that they describe. Values
 // that are not known or not finite are null. revision: the program that judged.

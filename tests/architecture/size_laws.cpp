@@ -125,7 +125,7 @@ std::string exceeded(const std::string& what, int value, int most, const std::st
 const std::vector<Budget> the_budgets = {
     {.what = "pbs", .folders = {"pbs/"}, .endings = cpp, .most_lines = 23'400, .least_mean = 120, .small_files = 7},
     {.what = "reference_fem", .folders = {"reference_fem/"}, .endings = cpp, .most_lines = 9'300, .least_mean = 120},
-    {.what = "analysis", .folders = {"analysis/"}, .endings = cpp, .most_lines = 6'300, .least_mean = 120, .small_files = 1},
+    {.what = "analysis", .folders = {"analysis/"}, .endings = cpp, .most_lines = 6'300, .least_mean = 120},
     {.what = "experiments", .folders = {"experiments/"}, .endings = cpp, .most_lines = 30'800, .least_mean = 120, .small_files = 27},
     {.what = "production C++", .folders = {"pbs/", "reference_fem/", "analysis/", "experiments/"}, .endings = cpp, .most_lines = 69'700},
     {.what = "tests in C++", .folders = {"tests/"}, .endings = cpp, .most_lines = 49'700, .least_mean = 120, .small_files = 11},
