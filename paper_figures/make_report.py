@@ -1,5 +1,5 @@
-"""Writes DIR's records and the figures drawn from them as one self-contained page, DIR/report.html, and prints what is missing in it. Exit
-status 2 if DIR holds no records.
+"""Writes DIR's records and the figures drawn from them as one self-contained page, DIR/report.html, and prints what is missing in it; and
+the pages of studies, DIR/STUDY/STUDY.md. Exit status 2 if DIR holds no records.
 
     python3 paper_figures/make_report.py results/reproduce
     python3 paper_figures/make_report.py --picture RUN    # only RUN/picture.png: the values of a single run over its frames
@@ -7,6 +7,7 @@ status 2 if DIR holds no records.
 import pathlib
 import sys
 
+import pages
 import report
 
 if __name__ == "__main__":
@@ -15,4 +16,7 @@ if __name__ == "__main__":
         print(__doc__, file=sys.stderr)
         sys.exit(2)
     folder = pathlib.Path(folders[0])
-    sys.exit(report.picture(folder) if "--picture" in sys.argv else report.main(folder, quiet="--quiet" in sys.argv))
+    if "--picture" in sys.argv:
+        sys.exit(report.picture(folder))
+    pages.write(folder)
+    sys.exit(report.main(folder, quiet="--quiet" in sys.argv))

@@ -9,15 +9,11 @@
 #include <deal.II/grid/tria.h>
 
 #include <algorithm>
-#include <cmath>
-#include <stdexcept>
 
 namespace reference_fem {
 
-// deal.II's side of a SimplexSpace. To be included by assembly.cpp and assembly.cpp only: it takes some 20 s to compile.
-// The requirements of deal.II 9.4.1 on tets: MappingFE everywhere (the default mapping crashes), QGaussSimplex<3>(n) with n <= 4.
-
-// Stays where it is made: the handler refers to the triangulation.
+// deal.II's side of a SimplexSpace. The requirements of deal.II 9.4.1 on tets: MappingFE everywhere (the default mapping crashes),
+// QGaussSimplex<3>(n) with n <= 4. Stays where it is made: the handler refers to the triangulation.
 struct SimplexSpace::Elements {
     // 1 or 2; the triangulation is filled later, by the space.
     explicit Elements(int element_order)
@@ -43,76 +39,6 @@ void fill_triangulation(const pbs::TetMesh& mesh, dealii::Triangulation<3>& tria
         for (int corner = 0; corner < 4; ++corner) cells[t].vertices[corner] = mesh.tets(t, corner);
     triangulation.create_triangulation(vertices, cells, dealii::SubCellData());
 }
-
-}  // namespace
-
-SimplexSpace::SimplexSpace(const pbs::TetMesh& mesh, int element_order) : element_order_(element_order)
-{
-    require(element_order == 1 || element_order == 2, "element_order", element_order, "expected 1 or 2");
-    check_mesh(mesh);
-    elements_ = std::make_unique<Elements>(element_order);
-    fill_triangulation(mesh, elements_->triangulation);
-    elements_->dof_handler.distribute_dofs(elements_->element);
-    number_nodes(mesh);
-}
-
-SimplexSpace::~SimplexSpace() = default;
-
-void SimplexSpace::number_nodes(const pbs::TetMesh& mesh)
-{
-    const auto& element = elements_->element;
-    auto& dof_handler = elements_->dof_handler;
-    const int per_tet = static_cast<int>(element.n_dofs_per_cell()) / 3;
-    tet_nodes_.resize(mesh.tets.rows(), per_tet);
-    node_positions_.resize(dof_handler.n_dofs() / 3, 3);
-    node_positions_.topRows(mesh.rest.rows()) = mesh.rest;
-
-    int next_node = static_cast<int>(mesh.rest.rows());
-    std::vector<dealii::types::global_dof_index> renumbered(dof_handler.n_dofs(), dealii::numbers::invalid_dof_index);
-    std::vector<dealii::types::global_dof_index> dofs(element.n_dofs_per_cell());
-    for (const auto& cell : dof_handler.active_cell_iterators()) {
-        const auto t = static_cast<Eigen::Index>(cell->active_cell_index());
-        cell->get_dof_indices(dofs);
-        for (unsigned int i = 0; i < dofs.size(); ++i) {
-            const auto [component, node_in_tet] = element.system_to_component_index(i);
-            auto& number = renumbered[dofs[i]];
-            if (node_in_tet < 4)
-                number = 3 * cell->vertex_index(node_in_tet) + component;
-            else if (number == dealii::numbers::invalid_dof_index)
-                number = component == 0 ? 3 * next_node++ : renumbered[dofs[element.component_to_system_index(0, node_in_tet)]] + component;
-            tet_nodes_(t, node_in_tet) = static_cast<int>(number / 3);
-            if (node_in_tet >= 4) {
-                const auto middle = cell->line(node_in_tet - 4)->center();
-                node_positions_.row(number / 3) << middle[0], middle[1], middle[2];
-            }
-        }
-    }
-    if (tet_nodes_.leftCols(4) != mesh.tets) throw std::logic_error("deal.II reordered the corners of a tet");
-    dof_handler.renumber_dofs(renumbered);
-}
-
-Eigen::VectorXd SimplexSpace::shape_values(const pbs::Vec3& barycentric) const
-{
-    const auto& scalar = elements_->element.base_element(0);
-    const dealii::Point<3> point(barycentric.x(), barycentric.y(), barycentric.z());
-    Eigen::VectorXd values(scalar.n_dofs_per_cell());
-    for (unsigned int i = 0; i < scalar.n_dofs_per_cell(); ++i) values(i) = scalar.shape_value(i, point);
-    return values;
-}
-
-pbs::Positions SimplexSpace::from_vertices(const pbs::Positions& at_vertices) const
-{
-    pbs::Positions on_nodes(nodes(), 3);
-    on_nodes.topRows(at_vertices.rows()) = at_vertices;
-    for (Eigen::Index t = 0; t < tet_nodes_.rows(); ++t)
-        for (Eigen::Index middle = 4; middle < tet_nodes_.cols(); ++middle) {
-            const auto& [first, second] = edge_corners[middle - 4];
-            on_nodes.row(tet_nodes_(t, middle)) = (at_vertices.row(tet_nodes_(t, first)) + at_vertices.row(tet_nodes_(t, second))) / 2.0;
-        }
-    return on_nodes;
-}
-
-namespace {
 
 using DofIndices = std::vector<dealii::types::global_dof_index>;
 
@@ -198,7 +124,86 @@ ElementTables tables_at(const SimplexSpace& space, const dealii::Quadrature<3>& 
     return tables;
 }
 
+// Nodes that share a tet with each node, itself included, increasing.
+std::vector<std::vector<int>> neighbours(const TetNodes& tet_nodes, int nodes)
+{
+    std::vector<std::vector<int>> adjacent(nodes);
+    for (const auto& tet : tet_nodes.rowwise())
+        for (const int node : tet) adjacent[node].insert(adjacent[node].end(), tet.begin(), tet.end());
+    for (auto& of_node : adjacent) {
+        std::sort(of_node.begin(), of_node.end());
+        of_node.erase(std::unique(of_node.begin(), of_node.end()), of_node.end());
+    }
+    return adjacent;
+}
+
 }  // namespace
+
+SimplexSpace::SimplexSpace(const pbs::TetMesh& mesh, int element_order) : element_order_(element_order)
+{
+    require(element_order == 1 || element_order == 2, "element_order", element_order, "expected 1 or 2");
+    check_mesh(mesh);
+    elements_ = std::make_unique<Elements>(element_order);
+    fill_triangulation(mesh, elements_->triangulation);
+    elements_->dof_handler.distribute_dofs(elements_->element);
+    number_nodes(mesh);
+}
+
+SimplexSpace::~SimplexSpace() = default;
+
+void SimplexSpace::number_nodes(const pbs::TetMesh& mesh)
+{
+    const auto& element = elements_->element;
+    auto& dof_handler = elements_->dof_handler;
+    const int per_tet = static_cast<int>(element.n_dofs_per_cell()) / 3;
+    tet_nodes_.resize(mesh.tets.rows(), per_tet);
+    node_positions_.resize(dof_handler.n_dofs() / 3, 3);
+    node_positions_.topRows(mesh.rest.rows()) = mesh.rest;
+
+    int next_node = static_cast<int>(mesh.rest.rows());
+    std::vector<dealii::types::global_dof_index> renumbered(dof_handler.n_dofs(), dealii::numbers::invalid_dof_index);
+    std::vector<dealii::types::global_dof_index> dofs(element.n_dofs_per_cell());
+    for (const auto& cell : dof_handler.active_cell_iterators()) {
+        const auto t = static_cast<Eigen::Index>(cell->active_cell_index());
+        cell->get_dof_indices(dofs);
+        for (unsigned int i = 0; i < dofs.size(); ++i) {
+            const auto [component, node_in_tet] = element.system_to_component_index(i);
+            auto& number = renumbered[dofs[i]];
+            if (node_in_tet < 4)
+                number = 3 * cell->vertex_index(node_in_tet) + component;
+            else if (number == dealii::numbers::invalid_dof_index)
+                number = component == 0 ? 3 * next_node++ : renumbered[dofs[element.component_to_system_index(0, node_in_tet)]] + component;
+            tet_nodes_(t, node_in_tet) = static_cast<int>(number / 3);
+            if (node_in_tet >= 4) {
+                const auto middle = cell->line(node_in_tet - 4)->center();
+                node_positions_.row(number / 3) << middle[0], middle[1], middle[2];
+            }
+        }
+    }
+    if (tet_nodes_.leftCols(4) != mesh.tets) throw std::logic_error("deal.II reordered the corners of a tet");
+    dof_handler.renumber_dofs(renumbered);
+}
+
+Eigen::VectorXd SimplexSpace::shape_values(const pbs::Vec3& barycentric) const
+{
+    const auto& scalar = elements_->element.base_element(0);
+    const dealii::Point<3> point(barycentric.x(), barycentric.y(), barycentric.z());
+    Eigen::VectorXd values(scalar.n_dofs_per_cell());
+    for (unsigned int i = 0; i < scalar.n_dofs_per_cell(); ++i) values(i) = scalar.shape_value(i, point);
+    return values;
+}
+
+pbs::Positions SimplexSpace::from_vertices(const pbs::Positions& at_vertices) const
+{
+    pbs::Positions on_nodes(nodes(), 3);
+    on_nodes.topRows(at_vertices.rows()) = at_vertices;
+    for (Eigen::Index t = 0; t < tet_nodes_.rows(); ++t)
+        for (Eigen::Index middle = 4; middle < tet_nodes_.cols(); ++middle) {
+            const auto& [first, second] = edge_corners[middle - 4];
+            on_nodes.row(tet_nodes_(t, middle)) = (at_vertices.row(tet_nodes_(t, first)) + at_vertices.row(tet_nodes_(t, second))) / 2.0;
+        }
+    return on_nodes;
+}
 
 SparseMatrix mass_matrix(const SimplexSpace& space, double density_kg_m3)
 {
@@ -312,23 +317,6 @@ ErrorNorms error_norms(const SimplexSpace& space, const Eigen::VectorXd& displac
     });
     return {std::sqrt(squared.l2), std::sqrt(squared.h1_seminorm)};
 }
-
-namespace {
-
-// Nodes that share a tet with each node, itself included, increasing.
-std::vector<std::vector<int>> neighbours(const TetNodes& tet_nodes, int nodes)
-{
-    std::vector<std::vector<int>> adjacent(nodes);
-    for (const auto& tet : tet_nodes.rowwise())
-        for (const int node : tet) adjacent[node].insert(adjacent[node].end(), tet.begin(), tet.end());
-    for (auto& of_node : adjacent) {
-        std::sort(of_node.begin(), of_node.end());
-        of_node.erase(std::unique(of_node.begin(), of_node.end()), of_node.end());
-    }
-    return adjacent;
-}
-
-}  // namespace
 
 NodalMatrix::NodalMatrix(const SimplexSpace& space) : matrix_(space.dofs(), space.dofs()), tet_nodes_(space.tet_nodes())
 {

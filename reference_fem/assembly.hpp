@@ -96,7 +96,6 @@ ErrorNorms error_norms(const SimplexSpace& space, const Eigen::VectorXd& displac
 
 // The elements of a space as arrays: what an energy over the tets needs of deal.II, computed once. On straight tets the gradients are
 // those of the rest configuration (total Lagrangian).
-
 // Quadrature point q of tet t has the index t * points_per_tet + q.
 struct ElementTables {
     int nodes_per_tet = 0, points_per_tet = 0;  // nodes: 4 or 10
@@ -123,7 +122,6 @@ ElementTables element_tables(const SimplexSpace& space, const TetQuadrature& qua
 
 // A symmetric sparse matrix over the nodes of a space, of 3 x 3 blocks: block (i, j) exists where a tet has both nodes. It is stored as
 // the plain compressed columns that SuiteSparse reads, so adding a block is nine additions in place.
-
 // Degree of freedom 3 n + c is component c at node n.
 class NodalMatrix {
 public:

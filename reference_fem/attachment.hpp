@@ -35,7 +35,6 @@ struct SetupSummary {
 
 // Springs between material points of the flesh and given targets: an energy sum_s k_s / 2 |x(p_s) - target_s|^2, where x(p_s) is
 // interpolated by the element's own shape functions. A point outside every tet is left out.
-
 // Keeps what it needs of mesh and space.
 class AttachedPoints {
 public:
@@ -79,13 +78,11 @@ private:
 };
 
 // A part of the mesh that nothing holds can move rigidly for free, and its stiffness matrix is singular.
-
 // Each connected part of the mesh (over shared vertices) must contain three held points that are not on one line, else pbs::InputError
 // naming a tet of the part. `points` [m], #P x 3, lie in `tets`, #P; -1: left out.
 void require_held(const pbs::TetMesh& mesh, const pbs::Positions& points, const std::vector<int>& tets);
 
 // A mesh's elements and what the skeleton holds of them: what LinearElasticity and ElasticBody have in common.
-
 // pbs::InputError where the springs, prescribed tets or bound vertices do not fit the mesh.
 void check_attachment(const pbs::TetMesh& mesh, const Attachment& attachment);
 

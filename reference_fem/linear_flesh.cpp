@@ -2,8 +2,6 @@
 
 #include "reference_fem/potentials/potentials.hpp"
 
-#include <cmath>
-
 namespace reference_fem {
 namespace {
 

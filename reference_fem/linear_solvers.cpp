@@ -15,21 +15,6 @@
 extern "C" void dgemm_();
 
 namespace reference_fem {
-
-std::unique_ptr<PreparedSolver> prepare(const SparseMatrix& matrix, LinearSolver solver, const NearNullSpace& near_null_space)
-{
-    use_one_blas_thread();
-    switch (solver) {
-        case LinearSolver::umfpack:
-            return prepare_umfpack(matrix);
-        case LinearSolver::cg_ml:
-            return prepare_cg_ml(matrix, near_null_space);
-        case LinearSolver::cholmod:
-            break;
-    }
-    return prepare_cholmod(matrix);
-}
-
 namespace {
 
 // OpenBLAS's own functions, looked up at run time: the program must also run on another BLAS.
@@ -46,25 +31,6 @@ std::string file_of(void (*function)())
     char resolved[PATH_MAX];
     return realpath(info.dli_fname, resolved) ? resolved : info.dli_fname;
 }
-
-}  // namespace
-
-std::string resolved_blas()
-{
-    auto* config = find<char*()>("openblas_get_config");
-    const std::string library = config ? config() : "not OpenBLAS";
-    const std::string file = file_of(&dgemm_);
-    return library + " (" + file.substr(file.rfind('/') + 1) + ")";
-}
-
-void use_one_blas_thread()
-{
-    if (auto* set_threads = find<void(int)>("openblas_set_num_threads")) set_threads(1);
-}
-
-// CHOLMOD: Y. Chen, T. Davis, W. Hager, S. Rajamanickam, Algorithm 887, ACM TOMS 35(3), 2008.
-
-namespace {
 
 static_assert(sizeof(SuiteSparse_long) == sizeof(SparseMatrix::StorageIndex));
 
@@ -98,6 +64,7 @@ cholmod_dense view(const Eigen::VectorXd& vector)
     return dense;
 }
 
+// CHOLMOD: Y. Chen, T. Davis, W. Hager, S. Rajamanickam, Algorithm 887, ACM TOMS 35(3), 2008.
 class CholmodFactor : public PreparedSolver {
 public:
     explicit CholmodFactor(const SparseMatrix& matrix) : matrix_(matrix)
@@ -163,17 +130,7 @@ private:
     mutable cholmod_dense *solution_ = nullptr, *work_ = nullptr, *permuted_ = nullptr;
 };
 
-}  // namespace
-
-std::unique_ptr<PreparedSolver> prepare_cholmod(const SparseMatrix& matrix)
-{
-    return std::make_unique<CholmodFactor>(matrix);
-}
-
 // UMFPACK: T. Davis, Algorithm 832, ACM TOMS 30(2), 2004. It knows nothing of symmetry: a second opinion on the same matrix.
-
-namespace {
-
 class UmfpackFactor : public PreparedSolver {
 public:
     explicit UmfpackFactor(const SparseMatrix& matrix) : matrix_(matrix)
@@ -230,15 +187,6 @@ private:
     void *symbolic_ = nullptr, *numeric_ = nullptr;
 };
 
-}  // namespace
-
-std::unique_ptr<PreparedSolver> prepare_umfpack(const SparseMatrix& matrix)
-{
-    return std::make_unique<UmfpackFactor>(matrix);
-}
-
-namespace {
-
 constexpr int not_in_block = -1;
 
 std::vector<int> places(const std::vector<int>& kept, Eigen::Index size)
@@ -256,6 +204,43 @@ bool are_whole_nodes(const std::vector<int>& dofs)
 }
 
 }  // namespace
+
+std::string resolved_blas()
+{
+    auto* config = find<char*()>("openblas_get_config");
+    const std::string library = config ? config() : "not OpenBLAS";
+    const std::string file = file_of(&dgemm_);
+    return library + " (" + file.substr(file.rfind('/') + 1) + ")";
+}
+
+void use_one_blas_thread()
+{
+    if (auto* set_threads = find<void(int)>("openblas_set_num_threads")) set_threads(1);
+}
+
+std::unique_ptr<PreparedSolver> prepare_cholmod(const SparseMatrix& matrix)
+{
+    return std::make_unique<CholmodFactor>(matrix);
+}
+
+std::unique_ptr<PreparedSolver> prepare_umfpack(const SparseMatrix& matrix)
+{
+    return std::make_unique<UmfpackFactor>(matrix);
+}
+
+std::unique_ptr<PreparedSolver> prepare(const SparseMatrix& matrix, LinearSolver solver, const NearNullSpace& near_null_space)
+{
+    use_one_blas_thread();
+    switch (solver) {
+        case LinearSolver::umfpack:
+            return prepare_umfpack(matrix);
+        case LinearSolver::cg_ml:
+            return prepare_cg_ml(matrix, near_null_space);
+        case LinearSolver::cholmod:
+            break;
+    }
+    return prepare_cholmod(matrix);
+}
 
 EliminatedSystem::Block EliminatedSystem::block(const SparseMatrix& matrix, const std::vector<int>& rows, const std::vector<int>& columns)
 {

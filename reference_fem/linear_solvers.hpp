@@ -55,14 +55,12 @@ std::unique_ptr<PreparedSolver> prepare_umfpack(const SparseMatrix& matrix);  //
 std::unique_ptr<PreparedSolver> prepare_cg_ml(const SparseMatrix& matrix, const NearNullSpace& near_null_space);  // starts MPI
 
 // The null space of a stiffness matrix without supports: the six rigid motions. Smoothed aggregation keeps them on its coarse levels.
-
 // Three translations and three rotations about `centre` over `length_m`, #dofs x 6; nodes [m], degree of freedom 3 n + c.
 Eigen::MatrixXd rigid_body_modes(const pbs::Positions& nodes, const pbs::Vec3& centre, double length_m);
 Eigen::MatrixXd rigid_body_modes(const pbs::Positions& nodes);  // about the middle of their bounding box, over its diagonal
 
 // How Trilinos ML builds its hierarchy for elasticity: P. Vanek, J. Mandel, M. Brezina, Algebraic multigrid by smoothed aggregation for
 // second and fourth order elliptic problems, Computing 56, 1996.
-
 // `modes`: near-null space on this rank's rows, column after column, #rows x #modes; outlives the set-up. `block_size`: 3 where whole
 // nodes are contiguous, 1 otherwise.
 Teuchos::ParameterList smoothed_aggregation(double* modes, int number_of_modes, int block_size);
@@ -75,7 +73,6 @@ void use_one_blas_thread();
 
 // K u = f with some degrees of freedom prescribed, by elimination: K_ff u_f = f_f - K_fp u_p. K_ff is factored once and K_fp is kept, so
 // new loads and new prescribed values cost a right-hand side and a re-solve.
-
 // Values of all degrees of freedom, with the prescribed ones at their values.
 struct EliminatedSolution {
     Eigen::VectorXd displacement;  // [m], #dofs; not finite where the factorisation broke down

@@ -17,7 +17,6 @@ enum class Formulation {
 };
 
 // Constitutive laws by name; their definitions are in laws/.
-
 // All laws are isotropic and have the same limit at small strain.
 enum class Model {
     linear,                 // small strain: a rotation by a produces a fictitious strain of 1 - cos(a)
@@ -31,7 +30,6 @@ enum class Model {
 };
 
 // Isotropic linear elasticity: stress = lambda tr(eps) I + 2 mu eps.
-
 // Lame's parameters; lambda < 0 where nu < 0.
 struct Lame {
     double lambda_pa = 0.0;  // E nu / ((1 + nu) (1 - 2 nu))
@@ -42,7 +40,6 @@ struct Lame {
 Lame lame_parameters(double young_pa, double poisson);
 
 // How a body moves in time.
-
 // The schemes in time are those of dynamics/time_stepper.hpp.
 enum class Dynamics {
     quasi_static,       // equilibrium in every pose
@@ -51,12 +48,10 @@ enum class Dynamics {
 };
 
 // The sparse solver of K u = f: two direct ones of SuiteSparse, and conjugate gradients with Trilinos ML for what does not fit.
-
 // linear_solvers.hpp describes each of them; cholmod is the default everywhere.
 enum class LinearSolver { cholmod, umfpack, cg_ml };
 
 // When conjugate gradients stop.
-
 // Limits of each solve; the first of the two that is met ends it.
 struct IterativeOptions {
     double tolerance = 1e-10;    // of the residual relative to the right-hand side
@@ -64,7 +59,6 @@ struct IterativeOptions {
 };
 
 // Checks of the reference solver's input. Each violation is a pbs::InputError that names the field, the value and the rule.
-
 // Throws unless it holds; without file and line, since the input is arrays.
 template <typename Value>
 void require(bool holds, const char* field, const Value& value, const char* rule)

@@ -6,7 +6,7 @@ endif()
 # Tests that load deal.II at run time, in the module pbskin_fem.
 set(with_the_module experiments/deformers/fem/fem_module experiments/deformers/flesh_limits
     experiments/studies/convergence/convergence_case
-    experiments/studies/ensemble/ensemble experiments/studies/error_split/error_split experiments/studies/fit/fit
+    experiments/studies/ensemble/ensemble experiments/studies/fit/fit
     experiments/studies/shared/posed_reference experiments/studies/stability/broken_fem_starts experiments/broken_bulge)
 set(left_out)
 if(NOT PBS_WITH_FEM)

@@ -16,7 +16,7 @@ else()
 endif()
 if(NOT PBS_WITH_RIG_IMPORT)
     list(APPEND left_out pbs/character/skeleton_file pbs/character/clip pbs/character/bodies
-        pbs/rig/assimp_rig pbs/rig/glb_writer pbs/rig/gltf_rig pbs/rig/rig_bytes pbs/rig/rig_reader)
+        pbs/rig/assimp_rig pbs/rig/glb_writer pbs/rig/gltf_rig pbs/rig/rig_reader)
 endif()
 
 pbs_tests(unit pbs_files

@@ -13,8 +13,8 @@ find_package(ZLIB REQUIRED)
 find_package(VTK REQUIRED COMPONENTS CommonCore CommonDataModel CommonMisc IOLegacy IOXML)
 
 # fuzz_target(fuzz/NAME.cpp LIBRARY SOURCE...): a target and the sources that it tests. The replay links the library. libFuzzer's program
-# compiles the sources itself, so that all of them are instrumented, without those that use CGAL. Libraries from elsewhere, which are not
-# instrumented, are linked by fuzz_libraries(NAME LIBRARY...).
+# compiles the sources itself, instrumented and without CGAL, and takes from the library what else they call, so that the preset compiles
+# each source alone. Libraries from elsewhere are linked by fuzz_libraries(NAME LIBRARY...).
 function(fuzz_target target library)
     cmake_path(GET target STEM name)
     set(folders ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/corpus/${name})
@@ -29,7 +29,7 @@ function(fuzz_target target library)
     if(PBS_WITH_FUZZ)
         list(TRANSFORM ARGN PREPEND ${PROJECT_SOURCE_DIR}/)
         add_executable(fuzz_${name} ${target} ${ARGN})
-        target_link_libraries(fuzz_${name} PRIVATE pbs_settings fmt::fmt tomlplusplus::tomlplusplus nlohmann_json::nlohmann_json)
+        target_link_libraries(fuzz_${name} PRIVATE pbs_settings ${library} fmt::fmt tomlplusplus::tomlplusplus nlohmann_json::nlohmann_json)
         set_target_properties(fuzz_${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
         target_compile_options(fuzz_${name} PRIVATE -UPBS_WITH_CGAL -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=undefined)
         target_link_options(fuzz_${name} PRIVATE -fsanitize=fuzzer,address,undefined)
@@ -48,16 +48,14 @@ fuzz_target(fuzz/scene.cpp experiments
     experiments/deformers/fem/fem_kind.cpp experiments/process/machine.cpp pbs/geometry/module.cpp
     pbs/geometry/files.cpp pbs/geometry/input_error.cpp)
 fuzz_target(fuzz/mesh.cpp pbs_mesh_io
-    pbs/geometry/guarded_reading.cpp pbs/geometry/child_process.cpp pbs/geometry/mesh_checks.cpp pbs/geometry/files.cpp
-    pbs/geometry/tet_mesh.cpp pbs/geometry/topology.cpp pbs/geometry/input_error.cpp)
+    pbs/geometry/mesh_checks.cpp pbs/geometry/files.cpp pbs/geometry/tet_mesh.cpp pbs/geometry/topology.cpp pbs/geometry/input_error.cpp)
 fuzz_target(fuzz/skeleton.cpp pbs_character
     pbs/character/skeleton_file.cpp pbs/character/folded_skeleton.cpp pbs/geometry/files.cpp pbs/geometry/input_error.cpp)
 fuzz_target(fuzz/clip.cpp pbs_character
-    pbs/character/clip_bytes.cpp pbs/character/retarget.cpp pbs/skinning/pose_path.cpp
-    pbs/skinning/pose.cpp pbs/geometry/input_error.cpp)
+    pbs/character/clip.cpp pbs/character/retarget.cpp pbs/skinning/pose_path.cpp pbs/skinning/pose.cpp pbs/geometry/input_error.cpp)
 fuzz_target(fuzz/rig.cpp pbs_rig
-    pbs/rig/rigged_body.cpp pbs/rig/gltf_rig.cpp pbs/rig/gltf_model.cpp pbs/rig/rig_pose.cpp pbs/rig/rig_bytes.cpp
-    pbs/rig/rig_reader.cpp pbs/rig/tiny_gltf.cpp pbs/skinning/pose_path.cpp pbs/skinning/pose.cpp
+    pbs/rig/rigged_body.cpp pbs/rig/gltf_rig.cpp pbs/rig/gltf_model.cpp pbs/rig/rig_pose.cpp
+    pbs/rig/rig_reader.cpp pbs/skinning/pose_path.cpp pbs/skinning/pose.cpp
     pbs/geometry/content_format.cpp pbs/geometry/files.cpp pbs/geometry/input_error.cpp)
 fuzz_target(fuzz/texts.cpp experiments
     analysis/records/tables.cpp analysis/records/record_files.cpp
@@ -69,12 +67,12 @@ fuzz_target(fuzz/files.cpp pbs_character
     pbs/geometry/content_format.cpp pbs/geometry/msh_files.cpp pbs/geometry/mesh_checks.cpp pbs/geometry/files.cpp
     pbs/geometry/input_error.cpp)
 fuzz_target(fuzz/assimp.cpp pbs_rig
-    pbs/rig/assimp_rig.cpp pbs/rig/rigged_body.cpp pbs/rig/collada_and_fbx.cpp pbs/rig/rig_pose.cpp pbs/rig/rig_bytes.cpp
+    pbs/rig/assimp_rig.cpp pbs/rig/rigged_body.cpp pbs/rig/collada_and_fbx.cpp pbs/rig/rig_pose.cpp
     pbs/rig/rig_reader.cpp pbs/skinning/pose_path.cpp pbs/skinning/pose.cpp pbs/geometry/content_format.cpp
     pbs/geometry/files.cpp pbs/geometry/input_error.cpp)
 fuzz_libraries(assimp assimp::assimp pugixml::pugixml ${MINIZIP_LIBRARY} ZLIB::ZLIB)
 fuzz_target(fuzz/content.cpp pbs_mesh_io
-    pbs/geometry/content_format.cpp pbs/geometry/guarded_reading.cpp pbs/geometry/mesh_io.cpp pbs/geometry/mesh_checks.cpp
+    pbs/geometry/content_format.cpp pbs/geometry/mesh_io.cpp pbs/geometry/mesh_checks.cpp
     pbs/geometry/msh_files.cpp pbs/geometry/files.cpp pbs/geometry/vtk_files.cpp pbs/geometry/surface_reader.cpp
     pbs/geometry/tet_mesh.cpp pbs/geometry/tetgen_and_tobj.cpp pbs/geometry/topology.cpp pbs/geometry/input_error.cpp)
 fuzz_libraries(content assimp::assimp ${VTK_LIBRARIES})

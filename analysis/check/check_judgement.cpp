@@ -1,12 +1,10 @@
-#include "analysis/check/check_judgement.hpp"
+#include "analysis/check/check.hpp"
 
 #include "analysis/statistics/statistics.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <map>
 #include <set>
 #include <tuple>

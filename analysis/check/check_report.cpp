@@ -1,4 +1,4 @@
-#include "analysis/check/check_report.hpp"
+#include "analysis/check/check.hpp"
 
 #include <fmt/format.h>
 #include <pugixml.hpp>

@@ -1,4 +1,4 @@
-#include "analysis/check/check_rules.hpp"
+#include "analysis/check/check.hpp"
 
 #include "analysis/records/tables.hpp"
 #include "analysis/records/toml_keys.hpp"
@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace analysis {
 namespace {

@@ -44,7 +44,6 @@ SectionExtremes section_extremes(const pbs::Positions& rest, const pbs::Position
 //   const pbs::Positions* outline = enclosing_outline(outlines, {axis_point, axis_direction});
 //   const OutlineSize size = outline_size(*outline);   // size.smallest_radius_m near zero: a candy wrapper
 // Outlines are closed lines in a plane, points [m], #P x 3, the first not repeated at its end.
-
 // Radii are distances from the centroid of the outline (weighted by length), so that flesh that is displaced as a whole does not count as
 // thinner.
 struct OutlineSize {
@@ -63,7 +62,6 @@ const pbs::Positions* enclosing_outline(const std::vector<pbs::Positions>& outli
 // Which part of the skin an outline consists of. A plane through an arm that lies in the trunk cuts the skin of both, and the two may form
 // one outline.
 //   share_of_outline(outline, plane, positions, skin, of_the_arm);   // 0.1: most of the outline belongs to the trunk
-
 // The share of the length of an outline, cut out of the skin by the plane, that lies on edges whose nearer vertex is one of `chosen`, #V.
 // 1 for an outline without length.
 double share_of_outline(const pbs::Positions& outline, const Plane& plane, const pbs::Positions& positions, const pbs::Triangles& skin,

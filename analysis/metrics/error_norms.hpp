@@ -55,7 +55,6 @@ double error_h1_pct(const pbs::Positions& rest, const pbs::Tets& tets, const pbs
 //   const SmoothnessMetrics smoothness_metrics(mesh.rest, mesh.tets, near_the_joint);
 //   smoothness_metrics.measure(positions).strain_jump_rms;
 // Strains are invariant under rotation: a region that turns as a whole is as smooth as at rest.
-
 // Both members are 0 at rest, and for a region without faces or edges to measure.
 struct Smoothness {
     // rms over inner faces, weighted by rest area, of |E - E'|, E = (F^T F - 1) / 2 of the tets on both sides (Green), Frobenius norm.

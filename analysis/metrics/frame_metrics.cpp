@@ -45,10 +45,8 @@ Eigen::VectorXd edge_lengths(const pbs::Positions& positions, const pbs::Edges& 
 std::vector<double> edge_ratios(const pbs::Positions& rest, const pbs::Edges& edges, const pbs::Positions& positions)
 {
     require_points(positions, rest.rows(), "the frame");
-    const auto length = [&](const pbs::Positions& x, Eigen::Index e) { return (x.row(edges(e, 0)) - x.row(edges(e, 1))).norm(); };
-    std::vector<double> ratios;
-    for (Eigen::Index e = 0; e < edges.rows(); ++e) ratios.push_back(length(positions, e) / length(rest, e));
-    return ratios;
+    const Eigen::VectorXd ratios = edge_lengths(positions, edges).cwiseQuotient(edge_lengths(rest, edges));
+    return {ratios.begin(), ratios.end()};
 }
 
 void require_closed(const pbs::Positions& points, const pbs::Triangles& triangles)

@@ -14,7 +14,6 @@ namespace analysis {
 
 // Neumaier's compensated sum. Its result hardly depends on the order of the terms, and never on the number of threads.
 //   CompensatedSum sum;  for (double term : terms) sum += term;  double total = sum.value();
-
 // A. Neumaier, Z. Angew. Math. Mech. 54, 1974.
 class CompensatedSum {
 public:
@@ -33,7 +32,6 @@ private:
 };
 
 // The requirements of every measurement on its rest mesh: indices in range, and a positive volume of every tet.
-
 // The rest volumes [m^3], #T; InputError if the mesh violates a requirement.
 Eigen::VectorXd checked_rest_volumes(const pbs::Positions& rest, const pbs::Tets& tets);
 
@@ -74,7 +72,6 @@ double bind_rms(const pbs::Positions& positions, const pbs::Positions& bind_poin
 
 // The edge that is stretched or compressed most: largest |l / l0 - 1| over the edges of a tet mesh.
 //   double strain = largest_edge_strain(mesh.rest, pbs::edges_of(mesh.tets), positions);
-
 // 0 without edges; NaN if a position is NaN. InputError for a frame with another number of points.
 double largest_edge_strain(const pbs::Positions& rest, const pbs::Edges& edges, const pbs::Positions& positions);
 
@@ -84,7 +81,6 @@ double median_edge_ratio(const pbs::Positions& rest, const pbs::Edges& edges, co
 
 // The volume that each region of a body gains or loses. Regions are disjoint sets of tets.
 //   const std::vector<RegionVolume> changes = RegionMetrics(mesh.rest, mesh.tets, region_of_tet).measure(positions);
-
 // Computed from signed tet volumes; all members are 0 for a region without tets.
 struct RegionVolume {
     double rest_m3 = 0.0;        // sum V0_t
@@ -110,7 +106,6 @@ private:
 
 // The volume that a closed triangle surface encloses, and how much of it the render surface embedded in the tets gains or loses.
 //   const double change_pct = surface_volume_change_pct(rest_points, posed_points, triangles);
-
 // Divergence theorem: the sum of (a x b) . c / 6 over the triangles [m^3], positive when they face outward. InputError unless the surface
 // is closed and oriented (each edge occurs equally often in both directions). Where the surface crosses itself, parts count by their
 // winding number.

@@ -2,7 +2,6 @@
 
 #include "generated/build_facts.hpp"
 
-#include <Eigen/Core>
 #include <fmt/core.h>
 #include <gsl/gsl_version.h>
 #include <nlohmann/json.hpp>
@@ -40,18 +39,18 @@ std::map<std::string, std::string> own_libraries()
 
 Provenance collect_provenance(int threads)
 {
-    Provenance provenance;
-    provenance.version = build_facts::version;
-    provenance.git_revision = build_facts::git_revision;
-    provenance.git_dirty = build_facts::git_dirty;
-    provenance.compiler = build_facts::compiler;
-    provenance.flags = build_facts::flags;
-    provenance.build_type = build_facts::build_type;
-    provenance.cpu_model = cpu_model();
-    provenance.logical_cpus = static_cast<int>(std::thread::hardware_concurrency());
-    provenance.threads = threads;
-    provenance.libraries = own_libraries();
-    return provenance;
+    return {.version = build_facts::version,
+            .git_revision = build_facts::git_revision,
+            .git_dirty = build_facts::git_dirty,
+            .compiler = build_facts::compiler,
+            .flags = build_facts::flags,
+            .build_type = build_facts::build_type,
+            .cpu_model = cpu_model(),
+            .logical_cpus = static_cast<int>(std::thread::hardware_concurrency()),
+            .threads = threads,
+            .libraries = own_libraries(),
+            .blas = {},
+            .input_hashes = {}};
 }
 
 void to_json(nlohmann::json& document, const Provenance& provenance)
@@ -70,25 +69,16 @@ void to_json(nlohmann::json& document, const Provenance& provenance)
     if (!provenance.blas.empty()) document["blas"] = provenance.blas;
 }
 
-struct StateHash::State {
-    State() : state(XXH3_createState())
-    {
-        if (!state) throw std::bad_alloc{};
-        XXH3_128bits_reset(state);
-    }
-    ~State() { XXH3_freeState(state); }
-    State(const State&) = delete;
-    State& operator=(const State&) = delete;
-
-    XXH3_state_t* state;
-};
-
-StateHash::StateHash() : state_(std::make_unique<State>())
+void StateHash::Free::operator()(XXH3_state_s* state) const
 {
+    XXH3_freeState(state);
 }
-StateHash::~StateHash() = default;
-StateHash::StateHash(StateHash&&) noexcept = default;
-StateHash& StateHash::operator=(StateHash&&) noexcept = default;
+
+StateHash::StateHash() : state_(XXH3_createState())
+{
+    if (!state_) throw std::bad_alloc{};
+    XXH3_128bits_reset(state_.get());
+}
 
 void StateHash::add(const pbs::Positions& positions)
 {
@@ -97,13 +87,13 @@ void StateHash::add(const pbs::Positions& positions)
 
 void StateHash::add_bytes(const void* bytes, std::size_t count)
 {
-    if (count > 0) XXH3_128bits_update(state_->state, bytes, count);
+    if (count > 0) XXH3_128bits_update(state_.get(), bytes, count);
 }
 
 std::string StateHash::hex() const
 {
     XXH128_canonical_t canonical;
-    XXH128_canonicalFromHash(&canonical, XXH3_128bits_digest(state_->state));
+    XXH128_canonicalFromHash(&canonical, XXH3_128bits_digest(state_.get()));
     std::string text;
     for (unsigned char byte : canonical.digest) {
         text += "0123456789abcdef"[byte >> 4];

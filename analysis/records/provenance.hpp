@@ -12,6 +12,8 @@
 #include <memory>
 #include <string>
 
+struct XXH3_state_s;  // of xxHash
+
 namespace analysis {
 
 // The facts that two machines of a kind share, and those that a run adds.
@@ -35,22 +37,20 @@ void to_json(nlohmann::json& document, const Provenance& provenance);  // an obj
 // The state of a run in 32 hexadecimal digits: XXH3 128 of the bytes of all positions of all frames, in order. Two runs agree to the bit if
 // their hashes do. `xxhsum -H2` on the little-endian Float64 of the frames, one after the other, gives the same hash.
 //   StateHash hash;  for (frame...) hash.add(deformer.positions());  run["state_hash"] = hash.hex();
-
 // A stream: only the bytes and their order matter, not the portions in which they are added.
 class StateHash {
 public:
     StateHash();
-    ~StateHash();
-    StateHash(StateHash&&) noexcept;             // an object that was moved from may only be assigned to
-    StateHash& operator=(StateHash&&) noexcept;  // likewise
 
     void add(const pbs::Positions& positions);             // row by row, 24 bytes per vertex
     void add_bytes(const void* bytes, std::size_t count);  // as in memory; does nothing for count 0
     std::string hex() const;                               // the hash of everything added so far
 
 private:
-    struct State;
-    std::unique_ptr<State> state_;
+    struct Free {
+        void operator()(XXH3_state_s* state) const;
+    };
+    std::unique_ptr<XXH3_state_s, Free> state_;  // an object that was moved from may only be assigned to
 };
 
 }  // namespace analysis

@@ -23,7 +23,6 @@ bool is_utf8(const std::string& text);
 
 // Writes records as whole files or not at all, by pbs::write_atomically, and removes what killed writers left behind.
 //   write_text_atomically("results/run.json", document.dump(2) + "\n");
-
 // InputError with the system's reason if the folder is missing, cannot be written or is full; nothing is left behind in that case.
 void write_text_atomically(const std::string& path, const std::string& text);
 
@@ -40,7 +39,6 @@ std::string read_text(const std::string& path);
 
 // Lists and removes the files of a folder. Where the system refuses, the error names the file and the reason.
 //   remove_record(folder / "run.json");  for (const fs::path& file : files_in(folder / "frames")) ...
-
 // Removes a file of an earlier run, so that it does not remain next to the files of the next one; a missing file is no error.
 void remove_record(const std::filesystem::path& file);
 

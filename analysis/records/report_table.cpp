@@ -2,11 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <regex>
-#include <sstream>
 
 namespace analysis {
 namespace {

@@ -15,7 +15,6 @@ namespace analysis {
 
 // Text for a terminal: lines wrapped between words to a width, and columns side by side.
 //   fmt::print("{}", side_by_side({{"C02", 4}, {"reproduced in part", 14}, {statement, 40}}));
-
 // Lines of at most `width` characters (UTF-8 code points, not bytes). A longer word is broken, and line breaks in the text are kept.
 std::vector<std::string> wrapped(const std::string& text, std::size_t width);
 
@@ -48,7 +47,6 @@ std::string text_table(const CsvTable& table, const std::vector<ReportColumn>& c
 
 // Markdown as plain text for a terminal.
 //   fmt::print("{}", plain_text(page, terminal_width()));
-
 // Headings, paragraphs, lists and tables within `width` characters. Only the text of a link is kept, and comments are left out. Lines of
 // code keep their blanks unless they are too long.
 std::string plain_text(const std::string& markdown, std::size_t width);

@@ -90,7 +90,6 @@ CsvTable read_csv(const std::string& path);  // InputError as for read_text and 
 //   const std::vector<Distance> rows = rows_of(distance_columns, read_csv("distances.csv"));
 // A member is a double, int, long, long long, bool (0 or 1), std::string, an enum with EnumNames, std::optional of one (nothing: an empty
 // cell), or a list of names without spaces.
-
 // The names of an enum's values in records; a specialisation defines `table`, an array of pairs of value and name.
 template <typename Enum>
 struct EnumNames;
@@ -321,7 +320,6 @@ std::vector<Row> rows_of(const Columns<Row>& columns, const CsvTable& table)
 // Columns that a file has only if some row has a value for them.
 //   const auto columns = Columns<Row>{{"value", &Row::value, "", "..."}} + optional({{"n", &Row::n, "", "number of trials"}});
 //   table_of(used_columns(columns, rows), rows).write("values.csv");
-
 // Each column becomes a group of its own: files without it are read, and its member keeps its default value.
 template <typename Row>
 Columns<Row> optional(Columns<Row> columns)

@@ -10,14 +10,9 @@
 #include <gsl/gsl_fit.h>
 #include <gsl/gsl_multifit_nlinear.h>
 
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <numbers>
-#include <string>
-#include <utility>
 
 namespace analysis {
 namespace {
@@ -30,11 +25,12 @@ void require_points_for_a_line(const std::vector<double>& x, const std::vector<d
     if (!(*least < *most)) throw pbs::InputError("", 0, "x of a line fit", fmt::format("{}", *least), "expected values that differ");
 }
 
-Interval student_interval(double estimate, double variance, double level, std::size_t n)
+// By Student's t, for a value fitted with so many parameters to n points; NaN bounds unless there are more points.
+Interval student_interval(double estimate, double variance, double level, int n, int parameters)
 {
     double half_width = std::numeric_limits<double>::quiet_NaN();
-    if (n > 2) half_width = gsl_cdf_tdist_Pinv((1.0 + level) / 2.0, static_cast<double>(n - 2)) * std::sqrt(variance);
-    return {estimate, estimate - half_width, estimate + half_width, level, static_cast<int>(n), 0};
+    if (n > parameters) half_width = gsl_cdf_tdist_Pinv((1.0 + level) / 2.0, n - parameters) * std::sqrt(variance);
+    return {estimate, estimate - half_width, estimate + half_width, level, n, 0};
 }
 
 std::vector<double> logarithms(std::vector<double> values, const char* name)
@@ -53,8 +49,9 @@ LineFit fit_line(const std::vector<double>& x, const std::vector<double>& y, dou
     require_points_for_a_line(x, y);
     double intercept, slope, var_intercept, covariance, var_slope, squares;
     gsl_fit_linear(x.data(), 1, y.data(), 1, x.size(), &intercept, &slope, &var_intercept, &covariance, &var_slope, &squares);
-    return {student_interval(slope, var_slope, level, x.size()), student_interval(intercept, var_intercept, level, x.size()),
-            std::sqrt(squares / static_cast<double>(x.size()))};
+    const int n = static_cast<int>(x.size());
+    return {student_interval(slope, var_slope, level, n, 2), student_interval(intercept, var_intercept, level, n, 2),
+            std::sqrt(squares / n)};
 }
 
 LineFit observed_order(const std::vector<double>& h, const std::vector<double>& error, double level)
@@ -193,21 +190,15 @@ double sum_of_squares(const std::vector<double>& y)
     return sum;
 }
 
-Interval interval_of(double estimate, double variance, double level, int samples)
-{
-    const double half = gsl_cdf_tdist_Pinv(0.5 + 0.5 * level, samples - parameters) * std::sqrt(variance);
-    return {estimate, estimate - half, estimate + half, level, samples, 0};
-}
-
 void add_values(DampedOscillation& swing, const Fit& fit, double level)
 {
     const double d = fit.value[0], w = std::abs(fit.value[1]), undamped = std::hypot(d, w);
-    swing.frequency_hz =
-        interval_of(w / (2.0 * std::numbers::pi), fit.covariance(1, 1) / std::pow(2.0 * std::numbers::pi, 2), level, swing.samples);
+    swing.frequency_hz = student_interval(w / (2.0 * std::numbers::pi), fit.covariance(1, 1) / std::pow(2.0 * std::numbers::pi, 2), level,
+                                          swing.samples, parameters);
     const double by_d = w * w / std::pow(undamped, 3), by_w = -d * w / std::pow(undamped, 3);
     const double variance =
         by_d * by_d * fit.covariance(0, 0) + by_w * by_w * fit.covariance(1, 1) + 2.0 * by_d * by_w * fit.covariance(0, 1);
-    swing.damping_ratio = interval_of(d / undamped, std::max(variance, 0.0), level, swing.samples);
+    swing.damping_ratio = student_interval(d / undamped, std::max(variance, 0.0), level, swing.samples, parameters);
     swing.amplitude = std::hypot(fit.value[2], fit.value[3]);
     swing.offset = fit.value[4];
 }

@@ -37,7 +37,6 @@ PowerLawEnd power_law_end(const std::vector<double>& sizes, const std::vector<do
 // point of a grid of initial guesses. The result is frequency and damping ratio with intervals, or the reason why there is none.
 //   const DampedOscillation swing = fit_damped_oscillation(series, 0.01);
 //   if (swing.found()) use(swing.frequency_hz.estimate, swing.damping_ratio.estimate);
-
 // overdamped: the series creeps back, and w is only a rate. too_short: fewer than 8 samples before the motion has died away. unclear: the
 // model explains less than half of the variance. none: nothing moves.
 enum class OscillationOutcome { found, overdamped, too_short, unclear, none };

@@ -43,7 +43,6 @@ GridConvergence two_fields(double difference, double ratio, double order);
 //   order.bound(0.1);         // of the quadratic solution on the refined tets
 //   2.0 + order.bound(0.1);   // of any other one, by the triangle inequality
 // Where the finest solution was not reached, the other three give a wider bound (order_without_finest).
-
 // The distances of the other solutions from the quadratic one on the refined tets, in any norm and unit.
 struct NestedDistances {
     double linear = 0.0;          // linear elements, unrefined tets

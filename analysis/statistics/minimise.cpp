@@ -7,10 +7,7 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_min.h>
 
-#include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <limits>
 #include <map>
 #include <memory>
 

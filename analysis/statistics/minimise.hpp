@@ -75,7 +75,6 @@ FittedParameter fit_over_cases(const std::vector<Misfit>& misfits, double low, d
 //   best_within(points, 0.6);                                                                       // 1
 // V. Pareto, Cours d'economie politique, 1896; work-precision diagrams: E. Hairer, G. Wanner, Solving ordinary differential equations II,
 // 1996. Points whose cost or error is not finite are ignored.
-
 // One measured point; less is better for both members.
 struct WorkPrecision {
     double cost = 0.0;   // any unit, the same for all points

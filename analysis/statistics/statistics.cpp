@@ -5,10 +5,8 @@
 #include <gsl/gsl_rng.h>
 #include <gsl/gsl_statistics_double.h>
 
-#include <algorithm>
 #include <cmath>
 #include <memory>
-#include <utility>
 
 namespace analysis {
 namespace {

@@ -27,7 +27,6 @@ double integrated_autocorrelation_time(const std::vector<double>& series);
 // percentile interval. Percentile intervals of short series are somewhat too narrow. A series without spread has an interval of width zero.
 //   const Interval loss = bootstrap_mean(loss_pct);            // loss.low .. loss.high at 95 %
 //   const Interval share = bootstrap_share(frame_holds);       // share of frames, 0 to 1
-
 // An estimate with its confidence interval, in the unit of the series. NaN bounds mean that the interval is not known.
 struct Interval {
     double estimate = 0.0, low = 0.0, high = 0.0;  // the estimated value and its bounds
@@ -59,7 +58,6 @@ Interval bootstrap_share(const std::vector<bool>& holds, const BootstrapOptions&
 // The interval of Clopper and Pearson for a share of independent cases: it contains each share p under which `counted` or fewer, and
 // `counted` or more, of `all` cases have at least the probability (1 - level) / 2. Its coverage is never below `level`.
 //   const Interval share = share_interval(3, 18);   // 3 / 18, between 0.036 and 0.41
-
 // 0 <= counted <= all, all > 0.
 Interval share_interval(int counted, int all, double level = 0.95);
 
@@ -68,7 +66,6 @@ Interval share_interval(int counted, int all, double level = 0.95);
 //   volume_change_least_pct, _p10_pct, _median_pct, _p90_pct, _most_pct   likewise volume_abs_change, error_l2, error_joint
 // A statistic leaves out frames that lack its quantity. If all do, its cells are empty.
 //   frame_statistics(metrics).write("frame_statistics.csv");
-
 // metrics: the table metrics.csv.
 CsvTable frame_statistics(const CsvTable& metrics);
 

@@ -1,4 +1,4 @@
-#include "analysis/verdicts/claims_report.hpp"
+#include "analysis/verdicts/verdict.hpp"
 
 #include "analysis/records/report_table.hpp"
 
@@ -6,8 +6,6 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace analysis {
@@ -31,6 +29,16 @@ json to_json_of(const Interval& interval)
             {"block", interval.block}};
 }
 
+json to_json_of(const LeftOut& out)
+{
+    return {{"scene", out.scene}, {"reason", out.reason}};
+}
+
+json to_json_of(const SubjectCount& subject)
+{
+    return {{"name", subject.name}, {"within", subject.within}, {"n", subject.all}, {"holds", name_of(subject.extent)}};
+}
+
 json to_json_of(const FailingFrame& failing)
 {
     return {{"frame", failing.frame},
@@ -40,14 +48,24 @@ json to_json_of(const FailingFrame& failing)
             {"inverted_tets", failing.inverted_tets}};
 }
 
+json to_json_of(const CaseJudgement& judged);
+json to_json_of(const OrderVerdict& verdict);
+
+template <typename List>
+json list_of(const List& all)
+{
+    json list = json::array();
+    for (const auto& one : all) list.push_back(to_json_of(one));
+    return list;
+}
+
 // The number on which the claim's rule is based: the share of frames, or the mean.
 json to_json_of(const CaseJudgement& judged)
 {
     const bool by_share = judged.rule == ClaimRule::share_within;
     const Interval& deciding = by_share ? judged.share : judged.mean;
-    json angles = json::array(), deepest = json::array();
+    json angles = json::array();
     for (const AngleRange& range : judged.angles) angles.push_back({range.from_deg, range.to_deg});
-    for (const FailingFrame& failing : judged.deepest) deepest.push_back(to_json_of(failing));
     json object = to_json_of(judged.of);
     object.update({{"quantity", judged.metric},
                    {"statistic", by_share ? "share_of_frames" : "mean"},
@@ -67,7 +85,7 @@ json to_json_of(const CaseJudgement& judged)
                    {"least", finite(judged.least)},
                    {"most", finite(judged.most)},
                    {"holding_with_inverted_tets", judged.holding_with_inverted_tets},
-                   {"deepest", deepest}});
+                   {"deepest", list_of(judged.deepest)}});
     return object;
 }
 
@@ -108,16 +126,10 @@ json to_json_of(const PrintedValue& value)
 
 json to_json_of(const OrderVerdict& verdict)
 {
-    json cases = json::array(), differing = json::array();
-    for (const CaseJudgement& judged : verdict.cases) cases.push_back(to_json_of(judged));
-    for (const std::size_t place : verdict.differing) differing.push_back(place);
-    return {{"order", verdict.order},
-            {"precision", verdict.precision},
-            {"verdict", name_of(verdict.kind)},
-            {"own_verdict", name_of(verdict.own_kind)},
-            {"same", verdict.same()},
-            {"differing", differing},
-            {"cases", cases}};
+    return {{"order", verdict.order},           {"precision", verdict.precision},
+            {"verdict", name_of(verdict.kind)}, {"own_verdict", name_of(verdict.own_kind)},
+            {"same", verdict.same()},           {"differing", verdict.differing},
+            {"cases", list_of(verdict.cases)}};
 }
 
 json primary_of(const Verdict& verdict)
@@ -152,21 +164,6 @@ json bounds_of(const Claim& claim)
     return bounds;
 }
 
-template <typename List>
-json list_of(const List& all)
-{
-    json list = json::array();
-    for (const auto& one : all) list.push_back(to_json_of(one));
-    return list;
-}
-
-json left_out_of(const Verdict& verdict)
-{
-    json left_out = json::array();
-    for (const LeftOut& out : verdict.left_out) left_out.push_back({{"scene", out.scene}, {"reason", out.reason}});
-    return left_out;
-}
-
 json cases_of(const Verdict& verdict)
 {
     json cases = list_of(verdict.cases);
@@ -185,9 +182,6 @@ json controls_of(const Verdict& verdict)
 json claim_object(const Verdict& verdict)
 {
     const Claim& claim = verdict.claim;
-    json subjects = json::array();
-    for (const SubjectCount& subject : verdict.subjects)
-        subjects.push_back({{"name", subject.name}, {"within", subject.within}, {"n", subject.all}, {"holds", name_of(subject.extent)}});
     const bool by_mean = claim.rule == ClaimRule::mean_within, by_share = claim.rule == ClaimRule::share_within;
     return {{"id", claim.id},
             {"statement", claim.statement},
@@ -204,13 +198,13 @@ json claim_object(const Verdict& verdict)
             {"required_share", by_share ? json(claim.share) : json(nullptr)},
             {"interval", verdict.interval.n > 0 ? to_json_of(verdict.interval) : json(nullptr)},
             {"subject", claim.subject},
-            {"subjects", subjects},
+            {"subjects", list_of(verdict.subjects)},
             {"each", claim.each},
             {"of", to_json_of(claim.of)},
             {"cases", cases_of(verdict)},
             {"controls", controls_of(verdict)},
             {"readings", list_of(verdict.orders)},
-            {"left_out", left_out_of(verdict)},
+            {"left_out", list_of(verdict.left_out)},
             {"missing", verdict.missing},
             {"runs", verdict.runs}};
 }
@@ -235,28 +229,28 @@ std::string markdown_cell(const std::string& text)
     return cell;
 }
 
-constexpr std::array all_kinds = {VerdictKind::reproduced,
-                                  VerdictKind::reproduced_only_for,
-                                  VerdictKind::not_reproduced,
-                                  VerdictKind::inconsistent_in_print,
-                                  VerdictKind::cannot_be_tested_here,
-                                  VerdictKind::not_computable};
-
 const char* colour_of(VerdictKind kind)
 {
-    switch (kind) {
-        case VerdictKind::reproduced:
-            return "\033[32m";
-        case VerdictKind::reproduced_only_for:
-            return "\033[33m";
-        case VerdictKind::not_reproduced:
-        case VerdictKind::not_computable:
-            return "\033[31m";
-        case VerdictKind::inconsistent_in_print:
-            return "\033[35m";
-        default:
-            return "\033[90m";
-    }
+    constexpr const char *green = "\033[32m", *yellow = "\033[33m", *red = "\033[31m", *purple = "\033[35m", *grey = "\033[90m";
+    constexpr const char* colours[] = {green, yellow, red, purple, grey, red};  // in the order of the enum
+    return colours[static_cast<int>(kind)];
+}
+
+// The primary value in columns of text; all are empty if there is none.
+struct PrimaryTexts {
+    std::string quantity, value, interval, bound, of;  // volume_change_pct, share_of_frames; 0.42; [0.31, 0.5]; 0.95 to 1; human, 01_01
+};
+
+PrimaryTexts texts_of_primary(const Verdict& verdict)
+{
+    if (!verdict.primary) return {};
+    const PrimaryFact& primary = *verdict.primary;
+    const bool plain = primary.statistic == "value" || primary.statistic == "printed";
+    const bool has_interval = primary.low != primary.high && !std::isnan(primary.low);
+    const std::string unit = primary.unit.empty() || primary.unit == "1" ? "" : " " + primary.unit;
+    return {plain ? primary.quantity : fmt::format("{} of {}", primary.statistic, primary.quantity),
+            fmt::format("{:.3g}{}", primary.value, unit), has_interval ? fmt::format("[{:.3g}, {:.3g}]", primary.low, primary.high) : "",
+            bound_text({"", primary.bound_low, primary.bound_high}), text_of(primary.of)};
 }
 
 struct Layout {
@@ -300,9 +294,9 @@ std::string facts_text(const Verdict& verdict)
 std::string counts_text(const std::vector<Verdict>& verdicts)
 {
     std::vector<std::string> counts;
-    for (const VerdictKind kind : all_kinds) {
-        const auto same = [kind](const Verdict& verdict) { return verdict.kind == kind; };
-        const auto count = std::count_if(verdicts.begin(), verdicts.end(), same);
+    for (int k = 0; k <= static_cast<int>(VerdictKind::not_computable); ++k) {
+        const auto kind = static_cast<VerdictKind>(k);
+        const auto count = std::ranges::count(verdicts, kind, &Verdict::kind);
         if (count > 0) counts.push_back(fmt::format("{} {}", count, spoken(kind)));
     }
     return fmt::format("{} claim{}: {}", verdicts.size(), verdicts.size() == 1 ? "" : "s", fmt::join(counts, ", "));
@@ -329,18 +323,6 @@ std::string claims_markdown(const std::vector<Verdict>& verdicts)
                             primary.value, primary.interval, primary.bound, markdown_cell(primary.of), verdict.claim.study);
     }
     return text;
-}
-
-PrimaryTexts texts_of_primary(const Verdict& verdict)
-{
-    if (!verdict.primary) return {};
-    const PrimaryFact& primary = *verdict.primary;
-    const bool plain = primary.statistic == "value" || primary.statistic == "printed";
-    const bool has_interval = primary.low != primary.high && !std::isnan(primary.low);
-    const std::string unit = primary.unit.empty() || primary.unit == "1" ? "" : " " + primary.unit;
-    return {plain ? primary.quantity : fmt::format("{} of {}", primary.statistic, primary.quantity),
-            fmt::format("{:.3g}{}", primary.value, unit), has_interval ? fmt::format("[{:.3g}, {:.3g}]", primary.low, primary.high) : "",
-            bound_text({"", primary.bound_low, primary.bound_high}), text_of(primary.of)};
 }
 
 std::string claims_table(const std::vector<Verdict>& verdicts, std::size_t width, bool colours)

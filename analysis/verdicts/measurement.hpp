@@ -13,7 +13,6 @@ namespace analysis {
 
 // One case measured with one metric and compared with a claim's bound: the frames that hold, their share and mean with intervals, the
 // angles, and the worst frames.
-
 // For how much of a case the claim holds, in rising order.
 enum class Extent { none, part, whole };
 

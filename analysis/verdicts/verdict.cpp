@@ -2,10 +2,7 @@
 
 #include "analysis/statistics/statistics.hpp"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <set>
 

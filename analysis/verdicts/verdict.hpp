@@ -5,6 +5,8 @@
 
 #include "analysis/verdicts/measurement.hpp"
 
+#include <nlohmann/json_fwd.hpp>
+
 #include <string>
 #include <utility>
 #include <vector>
@@ -83,7 +85,6 @@ const char* name_of(VerdictKind kind);  // reproduced, reproduced_only_for, ...
 const char* name_of(Extent extent);     // none, part, whole
 
 // The verdict on a claim that is judged by values that a study measured (rule = "measured").
-
 // Values are grouped by subject: the field of the key that the claim names, mostly the body. A subject holds if all its values hold as a
 // whole. It holds in part if some values of each of its quantities do, since a claim of several quantities requires all of them. The
 // verdict is reproduced if all subjects hold, reproduced only for some if some hold or hold in part, and not reproduced if none does. If a
@@ -93,9 +94,28 @@ Verdict judge_measurements(const Claim& claim, const Records& records);
 // Whether a claim's verdict changes with the order and precision of projection. Constraints that contradict each other converge to a
 // different limit in each order.
 //   for (const OrderVerdict& other : judge_orders(claim, records)) ...
-
 // One verdict for each order and precision among the records of claim.orders, in order of first appearance. Each is judged on the scenes on
 // which it was recorded, and so is the claim's own deformer (default variant). None if claim.orders is empty.
 std::vector<OrderVerdict> judge_orders(const Claim& claim, const Records& records);
+
+// Verdicts as files: claims.json holds the facts for programs, claims.md the most important of them as a table.
+//   write_text_atomically(folder + "/claims.json", claims_json(verdicts, revision).dump(2) + "\n");
+//   write_text_atomically(folder + "/claims.md", claims_markdown(verdicts));
+
+// {"schema": 2, "revision", "quantities": {NAME: {"title", "unit"}}, "claims": [{id, statement, place, study, rule, verdict, ...}]}. The
+// document holds facts alone and no sentences. The fields of a key (case_record.hpp) are members of the object that they describe. Values
+// that are not known or not finite are null. revision: the program that judged.
+nlohmann::json claims_json(const std::vector<Verdict>& verdicts, const std::string& revision);
+
+// A table with one row per claim: id, verdict, how many of its values hold, and the primary value with its interval, bound and case.
+std::string claims_markdown(const std::vector<Verdict>& verdicts);
+
+// The verdicts as a table for the terminal, with a few lines per claim.
+//   fmt::print("{}", claims_table(verdicts, 100, false));
+// The columns are claim, verdict, statement and facts: how many values lie within the bound, and the primary value with its interval, bound
+// and case. Lines are wrapped so that none is longer than `width` characters (below 60: 60). The last lines count the verdicts. colours:
+// green for reproduced, yellow for reproduced in part, red for not reproduced, magenta for inconsistent, grey otherwise. claims.json holds
+// all values.
+std::string claims_table(const std::vector<Verdict>& verdicts, std::size_t width, bool colours);
 
 }  // namespace analysis

@@ -1,7 +1,7 @@
 // pbskin measure REST FRAME... [--csv FILE] [--junit FILE] [--max-volume-change PCT]...: applies the metrics to frames of any program.
 //   pbskin measure rest.msh 'out/frame_%04d.vtu' --max-volume-change 0.5 --max-inverted 0 --junit volume.xml
 
-#include "analysis/check/check_rules.hpp"
+#include "analysis/check/check.hpp"
 #include "analysis/metrics/frame_metrics.hpp"
 #include "analysis/records/record_files.hpp"
 #include "analysis/records/tables.hpp"

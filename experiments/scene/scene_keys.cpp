@@ -14,11 +14,13 @@ using Keys = OptionFields<OutputSpec>;  // of keys that are not stored in one me
 const OptionFields<pbs::CharacterSource>& character_fields()
 {
     using Source = pbs::CharacterSource;
+    std::vector<std::string> bodies = {""};
+    for (const pbs::NamedBody& body : pbs::named_bodies()) bodies.push_back(body.name);
     static const OptionFields<Source> fields =
         OptionFields<Source>("character")
             .add(
                 "body", &Source::body,
-                {.choices = {"", "limb", "bar", "ring", "human", "man", "lady", "frankie"},
+                {.choices = bodies,
                  .meaning = "built-in limb, bar or ring (with a handle), human (MakeHuman's body from Debian's assimp-testmodels), or man, "
                             "lady, frankie (`pbskin fetch`); empty: from files"})
             .add(

@@ -1,7 +1,7 @@
 #include "experiments/studies/reproduce.hpp"
 
 #include "analysis/records/provenance.hpp"
-#include "analysis/verdicts/claims_report.hpp"
+#include "analysis/verdicts/verdict.hpp"
 #include "experiments/process/child_process.hpp"
 #include "experiments/process/terminal.hpp"
 #include "experiments/studies/study.hpp"

@@ -6,35 +6,36 @@ import math
 import records
 from drawing import style
 from records import entries
+from words import case_words
 
 parts = [("error_joint_pct", "whole error", style.black, "x", "-"), ("solver_pct", "solver", style.vermillion, "v", (0, (4, 1.5))),
          ("model_pct", "model", style.blue, "o", "-"), ("discretisation_pct", "discretisation (bound)", style.green, "^", (0, (1, 1)))]
-poses = [("limb_twist", 90), ("limb_bend", 60)]
-part_columns = {"scene", "angle_deg", "k_stretch", "iterations", *(column for column, *_ in parts)}
-attachment_columns = {"scene", "angle_deg", "k_stretch", "reference", "model", "attachment", "spring_factor", "core_radius",
-                      "model_pct"}
+poses = ["limb_twist_90", "limb_bend_60"]
+part_columns = {"body", "motion", "pose", "angle_deg", "k_stretch", "iterations", *(column for column, *_ in parts)}
+attachment_columns = {"body", "motion", "pose", "angle_deg", "k_stretch", "reference", "model", "attachment", "spring_factor",
+                      "core_radius", "model_pct"}
 
 
-def of_pose(rows, angle_deg, k_stretch):
-    return [row for row in rows if math.isclose(float(row["angle_deg"]), angle_deg) and math.isclose(float(row["k_stretch"]), k_stretch)]
+def with_k_stretch(rows, k_stretch):
+    return [row for row in rows if math.isclose(float(row["k_stretch"]), k_stretch)]
 
 
-def draw_parts(axes, rows, angle_deg):
+def draw_parts(axes, rows, pose):
     drawn = []
     for k_stretch, shade in ((0.2, 1.0), (0.9, 0.35)):
-        chosen = of_pose(rows, angle_deg, k_stretch)
+        chosen = with_k_stretch(rows, k_stretch)
         if not chosen:
-            raise records.RecordsMissing(f"parts.csv of {rows[0]['scene']}: no pose at {angle_deg:g} degrees with k_stretch {k_stretch}")
+            raise records.RecordsMissing(f"parts.csv of {pose}: no row with k_stretch {k_stretch}")
         for column, label, color, marker, line in parts:
             axes.plot(records.numbers(chosen, "iterations"), records.numbers(chosen, column), color=color, marker=marker, linestyle=line,
                       alpha=shade, label=label if shade == 1.0 else None)
-        drawn += [{"scene": row["scene"], "angle_deg": row["angle_deg"], "k_stretch": row["k_stretch"], "shown": column,
+        drawn += [{"pose": pose, "k_stretch": row["k_stretch"], "shown": column,
                    "at": row["iterations"], "value_pct": row[column]} for row in chosen for column, *_ in parts]
     style.log_scale(axes.xaxis, sorted({float(row["at"]) for row in drawn}))
     axes.set_ylim(bottom=0)
     axes.set_xlabel("iterations")
     axes.set_ylabel("error at the joint [%]")
-    axes.set_title(f"{rows[0]['scene'].replace('_', ', ')} {angle_deg}\u00b0; k_stretch 0.2, faint: 0.9")
+    axes.set_title(f"{case_words.posed(rows[0])}; k_stretch 0.2, faint: 0.9")
     return drawn
 
 
@@ -48,9 +49,9 @@ def name_of(row):
     return "bind constraint" if row["attachment"] == "bind" else row["attachment"]
 
 
-def draw_attachments(axes, rows, angle_deg):
+def draw_attachments(axes, rows, pose):
     """The reference itself is the first row, at the top."""
-    chosen = of_pose(rows, angle_deg, 0.2)[::-1]
+    chosen = with_k_stretch(rows, 0.2)[::-1]
     axes.barh([name_of(row) for row in chosen], [float(row["model_pct"] or "nan") for row in chosen], color=style.sky, height=0.6)
     axes.set_ylim(-0.5, len(chosen) - 0.5)
     for place, row in enumerate(chosen):
@@ -58,7 +59,7 @@ def draw_attachments(axes, rows, angle_deg):
             axes.annotate("not reached", (0.01, place), xycoords=("axes fraction", "data"), va="center", fontsize=7)
     axes.set_xlabel("converged PBS from flesh [%]")
     axes.grid(axis="y", visible=False)
-    return [{"scene": row["scene"], "angle_deg": row["angle_deg"], "k_stretch": row["k_stretch"], "shown": "model_pct",
+    return [{"pose": pose, "k_stretch": row["k_stretch"], "shown": "model_pct",
              "at": row["reference"],
              "value_pct": row["model_pct"]} for row in chosen]
 
@@ -66,9 +67,9 @@ def draw_attachments(axes, rows, angle_deg):
 def error_split(results, figures):
     figure, axes = style.panels(2, 2, height_in=2.3)
     behind = []
-    for column, (scene, angle_deg) in enumerate(poses):
-        folder = results / "error_split" / scene
-        behind += draw_parts(axes[0][column], records.table(folder / "parts.csv", part_columns), angle_deg)
-        behind += draw_attachments(axes[1][column], records.table(folder / "attachments.csv", attachment_columns), angle_deg)
+    for column, pose in enumerate(poses):
+        folder = results / "ensemble" / pose
+        behind += draw_parts(axes[0][column], records.table(folder / "parts.csv", part_columns), pose)
+        behind += draw_attachments(axes[1][column], records.table(folder / "attachments.csv", attachment_columns), pose)
     style.legend_above(figure, columns=4)
     style.save(figure, figures / "error_split", entries.origin_of(results, "error_split"), behind)

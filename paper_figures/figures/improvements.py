@@ -62,7 +62,7 @@ def omissions(rows):
 
 
 def improvements(results, figures):
-    folder = results / "improvements"
+    folder = results / "work_precision"
     curves = records.table(folder / "curves.csv", curve_columns)
     gains = [row for row in records.table(folder / "gains.csv", gain_columns) if row["than"] == "pbs" and row["group"] == "all"]
     bodies = list(dict.fromkeys(row["body"] for row in curves))

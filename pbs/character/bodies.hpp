@@ -10,19 +10,31 @@ namespace pbs {
 
 // A body by name, a rigged model_file, or mesh_file with skeleton_file.
 struct CharacterSource {
-    std::string body = {};  // limb, bar, ring, human, man, lady, frankie; empty: from files
+    std::string body = {};  // a name of named_bodies(); empty: from files
     // A rigged file (glTF, FBX, COLLADA) whose surface is meshed; skeleton_file is only for one without joints.
     std::string model_file = {}, animation = {};  // the animation by name that determines the model's size; empty: the first one
     double model_scale = 1.0;                     // further metres per metre of the model file
     // Tets that read_tet_mesh takes [m].
     std::string mesh_file = {}, skeleton_file = {};  // .bvh, .gltf, .glb, .fbx: a clip's zero pose; any other: the skeleton TOML
     double skeleton_scale = 1.0;                     // metres per unit of the skeleton file
-    int vertices = 0;  // wanted size of a body; 0: its default (limb 1,775, bar 1,800, others in Table 1's neighbourhood)
+    int vertices = 0;  // wanted size of a body; 0: its default, near Table 1's
     std::optional<WeightKind> weights = {};  // null: artist of a model with joints, else paper; not read where there is a weights_file
     std::string weights_file = {};           // CSV vertex,joint,weight; empty: `weights`
     bool surface = true;                     // carry the rendered surface along, where the body has one
     int refinements = 0;  // how often every tet is cut into eight; `vertices` and a weights file refer to the unrefined mesh
 };
+
+// A body that make_character knows by name.
+struct NamedBody {
+    std::string name;
+    int vertices;          // where none are wanted
+    bool is_character;     // with a skeleton like a human's: studies of characters take those that are installed
+    std::string package;   // what brings its files; empty: it is built in
+    // The files that must be there, and the body with a number of vertices and, if requested and there is one, its rendered surface.
+    std::vector<std::string> (*files)(const std::string& name);
+    Character (*make)(const std::string& name, int vertices, bool with_surface);
+};
+const std::vector<NamedBody>& named_bodies();
 
 // Are the files of a named body there? Cheap: nothing is read or meshed. require_body: an InputError that names what is missing.
 // Bodies that are built in have no files, and names that are none are not refused here but by make_character.

@@ -33,36 +33,30 @@ namespace {
 // A lock on one byte of the folder's file `making.lock`, chosen by the key's hash (fcntl(2), open file description locks), so that it ends
 // with its process, however that one ends. Where the folder cannot be written, and after a signal, nothing is locked: then two make the
 // same.
-
-// Held from construction to destruction; not copied.
 class MakingLock {
 public:
     // Waits until no other process has it.
-    MakingLock(const std::string& folder, const std::string& key);
-    ~MakingLock();
+    MakingLock(const std::string& folder, const std::string& key)
+        : file_(::open((folder + "/making.lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666))
+    {
+        if (file_ < 0) return;
+        struct flock byte = {};
+        byte.l_type = F_WRLCK;
+        byte.l_whence = SEEK_SET;
+        byte.l_start = static_cast<off_t>(std::hash<std::string>()(key) & std::numeric_limits<int>::max());
+        byte.l_len = 1;
+        ::fcntl(file_, F_OFD_SETLKW, &byte);
+    }
+    ~MakingLock()
+    {
+        if (file_ >= 0) ::close(file_);
+    }
     MakingLock(const MakingLock&) = delete;
     MakingLock& operator=(const MakingLock&) = delete;
 
 private:
-    int file_ = -1;
+    int file_;
 };
-
-MakingLock::MakingLock(const std::string& folder, const std::string& key)
-{
-    file_ = ::open((folder + "/making.lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
-    if (file_ < 0) return;
-    struct flock byte = {};
-    byte.l_type = F_WRLCK;
-    byte.l_whence = SEEK_SET;
-    byte.l_start = static_cast<off_t>(std::hash<std::string>()(key) & std::numeric_limits<int>::max());
-    byte.l_len = 1;
-    ::fcntl(file_, F_OFD_SETLKW, &byte);
-}
-
-MakingLock::~MakingLock()
-{
-    if (file_ >= 0) ::close(file_);
-}
 
 constexpr const char* format = ".vtu";  // Float64, so that what is read is what was made to the bit
 
@@ -130,6 +124,31 @@ void store(const std::string& key, const TetMesh& mesh)
     }
 }
 
+// The files that a glTF refers to. A buffer within the text ("data:...") is no file, and the reader refuses one that does not exist.
+std::vector<std::string> referred_files(const std::string& path)
+{
+    const std::string text = read_text_file(path, most_mesh_bytes), key = "\"uri\"", blank = " \t\r\n";
+    std::vector<std::string> files;
+    for (std::size_t at = text.find(key); at != std::string::npos; at = text.find(key, at + 1)) {
+        const std::size_t colon = text.find_first_not_of(blank, at + key.size());
+        if (colon == std::string::npos || text[colon] != ':') continue;
+        const std::size_t begin = text.find_first_not_of(blank, colon + 1);
+        if (begin == std::string::npos || text[begin] != '"') continue;
+        const std::string uri = text.substr(begin + 1, text.find('"', begin + 1) - begin - 1);
+        if (!uri.starts_with("data:")) files.push_back((fs::path(path).parent_path() / uri).string());
+    }
+    return files;
+}
+
+std::vector<std::string> companions(const std::string& path)
+{
+    const std::string extension = fs::path(path).extension().string();
+    if (extension == ".node") return {fs::path(path).replace_extension(".ele").string()};
+    if (extension == ".ele") return {fs::path(path).replace_extension(".node").string()};
+    if (extension == ".gltf") return referred_files(path);
+    return {};
+}
+
 }  // namespace
 
 std::string content_hash(const std::string& bytes)
@@ -172,35 +191,6 @@ TetMesh cached_mesh(const std::string& key, const std::function<TetMesh()>& make
     store(key, mesh);
     return mesh;
 }
-
-namespace {
-
-// The files that a glTF refers to. A buffer within the text ("data:...") is no file, and the reader refuses one that does not exist.
-std::vector<std::string> referred_files(const std::string& path)
-{
-    const std::string text = read_text_file(path, most_mesh_bytes), key = "\"uri\"", blank = " \t\r\n";
-    std::vector<std::string> files;
-    for (std::size_t at = text.find(key); at != std::string::npos; at = text.find(key, at + 1)) {
-        const std::size_t colon = text.find_first_not_of(blank, at + key.size());
-        if (colon == std::string::npos || text[colon] != ':') continue;
-        const std::size_t begin = text.find_first_not_of(blank, colon + 1);
-        if (begin == std::string::npos || text[begin] != '"') continue;
-        const std::string uri = text.substr(begin + 1, text.find('"', begin + 1) - begin - 1);
-        if (!uri.starts_with("data:")) files.push_back((fs::path(path).parent_path() / uri).string());
-    }
-    return files;
-}
-
-std::vector<std::string> companions(const std::string& path)
-{
-    const std::string extension = fs::path(path).extension().string();
-    if (extension == ".node") return {fs::path(path).replace_extension(".ele").string()};
-    if (extension == ".ele") return {fs::path(path).replace_extension(".node").string()};
-    if (extension == ".gltf") return referred_files(path);
-    return {};
-}
-
-}  // namespace
 
 std::string file_name(const std::string& path)
 {

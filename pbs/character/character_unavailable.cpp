@@ -41,14 +41,14 @@ Skeleton human_skeleton()
     refuse_body("human");
 }
 
-void require_human()
+std::vector<std::string> human_files(const std::string& name)
 {
-    refuse_body("human");
+    refuse_body(name);
 }
 
-Character make_human(int, bool)
+Character make_human(const std::string& name, int, bool)
 {
-    refuse_body("human");
+    refuse_body(name);
 }
 
 std::string makehuman_folder()
@@ -61,12 +61,12 @@ MakehumanFiles makehuman_files(const std::string&)
     return {};
 }
 
-void require_makehuman(const std::string& name)
+std::vector<std::string> figure_files(const std::string& name)
 {
     refuse_body(name);
 }
 
-Character make_makehuman(const std::string& name, int, bool)
+Character make_figure(const std::string& name, int, bool)
 {
     refuse_body(name);
 }

@@ -1,6 +1,5 @@
 #include "pbs/character/clip.hpp"
 
-#include "pbs/character/clip_bytes.hpp"
 #include "pbs/geometry/assimp_files.hpp"
 #include "pbs/geometry/child_process.hpp"
 #include "pbs/geometry/files.hpp"
@@ -22,8 +21,9 @@
 namespace pbs {
 namespace {
 
-constexpr int deepest_nesting = 500;
 constexpr double shortest_frame_s = 1e-6, longest_frame_s = 1e3;
+constexpr double farthest = 1e9;  // [clip's units]
+constexpr int deepest_nesting = 500;
 
 int line_at(const std::string& text, std::size_t place)
 {
@@ -249,7 +249,6 @@ std::vector<Node> read_hierarchy(const aiScene& scene, Clip& clip)
     return nodes;
 }
 
-// Reads in a child process, since assimp may crash on a damaged file.
 Clip clip_by_assimp(const std::string& path, bool bvh)
 {
     Assimp::Importer importer;
@@ -272,12 +271,30 @@ Clip clip_by_assimp(const std::string& path, bool bvh)
 
 }  // namespace
 
+void check_clip(const Clip& clip)
+{
+    const auto require_near = [&](const Positions& points) {
+        if (!(points.array().abs() <= farthest).all())
+            throw InputError(clip.name, 0, "positions", "", "expected finite numbers of at most 1e9");
+    };
+    require_near(clip.zero_pose);
+    for (const auto& frame : clip.local)
+        for (const Eigen::Quaterniond& rotation : frame)
+            if (!(std::abs(rotation.norm() - 1.0) < 1e-3))
+                throw InputError(clip.name, 0, "", "", "damaged: the reader's answer is not a whole clip");
+    require_near(clip.root);
+    if (!(clip.frame_time_s >= shortest_frame_s && clip.frame_time_s <= longest_frame_s))
+        throw InputError(clip.name, 0, "frame time", std::to_string(clip.frame_time_s), "expected 1e-6 to 1000 s");
+}
+
 Clip read_clip(const std::string& path)
 {
     const std::string text = read_text_file(path);
     const bool bvh = is_bvh(text, path);
     if (bvh) check_bvh_header(text, path);
-    return unpacked_clip(read_isolated(path, [&](const std::string& file) { return packed(clip_by_assimp(file, bvh)); }), path);
+    Clip clip = read_guarded(path, [&](const std::string& file) { return clip_by_assimp(file, bvh); });
+    check_clip(clip);
+    return clip;
 }
 
 }  // namespace pbs

@@ -27,6 +27,10 @@ struct Clip {
 // files over 256 MiB, and every clip in a build without rig import (PBS_WITH_RIG_IMPORT).
 Clip read_clip(const std::string& path);
 
+// An InputError where damage may have led the library astray: a number that is not finite or beyond 1e9, a rotation that is not of unit
+// length, a frame time that no motion can have. read_clip has called it.
+void check_clip(const Clip& clip);
+
 // The stretch of a clip that is taken; start_s is after the dropped frame.
 struct ClipSampling : MotionSampling {
     bool drop_first_frame = true;  // cgspeed's conversions begin with a T pose

@@ -176,7 +176,6 @@ IqmModel read_iqm(const std::string& path)
 
 namespace {
 
-constexpr int default_vertices = 2108;
 constexpr int skeleton_version = 1;  // raised with `fold`, so that the cache knows
 
 // 52 joints to 26 bones, with the human's names where clips know them. The forearm is cut in two, as the human's is, so that the wrist's
@@ -230,24 +229,21 @@ std::string frankie_file()
     return "/usr/share/games/cube2/packages/models/frankie/Frankie.iqm";
 }
 
-void require_frankie()
+std::vector<std::string> frankie_files(const std::string&)
 {
-    if (!std::filesystem::exists(frankie_file()))
-        throw InputError("", 0, "character.body", "frankie",
-                         "not installed: needs the package cube2-data, which `pbskin fetch frankie` brings");
+    return {frankie_file()};
 }
 
-Character make_frankie(int vertices)
+Character make_frankie(const std::string& name, int vertices, bool)
 {
-    require_frankie();
     const std::string file = frankie_file(), hash = hash_of_file(file);
     const IqmModel model = read_iqm(file);
     const SurfaceBody body{
-        .name = "frankie", .made_from = hash + std::to_string(skeleton_version), .skeleton = skeleton_of(model, file), .surface = [&] {
+        .name = name, .made_from = hash + std::to_string(skeleton_version), .skeleton = skeleton_of(model, file), .surface = [&] {
             return skin_of(model);
         }};
-    Character frankie = make_surface_body(body, vertices > 0 ? vertices : default_vertices, false);
-    frankie.inputs = {{std::filesystem::path(file).filename().string(), hash}};
+    Character frankie = make_surface_body(body, vertices, false);
+    frankie.inputs = {{file_name(file), hash}};
     return frankie;
 }
 

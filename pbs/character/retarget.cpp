@@ -304,19 +304,10 @@ Skeleton skeleton_from_clip(const Clip& clip, double scale)
     return skeleton;
 }
 
-}  // namespace pbs
-
-namespace fs = std::filesystem;
-
-namespace pbs {
-namespace {
-
-constexpr const char* installed_folder = "/usr/share/assimp/models/BVH";
-
-}  // namespace
-
 std::string find_clip(const std::string& name, const std::string& folder)
 {
+    namespace fs = std::filesystem;
+    const std::string installed_folder = "/usr/share/assimp/models/BVH";
     std::error_code code;  // a name that is too long, or a loop of links, is no file either
     for (const fs::path& candidate : {fs::path(name), fs::path(folder) / name, fs::path(installed_folder) / name})
         if (fs::is_regular_file(candidate, code)) return candidate.string();

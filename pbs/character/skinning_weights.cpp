@@ -32,21 +32,8 @@ bool has_artist_weights(const Character& character)
 
 const char* name_of(WeightKind kind)
 {
-    switch (kind) {
-        case WeightKind::paper:
-            return "paper";
-        case WeightKind::rigid:
-            return "rigid";
-        case WeightKind::smooth:
-            return "smooth";
-        case WeightKind::diffused:
-            return "diffused";
-        case WeightKind::artist:
-            return "artist";
-        case WeightKind::file:
-            return "file";
-    }
-    return "";
+    constexpr const char* names[] = {"paper", "rigid", "smooth", "diffused", "artist", "file"};  // in the order of WeightKind
+    return names[static_cast<int>(kind)];
 }
 
 Weights weights_by(WeightKind kind, const Character& character)

@@ -26,7 +26,66 @@
 namespace pbs {
 namespace {
 
-enum class Answer : char { whole = 1, error = 2 };  // the last byte
+#ifndef __has_feature  // clang's
+#define __has_feature(feature) 0
+#endif
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+constexpr bool sanitized = true;  // slow, and terabytes of addresses are reserved
+#else
+constexpr bool sanitized = false;
+#endif
+
+// Far above what a sound file needs. Time is longer than processor time, for machines that are busy with other work.
+constexpr double base_limit_s = 20.0, limit_s_per_megabyte = 10.0;
+constexpr double base_cpu_limit_s = sanitized ? 20.0 : 4.0, cpu_limit_s_per_megabyte = sanitized ? 10.0 : 2.0;
+constexpr std::uintmax_t base_limit_bytes = std::uintmax_t(1) << 30, limit_bytes_per_byte = 200;
+
+std::uintmax_t bytes_of(const std::string& path)
+{
+    std::error_code code;
+    const std::uintmax_t bytes = std::filesystem::file_size(path, code);
+    return code ? 0 : bytes;
+}
+
+// Half of the memory that the machine has available: the parent reads the file too.
+std::uintmax_t most_bytes_now()
+{
+    std::ifstream file("/proc/meminfo");
+    for (std::string line; std::getline(file, line);) {
+        std::istringstream words(line);
+        std::string word;
+        std::uintmax_t kilobytes = 0;
+        if (words >> word >> kilobytes && word == "MemAvailable:") return kilobytes * 1024 / 2;
+    }
+    return std::numeric_limits<std::uintmax_t>::max();
+}
+
+void limit(int resource, std::uintmax_t most)
+{
+    rlimit now{};
+    getrlimit(resource, &now);
+    const rlimit wanted{std::min<rlim_t>(most, now.rlim_max), now.rlim_max};
+    setrlimit(resource, &wanted);
+}
+
+// [s] of time, not of processor time: other work may keep the machine busy.
+double reading_limit_s(const std::string& path)
+{
+    return base_limit_s + limit_s_per_megabyte * 1e-6 * static_cast<double>(bytes_of(path));
+}
+
+// Limits this process from here on: memory, processor time and no core file. Memory is not limited under a sanitizer.
+void limit_reading(const std::string& path)
+{
+    const std::uintmax_t file_bytes = bytes_of(path);
+    limit(RLIMIT_CORE, 0);
+    limit(RLIMIT_CPU, static_cast<std::uintmax_t>(base_cpu_limit_s + cpu_limit_s_per_megabyte * 1e-6 * static_cast<double>(file_bytes)));
+    if (sanitized) return;
+    std::uintmax_t pages = 0;
+    std::ifstream("/proc/self/statm") >> pages;
+    const std::uintmax_t own = pages * static_cast<std::uintmax_t>(sysconf(_SC_PAGESIZE));
+    limit(RLIMIT_AS, own + std::min(base_limit_bytes + limit_bytes_per_byte * file_bytes, most_bytes_now()));
+}
 
 constexpr int longest_wait_ms = 200;  // between two questions
 
@@ -45,32 +104,32 @@ void silence()
     dup2(nothing, STDERR_FILENO);
 }
 
-std::string answer_to(const std::string& path, const std::function<std::string(const std::string&)>& read)
+// "+" where the file was read, otherwise "-" and the words of the error.
+std::string answer_to(const std::string& path, const std::function<void(const std::string&)>& read)
 {
     try {
-        std::string bytes = read(path);
-        bytes.push_back(static_cast<char>(Answer::whole));
-        return bytes;
+        read(path);
+        return "+";
     } catch (const InputError& error) {
-        return error.what() + std::string(1, static_cast<char>(Answer::error));
+        return std::string("-") + error.what();
     } catch (const std::bad_alloc&) {
-        return path + ": " + too_much_memory + static_cast<char>(Answer::error);
+        return "-" + path + ": " + too_much_memory;
     } catch (const std::length_error&) {
-        return path + ": " + too_much_memory + static_cast<char>(Answer::error);
+        return "-" + path + ": " + too_much_memory;
     } catch (const std::exception& error) {
-        return path + ": " + error.what() + static_cast<char>(Answer::error);
+        return "-" + path + ": " + error.what();
     }
 }
 
-[[noreturn]] void answer_as_child(int pipe, const std::string& path, const std::function<std::string(const std::string&)>& read)
+[[noreturn]] void answer_as_child(int pipe, const std::string& path, const std::function<void(const std::string&)>& read)
 {
     for (const int signal : {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGTERM}) std::signal(signal, SIG_DFL);
     std::signal(SIGINT, SIG_IGN);  // the parent decides
     silence();
     limit_reading(path);
-    const std::string bytes = answer_to(path, read);
-    for (std::size_t at = 0; at < bytes.size();) {
-        const ssize_t count = ::write(pipe, bytes.data() + at, bytes.size() - at);
+    const std::string answer = answer_to(path, read);
+    for (std::size_t at = 0; at < answer.size();) {
+        const ssize_t count = ::write(pipe, answer.data() + at, answer.size() - at);
         if (count < 0 && errno == EINTR) continue;
         if (count <= 0) _exit(1);
         at += static_cast<std::size_t>(count);
@@ -79,10 +138,10 @@ std::string answer_to(const std::string& path, const std::function<std::string(c
 }
 
 // Everything the child writes until it closes the pipe; false when the time is up.
-bool collect(int pipe, double limit_s, std::string& bytes)
+bool collect(int pipe, double limit_s, std::string& answer)
 {
     const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(limit_s);
-    char buffer[1 << 16];
+    char buffer[1 << 12];
     for (;;) {
         question()();
         const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - std::chrono::steady_clock::now()).count();
@@ -91,7 +150,7 @@ bool collect(int pipe, double limit_s, std::string& bytes)
         if (poll(&waiting, 1, static_cast<int>(std::min<long long>(left, longest_wait_ms))) <= 0) continue;
         const ssize_t count = ::read(pipe, buffer, sizeof buffer);
         if (count == 0) return true;
-        if (count > 0) bytes.append(buffer, static_cast<std::size_t>(count));
+        if (count > 0) answer.append(buffer, static_cast<std::size_t>(count));
     }
 }
 
@@ -103,10 +162,10 @@ int status_of(pid_t child)
     return status;
 }
 
-// The process that reads and the pipe that it answers through, neither of which outlives this.
+// The process that tries and the pipe that it answers through, neither of which outlives this.
 class Reader {
 public:
-    Reader(const std::string& path, const std::function<std::string(const std::string&)>& read)
+    Reader(const std::string& path, const std::function<void(const std::string&)>& read)
     {
         int ends[2];
         if (pipe2(ends, O_CLOEXEC) != 0) throw InputError(path, 0, "", "", std::string("cannot be read: ") + std::strerror(errno));
@@ -139,7 +198,7 @@ private:
     int answer_ = -1;
 };
 
-// Why a child ended that sent no whole answer.
+// Why a child ended that sent no answer.
 std::string death(int status)
 {
     if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU) return "took more processor time than such a file can need";
@@ -154,84 +213,14 @@ void ask_while_reading(std::function<void()> asked)
     question() = std::move(asked);
 }
 
-std::string read_isolated(const std::string& path, const std::function<std::string(const std::string&)>& read)
+void try_reading(const std::string& path, const std::function<void(const std::string&)>& read)
 {
     Reader reader(path, read);
-    std::string bytes;
-    try {
-        if (!collect(reader.answer(), reading_limit_s(path), bytes)) throw InputError(path, 0, "", "", "damaged: the reader did not end");
-    } catch (const std::bad_alloc&) {
-        throw InputError(path, 0, "", "", too_much_memory);
-    }
+    std::string answer;
+    if (!collect(reader.answer(), reading_limit_s(path), answer)) throw InputError(path, 0, "", "", "damaged: the reader did not end");
     const int status = reader.status();
-    if (status != 0 || bytes.empty()) throw InputError(path, 0, "", "", "damaged: the reader " + death(status));
-    const bool whole = bytes.back() == static_cast<char>(Answer::whole);
-    bytes.pop_back();
-    if (!whole) throw InputError("", 0, "", "", bytes);
-    return bytes;
-}
-
-namespace {
-
-#ifndef __has_feature  // clang's
-#define __has_feature(feature) 0
-#endif
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-constexpr bool sanitized = true;  // slow, and terabytes of addresses are reserved
-#else
-constexpr bool sanitized = false;
-#endif
-
-// Far above what a sound file needs. Time is longer than processor time, for machines that are busy with other work.
-constexpr double base_limit_s = 20.0, limit_s_per_megabyte = 10.0;
-constexpr double base_cpu_limit_s = sanitized ? 20.0 : 4.0, cpu_limit_s_per_megabyte = sanitized ? 10.0 : 2.0;
-constexpr std::uintmax_t base_limit_bytes = std::uintmax_t(1) << 30, limit_bytes_per_byte = 200;
-
-std::uintmax_t bytes_of(const std::string& path)
-{
-    std::error_code code;
-    const std::uintmax_t bytes = std::filesystem::file_size(path, code);
-    return code ? 0 : bytes;
-}
-
-// Half of the memory that the machine has available: the parent holds the result too.
-std::uintmax_t most_bytes_now()
-{
-    std::ifstream file("/proc/meminfo");
-    for (std::string line; std::getline(file, line);) {
-        std::istringstream words(line);
-        std::string word;
-        std::uintmax_t kilobytes = 0;
-        if (words >> word >> kilobytes && word == "MemAvailable:") return kilobytes * 1024 / 2;
-    }
-    return std::numeric_limits<std::uintmax_t>::max();
-}
-
-void limit(int resource, std::uintmax_t most)
-{
-    rlimit now{};
-    getrlimit(resource, &now);
-    const rlimit wanted{std::min<rlim_t>(most, now.rlim_max), now.rlim_max};
-    setrlimit(resource, &wanted);
-}
-
-}  // namespace
-
-double reading_limit_s(const std::string& path)
-{
-    return base_limit_s + limit_s_per_megabyte * 1e-6 * static_cast<double>(bytes_of(path));
-}
-
-void limit_reading(const std::string& path)
-{
-    const std::uintmax_t file_bytes = bytes_of(path);
-    limit(RLIMIT_CORE, 0);
-    limit(RLIMIT_CPU, static_cast<std::uintmax_t>(base_cpu_limit_s + cpu_limit_s_per_megabyte * 1e-6 * static_cast<double>(file_bytes)));
-    if (sanitized) return;
-    std::uintmax_t pages = 0;
-    std::ifstream("/proc/self/statm") >> pages;
-    const std::uintmax_t own = pages * static_cast<std::uintmax_t>(sysconf(_SC_PAGESIZE));
-    limit(RLIMIT_AS, own + std::min(base_limit_bytes + limit_bytes_per_byte * file_bytes, most_bytes_now()));
+    if (status != 0 || answer.empty()) throw InputError(path, 0, "", "", "damaged: the reader " + death(status));
+    if (answer[0] != '+') throw InputError("", 0, "", "", answer.substr(1));
 }
 
 }  // namespace pbs

@@ -1,9 +1,11 @@
 // Other people's readers on damaged files: assimp ends the process on one damaged .ply in two, VTK and Gmsh on rarer ones, and all three
-// may take memory or time without limit. They run in a child process, silent, with a limit on memory, processor time and time; what they
-// read comes back through a pipe, and whatever becomes of the child, the caller gets its bytes or an InputError that names the file and
-// says how the child died.
-//   const std::string bytes = read_isolated("walk.bvh", [](const std::string& path) { return packed(read_by_library(path)); });
-// The bytes come from a process that damage may have led astray: check them (packed_bytes.hpp).
+// may take memory or time without limit. A child process tries first, silent, with limits on memory, processor time and time: far more than
+// a sound file needs, and no more than half of the memory that there is. Whatever becomes of the child, the caller gets what was read or an
+// InputError that names the file and says how the child died.
+//   const IndexedPoints mesh = read_guarded("arm.vtu", read_vtk);
+// Also: a child that ends with its parent, and whether a process is still running.
+//   const pid_t parent = getpid();
+//   if (fork() == 0) { end_with_parent(parent); ... }   // a child that does not outlive its parent, however that one ends
 #pragma once
 
 #include <signal.h>
@@ -17,25 +19,20 @@
 
 namespace pbs {
 
-// Asked several times a second while a reader is waited for; what it throws ends the reader and leaves read_isolated. Once, at the start:
+// Asked several times a second while a child tries; what it throws ends the child and leaves try_reading. Once, at the start:
 //   ask_while_reading(stop_if_interrupted);
 void ask_while_reading(std::function<void()> question);
 
-// read(path) in a child process; its exceptions come back as InputErrors.
-std::string read_isolated(const std::string& path, const std::function<std::string(const std::string&)>& read);
+// read(path) in a child process, of which nothing stays behind; its exceptions come back as InputErrors.
+void try_reading(const std::string& path, const std::function<void(const std::string&)>& read);
 
-// The resources that a process may use to read one file (child_process.hpp): far more than a sound file needs, and no more than half of
-// the memory that there is.
-
-// [s] of time, not of processor time: other work may keep the machine busy.
-double reading_limit_s(const std::string& path);
-
-// Limits this process from here on: memory, processor time and no core file. Memory is not limited under a sanitizer.
-void limit_reading(const std::string& path);
-
-// Relations between processes: a child that ends with its parent, and whether a process is still running.
-//   const pid_t parent = getpid();
-//   if (fork() == 0) { end_with_parent(parent); ... }   // a child that does not outlive its parent, however that one ends
+// read(path) in this process, once it has succeeded in a child.
+template <typename Read>
+auto read_guarded(const std::string& path, const Read& read)
+{
+    try_reading(path, [&](const std::string& file) { read(file); });
+    return read(path);
+}
 
 // Call this first in the child (prctl(2), PR_SET_PDEATHSIG). The parent's thread that forked must live as long as the child is needed.
 inline void end_with_parent(pid_t parent)

@@ -1,10 +1,8 @@
-// Paths, sizes and index ranges: what every format needs.
-
-#include "pbs/geometry/mesh_checks.hpp"
+// What every format needs (paths, sizes and index ranges), the conditions on a mesh, repairs, and remarks.
+#include "pbs/geometry/mesh_io_formats.hpp"
 
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/mesh_io.hpp"
-#include "pbs/geometry/mesh_io_formats.hpp"
 #include "pbs/geometry/meshing.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/geometry/topology.hpp"
@@ -25,12 +23,6 @@ namespace pbs {
 
 namespace fs = std::filesystem;
 
-namespace {
-
-constexpr double least_extent_m = 1e-9;
-
-}  // namespace
-
 void require_readable(const std::string& path, std::uintmax_t most_bytes)
 {
     std::error_code code;
@@ -50,6 +42,7 @@ void require_points(const std::string& path, long long points)
 
 void require_extent(const std::string& path, const Positions& points)
 {
+    constexpr double least_extent_m = 1e-9;
     const double extent = (points.colwise().maxCoeff() - points.colwise().minCoeff()).stableNorm();
     if (!(extent >= least_extent_m)) throw InputError(path, 0, "extent", number_text(extent), "expected at least 1e-9 m");
 }
@@ -220,21 +213,25 @@ MeshReading check_rest(const std::string& path, TetMesh mesh)
 {
     check_frame(path, mesh);
     require_extent(path, mesh.rest);
-    MeshReading reading;
-    reading.flipped_tets = normalise_orientation(path, mesh);
-    reading.file_vertices = static_cast<int>(mesh.rest.rows());
+    const int flipped_tets = normalise_orientation(path, mesh);
     check_faces(path, mesh);
-    RepairedMesh repair = repaired(mesh);
-    reading.mesh = std::move(repair.mesh);
-    reading.file_vertex = std::move(repair.file_vertex);
-    reading.unused_vertices = std::move(repair.unused);
-    reading.split_vertices = std::move(repair.split);
+    MeshReading reading = repaired(mesh);
+    reading.flipped_tets = flipped_tets;
     check_distinct(path, reading);
     check_boundary(path, reading);
     return reading;
 }
 
 namespace {
+
+// The number of triangles at each edge.
+std::map<std::pair<int, int>, int> triangles_at_edges(const Triangles& triangles)
+{
+    std::map<std::pair<int, int>, int> triangles_at;
+    for (const auto& triangle : triangles.rowwise())
+        for (int k = 0; k < 3; ++k) ++triangles_at[std::minmax({triangle(k), triangle((k + 1) % 3)})];
+    return triangles_at;
+}
 
 // The tets of each vertex, #V.
 std::vector<std::vector<int>> tets_of_vertices(const TetMesh& mesh)
@@ -271,15 +268,16 @@ std::vector<int> groups_at(int vertex, const std::vector<int>& around, const Tet
 
 }  // namespace
 
-RepairedMesh repaired(const TetMesh& mesh)
+MeshReading repaired(const TetMesh& mesh)
 {
-    RepairedMesh result;
+    MeshReading result;
+    result.file_vertices = static_cast<int>(mesh.rest.rows());
     result.mesh.tets = mesh.tets;
     const std::vector<std::vector<int>> tets_of = tets_of_vertices(mesh);
     for (int vertex = 0; vertex < mesh.rest.rows(); ++vertex) {
         const std::vector<int>& around = tets_of[static_cast<std::size_t>(vertex)];
         if (around.empty()) {
-            result.unused.push_back(vertex);
+            result.unused_vertices.push_back(vertex);
             continue;
         }
         const std::vector<int> groups = groups_at(vertex, around, mesh.tets);
@@ -290,7 +288,7 @@ RepairedMesh repaired(const TetMesh& mesh)
             for (int corner = 0; corner < 4; ++corner)
                 if (mesh.tets(around[member], corner) == vertex) result.mesh.tets(around[member], corner) = index->second;
         }
-        if (index_of_group.size() > 1) result.split.push_back(vertex);
+        if (index_of_group.size() > 1) result.split_vertices.push_back(vertex);
     }
     result.mesh.rest.resize(static_cast<Eigen::Index>(result.file_vertex.size()), 3);
     for (std::size_t v = 0; v < result.file_vertex.size(); ++v)
@@ -300,11 +298,7 @@ RepairedMesh repaired(const TetMesh& mesh)
 
 std::optional<std::array<int, 2>> edge_that_is_not_manifold(const Tets& tets)
 {
-    const Triangles boundary = boundary_of(tets);
-    std::map<std::pair<int, int>, int> triangles_at;
-    for (const auto& triangle : boundary.rowwise())
-        for (int k = 0; k < 3; ++k) ++triangles_at[std::minmax({triangle(k), triangle((k + 1) % 3)})];
-    for (const auto& [edge, count] : triangles_at)
+    for (const auto& [edge, count] : triangles_at_edges(boundary_of(tets)))
         if (count > 2) return std::array{edge.first, edge.second};
     return std::nullopt;
 }
@@ -343,9 +337,7 @@ void add_size(const std::string& path, const Positions& points, std::vector<std:
 // Edges that are not in two triangles: what the mesher wraps.
 void add_open_and_joined_edges(const std::string& path, const SurfaceMesh& surface, std::vector<std::string>& remarks)
 {
-    std::map<std::pair<int, int>, int> triangles_at;
-    for (const auto& triangle : surface.triangles.rowwise())
-        for (int k = 0; k < 3; ++k) ++triangles_at[std::minmax({triangle(k), triangle((k + 1) % 3)})];
+    const auto triangles_at = triangles_at_edges(surface.triangles);
     if (const auto holes = std::count_if(triangles_at.begin(), triangles_at.end(), [](const auto& edge) { return edge.second == 1; }))
         remarks.push_back(remark(path, "edges of one triangle", holes, "its holes are wrapped over"));
     const auto is_joint = [](const auto& edge) { return edge.second > 2; };
@@ -368,16 +360,6 @@ void add_crossings([[maybe_unused]] const std::string& path, [[maybe_unused]] co
     remarks.push_back(remark(path, "pairs of triangles that meet", crossings.size(),
                              "it intersects or touches itself, first at " + place_text(middle) + "; what is outside is kept"));
 #endif
-}
-
-// Volume of the body enclosed by outward triangles [m^3]; negative where they face inward.
-double signed_volume(const SurfaceMesh& surface)
-{
-    const Vec3 middle = surface.points.colwise().mean().transpose();
-    double volume = 0.0;
-    for (const auto& triangle : surface.triangles.rowwise())
-        volume += tet_volume(middle, surface.points.row(triangle(0)), surface.points.row(triangle(1)), surface.points.row(triangle(2)));
-    return volume;
 }
 
 }  // namespace
@@ -408,7 +390,7 @@ std::vector<std::string> remarks_on(const std::string& path, const SurfaceMesh& 
     if (triangles_without_area > 0) remarks.push_back(remark(path, "triangles without area", triangles_without_area, "left out"));
     add_open_and_joined_edges(path, surface, remarks);
     add_crossings(path, surface, remarks);
-    if (const double volume = signed_volume(surface); volume < 0.0)
+    if (const double volume = fan_volume(surface.points, surface.triangles); volume < 0.0)
         remarks.push_back(remark(path, "enclosed volume [m^3]", volume, "inside out; taken as the body that it encloses"));
     add_size(path, surface.points, remarks);
     return remarks;

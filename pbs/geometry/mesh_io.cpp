@@ -1,8 +1,8 @@
 #include "pbs/geometry/mesh_io.hpp"
 
+#include "pbs/geometry/child_process.hpp"
 #include "pbs/geometry/content_format.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/mesh_checks.hpp"
 #include "pbs/geometry/mesh_io_formats.hpp"
 
 namespace pbs {

@@ -4,12 +4,18 @@
 
 #include "pbs/geometry/content_format.hpp"
 #include "pbs/geometry/files.hpp"
-#include "pbs/geometry/guarded_reading.hpp"
 #include "pbs/geometry/mesh_io.hpp"
 
-#include <functional>
+#include <array>
+#include <optional>
 
 namespace pbs {
+
+// A mesh of one kind of cell, as a reader returns it: nothing is checked.
+struct IndexedPoints {
+    Positions points;                                                           // [m], #V x 3
+    Eigen::Matrix<int, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> cells;  // vertex indices, #C x corners
+};
 
 IndexedPoints read_vtk(const std::string& path);  // .vtu, .vtk, by VTK
 // .msh 2.2 and 4.1, .mesh, by Gmsh, in a module. named: the path, or a link to it, with the extension that fits the content.
@@ -41,5 +47,23 @@ void require_extent(const std::string& path, const Positions& points);
 
 // The index as int, or an InputError: vertex indices begin at 0 and stay below the number of points.
 int checked_index(const std::string& path, long long tet, long long index, long long points);
+
+// The conditions on a tet mesh before anything is computed on it; each violation is an InputError naming the file, the vertex or tet, its
+// value and the rule. Vertices and tets are counted from 0, as in VTK.
+
+// At least one tet, indices in range, coordinates finite and within 1e9 m, so that volumes are finite too.
+void check_frame(const std::string& path, const TetMesh& mesh);
+
+// check_frame, and: not smaller than 1e-9 m, no tet without volume, no two vertices in one place, no face in three tets, no overlap of
+// neighbours, boundary manifold and, in a build with CGAL, free of self-intersections. The mesh is repaired; the orientation is normalised
+// by swapping the last two vertices.
+MeshReading check_rest(const std::string& path, TetMesh mesh);
+
+// Repairs that move no tet: unused vertices are left out, parts that touch get vertices of their own. Indices in range (unchecked). Where
+// parts touch in an edge whose ends are joined by other tets, the boundary stays not manifold.
+MeshReading repaired(const TetMesh& mesh);
+
+// An edge that is in more than two triangles of the boundary; nothing where there is none.
+std::optional<std::array<int, 2>> edge_that_is_not_manifold(const Tets& tets);
 
 }  // namespace pbs

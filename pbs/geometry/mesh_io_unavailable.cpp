@@ -29,7 +29,7 @@ void write_tet_mesh(const std::string& path, const TetMesh&)
 {
     refuse(path);
 }
-SurfaceMesh read_surface(const std::string& path, std::vector<std::string>&)
+SurfaceMesh read_surface(const std::string& path, std::vector<std::string>&, double)
 {
     refuse(path);
 }

@@ -72,25 +72,15 @@ void check_surface(const SurfaceMesh& surface, const SurfaceMeshing& options)
     if (!(diagonal >= smallest_m))
         throw InputError("", 0, "diagonal of the surface [m]", number_text(diagonal), "expected at least " + number_text(smallest_m));
     if (options.is_closed && sheet_offset_m(surface) > 0.0)
-        throw InputError("", 0, "enclosed volume [m^3]", number_text(enclosed_volume(surface)),
+        throw InputError("", 0, "enclosed volume [m^3]", number_text(fan_volume(surface.points, surface.triangles)),
                          "expected a closed surface round a volume, neither flat nor open");
 }
 
 double sheet_offset_m(const SurfaceMesh& surface)
 {
     const double diagonal = (surface.points.colwise().maxCoeff() - surface.points.colwise().minCoeff()).norm();
-    const bool has_volume = std::abs(enclosed_volume(surface)) > flat_surface * diagonal * diagonal * diagonal;
+    const bool has_volume = std::abs(fan_volume(surface.points, surface.triangles)) > flat_surface * diagonal * diagonal * diagonal;
     return has_volume ? 0.0 : diagonal * sheet_thickness / 2.0;
-}
-
-double enclosed_volume(const SurfaceMesh& surface)
-{
-    const Vec3 middle = surface.points.colwise().mean().transpose();
-    double volume = 0.0;
-    for (Eigen::Index f = 0; f < surface.triangles.rows(); ++f)
-        volume += tet_volume(middle, surface.points.row(surface.triangles(f, 0)), surface.points.row(surface.triangles(f, 1)),
-                             surface.points.row(surface.triangles(f, 2)));
-    return volume;
 }
 
 std::string breach_of(const TetMesh& mesh, const SurfaceMeshing& options)

@@ -1,4 +1,4 @@
-// Meshing at a wanted number of vertices: the cell size is searched.
+// What mesh_surface tries: cell sizes until the number of vertices is right, and checks of its input and of each result.
 #pragma once
 
 #include "pbs/geometry/meshing.hpp"
@@ -18,9 +18,6 @@ TetMesh mesh_at_vertex_count(int vertices, double first_size, const std::functio
 // InputError unless enough vertices are requested, there are at least four triangles, all points are finite, all indices are in range,
 // the surface is at least 1e-9 m large, and one that must be closed encloses a volume.
 void check_surface(const SurfaceMesh& surface, const SurfaceMeshing& options);
-
-// The signed volume inside the triangles [m^3], as if closed by a fan from the points' mean.
-double enclosed_volume(const SurfaceMesh& surface);
 
 // The first thing wrong with the mesh; empty when it is boundary-manifold, in one piece, of the wanted Euler number and dihedral
 // angle, free of self-intersections, and all points lie inside.

@@ -227,7 +227,7 @@ private:
 // An open sheet is wrapped on both sides: its wrap holds far less, or far more, than the surface seems to enclose.
 void check_closed(const SurfaceMesh& surface, const Body& body)
 {
-    const double ratio = body.volume() / std::abs(enclosed_volume(surface));
+    const double ratio = body.volume() / std::abs(fan_volume(surface.points, surface.triangles));
     if (!(ratio > 0.5 && ratio < 2.0))
         throw InputError("", 0, "wrapped volume / enclosed volume", std::to_string(ratio),
                          "expected 0.5 to 2: a closed or nearly closed surface, its triangles oriented one way");

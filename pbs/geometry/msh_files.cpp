@@ -75,6 +75,21 @@ void check_medit_words(const std::string& path, const std::string& text)
     }
 }
 
+// The number of entries that a section of a MEDIT file states, and how many numbers follow it.
+std::pair<long long, long long> medit_section(const std::string& text, const std::string& name)
+{
+    std::istringstream lines(text.substr(text.find(name) + name.size()));
+    long long entries = -1, numbers = -1;  // the number of entries itself
+    for (std::string line; std::getline(lines, line);) {
+        std::istringstream words(line.substr(0, line.find('#')));
+        for (std::string word; words >> word; ++numbers) {
+            if (!is_number(word)) return {entries, numbers};
+            if (numbers < 0) entries = static_cast<long long>(std::strtod(word.c_str(), nullptr));
+        }
+    }
+    return {entries, numbers};
+}
+
 void check_medit(const std::string& path, const std::string& text)
 {
     if (first_word(text) != "MeshVersionFormatted")
@@ -83,6 +98,10 @@ void check_medit(const std::string& path, const std::string& text)
         if (text.find(section) == std::string::npos)
             throw InputError(path, 0, "", "", std::string("the section ") + section + " is missing");
     check_medit_words(path, text);
+    // Gmsh takes what is missing of the last tet from its memory.
+    if (const auto [tets, numbers] = medit_section(text, "Tetrahedra"); numbers < 5 * tets)
+        throw InputError(path, 0, "Tetrahedra", std::to_string(tets),
+                         "truncated: expected five numbers each, and there are " + std::to_string(numbers));
 }
 
 // The text after the line "$Nodes".
@@ -130,16 +149,6 @@ bool has_all_nodes(const std::string& text, long long nodes)
     long long count = -1;  // the line of the number itself
     for (std::string line; std::getline(lines, line);) count += !first_word(line).empty();
     return count == nodes;
-}
-
-// Four numbers a vertex follow the number of vertices.
-bool has_all_vertices(const std::string& text, long long vertices)
-{
-    std::istringstream words(text.substr(text.find("Vertices") + 8));
-    std::string word;
-    long long numbers = -1;  // the number of vertices itself
-    while (words >> word && is_number(word)) ++numbers;
-    return numbers == 4 * vertices;
 }
 
 // Gmsh leaves out the nodes that no element uses. If the file numbers its nodes from 1 without gaps, each gets its place back; those that
@@ -192,7 +201,7 @@ IndexedPoints read_gmsh(const std::string& path, const std::string& named)
                                                                                                                                mesh, tags);
     const std::string text = text_of(path);
     const long long nodes = named_nodes(path, text);
-    if (nodes > mesh.points.rows() && (is_msh(path) ? has_all_nodes(text, nodes) : has_all_vertices(text, nodes)))
+    if (nodes > mesh.points.rows() && (is_msh(path) ? has_all_nodes(text, nodes) : medit_section(text, "Vertices").second == 4 * nodes))
         restore_unused(tags, nodes, mesh);
     return mesh;
 }

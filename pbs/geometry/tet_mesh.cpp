@@ -30,6 +30,15 @@ Eigen::VectorXd lumped_volumes(const Positions& rest, const Tets& tets)
     return lumped;
 }
 
+double fan_volume(const Positions& points, const Triangles& triangles)
+{
+    const Vec3 middle = points.colwise().mean().transpose();
+    double volume = 0.0;
+    for (const auto& triangle : triangles.rowwise())
+        volume += tet_volume(middle, points.row(triangle(0)), points.row(triangle(1)), points.row(triangle(2)));
+    return volume;
+}
+
 namespace {
 
 using Nodes = std::array<int, 10>;  // of a tet: its corners, then the midpoints of 01, 02, 03, 12, 13, 23
@@ -271,11 +280,7 @@ std::vector<Triangles> region_surfaces(const Tets& tets, const std::vector<int>&
         members[region[t]].push_back(static_cast<int>(t));
     }
     std::vector<Triangles> surfaces;
-    for (const std::vector<int>& of_region : members) {
-        Tets own(of_region.size(), 4);
-        for (std::size_t i = 0; i < of_region.size(); ++i) own.row(i) = tets.row(of_region[i]);
-        surfaces.push_back(boundary_of(own));
-    }
+    for (const std::vector<int>& of_region : members) surfaces.push_back(boundary_of(tets(of_region, Eigen::all)));
     return surfaces;
 }
 

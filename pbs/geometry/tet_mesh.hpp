@@ -1,4 +1,4 @@
-// A tetrahedral mesh in rest pose.
+// Tet meshes: arrays, volumes, refinement, the tet at a point, division into regions.
 #pragma once
 
 #include <Eigen/Core>
@@ -37,6 +37,9 @@ Eigen::VectorXd tet_volumes(const Positions& positions, const Tets& tets);
 // A quarter of the rest volume of each tet around a vertex [m^3], #V: the lumped rest volume.
 Eigen::VectorXd lumped_volumes(const Positions& rest, const Tets& tets);
 
+// The signed volume inside the triangles [m^3], as if closed by a fan from the points' mean; negative where they face inward.
+double fan_volume(const Positions& points, const Triangles& triangles);
+
 // Uniform red refinement: every tet into eight, every edge halved; the body stays the same polyhedron.
 //   const Refinement fine = refine(mesh);                            // fine.mesh: the vertices of `mesh` first, then the midpoints
 //   const Positions carried = prolongated(positions, fine.parents);  // a field of the coarse vertices on the fine ones
@@ -64,7 +67,7 @@ Positions prolongated(const Positions& coarse, const Edges& parents);
 
 // The place of a point in a tet. Its coordinate on corner 1 is 1 - the sum of the others.
 struct Location {
-    int tet = -1;                               // -1: outside every tet
+    int tet = -1;                     // -1: outside every tet
     Vec3 barycentric = Vec3::Zero();  // coordinates on corners 2, 3, 4 of that tet
 };
 

@@ -165,11 +165,21 @@ Triangles boundary_in(const std::vector<Face>& faces, const Tets& tets)
     return triangles;
 }
 
-std::vector<bool> vertices_of(const Triangles& triangles, Eigen::Index vertices)
+template <typename Cells>
+std::vector<bool> vertices_of(const Cells& cells, Eigen::Index vertices)
 {
     std::vector<bool> used(vertices, false);
-    for (const int vertex : triangles.reshaped()) used[vertex] = true;
+    for (const int vertex : cells.reshaped()) used[vertex] = true;
     return used;
+}
+
+// The tets in classes of those that faces join.
+Classes joined_by_faces(const std::vector<Face>& faces, Eigen::Index tets)
+{
+    Classes classes(tets);
+    for (std::size_t f = 1; f < faces.size(); ++f)
+        if (faces[f].sorted == faces[f - 1].sorted) classes.unite(faces[f - 1].tet, faces[f].tet);
+    return classes;
 }
 
 // The edges of all triangles, sorted.
@@ -263,68 +273,39 @@ Topology topology_of(const Tets& tets, Eigen::Index vertices)
     const Triangles boundary = boundary_in(faces, tets);
     examine_boundary(boundary, count_used(vertices_of(boundary, vertices)), topology);
 
-    Classes components(tets.rows());
     for_each_run(
         faces, [](const Face& face) { return face.sorted; },
         [&](std::size_t first, std::size_t last) {
-            for (std::size_t f = first + 1; f < last; ++f) components.unite(faces[first].tet, faces[f].tet);
             if (last - first > 2) topology.boundary_manifold = false;
         });
-    topology.components = components.count();
-
-    std::vector<bool> used(vertices, false);
-    for (Eigen::Index t = 0; t < tets.rows(); ++t)
-        for (int corner = 0; corner < 4; ++corner) used[tets(t, corner)] = true;
-    topology.unused_vertices = static_cast<int>(vertices) - count_used(used);
+    topology.components = joined_by_faces(faces, tets.rows()).count();
+    topology.unused_vertices = static_cast<int>(vertices) - count_used(vertices_of(tets, vertices));
     return topology;
 }
 
 std::vector<int> parts_of(const Tets& tets)
 {
-    std::vector<int> parent(static_cast<std::size_t>(tets.rows()));
-    std::iota(parent.begin(), parent.end(), 0);
-    const auto root_of = [&](int tet) {
-        while (parent[tet] != tet) tet = parent[tet] = parent[parent[tet]];
-        return tet;
-    };
-    std::map<std::array<int, 3>, int> tet_at;
-    for (int tet = 0; tet < tets.rows(); ++tet)
-        for (int opposite = 0; opposite < 4; ++opposite) {
-            std::array<int, 3> face = {tets(tet, (opposite + 1) % 4), tets(tet, (opposite + 2) % 4), tets(tet, (opposite + 3) % 4)};
-            std::sort(face.begin(), face.end());
-            const auto [other, added] = tet_at.emplace(face, tet);
-            if (!added) parent[root_of(tet)] = root_of(other->second);
-        }
+    Classes joined = joined_by_faces(sorted_faces(tets), tets.rows());
     std::map<int, int> number;
     std::vector<int> parts;
     for (int tet = 0; tet < tets.rows(); ++tet)
-        parts.push_back(number.emplace(root_of(tet), static_cast<int>(number.size())).first->second);
+        parts.push_back(number.emplace(joined.find(tet), static_cast<int>(number.size())).first->second);
     return parts;
 }
 
 TetMesh kept_tets(const TetMesh& mesh, const std::vector<bool>& kept)
 {
-    std::vector<int> new_index(static_cast<std::size_t>(mesh.rest.rows()), -1);
-    const auto tets = std::count(kept.begin(), kept.end(), true);
-    for (Eigen::Index tet = 0; tet < mesh.tets.rows(); ++tet)
-        if (kept[static_cast<std::size_t>(tet)])
-            for (const int vertex : mesh.tets.row(tet)) new_index[vertex] = 0;
-    int vertices = 0;
-    for (int& index : new_index)
-        if (index == 0) index = vertices++;
-
-    TetMesh result;
-    result.rest.resize(vertices, 3);
-    result.tets.resize(tets, 4);
-    for (Eigen::Index v = 0; v < mesh.rest.rows(); ++v)
-        if (new_index[static_cast<std::size_t>(v)] >= 0) result.rest.row(new_index[static_cast<std::size_t>(v)]) = mesh.rest.row(v);
-    Eigen::Index next = 0;
-    for (Eigen::Index tet = 0; tet < mesh.tets.rows(); ++tet) {
-        if (!kept[static_cast<std::size_t>(tet)]) continue;
-        for (int corner = 0; corner < 4; ++corner) result.tets(next, corner) = new_index[mesh.tets(tet, corner)];
-        ++next;
+    std::vector<int> tets, vertices, new_index(static_cast<std::size_t>(mesh.rest.rows()), -1);
+    for (int tet = 0; tet < mesh.tets.rows(); ++tet)
+        if (kept[static_cast<std::size_t>(tet)]) tets.push_back(tet);
+    const Tets of_file = mesh.tets(tets, Eigen::all);
+    for (const int vertex : of_file.reshaped()) new_index[vertex] = 0;
+    for (std::size_t v = 0; v < new_index.size(); ++v) {
+        if (new_index[v] < 0) continue;
+        new_index[v] = static_cast<int>(vertices.size());
+        vertices.push_back(static_cast<int>(v));
     }
-    return result;
+    return {mesh.rest(vertices, Eigen::all), of_file.unaryExpr([&](int v) { return new_index[v]; })};
 }
 
 namespace {
@@ -381,10 +362,8 @@ Quality quality_of(const TetMesh& mesh)
     if (quality.tets == 0) return quality;
 
     const Triangles boundary = boundary_of(mesh.tets);
-    std::vector<bool> on_boundary(mesh.rest.rows(), false);
-    for (const int vertex : boundary.reshaped()) on_boundary[vertex] = true;
     quality.boundary_triangles = static_cast<int>(boundary.rows());
-    quality.boundary_vertices = static_cast<int>(std::count(on_boundary.begin(), on_boundary.end(), true));
+    quality.boundary_vertices = count_used(vertices_of(boundary, mesh.rest.rows()));
     quality.volume_m3 = tet_volumes(mesh.rest, mesh.tets).sum();
     examine_dihedrals(mesh, quality);
     examine_edges(mesh, quality);

@@ -18,15 +18,7 @@
 #include <new>
 #include <set>
 
-// The animations of a file that assimp has read.
-struct aiScene;
-
 namespace pbs {
-
-// Appends to `rig.animations` those that move a node of the rig; channels of other names are remarks. The matrix of a node that is moved is
-// removed, since an animation replaces its translation, rotation and scale.
-void add_assimp_animations(const aiScene& scene, Rig& rig);
-
 namespace {
 
 constexpr double default_tick_rate_hz = 25.0;  // assimp's rate for files that state none
@@ -87,8 +79,8 @@ RigAnimation animation_of(const aiAnimation& source, unsigned index, const std::
     return animation;
 }
 
-}  // namespace
-
+// Appends to `rig.animations` those that move a node of the rig; channels of other names are remarks. The matrix of a node that is moved is
+// removed, since an animation replaces its translation, rotation and scale.
 void add_assimp_animations(const aiScene& scene, Rig& rig)
 {
     std::map<std::string, int> node_named;
@@ -102,8 +94,6 @@ void add_assimp_animations(const aiScene& scene, Rig& rig)
         if (!animation.nodes.empty()) rig.animations.push_back(std::move(animation));
     }
 }
-
-namespace {
 
 using Nodes = std::vector<const aiNode*>;  // in the order of the rig
 

@@ -1,4 +1,5 @@
-#include "pbs/rig/gltf_model.hpp"
+#define TINYGLTF_IMPLEMENTATION
+#include "pbs/rig/gltf_rig.hpp"
 
 #include "pbs/geometry/content_format.hpp"
 #include "pbs/geometry/files.hpp"

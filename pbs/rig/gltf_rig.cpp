@@ -1,7 +1,6 @@
 #include "pbs/rig/gltf_rig.hpp"
 
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/rig/gltf_model.hpp"
 #include "pbs/rig/rig.hpp"
 #include "pbs/rig/rig_reader.hpp"
 #include "pbs/rig/tiny_gltf.hpp"
@@ -12,34 +11,7 @@
 #include <map>
 #include <utility>
 
-namespace pbs_tinygltf {
-
-// The meshes of a glTF file, with their skins.
-class Model;
-
-}  // namespace pbs_tinygltf
-
 namespace pbs {
-
-// The mesh of node `gltf_node` of the file with all its primitives of triangles. rig_node: the number of each of the file's nodes in the
-// rig. Appends to `rig.meshes`, and to `rig.remarks` what was left out: points, lines, morph targets.
-void add_gltf_mesh(const pbs_tinygltf::Model& model, int gltf_node, const std::vector<int>& rig_node, Rig& rig);
-
-}  // namespace pbs
-
-namespace pbs_tinygltf {
-
-// The animations of a glTF file.
-class Model;
-
-}  // namespace pbs_tinygltf
-
-namespace pbs {
-
-// Appends to `rig.animations` those that move a node, and to `rig.remarks` what was left out. rig_node: the number of each of the file's
-// nodes in the rig. An animation without a name gets "animation N".
-void add_gltf_animations(const pbs_tinygltf::Model& model, const std::vector<int>& rig_node, Rig& rig);
-
 namespace {
 
 // One mesh while its primitives are read.
@@ -172,8 +144,8 @@ std::vector<SkinJoint> joints_of(const tinygltf::Model& model, int skin_index, c
     return joints;
 }
 
-}  // namespace
-
+// The mesh of node `gltf_node` of the file with all its primitives of triangles. rig_node: the number of each of the file's nodes in the
+// rig. Appends to `rig.meshes`, and to `rig.remarks` what was left out: points, lines, morph targets.
 void add_gltf_mesh(const tinygltf::Model& model, int gltf_node, const std::vector<int>& rig_node, Rig& rig)
 {
     const tinygltf::Node& node = model.nodes[gltf_node];
@@ -188,8 +160,6 @@ void add_gltf_mesh(const tinygltf::Model& model, int gltf_node, const std::vecto
     mesh.joints = std::move(joints);
     rig.meshes.push_back(std::move(mesh));
 }
-
-namespace {
 
 Interpolation interpolation_of(const std::string& name, const std::string& path, const std::string& field)
 {
@@ -286,8 +256,8 @@ private:
     bool morphs_ = false;
 };
 
-}  // namespace
-
+// Appends to `rig.animations` those that move a node, and to `rig.remarks` what was left out. An animation without a name gets
+// "animation N".
 void add_gltf_animations(const tinygltf::Model& model, const std::vector<int>& rig_node, Rig& rig)
 {
     for (std::size_t index = 0; index < model.animations.size(); ++index) {
@@ -295,8 +265,6 @@ void add_gltf_animations(const tinygltf::Model& model, const std::vector<int>& r
         if (!animation.nodes.empty()) rig.animations.push_back(std::move(animation));
     }
 }
-
-namespace {
 
 Vec3 vec3_or(const std::vector<double>& numbers, const Vec3& otherwise)
 {

@@ -6,13 +6,68 @@
 #include "pbs/geometry/mesh_io_formats.hpp"
 #include "pbs/rig/assimp_rig.hpp"
 #include "pbs/rig/gltf_rig.hpp"
-#include "pbs/rig/rig_bytes.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 namespace pbs {
 namespace {
+
+constexpr double farthest = 1e9;  // [file's units]
+// Weights of 8 bits, four per point, sum to one within 4/255 at worst and 1e-3 where they are rounded well.
+constexpr double sum_tolerance = 1e-3;
+
+template <typename Numbers>
+bool bounded(const Numbers& numbers)
+{
+    return (numbers.array().abs() <= farthest).all();  // false for what is not a number
+}
+
+bool is_index(int index, std::size_t count)
+{
+    return index >= 0 && index < static_cast<int>(count);
+}
+
+bool is_sound(const NodeTransform& rest)
+{
+    return bounded(rest.translation) && bounded(rest.rotation.coeffs()) && rest.rotation.norm() > 0.0 && bounded(rest.scale) &&
+           (!rest.matrix || bounded(rest.matrix->matrix()));
+}
+
+bool is_sound(const Weights& skin, Eigen::Index points, std::size_t joints)
+{
+    return skin.vertices() == points && skin.first.front() == 0 && std::is_sorted(skin.first.begin(), skin.first.end()) &&
+           skin.first.back() == static_cast<int>(skin.bone.size()) && skin.weight.size() == skin.bone.size() &&
+           std::ranges::all_of(skin.bone, [&](int joint) { return is_index(joint, joints); }) &&
+           std::ranges::all_of(skin.weight, [](double weight) { return weight >= 0.0 && weight <= 1.0 + 1e-9; });
+}
+
+bool is_sound(const RigMesh& mesh, std::size_t nodes)
+{
+    const auto points = static_cast<std::size_t>(mesh.points.rows());
+    return is_index(mesh.node, nodes) && std::ranges::all_of(mesh.triangles.reshaped(), [&](int corner) { return is_index(corner, points); }) &&
+           std::ranges::all_of(mesh.joints,
+                               [&](const SkinJoint& joint) { return is_index(joint.node, nodes) && bounded(joint.inverse_bind.matrix()); }) &&
+           (mesh.joints.empty() || is_sound(mesh.skin, mesh.points.rows(), mesh.joints.size()));
+}
+
+bool is_sound(const std::optional<KeyTrack>& track)
+{
+    if (!track) return true;
+    const auto& times = track->times_s;
+    const std::size_t per_key = track->interpolation == Interpolation::cubic_spline ? 3 : 1;
+    return !times.empty() && std::is_sorted(times.begin(), times.end()) && std::isfinite(times.front()) && std::isfinite(times.back()) &&
+           track->values.size() == per_key * times.size() &&
+           std::ranges::all_of(track->values, [](const Eigen::Vector4d& value) { return bounded(value); });
+}
+
+bool is_sound(const RigAnimation& animation, std::size_t nodes)
+{
+    return std::isfinite(animation.start_s) && std::isfinite(animation.end_s) && animation.start_s <= animation.end_s &&
+           std::ranges::all_of(animation.nodes, [&](const NodeTracks& tracks) {
+               return is_index(tracks.node, nodes) && is_sound(tracks.translation) && is_sound(tracks.rotation) && is_sound(tracks.scale);
+           });
+}
 
 enum class RigFormat { none, gltf, fbx, collada };
 
@@ -31,10 +86,7 @@ Rig read_any_rig(const std::string& path)
     const RigFormat format = format_of(path);
     if (format == RigFormat::none)
         throw InputError(path, 0, "", "", "no rig: expected glTF 2.0 (.glb, .gltf), FBX (.fbx) or COLLADA (.dae, .zae)");
-    const auto read = [&](const std::string& file) {
-        return packed(format == RigFormat::gltf ? read_gltf_rig(file) : read_assimp_rig(file));
-    };
-    return unpacked_rig(read_isolated(path, read), path);
+    return checked(read_guarded(path, format == RigFormat::gltf ? read_gltf_rig : read_assimp_rig));
 }
 
 }  // namespace
@@ -57,12 +109,25 @@ bool rig_has_skin(const std::string& path)
     return std::any_of(rig.meshes.begin(), rig.meshes.end(), [](const RigMesh& mesh) { return !mesh.joints.empty(); });
 }
 
-namespace {
-
-constexpr double sum_tolerance =
-    1e-3;  // weights of 8 bits, four per point, sum to one within 4/255 at worst and 1e-3 where they are rounded well
-
-}  // namespace
+Rig checked(Rig rig)
+{
+    const auto require = [&](bool sound) {
+        if (!sound) throw InputError(rig.file, 0, "", "", "damaged: the reader's answer is not a whole rig");
+    };
+    require(rig.unit_m > 0.0 && std::isfinite(rig.unit_m));
+    for (std::size_t n = 0; n < rig.nodes.size(); ++n) {
+        RigNode& node = rig.nodes[n];
+        require(node.parent >= -1 && node.parent < static_cast<int>(n) && is_sound(node.rest));
+        node.rest.rotation.normalize();
+    }
+    for (const RigMesh& mesh : rig.meshes) {
+        if (!bounded(mesh.points))
+            throw InputError(rig.file, 0, "points of mesh " + mesh.name, "", "expected finite numbers of at most 1e9");
+        require(is_sound(mesh, rig.nodes.size()));
+    }
+    for (const RigAnimation& animation : rig.animations) require(is_sound(animation, rig.nodes.size()));
+    return rig;
+}
 
 void SkinWeights::add_point(const std::vector<JointShare>& shares)
 {

@@ -1,4 +1,4 @@
-// Rigs from files: glTF 2.0 (.glb, .gltf) by tinygltf, FBX and COLLADA (.dae, .zae) by assimp, each in a process of its own.
+// Rigs from files: glTF 2.0 (.glb, .gltf) by tinygltf, FBX and COLLADA (.dae, .zae) by assimp, after a child process has tried.
 //   const Rig rig = read_rig("hero.glb");
 #pragma once
 
@@ -19,6 +19,10 @@ bool rig_has_skin(const std::string& path);
 
 // The reader is chosen by the file's content. An InputError where the file is none of these formats, damaged or has no mesh.
 Rig read_rig(const std::string& path);
+
+// Every index and number that the format does not guarantee, since damage may have led the library astray; an InputError where one is out of
+// range. Rotations of nodes are returned with unit length.
+Rig checked(Rig rig);
 
 // The skin weights of a mesh while its points are read one after another.
 struct JointShare {

@@ -325,17 +325,12 @@ Pose rigid_pose(const RiggedBody& body, const std::vector<Eigen::Affine3d>& node
     return pose;
 }
 
-namespace {
-
-constexpr double slack_s = 1e-6;  // times given in decimal are not refused for their last digit
-
-}  // namespace
-
 RigMotion rig_motion(const Rig& rig, const RiggedBody& body, const RigAnimation& animation, const MotionSampling& sampling)
 {
     RigMotion made;
     made.motion.time_step_s = sampling.time_step_s;
     made.motion.steps_per_frame = steps_per_frame(sampling);
+    constexpr double slack_s = 1e-6;  // times given in decimal are not refused for their last digit
     const int frames = frames_after_the_first(sampling, animation.end_s - animation.start_s, slack_s, rig.file);
     for (int step = 0; step <= frames * made.motion.steps_per_frame; ++step) {
         const double time_s = animation.start_s + sampling.start_s + step * sampling.time_step_s;

@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <array>
-#include <stdexcept>
 
 namespace reference_fem {
 namespace {

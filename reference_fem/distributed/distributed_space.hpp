@@ -56,7 +56,6 @@ struct DistributedSpace {
 };
 
 // The skeleton's springs by the tet that holds them, so that whoever owns the tet can add them.
-
 // Pulls on its rest point by stiffness times (stretch - displacement there).
 struct SpringInTet {
     int tet = 0;             // index into the mesh's tets

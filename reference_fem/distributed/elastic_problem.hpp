@@ -20,7 +20,6 @@ namespace reference_fem {
 
 // Seconds of one phase: on the wall, and of this process's processor time. On a machine that others use the latter is the one to compare;
 // a rank that waits for another polls, so its waiting counts in both.
-
 // cpu_s is the sum over the threads of the process.
 struct PhaseTime {
     double wall_s = 0.0, cpu_s = 0.0;  // [s]
@@ -79,12 +78,10 @@ struct ElasticSolution {
 void check_problem(const pbs::TetMesh& mesh, const ElasticProblem& problem);
 
 // The most memory this process has had resident, as the kernel counts it (VmHWM).
-
 // In units of 2^20 bytes, since the process began; it never decreases.
 double peak_memory_mb();
 
 // The nodes of prescribed tets, named by the two vertices they lie halfway between, and where they go.
-
 // The set of those nodes, over prescribed_tets of an attachment.
 class PrescribedNodes {
 public:
@@ -105,7 +102,6 @@ private:
 //   MpiSession session(argc, argv);
 //   if (session.rank() == 0) mesh = read_tet_mesh(file).mesh;
 //   session.broadcast(mesh.rest);
-
 // One a program, over MPI_COMM_WORLD; its end ends MPI.
 class MpiSession {
 public:
@@ -134,13 +130,11 @@ private:
 //   const ElasticSolution solution = solve_distributed(mesh, problem);   // by all ranks at once, with the same arguments
 //   solution.summary.converged; solution.displacement;
 // The header is plain; deal.II is seen by the .cpp files alone.
-
 // pbs::InputError, on every rank alike, where check_problem finds one. Not converging is reported, not thrown.
 ElasticSolution solve_distributed(const pbs::TetMesh& mesh, const ElasticProblem& problem, const IterativeOptions& options = {});
 
 // The distributed problem solved by the serial reference (SimplexSpace, its assembly and its solvers), to compare the distributed solution
 // with.
-
 // Solves with problem.options.solver, on this process alone. pbs::InputError where check_problem finds one; a singular matrix, or not
 // converging, is reported: converged = false.
 ElasticSolution solve_serially(const pbs::TetMesh& mesh, const ElasticProblem& problem);

@@ -18,7 +18,6 @@
 namespace reference_fem {
 
 // The consistent mass of a space as an operator on displacements: the same scalar matrix for each component.
-
 // Keeps its own matrix: the space may go.
 class ConsistentMass {
 public:
@@ -34,7 +33,6 @@ private:
 
 // Inertia as a potential of one time step: c / 2 |w - w~|_M^2, whose gradient is M a. The mass-proportional part of Rayleigh's damping is
 // another one, with its own c and centre.
-
 // Call set() before anything else.
 class InertiaPotential : public Potential {
 public:
@@ -87,7 +85,6 @@ private:
 // generalised-alpha sees a strain of alpha_f (1 - alpha_f) theta^2 / 2, of second order in h. Newmark (w = u_(n+1)) sees none.
 // a_n of generalised-alpha is the acceleration at t_n + (alpha_m - alpha_f) h (S. Erlicher, L. Bonaventura, O. Bursi, Comput. Mech. 28,
 // 2002): where the next step has another length it is moved to that one's place, so that the order stays.
-
 // The parameters of Eqs. (a) to (c), without unit.
 struct TimeScheme {
     double alpha_m = 0.0, alpha_f = 0.0, beta = 0.25, gamma = 0.5;  // the defaults are Newmark's average acceleration
@@ -119,7 +116,6 @@ Motion accept(const TimeScheme& scheme, const Motion& motion, const Eigen::Vecto
 // step. The scheme's own Eqs. (b), (c) would answer a jump of the given velocity by V with a velocity that alternates by 2 V and, for
 // Newmark, with accelerations that grow by 4 V / h a step: the weak instability of average acceleration under constraints (A. Cardona, M.
 // Geradin, Computers and Structures 33(3), 1989). Here a jump is forgotten after three steps, and its impulse M V is passed on whole.
-
 // Remembers what the past steps did; next() only looks, accept() goes on.
 class PrescribedMotion {
 public:

@@ -17,7 +17,6 @@ namespace reference_fem {
 
 // The lowest mode of free vibration: K phi = omega^2 M phi, phi = 0 where prescribed. By subspace iteration (K.-J. Bathe, Finite Element
 // Procedures, 1996, section 11.6), which separates modes of nearly equal frequency, such as those of a bar of square section.
-
 // The frequency in Hz is omega / (2 pi).
 struct Mode {
     double omega_rad_s = 0.0;  // not a number where the stiffness is singular: a body that may move rigidly

@@ -5,7 +5,6 @@
 #include <Eigen/SVD>
 
 #include <algorithm>
-#include <cmath>
 
 namespace reference_fem {
 namespace {

@@ -90,7 +90,6 @@ Invariants invariants(const Eigen::Matrix3d& f);  // of any finite F, inverted o
 // The polar decomposition F = R S with det R = +1, by the signed singular values F = U diag(s) V^T: where det F < 0 the smallest is
 // negative, so that R turns F as little as a rotation can and S takes the reflection
 // (G. Irving, J. Teran, R. Fedkiw, Invertible Finite Elements for Robust Simulation of Large Deformation, SCA 2004).
-
 // F = U diag(s) V^T and S = V diag(s) V^T.
 struct PolarDecomposition {
     Eigen::Matrix3d left, right;  // U, V: orthogonal

@@ -1,7 +1,6 @@
 #include "reference_fem/newton/newton.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numeric>
 

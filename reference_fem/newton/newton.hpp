@@ -119,7 +119,6 @@ private:
 // Follows data from where they are (fraction 0) to where they shall be (fraction 1) in steps that are halved where a step does not
 // converge and doubled again after two that do.
 //   follow_load_path([&](double fraction) { set_targets(fraction); return newton.minimise(...); }, displacement, {});
-
 // By default the path tries the whole way first, and steps down to 1/64 of it where that fails.
 struct LoadPathOptions {
     double first_step = 1.0;            // of the fraction; above 1: 1

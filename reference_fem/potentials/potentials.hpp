@@ -41,7 +41,6 @@ public:
 // With mean dilatation (J. Nagtegaal, D. Parks, J. Rice, CMAME 4, 1974; J. Simo, R. Taylor, K. Pister, CMAME 51, 1985) a tet's volume term
 // is V lambda / 2 mean(theta)^2: one volume constraint a tet, which on P2 is the P2-P0 element. On P1 theta is constant and both agree.
 // Quadrature has 1 point on P1 and 6 on P2, exact to degree 3: for the linear law and for det F, hence for the volume.
-
 // The range of det F, which is 1 at rest.
 struct Jacobians {
     double lowest = 1.0;  // of det F over all quadrature points
@@ -81,7 +80,6 @@ private:
 
 // A quadratic potential by its matrix: c / 2 (u - u0)^T K (u - u0). The flesh of the linear law, and the stiffness-proportional part of
 // Rayleigh's damping in a time step.
-
 // Keeps a copy of K.
 class StiffnessPotential : public Potential {
 public:
@@ -106,7 +104,6 @@ private:
 NodalMatrix rest_stiffness(const SimplexSpace& space, const Potential& potential);
 
 // Forces that do not change with the displacement, such as gravity and tractions: -f . u.
-
 // Its Hessian is 0.
 class DeadLoad : public Potential {
 public:
@@ -125,7 +122,6 @@ private:
 };
 
 // The springs of an attachment as a potential: sum_s k_s / 2 |x(p_s) - target_s|^2.
-
 // Call move_to() before anything else.
 class SpringPotential : public Potential {
 public:
@@ -149,7 +145,6 @@ private:
 // The paper's bind constraint (Sec. 3.6) as an energy on vertices: sum_i k_i / 2 (|x_i - q_i| - d_i)^2, q_i the vertex's rest projection
 // on its bone, carried by the bone. It keeps a distance and nothing else: around the bone and, past its ends, around the end point a vertex
 // is free. A vertex on the bone (d_i = 0) is tied to q_i.
-
 // Until move_to() the bind points q_i are the rest positions.
 class BindPotential : public Potential {
 public:

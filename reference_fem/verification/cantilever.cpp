@@ -10,7 +10,6 @@
 #include "reference_fem/verification/problems.hpp"
 
 namespace reference_fem {
-namespace {
 namespace tip_load {
 
 using pbs::Vec3;
@@ -31,7 +30,6 @@ BeamTheory timoshenko(double nu)
 }
 
 }  // namespace tip_load
-}  // namespace
 
 VerificationRow cantilever_row(const Effort& effort, double nu, int element_order, Formulation formulation, const Divisions& divisions)
 {
@@ -87,7 +85,6 @@ VerificationRows cantilever_rows(const Effort& effort)
 //   torsion: the bar of torsion.cpp; Saint-Venant's solution changes no volume, so its torque does not depend on Poisson's ratio
 // Only formulations for nearly incompressible materials (reference_fem/options.hpp) have bounds.
 
-namespace {
 namespace locking {
 
 const std::vector<double> quick_ladder = {0.3, 0.49, 0.499, 0.49999};
@@ -110,7 +107,6 @@ VerificationRow as_locking(VerificationRow row, const Element& element)
 }
 
 }  // namespace locking
-}  // namespace
 
 VerificationRows locking_rows(const Effort& effort)
 {
@@ -132,7 +128,6 @@ VerificationRows locking_rows(const Effort& effort)
 // w = weight per length; deflection = w L^4 / (8 E I) + w L^2 / (2 k G A). Near the clamp the solid differs from the beam as in
 // cantilever.cpp; the first depth h makes 4 h / L of the bending deflection here.
 
-namespace {
 namespace gravity {
 
 using pbs::Vec3;
@@ -181,7 +176,6 @@ VerificationRow row_of(const Effort& effort, int element_order, int n)
 }
 
 }  // namespace gravity
-}  // namespace
 
 VerificationRows gravity_cantilever_rows(const Effort& effort)
 {

@@ -33,7 +33,6 @@ BoundaryValueProblem membrane_problem(double shear, bool plane_strain, int eleme
                            }}}};
 }
 
-namespace {
 namespace small_strain {
 
 BoundaryValueSolution bend(const Effort& effort, const ElasticMaterial& material, double shear, bool plane_strain, int element_order, int n)
@@ -85,7 +84,6 @@ VerificationRow plane_stress_row(const Effort& effort, int element_order, int n)
 }
 
 }  // namespace small_strain
-}  // namespace
 
 VerificationRows cooks_membrane_rows(const Effort& effort)
 {
@@ -111,7 +109,6 @@ VerificationRows cooks_membrane_rows(const Effort& effort)
 // faces. With u_z held (plane strain) the corner rises by 13.77 mm. If the faces are free and the middle plane is not held, the panel
 // buckles sideways at 1/40 of the load, where the Hessian is no longer positive definite.
 
-namespace {
 namespace finite_strain {
 
 constexpr double shear_modulus = 0.4225, poisson = 0.3;
@@ -136,7 +133,6 @@ VerificationRow row_of(const Effort& effort, bool plane_strain, int element_orde
 }
 
 }  // namespace finite_strain
-}  // namespace
 
 VerificationRows cooks_membrane_finite_strain_rows(const Effort& effort)
 {

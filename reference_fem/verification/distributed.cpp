@@ -12,7 +12,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <limits>
-#include <stdexcept>
 
 namespace reference_fem {
 namespace {

@@ -9,7 +9,6 @@
 #include <Eigen/LU>
 #include <fmt/format.h>
 
-#include <cmath>
 #include <random>
 
 namespace reference_fem {
@@ -53,29 +52,6 @@ double free_end_determinant(const Beam& beam, double omega)
     for (int i = 0; i < steps; ++i) state = step * state;
     return state.bottomRows<2>().determinant();
 }
-
-}  // namespace
-
-double bernoulli_euler_rad_s(const Beam& beam)
-{
-    const double root = 1.8751040687119611;  // the lowest of cos x cosh x = -1
-    return root * root *
-           std::sqrt(beam.young_pa * second_moment_m4(beam) / (beam.density_kg_m3 * area_m2(beam) * std::pow(beam.length_m, 4)));
-}
-
-double timoshenko_rad_s(const Beam& beam)
-{
-    // Shear and rotary inertia lower the frequency, and the determinant has one root below Bernoulli and Euler's.
-    double low = 0.0, high = bernoulli_euler_rad_s(beam);
-    const bool positive_at_low = free_end_determinant(beam, low) > 0.0;
-    for (int k = 0; k < 60; ++k) {
-        const double middle = (low + high) / 2.0;
-        ((free_end_determinant(beam, middle) > 0.0) == positive_at_low ? low : high) = middle;
-    }
-    return (low + high) / 2.0;
-}
-
-namespace {
 
 constexpr double young_pa = 1.0e5, poisson = 0.3, density_kg_m3 = 1000.0;
 const Divisions coarse = {10, 1, 1};
@@ -275,6 +251,25 @@ void add_frequency(const Effort& effort, VerificationRows& rows)
 }
 
 }  // namespace
+
+double bernoulli_euler_rad_s(const Beam& beam)
+{
+    const double root = 1.8751040687119611;  // the lowest of cos x cosh x = -1
+    return root * root *
+           std::sqrt(beam.young_pa * second_moment_m4(beam) / (beam.density_kg_m3 * area_m2(beam) * std::pow(beam.length_m, 4)));
+}
+
+double timoshenko_rad_s(const Beam& beam)
+{
+    // Shear and rotary inertia lower the frequency, and the determinant has one root below Bernoulli and Euler's.
+    double low = 0.0, high = bernoulli_euler_rad_s(beam);
+    const bool positive_at_low = free_end_determinant(beam, low) > 0.0;
+    for (int k = 0; k < 60; ++k) {
+        const double middle = (low + high) / 2.0;
+        ((free_end_determinant(beam, middle) > 0.0) == positive_at_low ? low : high) = middle;
+    }
+    return (low + high) / 2.0;
+}
 
 VerificationRows dynamics_rows(const Effort& effort)
 {

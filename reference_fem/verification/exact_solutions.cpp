@@ -4,7 +4,6 @@
 #include "reference_fem/verification/problems.hpp"
 
 namespace reference_fem {
-namespace {
 namespace patch_test {
 
 using pbs::Vec3;
@@ -60,7 +59,6 @@ VerificationRow row_of(const Effort& effort, const std::string& data, const Boun
 }
 
 }  // namespace patch_test
-}  // namespace
 
 VerificationRows patch_test_rows(const Effort& effort)
 {
@@ -76,7 +74,6 @@ VerificationRows patch_test_rows(const Effort& effort)
 // A bar along x, held at x = 0 as the closed form moves there, under its own weight w [N/m^3] along x: sigma_xx = w (L - x) and nothing
 // else. The displacement is quadratic, so P2 tets return it to rounding (S. Timoshenko, J. Goodier, Theory of elasticity, art. 96).
 
-namespace {
 namespace own_weight {
 
 using pbs::Vec3;
@@ -92,7 +89,6 @@ Vec3 exact(const Vec3& point)
 }
 
 }  // namespace own_weight
-}  // namespace
 
 VerificationRows own_weight_rows(const Effort& effort)
 {
@@ -123,7 +119,6 @@ VerificationRows own_weight_rows(const Effort& effort)
 // u_i = sin(a_i . x + phi_i), whose body force follows by hand. Order p elements converge with h^(p+1) in L2 and h^p in the H1 seminorm
 // (S. Brenner, R. Scott, The mathematical theory of finite element methods, Springer 2008, ch. 5).
 
-namespace {
 namespace manufactured {
 
 using pbs::Vec3;
@@ -197,7 +192,6 @@ VerificationRows ladder(const Effort& effort, int element_order, int coarsest, i
 }
 
 }  // namespace manufactured
-}  // namespace
 
 VerificationRows manufactured_solution_rows(const Effort& effort)
 {

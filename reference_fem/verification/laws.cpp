@@ -6,8 +6,6 @@
 
 #include <Eigen/Geometry>
 
-#include <cmath>
-
 namespace reference_fem {
 namespace {
 

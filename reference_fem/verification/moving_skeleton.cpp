@@ -10,9 +10,6 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
 namespace reference_fem {
 namespace {
 

@@ -63,7 +63,6 @@ pbs::TetMesh mapped(pbs::TetMesh mesh, const std::function<pbs::Vec3(const pbs::
 pbs::TetMesh joined(const std::vector<pbs::TetMesh>& meshes);
 
 // The two bars that more than one problem solves.
-
 // Tip deflection under a shear of 1 N; P2 bounded by what the clamp may do (cantilever.cpp).
 VerificationRow cantilever_row(const Effort& effort, double poisson, int element_order, Formulation formulation,
                                const Divisions& divisions);
@@ -90,7 +89,6 @@ BoundaryValueProblem membrane_problem(double shear, bool plane_strain, int eleme
 //   |u' - u| <= c cond(K) |u|.
 // c is the sum of up to 3 n + 1 roundings of one unit, n the number of unknowns. Roundings of random sign add up to the square root of
 // their number (Sec. 2.8): sqrt(3 n + 1) times the unit roundoff eps / 2, which is below sqrt(n) eps.
-
 // The extreme eigenvalues in magnitude of a symmetric matrix, definite or not.
 struct Spectrum {
     int unknowns = 0;                      // n

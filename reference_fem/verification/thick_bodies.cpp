@@ -6,11 +6,9 @@
 
 #include "reference_fem/verification/problems.hpp"
 
-#include <cmath>
 #include <numbers>
 
 namespace reference_fem {
-namespace {
 namespace plate {
 
 using pbs::Vec3;
@@ -60,7 +58,6 @@ VerificationRow row_of(const Effort& effort, int element_order, const Divisions&
 }
 
 }  // namespace plate
-}  // namespace
 
 VerificationRows thick_plate_rows(const Effort& effort)
 {
@@ -75,7 +72,6 @@ VerificationRows thick_plate_rows(const Effort& effort)
 // so the sphere is faceted: an error of order 2 in h for every element order.
 // u_r = p a^3 / (E (b^3 - a^3)) ((1 - 2 nu) r + (1 + nu) b^3 / (2 r^2)) (Timoshenko and Goodier, Theory of elasticity, art. 136).
 
-namespace {
 namespace sphere {
 
 using pbs::Vec3;
@@ -152,7 +148,6 @@ void judge_as_second_order(VerificationRow& row)
 }
 
 }  // namespace sphere
-}  // namespace
 
 VerificationRows thick_sphere_rows(const Effort& effort)
 {

@@ -7,13 +7,11 @@
 #include "reference_fem/potentials/potentials.hpp"
 #include "reference_fem/verification/problems.hpp"
 
-#include <cmath>
 #include <cstdio>
 #include <limits>
 #include <numbers>
 
 namespace reference_fem {
-namespace {
 namespace torsion {
 
 using pbs::Vec3;
@@ -28,7 +26,6 @@ double torsion_constant()
 }
 
 }  // namespace torsion
-}  // namespace
 
 VerificationRow torsion_row(const Effort& effort, double nu, int element_order, Formulation formulation, int n)
 {
@@ -57,7 +54,6 @@ VerificationRow torsion_row(const Effort& effort, double nu, int element_order, 
             .source = "closed form: Saint-Venant's series (Timoshenko and Goodier, Theory of elasticity, art. 109)"};
 }
 
-namespace {
 namespace torsion {
 
 VerificationRows ladder(const Effort& effort, int element_order, int coarsest, int levels)
@@ -83,7 +79,6 @@ VerificationRows ladder(const Effort& effort, int element_order, int coarsest, i
 }
 
 }  // namespace torsion
-}  // namespace
 
 VerificationRows torsion_rows(const Effort& effort)
 {
@@ -100,7 +95,6 @@ VerificationRows torsion_rows(const Effort& effort)
 // Beam theory alone determines which value belongs to which load: deflection = P / E times the integral of
 // s^2 (cos^2 phi / I_width + sin^2 phi / I_thickness), s the distance to the tip, phi the angle between the load and the width.
 
-namespace {
 namespace twisted_beam {
 
 using pbs::Vec3;
@@ -164,7 +158,6 @@ VerificationRow row_of(const Effort& effort, const Vec3& load, int element_order
 }
 
 }  // namespace twisted_beam
-}  // namespace
 
 VerificationRows twisted_beam_rows(const Effort& effort)
 {
@@ -186,7 +179,6 @@ VerificationRows twisted_beam_rows(const Effort& effort)
 // Large rotations distinguish the laws: linear strain takes them for a swelling of 31 % at 90 degrees and turns tets inside out, St
 // Venant-Kirchhoff gives way.
 
-namespace {
 namespace half_turn {
 
 const Divisions divisions = {27, 8, 8};
@@ -300,7 +292,6 @@ VerificationRows rows_of(const Effort& effort, const SimplexSpace& space, const 
 }
 
 }  // namespace half_turn
-}  // namespace
 
 VerificationRows half_turn_rows(const Effort& effort)
 {

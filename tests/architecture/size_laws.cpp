@@ -14,8 +14,24 @@ const std::vector<std::string> cpp = {".cpp", ".hpp"}, scripts = {".py", ".js", 
 
 // Files of fewer lines than `least_file` that are neither merged nor public headers with several users.
 const std::map<std::string, std::string> named_interfaces = {
-    {"tests/support/counted_exit.cpp", "a library of its own, linked into every program of a build that counts lines"},
-    {"tests/support/precompiled.cpp", "the precompiled header of the tests"},
+    {"experiments/studies/timing/native_plain_module.cpp", "a module that the program loads"},
+    {"pbs/flesh/cholmod_module.cpp", "a module that the program loads"},
+    {"pbs/geometry/installed_eigen.hpp", "included by every file of another project"},
+    {"pbs/geometry/mesh_io_unavailable.cpp", "in place of a library that is left out"},
+    {"pbs/geometry/meshing_unavailable.cpp", "in place of a library that is left out"},
+    {"pbs/rig/rig_reader_unavailable.cpp", "in place of a library that is left out"},
+    {"pbs/rig/tiny_gltf.cpp", "the code of a library of headers"},
+    {"tests/unit/pbs/geometry/mesh_io_unavailable.cpp", "a program of its own"},
+    {"tests/unit/pbs/geometry/meshing_unavailable.cpp", "a program of its own"},
+};
+
+// Rooms whose files are small for a reason.
+const std::map<std::string, std::string> rooms_of_small_files = {
+    {"pbs/constraints/", "one constraint a file, as the paper's equations"},
+    {"tests/support/", "one fixture a header"},
+    {"tests/fuzz/", "one target a file"},
+    {"tests/packaging/", "projects of other people, as small as they would be"},
+    {"tests/benchmark/", "programs that are run by hand"},
 };
 
 struct Function {
@@ -55,6 +71,11 @@ std::vector<Function> functions_of(const std::vector<std::string>& lines)
         open = close;
     }
     return functions;
+}
+
+bool is_in_room_of_small_files(const std::string& path)
+{
+    return std::ranges::any_of(rooms_of_small_files, [&](const auto& room) { return path.starts_with(room.first); });
 }
 
 // Number of files that include a header, its own source excepted.
@@ -102,15 +123,15 @@ std::string exceeded(const std::string& what, int value, int most, const std::st
 
 // One line per budget: its folders, the kinds of its files, and its limits. A change that exceeds one names what it removes.
 const std::vector<Budget> the_budgets = {
-    {.what = "pbs", .folders = {"pbs/"}, .endings = cpp, .most_lines = 25'900, .least_mean = 45, .small_files = 400},
-    {.what = "reference_fem", .folders = {"reference_fem/"}, .endings = cpp, .most_lines = 9'600, .least_mean = 110, .small_files = 10},
-    {.what = "analysis", .folders = {"analysis/"}, .endings = cpp, .most_lines = 6'650, .least_mean = 100, .small_files = 10},
-    {.what = "experiments", .folders = {"experiments/"}, .endings = cpp, .most_lines = 36'100, .least_mean = 40, .small_files = 400},
-    {.what = "production C++", .folders = {"pbs/", "reference_fem/", "analysis/", "experiments/"}, .endings = cpp, .most_lines = 79'200},
-    {.what = "tests in C++", .folders = {"tests/"}, .endings = cpp, .most_lines = 52'800, .least_mean = 30, .small_files = 400},
-    {.what = "tests in Python and JavaScript", .folders = {"tests/"}, .endings = scripts, .most_lines = 13'300},
-    {.what = "paper_figures", .folders = {"paper_figures/"}, .endings = scripts, .most_lines = 8'700},
-    {.what = "kept records", .folders = {"experiments/records/full/"}, .most_files = 745},
+    {.what = "pbs", .folders = {"pbs/"}, .endings = cpp, .most_lines = 23'400, .least_mean = 120, .small_files = 7},
+    {.what = "reference_fem", .folders = {"reference_fem/"}, .endings = cpp, .most_lines = 9'300, .least_mean = 120},
+    {.what = "analysis", .folders = {"analysis/"}, .endings = cpp, .most_lines = 6'300, .least_mean = 120, .small_files = 1},
+    {.what = "experiments", .folders = {"experiments/"}, .endings = cpp, .most_lines = 30'800, .least_mean = 120, .small_files = 27},
+    {.what = "production C++", .folders = {"pbs/", "reference_fem/", "analysis/", "experiments/"}, .endings = cpp, .most_lines = 69'700},
+    {.what = "tests in C++", .folders = {"tests/"}, .endings = cpp, .most_lines = 49'700, .least_mean = 120, .small_files = 11},
+    {.what = "tests in Python and JavaScript", .folders = {"tests/"}, .endings = scripts, .most_lines = 12'700},
+    {.what = "paper_figures", .folders = {"paper_figures/"}, .endings = scripts, .most_lines = 8'400},
+    {.what = "kept records", .folders = {"experiments/records/full/"}, .most_files = 150},
 };
 
 }  // namespace
@@ -141,7 +162,7 @@ Violations folder_sizes(const SourceTree& tree, const std::vector<Budget>& budge
         if (whole->second.files > budget.most_files)
             violations.push_back(exceeded(budget.what, whole->second.files, budget.most_files, "files"));
         for (const auto& [place, total] : totals)
-            if (place != budget.what && total.lines < budget.least_mean * total.files)
+            if (place != budget.what && !rooms_of_small_files.contains(place) && total.lines < budget.least_mean * total.files)
                 violations.push_back(place + ": " + std::to_string(total.lines / total.files) + " lines per file in the mean, at least " +
                                      std::to_string(budget.least_mean) + ": merge the files of one topic");
     }
@@ -156,7 +177,8 @@ Violations small_files(const SourceTree& tree, const std::vector<Budget>& budget
         Violations small;
         for (const auto& [path, text] : tree) {
             const int lines = static_cast<int>(lines_of(text).size());
-            if (budget.least_mean == 0 || !belongs_to(budget, path) || lines >= least_file || named_interfaces.contains(path)) continue;
+            const bool is_judged = budget.least_mean > 0 && belongs_to(budget, path) && lines < least_file;
+            if (!is_judged || named_interfaces.contains(path) || is_in_room_of_small_files(path)) continue;
             const auto header = users.find(path);
             if (path.ends_with(".hpp") && header != users.end() && header->second >= several_users) continue;
             small.push_back(at(path, 1,

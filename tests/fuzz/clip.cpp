@@ -1,11 +1,13 @@
-// Any bytes as the output of the clip reader's process, for two skeletons: poses of finite numbers, or an InputError.
-#include "pbs/character/clip_bytes.hpp"
+// Any bytes as the numbers of a clip that a library has read, for two skeletons: poses of finite numbers, or an InputError.
+#include "pbs/character/clip.hpp"
 #include "pbs/geometry/input_error.hpp"
+#include "tests/fuzz/taken_bytes.hpp"
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <optional>
 
 namespace {
 
@@ -14,15 +16,47 @@ using pbs::Vec3;
 const pbs::Skeleton arm = {{{"upper", -1, Vec3(-1, 0, 0), Vec3::Zero()}, {"forearm", 0, Vec3::Zero(), Vec3(1, 0, 0)}}};
 const pbs::Skeleton leg = {{{"pelvis", -1, Vec3(0, 1, 0), Vec3(0, 0.9, 0)}, {"thigh.L", 0, Vec3(0, 0.9, 0), Vec3(0, 0.5, 0)}}};
 
+pbs::Positions points_of(const std::vector<double>& numbers)
+{
+    return Eigen::Map<const pbs::Positions>(numbers.data(), static_cast<Eigen::Index>(numbers.size() / 3), 3);
+}
+
+// Nothing where the counts or the parents are not those of a clip: its reader makes them.
+std::optional<pbs::Clip> clip_of(fuzz::TakenBytes taken)
+{
+    pbs::Clip clip;
+    clip.name = "clip.bvh";
+    clip.frame_time_s = taken.take<double>();
+    clip.parent = taken.take_array<int>();
+    const std::size_t joints = clip.parent.size();
+    for (std::size_t j = 0; j < joints; ++j) {
+        if (clip.parent[j] < -1 || clip.parent[j] >= static_cast<int>(j)) return std::nullopt;
+        const std::vector<char> name = taken.take_array<char>();
+        clip.joints.emplace_back(name.begin(), name.end());
+    }
+    clip.zero_pose = points_of(taken.take_array<double>());
+    const std::vector<double> rotations = taken.take_array<double>();  // x, y, z, w
+    clip.root = points_of(taken.take_array<double>());
+    if (!taken.whole() || joints == 0 || rotations.empty() || rotations.size() % (4 * joints) != 0) return std::nullopt;
+    for (std::size_t at = 0; at < rotations.size(); at += 4) {
+        if (at % (4 * joints) == 0) clip.local.emplace_back();
+        clip.local.back().emplace_back(rotations.data() + at);
+    }
+    const bool shaped = clip.zero_pose.rows() == static_cast<Eigen::Index>(joints) && clip.root.rows() == clip.frames();
+    return shaped ? std::optional(clip) : std::nullopt;
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
+    const std::optional<pbs::Clip> clip = clip_of({data, size});
+    if (!clip) return 0;
     for (const pbs::Skeleton& skeleton : {arm, leg}) try {
-            const pbs::Clip clip = pbs::unpacked_clip(std::string(reinterpret_cast<const char*>(data), size), "clip.bvh");
+            pbs::check_clip(*clip);
             pbs::ClipSampling sampling;
-            sampling.duration_s = std::min(1.0, (clip.frames() - 2) * clip.frame_time_s);
-            const pbs::Motion motion = pbs::retarget(clip, skeleton, sampling);
+            sampling.duration_s = std::min(1.0, (clip->frames() - 2) * clip->frame_time_s);
+            const pbs::Motion motion = pbs::retarget(*clip, skeleton, sampling);
             for (const pbs::Pose& pose : motion.steps)
                 for (const auto& bone : pose)
                     if (!bone.matrix().allFinite()) std::abort();

@@ -1,6 +1,6 @@
 // Runs a library on any bytes in a child process, as child_process.hpp does, and distinguishes the library's own breakdowns, which the
 // child contains, from those of the project's code after it.
-//   const LibraryChild child([&](LibraryChild::Parent& parent) { ...; parent.library_is_done(); return packed(...); });
+//   const LibraryChild child([&](LibraryChild::Parent& parent) { ...; parent.library_is_done(); ... });
 //   if (child.broke_down_in_library()) return;   // the user gets an InputError
 // The child's coverage counts as that of the fuzzed program: libFuzzer adds the bytes of the section __libfuzzer_extra_counters to its own.
 #pragma once
@@ -79,15 +79,11 @@ public:
         void library_is_done()
         {
             dup2(errors_, STDERR_FILENO);
-            send("s");
+            send('s');
         }
-        void send(const std::string& bytes) const
+        void send(char byte) const
         {
-            for (std::size_t at = 0; at < bytes.size();) {
-                const ssize_t count = ::write(pipe_, bytes.data() + at, bytes.size() - at);
-                if (count <= 0) _exit(1);
-                at += static_cast<std::size_t>(count);
-            }
+            if (::write(pipe_, &byte, 1) != 1) _exit(1);
         }
         void silence()
         {
@@ -101,7 +97,7 @@ public:
         int pipe_, errors_ = -1;
     };
 
-    explicit LibraryChild(const std::function<std::string(Parent&)>& work)
+    explicit LibraryChild(const std::function<void(Parent&)>& work)
     {
         share_counters();
         int ends[2];
@@ -113,9 +109,7 @@ public:
             run(Parent(ends[1]), work);
         }
         close(ends[1]);
-        char buffer[1 << 16];
-        for (ssize_t count = 0; (count = ::read(ends[0], buffer, sizeof buffer)) > 0;)
-            bytes_.append(buffer, static_cast<std::size_t>(count));
+        for (char byte = 0; ::read(ends[0], &byte, 1) == 1;) sent_ += byte;
         close(ends[0]);
         while (waitpid(child, &status_, 0) < 0) {
         }
@@ -123,22 +117,21 @@ public:
         count_breakdowns();
     }
 
-    bool is_whole() const { return status_ == 0 && bytes_.size() > 1 && bytes_[0] == 's'; }
-    bool broke_down_in_library() const { return status_ != 0 && bytes_.empty(); }
-    bool broke_down_after_library() const { return status_ != 0 && !bytes_.empty(); }
-    std::string bytes() const { return bytes_.substr(1); }
+    bool is_whole() const { return status_ == 0 && sent_ == "se"; }
+    bool broke_down_in_library() const { return status_ != 0 && sent_.empty(); }
+    bool broke_down_after_library() const { return status_ != 0 && !sent_.empty(); }
 
 private:
-    [[noreturn]] static void run(Parent parent, const std::function<std::string(Parent&)>& work)
+    [[noreturn]] static void run(Parent parent, const std::function<void(Parent&)>& work)
     {
         for (const int signal : {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGTERM, SIGXCPU}) std::signal(signal, SIG_DFL);
         limit_child();
         parent.silence();
         try {
-            const std::string bytes = work(parent);
+            work(parent);
             keep_coverage();
-            parent.send(bytes);
-        } catch (const std::exception&) {  // read_isolated turns all of them into InputErrors
+            parent.send('e');
+        } catch (const std::exception&) {  // try_reading turns all of them into InputErrors
         }
         _exit(0);
     }
@@ -164,7 +157,7 @@ private:
         counts.otherwise += !WIFSIGNALED(status_);
     }
 
-    std::string bytes_;
+    std::string sent_;  // "s" once the library is done, "e" at the end
     int status_ = 0;
 };
 

@@ -1,8 +1,8 @@
-// Any bytes as the output of the reader's process: a valid mesh in which every tet has a volume, or an InputError.
-#include "pbs/geometry/guarded_reading.hpp"
+// Any bytes as the points and tets that a library has read: a valid mesh in which every tet has a volume, or an InputError.
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/mesh_checks.hpp"
+#include "pbs/geometry/mesh_io_formats.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
+#include "tests/fuzz/taken_bytes.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -11,9 +11,14 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
     try {
-        const pbs::IndexedPoints read = pbs::unpacked_points(std::string(reinterpret_cast<const char*>(data), size), "mesh.vtu");
-        if (read.cells.cols() != 4) return 0;
-        const pbs::MeshReading reading = pbs::check_rest("mesh.vtu", {read.points, read.cells});
+        fuzz::TakenBytes taken(data, size);
+        const std::vector<double> points = taken.take_array<double>();
+        const int corners = taken.take<int>();
+        const std::vector<int> tets = taken.take_array<int>();
+        if (!taken.whole() || points.size() % 3 != 0 || corners != 4 || tets.size() % 4 != 0) return 0;
+        const pbs::MeshReading reading =
+            pbs::check_rest("mesh.vtu", {Eigen::Map<const pbs::Positions>(points.data(), static_cast<Eigen::Index>(points.size() / 3), 3),
+                                         Eigen::Map<const pbs::Tets>(tets.data(), static_cast<Eigen::Index>(tets.size() / 4), 4)});
         if (!(pbs::tet_volumes(reading.mesh.rest, reading.mesh.tets).minCoeff() > 0.0)) std::abort();
     } catch (const pbs::InputError&) {
     }

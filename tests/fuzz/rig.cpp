@@ -1,8 +1,8 @@
-// Any bytes as a rig, selected by their first byte: the output of the reader's process (p), glTF as text (g) and as .glb (b). The result is
-// a rig whose skeleton, surface and poses are finite and whose weights sum to one, or an InputError.
+// Any bytes as a rig, selected by their first byte: glTF as text (g) or as .glb. The result is a rig whose skeleton, surface and poses are
+// finite and whose weights sum to one, or an InputError.
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/rig/gltf_rig.hpp"
-#include "pbs/rig/rig_bytes.hpp"
+#include "pbs/rig/rig_reader.hpp"
 #include "tests/fuzz/sound_rig.hpp"
 #include "tests/support/scratch_folder.hpp"
 
@@ -20,9 +20,7 @@ std::string written(const std::string& name, const std::string& bytes)
 
 pbs::Rig rig_of(char kind, const std::string& bytes)
 {
-    if (kind == 'p') return pbs::unpacked_rig(bytes, "rig.glb");
-    // The child process sends its result to the parent as bytes, which are checked again.
-    return pbs::unpacked_rig(pbs::packed(pbs::read_gltf_rig(written(kind == 'g' ? "fuzz.gltf" : "fuzz.glb", bytes))), "rig.glb");
+    return pbs::checked(pbs::read_gltf_rig(written(kind == 'g' ? "fuzz.gltf" : "fuzz.glb", bytes)));
 }
 
 }  // namespace

@@ -52,4 +52,31 @@ inline std::vector<experiments::Diagram> hand_diagrams(const std::vector<experim
     return experiments::diagrams_of(records, experiments::choose_settings(cases));
 }
 
+inline const analysis::CaseKey bent_limb = {.body = "limb", .motion = "bend", .angle_deg = 90.0};
+
+inline experiments::SettingKey in_f64(experiments::SettingKey key)
+{
+    key.precision = "f64";
+    return key;
+}
+inline const experiments::SettingKey pbs_24 = in_f64({"pbs", 24, 0.2, "ordered"});
+
+// Seven deformers and the reference, all in plain f64, which takes part in both comparisons; the first diagrams are those of packed_f32.
+inline std::vector<HandPoint> seven_points(double mush_pct)
+{
+    return {{in_f64({"lbs"}), 0.01, 60.0},
+            {in_f64({"dqs"}), 0.02, 50.0},
+            {in_f64({"delta_mush", 20}), 0.5, mush_pct},
+            {pbs_24, 0.7, 20.0},
+            {in_f64({"xpbd", 8}), 0.65, 25.0},
+            {in_f64({.deformer = "fem_linear", .element_order = 1}), 5.0, 30.0},
+            {in_f64({.deformer = "fem_corotational", .element_order = 1}), 100.0, 5.0},
+            hand_reference()};
+}
+
+inline experiments::Diagram diagram_of_seven(double mush_pct)
+{
+    return hand_diagrams({hand_case(bent_limb, seven_points(mush_pct))}).front();
+}
+
 }  // namespace test_support

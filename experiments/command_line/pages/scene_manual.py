@@ -20,7 +20,7 @@ tables = {
     "pbs": "Position based skinning, as in Algorithm 1 of the paper.",
     "pbs.jiggle": "The jiggling zone. It is off unless this table is present.",
     "pbs.variant": "Other readings and the printed forms of the paper's equations.",
-    "pbs.improved": "Changes to the paper's method, which the study `improvements` compares; the defaults are the paper's.",
+    "pbs.improved": "Changes to the paper's method, which the study `work_precision` compares; the defaults are the paper's.",
     "pbs_author": "Position based skinning as in the code that the paper's first author published in 2018.",
     "xpbd": "Extended position based dynamics: the deformers `xpbd` and `xpbd_small_steps`.",
     "delta_mush": "Delta mush: smoothing after linear blend skinning.",

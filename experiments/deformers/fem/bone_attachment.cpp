@@ -20,17 +20,6 @@ BoneAttachment empty_attachment(const pbs::Character& character, double core_rad
     return bones;
 }
 
-// Indices of tets with all four corners inside the capsule: it is convex, so all of the tet is.
-std::vector<int> tets_inside(const pbs::TetMesh& mesh, const pbs::BoneCapsule& capsule)
-{
-    std::vector<int> inside;
-    for (int t = 0; t < mesh.tets.rows(); ++t) {
-        const auto corners = mesh.tets.row(t);
-        if (std::all_of(corners.begin(), corners.end(), [&](int v) { return capsule.contains(mesh.rest.row(v)); })) inside.push_back(t);
-    }
-    return inside;
-}
-
 // Springs at the sample points of the capsules, each with the stiffness of its share of the volume.
 BoneAttachment attached_by(pbs::CapsuleSprings held, const pbs::Character& character, const FemOptions& options)
 {
@@ -105,9 +94,12 @@ BoneAttachment nodes_attachment(const pbs::Character& character, const FemOption
     BoneAttachment bones = empty_attachment(character, core_radius_of(options));
     for (int j = 0; j < static_cast<int>(bones.capsules.size()); ++j) {
         int kept = 0;
-        for (const int tet : tets_inside(mesh, bones.capsules[j])) {
+        for (int tet = 0; tet < mesh.tets.rows(); ++tet) {
             const auto corners = mesh.tets.row(tet);
+            // All of a tet is inside if its corners are, for a capsule is convex.
+            const auto inside = [&](int v) { return bones.capsules[j].contains(mesh.rest.row(v)); };
             const auto free_for_bone = [&](int v) { return bones.vertex_bone[v] == -1 || bones.vertex_bone[v] == j; };
+            if (!std::all_of(corners.begin(), corners.end(), inside)) continue;
             if (!std::all_of(corners.begin(), corners.end(), free_for_bone)) continue;
             for (const int v : corners) bones.vertex_bone[v] = j;
             bones.attachment.prescribed_tets.push_back(tet);

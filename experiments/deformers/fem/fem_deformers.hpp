@@ -46,7 +46,6 @@ public:
 private:
     void add_bound_vertices(const pbs::Character& character);
     void add_gripped_tets(const pbs::Character& character, const std::vector<int>& spring_tet);
-    nlohmann::json attachment_and_grips() const;
 
     FemOptions options_;
     BoneAttachment bones_;
@@ -86,7 +85,6 @@ public:
     nlohmann::json to_json() const;
 
 private:
-    void add_stage(const reference_fem::LoadPathSummary& stage);
     void add_failure(const FrameSolve& solve, const reference_fem::Jacobians& flesh);
 
     int frames_ = 0, restarts_ = 0;

@@ -76,7 +76,7 @@ void add_attachment_keys(OptionFields<FemOptions>& fields)
          .highest = 1,
          .meaning =
              "attachments smooth, embedded and nodes: radius of the bone's capsule, a factor on the local limb radius, without a unit; 0: "
-             "0.7 with attachment smooth, otherwise 0.35. Both are choices of this project. The studies ensemble and error_split compare "
+             "0.7 with attachment smooth, otherwise 0.35. Both are choices of this project. The study ensemble compares "
              "smooth springs with 0.7 and 0.5"});
     add_key_with_own_value(
         fields, "spring_factor", &FemOptions::spring_factor, spring_factor_of,
@@ -85,7 +85,7 @@ void add_attachment_keys(OptionFields<FemOptions>& fields)
          .meaning =
              "attachments smooth, embedded and bind: q, a factor without a unit: the density of the springs is q E / r^2 [N/m^4], r the "
              "capsule's radius (smooth: the density on the axis) or the local limb radius (bind); 0: 10 with attachment smooth, otherwise "
-             "1e4. Both are choices of this project. The studies ensemble and error_split compare smooth springs with 10 and 100; doubling "
+             "1e4. Both are choices of this project. The study ensemble compares smooth springs with 10 and 100; doubling "
              "1e4 with attachment embedded changes no reported value"});
     fields
         .add("attachment_kernel", &FemOptions::attachment_kernel,

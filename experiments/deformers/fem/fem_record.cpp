@@ -141,21 +141,16 @@ nlohmann::json attachment_json(const FemOptions& options)
     return attachment;
 }
 
-nlohmann::json FemRecord::attachment_and_grips() const
+nlohmann::json FemRecord::to_json(const reference_fem::SetupSummary& setup) const
 {
     nlohmann::json attachment = attachment_json(options_);
     for (std::size_t j = 0; j < grips_.size(); ++j)
         attachment["bones"].push_back(experiments::to_json(grips_[j], bones_.capsules[j], options_.attachment));
-    return attachment;
-}
-
-nlohmann::json FemRecord::to_json(const reference_fem::SetupSummary& setup) const
-{
     nlohmann::json json = {
         {"model", name_of(options_.model)},
         {"formulation", name_of(options_.formulation)},
         {"dynamics", name_of(options_.dynamics)},
-        {"attachment", attachment_and_grips()},
+        {"attachment", attachment},
         {"setup", experiments::to_json(setup)},
         {"frames", frames_},
         {"largest_rotation_deg", largest_rotation_rad_ * 180.0 / std::numbers::pi},
@@ -169,16 +164,6 @@ nlohmann::json FemRecord::to_json(const reference_fem::SetupSummary& setup) cons
     if (!hold_bone_.empty())
         json.update({{"largest_grip_error_m", largest_grip_error_m_}, {"grip_error_over_motion", grip_error_over_motion_}});
     return json;
-}
-
-void NewtonRecord::add_stage(const reference_fem::LoadPathSummary& stage)
-{
-    halvings_ += stage.halvings();
-    for (const reference_fem::LoadStep& step : stage.steps) {
-        factorisations_ += step.newton.factorisations;
-        projected_ += static_cast<int>(
-            std::count_if(step.newton.iterations.begin(), step.newton.iterations.end(), [](const auto& it) { return it.projected; }));
-    }
 }
 
 void NewtonRecord::add_failure(const FrameSolve& solve, const reference_fem::Jacobians& flesh)
@@ -210,7 +195,11 @@ void NewtonRecord::add_frame(const FrameSolve& solve, const reference_fem::Jacob
     int newton_steps = 0;
     double seconds = 0.0;
     for (const auto& stage : solve.stages) {
-        add_stage(stage);
+        halvings_ += stage.halvings();
+        for (const reference_fem::LoadStep& step : stage.steps) {
+            factorisations_ += step.newton.factorisations;
+            projected_ += static_cast<int>(std::ranges::count_if(step.newton.iterations, [](const auto& it) { return it.projected; }));
+        }
         newton_steps += stage.newton_steps();
         seconds += stage.seconds;
     }

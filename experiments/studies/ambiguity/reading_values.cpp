@@ -8,7 +8,7 @@
 #include "experiments/scene/scene.hpp"
 #include "experiments/settings/recorded_settings.hpp"
 #include "experiments/studies/artefacts/artefact_values.hpp"
-#include "experiments/studies/convergence/convergence_values.hpp"
+#include "experiments/studies/convergence/convergence_case.hpp"
 #include "experiments/studies/jiggle/jiggle_records.hpp"
 #include "experiments/studies/momentum/momentum_drift.hpp"
 #include "experiments/studies/shared/timed_rounds.hpp"

@@ -1,17 +1,82 @@
 #include "experiments/studies/convergence/convergence_case.hpp"
 
 #include "experiments/deformers/deformer_options.hpp"
+#include "experiments/process/terminal.hpp"
 #include "experiments/scene/scene.hpp"
-#include "experiments/settings/option_fields.hpp"
+#include "experiments/settings/recorded_settings.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 #include "experiments/studies/shared/posed_reference.hpp"
+#include "pbs/skinning/blend.hpp"
 #include "pbs/solver/options.hpp"
+#include "pbs/solver/pbs_solver.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
 namespace experiments {
+namespace {
+
+pbs::Positions blended(const pbs::Character& character, const pbs::Weights& weights, const pbs::Pose& pose)
+{
+    pbs::Positions positions;
+    pbs::linear_blend_skinning(character.mesh.rest, weights, pose, positions);
+    return positions;
+}
+
+// The solver advanced from step to step, each step from the result of the last one.
+class WarmStarted {
+public:
+    WarmStarted(const pbs::Character& character, const pbs::Motion& motion, const pbs::PbsOptions& options)
+        : character_(character),
+          motion_(motion),
+          solver_(character.mesh, character.binding.distance, {}, options),
+          positions_(blended(character, character.weights, motion.steps.front()))
+    {
+    }
+
+    const pbs::Positions& before(std::size_t step)
+    {
+        for (; next_ < step; ++next_) {
+            stop_if_interrupted();
+            solver_.advance(positions_, pbs::posed_bind_points(character_.binding, motion_.steps[next_]), motion_.time_step_s);
+            positions_ = solver_.positions();
+        }
+        return positions_;
+    }
+
+private:
+    const pbs::Character& character_;
+    const pbs::Motion& motion_;
+    pbs::PbsSolver solver_;
+    pbs::Positions positions_;
+    std::size_t next_ = 0;
+};
+
+}  // namespace
+
+const char* name_of(SolverStart start)
+{
+    static constexpr const char* names[] = {"lbs", "previous_frame", "rest_pose", "rigid_bind"};
+    return names[static_cast<int>(start)];
+}
+
+std::vector<FrameStarts> starts_of(const pbs::Character& character, const pbs::Motion& motion, const std::vector<int>& frames,
+                                   const pbs::PbsOptions& options)
+{
+    const pbs::Weights rigid = pbs::rigid_weights(character.binding);
+    WarmStarted warm(character, motion, options);
+    std::vector<FrameStarts> all;
+    for (const int frame : frames) {
+        const std::size_t step = static_cast<std::size_t>(frame) * motion.steps_per_frame;
+        const pbs::Pose& pose = motion.steps.at(step);
+        all.push_back(
+            {pbs::posed_bind_points(character.binding, pose),
+             {blended(character, character.weights, pose), warm.before(step), character.mesh.rest, blended(character, rigid, pose)}});
+    }
+    return all;
+}
+
 namespace {
 
 std::vector<int> frame_numbers(const std::vector<NamedFrame>& frames)
@@ -135,49 +200,15 @@ private:
 
 }  // namespace
 
-nlohmann::json to_json(const NamedFrame& frame)
-{
-    static const auto fields = OptionFields<NamedFrame>("frame")
-                                   .record("frame", &NamedFrame::frame)
-                                   .record("name", &NamedFrame::name)
-                                   .record("key", &NamedFrame::key)
-                                   .record("twist", &NamedFrame::twist)
-                                   .record("compared", &NamedFrame::compared)
-                                   .complete();
-    return fields.json(frame);
-}
-
-nlohmann::json to_json(const ProjectionSetting& setting)
-{
-    static const auto fields = OptionFields<ProjectionSetting>("setting")
-                                   .record("order", &ProjectionSetting::order)
-                                   .record("precision", &ProjectionSetting::precision)
-                                   .complete();
-    return fields.json(setting);
-}
-
-nlohmann::json to_json(const ConvergenceCase& of)
-{
-    static const auto fields =
-        OptionFields<ConvergenceCase>("convergence")
-            .record("scene", &ConvergenceCase::scene)
-            .record("frames", &ConvergenceCase::frames)
-            .record("k_stretch", &ConvergenceCase::k_stretch)
-            .record("settings", &ConvergenceCase::settings)
-            .record("other_vertices", &ConvergenceCase::other_vertices)
-            .record("every_setting_to", &ConvergenceCase::every_setting_to)
-            .record("ladder", &ConvergenceCase::ladder)
-            .record("iterations", &ConvergenceCase::most_iterations)
-            .record("reference", &ConvergenceCase::reference)
-            .record("refines_reference", &ConvergenceCase::refines_reference)
-            .record("reference_to", &ConvergenceCase::reference_to)
-            .derived("looks", [](const ConvergenceCase& one) -> nlohmann::json { return looked_at(one.most_iterations); })
-            .constant("residual_tolerance", residual_tolerance)
-            .constant("satisfied_residual", satisfied_residual)
-            .constant("volume_tolerance_pct", volume_tolerance_pct)
-            .complete();
-    return fields.json(of);
-}
+RECORD_SETTINGS(NamedFrame, frame, name, key, twist, compared)
+RECORD_SETTINGS(ProjectionSetting, order, precision)
+RECORD_SETTINGS_AND(ConvergenceCase,
+                    .derived("looks", [](const ConvergenceCase& of) -> nlohmann::json { return looked_at(of.most_iterations); })
+                        .constant("residual_tolerance", residual_tolerance)
+                        .constant("satisfied_residual", satisfied_residual)
+                        .constant("volume_tolerance_pct", volume_tolerance_pct),
+                    scene, frames, k_stretch, settings, other_vertices, every_setting_to, ladder, most_iterations, reference,
+                    refines_reference, reference_to)
 
 ConvergenceResult measure_convergence(const ConvergenceCase& of)
 {

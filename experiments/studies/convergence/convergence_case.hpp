@@ -2,16 +2,41 @@
 //   const ConvergenceResult result = measure_convergence(case_of_the_limb);
 #pragma once
 
+#include "analysis/records/tables.hpp"
 #include "analysis/verdicts/case_record.hpp"
 #include "experiments/scene/scene.hpp"
-#include "experiments/studies/convergence/starts.hpp"
 #include "experiments/studies/shared/iteration_path.hpp"
+#include "pbs/character/character.hpp"
+#include "pbs/solver/options.hpp"
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace experiments {
+
+// The initial guesses from which the solver may begin a frame (claim C03). The bind points are always those of the frame; only the
+// particles differ when lines 10-14 of Algorithm 1 begin. Nothing jiggles, so the guess is the first argument of PbsSolver::advance.
+//   lbs             linear blend skinning, as in the paper
+//   previous_frame  the solver's result in the previous frame, which began from the one before it, and so on from the motion's beginning
+//   rest_pose       the rest positions, wherever the character is
+//   rigid_bind      every vertex moved by its nearest bone alone
+//   for (const FrameStarts& frame : starts_of(character, motion, {164, 708}, options)) frame.shapes[int(SolverStart::rest_pose)];
+enum class SolverStart { lbs, previous_frame, rest_pose, rigid_bind };
+inline constexpr std::array<SolverStart, 4> all_starts = {SolverStart::lbs, SolverStart::previous_frame, SolverStart::rest_pose,
+                                                          SolverStart::rigid_bind};
+
+const char* name_of(SolverStart start);  // lbs, previous_frame, ..., as in records and keys
+
+struct FrameStarts {
+    pbs::Positions bind_points;            // posed q_i [m], #V x 3
+    std::array<pbs::Positions, 4> shapes;  // by SolverStart [m], #V x 3
+};
+
+// frames: of the motion, increasing. options: for the steps that lead to previous_frame. Before the first frame it is LBS.
+std::vector<FrameStarts> starts_of(const pbs::Character& character, const pbs::Motion& motion, const std::vector<int>& frames,
+                                   const pbs::PbsOptions& options);
 
 struct NamedFrame {
     int frame = 0;
@@ -71,5 +96,52 @@ struct ConvergenceResult {
 };
 
 ConvergenceResult measure_convergence(const ConvergenceCase& of);
+
+// The records of convergence: residuals by iteration, one row per path, and the error to the reference by iteration.
+
+// The path that a row belongs to.
+struct PathCase {
+    std::string body, pose;
+    int vertices = 0, tets = 0;
+    bool own_mesh = true;
+    std::string order, precision;
+    double k_stretch = 0.0;
+    std::string start;
+};
+// rates.csv
+struct RateRow {
+    PathCase of;
+    int iterations = 0;
+    std::string outcome;
+    double floor = 0.0, last_half_change_pct = 0.0;
+    Rate rate;
+    Reached residual, volume;
+    double iteration_cpu_ms = 0.0;
+    std::optional<double> cpu_ms_to_residual, cpu_ms_to_volume;
+    Look first, paper, nearest, last;  // the initial guess, after 24 iterations, with the least error, and the last one
+    std::string reference;
+    ReferenceQuality quality;
+    double limit_from_lbs_pct = 0.0;
+};
+extern const analysis::Columns<RateRow> rate_columns;
+
+// residuals.csv and towards.csv: a look of a path.
+struct LookRow {
+    PathCase of;
+    Look look;
+};
+extern const analysis::Columns<LookRow> residual_columns, towards_columns;
+
+std::vector<LookRow> look_rows(const ConvergenceResult& result);  // thinned to five looks per decade
+std::vector<LookRow> towards_rows(std::vector<LookRow> looks);    // those with an error
+std::vector<RateRow> rate_rows(const ConvergenceResult& result);  // one per path
+
+// The values by which C03 and C12 are judged, from the paths of a case. The default setting on the scene's own mesh gives the value, and
+// the other orders, precisions and meshes of about that size give its interval. Where a tolerance is never reached, the number of
+// iterations that were tried takes its place and `limit` marks it, so that a ratio is a bound. Where neither initial guess reaches the
+// tolerance there is no value; where this happens in another order or on another mesh, the interval is open. The share of such cases is a
+// value of its own. Only characters are judged. The limb is measured for comparison, as are twists, in which the rest pose already
+// satisfies all constraints.
+std::vector<analysis::Measurement> convergence_values(const ConvergenceResult& result);
 
 }  // namespace experiments

@@ -1,11 +1,15 @@
-#include "experiments/studies/convergence/convergence_records.hpp"
+#include "experiments/studies/convergence/convergence_case.hpp"
 
+#include "analysis/statistics/fits.hpp"
 #include "experiments/deformers/deformer_options.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <limits>
+#include <optional>
 
 namespace experiments {
 namespace {
@@ -36,17 +40,12 @@ PathCase case_of(const ConvergencePaths& of, std::size_t start)
             name_of(all_starts[start])};
 }
 
-// Enough digits for drawing. All digits would double the size of the record.
-double six_digits(double value)
-{
-    return std::stod(fmt::format("{:.6g}", value));
-}
-
+// Six digits are enough for drawing. All digits would double the size of the record.
 Look rounded(Look look)
 {
     for (const auto member : {&Look::stretch_rms, &Look::volume_rms, &Look::bind_rms_m, &Look::combined, &Look::volume_change_pct,
                               &Look::volume_abs_change_pct, &Look::error_joint_pct, &Look::whole_joint_pct})
-        look.*member = six_digits(look.*member);
+        look.*member = std::stod(fmt::format("{:.6g}", look.*member));
     return look;
 }
 
@@ -103,10 +102,6 @@ const Columns<Look> error_look_columns = {
     {"error_joint_pct", &Look::error_joint_pct, "%", "distance to the reference over the blended vertices outside its mask"},
     {"whole_joint_pct", &Look::whole_joint_pct, "%", "distance to the reference over all blended vertices"}};
 
-const Columns<Look> start_residual = {{"start_residual", &Look::combined, "", "combined residual of the initial guess"}};
-const Columns<Look> paper_residual = {{"residual_24", &Look::combined, "", "combined residual after 24 iterations"}};
-const Columns<Look> last_residual = {{"last_residual", &Look::combined, "", "combined residual after the last iteration"}};
-
 const Columns<analysis::Interval> rate_interval = {
     {"rate_per_iteration", &analysis::Interval::estimate, "", "factor per iteration of residual - floor"},
     {"rate_low", &analysis::Interval::low, "", "lower end of its interval"},
@@ -114,28 +109,6 @@ const Columns<analysis::Interval> rate_interval = {
 const Columns<Rate> fitted_rate = Columns<Rate>{{"stalls_at_iteration", &Rate::stalls_at, "", "where it stalls; empty: nowhere"}} +
                                   within(&Rate::rate, rate_interval) +
                                   Columns<Rate>{{"rate_log_rms_off", &Rate::log_rms_off, "", "root mean square logarithm over the fit"}};
-
-const Columns<Reached> to_residual = {{"iterations_to_residual", &Reached::iterations, "", "iterations to the residual's tolerance"},
-                                      {"residual_reached", &Reached::within, "", "they reached it"}};
-const Columns<Reached> to_volume = {{"iterations_to_volume", &Reached::iterations, "", "iterations to the paper's 0.5 % of volume"},
-                                    {"volume_reached", &Reached::within, "", "they reached it"}};
-
-const Columns<Look> paper_volume = {
-    {"volume_change_24_pct", &Look::volume_change_pct, "%", "volume change after 24 iterations"},
-    {"volume_abs_change_24_pct", &Look::volume_abs_change_pct, "%", "sum of the tets' absolute changes after 24 iterations"}};
-const Columns<Look> last_volume = {
-    {"last_volume_change_pct", &Look::volume_change_pct, "%", "volume change at the end"},
-    {"last_volume_abs_change_pct", &Look::volume_abs_change_pct, "%", "sum of the tets' absolute changes at the end"},
-    {"last_inverted_tets", &Look::inverted_tets, "", "inverted tets at the end"}};
-
-const Columns<Look> start_error = {
-    {"start_error_pct", &Look::error_joint_pct, "%", "error of the initial guess at the joints outside the mask"}};
-const Columns<Look> paper_error = {{"error_24_pct", &Look::error_joint_pct, "%", "error after 24 iterations"}};
-const Columns<Look> paper_whole_error = {
-    {"whole_error_24_pct", &Look::whole_joint_pct, "%", "error after 24 iterations with the joints that the mask leaves out"}};
-const Columns<Look> least_error = {{"least_error_pct", &Look::error_joint_pct, "%", "least error on the way"},
-                                   {"least_error_iteration", &Look::iteration, "", "iteration of the least error"}};
-const Columns<Look> last_error = {{"last_error_pct", &Look::error_joint_pct, "%", "error at the end"}};
 
 const Columns<ReferenceQuality> quality_columns = {
     {"masked_share_pct", &ReferenceQuality::masked_share_pct, "%", "share of the volume that is left out because the reference overlaps"},
@@ -149,21 +122,41 @@ const Columns<LookRow> residual_columns = within(&LookRow::of, case_columns) + w
 const Columns<LookRow> towards_columns = within(&LookRow::of, case_columns) + within(&LookRow::look, error_look_columns);
 
 using Rates = Columns<RateRow>;
+using Looks = Columns<Look>;
 const Columns<RateRow> rate_columns =
     within(&RateRow::of, case_columns) +
     Rates{{"iterations", &RateRow::iterations, "", "iterations that were done"},
           {"outcome", &RateRow::outcome, "", "finished or not_finite"},
           {"floor", &RateRow::floor, "", "lowest combined residual that any initial guess leads to"}} +
-    within(&RateRow::first, start_residual) + within(&RateRow::paper, paper_residual) + within(&RateRow::last, last_residual) +
+    within(&RateRow::first, Looks{{"start_residual", &Look::combined, "", "combined residual of the initial guess"}}) +
+    within(&RateRow::paper, Looks{{"residual_24", &Look::combined, "", "combined residual after 24 iterations"}}) +
+    within(&RateRow::last, Looks{{"last_residual", &Look::combined, "", "combined residual after the last iteration"}}) +
     Rates{{"last_half_change_pct", &RateRow::last_half_change_pct, "%", "change of the residual over the second half of the iterations"}} +
-    within(&RateRow::rate, fitted_rate) + within(&RateRow::residual, to_residual) + within(&RateRow::volume, to_volume) +
+    within(&RateRow::rate, fitted_rate) +
+    within(&RateRow::residual,
+           Columns<Reached>{{"iterations_to_residual", &Reached::iterations, "", "iterations to the residual's tolerance"},
+                            {"residual_reached", &Reached::within, "", "they reached it"}}) +
+    within(&RateRow::volume,
+           Columns<Reached>{{"iterations_to_volume", &Reached::iterations, "", "iterations to the paper's 0.5 % of volume"},
+                            {"volume_reached", &Reached::within, "", "they reached it"}}) +
     Rates{{"iteration_cpu_ms", &RateRow::iteration_cpu_ms, "ms", "mean processor time per iteration"},
           {"cpu_ms_to_residual", &RateRow::cpu_ms_to_residual, "ms", "processor time to the residual's tolerance; empty: not reached"},
           {"cpu_ms_to_volume", &RateRow::cpu_ms_to_volume, "ms", "processor time to the volume's tolerance; empty: not reached"}} +
-    within(&RateRow::paper, paper_volume) + within(&RateRow::last, last_volume) +
-    Rates{{"reference", &RateRow::reference, "", "name of the reference, or why there is none"}} + within(&RateRow::first, start_error) +
-    within(&RateRow::paper, paper_error) + within(&RateRow::nearest, least_error) + within(&RateRow::last, last_error) +
-    within(&RateRow::paper, paper_whole_error) + within(&RateRow::quality, quality_columns) +
+    within(&RateRow::paper, Looks{{"volume_change_24_pct", &Look::volume_change_pct, "%", "volume change after 24 iterations"},
+                                  {"volume_abs_change_24_pct", &Look::volume_abs_change_pct, "%",
+                                   "sum of the tets' absolute changes after 24 iterations"}}) +
+    within(&RateRow::last, Looks{{"last_volume_change_pct", &Look::volume_change_pct, "%", "volume change at the end"},
+                                 {"last_volume_abs_change_pct", &Look::volume_abs_change_pct, "%", "sum of the tets' changes at the end"},
+                                 {"last_inverted_tets", &Look::inverted_tets, "", "inverted tets at the end"}}) +
+    Rates{{"reference", &RateRow::reference, "", "name of the reference, or why there is none"}} +
+    within(&RateRow::first, Looks{{"start_error_pct", &Look::error_joint_pct, "%", "error of the initial guess outside the mask"}}) +
+    within(&RateRow::paper, Looks{{"error_24_pct", &Look::error_joint_pct, "%", "error after 24 iterations"}}) +
+    within(&RateRow::nearest, Looks{{"least_error_pct", &Look::error_joint_pct, "%", "least error on the way"},
+                                    {"least_error_iteration", &Look::iteration, "", "iteration of the least error"}}) +
+    within(&RateRow::last, Looks{{"last_error_pct", &Look::error_joint_pct, "%", "error at the end"}}) +
+    within(&RateRow::paper,
+           Looks{{"whole_error_24_pct", &Look::whole_joint_pct, "%", "error after 24 iterations with the masked joints"}}) +
+    within(&RateRow::quality, quality_columns) +
     Rates{{"limit_from_lbs_pct", &RateRow::limit_from_lbs_pct, "%", "distance of the last shape from the one that LBS leads to"}};
 
 std::vector<LookRow> look_rows(const ConvergenceResult& result)
@@ -191,6 +184,194 @@ std::vector<LookRow> towards_rows(std::vector<LookRow> looks)
 {
     std::erase_if(looks, [](const LookRow& row) { return std::isnan(row.look.error_joint_pct); });
     return looks;
+}
+
+namespace {
+
+// A value of one setting, and what it bounds where a tolerance was not reached.
+struct PathValue {
+    double value = 0.0;
+    analysis::Limit limit = analysis::Limit::none;
+};
+using ValueOf = std::function<std::optional<PathValue>(const ConvergencePaths&)>;
+using Group = std::vector<const ConvergencePaths*>;  // the default setting first
+
+std::vector<Group> groups_of(const ConvergenceResult& result)
+{
+    std::vector<Group> groups;
+    for (const ConvergencePaths& paths : result.all) {
+        const auto same = [&](const Group& group) {
+            const ConvergencePaths& first = *group.front();
+            return first.pose == paths.pose && first.k_stretch == paths.k_stretch && (!result.ladder || first.vertices == paths.vertices);
+        };
+        if (const auto found = std::find_if(groups.begin(), groups.end(), same); found != groups.end())
+            found->push_back(&paths);
+        else
+            groups.push_back({&paths});
+    }
+    return groups;
+}
+
+analysis::CaseKey key_of(const ConvergencePaths& of)
+{
+    analysis::CaseKey key = of.key;
+    key.body = of.body;
+    key.deformer = "pbs";
+    key.order = experiments::name_of(of.setting.order);
+    key.precision = experiments::name_of(of.setting.precision);
+    key.vertices = of.vertices;
+    key.k_stretch = of.k_stretch;
+    return key;
+}
+
+// The part of a value's key in which the values of a group differ.
+struct What {
+    std::string claim, quantity;
+    std::string tolerance = {}, initial_guess = {};
+};
+
+void add(std::vector<analysis::Measurement>& to, const What& what, const Group& group, const ValueOf& value_of)
+{
+    const std::optional<PathValue> own = value_of(*group.front());
+    if (!own || !std::isfinite(own->value)) return;
+    analysis::Measurement measured{what.claim, what.quantity, key_of(*group.front()), own->value, own->value, own->value, "1"};
+    measured.of.tolerance = what.tolerance;
+    measured.of.initial_guess = what.initial_guess;
+    measured.limit = own->limit;
+    int without = 0;
+    for (const ConvergencePaths* other : group) {
+        const std::optional<PathValue> measurement = value_of(*other);
+        without += !measurement;
+        if (!measurement || !std::isfinite(measurement->value)) continue;
+        measured.low = std::min(measured.low, measurement->value);
+        measured.high = std::max(measured.high, measurement->value);
+    }
+    if (without > 0) {
+        measured.not_reached = without;
+        measured.n = static_cast<int>(group.size());
+        measured.low = 0.0;
+        measured.high = std::numeric_limits<double>::infinity();
+    }
+    to.push_back(measured);
+}
+
+struct Tolerance {
+    const char* name;  // in a key
+    Reached (*reached)(const ConvergencePaths&, std::size_t start);
+};
+const Tolerance tolerances[] = {
+    {"residual", [](const ConvergencePaths& of, std::size_t start) { return reached_residual(of.paths[start], floor_of(of.paths)); }},
+    {"volume", [](const ConvergencePaths& of, std::size_t start) { return reached_volume(of.paths[start]); }}};
+
+ValueOf iterations_to(const Tolerance& tolerance)
+{
+    return [&tolerance](const ConvergencePaths& of) {
+        const Reached lbs = tolerance.reached(of, 0);
+        return PathValue{double(lbs.iterations), lbs.within ? analysis::Limit::none : analysis::Limit::more_than};
+    };
+}
+
+// An initial guess that fulfils the tolerance counts as one iteration.
+ValueOf over_lbs(const Tolerance& tolerance, std::size_t start)
+{
+    return [&tolerance, start](const ConvergencePaths& of) -> std::optional<PathValue> {
+        const Reached other = tolerance.reached(of, start), lbs = tolerance.reached(of, 0);
+        if (!other.within && !lbs.within) return {};
+        return PathValue{std::max(other.iterations, 1) / double(std::max(lbs.iterations, 1)), !other.within ? analysis::Limit::at_least
+                                                                                              : !lbs.within ? analysis::Limit::at_most
+                                                                                                            : analysis::Limit::none};
+    };
+}
+
+void add_further(std::vector<analysis::Measurement>& to, const Group& group)
+{
+    const auto measurement = [&](const char* quantity, double (*of_lbs)(const IterationPath&)) {
+        add(to, {"C12", quantity}, group, [of_lbs](const ConvergencePaths& of) { return PathValue{of_lbs(of.paths[0])}; });
+    };
+    measurement("residual_after_24_over_1000_iterations",
+                [](const IterationPath& path) { return look_at(path, 24).combined / look_at(path, 1000).combined; });
+    measurement("error_after_24_iterations_over_least",
+                [](const IterationPath& path) { return look_at(path, 24).error_joint_pct / nearest_to_reference(path).error_joint_pct; });
+    measurement("error_after_1000_iterations_over_least",
+                [](const IterationPath& path) { return look_at(path, 1000).error_joint_pct / nearest_to_reference(path).error_joint_pct; });
+}
+
+void add_starts(std::vector<analysis::Measurement>& to, const Group& group)
+{
+    const std::string in_a_twist = group.front()->twist ? "_in_a_twist" : "";
+    for (std::size_t start = 1; start < group.front()->paths.size(); ++start) {
+        const char* guess = name_of(all_starts[start]);
+        for (const Tolerance& tolerance : tolerances)
+            add(to, {"C03", "iterations_over_lbs_guess" + in_a_twist, tolerance.name, guess}, group, over_lbs(tolerance, start));
+        add(to, {"C03", "error_after_24_iterations_over_lbs_guess", "", guess}, group, [start](const ConvergencePaths& of) {
+            return PathValue{look_at(of.paths[start], 24).error_joint_pct / look_at(of.paths[0], 24).error_joint_pct};
+        });
+    }
+}
+
+// The share of the comparisons with LBS, over all poses, orders and meshes, that have no value.
+void add_neither(std::vector<analysis::Measurement>& to, const ConvergenceResult& result)
+{
+    for (const Tolerance& tolerance : tolerances) {
+        int neither = 0, all = 0;
+        for (const ConvergencePaths& paths : result.all)
+            for (std::size_t start = 1; start < paths.paths.size(); ++start, ++all) neither += !over_lbs(tolerance, start)(paths);
+        if (all == 0) continue;
+        const double share = neither / double(all);
+        const analysis::CaseKey key = {.body = result.all.front().body, .tolerance = tolerance.name};
+        to.push_back({"C03", "share_of_ratios_not_reached", key, share, share, share, "1"});
+        to.back().n = all;
+    }
+}
+
+bool on_one_ladder(const ConvergencePaths& a, const ConvergencePaths& b)
+{
+    return a.pose == b.pose && a.k_stretch == b.k_stretch && a.setting.order == b.setting.order &&
+           a.setting.precision == b.setting.precision;
+}
+
+// iterations ~ vertices^exponent, over the sizes that reach the tolerance, by order.
+void add_exponents(std::vector<analysis::Measurement>& to, const ConvergenceResult& result)
+{
+    for (const ConvergencePaths& first : result.all) {
+        const auto same = [&](const ConvergencePaths& other) { return on_one_ladder(first, other); };
+        if (&*std::find_if(result.all.begin(), result.all.end(), same) != &first) continue;
+        for (const Tolerance& tolerance : tolerances) {
+            std::vector<double> vertices, iterations;
+            for (const ConvergencePaths& paths : result.all)
+                if (const Reached lbs = tolerance.reached(paths, 0); same(paths) && lbs.within && lbs.iterations > 0) {
+                    vertices.push_back(paths.vertices);
+                    iterations.push_back(lbs.iterations);
+                }
+            if (vertices.size() < 3) continue;
+            const analysis::Interval exponent = analysis::observed_order(vertices, iterations).slope;
+            const auto [fewest, most] = std::minmax_element(vertices.begin(), vertices.end());
+            analysis::CaseKey key = key_of(first);
+            key.tolerance = tolerance.name;
+            key.vertices = *fewest;
+            key.vertices_to = *most;
+            to.push_back({"C12", "exponent_of_iterations_over_vertices", key, exponent.estimate, exponent.low, exponent.high, "1"});
+        }
+    }
+}
+
+}  // namespace
+
+std::vector<analysis::Measurement> convergence_values(const ConvergenceResult& result)
+{
+    std::vector<analysis::Measurement> measurements;
+    const std::vector<Group> groups = groups_of(result);
+    for (const Group& group : groups) {
+        for (const Tolerance& tolerance : tolerances)
+            add(measurements,
+                {"C12", group.front()->character ? "iterations_to_tolerance" : "iterations_to_tolerance_of_limbs", tolerance.name}, group,
+                iterations_to(tolerance));
+        add_further(measurements, group);
+        add_starts(measurements, group);
+    }
+    add_neither(measurements, result);
+    if (result.ladder) add_exponents(measurements, result);
+    return measurements;
 }
 
 }  // namespace experiments

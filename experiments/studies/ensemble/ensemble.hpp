@@ -4,14 +4,26 @@
 //   table_of(pair_columns, records.pairs).write("pairs.csv");
 // A pair of deformers is decided if every member orders it in the same way by more than its own error allows
 // (analysis/verdicts/pair_order.hpp).
+//
+// And what the error of PBS against the first member is made of. With x_n the shape after n iterations, x_inf the same constraints
+// converged, x_h the reference and x_0 its limit on ever finer meshes,
+//   x_n - x_0 = (x_n - x_inf) + (x_inf - x_h) + (x_h - x_0)
+//               solver          model           discretisation
+// exactly, vertex by vertex; in the norm the parts bound the whole. The first two are measured, the third is bounded by PosedReference.
+// Measured as well are the effect of refinement on PBS itself, and that of the reference's own assumptions: flesh that the bones hold in
+// other ways, and the linear model. All distances except whole_joint_pct are outside the part of the body that overlaps itself in
+// the reference.
 #pragma once
 
 #include "analysis/records/tables.hpp"
 #include "analysis/verdicts/case_record.hpp"
 #include "analysis/verdicts/pair_order.hpp"
+#include "experiments/scene/scene.hpp"
 #include "experiments/studies/shared/posed_reference.hpp"
 
-#include "experiments/scene/scene.hpp"
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace experiments {
 
@@ -22,8 +34,18 @@ struct EnsembleCase {
     DeformerSpec flesh;    // a [[fem]] deformer, which the members change
     std::vector<EnsembleMember> members;
     std::vector<DeformerSpec> deformers;  // that are ordered
+    // The parts of PBS's error, of each stiffness of the stretch constraints and number of iterations.
+    DeformerSpec pbs;
+    std::vector<DeformerSpec> other_flesh = {};  // is compared with the first member
+    std::vector<double> k_stretch = {};
+    std::vector<int> iterations = {};
+    int converged_iterations = 8000;  // of x_inf; compared with the shape after half of them
 };
 nlohmann::json to_json(const EnsembleCase& of);
+
+// The flesh with quadratic elements on the character's own tets, held in other ways: by stiffer springs, thinner bones, embedded bones or
+// the paper's bind constraint; and the linear model, held by smooth springs and by embedded bones.
+std::vector<DeformerSpec> other_attachments(const DeformerSpec& flesh);
 
 struct MemberRow {
     analysis::CaseKey of;
@@ -54,15 +76,37 @@ struct PairRow {
     int members = 0, not_reached = 0, first_is_closer = 0, second_is_closer = 0;
     analysis::PairDecision decision = analysis::PairDecision::reference_error;
 };
-extern const analysis::Columns<MemberRow> member_columns;  // members.csv
-extern const analysis::Columns<ErrorRow> error_columns;    // errors.csv
-extern const analysis::Columns<PairRow> pair_columns;      // pairs.csv
+struct PartsRow {
+    analysis::CaseKey of;
+    double k_stretch = 0.0;
+    int iterations = 0;
+    double error_joint_pct = 0.0, solver_pct = 0.0, model_pct = 0.0, discretisation_pct = 0.0;
+    double not_converged_pct = 0.0, pbs_refinement_pct = 0.0, error_l2_pct = 0.0, error_linf_m = 0.0, whole_joint_pct = 0.0;
+    double masked_share_pct = 0.0;
+    std::optional<double> observed_order = {};
+    std::optional<bool> order_is_reliable = {};
+};
+struct AttachmentRow {
+    analysis::CaseKey of;
+    std::string reference, model, attachment;
+    std::optional<double> spring_factor = {}, core_radius = {};  // prescribed nodes have no q, the bind constraint no radius
+    double difference_pct = 0.0, k_stretch = 0.0, model_pct = 0.0;
+    bool finished = false;
+};
+extern const analysis::Columns<MemberRow> member_columns;          // members.csv
+extern const analysis::Columns<ErrorRow> error_columns;            // errors.csv
+extern const analysis::Columns<PairRow> pair_columns;              // pairs.csv
+extern const analysis::Columns<PartsRow> part_columns;             // parts.csv
+extern const analysis::Columns<AttachmentRow> attachment_columns;  // attachments.csv
 
+// A pose whose first member is not reached has no parts.
 struct EnsembleRecords {
     std::vector<MemberRow> members;
     std::vector<ErrorRow> errors;
     std::vector<PairRow> pairs;
-    std::string breakdown;  // deformers that are not finite
+    std::vector<PartsRow> parts;             // one per k_stretch and number of iterations
+    std::vector<AttachmentRow> attachments;  // one per k_stretch and flesh, the reference's own first
+    std::string breakdown;                   // deformers that are not finite
 };
 
 EnsembleRecords measure_ensemble(const EnsembleCase& of);

@@ -13,12 +13,13 @@ namespace experiments {
 std::vector<std::string> installed_bodies(std::vector<analysis::LeftOut>& left_out)
 {
     std::vector<std::string> installed;
-    for (const char* body : {"human", "man", "lady", "frankie"}) {
+    for (const pbs::NamedBody& body : pbs::named_bodies()) {
+        if (!body.is_character) continue;
         try {
-            pbs::require_body(body);
-            installed.push_back(body);
+            pbs::require_body(body.name);
+            installed.push_back(body.name);
         } catch (const pbs::InputError& error) {
-            left_out.push_back({body, error.what()});
+            left_out.push_back({body.name, error.what()});
         }
     }
     return installed;

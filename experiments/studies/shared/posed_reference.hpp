@@ -23,8 +23,8 @@
 
 namespace experiments {
 
-// The flesh that convergence, ensemble, error_split, improvements and work_precision compare with: neo-Hookean, with the Young's modulus,
-// Poisson's ratio and density of the scene's first [[fem]] deformer, held by smooth springs. Its energy is infinite at det F <= 0, so that
+// The flesh that convergence, ensemble and work_precision compare with: neo-Hookean, with the Young's modulus, Poisson's ratio and density
+// of the scene's first [[fem]] deformer, held by smooth springs. Its energy is infinite at det F <= 0, so that
 // no quadrature point of a converged solution is inverted. pbs::InputError without a [[fem]] deformer.
 DeformerSpec reference_flesh(const Scene& scene);
 

@@ -1,36 +1,191 @@
 #include "experiments/studies/work_precision/diagram.hpp"
 
 #include "experiments/studies/shared/posed_character.hpp"
-#include "experiments/studies/work_precision/mean_diagram.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <string>
+#include <vector>
 
 namespace experiments {
+
 namespace {
 
-constexpr std::size_t fewest_for_a_mean = 3;
+using analysis::Columns;
+using analysis::within;
 
-void add_members(Diagram& diagram, const std::vector<FamilyRow>& members)
+constexpr double least_error_pct = 1e-9;  // an error of zero has no logarithm
+
+// A rung with the rows of its settings in each training pose that has it.
+struct Rung {
+    std::vector<SettingKey> settings;                         // in the order of the records: the default one first
+    std::vector<std::vector<const PointRow*>> training = {};  // [training pose][setting]; null: no row
+};
+
+const PointRow* row_of(const CaseRows& rows, const SettingKey& key)
 {
-    for (const FamilyRow& row : members)
-        diagram.members.at(place_among_further(row.member.name)) = {true, row.outcome == "reached" ? row.error_bound_pct : std::nullopt};
+    const auto found = std::ranges::find(rows, key, &PointRow::key);
+    return found == rows.end() ? nullptr : &*found;
 }
+
+Rung rung_with(const SettingKey& rung, const std::vector<SettingKey>& settings, const std::vector<CaseRows>& cases)
+{
+    Rung found{settings};
+    for (const CaseRows& rows : cases) {
+        if (rows.empty() || rows.front().half != Half::training) continue;
+        if (std::ranges::none_of(rows, [&](const PointRow& row) { return rung_of(row.key) == rung; })) continue;
+        std::vector<const PointRow*>& of_pose = found.training.emplace_back();
+        for (const SettingKey& key : settings) of_pose.push_back(row_of(rows, key));
+    }
+    return found;
+}
+
+// The geometric mean over the training poses; nothing without an answer in each of them.
+std::optional<double> training_error_pct(const Rung& rung, std::size_t setting)
+{
+    double sum = 0.0;
+    for (const auto& of_pose : rung.training) {
+        const PointRow* row = of_pose[setting];
+        if (!row || !row->error || !row->ms_median) return std::nullopt;
+        sum += std::log(std::max(row->error->joint_pct, least_error_pct));
+    }
+    if (rung.training.empty()) return std::nullopt;
+    return std::exp(sum / double(rung.training.size()));
+}
+
+std::optional<ChosenSetting> choose(Comparison comparison, const Rung& rung)
+{
+    ChosenSetting chosen{comparison, rung.settings.front(), static_cast<int>(rung.settings.size())};
+    if (rung.settings.size() == 1 || rung.training.empty()) return chosen;
+    for (std::size_t i = 0; i < rung.settings.size(); ++i) {
+        const std::optional<double> error_pct = training_error_pct(rung, i);
+        if (!error_pct || (chosen.training_error_pct && *error_pct >= *chosen.training_error_pct)) continue;
+        chosen.training_error_pct = error_pct;
+        chosen.key = rung.settings[i];
+    }
+    chosen.training_poses = static_cast<int>(rung.training.size());
+    return chosen.training_error_pct ? std::optional(chosen) : std::nullopt;
+}
+
+}  // namespace
+
+const Columns<ChosenSetting> chosen_columns =
+    Columns<ChosenSetting>{{"comparison", &ChosenSetting::comparison, "", "packed_f32 or plain_f64"}} +
+    within(&ChosenSetting::key, point_key_columns()) +
+    Columns<ChosenSetting>{
+        {"tried", &ChosenSetting::tried, "", "number of settings tried at this rung"},
+        {"training_poses", &ChosenSetting::training_poses, "", "poses on which it was chosen; 0: there was no choice"},
+        {"training_error_joint_pct", &ChosenSetting::training_error_pct, "%", "its geometric mean error over these poses"}};
+
+int code_rank(const SettingKey& key)
+{
+    return (key.precision == "f32" ? 2 : 0) + (key.packed ? 1 : 0);
+}
+
+BestCodes best_codes(const std::vector<CaseRows>& cases)
+{
+    BestCodes best;
+    for (const CaseRows& rows : cases)
+        for (const PointRow& row : rows)
+            if (!row.is_of_reference()) best[row.key.deformer] = std::max(best[row.key.deformer], code_rank(row.key));
+    return best;
+}
+
+bool takes_part(Comparison comparison, const SettingKey& key, const BestCodes& best)
+{
+    if (comparison == Comparison::plain_f64) return key.is_plain();
+    const auto found = best.find(key.deformer);
+    return found == best.end() || code_rank(key) == found->second;
+}
+
+std::vector<ChosenSetting> choose_settings(const std::vector<CaseRows>& cases)
+{
+    const BestCodes best = best_codes(cases);
+    std::vector<ChosenSetting> chosen;
+    for (const Comparison comparison : comparisons) {
+        std::vector<std::pair<SettingKey, std::vector<SettingKey>>> rungs;  // in the order of the records
+        for (const CaseRows& rows : cases)
+            for (const PointRow& row : rows) {
+                if (row.is_of_reference() || !takes_part(comparison, row.key, best)) continue;
+                const SettingKey rung = rung_of(row.key);
+                auto found = std::ranges::find(rungs, rung, [](const auto& one) { return one.first; });
+                if (found == rungs.end()) found = rungs.insert(rungs.end(), {rung, {}});
+                if (std::ranges::find(found->second, row.key) == found->second.end()) found->second.push_back(row.key);
+            }
+        for (const auto& [rung, settings] : rungs)
+            if (const auto choice = choose(comparison, rung_with(rung, settings, cases))) chosen.push_back(*choice);
+    }
+    return chosen;
+}
+
+namespace {
+
+// A mean is known where all of its values are.
+void add(std::optional<double>& sum, const std::optional<double>& more, double share)
+{
+    sum = sum && more ? std::optional(*sum + share * *more) : std::nullopt;
+}
+
+// The same setting in every pose; nothing where it has no error in one of them.
+std::optional<DiagramPoint> mean_of(const std::vector<Diagram>& poses, const DiagramPoint& setting)
+{
+    constexpr std::optional<double> DiagramPoint::*known_or_not[] = {&DiagramPoint::ms_q1, &DiagramPoint::ms_q3, &DiagramPoint::l2_pct,
+                                                                     &DiagramPoint::linf_m, &DiagramPoint::volume_abs_change_pct};
+    DiagramPoint mean{setting.key};
+    for (const auto value : known_or_not) mean.*value = 0.0;
+    mean.members.fill(0.0);
+    const double share = 1.0 / double(poses.size());
+    for (const Diagram& pose : poses) {
+        const auto found = std::ranges::find(pose.points, setting.key, &DiagramPoint::key);
+        if (found == pose.points.end()) return std::nullopt;
+        for (const auto value : {&DiagramPoint::ms, &DiagramPoint::error_pct}) mean.*value += share * (*found).*value;
+        for (const auto value : known_or_not) add(mean.*value, (*found).*value, share);
+        for (std::size_t m = 0; m < mean.members.size(); ++m) add(mean.members[m], found->members[m], share);
+    }
+    return mean;
+}
+
+// The mean of the diagrams of several poses in the same comparison: the settings that have an error in each of them, with the means of
+// their times and errors. A further reference takes part if it takes part in each pose.
+Diagram mean_diagram(const std::string& key, const std::vector<Diagram>& poses)
+{
+    Diagram mean;
+    mean.comparison = poses.front().comparison;
+    mean.key = key;
+    mean.groups = poses.front().groups;
+    mean.has_reference = true;
+    mean.poses = static_cast<int>(poses.size());
+    mean.members.fill({true, 0.0});
+    mean.reference_error_pct = 0.0;
+    for (const Diagram& pose : poses) {
+        mean.cases.push_back(pose.key);
+        add(mean.reference_error_pct, pose.reference_error_pct, 1.0);
+        for (std::size_t m = 0; m < mean.members.size(); ++m) {
+            mean.members[m].takes_part = mean.members[m].takes_part && pose.members[m].takes_part;
+            if (pose.members[m].bound_pct && mean.members[m].bound_pct)
+                *mean.members[m].bound_pct += *pose.members[m].bound_pct / double(poses.size());
+            else
+                mean.members[m].bound_pct.reset();
+        }
+    }
+    if (mean.reference_error_pct) *mean.reference_error_pct /= double(poses.size());
+    for (const DiagramPoint& first : poses[0].points)
+        if (auto point = mean_of(poses, first)) {
+            point->below_reference_error = mean.reference_error_pct && point->error_pct <= *mean.reference_error_pct;
+            mean.points.push_back(*point);
+        }
+    return mean;
+}
+
+constexpr std::size_t fewest_for_a_mean = 3;
 
 bool is_chosen(const std::vector<ChosenSetting>& chosen, Comparison comparison, const SettingKey& key)
 {
     return std::ranges::any_of(chosen, [&](const auto& one) { return one.comparison == comparison && one.key == key; });
-}
-
-// Returns the names of the user's own deformers, in the order of the rows.
-std::vector<std::string> external_in(const CaseRows& rows)
-{
-    std::vector<std::string> names;
-    for (const PointRow& row : rows)
-        if (row.is_external) names.push_back(row.key.deformer);
-    return names;
 }
 
 // One pose of one body.
@@ -41,21 +196,21 @@ Diagram diagram_of(const CaseRecords& records, Comparison comparison, const std:
     diagram.half = records.rows.front().half;
     diagram.pose = records.rows.front().of;
     diagram.key = case_name(diagram.pose);
-    diagram.name = text_of(diagram.pose);
-    diagram.groups = groups_with(external_in(records.rows));
-    add_members(diagram, records.members);
+    for (const FamilyRow& row : records.members)
+        diagram.members.at(place_among_further(row.member.name)) = {true, row.outcome == "reached" ? row.error_bound_pct : std::nullopt};
+    std::vector<std::string> external;
     for (const PointRow& row : records.rows) {
+        if (row.is_external) external.push_back(row.key.deformer);
         if (row.outcome == "reference") {
-            diagram.reference = text_of(row.key);
-            diagram.reference_ms = row.reach_ms;
+            diagram.has_reference = true;
             diagram.reference_error_pct = row.reference_error_joint_pct;
-            diagram.masked_share_pct = row.masked_share_pct.value_or(0.0);
         }
         if (row.ms_median && row.error && is_chosen(chosen, comparison, row.key))
             diagram.points.push_back({row.key, *row.ms_median, row.ms_q1, row.ms_q3, row.error->joint_pct, row.error->l2_pct,
                                       row.error->linf_m, row.metrics ? std::optional(row.metrics->volume_abs_change_pct) : std::nullopt,
                                       row.below_reference_error.value_or(false), row.members});
     }
+    diagram.groups = groups_with(external);
     return diagram;
 }
 
@@ -95,7 +250,7 @@ const std::vector<DeformerGroup>& groups_of(const std::vector<Diagram>& diagrams
 
 bool is_pose(const Diagram& diagram)
 {
-    return diagram.poses == 1 && !diagram.reference.empty();
+    return diagram.poses == 1 && diagram.has_reference;
 }
 
 double value_of(const DiagramPoint& point, const std::string& measure)
@@ -127,7 +282,7 @@ std::vector<Diagram> diagrams_of(const std::vector<CaseRecords>& cases, const st
             if (records.rows.empty()) continue;
             const Diagram diagram = diagram_of(records, comparison, chosen);
             diagrams.push_back(diagram);
-            if (diagram.reference.empty() || diagram.half == Half::training) continue;
+            if (!diagram.has_reference || diagram.half == Half::training) continue;
             evaluated.push_back(diagram);
             add_to(bodies, diagram.pose.body, diagram);
             if (!diagram.pose.pose.empty()) add_to(poses, diagram.pose.pose, diagram);
@@ -135,11 +290,8 @@ std::vector<Diagram> diagrams_of(const std::vector<CaseRecords>& cases, const st
         for (const auto& [over, families] : {std::pair{"poses", bodies}, {"bodies", poses}})
             for (const auto& [name, of] : families)
                 if (of.size() >= fewest_for_a_mean)
-                    diagrams.push_back(mean_diagram(fmt::format("{}_mean_of_{}_{}", name, of.size(), over),
-                                                    fmt::format("{}, mean of {} {}", name, of.size(), over), of));
-        if (evaluated.size() > 1)
-            diagrams.push_back(mean_diagram(fmt::format("mean_of_{}_evaluated_poses", evaluated.size()),
-                                            fmt::format("mean of the {} evaluated poses", evaluated.size()), evaluated));
+                    diagrams.push_back(mean_diagram(fmt::format("{}_mean_of_{}_{}", name, of.size(), over), of));
+        if (evaluated.size() > 1) diagrams.push_back(mean_diagram(fmt::format("mean_of_{}_evaluated_poses", evaluated.size()), evaluated));
     }
     return diagrams;
 }
@@ -149,6 +301,48 @@ const DiagramPoint* best_of(const Diagram& diagram, const DeformerGroup& group, 
     std::vector<std::size_t> indices;
     const auto best = analysis::best_within(diagram.of(group.deformers, indices), budget_ms);
     return best ? &diagram.points[indices[*best]] : nullptr;
+}
+
+Decision decision_on(const Diagram& diagram, const DiagramPoint& nearer, const DiagramPoint& other)
+{
+    using analysis::PairOrder;
+    // The distance between the two shapes is not recorded.
+    std::vector<PairOrder> orders = {analysis::order_of({nearer.error_pct, other.error_pct, std::nullopt, diagram.reference_error_pct})};
+    std::vector<std::string> silent, contrary;  // further references that do not decide, and that decide for the other point
+    const std::vector<EnsembleMember> all = family();
+    for (std::size_t m = 0; m < diagram.members.size(); ++m) {
+        if (!diagram.members[m].takes_part) continue;
+        orders.push_back(analysis::order_of({nearer.members[m], other.members[m], std::nullopt, diagram.members[m].bound_pct}));
+        if (orders.back() == PairOrder::undecided) silent.push_back(all[m + 1].name);
+        if (orders.back() == PairOrder::second_is_closer) contrary.push_back(all[m + 1].name);
+    }
+    Decision decision{analysis::decide(orders)};
+    if (!contrary.empty()) {
+        decision.decision = analysis::PairDecision::models_disagree;
+        decision.reason = fmt::format("the order is the other way round for {}", fmt::join(contrary, ", "));
+    } else if (!diagram.reference_error_pct) {
+        decision.reason = "the reference's own error is not known";
+    } else if (orders.front() == PairOrder::undecided) {
+        decision.reason = fmt::format("within the reference's own error of up to {:.2g} %", *diagram.reference_error_pct);
+    } else if (!silent.empty()) {
+        decision.reason = fmt::format("not decided by {}, by their own error or because they were not reached", fmt::join(silent, ", "));
+    }
+    return decision;
+}
+
+std::optional<Decision> decision_from(const Diagram& diagram, const DeformerGroup& one, const DeformerGroup& other, double from_ms)
+{
+    std::vector<std::string> both = one.deformers;
+    both.insert(both.end(), other.deformers.begin(), other.deformers.end());
+    std::vector<std::size_t> indices;
+    std::optional<Decision> worst;
+    for (const analysis::WorkPrecision& at : diagram.of(both, indices)) {
+        const DiagramPoint *nearer = best_of(diagram, one, at.cost), *than = best_of(diagram, other, at.cost);
+        if (at.cost < from_ms || !nearer || !than) continue;
+        const Decision decision = decision_on(diagram, *nearer, *than);
+        if (!worst || decision.decision > worst->decision) worst = decision;
+    }
+    return worst;
 }
 
 }  // namespace experiments

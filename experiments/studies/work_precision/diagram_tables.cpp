@@ -1,22 +1,16 @@
 #include "experiments/studies/work_precision/diagram_tables.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
+#include "experiments/studies/shared/posed_character.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace experiments {
 namespace {
 
 using analysis::Columns;
 using analysis::within;
-
-const Columns<DiagramPoint> quartile_columns = {{"ms_q1", &DiagramPoint::ms_q1, "ms", "its lower quartile"},
-                                                {"ms_q3", &DiagramPoint::ms_q3, "ms", "its upper quartile"}};
-const Columns<DiagramPoint> point_error_columns = {measures().front()};
-const Columns<DiagramPoint> below_columns = {
-    {"below_reference_error", &DiagramPoint::below_reference_error, "", "the error is not above the reference's own bound"}};
 
 const char* const comparison_meaning = "packed_f32 or plain_f64";
 const char* const decision_meaning = "decided, reference_error (a reference does not decide) or models_disagree";
@@ -35,9 +29,12 @@ const Columns<FrontRow> front_columns =
                       {"case", &FrontRow::diagram, "", "name of the case's run, or of the mean over several"},
                       {"measure", &FrontRow::measure, "", "what the front is the best of: a column of points.csv"},
                       {"front", &FrontRow::front, "", "whose front it is: a deformer's, or all"}} +
-    within(&FrontRow::point, diagram_point_columns() + quartile_columns) +
+    within(&FrontRow::point, diagram_point_columns() + Columns<DiagramPoint>{{"ms_q1", &DiagramPoint::ms_q1, "ms", "its lower quartile"},
+                                                                             {"ms_q3", &DiagramPoint::ms_q3, "ms", "its upper quartile"}}) +
     Columns<FrontRow>{{"value", &FrontRow::value, "", "the point's value of the measure, in the measure's unit"}} +
-    within(&FrontRow::point, point_error_columns + below_columns) +
+    within(&FrontRow::point, Columns<DiagramPoint>{measures().front(),
+                                                   {"below_reference_error", &DiagramPoint::below_reference_error, "",
+                                                    "the error is not above the reference's own bound"}}) +
     Columns<FrontRow>{
         {"reference_error_joint_pct", &FrontRow::reference_error_pct, "%", "bound of the reference's own error at the joints"},
         {"decision", &FrontRow::decision, "",
@@ -79,7 +76,7 @@ const Columns<BudgetRow> budget_columns =
                        {"budget_ms", &BudgetRow::budget_ms, "ms", "time per frame"},
                        {"rank", &BudgetRow::rank, "", "1: the group that is nearest to the reference within the budget"},
                        {"group", &BudgetRow::group, "", "key of a group of deformers"}} +
-    within(&BudgetRow::point, diagram_point_columns() + point_error_columns) +
+    within(&BudgetRow::point, diagram_point_columns() + Columns<DiagramPoint>{measures().front()}) +
     Columns<BudgetRow>{
         {"decision", &BudgetRow::decision, "", std::string("whether it is nearer than every group of a later rank: ") + decision_meaning},
         {"undecided_against", &BudgetRow::undecided_against, "", "keys of the groups against which it is undecided"},
@@ -110,10 +107,9 @@ void add_front(std::vector<FrontRow>& rows, const Diagram& diagram, const std::s
         FrontRow& row = rows.emplace_back(
             FrontRow{diagram.comparison, diagram.key, measure, name, point, value_of(point, measure), diagram.reference_error_pct});
         if (name != all_name || measure != measures().front().name) continue;
-        const std::optional<RankDecision> decision = rank_decision(diagram, best_within(diagram, point.ms), 0);
-        if (!decision) continue;
-        row.decision = decision->worst.decision;
-        row.reason = decision->worst.reason;
+        const BudgetRow nearest = best_within(diagram, point.ms).front();
+        row.decision = nearest.decision;
+        row.reason = nearest.reason;
     }
 }
 
@@ -172,33 +168,15 @@ std::vector<BudgetRow> best_within(const Diagram& diagram, double budget_ms)
     std::ranges::stable_sort(rows, {}, [](const BudgetRow& row) { return row.point.error_pct; });
     for (std::size_t i = 0; i < rows.size(); ++i) {
         rows[i].rank = static_cast<int>(i + 1);
-        const std::optional<RankDecision> decision = rank_decision(diagram, rows, i);
-        if (!decision) break;
-        rows[i].decision = decision->worst.decision;
-        rows[i].reason = decision->worst.reason;
-        rows[i].undecided_against = decision->undecided;
+        for (std::size_t later = i + 1; later < rows.size(); ++later) {
+            const Decision decision = decision_on(diagram, rows[i].point, rows[later].point);
+            if (decision.decision != analysis::PairDecision::decided) rows[i].undecided_against.push_back(rows[later].group);
+            if (rows[i].decision && decision.decision <= *rows[i].decision) continue;
+            rows[i].decision = decision.decision;
+            rows[i].reason = decision.reason;
+        }
     }
     return rows;
-}
-
-std::string RankDecision::remark(const Diagram& diagram) const
-{
-    if (worst.is_decided()) return "";
-    std::vector<std::string> words;
-    for (const std::string& key : undecided) words.push_back(std::ranges::find(diagram.groups, key, &DeformerGroup::key)->words);
-    return fmt::format(" [undecided against {}: {}]", fmt::join(words, ", "), worst.reason);
-}
-
-std::optional<RankDecision> rank_decision(const Diagram& diagram, const std::vector<BudgetRow>& ranked, std::size_t place)
-{
-    std::optional<RankDecision> all;
-    for (std::size_t i = place + 1; i < ranked.size(); ++i) {
-        const Decision decision = decision_on(diagram, ranked[place].point, ranked[i].point);
-        if (!all) all = RankDecision{decision};
-        if (decision.decision > all->worst.decision) all->worst = decision;
-        if (!decision.is_decided()) all->undecided.push_back(ranked[i].group);
-    }
-    return all;
 }
 
 std::vector<BudgetRow> best_within(const std::vector<Diagram>& diagrams)
@@ -209,6 +187,181 @@ std::vector<BudgetRow> best_within(const std::vector<Diagram>& diagrams)
             for (BudgetRow& row : best_within(diagram, budget_ms))
                 if (diagram.poses > 1 || row.rank <= ranks_of_a_pose) rows.push_back(std::move(row));
     return rows;
+}
+
+namespace {
+
+// The least time of a point of the group with an error of at most the tolerance. Nothing: the pose is not solved.
+std::optional<double> time_to_solve(const Diagram& diagram, const DeformerGroup& group, double tolerance_pct)
+{
+    std::optional<double> least_ms;
+    std::vector<std::size_t> indices;
+    for (const analysis::WorkPrecision& point : diagram.of(group.deformers, indices))
+        if (point.error <= tolerance_pct && (!least_ms || point.cost < *least_ms)) least_ms = point.cost;
+    return least_ms;
+}
+
+void add_steps(std::vector<ProfileStep>& steps, const std::vector<const Diagram*>& poses, const DeformerGroup& group, double tolerance_pct)
+{
+    std::vector<double> solved, certain;
+    for (const Diagram* pose : poses) {
+        if (const auto ms = time_to_solve(*pose, group, tolerance_pct)) solved.push_back(*ms);
+        if (!pose->reference_error_pct) continue;
+        if (const auto ms = time_to_solve(*pose, group, tolerance_pct - *pose->reference_error_pct)) certain.push_back(*ms);
+    }
+    std::set<double> times(solved.begin(), solved.end());
+    times.insert(certain.begin(), certain.end());
+    const auto until = [](const std::vector<double>& of, double ms) {
+        return static_cast<int>(std::ranges::count_if(of, [&](double one) { return one <= ms; }));
+    };
+    for (const double ms : times) {
+        ProfileStep& step = steps.emplace_back(ProfileStep{poses.front()->comparison, tolerance_pct, group.key, ms});
+        step.solved = until(solved, ms);
+        step.certain = until(certain, ms);
+        step.poses = static_cast<int>(poses.size());
+        step.share_pct = 100.0 * step.solved / step.poses;
+    }
+}
+
+}  // namespace
+
+const analysis::Columns<ProfileStep> data_profile_columns = {
+    {"comparison", &ProfileStep::comparison, "", "packed_f32 or plain_f64"},
+    {"tolerance_pct", &ProfileStep::tolerance_pct, "%", "largest error at the joints of a pose that counts as solved"},
+    {"group", &ProfileStep::group, "", "key of a group of deformers"},
+    {"ms", &ProfileStep::ms, "ms", "time per frame at which `solved` or `certain` increases"},
+    {"solved", &ProfileStep::solved, "", "number of poses that are solved"},
+    {"certain", &ProfileStep::certain, "",
+     "number of those with an error that is within the tolerance after the bound on the reference's own error is added"},
+    {"poses", &ProfileStep::poses, "", "number of evaluated poses"},
+    {"share_pct", &ProfileStep::share_pct, "%", "share of the poses that are solved"}};
+
+std::vector<ProfileStep> data_profiles(const std::vector<Diagram>& diagrams)
+{
+    std::vector<ProfileStep> steps;
+    for (const Comparison comparison : comparisons) {
+        std::vector<const Diagram*> poses;
+        for (const Diagram& diagram : diagrams)
+            if (diagram.comparison == comparison && is_pose(diagram) && diagram.half == Half::evaluation) poses.push_back(&diagram);
+        for (const double tolerance_pct : profile_tolerances_pct)
+            for (const DeformerGroup& group : groups_of(diagrams)) add_steps(steps, poses, group, tolerance_pct);
+    }
+    return steps;
+}
+
+namespace {
+
+std::string why_missing(const PointRow& row, bool has_reference)
+{
+    if (row.outcome != "finished") return row.outcome;
+    if (!row.ms_median) return "not_converged";  // from one pose to the other
+    return has_reference ? "" : "no_reference";
+}
+
+// The row of the case's reference, reached or not. Null where there is none.
+const PointRow* reference_in(const CaseRows& rows)
+{
+    const auto found = std::ranges::find_if(rows, &PointRow::is_of_reference);
+    return found == rows.end() ? nullptr : &*found;
+}
+
+// Returns the points of the deformer in the case that take part in the comparison.
+std::vector<const PointRow*> points_of(const CaseRows& rows, const std::string& deformer, Comparison comparison, const BestCodes& best)
+{
+    std::vector<const PointRow*> points;
+    for (const PointRow& row : rows)
+        if (row.key.deformer == deformer && takes_part(comparison, row.key, best)) points.push_back(&row);
+    return points;
+}
+
+// Returns the omissions of one deformer in one case. `points` are its points that take part in the comparison.
+std::vector<Omission> omissions_in(const std::vector<const PointRow*>& points, const PointRow* reference, const Omission& blank)
+{
+    std::vector<Omission> omissions;
+    for (const PointRow* row : points) {
+        const std::string why = why_missing(*row, reference && reference->outcome == "reference");
+        if (why.empty()) continue;
+        auto found = std::ranges::find(omissions, why, &Omission::why);
+        if (found == omissions.end()) {
+            found = omissions.insert(omissions.end(), blank);
+            found->why = why;
+            found->reason = why == "no_reference" && reference ? reference->reason : row->reason;
+        }
+        ++found->missing;
+        found->points = static_cast<int>(points.size());
+    }
+    return omissions;
+}
+
+}  // namespace
+
+const analysis::Columns<Omission> omission_columns = {
+    {"comparison", &Omission::comparison, "", "packed_f32 or plain_f64"},
+    {"case", &Omission::of, "", "name of the case's run, or of the mean over several, which has the omissions of all of its poses"},
+    {"deformer", &Omission::deformer, "", "name of the deformer"},
+    {"why", &Omission::why, "", "not_finite, not_converged, over_time_limit, not_applicable, no_such_code, not_run or no_reference"},
+    {"missing", &Omission::missing, "", "number of its points that are missing for this reason"},
+    {"points", &Omission::points, "", "number of its points in this case, or in all poses of the mean"},
+    {"reason", &Omission::reason, "", "of the first of them, for readers; of no_reference: the worst tet of the reference's last state"}};
+
+std::vector<Omission> omissions_of(const std::vector<CaseRows>& cases)
+{
+    const BestCodes best = best_codes(cases);
+    std::vector<std::string> deformers;  // of any case, in the order of the records
+    for (const CaseRows& rows : cases)
+        for (const PointRow& row : rows)
+            if (!row.is_of_reference() && std::ranges::find(deformers, row.key.deformer) == deformers.end())
+                deformers.push_back(row.key.deformer);
+    std::vector<Omission> omissions;
+    for (const Comparison comparison : comparisons)
+        for (const CaseRows& rows : cases) {
+            if (rows.empty()) continue;
+            const PointRow* reference = reference_in(rows);
+            for (const std::string& deformer : deformers) {
+                const std::vector<const PointRow*> points = points_of(rows, deformer, comparison, best);
+                Omission blank{comparison, case_name(rows.front().of), deformer};
+                if (points.empty()) {
+                    const bool is_run = std::ranges::any_of(rows, [&](const PointRow& row) { return row.key.deformer == deformer; });
+                    blank.why = is_run ? "no_such_code" : "not_run";
+                    omissions.push_back(blank);
+                    continue;
+                }
+                for (const Omission& omission : omissions_in(points, reference, blank)) omissions.push_back(omission);
+            }
+        }
+    return omissions;
+}
+
+std::vector<Omission> omissions_of_means(const std::vector<CaseRows>& cases, const std::vector<Diagram>& diagrams)
+{
+    const BestCodes best = best_codes(cases);
+    const std::vector<Omission> of_cases = omissions_of(cases);
+    std::vector<Omission> all;
+    for (const Diagram& mean : diagrams) {
+        const auto is_of_mean = [&](const std::string& of) { return std::ranges::find(mean.cases, of) != mean.cases.end(); };
+        const auto points_in_all = [&](const std::string& deformer) {
+            std::size_t points = 0;
+            for (const CaseRows& rows : cases)
+                if (!rows.empty() && is_of_mean(case_name(rows.front().of)))
+                    points += points_of(rows, deformer, mean.comparison, best).size();
+            return static_cast<int>(points);
+        };
+        std::vector<Omission> of_mean;
+        for (const Omission& one : of_cases) {
+            if (one.comparison != mean.comparison || !is_of_mean(one.of)) continue;
+            const auto same = std::ranges::find_if(
+                of_mean, [&](const Omission& other) { return other.deformer == one.deformer && other.why == one.why; });
+            if (same != of_mean.end()) {
+                same->missing += one.missing;
+                continue;
+            }
+            of_mean.push_back(one);
+            of_mean.back().of = mean.key;
+            of_mean.back().points = points_in_all(one.deformer);
+        }
+        all.insert(all.end(), of_mean.begin(), of_mean.end());
+    }
+    return all;
 }
 
 }  // namespace experiments

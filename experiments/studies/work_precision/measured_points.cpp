@@ -4,19 +4,184 @@
 #include "experiments/deformers/registry.hpp"
 #include "experiments/process/terminal.hpp"
 #include "experiments/scene/scene.hpp"
+#include "experiments/settings/recorded_settings.hpp"
 #include "experiments/studies/work_precision/posed_deformer.hpp"
-#include "experiments/studies/work_precision/reference_set.hpp"
 #include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/topology.hpp"
+#include "pbs/solver/constraint_set.hpp"
 #include "pbs/solver/options.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <deque>
 #include <map>
+#include <numeric>
 
 namespace experiments {
+
+RECORD_SETTINGS_AND(WorkPrecisionCase,
+                    .derived("points",
+                             [](const WorkPrecisionCase& one) -> nlohmann::json { return digest_of(point_settings(one.scene, one.range)); })
+                        .derived("reference", [](const WorkPrecisionCase& one) { return to_json(reference_flesh(one.scene)); }),
+                    of, scene, frame, half, range, rounds, newton_rounds, reference_is_refined, members, converged_iterations,
+                    longest_frame_ms, external)
+
 namespace {
+
+PointRow row_on(const PointSetting& setting, const BodyMesh& mesh)
+{
+    PointRow row{.key = key_of(setting)};
+    row.is_external = setting.is_external();
+    row.vertices = int(mesh.character().mesh.rest.rows());
+    row.tets = int(mesh.character().mesh.tets.rows());
+    return row;
+}
+
+}  // namespace
+
+FrameTime frame_time(std::vector<double> samples)
+{
+    FrameTime time;
+    time.failed_rounds = static_cast<int>(std::erase_if(samples, [](double ms) { return std::isnan(ms); }));
+    if (!samples.empty()) time.ms = spread_of(samples);
+    return time;
+}
+
+void add_time(PointRow& row, const FrameTime& time)
+{
+    row.failed_rounds = time.failed_rounds;
+    if (!time.ms) return;
+    row.rounds = time.ms->rounds;
+    row.ms_median = time.ms->median;
+    if (time.ms->rounds >= fewest_for_quartiles) row.ms_q1 = time.ms->lower, row.ms_q3 = time.ms->upper;
+}
+
+void add_reference(PointRow& row, const PosedReference& reference)
+{
+    row.masked_share_pct = reference.masked_share_pct();
+    if (!reference.is_reached()) return;
+    row.reference = reference.label();
+    if (!reference.order()) return;
+    row.reference_error_joint_pct = reference.bound().joint_pct;
+    row.reference_error_l2_pct = reference.bound().l2_pct;
+    row.reference_order = reference.order()->observed;
+    row.reference_order_is_reliable = reference.order()->reliable;
+    if (row.error) row.below_reference_error = row.error->joint_pct <= *row.reference_error_joint_pct;
+    if (row.solver_pct) row.discretisation_pct = row.reference_error_joint_pct;
+}
+
+PointRow row_without_answer(const PointSetting& setting, const BodyMesh& mesh, const std::string& outcome, const std::string& reason)
+{
+    PointRow row = row_on(setting, mesh);
+    row.outcome = outcome;
+    row.reason = reason;
+    return row;
+}
+
+PointRow point_row(const ReachedPoint& point)
+{
+    PointRow row = row_on(*point.setting, *point.mesh);
+    row.outcome = point.shape.finished ? "finished" : point.shape.positions.allFinite() ? "not_converged" : "not_finite";
+    row.reach_ms = 1e3 * point.shape.seconds;
+    const pbs::TetMesh& mesh = point.mesh->character().mesh;
+    row.metrics = analysis::MeshMetrics(mesh.rest, mesh.tets).measure(point.shape.positions);
+    return row;
+}
+
+PointRow reference_row(const pbs::TetMesh& mesh, const PosedReference& reference)
+{
+    const NestedSolution& solution = reference.is_reached() ? reference.reference() : reference.solutions().front();
+    PointRow row{.key = {.deformer = "reference", .element_order = solution.element_order, .refined = solution.refinements > 0}};
+    row.vertices = int(mesh.rest.rows() + (row.key.refined ? pbs::edges_of(mesh.tets).rows() : 0));
+    row.tets = int(mesh.tets.rows()) * (row.key.refined ? 8 : 1);
+    row.outcome = reference.is_reached() ? "reference" : "not_reached";
+    row.reason = reference.why_not_reached();
+    for (const NestedSolution& one : reference.solutions()) row.reach_ms += 1e3 * one.seconds;
+    row.metrics = analysis::MeshMetrics(mesh.rest, mesh.tets).measure(solution.positions);
+    add_reference(row, reference);
+    return row;
+}
+
+namespace {
+
+// The bound of the error of a reference's own solution with quadratic elements on the case's own tets: its distance from the finest
+// solution and the bound of that one. Nothing where there is no bound.
+std::optional<double> unrefined_bound_pct(const PosedReference& reference)
+{
+    if (!reference.is_reached() || !reference.order()) return std::nullopt;
+    for (const NestedSolution& solution : reference.solutions())
+        if (solution.element_order == 2 && solution.refinements == 0 && solution.finished)
+            return reference.error_of(solution.positions).joint_pct + reference.bound().joint_pct;
+    return std::nullopt;
+}
+
+// The references of one case: the first member of the family (shared/posed_reference.hpp) and further ones. The character outlives it.
+class ReferenceSet {
+public:
+    ReferenceSet(const WorkPrecisionCase& of, const pbs::Character& character, const PosePair& poses)
+        : of_(of), first_(character, reference_flesh(of.scene), poses.pose, poses.time_step_s, of.reference_is_refined)
+    {
+        for (const EnsembleMember& member : of.members)
+            members_.emplace_back(character, flesh_of(reference_flesh(of.scene), member), poses.pose, poses.time_step_s, false);
+    }
+
+    const PosedReference& first() const { return first_; }
+
+    // The errors of these positions of the case's own vertices [m], #V x 3, against each reference that was reached.
+    void add_errors(PointRow& row, const pbs::Positions& positions) const
+    {
+        if (first_.is_reached()) {
+            row.error = first_.error_of(positions);
+            row.error_whole_joint_pct = first_.error_on_whole_body(positions).joint_pct;
+        }
+        for (std::size_t m = 0; m < members_.size(); ++m)
+            if (members_[m].is_reached())
+                row.members.at(place_among_further(of_.members[m].name)) = members_[m].error_of(positions).joint_pct;
+    }
+
+    // The reference and its bound as changes.csv states them.
+    void set_reference_of_change(PointRow& row) const
+    {
+        if (!first_.is_reached()) {
+            row.reference = "not_reached";
+            return;
+        }
+        const NestedSolution& used = first_.reference();
+        row.reference = std::string(used.element_order == 2 ? "quadratic" : "linear") + (used.refinements > 0 ? "_refined" : "");
+        if (row.reference_error_joint_pct && !std::isfinite(*row.reference_error_joint_pct)) row.reference_error_joint_pct.reset();
+        if (row.reference_error_joint_pct || of_.reference_is_refined || used.element_order != 2) return;
+        for (const NestedSolution& solution : first_.solutions())
+            if (solution.finished && solution.element_order == 1)
+                row.reference_error_joint_pct = first_.error_of(solution.positions).joint_pct;
+    }
+
+    std::vector<FamilyRow> member_rows() const
+    {
+        std::vector<FamilyRow> rows;
+        for (std::size_t m = 0; m < members_.size(); ++m) {
+            const PosedReference& one = members_[m];
+            rows.push_back({of_.of, of_.members[m], one.is_reached() ? "reached" : "not_reached", unrefined_bound_pct(first_),
+                            one.masked_share_pct()});
+            for (const NestedSolution& solution : one.solutions()) rows.back().solve_s += solution.seconds;
+        }
+        return rows;
+    }
+
+private:
+    const WorkPrecisionCase& of_;
+    PosedReference first_;
+    std::deque<PosedReference> members_;  // of_.members
+};
+
+std::vector<double> edge_lengths_m(const pbs::TetMesh& mesh)
+{
+    const pbs::Edges edges = pbs::edges_of(mesh.tets);
+    std::vector<double> lengths;
+    for (const auto edge : edges.rowwise()) lengths.push_back((mesh.rest.row(edge(0)) - mesh.rest.row(edge(1))).norm());
+    return lengths;
+}
 
 constexpr int frames_of_memory = 24;  // before the pose
 
@@ -48,7 +213,13 @@ public:
         references_.emplace(of_, *base_, poses_);
         add_other_meshes();
         compared_ = point_settings(of_.scene, of_.range);
-        for (const PointSetting& setting : compared_) reach(setting);
+        for (PointSetting& setting : compared_) {
+            if (setting.change && setting.change->k_by_edge_length) {
+                auto& options = options_of<pbs::PbsOptions>(setting.spec);
+                options.k_stretch_length_m = neutral_length(options.k_stretch, edge_lengths_m(base_->mesh));
+            }
+            reach(setting);
+        }
         const std::vector<FrameTime> times = time_all();
         for (std::size_t i = 0; i < points_.size(); ++i) add_row(points_[i], deformers_[i], times[i]);
         add_row_of_case(reference_row(base_->mesh, references_->first()));
@@ -60,6 +231,7 @@ private:
     void add_other_meshes()
     {
         if (of_.range.refined) meshes_.emplace(refined, BodyMesh::refined(*base_));
+        if (of_.range.changes) meshes_.emplace(smooth_weights, BodyMesh::with_smooth_weights(*base_));
         for (const std::vector<int>* sizes : {&of_.range.other_vertices, &of_.range.without_fem})
             for (const int vertices : *sizes) meshes_.emplace(vertices, BodyMesh(of_.scene.character, vertices, *base_));
     }
@@ -75,15 +247,14 @@ private:
     void reach(const PointSetting& setting)
     {
         stop_if_interrupted();
-        const BodyMesh& mesh = meshes_.at(setting.refined ? refined : setting.vertices);
+        const bool is_smooth = setting.change && setting.change->smooth_weights;
+        const BodyMesh& mesh = meshes_.at(setting.refined ? refined : is_smooth ? smooth_weights : setting.vertices);
         SettingKey ladder = key_of(setting);
         ladder.iterations.reset();
         ladder.substeps.reset();
         if (const auto slow = too_slow_.find(ladder); slow != too_slow_.end()) {
-            add_row_of_case(
-                row_without_answer(setting, mesh, "over_time_limit",
-                                   fmt::format("{:.0f} ms on the rung before, {:g} ms allowed", slow->second, of_.longest_frame_ms)));
-            return;
+            const std::string why = fmt::format("{:.0f} ms on the rung before, {:g} ms allowed", slow->second, of_.longest_frame_ms);
+            return add_row_of_case(row_without_answer(setting, mesh, "over_time_limit", why), &setting);
         }
         try {
             PosedDeformer& deformer = deformers_.emplace_back(setting, mesh, poses_, 1 + rounds_of_own_clock().fewest);
@@ -92,13 +263,13 @@ private:
             const bool is_fem = options_if<FemOptions>(setting.spec) != nullptr;
             const bool is_of_the_paper = options_if<pbs::PbsOptions>(setting.spec) || traits_of(setting.spec).blends_linearly;
             if (!point.shape.finished && (is_of_the_paper || setting.is_external()))
-                measured_.breakdown += setting.deformer + " is not finite. ";
+                measured_.breakdown += setting.deformer + (setting.change ? " " + setting.tuned : "") + " is not finite. ";
             if (!is_fem && 1e3 * point.shape.seconds > of_.longest_frame_ms) too_slow_[ladder] = 1e3 * point.shape.seconds;
             points_.push_back(std::move(point));
         } catch (const pbs::InputError& error) {
             if (setting.is_external()) throw;
             if (deformers_.size() > points_.size()) deformers_.pop_back();
-            add_row_of_case(row_without_answer(setting, mesh, "not_applicable", error.what()));
+            add_row_of_case(row_without_answer(setting, mesh, "not_applicable", error.what()), &setting);
         }
     }
 
@@ -140,27 +311,52 @@ private:
         if (point.shape.finished && point.setting->on_own_mesh() && limit)
             row.to_linear_elements_pct = references_->first().distance(point.on_base, limit->on_base).joint_pct;
         const bool has_parts = of_.converged_iterations > 0 && options_if<pbs::PbsOptions>(point.setting->spec) &&
-                               point.setting->on_own_mesh() && point.setting->tuned.empty() && row.error;
-        if (has_parts) row.parts = parts_of(point);
+                               point.setting->on_own_mesh() && point.setting->tuned.empty() && !point.setting->change && row.error;
+        if (has_parts) add_parts(row, point);
         add_reference(row, references_->first());
-        add_row_of_case(std::move(row));
+        if (of_.range.changes && row.error && (point.setting->change || is_baseline(row.key)))
+            for (std::size_t b = 0; b < budget_iterations.size(); ++b)
+                if (const ReachedPoint* of_pbs = baseline_after(budget_iterations[b]))
+                    row.from_pbs_pct[b] = references_->first().distance(point.on_base, of_pbs->on_base).joint_pct;
+        add_row_of_case(std::move(row), point.setting);
     }
 
-    void add_row_of_case(PointRow row)
+    // The rows of changes have a table of their own, to which PBS belongs, too.
+    void add_row_of_case(PointRow row, const PointSetting* setting = nullptr)
     {
         row.of = of_.of;
         row.half = of_.half;
-        measured_.rows.push_back(std::move(row));
+        const bool is_change = setting && setting->change;
+        if (!is_change) measured_.rows.push_back(row);
+        if (!is_change && !(of_.range.changes && is_baseline(row.key))) return;
+        references_->set_reference_of_change(row);
+        measured_.changes.push_back(std::move(row));
     }
 
-    PbsParts parts_of(const ReachedPoint& point)
+    static bool is_baseline(const SettingKey& key)
+    {
+        return key.deformer == baseline && key.packed && key.tuned.empty() && !key.wanted_vertices && !key.refined;
+    }
+
+    // Null where that takes too long.
+    const ReachedPoint* baseline_after(int iterations) const
+    {
+        const auto found = std::ranges::find_if(points_, [&](const ReachedPoint& point) {
+            const SettingKey key = key_of(*point.setting);
+            return !point.setting->change && is_baseline(key) && key.iterations == iterations;
+        });
+        return found == points_.end() ? nullptr : &*found;
+    }
+
+    void add_parts(PointRow& row, const ReachedPoint& point)
     {
         if (converged_.empty())
             for (const int iterations : {of_.converged_iterations, of_.converged_iterations / 2})
                 converged_.push_back(converged(*point.setting, iterations));
         const PosedReference& reference = references_->first();
-        return {reference.distance(point.on_base, converged_[0]).joint_pct, reference.error_of(converged_[0]).joint_pct,
-                reference.distance(converged_[0], converged_[1]).joint_pct};
+        row.solver_pct = reference.distance(point.on_base, converged_[0]).joint_pct;
+        row.model_pct = reference.error_of(converged_[0]).joint_pct;
+        row.not_converged_pct = reference.distance(converged_[0], converged_[1]).joint_pct;
     }
 
     pbs::Positions converged(PointSetting setting, int iterations) const
@@ -177,7 +373,7 @@ private:
     PosePair poses_;
     std::vector<PointSetting> external_, compared_;  // the settings of the user's own deformers and those of the others
     std::optional<ReferenceSet> references_;         // none until the user's own deformers have reached the pose
-    static constexpr int refined = -1;
+    static constexpr int refined = -1, smooth_weights = -2;
     std::map<int, BodyMesh> meshes_;  // by wanted size; 0: the case's own
     std::deque<PosedDeformer> deformers_;
     std::vector<ReachedPoint> points_;       // of each of these deformers
@@ -187,6 +383,22 @@ private:
 };
 
 }  // namespace
+
+double neutral_length(double k, const std::vector<double>& edge_lengths_m)
+{
+    const double longest = std::ranges::max(edge_lengths_m);
+    const auto mean_k = [&](double length_m) {
+        double sum = 0.0;
+        for (const double l : edge_lengths_m) sum += pbs::stiffness_at_length(k, l, length_m);
+        return sum / double(edge_lengths_m.size());
+    };
+    double low = std::ranges::min(edge_lengths_m), high = longest;  // all are at most k, at least k
+    while (high - low > 1e-12 * longest) {
+        const double middle = std::midpoint(low, high);
+        (mean_k(middle) < k ? low : high) = middle;
+    }
+    return high;
+}
 
 MeasuredPoints measure_points(const WorkPrecisionCase& of)
 {

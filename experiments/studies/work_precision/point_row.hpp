@@ -1,33 +1,32 @@
 // points.csv: one row per setting, with its time, its work, its error, its volume and the reference that it is compared with. members.csv:
-// the other references of the family.
+// the other references of the family. changes.csv: the rows of PBS and of single changes to it, with their distances from PBS.
 #pragma once
 
 #include "analysis/metrics/frame_metrics.hpp"
 #include "analysis/records/tables.hpp"
 #include "analysis/verdicts/case_record.hpp"
+#include "experiments/settings/option_names.hpp"
 #include "experiments/studies/shared/posed_reference.hpp"
-#include "experiments/studies/shared/timed_rounds.hpp"
-#include "experiments/studies/work_precision/body_mesh.hpp"
-#include "experiments/studies/work_precision/case_split.hpp"
-#include "experiments/studies/work_precision/frame_clock.hpp"
+#include "experiments/studies/work_precision/posed_deformer.hpp"
 #include "pbs/geometry/cost.hpp"
+
+#include <string>
+#include <vector>
 
 namespace experiments {
 
-// The parts of PBS's error at the joints [%]. The third part is the error of the reference.
-struct PbsParts {
-    double solver_pct = 0.0, model_pct = 0.0;
-    double not_converged_pct = 0.0;  // between the converged shape and that after half of its iterations
-};
+// Which poses train and which are evaluated. Settings are chosen on the training poses, and the diagrams show the others.
+//   halves_of({"limb", "limb", "human"})   // training, evaluation, evaluation
+enum class Half { training, evaluation };
 
-struct FrameTime {
-    std::optional<Spread> ms;  // nothing where no round arrived
-    int failed_rounds = 0;     // rounds that did not reach the pose, or began in one that was not reached
-};
-// samples: [ms], not a number where a round failed.
-FrameTime frame_time(std::vector<double> samples);
+// The poses of each body, in the order of the list, alternate: the first one trains, the second one is evaluated, and so on. A body with
+// one pose is only evaluated. bodies: that of each pose.
+std::vector<Half> halves_of(const std::vector<std::string>& bodies);
 
-constexpr int fewest_for_quartiles = 3;  // rounds
+template <>
+inline constexpr NameTable<Half, 2> option_names<Half>{{{Half::training, "training"}, {Half::evaluation, "evaluation"}}};
+
+inline constexpr std::array<int, 3> budget_iterations = {4, 24, 96};  // of PBS: a change is compared with it in the time of these
 
 // The errors against the members of the family after the first one, in their order.
 using MemberErrors = std::array<std::optional<double>, further_members>;
@@ -35,7 +34,6 @@ using MemberErrors = std::array<std::optional<double>, further_members>;
 struct PointRow {
     analysis::CaseKey of = {};  // body, motion, and the pose or the angle
     SettingKey key;
-    std::string setting = {};  // as a text
     int vertices = 0, tets = 0;
     std::string outcome = {};
     double reach_ms = 0.0;
@@ -49,8 +47,9 @@ struct PointRow {
     std::optional<bool> reference_order_is_reliable = {};
     std::optional<bool> below_reference_error = {};
     std::optional<double> error_whole_joint_pct = {}, masked_share_pct = {};
-    std::optional<PbsParts> parts = {};
-    std::optional<double> discretisation_pct = {};
+    // Of PBS at the joints: the distance from its own converged shape, the distance of that from the reference, the bound of the
+    // reference's distance from its limit, and the distance of the converged shape from that after half of its iterations.
+    std::optional<double> solver_pct = {}, model_pct = {}, discretisation_pct = {}, not_converged_pct = {};
     Half half = Half::evaluation;
     std::string reason = {};  // why the outcome is not_applicable or over_time_limit; why the reference is not reached
     std::optional<pbs::WorkCounters> work = {};
@@ -58,20 +57,15 @@ struct PointRow {
     MemberErrors members = {};
     bool is_external = false;              // a deformer of the user's own
     std::optional<FrameClock> clock = {};  // nothing where there is no time
+    // Of PBS and of a change to it: the distances from PBS after each of budget_iterations, at the joints outside the overlap.
+    std::array<std::optional<double>, budget_iterations.size()> from_pbs_pct = {};
 
     bool is_of_reference() const { return outcome == "reference" || outcome == "not_reached"; }
 };
 // All columns. The columns of the group "external" are written only if a deformer of the user's own takes part.
 extern const analysis::Columns<PointRow> point_columns;
+extern const analysis::Columns<PointRow> change_columns;  // changes.csv
 analysis::Columns<PointRow> columns_for(const std::vector<PointRow>& rows);
-
-// A setting without an answer: outcome is over_time_limit or not_applicable.
-PointRow row_without_answer(const PointSetting& setting, const BodyMesh& mesh, const std::string& outcome, const std::string& reason);
-PointRow point_row(const ReachedPoint& point);
-void add_time(PointRow& row, const FrameTime& time);
-void add_reference(PointRow& row, const PosedReference& reference);  // and whether the error, if there is one, is below its bound
-// The row of the reference itself. Its outcome is reference, or not_reached.
-PointRow reference_row(const pbs::TetMesh& mesh, const PosedReference& reference);
 
 // A further reference of the family, solved with quadratic elements on the case's own tets alone. Its bound is that of the first member's
 // own solution on these tets, which is an assumption: the same elements have a similar error.
@@ -86,3 +80,7 @@ struct FamilyRow {
 extern const analysis::Columns<FamilyRow> family_columns;
 
 }  // namespace experiments
+
+template <>
+struct analysis::EnumNames<experiments::Half> : experiments::OptionNames<experiments::Half> {
+};

@@ -3,7 +3,7 @@
 #include "experiments/deformers/deformer_options.hpp"
 #include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/deformers/registry.hpp"
-#include "experiments/settings/option_fields.hpp"
+#include "experiments/settings/recorded_settings.hpp"
 #include "experiments/studies/shared/posed_reference.hpp"
 #include "pbs/character/body_cache.hpp"
 #include "pbs/solver/options.hpp"
@@ -36,14 +36,22 @@ public:
     // All settings at all rungs of the case's own mesh, and the default setting at some rungs of the other meshes.
     void add(const ComparedDeformer& entry)
     {
-        std::vector<SettingChange> grid = grid_of(entry);
-        if (range_.in_short) grid.resize(std::min(grid.size(), grid_in_short));
+        const std::vector<SettingChange> grid = grid_in_range(entry);
         for (const KeyValues& code : codes_of(entry)) {
             for (const SettingChange& change : grid)
                 add_ladder(entry, range_.in_short ? entry.few_iterations : entry.iterations, {{}, change, code}, 0);
             for (const std::vector<int>* sizes : {&range_.other_vertices, &range_.without_fem})
                 for (const int vertices : *sizes) add_ladder(entry, entry.few_iterations, {{}, grid.front(), code}, vertices);
         }
+    }
+
+    // A change to PBS, on the case's own mesh in its packed code alone.
+    void add_change(const ComparedDeformer& entry)
+    {
+        const std::size_t first = settings.size();
+        for (const SettingChange& change : grid_in_range(entry))
+            add_ladder(entry, range_.in_short ? entry.few_iterations : entry.iterations, {{}, change, codes_of(entry).front()}, 0);
+        for (std::size_t i = first; i < settings.size(); ++i) settings[i].change = &entry;
     }
 
     void add_fem()
@@ -67,6 +75,13 @@ public:
     std::vector<PointSetting> settings;
 
 private:
+    std::vector<SettingChange> grid_in_range(const ComparedDeformer& entry) const
+    {
+        std::vector<SettingChange> grid = grid_of(entry);
+        if (range_.in_short) grid.resize(std::min(grid.size(), grid_in_short));
+        return grid;
+    }
+
     void add_ladder(const ComparedDeformer& entry, const std::vector<int>& iterations, SettingChoice choice, int vertices)
     {
         std::vector<std::optional<int>> rungs(iterations.begin(), iterations.end());
@@ -143,18 +158,6 @@ const analysis::Columns<SettingKey>& point_key_columns()
     return columns;
 }
 
-std::string text_of(const SettingKey& key)
-{
-    std::string text = key.deformer;
-    const analysis::CsvTable cells = table_of(setting_columns(), {key});
-    for (const std::string& column : cells.columns()) {
-        const std::string& value = cells.text_at(0, column);
-        const bool is_repeated = (column == "k_stretch" && !key.tuned.empty()) || (column == "substeps" && value == "1");
-        if (!value.empty() && !is_repeated && column != "refined" && column != "packed") text += fmt::format(", {} {}", column, value);
-    }
-    return text + (key.packed ? ", packed" : "") + (key.refined ? ", refined" : "");
-}
-
 std::string digest_of(const std::vector<PointSetting>& settings)
 {
     nlohmann::json all = nlohmann::json::array();
@@ -163,18 +166,7 @@ std::string digest_of(const std::vector<PointSetting>& settings)
     return pbs::content_hash(all.dump());
 }
 
-nlohmann::json to_json(const SettingRange& range)
-{
-    static const auto fields = OptionFields<SettingRange>("range")
-                                   .record("in_short", &SettingRange::in_short)
-                                   .record("quadratic", &SettingRange::quadratic)
-                                   .record("other_vertices", &SettingRange::other_vertices)
-                                   .record("without_fem", &SettingRange::without_fem)
-                                   .record("quadratic_up_to", &SettingRange::quadratic_up_to)
-                                   .record("refined", &SettingRange::refined)
-                                   .complete();
-    return fields.json(range);
-}
+RECORD_SETTINGS(SettingRange, in_short, quadratic, other_vertices, without_fem, quadratic_up_to, refined, changes)
 
 std::vector<PointSetting> external_settings(const std::vector<DeformerSpec>& external)
 {
@@ -189,6 +181,8 @@ std::vector<PointSetting> point_settings(const Scene& scene, const SettingRange&
     for (const ComparedDeformer& entry : compared_deformers())
         if (is_available(entry)) list.add(entry);
     list.add_fem();
+    if (range.changes)
+        for (const ComparedDeformer& entry : changes_to_pbs()) list.add_change(entry);
     return list.settings;
 }
 

@@ -1,7 +1,7 @@
 // The points of a work-precision diagram: each deformer at many settings.
 //   for (const PointSetting& setting : point_settings(scene, {.other_vertices = {600}})) ...
 // A rung is a place on the axis of work: iterations, substeps, element order and mesh. At each rung a deformer has the settings of its grid
-// (compared_deformers.hpp), of which one is chosen on other poses than those that are shown (chosen_settings.hpp). On other meshes of the
+// (compared_deformers.hpp), of which one is chosen on other poses than those that are shown (diagram.hpp). On other meshes of the
 // body a deformer runs a part of its ladder with its default setting. Finite elements have laws, element orders and meshes.
 #pragma once
 
@@ -10,6 +10,8 @@
 #include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/scene/scene.hpp"
 #include "experiments/studies/work_precision/compared_deformers.hpp"
+
+#include <nlohmann/json_fwd.hpp>
 
 #include <optional>
 #include <string>
@@ -20,10 +22,11 @@ namespace experiments {
 struct PointSetting {
     std::string deformer;  // its front: lbs, dqs, delta_mush, pbs, xpbd, xpbd_small_steps, fem_linear, ...
     DeformerSpec spec;
-    std::optional<int> iterations = {};  // of its ladder
-    std::string tuned = {};              // the setting of its grid, see name_of(SettingChange)
-    int vertices = 0;                    // wanted size of another mesh of the body; 0: the case's own
-    bool refined = false;                // on the case's own tets, each cut into eight
+    std::optional<int> iterations = {};   // of its ladder
+    std::string tuned = {};               // the setting of its grid, see name_of(SettingChange)
+    int vertices = 0;                     // wanted size of another mesh of the body; 0: the case's own
+    bool refined = false;                 // on the case's own tets, each cut into eight
+    const ComparedDeformer* change = {};  // the change to PBS that it is a setting of; null: of none
 
     bool is_external() const { return options_if<ExternalOptions>(spec) != nullptr; }  // a deformer of the user's own
     bool on_own_mesh() const { return vertices == 0 && !refined; }
@@ -63,8 +66,6 @@ SettingKey rung_of(SettingKey key);                        // the same for all s
 const analysis::Columns<SettingKey>& setting_columns();    // all fields except the deformer; tuned and packed are in the group "code"
 const analysis::Columns<SettingKey>& point_key_columns();  // with the deformer, first
 
-std::string text_of(const SettingKey& key);  // as it is recorded: pbs, iterations 24, k_stretch 0.2, order ordered, precision f32, ...
-
 struct SettingRange {
     bool in_short = false;                 // parts of the ladders and of the grids
     bool quadratic = true;                 // neo-Hookean flesh on quadratic elements too
@@ -72,6 +73,7 @@ struct SettingRange {
     std::vector<int> without_fem = {};     // further sizes, on which no finite elements are solved
     int quadratic_up_to = 1000;            // sizes of other meshes on which the nonlinear law has quadratic elements too
     bool refined = false;                  // neo-Hookean flesh on the case's own tets, each cut into eight
+    bool changes = false;                  // the changes to PBS
 };
 nlohmann::json to_json(const SettingRange& range);
 

@@ -1,29 +1,58 @@
 #include "experiments/studies/work_precision/posed_deformer.hpp"
 
 #include "experiments/process/machine.hpp"
+#include "pbs/character/character.hpp"
+#include "pbs/character/skinning_weights.hpp"
 
 #include <limits>
 
 namespace experiments {
 namespace {
 
-// The poses of reach() and of so many turns.
-std::vector<pbs::Pose> coming_poses(const PosePair& poses, bool with_way, int turns)
+std::shared_ptr<pbs::Character> character_with(pbs::CharacterSource source, int vertices)
 {
-    std::vector<pbs::Pose> coming;
-    if (with_way) coming = poses.way;
-    coming.push_back(poses.pose);
-    for (int turn = 0; turn < turns; ++turn) coming.push_back(turn % 2 == 0 ? poses.neighbour : poses.pose);
-    return coming;
+    source.vertices = vertices;
+    return std::make_shared<pbs::Character>(pbs::make_character(source));
 }
 
 }  // namespace
+
+BodyMesh::BodyMesh(const pbs::CharacterSource& source, int vertices, const pbs::Character& base)
+    : character_(character_with(source, vertices)), base_vertices_(base.mesh.rest.rows())
+{
+    points_ = pbs::embed(base.mesh.rest, pbs::Triangles(0, 3), character_->mesh);
+}
+
+BodyMesh BodyMesh::refined(const pbs::Character& base)
+{
+    BodyMesh fine(std::make_shared<pbs::Character>(pbs::refined(base)));
+    fine.base_vertices_ = base.mesh.rest.rows();
+    return fine;
+}
+
+BodyMesh BodyMesh::with_smooth_weights(const pbs::Character& base)
+{
+    auto smooth = std::make_shared<pbs::Character>(base);
+    smooth->weights = pbs::weights_by(pbs::WeightKind::smooth, base);
+    return BodyMesh(smooth);
+}
+
+pbs::Positions BodyMesh::on_base(const pbs::Positions& positions) const
+{
+    return points_ ? pbs::embedded_positions(*points_, positions, character_->mesh.tets)
+                   : pbs::Positions(positions.topRows(base_vertices_));
+}
 
 PosedDeformer::PosedDeformer(const PointSetting& setting, const BodyMesh& mesh, const PosePair& poses, int announced_turns)
     : mesh_(mesh), poses_(poses), deformer_(make_deformer(setting.spec)), has_own_clock_(traits_of(setting.spec).has_own_clock)
 {
     deformer_->reset(mesh.character());
-    if (has_own_clock_) deformer_->foresee(coming_poses(poses, deformer_->has_memory(), announced_turns));
+    if (!has_own_clock_) return;
+    std::vector<pbs::Pose> coming;  // of reach() and of so many turns
+    if (deformer_->has_memory()) coming = poses.way;
+    coming.push_back(poses.pose);
+    for (int turn = 0; turn < announced_turns; ++turn) coming.push_back(turn % 2 == 0 ? poses.neighbour : poses.pose);
+    deformer_->foresee(coming);
 }
 
 Shape PosedDeformer::reach()

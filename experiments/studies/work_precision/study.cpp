@@ -1,22 +1,27 @@
-// Error against run time: which deformer is nearest to the reference for the time that a frame may take.
+// Error against run time: which deformer is nearest to the reference for the time that a frame may take, and which single change improves
+// PBS most in equal time.
 //
 //   limb twist  90 and 150 deg                      o=======o~~~~~~~o)   (settings are chosen on the first of each pair,
 //   limb bend   60 deg (--full: and 90)             o=======o             and shown on the second)
 //   human       crouch (--full: standing, crouch, in the air, landing and the poses at 1/5 to 4/5 of 01_01; crouch and in the air also on
 //               tets cut into eight; and the crouch of every other installed body)
 //
-// Writes DIR/work_precision/CASE/{points,members}.csv and, over all cases, points.csv, settings.csv, fronts.csv, crossings.csv,
-// best_within.csv, data_profiles.csv, omissions.csv, work_precision.md.
+//   pbskin reproduce work_precision                          minutes
+//   pbskin reproduce work_precision --full                   two and a half hours
+//   pbskin reproduce work_precision --external mine.toml     with deformers of your own
+//
+// Writes DIR/work_precision/CASE/{points,members,changes}.csv and, over all cases, points.csv, settings.csv, fronts.csv, crossings.csv,
+// best_within.csv, data_profiles.csv, omissions.csv; of the changes to PBS equal_time.csv, gains.csv and curves.csv.
+#include "experiments/studies/study.hpp"
+
 #include "analysis/records/record_files.hpp"
+#include "analysis/records/report_table.hpp"
 #include "experiments/scene/scene.hpp"
 #include "experiments/studies/shared/bodies.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
-#include "experiments/studies/study.hpp"
-#include "experiments/studies/work_precision/data_profile.hpp"
 #include "experiments/studies/work_precision/diagram_tables.hpp"
-#include "experiments/studies/work_precision/external_entries.hpp"
+#include "experiments/studies/work_precision/gains.hpp"
 #include "experiments/studies/work_precision/measured_points.hpp"
-#include "experiments/studies/work_precision/report_page.hpp"
 
 #include <fmt/format.h>
 
@@ -28,6 +33,7 @@ std::string measure_and_record(const WorkPrecisionCase& of, const std::string& f
     const MeasuredPoints points = measure_points(of);
     table_of(columns_for(points.rows), points.rows).write(analysis::path_in(folder, "points.csv"));
     table_of(family_columns, points.members).write(analysis::path_in(folder, "members.csv"));
+    if (of.range.changes) table_of(change_columns, points.changes).write(analysis::path_in(folder, "changes.csv"));
     return points.breakdown;
 }
 
@@ -36,25 +42,27 @@ struct PlannedPose {
     int angle_deg = 0;                              // of a sweep
     int frame = 0;                                  // of 01_01 at 100 Hz
     bool refined = false;                           // also solved on the tets cut into eight
+    bool changes = false;                           // the changes to PBS are measured too
     double cost_s = 0.0, quick_cost_s = 0.0;        // in full and in the quick form; 0: not in the quick form
 };
 
-// The limb is one body, twisted or bent. The human has four poses by name, and four that are not chosen: at 1/5, 2/5, 3/5 and 4/5 of the
-// clip. The order decides which poses train (case_split.hpp).
+// 1. The poses. The limb is one body, twisted or bent. The human has four poses by name, and four that are not chosen: at 1/5, 2/5, 3/5 and
+// 4/5 of the clip. The order decides which poses train (point_row.hpp).
 std::vector<PlannedPose> limb_poses()
 {
-    return {{.body = "limb", .motion = "twist", .angle_deg = 90, .cost_s = 110.0, .quick_cost_s = 20.0},
-            {.body = "limb", .motion = "twist", .angle_deg = 150, .cost_s = 150.0, .quick_cost_s = 60.0},
-            {.body = "limb", .motion = "bend", .angle_deg = 60, .cost_s = 130.0, .quick_cost_s = 20.0},
-            {.body = "limb", .motion = "bend", .angle_deg = 90, .cost_s = 950.0}};
+    return {{.body = "limb", .motion = "twist", .angle_deg = 90, .changes = true, .cost_s = 110.0, .quick_cost_s = 20.0},
+            {.body = "limb", .motion = "twist", .angle_deg = 150, .changes = true, .cost_s = 150.0, .quick_cost_s = 60.0},
+            {.body = "limb", .motion = "bend", .angle_deg = 60, .changes = true, .cost_s = 130.0, .quick_cost_s = 20.0},
+            {.body = "limb", .motion = "bend", .angle_deg = 90, .changes = true, .cost_s = 950.0}};
 }
 
 std::vector<PlannedPose> human_poses()
 {
-    std::vector<PlannedPose> poses = {{.pose = "standing", .frame = clip_frames::standing},
-                                      {.pose = "crouch", .frame = clip_frames::crouch, .refined = true, .quick_cost_s = 45.0},
-                                      {.pose = "in_the_air", .frame = clip_frames::in_the_air, .refined = true},
-                                      {.pose = "landing", .frame = clip_frames::landing}};
+    std::vector<PlannedPose> poses = {
+        {.pose = "standing", .frame = clip_frames::standing, .changes = true},
+        {.pose = "crouch", .frame = clip_frames::crouch, .refined = true, .changes = true, .quick_cost_s = 45.0},
+        {.pose = "in_the_air", .frame = clip_frames::in_the_air, .refined = true, .changes = true},
+        {.pose = "landing", .frame = clip_frames::landing, .changes = true}};
     const Scene scene = read_scene("human_01_01", {});
     const pbs::Motion motion = make_motion(scene.motion, pbs::make_character(scene.character).skeleton, scene.file);
     const int last = static_cast<int>(motion.steps.size()) / motion.steps_per_frame - 1;
@@ -69,31 +77,16 @@ std::vector<PlannedPose> poses_of(const std::string& body)
     return {{.body = body, .motion = "01_01", .pose = "crouch", .frame = clip_frames::crouch, .cost_s = 300.0}};
 }
 
-// 5 degrees per frame, which is the step that is timed.
-void set_sweep(WorkPrecisionCase& of, const PlannedPose& pose)
-{
-    of.of = {.body = pose.body, .motion = pose.motion, .angle_deg = pose.angle_deg};
-    of.scene = read_scene("limb_" + pose.motion,
-                          {fmt::format("motion.angle_deg={}", pose.angle_deg), fmt::format("motion.frames={}", pose.angle_deg / 5 + 1)});
-    of.frame = pose.angle_deg / 5;
-}
-
-void set_clip(WorkPrecisionCase& of, const PlannedPose& pose)
-{
-    of.of = {.body = pose.body, .motion = pose.motion, .pose = pose.pose};
-    of.scene = read_scene("human_01_01", {"character.body=" + pose.body});
-    of.frame = pose.frame;
-}
-
-// In full: all rungs and settings, meshes of other sizes, a bound on the error of each reference, and on the evaluated poses the other
-// references of the family. In the fine creases of a bend Newton's method takes minutes per frame on a finer mesh, so that it has no finite
-// elements there.
+// 2. The extent. In full: all rungs and settings, meshes of other sizes, a bound on the error of each reference, and on the evaluated poses
+// the other references of the family. In the fine creases of a bend Newton's method takes minutes per frame on a finer mesh, so that it has
+// no finite elements there. The changes to PBS are compared in the quick form in two poses of the limb.
 void set_extent(WorkPrecisionCase& of, const PlannedPose& pose, bool full)
 {
     const bool is_limb = pose.angle_deg > 0;
     of.range.in_short = !full;
     of.range.quadratic = full;
     of.range.refined = full && pose.refined;
+    of.range.changes = pose.changes && (full || (is_limb && of.half == Half::training));
     of.range.quadratic_up_to = is_limb ? 600 : 1000;
     of.range.other_vertices = {600};
     if (full) of.range.other_vertices = is_limb ? std::vector{300, 600} : std::vector{600, 1000, 4650};
@@ -112,10 +105,16 @@ StudyRun run_of(const PlannedPose& pose, Half half, bool full, const std::vector
     WorkPrecisionCase of;
     of.external = external;
     of.half = half;
-    if (pose.angle_deg > 0)
-        set_sweep(of, pose);
-    else
-        set_clip(of, pose);
+    of.of = {.body = pose.body, .motion = pose.motion, .pose = pose.pose};
+    of.frame = pose.frame;
+    if (pose.angle_deg > 0) {  // 5 degrees per frame, which is the step that is timed
+        of.of.angle_deg = pose.angle_deg;
+        of.frame = pose.angle_deg / 5;
+        of.scene = read_scene("limb_" + pose.motion,
+                              {fmt::format("motion.angle_deg={}", pose.angle_deg), fmt::format("motion.frames={}", of.frame + 1)});
+    } else {
+        of.scene = read_scene("human_01_01", {"character.body=" + pose.body});
+    }
     set_extent(of, pose, full);
     return work_run(case_name(of.of), of, full ? pose.cost_s : pose.quick_cost_s, measure_and_record);
 }
@@ -148,36 +147,66 @@ StudyPlan plan_with(bool full, const std::string& external_file)
     return plan_of(full, external_entries(external_file));
 }
 
-ComparisonRecords records_of(const FinishedRuns& finished)
+// 3. The tables over all cases, and for the terminal who is nearest within each time, and what the changes to PBS gain.
+std::string nearest_text(const std::vector<Diagram>& diagrams)
 {
-    ComparisonRecords records;
-    std::vector<CaseRows> rows;
-    for (const std::string& folder : finished.folders) {
-        const auto read = [&](const char* file) { return analysis::read_csv(analysis::path_in(folder, file)); };
-        rows.push_back(rows_of(point_columns, read("points.csv")));
-        records.cases.push_back({rows.back(), rows_of(family_columns, read("members.csv"))});
+    std::string text;
+    for (const Comparison comparison : comparisons) {
+        std::vector<Diagram> shown;  // the last mean or evaluated pose
+        for (const Diagram& diagram : diagrams)
+            if (diagram.comparison == comparison && diagram.half == Half::evaluation) shown = {diagram};
+        std::vector<BudgetRow> nearest = best_within(shown);
+        std::erase_if(nearest, [](const BudgetRow& row) { return row.rank > 1; });
+        text += text_table(
+                    table_of(budget_columns, nearest),
+                    analysis::report_columns("comparison case budget_ms group deformer iterations tuned ms_median:.2g error_joint_pct:.1f "
+                                             "decision undecided_against")) +
+                "\n";
     }
-    records.chosen = choose_settings(rows);
-    records.diagrams = diagrams_of(records.cases, records.chosen);
-    records.omissions = omissions_of(rows);
-    for (const Omission& omission : omissions_of_means(rows, records.diagrams)) records.omissions.push_back(omission);
-    return records;
+    return text;
+}
+
+std::string gains_text(std::vector<GainRow> gains)
+{
+    std::erase_if(gains, [](const GainRow& gain) { return gain.group != all_poses; });
+    if (gains.empty()) return "";
+    return text_table(
+        table_of(gain_columns, gains),
+        analysis::report_columns("budget_iterations change than poses error_pct:.2f than_error_pct:.2f gain_pct:.2f gain_low_pct:.2f "
+                                 "gain_high_pct:.2f reference_error_pct:.2f decision settings"));
 }
 
 StudyConclusion conclude(const FinishedRuns& finished)
 {
     if (finished.none()) return {"", false};
-    const ComparisonRecords records = records_of(finished);
-    const std::vector<PointRow> points = finished.rows(point_columns, "points.csv");
+    std::vector<CaseRecords> cases;
+    std::vector<CaseRows> rows;
+    std::vector<PointRow> points;
+    for (const std::string& folder : finished.folders) {
+        const auto read = [&](const char* file) { return analysis::read_csv(analysis::path_in(folder, file)); };
+        rows.push_back(rows_of(point_columns, read("points.csv")));
+        cases.push_back({rows.back(), rows_of(family_columns, read("members.csv"))});
+        points.insert(points.end(), rows.back().begin(), rows.back().end());
+    }
+    const std::vector<ChosenSetting> chosen = choose_settings(rows);
+    const std::vector<Diagram> diagrams = diagrams_of(cases, chosen);
+    std::vector<Omission> omissions = omissions_of(rows);
+    for (const Omission& omission : omissions_of_means(rows, diagrams)) omissions.push_back(omission);
     finished.write("points.csv", columns_for(points), points);
-    finished.write("settings.csv", chosen_columns, records.chosen);
-    finished.write("fronts.csv", fronts_table(records.diagrams));
-    finished.write("crossings.csv", crossings_table(records.diagrams));
-    finished.write("best_within.csv", budget_columns, best_within(records.diagrams));
-    finished.write("data_profiles.csv", data_profile_columns, data_profiles(records.diagrams));
-    finished.write("omissions.csv", omission_columns, records.omissions);
-    finished.write("work_precision.md", page_of(records));
-    return {terminal_text(records), true};
+    finished.write("settings.csv", chosen_columns, chosen);
+    finished.write("fronts.csv", fronts_table(diagrams));
+    finished.write("crossings.csv", crossings_table(diagrams));
+    finished.write("best_within.csv", budget_columns, best_within(diagrams));
+    finished.write("data_profiles.csv", data_profile_columns, data_profiles(diagrams));
+    finished.write("omissions.csv", omission_columns, omissions);
+
+    const std::vector<PointRow> changes = finished.rows(change_columns, "changes.csv");
+    const std::vector<EqualTimeRow> at_budgets = at_equal_time(changes);
+    const std::vector<GainRow> gains = gains_of(at_budgets);
+    finished.write("equal_time.csv", equal_time_columns, at_budgets);
+    finished.write("gains.csv", gain_columns, gains);
+    finished.write("curves.csv", curve_columns, mean_curves(changes, at_budgets));
+    return {nearest_text(diagrams) + gains_text(gains), true};
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 //   const CheckResult result = run_check({.folder = "results/check"});
 #pragma once
 
-#include "analysis/check/check_report.hpp"
+#include "analysis/check/check.hpp"
 
 #include <string>
 #include <vector>

@@ -1,7 +1,7 @@
 // Notes on the frame that is shown: the kind of FEM, the number of stored frames, their rounding, and the origin of the body.
 
-const locking = "The FEM shown has linear elements (P1), which lock: they are stiffer than the material. The studies error_split and "
-    + "work_precision measure how far they are from quadratic ones, and the reference\u2019s own error. ";
+const locking = "The FEM shown has linear elements (P1), which lock: they are stiffer than the material. The study "
+    + "work_precision measures how far they are from quadratic ones, and the reference\u2019s own error. ";
 
 export function note_of(run, every, at) {
     const masked_pct = run.masked_share_pct(at);

@@ -13,7 +13,6 @@
 namespace reference_fem {
 
 // A static elastic problem as plain arrays at the nodes of a P1 or P2 space: the input of two programs.
-
 // Springs between points of the flesh and fixed targets: an energy sum_s k_s / 2 |X_s + u(X_s) - t_s|^2.
 struct GroundSprings {
     pbs::Positions points;          // X_s at rest [m], #S x 3; one outside the tets is left out

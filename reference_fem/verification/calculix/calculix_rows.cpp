@@ -4,11 +4,8 @@
 #include "reference_fem/linear_solvers.hpp"
 #include "reference_fem/potentials/potentials.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <ctime>
 #include <limits>
-#include <stdexcept>
 
 namespace reference_fem {
 namespace {
@@ -34,53 +31,6 @@ double calculix_cpu_s(const std::string& program, const NodalProblem& problem, C
         throw std::runtime_error(program + ": " + name_of(run.outcome) + ": " + last_words(run.output));
     return run.cpu_s;
 }
-
-}  // namespace
-
-NodalProblem cantilever_problem(const SimplexSpace& space, const LoadedCantilever& cantilever)
-{
-    NodalProblem problem = nodal_problem(space, cantilever.material);
-    problem.density_kg_m3 = cantilever.density_kg_m3;
-    problem.gravity_m_s2 = cantilever.gravity_m_s2;
-    const double root = problem.nodes.col(0).minCoeff(), end = problem.nodes.col(0).maxCoeff();
-    const double tolerance = 1e-9 * (end - root);
-    for (const int node : nodes_at(problem.nodes, root, tolerance)) problem.held[node] = true;
-    const std::vector<int> loaded = nodes_at(problem.nodes, end, tolerance);
-    for (const int node : loaded) problem.forces_n.row(node) = cantilever.end_load_n.transpose() / static_cast<double>(loaded.size());
-    return problem;
-}
-
-AnsweredProblem answered_cantilever(const pbs::TetMesh& mesh, int element_order, const LoadedCantilever& cantilever)
-{
-    const SimplexSpace space(mesh, element_order);
-    AnsweredProblem answer{cantilever_problem(space, cantilever), {}};
-    answer.displacements = linear_displacements(space, answer.problem);
-    answer.answered = answer.displacements.allFinite();
-    return answer;
-}
-
-FirstSolveTiming time_first_solve(const std::string& program, const pbs::TetMesh& mesh, int element_order,
-                                  const LoadedCantilever& cantilever, int repeats)
-{
-    use_one_blas_thread();
-    FirstSolveTiming timing;
-    const auto keep_smallest = [](double& kept, double seconds) { kept = kept > 0.0 ? std::min(kept, seconds) : seconds; };
-    for (int repeat = 0; repeat < repeats; ++repeat) {
-        const double start = cpu_s();
-        const SimplexSpace space(mesh, element_order);
-        keep_smallest(timing.elements_s, cpu_s() - start);
-        const NodalProblem problem = cantilever_problem(space, cantilever);
-        const double solve_start = cpu_s();
-        linear_displacements(space, problem);
-        keep_smallest(timing.solve_s, cpu_s() - solve_start);
-        keep_smallest(timing.calculix_s, calculix_cpu_s(program, problem, CalculixAnalysis::linear));
-        keep_smallest(timing.reading_s, calculix_cpu_s(program, problem, CalculixAnalysis::none));
-        timing.dofs = space.dofs();
-    }
-    return timing;
-}
-
-namespace {
 
 const NewtonOptions newton_options{.relative_tolerance = 1e-11};
 
@@ -153,7 +103,67 @@ void answer_by_four_points(const pbs::TetMesh& mesh, const HeldBody& body, Answe
     answer.displacements = at_nodes(displacement);
 }
 
+// The condition number of the cantilever on the finest mesh, from its first bending mode (12.4 E I / L^3 over a third of its 16,393 nodes)
+// against the stiffness of one edge (5 E h), is 2e7; sqrt(n) eps cond(K) = 5e-7. CalculiX stops Newton at 1e-9 of the mean force.
+constexpr double largest_difference = 1e-6;
+const std::string largest_difference_from =
+    "rounding of a direct solve: sqrt(n) eps cond(K), cond(K) = 2e7 from the slowest mode of the longest cantilever";
+const Divisions divisions = {48, 6, 6};
+
+pbs::TetMesh cantilever_mesh()
+{
+    return box_mesh({0, 0, 0}, {10, 1, 1}, divisions);
+}
+
+LoadedCantilever cantilever_of(const Effort& effort)
+{
+    return {solver_material(effort, calculix_flesh), 1000.0, {0.0, 1e-3, -1e-2}, {0.3, 0.0, -0.5}};
+}
+
 }  // namespace
+
+NodalProblem cantilever_problem(const SimplexSpace& space, const LoadedCantilever& cantilever)
+{
+    NodalProblem problem = nodal_problem(space, cantilever.material);
+    problem.density_kg_m3 = cantilever.density_kg_m3;
+    problem.gravity_m_s2 = cantilever.gravity_m_s2;
+    const double root = problem.nodes.col(0).minCoeff(), end = problem.nodes.col(0).maxCoeff();
+    const double tolerance = 1e-9 * (end - root);
+    for (const int node : nodes_at(problem.nodes, root, tolerance)) problem.held[node] = true;
+    const std::vector<int> loaded = nodes_at(problem.nodes, end, tolerance);
+    for (const int node : loaded) problem.forces_n.row(node) = cantilever.end_load_n.transpose() / static_cast<double>(loaded.size());
+    return problem;
+}
+
+AnsweredProblem answered_cantilever(const pbs::TetMesh& mesh, int element_order, const LoadedCantilever& cantilever)
+{
+    const SimplexSpace space(mesh, element_order);
+    AnsweredProblem answer{cantilever_problem(space, cantilever), {}};
+    answer.displacements = linear_displacements(space, answer.problem);
+    answer.answered = answer.displacements.allFinite();
+    return answer;
+}
+
+FirstSolveTiming time_first_solve(const std::string& program, const pbs::TetMesh& mesh, int element_order,
+                                  const LoadedCantilever& cantilever, int repeats)
+{
+    use_one_blas_thread();
+    FirstSolveTiming timing;
+    const auto keep_smallest = [](double& kept, double seconds) { kept = kept > 0.0 ? std::min(kept, seconds) : seconds; };
+    for (int repeat = 0; repeat < repeats; ++repeat) {
+        const double start = cpu_s();
+        const SimplexSpace space(mesh, element_order);
+        keep_smallest(timing.elements_s, cpu_s() - start);
+        const NodalProblem problem = cantilever_problem(space, cantilever);
+        const double solve_start = cpu_s();
+        linear_displacements(space, problem);
+        keep_smallest(timing.solve_s, cpu_s() - solve_start);
+        keep_smallest(timing.calculix_s, calculix_cpu_s(program, problem, CalculixAnalysis::linear));
+        keep_smallest(timing.reading_s, calculix_cpu_s(program, problem, CalculixAnalysis::none));
+        timing.dofs = space.dofs();
+    }
+    return timing;
+}
 
 AnsweredProblem answered_body(const pbs::TetMesh& mesh, const HeldBody& body)
 {
@@ -192,27 +202,6 @@ std::string difference_bound_text(BodyModel model)
     if (model == BodyModel::linear) return "rounding of a direct solve: sqrt(n) eps cond(K), cond(K) " + of_both;
     return "rounding and both Newton methods' last residuals: (sqrt(n) (eps + 1e-12) + 2e-11) cond(K), cond(K) at rest " + of_both;
 }
-
-namespace {
-
-// The condition number of the cantilever on the finest mesh, from its first bending mode (12.4 E I / L^3 over a third of its 16,393 nodes)
-// against the stiffness of one edge (5 E h), is 2e7; sqrt(n) eps cond(K) = 5e-7. CalculiX stops Newton at 1e-9 of the mean force.
-constexpr double largest_difference = 1e-6;
-const std::string largest_difference_from =
-    "rounding of a direct solve: sqrt(n) eps cond(K), cond(K) = 2e7 from the slowest mode of the longest cantilever";
-const Divisions divisions = {48, 6, 6};
-
-pbs::TetMesh cantilever_mesh()
-{
-    return box_mesh({0, 0, 0}, {10, 1, 1}, divisions);
-}
-
-LoadedCantilever cantilever_of(const Effort& effort)
-{
-    return {solver_material(effort, calculix_flesh), 1000.0, {0.0, 1e-3, -1e-2}, {0.3, 0.0, -0.5}};
-}
-
-}  // namespace
 
 VerificationRow calculix_row(const CalculixComparison& comparison, const std::string& pose, const std::string& law, AnsweredProblem answer,
                              const DeckOptions& options)

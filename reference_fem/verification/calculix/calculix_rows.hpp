@@ -30,7 +30,6 @@ VerificationRows calculix_cantilever_rows(const CalculixComparison& comparison);
 VerificationRows calculix_timing_rows(const CalculixComparison& comparison);      // of the first solve
 
 // A cantilever under its weight and an end load: the reference's answer to it, and the time of its first linear solve.
-
 // Nodes at the lowest x are held; the nodes at the highest x share the end load [N] equally.
 struct LoadedCantilever {
     ElasticMaterial material;

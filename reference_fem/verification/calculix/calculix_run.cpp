@@ -17,16 +17,11 @@
 #include <cctype>
 #include <cerrno>
 #include <charconv>
-#include <cmath>
-#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <regex>
-#include <sstream>
-#include <stdexcept>
-#include <vector>
 
 namespace reference_fem {
 namespace {

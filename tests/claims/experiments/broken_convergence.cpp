@@ -8,7 +8,7 @@
 //   converged at once, so LBS is not the better initial guess.
 // - nothing projected: every initial guess stays unchanged, to the bit: the rest pose has its volume at once, LBS never.
 // - stretch dropped: the bind and the volume constraints remain, and the last residual of the edges is larger.
-#include "experiments/studies/convergence/convergence_values.hpp"
+#include "experiments/studies/convergence/convergence_case.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 #include "pbs/geometry/topology.hpp"
 #include "tests/support/broken_solver.hpp"

@@ -1,6 +1,6 @@
 // The verdicts on C03 and C12 follow from the values that the convergence study writes, and change when the paths behind them are altered.
 // Reference: the rules in experiments/verdicts/claims.toml.
-#include "experiments/studies/convergence/convergence_values.hpp"
+#include "experiments/studies/convergence/convergence_case.hpp"
 
 #include "analysis/records/record_files.hpp"
 #include "analysis/verdicts/verdict.hpp"

@@ -4,11 +4,9 @@
 #include "experiments/run/run_folder.hpp"
 #include "experiments/studies/ambiguity/reading_values.hpp"
 #include "experiments/studies/artefacts/artefact_values.hpp"
-#include "experiments/studies/convergence/convergence_records.hpp"
+#include "experiments/studies/convergence/convergence_case.hpp"
 #include "experiments/studies/ensemble/ensemble.hpp"
-#include "experiments/studies/error_split/error_split.hpp"
 #include "experiments/studies/fit/fit.hpp"
-#include "experiments/studies/improvements/gains.hpp"
 #include "experiments/studies/jiggle/jiggle_records.hpp"
 #include "experiments/studies/setup/body_setup.hpp"
 #include "experiments/studies/stability/cell_table.hpp"
@@ -16,10 +14,9 @@
 #include "experiments/studies/timing/equal_quality.hpp"
 #include "experiments/studies/timing/features.hpp"
 #include "experiments/studies/timing/frames.hpp"
-#include "experiments/studies/work_precision/chosen_settings.hpp"
-#include "experiments/studies/work_precision/data_profile.hpp"
+#include "experiments/studies/work_precision/diagram.hpp"
 #include "experiments/studies/work_precision/diagram_tables.hpp"
-#include "experiments/studies/work_precision/omissions.hpp"
+#include "experiments/studies/work_precision/gains.hpp"
 #include "experiments/studies/work_precision/point_row.hpp"
 #include "reference_fem/verification/verification_record.hpp"
 
@@ -142,7 +139,7 @@ TEST(KeptTables, OfTimedStudies)
 {
     expect_same_records(experiments::timing_columns, "timing", "timing.csv");
     expect_same_records(experiments::feature_columns, "timing", "features.csv");
-    expect_same_records(experiments::change_columns, "improvements", "points.csv");
+    expect_same_records(experiments::change_columns, "work_precision", "changes.csv");
 }
 
 TEST(KeptTables, OfTheOrders)
@@ -163,8 +160,8 @@ TEST(KeptTables, OfTheOtherStudies)
     expect_same_records(experiments::towards_columns, "convergence", "towards.csv");
     expect_same_records(experiments::cell_columns, "stability", "cells.csv");
     expect_same_records(experiments::start_columns, "stability", "starts.csv");
-    expect_same_records(experiments::part_columns, "error_split", "parts.csv");
-    expect_same_records(experiments::attachment_columns, "error_split", "attachments.csv");
+    expect_same_records(experiments::part_columns, "ensemble", "parts.csv");
+    expect_same_records(experiments::attachment_columns, "ensemble", "attachments.csv");
 }
 
 TEST(KeptTables, OfTheComparison)
@@ -182,8 +179,9 @@ TEST(KeptTables, ThatSumUpAStudy)
     expect_same_sum(experiments::cell_columns, "stability/map_time_step_k_stretch.csv");
     expect_same_sum(experiments::cell_columns, "stability/map_iterations_twist.csv");
     expect_same_sum(experiments::start_columns, "stability/starts.csv");
-    expect_same_sum(experiments::equal_time_columns, "improvements/equal_time.csv");
-    expect_same_sum(experiments::gain_columns, "improvements/gains.csv");
+    expect_same_sum(experiments::equal_time_columns, "work_precision/equal_time.csv");
+    expect_same_sum(experiments::gain_columns, "work_precision/gains.csv");
+    expect_same_sum(experiments::curve_columns, "work_precision/curves.csv");
     expect_same_sum(experiments::pair_columns, "ensemble/pairs.csv");
     expect_same_sum(experiments::member_columns, "ensemble/members.csv");
 }
@@ -213,7 +211,7 @@ bool has_words(const std::string& file, const std::string& column)
 {
     static const std::set<std::string> of_any_file = {"bound",  "bound_from", "cpu_model", "description", "note",
                                                       "reason", "remark",     "source",    "unit",        "verdict_changed"};
-    static const std::set<std::string> of_one_file = {"points.csv beside", "points.csv setting", "verification.csv mesh"};
+    static const std::set<std::string> of_one_file = {"points.csv beside", "verification.csv mesh"};
     return of_any_file.contains(column) || of_one_file.contains(file + " " + column);
 }
 

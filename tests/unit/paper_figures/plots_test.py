@@ -101,7 +101,7 @@ class Plots(unittest.TestCase):
         self.assertEqual([(row["deformer"], row["missing"], row["points"]) for row in added], [("vbd", 2, 6)])
 
     def test_improvements(self):
-        synthetic_tables.write_improvements(self.results / "improvements")
+        synthetic_tables.write_improvements(self.results / "work_precision")
         rows = self.drawn("improvements")
         self.assertEqual(len([row for row in rows if row["shown"] == "curve"]), 2 * 4)
         gains = {row["budget_iterations"]: row for row in rows if row["shown"] == "gain"}
@@ -117,7 +117,7 @@ class Plots(unittest.TestCase):
                                                         "not ranked: volumes of regions in the time of 24 iterations: 0 of 8 poses"])
 
     def test_an_attachment_that_was_not_reached_keeps_its_place_and_says_so(self):
-        synthetic_tables.write_error_split(self.results / "error_split")
+        synthetic_tables.write_error_split(self.results / "ensemble")
         axes, save = [], style.save
 
         def kept(figure, *others):

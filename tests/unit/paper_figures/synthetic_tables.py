@@ -62,7 +62,7 @@ def write_improvements(study):
     """PBS with an error of 40 % / n, and smooth weights with half of it, which gain half of PBS's error at each budget, decided at 24
     iterations alone."""
     write_origin(study / "limb_twist_90")
-    write(study / "limb_twist_90" / "points.csv", [{"change": "pbs"}])
+    write(study / "limb_twist_90" / "changes.csv", [{"change": "pbs"}])
     write(study / "curves.csv", [{"body": "limb", "change": change, "setting": "", "iterations": n, "poses": 1, "mean_ms": 0.1 * n,
                                   "error_joint_pct": factor * 40.0 / n}
                                  for change, factor in (("pbs", 1.0), ("smooth_weights", 0.5)) for n in (1, 4, 24, 96)])
@@ -74,15 +74,16 @@ def write_improvements(study):
 
 def write_error_split(study):
     """As above; in the lower panels, flesh held by the bind constraint converges in the twist and not in the bend."""
-    for scene, angle_deg in (("limb_twist", 90), ("limb_bend", 60)):
-        write_origin(study / scene)
-        pose = {"scene": scene, "angle_deg": angle_deg}
-        write(study / scene / "parts.csv",
+    for motion, angle_deg in (("twist", 90), ("bend", 60)):
+        folder = study / f"limb_{motion}_{angle_deg}"
+        write_origin(folder)
+        pose = {"body": "limb", "motion": motion, "pose": "", "angle_deg": angle_deg}
+        write(folder / "parts.csv",
               [{**pose, "k_stretch": k, "iterations": n, "error_joint_pct": 25.0, "solver_pct": 30.0 / n, "model_pct": 20.0,
                 "discretisation_pct": 5.0} for k in (0.2, 0.9) for n in (1, 24)])
         held = [("neo_hookean", "smooth", 10, 0.7, 20.0), ("neo_hookean", "embedded", 1e4, 0.35, 30.0),
-                ("neo_hookean", "bind", "", "", 80.0 if scene == "limb_twist" else "nan"), ("linear", "smooth", 10, 0.7, 40.0)]
-        write(study / scene / "attachments.csv",
+                ("neo_hookean", "bind", "", "", 80.0 if motion == "twist" else "nan"), ("linear", "smooth", 10, 0.7, 40.0)]
+        write(folder / "attachments.csv",
               [{**pose, "k_stretch": 0.2, "reference": f"{model}_{attachment}", "model": model, "attachment": attachment,
                 "spring_factor": factor, "core_radius": core, "model_pct": pct} for model, attachment, factor, core, pct in held])
 

@@ -14,7 +14,6 @@
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <random>
 #include <set>
 
@@ -162,13 +161,7 @@ TEST(Assembly, ErrorNormsOfZeroAreTheNormsOfTheField)
     EXPECT_LT(error_norms(space, at_nodes(space, field), field, gradient).l2, rounding_error(8 + 8 + 4, 2.0) * std::sqrt(2.0));
 }
 
-}  // namespace
-
 // Reference: the same sums in a dense matrix.
-
-namespace {
-
-using namespace reference_fem;
 
 TEST(NodalMatrix, AddsWhatADenseMatrixAdds)
 {
@@ -192,14 +185,9 @@ TEST(NodalMatrix, AddsWhatADenseMatrixAdds)
     }
 }
 
-}  // namespace
-
 // Reference: the definition of nodal elements. Vertex v is node v, shape functions are 1 at their own node and 0 at the others. At nodes
 // they are polynomials of 0, 1/2 and 1, which are not rounded.
 
-namespace {
-
-using pbs::Vec3;
 using reference_fem::SimplexSpace;
 
 TEST(SimplexSpace, KeepsVerticesAndTetsInTheirOrder)
@@ -278,11 +266,7 @@ TEST(SimplexSpace, RefusesDegenerateMeshes)
         EXPECT_THROW(SimplexSpace(mesh, 1), pbs::InputError);
 }
 
-}  // namespace
-
 // Reference: relations between elastic constants, by hand: E = mu (3 lambda + 2 mu) / (lambda + mu), nu = lambda / (2 (lambda + mu)).
-
-namespace {
 
 using reference_fem::Lame;
 using reference_fem::lame_parameters;

@@ -10,8 +10,6 @@
 
 #include <gtest/gtest.h>
 
-#include <functional>
-
 namespace {
 
 using namespace reference_fem;
@@ -144,16 +142,11 @@ TEST(LinearElasticity, SetupSaysWhatWasDone)
     EXPECT_GT(fem.setup().reciprocal_condition, 0.0);
 }
 
-}  // namespace
-
 // Reference: theory. The normal integrates to zero over a closed surface, and x . n to three times the volume. A bar on rollers under
 // uniform tension has an affine displacement and a uniform stress. Tolerances: rounding of a direct solve, by cond(K), and of sums over
 // nodes of entries, into which the normal brings the Jacobian once more. The magnitudes of all shape functions at a point add up to at
 // most 2.
 
-namespace {
-
-using namespace reference_fem;
 using pbs::Vec3;
 
 class BoundaryData : public testing::TestWithParam<int> {

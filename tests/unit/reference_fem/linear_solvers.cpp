@@ -166,14 +166,8 @@ TEST(PreparedSolver, TheBlasInUseIsNamedWithItsFile)
     EXPECT_EQ(resolved_blas().find('/'), std::string::npos) << resolved_blas();
 }
 
-}  // namespace
-
 // Reference: the rows of the eliminated system. Tolerance: the residual of a backward stable solve, |r| <= sqrt(n) eps |K| |u|, see
 // reference_fem/verification/problems.hpp, with n = 4 free unknowns and |K| <= 2.5 + 2 by Gershgorin.
-
-namespace {
-
-using namespace reference_fem;
 
 SparseMatrix tridiagonal(double diagonal)
 {

@@ -13,7 +13,6 @@
 #include <gsl/gsl_cdf.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -103,12 +102,8 @@ TEST(AutocorrelationTime, OfAnAutoregressiveSeriesIsKnown)
     EXPECT_NEAR(analysis::integrated_autocorrelation_time(autoregressive_series(n, random)), tau, 4.0 * relative_error * tau);
 }
 
-}  // namespace
-
 // Reference: NIST Statistical Reference Dataset "Norris" (36 points, certified to 15 digits), and power laws. Tolerances: half a unit of
 // the last certified digit, and the rounding of a fit.
-
-namespace {
 
 using analysis::fit_line;
 using analysis::observed_order;
@@ -196,11 +191,7 @@ TEST(LineFit, RefusesWhatHasNoLine)
     EXPECT_THROW(observed_order({0.1, 0.05}, {0.0, 1.0}), pbs::InputError);
 }
 
-}  // namespace
-
 // Reference: series made from the formula, with and without noise of a known size.
-
-namespace {
 
 using analysis::fit_damped_oscillation;
 using analysis::OscillationOutcome;
@@ -276,14 +267,10 @@ TEST(DampedOscillation, StillnessShortnessAndNoiseAreNone)
     EXPECT_EQ(fit_damped_oscillation(noise, 0.01).outcome, OscillationOutcome::unclear);
 }
 
-}  // namespace
-
 // Grid convergence compared with printed values, and with a field of a known order. Reference: the sample table of I. B. Celik et al.,
 // Journal of Fluids Engineering 130, 078001, 2008; the worked example of NASA's NPARC tutorial "Examining Spatial (Grid) Convergence"
 // (J. W. Slater; pressure recovery of an inlet), which follows P. J. Roache. Both observe their order on a third grid; here it is presumed.
 // Their index has the safety factor 1.25 of three grids.
-
-namespace {
 
 constexpr double of_three_grids = 1.25 / analysis::grid_safety_factor;
 

@@ -12,8 +12,6 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 namespace {
 
 using namespace reference_fem;

@@ -8,9 +8,6 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
-#include <cmath>
-
 namespace {
 
 using namespace reference_fem;

@@ -7,8 +7,6 @@
 
 #include <Eigen/LU>
 
-#include <cmath>
-
 namespace {
 
 using namespace test_support;

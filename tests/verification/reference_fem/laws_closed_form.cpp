@@ -3,7 +3,6 @@
 // Deformations.
 #include "tests/support/law_points.hpp"
 
-#include <cmath>
 #include <functional>
 #include <map>
 

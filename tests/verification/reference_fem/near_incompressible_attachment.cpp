@@ -10,7 +10,6 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <limits>
 #include <map>
 

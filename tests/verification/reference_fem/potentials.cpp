@@ -12,9 +12,6 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-#include <limits>
-#include <random>
-
 namespace {
 
 using namespace reference_fem;

@@ -1,7 +1,6 @@
 // Reference: the tables below, whose worst frame and differences are visible at a glance.
 
-#include "analysis/check/check_judgement.hpp"
-#include "analysis/check/check_report.hpp"
+#include "analysis/check/check.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 #include <gtest/gtest.h>
@@ -122,8 +121,6 @@ TEST(CheckBaseline, AFrameTwiceIsRefusedWithItsLine)
 }
 
 // Reference: GitHub's documented workflow commands; % \r \n are escaped in messages, and also : and , in properties.
-using analysis::CheckCase;
-using analysis::CheckState;
 using analysis::CheckSuite;
 
 namespace {

@@ -180,16 +180,10 @@ TEST(SectionExtremes, RefusesStationsThatCannotBeMeasured)
     EXPECT_EQ(extremes({good, outside, all_of(mesh.tets)}).smallest_ratio, 0.0);  // displaced from its plane: a result, not an error
 }
 
-}  // namespace
-
 // Reference: regular polygons, rectangles and a figure eight in closed form. Tolerances: a vertex and its distance from the centroid go
 // through some twenty roundings of coordinates. Those of the rectangle are multiples of powers of two, which are not rounded.
 
-namespace {
-
-using analysis::Plane;
 using pbs::Positions;
-using pbs::Vec3;
 
 const Plane horizontal{Vec3::Zero(), Vec3::UnitZ()};
 
@@ -259,11 +253,7 @@ TEST(SectionOutline, EnclosingOneIsTakenBeforeANearerOne)
     EXPECT_EQ(analysis::enclosing_outline({}, horizontal), nullptr);
 }
 
-}  // namespace
-
 // Reference: prisms over a triangle with sides 3, 4 and 5, cut across; a corner of the outline stands for half of each side that it ends.
-
-namespace {
 
 using analysis::share_of_outline;
 

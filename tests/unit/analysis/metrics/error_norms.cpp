@@ -10,7 +10,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 namespace {
@@ -169,14 +168,9 @@ TEST(ErrorH1, DoesNotSeeTranslations)
     EXPECT_NEAR(analysis::error_h1_pct(domain.rest, domain.tets, moved, domain.rest), 0.0, gradient_error_pct(4.2));
 }
 
-}  // namespace
-
 // Reference: strains and angles of boxes in closed form.
 
-namespace {
-
 using analysis::SmoothnessMetrics;
-using pbs::Positions;
 using pbs::Vec3;
 
 pbs::TetMesh bar()

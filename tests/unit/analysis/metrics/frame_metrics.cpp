@@ -12,9 +12,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <limits>
-
 namespace {
 
 using analysis::FrameMetrics;
@@ -216,7 +213,6 @@ TEST(EdgeStrain, AnotherNumberOfPointsIsRefused)
 namespace {
 
 using namespace analysis;
-using test_support::rounding_error;
 
 const pbs::TetMesh bar = test_support::structured_bar({0, 0, 0}, {2, 1, 1}, {2, 1, 1});
 
@@ -277,17 +273,11 @@ TEST(RegionVolume, RefusesRegionsOfAnotherMesh)
     EXPECT_THROW(RegionMetrics(bar.rest, bar.tets, {0, 1}), pbs::InputError);
 }
 
-}  // namespace
-
 // Reference: 4/3 for the octahedron, the tets inside a boundary, and s^3. Tolerances: the roundings of volumes. Each volume between an
 // octahedron's triangle and one of its vertices is rounded once, by its division by 6; the sum is compensated.
 
-namespace {
-
 using analysis::enclosed_volume;
-using pbs::Positions;
 using pbs::Triangles;
-using test_support::rounding_error;
 
 Positions octahedron_points()
 {

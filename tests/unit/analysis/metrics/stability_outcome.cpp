@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
+#include <tuple>
 
 namespace {
 
@@ -20,11 +20,6 @@ Steps calm()
     Steps steps(disturbed + still);
     for (int i = 0; i < disturbed; ++i) steps[i].motion = 0.1;
     return steps;
-}
-
-StabilityOutcome outcome(const Steps& steps)
-{
-    return outcome_of(steps, disturbed).outcome;
 }
 
 // The motion of the last third of the still steps grows by `factor` from each of its thirds to the next.
@@ -53,104 +48,70 @@ TEST(StabilityOutcome, RecoveryCountsTheStillStepsThatWereNotAtRest)
     EXPECT_EQ(result.recovery_steps, 21);
 }
 
-TEST(StabilityOutcome, OneStepThatIsNotFiniteIsNotFiniteWhateverFollows)
+template <typename Change>
+Steps changed(Change change, Steps steps = calm())
 {
-    Steps steps = calm();
-    steps[3].finite = false;
-    EXPECT_EQ(outcome(steps), StabilityOutcome::not_finite);
-    EXPECT_EQ(outcome({}), StabilityOutcome::not_finite);
+    change(steps);
+    return steps;
 }
 
-TEST(StabilityOutcome, FarAwayInTheLastThirdIsDiverged)
+Steps with_all(double StabilityStep::*member, double value)
 {
-    Steps steps = calm();
-    steps[steps.size() - still / 3].reach = 1.01 * bounds.farthest;
-    EXPECT_EQ(outcome(steps), StabilityOutcome::diverged);
-    steps[steps.size() - still / 3].reach = 0.99 * bounds.farthest;
-    EXPECT_EQ(outcome(steps), StabilityOutcome::converged);
+    return changed([=](Steps& steps) {
+        for (auto& step : steps) step.*member = value;
+    });
 }
 
-TEST(StabilityOutcome, FarAwayBeforeTheLastThirdIsForgiven)
+// The step `from_end` before the end (1: the last one) is beyond its place by so many times the bound.
+Steps far_away(std::size_t from_end, double times)
 {
-    Steps steps = calm();
-    steps[steps.size() - still / 3 - 1].reach = 1e9;
-    EXPECT_EQ(outcome(steps), StabilityOutcome::converged);
+    return changed([=](Steps& steps) { steps[steps.size() - from_end].reach = times * bounds.farthest; });
 }
 
-// The bones have moved away and the step was undone: the body is held up and has not diverged.
-TEST(StabilityOutcome, LeftBehindByAStepThatWasNotReachedIsBounded)
+TEST(StabilityOutcome, FollowsFromTheSteps)
 {
-    Steps steps = calm();
-    for (auto& step : steps) {
-        step.reach = 2.0 * bounds.farthest;
-        step.solved = false;
-    }
-    EXPECT_EQ(outcome(steps), StabilityOutcome::bounded);
-}
-
-TEST(StabilityOutcome, AReachBeyondAllNumbersIsDiverged)
-{
-    for (const double reach : {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
-        Steps steps = calm();
-        steps.back().reach = reach;
-        EXPECT_EQ(outcome(steps), StabilityOutcome::diverged);
-    }
-}
-
-TEST(StabilityOutcome, MotionThatGrowsBeyondTheDisturbanceIsDiverged)
-{
-    EXPECT_EQ(outcome(growing(1.01 * bounds.growth, 0.1)), StabilityOutcome::diverged);
-    EXPECT_EQ(outcome(growing(0.99 * bounds.growth, 0.1)), StabilityOutcome::bounded);
-}
-
-TEST(StabilityOutcome, MotionThatGrowsToLessThanWasPutInIsNot)
-{
-    EXPECT_EQ(outcome(growing(2.0, 0.099 / 4)), StabilityOutcome::bounded);
-    EXPECT_EQ(outcome(growing(2.0, 0.101 / 4)), StabilityOutcome::diverged);
-}
-
-TEST(StabilityOutcome, MotionThatGrowsBelowRestIsRounding)
-{
-    Steps steps = growing(2.0, 0.2 * bounds.rest_motion);
-    for (int i = 0; i < disturbed; ++i) steps[i].motion = 0.0;
-    EXPECT_EQ(outcome(steps), StabilityOutcome::converged);
-}
-
-TEST(StabilityOutcome, ATetInvertedInTheLastStepIsInverted)
-{
-    Steps steps = calm();
-    steps.back().inverted_tets = 1;
-    EXPECT_EQ(outcome(steps), StabilityOutcome::inverted);
-    std::swap(steps.back(), steps[steps.size() - 2]);
-    EXPECT_EQ(outcome(steps), StabilityOutcome::bounded);  // not inverted at the end, and not at rest for long enough
-}
-
-TEST(StabilityOutcome, WhatStillMovesIsBounded)
-{
-    Steps steps = calm();
-    for (auto& step : steps) step.motion = 1.01 * bounds.rest_motion;
-    EXPECT_EQ(outcome(steps), StabilityOutcome::bounded);
-    EXPECT_FALSE(outcome_of(steps, disturbed).recovery_steps);
-    for (auto& step : steps) step.motion = 0.99 * bounds.rest_motion;
-    EXPECT_EQ(outcome(steps), StabilityOutcome::converged);
-}
-
-TEST(StabilityOutcome, RestElsewhereThanUndisturbedIsBounded)
-{
-    Steps steps = calm();
-    for (auto& step : steps) step.from_undisturbed = 1.01 * bounds.near_undisturbed;
-    EXPECT_EQ(outcome(steps), StabilityOutcome::bounded);
-    for (auto& step : steps) step.from_undisturbed = 0.99 * bounds.near_undisturbed;
-    EXPECT_EQ(outcome(steps), StabilityOutcome::converged);
-}
-
-TEST(StabilityOutcome, AStepThatWasNotReachedIsNeverConverged)
-{
-    Steps steps = calm();
-    steps[steps.size() - bounds.still_steps].solved = false;
-    EXPECT_EQ(outcome(steps), StabilityOutcome::bounded);
-    std::swap(steps[steps.size() - bounds.still_steps], steps[steps.size() - bounds.still_steps - 1]);
-    EXPECT_EQ(outcome(steps), StabilityOutcome::converged);
+    using enum StabilityOutcome;
+    constexpr double infinity = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
+    const auto not_reached = [](std::size_t from_end) {
+        return changed([=](Steps& steps) { steps[steps.size() - from_end].solved = false; });
+    };
+    const auto inverted_at = [](std::size_t from_end) {
+        return changed([=](Steps& steps) { steps[steps.size() - from_end].inverted_tets = 1; });
+    };
+    const std::vector<std::tuple<const char*, Steps, StabilityOutcome>> all = {
+        {"no step", {}, not_finite},
+        {"one step that is not finite, whatever follows", changed([](Steps& steps) { steps[3].finite = false; }), not_finite},
+        {"far away in the last third", far_away(still / 3, 1.01), diverged},
+        {"not so far away in the last third", far_away(still / 3, 0.99), converged},
+        {"far away before the last third", far_away(still / 3 + 1, 1e9), converged},
+        {"a reach beyond all numbers", far_away(1, infinity), diverged},
+        {"a reach that is not a number", far_away(1, nan), diverged},
+        // The bones have moved away and the step was undone: the body is held up and has not diverged.
+        {"left behind by steps that were not reached",
+         changed(
+             [](Steps& steps) {
+                 for (auto& step : steps) step.solved = false;
+             },
+             with_all(&StabilityStep::reach, 2.0 * bounds.farthest)),
+         bounded},
+        {"motion that grows beyond the disturbance", growing(1.01 * bounds.growth, 0.1), diverged},
+        {"motion that grows less", growing(0.99 * bounds.growth, 0.1), bounded},
+        {"motion that grows to less than was put in", growing(2.0, 0.099 / 4), bounded},
+        {"motion that grows to more than was put in", growing(2.0, 0.101 / 4), diverged},
+        {"motion that grows below rest is rounding",
+         changed([](Steps& steps) { std::fill_n(steps.begin(), disturbed, StabilityStep{}); }, growing(2.0, 0.2 * bounds.rest_motion)),
+         converged},
+        {"a tet inverted in the last step", inverted_at(1), inverted},
+        {"inverted before the end, and not at rest for long enough", inverted_at(2), bounded},
+        {"still moving", with_all(&StabilityStep::motion, 1.01 * bounds.rest_motion), bounded},
+        {"at rest", with_all(&StabilityStep::motion, 0.99 * bounds.rest_motion), converged},
+        {"at rest elsewhere than undisturbed", with_all(&StabilityStep::from_undisturbed, 1.01 * bounds.near_undisturbed), bounded},
+        {"at rest near the undisturbed", with_all(&StabilityStep::from_undisturbed, 0.99 * bounds.near_undisturbed), converged},
+        {"a step that was not reached", not_reached(bounds.still_steps), bounded},
+        {"a step that was not reached earlier", not_reached(bounds.still_steps + 1), converged},
+    };
+    for (const auto& [name, steps, expected] : all) EXPECT_EQ(name_of(outcome_of(steps, disturbed).outcome), name_of(expected)) << name;
+    EXPECT_FALSE(outcome_of(with_all(&StabilityStep::motion, 1.01 * bounds.rest_motion), disturbed).recovery_steps);
 }
 
 // One tet whose corners all have the sphere of radius 1 about the origin as their place; the diagonal is 2 m.

@@ -39,11 +39,7 @@ TEST(Provenance, JsonCarriesAddedEntriesAndNoPlace)
     EXPECT_FALSE(std::regex_search(text, std::regex("/(home|work|root|tmp|usr|build)\\b"))) << text;
 }
 
-}  // namespace
-
 // Reference: the test vector of XXH3 128 for empty input with seed 0 (xxHash's own sanity test), and the command `xxhsum -H2` for a file.
-
-namespace {
 
 using analysis::StateHash;
 

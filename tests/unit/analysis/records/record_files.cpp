@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <csignal>
-#include <filesystem>
 #include <map>
 #include <utility>
 
@@ -208,12 +207,8 @@ TEST_F(AtomicFile, ReadingWhatIsNotThereIsRefused)
     EXPECT_THROW(read_text(folder / "pipe"), pbs::InputError);
 }
 
-}  // namespace
-
 // Reference: the files created by the test. Since root may do everything that modes forbid, a folder takes the place of a file to be
 // removed, and the reverse.
-
-namespace {
 
 using test_support::ScratchFolder;
 namespace fs = std::filesystem;
@@ -258,11 +253,7 @@ TEST(FolderFiles, FilesOfAFolder)
     EXPECT_EQ(refusal_of([&] { analysis::files_in(file); }), file + ": the folder cannot be read: Not a directory");
 }
 
-}  // namespace
-
 // Reference: Unicode's definition of UTF-8 (RFC 3629).
-
-namespace {
 
 using analysis::is_utf8;
 using analysis::record_text;

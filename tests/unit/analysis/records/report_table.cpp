@@ -49,11 +49,7 @@ TEST(ReportTable, AMissingColumnAndTextUnderAFormatAreRefused)
     EXPECT_THROW(text_table(table(), {{"body", "body", "{:g}"}}), pbs::InputError);
 }
 
-}  // namespace
-
 // Reference: the definition. No line is longer than requested, every word is there and in order, and columns begin at the same position.
-
-namespace {
 
 using namespace analysis;
 
@@ -94,7 +90,6 @@ TEST(TextColumns, AColourTakesNoRoom)
 }  // namespace
 
 // Reference: the definition, on small texts.
-using namespace analysis;
 
 TEST(PlainMarkdown, FillsParagraphsAndLeavesOutCommentsAndLinks)
 {

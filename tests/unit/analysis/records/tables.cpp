@@ -9,10 +9,8 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <random>
-#include <stdexcept>
 
 namespace {
 
@@ -183,11 +181,7 @@ TEST(CsvTable, GoesThroughAFile)
     EXPECT_THROW(analysis::read_csv(folder / "missing.csv"), pbs::InputError);
 }
 
-}  // namespace
-
 // Reference: RFC 4180 and the identity: rows that are written read back unchanged.
-
-namespace {
 
 enum class Ending { finished, not_finite };
 
@@ -202,7 +196,6 @@ struct analysis::EnumNames<Ending> {
 namespace {
 
 using analysis::Columns;
-using analysis::parse_csv;
 
 struct Place {
     std::string body;

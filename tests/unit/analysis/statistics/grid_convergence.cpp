@@ -9,11 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <limits>
-#include <string>
 #include <tuple>
-#include <vector>
 
 namespace {
 
@@ -75,11 +71,7 @@ TEST(TwoGrids, RefuseMeshesThatAreTooSimilarAndOrdersThatAreNone)
     EXPECT_NE(refusal_of(2.0, nan), "");
 }
 
-}  // namespace
-
 // Reference: distances and fields made by hand as C h^p, whose order and error are known.
-
-namespace {
 
 using analysis::nested_order;
 
@@ -163,11 +155,7 @@ TEST(NestedConvergence, ExtrapolatesToTheLimit)
     }
 }
 
-}  // namespace
-
 // Expected values follow from timings that are a power of the size.
-
-namespace {
 
 using namespace analysis;
 

@@ -8,10 +8,9 @@
 #include <gsl/gsl_cdf.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <random>
+#include <tuple>
 
 namespace {
 
@@ -47,30 +46,53 @@ TEST(Minimise, LogarithmicValleyIsFoundToTheTolerance)
     EXPECT_NEAR(minimum.rise, 0.1 - std::log(1.1), 0.1 * of_place + of_place * of_place + 4.0 * of_value);
 }
 
-TEST(Minimise, ValueZeroIsIdentifiable)
-{
-    const auto minimum = minimise([](double x) { return std::abs(x - 0.25); }, 0.0, 1.0);  // 0.25 is a sample
-    EXPECT_EQ(minimum.value, 0.0);
-    EXPECT_TRUE(std::isinf(minimum.rise));
-    EXPECT_TRUE(minimum.identifiable());
-}
-
 TEST(Minimise, TakesTheDeepestOfSeveralValleys)
 {
     const auto two_valleys = [](double x) { return std::min(1.0 + 4.0 * std::pow(x - 0.2, 2), 0.5 + 4.0 * std::pow(x - 0.8, 2)); };
     EXPECT_NEAR(minimise(two_valleys, 0.0, 1.0).x, 0.8, place_error(default_tolerance, test_support::rounding_error(1, 0.5), 8.0));
 }
 
-TEST(Minimise, MonotoneEndsAtTheBound)
+constexpr double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
+
+// Searches on 0 to 0.5 with an outcome that is known without rounding.
+struct Known {
+    const char* name;
+    Misfit function;
+    MinimumOutcome outcome;
+    double x, value;  // NaN: not checked
+    bool identifiable = false;
+    MinimiseOptions options = {};
+};
+
+TEST(Minimise, OutcomesThatAreKnown)
 {
-    const auto falling = minimise([](double x) { return 1.0 - x; }, 0.0, 0.5);
-    EXPECT_EQ(falling.outcome, MinimumOutcome::at_upper_bound);
-    EXPECT_EQ(falling.x, 0.5);
-    EXPECT_FALSE(falling.identifiable());
-    const auto rising = minimise([](double x) { return 1.0 + x; }, 0.0, 0.5);
-    EXPECT_EQ(rising.outcome, MinimumOutcome::at_lower_bound);
-    EXPECT_EQ(rising.x, 0.0);
-    EXPECT_FALSE(rising.identifiable());
+    const std::vector<Known> all = {
+        {"value zero, at a sample", [](double x) { return std::abs(x - 0.125); }, MinimumOutcome::converged, 0.125, 0.0, true},
+        {"falling", [](double x) { return 1.0 - x; }, MinimumOutcome::at_upper_bound, 0.5, 0.5},
+        {"rising", [](double x) { return 1.0 + x; }, MinimumOutcome::at_lower_bound, 0.0, 1.0},
+        {"flat", [](double) { return 3.0; }, MinimumOutcome::flat, nan, 3.0},
+        {"nowhere a number", [](double) { return nan; }, MinimumOutcome::not_finite, nan, nan},
+        {"one sample is a number, so there is no bracket", [](double x) { return x == 0.25 ? 1.0 : nan; }, MinimumOutcome::not_finite, 0.25,
+         1.0},
+        {"a hole elsewhere", [](double x) { return x > 0.45 ? nan : std::pow(x - 0.15, 2); }, MinimumOutcome::converged, nan, nan, true},
+        {"one iteration",
+         [](double x) { return std::pow(x - 0.31, 2); },
+         MinimumOutcome::iterations_exhausted,
+         nan,
+         nan,
+         false,
+         {.tolerance = 1e-9, .iterations = 1}},
+    };
+    for (const Known& known : all) {
+        const Minimum minimum = minimise(known.function, 0.0, 0.5, known.options);
+        EXPECT_EQ(minimum.outcome, known.outcome) << known.name;
+        EXPECT_EQ(minimum.identifiable(), known.identifiable) << known.name;
+        EXPECT_TRUE(std::isnan(known.x) || minimum.x == known.x) << known.name << ": " << minimum.x;
+        EXPECT_TRUE(std::isnan(known.value) || minimum.value == known.value) << known.name << ": " << minimum.value;
+    }
+    EXPECT_TRUE(std::isinf(minimise(all[0].function, 0.0, 0.5).rise));
+    EXPECT_TRUE(std::isnan(minimise(all[4].function, 0.0, 0.5).x));
+    EXPECT_EQ(minimise(all[7].function, 0.0, 0.5, all[7].options).iterations, 1);
 }
 
 TEST(Minimise, LooksInsideTheLastCellBeforeItSaysBound)
@@ -80,14 +102,6 @@ TEST(Minimise, LooksInsideTheLastCellBeforeItSaysBound)
         EXPECT_EQ(minimum.outcome, MinimumOutcome::converged);
         EXPECT_NEAR(minimum.x, centre, place_error(0.5 * default_tolerance, test_support::rounding_error(1, 1.0), 2.0));
     }
-}
-
-TEST(Minimise, FlatIsAnOutcome)
-{
-    const auto minimum = minimise([](double) { return 3.0; }, 0.0, 1.0);
-    EXPECT_EQ(minimum.outcome, MinimumOutcome::flat);
-    EXPECT_EQ(minimum.value, 3.0);
-    EXPECT_FALSE(minimum.identifiable());
 }
 
 TEST(Minimise, FlatBottomBetweenWallsIsNotIdentifiable)
@@ -110,30 +124,13 @@ TEST(Minimise, ShallowValleyIsNotIdentifiable)
     EXPECT_TRUE(minimise(valley(100.0), 0.0, 0.5).identifiable());
 }
 
-TEST(Minimise, NotFiniteIsAnOutcome)
+// A hole that Brent's method meets is reported, and the best number is kept.
+TEST(Minimise, AHoleInTheBracketIsNotFinite)
 {
-    const double nan = std::numeric_limits<double>::quiet_NaN();
-    const auto nowhere = minimise([&](double) { return nan; }, 0.0, 1.0);
-    EXPECT_EQ(nowhere.outcome, MinimumOutcome::not_finite);
-    EXPECT_TRUE(std::isnan(nowhere.x));
-    EXPECT_FALSE(nowhere.identifiable());
-    // Only one sample is a number, so there is no bracket.
-    const auto lonely = minimise([&](double x) { return x == 0.5 ? 1.0 : nan; }, 0.0, 1.0);
-    EXPECT_EQ(lonely.outcome, MinimumOutcome::not_finite);
-    EXPECT_EQ(lonely.x, 0.5);
-    // A hole elsewhere does not matter. One that Brent's method meets is reported, and the best number is kept.
-    EXPECT_EQ(minimise([&](double x) { return x > 0.9 ? nan : std::pow(x - 0.3, 2); }, 0.0, 1.0).outcome, MinimumOutcome::converged);
     const auto hole = minimise([&](double x) { return std::abs(x - 0.31) < 5e-3 ? nan : std::pow(x - 0.31, 2); }, 0.0, 1.0, {.samples = 5});
     EXPECT_EQ(hole.outcome, MinimumOutcome::not_finite);
     EXPECT_TRUE(std::isfinite(hole.value));
     EXPECT_LE(std::abs(hole.x - 0.31), 0.31 - 0.25);  // 0.25 is a sample
-}
-
-TEST(Minimise, ExhaustedIterationsAreAnOutcome)
-{
-    const auto minimum = minimise([](double x) { return std::pow(x - 0.31, 2); }, 0.0, 1.0, {.tolerance = 1e-9, .iterations = 1});
-    EXPECT_EQ(minimum.outcome, MinimumOutcome::iterations_exhausted);
-    EXPECT_EQ(minimum.iterations, 1);
 }
 
 TEST(Minimise, KeepsEveryEvaluationInOrder)
@@ -201,55 +198,23 @@ TEST(FitOverCases, OneCaseHasNoInterval)
     EXPECT_TRUE(fit.without.empty());
 }
 
-}  // namespace
-
 // Fronts and crossings. Reference: the definitions, evaluated by hand on a few points.
 
-namespace {
-
-using analysis::best_within;
-using analysis::nearer_from;
-using analysis::pareto_front;
-using analysis::WorkPrecision;
 using Front = std::vector<std::size_t>;
 using Points = std::vector<WorkPrecision>;
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
-
-TEST(ParetoFront, OfNoPointIsEmpty)
+TEST(ParetoFront, HoldsWhatNoneDominatesByCost)
 {
-    EXPECT_TRUE(pareto_front({}).empty());
-    EXPECT_FALSE(best_within({}, 1.0));
-}
-
-TEST(ParetoFront, OfASinglePointIsThatPoint)
-{
-    EXPECT_EQ(pareto_front({{2.0, 5.0}}), Front{0});
-}
-
-TEST(ParetoFront, LeavesOutWhatIsDominatedAndRunsByCost)
-{
-    EXPECT_EQ(pareto_front({{3.0, 1.0}, {1.0, 9.0}, {2.0, 9.5}, {2.0, 4.0}, {4.0, 1.5}}), (Front{1, 3, 0}));
-}
-
-TEST(ParetoFront, AtEqualCostTheSmallerErrorStays)
-{
-    EXPECT_EQ(pareto_front({{1.0, 5.0}, {1.0, 4.0}}), Front{1});
-}
-
-TEST(ParetoFront, AtEqualErrorTheCheaperStays)
-{
-    EXPECT_EQ(pareto_front({{2.0, 5.0}, {1.0, 5.0}}), Front{1});
-}
-
-TEST(ParetoFront, PointsEqualInBothAreOnItTogether)
-{
-    EXPECT_EQ(pareto_front({{1.0, 5.0}, {2.0, 3.0}, {1.0, 5.0}}), (Front{0, 2, 1}));
-}
-
-TEST(ParetoFront, WhatIsNotFiniteNeitherStandsOnItNorDominates)
-{
-    EXPECT_EQ(pareto_front({{1.0, nan}, {nan, 1.0}, {-infinity, 0.0}, {2.0, 3.0}, {1.0, infinity}}), Front{3});
+    const std::vector<std::tuple<const char*, Points, Front>> all = {
+        {"no point", {}, {}},
+        {"a single point", {{2.0, 5.0}}, {0}},
+        {"dominated points are left out", {{3.0, 1.0}, {1.0, 9.0}, {2.0, 9.5}, {2.0, 4.0}, {4.0, 1.5}}, {1, 3, 0}},
+        {"at equal cost the smaller error", {{1.0, 5.0}, {1.0, 4.0}}, {1}},
+        {"at equal error the cheaper", {{2.0, 5.0}, {1.0, 5.0}}, {1}},
+        {"equal in both: together", {{1.0, 5.0}, {2.0, 3.0}, {1.0, 5.0}}, {0, 2, 1}},
+        {"not finite: neither on it nor dominating", {{1.0, nan}, {nan, 1.0}, {-infinity, 0.0}, {2.0, 3.0}, {1.0, infinity}}, {3}},
+    };
+    for (const auto& [name, points, front] : all) EXPECT_EQ(pareto_front(points), front) << name;
 }
 
 // Reference: the definition again, for many points: no point dominates one on the front, and some point dominates each other one.
@@ -272,6 +237,7 @@ TEST(ParetoFront, OfManyPointsHoldsExactlyThoseThatNoneDominates)
 TEST(BestWithin, IsTheSmallestErrorThatTheBudgetPays)
 {
     const Points points = {{1.0, 9.0}, {2.0, 4.0}, {3.0, 6.0}, {4.0, 4.0}};
+    EXPECT_FALSE(best_within({}, 1.0));
     EXPECT_FALSE(best_within(points, 0.5));
     EXPECT_EQ(best_within(points, 1.0), 0u);
     EXPECT_EQ(best_within(points, 2.0), 1u);
@@ -280,41 +246,30 @@ TEST(BestWithin, IsTheSmallestErrorThatTheBudgetPays)
 
 TEST(NearerFrom, IsTheBudgetBeyondWhichItIsAlwaysSo)
 {
-    // Errors of the best within 1, 2, 3, 4: for one 10 10 3 3, for the other 8 8 8 5.
-    const auto crossing = nearer_from({{1.0, 10.0}, {3.0, 3.0}}, {{1.0, 8.0}, {4.0, 5.0}});
-    ASSERT_TRUE(crossing);
-    EXPECT_EQ(crossing->from, 3.0);
-    EXPECT_EQ(crossing->one, 1u);
-    EXPECT_EQ(crossing->other_error, 8.0);
-    EXPECT_FALSE(crossing->from_the_start);
-}
-
-TEST(NearerFrom, IsNothingForOneThatIsOvertakenForGood)
-{
-    EXPECT_FALSE(nearer_from({{1.0, 5.0}}, {{2.0, 4.0}}));
-}
-
-TEST(NearerFrom, CountsTheLastTimeOfSeveral)
-{
-    // Errors at budgets 1 to 5: for one 9 9 2 2 1, for the other 10 3 3 2 2. One is better at 1, not at 2, better at 3, equal at 4, better
-    // at 5.
-    const auto crossing = nearer_from({{1.0, 9.0}, {3.0, 2.0}, {5.0, 1.0}}, {{1.0, 10.0}, {2.0, 3.0}, {4.0, 2.0}});
-    ASSERT_TRUE(crossing);
-    EXPECT_EQ(crossing->from, 5.0);
-}
-
-TEST(NearerFrom, HoldsFromTheStartWhereTheOtherIsNeverAsNear)
-{
-    const auto crossing = nearer_from({{1.0, 5.0}, {3.0, 4.0}}, {{2.0, 6.0}});
-    ASSERT_TRUE(crossing);
-    EXPECT_TRUE(crossing->from_the_start);
-    EXPECT_EQ(crossing->from, 1.0);
-    EXPECT_EQ(crossing->other_error, infinity);  // no point of the other is within that budget
-}
-
-TEST(NearerFrom, TheSameErrorIsNotNearer)
-{
-    EXPECT_FALSE(nearer_from({{1.0, 5.0}}, {{1.0, 5.0}}));
+    struct Case {
+        const char* name;
+        Points one, other;
+        std::optional<Crossing> expected;
+    };
+    const std::vector<Case> all = {
+        {"errors of the best within 1, 2, 3, 4: 10 10 3 3 and 8 8 8 5", {{1, 10}, {3, 3}}, {{1, 8}, {4, 5}}, Crossing{3.0, 1, 8.0, false}},
+        {"overtaken for good", {{1, 5}}, {{2, 4}}, {}},
+        {"the last time of several: 9 9 2 2 1 and 10 3 3 2 2",
+         {{1, 9}, {3, 2}, {5, 1}},
+         {{1, 10}, {2, 3}, {4, 2}},
+         Crossing{5.0, 2, 2.0, false}},
+        {"from the start, where the other has no point", {{1, 5}, {3, 4}}, {{2, 6}}, Crossing{1.0, 0, infinity, true}},
+        {"the same error is not nearer", {{1, 5}}, {{1, 5}}, {}},
+    };
+    for (const Case& of : all) {
+        const auto crossing = nearer_from(of.one, of.other);
+        ASSERT_EQ(crossing.has_value(), of.expected.has_value()) << of.name;
+        if (!crossing) continue;
+        EXPECT_EQ(crossing->from, of.expected->from) << of.name;
+        EXPECT_EQ(crossing->one, of.expected->one) << of.name;
+        EXPECT_EQ(crossing->other_error, of.expected->other_error) << of.name;
+        EXPECT_EQ(crossing->from_the_start, of.expected->from_the_start) << of.name;
+    }
 }
 
 }  // namespace

@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 namespace {
 
@@ -76,11 +75,7 @@ TEST(Statistics, RankCorrelationIsOfRanksAlone)
     EXPECT_TRUE(std::isnan(analysis::rank_correlation({1, 2}, {1, std::nan("")})));
 }
 
-}  // namespace
-
 // Reference: degenerate cases by definition, and reproducibility by seed. tests/verification/analysis/statistics.cpp tests the coverage.
-
-namespace {
 
 using analysis::bootstrap_mean;
 using analysis::bootstrap_share;
@@ -178,11 +173,7 @@ TEST(BlockLength, OfUncorrelatedSamplesIsOne)
     EXPECT_EQ(analysis::block_length({1, -1, 1, -1, 1, -1, 1, -1}), 1);
 }
 
-}  // namespace
-
 // Reference: theory where none or all are counted; else the definition, by sums of the binomial distribution.
-
-namespace {
 
 using analysis::share_interval;
 
@@ -235,11 +226,7 @@ TEST(ShareInterval, IsWiderOfFewerAndOfAHigherLevel)
     EXPECT_GT(share_interval(2, 8, 0.99).high, share_interval(2, 8, 0.95).high);
 }
 
-}  // namespace
-
 // Reference: order statistics of a few frames by hand, linear between them.
-
-namespace {
 
 using analysis::CsvTable;
 using analysis::frame_statistics;

@@ -105,10 +105,6 @@ TEST(CaseKey, ItsTextNamesWhatIsSet)
     EXPECT_EQ(text_of({}), "");
 }
 
-}  // namespace
-
-namespace {
-
 using analysis::case_records;
 using analysis::CaseRecord;
 using analysis::parse_csv;

@@ -3,15 +3,12 @@
 #include "analysis/records/record_files.hpp"
 #include "analysis/records/report_table.hpp"
 #include "analysis/verdicts/claims.hpp"
-#include "analysis/verdicts/claims_report.hpp"
+#include "analysis/verdicts/verdict.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "tests/support/volume_claim.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-
-#include <algorithm>
-#include <sstream>
 
 namespace {
 
@@ -122,11 +119,7 @@ TEST(Claims, EachOnlyOnce)
     EXPECT_EQ(message_of(head + body + again), "claims.toml:13: id = X: expected each claim once");
 }
 
-}  // namespace
-
 // Reference: the contract of claims.json and claims.md.
-
-namespace {
 
 using namespace analysis;
 
@@ -233,13 +226,7 @@ TEST(ClaimsMarkdown, GivesThePrimaryValueWithItsBound)
     EXPECT_NE(text.find("| cannot_be_tested_here | 0 | 0 |"), std::string::npos) << text;
 }
 
-}  // namespace
-
 // Reference: the definition. A claim takes a few lines, its columns begin at the same position, and no line is longer than the terminal's.
-
-namespace {
-
-using namespace analysis;
 
 std::vector<Verdict> three_verdicts()
 {

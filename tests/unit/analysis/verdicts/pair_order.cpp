@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -15,6 +16,7 @@ using analysis::decide;
 using analysis::order_of;
 using analysis::PairDecision;
 using analysis::PairOrder;
+using analysis::shift_of_difference;
 using Point = Eigen::Matrix<double, 6, 1>;
 
 Point random_point(std::mt19937& generator)
@@ -53,6 +55,46 @@ TEST(PairOrder, IsUndecidedForEqualErrorsAndForWhatIsNotFinite)
     EXPECT_EQ(order_of({2.0, 1.0, 0.5, nan}), PairOrder::undecided);
     EXPECT_EQ(order_of({std::numeric_limits<double>::infinity(), 1.0, 0.5, 0.1}), PairOrder::undecided);
     EXPECT_EQ(order_of({2.0, 1.0, 1.0, 0.0}), PairOrder::second_is_closer);
+    EXPECT_EQ(order_of({std::nullopt, 1.0, 0.5, 0.1}), PairOrder::undecided);
+    EXPECT_EQ(order_of({2.0, 1.0, 0.5, std::nullopt}), PairOrder::undecided);
+}
+
+// Without the distance the rule is that the errors differ by more than twice the bound.
+TEST(PairOrder, TakesTheSumOfTheErrorsForADistanceThatIsNotKnown)
+{
+    EXPECT_EQ(order_of({20.0, 33.0, std::nullopt, 6.0}), PairOrder::first_is_closer);
+    EXPECT_EQ(order_of({20.0, 31.0, std::nullopt, 6.0}), PairOrder::undecided);
+    EXPECT_EQ(order_of({20.0, 31.0, 40.0, 6.0}), PairOrder::first_is_closer);
+}
+
+// A and B at a and b from the reference on a line through it: moving the reference by U changes |A - x| - |B - x| by 0 on the same side of
+// both and by 2 U between them. The bound must be at least that, and no more than 2 U.
+TEST(ShiftOfDifference, BoundsWhatTheReferenceMayChange)
+{
+    EXPECT_FALSE(shift_of_difference({5.0, 6.0, 1.0, std::nullopt}));
+    EXPECT_DOUBLE_EQ(*shift_of_difference({5.0, 7.0, 12.0, 0.5}), 1.0) << "on opposite sides: 2 U";
+    EXPECT_LT(*shift_of_difference({5.0, 7.0, 2.0, 0.5}), 0.2) << "on the same side it is small: 2 * 2 / 11 * 0.5";
+    EXPECT_DOUBLE_EQ(*shift_of_difference({0.4, 0.3, 0.1, 0.5}), 1.0) << "within the bound nothing is known";
+    EXPECT_EQ(*shift_of_difference({5.0, 5.0, 0.0, 0.5}), 0.0) << "the same shape";
+    EXPECT_DOUBLE_EQ(*shift_of_difference({5.0, 7.0, std::nullopt, 0.5}), 1.0) << "as on opposite sides";
+}
+
+// By sampling: two shapes in the plane, the reference moved by U into every direction.
+TEST(ShiftOfDifference, HoldsForEveryDirection)
+{
+    const double bound = 0.7;
+    for (const auto& [ax, ay, bx, by] : {std::array{3.0, 0.0, 2.0, 2.0}, {1.0, 1.0, -4.0, 0.5}, {5.0, 0.1, 4.0, -0.1}}) {
+        const double one = std::hypot(ax, ay), other = std::hypot(bx, by), distance = std::hypot(ax - bx, ay - by);
+        const double shift = *shift_of_difference({one, other, distance, bound});
+        double largest = 0.0;
+        for (int degree = 0; degree < 360; ++degree) {
+            const double x = bound * std::cos(degree * M_PI / 180), y = bound * std::sin(degree * M_PI / 180);
+            const double moved = std::hypot(ax - x, ay - y) - std::hypot(bx - x, by - y);
+            largest = std::max(largest, std::abs(moved - (one - other)));
+        }
+        EXPECT_LE(largest, shift);
+        EXPECT_GT(largest, 0.0);
+    }
 }
 
 TEST(PairDecision, NeedsAllMembersAndTheirAgreement)

@@ -69,13 +69,7 @@ TEST(Bodies, RefusesWhatIsNotThere)
     expect_input_error([] { make_character({.body = "limb", .vertices = -5}); }, "character.vertices = -5: ", "0 or more");
 }
 
-}  // namespace
-
 // Reference: the contents written to the files.
-
-namespace {
-
-using namespace pbs;
 
 TEST(Bodies, FromFiles)
 {

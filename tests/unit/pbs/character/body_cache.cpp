@@ -196,13 +196,8 @@ TEST(ContentHash, IsXxh3)
     EXPECT_EQ(content_hash(std::string()), "99aa06d3014798d86001c324468d497f");
 }
 
-}  // namespace
-
 // Reference: the contents written to the files, before and between the calls.
 
-namespace {
-
-using namespace pbs;
 using Hashes = std::vector<std::pair<std::string, std::string>>;
 
 constexpr const char* changed = "was changed while it was read";

@@ -54,13 +54,7 @@ TEST(JiggleZoneByBone, IsFartherThanTheMeanOfItsOwnBone)
     EXPECT_TRUE(jiggle_zone_by_bone({}).empty());
 }
 
-}  // namespace
-
 // Reference: the rules of binding and weights themselves, applied to the finer mesh; and that refinement moves no vertex.
-
-namespace {
-
-using namespace pbs;
 
 Character bar(WeightKind kind = WeightKind::paper)
 {

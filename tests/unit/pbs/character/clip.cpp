@@ -70,13 +70,7 @@ TEST(BvhHeader, NestingHasAnEnd)
     expect_input_error([&] { check_bvh_header(text, "a.bvh"); }, "a.bvh:1002: JOINT", "deeper than 500");
 }
 
-}  // namespace
-
 // Reference: the twist of q = swing * twist is the twist; CMU's names cover every bone of the human except the hips.
-
-namespace {
-
-using namespace pbs;
 
 TEST(TwistAngle, OfATwistWithASwingBeforeIt)
 {

@@ -120,13 +120,7 @@ TEST(Embedding, AnEmptySurfaceStaysEmpty)
     EXPECT_EQ(embedded_positions(surface, mesh.rest, mesh.tets).rows(), 0);
 }
 
-}  // namespace
-
 // Reference: the regions of one triangle by hand, and all triangles tried one after another on a dense grid of barycentric coordinates.
-
-namespace {
-
-using namespace pbs;
 
 const double nearest_rounding = test_support::rounding_error(64, 8.0);
 

@@ -41,11 +41,7 @@ TEST(OverlapMask, CoversWhatLiesInsideAnotherPartAndTheFleshWithinALimbRadius)
     }
 }
 
-}  // namespace
-
 // Reference: the built-in limb, whose skin is farther from the bones than the mean vertex, and a zone that consists of two known pieces.
-
-namespace {
 
 TEST(JiggleZoneContents, OfTheLimbIsMostlySkinInOnePieceOnBothBones)
 {

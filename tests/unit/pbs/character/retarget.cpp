@@ -151,13 +151,7 @@ TEST(Retarget, RefusesWhatItCannotDo)
     refused([](auto&, auto& c) { c.joints = {"a", "b", "c"}; }, "bending.bvh: joints = a, b, c: ", "(bones: upper, forearm)");
 }
 
-}  // namespace
-
 // Reference: clips of three joints, counted by hand.
-
-namespace {
-
-using namespace pbs;
 
 const Skeleton arm_to_match{{{"upper", -1, Vec3(-1, 0, 0), Vec3(0, 0, 0)}, {"forearm", 0, Vec3(0, 0, 0), Vec3(1, 0, 0)}}};
 

@@ -87,13 +87,7 @@ const BadSkeleton bad_skeletons[] = {
 INSTANTIATE_TEST_SUITE_P(SkeletonFile, RefusedSkeleton, testing::ValuesIn(bad_skeletons),
                          [](const auto& parameter) { return std::string(parameter.param.name); });
 
-}  // namespace
-
 // Reference: means by hand; a star stands for left and right.
-
-namespace {
-
-using namespace pbs;
 
 Vec3 point(const std::string& name)
 {

@@ -101,14 +101,8 @@ TEST(SkinningWeights, HaveNames)
     EXPECT_STREQ(name_of(WeightKind::file), "file");
 }
 
-}  // namespace
-
 // Reference: weights that are a linear function of the place. They are reproduced on the surface, because they are linear in its triangles,
 // and inside, because linear functions are harmonic.
-
-namespace {
-
-using namespace pbs;
 
 const TetMesh flesh = test_support::structured_bar({0, 0, 0}, {1, 0.5, 0.5}, {8, 4, 4});
 
@@ -207,13 +201,7 @@ TEST(CarriedWeight, IsTheOverlapOfTheArtistsWeightsAndThoseOfTheTets)
     EXPECT_EQ(share_pct(0.25), 0.0);
 }
 
-}  // namespace
-
 // Reference: the format as documented (CSV vertex,joint,weight); each refusal by file, line and field.
-
-namespace {
-
-using namespace pbs;
 
 const Skeleton two_bones{{{"upper", -1, Vec3(-1, 0, 0), Vec3(0, 0, 0)}, {"forearm", 0, Vec3(0, 0, 0), Vec3(1, 0, 0)}}};
 const std::string header = "vertex,joint,weight\n";

@@ -126,11 +126,7 @@ TEST(ContentFormat, OfTetsIsRefusedAsASurface)
     expect_input_error([&] { pbs::read_surface(path); }, path + ": format of the content = .msh: ", "expected a surface");
 }
 
-}  // namespace
-
 // Reference: the interface. A file may refer to regular files in and below its own folder.
-
-namespace {
 
 class OwnFolderTest : public testing::Test {
 protected:
@@ -182,14 +178,9 @@ TEST_F(OwnFolderTest, RefusesPipes)
     EXPECT_FALSE(may_open("own/pipe"));
 }
 
-}  // namespace
-
 // Reference: the specification in content_format.hpp.
 
-namespace {
-
 namespace fs = std::filesystem;
-using test_support::ScratchFolder;
 
 // The folder for temporary files, as long as the object exists.
 class TemporaryFiles {

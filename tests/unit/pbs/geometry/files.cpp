@@ -49,11 +49,7 @@ TEST(ReadTextFile, RefusesTooLargeAFileByItsSize)
     expect_input_error([&] { read_text_file(path); }, path + ": bytes = 68719476736: ", "expected at most 268435456");
 }
 
-}  // namespace
-
 // Reference: TOML's grammar, https://toml.io/en/v1.0.0: bare keys are ASCII; texts, comments and lists hold any number of dots.
-
-namespace {
 
 std::string repeated(const std::string& before, int count, const std::string& text, const std::string& after)
 {
@@ -118,11 +114,7 @@ TEST(TomlText, BareWordsAreAscii)
     EXPECT_EQ(message_of("x = \"t\xc3\xa9te\"  # t\xc3\xa9te\r\n\ty = 2\r\n"), "accepted");
 }
 
-}  // namespace
-
 // Reference: the contents of the file system afterwards. Failing writes: tests/unit/analysis/records/record_files.cpp.
-
-namespace {
 
 namespace fs = std::filesystem;
 using pbs::InputError;

@@ -43,11 +43,7 @@ TEST(InputError, LongFieldsAndValuesAreCut)
     EXPECT_EQ(told("", 0, "joint", letters, "no such joint"), "joint = " + letters.substr(0, 79) + "...: no such joint");
 }
 
-}  // namespace
-
 // Reference: the specification in input_error.hpp.
-
-namespace {
 
 TEST(NameList, HasAtMostSixNames)
 {
@@ -57,11 +53,7 @@ TEST(NameList, HasAtMostSixNames)
     EXPECT_EQ(pbs::name_list({"a", "b", "c", "d", "e", "f", "g", "h"}), "a, b, c, d, e, f and 2 others");
 }
 
-}  // namespace
-
 // Reference: edit distances counted by hand.
-
-namespace {
 
 using pbs::nearest_name;
 

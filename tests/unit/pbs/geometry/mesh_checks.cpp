@@ -1,7 +1,7 @@
 // Reference: each violation of the rules, by name, on the smallest mesh that has it.
 
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/mesh_checks.hpp"
+#include "pbs/geometry/mesh_io_formats.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/geometry/topology.hpp"
 #include "tests/support/structured_bar.hpp"
@@ -169,11 +169,7 @@ TEST(Frame, AsksForIndicesAndPlacesAlone)
     EXPECT_NO_THROW(pbs::check_frame("m.vtu", with(unit_tet(), {{0.2, 0.2, 0.5}}, {0, 1, 2, 2})));
 }
 
-}  // namespace
-
 // Reference: two or three tets, of which each vertex and each face is counted by hand.
-
-namespace {
 
 // The unit tet with further points and one further tet.
 pbs::TetMesh unit_tet_and(const std::vector<pbs::Vec3>& points, const std::array<int, 4>& tet)
@@ -187,7 +183,7 @@ pbs::TetMesh unit_tet_and(const std::vector<pbs::Vec3>& points, const std::array
 }
 
 // Every corner of every tet stays in its place.
-void expect_the_same_tets(const pbs::RepairedMesh& repair, const pbs::TetMesh& mesh)
+void expect_the_same_tets(const pbs::MeshReading& repair, const pbs::TetMesh& mesh)
 {
     ASSERT_EQ(repair.mesh.tets.rows(), mesh.tets.rows());
     for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t)
@@ -200,11 +196,11 @@ void expect_the_same_tets(const pbs::RepairedMesh& repair, const pbs::TetMesh& m
 TEST(MeshRepair, ASoundMeshStaysAsItIs)
 {
     const pbs::TetMesh bar = test_support::structured_bar({0, 0, 0}, {2, 1, 1}, {3, 2, 2});
-    const pbs::RepairedMesh repair = pbs::repaired(bar);
+    const pbs::MeshReading repair = pbs::repaired(bar);
     EXPECT_EQ(repair.mesh.rest, bar.rest);
     EXPECT_EQ(repair.mesh.tets, bar.tets);
-    EXPECT_TRUE(repair.unused.empty());
-    EXPECT_TRUE(repair.split.empty());
+    EXPECT_TRUE(repair.unused_vertices.empty());
+    EXPECT_TRUE(repair.split_vertices.empty());
 }
 
 TEST(MeshRepair, UnusedVerticesAreLeftOut)
@@ -215,8 +211,8 @@ TEST(MeshRepair, UnusedVerticesAreLeftOut)
     mesh.rest.row(0) << 9, 9, 9;
     mesh.rest.row(5) << 8, 8, 8;
     mesh.tets << 4, 1, 2, 3;
-    const pbs::RepairedMesh repair = pbs::repaired(mesh);
-    EXPECT_EQ(repair.unused, (std::vector<int>{0, 5}));
+    const pbs::MeshReading repair = pbs::repaired(mesh);
+    EXPECT_EQ(repair.unused_vertices, (std::vector<int>{0, 5}));
     EXPECT_EQ(repair.file_vertex, (std::vector<int>{1, 2, 3, 4}));
     EXPECT_EQ(repair.mesh.tets, (pbs::Tets(1, 4) << 3, 0, 1, 2).finished());
     expect_the_same_tets(repair, mesh);
@@ -225,8 +221,8 @@ TEST(MeshRepair, UnusedVerticesAreLeftOut)
 TEST(MeshRepair, TetsThatTouchInAVertexGetOneEach)
 {
     const pbs::TetMesh mesh = unit_tet_and({{-1, 0, 0}, {0, -1, 0}, {0, 0, -1}}, {0, 4, 6, 5});
-    const pbs::RepairedMesh repair = pbs::repaired(mesh);
-    EXPECT_EQ(repair.split, std::vector<int>{0});
+    const pbs::MeshReading repair = pbs::repaired(mesh);
+    EXPECT_EQ(repair.split_vertices, std::vector<int>{0});
     EXPECT_EQ(repair.mesh.rest.rows(), 8);
     expect_the_same_tets(repair, mesh);
     EXPECT_TRUE(pbs::topology_of(repair.mesh.tets, 8).boundary_manifold);
@@ -235,8 +231,8 @@ TEST(MeshRepair, TetsThatTouchInAVertexGetOneEach)
 TEST(MeshRepair, TetsThatTouchInAnEdgeAreSeparatedThere)
 {
     const pbs::TetMesh mesh = unit_tet_and({{0.2, -1, -1}, {0.2, -1, -2}}, {0, 1, 5, 4});
-    const pbs::RepairedMesh repair = pbs::repaired(mesh);
-    EXPECT_EQ(repair.split, (std::vector<int>{0, 1}));
+    const pbs::MeshReading repair = pbs::repaired(mesh);
+    EXPECT_EQ(repair.split_vertices, (std::vector<int>{0, 1}));
     EXPECT_EQ(repair.mesh.rest.rows(), 8);
     expect_the_same_tets(repair, mesh);
     EXPECT_FALSE(pbs::edge_that_is_not_manifold(repair.mesh.tets));
@@ -245,17 +241,17 @@ TEST(MeshRepair, TetsThatTouchInAnEdgeAreSeparatedThere)
 TEST(MeshRepair, TetsThatShareAFaceStayTogether)
 {
     const pbs::TetMesh mesh = unit_tet_and({{0, 0, -1}}, {0, 2, 1, 4});
-    const pbs::RepairedMesh repair = pbs::repaired(mesh);
-    EXPECT_TRUE(repair.split.empty());
+    const pbs::MeshReading repair = pbs::repaired(mesh);
+    EXPECT_TRUE(repair.split_vertices.empty());
     EXPECT_EQ(repair.mesh.tets, mesh.tets);
 }
 
 TEST(MeshRepair, OfARepairedMeshChangesNothing)
 {
-    const pbs::RepairedMesh once = pbs::repaired(unit_tet_and({{-1, 0, 0}, {0, -1, 0}, {0, 0, -1}}, {0, 4, 6, 5}));
-    const pbs::RepairedMesh twice = pbs::repaired(once.mesh);
+    const pbs::MeshReading once = pbs::repaired(unit_tet_and({{-1, 0, 0}, {0, -1, 0}, {0, 0, -1}}, {0, 4, 6, 5}));
+    const pbs::MeshReading twice = pbs::repaired(once.mesh);
     EXPECT_EQ(twice.mesh.tets, once.mesh.tets);
-    EXPECT_TRUE(twice.split.empty() && twice.unused.empty());
+    EXPECT_TRUE(twice.split_vertices.empty() && twice.unused_vertices.empty());
 }
 
 TEST(NonManifoldEdge, IsFoundWhereTwoTetsTouchInIt)

@@ -140,13 +140,8 @@ TEST(Writing, PvdListsFramesInOrderWithAllDigits)
     EXPECT_LT(text.find("pbs_000000"), text.find("pbs_000001"));
 }
 
-}  // namespace
-
 // Reference: the unit tet in formats whose names do not fit their content. Known vertices that no tet uses, and parts that touch.
 
-namespace {
-
-using test_support::ScratchFolder;
 using test_support::unit_tet;
 
 const std::string legacy_vtk =
@@ -263,11 +258,7 @@ TEST(ReadTetMesh, OfAMillimetreOrAHundredMetresNeedsNoRemarkAboutItsSize)
     for (const char* edge : {"0.0009", "101"}) EXPECT_EQ(remarks_at(edge), 1u) << edge;
 }
 
-}  // namespace
-
 // Reference: HOBAK's format by hand: lines "v x y z" and "t a b c d", vertices counted from 0.
-
-namespace {
 
 const std::string unit_points = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
 

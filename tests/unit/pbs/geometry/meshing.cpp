@@ -58,11 +58,7 @@ TEST(Count, NothingButFailuresGivesNoMesh)
     EXPECT_EQ(pbs::mesh_at_vertex_count(500, 1.0, [](double) { return pbs::TetMesh(); }).tets.rows(), 0);
 }
 
-}  // namespace
-
 // Reference: the closed forms of the bodies' volumes, and the specification in the header.
-
-namespace {
 
 constexpr double radius = 0.15;
 constexpr double capsule_volume = std::numbers::pi * radius * radius * (2.0 + 4.0 / 3.0 * radius);
@@ -148,11 +144,7 @@ TEST(BuiltIn, TooFewVerticesAreRefused)
     }
 }
 
-}  // namespace
-
 // Reference: the closed forms of sphere and torus, their topology, and the specification in the header.
-
-namespace {
 
 using test_support::icosphere;
 using test_support::torus;

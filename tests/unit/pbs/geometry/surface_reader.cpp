@@ -219,14 +219,8 @@ TEST(Surface, PointsAndLinesAloneAreRefused)
     EXPECT_THROW(pbs::read_surface(folder.file("lines.obj", "v 0 0 0\nv 1 0 0\nl 1 2\n")), pbs::InputError);
 }
 
-}  // namespace
-
 // Reference: two triangles in COLLADA and FBX, whose unit is the centimetre, by hand. assimp computes in single precision: at most 16
 // roundings.
-
-namespace {
-
-using test_support::ScratchFolder;
 
 // The corners of the two triangles, whatever the order of the points.
 void expect_two_triangles(const std::string& path, const pbs::Vec3& shift_m, double metres_per_unit)

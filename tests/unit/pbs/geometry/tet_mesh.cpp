@@ -71,11 +71,7 @@ TEST(LumpedVolumes, AreAQuarterOfEachTetAround)
     EXPECT_EQ(lumped(4), 0.0);
 }
 
-}  // namespace
-
 // Reference: counts of red refinement (V + E vertices, 2E + 3F + T edges, 8T tets), Euler's formula, and the definition of a midpoint.
-
-namespace {
 
 using pbs::Refinement;
 using pbs::TetMesh;
@@ -229,11 +225,7 @@ TEST(Prolongated, CarriesAnAffineFieldExactly)
     EXPECT_EQ(carried, fine.mesh.rest * map);  // of multiples of 1/4 by whole numbers, which no product or sum rounds
 }
 
-}  // namespace
-
 // Reference: the barycentric coordinates of a point that was placed in a known tet, and a search through all tets.
-
-namespace {
 
 using pbs::Vec3;
 using pbs::Location;
@@ -317,12 +309,8 @@ TEST(PointLocation, OneTetAlone)
     EXPECT_EQ(where.locate({0.4, 0.4, 0.4}).tet, -1);
 }
 
-}  // namespace
-
 // Reference: the definition of a division: every tet in one region, each region connected over faces, sizes between half of the wanted size
 // and what the merging of small rests allows; volumes of surfaces by the divergence theorem.
-
-namespace {
 
 const pbs::TetMesh divided_bar = test_support::structured_bar({0, 0, 0}, {4, 1, 1}, {8, 3, 3});  // 432 tets
 

@@ -213,11 +213,7 @@ TEST(ClosedTriangles, NoneEncloseNothing)
     EXPECT_FALSE(pbs::open_edge(Triangles(0, 3)));
 }
 
-}  // namespace
-
 // Reference: the definition, on bars and tets that are counted by hand.
-
-namespace {
 
 // Two bars of six tets whose tets alternate: those of the first one have even numbers.
 pbs::TetMesh two_bars()
@@ -287,11 +283,7 @@ TEST(KeptTets, AllAndNone)
     EXPECT_EQ(none.rest.rows(), 0);
 }
 
-}  // namespace
-
 // Reference: angles and sizes of tets known in closed form.
-
-namespace {
 
 constexpr double degree = 180.0 / std::numbers::pi;
 

@@ -128,11 +128,7 @@ TEST(AssimpRig, OfABinaryFbxHasBonesWithWeights)
     EXPECT_TRUE(std::any_of(rig.meshes.begin(), rig.meshes.end(), [](const RigMesh& mesh) { return mesh.joints.size() > 1; }));
 }
 
-}  // namespace
-
 // Reference: the rule for the weights of glTF files (finite, 0 or more), on the four weights of an arm, each of which a point uses.
-
-namespace {
 
 using test_support::ScratchFolder;
 
@@ -223,11 +219,7 @@ TEST(ColladaWeights, WhatIsNoXmlOrNoArchiveIsLeftToTheReader)
     expect_accepted("PK\x03\x04 nothing");
 }
 
-}  // namespace
-
 // Reference: the flags of keys as the format stores them: 2 constant, 4 linear, 8 cubic; Blender's linear keys have the flags 24836.
-
-namespace {
 
 std::string text_of(const std::string& flags)
 {

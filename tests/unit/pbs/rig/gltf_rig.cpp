@@ -104,16 +104,7 @@ TEST(GltfRig, ExtensionsThatDoNotMoveVerticesAreAllowed)
     }
 }
 
-}  // namespace
-
 // Reference: glTF 2.0, Sec. 3.7.2 (primitives) and 3.7.3 (skins), on four points.
-
-namespace {
-
-using namespace pbs;
-using nlohmann::json;
-using test_support::GltfDocument;
-using test_support::two_joint_document;
 
 Rig rig_from(const GltfDocument& gltf)
 {
@@ -237,15 +228,7 @@ TEST(GltfMeshes, AMeshWithoutANameIsCalledAsItsNode)
     EXPECT_EQ(rig_from(gltf).meshes.at(0).name, "body");
 }
 
-}  // namespace
-
 // Reference: glTF 2.0, Sec. 3.11, on an animation of two keys.
-
-namespace {
-
-using namespace pbs;
-using test_support::GltfDocument;
-using test_support::two_joint_document;
 
 Rig animated(const GltfDocument& gltf)
 {
@@ -337,15 +320,7 @@ TEST(GltfAnimations, AFileMayHaveNone)
     EXPECT_TRUE(animated(gltf).animations.empty());
 }
 
-}  // namespace
-
 // Reference: glTF 2.0, Sec. 3.6.2 (accessors, sparse accessors) and the conversion of normalised integers in Sec. 3.6.2.2, by hand.
-
-namespace {
-
-using namespace pbs;
-using test_support::GltfDocument;
-using test_support::two_joint_document;
 
 Rig read_document(const GltfDocument& gltf)
 {

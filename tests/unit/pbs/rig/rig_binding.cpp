@@ -139,13 +139,7 @@ TEST(RigBinding, WhereNoJointMovesAnyMeshTheRigIsRefused)
     expect_input_error([&] { bind_rig(rig, nullptr, 1.0); }, "arm.gltf: meshes: ", "expected a mesh that a joint moves");
 }
 
-}  // namespace
-
 // Reference: the size of a body whose animation scales its root joint is that of the first frame.
-
-namespace {
-
-using namespace pbs;
 
 Rig with_scaled_root(const Vec3& first)
 {
@@ -191,13 +185,7 @@ TEST(ScaledAnimation, AMirroredRootHasTheSizeOfItsMagnitude)
               test_support::rounding_error(64, 8.0));
 }
 
-}  // namespace
-
 // Reference: an elbow that turns half round within 1 s at a constant rate. Angles are in error by some hundred roundings.
-
-namespace {
-
-using namespace pbs;
 
 const double motion_rounding = test_support::rounding_error(512, 8.0);
 

@@ -136,14 +136,8 @@ TEST(FindAnimation, TheFirstOneWithoutANameAndAnErrorThatListsTheNames)
     expect_input_error([&] { find_animation(rig, "Walk"); }, "arm.gltf: animation = Walk: ", "the file has no animation");
 }
 
-}  // namespace
-
 // Reference: rigid motions of two bones and the artist's points, by hand. A rotation from a singular value decomposition is in error by
 // some hundred roundings.
-
-namespace {
-
-using namespace pbs;
 
 const double rigid_rounding = test_support::rounding_error(256, 8.0);
 
@@ -211,13 +205,8 @@ TEST(ArtistPoints, KeepTheScaleThatABoneLoses)
     EXPECT_LE((artist_points(scaled.body, scaled.nodes) - expected).cwiseAbs().maxCoeff(), rigid_rounding);
 }
 
-}  // namespace
-
 // Reference: poses of nodes and skinned points, computed by hand. Tolerances: at most 64 roundings of numbers of at most 8.
 
-namespace {
-
-using namespace pbs;
 using test_support::two_joint_rig;
 
 const double skin_rounding = test_support::rounding_error(64, 8.0);

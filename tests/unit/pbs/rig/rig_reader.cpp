@@ -4,10 +4,12 @@
 #include "tests/support/arm_in_formats.hpp"
 #include "tests/support/gltf_document.hpp"
 #include "tests/support/scratch_folder.hpp"
+#include "tests/support/two_joint_rig.hpp"
 #include "tests/unit/pbs/character/expect_input_error.hpp"
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <limits>
 
 namespace {
@@ -29,6 +31,67 @@ TEST(RigReader, ReadsEachFormatByItsContent)
         EXPECT_EQ(rig.file, path);
         EXPECT_EQ(rig.meshes.at(0).points.rows(), 4) << path;
         EXPECT_EQ(rig.animations.size(), 1u) << path;
+    }
+}
+
+using Damages = std::vector<std::function<void(Rig&)>>;
+
+void expect_each_refused(const Damages& damages)
+{
+    for (std::size_t number = 0; number < damages.size(); ++number) {
+        SCOPED_TRACE(number);
+        Rig rig = test_support::two_joint_rig();
+        rig.file = "b.glb";
+        damages[number](rig);
+        expect_input_error([&] { checked(rig); }, "b.glb: ", "");
+    }
+}
+
+TEST(CheckedRig, IsTheRigWithRotationsOfUnitLength)
+{
+    Rig rig = test_support::two_joint_rig();
+    rig.nodes[0].rest.rotation.coeffs() *= 2.0;
+    const Rig same = checked(rig);
+    EXPECT_EQ(same.nodes[0].rest.rotation.coeffs(), rig.nodes[0].rest.rotation.normalized().coeffs());
+    EXPECT_EQ(same.meshes[0].points, rig.meshes[0].points);
+}
+
+TEST(CheckedRig, HasNoIndexOutOfRange)
+{
+    const Damages damages = {
+        [](Rig& rig) { rig.nodes[0].parent = 1; },
+        [](Rig& rig) { rig.nodes[1].parent = 1; },
+        [](Rig& rig) { rig.meshes[0].node = 3; },
+        [](Rig& rig) { rig.meshes[0].triangles(0, 0) = 4; },
+        [](Rig& rig) { rig.meshes[0].triangles(0, 0) = -1; },
+        [](Rig& rig) { rig.meshes[0].joints[0].node = -1; },
+        [](Rig& rig) { rig.meshes[0].skin.bone[0] = 2; },
+        [](Rig& rig) { rig.meshes[0].skin.first[1] = 5; },
+        [](Rig& rig) { rig.meshes[0].skin.first.pop_back(); },
+        [](Rig& rig) { rig.animations[0].nodes[0].node = 3; },
+        [](Rig& rig) {
+            rig.animations[0].nodes[0].rotation->times_s = {1.0, 0.0};
+        },
+        [](Rig& rig) { rig.animations[0].nodes[0].rotation->times_s.clear(); },
+        [](Rig& rig) { rig.animations[0].nodes[0].rotation->values.pop_back(); },
+        [](Rig& rig) { rig.animations[0].end_s = -1.0; },
+        [](Rig& rig) { rig.unit_m = 0.0; },
+    };
+    expect_each_refused(damages);
+}
+
+TEST(CheckedRig, HasNoNumberThatIsNotFiniteOrHuge)
+{
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    for (const double bad : {nan, std::numeric_limits<double>::infinity(), 2e9}) {
+        const Damages damages = {
+            [&](Rig& rig) { rig.meshes[0].points(2, 1) = bad; },
+            [&](Rig& rig) { rig.nodes[0].rest.translation.y() = bad; },
+            [&](Rig& rig) { rig.meshes[0].joints[1].inverse_bind.translation().x() = bad; },
+            [&](Rig& rig) { rig.meshes[0].skin.weight[0] = bad; },
+            [&](Rig& rig) { rig.animations[0].nodes[0].rotation->values[0].x() = bad; },
+        };
+        expect_each_refused(damages);
     }
 }
 
@@ -83,13 +146,7 @@ TEST(RigReader, RemarksReachTheCaller)
     EXPECT_EQ(read_rig(folder.file("a.gltf", gltf.text())).remarks.size(), 1u);
 }
 
-}  // namespace
-
 // Reference: the definition. The weights of a point are those of its joints divided by their sum.
-
-namespace {
-
-using namespace pbs;
 
 Weights weights_of_one_point(const std::vector<JointShare>& shares, std::vector<std::string>& remarks)
 {

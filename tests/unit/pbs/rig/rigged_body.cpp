@@ -113,14 +113,9 @@ TEST(RiggedBody, TheAngleFromTheBindPoseToTheRestPoseIsReported)
     EXPECT_NEAR(make_rigged_body(rig, nullptr, 1.0).bind_pose_deg, 36.0, 1e-9);
 }
 
-}  // namespace
-
 // Reference: the rules of the header on rigs whose joints and points have round coordinates. Tolerances: at most 64 roundings of numbers of
 // at most 8.
 
-namespace {
-
-using namespace pbs;
 using test_support::rig_node;
 
 const double tail_rounding = test_support::rounding_error(64, 8.0);

@@ -9,9 +9,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <limits>
-
 namespace {
 
 using namespace reference_fem;
@@ -199,14 +196,9 @@ TEST_F(Stepper, DampingBringsTheBarToRest)
     }
 }
 
-}  // namespace
-
 // Reference: the scheme's own three equations, which the accepted step must satisfy, and the conditions of Chung and Hulbert. Tolerances:
 // roundings of the equations' terms, whose magnitudes add up in displacements to `size`; the rates divide them by powers of the step.
 
-namespace {
-
-using namespace reference_fem;
 using test_support::rounding_error;
 
 class Scheme : public testing::TestWithParam<TimeScheme> {
@@ -269,16 +261,9 @@ TEST(GeneralizedAlpha, OfSpectralRadiusOneHalfIsAsPrinted)
     EXPECT_DOUBLE_EQ(scheme.gamma, 5.0 / 6.0);
 }
 
-}  // namespace
-
 // Reference: polynomials, whose derivatives are known. A parabola through three displacements gives the velocity of quadratic motion
 // exactly, and a cubic through four the acceleration of cubic motion, for steps of any length. Tolerances: the condition of differences, by
 // which an error d of the displacements grows to 2 d / h in a slope, to its differences over two and three steps in the next.
-
-namespace {
-
-using namespace reference_fem;
-using test_support::rounding_error;
 
 // One free and one prescribed degree of freedom.
 class Prescribed : public testing::Test {

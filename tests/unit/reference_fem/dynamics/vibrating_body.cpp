@@ -9,9 +9,6 @@
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <limits>
-
 namespace {
 
 using namespace reference_fem;
@@ -70,15 +67,9 @@ TEST_P(Mass, AsAMatrixAndAsBlocksIsTheSameOperator)
 
 INSTANTIATE_TEST_SUITE_P(ElementOrder, Mass, testing::Values(1, 2));
 
-}  // namespace
-
 // Reference: a dense eigenvalue problem by Eigen. Tolerances: both reduce it to eigenvalues of L^-1 K L^-T with M = L L^T, whose error by
 // rounding is sqrt(n) eps |K| |M^-1| (G. Golub, C. Van Loan, Matrix Computations, 4th ed., Sec. 8.7.2), and omega is the root of an
 // eigenvalue. The iteration ends at a change of the shape of 1e-13; (K - omega^2 M) turns it and the rounding of the solve into a residual.
-
-namespace {
-
-using namespace reference_fem;
 
 std::vector<int> free_dofs(const VibratingBody& body)
 {

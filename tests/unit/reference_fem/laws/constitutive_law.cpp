@@ -9,8 +9,6 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
-#include <cmath>
-
 namespace {
 
 using namespace test_support;
@@ -175,8 +173,6 @@ TEST(IsochoricNeoHookean, HasNoVolumeTermOfItsOwn)
     EXPECT_EQ(response.dilatation_hessian.norm(), 0.0);
 }
 
-}  // namespace
-
 // Reference: the definition of the polar decomposition, F = R S with R a rotation and S symmetric. For its derivative: R does not depend on
 // the scale of F or on a stretch along its own axes, and rotates with F.
 // Tolerances: Jacobi's method takes at most five sweeps of three pairs, each pair a rotation from the left and one from the right, so that
@@ -184,10 +180,7 @@ TEST(IsochoricNeoHookean, HasNoVolumeTermOfItsOwn)
 // Accuracy and stability of numerical algorithms, 2nd ed., SIAM 2002, Sec. 2.8); the Frobenius norm of nine entries is three times as
 // large.
 
-namespace {
-
 using namespace reference_fem;
-using namespace test_support;
 
 const double of_rotations = 3.0 * rounding_error(std::sqrt(30.0 * 6.0), 1.0);  // the error of R, and of U S V^T relative to F
 

@@ -268,13 +268,7 @@ TEST(Newton, OutcomesOfFailure)
     EXPECT_EQ(other.minimise({&concave}, u, u, {}).outcome, NewtonOutcome::not_positive_definite);
 }
 
-}  // namespace
-
 // Reference: an attempt that fails in a known way.
-
-namespace {
-
-using namespace reference_fem;
 
 NewtonSummary ended(NewtonOutcome outcome)
 {

@@ -8,8 +8,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 namespace {
 
 using namespace reference_fem;
@@ -70,14 +68,8 @@ TEST(StructuredMesh, JoinedBoxesShareTheirVertices)
     expect_ball(whole);
 }
 
-}  // namespace
-
 // Reference: beam theory. A slender beam follows Bernoulli and Euler, and the reduction by shear and rotary inertia is proportional to (h /
 // L)^2.
-
-namespace {
-
-using namespace reference_fem;
 
 double share_of_shear(double length_m)
 {

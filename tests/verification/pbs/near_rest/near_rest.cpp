@@ -172,15 +172,9 @@ TEST(VolumeConstraints, EquilibriumKeepsEveryVolumeAndBalancesTheLoad)
     EXPECT_EQ(volumes.equilibrium(load, 2.0 * shear_pa), 0.5 * u);
 }
 
-}  // namespace
-
 // Reference: linear algebra for one hanging particle; for a bar, the time stepper itself, which stays in the state of rest.
 
-namespace {
-
-using pbs::Positions;
 using pbs::settle;
-using pbs::Vec3;
 
 TEST(SettledState, OfAHangingParticleIsTheFixedPoint)
 {

@@ -2,7 +2,6 @@
 #include "experiments/studies/convergence/convergence_case.hpp"
 
 #include "experiments/deformers/fem/fem_options.hpp"
-#include "experiments/studies/convergence/convergence_records.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 #include "experiments/studies/shared/posed_reference.hpp"
 #include "tests/support/rounding_error.hpp"

@@ -1,5 +1,5 @@
 // Reference: paths defined by formulas; a rate r needs ceil(log 0.05 / log r) iterations to the tolerance.
-#include "experiments/studies/convergence/convergence_values.hpp"
+#include "experiments/studies/convergence/convergence_case.hpp"
 
 #include "tests/support/iteration_paths.hpp"
 

@@ -1,5 +1,5 @@
 // Reference: the definition of each initial guess.
-#include "experiments/studies/convergence/starts.hpp"
+#include "experiments/studies/convergence/convergence_case.hpp"
 
 #include "pbs/solver/pbs_solver.hpp"
 #include "tests/support/limb_character.hpp"

@@ -1,13 +1,13 @@
 // Where errors are measured. Reference: barycentric coordinates reproduce a rigid motion and an affine field exactly. Tolerance: the
 // rounding of barycentric coordinates.
 #include "experiments/deformers/fem/fem_options.hpp"
-#include "experiments/studies/work_precision/body_mesh.hpp"
+#include "experiments/studies/work_precision/posed_deformer.hpp"
 
+#include "experiments/deformers/registry.hpp"
 #include "experiments/studies/work_precision/measured_points.hpp"
 #include "experiments/studies/work_precision/point_row.hpp"
-#include "experiments/studies/work_precision/posed_deformer.hpp"
-#include "experiments/deformers/registry.hpp"
 #include "pbs/skinning/pose.hpp"
+#include "pbs/solver/constraint_set.hpp"
 #include "pbs/solver/options.hpp"
 #include "tests/support/rounding_error.hpp"
 #include "tests/support/tet_rounding.hpp"
@@ -66,7 +66,7 @@ TEST(BodyMesh, OfTheBaseItselfAndCutIntoEightKeepsTheBasesVertices)
     for (const BodyMesh* mesh : {&own, &fine}) EXPECT_EQ(mesh->on_base(mesh->character().mesh.rest), base->mesh.rest);
 }
 
-TEST(PointSettings, AreEachOnceInWordsAndKeys)
+TEST(PointSettings, AreEachOnce)
 {
     SettingRange range;
     range.other_vertices = {300, 600};
@@ -74,12 +74,10 @@ TEST(PointSettings, AreEachOnceInWordsAndKeys)
     range.refined = true;
     range.quadratic_up_to = 500;
     const std::vector<PointSetting> settings = point_settings(read_scene("limb_twist", {}), range);
-    std::set<std::string> words;
     std::set<SettingKey> keys;
     std::map<std::string, int> of_deformer;
     for (const PointSetting& setting : settings) {
-        EXPECT_TRUE(words.insert(text_of(key_of(setting))).second) << text_of(key_of(setting));
-        EXPECT_TRUE(keys.insert(key_of(setting)).second) << text_of(key_of(setting));
+        EXPECT_TRUE(keys.insert(key_of(setting)).second) << setting.deformer << " " << setting.tuned;
         ++of_deformer[setting.deformer];
     }
     EXPECT_EQ(of_deformer["lbs"], 2 * 4);                  // codes; one mesh and three others
@@ -92,6 +90,25 @@ TEST(PointSettings, AreEachOnceInWordsAndKeys)
     EXPECT_LT(point_settings(read_scene("limb_twist", {}), in_short).size(), settings.size() / 2);
 }
 
+// Each change at each of its settings and rungs, in one code on the case's own mesh.
+TEST(PointSettings, OfChangesToPbsAreMarked)
+{
+    SettingRange range;
+    const std::size_t without = point_settings(read_scene("limb_twist", {}), range).size();
+    range.changes = true;
+    range.other_vertices = {};
+    const std::vector<PointSetting> settings = point_settings(read_scene("limb_twist", {}), range);
+    std::map<std::string, std::size_t> of_change;
+    for (const PointSetting& setting : settings)
+        if (setting.change) {
+            ++of_change[setting.change->name];
+            EXPECT_TRUE(setting.on_own_mesh());
+        }
+    EXPECT_EQ(of_change.size(), changes_to_pbs().size());
+    for (const ComparedDeformer& one : changes_to_pbs()) EXPECT_EQ(of_change[one.name], one.grid.size() * one.iterations.size());
+    EXPECT_EQ(settings.size(), without + 25 * 8);  // settings of all changes, rungs
+}
+
 // A ladder takes one rung for all of its settings: neither k_stretch nor the rest of the grid belongs to it.
 TEST(PointSettings, OfOneRungDifferInTheirSettingAlone)
 {
@@ -100,7 +117,7 @@ TEST(PointSettings, OfOneRungDifferInTheirSettingAlone)
         EXPECT_TRUE(of_rung[rung_of(key_of(setting))].insert(setting.tuned).second);
     for (const auto& [rung, settings] : of_rung)
         if (rung.deformer == "pbs") {
-            EXPECT_EQ(settings.size(), 8u) << text_of(rung);
+            EXPECT_EQ(settings.size(), 8u);
         }
 }
 
@@ -213,6 +230,7 @@ WorkPrecisionCase small_case()
     of.half = Half::training;
     of.range.in_short = true;
     of.range.quadratic = false;
+    of.range.changes = true;
     of.rounds = of.newton_rounds = {.seconds = 0.0, .fewest = 1, .most = 1};
     of.reference_is_refined = false;
     of.members = {family()[2]};
@@ -263,6 +281,45 @@ TEST(MeasuredPoints, HaveTheirDistanceFromTheOwnLimitOfTheDeformers)
     EXPECT_EQ(distance_pct.at("fem_stable_neo_hookean"), 0.0);
     EXPECT_GT(distance_pct.at("fem_neo_hookean"), 0.0);
     EXPECT_LT(distance_pct.at("fem_neo_hookean"), 0.1 * distance_pct.at("lbs")) << "the laws are near each other";
+}
+
+// The first rung has 4 iterations of PBS and one of a change, and the others take too long. In the quick form the bound is the distance of linear elements.
+TEST(MeasuredPoints, HaveTheChangesToPbsInATableOfTheirOwn)
+{
+    std::map<std::string, int> finished;
+    for (const PointRow& row : small_points().changes) {
+        if (row.outcome != "finished") continue;
+        ++finished[row.key.deformer];
+        EXPECT_EQ(row.key.iterations, row.key.deformer == baseline ? 4 : 1);
+        EXPECT_EQ(row.reference, "quadratic");
+        EXPECT_GT(row.reference_error_joint_pct.value(), 0.0);
+        ASSERT_TRUE(row.from_pbs_pct[0]) << row.key.deformer;
+        EXPECT_EQ(*row.from_pbs_pct[0] == 0.0, row.key.deformer == baseline) << row.key.deformer << " " << row.key.tuned;
+        EXPECT_FALSE(row.from_pbs_pct[1]) << "PBS takes too long";
+    }
+    EXPECT_EQ(finished, (std::map<std::string, int>{{baseline, 1},
+                                                    {"smooth_weights", 1},
+                                                    {"bind_to_blended_position", 3},
+                                                    {"region_volumes", 3},
+                                                    {"tet_and_region_volumes", 3},
+                                                    {"k_by_edge_length", 1},
+                                                    {"another_order", 2},
+                                                    {control, 3}}));
+    for (const PointRow& row : small_points().rows)
+        EXPECT_TRUE(std::ranges::none_of(changes_to_pbs(), [&](const ComparedDeformer& one) { return one.name == row.key.deformer; }));
+}
+
+// k / (k + (1 - k) (l / L)^2) of two edges, 1 and 2, whose mean is k: solved for (1 / L)^2 = x by hand for k = 1 / 2,
+// 1 / (1 + x) + 1 / (1 + 4 x) = 1 holds for 4 x^2 = 1, L = sqrt 2.
+TEST(NeutralLength, KeepsTheMeanStiffness)
+{
+    EXPECT_NEAR(neutral_length(0.5, {1.0, 2.0}), std::sqrt(2.0), 1e-11);
+    EXPECT_NEAR(neutral_length(0.2, {3.0, 3.0}), 3.0, 1e-11) << "of equal edges it is their length";
+    const std::vector<double> lengths_m = {0.03, 0.05, 0.08};
+    const double length_m = neutral_length(0.2, lengths_m);
+    double mean = 0.0;
+    for (const double l : lengths_m) mean += pbs::stiffness_at_length(0.2, l, length_m) / 3.0;
+    EXPECT_NEAR(mean, 0.2, 1e-11);
 }
 
 }  // namespace

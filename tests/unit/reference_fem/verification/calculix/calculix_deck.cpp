@@ -7,11 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <cstdlib>
-#include <limits>
 #include <random>
-#include <sstream>
 
 namespace test_support {
 
@@ -190,14 +187,8 @@ TEST(CalculixDeck, AsksForTheAnalysis)
     EXPECT_EQ(deck_of(problem, {.restart_file = false}).find("*RESTART"), std::string::npos);
 }
 
-}  // namespace
-
 // Reference: the energy of the springs themselves, sum_s k_s / 2 |X_s + u(X_s) - t_s|^2, for a displacement that the elements represent
 // exactly: linear with P1, quadratic with P2.
-
-namespace {
-
-using namespace reference_fem;
 
 class EquivalentSpringsOfOrder : public testing::TestWithParam<int> {
 protected:

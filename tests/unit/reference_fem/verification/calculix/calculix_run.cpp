@@ -6,10 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdint>
 #include <cstdlib>
 #include <cstring>
-#include <filesystem>
 #include <ostream>
 
 namespace {
@@ -105,14 +103,8 @@ TEST(LastWords, AreTheEndWithoutBlankLines)
     EXPECT_EQ(last_words(text), last);
 }
 
-}  // namespace
-
 // Reference: what was put into the files. Fortran prints 1p,e13.6, leaves the E of a three-digit exponent out, and puts a record's length
 // before and after its data.
-
-namespace {
-
-using namespace reference_fem;
 
 const std::string header = "\n displacements (vx,vy,vz) for set NODES and time  0.1000000E+01\n\n";
 const std::string first = "         1  1.234568E-03 -2.000000E+00  0.000000E+00\n";

@@ -1,10 +1,17 @@
 // Reference: the candy wrapper. Linear blending loses more volume in a twist than dual quaternions do, whose sections stay whole, so that
-// every member of the family finds dual quaternions closer.
+// every member of the family finds dual quaternions closer. The parts of PBS's error: the study convergence, which measures the same 24
+// iterations with another solver, and the definitions of the parts.
 #include "experiments/studies/ensemble/ensemble.hpp"
 
+#include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/deformers/registry.hpp"
+#include "experiments/studies/convergence/convergence_case.hpp"
+#include "experiments/studies/shared/posed_character.hpp"
+#include "experiments/studies/shared/posed_reference.hpp"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
 
 namespace {
 
@@ -58,6 +65,112 @@ TEST(Ensemble, WithAReferenceThatIsNotReachedIsUndecided)
     ASSERT_EQ(records.pairs.size(), 1u);
     EXPECT_FALSE(records.pairs.front().difference_pct);
     EXPECT_EQ(records.pairs.front().decision, analysis::PairDecision::reference_error);
+}
+
+EnsembleCase split_limb(const std::string& scene, int frame)
+{
+    EnsembleCase of;
+    of.scene = read_scene(scene, {"character.vertices=300"});
+    of.frame = frame;
+    of.flesh = reference_flesh(of.scene);
+    of.members = {family().front()};
+    of.pbs = spec_of(of.scene, "pbs");
+    of.deformers = {of.pbs};
+    options_of<pbs::PbsOptions>(of.deformers.front()).precision = pbs::Precision::f64;  // as the parts are measured
+    of.k_stretch = {0.2};
+    of.iterations = {24};
+    of.converged_iterations = 400;
+    return of;
+}
+
+// The row from LBS, with PBS in double.
+RateRow row_of_convergence(const EnsembleCase& as)
+{
+    ConvergenceCase of;
+    of.scene = as.scene;
+    of.frames = {{as.frame, "pose", {}, false, true}};
+    of.k_stretch = as.k_stretch;
+    of.settings = {{options_of<pbs::PbsOptions>(as.pbs).order, pbs::Precision::f64}};
+    of.most_iterations = 24;
+    of.reference = as.flesh;
+    return rate_rows(measure_convergence(of)).front();
+}
+
+// The parts, after a check that the errors of the same 24 iterations and convergence, which has another solver, are the same.
+PartsRow checked_parts(const EnsembleCase& of)
+{
+    const EnsembleRecords records = measure_ensemble(of);
+    EXPECT_EQ(records.breakdown, "");
+    EXPECT_EQ(records.parts.size(), 1u);
+    const PartsRow& parts = records.parts.at(0);
+    const double rounding = 1e-12 * parts.whole_joint_pct;  // sums over the vertices, in another order
+    EXPECT_NEAR(records.errors.front().error_joint_pct, parts.error_joint_pct, rounding);
+    EXPECT_NEAR(records.errors.front().whole_joint_pct, parts.whole_joint_pct, rounding);
+    const RateRow row = row_of_convergence(of);
+    EXPECT_GT(parts.error_joint_pct, 0.0);
+    EXPECT_NEAR(row.paper.error_joint_pct, parts.error_joint_pct, rounding);
+    EXPECT_NEAR(row.paper.whole_joint_pct, parts.whole_joint_pct, rounding);
+    EXPECT_EQ(row.quality.masked_share_pct, parts.masked_share_pct);
+    EXPECT_EQ(row.quality.observed_order, parts.observed_order);
+    EXPECT_EQ(row.quality.bound_pct, parts.discretisation_pct);
+    return parts;
+}
+
+TEST(ErrorSplit, HasTheSameErrorAsConvergence)
+{
+    const PartsRow parts = checked_parts(split_limb("limb_twist", 18));  // 90 degrees
+    EXPECT_EQ(parts.masked_share_pct, 0.0);
+    EXPECT_EQ(parts.error_joint_pct, parts.whole_joint_pct);
+}
+
+// Where the limb overlaps itself, the error outside the mask is not that of the whole body.
+TEST(ErrorSplit, LeavesOutTheOverlap)
+{
+    const PartsRow parts = checked_parts(split_limb("limb_bend", 24));  // 120 degrees
+    EXPECT_GT(parts.masked_share_pct, 0.0);
+    EXPECT_LT(parts.masked_share_pct, 100.0);
+    EXPECT_NE(parts.error_joint_pct, parts.whole_joint_pct);
+}
+
+// The parts are distances and fulfil the triangle inequality.
+TEST(ErrorSplit, MeasuresEachAttachmentAgainstTheReference)
+{
+    EnsembleCase of = split_limb("limb_twist", 6);  // 30 degrees
+    of.other_flesh = other_attachments(of.flesh);
+    const EnsembleRecords records = measure_ensemble(of);
+    const PartsRow& parts = records.parts.at(0);
+    EXPECT_LE(parts.error_joint_pct, parts.solver_pct + parts.model_pct);
+    EXPECT_LE(parts.model_pct, parts.error_joint_pct + parts.solver_pct);
+    ASSERT_EQ(records.attachments.size(), 1 + of.other_flesh.size());
+    const AttachmentRow& own = records.attachments.front();
+    EXPECT_EQ(own.reference, "neo_hookean");
+    EXPECT_EQ(own.difference_pct, 0.0);
+    EXPECT_EQ(own.model_pct, parts.model_pct);
+    EXPECT_EQ(own.spring_factor, 10.0);
+    for (std::size_t i = 1; i < records.attachments.size(); ++i) {
+        const AttachmentRow& other = records.attachments[i];
+        EXPECT_EQ(other.reference, of.other_flesh[i - 1].label);
+        EXPECT_TRUE(other.finished) << other.reference;
+        EXPECT_GT(other.difference_pct, 0.0) << other.reference;
+        EXPECT_LE(other.model_pct, own.model_pct + other.difference_pct) << other.reference;
+        EXPECT_EQ(other.core_radius.has_value(), other.attachment != "bind");
+    }
+    const auto row_of = [&](const char* label) { return *std::ranges::find(records.attachments, label, &AttachmentRow::reference); };
+    EXPECT_EQ(row_of("smooth_q_100").spring_factor, 100.0);
+    EXPECT_EQ(row_of("embedded").spring_factor, 1e4);
+    EXPECT_EQ(row_of("bind").spring_factor, 1e4);  // its stiffness is q E V / R^2 (bone_attachment.hpp)
+    EXPECT_GT(row_of("linear_smooth").difference_pct, row_of("smooth_q_100").difference_pct);  // small strain at 30 degrees
+}
+
+TEST(ErrorSplit, WithoutAReferenceHasNoRowsAndNamesTheWorstTet)
+{
+    EnsembleCase of = split_limb("limb_twist", 18);
+    options_of<FemOptions>(of.flesh).most_newton_steps = 1;
+    const EnsembleRecords records = measure_ensemble(of);
+    EXPECT_TRUE(records.parts.empty());
+    EXPECT_TRUE(records.attachments.empty());
+    EXPECT_GE(records.members.front().worst_tet, 0);
+    EXPECT_LT(records.members.front().j_min, 1.0);
 }
 
 }  // namespace

@@ -1,0 +1,50 @@
+"""The pages of studies for readers, DIR/STUDY/STUDY.md, composed from the tables that the studies write.
+
+    pages.write(results)   # of each study that has a page and records
+"""
+import importlib
+import math
+import sys
+
+import records
+from records import kept, whole_file
+
+studies = ("convergence", "ensemble", "work_precision")  # each with a module that has page(folder)
+
+
+def write(results):
+    """Returns the pages that were written. A study without records has none, and damaged records are named on stderr."""
+    opened, written = kept.opened(results), []
+    for study in studies:
+        if not (opened / study / "plan.json").is_file():
+            continue
+        file = results / study / f"{study}.md"
+        try:
+            text = importlib.import_module(f"pages.{study}").page(opened / study)
+            with whole_file.beside(file) as part:
+                part.write_text(text, encoding="utf-8")
+            written.append(file)
+        except (records.RecordsMissing, whole_file.CannotBeWritten) as error:
+            print(f"pbskin: page of {study}: {error}", file=sys.stderr)
+    return written
+
+
+def table(rows, columns):
+    """A Markdown table. columns: {heading: column, or (column, decimals), or a function of the row}."""
+    def cell(row, of):
+        if callable(of):
+            return of(row)
+        name, decimals = of if isinstance(of, tuple) else (of, None)
+        if decimals is None or row[name] == "":
+            return row[name]
+        value = float(row[name])
+        return "\u2013" if math.isnan(value) else f"{value:.{decimals}f}"
+
+    lines = ["| " + " | ".join(columns) + " |", "|" + "---|" * len(columns)]
+    return "\n".join([*lines, *("| " + " | ".join(cell(row, of) for of in columns.values()) + " |" for row in rows)]) + "\n"
+
+
+def of_runs(folder, name, needed):
+    """The rows of a table of all runs, in the order of the plan."""
+    runs = [run["name"] for run in records.read_json(folder / "plan.json")["runs"]]
+    return [row for run in runs if (folder / run / name).is_file() for row in records.table(folder / run / name, needed)]

@@ -1,0 +1,67 @@
+"""How many pairs of deformers are decided, which are not and why, which references decide nothing, and the parts of PBS's error."""
+import collections
+
+import pages
+import records
+from words import looks
+
+notable_points = 2.0  # pairs that differ by more than this are to be decided
+pose = {"body": "body", "motion": "motion", "pose": lambda row: row["pose"] or f"{float(row['angle_deg']):g}\u00b0"}
+
+
+def decided(pairs):
+    return f"{sum(pair['decision'] == 'decided' for pair in pairs)} of {len(pairs)}"
+
+
+def of_pairs(pairs):
+    notable = [pair for pair in pairs if float(pair["largest_difference_pct"]) > notable_points]
+    skinning = [pair for pair in notable if "fem_linear" not in (pair["first"], pair["second"])]
+    text = (f"{decided(notable)} pairs of deformers whose errors differ by more than {notable_points:g} percentage points are decided. "
+            f"Without linear finite elements, these are {decided(skinning)} pairs.\n")
+    undecided = [pair for pair in notable if pair["decision"] != "decided"]
+    return text + ("\n" + pages.table(undecided, pose | {
+        "first": lambda row: looks.of(row["first"]).name, "second": lambda row: looks.of(row["second"]).name,
+        "largest difference [%]": ("largest_difference_pct", 1), "first closer": "first_is_closer", "second closer": "second_is_closer",
+        "decision": "decision"}) if undecided else "")
+
+
+def of_members(members):
+    reached = [row for row in members if row["outcome"] == "reached"]
+    unbounded = sum(not row["error_bound_pct"] for row in reached)
+    text = (f"{len(reached)} of {len(members)} references were reached. {unbounded} of these have no bound on their own error and decide "
+            "nothing, because too few of their solutions converged.\n")
+    silent = [row for row in members if row["outcome"] != "reached" or not row["error_bound_pct"]]
+    if silent:
+        text += ("\nThe worst tet is that with the smallest volume ratio in the finest solution. Tets that a solution inverts by their "
+                 "vertices alone are left out of the errors.\n\n" + pages.table(silent, pose | {
+                     "reference": "member", "outcome": "outcome", "worst tet": "worst_tet", "its volume ratio": ("j_min", 3),
+                     "inverted tets": "inverted", "lowest det F": ("lowest_det_f", 3)}))
+    minutes = collections.Counter()
+    for row in members:
+        minutes[(row["body"], row["motion"], pose["pose"](row))] += float(row["solve_s"]) / 60.0
+    return text + "\n## Wall time of all references of a pose\n\n" + pages.table(
+        [{"body": body, "motion": motion, "pose": of, "minutes": spent} for (body, motion, of), spent in minutes.items()],
+        {"body": "body", "motion": "motion", "pose": "pose", "minutes": ("minutes", 1)})
+
+
+def of_parts(folder):
+    """The parts after the paper's 24 iterations, and the distance of PBS from flesh that the bind constraint holds."""
+    parts = [row for row in pages.of_runs(folder, "parts.csv", {"iterations", "k_stretch"}) if row["iterations"] == "24"]
+    if not parts:
+        return ""
+    key = ("body", "motion", "pose", "angle_deg", "k_stretch")
+    bound = {tuple(row[name] for name in key): row["model_pct"]
+             for row in pages.of_runs(folder, "attachments.csv", {"attachment", "model_pct"}) if row["attachment"] == "bind"}
+    rows = [row | {"bind_pct": bound.get(tuple(row[name] for name in key), "")} for row in parts]
+    return "\n## The error of PBS after 24 iterations [% of the bone distance]\n\n" + pages.table(rows, pose | {
+        "k_stretch": "k_stretch", "masked [% of the volume]": ("masked_share_pct", 1), "error": ("error_joint_pct", 1),
+        "on the whole body": ("whole_joint_pct", 1), "solver": ("solver_pct", 1), "model": ("model_pct", 1),
+        "discretisation (bound)": ("discretisation_pct", 2), "observed order": ("observed_order", 2),
+        "flesh held by bind constraints": ("bind_pct", 1)})
+
+
+def page(folder):
+    members = records.table(folder / "members.csv", {"member", "outcome", "error_bound_pct", "solve_s"})
+    pairs = records.table(folder / "pairs.csv", {"first", "second", "largest_difference_pct", "decision"})
+    return ("# Which deformer is closer, whatever reference is taken\n\n" + of_pairs(pairs) + "\n## The references\n\n"
+            + of_members(members) + of_parts(folder))

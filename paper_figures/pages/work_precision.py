@@ -1,0 +1,163 @@
+"""Error against run time: who is nearest within which time, the poses that are solved, what was tried and what is missing, and what single
+changes to PBS gain. Fronts and crossings are on the page where their tables are there; they are too long to be kept."""
+import pages
+import records
+from words import looks
+
+comparisons = {"packed_f32": "packed f32 code where a deformer has it", "plain_f64": "plain f64 code"}
+clocks = {"processor": "processor time, as of all other deformers", "own": "the times that the program states in seconds.f64",
+          "wall": "the wall time of the program with its start, divided by the number of its poses"}
+setting = ("iterations", "k_stretch", "order", "precision", "substeps", "element_order", "wanted_vertices", "tuned")
+crossed = (("pbs", "delta_mush"), ("pbs", "xpbd"), ("quasi_newton", "pbs"), ("quasi_newton", "delta_mush"), ("vbd", "pbs"),
+           ("vbd", "delta_mush"), ("linear_fem", "pbs"), ("nonlinear_fem", "pbs"))
+budgets = (1.0, 10.0, 100.0, float("inf"))
+
+
+def words_of(row, deformer="deformer"):
+    """pbs, iterations 24, k_stretch 0.2, order ordered, precision f32, packed"""
+    named = [f"{column} {row[column]}" for column in setting if row[column] and (column, row[column]) != ("substeps", "1")]
+    return ", ".join([row[deformer], *named, *(name for name in ("packed", "refined") if row[name] == "1")])
+
+
+def of_comparison(rows, comparison):
+    return [row for row in rows if row["comparison"] == comparison]
+
+
+def split(folder, points):
+    training, evaluation = (", ".join(run for run, rows in points.items() if rows[0]["half"] == half) or "none"
+                            for half in ("training", "evaluation"))
+    text = (f"Settings are chosen on the training poses ({training}) and shown on the evaluated poses ({evaluation}). The poses of "
+            "each body alternate, and a body with one pose is only evaluated.\n")
+    own = {row["deformer"]: clocks.get(row["clock"], "it has no time") for rows in points.values() for row in rows
+           if row.get("external") == "1"}
+    return text + ("\nDeformers of the user's own take part in both comparisons, since it is not known whether their code is packed. Their "
+                   "times were taken as follows:\n\n" + "".join(f"- `{name}`: {clock}\n" for name, clock in own.items()) if own else "")
+
+
+def nearest(folder):
+    """The first two ranks of each case and budget."""
+    rows = records.table(folder / "best_within.csv", {"comparison", "case", "budget_ms", "rank", "group", "decision", "error_joint_pct"})
+    text = ""
+    for comparison, words in comparisons.items():
+        shown = []
+        for row in of_comparison(rows, comparison):
+            if row["rank"] == "1":
+                shown.append(dict(row) | {"next": ""})
+            elif row["rank"] == "2":
+                shown[-1]["next"] = f"{looks.of(row['group']).name}: {float(row['error_joint_pct']):.1f}"
+        text += f"\n## Nearest within a time: {words}\n\n" + pages.table(shown, {
+            "case": "case", "within [ms]": "budget_ms", "nearest": lambda row: looks.of(row["group"]).name, "setting": words_of,
+            "error [%]": ("error_joint_pct", 1), "next [%]": "next", "decision": "decision",
+            "undecided against": lambda row: ", ".join(looks.of(group).name for group in row["undecided_against"].split())})
+    return text
+
+
+def profiles(folder):
+    """The poses that each group solves to a tolerance within a time, and those that are certain."""
+    rows = records.table(folder / "data_profiles.csv", {"comparison", "tolerance_pct", "group", "ms", "solved", "certain", "poses"})
+    text = ""
+    for comparison, words in comparisons.items():
+        of = of_comparison(rows, comparison)
+        tolerances = sorted({float(row["tolerance_pct"]) for row in of}, reverse=True)
+
+        def solved(group, tolerance, ms):
+            steps = [row for row in of if row["group"] == group and float(row["tolerance_pct"]) == tolerance and float(row["ms"]) <= ms]
+            return f"{steps[-1]['solved']}, {steps[-1]['certain']} certain" if steps else "0"
+
+        columns = {"group": lambda row: looks.of(row["group"]).name}
+        for tolerance in tolerances:
+            for ms in budgets:
+                heading = f"{tolerance:g} %" + (f", {ms:g} ms" if ms < budgets[-1] else "")
+                columns[heading] = lambda row, tolerance=tolerance, ms=ms: solved(row["group"], tolerance, ms)
+        poses = of[0]["poses"] if of else "0"
+        text += (f"\n## Poses solved, of {poses}: {words}\n\nA pose is solved with certainty if the error plus the bound on the "
+                 "reference's own error is within the tolerance. Groups that solve no pose are not listed.\n\n"
+                 + pages.table([{"group": group} for group in looks.in_order({row["group"] for row in of})], columns))
+    return text
+
+
+def tried(folder):
+    counts = {}
+    for row in records.table(folder / "settings.csv", {"comparison", "deformer", "tried"}):
+        count = counts.setdefault((row["comparison"], row["deformer"]), [0, 0])
+        count[0] += 1
+        count[1] += int(row["tried"])
+    rows = [{"comparison": comparison, "deformer": deformer, "rungs": str(rungs), "tried": str(settings)}
+            for (comparison, deformer), (rungs, settings) in counts.items()]
+    return ("\n## Settings tried\n\nA rung is a number of iterations on a mesh, or an element order on a mesh.\n\n"
+            + pages.table(rows, {"comparison": "comparison", "deformer": "deformer", "rungs": "rungs", "settings at all rungs": "tried"}))
+
+
+def omissions(folder):
+    rows = records.read_rows(folder / "omissions.csv")
+    return "\n## Omissions\n\n" + pages.table(rows, {
+        "comparison": "comparison", "case": "case", "deformer": "deformer", "why": "why", "points missing": "missing", "of": "points",
+        "reason": "reason"}) if rows else ""
+
+
+def references(points):
+    rows = [dict(row) | {"case": run, "s": float(row["reach_ms"]) / 1e3} for run, of in points.items() for row in of
+            if row["outcome"] in ("reference", "not_reached")]
+    return "\n## References\n\n" + pages.table(rows, {
+        "case": "case", "half": "half", "reference": words_of, "outcome": "outcome", "time of its solutions [s]": ("s", 0),
+        "bound on its error [%]": ("reference_error_joint_pct", 2),
+        "left out, where it overlaps [% of the volume]": ("masked_share_pct", 2)})
+
+
+def crossings(folder):
+    """From which time on one group is nearer than the other."""
+    if not (folder / "crossings.csv").is_file():
+        return ""
+    rows = [row for row in records.table(folder / "crossings.csv", {"comparison", "case", "deformer", "other", "outcome", "from_ms"})
+            if (row["deformer"], row["other"]) in crossed or row["deformer"] not in looks.listed and row["other"] == "pbs"]
+    return "\n## Who is nearer from which time on\n\n" + pages.table(rows, {
+        "comparison": "comparison", "case": "case", "group": lambda row: looks.of(row["deformer"]).name,
+        "nearer than": lambda row: looks.of(row["other"]).name, "outcome": "outcome", "from [ms]": ("from_ms", 2),
+        "error [%]": ("error_joint_pct", 1), "decision": "decision", "why not": "reason"})
+
+
+def fronts(folder):
+    if not (folder / "fronts.csv").is_file():
+        return ""
+    rows = [row for row in records.table(folder / "fronts.csv", {"comparison", "case", "measure", "front"})
+            if row["front"] == "all" and row["measure"] == "error_joint_pct"]
+    return "\n## The front of all points\n\n" + pages.table(rows, {
+        "comparison": "comparison", "case": "case", "ms per frame": ("ms_median", 3), "error [%]": ("error_joint_pct", 2),
+        "deformer": words_of, "decision": "decision"})
+
+
+def remark(gain):
+    if gain["decision"] == "reference_error":
+        shift = gain["reference_error_pct"]
+        return f"the reference's own error {f'may change it by {float(shift):.2g} points' if shift else 'is not known'}"
+    return {"few_poses": "fewer than 4 poses", "poses_disagree": "the interval over the poses includes zero"}.get(gain["decision"], "")
+
+
+def gains(folder):
+    """One table per group of poses and budget, the largest gain first, and the changes that are not ranked."""
+    rows = records.read_rows(folder / "gains.csv")
+    changes = sorted({row["change"] for row in rows})
+    text = "\n# What single changes to PBS gain in equal time\n" if rows else ""
+    for group, budget in dict.fromkeys((row["group"], row["budget_iterations"]) for row in rows):
+        own = [row for row in rows if (row["group"], row["budget_iterations"]) == (group, budget)]
+        poses = "all poses" if group == "all" else f"the poses of the body {group}"
+        text += f"\n## In the time of {budget} iterations of PBS, {poses}\n\n" + pages.table(own, {
+            "change": lambda row: row["change"].replace("_", " "), "relative to": lambda row: row["than"].replace("_", " "),
+            "poses": "poses", "error [%]": ("error_pct", 2), "other's error [%]": ("than_error_pct", 2), "gain [points]": ("gain_pct", 2),
+            "from": ("gain_low_pct", 2), "to": ("gain_high_pct", 2), "decision": "decision", "why not": remark,
+            "iterations": ("iterations", 1), "volume change [%]": ("volume_abs_pct", 2), "settings": "settings"})
+        over_pbs = {row["change"]: int(row["poses"]) for row in own if row["than"] == "pbs"}
+        most = max(over_pbs.values())
+        omitted = [f"{change.replace('_', ' ')} ({over_pbs.get(change, 0)} of {most} poses)" for change in changes
+                   if over_pbs.get(change, 0) < most]
+        if omitted:
+            text += f"\nNot ranked, because no setting fits into the budget in every pose: {', '.join(omitted)}.\n"
+    return text
+
+
+def page(folder):
+    runs = [run["name"] for run in records.read_json(folder / "plan.json")["runs"]]
+    points = {run: records.table(folder / run / "points.csv", {"deformer", "half", "outcome"}) for run in runs
+              if (folder / run / "points.csv").is_file()}
+    return ("# Error against run time\n\n" + split(folder, points) + nearest(folder) + profiles(folder) + references(points) + tried(folder)
+            + omissions(folder) + crossings(folder) + fronts(folder) + gains(folder))

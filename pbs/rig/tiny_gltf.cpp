@@ -1,2 +1,0 @@
-#define TINYGLTF_IMPLEMENTATION
-#include "pbs/rig/tiny_gltf.hpp"

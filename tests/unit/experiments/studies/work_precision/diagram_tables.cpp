@@ -1,0 +1,288 @@
+// The tables of diagrams. Reference: a few points whose fronts, crossings, profiles and omissions are obvious.
+#include "experiments/studies/work_precision/diagram_tables.hpp"
+
+#include "tests/support/comparison_records.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <optional>
+
+namespace {
+
+using namespace experiments;
+using analysis::CsvTable;
+using test_support::bent_limb;
+using test_support::diagram_of_seven;
+using test_support::hand_case;
+using test_support::hand_diagrams;
+using test_support::hand_reference;
+using test_support::HandPoint;
+using test_support::in_f64;
+using test_support::pbs_24;
+
+TEST(DiagramTables, FrontsOfAllAndOfEachDeformer)
+{
+    const CsvTable fronts = analysis::parse_csv(fronts_table({diagram_of_seven(30.0)}).text(), "fronts.csv");
+    std::vector<std::string> all;
+    for (int row = 0; row < fronts.rows(); ++row)
+        if (fronts.text_at(row, "front") == "all" && fronts.text_at(row, "measure") == "error_joint_pct")
+            all.push_back(fronts.text_at(row, "deformer"));
+    EXPECT_EQ(all, (std::vector<std::string>{"lbs", "dqs", "delta_mush", "xpbd", "pbs", "fem_corotational"}));
+    // Joints and L2 are the same here; the maximum is unknown. The volume falls with time, so all points are on its front.
+    EXPECT_EQ(fronts.rows(), 2 * (6 + 7) + (7 + 7));
+    EXPECT_EQ(fronts.text_at(0, "ms_q3"), "");
+    EXPECT_EQ(fronts.text_at(fronts.rows() - 1, "measure"), "volume_abs_change_pct");
+    EXPECT_EQ(fronts.number(fronts.rows() - 1, "value"), 0.1);
+}
+
+// One against another: outcome, from, decision.
+std::vector<std::string> crossing(const Diagram& of, const std::string& one, const std::string& other)
+{
+    const CsvTable table = analysis::parse_csv(crossings_table({of}).text(), "crossings.csv");
+    for (int row = 0; row < table.rows(); ++row)
+        if (table.text_at(row, "deformer") == one && table.text_at(row, "other") == other)
+            return {table.text_at(row, "outcome"), table.text_at(row, "from_ms"), table.text_at(row, "decision")};
+    return {};
+}
+
+TEST(DiagramTables, CrossingsTurnRoundWithTheErrors)
+{
+    EXPECT_EQ(crossing(diagram_of_seven(33.0), "pbs", "delta_mush"), (std::vector<std::string>{"from", "0.7", "decided"}));
+    EXPECT_EQ(crossing(diagram_of_seven(31.0), "pbs", "delta_mush"),
+              (std::vector<std::string>{"from", "0.7", "reference_error"}));  // by less than 12 %
+    EXPECT_EQ(crossing(diagram_of_seven(15.0), "pbs", "delta_mush"), (std::vector<std::string>{"never", "", ""}));
+    EXPECT_EQ(crossing(diagram_of_seven(15.0), "lbs", "dqs")[0], "never");
+    EXPECT_EQ(crossing(diagram_of_seven(15.0), "delta_mush", "pbs")[0], "always");
+}
+
+TEST(DiagramTables, WithinABudgetGroupsAreRankedByTheirBestPoints)
+{
+    const std::vector<BudgetRow> ranked = best_within(diagram_of_seven(33.0), 1.0);
+    std::vector<std::string> groups;
+    for (const BudgetRow& row : ranked) groups.push_back(row.group);
+    EXPECT_EQ(groups, (std::vector<std::string>{"pbs", "xpbd", "delta_mush", "dqs", "lbs"}));
+    EXPECT_EQ(ranked[0].decision, analysis::PairDecision::reference_error);    // 25 - 20 < 2 x 6
+    EXPECT_EQ(ranked[0].undecided_against, std::vector<std::string>{"xpbd"});  // 33 - 20 > 2 x 6
+    EXPECT_EQ(ranked[2].decision, analysis::PairDecision::decided);            // 50 - 33 > 2 x 6
+    EXPECT_TRUE(ranked[2].undecided_against.empty());
+    EXPECT_FALSE(ranked.back().decision);
+    EXPECT_EQ(ranked.back().rank, 5);
+    EXPECT_EQ(best_within(diagram_of_seven(33.0), 0.01).size(), 1u);
+    EXPECT_TRUE(best_within(diagram_of_seven(33.0), 0.001).empty());
+}
+
+// The next group is decided, since all references order the two. The group after it is not, since the order of a further reference is the
+// other way round.
+TEST(DiagramTables, TheNearestGroupIsComparedWithAllOthers)
+{
+    CaseRecords records = {hand_case(
+        bent_limb, {{pbs_24, 0.7, 20.0}, {in_f64({"xpbd", 8}), 0.65, 40.0}, {in_f64({"delta_mush", 20}), 0.5, 60.0}, hand_reference()})};
+    FamilyRow member;
+    member.member.name = "nu_0.3";
+    member.outcome = "reached";
+    member.error_bound_pct = 1.0;
+    records.members = {member};
+    const double against_pct[] = {20.0, 40.0, 5.0};
+    for (std::size_t i = 0; i < 3; ++i) records.rows[i].members[3] = against_pct[i];
+    const Diagram of = diagrams_of({records}, choose_settings({records.rows})).front();
+    const std::vector<BudgetRow> ranked = best_within(of, 1.0);
+    ASSERT_EQ(ranked.size(), 3u);
+    EXPECT_EQ(ranked[0].decision, analysis::PairDecision::models_disagree);
+    EXPECT_EQ(ranked[0].undecided_against, std::vector<std::string>{"delta_mush"});
+    EXPECT_EQ(ranked[0].reason, "the order is the other way round for nu_0.3");
+    const CsvTable fronts = analysis::parse_csv(fronts_table({of}).text(), "fronts.csv");
+    for (int row = 0; row < fronts.rows(); ++row) {
+        const bool is_pbs = fronts.text_at(row, "deformer") == "pbs", is_of_all = fronts.text_at(row, "front") == "all";
+        const bool is_decided_here = is_of_all && fronts.text_at(row, "measure") == "error_joint_pct";
+        if (!is_pbs) continue;
+        EXPECT_EQ(fronts.text_at(row, "decision"), is_decided_here ? "models_disagree" : "") << row;
+    }
+}
+
+TEST(DiagramTables, WithinABudgetRowsHaveTheKeyOfTheirSetting)
+{
+    const std::vector<BudgetRow> ranked = best_within(std::vector{diagram_of_seven(30.0)});
+    const auto xpbd = std::ranges::find(ranked, "xpbd", &BudgetRow::group);
+    ASSERT_NE(xpbd, ranked.end());
+    const CsvTable table = analysis::parse_csv(table_of(budget_columns, ranked).text(), "best_within.csv");
+    const int row = static_cast<int>(xpbd - ranked.begin());
+    EXPECT_EQ(table.text_at(row, "deformer"), "xpbd");
+    EXPECT_EQ(table.integer(row, "iterations"), 8);
+    EXPECT_EQ(rows_of(budget_columns, table)[row].point.key, xpbd->point.key);
+    EXPECT_EQ(rows_of(budget_columns, table)[row].decision, xpbd->decision);
+}
+
+TEST(DiagramTables, TheFrontOfAllStatesWhetherItsPointsAreDecided)
+{
+    const CsvTable fronts = analysis::parse_csv(fronts_table({diagram_of_seven(33.0)}).text(), "fronts.csv");
+    std::vector<std::string> decisions;
+    for (int row = 0; row < fronts.rows(); ++row)
+        if (fronts.text_at(row, "front") == "all" && fronts.text_at(row, "measure") == "error_joint_pct")
+            decisions.push_back(fronts.text_at(row, "decision"));
+    // LBS is alone; DQS by 10, delta mush by 17, XPBD by 8, PBS by 5 and FEM by 15 points, of which 12 are needed.
+    EXPECT_EQ(decisions, (std::vector<std::string>{"", "reference_error", "decided", "reference_error", "reference_error", "decided"}));
+}
+
+SettingKey pbs(int iterations)
+{
+    return {.deformer = "pbs", .iterations = iterations, .precision = "f32", .packed = true};
+}
+
+// PBS has an error of 5 % after 4 ms in the first pose, of 10 % after 1 ms and of 2 % after 4 ms in the second one, and never below 10.1 %
+// in the third one. A fourth pose trains.
+std::vector<CaseRows> profiled_cases()
+{
+    const SettingKey lbs = {.deformer = "lbs", .precision = "f64"};
+    return {hand_case({.body = "limb", .pose = "a"}, {{lbs, 0.1, 60.0}, {pbs(1), 1.0, 12.0}, {pbs(4), 4.0, 5.0}, hand_reference()}),
+            hand_case({.body = "limb", .pose = "b"}, {{lbs, 0.1, 9.0}, {pbs(1), 1.0, 10.0}, {pbs(4), 4.0, 2.0}, hand_reference()}),
+            hand_case({.body = "man", .pose = "c"}, {{lbs, 0.1, 60.0}, {pbs(1), 1.0, 20.0}, {pbs(4), 4.0, 10.1}, hand_reference()}),
+            hand_case({.body = "man", .pose = "d"}, {{lbs, 0.1, 1.0}, {pbs(1), 1.0, 1.0}, {pbs(4), 4.0, 1.0}, hand_reference()},
+                      Half::training)};
+}
+
+TEST(DataProfiles, RiseAtTheTimeAtWhichAPoseIsSolved)
+{
+    std::vector<std::tuple<double, double, int, int>> steps;
+    for (const ProfileStep& step : data_profiles(hand_diagrams(profiled_cases())))
+        if (step.comparison == Comparison::packed_f32 && step.group == "pbs")
+            steps.emplace_back(step.tolerance_pct, step.ms, step.solved, step.poses);
+    const std::vector<std::tuple<double, double, int, int>> expected = {
+        {10.0, 1.0, 1, 3}, {10.0, 4.0, 2, 3}, {5.0, 4.0, 2, 3}, {2.0, 4.0, 1, 3}};
+    EXPECT_EQ(steps, expected);
+}
+
+// The bound of 3 % leaves 7 % of 10 %: certain are the first two poses after 4 ms.
+TEST(DataProfiles, StateHowManyPosesAreCertain)
+{
+    std::vector<CaseRows> with_bound = profiled_cases();
+    for (CaseRows& rows : with_bound)
+        for (PointRow& row : rows) row.reference_error_joint_pct = 3.0;
+    std::vector<std::tuple<double, double, int, int>> steps;
+    for (const ProfileStep& step : data_profiles(hand_diagrams(with_bound)))
+        if (step.comparison == Comparison::packed_f32 && step.group == "pbs")
+            steps.emplace_back(step.tolerance_pct, step.ms, step.solved, step.certain);
+    const std::vector<std::tuple<double, double, int, int>> expected = {
+        {10.0, 1.0, 1, 0}, {10.0, 4.0, 2, 2}, {5.0, 4.0, 2, 1}, {2.0, 4.0, 1, 0}};
+    EXPECT_EQ(steps, expected);
+}
+
+TEST(DataProfiles, HaveNoPoseWithoutAReference)
+{
+    std::vector<CaseRows> with_one_unreached = profiled_cases();
+    for (PointRow& row : with_one_unreached[0]) {
+        row.error.reset();
+        if (row.outcome == "reference") row.outcome = "not_reached";
+    }
+    for (const ProfileStep& step : data_profiles(hand_diagrams(with_one_unreached))) EXPECT_EQ(step.poses, 2);
+}
+
+using Found = std::tuple<Comparison, std::string, std::string, std::string, int, int>;
+
+std::vector<Found> found_in(const std::vector<CaseRows>& cases)
+{
+    std::vector<Found> found;
+    for (const Omission& one : omissions_of(cases))
+        found.emplace_back(one.comparison, one.of, one.deformer, one.why, one.missing, one.points);
+    return found;
+}
+
+TEST(Omissions, NameEachReasonWithItsPoints)
+{
+    const auto vbd = [](int iterations) { return SettingKey{.deformer = "vbd", .iterations = iterations, .precision = "f32"}; };
+    const SettingKey lbs = {.deformer = "lbs", .precision = "f64"}, fem = {.deformer = "fem_linear", .precision = "f64"};
+    CaseRows first = hand_case({.body = "limb", .pose = "a"}, {{lbs, 0.1, 9.0},
+                                                               {vbd(1), 1.0, 9.0},
+                                                               {vbd(4), 4.0, {}, "not_finite"},
+                                                               {vbd(8), 8.0, {}, "over_time_limit"},
+                                                               {vbd(16), 16.0, {}, "over_time_limit"},
+                                                               {fem, 9.0, {}, "not_converged"},
+                                                               hand_reference()});
+    first[3].reason = "900 ms on the rung before, 300 ms allowed";
+    const CaseRows second = hand_case({.body = "limb", .pose = "b"}, {{vbd(1), 1.0, 9.0}, hand_reference()});
+    const std::vector<Found> expected = {{Comparison::packed_f32, "limb_a", "vbd", "not_finite", 1, 4},
+                                         {Comparison::packed_f32, "limb_a", "vbd", "over_time_limit", 2, 4},
+                                         {Comparison::packed_f32, "limb_a", "fem_linear", "not_converged", 1, 1},
+                                         {Comparison::packed_f32, "limb_b", "lbs", "not_run", 0, 0},
+                                         {Comparison::packed_f32, "limb_b", "fem_linear", "not_run", 0, 0},
+                                         {Comparison::plain_f64, "limb_a", "vbd", "no_such_code", 0, 0},
+                                         {Comparison::plain_f64, "limb_a", "fem_linear", "not_converged", 1, 1},
+                                         {Comparison::plain_f64, "limb_b", "lbs", "not_run", 0, 0},
+                                         {Comparison::plain_f64, "limb_b", "vbd", "no_such_code", 0, 0},
+                                         {Comparison::plain_f64, "limb_b", "fem_linear", "not_run", 0, 0}};
+    EXPECT_EQ(found_in({first, second}), expected);
+    EXPECT_EQ(omissions_of({first})[1].reason, "900 ms on the rung before, 300 ms allowed");
+}
+
+TEST(Omissions, NameAPoseWithoutAReference)
+{
+    CaseRows rows = hand_case({.body = "limb", .pose = "a"}, {{{.deformer = "lbs", .precision = "f64"}, 0.1, {}}, hand_reference()});
+    rows.back().outcome = "not_reached";
+    rows.back().reason = "worst tet 7 of volume ratio -0.1, 1 inverted";
+    EXPECT_EQ(found_in({rows}).front(), Found(Comparison::packed_f32, "limb_a", "lbs", "no_reference", 1, 1));
+    EXPECT_EQ(omissions_of({rows}).front().reason, "worst tet 7 of volume ratio -0.1, 1 inverted");
+}
+
+// In both poses a point of vbd diverges, and in the second one LBS is not run. The training pose is not part of the mean.
+TEST(Omissions, OfAMeanAreThoseOfItsPoses)
+{
+    const SettingKey lbs = {.deformer = "lbs", .precision = "f64"}, vbd = {.deformer = "vbd", .iterations = 1, .precision = "f64"};
+    SettingKey more = vbd;
+    more.iterations = 4;
+    const HandPoint diverged = {more, 4.0, {}, "not_finite"};
+    const std::vector<CaseRows> cases = {
+        hand_case({.body = "limb", .pose = "a"}, {{lbs, 0.1, 9.0}, {vbd, 1.0, 9.0}, diverged, hand_reference()}),
+        hand_case({.body = "limb", .pose = "b"}, {{vbd, 1.0, 9.0}, diverged, hand_reference()}),
+        hand_case({.body = "limb", .pose = "c"}, {{vbd, 1.0, 9.0}, diverged, hand_reference()}, Half::training)};
+    std::vector<Found> found;
+    for (const Omission& one : omissions_of_means(cases, test_support::hand_diagrams(cases)))
+        found.emplace_back(one.comparison, one.of, one.deformer, one.why, one.missing, one.points);
+    const std::string mean = "mean_of_2_evaluated_poses";
+    const std::vector<Found> expected = {{Comparison::packed_f32, mean, "vbd", "not_finite", 2, 4},
+                                         {Comparison::packed_f32, mean, "lbs", "not_run", 0, 1},
+                                         {Comparison::plain_f64, mean, "vbd", "not_finite", 2, 4},
+                                         {Comparison::plain_f64, mean, "lbs", "not_run", 0, 1}};
+    EXPECT_EQ(found, expected);
+}
+
+// A point of vbd diverges in one of four poses, in each of which it has two points.
+TEST(Omissions, OfAMeanCountThePointsOfPosesWithoutAnOmission)
+{
+    const auto vbd = [](int iterations) { return SettingKey{.deformer = "vbd", .iterations = iterations, .precision = "f64"}; };
+    std::vector<CaseRows> cases;
+    for (const char* pose : {"a", "b", "c", "d"})
+        cases.push_back(hand_case({.body = "limb", .pose = pose}, {{vbd(1), 1.0, 9.0}, {vbd(4), 4.0, 9.0}, hand_reference()}));
+    cases[1] = hand_case({.body = "limb", .pose = "b"}, {{vbd(1), 1.0, 9.0}, {vbd(4), 4.0, {}, "not_finite"}, hand_reference()});
+    const std::vector<Omission> of_means = omissions_of_means(cases, test_support::hand_diagrams(cases));
+    ASSERT_FALSE(of_means.empty());
+    for (const Omission& one : of_means) EXPECT_EQ(std::tuple(one.why, one.missing, one.points), std::tuple("not_finite", 1, 8)) << one.of;
+}
+
+TEST(Omissions, AreNoneWhereEachPointHasATimeAndAnError)
+{
+    EXPECT_TRUE(omissions_of({hand_case({.pose = "a"}, {{{.deformer = "lbs", .precision = "f64"}, 0.1, 5.0}, hand_reference()})}).empty());
+}
+
+// `mine` is nearer than PBS and slower.
+TEST(OwnDeformers, AreAGroupOfTheirOwnInBothComparisons)
+{
+    CaseRows rows = hand_case(
+        {.body = "limb", .pose = "a"},
+        {{{.deformer = "mine"}, 2.0, 4.0}, {{.deformer = "lbs", .precision = "f64"}, 0.1, 60.0}, {pbs(4), 1.0, 30.0}, hand_reference()});
+    rows.front().is_external = true;
+    const std::vector<Diagram> diagrams = hand_diagrams({rows});
+    for (const Diagram& diagram : diagrams) {
+        EXPECT_EQ(diagram.groups.size(), deformer_groups().size() + 1);
+        EXPECT_TRUE(diagram.groups.back().is_external);
+        EXPECT_EQ(best_within(diagram, 3.0).front().group, "mine");
+    }
+    EXPECT_NE(fronts_table(diagrams).text().find(",mine,mine,"), std::string::npos);
+    EXPECT_NE(crossings_table(diagrams).text().find(",mine,pbs,from,2"), std::string::npos);
+    EXPECT_TRUE(std::ranges::any_of(data_profiles(diagrams),
+                                    [](const ProfileStep& step) { return step.group == "mine" && step.tolerance_pct == 5.0; }));
+    rows.front().is_external = false;
+    for (const Diagram& diagram : hand_diagrams({rows})) EXPECT_EQ(diagram.groups.size(), deformer_groups().size());
+    EXPECT_EQ(groups_of({}).size(), deformer_groups().size());
+}
+
+}  // namespace
