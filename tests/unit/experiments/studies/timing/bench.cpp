@@ -57,7 +57,7 @@ TEST(BenchScaling, ExponentOfAPower)
 
 TEST(BenchScaling, OneMeshHasNoExponent)
 {
-    EXPECT_TRUE(fit_scaling({of_size(1000, 1.0)}).empty());
+    EXPECT_TRUE(fit_scaling(nlohmann::json::array({of_size(1000, 1.0)})).empty());
 }
 
 TEST(Bandwidth, BetweenAndBeyondWhatWasMeasured)
