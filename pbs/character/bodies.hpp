@@ -17,7 +17,7 @@ struct CharacterSource {
     // Tets that read_tet_mesh takes [m].
     std::string mesh_file = {}, skeleton_file = {};  // .bvh, .gltf, .glb, .fbx: a clip's zero pose; any other: the skeleton TOML
     double skeleton_scale = 1.0;                     // metres per unit of the skeleton file
-    int vertices = 0;  // wanted size of a body; 0: its default, near Table 1's
+    int vertices = 0;                                // wanted size of a body; 0: its default, near Table 1's
     std::optional<WeightKind> weights = {};  // null: artist of a model with joints, else paper; not read where there is a weights_file
     std::string weights_file = {};           // CSV vertex,joint,weight; empty: `weights`
     bool surface = true;                     // carry the rendered surface along, where the body has one
@@ -27,9 +27,9 @@ struct CharacterSource {
 // A body that make_character knows by name.
 struct NamedBody {
     std::string name;
-    int vertices;          // where none are wanted
-    bool is_character;     // with a skeleton like a human's: studies of characters take those that are installed
-    std::string package;   // what brings its files; empty: it is built in
+    int vertices;         // where none are wanted
+    bool is_character;    // with a skeleton like a human's: studies of characters take those that are installed
+    std::string package;  // what brings its files; empty: it is built in
     // The files that must be there, and the body with a number of vertices and, if requested and there is one, its rendered surface.
     std::vector<std::string> (*files)(const std::string& name);
     Character (*make)(const std::string& name, int vertices, bool with_surface);

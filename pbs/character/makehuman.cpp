@@ -237,8 +237,8 @@ std::vector<std::string> figure_files(const std::string&)
 Character make_figure(const std::string& name, int vertices, bool with_surface)
 {
     const std::string young = (name == "man" ? "male" : "female") + std::string("-young");
-    const MakehumanFigure read = read_makehuman(makehuman_files(makehuman_folder()),
-                                                {"caucasian-" + young, "universal-" + young + "-averagemuscle-averageweight"});
+    const MakehumanFigure read =
+        read_makehuman(makehuman_files(makehuman_folder()), {"caucasian-" + young, "universal-" + young + "-averagemuscle-averageweight"});
     SurfaceBody body{.name = name, .skeleton = read.skeleton, .surface = [&] { return read.skin; }};
     for (const auto& [file, hash] : read.inputs) body.made_from += hash;
     Character character = make_surface_body(body, vertices, with_surface);

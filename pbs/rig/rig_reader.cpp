@@ -45,9 +45,10 @@ bool is_sound(const Weights& skin, Eigen::Index points, std::size_t joints)
 bool is_sound(const RigMesh& mesh, std::size_t nodes)
 {
     const auto points = static_cast<std::size_t>(mesh.points.rows());
-    return is_index(mesh.node, nodes) && std::ranges::all_of(mesh.triangles.reshaped(), [&](int corner) { return is_index(corner, points); }) &&
-           std::ranges::all_of(mesh.joints,
-                               [&](const SkinJoint& joint) { return is_index(joint.node, nodes) && bounded(joint.inverse_bind.matrix()); }) &&
+    return is_index(mesh.node, nodes) &&
+           std::ranges::all_of(mesh.triangles.reshaped(), [&](int corner) { return is_index(corner, points); }) &&
+           std::ranges::all_of(
+               mesh.joints, [&](const SkinJoint& joint) { return is_index(joint.node, nodes) && bounded(joint.inverse_bind.matrix()); }) &&
            (mesh.joints.empty() || is_sound(mesh.skin, mesh.points.rows(), mesh.joints.size()));
 }
 

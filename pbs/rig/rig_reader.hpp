@@ -20,8 +20,8 @@ bool rig_has_skin(const std::string& path);
 // The reader is chosen by the file's content. An InputError where the file is none of these formats, damaged or has no mesh.
 Rig read_rig(const std::string& path);
 
-// Every index and number that the format does not guarantee, since damage may have led the library astray; an InputError where one is out of
-// range. Rotations of nodes are returned with unit length.
+// Every index and number that the format does not guarantee, since damage may have led the library astray; an InputError where one is out
+// of range. Rotations of nodes are returned with unit length.
 Rig checked(Rig rig);
 
 // The skin weights of a mesh while its points are read one after another.

@@ -59,15 +59,11 @@ TEST(GuardedReading, WhatTheReaderThrowsComesBack)
 
 TEST(GuardedReading, ADeathIsAnErrorThatNamesIt)
 {
-    const auto dying = [](int signal) {
-        return [signal](const std::string&) { std::raise(signal); };
-    };
+    const auto dying = [](int signal) { return [signal](const std::string&) { std::raise(signal); }; };
     EXPECT_EQ(message_of(dying(SIGSEGV)), "x.vtu: damaged: the reader broke down on it: Segmentation fault");
     EXPECT_EQ(message_of(dying(SIGABRT)), "x.vtu: damaged: the reader broke down on it: Aborted");
-    EXPECT_EQ(message_of([](const std::string&) { _exit(7); }),
-              "x.vtu: damaged: the reader ended in the middle, with exit status 7");
-    EXPECT_EQ(message_of([](const std::string&) { _exit(0); }),
-              "x.vtu: damaged: the reader ended in the middle, with exit status 0");
+    EXPECT_EQ(message_of([](const std::string&) { _exit(7); }), "x.vtu: damaged: the reader ended in the middle, with exit status 7");
+    EXPECT_EQ(message_of([](const std::string&) { _exit(0); }), "x.vtu: damaged: the reader ended in the middle, with exit status 0");
 }
 
 struct Stop {};

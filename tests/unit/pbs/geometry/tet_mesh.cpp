@@ -227,9 +227,9 @@ TEST(Prolongated, CarriesAnAffineFieldExactly)
 
 // Reference: the barycentric coordinates of a point that was placed in a known tet, and a search through all tets.
 
-using pbs::Vec3;
 using pbs::Location;
 using pbs::PointLocation;
+using pbs::Vec3;
 
 const pbs::TetMesh bar = test_support::structured_bar({-1, -0.15, -0.15}, {1, 0.15, 0.15}, {20, 3, 3});
 
@@ -367,7 +367,8 @@ TEST(TetRegions, SurfacesEncloseTheVolumesOfTheirTets)
     for (std::size_t r = 0; r < surfaces.size(); ++r) {
         double enclosed = 0.0;
         for (const auto triangle : surfaces[r].rowwise()) {
-            const pbs::Vec3 a = divided_bar.rest.row(triangle(0)), b = divided_bar.rest.row(triangle(1)), c = divided_bar.rest.row(triangle(2));
+            const pbs::Vec3 a = divided_bar.rest.row(triangle(0)), b = divided_bar.rest.row(triangle(1)),
+                            c = divided_bar.rest.row(triangle(2));
             enclosed += a.dot(b.cross(c)) / 6.0;
         }
         const pbs::Tets own = tets_in(divided_bar.tets, region, int(r));
