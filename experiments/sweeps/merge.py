@@ -41,7 +41,8 @@ def write(plan, folder):
             if metrics is None:
                 metrics = own_metrics
                 of_frames = ["frame", "time_s", "outcome", *metrics]
-                of_runs = ["frames", *BROKEN, "state_hash", *(f"{of}_{metric}" for metric in metrics for of in ("mean", "least", "largest"))]
+                of_runs = ["frames", *BROKEN, "state_hash",
+                           *(f"{of}_{metric}" for metric in metrics for of in ("mean", "least", "largest"))]
                 table.writerow(["run", *keys, "deformer", "exit_status", *(of_frames if plan.rows == "frames" else of_runs)])
             if set(own_metrics) - set(metrics):
                 raise ValueError(f"runs/{name}: has a metric that the first run has not; output.metrics must not vary")

@@ -5,8 +5,8 @@
     sweep.py run SWEEP.toml -o DIR -j 2               DIR/sweep.csv, costs.csv, sweep.json, runs/NAME/
     sweep.py run SWEEP.toml -o DIR --slurm            the same as Slurm jobs, by the profile slurm next to this script
 
-`run` continues where it was stopped. Further arguments go to snakemake, whose exit status it returns (2: bad input). README.md describes the
-sweep file. An installation has this script as `pbskin-sweep`."""
+`run` continues where it was stopped. Further arguments go to snakemake, whose exit status it returns (2: bad input). README.md describes
+the sweep file. An installation has this script as `pbskin-sweep`."""
 import argparse
 import fcntl
 import hashlib
@@ -29,8 +29,9 @@ class SweepError(Exception):
 
 
 class Sweep:
-    """A sweep file. scene: as pbskin takes it. rows: deformers or frames. batch: runs per Slurm job. runs: name -> {key: value as TOML}, of the keys that vary. The name is the hash of
-    scene and keys, so that a sweep that grows keeps the runs that it has. files: that scene or keys name."""
+    """A sweep file. scene: as pbskin takes it. rows: deformers or frames. batch: runs per Slurm job. runs: name -> {key: value as TOML}, of
+    the keys that vary. The name is the hash of scene and keys, so that a sweep that grows keeps the runs that it has. files: that scene or
+    keys name."""
 
     def __init__(self, file):
         self.file = pathlib.Path(file)
@@ -69,7 +70,8 @@ class Sweep:
 
     def refuse(self, field, value, rule):
         name = re.escape(field.split(".")[-1])
-        line = next((number for number, text in enumerate(self.text.splitlines(), 1) if re.match(rf"\s*\[*\s*([\w.]+\.)?{name}\b", text)), 1)
+        key = re.compile(rf"\s*\[*\s*([\w.]+\.)?{name}\b")
+        line = next((number for number, text in enumerate(self.text.splitlines(), 1) if key.match(text)), 1)
         raise SweepError(f"{self.file}:{line}: {field} = {str(value)[:80]}: {rule}")
 
     def flat(self, table, content):
@@ -116,7 +118,7 @@ class Sweep:
 
 
 def named_files(text, folder):
-    """The files that quoted texts name, what these name in turn (a scene's mesh, a glTF's buffers), and their companions (.node and .ele)."""
+    """The files that quoted texts name, what these name in turn (a scene's mesh, a glTF's buffers), and companions (.node and .ele)."""
     found = set()
     for name in re.findall(r'"([^"\\\n]{1,250})"', text):
         path = folder / name

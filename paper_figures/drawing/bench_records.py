@@ -17,7 +17,8 @@ def read(results):
     file = results / "timing" / "bench" / "bench.json"
     record = records.read_json(file)
     if record.get("schema") != schema:
-        raise records.RecordsMissing(f"{file}: schema {record.get('schema')}, expected {schema}; repeat `pbskin reproduce timing --full --only bench`")
+        raise records.RecordsMissing(f"{file}: schema {record.get('schema')}, expected {schema}; repeat "
+                                     "`pbskin reproduce timing --full --only bench`")
     for key in ("context", "meshes"):
         if key not in record:
             raise records.RecordsMissing(f"{file}: no {key}")

@@ -1,5 +1,5 @@
-"""The common style of all figures: sizes of a two-column page, Okabe-Ito colours, axes, legends and files. looks.toml has the colour, marker
-and line of each deformer.
+"""The common style of all figures: sizes of a two-column page, Okabe-Ito colours, axes, legends and files. looks.toml has the colour,
+marker and line of each deformer.
 
     figure, axes = style.panels(1, 2)
     style.draw(axes[0], "pbs", angle_deg, change_pct)

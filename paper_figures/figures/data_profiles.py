@@ -19,7 +19,8 @@ def draw_profiles(axes, rows, span_ms):
         ms, share = records.numbers(steps, "ms"), records.numbers(steps, "share_pct")
         apart = 0.5 * (place - (len(groups) - 1) / 2)
         axes.step([ms[0], *ms, span_ms[1]], [apart, *(value + apart for value in share), share[-1] + apart], where="post",
-                  color=look.color, marker=look.marker, markersize=2.8, markevery=list(range(1, len(ms) + 1)), label=look.name, linewidth=1.0)
+                  color=look.color, marker=look.marker, markersize=2.8, markevery=list(range(1, len(ms) + 1)), label=look.name,
+                  linewidth=1.0)
 
 
 def omitted_in(results, rows, comparison):

@@ -34,8 +34,8 @@ def legend_of_outcomes(figure, axes):
 
 
 # Every disturbance of the limb with every method, and its outcome. Each row is a quantity that is varied to its extremes, with marks from
-# the smallest to the largest value. The figure shows which methods come to rest as if undisturbed, which leave tets inverted, and whether any
-# method except the printed form of PBS diverges.
+# the smallest to the largest value. The figure shows which methods come to rest as if undisturbed, which leave tets inverted, and whether
+# any method except the printed form of PBS diverges.
 
 models = ("pbs", "pbs_no_memory", "pbs_jiggle", "xpbd", "xpbd_small_steps", "fem_linear", "fem_corotational", "fem_stable_neo_hookean",
           "fem_stable_neo_hookean_in_time")

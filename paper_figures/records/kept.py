@@ -3,8 +3,9 @@ folder of results again.
 
     results = kept.opened(pathlib.Path(arguments[1]))
 
-provenance.json: {"origins": [{"schema", "provenance", "runs": ["STUDY/RUN", ...]}]}. plans.json: {STUDY: plan}. Tables of this folder begin with a
-column `study`, and STUDY/runs/NAME.csv is NAME.csv of all runs with a column `run` in front. Everything else is as the study wrote it.
+provenance.json: {"origins": [{"schema", "provenance", "runs": ["STUDY/RUN", ...]}]}. plans.json: {STUDY: plan}. Tables of this folder begin
+with a column `study`, and STUDY/runs/NAME.csv is NAME.csv of all runs with a column `run` in front. Everything else is as the study wrote
+it.
 """
 import atexit
 import json

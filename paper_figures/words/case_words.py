@@ -64,8 +64,9 @@ def in_plain(identifier):
 
 def of_field(field, value):
     """Describes one field: {deformer: lbs} becomes LBS."""
-    known = {"deformer": {name: looks.of(name).name for name in looks.listed}, "precision": precisions, "masses": masses, "tolerance": tolerances, "initial_guess": guesses,
-             "reading": readings, "variant": variants, "factor": factors, "feature": features}
+    known = {"deformer": {name: looks.of(name).name for name in looks.listed}, "precision": precisions, "masses": masses,
+             "tolerance": tolerances, "initial_guess": guesses, "reading": readings, "variant": variants, "factor": factors,
+             "feature": features}
     return known.get(field, {}).get(value, in_plain(str(value)))
 
 

@@ -156,7 +156,8 @@ class OwnFigures(unittest.TestCase):
 
     def test_table_1_refuses_half_a_timing(self):
         self.write_timing(orders=table_1_timing.orders[:1])
-        self.assert_missing("not timed in plain f64 and ordered f32", lambda: table_1_timing.table_1_timing(self.results, self.results / "figures"))
+        self.assert_missing("not timed in plain f64 and ordered f32",
+                            lambda: table_1_timing.table_1_timing(self.results, self.results / "figures"))
 
 
 class Origin(unittest.TestCase):

@@ -14,7 +14,8 @@ sys.path[:0] = [str(root / "paper_figures"), str(pathlib.Path(__file__).parent)]
 import make_readme  # noqa: E402
 import records  # noqa: E402
 import synthetic_records  # noqa: E402
-from readme import claims as readme_claims, features as readme_features, findings as readme_findings, pages as readme_pages, part as readme_part, reliability as readme_reliability  # noqa: E402
+from readme import claims as readme_claims, features as readme_features, findings as readme_findings  # noqa: E402
+from readme import pages as readme_pages, part as readme_part, reliability as readme_reliability  # noqa: E402
 from synthetic_records import claim, interval, judged_run, value  # noqa: E402
 from words import compared_results  # noqa: E402
 

@@ -106,7 +106,8 @@ class Viewer(unittest.TestCase):
         self.assertEqual(lbs["figures"]["volume_change_pct"], [-2.0, -9.0])
         self.assertEqual(lbs["figures"]["inverted_tets"], [0.0, 1.0])
         self.assertEqual([deformer["title"] for deformer in run["deformers"]], ["LBS", "DQS", "PBS", "neo-Hookean FEM, linear elements"])
-        self.assertEqual([deformer["colour"] for deformer in run["deformers"]], [looks.of(name).color for name in ("lbs", "dqs", "pbs", "nh_p1")])
+        self.assertEqual([deformer["colour"] for deformer in run["deformers"]],
+                         [looks.of(name).color for name in ("lbs", "dqs", "pbs", "nh_p1")])
 
     def test_frames_whose_pose_was_not_reached_are_packed_as_such(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -1,5 +1,6 @@
-"""Reference: the definition. A sweep expands to every combination once; invalid ones are refused with file, line, field, value and rule. The
-tables of runs with known metrics do not depend on their order, times or machine. With snakemake, finished runs are never started again."""
+"""Reference: the definition. A sweep expands to every combination once; invalid ones are refused with file, line, field, value and rule.
+The tables of runs with known metrics do not depend on their order, times or machine. With snakemake, finished runs are never
+started again."""
 import csv
 import fcntl
 import itertools
@@ -49,7 +50,8 @@ REFUSED = {  # name: (replaced, by, line, part of the message)
     "nothing varies": (GOOD[GOOD.index("[grid]"):], "", 1, "expected a [grid] or [[run]] tables"),
     "grid no table": (GOOD[GOOD.index("[set]"):], "grid = 3\n", 3, "grid = 3: expected a table"),
     "run no tables": ("[grid]", "[run]", 6, "expected [[run]] tables"),
-    "runs of other keys": ("[grid]", "[[run]]\na.b = 1\n[[run]]\na.c = 1\n[grid]", 6, "run = a.c: expected the keys of the first [[run]]: a.b"),
+    "runs of other keys": ("[grid]", "[[run]]\na.b = 1\n[[run]]\na.c = 1\n[grid]", 6,
+                           "run = a.c: expected the keys of the first [[run]]: a.b"),
     "run twice": ("[grid]", "[[run]]\na.b = 1\n[[run]]\na.b = 1\n[grid]", 6, "expected every run once"),
     "run of a key of the grid": ("[grid]", "[[run]]\npbs.iterations = 1\n[grid]", 7, "pbs.iterations = [1, 2, 3]: expected in one of"),
     "batch of none": ("[grid]", "[output]\nbatch = 0\n[grid]", 7, "output.batch = 0: expected a whole number"),
@@ -84,12 +86,14 @@ class SweepFile(SweepTest):
 
     def test_names_are_of_what_runs_not_of_the_file(self):
         names = set(self.read(GOOD).runs)
-        self.assertLess(names, set(self.read("# a note\n" + GOOD.replace("0.2]", "0.2, 0.3]").replace("[grid]", "[output]\nbatch = 2\n[grid]")).runs))
+        longer = "# a note\n" + GOOD.replace("0.2]", "0.2, 0.3]").replace("[grid]", "[output]\nbatch = 2\n[grid]")
+        self.assertLess(names, set(self.read(longer).runs))
         for change in (("frames = 3", "frames = 4"), ("limb_bend", "limb_twist")):
             self.assertFalse(names & set(self.read(GOOD.replace(*change)).runs))
 
     def test_files_that_scene_and_keys_name_with_what_is_read_along(self):
-        for name, text in {"own.toml": '[character]\nmesh = "arm.node"\n', "arm.node": "1", "arm.ele": "1", "w.csv": "1", "other.csv": "1"}.items():
+        files = {"own.toml": '[character]\nmesh = "arm.node"\n', "arm.node": "1", "arm.ele": "1", "w.csv": "1", "other.csv": "1"}
+        for name, text in files.items():
             (self.folder / name).write_text(text)
         plan = self.read(GOOD.replace("limb_bend", "own.toml").replace("motion.frames = 3", 'skinning.weights = "w.csv"'))
         self.assertEqual([pathlib.Path(file).name for file in plan.files], ["arm.ele", "arm.node", "own.toml", "w.csv"])

@@ -19,9 +19,12 @@ def write(folder, iterations, step_ms=1.0, status=0, volumes=(0.1, 0.2, 0.6)):
             lines.append(f"s,{deformer},default,ordered,f32,{iterations},1,{frame},{frame / 100},{value!r},,{step_ms + frame},finished")
     (folder / "metrics.csv").write_text("\n".join(lines) + "\n")
     runs = [{"name": name, "label": name, "variant": "default", "kind": name} for name in ("lbs", "pbs")]
-    record = {"scene": {"runs": runs}, "state_hash": {"lbs": "aa", "pbs": f"{iterations:04d}"}, "cost": {"peak_memory_mb": 10 * step_ms, "seconds": {"total": step_ms}, "cpu_seconds": {"total": step_ms}},
-              "outcome": {"breakdown": "pbs ceased to be finite" if status == 3 else "", "breakdowns": {"pbs": [1, 2]} if status == 3 else {}, "not_converged": {},
-                          "broken_frames": {"pbs": [{"frame": 1, "what": "inverted"}]} if status == 3 else {}},
+    failed = {"breakdown": "pbs ceased to be finite", "breakdowns": {"pbs": [1, 2]}, "not_converged": {},
+              "broken_frames": {"pbs": [{"frame": 1, "what": "inverted"}]}}
+    sound = {"breakdown": "", "breakdowns": {}, "not_converged": {}, "broken_frames": {}}
+    record = {"scene": {"runs": runs}, "state_hash": {"lbs": "aa", "pbs": f"{iterations:04d}"},
+              "cost": {"peak_memory_mb": 10 * step_ms, "seconds": {"total": step_ms}, "cpu_seconds": {"total": step_ms}},
+              "outcome": failed if status == 3 else sound,
               "provenance": {"git_revision": "abc", "threads": 1}}
     (folder / "run.json").write_text(json.dumps(record))
 

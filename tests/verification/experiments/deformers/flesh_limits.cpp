@@ -18,14 +18,14 @@ DeformerSpec spec_of(const std::string& kind, int iterations, double poisson, co
 
 // `times` as many iterations lower the difference to `factor` at least until it is below 1e-6, which the last number of them reaches. The
 // rest is the tolerance of the reference's own iteration.
-struct Method {
+struct FleshMethod {
     std::string kind;
     std::vector<std::string> keys;
     int first, last, times;
     double factor;
 };
 
-void expect_convergence(const FleshReference& reference, double poisson, const Method& method)
+void expect_convergence(const FleshReference& reference, double poisson, const FleshMethod& method)
 {
     double last = 2.0;
     for (int iterations = method.first; iterations <= method.last; iterations *= method.times) {
@@ -38,14 +38,14 @@ void expect_convergence(const FleshReference& reference, double poisson, const M
     EXPECT_LT(last, 1e-6) << method.kind << ", nu " << poisson;
 }
 
-Method quasi_newton(const std::string& start)
+FleshMethod quasi_newton(const std::string& start)
 {
     return {"quasi_newton", {"start=" + start}, 4, 1024, 4, 0.5};
 }
 
-const Method relaxed_vbd = {"vbd", {"acceleration=over_relaxation"}, 16, 512, 2, 0.9};
-const Method chebyshev_vbd = {"vbd", {"acceleration=chebyshev"}, 16, 2048, 2, 0.9};
-const Method kept_xpbd = {"xpbd_neo_hookean", {}, 16, 1024, 4, 0.5};
+const FleshMethod relaxed_vbd = {"vbd", {"acceleration=over_relaxation"}, 16, 512, 2, 0.9};
+const FleshMethod chebyshev_vbd = {"vbd", {"acceleration=chebyshev"}, 16, 2048, 2, 0.9};
+const FleshMethod kept_xpbd = {"xpbd_neo_hookean", {}, 16, 1024, 4, 0.5};
 
 class FleshLimits : public testing::TestWithParam<double> {};
 INSTANTIATE_TEST_SUITE_P(PoissonsRatios, FleshLimits, testing::Values(0.3, 0.45));
@@ -53,20 +53,22 @@ INSTANTIATE_TEST_SUITE_P(PoissonsRatios, FleshLimits, testing::Values(0.3, 0.45)
 TEST_P(FleshLimits, OfTheTwistedLimb)
 {
     const FleshReference reference("limb_twist", {"motion.angle_deg=90", "motion.frames=2", "character.vertices=600"}, 1, GetParam());
-    for (const Method& method : {quasi_newton("lbs"), relaxed_vbd, chebyshev_vbd, kept_xpbd})
+    for (const FleshMethod& method : {quasi_newton("lbs"), relaxed_vbd, chebyshev_vbd, kept_xpbd})
         expect_convergence(reference, GetParam(), method);
 }
 
 TEST_P(FleshLimits, OfTheBentLimb)
 {
     const FleshReference reference("limb_bend", {"motion.angle_deg=60", "motion.frames=2", "character.vertices=600"}, 1, GetParam());
-    for (const Method& method : {quasi_newton("smooth_dqs"), relaxed_vbd, kept_xpbd}) expect_convergence(reference, GetParam(), method);
+    for (const FleshMethod& method : {quasi_newton("smooth_dqs"), relaxed_vbd, kept_xpbd})
+        expect_convergence(reference, GetParam(), method);
 }
 
 TEST_P(FleshLimits, OfTheHumansCrouch)
 {
     const FleshReference reference("human_01_01", {}, 164, GetParam());
-    for (const Method& method : {quasi_newton("smooth_dqs"), relaxed_vbd, kept_xpbd}) expect_convergence(reference, GetParam(), method);
+    for (const FleshMethod& method : {quasi_newton("smooth_dqs"), relaxed_vbd, kept_xpbd})
+        expect_convergence(reference, GetParam(), method);
 }
 
 // The control: the multipliers of each step begin at zero and the residual is neglected, or they are reset in each iteration.

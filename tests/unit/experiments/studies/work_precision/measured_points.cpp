@@ -283,7 +283,8 @@ TEST(MeasuredPoints, HaveTheirDistanceFromTheOwnLimitOfTheDeformers)
     EXPECT_LT(distance_pct.at("fem_neo_hookean"), 0.1 * distance_pct.at("lbs")) << "the laws are near each other";
 }
 
-// The first rung has 4 iterations of PBS and one of a change, and the others take too long. In the quick form the bound is the distance of linear elements.
+// The first rung has 4 iterations of PBS and one of a change, and the others take too long. In the quick form the bound is the distance of
+// linear elements.
 TEST(MeasuredPoints, HaveTheChangesToPbsInATableOfTheirOwn)
 {
     std::map<std::string, int> finished;
