@@ -127,8 +127,9 @@ using PackedDirectMushDeformer = DirectDeltaMushDeformer<pbs::PackedDirectMush<S
 template <typename Options>
 OptionFields<Options>& add_weights_key(OptionFields<Options>& fields)
 {
-    return fields.key("weights", KeyType::text, "scene",
-                      {.choices = own_weights_choices(), .meaning = "the weights that it blends with; scene: those of skinning.weights"});
+    fields.key("weights", KeyType::text, "scene",
+               {.choices = own_weights_choices(), .meaning = "the weights that it blends with; scene: those of skinning.weights"});
+    return fields;
 }
 
 template <typename Options>

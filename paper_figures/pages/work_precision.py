@@ -36,7 +36,7 @@ def split(folder, points):
 
 def nearest(folder):
     """The first two ranks of each case and budget."""
-    rows = records.table(folder / "best_within.csv", {"comparison", "case", "budget_ms", "rank", "group", "decision", "error_joint_pct"})
+    rows = records.read_rows(folder / "best_within.csv")
     text = ""
     for comparison, words in comparisons.items():
         shown = []
@@ -53,8 +53,8 @@ def nearest(folder):
 
 
 def profiles(folder):
-    """The poses that each group solves to a tolerance within a time, and those that are certain."""
-    rows = records.table(folder / "data_profiles.csv", {"comparison", "tolerance_pct", "group", "ms", "solved", "certain", "poses"})
+    """The poses that each group solves to a tolerance within a time, and those that are certain. There may be no evaluated pose."""
+    rows = records.read_rows(folder / "data_profiles.csv")
     text = ""
     for comparison, words in comparisons.items():
         of = of_comparison(rows, comparison)
