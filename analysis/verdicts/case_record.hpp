@@ -61,7 +61,7 @@ const CaseKeyField* case_key_field(const std::string& name);  // null if no fiel
 
 std::string value_text(const CaseKeyField& field, const CaseKey& key);  // without its unit; empty if the field is not set
 // The fields that are set, as they are recorded: limb, bend, 90 deg, pbs, reference nh_p2, iterations 12 to 48, time_step 0.01 s.
-// paper_figures/case_words.py describes a case in words.
+// paper_figures/words/case_words.py describes a case in words.
 std::string text_of(const CaseKey& key);
 
 // True if every field that is set in `wanted` has the same value in `key`.

@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <map>
+#include <set>
 
 namespace analysis {
 namespace {
@@ -287,19 +289,23 @@ std::string facts_text(const Verdict& verdict)
     }
     if (!verdict.claim.reason.empty()) lines.push_back("reason: " + verdict.claim.reason);
     if (!verdict.missing.empty()) lines.push_back(fmt::format("no record: {}", fmt::join(verdict.missing, ", ")));
-    for (const LeftOut& out : verdict.left_out) lines.push_back(fmt::format("left out: {}: {}", out.scene, out.reason));
     return fmt::format("{}", fmt::join(lines, "\n"));
 }
 
-std::string counts_text(const std::vector<Verdict>& verdicts)
+// What the claims leave out, e.g. a body that is not installed, each reason once; then the number of verdicts of each kind.
+std::vector<std::string> closing_texts(const std::vector<Verdict>& verdicts)
 {
-    std::vector<std::string> counts;
+    std::map<std::string, std::set<std::string>> left_out;
+    for (const Verdict& verdict : verdicts)
+        for (const LeftOut& out : verdict.left_out) left_out[out.reason].insert(verdict.claim.id);
+    std::vector<std::string> texts, counts;
+    for (const auto& [reason, claims] : left_out) texts.push_back(fmt::format("left out of {}: {}", fmt::join(claims, ", "), reason));
     for (int k = 0; k <= static_cast<int>(VerdictKind::not_computable); ++k) {
-        const auto kind = static_cast<VerdictKind>(k);
-        const auto count = std::ranges::count(verdicts, kind, &Verdict::kind);
-        if (count > 0) counts.push_back(fmt::format("{} {}", count, spoken(kind)));
+        const auto count = std::ranges::count(verdicts, static_cast<VerdictKind>(k), &Verdict::kind);
+        if (count > 0) counts.push_back(fmt::format("{} {}", count, spoken(static_cast<VerdictKind>(k))));
     }
-    return fmt::format("{} claim{}: {}", verdicts.size(), verdicts.size() == 1 ? "" : "s", fmt::join(counts, ", "));
+    texts.push_back(fmt::format("{} claim{}: {}", verdicts.size(), verdicts.size() == 1 ? "" : "s", fmt::join(counts, ", ")));
+    return texts;
 }
 
 }  // namespace
@@ -337,7 +343,8 @@ std::string claims_table(const std::vector<Verdict>& verdicts, std::size_t width
                                {fmt::format("{} ({})", verdict.claim.statement, verdict.claim.place), layout.statement},
                                {facts_text(verdict), layout.facts}}) +
                  "\n";
-    for (const std::string& line : wrapped(counts_text(verdicts), whole)) table += line + "\n";
+    for (const std::string& text : closing_texts(verdicts))
+        for (const std::string& line : wrapped(text, whole)) table += line + "\n";
     return table;
 }
 

@@ -8,7 +8,6 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace analysis {

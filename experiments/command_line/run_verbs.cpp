@@ -56,18 +56,12 @@ void add_run_verb(CLI::App& app, CommonOptions& common, VerbAction& action)
 
 namespace {
 
-std::vector<std::string> studies_with_full(Extent in_full)
-{
-    std::vector<std::string> names;
-    for (const Study& study : studies())
-        if (study.sets.full == in_full) names.push_back(study.name);
-    return names;
-}
-
 std::string meaning_of_full()
 {
-    return fmt::format("the whole studies; without names, only a part of {}, and nothing of {}",
-                       fmt::join(studies_with_full(Extent::quick), ", "), fmt::join(studies_with_full(Extent::none), ", "));
+    std::vector<std::string> in_part;
+    for (const Study& study : studies())
+        if (study.sets.full == Extent::quick) in_part.push_back(study.name);
+    return fmt::format("the whole studies; without names, only a part of {}", fmt::join(in_part, ", "));
 }
 
 }  // namespace

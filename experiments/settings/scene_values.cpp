@@ -270,12 +270,15 @@ public:
             throw pbs::InputError(source, line, path, shown(node), fmt::format("expected one of {}", fmt::join(values, ", ")));
         }
         const std::string table = path.substr(0, path.rfind('.') + 1);
+        std::vector<std::string> keys;
         for (const std::string& key : now->second) {
             const auto equals = key.find('=');
-            take_value(table + key.substr(0, equals), *parse_override(key.substr(equals + 1)).get("value"), source, line);
+            const toml::table value = parse_override(key.substr(equals + 1));
+            keys.push_back(fmt::format("{}{} = {}", table, key.substr(0, equals), to_json(*value.get("value")).dump()));
+            take_value(table + key.substr(0, equals), *value.get("value"), source, line);
         }
         scene_.remarks_.push_back(
-            pbs::InputError(source, line, path, shown(node), fmt::format("is renamed: write {}", fmt::join(now->second, " and "))).what());
+            pbs::InputError(source, line, path, shown(node), fmt::format("is renamed: write {}", fmt::join(keys, " and "))).what());
     }
 
     void add_defaults()

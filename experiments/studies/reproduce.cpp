@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <numeric>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -231,12 +232,14 @@ int reproduce(const ReproduceArguments& arguments)
     analysis::remove_abandoned_files(arguments.folder, false);
     std::vector<analysis::Verdict> verdicts;
     std::vector<std::pair<std::string, StudyCosts>> costs;
-    std::string conclusions;  // of the studies, and on frames that need attention
+    std::string conclusions;      // of the studies, and on frames that need attention
+    std::set<std::string> named;  // the reasons for which runs are left out: each is a warning once
     bool broke_down = false, refused = false, all_hold = true;
     for (std::size_t i = 0; i < planned.size(); ++i) {
         const Study* study = planned[i].study;
         spdlog::info("study {}", study->name);
-        for (const auto& left_out : planned[i].plan.left_out) spdlog::warn("left out: {}: {}", left_out.scene, left_out.reason);
+        for (const auto& left_out : planned[i].plan.left_out)
+            if (named.insert(left_out.reason).second) spdlog::warn("left out: {}: {}", left_out.scene, left_out.reason);
         const double then_s = std::accumulate(expected.begin() + static_cast<std::ptrdiff_t>(i) + 1, expected.end(), 0.0,
                                               [](double sum, const ExpectedCost& cost) { return sum + cost.wall_s; });
         const StudyOutcome outcome = run_study(planned[i], arguments.jobs, then_s);

@@ -139,7 +139,6 @@ constexpr Sets quick_and_full = {Extent::quick, Extent::full};
 // The whole study takes too long for --full, so that it runs only if it is named.
 constexpr Sets in_short = {Extent::quick, Extent::quick};
 constexpr Sets full_in_short = {Extent::none, Extent::quick};
-constexpr Sets when_named = {Extent::none, Extent::none};
 
 struct Study {
     std::string name;  // of its folder, whose README.md is the page of `pbskin explain`, and of the folder of its records

@@ -80,7 +80,6 @@ public:
     void dual_quaternion_rows(const Pose& pose, const Vec3& origin, Scalar* posed);  // likewise
 
     int vertices() const { return static_cast<int>(packed_.matrix.size()); }  // #V
-    const PackedWeights<Scalar>& packed_weights() const { return packed_; }   // what is blended how often
 
 private:
     using Rows = Eigen::Matrix<Scalar, Eigen::Dynamic, 3, Eigen::RowMajor>;

@@ -20,7 +20,6 @@ const std::map<std::string, std::string> named_interfaces = {
     {"pbs/geometry/mesh_io_unavailable.cpp", "in place of a library that is left out"},
     {"pbs/geometry/meshing_unavailable.cpp", "in place of a library that is left out"},
     {"pbs/rig/rig_reader_unavailable.cpp", "in place of a library that is left out"},
-    {"pbs/rig/tiny_gltf.cpp", "the code of a library of headers"},
     {"tests/unit/pbs/geometry/mesh_io_unavailable.cpp", "a program of its own"},
     {"tests/unit/pbs/geometry/meshing_unavailable.cpp", "a program of its own"},
 };

@@ -11,7 +11,6 @@ namespace experiments {
 
 template <typename Options>
 class OptionFields;  // experiments/settings/option_fields.hpp
-class SceneValues;
 
 // How the bones hold the flesh. smooth: springs, whose density decreases smoothly to zero from the axis of each bone to the surface of a
 // capsule around it. embedded: each bone is a rigid capsule inside the flesh, tied to it by stiff springs of one density. nodes: whole tets

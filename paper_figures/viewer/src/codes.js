@@ -1,4 +1,4 @@
-// Decodes the packed bytes: positions on a grid, volume ratios, float32 bone ends. viewer_data.py encodes them.
+// Decodes the packed bytes: positions on a grid, volume ratios, float32 bone ends. viewer/data.py encodes them.
 
 // Converts differences from the previous frame, low bytes then high bytes, to codes frame by frame.
 export function codes_of(bytes, frames, numbers) {

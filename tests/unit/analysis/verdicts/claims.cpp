@@ -278,6 +278,19 @@ TEST(ClaimsTable, GivesTheFactsAndCountsTheVerdicts)
         EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
 }
 
+TEST(ClaimsTable, NamesWhatIsLeftOutOnce)
+{
+    std::vector<Verdict> verdicts = three_verdicts();
+    verdicts[0].left_out = {{"lady_01_01", "lady is not installed"}, {"lady_01_03", "lady is not installed"}};
+    verdicts[1].left_out = {{"man_crouch", "man is not installed"}};
+    verdicts[2].left_out = {{"lady_crouch", "lady is not installed"}};
+    const std::string text = claims_table(verdicts, 160, false);
+    EXPECT_NE(text.find("\nleft out of C016, C02: lady is not installed\nleft out of C02: man is not installed\n3 claims:"),
+              std::string::npos)
+        << text;
+    EXPECT_EQ(text.find("lady_"), std::string::npos);
+}
+
 TEST(ClaimsTable, HasColoursOnlyWhenAsked)
 {
     EXPECT_EQ(claims_table(three_verdicts(), 100, false).find('\033'), std::string::npos);

@@ -250,8 +250,6 @@ TEST(ReadingComparison, SaysWhichReadingBreaksDown)
     EXPECT_EQ(comparison.changes().at(0).reason, "B breaks down");
 }
 
-// Reference: the description in claim_changes.hpp; the values are invented.
-
 Reading named(const std::string& name)
 {
     return {.place = "jiggling", .name = name, .baseline = "A", .options = {}};
