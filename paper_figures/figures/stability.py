@@ -108,6 +108,7 @@ def stability_cells(results, figures):
     panel.set(xlim=(-0.5, len(models) - 0.5), ylim=(len(factors) - 0.5, -0.5))
     panel.xaxis.tick_top()
     panel.tick_params(labelsize=6)
+    panel.tick_params(axis="x", labelsize=5)  # names of neighbouring columns may not touch
     panel.grid(False)
     legend_of_outcomes(figure, panel)
     kept = ("body", "model", "factor", "value", "unit", "named", "precision", "outcome")

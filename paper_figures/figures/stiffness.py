@@ -94,5 +94,5 @@ def stiffness(results, figures):
             panel.set_title(title)
             panel.set_xlabel(name)
         panels[0].set_ylabel("stiffness [N/m]")
-    style.legend_above(drawing)
+    style.legend_above(drawing, columns=3)
     style.save(drawing, figures / "stiffness", entries.origin_of(results, "stiffness"), behind)
