@@ -72,7 +72,8 @@ def page(found):
     missing += [f"{study}: {scene} left out: {reason}" for study, scene, reason in found.left_out()]
     sections = [("verdicts", "Verdicts", verdicts.section(found, poses)), ("viewer", "Viewer", shown),
                 ("errors", "Distance from the finite elements", distances), ("figures", "Figures", drawn),
-                ("reference", "Is the reference right?", errors.reference_section(found)), ("costs", "What it cost", origin.costs_section(found)),
+                ("reference", "Is the reference right?", errors.reference_section(found)),
+                ("costs", "What it cost", origin.costs_section(found)),
                 ("origin", "Where the records come from", origin.section(found, with_viewer=not not_shown)),
                 ("cite", "How to cite", origin.citation_section(found))]
     body = [element("div", answers.first_screen(found), class_="first-screen"), navigation(sections), *written(sections)]
