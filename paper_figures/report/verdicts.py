@@ -52,7 +52,7 @@ def value_table(claim, name, values, found):
 
     def row(value):
         ends = "" if value["low"] == value["high"] else f"{figure(value['low'])} to {figure(value['high'])}"
-        limit = case_words.limits.get(value.get("limit"), "")
+        limit = case_words.tables["limit"].get(value.get("limit"), "")
         return [case_words.of(value), sentences.title(claim, value["quantity"]), limit + figure(value["value"]) + with_unit(value["unit"]),
                 ends or "\u2013", *([holds.get(value.get("holds"), "")] if judged else []), folder_link(found.results, value["run"])]
 

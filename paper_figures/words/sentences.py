@@ -7,11 +7,8 @@ from records import shapes
 from words import case_words
 from words.number_words import counted, figure, span, span_of_thousandths
 
-names = {"reproduced": "reproduced", "reproduced_only_for": "reproduced in part", "not_reproduced": "not reproduced",
-         "inconsistent_in_print": "inconsistent in print", "cannot_be_tested_here": "cannot be tested here",
-         "not_computable": "not computable"}
-trials = {"share_of_cells_inverted": "end with inverted tets", "share_of_cells_in_motion": "end in motion",
-          "share_of_cells_at_rest": "end as if undisturbed"}  # these shares are counts of trials
+names = case_words.tables["verdict"]
+trials = case_words.tables["trial"]  # these shares are counts of trials
 
 
 def claims_of(file):
