@@ -77,8 +77,10 @@ def settings(case):
     for field, (words, scale) in setting_words.items():
         last = case.get("time_step_to_s" if field == "time_step_s" else f"{field}_to")
         values = [value for value in (case.get(field), last) if value is not None] if field in case else []
-        shown = [number(scale * value) if not isinstance(value, str) else of_field(field, value) if words == "{}" else value
-                 for value in values]
+        if words == "{}":
+            shown = [of_field(field.removeprefix("second_"), value) for value in values]
+        else:
+            shown = [value if isinstance(value, str) else number(scale * value) for value in values]
         if field == "second_factor" and "factor" in case and shown:
             found[-1] += f" and {shown[0]}"
         elif shown:
