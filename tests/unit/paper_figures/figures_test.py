@@ -7,7 +7,7 @@ from results_case import ResultsTest
 import make_all
 import records
 import synthetic_records
-from drawing import bench_records
+from figures import timing
 
 
 class Figures(ResultsTest):
@@ -149,7 +149,7 @@ class OtherStudies(ResultsTest):
         bench = self.results / "timing" / "bench" / "bench.json"
         bench.write_text(json.dumps(json.loads(bench.read_text()) | {"schema": 1}))
         with self.refused("schema 1, expected 2"):
-            bench_records.read(self.results)
+            timing.read_bench(bench)
         self.refused_without("timing/bench/bench.json", "scaling")
 
 

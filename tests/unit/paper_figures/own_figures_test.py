@@ -6,16 +6,16 @@ import unittest
 import numpy
 
 from results_case import ResultsTest, root
-import checked_looks  # noqa: F401
 import records
 import synthetic_frames
 import synthetic_records
 import synthetic_tables
-from drawing import recorded_distances
-from figures import fig_06_constraints, table_1_timing, volume
+from drawing import bodies
+from figures import timing
 from records import entries, recorded_frames
 
-own = [entry for entry in entries.read() if entry.script.startswith(("fig_", "table_", "clip_"))]
+listed = {entry.name: entry for entry in entries.read()}
+own = [entry for entry in listed.values() if entry.name.startswith(("fig_", "table_", "clip_"))]
 
 
 class OwnFigures(ResultsTest):
@@ -26,16 +26,12 @@ class OwnFigures(ResultsTest):
         return recorded_frames.Frames(self.results, scene)
 
     def test_every_own_figure_is_listed_and_refuses_without_records(self):
-        names = {entry.name for entry in own}
-        scripts = {file.stem for kind in ("fig_*.py", "table_*.py", "clip_*.py")
-                   for file in (root / "paper_figures" / "figures").glob(kind)}
-        self.assertEqual(names, scripts)
-        self.assertEqual(sorted(name[:6] for name in names if name.startswith("fig_")), [f"fig_{number:02}" for number in range(1, 11)])
+        names = [entry.name[:6] for entry in own if entry.name.startswith("fig_")]
+        self.assertEqual(names, [f"fig_{number:02}" for number in range(1, 11)])
         for entry in own:
             with self.subTest(entry.name):
                 with self.refused("does not exist"):
-                    entry.draw(self.results, self.results / "figures")
-                self.assertFalse((self.results / "figures").exists())
+                    entry.draw(self.results)
 
     def test_projections_lie_on_the_posed_bone_within_its_ends(self):
         frames = self.frames()
@@ -73,14 +69,14 @@ class OwnFigures(ResultsTest):
             points = synthetic_frames.skin_of(synthetic_frames.positions_of(label, 3))
             text = synthetic_frames.skin.format(positions=synthetic_frames.text(points))
             (folder / "frames" / f"{label}_surface_000003.vtp").write_text(text)
-        away_mm = recorded_distances.of_points_mm(frames, 3, "lbs", "pbs")
+        away_mm = bodies.distances_mm(frames, 3, "lbs", "pbs")
         at_rest = numpy.array(synthetic_frames.skin_of(synthetic_frames.rest))
         # Coordinates of at most 3 m are written with all digits. They go through ten roundings, and so does the number expected.
         rounding_mm = 1000 * numpy.sqrt(3) * 2 * 10 * numpy.finfo(float).eps / 2 * 3
         numpy.testing.assert_allclose(away_mm, 1000 * 0.1 * (1.1 - 1.05) * 3 * numpy.linalg.norm(at_rest, axis=1), rtol=0, atol=rounding_mm)
         tets = frames.tets("pbs", 3)
-        self.assertEqual(recorded_distances.bone_under(frames, 2, tets), "bone 0")  # only the first corner of the first tet carries it
-        self.assertEqual(recorded_distances.bone_under(frames, 1, tets), "bone 2")  # -1/2 of vertex 1, and equal halves of 2, 3 and 4
+        self.assertEqual(bodies.bone_under(frames, 2, tets), "bone 0")  # only the first corner of the first tet carries it
+        self.assertEqual(bodies.bone_under(frames, 1, tets), "bone 2")  # -1/2 of vertex 1, and equal halves of 2, 3 and 4
 
     def test_heading_is_forward_along_the_floor(self):
         tails = {"hip.L": [0, 1, -1.0], "hip.R": [0, 0.5, 1.0]}
@@ -91,12 +87,12 @@ class OwnFigures(ResultsTest):
 
     def test_licences_are_those_of_what_is_shown(self):
         file = self.results / "frames" / "limb_bend" / "run.json"
-        self.assertEqual(recorded_frames.licences_of(self.frames()), [])
+        self.assertEqual(entries.licences_of(self.frames().run.record), [])
         record = json.loads(file.read_text())
         record["scene"] |= {"character": {"body": "human"}, "motion": {"clip": "01_03.bvh"}}
         record["provenance"] = {"git_revision": "abc"}
         file.write_text(json.dumps(record))
-        origin = recorded_frames.origin_of(recorded_frames.Frames(self.results, "limb_bend"))
+        origin = listed["fig_06_constraints"].origin(self.results)
         self.assertIn("MakeHuman, CC0", origin["rights"])
         self.assertIn("motion 01_03: CMU", origin["rights"])
         self.assertEqual((origin["git_revision"], origin["scenes"]), ("abc", {"limb_bend": records.scene_hash(record)}))
@@ -104,16 +100,15 @@ class OwnFigures(ResultsTest):
 
     def test_a_tets_lengths_and_volume(self):
         self.frames()
-        fig_06_constraints.fig_06_constraints(self.results, self.results / "figures")
-        rows = {row["state"]: row for row in self.rows("fig_06_constraints")}
+        rows = {row["state"]: row for row in listed["fig_06_constraints"].draw(self.results)[1]}
         growth = 1 + 0.1 * synthetic_frames.labels["pbs"] * 9
-        self.assertEqual(rows["rest"]["tet"], "1")  # points 2 to 5: the tet that is compressed most in the records
+        self.assertEqual(rows["rest"]["tet"], 1)  # points 2 to 5: the tet that is compressed most in the records
         self.assertAlmostEqual(float(rows["rest"]["volume_cm3"]), 1e6 / 3)
         self.assertAlmostEqual(float(rows["pbs"]["volume_cm3"]), growth ** 3 * 1e6 / 3, places=3)
         self.assertAlmostEqual(float(rows["rest"]["length_12_mm"]), 1000 * 2 ** 0.5)
         self.assertAlmostEqual(float(rows["pbs"]["length_34_mm"]), 1000 * growth * 2 ** 0.5, places=6)
 
-    def write_timing(self, orders=table_1_timing.orders):
+    def write_timing(self, orders=timing.orders):
         synthetic_tables.write_origin(self.results / "timing")
         synthetic_tables.write_table(self.results / "timing" / "timing.csv", [
             {"mesh": mesh, "body": mesh[:-2], "model": model, "stands_in": stands_in, "vertices": 200, "edges": 600, "tets": 400,
@@ -124,7 +119,7 @@ class OwnFigures(ResultsTest):
 
     def test_table_1_shows_the_papers_own_body_and_the_counts_it_prints(self):
         self.write_timing()
-        table_1_timing.table_1_timing(self.results, self.results / "figures")
+        self.make_all("table_1_timing")
         row, = self.rows("table_1_timing")
         self.assertEqual((row["mesh"], row["vertices"], row["edges"], row["tets"]), ("man", "400 / 200", "800 / 600", "500 / 400"))
         self.assertEqual((row["paper_ms"], row["paper_ct_ms"], row["plain_f64_ms"], row["ordered_f32_ms"]),
@@ -134,9 +129,9 @@ class OwnFigures(ResultsTest):
         self.assertIn("a processor", text)
 
     def test_table_1_refuses_half_a_timing(self):
-        self.write_timing(orders=table_1_timing.orders[:1])
+        self.write_timing(orders=timing.orders[:1])
         with self.refused("not timed in plain f64 and ordered f32"):
-            table_1_timing.table_1_timing(self.results, self.results / "figures")
+            timing.table_1_timing(self.results)
 
 
 class Origin(ResultsTest):
@@ -151,10 +146,10 @@ class Origin(ResultsTest):
             record["provenance"]["cpu_model"] = "a processor"
             run.write_text(json.dumps(record))
             scenes[name] = records.scene_hash(record)
-        self.assertEqual(entries.origin_of(self.results, "volume_over_angle"), {
+        self.assertEqual(listed["volume_over_angle"].origin(self.results), {
             "version": "0.1.0", "git_revision": synthetic_records.revision, "git_dirty": False, "cpu_model": "a processor",
-            "scenes": scenes})
-        volume.volume_over_angle(self.results, self.results / "figures")
+            "scenes": scenes, "rights": ""})
+        self.make_all("volume_over_angle")
         shown = (self.results / "figures" / "volume_over_angle.png").read_bytes()
         for text in (synthetic_records.revision, "; a processor; ", *(f"scene {name} {digest}" for name, digest in scenes.items())):
             self.assertIn(text.encode(), shown)

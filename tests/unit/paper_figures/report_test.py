@@ -13,7 +13,7 @@ from results_case import ReportTest, root
 import report
 import synthetic_records
 from records import entries
-from report import answers, costs, errors, figures, markup, origin, record_set
+from report import answers, errors, figures, markup, origin, record_set
 
 
 class Page(html.parser.HTMLParser):
@@ -168,13 +168,13 @@ class Report(ReportTest):
 
     def test_costs_are_summed(self):
         (self.results / "volume" / "costs.csv").write_text("run,expected_cpu_s,cpu_s\na,10,60\nb,20,120\n")
-        self.assertEqual(costs.sentence(self.found()), "These records took 3 min of processor time (1 study).")
-        self.assertIn("<td>30</td><td>180</td><td>\u2013</td>", costs.section(self.found()))  # an earlier version recorded no wall time
+        self.assertEqual(origin.costs_sentence(self.found()), "These records took 3 min of processor time (1 study).")
+        self.assertIn("<td>30</td><td>180</td><td>\u2013</td>", origin.costs_section(self.found()))  # an earlier version recorded no wall time
 
     def test_wall_time_and_the_size_of_a_study_stand_beside_its_cost(self):
         (self.results / "volume" / "costs.csv").write_text("run,expected_cpu_s,cpu_s,wall_s\na,10,60,70\nb,20,120,125\n")
         (self.results / "volume" / "plan.json").write_text(json.dumps({"extent": "quick", "runs": [], "left_out": []}))
-        shown = costs.section(self.found())
+        shown = origin.costs_section(self.found())
         self.assertIn("<td>quick</td><td>2</td><td>30</td><td>180</td><td>195</td>", shown)
 
     def test_what_a_study_concludes_stands_beside_its_first_figure(self):
@@ -268,9 +268,11 @@ class Report(ReportTest):
 
     def test_the_viewer_or_why_there_is_none(self):
         synthetic_records.write_claims(self.results)
-        for fragment, expected in ((lambda results: "<p>turn me</p>", "<p>turn me</p>"), (lambda results: None, "The viewer is missing: ")):
+        refused = entries.records.RecordsMissing("no frames on record")
+        for fragment, expected in (({"return_value": "<p>turn me</p>"}, "<p>turn me</p>"),
+                                   ({"side_effect": refused}, "The viewer is missing: no frames on record")):
             module = types.ModuleType("viewer.page")
-            module.fragment = fragment
+            module.fragment = unittest.mock.Mock(**fragment)
             module.claim_links = lambda results: {"C02": "#run=limb"}
             with unittest.mock.patch.dict(sys.modules, {"viewer.page": module}):
                 text = self.page()

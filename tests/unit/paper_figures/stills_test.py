@@ -8,7 +8,7 @@ from PIL import Image
 from results_case import ResultsTest
 import synthetic_frames
 from drawing import bodies, rendering
-from figures import clip_jump
+from figures import stills
 from records import recorded_frames
 
 size = (120, 90)
@@ -68,9 +68,9 @@ class Stills(ResultsTest):
         frames = self.write("human_jump")
         file = self.results / "clip.webp"
         origin = {"version": "0.1.0", "git_revision": "abc", "rights": "whose it is"}
-        clip_jump.draw_clip(file, frames, origin)
+        stills.draw_clip(file, frames, origin)
         with Image.open(file) as clip:
-            self.assertEqual((clip.n_frames, clip.width), (4, 3 * clip_jump.pixels[0]))
+            self.assertEqual((clip.n_frames, clip.width), (4, 3 * stills.pixels[0]))
             clip.seek(1)
             clip.load()
             self.assertEqual(clip.info["duration"], 10)  # frames at intervals of 0.01 s

@@ -14,7 +14,7 @@ import numpy
 from results_case import ResultsTest, root
 import records
 import synthetic_frames
-from figures import fig_08_artefacts, frames
+from figures import stills
 from viewer import data as viewer_data, page as viewer_html, poses as viewer_poses
 from words import looks
 
@@ -114,10 +114,10 @@ class Viewer(ResultsTest):
 
     def test_stills_say_under_a_pose_that_it_was_not_reached(self):
         row = {"inverted_tets": "1", "min_section_pct": "40", "volume_change_pct": "-2"}
-        for caption in (frames.caption, fig_08_artefacts.facts):
+        for words in (stills.moment_words, stills.artefacts):
             for outcome, marked in (("finished", False), ("not_converged", True), ("not_finite", True), (None, False)):
-                with self.subTest(caption.__module__, outcome=outcome):
-                    self.assertEqual("pose not reached" in caption({**row, "outcome": outcome}), marked)
+                with self.subTest(words, outcome=outcome):
+                    self.assertEqual("pose not reached" in stills.told({**row, "outcome": outcome}, words), marked)
 
     def test_positions_that_are_not_finite_are_refused_by_file(self):
         file = self.run / "frames" / "pbs_000001.vtu"
