@@ -5,7 +5,7 @@ import unittest
 
 import numpy
 
-from results_case import ResultsTest, root
+from results_case import ResultsTest
 import records
 import synthetic_frames
 import synthetic_records
