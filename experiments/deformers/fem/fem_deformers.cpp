@@ -13,7 +13,8 @@ namespace experiments {
 
 void LinearFemDeformer::reset(const pbs::Character& character)
 {
-    hold(character);
+    character_ = &character;
+    bones_ = bone_attachment(character, options_);
     const reference_fem::LinearOptions linear{.element_order = options_.element_order,
                                               .young_pa = options_.young_pa,
                                               .poisson = options_.poisson,
@@ -112,7 +113,8 @@ pbs::Pose rest_pose(const pbs::Skeleton& skeleton)
 
 void ElasticFemDeformer::reset(const pbs::Character& character)
 {
-    hold(character);
+    character_ = &character;
+    bones_ = bone_attachment(character, options_);
     body_ = std::make_unique<reference_fem::ElasticBody>(character.mesh, solver_options(options_), bones_.attachment);
     guide_weights_ = {};
     if (options_.attachment != FemAttachment::bind)

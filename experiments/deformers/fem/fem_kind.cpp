@@ -7,16 +7,6 @@
 namespace experiments {
 namespace {
 
-// A key whose value 0 stands for the attachment's own, which records state.
-void add_with_own_value(OptionFields<FemOptions>& fields, const std::string& name, double FemOptions::*member,
-                        double (FemOptions::*used)() const, const FieldText& text)
-{
-    fields.add(
-        name, KeyType::number, FemOptions{}.*member, text,
-        [member](FemOptions& options, const SceneValues& values, const std::string& path) { options.*member = values.number(path); },
-        [name, used](const FemOptions& options, nlohmann::json& record) { record[name] = (options.*used)(); });
-}
-
 OptionFields<FemOptions> declared_fields()
 {
     OptionFields<FemOptions> fields("fem", true);
@@ -61,16 +51,17 @@ OptionFields<FemOptions> declared_fields()
         {.meaning = "smooth: springs whose density decreases smoothly to zero from the bone's axis to the surface of a capsule around it; "
                     "embedded: bones as rigid capsules tied to the flesh by stiff springs; nodes: whole tets inside the capsules "
                     "prescribed; bind: the paper's bind constraint as an energy on every vertex, for nonlinear models"});
-    add_with_own_value(
-        fields, "core_radius", &FemOptions::core_radius, &FemOptions::used_core_radius,
+    // The value 0 of the next two stands for the attachment's own, which records state.
+    fields.add(
+        "core_radius", &FemOptions::core_radius,
         {.lowest = 0,
          .highest = 1,
          .meaning =
              "attachments smooth, embedded and nodes: radius of the bone's capsule, a factor on the local limb radius, without a unit; 0: "
              "0.7 with attachment smooth, otherwise 0.35. Both are choices of this project. The study ensemble compares "
              "smooth springs with 0.7 and 0.5"});
-    add_with_own_value(
-        fields, "spring_factor", &FemOptions::spring_factor, &FemOptions::used_spring_factor,
+    fields.add(
+        "spring_factor", &FemOptions::spring_factor,
         {.lowest = 0,
          .highest = 1e9,
          .meaning =
@@ -78,7 +69,8 @@ OptionFields<FemOptions> declared_fields()
              "capsule's radius (smooth: the density on the axis) or the local limb radius (bind); 0: 10 with attachment smooth, otherwise "
              "1e4. Both are choices of this project. The study ensemble compares smooth springs with 10 and 100; doubling "
              "1e4 with attachment embedded changes no reported value"});
-    fields
+    fields.derived("core_radius", [](const FemOptions& options) { return options.used_core_radius(); })
+        .derived("spring_factor", [](const FemOptions& options) { return options.used_spring_factor(); })
         .add("attachment_kernel", &FemOptions::attachment_kernel,
              {.meaning =
                   "attachment smooth, s = distance to the axis / r: biweight: density (1 - s^2)^2 across the bone (Tukey's biweight: "

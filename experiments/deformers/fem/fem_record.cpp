@@ -21,12 +21,6 @@ nlohmann::json to_json(const reference_fem::SetupSummary& setup)
 
 }  // namespace
 
-void FemDeformer::hold(const pbs::Character& character)
-{
-    character_ = &character;
-    bones_ = bone_attachment(character, options_);
-}
-
 void FemDeformer::start(const std::vector<int>& spring_tet, const std::vector<bool>& prescribed_vertices)
 {
     const pbs::TetMesh& mesh = character_->mesh;

@@ -144,19 +144,6 @@ TEST(LineFit, NorrisCertifiedValues)
     EXPECT_EQ(fit.slope.n, 36);
 }
 
-TEST(LineFit, ExactLineHasNoWidth)
-{
-    const std::vector<double> x = {0.0, 1.0, 3.0, 4.0}, y = {1.0, 3.0, 7.0, 9.0};
-    const auto fit = fit_line(x, y);
-    const FitRounding rounding(x, y, 2.0);
-    // Residuals are rounding errors: the standard errors are at most their root mean square over two degrees of freedom, times the root of
-    // 1 / Sxx for the slope and of 1 / n + mean^2 / Sxx for the intercept, with Sxx = 10 and a mean of 2.
-    const double wide = gsl_cdf_tdist_Pinv(0.975, 2) * std::sqrt(4.0 / 2.0) * rounding.residual;
-    EXPECT_NEAR(fit.slope.estimate, 2.0, rounding.slope);
-    EXPECT_NEAR(fit.slope.low, 2.0, rounding.slope + wide * std::sqrt(1.0 / 10.0));
-    EXPECT_NEAR(fit.intercept.high, 1.0, rounding.intercept + wide * std::sqrt(1.0 / 4.0 + 4.0 / 10.0));
-}
-
 TEST(ObservedOrder, OfAPowerLawIsItsExponent)
 {
     const std::vector<double> h = {0.1, 0.05, 0.025, 0.0125};
@@ -173,15 +160,24 @@ TEST(ObservedOrder, OfAPowerLawIsItsExponent)
     EXPECT_NEAR(fit.intercept.estimate, std::log(3.0), rounding.intercept + of_logarithms + of_slope * -x[3]);
 }
 
-TEST(LineFit, TwoPointsHaveNoIntervalAndOneHasNoLine)
+TEST(LineFit, AnExactLineHasNoWidthTwoPointsHaveNoIntervalAndOneHasNoLine)
 {
-    const auto fit = fit_line({0.0, 1.0}, {1.0, 3.0});
-    EXPECT_DOUBLE_EQ(fit.slope.estimate, 2.0);
-    EXPECT_TRUE(std::isnan(fit.slope.low));
+    const auto two = fit_line({0.0, 1.0}, {1.0, 3.0});
+    EXPECT_DOUBLE_EQ(two.slope.estimate, 2.0);
+    EXPECT_TRUE(std::isnan(two.slope.low));
     using Points = std::vector<double>;
     for (const auto& [x, y] : {std::pair(Points{1.0}, Points{1.0}), {{1.0, 2.0}, {1.0}}, {{1.0, 1.0}, {1.0, 2.0}}})
         EXPECT_THROW(fit_line(x, y), pbs::InputError);
     EXPECT_THROW(observed_order({0.1, 0.05}, {0.0, 1.0}), pbs::InputError);
+    const std::vector<double> x = {0.0, 1.0, 3.0, 4.0}, y = {1.0, 3.0, 7.0, 9.0};
+    const auto fit = fit_line(x, y);
+    const FitRounding rounding(x, y, 2.0);
+    // Residuals are rounding errors: the standard errors are at most their root mean square over two degrees of freedom, times the root of
+    // 1 / Sxx for the slope and of 1 / n + mean^2 / Sxx for the intercept, with Sxx = 10 and a mean of 2.
+    const double wide = gsl_cdf_tdist_Pinv(0.975, 2) * std::sqrt(4.0 / 2.0) * rounding.residual;
+    EXPECT_NEAR(fit.slope.estimate, 2.0, rounding.slope);
+    EXPECT_NEAR(fit.slope.low, 2.0, rounding.slope + wide * std::sqrt(1.0 / 10.0));
+    EXPECT_NEAR(fit.intercept.high, 1.0, rounding.intercept + wide * std::sqrt(1.0 / 4.0 + 4.0 / 10.0));
 }
 
 // Reference: series made from the formula, with and without noise of a known size.

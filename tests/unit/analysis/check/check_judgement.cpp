@@ -46,11 +46,13 @@ TEST(CheckJudgement, TheFrameFarthestOutIsNamed)
               "frame 1: loss of pbs = -0.7 %, expected -0.5 to 0.05 % (2 of 3 frames outside, the first is 1)");
 }
 
-TEST(CheckJudgement, TheBoundItselfHoldsAndNotANumberDoesNot)
+TEST(CheckJudgement, TheBoundItselfHoldsNotANumberDoesNotAndWhatTheSceneHasNotIsRefused)
 {
     EXPECT_EQ(judged(-0.5, 0.5, "-0.5").state, CheckState::held);
     for (const char* broken : {"nan", "inf"}) EXPECT_EQ(judged(-0.5, 0.5, broken).state, CheckState::failed) << broken;
     EXPECT_EQ(judged(-0.5, 0.5, "9", {2, 2}).state, CheckState::held);
+    EXPECT_THROW(judged(0, 1, "0", {}, "dqs"), pbs::InputError);
+    EXPECT_THROW(judged(0, 1, "0", {0, 3}), pbs::InputError);
 }
 
 TEST(CheckJudgement, OfABoundOnBothSidesThatHoldsTheExtremesAreNamed)
@@ -59,12 +61,6 @@ TEST(CheckJudgement, OfABoundOnBothSidesThatHoldsTheExtremesAreNamed)
     EXPECT_EQ(check.state, CheckState::held);
     EXPECT_EQ(check.message, "frames 1 and 2: loss of pbs = -2 to 0.1 %, expected -3.5 to 0.5 %");
     EXPECT_EQ(judged(-3.5, 0.5, "-2", {1, 1}).message, "frame 1: loss of pbs = -2 %, expected -3.5 to 0.5 %");
-}
-
-TEST(CheckJudgement, WhatTheSceneHasNotIsRefused)
-{
-    EXPECT_THROW(judged(0, 1, "0", {}, "dqs"), pbs::InputError);
-    EXPECT_THROW(judged(0, 1, "0", {0, 3}), pbs::InputError);
 }
 
 TEST(CheckBaseline, HoldsWithinTheToleranceAndForEqualCounts)

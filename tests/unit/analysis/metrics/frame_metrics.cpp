@@ -83,7 +83,7 @@ TEST(FrameMetrics, InvertedTetThatCancelsShowsInTheAbsoluteMeasure)
     EXPECT_EQ(metrics.j_min, -1.0);
 }
 
-TEST(FrameMetrics, MeanOfVolumeRatiosIsWeightedByRestVolume)
+TEST(FrameMetrics, MeanOfVolumeRatiosIsWeightedByRestVolumeAndBindRmsIsThatOfResiduals)
 {
     const auto mesh = two_tets(3.0);  // rest volumes 1/6 and 3/6
     Positions frame = mesh.rest;
@@ -93,6 +93,9 @@ TEST(FrameMetrics, MeanOfVolumeRatiosIsWeightedByRestVolume)
                 rounding_error(4, 0.25 * 0.5));  // volumes, their sum, a quotient
     EXPECT_EQ(mesh_metrics.volume_ratios(frame)(0), 0.5);
     EXPECT_EQ(mesh_metrics.volume_ratios(frame)(1), 1.0);
+    const Positions points{{3, 4, 0}, {0, 0, 2}}, bones = Positions::Zero(2, 3);
+    EXPECT_EQ(analysis::bind_rms(points, bones, Eigen::Vector2d(5.0, 1.0)), std::sqrt(0.5));
+    EXPECT_EQ(analysis::bind_rms(Positions(0, 3), Positions(0, 3), Eigen::VectorXd(0)), 0.0);
 }
 
 TEST(FrameMetrics, BrokenFrameIsMeasuredNotRefused)
@@ -119,13 +122,6 @@ TEST(FrameMetrics, RefusesWhatCannotBeMeasured)
     EXPECT_THROW(MeshMetrics(mesh.rest.topRows(3), mesh.tets), pbs::InputError);
     EXPECT_THROW(MeshMetrics(-mesh.rest, mesh.tets), pbs::InputError);
     EXPECT_THROW(MeshMetrics(mesh.rest, mesh.tets).measure(mesh.rest.topRows(3)), pbs::InputError);
-}
-
-TEST(BindRms, IsTheRootMeanSquareOfTheDistanceResiduals)
-{
-    const Positions points{{3, 4, 0}, {0, 0, 2}}, bones = Positions::Zero(2, 3);
-    EXPECT_EQ(analysis::bind_rms(points, bones, Eigen::Vector2d(5.0, 1.0)), std::sqrt(0.5));
-    EXPECT_EQ(analysis::bind_rms(Positions(0, 3), Positions(0, 3), Eigen::VectorXd(0)), 0.0);
 }
 
 // Reference: theory. A stretch by s along x lengthens edges along x by s and does not change those perpendicular to it.

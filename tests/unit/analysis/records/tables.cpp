@@ -112,7 +112,7 @@ TEST(CsvTable, BrokenFilesAreRefusedWithFileLineColumn)
     EXPECT_EQ(message_of("a,b\r1,2\r"), "m.csv:1:2: unexpected text after a field");
 }
 
-TEST(CsvTable, AppendsTheRowsOfOthersUnderOneHead)
+TEST(CsvTable, AppendsTheRowsOfOthersUnderOneHeadAndGoesThroughAFile)
 {
     CsvTable all{{}};
     all.append(parse_csv("a,b\n1,\"x,y\"\n", "first.csv"));
@@ -122,10 +122,6 @@ TEST(CsvTable, AppendsTheRowsOfOthersUnderOneHead)
     EXPECT_EQ(all.text(), "a,b\n1,\"x,y\"\n2,\n3,z\n");
     EXPECT_FALSE(all.number_or_nothing(1, "b"));
     EXPECT_THROW(all.number(2, "b"), pbs::InputError);  // the error names its line as well
-}
-
-TEST(CsvTable, GoesThroughAFile)
-{
     const test_support::ScratchFolder folder;
     const std::string path = folder / "table.csv";
     CsvTable table{{"a"}};

@@ -57,7 +57,7 @@ TEST(Measurement, ComesBackFromItsTable)
     EXPECT_THROW(measurements(path), pbs::InputError) << "an unknown limit";
 }
 
-TEST(Measurement, HoldsWholeInPartOrNot)
+TEST(Measurement, HoldsWholeInPartOrNotWhereAQuantityMayHaveABoundOfItsOwn)
 {
     Measurement measured = drift("limb", 5e-4);
     EXPECT_EQ(extent_of(drift_claim(), measured), Extent::whole);
@@ -65,6 +65,14 @@ TEST(Measurement, HoldsWholeInPartOrNot)
     EXPECT_EQ(extent_of(drift_claim(), measured), Extent::part);
     EXPECT_EQ(extent_of(drift_claim(), drift("limb", 2e-3)), Extent::none);
     EXPECT_EQ(extent_of(drift_claim(), drift("limb", std::nan(""))), Extent::none);
+    Claim claim = drift_claim();
+    claim.bounds = {{"angular_drift", 0.5, 2.0}};
+    EXPECT_EQ(bound_of(claim, "linear_drift").high, 1e-3);
+    EXPECT_EQ(extent_of(claim, {"C07", "angular_drift", {}, 1.0, 0.5, 2.0, "1"}), Extent::whole);
+    EXPECT_EQ(extent_of(claim, {"C07", "angular_drift", {}, 1e-4, 1e-4, 1e-4, "1"}), Extent::none);
+    EXPECT_EQ(bound_text({"", 0.0, 0.0}), "0");
+    EXPECT_EQ(bound_text({"", 30.0, 1e9}), "30 or more");
+    EXPECT_EQ(bound_text({"", 0.9, 1.1}), "0.9 to 1.1");
 }
 
 TEST(Measurement, AlteredRecordsFlipTheVerdict)
@@ -89,18 +97,6 @@ TEST(Measurement, AlteredRecordsFlipTheVerdict)
     EXPECT_EQ(judge(drift_claim(), records).kind, VerdictKind::not_computable);
     records.left_out = {{"human", "not installed"}};
     EXPECT_EQ(judge(drift_claim(), records).kind, VerdictKind::cannot_be_tested_here);
-}
-
-TEST(Measurement, AQuantityMayHaveABoundOfItsOwn)
-{
-    Claim claim = drift_claim();
-    claim.bounds = {{"angular_drift", 0.5, 2.0}};
-    EXPECT_EQ(bound_of(claim, "linear_drift").high, 1e-3);
-    EXPECT_EQ(extent_of(claim, {"C07", "angular_drift", {}, 1.0, 0.5, 2.0, "1"}), Extent::whole);
-    EXPECT_EQ(extent_of(claim, {"C07", "angular_drift", {}, 1e-4, 1e-4, 1e-4, "1"}), Extent::none);
-    EXPECT_EQ(bound_text({"", 0.0, 0.0}), "0");
-    EXPECT_EQ(bound_text({"", 30.0, 1e9}), "30 or more");
-    EXPECT_EQ(bound_text({"", 0.9, 1.1}), "0.9 to 1.1");
 }
 
 TEST(Measurement, AVerdictCountsValuesBySubject)

@@ -384,7 +384,7 @@ Eigen::VectorXd eigenvalues(const Eigen::MatrixXd& symmetric)
     return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(symmetric, Eigen::EigenvaluesOnly).eigenvalues();
 }
 
-TEST(FirstMode, IsTheLowestOfADenseEigenvalueProblem)
+TEST(FirstMode, IsTheLowestOfADenseEigenvalueProblemIfThereIsOne)
 {
     const VibratingBody body(test_support::jittered_cube(2), {.held = [](const pbs::Vec3& x) { return x.z() < 1e-9; }});
     const Mode mode = body.first_mode();
@@ -401,13 +401,9 @@ TEST(FirstMode, IsTheLowestOfADenseEigenvalueProblem)
     const Eigen::VectorXd phi = mode.shape(free);
     EXPECT_LT((K * phi - mode.omega_rad_s * mode.omega_rad_s * (M * phi)).norm(), (1e-13 + c) * norm_of_K * phi.norm());
     EXPECT_EQ(mode.shape.cwiseAbs().maxCoeff(), 1.0);
-}
-
-TEST(FirstMode, OfABodyThatMayMoveRigidlyOrNotAtAllIsNotANumber)
-{
     for (const bool held : {false, true}) {
-        const VibratingBody body(test_support::jittered_cube(1), {.held = [=](const pbs::Vec3&) { return held; }});
-        EXPECT_TRUE(std::isnan(body.first_mode().omega_rad_s)) << held;
+        const VibratingBody rigid(test_support::jittered_cube(1), {.held = [=](const pbs::Vec3&) { return held; }});
+        EXPECT_TRUE(std::isnan(rigid.first_mode().omega_rad_s)) << held;
     }
 }
 

@@ -135,7 +135,7 @@ TEST(GrippingBones, AreThoseOfTheSpringsTetsWhereTheStifferOnesDecide)
 // The integral of q E / r^2 (1 - (rho / r)^2)^2 across a bone is q E pi / 3; the steps of one radius at both ends take half a radius each.
 // The midpoint rule in rho^2 and along the axis is exact within h^2 / 8 times the integral of the second derivative (its Peano kernel). A
 // ring holds 24 of 193 points, less than 1/8; the difference outweighs that the point at the centre, 1/193, stands at the end of its share.
-TEST(SmoothAttachment, SpringsAddUpToTheIntegralOfTheirDensity)
+TEST(SmoothAttachment, SpringsAddUpToTheIntegralOfTheirDensityAndLieInTheCapsuleOfTheirBone)
 {
     for (const int samples : {1, 2}) {
         const BoneAttachment bones = bone_attachment(bar_character({24, 2, 2}), {.young_pa = 2e5, .attachment_samples = samples});
@@ -145,11 +145,7 @@ TEST(SmoothAttachment, SpringsAddUpToTheIntegralOfTheirDensity)
         const double along = station * station / 8.0 * (6.0 / radius) / (length - radius), across = ring * ring / 8.0 * 2.0 * 3.0;
         EXPECT_NEAR(stiffness_of_forearm(bones), exact, (along + across) * exact) << samples;
     }
-}
-
-// Each spring lies in the capsule of its own bone and has the density that the kernel has there.
-TEST(SmoothAttachment, SpringsLieInTheCapsuleOfTheirBoneAndHaveItsDensity)
-{
+    // Each spring lies in the capsule of its own bone and has the density that the kernel has there.
     const BoneAttachment bones = bone_attachment(bar_character({24, 2, 2}), {});
     for (std::size_t s = 0; s < bones.spring_bone.size(); ++s) {
         const pbs::BoneCapsule& capsule = bones.capsules[bones.spring_bone[s]];
