@@ -27,7 +27,7 @@ set_source_files_properties(unit/analysis/verdicts/claims.cpp unit/analysis/verd
     COMPILE_DEFINITIONS ${claims_file})
 pbs_tests(properties method FOLDERS pbs analysis
     EXCEPT pbs/geometry/meshing_repeats pbs/solver/orders
-    ALONE pbs/skinning/invariance pbs/solver/invariance pbs/solver/left_out pbs/solver/sleep pbs/solver/threads
+    ALONE pbs/skinning/invariance pbs/solver/invariance pbs/solver/left_out pbs/solver/threads
     LIBRARIES analysis ${threads})
 pbs_tests(verification method FOLDERS pbs/solver pbs/near_rest analysis LIBRARIES analysis pbs_near_rest GSL::gsl)
 pbs_tests(robustness method FOLDERS pbs/solver LIBRARIES pbs_method)
