@@ -133,8 +133,7 @@ def panels_of(comparison, results):
             title = case_words.posed(rows[0]) if rows else case.replace("_", " ")
             shown.append(Panel(comparison, case, title, rows, found))
     shown = [panel for panel in shown if panel.fronts]
-    if not shown:
-        raise records.RecordsMissing(f"{folder}: no evaluated pose with a reference in {comparison}")
+    records.need(shown, f"{folder}: no evaluated pose with a reference in {comparison}")
     return sorted(shown, key=lambda panel: ("evaluated" not in panel.title, not panel.title.startswith("limb"),
                                             "mean" in panel.title))[:most_panels]
 

@@ -48,8 +48,7 @@ class Entry:
     def files(self, results):
         found = {pattern: sorted(results.glob(pattern)) for pattern in self.records}
         for pattern, files in found.items():
-            if not files:
-                raise records.RecordsMissing(f"{results / pattern}: does not exist")
+            records.need(files, f"{results / pattern}: does not exist")
         return [file for files in found.values() for file in files]
 
     def runs(self, results):
@@ -113,8 +112,7 @@ def runs_behind(file, results):
             return [folder / "run.json"]
     study = results / file.relative_to(results).parts[0]
     runs = [run for run in sorted(study.glob("*/run.json")) if is_planned(run)]
-    if not runs:
-        raise records.RecordsMissing(f"{study}: no run.json in it")
+    records.need(runs, f"{study}: no run.json in it")
     return runs
 
 

@@ -66,7 +66,8 @@ def section(found, with_viewer=False):
     parts = [element("p", f"Note: the records are of {revisions} revisions.", class_="missing")] if revisions > 1 else []
     parts += [facts_table(found), inputs_table(found)]
     for title, shown in (("Left out", [f"{study}: {scene}: {reason}" for study, scene, reason in found.left_out()]),
-                         ("Bodies and motions", rights(found)), ("Program of the viewer", [case_words.tables["credit"]["viewer"]] if with_viewer else [])):
+                         ("Bodies and motions", rights(found)),
+                         ("Program of the viewer", [case_words.tables["credit"]["viewer"]] if with_viewer else [])):
         parts += [element("h3", title), items(shown)] if shown else []
     return joined(parts, "\n")
 

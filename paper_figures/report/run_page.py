@@ -207,7 +207,7 @@ def viewer_of(found):
         return None, []
     try:
         recorded_frames, page_of_viewer = map(importlib.import_module, ("records.recorded_frames", "viewer.page"))
-        return Markup(page_of_viewer.fragment_of([recorded_frames.Frames.of_run(found.folder)])), []
+        return Markup(page_of_viewer.fragment_of([recorded_frames.Frames(found.folder)])), []
     except (ImportError, records.RecordsMissing) as error:
         return None, [f"viewer: {str(error).replace(f'{found.folder}/', '')}"]
 

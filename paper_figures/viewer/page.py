@@ -68,8 +68,7 @@ def fragment(results):
 
 def fragment_of(recorded, claims=None):
     """The HTML of the viewer for these runs."""
-    if not bundle_file().is_file():
-        raise records.RecordsMissing(f"{bundle_file().name} is not built: {how_to_build}")
+    records.need(bundle_file().is_file(), f"{bundle_file().name} is not built: {how_to_build}")
     header, block = pack(recorded)
     header.update(colours=colours(), poses=poses_of(header["runs"]), claims=claims or {})
     words = json.dumps(header, separators=(",", ":"), allow_nan=False).replace("</", "<\\/")
