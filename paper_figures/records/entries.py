@@ -79,7 +79,8 @@ class Entry:
         revisions = {}
         for file in self.files(results):
             for run in runs_behind(file, results):
-                check_plan(run)
+                if not is_planned(run):
+                    raise RecordsStale(f"stale: {run.parent} is no run of its study's plan.json: left from an earlier one")
                 check_times(file, run)
                 revisions.setdefault(revision_of(run), run)
         if len(revisions) > 1:
@@ -140,11 +141,6 @@ def is_in_form(study, run):
     plan = records.read_json(study / "plan.json") if (study / "plan.json").is_file() else {}
     left_out = [left.get("scene") for left in plan.get("left_out", [])]
     return plan.get("extent") != "quick" or run in planned_runs(study) or run in left_out
-
-
-def check_plan(run):
-    if not is_planned(run):
-        raise RecordsStale(f"stale: {run.parent} is no run of its study's plan.json: left from an earlier one")
 
 
 def check_times(file, run):

@@ -10,9 +10,7 @@ from report import record_set
 from report.markup import Markup, beside_the_page, details, element, escaped, joined
 from words import captions
 
-slack_s = 60.0  # possible difference between the times of the files of a copied folder
 most_inline_kb = 400  # size of a CSV that the page contains
-pictures = {"png": "image/png", "webp": "image/webp"}
 
 
 def inline_svg(text, name, label):
@@ -39,7 +37,7 @@ def drawn(found, entry):
         file = found.results / "figures" / f"{entry.name}.{ending}"
         if file.is_file():
             newest_s = max(behind.stat().st_mtime for behind in entry.files(found.results))
-            if file.stat().st_mtime < newest_s - slack_s:
+            if file.stat().st_mtime < newest_s - entries.slack_s:
                 raise records.RecordsMissing("stale: its records are newer; draw it anew (paper_figures/make_all.py)")
             return file
     raise records.RecordsMissing("does not exist yet: paper_figures/make_all.py draws it")
@@ -49,7 +47,7 @@ def picture(file, entry):
     label = f"{entry.title}. {entry.caption}"
     if file.suffix == ".svg":
         return element("div", inline_svg(file.read_text(), entry.name, label), class_="scroll drawing")
-    return "" if file.suffix == ".webp" else Markup(f'<img alt="{html.escape(label)}" src="{data_uri(file, pictures[file.suffix[1:]])}">')
+    return "" if file.suffix == ".webp" else Markup(f'<img alt="{html.escape(label)}" src="{data_uri(file, "image/png")}">')
 
 
 def clip(found, entry):
@@ -57,7 +55,7 @@ def clip(found, entry):
     file = found.results / "figures" / f"{entry.name}.webp"
     if not file.is_file():
         return ""
-    moving = Markup(f'<img alt="{html.escape(entry.title)}, moving" src="{data_uri(file, pictures["webp"])}">')
+    moving = Markup(f'<img alt="{html.escape(entry.title)}, moving" src="{data_uri(file, "image/webp")}">')
     return element("details", joined([element("summary", "The clip, moving"), moving]), class_="clip")
 
 

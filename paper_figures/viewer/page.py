@@ -116,15 +116,12 @@ def poses_of(runs):
     return found
 
 
-def link_of(pose):
-    panels = f"&panels={pose['panels']}" if pose["panels"] else ""
-    return f"#run={pose['run']}&frame={pose['frame']}&colour={pose['colour']}{panels}&claim={pose['claim']}"
-
-
 def claim_links(results):
     """For each claim, the link that opens its pose."""
     runs = [viewer_data.facts_of(recorded, 1) for recorded in viewer_data.recorded_runs(results)]
-    return {pose["claim"]: link_of(pose) for pose in poses_of(runs)}
+    return {pose["claim"]: f"#run={pose['run']}&frame={pose['frame']}&colour={pose['colour']}"
+                           + (f"&panels={pose['panels']}" if pose["panels"] else "") + f"&claim={pose['claim']}"
+            for pose in poses_of(runs)}
 
 
 def main(results, file):

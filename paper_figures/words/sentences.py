@@ -92,10 +92,6 @@ def angles_text(case):
 
 # Claims about values that a study measured.
 
-def measured_values(claim):
-    return [case for case in claim["cases"] if "frames" not in case]
-
-
 def grouped(claim, values, fields):
     """The values by the title of their quantity, with the fields that distinguish its groups."""
     groups = {}
@@ -104,10 +100,6 @@ def grouped(claim, values, fields):
         told = [case_words.of_field(field, value[field]) for field in fields if field in value and not (own and field in claim["of"])]
         groups.setdefault(", ".join([title(claim, value["quantity"]), *told]), []).append(value)
     return groups
-
-
-def judged_groups(claim):
-    return grouped(claim, claim["cases"], claim["each"])
 
 
 def range_of(values):
@@ -255,11 +247,9 @@ def measured_in_line(claim):
         return within(claim)
     if len(expected(claim)) > most_quantities:
         return "; ".join(filter(None, [within(claim), farthest(claim, in_short=True)]))
-    values = measured_values(claim)
-    if len(expected(claim)) == 1:
-        return f"{range_of(values)}; {within(claim)}"
-    ranges = [range_of([value for value in values if value["quantity"] == of["quantity"]]) for of in claim["bounds"]]
-    return "; ".join([*filter(None, ranges), within(claim)])
+    values = [case for case in claim["cases"] if "frames" not in case]
+    groups = [[value for value in values if value["quantity"] == of["quantity"]] for of in claim["bounds"]]
+    return "; ".join([*filter(None, map(range_of, [values] if len(expected(claim)) == 1 else groups)), within(claim)])
 
 
 def key_number(claim):
