@@ -19,7 +19,7 @@ endforeach()
 # Tests of the viewer's program, if node is installed; ./check --long installs it.
 find_program(PBS_NODE NAMES node nodejs)
 if(PBS_NODE)
-    foreach(name codes faces link shown surface touch)
+    foreach(name data faces input state)
         add_test(NAME unit/paper_figures/viewer/${name}
             COMMAND ${PBS_NODE} --test ${CMAKE_CURRENT_SOURCE_DIR}/unit/paper_figures/viewer/${name}.test.mjs)
         set_tests_properties(unit/paper_figures/viewer/${name} PROPERTIES LABELS unit TIMEOUT 300)
