@@ -12,7 +12,7 @@ figures_test(/plots plots drawing)
 figures_test(/report_records report_records drawing)
 figures_test(/run_page run_page drawing)
 figures_test(/stills stills drawing xvfb-run -a)
-foreach(name captions looks pages readme_part report same_pose sentences viewer whole_file)
+foreach(name captions looks readme_part report sentences viewer whole_file)
     figures_test(/${name} ${name} unit)
 endforeach()
 

@@ -13,18 +13,7 @@ import check_records
 import foreign_arm
 import program
 
-BOUNDS = """schema = 1
-[[check.scene]]
-scene = "arm.toml"
-name = "arm"
-[[check.bound]]
-name = "volume, 100 %% <of> & \\"rest\\""
-scene = "arm"
-deformer = "lbs"
-metric = "volume_change_pct"
-low = %s
-why = "a test"
-"""
+BOUNDS = pathlib.Path(__file__).with_name("check_bounds.toml").read_text()
 REFUSED = tomllib.loads(pathlib.Path(__file__).with_name("check_refused.toml").read_text())["rows"]
 VOLUME = ("arm", 'volume, 100 % <of> & "rest"')
 

@@ -26,17 +26,7 @@ ENVIRONMENT = {**os.environ, "PATH": "/usr/bin:" + os.environ["PATH"]}  # Debian
 KEEP = "\nimport shutil\nshutil.copytree(folder, %r)\n"  # for the end of a Python deformer
 TOLERANCE = 1000 * numpy.finfo(float).eps
 
-LIBRARY = """
-#include "pbskin_deformer.h"
-static int vertices;
-int pbskin_deformer_version(void) { return %(version)s; }
-void* pbskin_deformer_create(const struct pbskin_character* c) { vertices = c->vertices; return %(made)s; }
-int pbskin_deformer_%(advance)s(void* d, const double* pose, double dt, double* x) {
-    for (int i = 0; i < 3 * vertices; ++i) x[i] = %(position)s;
-    return %(status)s;
-}
-void pbskin_deformer_destroy(void* d) {}
-"""
+LIBRARY = pathlib.Path(__file__).with_name("own_deformer.c.in").read_text()
 SOUND = {"version": "PBSKIN_DEFORMER_VERSION", "made": "&vertices", "advance": "advance", "position": "x[i] + 1.0", "status": "0"}
 
 

@@ -22,15 +22,7 @@ import merge  # noqa: E402
 import sweep as sweeps  # noqa: E402
 import synthetic_runs  # noqa: E402
 
-GOOD = """schema = 1
-scene = "limb_bend"
-[set]
-motion.frames = 3
-deformers.use = ["lbs", "pbs"]
-[grid]
-pbs.k_stretch = [0.1, 0.2]
-pbs.iterations = [1, 2, 3]
-"""
+GOOD = pathlib.Path(__file__).with_name("good.toml").read_text()
 REFUSED = tomllib.loads(pathlib.Path(__file__).with_name("refused.toml").read_text())["rows"]
 
 
