@@ -14,8 +14,7 @@ import program
 
 SOURCE = pathlib.Path(program.SOURCE)
 sys.path.insert(0, str(SOURCE / "paper_figures"))
-from readme import claims as readme_claims, features as readme_features, findings as readme_findings  # noqa: E402
-from readme import pages as readme_pages, part as readme_part  # noqa: E402
+from readme import findings as readme_findings, pages as readme_pages, part as readme_part, tables as readme_tables  # noqa: E402
 from records import kept  # noqa: E402
 from words import sentences  # noqa: E402
 
@@ -118,8 +117,8 @@ class Pages(program.ProgramTest):
                                  "python3 paper_figures/make_readme.py writes it")
 
     def test_the_table_of_features_is_that_of_the_kept_records(self):
-        _, told, _ = readme_part.cut(readme_features.page, "features")
-        self.assertEqual(told.splitlines()[1:], readme_features.lines_of(KEPT))
+        _, told, _ = readme_part.cut(readme_tables.features_page, "features")
+        self.assertEqual(told.splitlines()[1:], readme_tables.features_lines(KEPT))
 
     def test_files_named_by_the_readmes_of_experiments_are_there(self):
         for folder in ("", "deformers", "verdicts"):
@@ -153,7 +152,7 @@ class KeptVerdicts(program.ProgramTest):
 
     def test_readme_states_each_claim_and_finding_as_the_records_have_it(self):
         judged = kept.opened(self.judged())
-        for name, lines_of in (("claims", readme_claims.table_lines), ("findings", readme_findings.lines_of)):
+        for name, lines_of in (("claims", readme_tables.claims_table), ("findings", readme_findings.lines_of)):
             _, stated, _ = readme_part.cut(SOURCE / "README.md", name)
             self.assertEqual(stated.strip().split("\n\n")[0].splitlines(), lines_of(judged))
 

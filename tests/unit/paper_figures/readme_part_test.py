@@ -12,12 +12,10 @@ import make_readme
 import pages
 import synthetic_records
 from pages import ensemble, work_precision
-from readme import claims as readme_claims, features as readme_features, findings as readme_findings
-from readme import pages as readme_pages, part as readme_part, reliability as readme_reliability
+from readme import findings as readme_findings, pages as readme_pages, part as readme_part, tables as readme_tables
 from readme import same_pose
 from records import kept
 from synthetic_records import claim, interval, judged_run, value, write_origin, write_table
-from words import compared_results
 
 begin, end = readme_part.markers("claims")
 
@@ -44,16 +42,16 @@ class ComparedResults(unittest.TestCase):
                 for body, share, deformer in (("man", 0.9, "nh_p1"), ("lady", 0.1, "nh_p1"), ("man", 0.5, "pbs"))]
         shown = claim("C02", "not_reproduced", titles={"volume_change_pct": "volume change"}, controls=runs,
                       bounds=[{"quantity": "volume_change_pct", "low": -0.5, "high": 0.5}])
-        self.assertEqual(compared_results.lines(shown, "pbs"),
+        self.assertEqual(readme_pages.compared_lines(shown, "pbs"),
                          [*self.table, "| deformer | volume change | within the bound |", "|---|---|---|",
                           "| neo-Hookean FEM, linear elements | -0.9 to 0 % | 50 of 100 frames in 2 runs |"])
-        self.assertEqual(compared_results.lines(shown, None), [])
+        self.assertEqual(readme_pages.compared_lines(shown, None), [])
 
     def test_values_are_compared_with_each_end_of_the_bound(self):
         values = [value("ratio", number, deformer="dqs") for number in (0.5, 0.9, 1.2)] + [value("ratio", None, deformer="dqs")]
         for low, high, held in ((0.9, None, 2), (None, 0.9, 2), (0.6, 1.0, 1), (2.0, None, 0)):
             shown = claim("C04", "not_reproduced", titles={}, controls=values, bounds=[{"quantity": "ratio", "low": low, "high": high}])
-            self.assertEqual(compared_results.lines(shown, "pbs")[-1], f"| DQS | 0.5 to 1.2 | {held} of 3 values |")
+            self.assertEqual(readme_pages.compared_lines(shown, "pbs")[-1], f"| DQS | 0.5 to 1.2 | {held} of 3 values |")
 
     def test_a_claim_on_orders_of_a_deformer_has_no_table(self):
         self.assertEqual([readme_pages.own_deformer(claim) for claim in
@@ -88,7 +86,7 @@ class Markers(ReadmeTest):
         self.assertEqual(list(self.results.iterdir()), [])
 
     def test_refused_records_leave_readme_as_it_is(self):
-        status, said = self.written("claims", readme_claims.lines_of)
+        status, said = self.written("claims", readme_tables.claims_lines)
         self.assertEqual(status, 2)
         self.assertIn("claims.json: does not exist", said)
         self.assertIn("\nold\n", self.readme.read_text())
@@ -99,8 +97,8 @@ class Markers(ReadmeTest):
         self.assertIn("paper_figures/make_readme.py", complaints.getvalue())
 
     def test_the_projects_own_readme_has_each_pair_once(self):
-        for name, page in (("claims", readme_part.own_readme), ("features", readme_features.page),
-                           ("reliability", readme_reliability.page)):
+        for name, page in (("claims", readme_part.own_readme), ("features", readme_tables.features_page),
+                           ("reliability", readme_tables.reliability_page)):
             self.assertTrue(readme_part.cut(page, name)[1].startswith("\n| "), name)
 
 
@@ -116,7 +114,7 @@ class Tables(ReadmeTest):
     def test_claims(self):
         synthetic_records.write_study(self.results)
         synthetic_records.write_claims(self.results)
-        self.assert_written("claims", readme_claims.lines_of,
+        self.assert_written("claims", readme_tables.claims_lines,
                             "| Volume is kept. (Sec. 4) | reproduced in part | 1 of 3 within; share of frames 40 [30, 50] % "
                             "(human, clip walk), expected 95 to 100 % | [C02](experiments/verdicts/claims/C02.md) |",
                             "| 2 of 2 within; frames per second 107 [100, 110] 1/s (frankie), expected 30 or more "
@@ -178,17 +176,17 @@ class Tables(ReadmeTest):
         columns |= {"frame_cpu_ms_ratio" + part: "1.25" for part in ("", "_lower", "_upper")}
         columns |= {"feature": "sleep", "largest_distance_m": "0.002"}
         write_table(folder / "features.csv", [columns])
-        self.assert_written("features", readme_features.lines_of,
+        self.assert_written("features", readme_tables.features_lines,
                             "| sleep | 1.50 | 1.50 | 1.25 [1.25, 1.25] | 1.50 | 1.50 | 2 | 2 | 2 mm |")
-        self.assertEqual(readme_features.lines_of(self.results)[-1], "Measured at revision of_this_tabl.")
+        self.assertEqual(readme_tables.features_lines(self.results)[-1], "Measured at revision of_this_tabl.")
 
     def test_reliability(self):
         told = self.results / "kills.json"
         record = {"name": "kills survived", "count": 19, "of": 20, "command": "kills.py", "revision": "0123456789abcdef"}
         told.write_text(json.dumps(record))
-        self.assert_written("reliability", readme_reliability.lines_of, "| kills survived | 19 of 20 | `kills.py` | 0123456789ab |")
+        self.assert_written("reliability", readme_tables.reliability_lines, "| kills survived | 19 of 20 | `kills.py` | 0123456789ab |")
         told.write_text("{}")
-        status, said = self.written("reliability", readme_reliability.lines_of)
+        status, said = self.written("reliability", readme_tables.reliability_lines)
         self.assertEqual(status, 2)
         self.assertIn("kills.json: name", said)
 

@@ -15,7 +15,7 @@ from results_case import ResultsTest, root
 import records
 import synthetic_frames
 from figures import stills
-from viewer import data as viewer_data, page as viewer_html, poses as viewer_poses
+from viewer import data as viewer_data, page as viewer_html
 from words import looks
 
 
@@ -130,16 +130,16 @@ class Viewer(ResultsTest):
         figures = {column: [0.0, 1.0] for column in viewer_data.figures}
         run = {"name": "human_walk", "frames": [0, 1], "deformers": [{"label": label, "figures": figures}
                                                                       for label in ("lbs", "pbs_jiggle", "nh_p1")]}
-        self.assertEqual([(pose["claim"], pose["panels"]) for pose in viewer_poses.poses_of([run])], [("C09", "lbs,pbs_jiggle,nh_p1")])
+        self.assertEqual([(pose["claim"], pose["panels"]) for pose in viewer_html.poses_of([run])], [("C09", "lbs,pbs_jiggle,nh_p1")])
         run["deformers"].append({"label": "pbs_no_zone", "figures": figures})
-        self.assertEqual(viewer_poses.poses_of([run])[0]["panels"], "lbs,pbs_no_zone,pbs_jiggle,nh_p1")
+        self.assertEqual(viewer_html.poses_of([run])[0]["panels"], "lbs,pbs_no_zone,pbs_jiggle,nh_p1")
 
     def test_a_claim_opens_at_the_recorded_extreme(self):
         links = viewer_html.claim_links(self.results)
         self.assertEqual(links, {"C01": "#run=limb_twist&frame=2&colour=ratio&claim=C01",
                                  "C04": "#run=limb_twist&frame=3&colour=skin&claim=C04"})
-        self.assertEqual(viewer_poses.position_of([1.0, None, -3.0], "far"), 2)
-        self.assertIsNone(viewer_poses.position_of([None], max))
+        self.assertEqual(viewer_html.position_of([1.0, None, -3.0], "far"), 2)
+        self.assertIsNone(viewer_html.position_of([None], max))
 
     def test_what_is_missing_is_named(self):
         for file, words in ((self.run / "frames" / "pbs_000001.vtu", "pbs_000001.vtu: does not exist"),

@@ -63,8 +63,6 @@ class Bounds(unittest.TestCase):
 
         self.assertEqual(sentences.expected(of(("a", 1.0), ("b", 1.0))), ["0 to 1"])
         self.assertEqual(sentences.expected(of(("a", 1.0), ("b", 2.0))), ["a: 0 to 1", "breadth: 0 to 2"])
-        self.assertEqual(sentences.expected_in_line(of(*((name, high) for high, name in enumerate("abcd")))),
-                         "4 quantities, each within its bound")
         self.assertEqual(sentences.expected(told(rule="untestable")), [])
 
 
