@@ -4,7 +4,6 @@
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 
-#include <cmath>
 #include <sstream>
 
 namespace reference_fem {

@@ -22,17 +22,9 @@ struct CommonOptions {
 using VerbAction = std::function<int()>;
 
 // Each sets `action` when the command line names its verb.
-void add_list_verb(CLI::App& app, CommonOptions& common, VerbAction& action);
-void add_explain_verb(CLI::App& app, CommonOptions& common, VerbAction& action);
-void add_try_verb(CLI::App& app, CommonOptions& common, VerbAction& action);
-void add_run_verb(CLI::App& app, CommonOptions& common, VerbAction& action);
-void add_reproduce_verb(CLI::App& app, CommonOptions& common, VerbAction& action);
-void add_check_verb(CLI::App& app, CommonOptions& common, VerbAction& action);
-void add_measure_verb(CLI::App& app, CommonOptions& common, VerbAction& action);
-void add_mesh_verb(CLI::App& app, CommonOptions& common, VerbAction& action);
-void add_bench_verb(CLI::App& app, CommonOptions& common, VerbAction& action);
-void add_fetch_verb(CLI::App& app, CommonOptions& common, VerbAction& action);
-void add_report_verb(CLI::App& app, CommonOptions& common, VerbAction& action);
+using AddVerb = void(CLI::App& app, CommonOptions& common, VerbAction& action);
+AddVerb add_list_verb, add_explain_verb, add_try_verb, add_run_verb, add_reproduce_verb, add_check_verb, add_measure_verb, add_mesh_verb,
+    add_bench_verb, add_fetch_verb, add_report_verb;
 
 // Adds a subcommand with the options of all verbs: --quiet, --verbose, --threads.
 CLI::App* add_verb(CLI::App& app, CommonOptions& common, const std::string& name, const std::string& meaning);

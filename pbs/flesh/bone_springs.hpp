@@ -5,7 +5,6 @@
 #include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/skinning/pose.hpp"
 
-#include <array>
 #include <vector>
 
 namespace pbs {

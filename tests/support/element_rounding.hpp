@@ -12,7 +12,6 @@
 #include <Eigen/LU>
 
 #include <algorithm>
-#include <cmath>
 
 namespace test_support {
 

@@ -13,7 +13,6 @@
 #include "pbs/character/character.hpp"
 #include "pbs/geometry/meshing.hpp"
 
-#include <array>
 #include <string>
 #include <vector>
 

@@ -10,9 +10,6 @@
 #include "pbs/character/character.hpp"
 #include "pbs/solver/options.hpp"
 
-#include <string>
-#include <vector>
-
 namespace experiments {
 
 struct MomentumDrift {

@@ -15,7 +15,6 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 namespace experiments {
 

@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <csignal>
 #include <map>
-#include <utility>
 
 namespace {
 

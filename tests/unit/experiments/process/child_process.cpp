@@ -129,8 +129,8 @@ using experiments::run_in_pool;
 
 TEST(WorkerPool, FinishesEverythingInTheOrderAsked)
 {
-    const auto folder = std::filesystem::temp_directory_path() / ("worker_pool_" + std::to_string(getpid()));
-    std::filesystem::create_directories(folder);
+    const test_support::ScratchFolder scratch;
+    const std::filesystem::path folder = scratch.path();
     std::vector<PooledWork> work;
     for (int i = 0; i < 5; ++i)
         work.push_back({"work " + std::to_string(i), 1.0 * i, [folder, i] {
@@ -144,23 +144,37 @@ TEST(WorkerPool, FinishesEverythingInTheOrderAsked)
         EXPECT_TRUE(results[i].finished);
         EXPECT_TRUE(std::filesystem::exists(folder / std::to_string(i)));
     }
-    std::filesystem::remove_all(folder);
 }
 
-TEST(WorkerPool, AnExceptionIsReportedWithItsWords)
+// One worker of each kind, side by side: the end of one does not affect the others.
+TEST(WorkerPool, EachEndIsReported)
 {
-    const auto results = run_in_pool(
-        {{"bad", 1.0, []() -> std::string { throw std::runtime_error("the mesh is empty"); }}, {"good", 1.0, [] { return ""; }}}, 2);
-    EXPECT_FALSE(results[0].finished);
-    EXPECT_EQ(results[0].failure, "internal error: the mesh is empty; please report it with the command line");
-    EXPECT_TRUE(results[1].finished);
-}
-
-TEST(WorkerPool, WhatIsThrownNeedBeNoException)
-{
-    const auto results = run_in_pool({{"bad", 1.0, []() -> std::string { throw std::string("Unknown mesh format"); }}}, 1);
-    EXPECT_FALSE(results[0].finished);
-    EXPECT_NE(results[0].failure.find("internal error"), std::string::npos) << results[0].failure;
+    const struct {
+        const char* name;
+        std::function<std::string()> action;
+        bool is_finished, is_refused;
+        const char *breakdown, *failure;
+    } ends[] = {
+        {"good", [] { return ""; }, true, false, "", ""},
+        {"broken", [] { return "pbs is not finite in frame 3"; }, true, false, "pbs is not finite in frame 3", ""},
+        {"bad", []() -> std::string { throw std::runtime_error("the mesh is empty"); }, false, false, "",
+         "internal error: the mesh is empty; please report it with the command line"},
+        {"no exception", []() -> std::string { throw std::string("Unknown mesh format"); }, false, false, "",
+         "internal error: an exception without a message; please report it with the command line"},
+        {"refused", []() -> std::string { throw pbs::InputError("metrics.csv", 0, "", "", "no space"); }, false, true, "",
+         "metrics.csv: no space"},
+        {"killed", []() -> std::string { return std::raise(SIGKILL) == 0 ? "" : "not raised"; }, false, false, "", "ended by signal 9"},
+    };
+    std::vector<PooledWork> work;
+    for (const auto& end : ends) work.push_back({end.name, 1.0, end.action});
+    const auto results = run_in_pool(work, 2);
+    for (std::size_t i = 0; i < work.size(); ++i) {
+        SCOPED_TRACE(ends[i].name);
+        EXPECT_EQ(results[i].finished, ends[i].is_finished);
+        EXPECT_EQ(results[i].refused, ends[i].is_refused);
+        EXPECT_EQ(results[i].breakdown, ends[i].breakdown);
+        EXPECT_EQ(results[i].failure, ends[i].failure);
+    }
 }
 
 // Texts that exceed the capacity of a pipe, from both workers at once.
@@ -170,16 +184,6 @@ TEST(WorkerPool, WordsOfAnyLengthArrive)
     const auto results = run_in_pool({{"one", 1.0, [&] { return words; }}, {"other", 1.0, [&] { return words + "y"; }}}, 2);
     EXPECT_EQ(results[0].breakdown, words);
     EXPECT_EQ(results[1].breakdown, words + "y");
-}
-
-TEST(WorkerPool, RefusedInputIsToldFromOtherFailures)
-{
-    const auto results = run_in_pool({{"full", 1.0, []() -> std::string { throw pbs::InputError("metrics.csv", 0, "", "", "no space"); }},
-                                      {"bad", 1.0, []() -> std::string { throw std::runtime_error("no"); }}},
-                                     2);
-    EXPECT_TRUE(results[0].refused);
-    EXPECT_EQ(results[0].failure, "metrics.csv: no space");
-    EXPECT_FALSE(results[1].refused);
 }
 
 // The process that owns the pool is killed. Its worker, which reports its number and would sleep for a minute, ends too.
@@ -206,21 +210,6 @@ TEST(WorkerPool, WorkersEndWithTheirParent)
     EXPECT_EQ(poll(&end, 1, 10'000), 1) << "the worker goes on";  // the pipe ends with the last process that could write
     if (!end.revents) kill(worker, SIGKILL);
     close(ends[0]);
-}
-
-TEST(WorkerPool, AKilledWorkerIsReportedByItsSignal)
-{
-    const auto results = run_in_pool({{"killed", 1.0, []() -> std::string { return std::raise(SIGKILL) == 0 ? "" : "not raised"; }}}, 1);
-    EXPECT_FALSE(results[0].finished);
-    EXPECT_EQ(results[0].failure, "ended by signal 9");
-}
-
-TEST(WorkerPool, ABreakdownIsFinishedAndSaid)
-{
-    const auto results = run_in_pool({{"broken", 1.0, [] { return "pbs is not finite in frame 3"; }}}, 1);
-    EXPECT_TRUE(results[0].finished);
-    EXPECT_EQ(results[0].breakdown, "pbs is not finite in frame 3");
-    EXPECT_EQ(results[0].failure, "");
 }
 
 TEST(WorkerPool, NoWorkIsNoResult)

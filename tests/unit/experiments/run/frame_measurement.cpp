@@ -29,36 +29,41 @@ pbs::Pose rest_pose(const pbs::Character& character)
     return pbs::Pose(character.skeleton.bones.size(), Eigen::Isometry3d::Identity());
 }
 
-TEST(FrameMeasurement, TheRestPoseIsAllZero)
-{
+// The limb in its rest pose.
+class LimbMeasurement : public testing::Test {
+protected:
+    experiments::FrameMeasurement measured(const pbs::Positions& positions, const experiments::OutputSpec& output = {}) const
+    {
+        return FrameMeasurer(limb, output, {}).measure(positions, context);
+    }
+
     const pbs::Character limb = small_limb();
-    const pbs::Pose pose = rest_pose(limb);
-    FrameContext context;
-    context.pose = &pose;
+    pbs::Pose pose = rest_pose(limb);
+    FrameContext context{.pose = &pose};
+};
+
+TEST_F(LimbMeasurement, TheRestPoseIsAllZero)
+{
     context.reference = &limb.mesh.rest;
-    const auto measured = FrameMeasurer(limb, {}, {}).measure(limb.mesh.rest, context);
-    EXPECT_EQ(measured.metrics.volume_change_pct, 0.0);
+    const auto of = measured(limb.mesh.rest);
+    EXPECT_EQ(of.metrics.volume_change_pct, 0.0);
     // The squares and sums of a distance may be ordered differently on both sides: three roundings and half of them of the root.
-    EXPECT_LE(measured.bind_rms_m, test_support::rounding_error(2 * 3, limb.binding.distance.maxCoeff()));
-    EXPECT_EQ(measured.errors->l2_pct, 0.0);
-    EXPECT_DOUBLE_EQ(*measured.min_section_pct, 100.0);
-    EXPECT_EQ(measured.rotation_deg, 0.0);
+    EXPECT_LE(of.bind_rms_m, test_support::rounding_error(2 * 3, limb.binding.distance.maxCoeff()));
+    EXPECT_EQ(of.errors->l2_pct, 0.0);
+    EXPECT_DOUBLE_EQ(*of.min_section_pct, 100.0);
+    EXPECT_EQ(of.rotation_deg, 0.0);
 }
 
 // x -> (x, y/2, z/2): sections and volume fall to a quarter. Halves are exact, and so are areas and volumes up to the same powers of two;
 // their sums, differences and ratios go through at most six roundings.
-TEST(FrameMeasurement, AThinnedLimbHasAQuarterOfItsSection)
+TEST_F(LimbMeasurement, AThinnedLimbHasAQuarterOfItsSection)
 {
-    const pbs::Character limb = small_limb();
-    const pbs::Pose pose = rest_pose(limb);
     pbs::Positions thinned = limb.mesh.rest;
     thinned.rightCols(2) *= 0.5;
-    FrameContext context;
-    context.pose = &pose;
-    const auto measured = FrameMeasurer(limb, {}, {}).measure(thinned, context);
-    EXPECT_NEAR(*measured.min_section_pct, 25.0, test_support::rounding_error(6, 25.0));
-    EXPECT_NEAR(measured.metrics.volume_change_pct, -75.0, test_support::rounding_error(6, 75.0));
-    EXPECT_FALSE(measured.errors);
+    const auto of = measured(thinned);
+    EXPECT_NEAR(*of.min_section_pct, 25.0, test_support::rounding_error(6, 25.0));
+    EXPECT_NEAR(of.metrics.volume_change_pct, -75.0, test_support::rounding_error(6, 75.0));
+    EXPECT_FALSE(of.errors);
 }
 
 TEST(FrameMeasurement, LeavesOutTheOverlapOfTheReferenceButForTheErrorOnTheWholeBody)
@@ -86,46 +91,35 @@ TEST(FrameMeasurement, LeavesOutTheOverlapOfTheReferenceButForTheErrorOnTheWhole
     }
 }
 
-TEST(FrameMeasurement, LeavesOutWhatIsNotAsked)
+TEST_F(LimbMeasurement, LeavesOutWhatIsNotAsked)
 {
-    const pbs::Character limb = small_limb();
-    const pbs::Pose pose = rest_pose(limb);
     experiments::OutputSpec output;
     output.errors = output.sections = output.surface = false;
-    FrameContext context;
-    context.pose = &pose;
     context.reference = &limb.mesh.rest;
-    const auto measured = FrameMeasurer(limb, output, {}).measure(limb.mesh.rest, context);
-    EXPECT_FALSE(measured.errors);
-    EXPECT_FALSE(measured.min_section_pct);
+    const auto of = measured(limb.mesh.rest, output);
+    EXPECT_FALSE(of.errors);
+    EXPECT_FALSE(of.min_section_pct);
 }
 
 // A rotation by the angle a differs from the identity by 2 sqrt 2 |sin(a / 2)| in the Frobenius norm, so that its angle is in error by less
 // than its matrix, here of three motions: that of the root, of the bone and of one relative to the other.
-TEST(FrameMeasurement, RotationIsRelativeToTheRoot)
+TEST_F(LimbMeasurement, RotationIsRelativeToTheRoot)
 {
-    const pbs::Character limb = small_limb();
     const Eigen::Isometry3d turned(Eigen::AngleAxisd(0.5, pbs::Vec3::UnitY()));
     const double degrees = 180.0 / std::numbers::pi, rounding_deg = degrees * test_support::motion_matrix_error(3, 0.0);
-    FrameContext context;
-    pbs::Pose pose = {turned, turned};
-    context.pose = &pose;
-    EXPECT_NEAR(FrameMeasurer(limb, {}, {}).measure(limb.mesh.rest, context).rotation_deg, 0.0, rounding_deg);
+    pose = {turned, turned};
+    EXPECT_NEAR(measured(limb.mesh.rest).rotation_deg, 0.0, rounding_deg);
     pose[1] = turned * Eigen::AngleAxisd(0.5, pbs::Vec3::UnitX());
-    EXPECT_NEAR(FrameMeasurer(limb, {}, {}).measure(limb.mesh.rest, context).rotation_deg, 0.5 * degrees, rounding_deg);
+    EXPECT_NEAR(measured(limb.mesh.rest).rotation_deg, 0.5 * degrees, rounding_deg);
 }
 
-TEST(FrameMeasurement, ABrokenFrameIsMeasuredNotRefused)
+TEST_F(LimbMeasurement, ABrokenFrameIsMeasuredNotRefused)
 {
-    const pbs::Character limb = small_limb();
-    const pbs::Pose pose = rest_pose(limb);
     pbs::Positions broken = limb.mesh.rest;
     broken(3, 1) = std::numeric_limits<double>::quiet_NaN();
-    FrameContext context;
-    context.pose = &pose;
-    const auto measured = FrameMeasurer(limb, {}, {}).measure(broken, context);
-    EXPECT_TRUE(std::isnan(measured.metrics.volume_change_pct));
-    EXPECT_FALSE(measured.min_section_pct);
+    const auto of = measured(broken);
+    EXPECT_TRUE(std::isnan(of.metrics.volume_change_pct));
+    EXPECT_FALSE(of.min_section_pct);
 }
 
 // The error at the joints decides; if nothing is blended, the whole body decides, since there is no value for the joints.

@@ -19,14 +19,6 @@ using experiments::ErrorBar;
 using experiments::FrameMeasurer;
 using experiments::ReferenceErrorBar;
 
-pbs::Character small_limb()
-{
-    pbs::CharacterSource source;
-    source.body = "limb";
-    source.vertices = 400;
-    return pbs::make_character(source);
-}
-
 // The reference that ReferenceErrorBar refines, with another deformer's positions.
 template <const char* Kind>
 std::unique_ptr<experiments::Deformer> make_stand_in(const experiments::DeformerSpec&)
@@ -62,14 +54,32 @@ pbs::Positions solved(const std::string& kind, const pbs::Character& character)
     return deformer->positions();
 }
 
-TEST(ReferenceErrorBar, IsZeroWhereTheMeshMakesNoDifference)
+class ErrorBarOfALimb : public testing::Test {
+protected:
+    const pbs::Character limb = pbs::make_character({.body = "limb", .vertices = 400});
+    const FrameMeasurer measurer{limb, {}, {}};
+    const pbs::Pose pose = bent(limb);
+};
+
+// PBS on the limb's own tets and on refined ones.
+class ErrorBarOfPbs : public ErrorBarOfALimb {
+protected:
+    ReferenceErrorBar advanced(ErrorBar kind) const
+    {
+        ReferenceErrorBar bar(kind, spec_of("pbs"), limb);
+        bar.advance(pose, 0.01);
+        return bar;
+    }
+    const pbs::Positions reference = solved("pbs", limb);
+    const analysis::ErrorNorms difference = measurer.difference(reference, solved("pbs", pbs::refined(limb)).topRows(reference.rows()));
+};
+
+TEST_F(ErrorBarOfALimb, IsZeroWhereTheMeshMakesNoDifference)
 {
-    const pbs::Character limb = small_limb();
-    const FrameMeasurer measurer(limb, {}, {});
     const pbs::Positions reference = solved("lbs", limb);
     for (const ErrorBar kind : {ErrorBar::orders, ErrorBar::refined, ErrorBar::both}) {
         ReferenceErrorBar bar(kind, spec_of("lbs"), limb);
-        bar.advance(bent(limb), 0.01);
+        bar.advance(pose, 0.01);
         const auto bound = bar.bound(reference, measurer);
         ASSERT_TRUE(bound);
         EXPECT_EQ(bound->l2_pct, 0.0);
@@ -79,14 +89,9 @@ TEST(ReferenceErrorBar, IsZeroWhereTheMeshMakesNoDifference)
 }
 
 // Two grids of ratio 2, order 1: the coarser is 2 differences from the limit, times 3.
-TEST(ReferenceErrorBar, IsSixTimesTheDifferenceToTheRefinedSolution)
+TEST_F(ErrorBarOfPbs, IsSixTimesTheDifferenceToTheRefinedSolution)
 {
-    const pbs::Character limb = small_limb();
-    const FrameMeasurer measurer(limb, {}, {});
-    const pbs::Positions reference = solved("pbs", limb);
-    const auto difference = measurer.difference(reference, solved("pbs", pbs::refined(limb)).topRows(reference.rows()));
-    ReferenceErrorBar bar(ErrorBar::refined, spec_of("pbs"), limb);
-    bar.advance(bent(limb), 0.01);
+    ReferenceErrorBar bar = advanced(ErrorBar::refined);
     const auto bound = bar.bound(reference, measurer);
     ASSERT_TRUE(bound);
     EXPECT_GT(difference.joint_pct, 0.1);
@@ -98,14 +103,9 @@ TEST(ReferenceErrorBar, IsSixTimesTheDifferenceToTheRefinedSolution)
 // PBS does not depend on the element order: on each mesh the solutions of order 1 and 2 are equal. The refined linear one is then equal to
 // the finest solution, the observed order is infinite and not credible, and the bound is that of order 1, in which the difference is the
 // error of the finest solution, times 3. The reference is one difference farther.
-TEST(ReferenceErrorBar, OfSolutionsThatShowNoCredibleOrderHasTheLargerFactor)
+TEST_F(ErrorBarOfPbs, OfSolutionsThatShowNoCredibleOrderHasTheLargerFactor)
 {
-    const pbs::Character limb = small_limb();
-    const FrameMeasurer measurer(limb, {}, {});
-    const pbs::Positions reference = solved("pbs", limb);
-    const auto difference = measurer.difference(reference, solved("pbs", pbs::refined(limb)).topRows(reference.rows()));
-    ReferenceErrorBar bar(ErrorBar::both, spec_of("pbs"), limb);
-    bar.advance(bent(limb), 0.01);
+    ReferenceErrorBar bar = advanced(ErrorBar::both);
     EXPECT_DOUBLE_EQ(bar.bound(reference, measurer)->joint_pct, 4.0 * difference.joint_pct);
     EXPECT_EQ(bar.method()["frames_of_reliable_order"], 0);
 }
@@ -136,18 +136,16 @@ std::unique_ptr<experiments::Deformer> make_known_error(const experiments::Defor
 
 // By hand: order 2, credible with the smooth attachment. The finest is 1.25 x 1 mm / 3 from the limit, and the reference is 1 mm or 16 mm
 // farther away.
-TEST(ReferenceErrorBar, OfFourSolutionsTakesTheOrderOfTheLinearOnesAndTheDifferenceOfTheQuadraticOnes)
+TEST_F(ErrorBarOfALimb, OfFourSolutionsTakesTheOrderOfTheLinearOnesAndTheDifferenceOfTheQuadraticOnes)
 {
     experiments::add_deformer_kind({.name = "known_error", .meaning = "rest and an error", .make = make_known_error});
-    const pbs::Character limb = small_limb();
-    const FrameMeasurer measurer(limb, {}, {});
     for (const int element_order : {1, 2}) {
         const experiments::FemOptions options{.element_order = element_order, .attachment = experiments::FemAttachment::smooth};
         const experiments::DeformerSpec spec{.name = "known", .kind = "known_error", .label = "known", .options = options};
         KnownError reference(element_order);
         reference.reset(limb);
         ReferenceErrorBar bar(ErrorBar::both, spec, limb);
-        bar.advance(bent(limb), 0.01);
+        bar.advance(pose, 0.01);
         const double own_m = element_order == 1 ? 16e-3 : 1e-3, bound_m = bar.bound(reference.positions(), measurer)->linf_m;
         EXPECT_NEAR(bound_m, own_m + 1.25 * 1e-3 / 3.0, test_support::rounding_error(8, 1.0));
         EXPECT_EQ(bar.method()["frames_of_reliable_order"], 1);
@@ -156,9 +154,8 @@ TEST(ReferenceErrorBar, OfFourSolutionsTakesTheOrderOfTheLinearOnesAndTheDiffere
 
 // Orders 1, 2 on the same tets: nodes are V and V + E. Three cube roots, of at most eight roundings each in the C library's manual, and two
 // quotients.
-TEST(ReferenceErrorBar, SaysWhichSolutionsAndRatios)
+TEST_F(ErrorBarOfALimb, SaysWhichSolutionsAndRatios)
 {
-    const pbs::Character limb = small_limb();
     const double vertices = static_cast<double>(limb.mesh.rest.rows());
     const double between_orders = std::cbrt((vertices + static_cast<double>(pbs::edges_of(limb.mesh.tets).rows())) / vertices);
     const auto method = [&](ErrorBar kind, int element_order) {
@@ -189,12 +186,10 @@ TEST(ReferenceErrorBar, SaysWhichSolutionsAndRatios)
     }
 }
 
-TEST(ReferenceErrorBar, OfASolutionThatBrokeDownIsNone)
+TEST_F(ErrorBarOfALimb, OfASolutionThatBrokeDownIsNone)
 {
-    const pbs::Character limb = small_limb();
-    const FrameMeasurer measurer(limb, {}, {});
     ReferenceErrorBar bar(ErrorBar::refined, spec_of("pbs"), limb);
-    pbs::Pose broken = bent(limb);
+    pbs::Pose broken = pose;
     broken[1].translation()(0) = std::nan("");
     bar.advance(broken, 0.01);
     EXPECT_FALSE(bar.bound(limb.mesh.rest, measurer));

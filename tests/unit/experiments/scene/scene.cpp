@@ -25,22 +25,20 @@ const std::string motion = "[motion]\njoint = \"forearm\"\nangle_deg = 90\n";
 const std::string stated = "[pbs]\nk_stretch = 0.2\nk_volume = 1.0\nk_bind = 1.0\ngravity_m_s2 = [0.0, 0.0, 0.0]\n";
 const std::string smallest = "schema = 1\n[character]\nbody = \"limb\"\n" + motion + stated;
 
-TEST(Scene, DefaultsOfPbsAreThoseOfItsOptions)
+template <typename Options>
+void expect_defaults(const std::string& deformers)
 {
     const test_support::ScratchFolder folder;
-    const auto read = read_scene(folder.file("scene.toml", smallest + "[deformers]\nuse = [\"pbs\"]\n"), {}).deformers.at(0);
+    const auto read = read_scene(folder.file("scene.toml", smallest + deformers), {}).deformers.at(0);
     experiments::DeformerSpec untouched = read;
-    untouched.options = pbs::PbsOptions{};  // `stated` has the same values where the scene has no default
+    untouched.options = Options{};  // `stated` has the same values where the scene has no default
     EXPECT_EQ(to_json(read), to_json(untouched));
 }
 
-TEST(Scene, DefaultsOfFemAreThoseOfItsOptions)
+TEST(Scene, DefaultsAreThoseOfTheOptions)
 {
-    const test_support::ScratchFolder folder;
-    const auto read = read_scene(folder.file("scene.toml", smallest + "[deformers]\nuse = [\"fem\"]\n[[fem]]\n"), {}).deformers.at(0);
-    experiments::DeformerSpec untouched = read;
-    untouched.options = FemOptions{};
-    EXPECT_EQ(to_json(read), to_json(untouched));
+    expect_defaults<pbs::PbsOptions>("[deformers]\nuse = [\"pbs\"]\n");
+    expect_defaults<FemOptions>("[deformers]\nuse = [\"fem\"]\n[[fem]]\n");
 }
 
 TEST(Scene, EveryBuiltInSceneReads)

@@ -10,7 +10,6 @@
 
 #include <cstdlib>
 #include <numeric>
-#include <sstream>
 
 namespace {
 
