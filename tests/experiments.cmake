@@ -17,7 +17,7 @@ endif()
 # verdicts that it must change by theory, and no others.
 pbs_tests(claims experiments FOLDERS experiments EXCEPT ${left_out}
     ALONE experiments/broken_bulge experiments/momentum experiments/stiffness experiments/broken_weights
-        experiments/jiggle experiments/setup_verdict
+        experiments/jiggle
     LIBRARIES experiments)
 target_compile_definitions(test_claims_experiments PRIVATE ${claims_file})
 pbs_tests(unit experiments BLAS

@@ -121,6 +121,9 @@ private:
     mutable std::set<std::string> read_;
 };
 
+// The tables [[name]] of studies/STUDY/cases.toml, which has further ones in addition to [[case]].
+nlohmann::json tables_of(const std::string& study, const std::string& name);
+
 // The plan of a study whose cases are data: `add` makes the run of each case of this form. A body that is not installed, or that `add`
 // refuses by InputError, for example because a clip is missing, is left out with all of its further cases.
 StudyPlan plan_of_cases(const std::string& study, bool full, const std::function<void(const StudyCase& of, StudyPlan& plan)>& add);

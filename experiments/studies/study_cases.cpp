@@ -13,14 +13,6 @@
 namespace experiments {
 namespace {
 
-nlohmann::json cases_of(const std::string& study)
-{
-    const toml::table document = analysis::parse_toml_document(*::cases::by_name.at(study), study + "/cases.toml", {"case"});
-    std::ostringstream json;
-    json << toml::json_formatter{document};
-    return nlohmann::json::parse(json.str()).at("case");
-}
-
 // The keys of a form or a body replace those that all have in common.
 void select(nlohmann::json& values, const std::vector<std::string>& tables, const std::string& selected)
 {
@@ -46,6 +38,15 @@ nlohmann::json resolved(nlohmann::json values, const std::string& body, bool ful
 }
 
 }  // namespace
+
+nlohmann::json tables_of(const std::string& study, const std::string& name)
+{
+    const toml::table document =
+        analysis::parse_toml_document(*::cases::by_name.at(study), study + "/cases.toml", {"case", "ladder", "deformer", "change"});
+    std::ostringstream json;
+    json << toml::json_formatter{document};
+    return nlohmann::json::parse(json.str()).at(name);
+}
 
 StudyCase::StudyCase(const std::string& study, const nlohmann::json& values, bool is_full)
     : name(values.at("name").get<std::string>()),
@@ -94,7 +95,7 @@ void StudyCase::require_nothing_unread() const
 StudyPlan plan_of_cases(const std::string& study, bool full, const std::function<void(const StudyCase& of, StudyPlan& plan)>& add)
 {
     StudyPlan plan;
-    const nlohmann::json cases = cases_of(study);
+    const nlohmann::json cases = tables_of(study, "case");
     const auto is_left_out = [&](const std::string& body) {
         return std::ranges::count(plan.left_out, body, &analysis::LeftOut::scene) > 0;
     };

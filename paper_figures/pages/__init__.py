@@ -9,7 +9,7 @@ import sys
 import records
 from records import kept, whole_file
 
-studies = ("convergence", "ensemble", "work_precision")  # each with a module that has page(folder)
+studies = ("convergence", "ensemble", "timing", "work_precision")  # each with a module that has page(folder)
 
 
 def write(results):
@@ -30,7 +30,8 @@ def write(results):
 
 
 def table(rows, columns):
-    """A Markdown table. columns: {heading: column, or (column, decimals), or a function of the row}."""
+    """A Markdown table. columns: {heading: column, (column, decimals), (column, "g") with three digits or "g4" with four, or a function of
+    the row}."""
     def cell(row, of):
         if callable(of):
             return of(row)
@@ -38,7 +39,8 @@ def table(rows, columns):
         if decimals is None or row[name] == "":
             return row[name]
         value = float(row[name])
-        return "\u2013" if math.isnan(value) else f"{value:.{decimals}f}"
+        digits = f".{decimals[1:] or 3}g" if isinstance(decimals, str) else f".{decimals}f"
+        return "\u2013" if math.isnan(value) else f"{value:{digits}}"
 
     lines = ["| " + " | ".join(columns) + " |", "|" + "---|" * len(columns)]
     return "\n".join([*lines, *("| " + " | ".join(cell(row, of) for of in columns.values()) + " |" for row in rows)]) + "\n"

@@ -3,6 +3,7 @@
 #include "analysis/records/record_files.hpp"
 #include "analysis/statistics/statistics.hpp"
 #include "analysis/verdicts/measurement.hpp"
+#include "experiments/deformers/deformer_options.hpp"
 #include "experiments/process/machine.hpp"
 #include "experiments/process/terminal.hpp"
 #include "experiments/scene/scene.hpp"
@@ -60,12 +61,13 @@ ConvergencePaths paths_of(const ReadingsCase& of, const MovedBody& body, const R
     const FrameStarts starts = starts_of(character, body.motion, {of.frame}, reading.options).front();
     const pbs::Positions bind_points = bind_points_of(character, reading, body.pose_at(of.frame), starts.shapes.front());
     ConvergencePaths paths;
-    paths.body = of.scene.character.body;
-    paths.pose = of.pose;
+    paths.of.body = of.scene.character.body;
+    paths.of.pose = of.pose;
     paths.key = of.key;
-    paths.vertices = static_cast<int>(character.mesh.rest.rows());
-    paths.tets = static_cast<int>(character.mesh.tets.rows());
-    paths.setting = {reading.options.order, reading.options.precision};
+    paths.of.vertices = static_cast<int>(character.mesh.rest.rows());
+    paths.of.tets = static_cast<int>(character.mesh.tets.rows());
+    paths.of.order = name_of(reading.options.order);
+    paths.of.precision = name_of(reading.options.precision);
     paths.character = !of.scene.motion.clip.empty();
     paths.paths = iterate(character, reading.options, bind_points, {starts.shapes.begin(), starts.shapes.end()}, of.most_iterations,
                           IterationMetrics(character, bind_points));
@@ -189,7 +191,7 @@ std::vector<ReadingValues> values_of_starts(const ReadingsCase& of, const std::v
     return of_each(readings, [&](const Reading& reading) {
         ConvergenceResult result;
         result.all.push_back(paths_of(of, body, reading));
-        result.all.front().k_stretch = readings.front().options.k_stretch;  // names the case, alike for all readings
+        result.all.front().of.k_stretch = readings.front().options.k_stretch;  // names the case, alike for all readings
         ReadingValues read = {judged(convergence_values(result)), !are_finite(result.all.front().paths)};
         if (!result.all.front().character) read.left_out = all_but("C12", {}, "judged on characters alone");
         return read;

@@ -98,7 +98,7 @@ ArtefactCase crouch(const std::string& body, bool full)
 {
     ArtefactCase of;
     of.scene = read_scene("human_01_01", {deformers_of(body, full), "character.body=" + body, "reference.name=nh_p1"});
-    of.poses = {{clip_frames::crouch, "01_01_crouch", {.motion = "01_01", .pose = "crouch"}}};
+    of.poses = {{crouch_frame, "01_01_crouch", {.motion = "01_01", .pose = "crouch"}}};
     of.second_order_poses = 1;
     return of;
 }

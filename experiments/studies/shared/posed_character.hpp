@@ -16,15 +16,9 @@
 #include <string>
 #include <vector>
 
-namespace experiments::clip_frames {
-
-// The frames of CMU's clip 01_01 (100 Hz) that several studies measure.
-//   read_scene("human_01_01", {}), clip_frames::crouch
-inline constexpr int standing = 0, crouch = 164, in_the_air = 672, landing = 708;
-
-}  // namespace experiments::clip_frames
-
 namespace experiments {
+
+inline constexpr int crouch_frame = 164;  // of CMU's clip 01_01 (100 Hz)
 
 // The name of a pose's run, and of its diagram in the tables: limb_twist_90, human_crouch.
 

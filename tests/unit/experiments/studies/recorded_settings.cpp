@@ -179,13 +179,15 @@ TEST(RecordedSettings, OfBodySetup)
 TEST(RecordedSettings, OfTimedStudies)
 {
     EXPECT_GE(expect_each_change_repeats(BenchOptions{.mesh = "bar.msh", .sizes = {1000}}), 7);
-    EXPECT_GE(expect_each_change_repeats(TimedCase{.scene = limb(), .model = "Man"}), 6);
-    EXPECT_GE(expect_each_change_repeats(FeaturesCase{.name = "limb", .scene = "limb_bend", .cut = {"motion.frames=11"}}), 8);
+    EXPECT_GE(expect_each_change_repeats(TimedCase{.name = "man_1654", .scene = limb(), .model = "Man"}), 6);
+    EXPECT_GE(expect_each_change_repeats(
+                  FeaturesCase{.name = "limb", .scene = "limb_bend", .cut = {"motion.frames=11"}, .features = {{"sleep"}}}),
+              8);
 }
 
 TEST(RecordedSettings, OfATimedCaseHasTheRefinementsOfItsMesh)
 {
-    TimedCase of{.scene = limb(), .model = ""};
+    TimedCase of{.name = "man_1654", .scene = limb()};
     const nlohmann::json recorded = to_json(of);
     of.scene.character.refinements = 2;
     EXPECT_NE(to_json(of), recorded);
