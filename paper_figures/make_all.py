@@ -13,6 +13,7 @@ import shutil
 import sys
 
 import records
+from drawing import style
 from records import entries, kept, whole_file
 from words import captions
 
@@ -38,7 +39,12 @@ def draw(entry, results, folder):
     """Draws a figure; returns whether it succeeded."""
     try:
         entry.check(results)
-        entry.draw(results, folder)
+        figure, rows, further = entry.draw(results)
+        origin = entry.origin(results)
+        style.save(figure, folder / entry.name, origin, rows)
+        for ending, write in further.items():
+            with whole_file.beside(folder / f"{entry.name}.{ending}") as path:
+                write(path, origin)
         captions.write(entry, results, folder)
     except records.RecordsMissing as error:
         delete(entry.name, folder)
@@ -75,16 +81,12 @@ def main(results, only=None, folder=None):
     return 0 if all(drawn) else 1
 
 
-def arguments():
+if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("results", metavar="DIR", type=pathlib.Path, help="the records of ./reproduce")
     parser.add_argument("--only", metavar="NAME", help="draw only this figure")
     parser.add_argument("--into", metavar="FOLDER", type=pathlib.Path, help="folder of the figures (default: DIR/figures)")
-    return parser.parse_args()
-
-
-if __name__ == "__main__":
-    chosen = arguments()
+    chosen = parser.parse_args()
     try:
         sys.exit(main(chosen.results, chosen.only, chosen.into))
     except whole_file.CannotBeWritten as error:

@@ -3,7 +3,6 @@ stiffness in bending and torsion that remains as Poisson's ratio approaches 1/2;
 the finest mesh."""
 import records
 from drawing import style
-from records import entries
 from words import case_words
 from words.number_words import figure, span
 
@@ -11,20 +10,6 @@ from words.number_words import figure, span
 looks = {("1", "displacement"): (style.vermillion, "v"), ("2", "displacement"): (style.blue, "o"),
          ("2", "mean_dilatation"): (style.orange, "s"), ("2", "taylor_hood"): (style.green, "D")}
 norms = {"error_l2": ("$L^2$", "-", 1), "error_h1_seminorm": ("$H^1$", (0, (4, 1.5)), 0)}
-# The problems shown, and their names in the figure.
-benchmarks = {
-    ("cantilever", "tip_deflection"): "cantilever, tip",
-    ("gravity_cantilever", "end_deflection"): "cantilever under its own weight",
-    ("torsion", "torque"): "torsion of a square bar",
-    ("thick_sphere", "inner_radial_displacement"): "Lam\u00e9's thick sphere",
-    ("cooks_membrane", "corner_rise_plane_strain"): "Cook, plane strain",
-    ("cooks_membrane", "edge_middle_rise_plane_stress"): "Cook, plane stress",
-    ("cooks_membrane_finite_strain", "corner_rise_free_faces"): "Cook, finite strain, free faces",
-    ("cooks_membrane_finite_strain", "corner_rise_plane_strain"): "Cook, finite strain, plane strain",
-    ("twisted_beam", "tip_deflection_in_plane"): "MacNeal\u2013Harder twisted beam, in plane",
-    ("twisted_beam", "tip_deflection_out_of_plane"): "MacNeal\u2013Harder twisted beam, out of plane",
-    ("thick_plate", "stress_yy_at_d"): "NAFEMS LE10, stress at D",
-}
 
 
 def solved_with(rows, elements):
@@ -48,19 +33,15 @@ def draw_convergence(axes, rows):
         color, marker = looks[elements]
         for quantity, (norm, line, gain) in norms.items():
             ladder = [row for row in solved_with(rows, elements) if row["quantity"] == quantity]
-            if not ladder:
-                raise records.RecordsMissing(f"verification.csv: no {quantity} of elements of order {element_order}")
-            h, error = records.numbers(ladder, "h_m"), records.numbers(ladder, "value")
+            records.need(ladder, f"verification.csv: no {quantity} of elements of order {element_order}")
             order = element_order + gain
-            axes.plot(h, error, color=color, linestyle=line, marker=marker,
-                      label=f"{case_words.elements(*elements)} in {norm}, theory $h^{order}$")
+            style.plot(axes, ladder, "h_m", "value", color=color, linestyle=line, marker=marker,
+                       label=f"{case_words.elements(*elements)} in {norm}, theory $h^{order}$")
             dotted += theory(ladder, order)
-            axes.plot(h, records.numbers(dotted[-len(h):], "value"), color=style.black, linestyle=(0, (1, 2)), linewidth=0.7)
+            style.plot(axes, dotted[-len(ladder):], "h_m", "value", color=style.black, linestyle=(0, (1, 2)), linewidth=0.7)
     axes.set_xscale("log", base=2)
-    axes.set_yscale("log")
-    axes.set_xlabel("cell size over the cube's side")
-    axes.set_ylabel("error over the solution's norm")
-    axes.set_title("manufactured solution; dotted: theory")
+    axes.set(yscale="log", xlabel="cell size over the cube's side", ylabel="error over the solution's norm",
+             title="manufactured solution; dotted: theory")
     axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.22), ncol=2)
     return dotted
 
@@ -85,12 +66,9 @@ def draw_locking(axes, rows):
         axes.axhline(shown_of(kept[-1])["value_over_reference"], color=style.purple, linestyle=(0, (1, 1)),
                      label="PBS constraints, every volume kept")
     axes.axhline(1.0, color=style.black, linewidth=0.6)
-    axes.set_xscale("log")
+    axes.set(xscale="log", ylim=(0.0, 1.65), xlabel="1 \u2212 2 \u03bd, from compressible to incompressible", ylabel="value over theory",
+             title="locking: bending (full lines), torsion (dashed)")
     axes.invert_xaxis()
-    axes.set_ylim(0.0, 1.65)
-    axes.set_xlabel("1 \u2212 2 \u03bd, from compressible to incompressible")
-    axes.set_ylabel("value over theory")
-    axes.set_title("locking: bending (full lines), torsion (dashed)")
     axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.22), ncol=2)
 
 
@@ -99,13 +77,18 @@ def finest(rows):
     chosen = {}
     for row in rows:
         key = (row["problem"], row["quantity"], row["poisson"], row["element_order"], row["formulation"])
-        if key[:2] in benchmarks and row["difference_pct"] and (key not in chosen or int(row["dofs"]) > int(chosen[key]["dofs"])):
+        if name_of(row) and row["difference_pct"] and (key not in chosen or int(row["dofs"]) > int(chosen[key]["dofs"])):
             chosen[key] = row
     return list(chosen.values())
 
 
+def name_of(row):
+    """The benchmark in words; none for other quantities."""
+    return case_words.tables["benchmark"].get(row["problem"], {}).get(row["quantity"])
+
+
 def label_of(row):
-    return f"{benchmarks[row['problem'], row['quantity']]}, \u03bd = {float(row['poisson']):.4g}"
+    return f"{name_of(row)}, \u03bd = {float(row['poisson']):.4g}"
 
 
 def draw_benchmarks(axes, rows):
@@ -120,11 +103,9 @@ def draw_benchmarks(axes, rows):
     axes.set_xscale("symlog", linthresh=2.0, linscale=1.5)
     ticks = [-50, -10, -2, -1, 0, 1, 2, 10, 50]
     axes.set_xticks(ticks, [f"{tick:+g}".replace("-", "\u2212") if tick else "0" for tick in ticks])
-    axes.set_xlim(-70, 70)
-    axes.set_yticks(range(len(places)), list(places))
-    axes.set_ylim(len(places) - 0.5, -0.5)
-    axes.set_xlabel("difference from the reference on the finest mesh [%]")
-    axes.set_title("benchmarks; grey: grade A of MacNeal and Harder (1985)")
+    style.name_rows(axes, list(places))
+    axes.set(xlim=(-70, 70), xlabel="difference from the reference on the finest mesh [%]",
+             title="benchmarks; grey: grade A of MacNeal and Harder (1985)")
     axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.155), ncol=3)  # inside the panel, its marks would look like measured points
 
 
@@ -135,24 +116,23 @@ def verification_facts(rows):
         return [row for row in rows if row["element_order"] == str(order)]
 
     bent = [row for row in rows if (row["problem"], row["quantity"]) == ("locking", "tip_deflection")]
-    judged = [row for row in rows if (row["problem"], row["quantity"]) in benchmarks and row["difference_pct"]]
+    judged = [row for row in rows if name_of(row) and row["difference_pct"]]
     kept = {f"p{order}_bending": span([100 * float(row["value_over_reference"]) for row in of(order, bent)]) for order in (1, 2)}
     off = {f"p{order}_off": figure(max((abs(float(row["difference_pct"])) for row in of(order, judged)), default=None)) for order in (1, 2)}
     return kept | off
 
 
-def verification(results, figures):
+def verification(results):
     rows = records.table(results / "verification" / "verification.csv",
                          {"problem", "quantity", "element_order", "formulation", "poisson", "h_m", "dofs", "value", "reference",
                           "difference_pct"})
     manufactured, locking = ([row for row in rows if row["problem"] == name] for name in ("manufactured_solution", "locking"))
     shown = finest(rows)
-    if not shown:
-        raise records.RecordsMissing("verification.csv: no benchmark")
+    records.need(shown, "verification.csv: no benchmark")
     drawing, (above, below) = style.stacked((2, 2.5), (1, 3.1))
     dotted = draw_convergence(above[0], manufactured)
     draw_locking(above[1], locking)
     draw_benchmarks(below[0], shown)
     behind = [row | {"one_less_two_nu": "", "value_over_reference": ""} for row in manufactured + dotted + shown]
     behind += [row | shown_of(row) for row in locking]
-    style.save(drawing, figures / "verification", entries.origin_of(results, "verification"), behind)
+    return drawing, behind

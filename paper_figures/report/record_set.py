@@ -10,21 +10,15 @@ from words import sentences
 
 class RecordSet:
     def __init__(self, results):
-        if not results.is_dir():
-            raise records.RecordsMissing(f"{results}: no such folder")
+        records.need(results.is_dir(), f"{results}: no such folder")
         self.results = results
         self.runs = {file.parent.relative_to(results).as_posix(): shapes.read(file, shapes.run)
                      for file in self.files("**/run.json")}
-        if not self.runs:
-            raise records.RecordsMissing(f"{results}: no records: no run.json in it or below; run `pbskin reproduce -o` into it first")
+        records.need(self.runs, f"{results}: no records: no run.json in it or below; run `pbskin reproduce -o` into it first")
         self.studies = sorted({name.split("/")[0] for name in self.runs})
         self.plans = {file.parent.name: shapes.read(file, shapes.plan) for file in self.files("*/plan.json")}
-        self.claims = self._claims()
-
-    def _claims(self):
-        """None if no claim was judged."""
-        file = self.results / "claims.json"
-        return sentences.claims_of(file) if file.is_file() else None
+        judged = results / "claims.json"
+        self.claims = sentences.claims_of(judged) if judged.is_file() else None  # None if no claim was judged
 
     def run(self, name, shape):
         """The record of a run of which further members are read."""
@@ -33,8 +27,7 @@ class RecordSet:
 
     def rows(self, name):
         """The rows of a CSV file, or none if it does not exist."""
-        file = self.results / name
-        return records.read_rows(file) if file.is_file() else []
+        return records.rows_if_any(self.results / name)
 
     def files(self, pattern):
         return sorted(self.results.glob(pattern))

@@ -7,11 +7,8 @@ from records import shapes
 from words import case_words
 from words.number_words import counted, figure, span, span_of_thousandths
 
-names = {"reproduced": "reproduced", "reproduced_only_for": "reproduced in part", "not_reproduced": "not reproduced",
-         "inconsistent_in_print": "inconsistent in print", "cannot_be_tested_here": "cannot be tested here",
-         "not_computable": "not computable"}
-trials = {"share_of_cells_inverted": "end with inverted tets", "share_of_cells_in_motion": "end in motion",
-          "share_of_cells_at_rest": "end as if undisturbed"}  # these shares are counts of trials
+names = case_words.tables["verdict"]
+trials = case_words.tables["trial"]  # these shares are counts of trials
 
 
 def claims_of(file):
@@ -37,10 +34,6 @@ def bound(low, high):
     if low is None or high is None:
         return f"{low:.4g} or more" if high is None else f"{high:.4g} or less"
     return f"{low:.4g}" if low == high else f"{low:.4g} to {high:.4g}"
-
-
-def bound_of(claim, quantity):
-    return next((bound(of["low"], of["high"]) for of in claim["bounds"] if of["quantity"] == quantity), "")
 
 
 def expected(claim):
@@ -97,36 +90,16 @@ def angles_text(case):
     return f"{case_words.run(case)} " + (f"by {held} of {figure(case['last_angle_deg'])}\u00b0" if held else "by no angle")
 
 
-def runs_in_short(claim):
-    """The range of each sweep; for clips, the number by which they are judged."""
-    runs = own_runs(claim)
-    clips = [case for case in runs if not case["sweep"]]
-    texts = [run_text(claim, case) for case in runs if case["sweep"]]
-    return texts + ([f"{counted(len(clips), 'clip')}: {clips_text(claim, clips)}"] if clips else [])
-
-
 # Claims about values that a study measured.
-
-def measured_values(claim):
-    return [case for case in claim["cases"] if "frames" not in case]
-
 
 def grouped(claim, values, fields):
     """The values by the title of their quantity, with the fields that distinguish its groups."""
     groups = {}
-    for value in values:
+    for value in (value for value in values if "frames" not in value):
         own = all(value.get(field) == wanted for field, wanted in claim["of"].items())
         told = [case_words.of_field(field, value[field]) for field in fields if field in value and not (own and field in claim["of"])]
         groups.setdefault(", ".join([title(claim, value["quantity"]), *told]), []).append(value)
     return groups
-
-
-def judged_groups(claim):
-    return grouped(claim, measured_values(claim), claim["each"])
-
-
-def control_groups(claim):
-    return grouped(claim, [value for value in claim["controls"] if "frames" not in value], [*claim["of"], *claim["each"]])
 
 
 def range_of(values):
@@ -147,9 +120,7 @@ def range_with_intervals(values):
 
 def within(claim):
     """States how many values hold."""
-    if claim["rule"] == "printed":
-        return f"{claim['within']} of {counted(claim['n'], 'value')} consistent"
-    return f"{claim['within']} of {counted(claim['n'], 'value')} within the bound"
+    return f"{claim['within']} of {counted(claim['n'], 'value')} " + ("consistent" if claim["rule"] == "printed" else "within the bound")
 
 
 def farthest(claim, in_short=False):
@@ -160,24 +131,19 @@ def farthest(claim, in_short=False):
     words = "" if in_short else case_words.of(primary)
     of = f" of {words}" if words else ""
     value = "not a number" if primary["value"] is None else figure(primary["value"]) + with_unit(primary["unit"])
-    expected_of_it = bound(primary["bound_low"], primary["bound_high"])
-    return f"farthest: {title(claim, primary['quantity'])}{of} is {value}, expected {expected_of_it}"
+    return f"farthest: {title(claim, primary['quantity'])}{of} is {value}, expected {bound(primary['bound_low'], primary['bound_high'])}"
 
 
 # The subjects for which a claim holds.
 
 def subjects(claim):
     """for limb, man (3 of 4 values); not for lady."""
-    def name(subject):
-        return case_words.of_field(claim["subject"], subject["name"])
-
-    def counted_in(subject):
-        whole = subject["within"] == subject["n"]
-        return name(subject) + ("" if whole else f" ({subject['within']} of {counted(subject['n'], 'value')})")
-
-    holding = [counted_in(subject) for subject in claim["subjects"] if subject["holds"] != "none"]
-    failing = [name(subject) for subject in claim["subjects"] if subject["holds"] == "none"]
-    return "; ".join([f"{words} {', '.join(of)}" for words, of in (("for", holding), ("not for", failing)) if of])
+    groups = {"for": [], "not for": []}
+    for subject in claim["subjects"]:
+        fails, whole = subject["holds"] == "none", subject["within"] == subject["n"]
+        share = "" if fails or whole else f" ({subject['within']} of {counted(subject['n'], 'value')})"
+        groups["not for" if fails else "for"].append(case_words.of_field(claim["subject"], subject["name"]) + share)
+    return "; ".join(f"{words} {', '.join(of)}" for words, of in groups.items() if of)
 
 
 def outcome(claim, in_short=False):
@@ -221,11 +187,10 @@ def by_other_metrics(claim):
 def by_other_orders(claim):
     same = [reading_name(reading) for reading in claim["readings"] if reading["same"]]
     texts = [f"the same verdict in {'; '.join(same)}"] if same else []
-    for reading in claim["readings"]:
-        if not reading["same"]:
-            places = "; ".join(differing(claim, reading))
-            texts.append(f"{names[reading['verdict']]} in {reading_name(reading)}, as against {names[reading['own_verdict']]}"
-                         + (f" ({places})" if places else ""))
+    for reading in (reading for reading in claim["readings"] if not reading["same"]):
+        places = "; ".join(differing(claim, reading))
+        texts.append(f"{names[reading['verdict']]} in {reading_name(reading)}, as against {names[reading['own_verdict']]}"
+                     + (f" ({places})" if places else ""))
     return texts
 
 
@@ -242,14 +207,15 @@ def differing(claim, reading):
 def verdict_in_full(claim):
     """A list of statements: the verdict with its subjects, the farthest value, other metrics and orders, and what was left out."""
     first = outcome(claim, in_short=True) if claim["verdict"] != "not_reproduced" else subjects(claim)
-    told = [f"{names.get(claim['verdict'], claim['verdict'])}" + (f": {first}" if first else "")]
+    told = [names[claim["verdict"]] + (f": {first}" if first else "")]
     return told + [text for text in (farthest(claim), *by_other_metrics(claim), *by_other_orders(claim), *left_out(claim)) if text]
 
 
 def controls(claim, most=4):
     """The first quantities that were measured for comparison, without a bound, from the smallest to the largest value; empty if there are
     none."""
-    return ", ".join([control_text(of, values) for of, values in control_groups(claim).items()][:most])
+    groups = grouped(claim, claim["controls"], [*claim["of"], *claim["each"]])
+    return ", ".join([control_text(of, values) for of, values in groups.items()][:most])
 
 
 def control_text(of, values):
@@ -267,28 +233,23 @@ def control_text(of, values):
 most_quantities = 3  # quantities named one by one
 
 
-def expected_in_line(claim):
-    texts = expected(claim)
-    return "; ".join(texts) if len(texts) <= most_quantities else f"{len(texts)} quantities, each within its bound"
-
-
 def measured_in_line(claim):
     """The number by which its runs are judged, or the range of each bounded quantity, and how much of it is as expected."""
     runs = own_runs(claim)
-    if runs:
-        partly = sum(case["holds"] == "part" for case in runs)
-        return "; ".join([*runs_in_short(claim), f"{claim['within']} of {counted(claim['n'], 'run')} within the bound, {partly} in part"])
+    if runs:  # the range of each sweep; for clips, the number by which they are judged
+        clips, partly = [case for case in runs if not case["sweep"]], sum(case["holds"] == "part" for case in runs)
+        texts = [run_text(claim, case) for case in runs if case["sweep"]]
+        texts += [f"{counted(len(clips), 'clip')}: {clips_text(claim, clips)}"] if clips else []
+        return "; ".join([*texts, f"{claim['within']} of {counted(claim['n'], 'run')} within the bound, {partly} in part"])
     if not claim["n"]:
         return ""
     if claim["rule"] == "printed":
         return within(claim)
     if len(expected(claim)) > most_quantities:
         return "; ".join(filter(None, [within(claim), farthest(claim, in_short=True)]))
-    values = measured_values(claim)
-    if len(expected(claim)) == 1:
-        return f"{range_of(values)}; {within(claim)}"
-    ranges = [range_of([value for value in values if value["quantity"] == of["quantity"]]) for of in claim["bounds"]]
-    return "; ".join([*filter(None, ranges), within(claim)])
+    values = [case for case in claim["cases"] if "frames" not in case]
+    groups = [[value for value in values if value["quantity"] == of["quantity"]] for of in claim["bounds"]]
+    return "; ".join([*filter(None, map(range_of, [values] if len(expected(claim)) == 1 else groups)), within(claim)])
 
 
 def key_number(claim):

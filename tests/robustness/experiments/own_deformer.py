@@ -1,24 +1,22 @@
 """Deformers of the user's own: the examples of experiments/deformers/external/README.md, run as it describes, and every way in which a
 program or a library can fail. Reference: the formulas of the examples, computed here from what pbskin writes for a program, and the frames
 of pbskin's own LBS. Tolerance: a thousand roundings of the largest coordinate, for sums over fewer than a hundred bones and neighbours."""
-import csv
 import json
 import os
 import pathlib
 import re
-import shutil
 import subprocess
 import sys
 import unittest
 
 import numpy
-import vtk
-from vtk.util.numpy_support import vtk_to_numpy
 
 import foreign_arm
 import program
+import written_frames
 
 FOLDER = pathlib.Path(program.SOURCE) / "experiments/deformers/external"
+EXAMPLE = (FOLDER / "examples/smoothed_skinning.py").read_text()
 TABLES = re.findall(r"```toml\n(.*?)```", (FOLDER / "README.md").read_text(), re.DOTALL)
 COMPILE = re.search(r"^cc .*$", (FOLDER / "README.md").read_text(), re.MULTILINE)[0]
 LIMB = 'body = "limb"\nvertices = 300\n[motion]\njoint = "forearm"\naxis = [0.0, 0.0, 1.0]\nangle_deg = 90.0\nframes = 4\n'
@@ -28,27 +26,8 @@ ENVIRONMENT = {**os.environ, "PATH": "/usr/bin:" + os.environ["PATH"]}  # Debian
 KEEP = "\nimport shutil\nshutil.copytree(folder, %r)\n"  # for the end of a Python deformer
 TOLERANCE = 1000 * numpy.finfo(float).eps
 
-LIBRARY = """
-#include "pbskin_deformer.h"
-static int vertices;
-int pbskin_deformer_version(void) { return %(version)s; }
-void* pbskin_deformer_create(const struct pbskin_character* c) { vertices = c->vertices; return %(made)s; }
-int pbskin_deformer_%(advance)s(void* d, const double* pose, double dt, double* x) {
-    for (int i = 0; i < 3 * vertices; ++i) x[i] = %(position)s;
-    return %(status)s;
-}
-void pbskin_deformer_destroy(void* d) {}
-"""
+LIBRARY = pathlib.Path(__file__).with_name("own_deformer.c.in").read_text()
 SOUND = {"version": "PBSKIN_DEFORMER_VERSION", "made": "&vertices", "advance": "advance", "position": "x[i] + 1.0", "status": "0"}
-
-
-def points_of(file):
-    """Points and tets."""
-    reader = vtk.vtkXMLUnstructuredGridReader()
-    reader.SetFileName(file)
-    reader.Update()
-    grid = reader.GetOutput()
-    return vtk_to_numpy(grid.GetPoints().GetData()), vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 4)
 
 
 class Exchanged:
@@ -89,15 +68,22 @@ class OwnDeformer(program.ProgramTest):
         return self.write("scene.toml", f"schema = 1\n[character]\n{body}{tables}{SETTINGS}")
 
     def frame(self, deformer, frame):
-        return points_of(self.path("out", "frames", f"{deformer}_{frame:06d}.vtu"))
+        """Points and tets."""
+        grid = written_frames.read(self.path("out", "frames", f"{deformer}_{frame:06d}.vtu"))
+        return written_frames.points(grid), written_frames.tets(grid)
+
+    def compiled_example(self):
+        """The library of the README, and where a program may keep what it was given."""
+        subprocess.run(COMPILE.replace("libmine.so", self.path("libmine.so")).split(), cwd=FOLDER, check=True)
+        return pathlib.Path(self.path("kept"))
 
     def compiled(self, name="libmine.so", **changes):
         source = self.write("mine.c", LIBRARY % {**SOUND, **changes})
         subprocess.run(["cc", "-shared", "-fPIC", "-I", FOLDER, source, "-o", self.path(name)], check=True)
         return self.path(name)
 
-    def run_scene(self, *arguments):
-        return program.run("run", self.path("scene.toml"), "-o", self.path("out"), *arguments, env=ENVIRONMENT)
+    def run_scene(self, status=0, **expected):
+        return self.ends(status, "run", self.path("scene.toml"), "-o", self.path("out"), env=ENVIRONMENT, **expected)
 
     def expect_equal(self, positions, expected):
         self.assertEqual(positions.shape, expected.shape)
@@ -109,11 +95,9 @@ class OwnDeformer(program.ProgramTest):
 
     def python_example(self, body, frames):
         kept = pathlib.Path(self.path("kept"))
-        text = (FOLDER / "examples/smoothed_skinning.py").read_text()
-        self.write("my_deformer.py", text + KEEP % str(kept))
+        self.write("my_deformer.py", EXAMPLE + KEEP % str(kept))
         self.scene(body, TABLES[0])
-        process = self.run_scene()
-        self.assertEqual(process.returncode, 0, process.stderr)
+        self.run_scene()
         given = Exchanged(kept)
         self.assertEqual(len(given.poses), frames)
         for frame in range(frames):
@@ -122,7 +106,7 @@ class OwnDeformer(program.ProgramTest):
             self.expect_equal(self.frame("lbs", frame)[0], given.blended(frame))
             self.expect_equal(positions, given.smoothed(frame))
         self.assertGreater(numpy.abs(positions - given.blended(frames - 1)).max(), 0.001)
-        run = json.loads(self.read("out", "run.json"))
+        run = self.json("out", "run.json")
         self.assertIn("mine", run["state_hash"])
         self.assertEqual([one["label"] for one in run["scene"]["runs"]], ["lbs", "pbs", "mine"])
 
@@ -136,15 +120,13 @@ class OwnDeformer(program.ProgramTest):
         self.python_example(HUMAN, 6)
 
     def test_the_library_of_the_readme(self):
-        subprocess.run(COMPILE.replace("libmine.so", self.path("libmine.so")).split(), cwd=FOLDER, check=True)
-        kept = pathlib.Path(self.path("kept"))
+        kept = self.compiled_example()
         self.write("keep.py", "import sys, pathlib\nfolder = pathlib.Path(sys.argv[-1])\n" + KEEP % str(kept)
                    + "import numpy\nfacts = numpy.fromfile(folder / 'rest.f64')\n"
                    + "numpy.tile(facts, 4).tofile(folder / 'positions.f64')\n")
         kept_table = '[[external]]\nname = "keep"\ncommand = ["python3", "keep.py"]\n'
         self.scene(LIMB, TABLES[1] + kept_table + '[deformers]\nuse = ["mine", "keep"]\n')
-        process = self.run_scene()
-        self.assertEqual(process.returncode, 0, process.stderr)
+        self.run_scene()
         given = Exchanged(kept)
         for frame in range(4):
             self.expect_equal(self.frame("mine", frame)[0], given.rigid(frame))
@@ -156,17 +138,16 @@ class OwnDeformer(program.ProgramTest):
         self.compiled()
         for has_memory, calls in (("true", 4 * 5 + 1), ("false", 5 + 1)):
             self.scene(HUMAN, TABLES[1] + f'has_memory = {has_memory}\n[deformers]\nuse = ["mine"]\n')
-            self.assertEqual(self.run_scene().returncode, 0)
+            self.run_scene()
             rest = self.frame("mine", 0)[0] - 1.0
             self.expect_equal(self.frame("mine", 5)[0], rest + calls)
 
     # The page of the run.
 
     def test_error_against_run_time_has_a_point_for_it(self):
-        shutil.copy(FOLDER / "examples/smoothed_skinning.py", self.path("my_deformer.py"))
+        self.write("my_deformer.py", EXAMPLE)
         self.scene(LIMB, TABLES[0] + '[reference]\nname = "pbs"\n')
-        process = self.run_scene()
-        self.assertEqual(process.returncode, 0, process.stderr)
+        self.run_scene()
         self.succeeds("report", self.path("out"))
         page = self.read("out", "report.html")
         figure = page.split('id="figure-error-against-time"')[1].split("</figure>")[0]
@@ -177,13 +158,11 @@ class OwnDeformer(program.ProgramTest):
     # The study of error against run time.
 
     def reproduce(self, *arguments):
-        return program.run("reproduce", "work_precision", "--only", "limb_bend_60", "-o", self.path("out"), "--external",
+        return self.succeeds("reproduce", "work_precision", "--only", "limb_bend_60", "-o", self.path("out"), "--external",
                            self.path("mine.toml"), *arguments, env=ENVIRONMENT)
 
     def runs_to_do(self):
-        process = self.reproduce("--resume", "--cost")
-        self.assertEqual(process.returncode, 0, process.stderr)
-        return int(re.search(r"^work_precision +(\d+)", process.stdout, re.MULTILINE)[1])
+        return int(re.search(r"^work_precision +(\d+)", self.reproduce("--resume", "--cost").stdout, re.MULTILINE)[1])
 
     def test_the_study_of_error_against_run_time_has_a_point_for_it(self):
         """The example of the README, the same example without smoothing, which is LBS and states times of 1, 2, 4, 8 and 16 ms, and the
@@ -191,24 +170,22 @@ class OwnDeformer(program.ProgramTest):
         Tolerance: positions differ by that of the module, and the mean distance from a bone is above 1 cm."""
         if not os.path.exists(os.path.join(os.path.dirname(program.PBSKIN), "../lib/libpbskin_fem.so")):
             self.skipTest("the reference needs the module pbskin_fem")
-        text = (FOLDER / "examples/smoothed_skinning.py").read_text()
+        text = EXAMPLE
         kept = pathlib.Path(self.path("kept"))
         blended = text.replace("in range(4):", "in range(0):").replace("time.perf_counter() - start", "0.001 * 2 ** len(seconds)")
         self.write("my_deformer.py", text)
         self.write("lbs.py", blended + KEEP % str(kept))
-        subprocess.run(COMPILE.replace("libmine.so", self.path("libmine.so")).split(), cwd=FOLDER, check=True)
+        self.compiled_example()
         example = re.search(r"```toml\n(schema = 1.*?)```", (FOLDER / "README.md").read_text(), re.DOTALL)[1]
         tables = (example + '[[external]]\nname = "blended"\ncommand = ["python3", "lbs.py"]\n'
                   + '[[external]]\nname = "rigid"\nlibrary = "libmine.so"\n')
         self.write("mine.toml", tables)
-        process = self.reproduce()
-        self.assertEqual(process.returncode, 0, process.stderr)
+        self.reproduce()
         given = Exchanged(kept)
         self.assertEqual(len(given.poses), 5)
         for pose in range(5):
             numpy.testing.assert_array_equal(given.poses[pose], given.poses[pose % 2])
-        with open(self.path("out", "work_precision", "points.csv"), newline="") as file:
-            points = list(csv.DictReader(file))
+        points = self.rows("out", "work_precision", "points.csv")
         own = {row["deformer"]: row for row in points if row["external"] == "1"}
         self.assertEqual({name: row["clock"] for name, row in own.items()}, {"mine": "own", "blended": "own", "rigid": "processor"})
         lbs = next(row for row in points if row["deformer"] == "lbs" and row["precision"] == "f64" and not row["wanted_vertices"])
@@ -223,60 +200,50 @@ class OwnDeformer(program.ProgramTest):
         self.assertIn("- `rigid`: processor time", page)
         self.assertIn("- `mine`: the times that the program states", page)
         self.assertEqual(self.runs_to_do(), 0)
-        self.write("my_deformer.py", text + "\n")
-        self.assertEqual(self.runs_to_do(), 1)
-        self.write("my_deformer.py", text)
-        self.assertEqual(self.runs_to_do(), 0)
-        self.write("mine.toml", tables.replace('"blended"', '"unsmoothed"'))
-        self.assertEqual(self.runs_to_do(), 1)
-        self.write("mine.toml", tables)
-        self.assertEqual(self.runs_to_do(), 0)
-        self.write("mine.toml", example)
-        self.assertEqual(self.runs_to_do(), 1)
+        renamed = tables.replace('"blended"', '"unsmoothed"')
+        for name, whole, other in (("my_deformer.py", text, text + "\n"), ("mine.toml", tables, renamed), ("mine.toml", tables, example)):
+            self.write(name, other)
+            self.assertEqual(self.runs_to_do(), 1)
+            self.write(name, whole)
+            self.assertEqual(self.runs_to_do(), 0)
+
+    def write_table(self, name, keys):
+        return self.write(name, f'schema = 1\n[[external]]\nname = "mine"\n{keys}\n')
 
     def test_what_the_study_refuses_before_it_computes(self):
-        def refused(message, *arguments, **options):
-            process = program.run("reproduce", *arguments, "-o", self.path("out"), **options)
-            self.assertEqual(process.returncode, 2, process.stderr)
-            self.assertRegex(process.stderr, r"^pbskin: " + message)
-            self.assertEqual(len(process.stderr.splitlines()), 1, process.stderr)
-            self.assertFalse(os.path.exists(self.path("out")))
-
-        mine = self.write("mine.toml", 'schema = 1\n[[external]]\nname = "mine"\ncommand = ["no_such_program"]\n')
-        refused(r".*mine\.toml:4: external\.0\.command = .*no_such_program.*: cannot be started: No such", "work_precision", "--external",
-                mine)
         os.mkdir(self.path("sub"))
-        with open(self.write("mine.sh", "#!/bin/sh\n"), "rb") as file:
-            os.chmod(file.name, 0o755)
-        self.write("sub/d.toml", 'schema = 1\n[[external]]\nname = "mine"\ncommand = ["./mine.sh"]\n')
-        refused(r"sub/d\.toml:4: external\.0\.command = .*\./mine\.sh.*: cannot be started: No such", "work_precision", "--external",
-                "sub/d.toml", cwd=self.folder)
-        self.write("crash.toml", 'schema = 1\n[[external]]\nname = "mine"\nlibrary = "libmine.so"\n')
+        self.script("mine.sh", "")
+        mine = self.write_table("mine.toml", 'command = ["no_such_program"]')
+        crash = self.write_table("crash.toml", 'library = "libmine.so"')
+        sound = self.write_table("sound.toml", 'command = ["python3", "any.py"]')
+        self.write_table("sub/d.toml", 'command = ["./mine.sh"]')
         self.compiled(version="*(volatile int*)0")
-        for arguments in ((), ("--cost",)):
-            refused(r".*crash\.toml:4: external\.0\.library = libmine\.so: cannot be loaded: .*signal 11", "work_precision",
-                    "--external", self.path("crash.toml"), *arguments)
+        crashed = r".*crash\.toml:4: external\.0\.library = libmine\.so: cannot be loaded: .*signal 11"
         a_run = r"--external = .*\.toml: expected a run of work_precision among the runs"
-        refused(a_run, "volume", "--external", mine)
-        sound = self.write("sound.toml", 'schema = 1\n[[external]]\nname = "mine"\ncommand = ["python3", "any.py"]\n')
-        refused(a_run, "work_precision", "momentum", "--external", sound, "--only", "limb")
-        refused("--external: expected a file", "work_precision", "--external", "")
-        refused(r".*none\.toml: cannot be read", "work_precision", "--external", self.path("none.toml"))
-        refused(r"--only = limb: no such run; expected one of limb_twist_90", "work_precision", "--only", "limb")
+        for words, *arguments in (
+                (r".*mine\.toml:4: external\.0\.command = .*no_such_program.*: cannot be started: No such", "work_precision", "--external",
+                 mine),
+                (r"sub/d\.toml:4: external\.0\.command = .*\./mine\.sh.*: cannot be started: No such", "work_precision", "--external",
+                 "sub/d.toml"),
+                (crashed, "work_precision", "--external", crash), (crashed, "work_precision", "--external", crash, "--cost"),
+                (a_run, "volume", "--external", mine), (a_run, "work_precision", "momentum", "--external", sound, "--only", "limb"),
+                ("--external: expected a file", "work_precision", "--external", ""),
+                (r".*none\.toml: cannot be read", "work_precision", "--external", self.path("none.toml")),
+                (r"--only = limb: no such run; expected one of limb_twist_90", "work_precision", "--only", "limb")):
+            with self.subTest(words):
+                process = self.ends(2, "reproduce", *arguments, "-o", self.path("out"), cwd=self.folder)
+                self.assertRegex(process.stderr, rf"^pbskin: {words}.*\n$")
+                self.assertFalse(os.path.exists(self.path("out")))
 
     # Failures: the scene, the deformer, its command or library, and the rule.
 
-    def expect_refused(self, key, value, rule, status=2):
-        process = self.run_scene()
-        self.assertEqual(process.returncode, status, process.stderr)
-        line = rf"^pbskin: .*scene\.toml: mine\.{key} = .*{re.escape(value)}.*: .*{re.escape(rule)}"
-        self.assertRegex(process.stderr.splitlines()[-1], line)
-        self.assertEqual(len(process.stderr.splitlines()), 1, process.stderr)
+    def expect_refused(self, key, value, rule):
+        process = self.run_scene(2)
+        self.assertRegex(process.stderr, rf"^pbskin: .*scene\.toml: mine\.{key} = .*{re.escape(value)}.*: .*{re.escape(rule)}.*\n$")
         self.assertFalse(os.path.exists(self.path("out", "run.json")))
 
     def expect_program_refused(self, script, rule, mode=0o755):
-        with open(self.write("mine.sh", "#!/bin/sh\n" + script + "\n"), "rb") as file:
-            os.chmod(file.name, mode)
+        self.script("mine.sh", script + "\n", mode)
         self.scene(LIMB, '[[external]]\nname = "mine"\ncommand = ["mine.sh"]\n[deformers]\nuse = ["lbs", "mine"]\n')
         self.expect_refused("command", "mine.sh", rule)
 
@@ -298,14 +265,12 @@ class OwnDeformer(program.ProgramTest):
         self.expect_refused("command", "my_deformer.py", "its last line: ValueError: no such bone")
 
     def test_positions_that_are_not_finite_are_a_breakdown(self):
-        text = (FOLDER / "examples/smoothed_skinning.py").read_text()
         writing = "numpy.array(positions).tofile"
-        self.write("my_deformer.py", text.replace(writing, "positions[2][5] = numpy.nan\n" + writing))
+        self.write("my_deformer.py", EXAMPLE.replace(writing, "positions[2][5] = numpy.nan\n" + writing))
         self.scene(LIMB, TABLES[0])
-        process = self.run_scene()
-        self.assertEqual(process.returncode, 3, process.stderr)
+        process = self.run_scene(3)
         self.assertRegex(process.stderr, "numerical breakdown: mine is .*frame 2.*vertex 5")
-        self.assertEqual(json.loads(self.read("out", "run.json"))["outcome"]["breakdowns"], {"mine": [2]})
+        self.assertEqual(self.json("out", "run.json")["outcome"]["breakdowns"], {"mine": [2]})
         page = self.succeeds("report", self.path("out"))
         self.assertNotIn("Traceback", page.stderr)
         self.assertIn("mine is ", self.read("out", "report.html"))
@@ -326,8 +291,7 @@ class OwnDeformer(program.ProgramTest):
     def test_a_table_without_or_with_both(self):
         for keys in ("", 'command = ["a"]\nlibrary = "b"\n'):
             self.scene(LIMB, f'[[external]]\nname = "mine"\n{keys}[deformers]\nuse = ["mine"]\n')
-            process = self.run_scene()
-            self.assertEqual(process.returncode, 2)
+            process = self.run_scene(2)
             self.assertRegex(process.stderr, r"scene\.toml.*external.*command.*expected either a command or a library")
 
 

@@ -6,6 +6,7 @@ bending mode has 0.78 of a uniform load across it, so |error| <= 1.3 |r| / |f| |
 import csv
 import json
 import os
+import pathlib
 import subprocess
 import unittest
 
@@ -20,20 +21,7 @@ ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROO
                    OMPI_MCA_btl_vader_single_copy_mechanism="none",
                    OMPI_MCA_mpi_yield_when_idle="1", OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1")
 MODE_SHARE = 0.78  # share of a uniform transverse load in a cantilever's first mode
-LIMB = """schema = 1
-[character]
-body = "limb"
-vertices = 300
-[motion]
-joint = "forearm"
-axis = [0.0, 0.0, 1.0]
-angle_deg = 10.0
-frames = 2
-[[fem]]
-element_order = 1
-[deformers]
-use = ["fem"]
-"""
+LIMB = pathlib.Path(__file__).with_name("distributed_limb.toml").read_text()
 ACROSS = ("--gravity", 0, 0, -9.81, "--traction", 0, 0, -1000)
 
 
@@ -53,7 +41,7 @@ class Distributed(program.ProgramTest):
         folder = self.path("out")
         process = run(ranks, *arguments, "--nodes", "-o", folder)
         self.assertEqual(process.returncode, 0, process.stderr)
-        record = json.loads(self.read("out", "record.json"))
+        record = self.json("out", "record.json")
         self.assertEqual(record, json.loads(process.stdout))
         with open(self.path("out", "nodes.csv"), encoding="utf-8") as file:
             rows = numpy.array(list(csv.reader(file))[1:], dtype=float)
@@ -86,9 +74,8 @@ class Distributed(program.ProgramTest):
     def test_limb_has_the_smooth_attachment_of_the_reference(self):
         """Reference: the same attachment and linear model in a scene of pbskin, whose record states the attachment."""
         self.write("limb.toml", LIMB)
-        process = program.run("run", self.path("limb.toml"), "-o", self.path("scene"))
-        self.assertEqual(process.returncode, 0, process.stderr)
-        expected = json.loads(self.read("scene", "run.json"))["deformers"]["fem"]["attachment"]
+        self.succeeds("run", self.path("limb.toml"), "-o", self.path("scene"))
+        expected = self.json("scene", "run.json")["deformers"]["fem"]["attachment"]
         record, _, _ = self.solve(0, "--limb", 300, "--bend", 10, "--solver", "cholmod")
         self.assertEqual(record["attachment"], {key: value for key, value in expected.items() if key != "bones"})
         self.assertEqual(record["attachment"]["kind"], "smooth")

@@ -105,8 +105,8 @@ TEST(ComparedDeformers, TakeTheirOptionsFromTheEntryTheSceneAndTheReference)
     // Those that minimise the reference's energy: their limit is the reference's only with its springs.
     for (const char* name : {"quasi_newton", "vbd", "xpbd_neo_hookean", "projective_dynamics"}) {
         const nlohmann::json elastic = to_json(spec_with(entry(name), scene, {})).at("options");
-        EXPECT_EQ(elastic.at("core_radius"), core_radius_of(flesh)) << name;
-        EXPECT_EQ(elastic.at("spring_factor"), spring_factor_of(flesh)) << name;
+        EXPECT_EQ(elastic.at("core_radius"), flesh.used_core_radius()) << name;
+        EXPECT_EQ(elastic.at("spring_factor"), flesh.used_spring_factor()) << name;
         EXPECT_EQ(elastic.at("poisson"), flesh.poisson) << name;
     }
     const auto xpbd = spec_with(entry("xpbd"), scene, {.iterations = 4, .change = {.young_factor = 4.0}});
