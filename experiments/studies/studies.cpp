@@ -129,4 +129,12 @@ const analysis::Claim& claim_named(const std::string& id)
     return *found;
 }
 
+std::vector<ReadValues::LeftOut> all_but(const std::string& claim, const std::vector<std::string>& measured, const std::string& reason)
+{
+    std::vector<ReadValues::LeftOut> left_out;
+    for (const std::string& quantity : claim_named(claim).metrics)
+        if (std::find(measured.begin(), measured.end(), quantity) == measured.end()) left_out.push_back({claim, quantity, reason});
+    return left_out;
+}
+
 }  // namespace experiments

@@ -1,0 +1,127 @@
+// What the studies measure of readings. Reference: the studies' own functions, called directly, and what a reading cannot change.
+
+#include "experiments/scene/scene.hpp"
+#include "experiments/studies/momentum/momentum_drift.hpp"
+#include "experiments/studies/shared/posed_character.hpp"
+#include "experiments/studies/study.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace {
+
+using analysis::Measurement;
+using experiments::Overrides;
+using experiments::ReadValues;
+
+const nlohmann::json bent_limb = {{"name", "limb_bend"},  {"quick_s", 1.0},     {"scene", "limb_bend"},
+                                  {"body", "limb"},       {"motion", "bend"},   {"overrides", {"character.vertices=400"}},
+                                  {"frame", 18},          {"iterations", 60},   {"jolt_steps", 60},
+                                  {"along", {1.0, 0.0, 0.0}}};
+
+std::vector<ReadValues> read(const std::string& study, const std::vector<Overrides>& readings, const nlohmann::json& of = bent_limb)
+{
+    return std::ranges::find(experiments::studies(), study, &experiments::Study::name)
+        ->read(experiments::StudyCase("ambiguity", of, false), readings);
+}
+
+const Measurement& value(const ReadValues& read, const std::string& quantity)
+{
+    const auto found = std::ranges::find(read.values, quantity, &Measurement::quantity);
+    if (found == read.values.end()) throw std::runtime_error("no " + quantity);
+    return *found;
+}
+
+int number_of(const ReadValues& read, const std::string& quantity)
+{
+    return int(std::ranges::count(read.values, quantity, &Measurement::quantity));
+}
+
+// Three initial guesses by two tolerances, where at least one guess of a pair reaches them.
+TEST(ReadValues, OfStartsNameTheCaseAlike)
+{
+    const auto all = read("convergence", {{}, {"pbs.k_stretch=0.9"}});
+    ASSERT_EQ(all.size(), 2u);
+    EXPECT_GE(number_of(all[0], "iterations_over_lbs_guess"), 3);
+    EXPECT_LE(number_of(all[0], "iterations_over_lbs_guess"), 6);
+    EXPECT_EQ(value(all[0], "iterations_over_lbs_guess").of, value(all[1], "iterations_over_lbs_guess").of);
+    ASSERT_EQ(all[0].left_out.size(), 1u);
+    EXPECT_EQ(all[0].left_out[0].claim, "C12");
+    EXPECT_EQ(all[0].left_out[0].reason, "judged on characters alone");
+}
+
+TEST(ReadValues, OfProjectionsAreTheMomentumStudysDrifts)
+{
+    const auto all = read("momentum", {{}, {"pbs.masses=lumped"}});
+    const experiments::Scene scene = experiments::read_scene("limb_bend", {"character.vertices=400"});
+    const experiments::PosedCharacter posed(scene, {18});
+    const auto drift = experiments::drift_of_projections(posed.character(), posed.pose(0),
+                                                         experiments::options_of<pbs::PbsOptions>(experiments::spec_of(scene, "pbs")),
+                                                         experiments::ProjectedClass::stretch, pbs::Masses::unit);
+    EXPECT_EQ(value(all[0], "linear_drift").value, drift.linear);
+    EXPECT_EQ(value(all[0], "angular_drift").value, drift.angular);
+    EXPECT_NE(value(all[1], "linear_drift_of_a_pass").value, value(all[0], "linear_drift_of_a_pass").value);
+    // The projection takes these masses into account.
+    EXPECT_EQ(analysis::extent_of(experiments::claim_named("C07"), value(all[1], "linear_drift_of_a_pass")), analysis::Extent::whole);
+}
+
+// In Algorithm 1 the next position depends on the last two alone, whatever the step, so half the step swings twice as fast, exactly.
+TEST(ReadValues, OfJoltsHaveTheSameDampingInSubstepsThatAreTheSameSteps)
+{
+    const auto all = read("jiggle", {{}, {"pbs.time_step_s=0.005"}});
+    EXPECT_EQ(value(all[0], "frequency_ratio_at_half_time_step").value, 2.0);
+    // The series is the same one with twice the samples. The fit uses those until 2 % of the largest excursion remain, so that the later
+    // ones change the value at rest, and by it the ratio, by less than 2 %. Frequencies or decays by another step's time would double or
+    // halve it.
+    const double ratio = value(all[0], "damping_ratio").value;
+    EXPECT_NEAR(value(all[1], "damping_ratio").value, ratio, 0.02 * ratio);
+}
+
+// LBS moves the flesh by the jolt beforehand, and a body that moves as a whole violates no constraint.
+TEST(ReadValues, OfAJoltThatCarriesTheFleshAlongHaveNoSwing)
+{
+    const auto all = read("jiggle", {{}, {"pbs.variant.lbs_entry=increment"}});
+    EXPECT_EQ(number_of(all[0], "damping_ratio"), 4);  // one per setting
+    EXPECT_EQ(number_of(all[1], "damping_ratio"), 0);
+    EXPECT_FALSE(all[1].broke_down);
+}
+
+// C09's bounds on these quantities are for the study's 16 settings.
+TEST(ReadValues, OfJoltsLeaveOutWhatIsOfAllSettingsOfTheStudy)
+{
+    const auto all = read("jiggle", {{}});
+    std::vector<std::string> left_out;
+    for (const auto& one : all[0].left_out) {
+        left_out.push_back(one.quantity);
+        EXPECT_EQ(one.claim, "C09");
+        EXPECT_EQ(one.reason, "the bound is for the study's 16 settings, a reading is jolted at 4");
+        EXPECT_EQ(number_of(all[0], one.quantity), 0);
+    }
+    EXPECT_EQ(left_out, (std::vector<std::string>{"share_of_settings_that_swing", "rank_correlation_of_frequency_and_k_stretch",
+                                                  "frequency_ratio_over_k_stretch"}));
+    EXPECT_EQ(number_of(all[0], "frequency_ratio_at_half_time_step"), 1);
+    EXPECT_EQ(number_of(all[0], "frequency_ratio_at_twice_iterations"), 1);
+}
+
+// C04 has two values per pose and joint, the smallest radius and the smallest area, and a shape that is not finite has none.
+TEST(ReadValues, OfSectionsAreTwoPerPoseUnlessTheReadingBreaksDown)
+{
+    const nlohmann::json twisted = {
+        {"name", "limb_twist"}, {"quick_s", 1.0}, {"scene", "limb_twist"}, {"what", "twist"}, {"step_deg", 45}, {"poses", 2},
+        {"overrides", {"character.vertices=400", R"(deformers.use=["lbs","pbs","nh_p1"])"}}};
+    const auto all = read("artefacts", {{}, {"skinning.weights=either_end"}, {"pbs.jiggle.k_stretch=0.1", "pbs.gravity_m_s2=[0,-1e308,0]"}},
+                          twisted);
+    for (const int i : {0, 1}) EXPECT_EQ(all[i].values.size(), 4u);
+    for (int i = 0; i < 4; ++i) {
+        EXPECT_EQ(all[0].values.at(i).claim, "C04");
+        EXPECT_EQ(all[0].values.at(i).of, all[1].values.at(i).of);
+        EXPECT_NE(all[0].values.at(i).value, all[1].values.at(i).value);
+    }
+    EXPECT_FALSE(all[0].broke_down);
+    EXPECT_TRUE(all[2].broke_down);
+    EXPECT_TRUE(all[2].values.empty());
+}
+
+}  // namespace
