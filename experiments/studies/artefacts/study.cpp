@@ -58,7 +58,7 @@ ArtefactCase case_of(const StudyCase& of)
     std::optional<pbs::Character> character;
     if (finer > 0.0 || !made.joint.empty()) character = pbs::make_character(of.scene().character);
     if (finer > 0.0) made.vertices.push_back(static_cast<int>(finer * static_cast<double>(character->mesh.rest.rows())));
-    Overrides overrides = {"reference.name=nh_p1"};
+    Overrides overrides;
     if (of.has("frame"))
         made.poses = {{of.value<int>("frame"), of.key().motion + "_" + of.key().pose, {.motion = of.key().motion, .pose = of.key().pose}}};
     else {

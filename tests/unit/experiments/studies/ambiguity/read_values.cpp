@@ -110,7 +110,7 @@ TEST(ReadValues, OfSectionsAreTwoPerPoseUnlessTheReadingBreaksDown)
 {
     const nlohmann::json twisted = {
         {"name", "limb_twist"}, {"quick_s", 1.0}, {"scene", "limb_twist"}, {"what", "twist"}, {"step_deg", 45}, {"poses", 2},
-        {"overrides", {"character.vertices=400", R"(deformers.use=["lbs","pbs","nh_p1"])"}}};
+        {"overrides", {"character.vertices=400", R"(deformers.use=["lbs","pbs","nh_p1"])", "reference.name=nh_p1"}}};
     const auto all = read("artefacts", {{}, {"skinning.weights=either_end"}, {"pbs.jiggle.k_stretch=0.1", "pbs.gravity_m_s2=[0,-1e308,0]"}},
                           twisted);
     for (const int i : {0, 1}) EXPECT_EQ(all[i].values.size(), 4u);

@@ -49,7 +49,7 @@ TEST(ReadingSections, HaveTheNarrowestSectionThatPlainSlicingFinds)
 {
     const nlohmann::json twisted = {{"name", "limb_twist"}, {"quick_s", 1.0},  {"scene", "limb_twist"}, {"what", "twist"},
                                     {"step_deg", 120},      {"frame_deg", 60}, {"poses", 1},
-                                    {"overrides", {R"(deformers.use=["lbs","pbs","nh_p1"])"}}};
+                                    {"overrides", {R"(deformers.use=["lbs","pbs","nh_p1"])", "reference.name=nh_p1"}}};
     const experiments::StudyCase of("ambiguity", twisted, false);
     const experiments::Overrides readings[] = {{}, {"pbs.k_bind=0.1"}};
     const auto all = experiments::artefacts_study().read(of, {readings[0], readings[1]});
