@@ -13,6 +13,7 @@ import shutil
 import sys
 
 import records
+from drawing import style
 from records import entries, kept, whole_file
 from words import captions
 
@@ -38,7 +39,12 @@ def draw(entry, results, folder):
     """Draws a figure; returns whether it succeeded."""
     try:
         entry.check(results)
-        entry.draw(results, folder)
+        figure, rows, further = entry.draw(results)
+        origin = entry.origin(results)
+        style.save(figure, folder / entry.name, origin, rows)
+        for ending, write in further.items():
+            with whole_file.beside(folder / f"{entry.name}.{ending}") as path:
+                write(path, origin)
         captions.write(entry, results, folder)
     except records.RecordsMissing as error:
         delete(entry.name, folder)

@@ -1,10 +1,10 @@
-"""Actors for a rendering.Stage, made from recorded frames: smooth-shaded skin, tets by volume ratio, tets cut open, and bones.
+"""Actors for a rendering.Stage, made from recorded frames: smooth-shaded skin, tets cut open, and bones; and the points of a frame.
 
     picture = stage.shot([bodies.skin(frames.skin("pbs", 12)), *bodies.bones(frames.bones(12))], camera)
 """
 import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkIdList, vtkLookupTable, vtkPoints
+from vtkmodules.vtkCommonCore import vtkIdList, vtkPoints
 from vtkmodules.vtkFiltersCore import vtkPolyDataNormals, vtkTubeFilter
 from vtkmodules.vtkFiltersExtraction import vtkExtractCells
 from vtkmodules.vtkFiltersGeometry import vtkDataSetSurfaceFilter
@@ -13,19 +13,15 @@ from vtkmodules.vtkRenderingCore import vtkPolyDataMapper
 
 import records
 from drawing import rendering
+from drawing.rendering import made, output_of
 
 bone_color, flesh_color, edge_color = (0.15, 0.15, 0.15), (0.80, 0.55, 0.47), (0.25, 0.2, 0.2)
 
 
 def surface(data):
     """The boundary of the data with normals for smooth shading."""
-    boundary = vtkDataSetSurfaceFilter()
-    boundary.SetInputData(data)
-    normals = vtkPolyDataNormals()
-    normals.SetInputConnection(boundary.GetOutputPort())
-    normals.SplittingOff()
-    normals.Update()
-    return normals.GetOutput()
+    boundary = made(vtkDataSetSurfaceFilter, InputData=data)
+    return output_of(made(vtkPolyDataNormals, InputConnection=boundary.GetOutputPort(), Splitting=False))
 
 
 def points_of(file):
@@ -43,99 +39,65 @@ def rest_positions_of(file):
 def at_rest(file):
     """The tets of the frame at their rest positions."""
     data = rendering.read(file)
-    points = vtkPoints()
-    points.SetData(data.GetPointData().GetArray("rest_position"))
-    data.SetPoints(points)
+    data.SetPoints(made(vtkPoints, Data=data.GetPointData().GetArray("rest_position")))
     return data
 
 
-def _actor(data, color, ambient=0.25):
-    mapper = vtkPolyDataMapper()
-    mapper.SetInputData(data)
-    mapper.ScalarVisibilityOff()
-    actor = rendering.actor_of(mapper, ambient)
-    actor.GetProperty().SetColor(*color)
-    return actor
+def distances_mm(frames, frame, one, other):
+    """The distance of each point of the rendered surface under one deformer from that under another, #S."""
+    first, second = (points_of(frames.skin(label, frame)) for label in (one, other))
+    return 1000 * numpy.linalg.norm(first - second, axis=1)
 
 
-def skin(file, color=rendering.skin_color):
-    return _actor(surface(rendering.read(file)), color)
+def bone_under(frames, point, tet_file):
+    """The nearest bone of the vertex that carries the largest share of this point of the rendered surface."""
+    tets, shares = frames.embedding()
+    carrier = int(rendering.corners_of(rendering.read(tet_file))[tets[point]][numpy.argmax(shares[point])])
+    return next(row["bone"] for row in frames.binding() if int(row["vertex"]) == carrier)
+
+
+def _actor(data, color, ambient=0.25, **settings):
+    return rendering.actor_of(made(vtkPolyDataMapper, InputData=data, ScalarVisibility=False), ambient, Color=color, **settings)
+
+
+def skin(file, color=rendering.skin_color, ambient=0.25):
+    return _actor(surface(rendering.read(file)), color, ambient)
 
 
 def glass(data, color=rendering.skin_color, opacity=0.3):
     """A transparent skin."""
-    actor = _actor(surface(data), color, ambient=0.6)
-    actor.GetProperty().SetOpacity(opacity)
-    return actor
+    return _actor(surface(data), color, ambient=0.6, Opacity=opacity)
 
 
-def skin_by(file, values, scale, colors):
+def skin_by(file, values, scale, colors, steps=256):
     """The skin coloured by one number per point."""
     data = rendering.read(file)
     array = numpy_to_vtk(numpy.ascontiguousarray(values), deep=True)
     array.SetName("shown")
     data.GetPointData().SetScalars(array)
-    mapper = vtkPolyDataMapper()
-    mapper.SetInputData(surface(data))
-    mapper.SetLookupTable(_shades(scale, colors))
-    mapper.UseLookupTableScalarRangeOn()
+    table = rendering.table_of(scale.vmin, scale.vmax, [colors(step / (steps - 1)) for step in range(steps)])
+    mapper = made(vtkPolyDataMapper, InputData=surface(data), LookupTable=table, UseLookupTableScalarRange=True)
     return rendering.actor_of(mapper, ambient=0.6)
-
-
-def _shades(scale, colors, steps=256):
-    table = vtkLookupTable()
-    table.SetNumberOfTableValues(steps)
-    table.SetRange(scale.vmin, scale.vmax)
-    for step in range(steps):
-        table.SetTableValue(step, *colors(step / (steps - 1)))
-    table.Build()
-    return table
 
 
 def cut_open(data, ahead_m):
     """The tets behind a cut, with their edges drawn. ahead_m: the distance of each point in front of the cut."""
-    corners = vtk_to_numpy(data.GetCells().GetConnectivityArray()).reshape(-1, 4)
     chosen = vtkIdList()
-    for cell in numpy.flatnonzero(ahead_m[corners].mean(axis=1) < 0):
+    for cell in numpy.flatnonzero(ahead_m[rendering.corners_of(data)].mean(axis=1) < 0):
         chosen.InsertNextId(int(cell))
-    kept = vtkExtractCells()
-    kept.SetInputData(data)
-    kept.SetCellList(chosen)
-    boundary = vtkDataSetSurfaceFilter()
-    boundary.SetInputConnection(kept.GetOutputPort())
-    boundary.Update()
-    actor = _actor(boundary.GetOutput(), flesh_color, ambient=0.4)
+    kept = made(vtkExtractCells, InputData=data, CellList=chosen)
+    boundary = output_of(made(vtkDataSetSurfaceFilter, InputConnection=kept.GetOutputPort()))
+    actor = _actor(boundary, flesh_color, ambient=0.4, EdgeVisibility=True, EdgeColor=edge_color, LineWidth=0.8)
     actor.GetProperty().SetInterpolationToFlat()
-    actor.GetProperty().EdgeVisibilityOn()
-    actor.GetProperty().SetEdgeColor(*edge_color)
-    actor.GetProperty().SetLineWidth(0.8)
     return actor
 
 
 def bones(posed, radius_m=0.008, towards=(0.0, 0.0, 0.0), color=bone_color):
     """Each bone as a rod between its end points, with balls at its joints. Bones moved towards a parallel camera are hidden by nothing."""
-    ends = [(bone.head + numpy.array(towards), bone.tail + numpy.array(towards)) for bone in posed]
-    return [actor for head, tail in ends for actor in (_rod(head, tail, radius_m, color), ball(head, 1.8 * radius_m, color),
-                                                       ball(tail, 1.8 * radius_m, color))]
-
-
-def _rod(head, tail, radius_m, color):
-    line = vtkLineSource()
-    line.SetPoint1(*head)
-    line.SetPoint2(*tail)
-    tube = vtkTubeFilter()
-    tube.SetInputConnection(line.GetOutputPort())
-    tube.SetRadius(radius_m)
-    tube.SetNumberOfSides(16)
-    tube.Update()
-    return _actor(tube.GetOutput(), color)
-
-
-def ball(center, radius_m, color):
-    sphere = vtkSphereSource()
-    sphere.SetCenter(*center)
-    sphere.SetRadius(radius_m)
-    sphere.SetThetaResolution(20)
-    sphere.SetPhiResolution(20)
-    sphere.Update()
-    return _actor(sphere.GetOutput(), color)
+    actors = []
+    for ends in ((tuple(bone.head + numpy.array(towards)), tuple(bone.tail + numpy.array(towards))) for bone in posed):
+        line = made(vtkLineSource, Point1=ends[0], Point2=ends[1])
+        rod = made(vtkTubeFilter, InputConnection=line.GetOutputPort(), Radius=radius_m, NumberOfSides=16)
+        balls = [made(vtkSphereSource, Center=end, Radius=1.8 * radius_m, ThetaResolution=20, PhiResolution=20) for end in ends]
+        actors += [_actor(output_of(shape), color) for shape in (rod, *balls)]
+    return actors

@@ -1,4 +1,5 @@
-"""The list of omissions that each figure of error against run time has: which deformer is missing, and why.
+"""The comparisons of error against run time: the codes that take part, and the list of omissions that each figure has: which deformer is
+missing, and why.
 
     omitted = omission_boxes.read(results)
     omission_boxes.draw(axes, omission_boxes.lines(rows), width=46)
@@ -7,12 +8,25 @@ import collections
 import textwrap
 
 import records
-from records import compared_codes
 from words import case_words
 
 columns = {"comparison", "case", "deformer", "why", "missing", "points", "reason"}
 reasons = {"not_finite": "diverged", "not_converged": "not converged", "over_time_limit": "over the time limit",
            "not_applicable": "not applicable", "no_such_code": "no such code", "not_run": "not run", "no_reference": "no reference"}
+
+
+def code_rank(row):
+    """The better code has the higher rank: packed f32, plain f32, packed f64, plain f64. A deformer of the user's own has no precision on
+    record and takes part in both comparisons."""
+    return 2 * (row["precision"] == "f32") + (row["packed"] == "1")
+
+
+def taking_part(rows, comparison):
+    """The points of a comparison: in plain_f64 those of plain f64 code, in packed_f32 those of the best code of each deformer."""
+    best = {}
+    for row in rows if comparison != "plain_f64" else []:
+        best[row["deformer"]] = max(best.get(row["deformer"], 0), code_rank(row))
+    return [row for row in rows if code_rank(row) == best.get(row["deformer"], 0)]
 
 
 def read(results):
@@ -21,28 +35,27 @@ def read(results):
     return records.table(file, columns) if records.read_rows(file) else []
 
 
+def points_of(results, needed):
+    """The points of each case."""
+    return {file.parent.name: records.table(file, needed) for file in sorted((results / "work_precision").glob("*/points.csv"))}
+
+
 def evaluated_cases(results):
     """The names of the poses that are evaluated."""
-    tables = {file.parent.name: records.table(file, {"half"}) for file in sorted((results / "work_precision").glob("*/points.csv"))}
-    return [case for case, rows in tables.items() if rows[0]["half"] == "evaluation"]
-
-
-def points_in(results, comparison, cases):
-    """The number of points of each deformer in these cases, missing or not. The best code is that of all cases."""
-    needed = {"deformer", "precision", "packed", "outcome"}
-    points = [{**row, "case": file.parent.name} for file in sorted((results / "work_precision").glob("*/points.csv"))
-              for row in records.table(file, needed) if row["outcome"] not in ("reference", "not_reached")]
-    return collections.Counter(row["deformer"] for row in compared_codes.taking_part(points, comparison) if row["case"] in cases)
+    return [case for case, rows in points_of(results, {"half"}).items() if rows[0]["half"] == "evaluation"]
 
 
 def added_up(results, comparison, cases):
-    """One row per deformer and reason, of the points in all of these cases, whether they have the omission or not."""
-    points, sums = points_in(results, comparison, cases), {}
+    """One row per deformer and reason, of the points in all of these cases, whether they have the omission or not. The best code is that of
+    all cases."""
+    points = [{**row, "case": case} for case, rows in points_of(results, {"deformer", "precision", "packed", "outcome"}).items()
+              for row in rows if row["outcome"] not in ("reference", "not_reached")]
+    counts = collections.Counter(row["deformer"] for row in taking_part(points, comparison) if row["case"] in cases)
+    sums = {}
     for row in read(results):
-        if row["comparison"] != comparison or row["case"] not in cases:
-            continue
-        so_far = sums.setdefault((row["deformer"], row["why"]), {**row, "missing": 0, "points": points[row["deformer"]]})
-        so_far["missing"] += int(row["missing"])
+        if row["comparison"] == comparison and row["case"] in cases:
+            so_far = sums.setdefault((row["deformer"], row["why"]), {**row, "missing": 0, "points": counts[row["deformer"]]})
+            so_far["missing"] += int(row["missing"])
     return list(sums.values())
 
 
@@ -61,11 +74,8 @@ def lines(omitted):
 def text(shown, width, undecided=()):
     """The omissions and, if there are any, the groups that are not decided: a heading each, its lines filled to a width [characters]."""
     sections = [("Omissions:", shown or ["none"])] + ([("Not decided:", undecided)] if undecided else [])
-    return "\n".join("\n".join([heading, *(filled(line, width) for line in section)]) for heading, section in sections)
-
-
-def filled(line, width):
-    return textwrap.fill(line, width, initial_indent="  ", subsequent_indent="    ")
+    return "\n".join(line for heading, section in sections for line in
+                     (heading, *(textwrap.fill(line, width, initial_indent="  ", subsequent_indent="    ") for line in section)))
 
 
 def draw(axes, shown, width, undecided=(), place=(0.015, 0.02), fontsize=4.6):

@@ -1,8 +1,7 @@
 """Still pictures of recorded frames, rendered off screen by VTK. VTK needs a display; xvfb-run provides one on machines without a screen.
 
-    low, high = rendering.bounds_of(folder / "lbs_000054.vtu")
-    picture = rendering.Stage(width_px, height_px).picture(folder / "lbs_000054.vtu", (low + high) / 2, half_height_m)
-    picture = rendering.Stage(width_px, height_px).shot([bodies.skin(file), *bodies.bones(posed)], rendering.Camera(center, half_height_m))
+    view = rendering.Camera(rendering.middle_of(file), half_height_m)
+    picture = rendering.Stage(width_px, height_px).shot([bodies.skin(file), *bodies.bones(posed)], view)
 """
 import os
 from dataclasses import dataclass
@@ -11,7 +10,6 @@ import numpy
 from matplotlib import colors
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkLookupTable
-from vtkmodules.vtkFiltersCore import vtkPolyDataNormals
 from vtkmodules.vtkFiltersGeometry import vtkDataSetSurfaceFilter
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLUnstructuredGridReader
 from vtkmodules.vtkRenderingCore import vtkActor, vtkDataSetMapper, vtkLight, vtkRenderer, vtkRenderWindow, vtkWindowToImageFilter
@@ -45,26 +43,16 @@ class Stage:
     def __init__(self, width_px, height_px, background=paper):
         if not os.environ.get("DISPLAY"):
             raise records.RecordsMissing("no display to render on; run under xvfb-run -a")
-        self.renderer = vtkRenderer()
-        self.renderer.SetBackground(*background)
+        self.renderer = made(vtkRenderer, Background=background)
         self.renderer.GetActiveCamera().ParallelProjectionOn()
         for direction, strength in (((-0.6, 0.8, 1.0), 0.9), ((1.0, 0.3, 0.6), 0.4)):
-            light = vtkLight()
+            light = made(vtkLight, Position=direction, Intensity=strength)
             light.SetLightTypeToCameraLight()
-            light.SetPosition(*direction)
-            light.SetIntensity(strength)
             self.renderer.AddLight(light)
-        self.window = vtkRenderWindow()
-        self.window.SetOffScreenRendering(1)
-        self.window.SetMultiSamples(8)
-        self.window.SetSize(width_px, height_px)
+        self.window = made(vtkRenderWindow, OffScreenRendering=1, MultiSamples=8, Size=(width_px, height_px))
         self.window.AddRenderer(self.renderer)
         if not kept:
             kept.append(self.window)
-
-    def picture(self, file, center, half_height_m):
-        """The frame as an RGB array: skin smooth-shaded (.vtp), tets coloured by their volume ratio (.vtu)."""
-        return self.shot([_skin(file) if file.suffix == ".vtp" else tets(file)], Camera(center, half_height_m))
 
     def shot(self, actors, view):
         """The actors as this camera sees them, as an RGB array."""
@@ -77,15 +65,24 @@ class Stage:
         camera.SetParallelScale(view.half_height_m)
         self.renderer.ResetCameraClippingRange()
         self.window.Render()
-        image = vtkWindowToImageFilter()
-        image.SetInput(self.window)
-        image.ReadFrontBufferOff()
-        image.Update()
+        image = output_of(made(vtkWindowToImageFilter, Input=self.window, ReadFrontBuffer=False))
         for actor in actors:
             self.renderer.RemoveActor(actor)
-        width, height, _ = image.GetOutput().GetDimensions()
-        pixels = vtk_to_numpy(image.GetOutput().GetPointData().GetScalars())
-        return pixels.reshape(height, width, -1)[::-1].copy()
+        width, height, _ = image.GetDimensions()
+        return vtk_to_numpy(image.GetPointData().GetScalars()).reshape(height, width, -1)[::-1].copy()
+
+
+def made(kind, **settings):
+    """An object of VTK with these settings: made(vtkLineSource, Point1=(0, 0, 0))."""
+    thing = kind()
+    for name, value in settings.items():
+        getattr(thing, f"Set{name}")(*value if isinstance(value, tuple) else (value,))
+    return thing
+
+
+def output_of(source):
+    source.Update()
+    return source.GetOutput()
 
 
 def bounds_of(file):
@@ -94,69 +91,55 @@ def bounds_of(file):
     return bounds[:, 0], bounds[:, 1]
 
 
+def middle_of(file):
+    return sum(bounds_of(file)) / 2
+
+
 def read(file):
     if not file.is_file():
         raise records.RecordsMissing(f"{file}: does not exist")
-    reader = vtkXMLPolyDataReader() if file.suffix == ".vtp" else vtkXMLUnstructuredGridReader()
-    reader.SetFileName(str(file))
-    reader.Update()
-    if reader.GetOutput().GetNumberOfPoints() == 0:
+    data = output_of(made(vtkXMLPolyDataReader if file.suffix == ".vtp" else vtkXMLUnstructuredGridReader, FileName=str(file)))
+    if data.GetNumberOfPoints() == 0:
         raise records.RecordsMissing(f"{file}: no points")
-    return reader.GetOutput()
+    return data
 
 
-def _skin(file):
-    normals = vtkPolyDataNormals()
-    normals.SetInputData(read(file))
-    normals.SplittingOff()
-    mapper = vtkDataSetMapper()
-    mapper.SetInputConnection(normals.GetOutputPort())
-    mapper.ScalarVisibilityOff()
-    actor = actor_of(mapper, ambient=0.3)
-    actor.GetProperty().SetColor(*skin_color)
-    return actor
-
-
-def corners_of(file):
+def corners_of(data):
     """The vertices of each tet, #T x 4."""
-    return vtk_to_numpy(read(file).GetCells().GetConnectivityArray()).reshape(-1, 4)
+    return vtk_to_numpy(data.GetCells().GetConnectivityArray()).reshape(-1, 4)
 
 
 def tets(file):
-    surface = vtkDataSetSurfaceFilter()
-    surface.SetInputData(read(file))
-    mapper = vtkDataSetMapper()
-    mapper.SetInputConnection(surface.GetOutputPort())
+    surface = made(vtkDataSetSurfaceFilter, InputData=read(file))
+    mapper = made(vtkDataSetMapper, InputConnection=surface.GetOutputPort(), LookupTable=ratio_table())
     mapper.SetScalarModeToUseCellFieldData()
     mapper.SelectColorArray("volume_ratio")
-    mapper.SetLookupTable(ratio_table())
     mapper.UseLookupTableScalarRangeOn()
-    actor = actor_of(mapper, ambient=0.7)
+    # Little shading and no highlights, so that colours match the colour bar.
+    actor = actor_of(mapper, ambient=0.7, Diffuse=0.3, Specular=0.0)
     actor.GetProperty().SetInterpolationToFlat()
-    actor.GetProperty().SetDiffuse(0.3)  # little shading and no highlights, so that colours match the colour bar
-    actor.GetProperty().SetSpecular(0.0)
     return actor
 
 
-def ratio_table():
-    """ratio_colors over ratio_scale; inverted tets (below zero) have a colour of their own."""
-    steps = 600
-    low, high = -ratio_scale.vmax, ratio_scale.vmax
-    table = vtkLookupTable()
-    table.SetNumberOfTableValues(steps)
-    table.SetRange(low, high)
-    for step in range(steps):
-        ratio = low + (step + 0.5) * (high - low) / steps
-        red, green, blue, _ = (*inverted_color, 1.0) if ratio <= 0 else ratio_colors(ratio_scale(ratio))
-        table.SetTableValue(step, red, green, blue, 1.0)
+def table_of(low, high, colors):
+    """A lookup table with these colours (red, green, blue, opacity) from the lowest to the highest value."""
+    table = made(vtkLookupTable, NumberOfTableValues=len(colors), Range=(low, high))
+    for step, color in enumerate(colors):
+        table.SetTableValue(step, *color)
     table.Build()
     return table
 
 
-def actor_of(mapper, ambient):
-    actor = vtkActor()
-    actor.SetMapper(mapper)
-    actor.GetProperty().SetAmbient(ambient)
-    actor.GetProperty().SetDiffuse(1.0 - ambient)
-    actor.GetProperty().SetSpecular(0.05)
+def ratio_table(steps=600):
+    """ratio_colors over ratio_scale; inverted tets (below zero) have a colour of their own."""
+    most = ratio_scale.vmax
+    ratios = [-most + (step + 0.5) * 2 * most / steps for step in range(steps)]
+    return table_of(-most, most, [(*inverted_color, 1.0) if ratio <= 0 else ratio_colors(ratio_scale(ratio)) for ratio in ratios])
+
+
+def actor_of(mapper, ambient, **settings):
+    """settings: of the actor's property, such as Color."""
+    actor = made(vtkActor, Mapper=mapper)
+    for name, value in {"Ambient": ambient, "Diffuse": 1.0 - ambient, "Specular": 0.05, **settings}.items():
+        getattr(actor.GetProperty(), f"Set{name}")(value)
     return actor

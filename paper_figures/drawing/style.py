@@ -2,7 +2,7 @@
 marker and line of each deformer.
 
     figure, axes = style.panels(1, 2)
-    style.draw(axes[0], "pbs", angle_deg, change_pct)
+    style.plot(axes[0][0], rows, "angle_deg", "volume_change_pct", **style.as_of("pbs"))
     style.save(figure, figures / "volume", provenance, rows)
 """
 import csv
@@ -12,6 +12,7 @@ import matplotlib
 matplotlib.use("Agg")
 from matplotlib import pyplot, ticker  # noqa: E402
 
+import records  # noqa: E402
 from drawing import hover_titles  # noqa: E402
 from records import whole_file  # noqa: E402
 from words import looks  # noqa: E402
@@ -48,20 +49,34 @@ def stacked(*rows):
     return figure, [part.subplots(1, columns, squeeze=False)[0] for part, (columns, _) in zip(parts, rows)]
 
 
-def draw(axes, deformer, x, y, markers=True, **options):
-    """The line of one deformer, with a marker about every tenth point."""
+def plot(axes, rows, x, y, **options):
+    """Draws these two columns of the rows."""
+    axes.plot(records.numbers(rows, x), records.numbers(rows, y), **options)
+
+
+def as_of(deformer, **others):
+    """The look of a deformer as options of a line, and other options, which take precedence."""
     look = looks.of(deformer)
-    spacing = max(1, len(x) // 9)
-    axes.plot(x, y, color=look.color, linestyle=look.line, marker=look.marker if markers else None, markevery=spacing, label=look.name,
-              **options)
+    return {"color": look.color, "linestyle": look.line, "marker": look.marker, "label": look.name} | others
 
 
-def draw_series(axes, number, x, y, label, bars=None, **options):
-    """The number-th line of several that belong to no deformer; bars: lower and upper ends for each point."""
+def draw(axes, deformer, rows, x, y, **options):
+    """The line of one deformer, with a marker about every tenth point."""
+    plot(axes, rows, x, y, **as_of(deformer, markevery=max(1, len(rows) // 9), **options))
+
+
+def draw_series(axes, number, rows, x, y, bars=None, **options):
+    """The number-th line of several that belong to no deformer; bars: the columns of lower and upper ends for each point."""
     color, marker = sequence[number % len(sequence)]
-    axes.plot(x, y, **{"color": color, "marker": marker, "linestyle": lines[number % len(lines)], "label": label} | options)
+    plot(axes, rows, x, y, **{"color": color, "marker": marker, "linestyle": lines[number % len(lines)]} | options)
     if bars:
-        axes.vlines(x, *bars, color=color, linewidth=0.7)
+        axes.vlines(records.numbers(rows, x), *(records.numbers(rows, end) for end in bars), color=color, linewidth=0.7)
+
+
+def name_rows(axes, names, **options):
+    """Names the places 0, 1, ... of the vertical axis, from the top to the bottom."""
+    axes.set_yticks(range(len(names)), names, **options)
+    axes.set_ylim(len(names) - 0.5, -0.5)
 
 
 def log_scale(axis, values=None, steps=(1, 2, 5)):
@@ -152,8 +167,9 @@ def source_of(provenance):
 
 
 def save(figure, stem, provenance, table, formats=("pdf", "png", "svg")):
-    """Writes stem.pdf, stem.png and stem.svg with the revision in their metadata, and stem.csv with the rows (dicts) behind the figure. In
-    the SVG, every drawn point has its label and numbers as a title, which a browser shows under the pointer."""
+    """Writes stem.pdf, stem.png and stem.svg with the revision in their metadata, and stem.csv with the rows (dicts) behind the figure; a
+    cell is empty if its row has no such column. In the SVG, every drawn point has its label and numbers as a title, which a browser shows
+    under the pointer."""
     source, rights = source_of(provenance), provenance.get("rights", "")
     metadata = {"pdf": {"Title": stem.name, "Subject": source, "Keywords": rights, "CreationDate": None},
                 "png": {"Title": stem.name, "Source": source, "Copyright": rights, "Software": "pbskin paper_figures"},
@@ -166,19 +182,18 @@ def save(figure, stem, provenance, table, formats=("pdf", "png", "svg")):
             if ending == "svg":
                 hover_titles.add(figure, path)
     pyplot.close(figure)
+    columns = dict.fromkeys(column for row in table for column in row)
     with whole_file.beside(stem.with_suffix(".csv")) as path, open(path, "w", newline="") as stream:
-        writer = csv.DictWriter(stream, fieldnames=list(table[0]), lineterminator="\n")
+        writer = csv.DictWriter(stream, fieldnames=list(columns), restval="", lineterminator="\n")
         writer.writeheader()
         writer.writerows(table)
 
 
-def aligned(rows):
-    """Rows of several kinds in one table with all columns; a cell is empty if its kind has no such column."""
-    columns = dict.fromkeys(column for row in rows for column in row)
-    return [{column: row.get(column, "") for column in columns} for row in rows]
+def taken(rows, columns, **first):
+    """The rows with only these columns, after others that all of them have in common."""
+    return [first | {name: row[name] for name in columns} for row in rows]
 
 
 def columns_of(rows, *names):
-    """The rows with only these columns, for the CSV behind a figure."""
-    names = ("scene", "deformer", "variant", "iterations", "frame", "time_s", *names)
-    return [{name: row[name] for name in names} for row in rows]
+    """The rows of metrics.csv with only these columns, for the CSV behind a figure."""
+    return taken(rows, ("scene", "deformer", "variant", "iterations", "frame", "time_s", *names))

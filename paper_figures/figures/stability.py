@@ -4,7 +4,6 @@ import textwrap
 
 import records
 from drawing import style
-from records import entries
 from words import case_words, looks
 from words.number_words import listed
 
@@ -92,28 +91,21 @@ def stability_cells_facts(rows):
             "inverted_jiggle": listed(factors_with(rows, "pbs_jiggle", "inverted"), "; ")}
 
 
-def stability_cells(results, figures):
-    folder = results / "stability"
-    rows = shown_cells(records.table(folder / "cells.csv", cell_columns))
-    factors = list(dict.fromkeys(row["factor"] for row in rows))
-    figure, axes = style.panels(1, 1, height_in=0.6 + 0.21 * len(factors), width_in=style.page_in)
-    panel = axes[0][0]
-    labels = []
-    for place, factor in enumerate(factors):
-        cells = [row for row in rows if row["factor"] == factor]
+def stability_cells(results):
+    rows = shown_cells(records.table(results / "stability" / "cells.csv", cell_columns))
+    of_factors = {factor: [row for row in rows if row["factor"] == factor] for factor in dict.fromkeys(row["factor"] for row in rows)}
+    figure, ((panel,),) = style.panels(1, 1, height_in=0.6 + 0.21 * len(of_factors), width_in=style.page_in)
+    for place, cells in enumerate(of_factors.values()):
         draw_factor(panel, cells, place)
-        labels.append(f"{case_words.of_field('factor', factor)}: {range_of(cells)}")
     panel.set_xticks(range(len(models)), [textwrap.fill(looks.of(model).name, 12) for model in models])
-    panel.set_yticks(range(len(factors)), labels)
-    panel.set(xlim=(-0.5, len(models) - 0.5), ylim=(len(factors) - 0.5, -0.5))
+    panel.set_xlim(-0.5, len(models) - 0.5)
+    style.name_rows(panel, [f"{case_words.of_field('factor', factor)}: {range_of(cells)}" for factor, cells in of_factors.items()])
     panel.xaxis.tick_top()
     panel.tick_params(labelsize=6)
     panel.tick_params(axis="x", labelsize=5)  # names of neighbouring columns may not touch
     panel.grid(False)
     legend_of_outcomes(figure, panel)
-    kept = ("body", "model", "factor", "value", "unit", "named", "precision", "outcome")
-    behind = [{column: row[column] for column in kept} for row in rows]
-    style.save(figure, figures / "stability_cells", entries.origin_of(results, "stability_cells"), behind)
+    return figure, style.taken(rows, ("body", "model", "factor", "value", "unit", "named", "precision", "outcome"))
 
 
 # The outcome of jiggling PBS on the limb, disturbed and then held still, as two settings change together, cell by cell. The maps show
@@ -137,9 +129,8 @@ def draw_map(axes, rows, title):
     draw_marks(axes, places, [row["outcome"] for row in rows], size=26)
     axes.set_xticks(range(len(across)), [f"{value:g}" for value in across])
     axes.set_yticks(range(len(up)), [f"{value:g}" for value in up])
-    axes.set(xlim=(-0.5, len(across) - 0.5), ylim=(-0.5, len(up) - 0.5), title=title)
-    axes.set_xlabel(named(rows[0]["factor"], rows[0]["unit"]))
-    axes.set_ylabel(named(rows[0]["second_factor"], rows[0]["second_unit"]))
+    axes.set(xlim=(-0.5, len(across) - 0.5), ylim=(-0.5, len(up) - 0.5), title=f"limb, PBS with jiggle, {title}",
+             xlabel=named(rows[0]["factor"], rows[0]["unit"]), ylabel=named(rows[0]["second_factor"], rows[0]["second_unit"]))
     axes.grid(False)
 
 
@@ -157,13 +148,12 @@ def stability_maps_facts(rows):
     return {"left": left, "right": right, "steps": max(int(row["steps"]) for row in rows)}
 
 
-def stability_maps(results, figures):
-    folder = results / "stability"
-    figure, axes = style.panels(1, 2, height_in=2.3)
+def stability_maps(results):
+    figure, (axes,) = style.panels(1, 2, height_in=2.3)
     behind = []
-    for panel, (file, title) in zip(axes[0], maps.items()):
-        rows = records.table(folder / file, columns)
-        draw_map(panel, rows, f"limb, PBS with jiggle, {title}")
-        behind += [{"map": file} | {column: row[column] for column in sorted(columns)} for row in rows]
-    legend_of_outcomes(figure, axes[0][0])
-    style.save(figure, figures / "stability_maps", entries.origin_of(results, "stability_maps"), behind)
+    for panel, (file, title) in zip(axes, maps.items()):
+        rows = records.table(results / "stability" / file, columns)
+        draw_map(panel, rows, title)
+        behind += style.taken(rows, sorted(columns), map=file)
+    legend_of_outcomes(figure, axes[0])
+    return figure, behind

@@ -3,7 +3,6 @@ stiffness in bending and torsion that remains as Poisson's ratio approaches 1/2;
 the finest mesh."""
 import records
 from drawing import style
-from records import entries
 from words import case_words
 from words.number_words import figure, span
 
@@ -50,17 +49,14 @@ def draw_convergence(axes, rows):
             ladder = [row for row in solved_with(rows, elements) if row["quantity"] == quantity]
             if not ladder:
                 raise records.RecordsMissing(f"verification.csv: no {quantity} of elements of order {element_order}")
-            h, error = records.numbers(ladder, "h_m"), records.numbers(ladder, "value")
             order = element_order + gain
-            axes.plot(h, error, color=color, linestyle=line, marker=marker,
-                      label=f"{case_words.elements(*elements)} in {norm}, theory $h^{order}$")
+            style.plot(axes, ladder, "h_m", "value", color=color, linestyle=line, marker=marker,
+                       label=f"{case_words.elements(*elements)} in {norm}, theory $h^{order}$")
             dotted += theory(ladder, order)
-            axes.plot(h, records.numbers(dotted[-len(h):], "value"), color=style.black, linestyle=(0, (1, 2)), linewidth=0.7)
+            style.plot(axes, dotted[-len(ladder):], "h_m", "value", color=style.black, linestyle=(0, (1, 2)), linewidth=0.7)
     axes.set_xscale("log", base=2)
-    axes.set_yscale("log")
-    axes.set_xlabel("cell size over the cube's side")
-    axes.set_ylabel("error over the solution's norm")
-    axes.set_title("manufactured solution; dotted: theory")
+    axes.set(yscale="log", xlabel="cell size over the cube's side", ylabel="error over the solution's norm",
+             title="manufactured solution; dotted: theory")
     axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.22), ncol=2)
     return dotted
 
@@ -85,12 +81,9 @@ def draw_locking(axes, rows):
         axes.axhline(shown_of(kept[-1])["value_over_reference"], color=style.purple, linestyle=(0, (1, 1)),
                      label="PBS constraints, every volume kept")
     axes.axhline(1.0, color=style.black, linewidth=0.6)
-    axes.set_xscale("log")
+    axes.set(xscale="log", ylim=(0.0, 1.65), xlabel="1 \u2212 2 \u03bd, from compressible to incompressible", ylabel="value over theory",
+             title="locking: bending (full lines), torsion (dashed)")
     axes.invert_xaxis()
-    axes.set_ylim(0.0, 1.65)
-    axes.set_xlabel("1 \u2212 2 \u03bd, from compressible to incompressible")
-    axes.set_ylabel("value over theory")
-    axes.set_title("locking: bending (full lines), torsion (dashed)")
     axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.22), ncol=2)
 
 
@@ -120,11 +113,9 @@ def draw_benchmarks(axes, rows):
     axes.set_xscale("symlog", linthresh=2.0, linscale=1.5)
     ticks = [-50, -10, -2, -1, 0, 1, 2, 10, 50]
     axes.set_xticks(ticks, [f"{tick:+g}".replace("-", "\u2212") if tick else "0" for tick in ticks])
-    axes.set_xlim(-70, 70)
-    axes.set_yticks(range(len(places)), list(places))
-    axes.set_ylim(len(places) - 0.5, -0.5)
-    axes.set_xlabel("difference from the reference on the finest mesh [%]")
-    axes.set_title("benchmarks; grey: grade A of MacNeal and Harder (1985)")
+    style.name_rows(axes, list(places))
+    axes.set(xlim=(-70, 70), xlabel="difference from the reference on the finest mesh [%]",
+             title="benchmarks; grey: grade A of MacNeal and Harder (1985)")
     axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.155), ncol=3)  # inside the panel, its marks would look like measured points
 
 
@@ -141,7 +132,7 @@ def verification_facts(rows):
     return kept | off
 
 
-def verification(results, figures):
+def verification(results):
     rows = records.table(results / "verification" / "verification.csv",
                          {"problem", "quantity", "element_order", "formulation", "poisson", "h_m", "dofs", "value", "reference",
                           "difference_pct"})
@@ -155,4 +146,4 @@ def verification(results, figures):
     draw_benchmarks(below[0], shown)
     behind = [row | {"one_less_two_nu": "", "value_over_reference": ""} for row in manufactured + dotted + shown]
     behind += [row | shown_of(row) for row in locking]
-    style.save(drawing, figures / "verification", entries.origin_of(results, "verification"), behind)
+    return drawing, behind

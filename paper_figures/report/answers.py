@@ -1,8 +1,8 @@
 """The first screen: which claims hold, where the others fail, the distance from the finite elements, and the cost. Every sentence is
 composed from claims.json, work_precision/*/points.csv, timing/timing.csv and the studies' costs."""
 from records import shapes
-from report import costs, verdicts
-from report.markup import Markup, element, escaped, items, joined, table
+from report import origin, verdicts
+from report.markup import Markup, element, items, joined, table
 from report.record_set import not_run, number
 from report.verdicts import mark_of
 from words import case_words, sentences
@@ -128,7 +128,7 @@ def bar_sentence(shown):
 
 
 def at_what_cost(found):
-    parts = [frame_sentence(found), beside_sentence(found), costs.sentence(found)]
+    parts = [frame_sentence(found), beside_sentence(found), origin.costs_sentence(found)]
     return items([part for part in parts if part], "answers")
 
 

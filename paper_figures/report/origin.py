@@ -1,6 +1,11 @@
-"""The origin of the records: revision, machine, libraries, inputs, what was left out, and the licences of what is shown."""
+"""The origin of the records: revision, machine, libraries, inputs, what was left out, and the licences of what is shown; the expected and
+measured time of the studies; and how to cite the suite and the paper that it examines, from CITATION.cff."""
+import pathlib
+import re
+
 from report.markup import details, element, escaped, items, joined, table
-from words.number_words import counted
+from report.record_set import number
+from words.number_words import counted, figure
 
 facts = {"version": "version", "git_revision": "revision", "compiler": "compiler", "flags": "flags", "build_type": "build",
          "cpu_model": "processor", "logical_cpus": "processors seen", "threads": "threads of a deformer"}
@@ -82,3 +87,77 @@ def section(found, with_viewer=False):
     parts += [element("h3", "Bodies and motions"), items(shown)] if shown else []
     parts += [element("h3", "Program of the viewer"), items([viewer])] if with_viewer else []
     return joined(parts, "\n")
+
+
+def of_studies(found):
+    """(study, rows of its costs.csv)."""
+    files = ((file.parent.name, f"{file.parent.name}/costs.csv") for file in found.files("*/costs.csv"))
+    return [(study, found.rows(name)) for study, name in files]
+
+
+def total(rows, column):
+    return sum(number(row, column) or 0.0 for row in rows)
+
+
+def size(found, study):
+    """Quick or full, from the study's plan; plans of earlier versions do not state it."""
+    return found.plans.get(study, {}).get("extent", "\u2013")
+
+
+def totals(rows):
+    """The number of rows and their sums; wall time only if each of them has it."""
+    wall = figure(total(rows, "wall_s")) if all(row.get("wall_s") for row in rows) else "\u2013"
+    return [len(rows), figure(total(rows, "expected_cpu_s")), figure(total(rows, "cpu_s")), wall]
+
+
+def minutes(seconds):
+    return f"{figure(seconds / 60)} min" if seconds >= 60 else f"{figure(seconds)} s"
+
+
+def costs_sentence(found):
+    studies = of_studies(found)
+    if not studies:
+        return ""
+    taken = sum(total(rows, "cpu_s") for _, rows in studies)
+    return f"These records took {minutes(taken)} of processor time ({counted(len(studies), 'study', 'studies')})."
+
+
+def costs_section(found):
+    studies = of_studies(found)
+    if not studies:
+        return element("p", "no study left its costs.csv", class_="missing")
+    header = ["runs", "processor, expected [s]", "processor, taken [s]", "total wall time of the runs [s]"]
+    rows = [[study, size(found, study), *totals(rows)] for study, rows in studies]
+    rows.append([element("b", "all"), "", *totals([row for _, rows in studies for row in rows])])
+    single = [[f"{study}/{row['run']}", *totals([row])[1:]] for study, rows in studies for row in rows]
+    each = table("Each run's time", ["run", *header[1:]], single, "tall")
+    return joined([table("Time of the studies", ["study", "size", *header], rows), details("each run", each)])
+
+
+citation = pathlib.Path(__file__).resolve().parents[2] / "CITATION.cff"
+
+
+def value(text, key):
+    found = re.search(rf'^\s*(?:- )?{key}: "?([^"\n]*)"?$', text, re.M)
+    return found.group(1) if found else ""
+
+
+def suite_sentence(text):
+    authors = ", ".join(re.findall(r'- name: "([^"]+)"', text))
+    return f"{authors}: {value(text, 'title')}, version {value(text, 'version')}, {value(text, 'license')}."
+
+
+def paper_sentence(text):
+    families, given = re.findall(r'family-names: "([^"]+)"', text), re.findall(r'given-names: "([^"]+)"', text)
+    authors = ", ".join(f"{first} {last}" for first, last in zip(given, families))
+    return f"{authors}: {value(text, 'title')}. {value(text, 'collection-title')}, {value(text, 'year')}."
+
+
+def citation_section(found):
+    if not citation.is_file():
+        return element("p", "CITATION.cff: does not exist", class_="missing")
+    own, *references = re.split(r"^references:", citation.read_text(), flags=re.M)
+    revision = next(iter(found.runs.values())).get("provenance", {}).get("git_revision", "unknown")
+    parts = [element("p", suite_sentence(own) + f" Revision of these records: {revision}.")]
+    parts += [element("p", "The paper: " + paper_sentence(text)) for text in references]
+    return joined([*parts, details("CITATION.cff", element("pre", citation.read_text(), tabindex=0))])

@@ -1,7 +1,9 @@
 """Composes the page: the answers first, then the data on which they rest."""
+import importlib
 import pathlib
 
-from report import answers, citation, costs, errors, figures, origin, reference, verdicts, viewer
+import records
+from report import answers, errors, figures, origin, verdicts
 from report.markup import Markup, element, escaped, joined
 
 here = pathlib.Path(__file__).parent
@@ -50,9 +52,19 @@ def navigation(sections):
     return element("nav", links, aria_label="Sections")
 
 
+def viewer_section(found):
+    """The interactive viewer or the reason why it is missing, what is missing, and for each claim the link to its pose in the viewer."""
+    try:
+        viewer = importlib.import_module("viewer.page")
+        return Markup(viewer.fragment(found.results)), [], viewer.claim_links(found.results)
+    except (ImportError, records.RecordsMissing) as error:
+        reason = str(error).replace(f"{found.results}/", "")
+    return element("p", f"The viewer is missing: {reason}.", class_="missing"), [f"viewer: {reason}"], {}
+
+
 def page(found):
     """The text of the page, and what is missing in it."""
-    shown, not_shown, poses = viewer.section(found)
+    shown, not_shown, poses = viewer_section(found)
     drawn, not_drawn = figures.section(found)
     distances, not_told = errors.section(found)
     no_verdicts = [] if found.claims else ["verdicts: claims.json does not exist (pbskin reproduce --judge)"]
@@ -60,9 +72,9 @@ def page(found):
     missing += [f"{study}: {scene} left out: {reason}" for study, scene, reason in found.left_out()]
     sections = [("verdicts", "Verdicts", verdicts.section(found, poses)), ("viewer", "Viewer", shown),
                 ("errors", "Distance from the finite elements", distances), ("figures", "Figures", drawn),
-                ("reference", "Is the reference right?", reference.section(found)), ("costs", "What it cost", costs.section(found)),
+                ("reference", "Is the reference right?", errors.reference_section(found)), ("costs", "What it cost", origin.costs_section(found)),
                 ("origin", "Where the records come from", origin.section(found, with_viewer=not not_shown)),
-                ("cite", "How to cite", citation.section(found))]
+                ("cite", "How to cite", origin.citation_section(found))]
     body = [element("div", answers.first_screen(found), class_="first-screen"), navigation(sections), *written(sections)]
     return whole(title, lead(found), body), missing
 

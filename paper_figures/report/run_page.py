@@ -1,13 +1,22 @@
 """The page of a single run: what it found over its frames, its warnings, the viewer and where its records come from. It holds what the run
 was asked for, and nothing else is reported as missing."""
 import importlib
+import math
+import pathlib
+import statistics
+import tempfile
 import types
 
 import records
+from drawing import style
 from records import shapes
-from report import origin, run_figures, run_tables
-from report.markup import Markup, element, items
+from report import origin
+from report.figures import inline_svg
+from report.markup import Markup, details, element, items, joined, table
 from report.page import navigation, whole, written
+from report.record_set import number
+from words import looks
+from words.number_words import counted, figure, listed, span_of_thousandths
 
 moved = {"frames?": shapes.whole, "warnings?": [shapes.text], "bad_frame?": shapes.text,
          "breakdown?": shapes.text, "motion?": {"largest_rotation_deg?": shapes.number, "clip_joints?": shapes.whole,
@@ -45,6 +54,154 @@ class RunRecords:
         return records.read_rows(file) if file.is_file() else []
 
 
+# The tables.
+
+def known(rows, column):
+    """The finite numbers of a column; none if the run has no such column."""
+    return [value for value in (number(row, column) for row in rows) if value is not None and math.isfinite(value)]
+
+
+def median(values):
+    return figure(statistics.median(values)) if values else figure(None)
+
+
+def of_deformer(found, label):
+    rows = found.rows(label)
+    change, error, step = (known(rows, column) for column in ("volume_change_pct", "error_joint_pct", "step_ms"))
+    inverted = known(rows, "inverted_tets")
+    is_reference = label == found.record["scene"].get("reference", {}).get("name")
+    told_error = "the reference" if is_reference else f"{figure(statistics.median(error))} ({figure(max(error))})" if error else "\u2013"
+    return [looks.of(label).name, span_of_thousandths(change), f"{max(inverted, default=0):.0f}", told_error, median(step)]
+
+
+def summary(found):
+    """The sentence of `pbskin try`, if it made the run, and one row per deformer."""
+    sentence = element("p", found.trial["summary"], class_="answer") if found.trial else ""
+    header = ["deformer", "volume change [%]", "most inverted tets in a frame", "error at the joints [%]: median (largest)",
+              "median step [ms]"]
+    rows = [of_deformer(found, label) for label in found.labels()]
+    return joined([sentence, table("Over all frames", header, rows)], "\n")
+
+
+def joints(found):
+    """The mean change of the volume at each joint, in per cent of the joint's own volume."""
+    rows = [row for row in found.table("regions.csv") if row["kind"] == "joint"]
+    changes = {}
+    for row in rows:
+        changes.setdefault(f"{row['bone']} \u2013 {row['second_bone']}", {})[row["deformer"]] = number(row, "own_change_pct")
+    if not changes:
+        return ""
+    labels = [label for label in found.labels() if any(label in of for of in changes.values())]
+    first = labels[0]
+    ordered = sorted(changes.items(), key=lambda pair: pair[1].get(first) or 0.0)
+    body = [[name, *(figure(of.get(label)) for label in labels)] for name, of in ordered]
+    return table("Mean change of the volume of the tets at a joint [% of their volume at rest]",
+                 ["joint", *(looks.of(label).name for label in labels)], body, "tall")
+
+
+def distances(found):
+    """The distances between the surfaces of each pair of deformers over the written frames."""
+    pairs = {}
+    for row in found.table("distances.csv"):
+        pairs.setdefault((row["deformer"], row["other"], row["of"]), []).append((number(row, "rms_mm"), number(row, "largest_mm")))
+    if not pairs:
+        return ""
+    body = [[f"{one} and {other}", of, figure(statistics.median(rms for rms, _ in values)), figure(max(largest for _, largest in values)),
+             len(values)] for (one, other, of), values in pairs.items()]
+    return table("Distances between the same points", ["deformers", "of", "median rms [mm]", "largest [mm]", "frames"], body, "tall")
+
+
+def model(found):
+    """What the run took from a rigged model; nothing for other characters."""
+    record = found.record.get("character", {}).get("model")
+    if not record:
+        return ""
+    dropped = [f"{joint['name']} ({joint['reason']})" for joint in record["joints_dropped"]]
+    motion = found.record["outcome"].get("motion", {})
+    matched = f"{motion['matched_joints']} of the clip's {motion['clip_joints']} moving joints match" if "clip_joints" in motion else ""
+    facts = [f"File: {record['file']}; {counted(len(record['meshes']), 'mesh', 'meshes')}: {listed(record['meshes'])}.",
+            f"Largest extent: {figure(record['extent_m'])} m, with {figure(record['metres_per_unit'])} m per unit of the file.",
+            f"Joints dropped: {listed(dropped)}.", f"Containers, which only contribute their transform: {listed(record['containers'])}.",
+            f"From the bind pose to the file's rest pose, bones turn by up to {figure(record['bind_pose_deg'])}\u00b0.",
+            f"Animations: {listed(record['animations'])}."]
+    if "weights_transferred_pct" in record:
+        facts.append(f"The tets carry {figure(record['weights_transferred_pct'])} % of the artist's weights.")
+    facts += [matched + "."] if matched else []
+    return joined([items(facts), details(f"{counted(len(record['joints']), 'joint')} that are bones", items(record["joints"]))], "\n")
+
+
+# The figures: the numbers over the frames, and error against run time.
+
+measures = (("volume_change_pct", "volume change [%]"), ("error_joint_pct", "error at the joints [%]"), ("inverted_tets", "inverted tets"))
+
+
+def abscissa(rows):
+    """Angles of a sweep, or times."""
+    angles = [number(row, "angle_deg") for row in rows]
+    if all(angle is not None for angle in angles):
+        return angles, "angle [degrees]"
+    return [number(row, "time_s") for row in rows], "time [s]"
+
+
+def values_of(rows, column):
+    return [number(row, column) if number(row, column) is not None else float("nan") for row in rows]
+
+
+def over_frames(found):
+    rows = {label: found.rows(label) for label in found.labels()}
+    shown = [(column, name) for column, name in measures
+             if any(number(row, column) not in (None, 0.0) for of in rows.values() for row in of)] or measures[:1]
+    figure, axes = style.panels(len(shown), 1, height_in=1.7, width_in=style.page_in, sharex=True)
+    for panel, (column, name) in zip(axes[:, 0], shown):
+        for label, of in rows.items():
+            x, unit = abscissa(of)
+            panel.plot(x, values_of(of, column), **style.as_of(label, markevery=max(1, len(x) // 9)))
+        panel.set_ylabel(name)
+        panel.margins(x=0)
+    axes[-1][0].set_xlabel(unit)
+    style.legend_above(figure)
+    return figure
+
+
+def error_against_time(found):
+    """One point per deformer; None if the run has no errors."""
+    points = {}
+    for label in found.labels():
+        rows = found.rows(label)
+        errors, times_ms = [error for error in known(rows, "error_joint_pct") if error], known(rows, "step_ms")
+        if errors and times_ms:
+            points[label] = statistics.median(times_ms), statistics.median(errors)
+    if not points:
+        return None
+    figure, axes = style.panels(1, 1, height_in=2.6, width_in=style.page_in * 0.6)
+    for label, (ms, error) in points.items():
+        axes[0][0].plot([ms], [error], **style.as_of(label, linestyle="none", markersize=6))
+    style.decades(axes[0][0].xaxis)
+    axes[0][0].set(xlabel="median time of a step [ms]", ylabel="median error at the joints [%]")
+    axes[0][0].set_ylim(bottom=0)
+    style.legend_above(figure, 3)
+    return figure
+
+
+def drawn(found, name, figure, caption):
+    origin = records.origin_of({found.name: found.record})
+    with tempfile.TemporaryDirectory() as folder:
+        stem = pathlib.Path(folder) / name
+        style.save(figure, stem, origin, [{"figure": name}], formats=("svg",))
+        text = stem.with_suffix(".svg").read_text()
+    picture = element("div", inline_svg(text, name, caption), class_="scroll drawing")
+    return element("figure", joined([picture, element("figcaption", caption)], "\n"), id=f"figure-{name}")
+
+
+def figures_section(found):
+    parts = [drawn(found, "over-frames", over_frames(found), "The numbers of metrics.csv over the frames.")]
+    against_time = error_against_time(found)
+    if against_time:
+        caption = "Error against run time: the median over the frames of the error at the joints and of the time of a step."
+        parts.append(drawn(found, "error-against-time", against_time, caption))
+    return joined([element("p", Markup("Values are shown next to the pointer or the finger.")), *parts], "\n")
+
+
 def warnings_of(found):
     outcome = found.record["outcome"]
     warnings = list((found.trial or outcome).get("warnings", []))
@@ -68,13 +225,13 @@ def page(folder):
     found = RunRecords(folder)
     warnings = warnings_of(found)
     viewer, missing = viewer_of(found)
-    sections = [("summary", "What was found", run_tables.summary(found))]
+    sections = [("summary", "What was found", summary(found))]
     sections += [("warnings", "Warnings", items(warnings, "missing"))] if warnings else []
     sections += [("viewer", "Viewer", viewer)] if viewer else []
-    sections += [("frames", "Over the frames", run_figures.section(found))]
-    for anchor, name, content in (("joints", "Volume at the joints", run_tables.joints(found)),
-                                  ("distances", "Distances between the deformers", run_tables.distances(found)),
-                                  ("model", "What was taken from the model", run_tables.model(found))):
+    sections += [("frames", "Over the frames", figures_section(found))]
+    for anchor, name, content in (("joints", "Volume at the joints", joints(found)),
+                                  ("distances", "Distances between the deformers", distances(found)),
+                                  ("model", "What was taken from the model", model(found))):
         sections += [(anchor, name, content)] if content else []
     as_set = types.SimpleNamespace(results=folder, runs={found.name: found.record}, left_out=lambda: [])
     sections.append(("origin", "Where the records come from", origin.section(as_set, with_viewer=viewer is not None)))

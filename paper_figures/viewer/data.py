@@ -12,7 +12,6 @@ import hashlib
 
 import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
 import records
 from drawing import rendering
@@ -27,19 +26,14 @@ ratio_steps, position_steps = 127, 65535
 
 def read_frame(file):
     """Positions [m], #V x 3, tets, #T x 4, volume ratios, #T, rest positions [m], #V x 3."""
-    if not file.is_file():
-        raise records.RecordsMissing(f"{file}: does not exist")
-    reader = vtkXMLUnstructuredGridReader()
-    reader.SetFileName(str(file))
-    reader.Update()
-    grid = reader.GetOutput()
+    grid = rendering.read(file)
     ratio, rest = grid.GetCellData().GetArray("volume_ratio"), grid.GetPointData().GetArray("rest_position")
     if not ratio or not rest:
         raise records.RecordsMissing(f"{file}: no {'rest_position' if ratio else 'volume_ratio'}")
-    if not numpy.isfinite(vtk_to_numpy(grid.GetPoints().GetData())).all():
+    positions = vtk_to_numpy(grid.GetPoints().GetData())
+    if not numpy.isfinite(positions).all():
         raise records.RecordsMissing(f"{file}: a position is not finite: nothing to show")
-    tets = vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 4)
-    return tuple(numpy.array(array) for array in (vtk_to_numpy(grid.GetPoints().GetData()), tets, vtk_to_numpy(ratio), vtk_to_numpy(rest)))
+    return tuple(numpy.array(array) for array in (positions, rendering.corners_of(grid), vtk_to_numpy(ratio), vtk_to_numpy(rest)))
 
 
 def grid_over(positions):
@@ -148,7 +142,7 @@ def facts_of(recorded, every):
     shown = [{"label": label, "title": title_of(recorded, label), "colour": looks.of(label).color, "figures": figures_of(rows[label]),
               "not_reached": not_reached(rows[label])} for label in rows]
     return {"name": recorded.run.name, "title": titles.get(recorded.run.name, recorded.run.name), "reference": recorded.run.reference(),
-            "rights": "; ".join(recorded_frames.licences_of(recorded)), "frames": [int(row["frame"]) for row in first],
+            "rights": "; ".join(entries.licences_of(recorded.run.record)), "frames": [int(row["frame"]) for row in first],
             "times_s": [float(row["time_s"]) for row in first], "deformers": shown}
 
 

@@ -1,7 +1,5 @@
-// The bars above the panels: run, time, colouring, cut, skeleton.
-import { colourings } from "./link.js";
-import { draws_surface, no_surface_because } from "./state.js";
-import { button, element, group, select, slider } from "./page.js";
+// The bars above the panels: run, time, colouring, cut, skeleton. Every control is a native one, with a name for screen readers.
+import { colourings, draws_surface, no_surface_because } from "./state.js";
 
 export const colour_names = { skin: "skin", ratio: "volume ratio", error: "distance to FEM", inverted: "inverted tets" };
 
@@ -44,16 +42,13 @@ export class Controls {
         this.clock.setAttribute("aria-live", now.playing ? "off" : "polite");
         this.clock.textContent = clock_of(run, now.at);
         this.time.setAttribute("aria-valuetext", this.clock.textContent);
-        this.colours.forEach((made, at) => {
-            made.setAttribute("aria-pressed", String(colourings[at] === now.colour));
-        });
-        this.rendered.setAttribute("aria-pressed", String(draws_surface(run, now)));
+        const pressed = [...this.colours.map((made, at) => [made, colourings[at] === now.colour]),
+                         [this.rendered, draws_surface(run, now)], [this.bones, now.bones], [this.follow, now.follow],
+                         [this.shifting, now.shifting]];
+        for (const [made, is_on] of pressed) made.setAttribute("aria-pressed", String(is_on));
         const refused = no_surface_because(run, now);
         this.rendered.disabled = refused !== null;
         this.rendered.title = refused ?? what_rendered_does;
-        this.bones.setAttribute("aria-pressed", String(now.bones));
-        this.follow.setAttribute("aria-pressed", String(now.follow));
-        this.shifting.setAttribute("aria-pressed", String(now.shifting));
         this.update_cut(run, now.cut);
     }
 
@@ -72,4 +67,31 @@ function clock_of(run, at) {
     const angle = run.figure(run.labels[0], "angle_deg", at);
     const time = angle === null ? `${run.times_s[at].toFixed(2)} s` : `${Math.round(angle)}\u00b0`;
     return `frame ${run.frames[at]}${at === run.frames.length - 1 ? " (last)" : ""}, ${time}`;
+}
+
+export function element(tag, attributes = {}, ...children) {
+    const made = document.createElement(tag);
+    for (const [name, value] of Object.entries(attributes)) {
+        if (name.startsWith("on")) made.addEventListener(name.slice(2), value);
+        else if (value !== undefined && value !== false) made.setAttribute(name, value === true ? "" : value);
+    }
+    made.append(...children);
+    return made;
+}
+
+export function select(name, options, on_choice) {
+    return element("select", { "aria-label": name, onchange: (event) => on_choice(event.target.value) },
+                   ...options.map(([value, text]) => element("option", { value }, text)));
+}
+
+export function button(text, name, on_press) {
+    return element("button", { type: "button", "aria-label": name, title: name, onclick: on_press }, text);
+}
+
+export function slider(name, on_move) {
+    return element("input", { type: "range", "aria-label": name, oninput: (event) => on_move(Number(event.target.value)) });
+}
+
+export function group(name, ...children) {
+    return element("fieldset", {}, element("legend", {}, name), ...children);
 }

@@ -1,6 +1,5 @@
-// The recorded runs of the page: header (JSON) and block (base64, gzip), which are read once.
-import { codes_of, distances_mm, positions_of } from "./codes.js";
-import { carried } from "./surface.js";
+// The recorded runs of the page: header (JSON) and block (base64, gzip), which are read once, and the decoding of their bytes, which
+// viewer/data.py encodes: positions on a grid, volume ratios, float32 bone ends.
 
 export async function read_page() {
     const header = JSON.parse(document.getElementById("viewer-header").textContent);
@@ -18,11 +17,14 @@ async function unpacked(base64) {
 export class Run {
     constructor(header, block) {
         const { bones, surface, ...rest } = header;
-        Object.assign(this, rest, { bone_names: bones.names, surface: surface ? surface_of(surface, block) : null });
-        this.block = block;
+        Object.assign(this, rest, { block, bone_names: bones.names, surface: surface && {
+            points: surface.points, largest_sum: surface.largest_sum,
+            corners: new Uint32Array(block, surface.corners, 3 * surface.triangles),
+            tets: new Uint32Array(block, surface.tets, surface.points), shares: new Float32Array(block, surface.shares, 4 * surface.points),
+        } });
         this.corners = new Uint32Array(block, header.tet_corners, 4 * header.tets);
         this.rest = positions_of(new Uint16Array(block, header.rest_codes, 3 * header.vertices), header.rest_low_m, header.rest_step_m);
-        this.bone_ends = new Float32Array(block, header.bones.ends, 6 * header.bones.names.length * header.frames.length);
+        this.bone_ends = new Float32Array(block, bones.ends, 6 * bones.names.length * header.frames.length);
         this.labels = header.deformers.map((deformer) => deformer.label);
         this.codes = new Map();
     }
@@ -62,12 +64,8 @@ export class Run {
 
     // The lowest and highest coordinate at rest [m].
     rest_range(axis) {
-        let low = Infinity, high = -Infinity;
-        for (let i = "xyz".indexOf(axis); i < this.rest.length; i += 3) {
-            low = Math.min(low, this.rest[i]);
-            high = Math.max(high, this.rest[i]);
-        }
-        return [low, high];
+        const at = "xyz".indexOf(axis), coordinates = this.rest.filter((_, i) => i % 3 === at);
+        return [coordinates.reduce((a, b) => Math.min(a, b)), coordinates.reduce((a, b) => Math.max(a, b))];
     }
 
     // The position of the cut, moved by hundredths of the body [m].
@@ -98,9 +96,8 @@ export class Run {
 
     // The index of the frame nearest to this number.
     place_of(frame) {
-        let best = 0;
-        this.frames.forEach((number, at) => { if (Math.abs(number - frame) < Math.abs(this.frames[best] - frame)) best = at; });
-        return best;
+        const away = this.frames.map((number) => Math.abs(number - frame));
+        return away.indexOf(Math.min(...away));
     }
 
     // The largest recorded distance to the reference over all frames and deformers [mm].
@@ -110,8 +107,46 @@ export class Run {
     }
 }
 
-function surface_of(header, block) {
-    const { points, triangles } = header;
-    return { points, largest_sum: header.largest_sum, corners: new Uint32Array(block, header.corners, 3 * triangles),
-             tets: new Uint32Array(block, header.tets, points), shares: new Float32Array(block, header.shares, 4 * points) };
+// Converts differences from the previous frame, low bytes then high bytes, to codes frame by frame.
+export function codes_of(bytes, frames, numbers) {
+    const count = frames * numbers;
+    const codes = new Uint16Array(count);
+    for (let i = 0; i < count; ++i) {
+        const difference = bytes[i] | (bytes[count + i] << 8);
+        codes[i] = i < numbers ? difference : codes[i - numbers] + difference;  // modulo 65536
+    }
+    return codes;
+}
+
+// Positions [m], x y z of each vertex, from the codes of one frame.
+export function positions_of(codes, low_m, step_m) {
+    const positions = new Float32Array(codes.length);
+    for (let i = 0; i < codes.length; ++i) positions[i] = low_m[i % 3] + step_m * codes[i];
+    return positions;
+}
+
+// 0: inverted; otherwise (code - 1) / steps.
+export function ratio_of(code, steps) {
+    return code === 0 ? -Infinity : (code - 1) / steps;
+}
+
+// The distance [mm] of each vertex from that of the reference.
+export function distances_mm(positions, reference) {
+    const distances = new Float32Array(positions.length / 3);
+    for (let v = 0; v < distances.length; ++v)
+        distances[v] = 1000 * Math.hypot(positions[3 * v] - reference[3 * v], positions[3 * v + 1] - reference[3 * v + 1],
+                                         positions[3 * v + 2] - reference[3 * v + 2]);
+    return distances;
+}
+
+// x y z of each point of the rendered surface, which the tets carry: the weighted sum of its tet's corners.
+// surface: { points, tets, shares } (the tet of each point, and four weights each); corners: of the tets.
+export function carried(surface, corners, positions) {
+    const { points, tets, shares } = surface, to = new Float32Array(3 * points);
+    for (let point = 0; point < points; ++point)
+        for (let corner = 0; corner < 4; ++corner) {
+            const share = shares[4 * point + corner], v = corners[4 * tets[point] + corner];
+            for (let axis = 0; axis < 3; ++axis) to[3 * point + axis] += share * positions[3 * v + axis];
+        }
+    return to;
 }

@@ -1,4 +1,4 @@
-// The faces of a tet mesh, and which are visible if only some tets are kept.
+// The faces of a tet mesh, which are visible if only some tets are kept, and the normals of a surface.
 
 const face_corners = [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]];  // face i is opposite corner i; outwards for positive volumes
 
@@ -66,4 +66,25 @@ export function area_normal(p, a, b, c) {
     const ux = p[3 * b] - p[3 * a], uy = p[3 * b + 1] - p[3 * a + 1], uz = p[3 * b + 2] - p[3 * a + 2];
     const vx = p[3 * c] - p[3 * a], vy = p[3 * c + 1] - p[3 * a + 1], vz = p[3 * c + 2] - p[3 * a + 2];
     return [uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx];
+}
+
+// The visible part of a run's tet mesh, computed once per run, and again when the cut moves.
+export class Meshes {
+    constructor() {
+        this.topologies = new Map();
+    }
+
+    // Returns the same object as long as run and cut stay the same.
+    of(run, cut) {
+        const key = JSON.stringify([run.name, cut]);
+        if (this.key === key) return this.mesh;
+        if (!this.topologies.has(run.name)) {
+            const neighbours = neighbours_of(run.corners), outer = seen_faces(neighbours, kept_by(null, run.corners));
+            this.topologies.set(run.name, { neighbours, outer: triangles_of(run.corners, outer) });
+        }
+        const topology = this.topologies.get(run.name), kept = kept_by(cut, run.corners, run.rest);
+        this.key = key;
+        this.mesh = { run, ...topology, kept, faces: seen_faces(topology.neighbours, kept) };
+        return this.mesh;
+    }
 }

@@ -7,9 +7,179 @@
 //   viewer.pixels(panel)                 red green blue alpha of a panel
 //   viewer.ready                         resolves when the first frame is drawn
 import style from "./style.css";
+import { Controls, colour_names, element, select } from "./controls.js";
 import { read_page } from "./data.js";
-import { element } from "./page.js";
-import { Viewer } from "./viewer.js";
+import { Meshes } from "./faces.js";
+import { help, listen } from "./input.js";
+import { draw_figures, draw_legend, note_of, palette_of, ratio_shades } from "./legend.js";
+import { Panel } from "./panel.js";
+import { State, hash_of, no_surface_because, panels_for, play, pose_of } from "./state.js";
+import { Sight, Views, is_wide } from "./views.js";
+
+// Connects the parts: state on one side; panels, legend and address on the other.
+class Viewer {
+    constructor(root, data) {
+        this.root = root;
+        this.data = data;
+        this.palette = palette_of(data.colours);
+        this.shades = ratio_shades(this.palette, data.ratio_steps);
+        this.meshes = new Meshes();
+        const first = data.runs[0];
+        this.state = new State({ run: first.name, at: 0, panels: panels_for(first), colour: "ratio", rendered: true, bones: false,
+                                 cut: null, claim: null, playing: false, follow: true, shifting: false });
+        this.build();
+        this.state.on_change((now, changed) => this.update(now, changed));
+        play(this.state, () => this.run.frames.length);
+        this.update(this.state.now, new Set(Object.keys(this.state.now)));
+        // Without a pose in the address, the pose of a claim is shown, which is more instructive than a body at rest.
+        this.open(pose_of(location.hash) || !data.poses.length ? location.hash : `#claim=${data.poses[0].claim}`, false);
+        window.addEventListener("hashchange", () => this.open(location.hash, true));
+    }
+
+    get run() {
+        return this.data.runs.find((run) => run.name === this.state.now.run);
+    }
+
+    build() {
+        this.controls = new Controls(this.data.runs, this.actions());
+        this.claim = element("p", { class: "vw-claim vw-hidden" });
+        this.canvas = element("canvas", { "aria-hidden": "true" });
+        this.panels_element = element("div", { class: "vw-panels" }, this.canvas);
+        this.legend = element("div", { class: "vw-legend" });
+        this.note = element("p", { class: "vw-small" });
+        this.root.replaceChildren(links_to(this.data.poses), this.claim, ...this.controls.bars, this.legend, this.panels_element, this.note,
+                                  element("p", { class: "vw-small" }, help));
+        this.views = new Views(this.canvas, () => this.redraw());
+        this.sight = new Sight(this.views);
+        listen(this.root, this.actions());
+        new ResizeObserver(() => this.redraw()).observe(this.panels_element);
+    }
+
+    // Makes one element per panel: choice of deformer, view, recorded numbers.
+    build_panels(now) {
+        for (const { whole } of this.panel_elements ?? []) whole.remove();
+        const options = this.run.deformers.map((deformer) => [deformer.label, deformer.title]);
+        this.panel_elements = now.panels.map((label, at) => {
+            const choice = select(`deformer of panel ${at + 1}`, options, (chosen) => this.choose(at, chosen));
+            choice.value = label;
+            const { title, colour } = this.run.deformer(label);
+            const name = `${title}: arrows turn, plus and minus zoom`;
+            const view = element("div", { class: "vw-view", tabindex: 0, role: "application", "aria-label": name });
+            const numbers = element("dl", { "aria-label": `recorded numbers of ${title}` });
+            const mark = element("p", { class: "vw-mark vw-hidden" }, "pose not reached");
+            const whole = element("div", { class: "vw-panel", style: `border-top: 4px solid ${colour}` }, choice, view, mark, numbers);
+            this.panels_element.append(whole);
+            return { whole, view, mark, numbers };
+        });
+        this.panels_element.classList.toggle("vw-wide", is_wide(this.run));
+        this.panels = now.panels.map(() => new Panel());
+        this.views.show(this.panel_elements.map((made) => made.view), this.panels.map((panel) => panel.contents));
+    }
+
+    choose(at, label) {
+        const panels = [...this.state.now.panels];
+        panels[at] = label;
+        this.user({ panels });
+    }
+
+    update(now, changed) {
+        const { run } = this;
+        if (changed.has("run") || changed.has("panels")) this.build_panels(now);
+        const mesh = this.meshes.of(run, now.cut);
+        now.panels.forEach((label, at) => {
+            this.panels[at].update(mesh, label, now, this.palette, this.shades);
+            this.panel_elements[at].mark.classList.toggle("vw-hidden", run.reached(label, now.at));
+            draw_figures(this.panel_elements[at].numbers, run, label, now.at);
+        });
+        if (changed.has("shifting") || changed.has("run") || changed.has("panels")) this.views.two_fingers(now.shifting);
+        this.controls.update(run, now);
+        draw_legend(this.legend, this.data, run, now);
+        this.sight.update(run, now, changed);
+        this.note.textContent = note_of(run, this.data.every, now.at);
+        this.show_claim(now.claim);
+        this.redraw();
+    }
+
+    show_claim(claim) {
+        const pose = this.data.poses.find((one) => one.claim === claim);
+        this.claim.classList.toggle("vw-hidden", !claim);
+        const what = pose ? ` Shown: ${pose.what}. Colour: ${colour_names[this.state.now.colour]}.` : "";
+        this.claim.textContent = claim ? `${claim}. ${this.data.claims[claim] ?? ""}${what}` : "";
+    }
+
+    redraw() {
+        this.waiting ??= requestAnimationFrame(() => {
+            this.waiting = null;
+            this.views.draw();
+        });
+    }
+
+    // Applies a change by the user: the address follows it, and the claim's pose is left.
+    user(changes) {
+        this.state.set({ claim: null, ...changes });
+        const { now } = this.state;
+        if (!now.playing) history.replaceState(null, "", hash_of({ ...now, frame: this.run.frames[now.at] }));
+    }
+
+    // Shows the pose of an address; an address that only names a claim means the claim's own pose. A claim's pose shows the rendered skin.
+    open(hash, scroll) {
+        const asked = pose_of(hash);
+        if (!asked) return;
+        const known = this.data.poses.find((pose) => pose.claim === asked.claim);
+        const own = known ? { ...known, panels: known.panels ? known.panels.split(",") : undefined } : {};
+        const pose = { ...(asked.run ? {} : own), ...asked };
+        const run = this.data.runs.find((one) => one.name === pose.run) ?? this.run;
+        this.state.set({ run: run.name, at: run.place_of(pose.frame ?? 0), panels: panels_for(run, pose.panels),
+                         colour: pose.colour ?? "ratio", rendered: pose.rendered ?? Boolean(pose.claim), bones: pose.bones ?? false,
+                         cut: pose.cut ?? null, claim: pose.claim ?? null, playing: false });
+        if (scroll) this.root.scrollIntoView({ block: "start" });
+    }
+
+    actions() {
+        const now = () => this.state.now, last = () => this.run.frames.length - 1;
+        const go = (at) => this.user({ at: Math.min(last(), Math.max(0, at)), playing: false });
+        const cut = (changes) => now().cut && this.user({ cut: { ...now().cut, ...changes } });
+        return {
+            run: (name) => this.choose_run(name),
+            at: go, step: (by) => go(now().at + by), first: () => go(0), last: () => go(last()),
+            play: () => this.user({ playing: !now().playing }),
+            colour: (colour) => this.user({ colour }),
+            rendered: () => no_surface_because(this.run, now()) === null && this.user({ rendered: !now().rendered }),
+            bones: () => this.user({ bones: !now().bones }),
+            follow: () => this.user({ follow: !now().follow }),
+            shifting: () => this.user({ shifting: !now().shifting }),
+            cut: () => this.cut_axis(now().cut ? "" : "z"),
+            cut_axis: (axis) => this.cut_axis(axis),
+            cut_at: (at_m) => cut({ at_m }), cut_side: () => cut({ above: !now().cut.above }),
+            move_cut: (by) => cut({ at_m: this.run.stepped(now().cut, by) }),
+            turn: (around, up) => this.moved(() => this.views.turn(around, up)),
+            shift: (right, up) => this.moved(() => this.views.shift(right, up)),
+            zoom: (factor) => this.moved(() => this.views.zoom(factor)),
+            reset: () => this.moved(() => this.sight.first(this.run, now())),
+        };
+    }
+
+    choose_run(name) {
+        const run = this.data.runs.find((one) => one.name === name);
+        this.user({ run: name, at: 0, panels: panels_for(run), cut: null, playing: false });
+    }
+
+    cut_axis(axis) {
+        if (!axis) return this.user({ cut: null });
+        const [low, high] = this.run.rest_range(axis);
+        this.user({ cut: { axis, at_m: (low + high) / 2, above: false } });
+    }
+
+    moved(action) {
+        action();
+        this.redraw();
+    }
+}
+
+function links_to(poses) {
+    const links = poses.flatMap(({ claim, what }) => [" ", element("a", { href: `#claim=${claim}`, title: what }, claim)]);
+    return element("p", { class: "vw-small vw-poses" }, links.length ? "Poses of the claims:" : "", ...links);
+}
 
 async function start(root) {
     document.head.append(element("style", {}, style));

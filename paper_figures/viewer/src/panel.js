@@ -1,8 +1,10 @@
 // The scene of one panel: the body (tets or rendered surface), its inverted tets and the skeleton, updated when the state changes.
-import { distance_shade } from "./colours.js";
-import { vertex_normals } from "./faces.js";
-import { Body } from "./body.js";
-import { Skeleton } from "./skeleton.js";
+import { BufferAttribute, BufferGeometry, DoubleSide, DynamicDrawUsage, Group, Mesh, Points, PointsMaterial, ShaderMaterial } from "three";
+import { LineMaterial } from "three/addons/lines/LineMaterial.js";
+import { LineSegments2 } from "three/addons/lines/LineSegments2.js";
+import { LineSegmentsGeometry } from "three/addons/lines/LineSegmentsGeometry.js";
+import { area_normal, triangles_of, vertex_normals } from "./faces.js";
+import { distance_shade } from "./legend.js";
 import { draws_surface } from "./state.js";
 
 const ghost = [0.62, 0.66, 0.7];
@@ -15,7 +17,7 @@ export class Panel {
         this.contents = [this.inverted.mesh, this.body.mesh, this.skeleton.group];
     }
 
-    // mesh: { run, neighbours, outer, kept, faces }, see meshes.js
+    // mesh: { run, neighbours, outer, kept, faces }, see faces.js
     update(mesh, label, shown, palette, ratio_shades) {
         const { run } = mesh, at = shown.at;
         const rendered = draws_surface(run, shown), codes = run.ratio_codes(label, at);
@@ -53,11 +55,148 @@ export class Panel {
 
     // All four faces of each inverted tet that the cut keeps.
     show_inverted(mesh, positions, codes, palette) {
-        const faces = [];
-        codes.forEach((code, tet) => { if (code === 0 && mesh.kept[tet]) faces.push(4 * tet, 4 * tet + 1, 4 * tet + 2, 4 * tet + 3); });
+        const faces = [...codes.keys()].filter((tet) => codes[tet] === 0 && mesh.kept[tet])
+            .flatMap((tet) => [4 * tet, 4 * tet + 1, 4 * tet + 2, 4 * tet + 3]);
         this.inverted.show_faces(mesh.run.corners, faces, () => false);
         this.inverted.move(positions, positions);
         this.inverted.paint(() => palette.inverted);
         this.inverted.look(0.6, 1);
+    }
+}
+
+// One deformer's body in three dimensions: the visible faces, shaded and coloured. Each face has its own corners. The light comes from the
+// upper left of the camera, with a minimum brightness so that colours match the legend. Faces of the cut show the thin outline of their
+// tets in a shade of their own colour, so that small faces show it too.
+const vertex_shader = `
+attribute vec3 colour;
+attribute float is_cut;
+varying vec3 shade, towards;
+varying vec3 corner;
+varying float outlined;
+void main() {
+    int at = gl_VertexID % 3;
+    corner = vec3(at == 0, at == 1, at == 2);
+    shade = colour;
+    outlined = is_cut;
+    towards = normalMatrix * normal;
+    gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+}`;
+const fragment_shader = `
+uniform float brightness, opacity;
+varying vec3 shade, towards;
+varying vec3 corner;
+varying float outlined;
+void main() {
+    vec3 n = normalize(towards) * (gl_FrontFacing ? 1.0 : -1.0);
+    float light = max(dot(n, normalize(vec3(-0.5, 0.7, 1.0))), 0.0) + 0.35 * max(dot(n, normalize(vec3(0.8, 0.1, 0.6))), 0.0);
+    vec3 lit = shade * min(brightness + (1.0 - brightness) * light, 1.0);
+    vec3 inside = smoothstep(vec3(0.0), fwidth(corner), corner);
+    float line = outlined * (1.0 - min(inside.x, min(inside.y, inside.z)));
+    gl_FragColor = vec4(mix(lit, 0.72 * lit, line), opacity);
+}`;
+
+function copy(to, at, from, place) {
+    for (let axis = 0; axis < 3; ++axis) to[3 * at + axis] = from[3 * place + axis];
+}
+
+class Body {
+    constructor() {
+        this.geometry = new BufferGeometry();
+        this.material = new ShaderMaterial({
+            vertexShader: vertex_shader, fragmentShader: fragment_shader, side: DoubleSide,
+            uniforms: { brightness: { value: 0.5 }, opacity: { value: 1 } },
+        });
+        this.mesh = new Mesh(this.geometry, this.material);
+        this.mesh.frustumCulled = false;
+    }
+
+    // Sets the faces of tets that are drawn; `outer` distinguishes those of the body's surface, which are shaded smoothly, from those of
+    // the cut.
+    show_faces(corners, faces, outer) {
+        this.show_triangles(triangles_of(corners, faces), Uint32Array.from(faces, (face) => face >> 2),
+                            Uint8Array.from(faces, (face) => outer(face) ? 1 : 0));
+    }
+
+    // Sets the rendered surface; see carried in data.js.
+    show_surface({ corners, tets }) {
+        const behind = Uint32Array.from({ length: corners.length / 3 }, (_, face) => tets[corners[3 * face]]);
+        this.show_triangles(corners, behind, new Uint8Array(behind.length).fill(1));
+    }
+
+    // vertices: three per triangle; for each triangle the tet behind it, and whether it is shaded smoothly.
+    show_triangles(vertices, tets, smooth) {
+        Object.assign(this, { vertices, tets, smooth });
+        this.geometry.dispose();
+        for (const [name, size] of [["position", 3], ["normal", 3], ["colour", 3], ["is_cut", 1]]) {
+            const attribute = new BufferAttribute(new Float32Array(size * vertices.length), size);
+            this.geometry.setAttribute(name, attribute.setUsage(DynamicDrawUsage));
+        }
+        this.geometry.attributes.is_cut.array.forEach((_, at, all) => { all[at] = this.smooth[Math.floor(at / 3)] ? 0 : 1; });
+        this.geometry.setDrawRange(0, this.vertices.length);
+    }
+
+    move(positions, normals) {
+        const to = this.geometry.attributes.position.array, up = this.geometry.attributes.normal.array;
+        this.vertices.forEach((v, at) => {
+            copy(to, at, positions, v);
+            if (this.smooth[Math.floor(at / 3)]) copy(up, at, normals, v);
+        });
+        this.smooth.forEach((smooth, face) => {
+            if (smooth) return;
+            const normal = area_normal(positions, ...this.vertices.subarray(3 * face, 3 * face + 3));
+            for (let corner = 0; corner < 3; ++corner) up.set(normal, 9 * face + 3 * corner);
+        });
+        this.geometry.attributes.position.needsUpdate = this.geometry.attributes.normal.needsUpdate = true;
+    }
+
+    // colour_of(tet, vertex) -> [red, green, blue]
+    paint(colour_of) {
+        const to = this.geometry.attributes.colour.array;
+        this.vertices.forEach((v, at) => to.set(colour_of(this.tets[Math.floor(at / 3)], v), 3 * at));
+        this.geometry.attributes.colour.needsUpdate = true;
+    }
+
+    look(brightness, opacity) {
+        this.material.uniforms.brightness.value = brightness;
+        this.material.uniforms.opacity.value = opacity;
+        this.material.transparent = opacity < 1;
+        this.material.depthWrite = opacity === 1;
+    }
+
+    // Positions [m] as drawn, by vertex; nan for vertices of no visible face.
+    drawn_positions(count) {
+        const drawn = new Float32Array(3 * count).fill(NaN);
+        const from = this.geometry.attributes.position.array;
+        this.vertices.forEach((v, at) => copy(drawn, v, from, at));
+        return drawn;
+    }
+}
+
+// The posed bones, drawn over the body: a line for each, with a dot at its head.
+const dark = 0x111111;
+
+class Skeleton {
+    constructor() {
+        this.lines = [[5, 0xffffff], [2.5, dark]].map(([linewidth, color]) =>  // dark on a white seam, visible on any body
+            new LineSegments2(new LineSegmentsGeometry(), new LineMaterial({ color, linewidth, depthTest: false })));
+        const dot = new PointsMaterial({ color: dark, size: 6, sizeAttenuation: false, depthTest: false });
+        this.dots = new Points(new BufferGeometry(), dot);
+        this.group = new Group();
+        [...this.lines, this.dots].forEach((part, order) => {
+            part.renderOrder = 10 + order;
+            part.frustumCulled = false;
+            this.group.add(part);
+        });
+    }
+
+    // The head and tail [m] of every bone.
+    pose(ends) {
+        for (const line of this.lines) {
+            line.geometry.dispose();
+            line.geometry = new LineSegmentsGeometry().setPositions(Float32Array.from(ends));
+        }
+        const heads = Float32Array.from({ length: ends.length / 2 }, (_, i) => ends[6 * Math.floor(i / 3) + (i % 3)]);
+        this.dots.geometry.dispose();
+        this.dots.geometry = new BufferGeometry().setAttribute("position", new BufferAttribute(heads, 3));
     }
 }

@@ -1,7 +1,8 @@
-// Draws all panels with one WebGL context: each canvas shows a scissored part, one camera serves all, and every panel has controls.
-import { Color, ColorManagement, LinearSRGBColorSpace, PerspectiveCamera, Scene, TOUCH, Vector3, WebGLRenderer } from "three";
+// Draws all panels with one WebGL context: each canvas shows a scissored part, one camera serves all, and every panel has controls. The
+// camera points at the body of the first frame, and later follows its motion.
+import { Color, ColorManagement, LinearSRGBColorSpace, PerspectiveCamera, Scene, Spherical, TOUCH, Vector3, WebGLRenderer } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
-import { keep_level, leave_scrolling } from "./touch.js";
+import { keep_level, leave_scrolling } from "./input.js";
 
 ColorManagement.enabled = false;  // colours appear on the screen as in the legend
 const background = new Color(0xf1f3f5), most_pixels_per_point = 2;
@@ -66,11 +67,10 @@ export class Views {
     }
 
     turn(around_deg, up_deg) {
-        const offset = this.camera.position.clone().sub(this.target);
-        const polar = Math.acos(offset.y / offset.length()) - up_deg * Math.PI / 180;
-        const azimuth = Math.atan2(offset.x, offset.z) + around_deg * Math.PI / 180;
-        offset.setFromSphericalCoords(offset.length(), Math.min(3.1, Math.max(0.04, polar)), azimuth);
-        this.camera.position.copy(this.target).add(offset);
+        const seen = new Spherical().setFromVector3(this.camera.position.clone().sub(this.target));
+        seen.phi = Math.min(3.1, Math.max(0.04, seen.phi - up_deg * Math.PI / 180));
+        seen.theta += around_deg * Math.PI / 180;
+        this.camera.position.setFromSpherical(seen).add(this.target);
         this.camera.lookAt(this.target);
     }
 
@@ -79,18 +79,21 @@ export class Views {
         const height = 2 * this.camera.position.distanceTo(this.target) * Math.tan(this.camera.fov / 2 * Math.PI / 180);
         this.camera.updateMatrix();
         const [across, upwards] = [0, 1].map((column) => new Vector3().setFromMatrixColumn(this.camera.matrix, column));
-        const step = across.multiplyScalar(right * height).addScaledVector(upwards, up * height);
-        this.target.add(step);
-        this.camera.position.add(step);
+        this.follow(across.multiplyScalar(right * height).addScaledVector(upwards, up * height));
     }
 
     zoom(factor) {
         this.camera.position.sub(this.target).multiplyScalar(factor).add(this.target);
     }
 
+    // Left, bottom, width and height of a panel in the canvas.
+    part_of(element) {
+        const whole = this.renderer.domElement.parentElement.getBoundingClientRect(), box = element.getBoundingClientRect();
+        return [box.left - whole.left, whole.bottom - box.bottom, box.width, box.height];
+    }
+
     draw() {
         const canvas = this.renderer.domElement;
-        const whole = canvas.parentElement.getBoundingClientRect();
         if (canvas.clientWidth !== this.width || canvas.clientHeight !== this.height) {
             [this.width, this.height] = [canvas.clientWidth, canvas.clientHeight];
             this.renderer.setSize(this.width, this.height, false);
@@ -100,11 +103,10 @@ export class Views {
         this.renderer.clear();
         this.renderer.setScissorTest(true);
         for (const { element, scene } of this.views) {
-            const box = element.getBoundingClientRect();
-            const part = [box.left - whole.left, whole.bottom - box.bottom, box.width, box.height];
+            const part = this.part_of(element);
             this.renderer.setViewport(...part);
             this.renderer.setScissor(...part);
-            this.camera.aspect = box.width / box.height;
+            this.camera.aspect = part[2] / part[3];
             this.camera.updateProjectionMatrix();
             this.renderer.render(scene, this.camera);
         }
@@ -114,10 +116,56 @@ export class Views {
     pixels(at) {
         this.draw();
         const context = this.renderer.getContext(), ratio = this.renderer.getPixelRatio();
-        const whole = this.renderer.domElement.parentElement.getBoundingClientRect(), box = this.views[at].element.getBoundingClientRect();
-        const part = [box.left - whole.left, whole.bottom - box.bottom, box.width, box.height].map((number) => Math.round(number * ratio));
+        const part = this.part_of(this.views[at].element).map((number) => Math.round(number * ratio));
         const bytes = new Uint8Array(4 * part[2] * part[3]);
         context.readPixels(...part, context.RGBA, context.UNSIGNED_BYTE, bytes);
         return bytes;
     }
+}
+
+export class Sight {
+    constructor(views) {
+        this.views = views;
+    }
+
+    update(run, now, changed) {
+        if (run.name !== this.run_name) {
+            this.first(run, now);
+        } else if (changed.has("at") && now.follow) {
+            const middle = middle_of(run, now.at);
+            this.views.follow(middle.clone().sub(this.middle));
+            this.middle = middle;
+        }
+        if (!now.follow) this.middle = middle_of(run, now.at);
+    }
+
+    first(run, now) {
+        this.run_name = run.name;
+        this.middle = middle_of(run, now.at);
+        this.views.look_at(this.middle, cloud_of(run, now.panels[0]));
+    }
+}
+
+// The mean of the posed bones' ends [m], the same for all deformers.
+function middle_of(run, at) {
+    const ends = run.posed_bones(at), sum = new Vector3();
+    for (let i = 0; i < ends.length; i += 3) sum.add(new Vector3().fromArray(ends, i));
+    return sum.divideScalar(ends.length / 3);
+}
+
+// Points of the body relative to its middle [m] in some frames of the run, enough to determine the space that it takes.
+function cloud_of(run, label) {
+    const points = [];
+    for (let at = 0; at < run.frames.length; at += 3) {
+        const positions = run.positions(label, at), middle = middle_of(run, at);
+        for (let v = 0; v < run.vertices; v += 5)
+            points.push(new Vector3().fromArray(positions, 3 * v).sub(middle));
+    }
+    return points;
+}
+
+// Whether it takes more space horizontally than vertically.
+export function is_wide(run) {
+    const [left, right] = run.rest_range("x"), [low, high] = run.rest_range("y");
+    return right - left > 1.5 * (high - low);
 }

@@ -16,7 +16,7 @@ import checked_looks  # noqa: E402,F401
 import make_all  # noqa: E402
 import records  # noqa: E402
 import synthetic_records  # noqa: E402
-from drawing import bench_records  # noqa: E402
+from figures import timing  # noqa: E402
 
 
 class Figures(unittest.TestCase):
@@ -215,7 +215,7 @@ class Figures(unittest.TestCase):
             bench = results / "timing" / "bench" / "bench.json"
             bench.write_text(json.dumps(json.loads(bench.read_text()) | {"schema": 1}))
             with self.assertRaisesRegex(records.RecordsMissing, "schema 1, expected 2"):
-                bench_records.read(results)
+                timing.read_bench(bench)
             bench.unlink()
             with contextlib.redirect_stderr(io.StringIO()) as said:
                 self.assertEqual(make_all.main(results, "scaling"), 1)

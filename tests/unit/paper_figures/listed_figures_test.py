@@ -40,12 +40,12 @@ class Listing(unittest.TestCase):
                 self.assertTrue(entry.title and entry.records)
                 self.assertLessEqual(set(entry.claims), claims)
                 module = importlib.import_module(f"figures.{entry.script}")
-                self.assertEqual(list(inspect.signature(getattr(module, entry.name)).parameters), ["results", "figures"])
+                self.assertEqual(list(inspect.signature(getattr(module, entry.name)).parameters), ["results"])
                 self.assertTrue(module.__doc__)
 
     def test_every_function_that_draws_a_figure_is_listed(self):
         defined = {(file.stem, name) for file in (root / "paper_figures" / "figures").glob("*.py")
-                   for name in re.findall(r"^def (\w+)\(results, figures\):", file.read_text(), re.MULTILINE)}
+                   for name in re.findall(r"^def (\w+)\(results\):", file.read_text(), re.MULTILINE)}
         self.assertEqual(defined, {(entry.script, entry.name) for entry in entries.read()})
 
     def test_without_its_records_every_figure_refuses_with_the_reason(self):

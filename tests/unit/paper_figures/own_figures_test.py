@@ -13,15 +13,17 @@ root = pathlib.Path(__file__).resolve().parents[3]
 sys.path[:0] = [str(root / "paper_figures"), str(pathlib.Path(__file__).parent)]
 
 import checked_looks  # noqa: E402,F401
+import make_all  # noqa: E402
 import records  # noqa: E402
 import synthetic_frames  # noqa: E402
 import synthetic_records  # noqa: E402
 import synthetic_tables  # noqa: E402
-from drawing import recorded_distances  # noqa: E402
-from figures import fig_06_constraints, table_1_timing, volume  # noqa: E402
+from drawing import bodies  # noqa: E402
+from figures import timing  # noqa: E402
 from records import entries, recorded_frames  # noqa: E402
 
-own = [entry for entry in entries.read() if entry.script.startswith(("fig_", "table_", "clip_"))]
+listed = {entry.name: entry for entry in entries.read()}
+own = [entry for entry in listed.values() if entry.name.startswith(("fig_", "table_", "clip_"))]
 
 
 class OwnFigures(unittest.TestCase):
@@ -42,15 +44,11 @@ class OwnFigures(unittest.TestCase):
         self.assertIn(expected, str(caught.exception))
 
     def test_every_own_figure_is_listed_and_refuses_without_records(self):
-        names = {entry.name for entry in own}
-        scripts = {file.stem for kind in ("fig_*.py", "table_*.py", "clip_*.py")
-                   for file in (root / "paper_figures" / "figures").glob(kind)}
-        self.assertEqual(names, scripts)
-        self.assertEqual(sorted(name[:6] for name in names if name.startswith("fig_")), [f"fig_{number:02}" for number in range(1, 11)])
+        names = [entry.name[:6] for entry in own if entry.name.startswith("fig_")]
+        self.assertEqual(names, [f"fig_{number:02}" for number in range(1, 11)])
         for entry in own:
             with self.subTest(entry.name):
-                self.assert_missing("does not exist", lambda: entry.draw(self.results, self.results / "figures"))
-                self.assertFalse((self.results / "figures").exists())
+                self.assert_missing("does not exist", lambda: entry.draw(self.results))
 
     def test_projections_lie_on_the_posed_bone_within_its_ends(self):
         frames = self.frames()
@@ -84,14 +82,14 @@ class OwnFigures(unittest.TestCase):
             points = synthetic_frames.skin_of(synthetic_frames.positions_of(label, 3))
             text = synthetic_frames.skin.format(positions=synthetic_frames.text(points))
             (folder / "frames" / f"{label}_surface_000003.vtp").write_text(text)
-        away_mm = recorded_distances.of_points_mm(frames, 3, "lbs", "pbs")
+        away_mm = bodies.distances_mm(frames, 3, "lbs", "pbs")
         at_rest = numpy.array(synthetic_frames.skin_of(synthetic_frames.rest))
         # Coordinates of at most 3 m are written with all digits. They go through ten roundings, and so does the number expected.
         rounding_mm = 1000 * numpy.sqrt(3) * 2 * 10 * numpy.finfo(float).eps / 2 * 3
         numpy.testing.assert_allclose(away_mm, 1000 * 0.1 * (1.1 - 1.05) * 3 * numpy.linalg.norm(at_rest, axis=1), rtol=0, atol=rounding_mm)
         tets = frames.tets("pbs", 3)
-        self.assertEqual(recorded_distances.bone_under(frames, 2, tets), "bone 0")  # only the first corner of the first tet carries it
-        self.assertEqual(recorded_distances.bone_under(frames, 1, tets), "bone 2")  # -1/2 of vertex 1, and equal halves of 2, 3 and 4
+        self.assertEqual(bodies.bone_under(frames, 2, tets), "bone 0")  # only the first corner of the first tet carries it
+        self.assertEqual(bodies.bone_under(frames, 1, tets), "bone 2")  # -1/2 of vertex 1, and equal halves of 2, 3 and 4
 
     def test_heading_is_forward_along_the_floor(self):
         tails = {"hip.L": [0, 1, -1.0], "hip.R": [0, 0.5, 1.0]}
@@ -102,12 +100,12 @@ class OwnFigures(unittest.TestCase):
 
     def test_licences_are_those_of_what_is_shown(self):
         file = self.results / "frames" / "limb_bend" / "run.json"
-        self.assertEqual(recorded_frames.licences_of(self.frames()), [])
+        self.assertEqual(entries.licences_of(self.frames().run.record), [])
         record = json.loads(file.read_text())
         record["scene"] |= {"character": {"body": "human"}, "motion": {"clip": "01_03.bvh"}}
         record["provenance"] = {"git_revision": "abc"}
         file.write_text(json.dumps(record))
-        origin = recorded_frames.origin_of(recorded_frames.Frames(self.results, "limb_bend"))
+        origin = listed["fig_06_constraints"].origin(self.results)
         self.assertIn("MakeHuman, CC0", origin["rights"])
         self.assertIn("motion 01_03: CMU", origin["rights"])
         self.assertEqual((origin["git_revision"], origin["scenes"]), ("abc", {"limb_bend": records.scene_hash(record)}))
@@ -115,18 +113,15 @@ class OwnFigures(unittest.TestCase):
 
     def test_a_tets_lengths_and_volume(self):
         self.frames()
-        figures = self.results / "figures"
-        fig_06_constraints.fig_06_constraints(self.results, figures)
-        with open(figures / "fig_06_constraints.csv", newline="") as stream:
-            rows = {row["state"]: row for row in csv.DictReader(stream)}
+        rows = {row["state"]: row for row in listed["fig_06_constraints"].draw(self.results)[1]}
         growth = 1 + 0.1 * synthetic_frames.labels["pbs"] * 9
-        self.assertEqual(rows["rest"]["tet"], "1")  # points 2 to 5: the tet that is compressed most in the records
+        self.assertEqual(rows["rest"]["tet"], 1)  # points 2 to 5: the tet that is compressed most in the records
         self.assertAlmostEqual(float(rows["rest"]["volume_cm3"]), 1e6 / 3)
         self.assertAlmostEqual(float(rows["pbs"]["volume_cm3"]), growth ** 3 * 1e6 / 3, places=3)
         self.assertAlmostEqual(float(rows["rest"]["length_12_mm"]), 1000 * 2 ** 0.5)
         self.assertAlmostEqual(float(rows["pbs"]["length_34_mm"]), 1000 * growth * 2 ** 0.5, places=6)
 
-    def write_timing(self, orders=table_1_timing.orders):
+    def write_timing(self, orders=timing.orders):
         folder = self.results / "timing"
         folder.mkdir(exist_ok=True)
         (folder / "run.json").write_text(json.dumps({"provenance": {"git_revision": "abc"}}))
@@ -143,21 +138,20 @@ class OwnFigures(unittest.TestCase):
 
     def test_table_1_shows_the_papers_own_body_and_the_counts_it_prints(self):
         self.write_timing()
-        figures = self.results / "figures"
-        table_1_timing.table_1_timing(self.results, figures)
-        with open(figures / "table_1_timing.csv", newline="") as stream:
+        self.assertEqual(make_all.main(self.results, "table_1_timing"), 0)
+        with open(self.results / "figures" / "table_1_timing.csv", newline="") as stream:
             row, = csv.DictReader(stream)
         self.assertEqual((row["mesh"], row["vertices"], row["edges"], row["tets"]), ("man", "400 / 200", "800 / 600", "500 / 400"))
         self.assertEqual((row["paper_ms"], row["paper_ct_ms"], row["plain_f64_ms"], row["ordered_f32_ms"]),
                          ("11.1", "0.52", "4.00", "0.50"))
-        text = (figures / "table_1_timing.tex").read_text()
+        text = (self.results / "figures" / "table_1_timing.tex").read_text()
         self.assertIn("Man & man & 400 / 200 & 800 / 600 & 500 / 400 & 90.5 ", text)
         self.assertIn("a processor", text)
 
     def test_table_1_refuses_half_a_timing(self):
-        self.write_timing(orders=table_1_timing.orders[:1])
+        self.write_timing(orders=timing.orders[:1])
         self.assert_missing("not timed in plain f64 and ordered f32",
-                            lambda: table_1_timing.table_1_timing(self.results, self.results / "figures"))
+                            lambda: timing.table_1_timing(self.results))
 
 
 class Origin(unittest.TestCase):
@@ -174,10 +168,10 @@ class Origin(unittest.TestCase):
                 record["provenance"]["cpu_model"] = "a processor"
                 run.write_text(json.dumps(record))
                 scenes[name] = records.scene_hash(record)
-            self.assertEqual(entries.origin_of(results, "volume_over_angle"), {
+            self.assertEqual(listed["volume_over_angle"].origin(results), {
                 "version": "0.1.0", "git_revision": synthetic_records.revision, "git_dirty": False, "cpu_model": "a processor",
-                "scenes": scenes})
-            volume.volume_over_angle(results, results / "figures")
+                "scenes": scenes, "rights": ""})
+            self.assertEqual(make_all.main(results, "volume_over_angle"), 0)
             shown = (results / "figures" / "volume_over_angle.png").read_bytes()
             for text in (synthetic_records.revision, "; a processor; ", *(f"scene {name} {digest}" for name, digest in scenes.items())):
                 self.assertIn(text.encode(), shown)

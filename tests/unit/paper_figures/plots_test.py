@@ -18,7 +18,7 @@ import make_all  # noqa: E402
 import synthetic_records  # noqa: E402
 import synthetic_tables  # noqa: E402
 from drawing import omission_boxes, style  # noqa: E402
-from figures import improvements, stiffness, volume  # noqa: E402
+from figures import mechanics, pbs_errors, volume  # noqa: E402
 
 svg = "{http://www.w3.org/2000/svg}"
 
@@ -113,7 +113,7 @@ class Plots(unittest.TestCase):
     def test_improvements_list_the_changes_without_a_value_in_every_pose(self):
         rows = [{"change": change, "budget_iterations": budget, "poses": poses}
                 for change, budget, poses in (("smooth_weights", "4", "8"), ("region_volumes", "4", "6"), ("smooth_weights", "24", "8"))]
-        self.assertEqual(improvements.omissions(rows), ["not ranked: volumes of regions in the time of 4 iterations: 6 of 8 poses",
+        self.assertEqual(pbs_errors.not_ranked(rows), ["not ranked: volumes of regions in the time of 4 iterations: 6 of 8 poses",
                                                         "not ranked: volumes of regions in the time of 24 iterations: 0 of 8 poses"])
 
     def test_an_attachment_that_was_not_reached_keeps_its_place_and_says_so(self):
@@ -174,7 +174,7 @@ class Plots(unittest.TestCase):
 
     def test_stiffness_beyond_rounding_is_left_out_and_counted(self):
         synthetic_tables.write_stiffness(self.results / "stiffness")
-        with unittest.mock.patch.object(stiffness, "stiffest_n_m", 500.0):
+        with unittest.mock.patch.object(mechanics, "stiffest_n_m", 500.0):
             rows = self.drawn("stiffness")
         rows = [row for row in rows if (row["body"], row["varied"], row["method"]) == ("limb", "time_step_ms", "pbs")]
         self.assertEqual([row["time_step_ms"] for row in rows], ["10"])

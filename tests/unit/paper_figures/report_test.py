@@ -18,7 +18,7 @@ sys.path[:0] = [str(root / "paper_figures"), str(pathlib.Path(__file__).parent)]
 import report  # noqa: E402
 import synthetic_records  # noqa: E402
 from records import entries  # noqa: E402
-from report import answers, costs, errors, figures, markup, origin, record_set  # noqa: E402
+from report import answers, errors, figures, markup, origin, record_set  # noqa: E402
 
 
 class Page(html.parser.HTMLParser):
@@ -191,14 +191,14 @@ class Report(unittest.TestCase):
         synthetic_records.write_study(self.results)
         (self.results / "volume" / "costs.csv").write_text("run,expected_cpu_s,cpu_s\na,10,60\nb,20,120\n")
         found = record_set.RecordSet(self.results)
-        self.assertEqual(costs.sentence(found), "These records took 3 min of processor time (1 study).")
-        self.assertIn("<td>30</td><td>180</td><td>\u2013</td>", costs.section(found))  # an earlier version recorded no wall time
+        self.assertEqual(origin.costs_sentence(found), "These records took 3 min of processor time (1 study).")
+        self.assertIn("<td>30</td><td>180</td><td>\u2013</td>", origin.costs_section(found))  # an earlier version recorded no wall time
 
     def test_wall_time_and_the_size_of_a_study_stand_beside_its_cost(self):
         synthetic_records.write_study(self.results)
         (self.results / "volume" / "costs.csv").write_text("run,expected_cpu_s,cpu_s,wall_s\na,10,60,70\nb,20,120,125\n")
         (self.results / "volume" / "plan.json").write_text(json.dumps({"extent": "quick", "runs": [], "left_out": []}))
-        shown = costs.section(record_set.RecordSet(self.results))
+        shown = origin.costs_section(record_set.RecordSet(self.results))
         self.assertIn("<td>quick</td><td>2</td><td>30</td><td>180</td><td>195</td>", shown)
 
     def test_what_a_study_concludes_stands_beside_its_first_figure(self):
@@ -300,9 +300,11 @@ class Report(unittest.TestCase):
     def test_the_viewer_or_why_there_is_none(self):
         synthetic_records.write_study(self.results)
         synthetic_records.write_claims(self.results)
-        for fragment, expected in ((lambda results: "<p>turn me</p>", "<p>turn me</p>"), (lambda results: None, "The viewer is missing: ")):
+        refused = entries.records.RecordsMissing("no frames on record")
+        for fragment, expected in (({"return_value": "<p>turn me</p>"}, "<p>turn me</p>"),
+                                   ({"side_effect": refused}, "The viewer is missing: no frames on record")):
             module = types.ModuleType("viewer.page")
-            module.fragment = fragment
+            module.fragment = unittest.mock.Mock(**fragment)
             module.claim_links = lambda results: {"C02": "#run=limb"}
             with unittest.mock.patch.dict(sys.modules, {"viewer.page": module}):
                 text = self.make()[1]

@@ -16,7 +16,7 @@ root = pathlib.Path(__file__).resolve().parents[3]
 sys.path[:0] = [str(root / "paper_figures"), str(pathlib.Path(__file__).parent)]
 
 import report  # noqa: E402
-from report import run_figures, run_page  # noqa: E402
+from report import run_page  # noqa: E402
 from words import looks  # noqa: E402
 
 columns = ("scene", "deformer", "variant", "iterations", "frame", "time_s", "volume_change_pct", "inverted_tets", "step_ms",
@@ -183,14 +183,14 @@ class RunPage(unittest.TestCase):
 
     def test_error_against_time_has_the_medians_of_each_deformer(self):
         self.write()
-        axes = run_figures.error_against_time(run_page.RunRecords(self.folder)).axes[0]
+        axes = run_page.error_against_time(run_page.RunRecords(self.folder)).axes[0]
         points = {line.get_label(): (line.get_xdata()[0], line.get_ydata()[0]) for line in axes.lines}
         self.assertEqual(points, {"LBS": (0.03, 7.0), "PBS": (3.0, 2.0), "mine": (18.0, 2.5)})
 
     def test_the_lines_over_the_frames_are_the_columns(self):
         for angles, x, unit in ((True, [0, 10, 20, 30, 40], "angle [degrees]"), (False, [0, 0.04, 0.08, 0.12, 0.16], "time [s]")):
             self.write(angles=angles)
-            figure = run_figures.over_frames(run_page.RunRecords(self.folder))
+            figure = run_page.over_frames(run_page.RunRecords(self.folder))
             self.assertEqual(figure.axes[-1].get_xlabel(), unit)
             for axes, at in zip(figure.axes, (0, 3, 1)):  # volume, error, inverted tets
                 lines = {line.get_label(): line for line in axes.lines}

@@ -13,7 +13,7 @@ sys.path[:0] = [str(root / "paper_figures"), str(pathlib.Path(__file__).parent)]
 
 import synthetic_frames  # noqa: E402
 from drawing import bodies, rendering  # noqa: E402
-from figures import clip_jump  # noqa: E402
+from figures import stills  # noqa: E402
 from records import recorded_frames  # noqa: E402
 
 size = (120, 90)
@@ -78,9 +78,9 @@ class Stills(unittest.TestCase):
         frames = self.write("human_jump")
         file = self.results / "clip.webp"
         origin = {"version": "0.1.0", "git_revision": "abc", "rights": "whose it is"}
-        clip_jump.draw_clip(file, frames, origin)
+        stills.draw_clip(file, frames, origin)
         with Image.open(file) as clip:
-            self.assertEqual((clip.n_frames, clip.width), (4, 3 * clip_jump.pixels[0]))
+            self.assertEqual((clip.n_frames, clip.width), (4, 3 * stills.pixels[0]))
             clip.seek(1)
             clip.load()
             self.assertEqual(clip.info["duration"], 10)  # frames at intervals of 0.01 s

@@ -18,7 +18,7 @@ sys.path[:0] = [str(root / "paper_figures"), str(pathlib.Path(__file__).parent)]
 
 import records  # noqa: E402
 import synthetic_frames  # noqa: E402
-from figures import fig_08_artefacts, frames  # noqa: E402
+from figures import stills  # noqa: E402
 from viewer import data as viewer_data, page as viewer_html, poses as viewer_poses  # noqa: E402
 from words import looks  # noqa: E402
 
@@ -118,10 +118,10 @@ class Viewer(unittest.TestCase):
 
     def test_stills_say_under_a_pose_that_it_was_not_reached(self):
         row = {"inverted_tets": "1", "min_section_pct": "40", "volume_change_pct": "-2"}
-        for caption in (frames.caption, fig_08_artefacts.facts):
+        for words in (stills.moment_words, stills.artefacts):
             for outcome, marked in (("finished", False), ("not_converged", True), ("not_finite", True), (None, False)):
-                with self.subTest(caption.__module__, outcome=outcome):
-                    self.assertEqual("pose not reached" in caption({**row, "outcome": outcome}), marked)
+                with self.subTest(words, outcome=outcome):
+                    self.assertEqual("pose not reached" in stills.told({**row, "outcome": outcome}, words), marked)
 
     def test_positions_that_are_not_finite_are_refused_by_file(self):
         file = self.run / "frames" / "pbs_000001.vtu"

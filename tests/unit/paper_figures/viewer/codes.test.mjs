@@ -1,7 +1,7 @@
 // Reference: the definition of the packed bytes in viewer_data.py, by hand.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { codes_of, distances_mm, positions_of, ratio_of } from "../../../../paper_figures/viewer/src/codes.js";
+import { codes_of, distances_mm, positions_of, ratio_of } from "../../../../paper_figures/viewer/src/data.js";
 
 test("frames are sums of differences modulo 65536", () => {
     // codes 65535 0 300, then 2 65534 300: differences 3 (past the top), -2, 0

@@ -1,7 +1,7 @@
 // Reference: the definition. An address and the view represent each other; an address of other origin is left alone.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { hash_of, pose_of } from "../../../../paper_figures/viewer/src/link.js";
+import { hash_of, pose_of } from "../../../../paper_figures/viewer/src/state.js";
 
 test("there and back", () => {
     const pose = { run: "human_jump", frame: 12, colour: "error", panels: ["lbs", "nh_p1"], rendered: true,

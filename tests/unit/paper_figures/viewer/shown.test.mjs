@@ -1,9 +1,8 @@
 // Reference: the definition of the view: colours, numbers, panels.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { distance_shade, palette_of, ratio_shades, rgb_of, shade_of } from "../../../../paper_figures/viewer/src/colours.js";
 import { Run } from "../../../../paper_figures/viewer/src/data.js";
-import { shown, signed } from "../../../../paper_figures/viewer/src/numbers.js";
+import { distance_shade, palette_of, ratio_shades, rgb_of, shade_of, shown, signed } from "../../../../paper_figures/viewer/src/legend.js";
 import { State, draws_surface, no_surface_because, panels_for } from "../../../../paper_figures/viewer/src/state.js";
 
 test("shades lie evenly between low and high and end there", () => {

@@ -1,7 +1,7 @@
 // Reference: an affine map preserves barycentric coordinates, inside a tet and outside.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { carried } from "../../../../paper_figures/viewer/src/surface.js";
+import { carried } from "../../../../paper_figures/viewer/src/data.js";
 
 const corners = Uint32Array.from([4, 0, 1, 2, 0, 1, 2, 3]);  // the second tet is the unit one
 const rest = Float32Array.from([0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 9, 9, 9]);

@@ -1,7 +1,7 @@
 // Reference: the definition. The page handles gestures with one finger, the view those with two.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { keep_level, leave_scrolling } from "../../../../paper_figures/viewer/src/touch.js";
+import { keep_level, leave_scrolling } from "../../../../paper_figures/viewer/src/input.js";
 
 function panel() {
     const element = Object.assign(new EventTarget(), { style: { touchAction: "none" } });

@@ -1,0 +1,224 @@
+"""How PBS moves flesh: the momentum that a projection changes, the response to a jolt, the stiffness against the settings of the solver,
+and the elastic material that k_stretch corresponds to."""
+import sys
+
+import records
+from drawing import style
+from words import looks
+from words.number_words import figure, listed, span
+
+# The change of linear and angular momentum by one projection of a class of constraints, relative to the momentum exchanged. With weighted
+# masses only rounding remains, in both precisions. The formulae for unit masses (Eq. 8-9) on unequal masses lose up to a third. The bind
+# constraint transfers all of it to the bones, whose motion is prescribed.
+
+quantities = {"linear_drift": "linear momentum", "angular_drift": "angular momentum", "linear_drift_taken_by_bones": "linear momentum",
+              "angular_drift_taken_by_bones": "angular momentum"}
+masses = {"equal": "equal masses", "unequal": "unequal masses, weighted", "unequal_by_eq_8_9": "unequal masses, Eq. 8\u20139"}
+looks_of_drift = {("limb", "f32"): (style.vermillion, "v"), ("limb", "f64"): (style.vermillion, "^"),
+                  ("human", "f32"): (style.blue, "o"), ("human", "f64"): (style.blue, "s")}
+
+
+def drift_of(results, body):
+    """One row per class of constraints, masses and precision, from single projections."""
+    file = results / "momentum" / body / "measurements.csv"
+    found = [{"momentum": quantities[row["quantity"]], "masses": row["masses"], "body": body, "constraints": row["constraint"],
+              "precision": row["precision"], "drift": row["value"]}
+             for row in records.table(file, {"quantity", "body", "masses", "constraint", "precision", "value"})
+             if row["quantity"] in quantities and row["body"] == body]
+    if not found:
+        raise records.RecordsMissing(f"{file}: no drift of {body}")
+    return found
+
+
+def momentum_drift(results):
+    rows = [row for body in ("limb", "human") for row in drift_of(results, body)]
+    by_class = sorted(rows, key=lambda row: row["constraints"], reverse=True)
+    places = {key: place for place, key in enumerate(dict.fromkeys((row["constraints"], row["masses"]) for row in by_class))}
+    drawing, axes = style.panels(1, 2, height_in=2.4, sharey=True)
+    for panel, momentum in zip(axes[0], ("linear momentum", "angular momentum")):
+        for (body, precision), (color, marker) in looks_of_drift.items():
+            shown = [row for row in rows if (row["momentum"], row["body"], row["precision"]) == (momentum, body, precision)]
+            aside = 0.15 if precision == "f64" else -0.15
+            panel.plot([float(row["drift"]) for row in shown], [places[row["constraints"], row["masses"]] + aside for row in shown],
+                       linestyle="none", marker=marker, color=color, label=f"{body}, {precision}", markersize=4.5,
+                       markerfacecolor=color if precision == "f32" else "white")
+        style.name_rows(panel, [f"{constraints}, {masses[of]}" for constraints, of in places])
+        panel.set(xscale="log", xlabel="change over the momentum exchanged [1]", title=momentum)
+    style.legend_above(drawing, columns=4)
+    return drawing, rows
+
+
+# Frequency and damping ratio of the first swing after a jolt against k_stretch, time step and iterations, on the limb and on bodies.
+# k_stretch strongly changes Frankie's frequency and hardly that of the others. Time step and iterations, which are not material parameters,
+# change all frequencies. Damping is not a parameter at all; the finite elements shown for comparison swing almost undamped.
+
+jolt_columns = {"deformer", "k_stretch", "time_step_ms", "iterations", "masses", "k_bind", "outcome", "frequency_hz", "frequency_low_hz",
+                "frequency_high_hz", "damping_ratio", "damping_low", "damping_high", "young_pa"}
+usual_jolt = {"k_stretch": 0.1, "time_step_ms": 10.0, "iterations": 24.0}
+names = {"k_stretch": "k_stretch [1]", "time_step_ms": "time step [ms]", "iterations": "iterations"}
+measures = [("frequency_hz", ("frequency_low_hz", "frequency_high_hz"), "frequency [Hz]"),
+            ("damping_ratio", ("damping_low", "damping_high"), "damping ratio [1]")]
+jolted = ("limb", "human", "man", "lady", "frankie")
+
+
+def only_varied(rows, factor, usual):
+    """The rows in which the other factors have their usual value."""
+    return [row for row in rows if all(float(row[name]) == value for name, value in usual.items() if name != factor)]
+
+
+def draw_jolted(axes, rows, body, number):
+    """The default masses and bind constraint, where the swing was found."""
+    rows = [row for row in rows if (row["outcome"], row["deformer"], row["masses"]) == ("found", "pbs", "unit")]
+    behind = []
+    for panels, factor in zip(axes.T, names):
+        shown = sorted(only_varied(rows, factor, usual_jolt | {"k_bind": 1.0}), key=lambda row: float(row[factor]))
+        for panel, (measure, ends, _) in zip(panels, measures if shown else []):
+            style.draw_series(panel, number, shown, factor, measure, ends, label=body)
+        behind += style.taken(shown, sorted(jolt_columns), body=body, varied=factor)
+    return behind
+
+
+def draw_reference(axes, rows):
+    """Damping of the limb with finite elements in time, and of PBS on the same mesh with the default iterations. The modulus of the
+    elements was chosen so that they swing at the same frequency, so their frequency carries no information."""
+    found = [row for row in rows if row["outcome"] == "found" and float(row["k_bind"]) == 1.0
+             and float(row["iterations"]) == usual_jolt["iterations"]]
+    for row in found:
+        fem = row["deformer"] != "pbs"
+        axes.plot(float(row["k_stretch"]), float(row["damping_ratio"]), linestyle="none", marker="*" if fem else "o", markersize=8,
+                  color=style.black, markerfacecolor=style.yellow if fem else "none", markeredgewidth=0.8,
+                  label="neo-Hookean FEM in time, limb" if fem else "PBS on the FEM's mesh")
+    return style.taken(found, sorted(jolt_columns), body="limb_reference", varied="")
+
+
+def jiggle_response_facts(rows):
+    """The ratio by which each factor changes each body's frequency over the values shown, the settings that are held fixed, and the
+    elements' moduli."""
+    def folds(factor):
+        hz = {body: [float(row["frequency_hz"]) for row in rows if (row["body"], row["varied"]) == (body, factor)] for body in jolted}
+        return listed([f"{figure(max(found) / min(found))}-fold ({body})" for body, found in hz.items() if len(found) > 1])
+
+    young_kpa = [float(row["young_pa"]) / 1000 for row in rows if row["body"] == "limb_reference" and row["deformer"] != "pbs"]
+    k_stretch, step_ms, iterations = (figure(value) for value in usual_jolt.values())
+    beside = f"{step_ms} ms and {iterations} iterations"
+    held = {"held": f"k_stretch {k_stretch}, {beside}", "held_beside": beside}
+    return {factor: folds(factor) for factor in names} | held | {"young_kpa": span(young_kpa)}
+
+
+def jiggle_response(results):
+    folder = results / "jiggle"
+    found = {body: folder / f"{body}_jolt" / "responses.csv" for body in jolted}
+    found = {body: records.table(file, jolt_columns) for body, file in found.items() if file.is_file()}
+    drawing, axes = style.panels(2, 3, height_in=1.9, sharex="col", sharey="row")
+    behind = [row for number, (body, rows) in enumerate(found.items()) for row in draw_jolted(axes, rows, body, number)]
+    behind += draw_reference(axes[1][0], records.table(folder / "limb_reference" / "responses.csv", jolt_columns))
+    for panel, name in zip(axes[1], names.values()):
+        panel.set_xlabel(name)
+    style.log_scale(axes[1][1].xaxis, [2.5, 5, 10, 20, 40])
+    style.log_scale(axes[1][2].xaxis, [6, 12, 24, 48, 96])
+    for panels, (*_, name) in zip(axes, measures):
+        panels[0].set_ylabel(name)
+    style.log_scale(axes[0][0].yaxis)
+    axes[1][0].set_ylim(bottom=-0.02)
+    axes[1][0].set_xticks([0, 0.2, 0.4, 0.6, 0.8, 1.0])
+    style.legend_above(drawing)
+    return drawing, behind
+
+
+# Force over displacement of flesh under its weight against iterations, time step and resolution. The stiffness of a material would be a
+# flat line. That of PBS grows with the iterations and falls with the square of the time step. The exponent of Mueller 2007 removes neither
+# dependence. XPBD, which keeps multipliers, is nearly flat. Values too stiff to move in double precision are left out.
+
+bodies = [("bar", "cantilever", "bar, held at one end"), ("limb", "zone_on_held", "limb, flesh on a held core"),
+          ("human", "zone_on_held", "human, flesh on a held core")]
+factors = {"iterations": "iterations", "time_step_ms": "time step [ms]", "vertices": "vertices"}
+usual = {"iterations": 24.0, "time_step_ms": 10.0}
+young_pa = 30e3  # of XPBD; some sweeps also use stiffer values
+stiffest_n_m = 1 / sys.float_info.epsilon  # beyond this, 1 N moves the flesh by less than double precision resolves at 1 m
+# method, k_stretch, its look, words after its name, and whether it is drawn hollow
+methods = [("pbs", 0.2, "pbs", ", k_stretch 0.2", False), ("pbs", 0.9, "pbs", ", k_stretch 0.9", True),
+           ("exponent", 0.2, "pbs_exponent", "", False), ("xpbd", 0.2, "xpbd", ", 30 kPa", False),
+           ("xpbd_small_steps", 0.2, "xpbd_small_steps", ", 30 kPa", True)]
+columns = {"body", "load", "vertices", "mesh", "method", "k_stretch", "young_pa", "iterations", "time_step_ms", "order_seed", "by",
+           "stiffness_n_m", "converged"}
+
+
+def varied(rows, factor, method, k_stretch):
+    """Rows by the linear response, in the first order of constraints. A row that did not converge or is not positive has no stiffness."""
+    rows = [row for row in rows if (row["method"], row["by"], row["order_seed"], row["converged"]) == (method, "linear", "0", "1")
+            and float(row["stiffness_n_m"]) > 0]
+    rows = only_varied(rows, factor, usual | {"k_stretch": k_stretch, "young_pa": young_pa})
+    return sorted({float(row[factor]): row for row in rows}.values(), key=lambda row: float(row[factor]))
+
+
+def draw_panel(axes, rows, factor):
+    behind, left_out = [], 0
+    for method, k_stretch, deformer, setting, hollow in methods:
+        found = varied(rows, factor, method, k_stretch)
+        shown = [row for row in found if float(row["stiffness_n_m"]) <= stiffest_n_m]
+        left_out += len(found) - len(shown)
+        if shown:
+            look = looks.of(deformer)
+            drawn = {"linestyle": looks.lines["dotted"], "markerfacecolor": "none"} if hollow else {"markerfacecolor": look.color}
+            style.plot(axes, shown, factor, "stiffness_n_m", **style.as_of(deformer, label=look.name + setting, **drawn))
+        behind += style.taken(shown, sorted(columns), varied=factor)
+    values = sorted({float(row[factor]) for row in behind})
+    axes.set_yscale("log")
+    if left_out:
+        axes.annotate(f"{left_out} stiffer, left out", (0.03, 0.9), xycoords="axes fraction", fontsize=6)
+    if values and factor != "vertices":
+        style.log_scale(axes.xaxis, values)
+    elif values:  # mesh sizes come in pairs that are nearly equal, whose labels would overlap
+        (style.log_scale if values[-1] < 30 * values[0] else style.decades)(axes.xaxis)
+    return behind
+
+
+def stiffness_facts(rows):
+    """The ratio by which XPBD stiffens over the iterations shown, plain and in small steps, and the values of the other settings."""
+    def folds(method):
+        parts = []
+        for body, _, _ in bodies:
+            shown = [row for row in rows if (row["body"], row["varied"], row["method"]) == (body, "iterations", method)]
+            counts, found = ([float(row[name]) for row in shown] for name in ("iterations", "stiffness_n_m"))
+            if len(shown) > 1:
+                parts.append(f"{figure(found[-1] / found[0])}-fold ({body}, {figure(min(counts))} to {figure(max(counts))})")
+        return listed(parts)
+
+    held = {"iterations": figure(usual["iterations"]), "step_ms": figure(usual["time_step_ms"]),
+            "k_exponent": listed([figure(k_stretch) for method, k_stretch, *_ in methods if method == "exponent"])}
+    return {"xpbd": folds("xpbd"), "small_steps": folds("xpbd_small_steps")} | held
+
+
+def stiffness(results):
+    drawing, axes = style.panels(3, 3, height_in=1.6)
+    behind = []
+    for panels, (body, load, title) in zip(axes, bodies):
+        for panel, (factor, name) in zip(panels, factors.items()):
+            sweep = {"time_step_ms": "time_step", "vertices": "resolution"}.get(factor, factor)
+            rows = records.table(results / "stiffness" / f"{sweep}_{body}" / "stiffness.csv", columns)
+            behind += draw_panel(panel, [row for row in rows if row["load"] == load], factor)
+            panel.set(title=title, xlabel=name)
+        panels[0].set_ylabel("stiffness [N/m]")
+    style.legend_above(drawing, columns=3)
+    return drawing, behind
+
+
+# Young's modulus of the elastic bar that sags as PBS does, over k_stretch, for several iteration counts and meshes, with the volume
+# constraints on.
+
+def fit(results):
+    sag_columns = {"vertices", "k_stretch", "k_volume", "iterations", "young_pa", "settled"}
+    rows = [row for row in records.table(results / "fit" / "sag.csv", sag_columns)
+            if float(row["k_volume"]) == 1.0 and float(row["settled"]) == 1.0]
+    drawing, ((axes,),) = style.panels(1, 1, height_in=3.1)
+    counts = sorted({int(row["iterations"]) for row in rows})
+    for vertices, line in zip(sorted({int(row["vertices"]) for row in rows}), ("-", (0, (4, 1.5)), (0, (1, 1)))):
+        for iterations, (color, marker) in zip(counts, style.sequence):
+            chosen = [row for row in rows if int(row["vertices"]) == vertices and int(row["iterations"]) == iterations]
+            axes.plot([float(row["k_stretch"]) for row in chosen], [float(row["young_pa"]) / 1e3 for row in chosen], color=color,
+                      marker=marker, linestyle=line, label=f"{iterations} iterations, {vertices} vertices")
+    axes.set(xscale="log", yscale="log", xlabel="k_stretch [1]", ylabel="Young's modulus [kPa]",
+             title="by sag: k_volume 1, time step 10 ms, 1000 kg/m\u00b3")
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.2), ncol=2, fontsize=6, handlelength=3.4)
+    return drawing, [{"shown": "young_kpa", "of": f"{row['vertices']} vertices, {row['iterations']} iterations", "at": row["k_stretch"],
+                      "value": float(row["young_pa"]) / 1e3} for row in rows]
