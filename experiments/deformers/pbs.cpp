@@ -42,8 +42,7 @@ public:
     {
         character_ = &character;
         skinning_.emplace(character.mesh.rest, character.weights);
-        solver_ =
-            std::make_unique<Solver>(character.mesh, character.binding.distance, zone_of(options_, character.binding), options_);
+        solver_ = std::make_unique<Solver>(character.mesh, character.binding.distance, zone_of(options_, character.binding), options_);
     }
     pbs::StepSummary advance(const pbs::Pose& pose, double dt_s) override
     {

@@ -19,10 +19,10 @@ namespace fs = std::filesystem;
 
 const std::vector<Study>& studies()
 {
-    static const std::vector<Study> all = {
-        volume_study(),       audit_study(),     momentum_study(),       convergence_study(), stability_study(), artefacts_study(),
-        jiggle_study(),       stiffness_study(), setup_study(),          ambiguity_study(),   frames_study(),    timing_study(),
-        verification_study(), fit_study(),       work_precision_study(), ensemble_study()};
+    static const std::vector<Study> all = {volume_study(),       audit_study(),     momentum_study(),       convergence_study(),
+                                           stability_study(),    artefacts_study(), jiggle_study(),         stiffness_study(),
+                                           setup_study(),        ambiguity_study(), frames_study(),         timing_study(),
+                                           verification_study(), fit_study(),       work_precision_study(), ensemble_study()};
     return all;
 }
 
@@ -129,9 +129,9 @@ const analysis::Claim& claim_named(const std::string& id)
     return *found;
 }
 
-std::vector<ReadValues::LeftOut> all_but(const std::string& claim, const std::vector<std::string>& measured, const std::string& reason)
+std::vector<ReadingValues::LeftOut> all_but(const std::string& claim, const std::vector<std::string>& measured, const std::string& reason)
 {
-    std::vector<ReadValues::LeftOut> left_out;
+    std::vector<ReadingValues::LeftOut> left_out;
     for (const std::string& quantity : claim_named(claim).metrics)
         if (std::find(measured.begin(), measured.end(), quantity) == measured.end()) left_out.push_back({claim, quantity, reason});
     return left_out;

@@ -137,7 +137,7 @@ struct StudyConclusion {
 };
 
 // What a study measures of a case in which the scene has further overrides: another reading of the paper (the study `ambiguity`).
-struct ReadValues {
+struct ReadingValues {
     std::vector<analysis::Measurement> values;
     bool broke_down = false;  // some positions are not finite
     // The quantities of claims that cannot be measured in this way, each with the reason.
@@ -149,7 +149,7 @@ struct ReadValues {
 using Overrides = std::vector<std::string>;  // KEY=VALUE of the scene
 
 // The quantities that the claim is judged by and that are not among those measured.
-std::vector<ReadValues::LeftOut> all_but(const std::string& claim, const std::vector<std::string>& measured, const std::string& reason);
+std::vector<ReadingValues::LeftOut> all_but(const std::string& claim, const std::vector<std::string>& measured, const std::string& reason);
 
 // The extent in which `pbskin reproduce` and `pbskin reproduce --full`, both without names, run a study.
 struct Sets {
@@ -169,7 +169,7 @@ struct Study {
     // The plan with deformers of the user's own from the [[external]] tables of a file. Null: the study has a fixed list of deformers.
     StudyPlan (*plan_with)(bool full, const std::string& external_file) = nullptr;
     // The values of the study's claims for a case of `ambiguity`, by each of the readings. Null: it has none.
-    std::vector<ReadValues> (*read)(const StudyCase& of, const std::vector<Overrides>& readings) = nullptr;
+    std::vector<ReadingValues> (*read)(const StudyCase& of, const std::vector<Overrides>& readings) = nullptr;
 };
 const std::vector<Study>& studies();
 

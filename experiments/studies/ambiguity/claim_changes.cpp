@@ -92,7 +92,7 @@ const analysis::Columns<ClaimChange>& claim_change_columns()
 
 namespace {
 
-const JudgedValue* find(const ReadingValues& of, const JudgedValue& wanted)
+const JudgedValue* find(const JudgedReading& of, const JudgedValue& wanted)
 {
     const auto found = std::ranges::find_if(of.values, [&](const JudgedValue& one) {
         return one.claim == wanted.claim && one.quantity == wanted.quantity && one.of == wanted.of;
@@ -149,8 +149,8 @@ ClaimChange row_of(const std::string& body, const std::string& claim, const Read
 
 }  // namespace
 
-std::vector<ClaimChange> claim_changes(const std::string& body, const std::string& claim, const Reading& reading, const ReadingValues& a,
-                                       const ReadingValues& b)
+std::vector<ClaimChange> claim_changes(const std::string& body, const std::string& claim, const Reading& reading, const JudgedReading& a,
+                                       const JudgedReading& b)
 {
     const ClaimChange row = row_of(body, claim, reading);
     std::vector<ClaimChange> changes;
@@ -158,7 +158,7 @@ std::vector<ClaimChange> claim_changes(const std::string& body, const std::strin
         if (of_a.claim == claim) changes.push_back(compared(named(row, of_a), &of_a, find(b, of_a), b.broke_down));
     for (const JudgedValue& of_b : b.values)
         if (of_b.claim == claim && !find(a, of_b)) changes.push_back(compared(named(row, of_b), nullptr, &of_b, b.broke_down));
-    for (const ReadValues::LeftOut& one : b.left_out)
+    for (const ReadingValues::LeftOut& one : b.left_out)
         if (one.claim == claim) changes.push_back(without_value(row, "no_value", one.reason, one.quantity));
     if (changes.empty()) changes.push_back(without_value(row, "no_value", b.broke_down ? "B breaks down" : "neither reading has a value"));
     return changes;
@@ -186,8 +186,8 @@ void ReadingComparison::measure(const std::vector<std::string>& claims, const Me
             add(baseline_of(reading));
             add(reading);
         }
-    const std::vector<ReadingValues> values = measure(measured);
-    std::map<std::string, const ReadingValues*> by_name;
+    const std::vector<JudgedReading> values = measure(measured);
+    std::map<std::string, const JudgedReading*> by_name;
     for (std::size_t i = 0; i < measured.size(); ++i) {
         by_name[measured[i].name] = &values.at(i);
         if (values[i].broke_down) breakdown_ += fmt::format("{} ({}). ", measured[i].name, fmt::join(claims, ", "));

@@ -22,8 +22,8 @@ namespace experiments {
 inline constexpr const char* own_reading = "as_the_scene";  // the baseline of readings in which nothing jiggles
 
 // A reading of the paper at a place that can be read in more than one way: a set of keys of the scene. Reading A of a place is the baseline
-// that a reading names, and B is the reading itself. Substeps are no reading where nothing jiggles: every step then begins with LBS, and the
-// step before has no influence.
+// that a reading names, and B is the reading itself. Substeps are no reading where nothing jiggles: every step then begins with LBS, and
+// the step before has no influence.
 struct Reading {
     std::string place;  // an identifier; empty: a baseline
     std::string name;
@@ -52,10 +52,10 @@ struct JudgedValue {
 };
 
 // The values of the measured claims by one reading.
-struct ReadingValues {
+struct JudgedReading {
     std::vector<JudgedValue> values;
     bool broke_down = false;  // some positions are not finite
-    std::vector<ReadValues::LeftOut> left_out = {};
+    std::vector<ReadingValues::LeftOut> left_out = {};
 };
 
 // Only of quantities that a claim is judged by.
@@ -78,15 +78,15 @@ struct ClaimChange {
 };
 const analysis::Columns<ClaimChange>& claim_change_columns();  // case_body: of the value's case, or its scene
 
-std::vector<ClaimChange> claim_changes(const std::string& body, const std::string& claim, const Reading& reading, const ReadingValues& a,
-                                       const ReadingValues& b);
+std::vector<ClaimChange> claim_changes(const std::string& body, const std::string& claim, const Reading& reading, const JudgedReading& a,
+                                       const JudgedReading& b);
 ClaimChange untouched_claim(const std::string& body, const std::string& claim, const Reading& reading, const std::string& reason);
 
 // Readings and their baselines, claim by claim. Only readings that can touch one of the claims are measured, and their baselines before
 // them.
 class ReadingComparison {
 public:
-    using Measure = std::function<std::vector<ReadingValues>(const std::vector<Reading>&)>;  // one per reading
+    using Measure = std::function<std::vector<JudgedReading>(const std::vector<Reading>&)>;  // one per reading
 
     ReadingComparison(const std::string& body, const std::vector<Reading>& readings) : body_(body), readings_(readings) {}
 

@@ -188,9 +188,8 @@ std::string record_volume(const StudyCase& of, const std::vector<Reading>& readi
             if (const std::string reason = untouched_because(claim, reading, a.reading); !reason.empty())
                 changes.push_back(untouched_claim(body, claim, reading, reason));
             else
-                std::ranges::copy(
-                    claim_changes(body, claim, reading, {judged(a.moved), !a.moved.finite}, {judged(b), !b.finite}),
-                    std::back_inserter(changes));
+                std::ranges::copy(claim_changes(body, claim, reading, {judged(a.moved), !a.moved.finite}, {judged(b), !b.finite}),
+                                  std::back_inserter(changes));
     }
     table_of(volume_change_columns, volumes).write(analysis::path_in(folder, "figures.csv"));
     table_of(used_columns(claim_change_columns(), changes), changes).write(analysis::path_in(folder, "ambiguity.csv"));
@@ -255,7 +254,7 @@ JudgedValue of_frame(const std::string& body, int vertices, double ms)
 
 }  // namespace
 
-std::vector<ReadingValues> values_of_frames(const StudyCase& of, const std::vector<Overrides>& readings)
+std::vector<JudgedReading> values_of_frames(const StudyCase& of, const std::vector<Overrides>& readings)
 {
     const Scene scene = of.scene();
     const pbs::Character character = pbs::make_character(scene.character);
@@ -267,7 +266,7 @@ std::vector<ReadingValues> values_of_frames(const StudyCase& of, const std::vect
         turns.push_back([one = timed.back().get()] { return one->turn(); });
     }
     const auto seconds = take_turns(turns, {.seconds = of.value<double>("timing_s")});
-    std::vector<ReadingValues> all;
+    std::vector<JudgedReading> all;
     for (std::size_t i = 0; i < timed.size(); ++i) {
         const double ms = 1e3 * spread_of(seconds[i][0]).median;
         all.push_back({{of_frame(scene.character.body, int(character.mesh.rest.rows()), ms)}, !timed[i]->finite()});

@@ -36,6 +36,6 @@ std::vector<VolumeChange> volume_changes(const std::string& scene, const Reading
 std::string record_volume(const StudyCase& of, const std::vector<Reading>& readings, const std::string& folder);
 
 // C10: processor time per frame, including LBS, of all readings in turns, in the order and precision that are judged (plain, f64).
-std::vector<ReadingValues> values_of_frames(const StudyCase& of, const std::vector<Overrides>& readings);
+std::vector<JudgedReading> values_of_frames(const StudyCase& of, const std::vector<Overrides>& readings);
 
 }  // namespace experiments

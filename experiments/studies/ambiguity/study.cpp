@@ -23,13 +23,13 @@ namespace experiments {
 namespace {
 
 // The values by each reading, measured by the study of the claims, which has `read`, or as above.
-std::vector<ReadingValues> values_of(const Study& study, const StudyCase& of, const std::vector<Reading>& readings)
+std::vector<JudgedReading> values_of(const Study& study, const StudyCase& of, const std::vector<Reading>& readings)
 {
     std::vector<Overrides> overrides;
     for (const Reading& reading : readings) overrides.push_back(reading.overrides);
     if (!study.read) return values_of_frames(of, overrides);
-    std::vector<ReadingValues> all;
-    for (const ReadValues& read : study.read(of, overrides)) all.push_back({judged(read.values), read.broke_down, read.left_out});
+    std::vector<JudgedReading> all;
+    for (const ReadingValues& read : study.read(of, overrides)) all.push_back({judged(read.values), read.broke_down, read.left_out});
     return all;
 }
 
@@ -79,7 +79,8 @@ StudyConclusion conclude(const FinishedRuns& finished)
     std::string text;
     for (const analysis::Claim& claim : claims()) {
         const auto count = [&](const std::string& flips) {
-            return std::ranges::count_if(changes, [&](const ClaimChange& row) { return row.claim == claim.id && row.verdict_flips == flips; });
+            return std::ranges::count_if(changes,
+                                         [&](const ClaimChange& row) { return row.claim == claim.id && row.verdict_flips == flips; });
         };
         if (const auto values = count("yes") + count("no"); values > 0)
             text += fmt::format("{}: {} of {} values flip\n", claim.id, count("yes"), values);

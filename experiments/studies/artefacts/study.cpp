@@ -86,7 +86,7 @@ ArtefactCase case_of(const StudyCase& of)
 }
 
 // C04 or C05 of readings: sections in the poses of a sweep all steps of which are taken, and one reference.
-std::vector<ReadValues> read_sections(const StudyCase& of, const std::vector<Overrides>& readings)
+std::vector<ReadingValues> read_sections(const StudyCase& of, const std::vector<Overrides>& readings)
 {
     const ArtefactCase base = case_of(of);
     const ArtefactBody body(base);
@@ -95,15 +95,14 @@ std::vector<ReadValues> read_sections(const StudyCase& of, const std::vector<Ove
     const auto add = [&](std::vector<ArtefactSample>& samples, const char* group, std::size_t pose, const pbs::Positions& shape) {
         const int element_order = group == std::string("reference") ? 1 : 0;
         for (std::size_t joint = 0; joint < body.joints.size(); ++joint)
-            samples.push_back(
-                {group, pose, joint, extremes_of(body.sections[joint].measure(shape, body.posed.pose(pose))), element_order});
+            samples.push_back({group, pose, joint, extremes_of(body.sections[joint].measure(shape, body.posed.pose(pose))), element_order});
     };
     const bool is_bulge = base.claim == ArtefactCase::Claim::bulge;
     std::vector<ArtefactSample> reference;  // C04 does without it
     const Shapes flesh = is_bulge ? body.posed.shapes(spec_of(base.scene, base.scene.reference)) : Shapes{};
     for (std::size_t pose = 0; pose < flesh.size(); ++pose)
         if (flesh[pose].finished) add(reference, "reference", pose, flesh[pose].positions);
-    std::vector<ReadValues> all;
+    std::vector<ReadingValues> all;
     for (const Overrides& reading : readings) {
         const Scene scene = of.scene(reading);
         const std::vector<pbs::Positions> shapes = shapes_in_motion(reweighted(character, scene), motion, spec_of(scene, "pbs"));

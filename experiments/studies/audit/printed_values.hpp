@@ -17,8 +17,8 @@ std::vector<analysis::PrintedValue> mesh_size_values();
 std::vector<analysis::PrintedValue> table_1_values();
 
 // C15, on seeded random tets away from the origin. Gradients: the largest |printed - difference quotient| / |difference quotient| over the
-// tets, by central differences of Eq. 11. It may be as large as the rounding of the quotient. Corrections: the largest |C after| / |C before|
-// when Eq. 17-21 are applied with k = 1. A correction does not make C larger.
+// tets, by central differences of Eq. 11. It may be as large as the rounding of the quotient. Corrections: the largest |C after| / |C
+// before| when Eq. 17-21 are applied with k = 1. A correction does not make C larger.
 std::vector<analysis::PrintedValue> equation_values(int tets = 200, unsigned seed = 1);
 
 }  // namespace experiments

@@ -151,9 +151,9 @@ StudyConclusion conclude(const FinishedRuns& finished)
 
 // C03, C12: the paths in one pose, on the scene's mesh and in its order. C12 is judged on characters alone. The first reading's k_stretch
 // names the case of all of them.
-std::vector<ReadValues> read_paths(const StudyCase& of, const std::vector<Overrides>& readings)
+std::vector<ReadingValues> read_paths(const StudyCase& of, const std::vector<Overrides>& readings)
 {
-    std::vector<ReadValues> all;
+    std::vector<ReadingValues> all;
     std::optional<double> k_stretch;
     for (const Overrides& reading : readings) {
         ConvergenceCase read{.scene = of.scene(reading), .frames = {{of.value<int>("frame"), of.name, of.key()}}};

@@ -86,22 +86,23 @@ std::vector<MeasuredJiggle> jolts_of(const StudyCase& of, const pbs::Character& 
 }
 
 // Only the quantities that one setting gives or two of them do. The others need all settings of the study.
-std::vector<ReadValues> read_jolts(const StudyCase& of, const std::vector<Overrides>& readings)
+std::vector<ReadingValues> read_jolts(const StudyCase& of, const std::vector<Overrides>& readings)
 {
     const std::vector<std::string> of_few_settings = {"damping_ratio", "frequency_ratio_at_half_time_step",
                                                       "frequency_ratio_at_twice_iterations"};
     const pbs::Character character = pbs::make_character(of.scene().character);
     const std::vector<int> probe = zone_contents(character).pieces.at(0);
     const auto settings = std::ranges::count_if(jiggle_settings(), is_of_the_paper);
-    std::vector<ReadValues> all;
+    std::vector<ReadingValues> all;
     for (const Overrides& reading : readings) {
         const std::vector<MeasuredJiggle> measured = jolts_of(of, character, probe, reading);
-        ReadValues read{jiggle_values(character.name, measured)};
+        ReadingValues read{jiggle_values(character.name, measured)};
         read.broke_down = !std::ranges::all_of(measured, [](const MeasuredJiggle& one) { return one.response.finished; });
-        read.left_out = all_but("C09", of_few_settings,
-                                fmt::format("the bound is for the study's {} settings, a reading is jolted at {}", settings, measured.size()));
+        read.left_out =
+            all_but("C09", of_few_settings,
+                    fmt::format("the bound is for the study's {} settings, a reading is jolted at {}", settings, measured.size()));
         std::erase_if(read.values, [&](const analysis::Measurement& value) {
-            return std::ranges::count(read.left_out, value.quantity, &ReadValues::LeftOut::quantity) > 0;
+            return std::ranges::count(read.left_out, value.quantity, &ReadingValues::LeftOut::quantity) > 0;
         });
         all.push_back(read);
     }
@@ -112,10 +113,11 @@ StudyConclusion conclude(const FinishedRuns& finished)
 {
     std::string text;
     for (const std::string& file : finished.files("responses.csv"))
-        text += std::filesystem::path(file).parent_path().filename().string() + "\n" +
-                text_table(analysis::read_csv(file), analysis::report_columns("deformer k_stretch time_step_ms:.3g iterations masses k_bind "
-                                                                              "outcome frequency_hz:.2f damping_ratio:.3f")) +
-                "\n";
+        text +=
+            std::filesystem::path(file).parent_path().filename().string() + "\n" +
+            text_table(analysis::read_csv(file), analysis::report_columns("deformer k_stretch time_step_ms:.3g iterations masses k_bind "
+                                                                          "outcome frequency_hz:.2f damping_ratio:.3f")) +
+            "\n";
     return {text, !finished.none()};
 }
 

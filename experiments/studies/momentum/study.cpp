@@ -194,7 +194,8 @@ std::string measure_drift(const MomentumCase& of, const std::string& folder)
                 for (const pbs::Order order : {pbs::Order::ordered, pbs::Order::grouped, pbs::Order::plain}) {
                     options.order = order;
                     key.order = name_of(order);
-                    add(rows, projected, "_of_a_pass", key, drift_of_a_pass(posed.character(), posed.pose(0), options, projected, setting.counted));
+                    add(rows, projected, "_of_a_pass", key,
+                        drift_of_a_pass(posed.character(), posed.pose(0), options, projected, setting.counted));
                 }
             }
     analysis::measurement_table(rows).write(analysis::path_in(folder, "measurements.csv"));
@@ -209,9 +210,9 @@ StudyPlan plan(bool full)
 }
 
 // Single projections and a pass of each class that is judged, from the reading's LBS shape. Momentum is that of the reading's masses.
-std::vector<ReadValues> read_drifts(const StudyCase& of, const std::vector<Overrides>& readings)
+std::vector<ReadingValues> read_drifts(const StudyCase& of, const std::vector<Overrides>& readings)
 {
-    std::vector<ReadValues> all;
+    std::vector<ReadingValues> all;
     for (const Overrides& reading : readings) {
         const Scene scene = of.scene(reading);
         const PosedCharacter posed(scene, {of.value<int>("frame")});

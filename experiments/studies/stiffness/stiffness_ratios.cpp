@@ -31,10 +31,9 @@ const analysis::Columns<StiffnessExponent>& exponent_columns()
 
 const VariedText& text_of(Varied varied)
 {
-    static constexpr VariedText texts[] = {
-        {"twice the iterations", "stiffness_ratio_at_twice_iterations", 12.0, 48.0},
-        {"half the time step", "stiffness_ratio_at_half_time_step", 1.0 / 0.02, 1.0 / 0.005},
-        {"twice the vertices", "stiffness_ratio_at_twice_resolution", 0.0, 1e9}};
+    static constexpr VariedText texts[] = {{"twice the iterations", "stiffness_ratio_at_twice_iterations", 12.0, 48.0},
+                                           {"half the time step", "stiffness_ratio_at_half_time_step", 1.0 / 0.02, 1.0 / 0.005},
+                                           {"twice the vertices", "stiffness_ratio_at_twice_resolution", 0.0, 1e9}};
     return texts[static_cast<int>(varied)];
 }
 
@@ -217,10 +216,11 @@ std::string control_text(const std::vector<SweptRows>& sweeps, const analysis::C
         for (const SweptRows& sweep : sweeps) {
             const auto measured = control_ratios(sweep, forgets);
             if (measured.empty()) continue;
-            text += fmt::format("the control, XPBD{}, at {}: {} of {} values lie within {}\n", forgets ? " without its multipliers" : "",
-                                text_of(sweep.first).doubled,
-                                std::ranges::count(measured, analysis::Extent::whole, [&](const Ratio& one) { return analysis::extent_of(claim, one); }), measured.size(),
-                                analysis::bound_text(analysis::bound_of(claim, measured.front().quantity)));
+            text += fmt::format(
+                "the control, XPBD{}, at {}: {} of {} values lie within {}\n", forgets ? " without its multipliers" : "",
+                text_of(sweep.first).doubled,
+                std::ranges::count(measured, analysis::Extent::whole, [&](const Ratio& one) { return analysis::extent_of(claim, one); }),
+                measured.size(), analysis::bound_text(analysis::bound_of(claim, measured.front().quantity)));
         }
     return text;
 }

@@ -61,7 +61,8 @@ TEST(CountedWork, IsThatOfTheMethod)
         {"pbs", with<pbs::PbsOptions>("pbs", [](auto& options) { options.iterations = 3; }), projected(3)},
         {"pbs_author", with<pbs::AuthorOptions>("pbs_author", [](auto& options) { options.iterations = 3; }), projected(3)},
         // Its matrix and factor are kept from the first frame on: no frame visits a tet.
-        {"linear fem", with<FemOptions>("fem", [](auto& options) { options = {.model = reference_fem::Model::linear, .element_order = 1}; }),
+        {"linear fem",
+         with<FemOptions>("fem", [](auto& options) { options = {.model = reference_fem::Model::linear, .element_order = 1}; }),
          {.linear_solves = 1}}};
     for (const char* kind : {"xpbd", "xpbd_small_steps"})
         for (const pbs::Order order : {pbs::Order::plain, pbs::Order::ordered, pbs::Order::grouped}) {

@@ -12,9 +12,9 @@ namespace {
 
 using analysis::Extent;
 using experiments::ClaimChange;
+using experiments::JudgedReading;
 using experiments::JudgedValue;
 using experiments::Reading;
-using experiments::ReadingValues;
 
 const Reading reading = {.place = "Eq. 2", .name = "B", .baseline = "A"};
 
@@ -23,7 +23,7 @@ JudgedValue value(double value, Extent extent, analysis::Limit limit = analysis:
     return {"C09", "damping_ratio", {.body = "limb"}, "1", "0.0001 to 1", value, extent, limit};
 }
 
-std::vector<ClaimChange> compared(const ReadingValues& a, const ReadingValues& b)
+std::vector<ClaimChange> compared(const JudgedReading& a, const JudgedReading& b)
 {
     return experiments::claim_changes("limb", "C09", reading, a, b);
 }
@@ -77,7 +77,7 @@ TEST(ClaimChanges, StateWhetherTheVerdictFlipsOrWhyThereIsNoValue)
 
 TEST(ClaimChanges, OfAQuantityThatIsLeftOutHaveARowWithTheReason)
 {
-    const ReadingValues measured = {{value(0.5, Extent::whole)}, false, {{"C09", "share", "four settings"}, {"C12", "other", "why"}}};
+    const JudgedReading measured = {{value(0.5, Extent::whole)}, false, {{"C09", "share", "four settings"}, {"C12", "other", "why"}}};
     const auto table = compared(measured, measured);
     ASSERT_EQ(table.size(), 2u);
     EXPECT_EQ(table.at(0).verdict_flips, "no");
@@ -175,7 +175,7 @@ TEST(ReadingComparison, MeasuresWhatTouchesTheClaimAndItsBaselineOnce)
     experiments::ReadingComparison comparison("limb", readings());
     std::vector<std::string> measured;
     comparison.measure({"C10"}, [&](const std::vector<Reading>& touching) {
-        std::vector<ReadingValues> values;
+        std::vector<JudgedReading> values;
         for (const Reading& reading : touching) {
             measured.push_back(reading.name);
             const double ms = reading.name == "own" ? 2.0 : 3.0;
@@ -194,7 +194,7 @@ TEST(ReadingComparison, SaysWhichReadingBreaksDown)
 {
     experiments::ReadingComparison comparison("limb", readings());
     comparison.measure({"C10"}, [](const std::vector<Reading>& touching) {
-        return std::vector<ReadingValues>(touching.size(), ReadingValues{{}, true});
+        return std::vector<JudgedReading>(touching.size(), JudgedReading{{}, true});
     });
     EXPECT_NE(comparison.breakdown().find("lumped (C10)"), std::string::npos);
     EXPECT_EQ(comparison.changes().at(0).reason, "B breaks down");
@@ -204,8 +204,8 @@ TEST(ReadingComparison, SaysWhichReadingBreaksDown)
 
 using experiments::StudyCase;
 
-const StudyCase limb("ambiguity", {{"name", "limb"}, {"quick_s", 1.0}, {"scene", "limb_bend"}, {"overrides", {"pbs.gravity_m_s2=[0,-9.81,0]"}}},
-                     false);
+const StudyCase limb("ambiguity",
+                     {{"name", "limb"}, {"quick_s", 1.0}, {"scene", "limb_bend"}, {"overrides", {"pbs.gravity_m_s2=[0,-9.81,0]"}}}, false);
 
 const Reading& named(const std::vector<Reading>& all, const std::string& name)
 {
@@ -263,9 +263,7 @@ TEST(Untouched, IsAClaimWhoseValuesAReadingCannotChange)
                         {"k_bind_0_in_zone", {"C09", "C10"}, {}}};
     for (const auto& [name, touched, untouched] : rows) {
         const Reading& reading = named(readings, name);
-        const auto reason = [&](const std::string& claim) {
-            return untouched_because(claim, reading, named(readings, reading.baseline));
-        };
+        const auto reason = [&](const std::string& claim) { return untouched_because(claim, reading, named(readings, reading.baseline)); };
         for (const std::string& claim : touched) EXPECT_EQ(reason(claim), "") << name << " " << claim;
         for (const std::string& claim : untouched) EXPECT_NE(reason(claim), "") << name << " " << claim;
         EXPECT_EQ(untouched_because("C02", reading, reading), "the scene is so by itself");

@@ -3,7 +3,7 @@
 #include "experiments/studies/ambiguity/moved_readings.hpp"
 
 #include "analysis/metrics/frame_metrics.hpp"
-#include "experiments/deformers/registry.hpp"
+#include "experiments/studies/shared/posed_character.hpp"
 #include "pbs/skinning/blend.hpp"
 #include "pbs/solver/pbs_solver.hpp"
 #include "tests/support/limb_character.hpp"
@@ -160,7 +160,7 @@ TEST(FrameTimes, OfReadingsAreOneTimeEachAndStateABreakdown)
                                     false);
     const auto all = experiments::values_of_frames(of, {{}, {"pbs.time_step_s=0.0025"}, {"pbs.variant.lbs_entry=increment"}});
     ASSERT_EQ(all.size(), 3u);
-    for (const experiments::ReadingValues& read : all) {
+    for (const experiments::JudgedReading& read : all) {
         ASSERT_EQ(read.values.size(), 1u);
         EXPECT_EQ(read.values[0].quantity, "processor_time_of_a_frame_ms");
         EXPECT_EQ(read.values[0].unit, "ms");

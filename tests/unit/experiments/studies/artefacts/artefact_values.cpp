@@ -73,16 +73,31 @@ TEST_F(BulgeFigures, StateWhySectionsAreLeftOut)
         std::map<std::size_t, SectionOutcome> outcomes;  // by pose
         std::map<std::size_t, std::string> remarks;
     };
-    const Row rows[] = {
-        {"no reference", {sample("pbs", 0, 1.0), sample("reference", 0, 1.0, 1), sample("pbs", 1, 1.0)}, 1, 0,
-         {{0, measured}, {1, reference_not_reached}}, {}},
-        {"a deep fold, whatever the reference", {sample("pbs", 2, 5.0), sample("reference", 2, 1.0, 1)}, 0, 0, {{2, bent_too_far}}, {{2, ""}}},
-        {"a part that the reference has gone into",
-         {sample("pbs", 0, 1.0), sample("reference", 0, 1.0, 1), sample("reference", 0, 3.1, 1), sample("dqs", 0, 1.0), sample("pbs", 1, 1.0),
-          sample("reference", 1, 2.9, 1)},
-         1, 0, {{0, inside_another_part}, {1, measured}}, {{0, wide}, {1, ""}}},
-        {"pbs broke down, and blends are compared", {sample("dqs", 0, 2.0), sample("reference", 0, 1.0, 1)}, 0, 1,
-         {{0, pbs_did_not_finish}}, {}}};
+    const Row rows[] = {{"no reference",
+                         {sample("pbs", 0, 1.0), sample("reference", 0, 1.0, 1), sample("pbs", 1, 1.0)},
+                         1,
+                         0,
+                         {{0, measured}, {1, reference_not_reached}},
+                         {}},
+                        {"a deep fold, whatever the reference",
+                         {sample("pbs", 2, 5.0), sample("reference", 2, 1.0, 1)},
+                         0,
+                         0,
+                         {{2, bent_too_far}},
+                         {{2, ""}}},
+                        {"a part that the reference has gone into",
+                         {sample("pbs", 0, 1.0), sample("reference", 0, 1.0, 1), sample("reference", 0, 3.1, 1), sample("dqs", 0, 1.0),
+                          sample("pbs", 1, 1.0), sample("reference", 1, 2.9, 1)},
+                         1,
+                         0,
+                         {{0, inside_another_part}, {1, measured}},
+                         {{0, wide}, {1, ""}}},
+                        {"pbs broke down, and blends are compared",
+                         {sample("dqs", 0, 2.0), sample("reference", 0, 1.0, 1)},
+                         0,
+                         1,
+                         {{0, pbs_did_not_finish}},
+                         {}}};
     for (const Row& row : rows) {
         SCOPED_TRACE(row.name);
         samples = row.samples;

@@ -147,11 +147,12 @@ TEST(ReachedResidual, IsTheIterationFromWhichOnItStaysWithinFivePerCentOfTheFloo
         int iterations;
         bool within;
     };
-    const Row rows[] = {
-        {"1 + 0.9^n <= 1.05 from n = ceil(log 0.05 / log 0.9) on", formula, floor_of({formula}), 29, true},
-        {"it leaves once more", path_by(100, [](int n) { return n == 40 ? 1.2 : n < 10 ? 2.0 : 1.0; }), 1.0, 41, true},
-        {"it stalls above the lowest floor", stalled[1], floor_of(stalled), 100, false},
-        {"rounding", path_by(100, [](int n) { return n % 2 == 0 ? 3e-7 : 6e-7; }), 3e-7, 0, true}};
+    const Row rows[] = {{"1 + 0.9^n <= 1.05 from n = ceil(log 0.05 / log 0.9) on", formula, floor_of({formula}), 29, true},
+                        {"it leaves once more", path_by(100, [](int n) { return n == 40  ? 1.2
+                                                                                : n < 10 ? 2.0
+                                                                                         : 1.0; }), 1.0, 41, true},
+                        {"it stalls above the lowest floor", stalled[1], floor_of(stalled), 100, false},
+                        {"rounding", path_by(100, [](int n) { return n % 2 == 0 ? 3e-7 : 6e-7; }), 3e-7, 0, true}};
     for (const Row& row : rows) {
         const Reached reached = reached_residual(row.path, row.floor);
         EXPECT_EQ(reached.iterations, row.iterations) << row.name;

@@ -156,7 +156,9 @@ TEST(StiffnessReport, TellsForgottenMultipliersApart)
     analysis::Claim claim;
     claim.low = 0.9;
     claim.high = 1.1;
-    EXPECT_EQ(control_text({{Varied::iterations, rows}}, claim).find("the control, XPBD without its multipliers, at twice the iterations: 0 of 1 values"), 0u);
+    EXPECT_EQ(control_text({{Varied::iterations, rows}}, claim)
+                  .find("the control, XPBD without its multipliers, at twice the iterations: 0 of 1 values"),
+              0u);
     EXPECT_EQ(stiffness_ratios(rows, Varied::iterations).at(0).of.deformer, "xpbd_forgetting_multipliers");
 }
 

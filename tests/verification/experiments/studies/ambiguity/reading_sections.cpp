@@ -47,8 +47,13 @@ pbs::Positions shape_by_hand(const pbs::Character& character, const pbs::Pose& p
 
 TEST(ReadingSections, HaveTheNarrowestSectionThatPlainSlicingFinds)
 {
-    const nlohmann::json twisted = {{"name", "limb_twist"}, {"quick_s", 1.0},  {"scene", "limb_twist"}, {"what", "twist"},
-                                    {"step_deg", 120},      {"frame_deg", 60}, {"poses", 1},
+    const nlohmann::json twisted = {{"name", "limb_twist"},
+                                    {"quick_s", 1.0},
+                                    {"scene", "limb_twist"},
+                                    {"what", "twist"},
+                                    {"step_deg", 120},
+                                    {"frame_deg", 60},
+                                    {"poses", 1},
                                     {"overrides", {R"(deformers.use=["lbs","pbs","nh_p1"])", "reference.name=nh_p1"}}};
     const experiments::StudyCase of("ambiguity", twisted, false);
     const experiments::Overrides readings[] = {{}, {"pbs.k_bind=0.1"}};

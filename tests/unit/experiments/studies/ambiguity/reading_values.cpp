@@ -14,33 +14,34 @@ namespace {
 
 using analysis::Measurement;
 using experiments::Overrides;
-using experiments::ReadValues;
+using experiments::ReadingValues;
 
-const nlohmann::json bent_limb = {{"name", "limb_bend"},  {"quick_s", 1.0},     {"scene", "limb_bend"},
-                                  {"body", "limb"},       {"motion", "bend"},   {"overrides", {"character.vertices=400"}},
-                                  {"frame", 18},          {"iterations", 60},   {"jolt_steps", 60},
-                                  {"along", {1.0, 0.0, 0.0}}};
+const nlohmann::json bent_limb = {{"name", "limb_bend"},  {"quick_s", 1.0},
+                                  {"scene", "limb_bend"}, {"body", "limb"},
+                                  {"motion", "bend"},     {"overrides", {"character.vertices=400"}},
+                                  {"frame", 18},          {"iterations", 60},
+                                  {"jolt_steps", 60},     {"along", {1.0, 0.0, 0.0}}};
 
-std::vector<ReadValues> read(const std::string& study, const std::vector<Overrides>& readings, const nlohmann::json& of = bent_limb)
+std::vector<ReadingValues> read(const std::string& study, const std::vector<Overrides>& readings, const nlohmann::json& of = bent_limb)
 {
     return std::ranges::find(experiments::studies(), study, &experiments::Study::name)
         ->read(experiments::StudyCase("ambiguity", of, false), readings);
 }
 
-const Measurement& value(const ReadValues& read, const std::string& quantity)
+const Measurement& value(const ReadingValues& read, const std::string& quantity)
 {
     const auto found = std::ranges::find(read.values, quantity, &Measurement::quantity);
     if (found == read.values.end()) throw std::runtime_error("no " + quantity);
     return *found;
 }
 
-int number_of(const ReadValues& read, const std::string& quantity)
+int number_of(const ReadingValues& read, const std::string& quantity)
 {
     return int(std::ranges::count(read.values, quantity, &Measurement::quantity));
 }
 
 // Three initial guesses by two tolerances, where at least one guess of a pair reaches them.
-TEST(ReadValues, OfStartsNameTheCaseAlike)
+TEST(ReadingValues, OfStartsNameTheCaseAlike)
 {
     const auto all = read("convergence", {{}, {"pbs.k_stretch=0.9"}});
     ASSERT_EQ(all.size(), 2u);
@@ -52,7 +53,7 @@ TEST(ReadValues, OfStartsNameTheCaseAlike)
     EXPECT_EQ(all[0].left_out[0].reason, "judged on characters alone");
 }
 
-TEST(ReadValues, OfProjectionsAreTheMomentumStudysDrifts)
+TEST(ReadingValues, OfProjectionsAreTheMomentumStudysDrifts)
 {
     const auto all = read("momentum", {{}, {"pbs.masses=lumped"}});
     const experiments::Scene scene = experiments::read_scene("limb_bend", {"character.vertices=400"});
@@ -68,7 +69,7 @@ TEST(ReadValues, OfProjectionsAreTheMomentumStudysDrifts)
 }
 
 // In Algorithm 1 the next position depends on the last two alone, whatever the step, so half the step swings twice as fast, exactly.
-TEST(ReadValues, OfJoltsHaveTheSameDampingInSubstepsThatAreTheSameSteps)
+TEST(ReadingValues, OfJoltsHaveTheSameDampingInSubstepsThatAreTheSameSteps)
 {
     const auto all = read("jiggle", {{}, {"pbs.time_step_s=0.005"}});
     EXPECT_EQ(value(all[0], "frequency_ratio_at_half_time_step").value, 2.0);
@@ -80,7 +81,7 @@ TEST(ReadValues, OfJoltsHaveTheSameDampingInSubstepsThatAreTheSameSteps)
 }
 
 // LBS moves the flesh by the jolt beforehand, and a body that moves as a whole violates no constraint.
-TEST(ReadValues, OfAJoltThatCarriesTheFleshAlongHaveNoSwing)
+TEST(ReadingValues, OfAJoltThatCarriesTheFleshAlongHaveNoSwing)
 {
     const auto all = read("jiggle", {{}, {"pbs.variant.lbs_entry=increment"}});
     EXPECT_EQ(number_of(all[0], "damping_ratio"), 4);  // one per setting
@@ -89,7 +90,7 @@ TEST(ReadValues, OfAJoltThatCarriesTheFleshAlongHaveNoSwing)
 }
 
 // C09's bounds on these quantities are for the study's 16 settings.
-TEST(ReadValues, OfJoltsLeaveOutWhatIsOfAllSettingsOfTheStudy)
+TEST(ReadingValues, OfJoltsLeaveOutWhatIsOfAllSettingsOfTheStudy)
 {
     const auto all = read("jiggle", {{}});
     std::vector<std::string> left_out;
@@ -106,13 +107,18 @@ TEST(ReadValues, OfJoltsLeaveOutWhatIsOfAllSettingsOfTheStudy)
 }
 
 // C04 has two values per pose and joint, the smallest radius and the smallest area, and a shape that is not finite has none.
-TEST(ReadValues, OfSectionsAreTwoPerPoseUnlessTheReadingBreaksDown)
+TEST(ReadingValues, OfSectionsAreTwoPerPoseUnlessTheReadingBreaksDown)
 {
     const nlohmann::json twisted = {
-        {"name", "limb_twist"}, {"quick_s", 1.0}, {"scene", "limb_twist"}, {"what", "twist"}, {"step_deg", 45}, {"poses", 2},
+        {"name", "limb_twist"},
+        {"quick_s", 1.0},
+        {"scene", "limb_twist"},
+        {"what", "twist"},
+        {"step_deg", 45},
+        {"poses", 2},
         {"overrides", {"character.vertices=400", R"(deformers.use=["lbs","pbs","nh_p1"])", "reference.name=nh_p1"}}};
-    const auto all = read("artefacts", {{}, {"skinning.weights=either_end"}, {"pbs.jiggle.k_stretch=0.1", "pbs.gravity_m_s2=[0,-1e308,0]"}},
-                          twisted);
+    const auto all =
+        read("artefacts", {{}, {"skinning.weights=either_end"}, {"pbs.jiggle.k_stretch=0.1", "pbs.gravity_m_s2=[0,-1e308,0]"}}, twisted);
     for (const int i : {0, 1}) EXPECT_EQ(all[i].values.size(), 4u);
     for (int i = 0; i < 4; ++i) {
         EXPECT_EQ(all[0].values.at(i).claim, "C04");
