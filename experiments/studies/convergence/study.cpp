@@ -156,11 +156,13 @@ std::vector<ReadingValues> read_paths(const StudyCase& of, const std::vector<Ove
     std::vector<ReadingValues> all;
     std::optional<double> k_stretch;
     for (const Overrides& reading : readings) {
-        ConvergenceCase read{.scene = of.scene(reading), .frames = {{of.value<int>("frame"), of.name, of.key()}}};
+        ConvergenceCase read;
+        read.scene = of.scene(reading);
+        read.frames = {{of.value<int>("frame"), of.name, of.key()}};
+        read.most_iterations = of.value<int>("iterations");
         const auto& options = options_of<pbs::PbsOptions>(spec_of(read.scene, "pbs"));
         read.k_stretch = {options.k_stretch};
         read.settings = {{options.order, options.precision}};
-        read.most_iterations = of.value<int>("iterations");
         ConvergenceResult result = measure_convergence(read);
         if (!k_stretch) k_stretch = options.k_stretch;
         result.all.front().k_stretch = *k_stretch;
