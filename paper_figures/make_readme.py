@@ -11,14 +11,14 @@ a page are not as expected.
 import pathlib
 import sys
 
-from readme import claims, features, findings, pages, part, reliability
+from readme import findings, pages, part, tables
 from records import kept
 
-parts = {"claims": lambda results: {part.own_readme: claims.lines_of(results)},
+parts = {"claims": lambda results: {part.own_readme: tables.claims_lines(results)},
          "findings": lambda results: {part.own_readme: findings.lines_of(results)},
-         "features": lambda results: {features.page: features.lines_of(results)},
+         "features": lambda results: {tables.features_page: tables.features_lines(results)},
          "kept": pages.pages,
-         "reliability": lambda folder: {reliability.page: reliability.lines_of(folder)}}
+         "reliability": lambda folder: {tables.reliability_page: tables.reliability_lines(folder)}}
 
 
 def main(arguments):

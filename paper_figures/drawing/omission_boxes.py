@@ -11,8 +11,6 @@ import records
 from words import case_words
 
 columns = {"comparison", "case", "deformer", "why", "missing", "points", "reason"}
-reasons = {"not_finite": "diverged", "not_converged": "not converged", "over_time_limit": "over the time limit",
-           "not_applicable": "not applicable", "no_such_code": "no such code", "not_run": "not run", "no_reference": "no reference"}
 
 
 def code_rank(row):
@@ -67,8 +65,8 @@ def lines(omitted):
         of_reason.setdefault(row["why"], []).append(case_words.of_field("deformer", row["deformer"]) + share)
         if row["why"] == "no_reference" and row["reason"]:
             notes.setdefault(row["why"], row["reason"])
-    return [f"{reasons.get(why, why)}: {', '.join(names)}" + (f" ({notes[why]})" if why in notes else "")
-            for why, names in of_reason.items()]
+    words = case_words.tables["omission"]
+    return [f"{words.get(why, why)}: {', '.join(names)}" + (f" ({notes[why]})" if why in notes else "") for why, names in of_reason.items()]
 
 
 def text(shown, width, undecided=()):

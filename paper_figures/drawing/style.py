@@ -73,6 +73,16 @@ def draw_series(axes, number, rows, x, y, bars=None, **options):
         axes.vlines(records.numbers(rows, x), *(records.numbers(rows, end) for end in bars), color=color, linewidth=0.7)
 
 
+def label(axes, above=(), left=(), below=()):
+    """Titles above the first row of panels, and names to the left of the first column and below the last row."""
+    for panel, text in zip(axes[0], above):
+        panel.set_title(text)
+    for panels, text in zip(axes, left):
+        panels[0].set_ylabel(text)
+    for panel, text in zip(axes[-1], below):
+        panel.set_xlabel(text)
+
+
 def name_rows(axes, names, **options):
     """Names the places 0, 1, ... of the vertical axis, from the top to the bottom."""
     axes.set_yticks(range(len(names)), names, **options)

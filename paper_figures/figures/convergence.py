@@ -48,13 +48,10 @@ def draw_case(axes, file, column, limits, pose):
 def convergence_iterations(results):
     drawing, axes = style.panels(2, 3, height_in=1.9, sharex="col", sharey="row")
     behind = []
-    for panels, (case, pose, title) in zip(axes.T, cases):
+    for panels, (case, pose, _) in zip(axes.T, cases):
         for panel, (table, measure, _, limits) in zip(panels, measures):
             behind += draw_case(panel, results / "convergence" / case / table, measure, limits, pose)
-        panels[0].set_title(title)
-        panels[1].set_xlabel("iterations; line: the paper's 24")
-    for panels, (_, _, label, _) in zip(axes, measures):
-        panels[0].set_ylabel(label)
+    style.label(axes, [title for *_, title in cases], [label for _, _, label, _ in measures], ["iterations; line: the paper's 24"] * 3)
     style.log_scale(axes[1][0].yaxis, [1, 2, 5, 10, 20, 50, 100, 200, 500])
     style.log_scale(axes[0][0].yaxis, [0.01, 0.1, 1])
     style.legend_above(drawing)

@@ -112,12 +112,9 @@ def jiggle_response(results):
     drawing, axes = style.panels(2, 3, height_in=1.9, sharex="col", sharey="row")
     behind = [row for number, (body, rows) in enumerate(found.items()) for row in draw_jolted(axes, rows, body, number)]
     behind += draw_reference(axes[1][0], records.table(folder / "limb_reference" / "responses.csv", jolt_columns))
-    for panel, name in zip(axes[1], names.values()):
-        panel.set_xlabel(name)
+    style.label(axes, (), [name for *_, name in measures], names.values())
     style.log_scale(axes[1][1].xaxis, [2.5, 5, 10, 20, 40])
     style.log_scale(axes[1][2].xaxis, [6, 12, 24, 48, 96])
-    for panels, (*_, name) in zip(axes, measures):
-        panels[0].set_ylabel(name)
     style.log_scale(axes[0][0].yaxis)
     axes[1][0].set_ylim(bottom=-0.02)
     axes[1][0].set_xticks([0, 0.2, 0.4, 0.6, 0.8, 1.0])
@@ -198,7 +195,7 @@ def stiffness(results):
             rows = records.table(results / "stiffness" / f"{sweep}_{body}" / "stiffness.csv", columns)
             behind += draw_panel(panel, [row for row in rows if row["load"] == load], factor)
             panel.set(title=title, xlabel=name)
-        panels[0].set_ylabel("stiffness [N/m]")
+    style.label(axes, (), ["stiffness [N/m]"] * 3)
     style.legend_above(drawing, columns=3)
     return drawing, behind
 

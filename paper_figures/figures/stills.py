@@ -8,7 +8,6 @@ from PIL import Image, ImageDraw, ImageFont
 
 import records
 from drawing import bodies, rendering, style
-from records import pose_reached
 from records.recorded_frames import Frames, heading_of, middle_of
 from viewer import data as viewer_data
 from words import looks
@@ -28,7 +27,7 @@ class Facts:
     def __getitem__(self, name):
         if name == "section":
             return f"\nsmallest section {self['min_section_pct']:.0f} %" if self.row.get("min_section_pct") else ""
-        words = {"s": "s" * (self.row["inverted_tets"] != "1"), "mark": pose_reached.mark(self.row)}
+        words = {"s": "s" * (self.row["inverted_tets"] != "1"), "mark": "" if records.is_reached(self.row) else "\npose not reached"}
         return words[name] if name in words else float(self.row[name])
 
 
@@ -42,10 +41,7 @@ def grid(stills, words, titles=(), names=(), **layout):
     for panels, line in zip(axes, stills):
         for panel, (row, picture) in zip(panels, line):
             style.show(panel, picture, below=told(row, words))
-    for panel, title in zip(axes[0], titles):
-        panel.set_title(title)
-    for panels, name in zip(axes, names):
-        panels[0].set_ylabel(name)
+    style.label(axes, titles, names)
     return figure, [row for line in stills for row, _ in line]
 
 
@@ -140,12 +136,10 @@ def fig_09_jiggle(results):
             view = rendering.Camera(rendering.middle_of(file), 0.88, sign * (forward + 0.5 * left) + (0, 0.12, 0))
             style.show(panel, stage.shot([bodies.skin_by(file, away_mm, distance_scale, distance_colors)], view))
         time_s, apart = float(frames.row("pbs_jiggle", frame)["time_s"]), frames.apart(frame, *compared)
-        panels[0].set_title(f"{time_s:.2f} s")
         panels[-1].set_xlabel(f"largest {apart['largest_mm']:.0f} mm")
         bone = bodies.bone_under(frames, int(away_mm.argmax()), frames.tets("pbs_jiggle", frame))
         behind.append({"scene": "human_walk", "frame": frame, "time_s": time_s, **apart, "farthest_bone": bone})
-    for panels, side in zip(axes, sides):
-        panels[0].set_ylabel(side)
+    style.label(axes, times_of(frames, shown), sides)
     jiggling, still = (viewer_data.title_of(frames, label) for label in compared)
     style.bar(figure, axes, distance_scale, distance_colors, f"distance of the skin under {jiggling}, from that under {still} [mm]", "max")
     return figure, behind
@@ -172,10 +166,7 @@ def fig_10_start_from_lbs(results):
         away_mm = bodies.distances_mm(frames, frame, *deformers)
         actor = bodies.skin_by(frames.skin("pbs_increment", frame), away_mm, distance_scale, distance_colors)
         style.show(panels[2], stage.shot([actor], view), below=f"largest {frames.apart(frame, *deformers)['largest_mm']:.0f} mm")
-    for panel, title in zip(axes[0], times_of(frames, shown)):
-        panel.set_title(title)
-    for panels, text in zip(axes, (*deformers.values(), "distance between the two")):
-        panels[0].set_ylabel(text)
+    style.label(axes, times_of(frames, shown), (*deformers.values(), "distance between the two"))
     style.bar(figure, axes, distance_scale, distance_colors, "distance between the two skins [mm]", "max")
     return figure, style.columns_of(behind, *volumes, "min_section_pct", "stretch_rms")
 

@@ -10,20 +10,6 @@ from words.number_words import figure, span
 looks = {("1", "displacement"): (style.vermillion, "v"), ("2", "displacement"): (style.blue, "o"),
          ("2", "mean_dilatation"): (style.orange, "s"), ("2", "taylor_hood"): (style.green, "D")}
 norms = {"error_l2": ("$L^2$", "-", 1), "error_h1_seminorm": ("$H^1$", (0, (4, 1.5)), 0)}
-# The problems shown, and their names in the figure.
-benchmarks = {
-    ("cantilever", "tip_deflection"): "cantilever, tip",
-    ("gravity_cantilever", "end_deflection"): "cantilever under its own weight",
-    ("torsion", "torque"): "torsion of a square bar",
-    ("thick_sphere", "inner_radial_displacement"): "Lam\u00e9's thick sphere",
-    ("cooks_membrane", "corner_rise_plane_strain"): "Cook, plane strain",
-    ("cooks_membrane", "edge_middle_rise_plane_stress"): "Cook, plane stress",
-    ("cooks_membrane_finite_strain", "corner_rise_free_faces"): "Cook, finite strain, free faces",
-    ("cooks_membrane_finite_strain", "corner_rise_plane_strain"): "Cook, finite strain, plane strain",
-    ("twisted_beam", "tip_deflection_in_plane"): "MacNeal\u2013Harder twisted beam, in plane",
-    ("twisted_beam", "tip_deflection_out_of_plane"): "MacNeal\u2013Harder twisted beam, out of plane",
-    ("thick_plate", "stress_yy_at_d"): "NAFEMS LE10, stress at D",
-}
 
 
 def solved_with(rows, elements):
@@ -92,13 +78,18 @@ def finest(rows):
     chosen = {}
     for row in rows:
         key = (row["problem"], row["quantity"], row["poisson"], row["element_order"], row["formulation"])
-        if key[:2] in benchmarks and row["difference_pct"] and (key not in chosen or int(row["dofs"]) > int(chosen[key]["dofs"])):
+        if name_of(row) and row["difference_pct"] and (key not in chosen or int(row["dofs"]) > int(chosen[key]["dofs"])):
             chosen[key] = row
     return list(chosen.values())
 
 
+def name_of(row):
+    """The benchmark in words; none for other quantities."""
+    return case_words.tables["benchmark"].get(row["problem"], {}).get(row["quantity"])
+
+
 def label_of(row):
-    return f"{benchmarks[row['problem'], row['quantity']]}, \u03bd = {float(row['poisson']):.4g}"
+    return f"{name_of(row)}, \u03bd = {float(row['poisson']):.4g}"
 
 
 def draw_benchmarks(axes, rows):
@@ -126,7 +117,7 @@ def verification_facts(rows):
         return [row for row in rows if row["element_order"] == str(order)]
 
     bent = [row for row in rows if (row["problem"], row["quantity"]) == ("locking", "tip_deflection")]
-    judged = [row for row in rows if (row["problem"], row["quantity"]) in benchmarks and row["difference_pct"]]
+    judged = [row for row in rows if name_of(row) and row["difference_pct"]]
     kept = {f"p{order}_bending": span([100 * float(row["value_over_reference"]) for row in of(order, bent)]) for order in (1, 2)}
     off = {f"p{order}_off": figure(max((abs(float(row["difference_pct"])) for row in of(order, judged)), default=None)) for order in (1, 2)}
     return kept | off

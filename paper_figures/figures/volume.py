@@ -5,7 +5,7 @@ from drawing import style
 from words import looks
 from words.number_words import figure
 
-measures = [("volume_change_pct", "signed volume\nchange [%]"), ("volume_abs_change_pct", "absolute volume\nchange [%]")]
+measures = {"volume_change_pct": "signed volume\nchange [%]", "volume_abs_change_pct": "absolute volume\nchange [%]"}
 
 
 def draw_deformers(panels, run, x, **options):
@@ -13,9 +13,11 @@ def draw_deformers(panels, run, x, **options):
     behind = []
     for deformer, iterations in {"lbs": None, "dqs": None, "pbs": 24, run.reference(): None}.items():
         rows = run.select(deformer, iterations)
-        for panel, (measure, _) in zip(panels, measures):
+        for panel, measure in zip(panels, measures):
             style.draw(panel, deformer, rows, x, measure, **options)
         behind += rows
+    for panel, measure in zip(panels, measures):
+        finish_measure(panel, measure)
     return behind
 
 
@@ -29,27 +31,20 @@ def volume_over_angle(results):
     behind = []
     for panels, motion in zip(axes.T, ("twist", "bend")):
         behind += draw_deformers(panels, records.Run(results / "volume" / f"limb_{motion}"), "angle_deg")
-        panels[0].set_title(f"limb, {motion}")
-        panels[1].set_xlabel(f"{motion} angle [degrees]")
         panels[1].xaxis.set_major_locator(style.ticker.MultipleLocator(30))
-    for panels, (measure, label) in zip(axes, measures):
-        panels[0].set_ylabel(label)
-        for panel in panels:
-            finish_measure(panel, measure)
+    style.label(axes, ("limb, twist", "limb, bend"), measures.values(), ("twist angle [degrees]", "bend angle [degrees]"))
     style.legend_above(drawing, columns=3)
-    return drawing, style.columns_of(behind, "angle_deg", *dict(measures))
+    return drawing, style.columns_of(behind, "angle_deg", *measures)
 
 
 def volume_over_clip(results):
     drawing, axes = style.panels(2, 1, height_in=1.7, width_in=style.page_in, sharex=True)
     behind = draw_deformers(axes[:, 0], records.Run(results / "volume" / "human_01_01"), "time_s", linewidth=0.8)
-    for panel, (measure, label) in zip(axes[:, 0], measures):
-        finish_measure(panel, measure)
-        panel.set_ylabel(label)
+    for panel in axes.flat:
         panel.margins(x=0)
-    axes[1][0].set_xlabel("time in the clip [s]")
+    style.label(axes, (), measures.values(), ["time in the clip [s]"])
     style.legend_above(drawing)
-    return drawing, style.columns_of(behind, *dict(measures))
+    return drawing, style.columns_of(behind, *measures)
 
 
 # Volume change of PBS against the number of iterations: for the human the median over the clip's frames and the band that contains 8
@@ -61,20 +56,17 @@ poses = [("limb_twist", 90, "limb, twist 90\u00b0"), ("limb_twist", 180, "limb, 
 
 def draw_human(axes, run, measure, color):
     """Draws the recorded order statistics over the frames, and returns what was drawn."""
-    rows = [run.statistics("pbs", iterations) for iterations in run.pbs_iterations()]
-    quantity = measure.removesuffix("_pct")
+    iterations, quantity = run.pbs_iterations(), measure.removesuffix("_pct")
+    rows = [run.statistics("pbs", count) for count in iterations]
     low, median, high = (records.numbers(rows, f"{quantity}_{share}_pct") for share in ("p10", "median", "p90"))
-    iterations = run.pbs_iterations()
     axes.fill_between(iterations, low, high, color=color, alpha=0.25, linewidth=0, label="human, 10\u201390 % of frames")
     axes.plot(iterations, median, color=color, linewidth=1.8, label="human, median")
     return [{"scene": run.name, "pose": "all frames", "measure": measure, "iterations": of[0], "median": of[1], "q10": of[2], "q90": of[3]}
             for of in zip(iterations, median, low, high)]
 
 
-def draw_pose(axes, run, angle_deg, label, measure, look):
-    rows = [records.at_angle(run.select("pbs", iterations), angle_deg) for iterations in run.pbs_iterations()]
-    color, marker = look
-    values = records.numbers(rows, measure)
+def draw_pose(axes, run, angle_deg, label, measure, color, marker):
+    values = records.numbers([records.at_angle(run.select("pbs", iterations), angle_deg) for iterations in run.pbs_iterations()], measure)
     axes.plot(run.pbs_iterations(), values, color=color, marker=marker, linestyle=(0, (4, 1.5)), linewidth=0.9, label=label)
     return [{"scene": run.name, "pose": f"{angle_deg} degrees", "measure": measure, "iterations": iterations, "median": value, "q10": "",
              "q90": ""} for iterations, value in zip(run.pbs_iterations(), values)]
@@ -100,10 +92,10 @@ def volume_over_iterations(results):
     limbs = {scene: records.Run(results / "volume" / scene) for scene, _, _ in poses}
     drawing, axes = style.panels(1, 2, height_in=2.7)
     behind = []
-    for panel, (measure, label) in zip(axes[0], measures):
+    for panel, (measure, label) in zip(axes[0], measures.items()):
         behind += draw_human(panel, human, measure, looks.of("pbs").color)
         for (scene, angle_deg, name), look in zip(poses, [style.sequence[place] for place in (0, 4, 2, 6)]):
-            behind += draw_pose(panel, limbs[scene], angle_deg, name, measure, look)
+            behind += draw_pose(panel, limbs[scene], angle_deg, name, measure, *look)
         finish_measure(panel, measure)
         panel.set_xscale("log", base=2)
         panel.set_xticks(human.pbs_iterations(), [str(iterations) for iterations in human.pbs_iterations()])
@@ -200,9 +192,6 @@ def section_profiles(results):
             behind += shown
         panel.axhline(100, color=style.black, linewidth=0.6)
         panel.set_title(title)
-    for panels in axes:
-        panels[0].set_ylabel("area over rest [%]")
-    for panel in axes[-1]:
-        panel.set_xlabel("position along the limb, joint at 0 [cm]")
+    style.label(axes, (), ["area over rest [%]"] * 3, ["position along the limb, joint at 0 [cm]"] * 2)
     style.legend_above(drawing)
     return drawing, behind

@@ -1,14 +1,13 @@
 """Writes the generated part of each study's README and of each claim's page, from tables and records: the purpose, figures and cost of a
 study; the bounds and the verdict of a claim. Nobody edits it by hand.
 """
-import csv
-import json
 import tomllib
 
 import records
-from readme import part
+from readme import part, tables
 from records import entries
-from words import compared_results, sentences
+from words import case_words, sentences
+from words.number_words import counted, span_of_thousandths
 
 experiments = part.source / "experiments"
 studies = experiments / "studies"
@@ -43,11 +42,9 @@ def cost(study, results):
     file = results / study / "costs.csv"
     if not file.is_file():
         return ["The kept records do not have this study."]
-    with file.open(newline="", encoding="utf-8") as rows:
-        seconds = {row["run"]: float(row["cpu_s"]) for row in csv.DictReader(rows)}
-    plan = json.loads((results / study / "plan.json").read_text(encoding="utf-8"))
-    form = {"quick": " in the quick form", "full": " in the full form"}.get(plan.get("extent"), "")
-    longest = max(seconds, key=seconds.get)
+    seconds = {row["run"]: float(row["cpu_s"]) for row in records.read_rows(file)}
+    extent = records.read_json(results / study / "plan.json").get("extent")
+    form, longest = f" in the {extent} form" if extent in ("quick", "full") else "", max(seconds, key=seconds.get)
     runs = "one run" if len(seconds) == 1 else f"{len(seconds)} runs"
     text = f"The kept record{form} has {runs} and took {sum(seconds.values()) / 60:.1f} minutes of processor time"
     return [text + ("." if len(seconds) == 1 else f", the longest run `{longest}` {seconds[longest] / 60:.1f}.")]
@@ -64,8 +61,7 @@ def too_long(study, results):
     listed = results / study / "not_kept.csv"
     if not listed.exists():
         return []
-    with listed.open(newline="", encoding="utf-8") as file:
-        names = sorted({f"`RUN/{row['file']}`" if row["run"] else f"`{row['file']}`" for row in csv.DictReader(file)})
+    names = sorted({f"`RUN/{row['file']}`" if row["run"] else f"`{row['file']}`" for row in records.read_rows(listed)})
     return [f"These files are too long to be kept, in some runs or in all: {', '.join(names)}."]
 
 
@@ -93,7 +89,7 @@ def claim_lines(claim, judged):
     verdict, measured = sentences.names[judged["verdict"]], sentences.measured_in_line(judged).replace("\u2212", "-")
     result = [f"Study: [{claim['study']}](../../studies/{claim['study']}/README.md). Verdict: **{verdict}**.", ""]
     result += [*bound_lines(claim), *([f"Measured: {measured}.", ""] if measured else [])]
-    return result[:-1] + compared_results.lines(judged, own_deformer(claim))
+    return result[:-1] + compared_lines(judged, own_deformer(claim))
 
 
 def own_deformer(claim):
@@ -102,12 +98,50 @@ def own_deformer(claim):
     return of.get("deformer") if list(of) == ["deformer"] else claim.get("deformer")
 
 
+def held_by_runs(_, runs):
+    """Frames within the bound, of all; and the smallest and the largest value of all frames."""
+    frames = sum(run["frames"] for run in runs)
+    held = sum(round(run["share_of_frames"]["estimate"] * run["frames"]) for run in runs)
+    ends = [end for run in runs for end in (run["least"], run["most"])]
+    return f"{held} of {counted(frames, 'frame')} in {counted(len(runs), 'run')}", [min(ends), max(ends)]
+
+
+def held_by_values(bound, values):
+    """Values within the bound, of all; and the smallest and the largest value."""
+    low, high = (float(sign + "inf") if end is None else end for sign, end in (("-", bound["low"]), ("", bound["high"])))
+    known = [value["value"] for value in values]
+    return f"{sum(low <= value <= high for value in known)} of {counted(len(known), 'value')}", [min(known), max(known)]
+
+
+def compared_rows(claim, own, bound):
+    """One row per deformer other than the claim's own, in the order of claims.json."""
+    groups = {}
+    for value in claim["controls"]:
+        if value["quantity"] == bound["quantity"] and value.get("deformer") not in (None, own) and value.get("value") is not None:
+            groups.setdefault(value["deformer"], []).append(value)
+    for deformer, values in groups.items():
+        held, ends = (held_by_runs if "frames" in values[0] else held_by_values)(bound, values)
+        unit = " %" if bound["quantity"].endswith("_pct") else ""
+        yield f"| {case_words.of_field('deformer', deformer)} | {span_of_thousandths(ends)}{unit} | {held} |"
+
+
+def compared_lines(claim, own):
+    """How other deformers and the finite elements do under the bounds of a claim, from the values that claims.json has for comparison
+    (`controls`): a table per bounded quantity, or no line if nothing was measured. own: the deformer that the claim is about, or None if it
+    is not about a deformer alone."""
+    found = []
+    for bound in claim["bounds"] if own else []:
+        if table := list(compared_rows(claim, own, bound)):
+            title = sentences.title(claim, bound["quantity"])
+            found += ["", f"| deformer | {title} | within the bound |", "|---|---|---|", *table]
+    introduction = ["", "For comparison, the tables show other deformers and finite elements under the same bounds. "
+                        "They are no part of the verdict."]
+    return [line.replace("\u2212", "-") for line in introduction + found] if found else []
+
+
 def pages(results):
     """Each page with its generated lines."""
-    file = results / "claims.json"
-    if not file.is_file():
-        raise records.RecordsMissing(f"{file.name}: does not exist: `pbskin reproduce --judge` writes it next to the records")
-    judged = {claim["id"]: claim for claim in sentences.claims_of(file)}
+    judged = {claim["id"]: claim for claim in tables.claims_of(results)}
     found = {studies / study / "README.md": study_lines(study, results) for study in study_names()}
     for claim in listed_claims():
         found[claim_pages / f"{claim['id']}.md"] = claim_lines(claim, judged[claim["id"]])

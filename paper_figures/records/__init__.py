@@ -25,22 +25,17 @@ class Run:
 
     def select(self, deformer, iterations=None, variant="default"):
         """The deformer's rows, ordered by frame."""
-        rows = [row for row in self.rows if row["deformer"] == deformer and (row["variant"] or "default") == variant]
-        if iterations is not None:
-            rows = [row for row in rows if row["iterations"] and int(float(row["iterations"])) == iterations]
+        rows = [row for row in self.rows if is_of(row, deformer, variant, iterations)]
         if not rows:
-            wanted = f"deformer {deformer}, variant {variant}" + (f", {iterations} iterations" if iterations else "")
-            raise RecordsMissing(f"{self.folder / 'metrics.csv'}: no rows of {wanted}")
+            raise RecordsMissing(f"{self.folder / 'metrics.csv'}: no rows of {in_words(deformer, variant, iterations)}")
         return sorted(rows, key=lambda row: int(float(row["frame"])))
 
     def statistics(self, deformer, iterations=None, variant="default"):
         """Order statistics of the deformer over the frames: a row of frame_statistics.csv."""
-        rows = frame_statistics(self.folder, deformer, variant)
-        if iterations is not None:
-            rows = [row for row in rows if row["iterations"] and int(row["iterations"]) == iterations]
+        rows = frame_statistics(self.folder, deformer, variant, iterations)
         if len(rows) != 1:
-            wanted = f"deformer {deformer}, variant {variant}" + (f", {iterations} iterations" if iterations is not None else "")
-            raise RecordsMissing(f"{self.folder / 'frame_statistics.csv'}: {len(rows)} rows of {wanted}, expected one")
+            raise RecordsMissing(f"{self.folder / 'frame_statistics.csv'}: {len(rows)} rows of {in_words(deformer, variant, iterations)}, "
+                                 "expected one")
         return rows[0]
 
     def reference(self):
@@ -53,17 +48,26 @@ class Run:
 
     def pbs_iterations(self):
         """The iteration counts with which the paper's PBS was run."""
-        rows = [row for row in self.rows if row["deformer"] == "pbs" and (row["variant"] or "default") == "default"]
-        return sorted({int(float(row["iterations"])) for row in rows if row["iterations"]})
+        return sorted({int(float(row["iterations"])) for row in self.rows if is_of(row, "pbs", "default") and row["iterations"]})
 
 
-def frame_statistics(folder, deformer, variant="default"):
+def is_of(row, deformer, variant, iterations=None):
+    """Whether the row is of this setting; without a number of iterations, of any number."""
+    chosen = iterations is None or (row["iterations"] and int(float(row["iterations"])) == iterations)
+    return chosen and row["deformer"] == deformer and (row["variant"] or "default") == variant
+
+
+def in_words(deformer, variant, iterations):
+    return f"deformer {deformer}, variant {variant}" + (f", {iterations} iterations" if iterations is not None else "")
+
+
+def frame_statistics(folder, deformer, variant="default", iterations=None):
     """A deformer's rows of frame_statistics.csv: for each setting, the order statistics over the run's frames."""
     file = folder / "frame_statistics.csv"
     if not file.is_file():
         raise RecordsMissing(f"{file}: does not exist: the run is of an earlier version and has to be made again")
     rows = table(file, {"deformer", "variant", "iterations", "frames"})
-    return [row for row in rows if row["deformer"] == deformer and (row["variant"] or "default") == variant]
+    return [row for row in rows if is_of(row, deformer, variant, iterations)]
 
 
 def numbers(rows, column):
@@ -102,6 +106,12 @@ def origin_of(runs):
     scenes = {name: scene_hash(record) for name, record in runs.items() if record.get("scene") or record.get("work")}
     return {key: text for key, text in found.items() if text} | {"git_dirty": any(origin.get("git_dirty") for origin in origins),
                                                                  "scenes": scenes}
+
+
+def is_reached(row):
+    """Whether the deformer reached the pose of the frame. A run writes its frame even if the solve failed; a pose that was not reached
+    cannot serve as a reference. A record of an earlier version has no outcome and counts as reached."""
+    return row.get("outcome") in (None, "", "finished")
 
 
 def provenance(results):
@@ -155,6 +165,11 @@ def read_rows(file):
         raise RecordsMissing(f"{file}: does not exist") from None
     except (UnicodeDecodeError, csv.Error) as error:
         raise RecordsMissing(f"{file}: not a table: {error}") from None
+
+
+def rows_if_any(file):
+    """The rows of a CSV file, or none if it does not exist."""
+    return read_rows(file) if file.is_file() else []
 
 
 def table(file, columns):

@@ -25,25 +25,21 @@ def entry(claim, words):
     symbol, colour, name = mark_of(claim["verdict"])
     link = element("a", claim["id"], href=f"#{claim['id']}")
     sign = Markup(f'<span class="{colour}" aria-hidden="true">{symbol}</span>')
-    statement = element("span", with_symbols_named(claim["statement"]), class_="statement")
+    statement = element("span", claim["statement"].replace("k_stretch", "k_stretch (how stiff edges are, 0 to 1)"), class_="statement")
     verdict = element("b", name[:1].upper() + name[1:], class_=colour)
     return joined([sign, " ", link, " ", statement, " ", verdict, words])
 
 
 def when_not(found):
     """Every claim that does not hold throughout, with where it holds; for the others, the values measured for comparison."""
-    failed = [claim for kind in failing for claim in found.claims or [] if claim["verdict"] == kind]
-    compared = [claim for claim in found.claims or [] if claim["verdict"] == "reproduced" and sentences.controls(claim)]
-    entries = [entry(claim, f": {sentences.outcome(claim, in_short=True)}.") for claim in failed]
-    entries += [entry(claim, f"; for comparison: {sentences.controls(claim)}.") for claim in compared]
+    claims = found.claims or []
+    entries = [entry(claim, f": {sentences.outcome(claim, in_short=True)}.") for kind in failing for claim in claims
+               if claim["verdict"] == kind]
+    entries += [entry(claim, f"; for comparison: {sentences.controls(claim)}.") for claim in claims
+                if claim["verdict"] == "reproduced" and sentences.controls(claim)]
     if not entries:
         return element("p", "Every claim that could be tested is reproduced." if found.claims else "Not known without verdicts.")
     return joined([element("p", who, class_="who"), items(entries, "when")])
-
-
-def with_symbols_named(text):
-    """The text with its symbols explained for readers who do not know the paper."""
-    return text.replace("k_stretch", "k_stretch (how stiff edges are, 0 to 1)")
 
 
 class Pose:
@@ -63,7 +59,7 @@ class Pose:
 
 def poses(found):
     """The complete poses, those of the limb first; and the names of the others, including planned ones without a table."""
-    all_poses, without_table = [], planned_without_table(found)
+    all_poses = []
     for file in found.files("work_precision/*/points.csv"):
         name = file.parent.relative_to(found.results).as_posix()
         run = found.run(name, shapes.posed_run) if name in found.runs else {}
@@ -73,28 +69,20 @@ def poses(found):
             all_poses.append(Pose(rows, scene.get("pbs", {}).get("k_stretch", 0.2)))
     whole = [pose for pose in all_poses if pose.is_whole()]
     left_out = [pose.name for pose in all_poses if not pose.is_whole()]
-    return sorted(whole, key=lambda pose: pose.body != "limb"), left_out + without_table
-
-
-def planned_without_table(found):
     planned = [run["name"] for run in found.plans.get("work_precision", {"runs": []})["runs"]]
-    return [name.replace("_", " ") for name in planned if not found.rows(f"work_precision/{name}/points.csv")]
-
-
-def left_out_sentence(names):
-    """Names the poses that lack one of the three, including planned ones."""
-    told = f"Left out, since no error of PBS, LBS or the reference is recorded: {'; '.join(names)}."
-    return element("p", told, class_="missing") if names else ""
+    left_out += [name.replace("_", " ") for name in planned if not found.rows(f"work_precision/{name}/points.csv")]
+    return sorted(whole, key=lambda pose: pose.body != "limb"), left_out
 
 
 def how_far(found):
-    shown, left_out = poses(found)
-    if not shown and left_out:
-        return left_out_sentence(left_out)
+    """With the names of the poses that lack one of the three, including planned ones."""
+    shown, names = poses(found)
+    told = f"Left out, since no error of PBS, LBS or the reference is recorded: {'; '.join(names)}."
+    left_out = element("p", told, class_="missing") if names else ""
     if not shown:
-        return element("p", f"How far PBS is from the finite elements is {not_run(found, 'work_precision')}.", class_="missing")
-    return joined([element("p", distance_sentence(shown), class_="answer"), pose_table(shown), element("p", bar_sentence(shown)),
-                   left_out_sentence(left_out)])
+        told = f"How far PBS is from the finite elements is {not_run(found, 'work_precision')}."
+        return left_out or element("p", told, class_="missing")
+    return joined([element("p", distance_sentence(shown), class_="answer"), pose_table(shown), element("p", bar_sentence(shown)), left_out])
 
 
 def errors(shown, deformer):
@@ -106,14 +94,11 @@ def distance_sentence(shown):
             f"neo-Hookean finite elements, LBS {span(errors(shown, 'lbs'))} % (of the mean distance to the bone).")
 
 
-def bar_of(row):
-    bar = number(row, "reference_error_joint_pct")
-    return "\u2013" if bar is None else f"\u2264 {figure(bar)}"
-
-
 def pose_table(shown):
+    bounds = [number(pose.pbs, "reference_error_joint_pct") for pose in shown]
     rows = [[pose.name, *(figure(number(row, "error_joint_pct")) for row in (pose.lbs, pose.pbs)),
-             bar_of(pose.pbs), figure(number(pose.reference, "masked_share_pct"))] for pose in shown]
+             "\u2013" if bound is None else f"\u2264 {figure(bound)}", figure(number(pose.reference, "masked_share_pct"))]
+            for pose, bound in zip(shown, bounds)]
     header = ["pose", "LBS", "PBS", "reference's own error", "left out: overlaps [% of the volume]"]
     return table("Distance from the FEM reference at the joints [%]", header, rows)
 
@@ -132,13 +117,10 @@ def at_what_cost(found):
     return items([part for part in parts if part], "answers")
 
 
-def of_paper_sizes(found, variant, precision):
-    rows = found.rows("timing/timing.csv")
-    return [row for row in rows if (row["variant"], row["precision"]) == (variant, precision) and row["paper_frames_per_s"]]
-
-
 def frame_sentence(found):
-    quick, plain = of_paper_sizes(found, "ordered", "f32"), of_paper_sizes(found, "plain", "f64")
+    rows = [row for row in found.rows("timing/timing.csv") if row["paper_frames_per_s"]]
+    quick, plain = ([row for row in rows if (row["variant"], row["precision"]) == kernel]
+                    for kernel in (("ordered", "f32"), ("plain", "f64")))
     if not quick or not plain:
         return f"A frame's time at the paper's mesh sizes is {not_run(found, 'timing')}."
 

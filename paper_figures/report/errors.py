@@ -55,8 +55,8 @@ def section(found):
     return joined([table(caption, header, rows), where, left_out], "\n"), missing
 
 
-reference_header = ["problem", "quantity", "elements", "material", "mesh", "degrees of freedom", "value", "reference", "unit", "difference [%]",
-                    "order (theory)", "bounds", "holds", "notes"]
+reference_header = ["problem", "quantity", "elements", "material", "mesh", "degrees of freedom", "value", "reference", "unit",
+                    "difference [%]", "order (theory)", "bounds", "holds", "notes"]
 
 
 def verdict(rows):

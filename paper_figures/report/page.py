@@ -7,34 +7,6 @@ from report import answers, errors, figures, origin, verdicts
 from report.markup import Markup, element, escaped, joined
 
 here = pathlib.Path(__file__).parent
-template = """<!DOCTYPE html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<meta name="color-scheme" content="light">
-<title>{title}</title>
-<link rel="icon" href="data:,">
-<style>
-{style}
-</style>
-</head>
-<body>
-<a class="skip" href="#{first}">Skip to the content</a>
-<header>
-<h1>{title}</h1>
-{lead}
-</header>
-<main>
-{body}
-</main>
-<div id="readout" role="status" hidden></div>
-<script>
-{script}
-</script>
-</body>
-</html>
-"""
 title = "Position Based Skinning: do its claims hold?"
 
 
@@ -72,7 +44,8 @@ def page(found):
     missing += [f"{study}: {scene} left out: {reason}" for study, scene, reason in found.left_out()]
     sections = [("verdicts", "Verdicts", verdicts.section(found, poses)), ("viewer", "Viewer", shown),
                 ("errors", "Distance from the finite elements", distances), ("figures", "Figures", drawn),
-                ("reference", "Is the reference right?", errors.reference_section(found)), ("costs", "What it cost", origin.costs_section(found)),
+                ("reference", "Is the reference right?", errors.reference_section(found)),
+                ("costs", "What it cost", origin.costs_section(found)),
                 ("origin", "Where the records come from", origin.section(found, with_viewer=not not_shown)),
                 ("cite", "How to cite", origin.citation_section(found))]
     body = [element("div", answers.first_screen(found), class_="first-screen"), navigation(sections), *written(sections)]
@@ -85,5 +58,6 @@ def written(sections):
 
 def whole(title, lead, body, first="verdicts"):
     """The text of a page; `first` is the anchor of its first section."""
+    template = (here / "page.html").read_text()
     return template.format(title=escaped(title), lead=lead, first=first, style=(here / "page.css").read_text(),
                            script=Markup((here / "page.js").read_text()), body=joined(body, "\n"))

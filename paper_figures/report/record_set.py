@@ -19,12 +19,8 @@ class RecordSet:
             raise records.RecordsMissing(f"{results}: no records: no run.json in it or below; run `pbskin reproduce -o` into it first")
         self.studies = sorted({name.split("/")[0] for name in self.runs})
         self.plans = {file.parent.name: shapes.read(file, shapes.plan) for file in self.files("*/plan.json")}
-        self.claims = self._claims()
-
-    def _claims(self):
-        """None if no claim was judged."""
-        file = self.results / "claims.json"
-        return sentences.claims_of(file) if file.is_file() else None
+        judged = results / "claims.json"
+        self.claims = sentences.claims_of(judged) if judged.is_file() else None  # None if no claim was judged
 
     def run(self, name, shape):
         """The record of a run of which further members are read."""
@@ -33,8 +29,7 @@ class RecordSet:
 
     def rows(self, name):
         """The rows of a CSV file, or none if it does not exist."""
-        file = self.results / name
-        return records.read_rows(file) if file.is_file() else []
+        return records.rows_if_any(self.results / name)
 
     def files(self, pattern):
         return sorted(self.results.glob(pattern))

@@ -18,9 +18,8 @@ from report.record_set import number
 from words import looks
 from words.number_words import counted, figure, listed, span_of_thousandths
 
-moved = {"frames?": shapes.whole, "warnings?": [shapes.text], "bad_frame?": shapes.text,
-         "breakdown?": shapes.text, "motion?": {"largest_rotation_deg?": shapes.number, "clip_joints?": shapes.whole,
-                                                       "matched_joints?": shapes.whole}}
+moved = {"frames?": shapes.whole, "warnings?": [shapes.text], "bad_frame?": shapes.text, "breakdown?": shapes.text,
+         "motion?": {"largest_rotation_deg?": shapes.number, "clip_joints?": shapes.whole, "matched_joints?": shapes.whole}}
 shape = shapes.run | {"scene": shapes.scene | {"name": shapes.text}, "outcome": moved}
 trial = {"summary": shapes.text, "warnings": [shapes.text]}
 
@@ -50,8 +49,7 @@ class RunRecords:
 
     def table(self, name):
         """The rows of one of the run's tables; none if the run has not written it."""
-        file = self.folder / name
-        return records.read_rows(file) if file.is_file() else []
+        return records.rows_if_any(self.folder / name)
 
 
 # The tables.
@@ -61,17 +59,14 @@ def known(rows, column):
     return [value for value in (number(row, column) for row in rows) if value is not None and math.isfinite(value)]
 
 
-def median(values):
-    return figure(statistics.median(values)) if values else figure(None)
-
-
 def of_deformer(found, label):
     rows = found.rows(label)
     change, error, step = (known(rows, column) for column in ("volume_change_pct", "error_joint_pct", "step_ms"))
     inverted = known(rows, "inverted_tets")
     is_reference = label == found.record["scene"].get("reference", {}).get("name")
     told_error = "the reference" if is_reference else f"{figure(statistics.median(error))} ({figure(max(error))})" if error else "\u2013"
-    return [looks.of(label).name, span_of_thousandths(change), f"{max(inverted, default=0):.0f}", told_error, median(step)]
+    return [looks.of(label).name, span_of_thousandths(change), f"{max(inverted, default=0):.0f}", told_error,
+            figure(statistics.median(step) if step else None)]
 
 
 def summary(found):
@@ -92,8 +87,7 @@ def joints(found):
     if not changes:
         return ""
     labels = [label for label in found.labels() if any(label in of for of in changes.values())]
-    first = labels[0]
-    ordered = sorted(changes.items(), key=lambda pair: pair[1].get(first) or 0.0)
+    ordered = sorted(changes.items(), key=lambda pair: pair[1].get(labels[0]) or 0.0)
     body = [[name, *(figure(of.get(label)) for label in labels)] for name, of in ordered]
     return table("Mean change of the volume of the tets at a joint [% of their volume at rest]",
                  ["joint", *(looks.of(label).name for label in labels)], body, "tall")
@@ -118,7 +112,6 @@ def model(found):
         return ""
     dropped = [f"{joint['name']} ({joint['reason']})" for joint in record["joints_dropped"]]
     motion = found.record["outcome"].get("motion", {})
-    matched = f"{motion['matched_joints']} of the clip's {motion['clip_joints']} moving joints match" if "clip_joints" in motion else ""
     facts = [f"File: {record['file']}; {counted(len(record['meshes']), 'mesh', 'meshes')}: {listed(record['meshes'])}.",
             f"Largest extent: {figure(record['extent_m'])} m, with {figure(record['metres_per_unit'])} m per unit of the file.",
             f"Joints dropped: {listed(dropped)}.", f"Containers, which only contribute their transform: {listed(record['containers'])}.",
@@ -126,7 +119,8 @@ def model(found):
             f"Animations: {listed(record['animations'])}."]
     if "weights_transferred_pct" in record:
         facts.append(f"The tets carry {figure(record['weights_transferred_pct'])} % of the artist's weights.")
-    facts += [matched + "."] if matched else []
+    if "clip_joints" in motion:
+        facts.append(f"{motion['matched_joints']} of the clip's {motion['clip_joints']} moving joints match.")
     return joined([items(facts), details(f"{counted(len(record['joints']), 'joint')} that are bones", items(record["joints"]))], "\n")
 
 
@@ -143,10 +137,6 @@ def abscissa(rows):
     return [number(row, "time_s") for row in rows], "time [s]"
 
 
-def values_of(rows, column):
-    return [number(row, column) if number(row, column) is not None else float("nan") for row in rows]
-
-
 def over_frames(found):
     rows = {label: found.rows(label) for label in found.labels()}
     shown = [(column, name) for column, name in measures
@@ -155,7 +145,9 @@ def over_frames(found):
     for panel, (column, name) in zip(axes[:, 0], shown):
         for label, of in rows.items():
             x, unit = abscissa(of)
-            panel.plot(x, values_of(of, column), **style.as_of(label, markevery=max(1, len(x) // 9)))
+            values = [number(row, column) for row in of]
+            values = [float("nan") if value is None else value for value in values]
+            panel.plot(x, values, **style.as_of(label, markevery=max(1, len(x) // 9)))
         panel.set_ylabel(name)
         panel.margins(x=0)
     axes[-1][0].set_xlabel(unit)
@@ -225,16 +217,13 @@ def page(folder):
     found = RunRecords(folder)
     warnings = warnings_of(found)
     viewer, missing = viewer_of(found)
-    sections = [("summary", "What was found", summary(found))]
-    sections += [("warnings", "Warnings", items(warnings, "missing"))] if warnings else []
-    sections += [("viewer", "Viewer", viewer)] if viewer else []
-    sections += [("frames", "Over the frames", figures_section(found))]
-    for anchor, name, content in (("joints", "Volume at the joints", joints(found)),
-                                  ("distances", "Distances between the deformers", distances(found)),
-                                  ("model", "What was taken from the model", model(found))):
-        sections += [(anchor, name, content)] if content else []
     as_set = types.SimpleNamespace(results=folder, runs={found.name: found.record}, left_out=lambda: [])
-    sections.append(("origin", "Where the records come from", origin.section(as_set, with_viewer=viewer is not None)))
+    sections = [("summary", "What was found", summary(found)), ("warnings", "Warnings", items(warnings, "missing") if warnings else ""),
+                ("viewer", "Viewer", viewer), ("frames", "Over the frames", figures_section(found)),
+                ("joints", "Volume at the joints", joints(found)), ("distances", "Distances between the deformers", distances(found)),
+                ("model", "What was taken from the model", model(found)),
+                ("origin", "Where the records come from", origin.section(as_set, with_viewer=viewer is not None))]
+    sections = [section for section in sections if section[-1]]
     frames = found.record["outcome"].get("frames", 0)
     lead = element("p", f"{found.name}, {frames} frames, moved by {', '.join(found.labels())}.", class_="lead")
     return whole(f"pbskin: {found.name}", lead, [navigation(sections), *written(sections)], "summary"), missing

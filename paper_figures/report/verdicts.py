@@ -5,33 +5,17 @@ from words import case_words, sentences
 from words.number_words import counted, figure, span_of_thousandths
 from words.sentences import with_interval, with_unit
 
-marks = {
-    "reproduced": ("\u2714", "holds"),
-    "reproduced_only_for": ("\u25d0", "partly"),
-    "not_reproduced": ("\u2718", "fails"),
-    "inconsistent_in_print": ("\u2260", "print"),
-    "cannot_be_tested_here": ("\u25cb", "untested"),
-    "not_computable": ("?", "fails"),
-}
+marks = {"reproduced": ("\u2714", "holds"), "reproduced_only_for": ("\u25d0", "partly"), "not_reproduced": ("\u2718", "fails"),
+         "inconsistent_in_print": ("\u2260", "print"), "cannot_be_tested_here": ("\u25cb", "untested"), "not_computable": ("?", "fails")}
 
 
 def mark_of(verdict):
     """(symbol, class, name)"""
-    return (*marks[verdict], name_of(verdict))
+    return (*marks[verdict], sentences.names[verdict])
 
 
-def name_of(verdict):
-    return sentences.names[verdict]
-
-
-def counted_in_words(claims):
-    """3 are reproduced, 1 is reproduced in part, ..."""
-    counts = {verdict: sum(claim["verdict"] == verdict for claim in claims) for verdict in marks}
-    return ", ".join(f"{count} {with_verb(name_of(verdict), count)}" for verdict, count in counts.items() if count)
-
-
-def with_verb(name, count):
-    return name if name.startswith("cannot") else f"{'is' if count == 1 else 'are'} {name}"
+def be(count):
+    return "is" if count == 1 else "are"
 
 
 # The data behind a verdict: the values of every run with their intervals, and the folder of its records.
@@ -47,17 +31,16 @@ def worst(case):
     return ", ".join(f"{figure(frame['value'])} at {place(frame)}" for frame in case["deepest"]) or "\u2013"
 
 
-def run_row(claim, case, found):
-    deformer = case_words.of_field("deformer", case["deformer"]) + (f" ({case['variant']})" if "variant" in case else "")
-    return [folder_link(found.results, case["run"]), deformer, sentences.title(claim, case["quantity"]), with_interval(case["mean"]),
-            with_interval(case["share_of_frames"], 100), span_of_thousandths([case["least"], case["most"]]),
-            holds[case["holds"]], worst(case), str(case["holding_with_inverted_tets"])]
-
-
 def run_table(claim, name, values, found):
+    def row(case):
+        deformer = case_words.of_field("deformer", case["deformer"]) + (f" ({case['variant']})" if "variant" in case else "")
+        return [folder_link(found.results, case["run"]), deformer, sentences.title(claim, case["quantity"]), with_interval(case["mean"]),
+                with_interval(case["share_of_frames"], 100), span_of_thousandths([case["least"], case["most"]]),
+                holds[case["holds"]], worst(case), case["holding_with_inverted_tets"]]
+
     header = ["run", "deformer", "quantity", "mean [%]", "frames within the bound [%]", "range [%]", "holds", "worst frames",
               "frames within the bound with inverted tets"]
-    rows = [run_row(claim, case, found) for case in values if "frames" in case]
+    rows = [row(case) for case in values if "frames" in case]
     return table(name, header, rows, "tall") if rows else ""
 
 
@@ -69,7 +52,7 @@ def value_table(claim, name, values, found):
 
     def row(value):
         ends = "" if value["low"] == value["high"] else f"{figure(value['low'])} to {figure(value['high'])}"
-        limit = case_words.limits.get(value.get("limit"), "")
+        limit = case_words.tables["limit"].get(value.get("limit"), "")
         return [case_words.of(value), sentences.title(claim, value["quantity"]), limit + figure(value["value"]) + with_unit(value["unit"]),
                 ends or "\u2013", *([holds.get(value.get("holds"), "")] if judged else []), folder_link(found.results, value["run"])]
 
@@ -88,7 +71,7 @@ def printed_table(claim):
 
 def orders_table(claim):
     header = ["order, precision", "verdict", "as the claim's own", "differing"]
-    rows = [[sentences.reading_name(reading), name_of(reading["verdict"]), "yes" if reading["same"] else "no",
+    rows = [[sentences.reading_name(reading), sentences.names[reading["verdict"]], "yes" if reading["same"] else "no",
              ", ".join(sentences.differing(claim, reading))] for reading in claim["readings"]]
     return table(f"{claim['id']}: in other orders of projection", header, rows) if rows else ""
 
@@ -119,7 +102,9 @@ def mark(verdict):
 
 def counts_sentence(claims):
     """There are 17 claims: 3 are reproduced, 8 are reproduced in part, ..."""
-    return f"There {'is' if len(claims) == 1 else 'are'} {counted(len(claims), 'claim')}: {counted_in_words(claims)}."
+    counts = {sentences.names[verdict]: sum(claim["verdict"] == verdict for claim in claims) for verdict in marks}
+    words = [f"{count} {name if name.startswith('cannot') else f'{be(count)} {name}'}" for name, count in counts.items() if count]
+    return f"There {be(len(claims))} {counted(len(claims), 'claim')}: {', '.join(words)}."
 
 
 def chips(claims):
@@ -153,20 +138,15 @@ def expected(claim):
     return items(texts, "plain") if len(texts) > 1 else "".join(texts) or "\u2013"
 
 
-def named_cell(column, cell):
-    """A cell that contains the name of its column, for narrow screens on which cells are stacked."""
-    return element("td", joined([element("span", column, class_="column"), cell]))
-
-
 def row(claim, pose):
     """pose: the link to it in the viewer, or None."""
     name = element("a", claim["id"], href=f"#{claim['id']}")
     statement = joined([claim["statement"], element("span", f" {claim['place']}", class_="place")]
                        + ([" ", element("a", "see it move", href=pose, class_="pose")] if pose else []))
     cells = [statement, mark(claim["verdict"]), expected(claim), measured(claim), sentences.outcome(claim)]
-    return Markup(f'<tr id="{escaped(claim["id"])}" class="claim"><th scope="row">{name}</th>'
-                  + joined(named_cell(column, cell) for column, cell in zip(columns[1:], cells))
-                  + "</tr>")
+    named = joined(element("td", joined([element("span", column, class_="column"), cell]))  # on narrow screens, cells are stacked
+                   for column, cell in zip(columns[1:], cells))
+    return Markup(f'<tr id="{escaped(claim["id"])}" class="claim"><th scope="row">{name}</th>{named}</tr>')
 
 
 def section(found, poses):

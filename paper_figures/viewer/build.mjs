@@ -18,7 +18,7 @@ await build({
     format: "iife",
     target: "es2022",
     charset: "ascii",
-    loader: { ".css": "text" },
+    loader: { ".css": "text", ".glsl": "text" },
     banner: { js: `/*! three.js\n${licence}*/` },
     legalComments: "eof",
     logLevel: "warning",

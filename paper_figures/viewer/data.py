@@ -15,7 +15,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 
 import records
 from drawing import rendering
-from records import entries, pose_reached, recorded_frames
+from records import entries, recorded_frames
 from words import looks
 
 titles = {"limb_twist": "limb, twist", "limb_bend": "limb, bend", "human_jump": "human, jumping", "human_walk": "human, walking"}
@@ -87,16 +87,6 @@ def rows_of(recorded):
     return rows
 
 
-def figures_of(rows):
-    """One number per frame for each column; null if the record has none."""
-    return {column: [float(row[column]) if row.get(column) else None for row in rows] for column in figures}
-
-
-def not_reached(rows):
-    """The indices of the frames whose pose the deformer did not reach."""
-    return [at for at, row in enumerate(rows) if not pose_reached.of(row)]
-
-
 def title_of(recorded, label):
     """The title of a PBS panel whose stiffness differs from that of plain PBS in the same scene: that stiffness and the one of its jiggling
     zone, as recorded."""
@@ -139,8 +129,9 @@ def facts_of(recorded, every):
     """The facts from the run's tables, without its frames."""
     rows = {label: kept[::every] for label, kept in rows_of(recorded).items()}
     first = next(iter(rows.values()))
-    shown = [{"label": label, "title": title_of(recorded, label), "colour": looks.of(label).color, "figures": figures_of(rows[label]),
-              "not_reached": not_reached(rows[label])} for label in rows]
+    shown = [{"label": label, "title": title_of(recorded, label), "colour": looks.of(label).color,
+              "figures": {column: [float(row[column]) if row.get(column) else None for row in of] for column in figures},
+              "not_reached": [at for at, row in enumerate(of) if not records.is_reached(row)]} for label, of in rows.items()]
     return {"name": recorded.run.name, "title": titles.get(recorded.run.name, recorded.run.name), "reference": recorded.run.reference(),
             "rights": "; ".join(entries.licences_of(recorded.run.record)), "frames": [int(row["frame"]) for row in first],
             "times_s": [float(row["time_s"]) for row in first], "deformers": shown}
@@ -163,18 +154,14 @@ def pack_run(recorded, every, block):
             "rest_codes": block.put(codes_of(rest, rest_low, rest_step)), "surface": pack_surface(recorded, block)}
 
 
-def check(results, names):
-    """Checks that the runs are planned, written by their own run and not changed since, like the records of a figure, and that all have one
-    revision."""
-    files = [f"frames/{run}/{file}" for run in names for file in ("metrics.csv", "bones.csv", "frames/*.vtu")]
-    entries.Entry("viewer", "", "", [], files, "", "R").check(results)
-
-
 def recorded_runs(results):
+    """The runs of the study `frames`, after a check that they are planned, written by their own run and not changed since, like the records
+    of a figure, and that all have one revision."""
     found = [recorded_frames.Frames(results, name) for name in titles if (results / "frames" / name).is_dir()]
     if not found:
         raise records.RecordsMissing(f"{results / 'frames'}: no frames on record; the study `frames` writes them")
-    check(results, [recorded.run.name for recorded in found])
+    files = [f"frames/{recorded.run.name}/{file}" for recorded in found for file in ("metrics.csv", "bones.csv", "frames/*.vtu")]
+    entries.Entry("viewer", "", "", [], files, "", "R").check(results)
     return found
 
 

@@ -6,6 +6,7 @@
 """
 import base64
 import json
+import math
 import os
 import pathlib
 import sys
@@ -14,7 +15,7 @@ from matplotlib import colormaps, colors
 
 import records
 from drawing import rendering
-from viewer import data as viewer_data, poses as viewer_poses
+from viewer import data as viewer_data
 
 most_bytes = 15_000_000  # limit for the viewer, so that the report stays below 25 MB
 folder = pathlib.Path(__file__).resolve().parent
@@ -70,7 +71,7 @@ def fragment_of(recorded, claims=None):
     if not bundle_file().is_file():
         raise records.RecordsMissing(f"{bundle_file().name} is not built: {how_to_build}")
     header, block = pack(recorded)
-    header.update(colours=colours(), poses=viewer_poses.poses_of(header["runs"]), claims=claims or {})
+    header.update(colours=colours(), poses=poses_of(header["runs"]), claims=claims or {})
     words = json.dumps(header, separators=(",", ":"), allow_nan=False).replace("</", "<\\/")
     program = bundle_file().read_text().replace("</script", "<\\/script")
     return "\n".join((
@@ -79,10 +80,52 @@ def fragment_of(recorded, claims=None):
         f'<script type="application/octet-stream;base64" id="viewer-block">{block}</script>', f"<script>{program}</script>"))
 
 
+# The recorded frame that shows a claim best: the one in which a recorded number of a deformer is at its extreme, opened by a link such as
+# `#run=limb_twist&frame=18&colour=ratio&claim=C01`. Claim, run, deformer and its column, which extreme, colouring, panels, description.
+poses = (
+    ("C01", "limb_twist", "lbs", "volume_change_pct", min, "ratio", "", "LBS loses most volume"),
+    ("C02", "human_jump", "pbs", "volume_change_pct", "far", "ratio", "", "PBS is farthest from the volume at rest"),
+    ("C03", "human_jump", "pbs_increment", "error_linf_m", max, "error", "lbs,pbs,pbs_increment,nh_p1",
+     "PBS without the start from LBS is farthest from FEM"),
+    ("C04", "limb_twist", "lbs", "min_section_pct", min, "skin", "", "LBS has its thinnest section"),
+    ("C05", "limb_bend", "dqs", "error_joint_pct", max, "error", "", "DQS errs most at the joint"),
+    ("C09", "human_walk", "pbs_jiggle", "error_linf_m", max, "error", "lbs,pbs_no_zone,pbs_jiggle,nh_p1",
+     "jiggling flesh is farthest from FEM; for comparison, the same stiffness without a jiggling zone"),
+    ("C12", "human_jump", "pbs", "error_joint_pct", max, "error", "", "PBS with 24 iterations errs most at the joints"),
+)
+
+
+def position_of(values, extreme):
+    """The index of the extreme among the recorded values; None without values."""
+    known = [(abs(value) if extreme == "far" else value, at) for at, value in enumerate(values)
+             if value is not None and math.isfinite(value)]
+    return (max if extreme == "far" else extreme)(known, key=lambda pair: pair[0])[1] if known else None
+
+
+def poses_of(runs):
+    """The poses whose run and deformer are packed, in the format of the viewer."""
+    named = {run["name"]: run for run in runs}
+    found = []
+    for claim, run, label, column, extreme, colour, panels, what in poses:
+        known = {deformer["label"]: deformer for deformer in named[run]["deformers"]} if run in named else {}
+        if label not in known:
+            continue
+        panels = ",".join(panel for panel in panels.split(",") if panel in known)
+        at = position_of(known[label]["figures"][column], extreme)
+        if at is not None:
+            found.append({"claim": claim, "run": run, "frame": named[run]["frames"][at], "colour": colour, "panels": panels, "what": what})
+    return found
+
+
+def link_of(pose):
+    panels = f"&panels={pose['panels']}" if pose["panels"] else ""
+    return f"#run={pose['run']}&frame={pose['frame']}&colour={pose['colour']}{panels}&claim={pose['claim']}"
+
+
 def claim_links(results):
     """For each claim, the link that opens its pose."""
     runs = [viewer_data.facts_of(recorded, 1) for recorded in viewer_data.recorded_runs(results)]
-    return {pose["claim"]: viewer_poses.link_of(pose) for pose in viewer_poses.poses_of(runs)}
+    return {pose["claim"]: link_of(pose) for pose in poses_of(runs)}
 
 
 def main(results, file):

@@ -3,40 +3,17 @@ analysis/verdicts/case_record.hpp declares.
 
     case_words.of({"body": "limb", "motion": "bend", "angle_deg": 90, "k_stretch": 0.2})  # limb, bend 90°, k_stretch 0.2
 """
+import pathlib
 import re
+import tomllib
 
 from words import looks
 
-limbs = {"twist": "limb twisted", "bend": "limb bent"}  # whole sweeps
-precisions = {"f32": "single precision", "f64": "double precision"}
-masses = {"equal": "equal masses", "unequal": "unequal masses", "unequal_by_eq_8_9": "unequal masses by Eq. 8\u20139, which are for m = 1",
-          "unit": "unit masses", "lumped": "lumped masses"}
-tolerances = {"residual": "tolerance on the residual", "volume": "tolerance on the volume"}
-guesses = {"previous_frame": "from the previous frame", "rest_pose": "from the rest pose", "rigid_bind": "from the rigid bind"}
-readings = {"as_printed": "as printed", "relative_to_p1": "read relative to p1", "derived_gradients": "with the derived gradients"}
-variants = {"jiggle": "jiggling flesh"}
-formulations = {"displacement": "", "mean_dilatation": "mean dilatation", "taylor_hood": "Taylor-Hood", "pbs": "PBS",
-                "volume_constraints": "PBS, every volume kept", "one_point": "one point", "two_grids": "two grids"}
-factors = {"poisson": "Poisson\u2019s ratio", "young": "Young\u2019s modulus", "slivers_height_kept": "slivers, height kept",
-           "needles_edge_kept": "needles, edge kept", "sign_k_bind": "sign, k_bind",
-           **{name: name for name in ("k_stretch", "k_volume", "k_bind")}}
-laws = {"stable_neo_hookean": "stable neo-Hookean", "neo_hookean": "neo-Hookean", "isochoric_neo_hookean": "isochoric neo-Hookean",
-        "st_venant_kirchhoff": "St Venant\u2013Kirchhoff"}
-features = {"stop_residual_0.1": "stop_residual of 0.1",
-            "error_bar_of_the_reference_orders": "error bar of the reference from the other element order"}
-limits = {"at_least": "at least ", "at_most": "at most ", "more_than": "more than "}
+tables = tomllib.loads((pathlib.Path(__file__).parent / "words.toml").read_text(encoding="utf-8"))  # field -> {value: words}
 
 
 def number(value):
     return f"{value:.4g}"
-
-
-def in_range(case, field, words):
-    """k_stretch 0.05 to 1, or the single value. words: a format with {} for the range."""
-    first, last = case.get(field), case.get(f"{field.removesuffix('_s')}_to{'_s' if field.endswith('_s') else ''}")
-    if first is None:
-        return ""
-    return words.format(number(first) if last is None else f"{number(first)} to {number(last)}")
 
 
 def motion(case):
@@ -50,7 +27,7 @@ def motion(case):
         return f"clip {name} at {number(case['time_s'])} s"
     if "pose" in case:
         return f"clip {name}, {pose_words(case['pose'])}"
-    return name if name in (*limbs, "turn") else f"clip {name}"
+    return name if name in (*tables["sweep"], "turn") else f"clip {name}"
 
 
 def pose_words(pose):
@@ -64,20 +41,19 @@ def in_plain(identifier):
 
 def of_field(field, value):
     """Describes one field: {deformer: lbs} becomes LBS."""
-    known = {"deformer": {name: looks.of(name).name for name in looks.listed}, "precision": precisions, "masses": masses,
-             "tolerance": tolerances, "initial_guess": guesses, "reading": readings, "variant": variants, "factor": factors,
-             "feature": features}
-    return known.get(field, {}).get(value, in_plain(str(value)))
+    if field == "deformer" and value in looks.listed:
+        return looks.of(value).name
+    return tables.get(field, {}).get(value, in_plain(str(value)))
 
 
 def elements(order, formulation):
     """P2 Taylor-Hood. Where there are no finite elements, the order is empty and the formulation names what is in their place."""
-    return " ".join(part for part in (f"P{order}" if order else "", formulations[formulation]) if part)
+    return " ".join(part for part in (f"P{order}" if order else "", tables["formulation"][formulation]) if part)
 
 
 def material(row):
     """stable neo-Hookean, nu = 0.3: the law of a row of verification.csv."""
-    return laws.get(row["material"], row["material"]) + (f", nu = {float(row['poisson']):.6g}" if row["poisson"] else "")
+    return tables["law"].get(row["material"], row["material"]) + (f", nu = {float(row['poisson']):.6g}" if row["poisson"] else "")
 
 
 def posed(row):
@@ -86,21 +62,30 @@ def posed(row):
     return of(case | ({"angle_deg": float(row["angle_deg"])} if row["angle_deg"] else {}))
 
 
+# The settings of a computation in the order in which they are described, with their words and the scale of their unit.
+setting_words = {**{field: ("{}", 1) for field in ("deformer", "variant", "order", "precision", "masses", "load", "ladder", "tolerance",
+                                                   "initial_guess")},
+                 "constraint": ("{} constraints", 1), "reference": ("compared with {}", 1), "vertices": ("{} vertices", 1),
+                 "k_stretch": ("k_stretch {}", 1), "k_bind": ("k_bind {}", 1), "young_pa": ("{} kPa", 1e-3),
+                 "iterations": ("{} iterations", 1), "time_step_s": ("steps of {} ms", 1e3), "factor": ("{}", 1),
+                 "second_factor": ("{}", 1), "equation": ("Eq. {}", 1), "gradient_of": ("{}", 1), "reading": ("{}", 1), "model": ("{}", 1)}
+
+
 def settings(case):
-    """The settings of the computation, without the body and its motion."""
-    of = [of_field(field, case[field]) for field in ("deformer", "variant", "order", "precision", "masses", "load", "ladder", "tolerance",
-                                                     "initial_guess") if field in case]
-    of += [f"{case['constraint']} constraints"] if "constraint" in case else []
-    of += [f"compared with {case['reference']}"] if "reference" in case else []
-    of += [in_range(case, "vertices", "{} vertices"), in_range(case, "k_stretch", "k_stretch {}"), in_range(case, "k_bind", "k_bind {}")]
-    of += [f"{number(case['young_pa'] / 1000)} kPa"] if "young_pa" in case else []
-    of += [in_range(case, "iterations", "{} iterations")]
-    step_ms = {name: case[name] * 1000 for name in ("time_step_s", "time_step_to_s") if name in case}
-    of += [in_range(step_ms, "time_step_s", "steps of {} ms")]
-    of += [" and ".join(of_field("factor", case[field]) for field in ("factor", "second_factor") if field in case)]
-    of += [f"Eq. {case['equation']}"] if "equation" in case else []
-    of += [of_field(field, case[field]) for field in ("gradient_of", "reading", "model") if field in case]
-    return [part for part in of if part]
+    """The settings of the computation, without the body and its motion: k_stretch 0.05 to 1, or the single value."""
+    found = []
+    for field, (words, scale) in setting_words.items():
+        last = case.get("time_step_to_s" if field == "time_step_s" else f"{field}_to")
+        values = [value for value in (case.get(field), last) if value is not None] if field in case else []
+        if words == "{}":
+            shown = [of_field(field.removeprefix("second_"), value) for value in values]
+        else:
+            shown = [value if isinstance(value, str) else number(scale * value) for value in values]
+        if field == "second_factor" and "factor" in case and shown:
+            found[-1] += f" and {shown[0]}"
+        elif shown:
+            found.append(words.format(" to ".join(shown)))
+    return [part for part in found if part]
 
 
 def of(case):
@@ -110,8 +95,8 @@ def of(case):
 
 def run(case):
     """A judged run of a scene: limb twisted; human, clip 01_01, jiggling flesh."""
-    if case.get("body") == "limb" and case.get("motion") in limbs:
-        name = limbs[case["motion"]]
+    if case.get("body") == "limb" and case.get("motion") in tables["sweep"]:
+        name = tables["sweep"][case["motion"]]
     else:
         name = ", ".join(part for part in (case.get("body", ""), motion(case)) if part)
     return name + (f", {of_field('variant', case['variant'])}" if "variant" in case else "")

@@ -7,11 +7,8 @@ from records import shapes
 from words import case_words
 from words.number_words import counted, figure, span, span_of_thousandths
 
-names = {"reproduced": "reproduced", "reproduced_only_for": "reproduced in part", "not_reproduced": "not reproduced",
-         "inconsistent_in_print": "inconsistent in print", "cannot_be_tested_here": "cannot be tested here",
-         "not_computable": "not computable"}
-trials = {"share_of_cells_inverted": "end with inverted tets", "share_of_cells_in_motion": "end in motion",
-          "share_of_cells_at_rest": "end as if undisturbed"}  # these shares are counts of trials
+names = case_words.tables["verdict"]
+trials = case_words.tables["trial"]  # these shares are counts of trials
 
 
 def claims_of(file):
@@ -37,10 +34,6 @@ def bound(low, high):
     if low is None or high is None:
         return f"{low:.4g} or more" if high is None else f"{high:.4g} or less"
     return f"{low:.4g}" if low == high else f"{low:.4g} to {high:.4g}"
-
-
-def bound_of(claim, quantity):
-    return next((bound(of["low"], of["high"]) for of in claim["bounds"] if of["quantity"] == quantity), "")
 
 
 def expected(claim):
@@ -147,9 +140,7 @@ def range_with_intervals(values):
 
 def within(claim):
     """States how many values hold."""
-    if claim["rule"] == "printed":
-        return f"{claim['within']} of {counted(claim['n'], 'value')} consistent"
-    return f"{claim['within']} of {counted(claim['n'], 'value')} within the bound"
+    return f"{claim['within']} of {counted(claim['n'], 'value')} " + ("consistent" if claim["rule"] == "printed" else "within the bound")
 
 
 def farthest(claim, in_short=False):
@@ -168,16 +159,12 @@ def farthest(claim, in_short=False):
 
 def subjects(claim):
     """for limb, man (3 of 4 values); not for lady."""
-    def name(subject):
-        return case_words.of_field(claim["subject"], subject["name"])
-
-    def counted_in(subject):
-        whole = subject["within"] == subject["n"]
-        return name(subject) + ("" if whole else f" ({subject['within']} of {counted(subject['n'], 'value')})")
-
-    holding = [counted_in(subject) for subject in claim["subjects"] if subject["holds"] != "none"]
-    failing = [name(subject) for subject in claim["subjects"] if subject["holds"] == "none"]
-    return "; ".join([f"{words} {', '.join(of)}" for words, of in (("for", holding), ("not for", failing)) if of])
+    groups = {"for": [], "not for": []}
+    for subject in claim["subjects"]:
+        fails, whole = subject["holds"] == "none", subject["within"] == subject["n"]
+        share = "" if fails or whole else f" ({subject['within']} of {counted(subject['n'], 'value')})"
+        groups["not for" if fails else "for"].append(case_words.of_field(claim["subject"], subject["name"]) + share)
+    return "; ".join(f"{words} {', '.join(of)}" for words, of in groups.items() if of)
 
 
 def outcome(claim, in_short=False):
@@ -242,7 +229,7 @@ def differing(claim, reading):
 def verdict_in_full(claim):
     """A list of statements: the verdict with its subjects, the farthest value, other metrics and orders, and what was left out."""
     first = outcome(claim, in_short=True) if claim["verdict"] != "not_reproduced" else subjects(claim)
-    told = [f"{names.get(claim['verdict'], claim['verdict'])}" + (f": {first}" if first else "")]
+    told = [names[claim["verdict"]] + (f": {first}" if first else "")]
     return told + [text for text in (farthest(claim), *by_other_metrics(claim), *by_other_orders(claim), *left_out(claim)) if text]
 
 
@@ -265,11 +252,6 @@ def control_text(of, values):
 # One line per claim, for the README.
 
 most_quantities = 3  # quantities named one by one
-
-
-def expected_in_line(claim):
-    texts = expected(claim)
-    return "; ".join(texts) if len(texts) <= most_quantities else f"{len(texts)} quantities, each within its bound"
 
 
 def measured_in_line(claim):

@@ -20,7 +20,7 @@ sys.path.insert(0, str(root / "paper_figures"))
 
 from drawing import bodies  # noqa: E402
 from records import entries, kept  # noqa: E402
-from viewer import data as viewer_data, page as viewer_html, poses as viewer_poses  # noqa: E402
+from viewer import data as viewer_data, page as viewer_html  # noqa: E402
 
 skipped = 77
 bound_missed = figure_missed = 1  # exit statuses for a bound that does not hold, and for a figure that was not drawn
@@ -88,7 +88,7 @@ def skin_sample_of(frames, label, frame):
 
 
 def largest_error_m(frames):
-    shown = {frames.deformers[label] for label in frames.deformers if label in viewer_data.deformers}
+    shown = set(frames.deformers.values())
     with open(frames.folder / "metrics.csv", newline="") as stream:
         return max(float(row["error_linf_m"]) for row in csv.DictReader(stream) if (row["deformer"], row["variant"]) in shown)
 
@@ -102,7 +102,7 @@ def truth_of(results):
         skins += [skin_sample_of(frames, label, frame) for label in sampled_skins.get(frames.run.name, []) for frame in (last // 2, last)]
     return {"samples": samples, "skins": skins, "undrawn": sorted(undrawn(results)),
             "colours": viewer_html.colours(), "largest_error_m": {frames.run.name: largest_error_m(frames) for frames in runs},
-            "poses": viewer_poses.poses_of([viewer_data.facts_of(frames, 1) for frames in runs])}
+            "poses": viewer_html.poses_of([viewer_data.facts_of(frames, 1) for frames in runs])}
 
 
 def unready():

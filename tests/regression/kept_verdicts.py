@@ -10,7 +10,7 @@ import program
 SOURCE = pathlib.Path(program.SOURCE)
 KEPT = SOURCE / "experiments" / "records" / "full"
 sys.path.insert(0, str(SOURCE / "paper_figures"))
-from readme import claims as readme_claims, findings as readme_findings, part as readme_part  # noqa: E402
+from readme import findings as readme_findings, part as readme_part, tables as readme_tables  # noqa: E402
 from records import kept  # noqa: E402
 from words import sentences  # noqa: E402
 
@@ -38,7 +38,7 @@ class KeptVerdicts(program.ProgramTest):
 
     def test_readme_states_each_claim_and_finding_as_the_records_have_it(self):
         judged = kept.opened(self.judged())
-        for name, lines_of in (("claims", readme_claims.table_lines), ("findings", readme_findings.lines_of)):
+        for name, lines_of in (("claims", readme_tables.claims_table), ("findings", readme_findings.lines_of)):
             _, stated, _ = readme_part.cut(SOURCE / "README.md", name)
             self.assertEqual(stated.strip().split("\n\n")[0].splitlines(), lines_of(judged))
 

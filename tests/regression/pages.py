@@ -13,7 +13,7 @@ import program
 
 SOURCE = pathlib.Path(program.SOURCE)
 sys.path.insert(0, str(SOURCE / "paper_figures"))
-from readme import features as readme_features, pages as readme_pages, part as readme_part  # noqa: E402
+from readme import pages as readme_pages, part as readme_part, tables as readme_tables  # noqa: E402
 from records import kept  # noqa: E402
 
 KEPT = kept.opened(SOURCE / "experiments" / "records" / "full")
@@ -113,8 +113,8 @@ class Pages(program.ProgramTest):
                                  "python3 paper_figures/make_readme.py writes it")
 
     def test_the_table_of_features_is_that_of_the_kept_records(self):
-        _, told, _ = readme_part.cut(readme_features.page, "features")
-        self.assertEqual(told.splitlines()[1:], readme_features.lines_of(KEPT))
+        _, told, _ = readme_part.cut(readme_tables.features_page, "features")
+        self.assertEqual(told.splitlines()[1:], readme_tables.features_lines(KEPT))
 
     def test_links_between_pages_lead_to_files(self):
         pages = [*SOURCE.joinpath("experiments").rglob("*.md"), *SOURCE.glob("*.md"), *SOURCE.joinpath("tests").glob("*.md")]

@@ -59,6 +59,7 @@ def demands_a_rule(case):
 def make(folder, files):
     for name, content in files.items():
         path = folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
         if callable(content):
             content(path)
         elif isinstance(content, bytes):

@@ -1,6 +1,9 @@
 """A tet mesh, skeleton and scene that no part of the project has generated: a tapered box with two bones, written as Gmsh 2.2."""
 import itertools
 
+import mesh_texts
+import program
+
 SKELETON = """[[joint]]
 name = "shoulder"
 parent = ""
@@ -85,13 +88,7 @@ def mesh(cells=(20, 4, 4)):
 
 def write_msh(path, points, tets):
     with open(path, "w", encoding="ascii") as file:
-        file.write("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n%d\n" % len(points))
-        for number, point in enumerate(points, 1):
-            file.write("%d %.17g %.17g %.17g\n" % (number, *point))
-        file.write("$EndNodes\n$Elements\n%d\n" % len(tets))
-        for number, tet in enumerate(tets, 1):
-            file.write("%d 4 2 1 1 %d %d %d %d\n" % (number, *[vertex + 1 for vertex in tet]))
-        file.write("$EndElements\n")
+        file.write(mesh_texts.msh(points, tets))
 
 
 def write_bvh(path, elbow_deg):
@@ -100,3 +97,15 @@ def write_bvh(path, elbow_deg):
         file.write(CLIP % (len(elbow_deg) + 1))
         for angle in [0.0, *elbow_deg]:
             file.write("0 0 0 0 0 0 %.17g 0 0\n" % angle)
+
+
+class ArmTest(program.ProgramTest):
+    """A folder with the arm's mesh, skeleton and scene."""
+    cells, scene_text = (10, 2, 2), SCENE
+
+    def setUp(self):
+        super().setUp()
+        self.points, self.tets = mesh(self.cells)
+        write_msh(self.path("arm.msh"), self.points, self.tets)
+        self.write("arm.skeleton.toml", SKELETON)
+        self.scene = self.write("arm.toml", self.scene_text)

@@ -1,4 +1,7 @@
 """Runs the program under test as a user does."""
+import csv
+import io
+import json
 import os
 import subprocess
 import tempfile
@@ -31,7 +34,22 @@ class ProgramTest(unittest.TestCase):
         with open(self.path(*parts), encoding="utf-8") as file:
             return file.read()
 
-    def succeeds(self, *arguments, **options):
+    def json(self, *parts):
+        return json.loads(self.read(*parts))
+
+    def rows(self, *parts):
+        """The rows of a table."""
+        return list(csv.DictReader(io.StringIO(self.read(*parts))))
+
+    def ends(self, status, *arguments, says="", **options):
+        """The process of `pbskin ARGUMENTS`, which ends with this status and message."""
         process = run(*arguments, **options)
-        self.assertEqual(process.returncode, 0, process.stderr)
+        self.assertEqual(process.returncode, status, process.stdout + process.stderr)
+        self.assertIn(says, process.stderr)
         return process
+
+    def succeeds(self, *arguments, **options):
+        return self.ends(0, *arguments, **options)
+
+    def refuses(self, message, *arguments, **options):
+        return self.ends(2, *arguments, says=message, **options)

@@ -3,6 +3,7 @@ skinning that the file format defines is computed by skin_formula.py, without pb
 
     rig_files.write("scaled_container", path)      # PATH.glb
 """
+import base64
 import json
 import math
 import struct
@@ -53,18 +54,24 @@ def turn(axis, degrees):
     return [*(math.sin(half) * numpy.array(axis, dtype=float) / numpy.linalg.norm(axis)), math.cos(half)]
 
 
-def rotation_matrix(q):
-    x, y, z, w = q
-    return numpy.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-                        [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-                        [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])
+def encoded(document, data):
+    """The text of a document and the bytes of its buffer, each filled up to a multiple of four bytes."""
+    text = json.dumps(document).encode()
+    return text + b" " * (-len(text) % 4), bytes(data) + bytes(-len(data) % 4)
 
 
-def transform(translation=(0, 0, 0), rotation=(0, 0, 0, 1), scale=(1, 1, 1)):
-    matrix = numpy.eye(4)
-    matrix[:3, :3] = rotation_matrix(rotation) * numpy.array(scale)
-    matrix[:3, 3] = translation
-    return matrix
+def glb(document, data, version=2, json_length=None, length=None):
+    """The bytes of a .glb file, with the lengths that it states."""
+    text, data = encoded(document, data)
+    chunks = struct.pack("<I4s", len(text) if json_length is None else json_length, b"JSON") + text
+    chunks += struct.pack("<I4s", len(data), b"BIN\0") + data
+    return struct.pack("<4sII", b"glTF", version, 12 + len(chunks) if length is None else length) + chunks
+
+
+def gltf(document, data):
+    """The text of a .gltf file that contains its buffer, unless the buffer has another address."""
+    uri = "data:application/octet-stream;base64," + base64.b64encode(data).decode()
+    return json.dumps({**document, "buffers": [{"uri": uri, **buffer} for buffer in document["buffers"]]})
 
 
 class Gltf:
@@ -92,18 +99,18 @@ class Gltf:
         self.document["accessors"].append(accessor)
         return len(self.document["accessors"]) - 1
 
-    def node(self, **members):
-        self.document["nodes"].append(members)
-        return len(self.document["nodes"]) - 1
+    def node(self, parent=None, **members):
+        """The index of a new node, below another one or at the top of the scene."""
+        nodes = self.document["nodes"]
+        nodes.append(members)
+        above = self.document["scenes"][0]["nodes"] if parent is None else nodes[parent].setdefault("children", [])
+        above.append(len(nodes) - 1)
+        return len(nodes) - 1
 
-    def glb(self):
-        document = {key: value for key, value in self.document.items() if value or key == "nodes"}
-        document["buffers"] = [{"byteLength": len(self.bytes)}]
-        text = json.dumps(document).encode()
-        text += b" " * (-len(text) % 4)
-        binary = bytes(self.bytes) + bytes(-len(self.bytes) % 4)
-        chunks = struct.pack("<II", len(text), 0x4E4F534A) + text + struct.pack("<II", len(binary), 0x004E4942) + binary
-        return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks
+    def written(self):
+        """The document and the bytes of its buffer."""
+        document = {key: value for key, value in self.document.items() if value != []}
+        return {**document, "buffers": [{"byteLength": len(self.bytes)}]}, self.bytes
 
 
 def quantised(weights):
@@ -139,7 +146,7 @@ def add_bead(gltf, unit):
     points, triangles = tube()
     points = 0.008 * points + numpy.array([0.6 * LENGTH, 0.0, 0.0])
     mesh = add_mesh(gltf, points, triangles, numpy.tile([0.0, 0.0, 1.0], (len(points), 1)), unit, False)
-    gltf.document["scenes"][0]["nodes"].append(gltf.node(name="bead", mesh=mesh, skin=0))
+    gltf.node(name="bead", mesh=mesh, skin=0)
 
 
 def add_animation(gltf, name, channels):
@@ -163,45 +170,32 @@ def bend(gltf, joints, first_deg=0.0):
 
 def rig(containers=(), unit=1.0, compact=False, halves=1, rest_deg=0.0, mesh_name="body", animations=("Bend",), extra=(),
         shifted_m=(0.0, 0.0, 0.0), first_deg=None, tiny_tip=False):
-    """The bytes of a .glb file.
+    """The document and the bytes of the buffer of a glTF file.
 
     containers: transforms of the nodes above the root joint, outermost first. unit: metres per unit of the points and joints. rest_deg:
     angle of the elbow in the file's rest pose, which then is not the bind pose. extra: further animations, as add_animation takes them.
     shifted_m: distance of the joints from the tube. first_deg: angle of the elbow in the first frame. tiny_tip: the tip
     moves a bead inside the tube alone.
     """
-    gltf = Gltf()
-    parents = []
+    gltf, parent, joints = Gltf(), None, []
     for name, members in containers:
-        node = gltf.node(name=name, **members)
-        if parents:
-            gltf.document["nodes"][parents[-1]]["children"] = [node]
-        else:
-            gltf.document["scenes"][0]["nodes"].append(node)
-        parents.append(node)
-    joints = []
+        parent = gltf.node(parent, name=name, **members)
     places = numpy.array(PLACES) + shifted_m
     for number, (name, place) in enumerate(zip(JOINTS, places)):
-        offset = place - (places[number - 1] if number else 0.0)
-        members = {"name": name, "translation": (offset / unit).tolist()}
+        members = {"name": name, "translation": ((place - (places[number - 1] if number else 0.0)) / unit).tolist()}
         if name == "elbow" and rest_deg:
             members["rotation"] = turn((0, 0, 1), rest_deg)
-        joints.append(gltf.node(**members))
-        if number:
-            gltf.document["nodes"][joints[-2]].setdefault("children", []).append(joints[-1])
-    if parents:
-        gltf.document["nodes"][parents[-1]].setdefault("children", []).append(joints[0])
-    else:
-        gltf.document["scenes"][0]["nodes"].append(joints[0])
-    bind = [numpy.linalg.inv(transform(place / unit)) for place in places]
-    gltf.document["skins"].append({"joints": joints, "inverseBindMatrices": gltf.put([m.T.reshape(16) for m in bind], "MAT4", FLOAT)})
+        parent = gltf.node(parent, **members)
+        joints.append(parent)
+    bind = [[1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, *(0.0 - place / unit), 1] for place in places]  # inverse, column by column
+    gltf.document["skins"].append({"joints": joints, "inverseBindMatrices": gltf.put(bind, "MAT4", FLOAT)})
     for half in range(halves):
         begin, end = LENGTH * half / halves, LENGTH * (half + 1) / halves
         overlap = 0.05 if halves > 1 else 0.0
         points, triangles = tube(begin - overlap * (half > 0), end)
         weights = without_tip(weights_of(points)) if tiny_tip else weights_of(points)
         mesh = add_mesh(gltf, points, triangles, weights, unit, compact)
-        gltf.document["scenes"][0]["nodes"].append(gltf.node(name=mesh_name, mesh=mesh, skin=0))
+        gltf.node(name=mesh_name, mesh=mesh, skin=0)
     if tiny_tip:
         add_bead(gltf, unit)
     for name in animations:
@@ -216,7 +210,7 @@ def rig(containers=(), unit=1.0, compact=False, halves=1, rest_deg=0.0, mesh_nam
                 (joints[0], "translation", [0.0, 0.6], [[0, 0, 0], [0, 0.3 / unit, 0]], "STEP")])
     for name, channels in extra:
         add_animation(gltf, name, [(joints[joint], *channel) for joint, *channel in channels])
-    return gltf.glb()
+    return gltf.written()
 
 
 quarter = turn((1, 0, 0), -90)
@@ -237,7 +231,7 @@ VARIANTS = {
 }
 
 
-def write(variant, path):
+def write(variant, path, **options):
     with open(path, "wb") as file:
-        file.write(rig(**VARIANTS[variant]))
+        file.write(glb(*rig(**{**VARIANTS[variant], **options})))
     return path

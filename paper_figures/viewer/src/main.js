@@ -14,7 +14,7 @@ import { help, listen } from "./input.js";
 import { draw_figures, draw_legend, note_of, palette_of, ratio_shades } from "./legend.js";
 import { Panel } from "./panel.js";
 import { State, hash_of, no_surface_because, panels_for, play, pose_of } from "./state.js";
-import { Sight, Views, is_wide } from "./views.js";
+import { Views, is_wide } from "./views.js";
 
 // Connects the parts: state on one side; panels, legend and address on the other.
 class Viewer {
@@ -50,7 +50,6 @@ class Viewer {
         this.root.replaceChildren(links_to(this.data.poses), this.claim, ...this.controls.bars, this.legend, this.panels_element, this.note,
                                   element("p", { class: "vw-small" }, help));
         this.views = new Views(this.canvas, () => this.redraw());
-        this.sight = new Sight(this.views);
         listen(this.root, this.actions());
         new ResizeObserver(() => this.redraw()).observe(this.panels_element);
     }
@@ -94,7 +93,7 @@ class Viewer {
         if (changed.has("shifting") || changed.has("run") || changed.has("panels")) this.views.two_fingers(now.shifting);
         this.controls.update(run, now);
         draw_legend(this.legend, this.data, run, now);
-        this.sight.update(run, now, changed);
+        this.views.update(run, now, changed);
         this.note.textContent = note_of(run, this.data.every, now.at);
         this.show_claim(now.claim);
         this.redraw();
@@ -155,7 +154,7 @@ class Viewer {
             turn: (around, up) => this.moved(() => this.views.turn(around, up)),
             shift: (right, up) => this.moved(() => this.views.shift(right, up)),
             zoom: (factor) => this.moved(() => this.views.zoom(factor)),
-            reset: () => this.moved(() => this.sight.first(this.run, now())),
+            reset: () => this.moved(() => this.views.first(this.run, now())),
         };
     }
 

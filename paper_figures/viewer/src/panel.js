@@ -3,6 +3,8 @@ import { BufferAttribute, BufferGeometry, DoubleSide, DynamicDrawUsage, Group, M
 import { LineMaterial } from "three/addons/lines/LineMaterial.js";
 import { LineSegments2 } from "three/addons/lines/LineSegments2.js";
 import { LineSegmentsGeometry } from "three/addons/lines/LineSegmentsGeometry.js";
+import fragment_shader from "./body.frag.glsl";
+import vertex_shader from "./body.vert.glsl";
 import { area_normal, triangles_of, vertex_normals } from "./faces.js";
 import { distance_shade } from "./legend.js";
 import { draws_surface } from "./state.js";
@@ -64,37 +66,7 @@ export class Panel {
     }
 }
 
-// One deformer's body in three dimensions: the visible faces, shaded and coloured. Each face has its own corners. The light comes from the
-// upper left of the camera, with a minimum brightness so that colours match the legend. Faces of the cut show the thin outline of their
-// tets in a shade of their own colour, so that small faces show it too.
-const vertex_shader = `
-attribute vec3 colour;
-attribute float is_cut;
-varying vec3 shade, towards;
-varying vec3 corner;
-varying float outlined;
-void main() {
-    int at = gl_VertexID % 3;
-    corner = vec3(at == 0, at == 1, at == 2);
-    shade = colour;
-    outlined = is_cut;
-    towards = normalMatrix * normal;
-    gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
-}`;
-const fragment_shader = `
-uniform float brightness, opacity;
-varying vec3 shade, towards;
-varying vec3 corner;
-varying float outlined;
-void main() {
-    vec3 n = normalize(towards) * (gl_FrontFacing ? 1.0 : -1.0);
-    float light = max(dot(n, normalize(vec3(-0.5, 0.7, 1.0))), 0.0) + 0.35 * max(dot(n, normalize(vec3(0.8, 0.1, 0.6))), 0.0);
-    vec3 lit = shade * min(brightness + (1.0 - brightness) * light, 1.0);
-    vec3 inside = smoothstep(vec3(0.0), fwidth(corner), corner);
-    float line = outlined * (1.0 - min(inside.x, min(inside.y, inside.z)));
-    gl_FragColor = vec4(mix(lit, 0.72 * lit, line), opacity);
-}`;
-
+// One deformer's body in three dimensions: the visible faces, shaded and coloured. Each face has its own corners.
 function copy(to, at, from, place) {
     for (let axis = 0; axis < 3; ++axis) to[3 * at + axis] = from[3 * place + axis];
 }

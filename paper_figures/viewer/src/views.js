@@ -60,8 +60,21 @@ export class Views {
         return box.height > 0 ? box.width / box.height : 1;
     }
 
-    // Moves the camera with the body.
-    follow(step) {
+    // Points the camera at the body of a new run, and moves it with the body.
+    update(run, now, changed) {
+        if (run.name !== this.run_name) return this.first(run, now);
+        const middle = middle_of(run, now.at);
+        if (changed.has("at") && now.follow) this.move(middle.clone().sub(this.middle));
+        if (changed.has("at") || !now.follow) this.middle = middle;
+    }
+
+    first(run, now) {
+        this.run_name = run.name;
+        this.middle = middle_of(run, now.at);
+        this.look_at(this.middle, cloud_of(run, now.panels[0]));
+    }
+
+    move(step) {
         this.target.add(step);
         this.camera.position.add(step);
     }
@@ -79,7 +92,7 @@ export class Views {
         const height = 2 * this.camera.position.distanceTo(this.target) * Math.tan(this.camera.fov / 2 * Math.PI / 180);
         this.camera.updateMatrix();
         const [across, upwards] = [0, 1].map((column) => new Vector3().setFromMatrixColumn(this.camera.matrix, column));
-        this.follow(across.multiplyScalar(right * height).addScaledVector(upwards, up * height));
+        this.move(across.multiplyScalar(right * height).addScaledVector(upwards, up * height));
     }
 
     zoom(factor) {
@@ -120,29 +133,6 @@ export class Views {
         const bytes = new Uint8Array(4 * part[2] * part[3]);
         context.readPixels(...part, context.RGBA, context.UNSIGNED_BYTE, bytes);
         return bytes;
-    }
-}
-
-export class Sight {
-    constructor(views) {
-        this.views = views;
-    }
-
-    update(run, now, changed) {
-        if (run.name !== this.run_name) {
-            this.first(run, now);
-        } else if (changed.has("at") && now.follow) {
-            const middle = middle_of(run, now.at);
-            this.views.follow(middle.clone().sub(this.middle));
-            this.middle = middle;
-        }
-        if (!now.follow) this.middle = middle_of(run, now.at);
-    }
-
-    first(run, now) {
-        this.run_name = run.name;
-        this.middle = middle_of(run, now.at);
-        this.views.look_at(this.middle, cloud_of(run, now.panels[0]));
     }
 }
 

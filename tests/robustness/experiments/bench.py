@@ -24,17 +24,14 @@ def numbers(value, path=""):
         yield path, value
 
 
-class Bench(program.ProgramTest):
+class Bench(foreign_arm.ArmTest):
     def refuses(self, message, *arguments):
-        process = program.run("bench", "--quick", *arguments)
-        self.assertEqual(process.returncode, 2, process.stderr)
-        self.assertIn(message, process.stderr)
+        super().refuses(message, "bench", "--quick", *arguments)
 
     def record(self, *arguments):
         return json.loads(self.succeeds("bench", "--quick", "--json", *arguments).stdout)
 
     def arm(self):
-        foreign_arm.write_msh(self.path("arm.msh"), *foreign_arm.mesh((10, 2, 2)))
         return self.path("arm.msh")
 
     def test_help(self):
@@ -104,8 +101,7 @@ class Bench(program.ProgramTest):
 
     def test_the_record_goes_into_a_folder(self):
         process = self.succeeds("bench", "--quick", "--mesh", self.arm(), "-o", self.path("out"))
-        with open(self.path("out", "bench.json"), encoding="utf-8") as file:
-            self.assertIn("results", json.load(file))
+        self.assertIn("results", self.json("out", "bench.json"))
         for word in ("ordered", "grouped", "poses", "ratio_to_plain_spread", "ratio_to_plain", "lbs", "xpbd", "gb_s"):
             self.assertIn(word, process.stdout)
 

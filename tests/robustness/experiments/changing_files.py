@@ -10,23 +10,22 @@ import threading
 import unittest
 
 import bad_case
-import bad_characters
-import bad_surfaces
 import foreign_arm
-import input_cases
+import mesh_texts
 import run_records
-from bad_tets import NOISE
+import sound_files
+from sound_files import COMMON, NOISE
 
 ROUNDS = 3
 CUTS = (0, 1 / 3, 1 / 2)
 RUN = ["--set", "output.frames_every=2", "-o", "out"]
-READ = {"x.vtu": (input_cases.COMMON["arm.vtu"], ["measure", "x.vtu", "x.vtu", "--csv", "out/figures.csv"]),
-        "x.obj": (bad_surfaces.obj(200 * bad_surfaces.POINTS), ["mesh", "x.obj", "-o", "out/t.vtu", "--vertices", "150"]),
-        "y.vtu": (input_cases.COMMON["arm.vtu"], ["run", "arm.toml", *RUN, "--set", "character.mesh=y.vtu"]),
+READ = {"x.vtu": (COMMON["arm.vtu"], ["measure", "x.vtu", "x.vtu", "--csv", "out/figures.csv"]),
+        "x.obj": (mesh_texts.obj(200 * sound_files.CORNERS, sound_files.FACES), ["mesh", "x.obj", "-o", "out/t.vtu", "--vertices", "150"]),
+        "y.vtu": (COMMON["arm.vtu"], ["run", "arm.toml", *RUN, "--set", "character.mesh=y.vtu"]),
         "y.skeleton.toml": (foreign_arm.SKELETON, ["run", "arm.toml", *RUN, "--set", "character.skeleton=y.skeleton.toml"]),
-        "x.bvh": (input_cases.COMMON["good.bvh"], ["run", "clip.toml", *RUN, "--set", "motion.clip=x.bvh"]),
-        "x.csv": (bad_characters.WEIGHTS, ["run", "arm.toml", *RUN, "--set", "skinning.weights=x.csv"]),
-        "x.toml": (input_cases.COMMON["arm.toml"], ["run", "x.toml", *RUN])}
+        "x.bvh": (COMMON["good.bvh"], ["run", "clip.toml", *RUN, "--set", "motion.clip=x.bvh"]),
+        "x.csv": (sound_files.WEIGHTS, ["run", "arm.toml", *RUN, "--set", "skinning.weights=x.csv"]),
+        "x.toml": (COMMON["arm.toml"], ["run", "x.toml", *RUN])}
 
 
 def put(path, content):
@@ -67,7 +66,7 @@ class ChangingFiles(unittest.TestCase):
         temporary = tempfile.TemporaryDirectory()
         self.addCleanup(temporary.cleanup)
         self.folder, self.chance = pathlib.Path(temporary.name), random.Random(2014)
-        bad_case.make(self.folder, input_cases.COMMON)
+        bad_case.make(self.folder, COMMON)
 
     def run_once(self, command):
         """(exit status, stderr, the files that it has written)"""

@@ -2,7 +2,6 @@
 baseline. Reference: the contract in experiments/command_line/README.md; whether a bound holds is decided here, from the values of the
 frames."""
 import csv
-import json
 import os
 import re
 import unittest
@@ -27,30 +26,30 @@ why = "a test"
 VOLUME = ("arm", 'volume, 100 % <of> & "rest"')
 
 
-class Check(program.ProgramTest):
+class Check(foreign_arm.ArmTest):
     def setUp(self):
         super().setUp()
-        foreign_arm.write_msh(self.path("arm.msh"), *foreign_arm.mesh((10, 2, 2)))
-        self.write("arm.skeleton.toml", foreign_arm.SKELETON)
-        self.write("arm.toml", foreign_arm.SCENE)
         self.bounds = self.write("check.toml", BOUNDS % "-60.0")
         self.baseline = self.path("baseline.csv")
         self.environment = {name: value for name, value in os.environ.items() if not name.startswith("GITHUB_")}
 
-    def check(self, *arguments, **environment):
-        return program.run("check", "--bounds", self.bounds, "-o", self.path("out"), *arguments, env={**self.environment, **environment})
+    def check(self, status, *arguments, **environment):
+        return self.ends(status, "check", "--bounds", self.bounds, "-o", self.path("out"), *arguments,
+                         env={**self.environment, **environment})
 
-    def frames(self):
-        with open(self.path("out", "arm", "metrics.csv"), encoding="utf-8", newline="") as file:
-            return [float(row["volume_change_pct"]) for row in csv.DictReader(file) if row["deformer"] == "lbs"]
+    def volume_changes(self, *folder, deformer="lbs"):
+        return [float(row["volume_change_pct"]) for row in self.rows(*folder, "metrics.csv") if row["deformer"] == deformer]
 
-    def volume_case(self):
-        return check_records.cases(self.path("volume.xml"))[VOLUME]
+    def message_of(self, kind, *key):
+        """The message of the failure or error of a case."""
+        return check_records.cases(self.path("volume.xml"))[key].find(kind).get("message")
+
+    def write_bounds_with(self, *settings):
+        self.write("check.toml", (BOUNDS % "-60.0").replace('name = "arm"', f'name = "arm"\nset = {list(settings)}'))
 
     def altered_baseline(self, column, change):
-        """Replaces a value in the row of pbs in frame 3; returns the previous text of the file."""
-        with open(self.baseline, encoding="utf-8", newline="") as file:
-            rows = list(csv.DictReader(file))
+        """Replaces a value in the row of pbs in frame 3."""
+        rows = self.rows("baseline.csv")
         for row in rows:
             if (row["deformer"], row["frame"]) == ("pbs", "3"):
                 row[column] = repr(change(float(row[column])))
@@ -67,35 +66,30 @@ class Check(program.ProgramTest):
         failed = check_records.failed(self.path("own.xml"))
         self.assertEqual(failed, check_records.baselines_of(other_meshes, self.path("own.xml")), process.stderr)
         self.assertEqual(process.returncode, 1 if failed else 0, process.stderr)
-        with open(self.path("own", "check.json"), encoding="utf-8") as file:
-            self.assertEqual(json.load(file)["outcome"]["FAILS"], len(failed))
+        self.assertEqual(self.json("own", "check.json")["outcome"]["FAILS"], len(failed))
         volume = check_records.cases(self.path("own.xml"))["human_01_01", "volume kept in the jump"].find("system-out").text
         least, largest = map(float, re.search(r"volume_change_pct of pbs = (\S+) to (\S+) %", volume).groups())
-        with open(self.path("own", "human_01_01", "metrics.csv"), encoding="utf-8", newline="") as file:
-            change = [float(row["volume_change_pct"]) for row in csv.DictReader(file) if row["deformer"] == "pbs"]
+        change = self.volume_changes("own", "human_01_01", deformer="pbs")
         self.assertAlmostEqual(least, min(change), places=4)
         self.assertAlmostEqual(largest, max(change), places=4)
 
     def test_a_bound_that_holds(self):
-        process = self.check("--junit", self.path("volume.xml"))
+        process = self.check(0, "--junit", self.path("volume.xml"))
         # the arm's tets are reoriented, with a warning
-        errors = process.stderr.count("pbskin:") - process.stderr.count("pbskin: warning:")
-        self.assertEqual((process.returncode, errors), (0, 0), process.stderr)
-        case = self.volume_case()
-        self.assertEqual((case.get("classname"), case.find("failure")), ("arm", None))
+        self.assertEqual(process.stderr.count("pbskin:"), process.stderr.count("pbskin: warning:"), process.stderr)
+        self.assertIsNone(check_records.cases(self.path("volume.xml"))[VOLUME].find("failure"))
         root = ElementTree.parse(self.path("volume.xml")).getroot()
         self.assertEqual([root.get(key) for key in ("tests", "failures", "errors", "skipped")], ["2", "0", "0", "0"])
         self.assertGreater(float(root.get("time")), 0.0)
 
     def test_a_bound_tightened_until_it_fails_names_the_frame(self):
-        self.check()
-        change = self.frames()
+        self.check(0)
+        change = self.volume_changes("out", "arm")
         worst = change.index(min(change))
         self.assertGreater(worst, 0)
         self.write("check.toml", BOUNDS % (change[worst] + 1e-3))
-        process = self.check("--junit", self.path("volume.xml"), "--github", GITHUB_STEP_SUMMARY=self.path("summary.md"))
-        self.assertEqual(process.returncode, 1, process.stderr)
-        failure = self.volume_case().find("failure").get("message")
+        process = self.check(1, "--junit", self.path("volume.xml"), "--github", GITHUB_STEP_SUMMARY=self.path("summary.md"))
+        failure = self.message_of("failure", *VOLUME)
         found = re.match(r"frame (\d+): volume_change_pct of lbs = (\S+) %, expected at least", failure)
         self.assertEqual(int(found[1]), worst)
         self.assertAlmostEqual(float(found[2]), change[worst], places=3)
@@ -105,85 +99,77 @@ class Check(program.ProgramTest):
         self.assertIn("| FAILS | arm |", self.read("summary.md"))
 
     def test_a_bound_holds_up_to_its_very_value_and_in_its_frames_alone(self):
-        self.check()
-        change = self.frames()
+        self.check(0)
+        change = self.volume_changes("out", "arm")
         self.write("check.toml", BOUNDS % repr(min(change)))
-        self.assertEqual(self.check().returncode, 0)
+        self.check(0)
         self.write("check.toml", BOUNDS % "-1e-9" + "frames = [0, 0]\n")
-        self.assertEqual(self.check().returncode, 0)
+        self.check(0)
 
     def test_on_github_annotations_come_by_themselves(self):
         self.write("check.toml", BOUNDS % "0.5")
-        self.assertNotIn("::error", self.check().stdout)
-        self.assertIn("::error", self.check(GITHUB_ACTIONS="true").stdout)
+        self.assertNotIn("::error", self.check(1).stdout)
+        self.assertIn("::error", self.check(1, GITHUB_ACTIONS="true").stdout)
 
     def test_a_baseline_of_the_same_figures_holds(self):
-        self.assertEqual(self.check("--write-baseline", self.baseline).returncode, 0)
-        process = self.check("--baseline", self.baseline)
-        self.assertEqual(process.returncode, 0, process.stderr)
+        self.check(0, "--write-baseline", self.baseline)
+        process = self.check(0, "--baseline", self.baseline)
         self.assertIn("baseline of pbs", process.stdout)
 
     def test_another_accuracy_or_count_fails_and_wall_time_does_not(self):
-        self.check("--write-baseline", self.baseline)
+        self.check(0, "--write-baseline", self.baseline)
         kept = self.read("baseline.csv")
         for column, change in (("volume_change_pct", lambda v: v + 2e-4), ("tets", lambda v: v + 1), ("inverted_tets", lambda v: v + 1),
                                ("j_min", lambda v: float("nan"))):
             self.altered_baseline(column, change)
-            process = self.check("--baseline", self.baseline, "--junit", self.path("volume.xml"))
-            self.assertEqual(process.returncode, 1, column)
-            failure = check_records.cases(self.path("volume.xml"))["arm", "baseline of pbs"].find("failure").get("message")
+            self.check(1, "--baseline", self.baseline, "--junit", self.path("volume.xml"))
+            failure = self.message_of("failure", "arm", "baseline of pbs")
             self.assertRegex(failure, r"^frame 3: %s was .*, is " % column)
             self.write("baseline.csv", kept)
         self.altered_baseline("volume_change_pct", lambda v: v + 5e-5)  # half of its tolerance
-        self.assertEqual(self.check("--baseline", self.baseline).returncode, 0)
+        self.check(0, "--baseline", self.baseline)
         self.altered_baseline("step_ms", lambda v: 1e3 * v)
-        process = self.check("--baseline", self.baseline)
-        self.assertEqual(process.returncode, 0, process.stderr)
+        process = self.check(0, "--baseline", self.baseline)
         self.assertRegex(process.stdout, r"wall time of pbs +\S+ ms per step, \S+ of the baseline's")
 
     def test_a_scene_of_the_baseline_that_is_gone_fails(self):
-        self.check("--write-baseline", self.baseline)
+        self.check(0, "--write-baseline", self.baseline)
         row = self.read("baseline.csv").splitlines()[-1]
         self.write("baseline.csv", self.read("baseline.csv") + row.replace("arm,", "leg,", 1) + "\n")
-        process = self.check("--baseline", self.baseline, "--junit", self.path("volume.xml"))
-        self.assertEqual(process.returncode, 1, process.stderr)
+        self.check(1, "--baseline", self.baseline, "--junit", self.path("volume.xml"))
         self.assertEqual(check_records.failed(self.path("volume.xml")), {("leg", "baseline")})
 
     def test_a_report_that_cannot_be_written_is_refused_before_the_work(self):
         for arguments, environment in ((("--junit", self.path("none", "x.xml")), {}),
                                        (("--write-baseline", self.path("none", "x.csv")), {}),
                                        (("--github",), {"GITHUB_STEP_SUMMARY": self.path("none", "summary.md")})):
-            process = self.check(*arguments, **environment)
-            self.assertEqual(process.returncode, 2, arguments)
-            self.assertIn("cannot be written", process.stderr)
+            self.check(2, *arguments, **environment, says="cannot be written")
             self.assertFalse(os.path.exists(self.path("out", "arm")), arguments)
-        self.assertEqual(self.check("--junit", self.path("out", "volume.xml")).returncode, 0)  # in the folder that the check creates
+        self.check(0, "--junit", self.path("out", "volume.xml"))  # in the folder that the check creates
 
     def test_bounds_whose_name_is_not_utf8_lose_no_record(self):
         own = os.fsdecode(os.fsencode(self.path("che")) + b"\xff.toml")
         os.rename(self.bounds, own)
         self.bounds = own
-        self.assertEqual(self.check().returncode, 0)
-        with open(self.path("out", "check.json"), encoding="utf-8") as file:
-            self.assertEqual(json.load(file)["scenes"][0]["cases"][0]["file"], self.path("che\ufffd.toml"))
+        self.check(0)
+        self.assertEqual(self.json("out", "check.json")["scenes"][0]["cases"][0]["file"], self.path("che\ufffd.toml"))
 
     def test_a_deformer_or_frame_that_is_gone_fails(self):
-        self.check("--write-baseline", self.baseline)
+        self.check(0, "--write-baseline", self.baseline)
         for change in ('deformers.use=["lbs"]', "motion.frames=4"):
-            self.write("check.toml", (BOUNDS % "-60.0").replace('name = "arm"', "name = \"arm\"\nset = ['%s']" % change))
-            self.assertEqual(self.check("--baseline", self.baseline).returncode, 1, change)
+            self.write_bounds_with(change)
+            self.check(1, "--baseline", self.baseline)
 
     def test_bad_baselines_and_bounds(self):
-        self.check("--write-baseline", self.baseline)
+        self.check(0, "--write-baseline", self.baseline)
         kept, good = self.read("baseline.csv"), BOUNDS % "-60.0"
         for text, message in (("", "the file is empty"), ("a,b\n1,2\n", "missing: expected a file of `pbskin check --write-baseline`"),
                               (kept[:-20], "cut off"), (kept.replace("arm,pbs,3,", "arm,pbs,three,"), "three"),
                               (kept + kept.splitlines()[1] + "\n", "expected each frame of a scene's deformer once: it is in line 2 too")):
             self.write("baseline.csv", text)
-            process = self.check("--baseline", self.baseline)
-            self.assertEqual(process.returncode, 2, process.stderr)
+            process = self.check(2, "--baseline", self.baseline)
             self.assertRegex(process.stderr, r"pbskin: \S*baseline\.csv.*" + re.escape(message))
-        self.assertEqual(self.check("--baseline", self.path("none.csv")).returncode, 2)
+        self.check(2, "--baseline", self.path("none.csv"))
         for old, new, message in (("volume_change_pct", "volume_chnage_pct", ":9: metric = volume_chnage_pct: unknown metric; the nearest"),
                                   ("volume_change_pct", "step_ms", ":9: metric = step_ms: wall time is tracked, never judged"),
                                   ("volume_change_pct", "error_l2_pct", ":5: metric = error_l2_pct: the scene does not measure it"),
@@ -207,36 +193,29 @@ class Check(program.ProgramTest):
                                   ("[[check.bound]]", "[[check.bond]]", ":5: bond: unknown key"), ("[[check.scene]]", "[[", ":2"),
                                   ('"arm.toml"', '"leg.toml"', "check.toml:2: scene = leg.toml: leg.toml: cannot be read")):
             self.write("check.toml", good.replace(old, new))
-            process = self.check()
-            self.assertEqual(process.returncode, 2, (new, process.stderr))
+            process = self.check(2)
             self.assertRegex(process.stderr, message)
 
     def test_a_scene_without_its_body_is_left_out_and_said_so(self):
         self.write("check.toml", BOUNDS % "-60.0" + '[[check.scene]]\nscene = "man_01_01"\nneeds = "man"\n')
         empty = {"PBSKIN_CACHE": self.path("cache")}  # fetched bodies are in the cache
-        process = self.check("--junit", self.path("volume.xml"), "--github", "--require-all", **empty)
-        self.assertEqual(process.returncode, 2, process.stderr)
-        process = self.check("--junit", self.path("volume.xml"), "--github", **empty)
-        self.assertEqual(process.returncode, 0, process.stderr)
+        self.check(2, "--junit", self.path("volume.xml"), "--github", "--require-all", **empty)
+        process = self.check(0, "--junit", self.path("volume.xml"), "--github", **empty)
         cases = check_records.cases(self.path("volume.xml"))
         self.assertEqual([key for key, case in cases.items() if case.find("skipped") is not None], [("man_01_01", "runs")])
         self.assertIn("::warning file=", process.stdout)
 
     def test_a_pose_that_is_not_reached_is_exit_3_and_an_error_in_junit(self):
-        change = "set = ['pbs.stop_residual=1e-12', 'pbs.iterations=2']"
-        self.write("check.toml", (BOUNDS % "-60.0").replace('name = "arm"', 'name = "arm"\n' + change))
-        process = self.check("--junit", self.path("volume.xml"))
-        self.assertEqual(process.returncode, 3, process.stderr)
-        error = check_records.cases(self.path("volume.xml"))["arm", "runs"].find("error").get("message")
+        self.write_bounds_with("pbs.stop_residual=1e-12", "pbs.iterations=2")
+        process = self.check(3, "--junit", self.path("volume.xml"))
+        error = self.message_of("error", "arm", "runs")
         self.assertRegex(error, r"^pose not reached: pbs is not converged in frame 0: worst tet \d+ of volume ratio")
         self.assertIn(error, process.stderr)
 
     def test_breakdown_is_exit_3_and_an_error_in_junit(self):
-        change = "set = ['pbs.gravity_m_s2=[0.0,-1e300,0.0]', 'pbs.jiggle.k_stretch=0.9']"
-        self.write("check.toml", (BOUNDS % "-60.0").replace('name = "arm"', 'name = "arm"\n' + change))
-        process = self.check("--junit", self.path("volume.xml"))
-        self.assertEqual(process.returncode, 3, process.stderr)
-        self.assertIn("not finite", check_records.cases(self.path("volume.xml"))["arm", "runs"].find("error").get("message"))
+        self.write_bounds_with("pbs.gravity_m_s2=[0.0,-1e300,0.0]", "pbs.jiggle.k_stretch=0.9")
+        process = self.check(3, "--junit", self.path("volume.xml"))
+        self.assertIn("not finite", self.message_of("error", "arm", "runs"))
 
 
 if __name__ == "__main__":

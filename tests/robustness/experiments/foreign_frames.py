@@ -1,10 +1,8 @@
 """`pbskin measure` on frames that other programs have written: VTK's Python (.vtu, .vtk) and Gmsh's own library (.msh 4.1, binary).
 Reference: a body stretched by s along one axis has 1 + s times its volume."""
 import ctypes.util
-import csv
 import os
 import unittest
-import xml.etree.ElementTree as ElementTree
 
 import vtk
 
@@ -42,36 +40,28 @@ class ForeignFrames(program.ProgramTest):
         for number, percent in percents.items():
             write_vtk(self.path(pattern % number), stretched(percent), TETS)
 
-    def rows(self):
-        with open(self.path("volume.csv"), encoding="utf-8", newline="") as file:
-            return list(csv.DictReader(file))
-
-    def measure(self, *arguments):
-        return program.run("measure", "rest.msh", *arguments, cwd=self.folder,
-                           env={name: value for name, value in os.environ.items() if not name.startswith("GITHUB_")})
+    def measure(self, status, *arguments, **expected):
+        return self.ends(status, "measure", "rest.msh", *arguments, cwd=self.folder, **expected,
+                         env={name: value for name, value in os.environ.items() if not name.startswith("GITHUB_")})
 
     def refuses(self, message, *arguments):
-        process = self.measure(*arguments)
-        self.assertEqual(process.returncode, 2, process.stderr)
-        self.assertIn(message, process.stderr)
+        self.measure(2, *arguments, says=message)
 
     def test_a_numbered_sequence_a_glob_and_a_folder(self):
         self.frames({number: 0.1 * number for number in range(8, 12)})
         os.mkdir(self.path("out"))
         self.frames({number: 0.1 * number for number in range(8, 12)}, os.path.join("out", "arm_%d.vtk"))
         for frames in ("arm_%04d.vtu", "arm_*.vtu", "out"):
-            process = self.measure(frames, "--csv", "volume.csv")
-            self.assertEqual(process.returncode, 0, process.stderr)
-            change = [float(row["volume_change_pct"]) for row in self.rows()]
+            self.measure(0, frames, "--csv", "volume.csv")
+            change = [float(row["volume_change_pct"]) for row in self.rows("volume.csv")]
             self.assertEqual([round(value, 5) for value in change], [0.8, 0.9, 1.0, 1.1])  # the .vtu has single precision, 1e-7
 
     def test_a_bound_that_fails_names_the_frame(self):
         self.frames({1: 0.2, 2: -0.9, 3: 0.6})
-        process = self.measure("arm_%04d.vtu", "--max-volume-change", "0.5", "--max-inverted", "0", "--junit", "volume.xml", "--github")
-        self.assertEqual(process.returncode, 1)
+        process = self.measure(1, "arm_%04d.vtu", "--max-volume-change", "0.5", "--max-inverted", "0", "--junit", "volume.xml", "--github")
         self.assertIn("pbskin: arm_0002.vtu: |volume_change_pct| = 0.9 > 0.5", process.stderr)
         message = "frame arm_0002.vtu: |volume_change_pct| = 0.9, expected at most 0.5 (2 of 3 frames outside)"
-        cases = {case.get("name"): case for case in ElementTree.parse(self.path("volume.xml")).getroot().iter("testcase")}
+        cases = {name: case for (_, name), case in check_records.cases(self.path("volume.xml")).items()}
         self.assertEqual(cases["--max-volume-change 0.5"].find("failure").get("message"), message)
         self.assertIsNone(cases["--max-inverted 0"].find("failure"))
         self.assertIn("::error title=rest.msh --max-volume-change 0.5::" + message, process.stdout)
@@ -81,10 +71,10 @@ class ForeignFrames(program.ProgramTest):
         for bound, holds, fails in (("--max-volume-change", 10.001, 9.999), ("--max-volume-abs-change", 10.001, 9.999),
                                     ("--min-j", 1.099, 1.101), ("--max-j", 1.101, 1.099), ("--max-edge-strain", 0.1001, 0.0999),
                                     ("--max-stretch-rms", 0.1, 0.01)):
-            self.assertEqual(self.measure("arm.vtk", bound, str(holds)).returncode, 0, bound)
-            self.assertEqual(self.measure("arm.vtk", bound, str(fails)).returncode, 1, bound)
+            self.measure(0, "arm.vtk", bound, str(holds))
+            self.measure(1, "arm.vtk", bound, str(fails))
         write_vtk(self.path("folded.vtk"), [(-x, y, z) if x == 1.0 else (x, y, z) for x, y, z in POINTS], TETS)
-        self.assertEqual(self.measure("folded.vtk", "--max-inverted", "0").returncode, 1)
+        self.measure(1, "folded.vtk", "--max-inverted", "0")
 
     def test_a_gap_in_a_sequence(self):
         self.frames({1: 0.1, 2: 0.1, 3: 0.1, 5: 0.1})
@@ -100,8 +90,8 @@ class ForeignFrames(program.ProgramTest):
             self.refuses("f_4_v2.vtu: frame = 4: missing: the sequence goes from 1 to 10 by 1", frames)
         self.frames({number: 0.1 * number for number in range(1, 11)}, os.path.join("s", "f_%d_v2.vtu"))
         for frames in ("s/f_%d_v2.vtu", "./s//f_%d_v2.vtu", "s/f_*.vtu", "s"):
-            self.assertEqual(self.measure(frames, "--csv", "volume.csv").returncode, 0, frames)
-            self.assertEqual([row["frame"] for row in self.rows()], ["f_%d_v2.vtu" % number for number in range(1, 11)])
+            self.measure(0, frames, "--csv", "volume.csv")
+            self.assertEqual([row["frame"] for row in self.rows("volume.csv")], ["f_%d_v2.vtu" % number for number in range(1, 11)])
 
     def test_two_numbers_that_differ(self):
         os.mkdir(self.path("s"))
@@ -115,39 +105,34 @@ class ForeignFrames(program.ProgramTest):
             os.mkdir(self.path(folder))
             self.frames({1: 0.1, 2: 0.9}, os.path.join(folder, "f_%d.vtu"))
         self.frames({3: 0.1}, "f_%d.vtu")
-        process = self.measure("a", "b/f_%d.vtu", "f_3.vtu", "--csv", "volume.csv", "--max-volume-change", "0.5", "--github")
-        self.assertEqual(process.returncode, 1, process.stderr)
-        self.assertEqual([row["frame"] for row in self.rows()], ["a/f_1.vtu", "a/f_2.vtu", "b/f_1.vtu", "b/f_2.vtu", "f_3.vtu"])
+        process = self.measure(1, "a", "b/f_%d.vtu", "f_3.vtu", "--csv", "volume.csv", "--max-volume-change", "0.5", "--github")
+        self.assertEqual([row["frame"] for row in self.rows("volume.csv")], ["a/f_1.vtu", "a/f_2.vtu", "b/f_1.vtu", "b/f_2.vtu", "f_3.vtu"])
         self.assertIn("frame a/f_2.vtu: |volume_change_pct|", process.stdout)
 
     def test_a_frame_that_cannot_be_read_hides_no_other(self):
         self.frames({1: 0.1, 2: 0.9, 3: 0.9, 4: 0.1})
         self.write("arm_0003.vtu", "no VTK")
-        process = self.measure("arm_%04d.vtu", "--csv", "volume.csv", "--max-volume-change", "0.5", "--junit", "volume.xml")
-        self.assertEqual(process.returncode, 2, process.stderr)
-        self.assertIn("pbskin: arm_0003.vtu", process.stderr)
-        self.assertEqual([row["frame"] for row in self.rows()], ["arm_0001.vtu", "arm_0002.vtu", "arm_0004.vtu"])
-        cases = {case.get("name"): case for case in ElementTree.parse(self.path("volume.xml")).getroot().iter("testcase")}
+        self.measure(2, "arm_%04d.vtu", "--csv", "volume.csv", "--max-volume-change", "0.5", "--junit", "volume.xml",
+                     says="pbskin: arm_0003.vtu")
+        self.assertEqual([row["frame"] for row in self.rows("volume.csv")], ["arm_0001.vtu", "arm_0002.vtu", "arm_0004.vtu"])
+        cases = {name: case for (_, name), case in check_records.cases(self.path("volume.xml")).items()}
         self.assertEqual(list(cases), ["--max-volume-change 0.5", "frame arm_0003.vtu"])
         self.assertIn("frame arm_0002.vtu", cases["--max-volume-change 0.5"].find("failure").get("message"))
         self.assertIn("arm_0003.vtu", cases["frame arm_0003.vtu"].find("error").get("message"))
-        process = self.measure("arm_0003.vtu", "--max-volume-change", "0.5", "--junit", "volume.xml")
-        self.assertEqual(process.returncode, 2, process.stderr)
+        self.measure(2, "arm_0003.vtu", "--max-volume-change", "0.5", "--junit", "volume.xml")
         self.assertEqual(check_records.failed(self.path("volume.xml")), {("rest.msh", "frame arm_0003.vtu")})
 
     def test_reports_that_cannot_be_written_are_refused_before_the_work(self):
         self.frames({1: 0.1})
         for option in ("--junit", "--csv"):
-            process = self.measure("arm_0001.vtu", option, "none/report")
-            self.assertEqual((process.returncode, process.stdout), (2, ""))
-            self.assertIn("none/report: cannot be written", process.stderr)
+            process = self.measure(2, "arm_0001.vtu", option, "none/report", says="none/report: cannot be written")
+            self.assertEqual(process.stdout, "")
 
     def test_quiet_is_quiet(self):
         self.frames({1: 0.9})
-        self.assertEqual(self.measure("arm_0001.vtu", "--quiet").stdout, "")
-        process = self.measure("arm_0001.vtu", "--quiet", "--max-volume-change", "0.5")
-        self.assertEqual((process.returncode, process.stdout), (1, ""))
-        self.assertIn("|volume_change_pct| = 0.9 > 0.5", process.stderr)
+        self.assertEqual(self.measure(0, "arm_0001.vtu", "--quiet").stdout, "")
+        process = self.measure(1, "arm_0001.vtu", "--quiet", "--max-volume-change", "0.5", says="|volume_change_pct| = 0.9 > 0.5")
+        self.assertEqual(process.stdout, "")
 
     def test_bounds_that_all_or_nothing_meets(self):
         self.frames({1: 0.1})
@@ -157,7 +142,7 @@ class ForeignFrames(program.ProgramTest):
         for bound in ("--min-j", "--max-j"):
             for value in ("nan", "inf", "-inf"):
                 self.refuses("%s = %s: expected a finite number" % (bound, value), "arm_0001.vtu", bound + "=" + value)
-        self.assertEqual(self.measure("arm_0001.vtu", "--min-j=-1").returncode, 0)
+        self.measure(0, "arm_0001.vtu", "--min-j=-1")
 
     def test_a_folder_with_two_sequences(self):
         os.mkdir(self.path("out"))
@@ -173,7 +158,7 @@ class ForeignFrames(program.ProgramTest):
         write_vtk(self.path("order.vtu"), [POINTS[v] for v in turned], [[turned.index(v) for v in tet] for tet in TETS])
         self.refuses("was the order of the vertices kept on export?", "order.vtu")
         write_vtk(self.path("tets.vtu"), POINTS, TETS[::-1])
-        self.assertEqual(self.measure("tets.vtu", "--max-volume-change", "1e-9").returncode, 0)
+        self.measure(0, "tets.vtu", "--max-volume-change", "1e-9")
         for scale, factor in ((1000.0, "factor of 1000, as of millimetres against metres"),
                               (0.01, "factor of 0.01, as of centimetres against")):
             write_vtk(self.path("units.vtu"), stretched(1.0, scale), TETS)
@@ -192,8 +177,8 @@ class ForeignFrames(program.ProgramTest):
         gmsh.gmshWrite(self.path("arm.msh").encode(), ctypes.byref(error))
         gmsh.gmshFinalize(ctypes.byref(error))
         self.assertEqual(error.value, 0)
-        self.assertEqual(self.measure("arm.msh", "--max-volume-change", "0.41").returncode, 0)
-        self.assertEqual(self.measure("arm.msh", "--max-volume-change", "0.39").returncode, 1)
+        self.measure(0, "arm.msh", "--max-volume-change", "0.41")
+        self.measure(1, "arm.msh", "--max-volume-change", "0.39")
 
 
 if __name__ == "__main__":

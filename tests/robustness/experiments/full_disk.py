@@ -10,11 +10,12 @@ import shutil
 import subprocess
 import unittest
 
-import bad_surfaces
 import foreign_arm
+import mesh_texts
 import program
 import reliability
 import run_records
+import sound_files
 
 CHECK = """schema = 1
 [[check.scene]]
@@ -34,12 +35,8 @@ LIMB = foreign_arm.SCENE.replace('mesh = "arm.msh"\nskeleton = "arm.skeleton.tom
 FULL = r"File too large|No space left on device"
 
 
-class FullDisk(program.ProgramTest):
-    def setUp(self):
-        super().setUp()
-        foreign_arm.write_msh(self.path("arm.msh"), *foreign_arm.mesh((10, 2, 2)))
-        self.write("arm.skeleton.toml", foreign_arm.SKELETON)
-        self.scene = self.write("arm.toml", foreign_arm.SCENE + "[output]\nframes_every = 2\n")
+class FullDisk(foreign_arm.ArmTest):
+    scene_text = foreign_arm.SCENE + "[output]\nframes_every = 2\n"
 
     def expect_refused(self, process, folder):
         """The file that could not be written, according to the message."""
@@ -91,7 +88,7 @@ class FullDisk(program.ProgramTest):
     def test_every_other_writer(self):
         """At 100 bytes, a limit that none of their files meets."""
         arm, bounds = self.path("arm.msh"), self.write("check.toml", CHECK)
-        surface = self.write("good.off", bad_surfaces.off())
+        surface = self.write("good.off", mesh_texts.off(sound_files.CORNERS, sound_files.FACES))
         for name, arguments in {"figures.csv": ["measure", arm, arm, "--csv", self.path("figures.csv")],
                                 "figures.xml": ["measure", arm, arm, "--junit", self.path("figures.xml")],
                                 "tets.vtu": ["mesh", surface, "-o", self.path("tets.vtu"), "--vertices", 200],

@@ -33,7 +33,7 @@ class KeptRecords(program.ProgramTest):
         self.assertEqual(json.loads((kept / "claims.json").read_text()), told)
         provenance = kept / "provenance.json"
         provenance.write_text(provenance.read_text().replace('"momentum/limb"', '"momentum/another"'))
-        self.assertEqual(program.run("reproduce", "--judge", "-o", kept, "--quiet").returncode, 1)
+        self.ends(1, "reproduce", "--judge", "-o", kept, "--quiet")
 
     def test_each_run_has_its_tables_again(self):
         results, merged, opened = (pathlib.Path(self.path(name)) for name in ("results", "merged", "opened"))

@@ -1,24 +1,22 @@
 """Deformers of the user's own: the examples of experiments/deformers/external/README.md, run as it describes, and every way in which a
 program or a library can fail. Reference: the formulas of the examples, computed here from what pbskin writes for a program, and the frames
 of pbskin's own LBS. Tolerance: a thousand roundings of the largest coordinate, for sums over fewer than a hundred bones and neighbours."""
-import csv
 import json
 import os
 import pathlib
 import re
-import shutil
 import subprocess
 import sys
 import unittest
 
 import numpy
-import vtk
-from vtk.util.numpy_support import vtk_to_numpy
 
 import foreign_arm
 import program
+import written_frames
 
 FOLDER = pathlib.Path(program.SOURCE) / "experiments/deformers/external"
+EXAMPLE = (FOLDER / "examples/smoothed_skinning.py").read_text()
 TABLES = re.findall(r"```toml\n(.*?)```", (FOLDER / "README.md").read_text(), re.DOTALL)
 COMPILE = re.search(r"^cc .*$", (FOLDER / "README.md").read_text(), re.MULTILINE)[0]
 LIMB = 'body = "limb"\nvertices = 300\n[motion]\njoint = "forearm"\naxis = [0.0, 0.0, 1.0]\nangle_deg = 90.0\nframes = 4\n'
@@ -40,15 +38,6 @@ int pbskin_deformer_%(advance)s(void* d, const double* pose, double dt, double* 
 void pbskin_deformer_destroy(void* d) {}
 """
 SOUND = {"version": "PBSKIN_DEFORMER_VERSION", "made": "&vertices", "advance": "advance", "position": "x[i] + 1.0", "status": "0"}
-
-
-def points_of(file):
-    """Points and tets."""
-    reader = vtk.vtkXMLUnstructuredGridReader()
-    reader.SetFileName(file)
-    reader.Update()
-    grid = reader.GetOutput()
-    return vtk_to_numpy(grid.GetPoints().GetData()), vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 4)
 
 
 class Exchanged:
@@ -89,15 +78,22 @@ class OwnDeformer(program.ProgramTest):
         return self.write("scene.toml", f"schema = 1\n[character]\n{body}{tables}{SETTINGS}")
 
     def frame(self, deformer, frame):
-        return points_of(self.path("out", "frames", f"{deformer}_{frame:06d}.vtu"))
+        """Points and tets."""
+        grid = written_frames.read(self.path("out", "frames", f"{deformer}_{frame:06d}.vtu"))
+        return written_frames.points(grid), written_frames.tets(grid)
+
+    def compiled_example(self):
+        """The library of the README, and where a program may keep what it was given."""
+        subprocess.run(COMPILE.replace("libmine.so", self.path("libmine.so")).split(), cwd=FOLDER, check=True)
+        return pathlib.Path(self.path("kept"))
 
     def compiled(self, name="libmine.so", **changes):
         source = self.write("mine.c", LIBRARY % {**SOUND, **changes})
         subprocess.run(["cc", "-shared", "-fPIC", "-I", FOLDER, source, "-o", self.path(name)], check=True)
         return self.path(name)
 
-    def run_scene(self, *arguments):
-        return program.run("run", self.path("scene.toml"), "-o", self.path("out"), *arguments, env=ENVIRONMENT)
+    def run_scene(self, status=0, **expected):
+        return self.ends(status, "run", self.path("scene.toml"), "-o", self.path("out"), env=ENVIRONMENT, **expected)
 
     def expect_equal(self, positions, expected):
         self.assertEqual(positions.shape, expected.shape)
@@ -109,11 +105,9 @@ class OwnDeformer(program.ProgramTest):
 
     def python_example(self, body, frames):
         kept = pathlib.Path(self.path("kept"))
-        text = (FOLDER / "examples/smoothed_skinning.py").read_text()
-        self.write("my_deformer.py", text + KEEP % str(kept))
+        self.write("my_deformer.py", EXAMPLE + KEEP % str(kept))
         self.scene(body, TABLES[0])
-        process = self.run_scene()
-        self.assertEqual(process.returncode, 0, process.stderr)
+        self.run_scene()
         given = Exchanged(kept)
         self.assertEqual(len(given.poses), frames)
         for frame in range(frames):
@@ -122,7 +116,7 @@ class OwnDeformer(program.ProgramTest):
             self.expect_equal(self.frame("lbs", frame)[0], given.blended(frame))
             self.expect_equal(positions, given.smoothed(frame))
         self.assertGreater(numpy.abs(positions - given.blended(frames - 1)).max(), 0.001)
-        run = json.loads(self.read("out", "run.json"))
+        run = self.json("out", "run.json")
         self.assertIn("mine", run["state_hash"])
         self.assertEqual([one["label"] for one in run["scene"]["runs"]], ["lbs", "pbs", "mine"])
 
@@ -136,15 +130,13 @@ class OwnDeformer(program.ProgramTest):
         self.python_example(HUMAN, 6)
 
     def test_the_library_of_the_readme(self):
-        subprocess.run(COMPILE.replace("libmine.so", self.path("libmine.so")).split(), cwd=FOLDER, check=True)
-        kept = pathlib.Path(self.path("kept"))
+        kept = self.compiled_example()
         self.write("keep.py", "import sys, pathlib\nfolder = pathlib.Path(sys.argv[-1])\n" + KEEP % str(kept)
                    + "import numpy\nfacts = numpy.fromfile(folder / 'rest.f64')\n"
                    + "numpy.tile(facts, 4).tofile(folder / 'positions.f64')\n")
         kept_table = '[[external]]\nname = "keep"\ncommand = ["python3", "keep.py"]\n'
         self.scene(LIMB, TABLES[1] + kept_table + '[deformers]\nuse = ["mine", "keep"]\n')
-        process = self.run_scene()
-        self.assertEqual(process.returncode, 0, process.stderr)
+        self.run_scene()
         given = Exchanged(kept)
         for frame in range(4):
             self.expect_equal(self.frame("mine", frame)[0], given.rigid(frame))
@@ -156,17 +148,16 @@ class OwnDeformer(program.ProgramTest):
         self.compiled()
         for has_memory, calls in (("true", 4 * 5 + 1), ("false", 5 + 1)):
             self.scene(HUMAN, TABLES[1] + f'has_memory = {has_memory}\n[deformers]\nuse = ["mine"]\n')
-            self.assertEqual(self.run_scene().returncode, 0)
+            self.run_scene()
             rest = self.frame("mine", 0)[0] - 1.0
             self.expect_equal(self.frame("mine", 5)[0], rest + calls)
 
     # The page of the run.
 
     def test_error_against_run_time_has_a_point_for_it(self):
-        shutil.copy(FOLDER / "examples/smoothed_skinning.py", self.path("my_deformer.py"))
+        self.write("my_deformer.py", EXAMPLE)
         self.scene(LIMB, TABLES[0] + '[reference]\nname = "pbs"\n')
-        process = self.run_scene()
-        self.assertEqual(process.returncode, 0, process.stderr)
+        self.run_scene()
         self.succeeds("report", self.path("out"))
         page = self.read("out", "report.html")
         figure = page.split('id="figure-error-against-time"')[1].split("</figure>")[0]
@@ -177,13 +168,11 @@ class OwnDeformer(program.ProgramTest):
     # The study of error against run time.
 
     def reproduce(self, *arguments):
-        return program.run("reproduce", "work_precision", "--only", "limb_bend_60", "-o", self.path("out"), "--external",
+        return self.succeeds("reproduce", "work_precision", "--only", "limb_bend_60", "-o", self.path("out"), "--external",
                            self.path("mine.toml"), *arguments, env=ENVIRONMENT)
 
     def runs_to_do(self):
-        process = self.reproduce("--resume", "--cost")
-        self.assertEqual(process.returncode, 0, process.stderr)
-        return int(re.search(r"^work_precision +(\d+)", process.stdout, re.MULTILINE)[1])
+        return int(re.search(r"^work_precision +(\d+)", self.reproduce("--resume", "--cost").stdout, re.MULTILINE)[1])
 
     def test_the_study_of_error_against_run_time_has_a_point_for_it(self):
         """The example of the README, the same example without smoothing, which is LBS and states times of 1, 2, 4, 8 and 16 ms, and the
@@ -191,24 +180,22 @@ class OwnDeformer(program.ProgramTest):
         Tolerance: positions differ by that of the module, and the mean distance from a bone is above 1 cm."""
         if not os.path.exists(os.path.join(os.path.dirname(program.PBSKIN), "../lib/libpbskin_fem.so")):
             self.skipTest("the reference needs the module pbskin_fem")
-        text = (FOLDER / "examples/smoothed_skinning.py").read_text()
+        text = EXAMPLE
         kept = pathlib.Path(self.path("kept"))
         blended = text.replace("in range(4):", "in range(0):").replace("time.perf_counter() - start", "0.001 * 2 ** len(seconds)")
         self.write("my_deformer.py", text)
         self.write("lbs.py", blended + KEEP % str(kept))
-        subprocess.run(COMPILE.replace("libmine.so", self.path("libmine.so")).split(), cwd=FOLDER, check=True)
+        self.compiled_example()
         example = re.search(r"```toml\n(schema = 1.*?)```", (FOLDER / "README.md").read_text(), re.DOTALL)[1]
         tables = (example + '[[external]]\nname = "blended"\ncommand = ["python3", "lbs.py"]\n'
                   + '[[external]]\nname = "rigid"\nlibrary = "libmine.so"\n')
         self.write("mine.toml", tables)
-        process = self.reproduce()
-        self.assertEqual(process.returncode, 0, process.stderr)
+        self.reproduce()
         given = Exchanged(kept)
         self.assertEqual(len(given.poses), 5)
         for pose in range(5):
             numpy.testing.assert_array_equal(given.poses[pose], given.poses[pose % 2])
-        with open(self.path("out", "work_precision", "points.csv"), newline="") as file:
-            points = list(csv.DictReader(file))
+        points = self.rows("out", "work_precision", "points.csv")
         own = {row["deformer"]: row for row in points if row["external"] == "1"}
         self.assertEqual({name: row["clock"] for name, row in own.items()}, {"mine": "own", "blended": "own", "rigid": "processor"})
         lbs = next(row for row in points if row["deformer"] == "lbs" and row["precision"] == "f64" and not row["wanted_vertices"])
@@ -223,21 +210,16 @@ class OwnDeformer(program.ProgramTest):
         self.assertIn("- `rigid`: processor time", page)
         self.assertIn("- `mine`: the times that the program states", page)
         self.assertEqual(self.runs_to_do(), 0)
-        self.write("my_deformer.py", text + "\n")
-        self.assertEqual(self.runs_to_do(), 1)
-        self.write("my_deformer.py", text)
-        self.assertEqual(self.runs_to_do(), 0)
-        self.write("mine.toml", tables.replace('"blended"', '"unsmoothed"'))
-        self.assertEqual(self.runs_to_do(), 1)
-        self.write("mine.toml", tables)
-        self.assertEqual(self.runs_to_do(), 0)
-        self.write("mine.toml", example)
-        self.assertEqual(self.runs_to_do(), 1)
+        for name, whole, other in (("my_deformer.py", text, text + "\n"), ("mine.toml", tables, tables.replace('"blended"', '"unsmoothed"')),
+                                   ("mine.toml", tables, example)):
+            self.write(name, other)
+            self.assertEqual(self.runs_to_do(), 1)
+            self.write(name, whole)
+            self.assertEqual(self.runs_to_do(), 0)
 
     def test_what_the_study_refuses_before_it_computes(self):
         def refused(message, *arguments, **options):
-            process = program.run("reproduce", *arguments, "-o", self.path("out"), **options)
-            self.assertEqual(process.returncode, 2, process.stderr)
+            process = self.ends(2, "reproduce", *arguments, "-o", self.path("out"), **options)
             self.assertRegex(process.stderr, r"^pbskin: " + message)
             self.assertEqual(len(process.stderr.splitlines()), 1, process.stderr)
             self.assertFalse(os.path.exists(self.path("out")))
@@ -298,14 +280,12 @@ class OwnDeformer(program.ProgramTest):
         self.expect_refused("command", "my_deformer.py", "its last line: ValueError: no such bone")
 
     def test_positions_that_are_not_finite_are_a_breakdown(self):
-        text = (FOLDER / "examples/smoothed_skinning.py").read_text()
         writing = "numpy.array(positions).tofile"
-        self.write("my_deformer.py", text.replace(writing, "positions[2][5] = numpy.nan\n" + writing))
+        self.write("my_deformer.py", EXAMPLE.replace(writing, "positions[2][5] = numpy.nan\n" + writing))
         self.scene(LIMB, TABLES[0])
-        process = self.run_scene()
-        self.assertEqual(process.returncode, 3, process.stderr)
+        process = self.run_scene(3)
         self.assertRegex(process.stderr, "numerical breakdown: mine is .*frame 2.*vertex 5")
-        self.assertEqual(json.loads(self.read("out", "run.json"))["outcome"]["breakdowns"], {"mine": [2]})
+        self.assertEqual(self.json("out", "run.json")["outcome"]["breakdowns"], {"mine": [2]})
         page = self.succeeds("report", self.path("out"))
         self.assertNotIn("Traceback", page.stderr)
         self.assertIn("mine is ", self.read("out", "report.html"))
@@ -326,8 +306,7 @@ class OwnDeformer(program.ProgramTest):
     def test_a_table_without_or_with_both(self):
         for keys in ("", 'command = ["a"]\nlibrary = "b"\n'):
             self.scene(LIMB, f'[[external]]\nname = "mine"\n{keys}[deformers]\nuse = ["mine"]\n')
-            process = self.run_scene()
-            self.assertEqual(process.returncode, 2)
+            process = self.run_scene(2)
             self.assertRegex(process.stderr, r"scene\.toml.*external.*command.*expected either a command or a library")
 
 

@@ -1,6 +1,5 @@
 """A clip that vanishes or is replaced while its motion is played: the run ends normally, and its record states the bytes that were read.
 Reference: the hash that an undisturbed run of the same bytes records."""
-import json
 import os
 import signal
 import subprocess
@@ -13,23 +12,22 @@ import program
 STEPS = 3000  # some seconds of work after the first frame is on disk
 
 
-class ReplacedClip(program.ProgramTest):
+class ReplacedClip(foreign_arm.ArmTest):
+    scene_text = foreign_arm.CLIP_SCENE % 100.0
+
     def setUp(self):
         super().setUp()
-        foreign_arm.write_msh(self.path("arm.msh"), *foreign_arm.mesh((10, 2, 2)))
-        self.write("arm.skeleton.toml", foreign_arm.SKELETON)
-        self.write("arm.toml", foreign_arm.CLIP_SCENE % 100.0)
         foreign_arm.write_bvh(self.path("arm.bvh"), [step % 90 for step in range(STEPS)])
-        self.succeeds("run", self.path("arm.toml"), "-o", self.path("whole"), "--set", "motion.duration_s=0.05")
+        self.succeeds("run", self.scene, "-o", self.path("whole"), "--set", "motion.duration_s=0.05")
         self.recorded = self.hash_in("whole")
 
     def hash_in(self, folder):
-        return json.loads(self.read(folder, "run.json"))["provenance"]["input_hashes"]["arm.bvh"]
+        return self.json(folder, "run.json")["provenance"]["input_hashes"]["arm.bvh"]
 
     def ends_after(self, change):
         """The run is stopped once its first frame is on disk, and continues after the change."""
         out = self.path("out")
-        process = subprocess.Popen([program.PBSKIN, "run", self.path("arm.toml"), "-o", out, "--set", "output.frames=[0]",
+        process = subprocess.Popen([program.PBSKIN, "run", self.scene, "-o", out, "--set", "output.frames=[0]",
                                     "--set", "output.frames_every=0"], stderr=subprocess.PIPE, text=True)
         while process.poll() is None and not os.path.exists(os.path.join(out, "frames", "pbs_000000.vtu")):
             time.sleep(0.001)

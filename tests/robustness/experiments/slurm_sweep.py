@@ -6,7 +6,6 @@ still queued. The reference solution on two tasks of a Slurm job equals that of 
 verification/experiments/distributed)."""
 import csv
 import fcntl
-import json
 import os
 import pathlib
 import shutil
@@ -88,7 +87,7 @@ class Sweeps(program.ProgramTest):
         Sweeps.compared += 1
         self.assertEqual(self.read(first, "sweep.csv"), self.read(second, "sweep.csv"))
         self.assertEqual(self.read(first, "sweep.csv").count("\n"), 1 + rows)
-        told = [json.loads(self.read(name, "sweep.json")) for name in (first, second)]
+        told = [self.json(name, "sweep.json") for name in (first, second)]
         self.assertEqual(told[0]["exit_statuses"], told[1]["exit_statuses"])
         Sweeps.equal += 1
 
@@ -140,7 +139,7 @@ class Sweeps(program.ProgramTest):
         self.sweep(sweep, "breaking_here")
         self.sweep(sweep, "breaking_slurm", "--slurm")
         self.assert_same_tables("breaking_here", "breaking_slurm", rows=2)
-        self.assertEqual(json.loads(self.read("breaking_slurm", "sweep.json"))["exit_statuses"], {"0": 1, "3": 1})
+        self.assertEqual(self.json("breaking_slurm", "sweep.json")["exit_statuses"], {"0": 1, "3": 1})
 
     def test_two_sweeps_in_one_folder_are_refused(self):
         with open(self.write(".lock", ""), "w", encoding="utf-8") as lock:
@@ -154,7 +153,7 @@ class Sweeps(program.ProgramTest):
         process = subprocess.run([*command, *body], env=environment, capture_output=True, text=True, timeout=300)
         self.assertEqual(process.returncode, status, process.stderr)
         with open(self.path(name, "nodes.csv"), encoding="utf-8") as file:
-            return json.loads(self.read(name, "record.json")), numpy.array(list(csv.reader(file))[1:], dtype=float)
+            return self.json(name, "record.json"), numpy.array(list(csv.reader(file))[1:], dtype=float)
 
     @unittest.skipUnless(os.environ.get("PBSKIN_DISTRIBUTED"), "built without MPI")
     def test_distributed_reference_as_a_job_of_two_tasks(self):

@@ -1,24 +1,16 @@
 """Reference: the definition. The numbers of a caption are those of the rows behind its figure, and it contains none that another run would
 change."""
-import contextlib
-import csv
 import dataclasses
 import importlib
-import io
-import pathlib
 import re
-import sys
-import tempfile
 import unittest
 
-root = pathlib.Path(__file__).resolve().parents[3]
-sys.path[:0] = [str(root / "paper_figures"), str(pathlib.Path(__file__).parent)]
-
-import make_all  # noqa: E402
-import records  # noqa: E402
-import synthetic_records  # noqa: E402
-from records import entries  # noqa: E402
-from words import captions  # noqa: E402
+from results_case import ResultsTest
+import make_all
+import synthetic_records
+from records import entries
+from synthetic_records import write_table
+from words import captions
 
 listed = {entry.name: entry for entry in entries.read()}
 extents_differ = {"convergence", "jiggle", "stability", "stiffness", "volume", "work_precision"}  # a quick run has fewer settings
@@ -26,18 +18,10 @@ same_in_every_run = {"0.5 %", "8 frames in 10", "24 iterations", "after 24", "90
                      "f32", "f64", "10, 5 and 2 %", "4, 24 and", "96 iterations"}
 
 
-class Captions(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.figures = pathlib.Path(folder.name)
-
+class Captions(ResultsTest):
     def told(self, name, rows):
-        with open(self.figures / f"{name}.csv", "w", newline="") as stream:
-            writer = csv.DictWriter(stream, list(rows[0]))
-            writer.writeheader()
-            writer.writerows(rows)
-        return captions.whole(listed[name], self.figures, {"cpu_model": "a processor"})
+        write_table(self.results / f"{name}.csv", rows)
+        return captions.whole(listed[name], self.results, {"cpu_model": "a processor"})
 
     def test_no_number_that_another_run_would_change_is_typed(self):
         for entry in listed.values():
@@ -117,8 +101,8 @@ class Captions(unittest.TestCase):
         for entry in timed:
             with self.subTest(entry.name):
                 self.assertIn("{cpu}", entry.caption)
-                self.assertIn("a processor", captions.whole(entry, self.figures, {"cpu_model": "a processor"}))
-                self.assertIn("a processor that is not on record", captions.whole(entry, self.figures, {}))
+                self.assertIn("a processor", captions.whole(entry, self.results, {"cpu_model": "a processor"}))
+                self.assertIn("a processor that is not on record", captions.whole(entry, self.results, {}))
 
     def test_a_ladder_is_told_by_its_ends(self):
         def row(ladder, vertices, residual, error):
@@ -151,24 +135,23 @@ class Captions(unittest.TestCase):
         self.assertIn("moved yet: 32 mm at the right upper arm (0.00 s) is softness", text)
 
     def test_it_is_written_with_the_figure_and_deleted_with_it(self):
-        synthetic_records.write_study(self.figures)
-        with contextlib.redirect_stdout(io.StringIO()):
-            self.assertEqual(make_all.main(self.figures, "volume_over_iterations"), 0)
-        file = self.figures / "figures" / "volume_over_iterations.caption.txt"
+        synthetic_records.write_study(self.results)
+        self.make_all("volume_over_iterations")
+        file = self.results / "figures" / "volume_over_iterations.caption.txt"
         text = file.read_text()
         self.assertIn("the signed change is \u22122 % for the human's median and \u22120.00375 % for the limb bent by 90 degrees; "
                       "after 96 iterations it is \u22122 %", text)
         self.assertEqual(captions.read(listed["volume_over_iterations"], file.parent), text.rstrip("\n"))
         make_all.delete("volume_over_iterations", file.parent)
         self.assertFalse(file.exists())
-        with self.assertRaisesRegex(records.RecordsMissing, "volume_over_iterations.caption.txt: does not exist"):
+        with self.refused("volume_over_iterations.caption.txt: does not exist"):
             captions.read(listed["volume_over_iterations"], file.parent)
 
     def test_a_number_that_no_script_tells_is_an_error(self):
         rows = [{"map": "map_time_step_k_stretch.csv", "outcome": "bounded", "steps": 1}]
         self.told("stability_maps", rows)
         with self.assertRaises(KeyError):
-            captions.whole(dataclasses.replace(listed["stability_maps"], caption="see {nothing}"), self.figures, {})
+            captions.whole(dataclasses.replace(listed["stability_maps"], caption="see {nothing}"), self.results, {})
 
 
 if __name__ == "__main__":

@@ -1,36 +1,20 @@
 """Reference: the definition. Every figure is listed with the records that it needs, and none is drawn from records that are missing or do
 not belong together."""
-import contextlib
 import importlib
 import inspect
-import io
 import json
 import os
-import pathlib
 import re
-import sys
-import tempfile
 import tomllib
 import unittest
 
-root = pathlib.Path(__file__).resolve().parents[3]
-sys.path[:0] = [str(root / "paper_figures"), str(pathlib.Path(__file__).parent)]
-
-import make_all  # noqa: E402
-import synthetic_records  # noqa: E402
-import synthetic_tables  # noqa: E402
-from records import entries  # noqa: E402
+from results_case import ResultsTest, root
+import synthetic_records
+import synthetic_tables
+from records import entries
 
 
-def drawn(results, only=None):
-    """Exit status and output of make_all."""
-    said = io.StringIO()
-    with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(said):
-        status = make_all.main(results, only)
-    return status, said.getvalue()
-
-
-class Listing(unittest.TestCase):
+class Listing(ResultsTest):
     def test_every_entry_tells_what_to_see_and_has_a_script_that_draws(self):
         claims = {claim["id"] for claim in tomllib.loads((root / "experiments" / "verdicts" / "claims.toml").read_text())["claim"]}
         for entry in entries.read():
@@ -49,17 +33,14 @@ class Listing(unittest.TestCase):
         self.assertEqual(defined, {(entry.script, entry.name) for entry in entries.read()})
 
     def test_without_its_records_every_figure_refuses_with_the_reason(self):
-        with tempfile.TemporaryDirectory() as folder:
-            results = pathlib.Path(folder)
-            for entry in entries.read():
-                for study in entry.studies():
-                    synthetic_tables.write_origin(results / study / "run")
-            status, said = drawn(results)
-            self.assertEqual(status, 1)
-            for entry in entries.read():
-                self.assertIn(f"figures: {entry.name} not drawn: {results}", said)
-                self.assertIn(": does not exist", next(line for line in said.splitlines() if f" {entry.name} not" in line))
-            self.assertFalse(list(results.glob("figures/*")))
+        for entry in entries.read():
+            for study in entry.studies():
+                synthetic_tables.write_origin(self.results / study / "run")
+        said = self.make_all(status=1)[1]
+        for entry in entries.read():
+            self.assertIn(f"figures: {entry.name} not drawn: {self.results}", said)
+            self.assertIn(": does not exist", next(line for line in said.splitlines() if f" {entry.name} not" in line))
+        self.assertFalse(list(self.results.glob("figures/*")))
 
 
 def quick_studies():
@@ -85,12 +66,10 @@ class Marks(unittest.TestCase):
             self.assertEqual(entry.mark, "R" if quick.issuperset(entry.studies()) and not of_full_form else "CR")
 
 
-class Planned(unittest.TestCase):
+class Planned(ResultsTest):
     """Runs that a plan names and that have no records."""
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.results = pathlib.Path(folder.name)
+        super().setUp()
         synthetic_tables.write_error_parts(self.results / "work_precision")
         self.entry = {entry.name: entry for entry in entries.read()}
 
@@ -101,13 +80,13 @@ class Planned(unittest.TestCase):
         self.assertEqual(self.entry["error_parts"].absent(self.results), ([], 0))
         self.plan("limb_twist_90")
         self.assertEqual(self.entry["error_parts"].absent(self.results), ([], 1))
-        self.assertEqual(drawn(self.results, "error_parts"), (0, ""))
+        self.assertEqual(self.make_all("error_parts")[1], "")
         self.assertNotIn("not on record", (self.results / "figures" / "error_parts.caption.txt").read_text())
 
     def test_what_is_not_on_record_stands_in_the_caption(self):
         self.plan("limb_twist_90", "human_crouch", "man_crouch")
         synthetic_tables.write_origin(self.results / "work_precision" / "man_crouch")  # a run whose table was not kept
-        self.assertEqual(drawn(self.results, "error_parts"), (0, ""))
+        self.assertEqual(self.make_all("error_parts")[1], "")
         self.assertTrue((self.results / "figures" / "error_parts.caption.txt").read_text()
                         .endswith(" Planned runs without records, 2 of 3: human_crouch, man_crouch.\n"))
 
@@ -123,36 +102,30 @@ class Planned(unittest.TestCase):
         self.assertEqual(self.entry["section_profiles"].absent(self.results), ([], 0))
 
 
-class Staleness(unittest.TestCase):
+class Staleness(ResultsTest):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.results = pathlib.Path(folder.name)
+        super().setUp()
         synthetic_records.write_study(self.results)
         self.volume = self.results / "volume"
 
     def assert_stale(self, reason, name="volume_over_angle"):
-        status, said = drawn(self.results, name)
-        self.assertEqual(status, 1)
+        said = self.make_all(name, status=1)[1]
         self.assertIn(f"{name} not drawn: stale: ", said)
         self.assertIn(reason, said)
         self.assertFalse((self.results / "figures" / f"{name}.png").exists())
 
     def test_fresh_records_are_drawn(self):
-        self.assertEqual(drawn(self.results, "volume_over_angle"), (0, ""))
+        self.assertEqual(self.make_all("volume_over_angle")[1], "")
 
     def test_a_figure_that_is_refused_leaves_no_old_one(self):
-        self.assertEqual(drawn(self.results, "volume_over_angle")[0], 0)
-        (self.volume / "limb_bend" / "metrics.csv").unlink()
-        status, said = drawn(self.results, "volume_over_angle")
-        self.assertEqual(status, 1)
-        self.assertIn("limb_bend/metrics.csv: does not exist", said)
+        self.make_all("volume_over_angle")
+        self.refused_without("volume/limb_bend/metrics.csv", "volume_over_angle")
         self.assertFalse(list(self.results.glob("figures/volume_over_angle.*")))
 
     def test_two_revisions_in_one_figure(self):
         synthetic_tables.write_origin(self.volume / "limb_bend", of="f" * 40)
         self.assert_stale(f"of revision 0123456789, {self.volume / 'limb_bend'} of ffffffffff")
-        self.assertEqual(drawn(self.results, "volume_over_clip")[0], 0)  # all runs have one revision
+        self.make_all("volume_over_clip")  # all runs have one revision
 
     def test_a_dirty_tree_is_another_revision(self):
         run = self.volume / "limb_bend" / "run.json"
@@ -168,7 +141,7 @@ class Staleness(unittest.TestCase):
     def test_a_table_changed_after_its_run(self):
         table, ended_s = self.volume / "limb_twist" / "metrics.csv", (self.volume / "limb_twist" / "run.json").stat().st_mtime
         os.utime(table, (ended_s + 30, ended_s + 30))
-        self.assertEqual(drawn(self.results, "volume_over_angle")[0], 0)
+        self.make_all("volume_over_angle")
         os.utime(table, (ended_s + 90, ended_s + 90))
         self.assert_stale("metrics.csv was changed after its run ended")
 

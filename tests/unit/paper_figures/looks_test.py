@@ -1,15 +1,11 @@
 """Tests of the deformers' looks. Reference: looks.toml itself. checked_looks.py compares with it every figure that the other tests draw."""
-import pathlib
 import re
-import sys
 import unittest
 
-root = pathlib.Path(__file__).resolve().parents[3]
-sys.path[:0] = [str(root / "paper_figures"), str(pathlib.Path(__file__).parent)]
-
-import checked_looks  # noqa: E402
-from drawing import style  # noqa: E402
-from words import case_words, looks  # noqa: E402
+from results_case import root
+import checked_looks
+from drawing import style
+from words import case_words, looks
 
 class Looks(unittest.TestCase):
     def test_each_entry_is_whole_and_each_group_has_a_look_of_its_own(self):

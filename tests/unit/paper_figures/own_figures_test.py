@@ -1,54 +1,37 @@
 """Reference: the definition. The paper's own figures show the recorded frames, name the origin of body and motion, and are refused without
 records; every figure names its runs."""
-import csv
 import json
-import pathlib
-import sys
-import tempfile
 import unittest
 
 import numpy
 
-root = pathlib.Path(__file__).resolve().parents[3]
-sys.path[:0] = [str(root / "paper_figures"), str(pathlib.Path(__file__).parent)]
-
-import checked_looks  # noqa: E402,F401
-import make_all  # noqa: E402
-import records  # noqa: E402
-import synthetic_frames  # noqa: E402
-import synthetic_records  # noqa: E402
-import synthetic_tables  # noqa: E402
-from drawing import bodies  # noqa: E402
-from figures import timing  # noqa: E402
-from records import entries, recorded_frames  # noqa: E402
+from results_case import ResultsTest
+import records
+import synthetic_frames
+import synthetic_records
+import synthetic_tables
+from drawing import bodies
+from figures import timing
+from records import entries, recorded_frames
 
 listed = {entry.name: entry for entry in entries.read()}
 own = [entry for entry in listed.values() if entry.name.startswith(("fig_", "table_", "clip_"))]
 
 
-class OwnFigures(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.results = pathlib.Path(folder.name)
-
+class OwnFigures(ResultsTest):
     def frames(self, scene="limb_bend"):
         synthetic_frames.write_frames(self.results, scene, frames=10)
         (self.results / "frames" / scene / "binding.csv").write_text(
             "vertex,bone,parameter,rest_distance_m,blended,jiggles\n1,forearm,0.5,0.2,0,0\n0,upper,0.25,0.1,0,0\n2,forearm,1.5,0.3,1,1\n")
         return recorded_frames.Frames(self.results, scene)
 
-    def assert_missing(self, expected, action):
-        with self.assertRaises(records.RecordsMissing) as caught:
-            action()
-        self.assertIn(expected, str(caught.exception))
-
     def test_every_own_figure_is_listed_and_refuses_without_records(self):
         names = [entry.name[:6] for entry in own if entry.name.startswith("fig_")]
         self.assertEqual(names, [f"fig_{number:02}" for number in range(1, 11)])
         for entry in own:
             with self.subTest(entry.name):
-                self.assert_missing("does not exist", lambda: entry.draw(self.results))
+                with self.refused("does not exist"):
+                    entry.draw(self.results)
 
     def test_projections_lie_on_the_posed_bone_within_its_ends(self):
         frames = self.frames()
@@ -61,16 +44,20 @@ class OwnFigures(unittest.TestCase):
         self.assertEqual(frames.frame_at_angle(70), 7)
         self.assertEqual(frames.row("pbs", 7)["min_section_pct"], "93")
         self.assertEqual(frames.skin("lbs", 2), frames.tets("lbs", 2))  # without a rendered surface, the boundary of the tets
-        self.assert_missing("lbs_000099.vtu: does not exist", lambda: frames.tets("lbs", 99))
-        self.assert_missing("no deformer labelled pbs_jiggle", lambda: frames.row("pbs_jiggle", 1))
-        self.assert_missing("bones.csv: no frame 99", lambda: frames.bones(99))
+        for words, action in (("lbs_000099.vtu: does not exist", lambda: frames.tets("lbs", 99)),
+                              ("no deformer labelled pbs_jiggle", lambda: frames.row("pbs_jiggle", 1)),
+                              ("bones.csv: no frame 99", lambda: frames.bones(99))):
+            with self.subTest(words), self.refused(words):
+                action()
 
     def test_a_real_body_has_a_rendered_surface(self):
         frames = self.frames()
         self.assertIsNone(frames.skin_at_rest())
         frames.body = "human"
-        self.assert_missing("lbs_surface_000002.vtp: does not exist", lambda: frames.skin("lbs", 2))
-        self.assert_missing("surface_rest.vtp: does not exist", frames.skin_at_rest)
+        with self.refused("lbs_surface_000002.vtp: does not exist"):
+            frames.skin("lbs", 2)
+        with self.refused("surface_rest.vtp: does not exist"):
+            frames.skin_at_rest()
 
     def test_distances_and_bones_of_points_of_the_skin(self):
         synthetic_frames.write_frames(self.results, "human_walk", body="human")
@@ -122,25 +109,18 @@ class OwnFigures(unittest.TestCase):
         self.assertAlmostEqual(float(rows["pbs"]["length_34_mm"]), 1000 * growth * 2 ** 0.5, places=6)
 
     def write_timing(self, orders=timing.orders):
-        folder = self.results / "timing"
-        folder.mkdir(exist_ok=True)
-        (folder / "run.json").write_text(json.dumps({"provenance": {"git_revision": "abc"}}))
-        columns = ["mesh", "body", "model", "stands_in", "vertices", "edges", "tets", "vertices_over_table_1", "edges_over_table_1",
-                   "tets_over_table_1", "variant", "precision", "total_ms", "frames_per_s", "paper_frames_per_s", "paper_ms", "paper_ct_ms",
-                   "cpu_model"]
-        with open(folder / "timing.csv", "w", newline="") as stream:
-            table = csv.writer(stream)
-            table.writerow(columns)
-            for mesh, model, stands_in in (("human_1", "Man", 1), ("man_1", "Man", 0), ("human_9", "-", 0)):
-                for order, precision in orders:
-                    table.writerow([mesh, mesh[:-2], model, stands_in, 200, 600, 400, 0.5, 0.75, 0.8, order, precision,
-                                    4.0 if order == "plain" else 0.5, 250, 90.5, 11.05, 0.52, "a processor"])
+        synthetic_tables.write_origin(self.results / "timing")
+        synthetic_tables.write_table(self.results / "timing" / "timing.csv", [
+            {"mesh": mesh, "body": mesh[:-2], "model": model, "stands_in": stands_in, "vertices": 200, "edges": 600, "tets": 400,
+             "vertices_over_table_1": 0.5, "edges_over_table_1": 0.75, "tets_over_table_1": 0.8, "variant": order, "precision": precision,
+             "total_ms": 4.0 if order == "plain" else 0.5, "frames_per_s": 250, "paper_frames_per_s": 90.5, "paper_ms": 11.05,
+             "paper_ct_ms": 0.52, "cpu_model": "a processor"}
+            for mesh, model, stands_in in (("human_1", "Man", 1), ("man_1", "Man", 0), ("human_9", "-", 0)) for order, precision in orders])
 
     def test_table_1_shows_the_papers_own_body_and_the_counts_it_prints(self):
         self.write_timing()
-        self.assertEqual(make_all.main(self.results, "table_1_timing"), 0)
-        with open(self.results / "figures" / "table_1_timing.csv", newline="") as stream:
-            row, = csv.DictReader(stream)
+        self.make_all("table_1_timing")
+        row, = self.rows("table_1_timing")
         self.assertEqual((row["mesh"], row["vertices"], row["edges"], row["tets"]), ("man", "400 / 200", "800 / 600", "500 / 400"))
         self.assertEqual((row["paper_ms"], row["paper_ct_ms"], row["plain_f64_ms"], row["ordered_f32_ms"]),
                          ("11.1", "0.52", "4.00", "0.50"))
@@ -150,31 +130,29 @@ class OwnFigures(unittest.TestCase):
 
     def test_table_1_refuses_half_a_timing(self):
         self.write_timing(orders=timing.orders[:1])
-        self.assert_missing("not timed in plain f64 and ordered f32",
-                            lambda: timing.table_1_timing(self.results))
+        with self.refused("not timed in plain f64 and ordered f32"):
+            timing.table_1_timing(self.results)
 
 
-class Origin(unittest.TestCase):
+class Origin(ResultsTest):
     def test_it_is_of_the_runs_behind_the_figure_and_no_others(self):
-        with tempfile.TemporaryDirectory() as folder:
-            results = pathlib.Path(folder)
-            synthetic_records.write_study(results)
-            synthetic_tables.write_origin(results / "volume" / "a_first", of="f" * 40)  # before them in alphabetical order
-            scenes = {}
-            for name in ("limb_twist", "limb_bend"):
-                run = results / "volume" / name / "run.json"
-                record = json.loads(run.read_text())
-                record["scene"]["name"] = name
-                record["provenance"]["cpu_model"] = "a processor"
-                run.write_text(json.dumps(record))
-                scenes[name] = records.scene_hash(record)
-            self.assertEqual(listed["volume_over_angle"].origin(results), {
-                "version": "0.1.0", "git_revision": synthetic_records.revision, "git_dirty": False, "cpu_model": "a processor",
-                "scenes": scenes, "rights": ""})
-            self.assertEqual(make_all.main(results, "volume_over_angle"), 0)
-            shown = (results / "figures" / "volume_over_angle.png").read_bytes()
-            for text in (synthetic_records.revision, "; a processor; ", *(f"scene {name} {digest}" for name, digest in scenes.items())):
-                self.assertIn(text.encode(), shown)
+        synthetic_records.write_study(self.results)
+        synthetic_tables.write_origin(self.results / "volume" / "a_first", of="f" * 40)  # before them in alphabetical order
+        scenes = {}
+        for name in ("limb_twist", "limb_bend"):
+            run = self.results / "volume" / name / "run.json"
+            record = json.loads(run.read_text())
+            record["scene"]["name"] = name
+            record["provenance"]["cpu_model"] = "a processor"
+            run.write_text(json.dumps(record))
+            scenes[name] = records.scene_hash(record)
+        self.assertEqual(listed["volume_over_angle"].origin(self.results), {
+            "version": "0.1.0", "git_revision": synthetic_records.revision, "git_dirty": False, "cpu_model": "a processor",
+            "scenes": scenes, "rights": ""})
+        self.make_all("volume_over_angle")
+        shown = (self.results / "figures" / "volume_over_angle.png").read_bytes()
+        for text in (synthetic_records.revision, "; a processor; ", *(f"scene {name} {digest}" for name, digest in scenes.items())):
+            self.assertIn(text.encode(), shown)
 
     def test_all_revisions_and_processors_are_named(self):
         runs = {name: {"work": {"name": name}, "provenance": {"git_revision": name * 4, "cpu_model": cpu, "git_dirty": name == "b"}}

@@ -1,36 +1,19 @@
 """The pages of studies. Reference: the kept records, whose pages are kept too, and tables made by hand."""
-import csv
 import importlib
 import json
-import pathlib
-import sys
-import tempfile
 import tomllib
 import unittest
 
-SOURCE = pathlib.Path(__file__).resolve().parents[3]
-sys.path.insert(0, str(SOURCE / "paper_figures"))
-import pages  # noqa: E402
-from pages import ambiguity, artefacts, ensemble, stiffness, work_precision  # noqa: E402
-from records import kept  # noqa: E402
+from results_case import ResultsTest, root
+import pages
+from pages import ambiguity, artefacts, ensemble, stiffness, work_precision
+from records import kept
+from synthetic_records import write_table
 
-KEPT = SOURCE / "experiments" / "records" / "full"
-
-
-def write(file, rows):
-    file.parent.mkdir(parents=True, exist_ok=True)
-    with file.open("w", newline="", encoding="utf-8") as stream:
-        writer = csv.DictWriter(stream, rows[0].keys())
-        writer.writeheader()
-        writer.writerows(rows)
+KEPT = root / "experiments" / "records" / "full"
 
 
-class Pages(unittest.TestCase):
-    def setUp(self):
-        scratch = tempfile.TemporaryDirectory()
-        self.addCleanup(scratch.cleanup)
-        self.results = pathlib.Path(scratch.name)
-
+class Pages(ResultsTest):
     def test_those_of_the_kept_records_are_current(self):
         opened = kept.opened(KEPT)
         for study in pages.studies:
@@ -61,7 +44,7 @@ class Pages(unittest.TestCase):
         row = {"group": "all", "budget_iterations": "24", "than": "pbs", "error_pct": "4", "than_error_pct": "10", "gain_pct": "6",
                "gain_low_pct": "5", "gain_high_pct": "7", "reference_error_pct": "6.5", "decision": "reference_error", "settings": "",
                "iterations": "9", "volume_abs_pct": "1"}
-        write(self.results / "gains.csv", [row | {"change": "better", "poses": "4"}, row | {"change": "in_one_pose", "poses": "1"}])
+        write_table(self.results / "gains.csv", [row | {"change": "better", "poses": "4"}, row | {"change": "in_one_pose", "poses": "1"}])
         text = work_precision.gains(self.results)
         self.assertIn("Not ranked, because no setting fits into the budget in every pose: in one pose (1 of 4 poses).", text)
         self.assertIn("the reference's own error may change it by 6.5 points", text)
@@ -92,7 +75,7 @@ class Pages(unittest.TestCase):
                          "- C05: human crouch elbow, measured: pbs is wide\n")
 
     def test_the_bounds_of_the_stiffness_are_those_of_the_claim(self):
-        claims = tomllib.loads((SOURCE / "experiments" / "verdicts" / "claims.toml").read_text(encoding="utf-8"))["claim"]
+        claims = tomllib.loads((root / "experiments" / "verdicts" / "claims.toml").read_text(encoding="utf-8"))["claim"]
         self.assertEqual([(claim["low"], claim["high"]) for claim in claims if claim["id"] == "C11"], [stiffness.bounds])
 
     def test_a_study_without_records_has_no_page(self):

@@ -1,45 +1,26 @@
 """Reference: the definition. A plot shows the rows that it names, with their numbers in the CSV behind it and under the pointer."""
-import contextlib
-import csv
-import io
-import pathlib
 import re
-import sys
-import tempfile
 import unittest
 import unittest.mock
 from xml.etree import ElementTree
 
-root = pathlib.Path(__file__).resolve().parents[3]
-sys.path[:0] = [str(root / "paper_figures"), str(pathlib.Path(__file__).parent)]
-
-import checked_looks  # noqa: E402,F401
-import make_all  # noqa: E402
-import synthetic_records  # noqa: E402
-import synthetic_tables  # noqa: E402
-from drawing import omission_boxes, style  # noqa: E402
-from figures import mechanics, pbs_errors, volume  # noqa: E402
+from results_case import ResultsTest
+import synthetic_records
+import synthetic_tables
+from drawing import omission_boxes, style
+from figures import mechanics, pbs_errors, volume
 
 svg = "{http://www.w3.org/2000/svg}"
 
 
-class Plots(unittest.TestCase):
+class Plots(ResultsTest):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.results = pathlib.Path(folder.name)
+        super().setUp()
         style.matplotlib.rcParams["savefig.dpi"] = 60  # makes the tests quick
 
     def drawn(self, name):
-        """The rows of the CSV behind a figure."""
-        said = io.StringIO()
-        with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(said):
-            self.assertEqual(make_all.main(self.results, name), 0, said.getvalue())
         self.stem = self.results / "figures" / name
-        for ending in ("pdf", "png", "svg"):
-            self.assertIn(synthetic_records.revision.encode(), self.stem.with_suffix("." + ending).read_bytes())
-        with open(self.stem.with_suffix(".csv"), newline="") as stream:
-            return list(csv.DictReader(stream))
+        return super().drawn(name)
 
     def titles(self, x_label):
         """The titles under the pointer in the panels with this x axis."""
@@ -93,10 +74,9 @@ class Plots(unittest.TestCase):
         reference = {**vbd, "deformer": "reference", "outcome": "reference"}
         for case, rows in {"a": [vbd, diverged, diverged, plain, reference], "b": [vbd] * 3 + [reference], "c": [plain],
                            "other": [vbd] * 7}.items():
-            (study / case).mkdir(parents=True)
-            synthetic_tables.write(study / case / "points.csv", rows)
-        synthetic_tables.write(study / "omissions.csv", [{"comparison": "packed_f32", "case": "a", "deformer": "vbd", "why": "not_finite",
-                                                          "missing": 2, "points": 3, "reason": ""}])
+            synthetic_tables.write_table(study / case / "points.csv", rows)
+        synthetic_tables.write_table(study / "omissions.csv", [{"comparison": "packed_f32", "case": "a", "deformer": "vbd",
+                                                                "why": "not_finite", "missing": 2, "points": 3, "reason": ""}])
         added = omission_boxes.added_up(self.results, "packed_f32", ("a", "b", "c"))
         self.assertEqual([(row["deformer"], row["missing"], row["points"]) for row in added], [("vbd", 2, 6)])
 
@@ -114,7 +94,7 @@ class Plots(unittest.TestCase):
         rows = [{"change": change, "budget_iterations": budget, "poses": poses}
                 for change, budget, poses in (("smooth_weights", "4", "8"), ("region_volumes", "4", "6"), ("smooth_weights", "24", "8"))]
         self.assertEqual(pbs_errors.not_ranked(rows), ["not ranked: volumes of regions in the time of 4 iterations: 6 of 8 poses",
-                                                        "not ranked: volumes of regions in the time of 24 iterations: 0 of 8 poses"])
+                                                       "not ranked: volumes of regions in the time of 24 iterations: 0 of 8 poses"])
 
     def test_an_attachment_that_was_not_reached_keeps_its_place_and_says_so(self):
         synthetic_tables.write_error_split(self.results / "ensemble")

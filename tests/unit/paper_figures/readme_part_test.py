@@ -1,40 +1,28 @@
 """The tables of the README come from the records: the text between two markers is written anew, the rest stays, and a README without the
 markers is refused. Reference: the definition."""
-import contextlib
-import io
 import json
-import pathlib
-import sys
-import tempfile
 import unittest
 
-root = pathlib.Path(__file__).resolve().parents[3]
-sys.path[:0] = [str(root / "paper_figures"), str(pathlib.Path(__file__).parent)]
-
-import make_readme  # noqa: E402
-import records  # noqa: E402
-import synthetic_records  # noqa: E402
-from readme import claims as readme_claims, features as readme_features, findings as readme_findings  # noqa: E402
-from readme import pages as readme_pages, part as readme_part, reliability as readme_reliability  # noqa: E402
-from synthetic_records import claim, interval, judged_run, value  # noqa: E402
-from words import compared_results  # noqa: E402
+from results_case import ResultsTest, listening
+import make_readme
+import synthetic_records
+from readme import findings as readme_findings, pages as readme_pages, part as readme_part, tables as readme_tables
+from synthetic_records import claim, interval, judged_run, value, write_origin, write_table
 
 begin, end = readme_part.markers("claims")
 
 
-class ReadmeTest(unittest.TestCase):
+class ReadmeTest(ResultsTest):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.results = pathlib.Path(folder.name)
+        super().setUp()
         self.readme = self.results / "README.md"
 
     def written(self, name, lines_of, text=None):
         """Exit status and error messages of the script of this name for a README with `text`; by default the usual one."""
         self.readme.write_text(text if text is not None else "before\n{}\nold\n{}\nafter\n".format(*readme_part.markers(name)))
-        with contextlib.redirect_stderr(io.StringIO()) as said:
+        with listening() as (_, complaints):
             status = readme_part.main(name, lambda results: {self.readme: lines_of(results)}, self.results)
-        return status, said.getvalue()
+        return status, complaints.getvalue()
 
 
 class ComparedResults(unittest.TestCase):
@@ -46,16 +34,16 @@ class ComparedResults(unittest.TestCase):
                 for body, share, deformer in (("man", 0.9, "nh_p1"), ("lady", 0.1, "nh_p1"), ("man", 0.5, "pbs"))]
         shown = claim("C02", "not_reproduced", titles={"volume_change_pct": "volume change"}, controls=runs,
                       bounds=[{"quantity": "volume_change_pct", "low": -0.5, "high": 0.5}])
-        self.assertEqual(compared_results.lines(shown, "pbs"),
+        self.assertEqual(readme_pages.compared_lines(shown, "pbs"),
                          [*self.table, "| deformer | volume change | within the bound |", "|---|---|---|",
                           "| neo-Hookean FEM, linear elements | -0.9 to 0 % | 50 of 100 frames in 2 runs |"])
-        self.assertEqual(compared_results.lines(shown, None), [])
+        self.assertEqual(readme_pages.compared_lines(shown, None), [])
 
     def test_values_are_compared_with_each_end_of_the_bound(self):
         values = [value("ratio", number, deformer="dqs") for number in (0.5, 0.9, 1.2)] + [value("ratio", None, deformer="dqs")]
         for low, high, held in ((0.9, None, 2), (None, 0.9, 2), (0.6, 1.0, 1), (2.0, None, 0)):
             shown = claim("C04", "not_reproduced", titles={}, controls=values, bounds=[{"quantity": "ratio", "low": low, "high": high}])
-            self.assertEqual(compared_results.lines(shown, "pbs")[-1], f"| DQS | 0.5 to 1.2 | {held} of 3 values |")
+            self.assertEqual(readme_pages.compared_lines(shown, "pbs")[-1], f"| DQS | 0.5 to 1.2 | {held} of 3 values |")
 
     def test_a_claim_on_orders_of_a_deformer_has_no_table(self):
         self.assertEqual([readme_pages.own_deformer(claim) for claim in
@@ -79,29 +67,30 @@ class Markers(ReadmeTest):
                             (f"{end}\n{begin}", f"{end} precedes {begin}: expected after it"),
                             ("<!-- features:begin -->\n<!-- features:end -->", f"{begin} occurs 0 times")):
             with self.subTest(text):
-                self.assertEqual(self.written("claims", lambda folder: ["new"], text)[0], 2)
-                self.assertIn(f"make_readme: claims: {self.readme}: {words}", self.written("claims", lambda folder: ["new"], text)[1])
+                status, said = self.written("claims", lambda folder: ["new"], text)
+                self.assertEqual(status, 2)
+                self.assertIn(f"make_readme: claims: {self.readme}: {words}", said)
                 self.assertEqual(self.readme.read_text(), text)
 
     def test_a_readme_that_is_not_there_is_refused(self):
-        with self.assertRaisesRegex(records.RecordsMissing, "README.md: cannot be read"):
+        with self.refused("README.md: cannot be read"):
             readme_part.write(self.readme, "claims", ["new"])
         self.assertEqual(list(self.results.iterdir()), [])
 
     def test_refused_records_leave_readme_as_it_is(self):
-        status, said = self.written("claims", readme_claims.lines_of)
+        status, said = self.written("claims", readme_tables.claims_lines)
         self.assertEqual(status, 2)
         self.assertIn("claims.json: does not exist", said)
         self.assertIn("\nold\n", self.readme.read_text())
 
     def test_one_folder_is_asked_for(self):
-        with contextlib.redirect_stderr(io.StringIO()) as said:
+        with listening() as (_, complaints):
             self.assertEqual([make_readme.main([]), make_readme.main(["folder", "no_such_part"])], [2, 2])
-        self.assertIn("paper_figures/make_readme.py", said.getvalue())
+        self.assertIn("paper_figures/make_readme.py", complaints.getvalue())
 
     def test_the_projects_own_readme_has_each_pair_once(self):
-        for name, page in (("claims", readme_part.own_readme), ("features", readme_features.page),
-                           ("reliability", readme_reliability.page)):
+        for name, page in (("claims", readme_part.own_readme), ("features", readme_tables.features_page),
+                           ("reliability", readme_tables.reliability_page)):
             self.assertTrue(readme_part.cut(page, name)[1].startswith("\n| "), name)
 
 
@@ -117,7 +106,7 @@ class Tables(ReadmeTest):
     def test_claims(self):
         synthetic_records.write_study(self.results)
         synthetic_records.write_claims(self.results)
-        self.assert_written("claims", readme_claims.lines_of,
+        self.assert_written("claims", readme_tables.claims_lines,
                             "| Volume is kept. (Sec. 4) | reproduced in part | 1 of 3 within; share of frames 40 [30, 50] % "
                             "(human, clip walk), expected 95 to 100 % | [C02](experiments/verdicts/claims/C02.md) |",
                             "| 2 of 2 within; frames per second 107 [100, 110] 1/s (frankie), expected 30 or more "
@@ -135,19 +124,19 @@ class Tables(ReadmeTest):
     def write_ensemble(self, difference_pct="3", landing_bound="0.1"):
         """Two poses, two references, of which the first is reported; LBS is 4 and 6 % away, PBS 1 and 3 %. The bound on the first
         reference's own error may be missing in the second pose."""
-        for pose, far in (("crouch", 0), ("landing", 2)):
-            lines = [f"human,{pose},,{member},{name},{error + far + more}" for member, more in (("smooth", 0), ("stiffer", 10))
-                     for name, error in (("lbs", 4), ("dqs", 3), ("delta_mush", 2), ("pbs", 1))]
-            (self.results / "ensemble" / pose).mkdir(parents=True)
-            bound = landing_bound if pose == "landing" else "0.1"
-            (self.results / "ensemble" / pose / "members.csv").write_text(f"member,error_bound_pct\nsmooth,{bound}\nstiffer,\n")
-            (self.results / "ensemble" / pose / "errors.csv").write_text(
-                "\n".join(["body,pose,angle_deg,member,deformer,error_joint_pct", *lines, ""]))
-        (self.results / "ensemble" / "pairs.csv").write_text(
-            "first,second,largest_difference_pct,members,decision\n"
-            f"lbs,pbs,{difference_pct},2,decided\ndqs,pbs,{difference_pct},2,reference_error\n"
-            f"delta_mush,pbs,{difference_pct},2,reference_error\ndelta_mush,dqs,{difference_pct},2,models_disagree\n"
-            "lbs,dqs,1,2,decided\nfem_linear,lbs,9,2,decided\n")
+        study = self.results / "ensemble"
+        for pose, far, bound in (("crouch", 0, "0.1"), ("landing", 2, landing_bound)):
+            write_table(study / pose / "members.csv", [{"member": "smooth", "error_bound_pct": bound}, {"member": "stiffer"}])
+            write_table(study / pose / "errors.csv", [
+                {"body": "human", "pose": pose, "angle_deg": "", "member": member, "deformer": name, "error_joint_pct": error + far + more}
+                for member, more in (("smooth", 0), ("stiffer", 10))
+                for name, error in (("lbs", 4), ("dqs", 3), ("delta_mush", 2), ("pbs", 1))])
+        write_table(study / "pairs.csv", [
+            {"first": first, "second": second, "largest_difference_pct": points, "members": 2, "decision": decision}
+            for first, second, points, decision in (
+                ("lbs", "pbs", difference_pct, "decided"), ("dqs", "pbs", difference_pct, "reference_error"),
+                ("delta_mush", "pbs", difference_pct, "reference_error"), ("delta_mush", "dqs", difference_pct, "models_disagree"),
+                ("lbs", "dqs", 1, "decided"), ("fem_linear", "lbs", 9, "decided"))])
 
     def test_the_distance_from_flesh_is_that_of_the_first_reference(self):
         self.write_ensemble()
@@ -167,32 +156,29 @@ class Tables(ReadmeTest):
 
     def test_the_distance_needs_pairs_that_differ(self):
         self.write_ensemble(difference_pct="1.9")
-        with self.assertRaisesRegex(records.RecordsMissing, "or no pair of them"):
+        with self.refused("or no pair of them"):
             readme_findings.distance(self.results)
 
     def test_features(self):
         synthetic_records.write_study(self.results)
         folder = self.results / "timing" / "features_human"
-        folder.mkdir(parents=True)
-        other = self.results / "ambiguity" / "human"  # a study that comes first
-        other.mkdir(parents=True)
-        for run, revision in ((folder, "of_this_table"), (other, "of_another_study")):
-            (run / "run.json").write_text(json.dumps({"provenance": {"git_revision": revision, "git_dirty": False}}))
+        write_origin(folder, of="of_this_table")
+        write_origin(self.results / "ambiguity" / "human", of="of_another_study")  # a study that comes first
         columns = {name + side: "1.5" for name in ("frame_cpu_ms", "start_s", "peak_mb") for side in ("_without", "_with")}
         columns |= {"frame_cpu_ms_ratio" + part: "1.25" for part in ("", "_lower", "_upper")}
         columns |= {"feature": "sleep", "largest_distance_m": "0.002"}
-        (folder / "features.csv").write_text(",".join(columns) + "\n" + ",".join(columns.values()) + "\n")
-        self.assert_written("features", readme_features.lines_of,
+        write_table(folder / "features.csv", [columns])
+        self.assert_written("features", readme_tables.features_lines,
                             "| sleep | 1.50 | 1.50 | 1.25 [1.25, 1.25] | 1.50 | 1.50 | 2 | 2 | 2 mm |")
-        self.assertEqual(readme_features.lines_of(self.results)[-1], "Measured at revision of_this_tabl.")
+        self.assertEqual(readme_tables.features_lines(self.results)[-1], "Measured at revision of_this_tabl.")
 
     def test_reliability(self):
         told = self.results / "kills.json"
         record = {"name": "kills survived", "count": 19, "of": 20, "command": "kills.py", "revision": "0123456789abcdef"}
         told.write_text(json.dumps(record))
-        self.assert_written("reliability", readme_reliability.lines_of, "| kills survived | 19 of 20 | `kills.py` | 0123456789ab |")
+        self.assert_written("reliability", readme_tables.reliability_lines, "| kills survived | 19 of 20 | `kills.py` | 0123456789ab |")
         told.write_text("{}")
-        status, said = self.written("reliability", readme_reliability.lines_of)
+        status, said = self.written("reliability", readme_tables.reliability_lines)
         self.assertEqual(status, 2)
         self.assertIn("kills.json: name", said)
 

@@ -1,21 +1,13 @@
 """The report refuses records of another shape with file, field, value and rule, exit status 2 and no page. Reference: the contract in
 README. Every value of small records takes every other kind in turn, and no result is a traceback."""
-import contextlib
-import io
 import json
-import pathlib
-import sys
-import tempfile
 import unittest
 import unittest.mock
 
-root = pathlib.Path(__file__).resolve().parents[3]
-sys.path[:0] = [str(root / "paper_figures"), str(pathlib.Path(__file__).parent)]
-
-import records  # noqa: E402
-import report  # noqa: E402
-import synthetic_records  # noqa: E402
-from records import shapes as record_shapes  # noqa: E402
+from results_case import ReportTest
+import records
+import synthetic_records
+from records import shapes as record_shapes
 
 RUN, POSE, PLAN, CLAIMS = "volume/limb_twist/run.json", "work_precision/twist/run.json", "volume/plan.json", "claims.json"
 ANYTHING = (None, True, 3, -1e300, "x", "", [], [3], ["x"], {}, {"x": 3})
@@ -88,14 +80,9 @@ def changed(record, place, value):
     return record
 
 
-class ReportRecords(unittest.TestCase):
+class ReportRecords(ReportTest):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.results = pathlib.Path(folder.name)
-        without_viewer = unittest.mock.patch.dict(sys.modules, {"viewer.page": None})
-        without_viewer.start()
-        self.addCleanup(without_viewer.stop)
+        super().setUp()
         synthetic_records.write_study(self.results)
         synthetic_records.write_claims(self.results)
         synthetic_records.write_poses(self.results)
@@ -114,13 +101,8 @@ class ReportRecords(unittest.TestCase):
 
     def made(self):
         """Exit status, error messages, whether there is a page."""
-        complaints = io.StringIO()
-        with contextlib.redirect_stderr(complaints), contextlib.redirect_stdout(io.StringIO()):
-            status = report.main(self.results)
-        page = self.results / "report.html"
-        there = page.is_file()
-        page.unlink(missing_ok=True)
-        return status, complaints.getvalue(), there
+        status, text, _, complaints = self.report()
+        return status, complaints, text != ""
 
     def test_what_the_cases_are_made_of_is_accepted(self):
         self.assertEqual(self.made(), (0, "", True))
@@ -158,10 +140,7 @@ class ReportRecords(unittest.TestCase):
         run = self.record(RUN)
         del run["outcome"]
         self.put(RUN, run)
-        self.made()
-        with contextlib.redirect_stdout(io.StringIO()) as said:
-            report.main(self.results)
-        self.assertIn("volume/limb_twist/run.json: outcome: missing", said.getvalue())
+        self.assertIn("volume/limb_twist/run.json: outcome: missing", self.report()[2])
 
     def test_cells_of_tables_are_refused_alike(self):
         points = self.results / "work_precision/twist/points.csv"

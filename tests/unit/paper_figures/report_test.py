@@ -1,24 +1,19 @@
 """Reference: the definition. The page's sentences and tables agree with small records, it loads nothing, and it names what is missing."""
-import contextlib
 import html.parser
-import io
 import json
 import os
-import pathlib
 import re
+import shutil
 import sys
-import tempfile
 import types
 import unittest
 import unittest.mock
 
-root = pathlib.Path(__file__).resolve().parents[3]
-sys.path[:0] = [str(root / "paper_figures"), str(pathlib.Path(__file__).parent)]
-
-import report  # noqa: E402
-import synthetic_records  # noqa: E402
-from records import entries  # noqa: E402
-from report import answers, errors, figures, markup, origin, record_set  # noqa: E402
+from results_case import ReportTest, root
+import report
+import synthetic_records
+from records import entries
+from report import answers, errors, figures, markup, origin, record_set
 
 
 class Page(html.parser.HTMLParser):
@@ -47,22 +42,18 @@ class Page(html.parser.HTMLParser):
             self.badly_nested.append(tag)
 
 
-class Report(unittest.TestCase):
+class Report(ReportTest):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.results = pathlib.Path(folder.name)
-        without_viewer = unittest.mock.patch.dict(sys.modules, {"viewer.page": None})  # it has tests of its own
-        without_viewer.start()
-        self.addCleanup(without_viewer.stop)
+        super().setUp()
+        synthetic_records.write_study(self.results)
 
-    def make(self):
-        """Exit status, the text of the page, output and error messages."""
-        said, complaints = io.StringIO(), io.StringIO()
-        with contextlib.redirect_stdout(said), contextlib.redirect_stderr(complaints):
-            status = report.main(self.results)
-        file = self.results / "report.html"
-        return status, file.read_text() if file.is_file() else "", said.getvalue(), complaints.getvalue()
+    def found(self):
+        return record_set.RecordSet(self.results)
+
+    def page(self):
+        status, text, _, complaints = self.report()
+        self.assertEqual((status, complaints), (0, ""))
+        return text
 
     def write_svg(self, name, body=""):
         folder = self.results / "figures"
@@ -75,20 +66,17 @@ class Report(unittest.TestCase):
         (folder / f"{name}.csv").write_text("a\n1\n")
 
     def test_no_records_no_page(self):
-        status, text, _, complaints = self.make()
+        shutil.rmtree(self.results / "volume")
+        status, text, _, complaints = self.report()
         self.assertEqual((status, text), (2, ""))
         self.assertIn("no records", complaints)
         self.assertEqual(list(self.results.iterdir()), [])
-
-    def test_a_folder_that_is_not_there(self):
         self.results = self.results / "nowhere"
-        self.assertEqual(self.make()[0], 2)
+        self.assertEqual(self.report()[0], 2)
 
     def test_verdicts_are_counted_and_open_to_their_runs(self):
-        synthetic_records.write_study(self.results)
         synthetic_records.write_claims(self.results)
-        status, text, _, _ = self.make()
-        self.assertEqual(status, 0)
+        text = self.page()
         self.assertIn("There are 4 claims: 1 is reproduced, 1 is reproduced in part, 1 is inconsistent in print, "
                       "1 cannot be tested here.", text)
         self.assertIn('<tr id="C02" class="claim">', text)
@@ -100,16 +88,14 @@ class Report(unittest.TestCase):
         self.assertIn("<code>", markup.inline("`x`"))
 
     def test_without_verdicts_it_is_said(self):
-        synthetic_records.write_study(self.results)
-        status, text, said, _ = self.make()
-        self.assertEqual(status, 0)
+        _, text, said, _ = self.report()
         self.assertIn("No verdict is on record", text)
         self.assertIn("missing: verdicts: claims.json does not exist", said)
 
     def test_distance_and_cost_are_those_of_the_records(self):
         synthetic_records.write_poses(self.results)
         synthetic_records.write_timing(self.results)
-        _, text, _, _ = self.make()
+        text = self.page()
         self.assertIn("PBS with 24 iterations is 8 to 20 % away from neo-Hookean finite elements, LBS 30 to 50 %", text)
         self.assertIn("In 1 of 2 poses PBS lies within the bound", text)
         self.assertIn("\u2264 15", text)
@@ -118,23 +104,21 @@ class Report(unittest.TestCase):
         self.assertIn("LBS 0.1 ms, PBS 0.7 ms, the FEM reference 90 s per pose", text)
 
     def test_a_study_that_was_not_run_is_named(self):
-        synthetic_records.write_study(self.results)
-        _, text, said, _ = self.make()
+        _, text, said, _ = self.report()
         for study in ("work_precision", "timing", "verification"):
             self.assertIn(f"the study {study} was not run", text)
         self.assertIn("missing: figure fit: the study fit was not run", said)
 
     def test_a_study_that_has_not_ended_is_not_called_one_that_was_not_run(self):
-        synthetic_records.write_study(self.results)
         (self.results / "timing").mkdir()
-        _, text, said, _ = self.make()
+        _, text, said, _ = self.report()
         self.assertIn("the study timing was started and has not ended", text)
         self.assertNotIn("the study timing was not run", text + said)
 
     def test_a_pose_without_an_error_of_pbs_is_named(self):
         synthetic_records.write_poses(self.results)
         file = sorted(self.results.glob("work_precision/*/points.csv"))[0]
-        found = record_set.RecordSet(self.results)
+        found = self.found()
         whole = [pose.name for pose in answers.poses(found)[0]]
         rows = file.read_text().splitlines()
         file.write_text("\n".join(row for row in rows if not row.startswith("pbs,") and ",pbs," not in row) + "\n")
@@ -143,9 +127,8 @@ class Report(unittest.TestCase):
         self.assertIn(f"the reference is recorded: {left_out[0]}.", answers.how_far(found))
 
     def test_a_verdict_has_one_name_on_the_page(self):
-        synthetic_records.write_study(self.results)
         synthetic_records.write_claims(self.results)
-        text = self.make()[1]
+        text = self.page()
         body = re.sub(r"<style>.*?</style>|<script>.*?</script>", "", text, flags=re.S)
         self.assertEqual(len(re.findall("(?i)reproduced in part", body)), 5)  # count, chip, section on limits, row, data behind it
         for other in ("in part, 1 ", "hold in part", "holds in part", "reproduced only"):
@@ -156,101 +139,90 @@ class Report(unittest.TestCase):
         names = [file.parent.name for file in sorted(self.results.glob("work_precision/*/points.csv"))]
         plan = {"runs": [{"name": name} for name in [*names, "human_landing"]], "left_out": []}
         (self.results / "work_precision" / "plan.json").write_text(json.dumps(plan))
-        shown, left_out = answers.poses(record_set.RecordSet(self.results))
+        shown, left_out = answers.poses(self.found())
         self.assertEqual((len(shown), left_out), (len(names), ["human landing"]))
-        self.assertIn("the reference is recorded: human landing.", self.make()[1])
+        self.assertIn("the reference is recorded: human landing.", self.page())
         for file in self.results.glob("work_precision/*/points.csv"):
             file.unlink()
-        self.assertIn("human landing", answers.how_far(record_set.RecordSet(self.results)))
+        self.assertIn("human landing", answers.how_far(self.found()))
 
     def test_a_page_beyond_its_size_is_written_and_refused(self):
-        synthetic_records.write_study(self.results)
         with unittest.mock.patch.object(report, "most_mb", 0.01):
-            status, text, _, complaints = self.make()
+            status, text, _, complaints = self.report()
         self.assertEqual((status, text != ""), (1, True))
         self.assertRegex(complaints, r"report\.html: 0\.\d MB: expected at most 0\.01")
-        self.assertEqual((self.make()[0], self.make()[3]), (0, ""))
+        self.assertEqual((self.report()[0], self.report()[3]), (0, ""))
 
     def test_links_that_leave_the_page_say_so_beside_them(self):
-        synthetic_records.write_study(self.results)
         synthetic_records.write_claims(self.results)
         self.write_svg("volume_over_angle")
         words = markup.beside_the_page("files")
-        self.assertNotIn(words, self.make()[1])
+        self.assertNotIn(words, self.page())
         with unittest.mock.patch.object(figures, "most_inline_kb", 0):
-            self.assertIn(f'href="figures/volume_over_angle.csv">numbers (CSV)</a> ({words})', self.make()[1])
-        self.assertIn(f'Runs ({markup.beside_the_page("folders")}): <a href="volume/limb_twist/">', self.make()[1])
+            self.assertIn(f'href="figures/volume_over_angle.csv">numbers (CSV)</a> ({words})', self.page())
+        self.assertIn(f'Runs ({markup.beside_the_page("folders")}): <a href="volume/limb_twist/">', self.page())
 
     def test_the_viewer_s_program_is_named_where_it_is_shown(self):
-        synthetic_records.write_study(self.results)
-        found = record_set.RecordSet(self.results)
-        self.assertIn("three.js, MIT licence", origin.section(found, with_viewer=True))
-        self.assertNotIn("three.js", origin.section(found))
+        self.assertIn("three.js, MIT licence", origin.section(self.found(), with_viewer=True))
+        self.assertNotIn("three.js", origin.section(self.found()))
 
     def test_costs_are_summed(self):
-        synthetic_records.write_study(self.results)
         (self.results / "volume" / "costs.csv").write_text("run,expected_cpu_s,cpu_s\na,10,60\nb,20,120\n")
-        found = record_set.RecordSet(self.results)
-        self.assertEqual(origin.costs_sentence(found), "These records took 3 min of processor time (1 study).")
-        self.assertIn("<td>30</td><td>180</td><td>\u2013</td>", origin.costs_section(found))  # an earlier version recorded no wall time
+        self.assertEqual(origin.costs_sentence(self.found()), "These records took 3 min of processor time (1 study).")
+        self.assertIn("<td>30</td><td>180</td><td>\u2013</td>", origin.costs_section(self.found()))  # an earlier version recorded no wall time
 
     def test_wall_time_and_the_size_of_a_study_stand_beside_its_cost(self):
-        synthetic_records.write_study(self.results)
         (self.results / "volume" / "costs.csv").write_text("run,expected_cpu_s,cpu_s,wall_s\na,10,60,70\nb,20,120,125\n")
         (self.results / "volume" / "plan.json").write_text(json.dumps({"extent": "quick", "runs": [], "left_out": []}))
-        shown = origin.costs_section(record_set.RecordSet(self.results))
+        shown = origin.costs_section(self.found())
         self.assertIn("<td>quick</td><td>2</td><td>30</td><td>180</td><td>195</td>", shown)
 
     def test_what_a_study_concludes_stands_beside_its_first_figure(self):
-        synthetic_records.write_study(self.results)
         (self.results / "volume" / "conclusion.txt").write_text("chest  -1.0 %\nspine  < 0\n")
         for name in ("volume_over_angle", "volume_over_clip"):
             self.write_svg(name)
-        text = self.make()[1]
+        text = self.page()
         self.assertEqual(text.count("What the study volume concludes"), 1)
         self.assertIn("chest  -1.0 %\nspine  &lt; 0</pre>", text)
         self.assertLess(text.index('id="figure-volume_over_angle"'), text.index("What the study volume concludes"))
         self.assertLess(text.index("What the study volume concludes"), text.index('id="figure-volume_over_clip"'))
 
     def test_errors_over_whole_runs_are_the_recorded_order_statistics(self):
-        synthetic_records.write_study(self.results)
         run = self.results / "volume" / "limb_twist"
         fem = {"name": "nh_p2", "model": "neo_hookean", "element_order": 2}
         record = json.loads((run / "run.json").read_text()) | {"outcome": {"frames": 37}}
         record["scene"] = {"reference": {"name": "nh_p2"}, "fem": [fem]}
         (run / "run.json").write_text(json.dumps(record))
-        _, missing = errors.section(record_set.RecordSet(self.results))
+        _, missing = errors.section(self.found())
         refused = "volume/limb_twist/frame_statistics.csv: does not exist: the run is of an earlier version and has to be made again"
         self.assertEqual(missing, [refused])
-        _, text, said, _ = self.make()
+        _, text, said, _ = self.report()
         self.assertIn(f"missing: {refused}", said)
         self.assertIn(f"<li>{refused}</li>", text)
         self.assertNotIn("have none of it (pbskin reproduce volume)", text)
         synthetic_records.write_frame_statistics(run, "pbs", 24, error_joint_least_pct=1.5, error_joint_median_pct=12,
                                                  error_joint_most_pct=40)
-        shown, missing = errors.section(record_set.RecordSet(self.results))
+        shown, missing = errors.section(self.found())
         self.assertIn("<td>12 (1.5 to 40)</td>", shown)
         self.assertEqual(missing, [])
 
     def test_the_reference_s_verification(self):
         synthetic_records.write_verification(self.results)
-        _, text, _, _ = self.make()
+        text = self.page()
         self.assertIn('<th scope="row">beam</th><td>largest deflection</td><td>P1</td>', text)
         self.assertIn("1 of 2 values with a bound fixed beforehand lie within it; 16 more have no bound", text)
         self.assertIn("<li>closed form: a beam</li>", text)
 
     def test_provenance_and_records_of_two_revisions(self):
-        synthetic_records.write_study(self.results)
-        self.assertIn(synthetic_records.revision, self.make()[1])
+        self.assertIn(synthetic_records.revision, self.page())
         file = self.results / "volume" / "limb_bend" / "run.json"
         file.write_text(file.read_text().replace(synthetic_records.revision, "f" * 40))
-        self.assertIn("the records are of 2 revisions", self.make()[1])
+        self.assertIn("the records are of 2 revisions", self.page())
 
     def test_figures_are_inline_each_with_ids_of_its_own(self):
-        synthetic_records.write_study(self.results)
         self.write_svg("volume_over_angle", '<g class="values" data-x="angle"><circle r="1"><title>PBS: 1, 2</title></circle></g>')
         self.write_svg("volume_over_clip")
-        _, text, said, _ = self.make()
+        _, text, said, _ = self.report()
         self.assertIn('<use href="#volume_over_angle-m1"/>', text)
         self.assertIn("url(#volume_over_clip-p1)", text)
         place = [entry.name for entry in entries.read() if not entry.title.startswith("Table")].index("volume_over_clip") + 1
@@ -260,13 +232,12 @@ class Report(unittest.TestCase):
         self.assertIn('download="volume_over_angle.csv"', text)
 
     def test_a_caption_tells_the_numbers_of_the_figure_that_was_drawn(self):
-        synthetic_records.write_study(self.results)
         self.write_svg("volume_over_iterations")
-        _, text, said, _ = self.make()
+        _, text, said, _ = self.report()
         self.assertIn("missing: figure volume_over_iterations: figures/volume_over_iterations.caption.txt: does not exist", said)
         self.assertNotIn('id="figure-volume_over_iterations"', text)
         (self.results / "figures" / "volume_over_iterations.caption.txt").write_text("24 leave \u22120.53 %.\n")
-        text = self.make()[1]
+        text = self.page()
         self.assertIn("Volume change against iterations. </b>24 leave \u22120.53 %. Claims: ", text)
         self.assertNotIn("{human_24}", text)
 
@@ -278,27 +249,24 @@ class Report(unittest.TestCase):
         self.assertEqual(len(numbers), len(set(numbers)))
 
     def test_a_clip_has_its_still_above_and_is_opened_by_the_page(self):
-        synthetic_records.write_study(self.results)
         self.write_svg("volume_over_angle")
         (self.results / "figures" / "volume_over_angle.webp").write_bytes(b"RIFF")
-        text = self.make()[1]
+        text = self.page()
         still, moving = text.index('id="volume_over_angle-m1"'), text.index('<details class="clip"><summary>The clip, moving</summary><img')
         self.assertLess(still, moving)
         self.assertIn("prefers-reduced-motion", text[moving:])
 
     def test_a_figure_without_its_records_or_older_than_they_is_refused(self):
-        synthetic_records.write_study(self.results)
         self.write_svg("volume_over_angle")
         os.utime(self.results / "figures" / "volume_over_angle.svg", (1e9, 1e9))
-        self.assertIn("figure volume_over_angle: stale", self.make()[2])
+        self.assertIn("figure volume_over_angle: stale", self.report()[2])
         self.write_svg("volume_over_angle")
         (self.results / "volume" / "limb_bend" / "metrics.csv").unlink()
-        _, text, said, _ = self.make()
+        _, text, said, _ = self.report()
         self.assertIn("figure volume_over_angle: volume/limb_bend/metrics.csv: does not exist", said)
         self.assertNotIn('id="figure-volume_over_angle"', text)
 
     def test_the_viewer_or_why_there_is_none(self):
-        synthetic_records.write_study(self.results)
         synthetic_records.write_claims(self.results)
         refused = entries.records.RecordsMissing("no frames on record")
         for fragment, expected in (({"return_value": "<p>turn me</p>"}, "<p>turn me</p>"),
@@ -307,16 +275,15 @@ class Report(unittest.TestCase):
             module.fragment = unittest.mock.Mock(**fragment)
             module.claim_links = lambda results: {"C02": "#run=limb"}
             with unittest.mock.patch.dict(sys.modules, {"viewer.page": module}):
-                text = self.make()[1]
+                text = self.page()
             self.assertIn(expected, text)
             self.assertEqual('href="#run=limb"' in text, "turn me" in expected)
 
     def test_nothing_is_loaded_and_the_page_is_whole(self):
-        synthetic_records.write_study(self.results)
         synthetic_records.write_claims(self.results)
         synthetic_records.write_poses(self.results)
         self.write_svg("volume_over_angle")
-        found = Page(self.make()[1])
+        found = Page(self.page())
         self.assertEqual([load for load in found.loads if not load.startswith(("data:", "#"))], [])
         self.assertEqual([link for link in found.links if link.startswith(("http:", "//"))], [])
         self.assertEqual([link for link in found.links if link.startswith("#") and link[1:] not in found.ids], [])
@@ -333,9 +300,8 @@ class Report(unittest.TestCase):
             self.assertIsNone(re.search(r"https?:|@import|url\(|fetch\(|XMLHttpRequest|import\s", file.read_text()), file)
 
     def test_texts_of_records_are_escaped(self):
-        synthetic_records.write_study(self.results)
         synthetic_records.write_claims(self.results, statement="a < b & <script>alert(1)</script>")
-        text = self.make()[1]
+        text = self.page()
         self.assertIn("a &lt; b &amp; &lt;script&gt;", text)
         self.assertNotIn("<script>alert", text)
 

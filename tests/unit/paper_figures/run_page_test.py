@@ -1,26 +1,19 @@
 """The page of a single run. Reference: its records, which are written here with numbers that can be predicted. Each number of a table is
 that of a record, warnings are shown, and nothing is missing that the run was not asked for."""
-import contextlib
 import csv
 import html.parser
-import io
 import json
-import pathlib
 import re
 import sys
-import tempfile
 import unittest
 import unittest.mock
 
-root = pathlib.Path(__file__).resolve().parents[3]
-sys.path[:0] = [str(root / "paper_figures"), str(pathlib.Path(__file__).parent)]
+from results_case import ResultsTest, listening
+import report
+from report import run_page
+from synthetic_records import write_table
+from words import looks
 
-import report  # noqa: E402
-from report import run_page  # noqa: E402
-from words import looks  # noqa: E402
-
-columns = ("scene", "deformer", "variant", "iterations", "frame", "time_s", "volume_change_pct", "inverted_tets", "step_ms",
-           "error_joint_pct", "angle_deg")
 FRAMES = 5
 # volume change [%], inverted tets, step [ms] and error at the joints [%] in frame i
 numbers = {"lbs": lambda i: (-2.0 * i, i, 0.01 * (i + 1), 5.0 + i), "pbs": lambda i: (-0.25 * i, 0, 1.0 + i, 1.0 + i / 2),
@@ -57,38 +50,26 @@ class Tables(html.parser.HTMLParser):
             self.rows[self.caption][-1][-1] += data
 
 
-def write_table(file, header, rows):
-    with open(file, "w", newline="", encoding="utf-8") as stream:
-        writer = csv.DictWriter(stream, header, restval="")
-        writer.writeheader()
-        writer.writerows(rows)
-
-
-class RunPage(unittest.TestCase):
-    def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.folder = pathlib.Path(temporary.name)
-
+class RunPage(ResultsTest):
     def write(self, labels=("lbs", "pbs", "mine", "nh_p1"), reference="nh_p1", outcome=None, model=None, angles=True, blank=()):
         """blank: columns without a value."""
         runs = [{"label": label, "name": label, "variant": "default"} for label in labels]
         scene = {"name": "walk", "runs": runs, "reference": {"name": reference}}
         record = {"scene": scene, "provenance": {"version": "1", "git_revision": "0" * 40, "git_dirty": False},
                   "outcome": {"frames": FRAMES, "warnings": [], **(outcome or {})}, "character": {"model": model} if model else {}}
-        (self.folder / "run.json").write_text(json.dumps(record))
+        (self.results / "run.json").write_text(json.dumps(record))
         rows = []
         for frame in range(FRAMES):
             for label in labels:
                 change, inverted, ms, error = numbers[label](frame)
-                row = {"scene": "walk", "deformer": label, "variant": "default", "frame": frame, "time_s": frame / 25,
+                row = {"scene": "walk", "deformer": label, "variant": "default", "iterations": "", "frame": frame, "time_s": frame / 25,
                        "volume_change_pct": change, "inverted_tets": inverted, "step_ms": ms,
                        "error_joint_pct": error if reference else "", "angle_deg": 10 * frame if angles else ""}
                 rows.append(row | {column: "" for column in blank})
-        write_table(self.folder / "metrics.csv", columns, rows)
+        write_table(self.results / "metrics.csv", rows)
 
     def page(self):
-        text, missing = run_page.page(self.folder)
+        text, missing = run_page.page(self.results)
         self.assertEqual(missing, [])
         return text
 
@@ -106,7 +87,7 @@ class RunPage(unittest.TestCase):
         self.write()
         kinds = [("joint", "hips", "knee", {"lbs": -3.5, "pbs": -0.5}), ("joint", "chest", "arm", {"lbs": -7.25, "pbs": 0.25}),
                  ("bone", "hips", "", {"lbs": -99.0})]
-        write_table(self.folder / "regions.csv", ("deformer", "kind", "bone", "second_bone", "own_change_pct"),
+        write_table(self.results / "regions.csv",
                     [{"deformer": label, "kind": kind, "bone": bone, "second_bone": second, "own_change_pct": change}
                      for kind, bone, second, changes in kinds for label, change in changes.items()])
         rows = Tables(self.page()).rows["Mean change of the volume of the tets at a joint [% of their volume at rest]"]
@@ -115,7 +96,7 @@ class RunPage(unittest.TestCase):
 
     def test_distances_are_the_median_and_the_largest_over_the_frames(self):
         self.write()
-        write_table(self.folder / "distances.csv", ("deformer", "other", "of", "frame", "rms_mm", "largest_mm"),
+        write_table(self.results / "distances.csv",
                     [{"deformer": "lbs", "other": "pbs", "of": "surface", "frame": frame, "rms_mm": rms, "largest_mm": 10 * rms}
                      for frame, rms in enumerate((1.5, 4.0, 2.5))])
         rows = Tables(self.page()).rows["Distances between the same points"]
@@ -143,10 +124,10 @@ class RunPage(unittest.TestCase):
 
     def test_written_frames_without_a_viewer_are_missing(self):
         self.write()
-        (self.folder / "frames").mkdir()
-        (self.folder / "frames" / "lbs_000000.vtu").write_text("")
+        (self.results / "frames").mkdir()
+        (self.results / "frames" / "lbs_000000.vtu").write_text("")
         with unittest.mock.patch.dict(sys.modules, {"viewer.page": None}):
-            text, missing = run_page.page(self.folder)
+            text, missing = run_page.page(self.results)
         self.assertEqual(len(missing), 1)
         self.assertTrue(missing[0].startswith("viewer: "), missing)
         self.assertNotIn('id="viewer"', text)
@@ -165,32 +146,31 @@ class RunPage(unittest.TestCase):
     def test_the_sentence_and_the_warnings_of_a_trial_come_first(self):
         self.write(outcome={"warnings": ["of the run"]})
         self.assertNotIn("PBS keeps it", self.page())
-        (self.folder / "try.json").write_text(json.dumps({"summary": "PBS keeps it.", "warnings": ["of the trial", "of the run"]}))
+        (self.results / "try.json").write_text(json.dumps({"summary": "PBS keeps it.", "warnings": ["of the trial", "of the run"]}))
         text = self.page()
         self.assertIn('<p class="answer">PBS keeps it.</p>', text)
         self.assertEqual((text.count("of the trial"), text.count("of the run")), (1, 1))
 
     def test_a_damaged_record_is_refused_by_name(self):
         self.write()
-        (self.folder / "try.json").write_text('{"summary": 3, "warnings": []}')
-        with unittest.mock.patch("sys.stderr") as complaints:
-            self.assertEqual(report.main(self.folder, quiet=True), 2)
-        said = "".join(call.args[0] for call in complaints.write.call_args_list)
-        self.assertIn("try.json: summary = 3: expected a text", said)
-        self.assertFalse((self.folder / "report.html").exists())
+        (self.results / "try.json").write_text('{"summary": 3, "warnings": []}')
+        with listening() as (_, complaints):
+            self.assertEqual(report.main(self.results, quiet=True), 2)
+        self.assertIn("try.json: summary = 3: expected a text", complaints.getvalue())
+        self.assertFalse((self.results / "report.html").exists())
 
     # The figures.
 
     def test_error_against_time_has_the_medians_of_each_deformer(self):
         self.write()
-        axes = run_page.error_against_time(run_page.RunRecords(self.folder)).axes[0]
+        axes = run_page.error_against_time(run_page.RunRecords(self.results)).axes[0]
         points = {line.get_label(): (line.get_xdata()[0], line.get_ydata()[0]) for line in axes.lines}
         self.assertEqual(points, {"LBS": (0.03, 7.0), "PBS": (3.0, 2.0), "mine": (18.0, 2.5)})
 
     def test_the_lines_over_the_frames_are_the_columns(self):
         for angles, x, unit in ((True, [0, 10, 20, 30, 40], "angle [degrees]"), (False, [0, 0.04, 0.08, 0.12, 0.16], "time [s]")):
             self.write(angles=angles)
-            figure = run_page.over_frames(run_page.RunRecords(self.folder))
+            figure = run_page.over_frames(run_page.RunRecords(self.results))
             self.assertEqual(figure.axes[-1].get_xlabel(), unit)
             for axes, at in zip(figure.axes, (0, 3, 1)):  # volume, error, inverted tets
                 lines = {line.get_label(): line for line in axes.lines}
@@ -200,19 +180,19 @@ class RunPage(unittest.TestCase):
     def test_deformers_that_are_not_of_this_project_look_different(self):
         with unittest.mock.patch.dict(numbers, {"one": numbers["mine"], "two": numbers["mine"]}):
             self.write(labels=("lbs", "one", "two"), reference="")
-            found = run_page.RunRecords(self.folder)
+            found = run_page.RunRecords(self.results)
         shown = [looks.of(label) for label in found.labels()]
         self.assertEqual(len({(look.color, look.marker) for look in shown}), 3)
         self.assertEqual([look.name for look in shown], ["LBS", "one", "two"])
 
     def test_the_picture_of_a_run_is_written_next_to_its_records(self):
         self.write()
-        self.assertEqual(report.picture(self.folder), 0)
-        self.assertTrue((self.folder / "picture.png").read_bytes().startswith(b"\x89PNG"))
-        (self.folder / "metrics.csv").unlink()
-        with contextlib.redirect_stderr(io.StringIO()) as said:
-            self.assertEqual(report.picture(self.folder), 2)
-        self.assertIn("metrics.csv", said.getvalue())
+        self.assertEqual(report.picture(self.results), 0)
+        self.assertTrue((self.results / "picture.png").read_bytes().startswith(b"\x89PNG"))
+        (self.results / "metrics.csv").unlink()
+        with listening() as (_, complaints):
+            self.assertEqual(report.picture(self.results), 2)
+        self.assertIn("metrics.csv", complaints.getvalue())
 
     # Runs in which nothing happens, or nothing is left.
 
@@ -224,9 +204,9 @@ class RunPage(unittest.TestCase):
     def test_a_deformer_that_broke_down_in_every_frame(self):
         for value in ("", "nan"):
             self.write(reference="", labels=("lbs",))
-            with open(self.folder / "metrics.csv", newline="") as stream:
+            with open(self.results / "metrics.csv", newline="") as stream:
                 rows = [row | {"volume_change_pct": value, "step_ms": value} for row in csv.DictReader(stream)]
-            write_table(self.folder / "metrics.csv", columns, rows)
+            write_table(self.results / "metrics.csv", rows)
             self.assertEqual(Tables(self.page()).rows["Over all frames"][1], ["LBS", "\u2013", "4", "\u2013", "\u2013"])
 
 

@@ -2,16 +2,11 @@
 records."""
 import csv
 import math
-import pathlib
-import sys
-import tempfile
 import unittest
 
-root = pathlib.Path(__file__).resolve().parents[3]
-sys.path[:0] = [str(root / "paper_figures"), str(root / "paper_figures" / "readme")]
-
-import records  # noqa: E402
-import same_pose  # noqa: E402
+from results_case import ResultsTest
+from readme import same_pose
+from synthetic_records import write_table
 
 
 def shown():
@@ -19,15 +14,12 @@ def shown():
         return list(csv.DictReader(stream))
 
 
-class SamePose(unittest.TestCase):
-    def write_run(self, folder, **changed):
+class SamePose(ResultsTest):
+    def write_run(self, **changed):
         """The kept rows of LBS at the first pose as a run's metrics.csv, with these cells changed."""
         pose = same_pose.poses[0]
         row = {**same_pose.row_of(same_pose.kept_volume / pose.scene, pose, "lbs"), **changed}
-        with open(folder / "metrics.csv", "w", newline="") as stream:
-            writer = csv.DictWriter(stream, list(row))
-            writer.writeheader()
-            writer.writerow(row)
+        write_table(self.results / "metrics.csv", [row])
         return pose
 
     def test_each_deformer_is_shown_in_each_pose(self):
@@ -43,15 +35,13 @@ class SamePose(unittest.TestCase):
                 self.assertTrue(math.isclose(float(row[column]), kept.number(column), rel_tol=1e-5), (row, column))
 
     def test_a_run_that_agrees_with_the_records_is_accepted(self):
-        with tempfile.TemporaryDirectory() as folder:
-            pose = self.write_run(pathlib.Path(folder))
-            self.assertEqual(same_pose.checked_row(pathlib.Path(folder), pose, "lbs")["deformer"], "lbs")
+        pose = self.write_run()
+        self.assertEqual(same_pose.checked_row(self.results, pose, "lbs")["deformer"], "lbs")
 
     def test_a_run_that_disagrees_is_refused(self):
-        with tempfile.TemporaryDirectory() as folder:
-            pose = self.write_run(pathlib.Path(folder), volume_change_pct="-14.7")
-            with self.assertRaisesRegex(records.RecordsMissing, "volume_change_pct of lbs = -14.7: expected -14.8"):
-                same_pose.checked_row(pathlib.Path(folder), pose, "lbs")
+        pose = self.write_run(volume_change_pct="-14.7")
+        with self.refused("volume_change_pct of lbs = -14.7: expected -14.8"):
+            same_pose.checked_row(self.results, pose, "lbs")
 
 
 if __name__ == "__main__":

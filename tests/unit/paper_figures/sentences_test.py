@@ -1,17 +1,11 @@
 """Sentences agree with the facts of small claims. Reference: the definition."""
-import pathlib
-import sys
-import tempfile
 import tomllib
 import unittest
 
-root = pathlib.Path(__file__).resolve().parents[3]
-sys.path[:0] = [str(root / "paper_figures"), str(pathlib.Path(__file__).parent)]
-
-import records  # noqa: E402
-import synthetic_records  # noqa: E402
-from synthetic_records import claim, interval, judged_run, subject, value  # noqa: E402
-from words import case_words, sentences  # noqa: E402
+from results_case import ResultsTest, root
+import synthetic_records
+from synthetic_records import claim, interval, judged_run, subject, value
+from words import case_words, sentences
 
 
 def told(**facts):
@@ -60,8 +54,6 @@ class Bounds(unittest.TestCase):
 
         self.assertEqual(sentences.expected(of(("a", 1.0), ("b", 1.0))), ["0 to 1"])
         self.assertEqual(sentences.expected(of(("a", 1.0), ("b", 2.0))), ["a: 0 to 1", "breadth: 0 to 2"])
-        self.assertEqual(sentences.expected_in_line(of(*((name, high) for high, name in enumerate("abcd")))),
-                         "4 quantities, each within its bound")
         self.assertEqual(sentences.expected(told(rule="untestable")), [])
 
 
@@ -142,15 +134,14 @@ class Line(unittest.TestCase):
                          "2 of 3 values within the bound; farthest: b is 5, expected 0 to 2")
 
 
-class File(unittest.TestCase):
+class File(ResultsTest):
     def test_titles_are_attached_and_another_schema_is_refused(self):
-        with tempfile.TemporaryDirectory() as folder:
-            synthetic_records.write_claims(pathlib.Path(folder))
-            file = pathlib.Path(folder) / "claims.json"
-            self.assertEqual(sentences.title(sentences.claims_of(file)[0], "volume_change_pct"), "volume change")
-            file.write_text(file.read_text().replace('"schema": 2', '"schema": 1'))
-            with self.assertRaisesRegex(records.RecordsMissing, "schema = 1: expected 2"):
-                sentences.claims_of(file)
+        synthetic_records.write_claims(self.results)
+        file = self.results / "claims.json"
+        self.assertEqual(sentences.title(sentences.claims_of(file)[0], "volume_change_pct"), "volume change")
+        file.write_text(file.read_text().replace('"schema": 2', '"schema": 1'))
+        with self.refused("schema = 1: expected 2"):
+            sentences.claims_of(file)
 
     def test_every_quantity_of_the_projects_claims_has_a_title(self):
         document = tomllib.loads((root / "experiments" / "verdicts" / "claims.toml").read_text())

@@ -1,30 +1,20 @@
 """Reference: the definition. A still shows tets in the colours of its bar and hides nothing in front of them, and a clip plays at the speed
 of the records. VTK needs a display; xvfb-run provides one."""
-import pathlib
-import sys
-import tempfile
 import unittest
 
 import numpy
 from PIL import Image
 
-root = pathlib.Path(__file__).resolve().parents[3]
-sys.path[:0] = [str(root / "paper_figures"), str(pathlib.Path(__file__).parent)]
-
-import synthetic_frames  # noqa: E402
-from drawing import bodies, rendering  # noqa: E402
-from figures import stills  # noqa: E402
-from records import recorded_frames  # noqa: E402
+from results_case import ResultsTest
+import synthetic_frames
+from drawing import bodies, rendering
+from figures import stills
+from records import recorded_frames
 
 size = (120, 90)
 
 
-class Stills(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.results = pathlib.Path(folder.name)
-
+class Stills(ResultsTest):
     def write(self, scene):
         synthetic_frames.write_frames(self.results, scene)
         return recorded_frames.Frames(self.results, scene)

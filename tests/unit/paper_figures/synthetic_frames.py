@@ -1,6 +1,7 @@
 """Recorded frames of a run in the layout of the study `frames`: two tets that grow, so that every number can be predicted."""
-import csv
 import json
+
+from synthetic_records import write_table
 
 rest = [(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0), (1.0, 1.0, 1.0)]
 tets = [(0, 1, 2, 3), (1, 2, 3, 4)]
@@ -59,24 +60,20 @@ def error_m(label, frame):
 def write_skin(folder):
     """The rendered surface at rest, and the tets that carry it."""
     (folder / "surface_rest.vtp").write_text(skin.format(positions=text(skin_of(rest))))
-    with open(folder / "embedding.csv", "w", newline="") as stream:
-        table = csv.writer(stream)
-        table.writerow(["point", "tet", *(f"barycentric_{corner}" for corner in range(4))])
-        table.writerows([point, tet, *shares] for point, (tet, shares) in enumerate(carriers))
+    write_table(folder / "embedding.csv", [
+        {"point": point, "tet": tet} | {f"barycentric_{corner}": share for corner, share in enumerate(shares)}
+        for point, (tet, shares) in enumerate(carriers)])
 
 
 def write_bones(folder, frames):
     """bones.csv: two bones along x, in frame f at z = f; bones_rest.csv: the same at z = 0."""
-    ends = [f"{end}_{axis}_m" for end in ("head", "tail") for axis in "xyz"]
-    with open(folder / "bones.csv", "w", newline="") as stream, open(folder / "bones_rest.csv", "w", newline="") as resting:
-        posed, at_rest = csv.writer(stream), csv.writer(resting)
-        posed.writerow(["frame", "time_s", "bone", "parent", *ends])
-        at_rest.writerow(["bone", "parent", *ends])
-        for bone, at in (("upper", 0), ("forearm", 1)):
-            at_rest.writerow([bone, "", at, 0, 0, at + 1, 0, 0])
-        for frame in range(frames):
-            for bone, at in (("upper", 0), ("forearm", 1)):
-                posed.writerow([frame, frame / 100, bone, "", at, 0, frame, at + 1, 0, frame])
+    columns = [f"{end}_{axis}_m" for end in ("head", "tail") for axis in "xyz"]
+
+    def bones_at(z):
+        return [{"bone": bone, "parent": ""} | dict(zip(columns, (at, 0, z, at + 1, 0, z))) for bone, at in (("upper", 0), ("forearm", 1))]
+
+    write_table(folder / "bones_rest.csv", bones_at(0))
+    write_table(folder / "bones.csv", [{"frame": frame, "time_s": frame / 100} | bone for frame in range(frames) for bone in bones_at(frame)])
 
 
 def write_frames(results, scene="limb_twist", frames=4, body="limb", not_reached=()):
@@ -86,19 +83,17 @@ def write_frames(results, scene="limb_twist", frames=4, body="limb", not_reached
     (folder / "run.json").write_text(json.dumps({"scene": {
         "character": {"body": body}, "motion": {}, "reference": {"name": "nh_p1"},
         "runs": [{"label": label, "name": label, "variant": "default"} for label in labels]}}))
-    columns = ["scene", "deformer", "variant", "iterations", "frame", "time_s", "volume_change_pct", "inverted_tets", "j_min",
-               "error_joint_pct", "error_linf_m", "min_section_pct", "angle_deg", "outcome"]
-    with open(folder / "metrics.csv", "w", newline="") as stream:
-        table = csv.writer(stream)
-        table.writerow(columns)
-        for frame in range(frames):
-            for label in labels:
-                ratios = ratios_of(label, frame)
-                inverted = sum(ratio <= 0 for ratio in ratios)
-                table.writerow([scene, label, "default", 24 if label == "pbs" else "", frame, frame / 100, -abs(frame - 2) or -9, inverted,
-                                min(ratios), 10 * frame, error_m(label, frame), 100 - frame, 10 * frame,
-                                "not_converged" if (label, frame) in not_reached else "finished"])
-                write_frame(folder / "frames" / f"{label}_{frame:06}.vtu", label, frame)
+    rows = []
+    for frame in range(frames):
+        for label in labels:
+            ratios = ratios_of(label, frame)
+            rows.append({"scene": scene, "deformer": label, "variant": "default", "iterations": 24 if label == "pbs" else "",
+                         "frame": frame, "time_s": frame / 100, "volume_change_pct": -abs(frame - 2) or -9,
+                         "inverted_tets": sum(ratio <= 0 for ratio in ratios), "j_min": min(ratios), "error_joint_pct": 10 * frame,
+                         "error_linf_m": error_m(label, frame), "min_section_pct": 100 - frame, "angle_deg": 10 * frame,
+                         "outcome": "not_converged" if (label, frame) in not_reached else "finished"})
+            write_frame(folder / "frames" / f"{label}_{frame:06}.vtu", label, frame)
+    write_table(folder / "metrics.csv", rows)
     write_bones(folder, frames)
     if body != "limb":
         write_skin(folder)

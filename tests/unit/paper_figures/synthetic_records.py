@@ -2,109 +2,88 @@
 import csv
 import json
 
-columns = ["scene", "deformer", "variant", "iterations", "frame", "time_s", "volume_change_pct", "volume_abs_change_pct", "inverted_tets",
-           "min_section_pct", "angle_deg"]
 revision = "0123456789abcdef0123456789abcdef01234567"
-origin = {"provenance": {"version": "0.1.0", "git_revision": revision, "git_dirty": False}}
+
+
+def write_table(file, rows):
+    file.parent.mkdir(parents=True, exist_ok=True)
+    with open(file, "w", newline="", encoding="utf-8") as stream:
+        writer = csv.DictWriter(stream, list(dict.fromkeys(key for row in rows for key in row)))
+        writer.writeheader()
+        writer.writerows(rows)
+
+
+def write_origin(folder, of=revision, **more):
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "run.json").write_text(json.dumps({**more, "provenance": {"version": "0.1.0", "git_revision": of, "git_dirty": False}}))
 
 
 def write_run(folder, frames=37, last_angle_deg=180.0):
     """last_angle_deg None: a clip. LBS changes the volume by -angle / 10 %, PBS by a hundredth over its iterations."""
-    folder.mkdir(parents=True)
-    (folder / "run.json").write_text(json.dumps(
-        {"scene": {"reference": {"name": "fem_p2"}}, "provenance": {"version": "0.1.0", "git_revision": revision, "git_dirty": False}}))
-    with open(folder / "metrics.csv", "w", newline="") as stream:
-        writer = csv.DictWriter(stream, columns)
-        writer.writeheader()
-        for frame in range(frames):
-            angle = (last_angle_deg or 90.0) * frame / (frames - 1)
-            specs = [("lbs", "", "default", -angle / 10), ("dqs", "", "default", angle / 20), ("fem_p2", "", "default", angle / 5)]
-            specs += [("pbs", count, "default", -angle / 1000 / count) for count in (1, 24, 96)] + [("pbs", 24, "jiggle", -angle / 500)]
-            for deformer, iterations, variant, change in specs:
-                writer.writerow({"scene": folder.name, "deformer": deformer, "variant": variant, "iterations": iterations, "frame": frame,
-                                 "time_s": frame / 100, "volume_change_pct": change, "volume_abs_change_pct": abs(change),
-                                 "inverted_tets": 0, "min_section_pct": 100 + change, "angle_deg": angle if last_angle_deg else ""})
+    write_origin(folder, scene={"reference": {"name": "fem_p2"}})
+    rows = []
+    for frame in range(frames):
+        angle = (last_angle_deg or 90.0) * frame / (frames - 1)
+        specs = [("lbs", "", "default", -angle / 10), ("dqs", "", "default", angle / 20), ("fem_p2", "", "default", angle / 5)]
+        specs += [("pbs", count, "default", -angle / 1000 / count) for count in (1, 24, 96)] + [("pbs", 24, "jiggle", -angle / 500)]
+        rows += [{"scene": folder.name, "deformer": deformer, "variant": variant, "iterations": iterations, "frame": frame,
+                  "time_s": frame / 100, "volume_change_pct": change, "volume_abs_change_pct": abs(change), "inverted_tets": 0,
+                  "min_section_pct": 100 + change, "angle_deg": angle if last_angle_deg else ""}
+                 for deformer, iterations, variant, change in specs]
+    write_table(folder / "metrics.csv", rows)
 
 
-def write_frame_statistics(folder, deformer, iterations, **figures):
-    """One more row; p10, median and p90 of the change of volume are -3, -2 and -1 %, unless given."""
+def write_frame_statistics(folder, deformer, *iterations, **figures):
+    """A row for each number of iterations; p10, median and p90 of the change of volume are -3, -2 and -1 %."""
     shown = {"volume_change_p10_pct": -3.0, "volume_change_median_pct": -2.0, "volume_change_p90_pct": -1.0,
              "volume_abs_change_p10_pct": 1.0, "volume_abs_change_median_pct": 2.0, "volume_abs_change_p90_pct": 3.0,
-             "error_joint_least_pct": "",
-             "error_joint_median_pct": "",
-             "error_joint_most_pct": ""} | figures
-    row = {"deformer": deformer, "variant": "default", "iterations": iterations, "frames": 50} | shown
-    file = folder / "frame_statistics.csv"
-    new = not file.is_file()
-    with open(file, "a", newline="") as stream:
-        writer = csv.DictWriter(stream, row)
-        if new:
-            writer.writeheader()
-        writer.writerow(row)
+             "error_joint_least_pct": "", "error_joint_median_pct": "", "error_joint_most_pct": ""} | figures
+    write_table(folder / "frame_statistics.csv", [{"deformer": deformer, "variant": "default", "iterations": count, "frames": 50} | shown
+                                                  for count in iterations])
 
 
 def write_study(results):
-    write_run(results / "volume" / "limb_twist")
-    write_run(results / "volume" / "limb_bend", frames=31, last_angle_deg=150.0)
-    write_run(results / "volume" / "human_01_01", frames=50, last_angle_deg=None)
-    for iterations in (1, 24, 96):
-        write_frame_statistics(results / "volume" / "human_01_01", "pbs", iterations)
-    write_regions(results)
-
-
-def write_regions(results):
-    """One bone and one joint of the human; LBS changes them by -1 %, the others by less."""
-    with open(results / "volume" / "regions.csv", "w", newline="") as stream:
-        writer = csv.DictWriter(stream, ["run", "deformer", "kind", "bone", "second_bone", "rest_share_pct", "change_pct",
-                                         "own_change_pct"])
-        writer.writeheader()
-        for deformer, change in (("lbs", -1.0), ("dqs", -0.75), ("pbs", -0.125), ("nh_p1", -0.25)):
-            for kind, second in (("bone", ""), ("joint", "chest")):
-                writer.writerow({"run": "human_01_01", "deformer": deformer, "kind": kind, "bone": "spine",
-                                 "second_bone": second, "rest_share_pct": 10.0, "change_pct": change, "own_change_pct": 10 * change})
-
-
-verification_columns = ["problem", "quantity", "setting", "description", "element_order", "formulation", "material", "poisson", "mesh",
-                        "h_m", "dofs", "value", "reference", "unit", "difference_pct", "source", "bound_from", "low", "high",
-                        "observed_order", "expected_order", "note", "holds"]
+    """Two sweeps and a clip; in one bone and one joint of the human, LBS changes the volume by -1 %, the others by less."""
+    study = results / "volume"
+    write_run(study / "limb_twist")
+    write_run(study / "limb_bend", frames=31, last_angle_deg=150.0)
+    write_run(study / "human_01_01", frames=50, last_angle_deg=None)
+    write_frame_statistics(study / "human_01_01", "pbs", 1, 24, 96)
+    write_table(study / "regions.csv", [
+        {"run": "human_01_01", "deformer": deformer, "kind": kind, "bone": "spine", "second_bone": second, "rest_share_pct": 10.0,
+         "change_pct": change, "own_change_pct": 10 * change}
+        for deformer, change in (("lbs", -1.0), ("dqs", -0.75), ("pbs", -0.125), ("nh_p1", -0.25))
+        for kind, second in (("bone", ""), ("joint", "chest"))])
 
 
 def write_verification(results):
     """Errors h^(p + 1) and h^p of P1 and P2, and one benchmark, coarse and fine, of each."""
     folder = results / "verification"
-    (folder / "beam").mkdir(parents=True)
-    (folder / "beam" / "run.json").write_text(json.dumps(origin))
-    of_all = {"formulation": "displacement", "material": "linear", "poisson": 0.3}
-    with open(folder / "verification.csv", "w", newline="") as stream:
-        writer = csv.DictWriter(stream, verification_columns)
-        writer.writeheader()
-        for order in (1, 2):
-            for h in (0.5, 0.25, 0.125):
-                for norm, gain in (("error_l2", 1), ("error_h1_seminorm", 0)):
-                    writer.writerow(of_all | {"problem": "manufactured_solution", "quantity": norm, "element_order": order, "h_m": h,
-                                              "dofs": 1 / h, "value": h ** (order + gain), "difference_pct": ""})
-            for dofs, difference in ((10, -30.0), (20, -10.0 / order ** 4)):
-                writer.writerow(of_all | {"problem": "cantilever", "quantity": "tip_deflection", "element_order": order, "h_m": 1,
-                                          "dofs": dofs, "value": 1, "reference": 1, "difference_pct": difference})
-        for problem, holds in (("beam", "yes"), ("sphere", "no")):
-            writer.writerow(of_all | {"problem": problem, "quantity": "deflection", "description": "largest deflection",
-                                      "element_order": 1, "h_m": 1, "dofs": 9, "value": 2, "reference": 1,
-                                      "source": "closed form: a beam", "low": 0.5, "high": 1.5, "holds": holds})
+    write_origin(folder / "beam")
+    columns = ("problem", "quantity", "setting", "description", "element_order", "formulation", "material", "poisson", "mesh", "h_m",
+               "dofs", "value", "reference", "unit", "difference_pct", "source", "bound_from", "low", "high", "observed_order", "expected_order",
+               "note", "holds")
+    of_all = dict.fromkeys(columns, "") | {"formulation": "displacement", "material": "linear", "poisson": 0.3}
+    rows = []
+    for order in (1, 2):
+        rows += [{"problem": "manufactured_solution", "quantity": norm, "element_order": order, "h_m": h, "dofs": 1 / h,
+                  "value": h ** (order + gain)}
+                 for h in (0.5, 0.25, 0.125) for norm, gain in (("error_l2", 1), ("error_h1_seminorm", 0))]
+        rows += [{"problem": "cantilever", "quantity": "tip_deflection", "element_order": order, "h_m": 1, "dofs": dofs, "value": 1,
+                  "reference": 1, "difference_pct": difference} for dofs, difference in ((10, -30.0), (20, -10.0 / order ** 4))]
+    rows += [{"problem": problem, "quantity": "deflection", "description": "largest deflection", "element_order": 1, "h_m": 1, "dofs": 9,
+              "value": 2, "reference": 1, "source": "closed form: a beam", "low": 0.5, "high": 1.5, "holds": holds}
+             for problem, holds in (("beam", "yes"), ("sphere", "no"))]
+    write_table(folder / "verification.csv", [of_all | row for row in rows])
 
 
 def write_fit(results):
     """E = 100 kPa k_stretch * iterations."""
-    folder = results / "fit"
-    (folder / "sag_300").mkdir(parents=True)
-    (folder / "sag_300" / "run.json").write_text(json.dumps(origin))
-    with open(folder / "sag.csv", "w", newline="") as stream:
-        writer = csv.DictWriter(stream, ["vertices", "k_stretch", "k_volume", "iterations", "young_pa", "settled"])
-        writer.writeheader()
-        for k_stretch in (0.05, 0.2, 0.9):
-            for iterations in (24, 96):
-                for k_volume, settled in ((0.0, 1), (1.0, 1)):
-                    writer.writerow({"vertices": 300, "k_stretch": k_stretch, "k_volume": k_volume, "iterations": iterations,
-                                     "young_pa": 1e5 * k_stretch * iterations, "settled": settled})
+    write_origin(results / "fit" / "sag_300")
+    write_table(results / "fit" / "sag.csv", [
+        {"vertices": 300, "k_stretch": k_stretch, "k_volume": k_volume, "iterations": iterations,
+         "young_pa": 1e5 * k_stretch * iterations, "settled": 1}
+        for k_stretch in (0.05, 0.2, 0.9) for iterations in (24, 96) for k_volume in (0.0, 1.0)])
 
 
 def write_work_precision(results):
@@ -125,8 +104,7 @@ def write_work_precision(results):
     rest = {"outcome": "finished", "half": "evaluation", "reach_ms": 1.0, "reference_error_joint_pct": 15.0}
     reference = {**lbs, "deformer": "reference", "ms_median": "", "error_joint_pct": "", "outcome": "reference"}
     for name, half in (("limb_bend_90", "evaluation"), ("limb_bend_60", "training")):
-        (folder / name).mkdir(parents=True)
-        (folder / name / "run.json").write_text(json.dumps(origin))
+        write_origin(folder / name)
         write_table(folder / name / "points.csv", [{**case, **rest, **row, "half": half} for row in (lbs, *packed, *plain, *diverged)]
                     + [{**case, **reference, "half": half, "reach_ms": 90000.0, "reference_error_joint_pct": 15.0}])
     fronts, best, profiles = [], [], []
@@ -173,8 +151,7 @@ def write_bench(results):
     """A step takes c microseconds per constraint, c = 24 for plain, 3 for ordered in f32, twice that in f64; two threads give a speedup of
     1.5."""
     folder = results / "timing" / "bench"
-    folder.mkdir(parents=True)
-    (folder / "run.json").write_text(json.dumps(origin))
+    write_origin(folder)
 
     def timing(variant, precision, threads, ms_step):
         single = {} if threads == 1 else {"speedup_by_threads": 1.5}
@@ -189,17 +166,9 @@ def write_bench(results):
         return {"mesh": {"vertices": vertices, "edges": edges, "tets": tets}, "results": results, "yardsticks": []}
 
     (folder / "bench.json").write_text(json.dumps(
-        {"schema": 2,
-         "context": {"threads": 2, "iterations": 24},
+        {"schema": 2, "context": {"threads": 2, "iterations": 24},
          "meshes": [mesh(100, 500, 400), mesh(1000, 6000, 5000)],
          "scaling": [{"variant": "ordered", "precision": "f32", "threads": 1, "exponent": 1.0, "interval": [None, None]}]}))
-
-
-def write_table(file, rows):
-    with open(file, "w", newline="") as stream:
-        writer = csv.DictWriter(stream, rows[0])
-        writer.writeheader()
-        writer.writerows(rows)
 
 
 def interval(estimate, low=None, high=None):
@@ -218,8 +187,8 @@ def judged_run(body, motion, holds, mean, share, angles=None):
 
 def claim(name, verdict, **others):
     empty = {"statement": "Volume is kept.", "place": "Sec. 4", "study": "volume", "rule": "measured", "reason": "",
-             "primary": None, "n": 0,
-             "within": 0, "bounds": [], "expected": None, "required_share": None, "interval": None, "subject": "body", "subjects": [],
+             "primary": None, "n": 0, "within": 0, "bounds": [], "expected": None, "required_share": None, "interval": None,
+             "subject": "body", "subjects": [],
              "each": [], "of": {}, "cases": [], "controls": [], "readings": [], "left_out": [], "missing": [], "runs": []}
     return {**empty, "id": name, "verdict": verdict, **others}
 
@@ -245,15 +214,13 @@ def write_claims(results, statement="Volume is kept."):
     judged = [claim("C02", "reproduced_only_for", rule="share_within", cases=runs, runs=["volume/limb_twist"], n=3, within=1, expected=0.5,
                     bounds=[{"quantity": "volume_change_pct", "low": -0.5, "high": 0.5}], interval=interval(0.4, 0.3, 0.5),
                     primary={"body": "human", "motion": "walk", "quantity": "volume_change_pct", "statistic": "share_of_frames",
-                             "unit": "1",
-                             "value": 0.4, "low": 0.3, "high": 0.5, "n": 3, "within": 1, "bound_low": 0.95, "bound_high": 1.0,
+                             "unit": "1", "value": 0.4, "low": 0.3, "high": 0.5, "n": 3, "within": 1, "bound_low": 0.95, "bound_high": 1.0,
                              "share": 1 / 3}),
               claim("C10", "reproduced", cases=rates, n=2, within=2, subjects=[subject("man", 1, 1, "whole"),
                                                                                subject("frankie", 1, 1, "whole")],
                     bounds=[{"quantity": "frames_per_s", "low": 30.0, "high": None}],
                     primary={"body": "frankie", "quantity": "frames_per_s", "statistic": "value", "unit": "1/s", "value": 107.0,
-                             "low": 100.0,
-                             "high": 110.0, "n": 2, "within": 2, "bound_low": 30.0, "bound_high": None, "share": 1.0}),
+                             "low": 100.0, "high": 110.0, "n": 2, "within": 2, "bound_low": 30.0, "bound_high": None, "share": 1.0}),
               claim("C13", "inconsistent_in_print", rule="printed", cases=printed, n=2, within=1),
               claim("C16", "cannot_be_tested_here", rule="untestable", reason="no value is in print")]
     titles = {"volume_change_pct": {"title": "volume change", "unit": "%"}, "frames_per_s": {"title": "frames per second", "unit": "1/s"}}
@@ -266,12 +233,10 @@ def write_poses(results):
     the volume overlaps itself."""
     for motion, lbs, pbs, bar, masked_pct in (("twist", 50.0, 20.0, 10.0, 0.0), ("crouch", 30.0, 8.0, 15.0, 12.0)):
         folder = results / "work_precision" / motion
-        folder.mkdir(parents=True)
-        (folder / "run.json").write_text(json.dumps({"work": {"settings": {"scene": {"pbs": {"k_stretch": 0.2}}}}, "provenance":
-                                                     {"version": "0.1.0", "git_revision": revision, "git_dirty": False}}))
+        write_origin(folder, work={"settings": {"scene": {"pbs": {"k_stretch": 0.2}}}})
         common = {"body": "limb", "motion": motion, "pose": "", "angle_deg": 90, "iterations": "", "k_stretch": "", "order": "",
-                  "precision": "", "substeps": "", "vertices": 1000,
-                  "outcome": "finished", "reference_error_joint_pct": bar, "masked_share_pct": masked_pct, "reach_ms": 1.0}
+                  "precision": "", "substeps": "", "vertices": 1000, "outcome": "finished", "reference_error_joint_pct": bar,
+                  "masked_share_pct": masked_pct, "reach_ms": 1.0}
         paper = {"deformer": "pbs", "iterations": 24, "k_stretch": 0.2, "order": "ordered", "precision": "f32", "ms_median": 0.7,
                  "error_joint_pct": pbs, "below_reference_error": int(pbs < bar)}
         rows = [{"deformer": "lbs", "ms_median": 0.1, "error_joint_pct": lbs, "below_reference_error": 0},
@@ -283,8 +248,7 @@ def write_poses(results):
 
 def write_timing(results):
     """Two meshes of sizes in the paper, and one of another size."""
-    (results / "timing" / "man").mkdir(parents=True)
-    (results / "timing" / "man" / "run.json").write_text(json.dumps({"provenance": {"version": "0.1.0", "git_revision": revision}}))
+    write_origin(results / "timing" / "man")
     rows = [{"mesh": mesh, "variant": variant, "precision": precision, "total_wall_ms": ms * scale, "frames_per_s": 1000 / (ms * scale),
              "paper_frames_per_s": paper, "cpu_model": "a processor"}
             for mesh, ms, paper in (("man", 0.5, 90.5), ("frankie", 1.0, 65.8), ("human_20000", 8.0, ""))

@@ -4,35 +4,32 @@ import base64
 import gzip
 import json
 import os
-import pathlib
 import re
-import sys
-import tempfile
+import shutil
 import types
 import unittest
 
 import numpy
 
-root = pathlib.Path(__file__).resolve().parents[3]
-sys.path[:0] = [str(root / "paper_figures"), str(pathlib.Path(__file__).parent)]
-
-import records  # noqa: E402
-import synthetic_frames  # noqa: E402
-from figures import stills  # noqa: E402
-from viewer import data as viewer_data, page as viewer_html, poses as viewer_poses  # noqa: E402
-from words import looks  # noqa: E402
+from results_case import ResultsTest, root
+import records
+import synthetic_frames
+from figures import stills
+from viewer import data as viewer_data, page as viewer_html
+from words import looks
 
 
-class Viewer(unittest.TestCase):
+class Viewer(ResultsTest):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.results = pathlib.Path(folder.name)
+        super().setUp()
         synthetic_frames.write_frames(self.results)
         self.run = self.results / "frames" / "limb_twist"
 
+    def pack(self, every=1):
+        return viewer_data.pack(viewer_data.recorded_runs(self.results), every)
+
     def unpacked(self, every=1):
-        header, block = viewer_data.pack(viewer_data.recorded_runs(self.results), every)
+        header, block = self.pack(every)
         return header["runs"][0], gzip.decompress(block)
 
     def test_positions_are_those_recorded_within_half_a_step(self):
@@ -58,10 +55,9 @@ class Viewer(unittest.TestCase):
         self.assertEqual(ends[3].tolist(), [[0, 0, 3, 1, 0, 3], [1, 0, 3, 2, 0, 3]])
 
     def test_the_rendered_surface_is_carried_within_the_rounding_of_the_tets(self):
-        with tempfile.TemporaryDirectory() as folder:
-            synthetic_frames.write_frames(pathlib.Path(folder), "human_jump", body="human")
-            header, block = viewer_data.pack(viewer_data.recorded_runs(pathlib.Path(folder)))
-        run, block = header["runs"][0], gzip.decompress(block)
+        shutil.rmtree(self.run)
+        synthetic_frames.write_frames(self.results, "human_jump", body="human")
+        run, block = self.unpacked()
         surface = run["surface"]
         self.assertEqual((surface["points"], surface["triangles"]), (3, 1))
         self.assertEqual(numpy.frombuffer(block, "<u4", 3, surface["corners"]).tolist(), [0, 1, 2])
@@ -93,11 +89,11 @@ class Viewer(unittest.TestCase):
         synthetic_frames.write_frames(self.results, "human_jump", body="human")
         file = self.results / "frames" / "human_jump" / "embedding.csv"
         file.write_text("".join(file.read_text().splitlines(keepends=True)[:-1]))
-        with self.assertRaisesRegex(records.RecordsMissing, "embedding.csv: 2 points, but surface_rest.vtp has more"):
-            viewer_data.pack(viewer_data.recorded_runs(self.results))
+        with self.refused("embedding.csv: 2 points, but surface_rest.vtp has more"):
+            self.pack()
         file.unlink()
-        with self.assertRaisesRegex(records.RecordsMissing, "embedding.csv: does not exist"):
-            viewer_data.pack(viewer_data.recorded_runs(self.results))
+        with self.refused("embedding.csv: does not exist"):
+            self.pack()
 
     def test_numbers_are_the_records_own(self):
         run, _ = self.unpacked(every=2)
@@ -110,9 +106,9 @@ class Viewer(unittest.TestCase):
                          [looks.of(name).color for name in ("lbs", "dqs", "pbs", "nh_p1")])
 
     def test_frames_whose_pose_was_not_reached_are_packed_as_such(self):
-        with tempfile.TemporaryDirectory() as folder:
-            synthetic_frames.write_frames(pathlib.Path(folder), not_reached=[("nh_p1", 2), ("nh_p1", 3), ("pbs", 0)])
-            runs = [viewer_data.pack(viewer_data.recorded_runs(pathlib.Path(folder)), every)[0]["runs"][0] for every in (1, 2)]
+        shutil.rmtree(self.run)
+        synthetic_frames.write_frames(self.results, not_reached=[("nh_p1", 2), ("nh_p1", 3), ("pbs", 0)])
+        runs = [self.pack(every)[0]["runs"][0] for every in (1, 2)]
         found = [{deformer["label"]: deformer["not_reached"] for deformer in run["deformers"]} for run in runs]
         self.assertEqual(found, [{"lbs": [], "dqs": [], "pbs": [0], "nh_p1": [2, 3]}, {"lbs": [], "dqs": [], "pbs": [0], "nh_p1": [1]}])
 
@@ -127,36 +123,33 @@ class Viewer(unittest.TestCase):
         file = self.run / "frames" / "pbs_000001.vtu"
         first = " ".join(map(str, synthetic_frames.positions_of("pbs", 1)[1]))
         file.write_text(file.read_text().replace(first, "nan nan nan", 1))
-        with self.assertRaisesRegex(records.RecordsMissing, "pbs_000001.vtu: a position is not finite"):
-            viewer_data.pack(viewer_data.recorded_runs(self.results))
+        with self.refused("pbs_000001.vtu: a position is not finite"):
+            self.pack()
 
     def test_panels_of_a_claim_are_those_on_record(self):
         figures = {column: [0.0, 1.0] for column in viewer_data.figures}
         run = {"name": "human_walk", "frames": [0, 1], "deformers": [{"label": label, "figures": figures}
                                                                       for label in ("lbs", "pbs_jiggle", "nh_p1")]}
-        self.assertEqual([(pose["claim"], pose["panels"]) for pose in viewer_poses.poses_of([run])], [("C09", "lbs,pbs_jiggle,nh_p1")])
+        self.assertEqual([(pose["claim"], pose["panels"]) for pose in viewer_html.poses_of([run])], [("C09", "lbs,pbs_jiggle,nh_p1")])
         run["deformers"].append({"label": "pbs_no_zone", "figures": figures})
-        self.assertEqual(viewer_poses.poses_of([run])[0]["panels"], "lbs,pbs_no_zone,pbs_jiggle,nh_p1")
+        self.assertEqual(viewer_html.poses_of([run])[0]["panels"], "lbs,pbs_no_zone,pbs_jiggle,nh_p1")
 
     def test_a_claim_opens_at_the_recorded_extreme(self):
         links = viewer_html.claim_links(self.results)
         self.assertEqual(links, {"C01": "#run=limb_twist&frame=2&colour=ratio&claim=C01",
                                  "C04": "#run=limb_twist&frame=3&colour=skin&claim=C04"})
-        self.assertEqual(viewer_poses.position_of([1.0, None, -3.0], "far"), 2)
-        self.assertIsNone(viewer_poses.position_of([None], max))
+        self.assertEqual(viewer_html.position_of([1.0, None, -3.0], "far"), 2)
+        self.assertIsNone(viewer_html.position_of([None], max))
 
     def test_what_is_missing_is_named(self):
-        def assert_missing(expected):
-            with self.assertRaises(records.RecordsMissing) as caught:
-                viewer_data.pack(viewer_data.recorded_runs(self.results))
-            self.assertIn(expected, str(caught.exception))
-
-        (self.run / "frames" / "pbs_000001.vtu").unlink()
-        assert_missing("pbs_000001.vtu: does not exist")
-        (self.run / "metrics.csv").unlink()
-        assert_missing("metrics.csv: does not exist")
+        for file, words in ((self.run / "frames" / "pbs_000001.vtu", "pbs_000001.vtu: does not exist"),
+                            (self.run / "metrics.csv", "metrics.csv: does not exist")):
+            file.unlink()
+            with self.refused(words):
+                self.pack()
         self.run.rename(self.results / "frames" / "another")
-        assert_missing("no frames on record")
+        with self.refused("no frames on record"):
+            self.pack()
 
     def test_a_run_that_tells_no_scene_or_another_kind_of_one_is_refused_by_field(self):
         for scene, words in (({}, "scene.character: missing"), ([], "scene = []: expected an object"),
@@ -172,11 +165,11 @@ class Viewer(unittest.TestCase):
         viewer_data.recorded_runs(self.results)
         written_s = (self.run / "run.json").stat().st_mtime
         os.utime(self.run / "frames" / "pbs_000001.vtu", (written_s + 600, written_s + 600))
-        with self.assertRaisesRegex(records.RecordsMissing, "pbs_000001.vtu was changed after its run ended"):
+        with self.refused("pbs_000001.vtu was changed after its run ended"):
             viewer_html.claim_links(self.results)
         (self.results / "frames" / "plan.json").write_text(json.dumps({"runs": [{"name": "limb_bend"}]}))
-        with self.assertRaisesRegex(records.RecordsMissing, "no run of its study"):
-            viewer_data.pack(viewer_data.recorded_runs(self.results))
+        with self.refused("no run of its study"):
+            self.pack()
 
     def test_the_bundle_carries_the_licence_of_three_js(self):
         build = (root / "paper_figures" / "viewer" / "build.mjs").read_text()
@@ -188,7 +181,7 @@ class Viewer(unittest.TestCase):
     def test_page_with_and_without_the_program(self):
         os.environ["PBS_VIEWER_BUILD"] = str(self.results)
         self.addCleanup(os.environ.pop, "PBS_VIEWER_BUILD")
-        with self.assertRaisesRegex(records.RecordsMissing, "npm ci"):
+        with self.refused("npm ci"):
             viewer_html.fragment(self.results)
         (self.results / "viewer.js").write_text('run("</script>")')
         page = viewer_html.fragment(self.results)

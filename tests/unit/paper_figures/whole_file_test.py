@@ -5,24 +5,22 @@ import resource
 import signal
 import subprocess
 import sys
-import tempfile
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / "paper_figures"))
 
-from records import whole_file  # noqa: E402
+from results_case import ResultsTest
+from records import whole_file
 
 
-class WholeFile(unittest.TestCase):
+class WholeFile(ResultsTest):
     def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.folder = pathlib.Path(temporary.name)
-        self.file = self.folder / "volume.png"
+        super().setUp()
+        self.file = self.results / "volume.png"
         self.file.write_text("old")
 
     def names(self):
-        return sorted(path.name for path in self.folder.iterdir())
+        return sorted(path.name for path in self.results.iterdir())
 
     def drawn_elsewhere(self, lines):
         """How a separate process that draws has ended."""
@@ -68,16 +66,16 @@ class WholeFile(unittest.TestCase):
 
     def test_what_the_block_cannot_read_is_not_called_unwritable(self):
         with self.assertRaises(FileNotFoundError), whole_file.beside(self.file):
-            (self.folder / "elsewhere" / "records.csv").read_text()
+            (self.results / "elsewhere" / "records.csv").read_text()
         self.assertEqual((self.file.read_text(), self.names()), ("old", ["volume.png"]))
 
     def test_the_folder_is_made_or_why_it_cannot_be_is_told(self):
-        with whole_file.beside(self.folder / "figures" / "new" / "a.png") as path:
+        with whole_file.beside(self.results / "figures" / "new" / "a.png") as path:
             path.write_text("new")
-        self.assertEqual((self.folder / "figures" / "new" / "a.png").read_text(), "new")
+        self.assertEqual((self.results / "figures" / "new" / "a.png").read_text(), "new")
         for below in ("volume.png/a.png", "volume.png/figures/a.png"):  # a file where the folder would be
             with self.subTest(below), self.assertRaisesRegex(whole_file.CannotBeWritten, "a.png: cannot be written: "):
-                with whole_file.beside(self.folder / below) as path:
+                with whole_file.beside(self.results / below) as path:
                     path.write_text("new")
 
 

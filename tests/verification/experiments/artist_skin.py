@@ -8,13 +8,12 @@ import xml.etree.ElementTree
 import zipfile
 
 import numpy
-from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
 import fbx_formula
 import program
 import rig_files
 import skin_formula
+from written_frames import points_of
 
 SCENE = """schema = 1
 [character]
@@ -41,13 +40,6 @@ HUMAN, CLIP = f"{INSTALLED}/Collada/human.zae", f"{INSTALLED}/BVH/01_01.bvh"
 
 
 SHIFTS = [numpy.array([x, y, z]) for x in (-1, 0, 1) for y in (-1, 0, 1) for z in (-1, 0, 1)]  # to the neighbours in a grid
-
-
-def points_of(file):
-    reader = vtkXMLPolyDataReader()
-    reader.SetFileName(file)
-    reader.Update()
-    return vtk_to_numpy(reader.GetOutput().GetPoints().GetData())
 
 
 def nearest(points, others):

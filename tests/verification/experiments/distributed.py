@@ -53,7 +53,7 @@ class Distributed(program.ProgramTest):
         folder = self.path("out")
         process = run(ranks, *arguments, "--nodes", "-o", folder)
         self.assertEqual(process.returncode, 0, process.stderr)
-        record = json.loads(self.read("out", "record.json"))
+        record = self.json("out", "record.json")
         self.assertEqual(record, json.loads(process.stdout))
         with open(self.path("out", "nodes.csv"), encoding="utf-8") as file:
             rows = numpy.array(list(csv.reader(file))[1:], dtype=float)
@@ -86,9 +86,8 @@ class Distributed(program.ProgramTest):
     def test_limb_has_the_smooth_attachment_of_the_reference(self):
         """Reference: the same attachment and linear model in a scene of pbskin, whose record states the attachment."""
         self.write("limb.toml", LIMB)
-        process = program.run("run", self.path("limb.toml"), "-o", self.path("scene"))
-        self.assertEqual(process.returncode, 0, process.stderr)
-        expected = json.loads(self.read("scene", "run.json"))["deformers"]["fem"]["attachment"]
+        self.succeeds("run", self.path("limb.toml"), "-o", self.path("scene"))
+        expected = self.json("scene", "run.json")["deformers"]["fem"]["attachment"]
         record, _, _ = self.solve(0, "--limb", 300, "--bend", 10, "--solver", "cholmod")
         self.assertEqual(record["attachment"], {key: value for key, value in expected.items() if key != "bones"})
         self.assertEqual(record["attachment"]["kind"], "smooth")

@@ -13,8 +13,7 @@ import unittest
 import numpy
 
 import foreign_arm
-import program
-from recomputed_frames import read_vtu, vtk_to_numpy
+import written_frames
 
 ITERATIONS, ANGLE_DEG = 24, 120.0
 K_STRETCH, K_VOLUME, K_BIND = 0.2, 1.0, 1.0
@@ -87,25 +86,25 @@ class Body:
         return counts.max()
 
 
-class PlainIterations(program.ProgramTest):
+class PlainIterations(foreign_arm.ArmTest):
+    scene_text = SCENE
+
     def setUp(self):
         super().setUp()
-        foreign_arm.write_msh(self.path("arm.msh"), *foreign_arm.mesh((10, 2, 2)))
-        self.write("arm.skeleton.toml", foreign_arm.SKELETON)
         settings = ("pbs.order=plain", "pbs.precision=f64", f"pbs.iterations={ITERATIONS}")
-        self.succeeds("run", self.write("arm.toml", SCENE), "-o", self.path("out"), *(word for one in settings for word in ("--set", one)))
+        self.succeeds("run", self.scene, "-o", self.path("out"), *(word for one in settings for word in ("--set", one)))
         rest = self.frame("lbs", 0)
         self.rest = self.points(rest)
-        self.tets = [tuple(map(int, tet)) for tet in vtk_to_numpy(rest.GetCells().GetConnectivityArray()).reshape(-1, 4)]
+        self.tets = [tuple(map(int, tet)) for tet in written_frames.tets(rest)]
         self.body = Body(self.rest, self.tets)
         self.start = self.points(self.frame("lbs", 1))
         self.found = self.points(self.frame("pbs", 1))
 
     def frame(self, deformer, number):
-        return read_vtu(self.path("out", "frames", f"{deformer}_{number:06d}.vtu"))
+        return written_frames.read(self.path("out", "frames", f"{deformer}_{number:06d}.vtu"))
 
     def points(self, grid):
-        return vtk_to_numpy(grid.GetPoints().GetData()).astype(numpy.float64)
+        return written_frames.points(grid).astype(numpy.float64)
 
     def tolerance_m(self, expected):
         change = 1e-9 * numpy.random.default_rng(1).uniform(-1.0, 1.0, self.start.shape)

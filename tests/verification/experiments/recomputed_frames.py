@@ -1,37 +1,20 @@
 """metrics.csv compared with volumes and inverted tets recomputed from the written frames by another program (VTK's reader and numpy), on a
 tet mesh and skeleton that are not from the project. Reference: the definitions of the metrics. Tolerance: the contract's 1e-6 percentage
 points."""
-import csv
-import json
 import unittest
 
 import numpy
-import vtk
 from vtk.util.numpy_support import vtk_to_numpy
 
 import foreign_arm
-import program
+import written_frames
+from written_frames import signed_volumes
 
 TOLERANCE_PCT = 1e-6
 
 
-def read_vtu(path):
-    reader = vtk.vtkXMLUnstructuredGridReader()
-    reader.SetFileName(path)
-    reader.Update()
-    return reader.GetOutput()
-
-
-def signed_volumes(grid):
-    points = vtk_to_numpy(grid.GetPoints().GetData()).astype(numpy.float64)
-    tets = vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 4)
-    a, b, c, d = (points[tets[:, corner]] for corner in range(4))
-    return numpy.einsum("ij,ij->i", numpy.cross(b - a, c - a), d - a) / 6.0
-
-
 def longest_edge(grid):
-    points = vtk_to_numpy(grid.GetPoints().GetData())
-    corners = points[vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 4)]
+    corners = written_frames.points(grid)[written_frames.tets(grid)]
     return numpy.linalg.norm(corners[:, :, None] - corners[:, None, :], axis=3).max()
 
 
@@ -47,61 +30,55 @@ def ratio_rounding(grid, rest):
     return 2 * (of_volume(grid) + largest_ratio * of_volume(rest)) / least + numpy.finfo(float).eps * largest_ratio
 
 
-class RecomputedFrames(program.ProgramTest):
+class RecomputedFrames(foreign_arm.ArmTest):
+    cells = (20, 4, 4)
+
     def setUp(self):
         super().setUp()
-        foreign_arm.write_msh(self.path("arm.msh"), *foreign_arm.mesh())
-        self.write("arm.skeleton.toml", foreign_arm.SKELETON)
-        self.scene = self.write("arm.toml", foreign_arm.SCENE)
         self.succeeds("run", self.scene, "-o", self.path("out"))
-        with open(self.path("out", "metrics.csv"), encoding="utf-8") as file:
-            self.rows = list(csv.DictReader(file))
+        self.metrics = self.rows("out", "metrics.csv")
 
     def frame(self, row):
-        return read_vtu(self.path("out", "frames", "%s_%06d.vtu" % (row["deformer"], int(row["frame"]))))
+        return written_frames.read(self.path("out", "frames", "%s_%06d.vtu" % (row["deformer"], int(row["frame"]))))
 
     def test_volumes_and_inverted_tets(self):
-        self.assertEqual(len(self.rows), 15)
-        rest = signed_volumes(self.frame(self.rows[0]))
-        for row in self.rows:
+        self.assertEqual(len(self.metrics), 15)
+        rest = signed_volumes(self.frame(self.metrics[0]))
+        for row in self.metrics:
             volumes = signed_volumes(self.frame(row))
             signed = 100.0 * (volumes.sum() - rest.sum()) / rest.sum()
             absolute = 100.0 * numpy.abs(volumes - rest).sum() / rest.sum()
             self.assertAlmostEqual(float(row["volume_change_pct"]), signed, delta=TOLERANCE_PCT)
             self.assertAlmostEqual(float(row["volume_abs_change_pct"]), absolute, delta=TOLERANCE_PCT)
             self.assertEqual(int(row["inverted_tets"]), int((volumes <= 0.0).sum()))
-        self.assertGreater(max(abs(float(row["volume_change_pct"])) for row in self.rows), 1.0)
+        self.assertGreater(max(abs(float(row["volume_change_pct"])) for row in self.metrics), 1.0)
 
     def test_fields_of_the_frames(self):
-        rest = vtk_to_numpy(self.frame(self.rows[0]).GetPoints().GetData())
-        rest_volumes = signed_volumes(self.frame(self.rows[0]))
-        for row in self.rows:
+        rest = written_frames.points(self.frame(self.metrics[0]))
+        rest_volumes = signed_volumes(self.frame(self.metrics[0]))
+        for row in self.metrics:
             grid = self.frame(row)
-            points = vtk_to_numpy(grid.GetPoints().GetData())
+            points = written_frames.points(grid)
             self.assertEqual(points.dtype, numpy.float64)
             numpy.testing.assert_array_equal(vtk_to_numpy(grid.GetPointData().GetArray("rest_position")), rest)
             # One subtraction of the same numbers, rounded to nearest on both sides.
             numpy.testing.assert_array_equal(vtk_to_numpy(grid.GetPointData().GetArray("displacement")), points - rest)
             ratio = signed_volumes(grid) / rest_volumes
             numpy.testing.assert_allclose(vtk_to_numpy(grid.GetCellData().GetArray("volume_ratio")), ratio, rtol=0,
-                                          atol=ratio_rounding(grid, self.frame(self.rows[0])))
+                                          atol=ratio_rounding(grid, self.frame(self.metrics[0])))
 
     def test_measure_says_the_same_as_run(self):
-        rows = [row for row in self.rows if row["deformer"] == "pbs"]
+        rows = [row for row in self.metrics if row["deformer"] == "pbs"]
         frames = [self.path("out", "frames", "pbs_%06d.vtu" % int(row["frame"])) for row in rows]
         self.succeeds("measure", self.path("arm.msh"), *frames, "--csv", self.path("measured.csv"))
-        with open(self.path("measured.csv"), encoding="utf-8") as file:
-            for row, measured in zip(rows, csv.DictReader(file), strict=True):
-                for column in ("volume_change_pct", "volume_abs_change_pct", "j_min", "stretch_rms"):
-                    self.assertAlmostEqual(float(row[column]), float(measured[column]), delta=TOLERANCE_PCT)
-                self.assertEqual(row["inverted_tets"], measured["inverted_tets"])
+        for row, measured in zip(rows, self.rows("measured.csv"), strict=True):
+            for column in ("volume_change_pct", "volume_abs_change_pct", "j_min", "stretch_rms"):
+                self.assertAlmostEqual(float(row[column]), float(measured[column]), delta=TOLERANCE_PCT)
+            self.assertEqual(row["inverted_tets"], measured["inverted_tets"])
 
     def test_runs_repeat_to_the_bit(self):
         self.succeeds("run", self.scene, "-o", self.path("again"))
-        hashes = []
-        for folder in ("out", "again"):
-            with open(self.path(folder, "run.json"), encoding="utf-8") as file:
-                hashes.append(json.load(file)["state_hash"])
+        hashes = [self.json(folder, "run.json")["state_hash"] for folder in ("out", "again")]
         self.assertEqual(hashes[0], hashes[1])
         self.assertEqual(sorted(hashes[0]), ["dqs", "lbs", "pbs"])
 

@@ -1,17 +1,13 @@
 """The reference's error bar compared with a real error. Reference: a better solution of the same problem, order 2 on refined tets, from
 another run of the program; distances are recomputed with numpy from the written frames. A bar must cover the distance of the reference to
 it, and be no larger than the largest difference of the compared solutions times the largest factor that the method can apply."""
-import csv
 import itertools
-import json
 import unittest
 
 import numpy
-import vtk
-from vtk.util.numpy_support import vtk_to_numpy
 
 import foreign_arm
-import program
+import written_frames
 
 SMALL_ANGLE = """
 [[fem]]
@@ -23,20 +19,10 @@ element_order = 2
 """
 
 
-def points(path):
-    reader = vtk.vtkXMLUnstructuredGridReader()
-    reader.SetFileName(path)
-    reader.Update()
-    return vtk_to_numpy(reader.GetOutput().GetPoints().GetData()), vtk_to_numpy(reader.GetOutput().GetCells().GetConnectivityArray())
-
-
-def lumped_volumes(rest, tets):
-    tets = tets.reshape(-1, 4)
-    a, b, c, d = (rest[tets[:, corner]] for corner in range(4))
-    volumes = numpy.einsum("ij,ij->i", numpy.cross(b - a, c - a), d - a) / 6.0
-    lumped = numpy.zeros(len(rest))
+def lumped_volumes(rest):
+    tets, lumped = written_frames.tets(rest), numpy.zeros(rest.GetNumberOfPoints())
     for corner in range(4):
-        numpy.add.at(lumped, tets[:, corner], volumes / 4.0)
+        numpy.add.at(lumped, tets[:, corner], written_frames.signed_volumes(rest) / 4.0)
     return lumped
 
 
@@ -50,23 +36,17 @@ def largest_factor(method):
     return 1.0 + 3.0 / (2.0 ** 0.5 - 1.0)
 
 
-class ReferenceErrorBar(program.ProgramTest):
-    def setUp(self):
-        super().setUp()
-        foreign_arm.write_msh(self.path("arm.msh"), *foreign_arm.mesh((10, 2, 2)))
-        self.write("arm.skeleton.toml", foreign_arm.SKELETON)
-        self.scene = self.write("arm.toml", foreign_arm.SCENE + SMALL_ANGLE)
+class ReferenceErrorBar(foreign_arm.ArmTest):
+    scene_text = foreign_arm.SCENE + SMALL_ANGLE
 
     def run_scene(self, name, *settings):
         arguments = ["motion.angle_deg=5", "motion.frames=2", *settings]
         self.succeeds("run", self.scene, "-o", self.path(name), "--quiet", *[part for text in arguments for part in ("--set", text)])
-        with open(self.path(name, "metrics.csv"), encoding="utf-8") as file:
-            rows = {row["deformer"]: row for row in csv.DictReader(file) if row["frame"] == "1"}
-        with open(self.path(name, "run.json"), encoding="utf-8") as file:
-            return rows, json.load(file)
+        rows = {row["deformer"]: row for row in self.rows(name, "metrics.csv") if row["frame"] == "1"}
+        return rows, self.json(name, "run.json")
 
     def frame(self, name, deformer, number=1):
-        return points(self.path(name, "frames", "%s_%06d.vtu" % (deformer, number)))
+        return written_frames.read(self.path(name, "frames", "%s_%06d.vtu" % (deformer, number)))
 
     def test_covers_the_distance_to_a_better_solution(self):
         solutions = {}
@@ -74,17 +54,16 @@ class ReferenceErrorBar(program.ProgramTest):
             name = "refined_%d" % refine
             self.run_scene(name, 'deformers.use=["p1", "p2"]', "character.refine=%d" % refine)
             for order in (1, 2):
-                solutions[order, refine], _ = self.frame(name, "p%d" % order)
+                solutions[order, refine] = written_frames.points(self.frame(name, "p%d" % order))
         better = solutions[2, 1]
         for deformer in ("p1", "p2"):
             for bar in ("orders", "refined", "both"):
                 name = deformer + "_" + bar
                 rows, record = self.run_scene(name, 'deformers.use=["%s", "lbs"]' % deformer, "reference.name=" + deformer,
                                               "reference.error_bar=" + bar)
-                found, tets = self.frame(name, deformer)
-                rest, _ = self.frame(name, deformer, 0)
-                mass = lumped_volumes(rest, tets)
-                diagonal = numpy.linalg.norm(rest.max(axis=0) - rest.min(axis=0))
+                found, rest = written_frames.points(self.frame(name, deformer)), self.frame(name, deformer, 0)
+                mass = lumped_volumes(rest)
+                diagonal = numpy.linalg.norm(numpy.ptp(written_frames.points(rest), axis=0))
 
                 def distances(one, other):
                     squares = ((one[:len(mass)] - other[:len(mass)]) ** 2).sum(axis=1)

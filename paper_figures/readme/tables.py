@@ -1,0 +1,76 @@
+"""The tables of the README and of other pages: one line per claim of DIR/claims.json with its verdict, key number and page; the human's
+rows of DIR/timing/features_human/features.csv; and the counts of the reliability tests, DIR/*.json."""
+import records
+from readme import part
+from records import shapes
+from words import case_words, sentences
+
+claim_head = "| claim | verdict | values within the bound; the one farthest beyond it, or else nearest to it [interval], expected | page |"
+claim_pages = "experiments/verdicts/claims"
+features_page = part.source / "experiments" / "studies" / "timing" / "README.md"
+features_head = ["| feature | processor ms per frame without | with | ratio [quartiles] | start [s] without | with "
+                 "| peak [MB] without | with | the result moves |", "|---" * 9 + "|"]
+reliability_page = part.source / "tests" / "README.md"
+
+
+def line(*cells):
+    return "| " + " | ".join(cells) + " |"
+
+
+def of_revision(run):
+    """The revision of a run.json's provenance, and whether the tree had local changes."""
+    return run.get("git_revision", "unknown")[:12] + (" with local changes" if run.get("git_dirty") else "")
+
+
+def claims_of(results):
+    file = results / "claims.json"
+    if not file.is_file():
+        raise records.RecordsMissing(f"{file.name}: does not exist: `pbskin reproduce --judge` writes it next to the records")
+    return sentences.claims_of(file)
+
+
+def claims_table(results):
+    """The lines of the table, the header first."""
+    rows = [[f"{claim['statement']} ({claim['place']})", sentences.names[claim["verdict"]], sentences.key_number(claim),
+             f"[{claim['id']}]({claim_pages}/{claim['id']}.md)"] for claim in claims_of(results)]
+    return [claim_head, "|---" * 4 + "|", *(line(*(cell.replace("|", "\\|").replace("\u2212", "-") for cell in row)) for row in rows)]
+
+
+def claims_lines(results):
+    """With each revision and the studies that were run at it; the revision with the most studies comes first."""
+    table, studies = claims_table(results), {}
+    for file in sorted(results.glob("*/*/run.json")):
+        revision = of_revision(shapes.read(file, shapes.run).get("provenance", {}))
+        studies.setdefault(revision, {})[file.parent.parent.name] = True
+    if not studies:
+        raise records.RecordsMissing(f"{results}: no run.json of a study's run in it")
+    most, *others = sorted(studies, key=lambda revision: -len(studies[revision]))
+    measured = ", ".join([most, *(f"{revision} ({', '.join(studies[revision])})" for revision in others)])
+    return [*table, "", f"Measured at revision {measured}."]
+
+
+def features_line(row):
+    def pair(column, digits):
+        return [f"{float(row[column + side]):.{digits}f}" for side in ("_without", "_with")]
+
+    ratio, low, high = (f"{float(row['frame_cpu_ms_ratio' + end]):.2f}" for end in ("", "_lower", "_upper"))
+    moves = f"{1e3 * float(row['largest_distance_m']):.2g} mm" if row["largest_distance_m"] else ""
+    return line(case_words.of_field("feature", row["feature"]), *pair("frame_cpu_ms", 2), f"{ratio} [{low}, {high}]", *pair("start_s", 2),
+                *pair("peak_mb", 0), moves)
+
+
+def features_lines(results):
+    folder = results / "timing" / "features_human"
+    rows = records.table(folder / "features.csv", {"feature", "frame_cpu_ms_ratio"})
+    return [*features_head, *map(features_line, rows), "", f"Measured at revision {of_revision(records.provenance(folder))}."]
+
+
+def reliability_lines(folder):
+    files = sorted(folder.glob("*.json"))
+    if not files:
+        raise records.RecordsMissing(f"{folder}: no record of a test")
+    told = [shapes.read(file, shapes.reliability) for file in files]
+    notes = [f" ({record['note']})" if record.get("note") else "" for record in told]
+    return [line("what", "measured", "by", "revision"), "|---|---|---|---|",
+            *(line(record["name"], f"{record['count']} of {record['of']}{note}", f"`{record['command']}`", record["revision"][:12])
+              for record, note in zip(told, notes))]

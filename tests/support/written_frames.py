@@ -1,0 +1,32 @@
+"""The meshes that the program writes, read by VTK and not by the program's own code."""
+import numpy
+import vtk
+from vtk.util.numpy_support import vtk_to_numpy
+
+
+def read(path):
+    """The data set of a .vtu or .vtp file."""
+    reader = vtk.vtkXMLUnstructuredGridReader() if str(path).endswith(".vtu") else vtk.vtkXMLPolyDataReader()
+    reader.SetFileName(str(path))
+    reader.Update()
+    return reader.GetOutput()
+
+
+def points(grid):
+    """#P x 3 [m]"""
+    return vtk_to_numpy(grid.GetPoints().GetData())
+
+
+def tets(grid):
+    """#T x 4"""
+    return vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 4)
+
+
+def points_of(path):
+    return points(read(path))
+
+
+def signed_volumes(grid):
+    """Of the tets [m^3]."""
+    a, b, c, d = (points(grid).astype(numpy.float64)[tets(grid)[:, corner]] for corner in range(4))
+    return numpy.einsum("ij,ij->i", numpy.cross(b - a, c - a), d - a) / 6.0

@@ -1,0 +1,83 @@
+"""What the tests of figures and pages share. Importing this module makes the modules of paper_figures known."""
+import contextlib
+import csv
+import io
+import pathlib
+import re
+import sys
+import tempfile
+import unittest
+import unittest.mock
+
+root = pathlib.Path(__file__).resolve().parents[3]
+sys.path.insert(0, str(root / "paper_figures"))
+
+import records  # noqa: E402
+import synthetic_records  # noqa: E402
+
+
+@contextlib.contextmanager
+def listening():
+    """Two streams that contain what is printed meanwhile, as output and as errors."""
+    said, complaints = io.StringIO(), io.StringIO()
+    with contextlib.redirect_stdout(said), contextlib.redirect_stderr(complaints):
+        yield said, complaints
+
+
+class ResultsTest(unittest.TestCase):
+    """A folder for records and figures."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.results = pathlib.Path(folder.name)
+
+    def refused(self, words):
+        """A context in which records are refused with these words."""
+        return self.assertRaisesRegex(records.RecordsMissing, re.escape(words))
+
+    def rows(self, name):
+        """The rows of the table behind a figure."""
+        with open(self.results / "figures" / f"{name}.csv", newline="", encoding="utf-8") as stream:
+            return list(csv.DictReader(stream))
+
+    def make_all(self, name=None, status=0):
+        """What the script of all figures prints, as output and as errors; deformers are drawn as looks.toml states."""
+        import checked_looks  # noqa: F401
+        import make_all
+        with listening() as (said, complaints):
+            self.assertEqual(make_all.main(self.results, name), status, complaints.getvalue())
+        return said.getvalue(), complaints.getvalue()
+
+    def drawn(self, name):
+        """The rows behind a figure that is drawn now, with the revision of its records in each file."""
+        self.make_all(name)
+        for ending in ("pdf", "png", "svg"):
+            file = self.results / "figures" / f"{name}.{ending}"
+            self.assertIn(synthetic_records.revision.encode(), file.read_bytes())
+        return self.rows(name)
+
+    def refused_without(self, file, name=None):
+        """No figure is drawn without this file of the records."""
+        (self.results / file).unlink()
+        self.assertIn(f"{pathlib.Path(file).name}: does not exist", self.make_all(name, status=1)[1])
+
+
+class ReportTest(ResultsTest):
+    """The report of a folder, without the viewer, which has tests of its own."""
+
+    def setUp(self):
+        super().setUp()
+        without_viewer = unittest.mock.patch.dict(sys.modules, {"viewer.page": None})
+        without_viewer.start()
+        self.addCleanup(without_viewer.stop)
+
+    def report(self):
+        """Its exit status, its text, which is empty if there is none, and what was printed as output and as errors."""
+        import report
+        with listening() as (said, complaints):
+            status = report.main(self.results)
+        page = self.results / "report.html"
+        text = page.read_text() if page.is_file() else ""
+        page.unlink(missing_ok=True)
+        return status, text, said.getvalue(), complaints.getvalue()
