@@ -70,7 +70,7 @@ TEST(ReadMotion, BindPointsAndTheZoneAreThoseOfTheOptions)
 {
     EXPECT_NE(bending(character, {"pbs.variant.bind_point=reprojected"}).shapes[3], bending(character, {}).shapes[3]);
     const Overrides falling = {"pbs.jiggle.zone_mean=of_bone", "pbs.gravity_m_s2=[0,-9.81,0]"};
-    const ReadMotion moved = bending(character, falling, 1);
+    const ReadMotion moved = bending(character, falling, 2);
     pbs::PbsOptions options;
     options.jiggle = pbs::Jiggle{};
     options.gravity_m_s2 = {0.0, -9.81, 0.0};

@@ -1,5 +1,6 @@
 // What the studies measure of readings. Reference: the studies' own functions, called directly, and what a reading cannot change.
 
+#include "analysis/verdicts/measurement.hpp"
 #include "experiments/scene/scene.hpp"
 #include "experiments/studies/momentum/momentum_drift.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
