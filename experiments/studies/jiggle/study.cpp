@@ -52,9 +52,10 @@ constexpr double table_1_k_stretch = 0.9, soft_k_stretch = 0.1;
 constexpr double least_answer = 1e-3;  // of the jolt; flesh that LBS carries along moves by rounding, some 1e-5, which is no swing
 
 // named: the setting under which the values are recorded, which is the paper's, whatever the reading makes of it.
-MeasuredJiggle jolted(const pbs::Character& character, const std::vector<int>& probe, const Jolt& jolt, DeformerSpec spec,
+MeasuredJiggle jolted(const pbs::Character& character, const std::vector<int>& probe, const Jolt& jolt, const DeformerSpec& read,
                       const JiggleSetting& named, double k_stretch)
 {
+    DeformerSpec spec = read;
     auto& options = options_of<pbs::PbsOptions>(spec);
     const bool everywhere = options.jiggle && options.k_stretch == options.jiggle->k_stretch;
     if (!options.jiggle) options.jiggle = pbs::Jiggle{};
