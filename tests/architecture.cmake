@@ -8,7 +8,7 @@ set_tests_properties(architecture/readme PROPERTIES LABELS architecture TIMEOUT 
 find_program(PBS_CPPCHECK NAMES cppcheck)
 if(PBS_CPPCHECK)
     add_test(NAME architecture/static_analysis
-        COMMAND ${PBS_TEST_PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/architecture/static_analysis_test.py)
+        COMMAND ${PBS_TEST_PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/architecture/checkers_test.py Cppcheck)
     set_tests_properties(architecture/static_analysis PROPERTIES LABELS architecture TIMEOUT 600 ENVIRONMENT PBS_CPPCHECK=${PBS_CPPCHECK})
 else()
     message(STATUS "cppcheck is not installed: its test is left out")
@@ -17,7 +17,7 @@ endif()
 find_program(PBS_SHELLCHECK NAMES shellcheck)
 if(PBS_SHELLCHECK)
     add_test(NAME architecture/shell_scripts
-        COMMAND ${PBS_TEST_PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/architecture/shell_scripts_test.py)
+        COMMAND ${PBS_TEST_PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/architecture/checkers_test.py Shellcheck)
     set_tests_properties(architecture/shell_scripts PROPERTIES LABELS architecture TIMEOUT 60 ENVIRONMENT PBS_SHELLCHECK=${PBS_SHELLCHECK})
 else()
     message(STATUS "shellcheck is not installed: its test is left out")

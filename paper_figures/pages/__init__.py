@@ -9,7 +9,8 @@ import sys
 import records
 from records import kept, whole_file
 
-studies = ("ambiguity", "artefacts", "audit", "convergence", "ensemble", "jiggle", "stiffness", "work_precision")  # each with a module that has page(folder)
+# Each with a module that has page(folder).
+studies = ("ambiguity", "artefacts", "audit", "convergence", "ensemble", "jiggle", "stiffness", "work_precision")
 
 
 def write(results):

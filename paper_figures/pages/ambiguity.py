@@ -1,10 +1,11 @@
-"""How much each other reading of the paper changes the values of claims, by body, and which verdicts flip; then the volume of each scene."""
+"""How much each other reading of the paper changes the values of claims, by body, which verdicts flip, and the volume of each scene."""
 import math
 
 import pages
 
 titles = {
-    "nearest_bone": "Sec. 3.6: projection on the nearest bone", "vertex_on_bone": "Sec. 3.6: a vertex on the bone", "n_joints": "Eq. 2: n_joints",
+    "nearest_bone": "Sec. 3.6: projection on the nearest bone", "vertex_on_bone": "Sec. 3.6: a vertex on the bone",
+    "n_joints": "Eq. 2: n_joints",
     "stiffness_form": "Eq. 8-9: stiffness in each iteration", "masses": "Eq. 5: masses",
     "class_order": "Algorithm 1, lines 11-13: order of the classes", "k_stretch_outside_zone": "unstated: k_stretch outside the zone",
     "k_volume": "unstated: k_volume", "k_bind": "unstated: k_bind", "lbs_entry": "where LBS enters Algorithm 1",
@@ -80,8 +81,8 @@ def page(folder):
     rows = pages.of_runs(folder, "ambiguity.csv", {"body", "place", "reading_b", "claim", "quantity", "a", "b", "change", "b_over_a",
                                                    "verdict_flips", "reason"})
     claims = sorted({row["claim"] for row in rows})
-    text = ("# How other readings of the paper change the values of claims\n\nA cell is B over A of the value whose verdict flips, or else of "
-            "the one that changes most. `!`: its verdict flips; `.`: the reading cannot touch the claim; `-`: no value.\n")
+    text = ("# How other readings of the paper change the values of claims\n\nA cell is B over A of the value whose verdict flips, or else "
+            "of the one that changes most. `!`: its verdict flips; `.`: the reading cannot touch the claim; `-`: no value.\n")
     for body in dict.fromkeys(row["body"] for row in rows):
         text += f"\n## {body}\n\n" + of_body([row for row in rows if row["body"] == body], claims)
     text += "\n## Verdicts that flip\n\n" + "".join(of_claim(claim, [row for row in rows if row["claim"] == claim]) for claim in claims)

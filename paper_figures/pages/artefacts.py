@@ -18,8 +18,8 @@ def of_sections(rows):
 def page(folder):
     sections = pages.of_runs(folder, "sections.csv", {"claim", "body", "pose", "joint", "outcome", "remark"})
     columns = {"pose", "surface", "deformer", "pairs", "pairs_at_rest"}
-    crossings = [row | {"run": file.parent.name} for file in pages.files(folder, "intersections.csv") for row in records.table(file, columns)
-                 if row["pairs"] != row["pairs_at_rest"]]
+    crossings = [row | {"run": file.parent.name} for file in pages.files(folder, "intersections.csv")
+                 for row in records.table(file, columns) if row["pairs"] != row["pairs_at_rest"]]
     return ("# The artefacts of blending\n\n## Sections\n\n" + of_sections(sections)
             + "\n## Where a pose changes the number of pairs of triangles that intersect\n\n" + pages.table(crossings, {
                 "case": "run", "pose": "pose", "surface": "surface", "deformer": "deformer", "pairs": "pairs",

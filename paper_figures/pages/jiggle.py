@@ -5,11 +5,12 @@ import records
 
 def of_jolts(folder):
     zone = records.table(folder / "zone.csv", {"share_of_vertices", "share_on_skin", "pieces", "bone", "share_of_zone"})
-    text = (f"The zone is {100 * float(zone[0]['share_of_vertices']):.0f} % of the vertices, {100 * float(zone[0]['share_on_skin']):.0f} % of "
-            f"it skin, in {zone[0]['pieces']} pieces: "
+    text = (f"The zone is {100 * float(zone[0]['share_of_vertices']):.0f} % of the vertices, {100 * float(zone[0]['share_on_skin']):.0f} % "
+            f"of it skin, in {zone[0]['pieces']} pieces: "
             + ", ".join(f"{row['bone']} {100 * float(row['share_of_zone']):.0f} %" for row in zone[:5]) + ".\n\n")
     return text + pages.table(records.table(folder / "responses.csv", {"deformer", "outcome", "frequency_hz"}), {
-        "deformer": "deformer", "k_stretch": "k_stretch", "step [ms]": lambda row: f"{float(row['time_step_ms']):.3g}", "iterations": "iterations", "masses": "masses",
+        "deformer": "deformer", "k_stretch": "k_stretch", "step [ms]": lambda row: f"{float(row['time_step_ms']):.3g}",
+        "iterations": "iterations", "masses": "masses",
         "k_bind": "k_bind", "outcome": "outcome", "frequency [Hz]": ("frequency_hz", 2), "damping ratio": ("damping_ratio", 3),
         "overshoot / jolt": ("overshoot_over_jolt", 2), "left / peak": ("left_over_peak", 3)})
 

@@ -1,4 +1,4 @@
-"""The ratio of stiffnesses for one doubling, the exponents over all settings, and where the control leaves the bounds of the claim (C11)."""
+"""The ratio of stiffnesses for one doubling, the exponents over all settings, and where the control leaves the bounds of C11."""
 import pages
 import records
 from words import case_words
@@ -21,7 +21,8 @@ def leaves(row):
 
 def page(folder):
     measured = pages.of_runs(folder, "measurements.csv", {"quantity", "deformer", "value", "low", "high"})
-    exponents = records.table(folder / "exponents.csv", {"varied", "first", "last", "exponent", "exponent_low", "exponent_high", "left_out"})
+    exponents = records.table(folder / "exponents.csv",
+                              {"varied", "first", "last", "exponent", "exponent_low", "exponent_high", "left_out"})
     text = "# Effective stiffness\n\nWeight of the jiggling zone, or of a bar's free length, over its mean displacement.\n"
     columns = {"case": words_of} | {heading: lambda row, name=name: f"{float(row[name]):.4g}"
                                     for heading, name in (("ratio", "value"), ("least", "low"), ("largest", "high"))}

@@ -1,8 +1,10 @@
 // Debian's Chromium without a screen, without a graphics card and without a network, driven by playwright-core.
+import assert from "node:assert/strict";
 import { createRequire } from "node:module";
 import fs from "node:fs";
 import os from "node:os";
 import path from "node:path";
+import { after, before, test } from "node:test";
 import { fileURLToPath, pathToFileURL } from "node:url";
 
 const root = fileURLToPath(new URL("../..", import.meta.url));
@@ -45,4 +47,37 @@ export async function open_viewer(file, hash, size) {
 // Two frames later, everything requested is on the screen.
 export async function settle(page) {
     await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+}
+
+// The page of all tests of a file, which is open from before the first one until after the last one.
+export let opened, page;
+
+export function use_page(open_it) {
+    before(async () => {
+        opened = await open_it();
+        page = opened.page;
+    });
+    after(() => opened?.close());
+}
+
+export function test_that_nothing_was_reported() {
+    test("nothing was reported on the way", () => assert.deepEqual(opened.problems, []));
+}
+
+// Checks the file in a window of its own, in which nothing may be reported.
+export async function in_window(file, hash, size, check) {
+    const other = await open_viewer(file, hash, size);
+    try {
+        await check(other.page);
+        assert.deepEqual(other.problems, []);
+    } finally {
+        await other.close();
+    }
+}
+
+// A test in a window of a desktop and in one of a phone; check(page, name of the window, its width and height [px]).
+export function test_in_windows(what, file, hash, check) {
+    for (const [name, width, height] of [["desktop", 1280, 900], ["phone", 390, 844]])
+        test(`${what}, at ${width} px`, () => in_window(file, hash, { width, height, touch: width < 500 },
+                                                        (other) => check(other, name, width, height)));
 }

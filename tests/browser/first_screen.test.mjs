@@ -1,17 +1,11 @@
 // Reference: the records. The whole first screen is visible in a desktop window; its distances and times are those of the tables from which
 // they come.
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
-import { open } from "./browser.mjs";
+import { test } from "node:test";
+import { open, page, use_page } from "./browser.mjs";
 import { file, json, runs_with, table } from "./records.mjs";
 
-let opened, page;
-
-before(async () => {
-    opened = await open(file);
-    page = opened.page;
-});
-after(() => opened?.close());
+use_page(() => open(file));
 
 // Every number in a text, in the format of the page.
 function numbers_in(text) {

@@ -1,22 +1,21 @@
 // Reference: the records and the definition of the page. Its answers and verdicts agree with claims.json, the values under the pointer are
 // in each figure's CSV, nothing overlaps or exceeds the window, every part is reachable by keyboard, and the page can be printed.
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
-import { open_viewer, settle } from "./browser.mjs";
+import { test } from "node:test";
+import { in_window, open_viewer, page, settle, test_in_windows, test_that_nothing_was_reported, use_page } from "./browser.mjs";
 import { claims, file, pictures, rows_of, undrawn } from "./records.mjs";
 import { rows_about, stand_in } from "./standing.mjs";
 
 const named = { reproduced: "reproduced", reproduced_only_for: "reproduced in part", not_reproduced: "not reproduced",
                 inconsistent_in_print: "inconsistent in print", cannot_be_tested_here: "cannot be tested here",
                 not_computable: "not computable" };
-let opened, page;
 
-before(async () => {
-    opened = await open_viewer(file);
-    page = opened.page;
-    await page.emulateMedia({ reducedMotion: "reduce" });  // otherwise it scrolls for a while, which hides the values under the pointer
+use_page(async () => {
+    const shown = await open_viewer(file);
+    // Otherwise it scrolls for a while, which hides the values under the pointer.
+    await shown.page.emulateMedia({ reducedMotion: "reduce" });
+    return shown;
 });
-after(() => opened?.close());
 
 test("the first screen answers four questions, as claims.json does", async () => {
     assert.deepEqual(await page.locator(".first-screen > .card > h2").allTextContents(),
@@ -147,21 +146,17 @@ test("a value is shown within 20 px of the pointer, the nearest; beyond there is
 });
 
 test("a finger beside a value shows it, one away from all hides it", async () => {
-    const other = await open_viewer(file, "", { width: 390, height: 844, touch: true });
-    try {
-        const { plot, beside, away } = await plot_with_places(other.page), shown = other.page.locator(".values circle.shown");
-        await other.page.touchscreen.tap(...beside);
-        await settle(other.page);
+    await in_window(file, "", { width: 390, height: 844, touch: true }, async (phone) => {
+        const { plot, beside, away } = await plot_with_places(phone), shown = phone.locator(".values circle.shown");
+        await phone.touchscreen.tap(...beside);
+        await settle(phone);
         const { values } = await nearest_value(plot, ...beside);
         assert.ok(values.includes(await shown.getAttribute("data-value")), `none of ${values}`);
-        assert.ok(await other.page.locator("#readout").isVisible());
-        await other.page.touchscreen.tap(...away);
-        await settle(other.page);
+        assert.ok(await phone.locator("#readout").isVisible());
+        await phone.touchscreen.tap(...away);
+        await settle(phone);
         assert.equal(await shown.count(), 0);
-        assert.deepEqual(other.problems, []);
-    } finally {
-        await other.close();
-    }
+    });
 });
 
 test("the arrow keys lead from value to value in a plot", async () => {
@@ -226,21 +221,13 @@ function faults_of_layout(boxes) {
     return { beyond, over };
 }
 
-for (const [name, width, height] of [["desktop", 1280, 900], ["phone", 390, 844]]) {
-    test(`nothing is beyond ${width} px or lies over another`, async () => {
-        const other = await open_viewer(file, "", { width, height, touch: width < 500 });
-        try {
-            assert.deepEqual(await other.page.evaluate(faults_of_layout, ".scroll, pre, "), { beyond: [], over: [] });
-            if (pictures) {
-                await other.page.locator("#verdicts").screenshot({ path: `${pictures}/page_verdicts_${name}.png` });
-                await other.page.locator("#figures figure:has(svg)").last().screenshot({ path: `${pictures}/page_figure_${name}.png` });
-            }
-            assert.deepEqual(other.problems, []);
-        } finally {
-            await other.close();
-        }
-    });
-}
+test_in_windows("nothing is beyond the window or lies over another", file, "", async (other, name) => {
+    assert.deepEqual(await other.evaluate(faults_of_layout, ".scroll, pre, "), { beyond: [], over: [] });
+    if (pictures) {
+        await other.locator("#verdicts").screenshot({ path: `${pictures}/page_verdicts_${name}.png` });
+        await other.locator("#figures figure:has(svg)").last().screenshot({ path: `${pictures}/page_figure_${name}.png` });
+    }
+});
 
 test("on paper the tables are whole, without what can only be pressed", async () => {
     await page.emulateMedia({ media: "print", reducedMotion: "reduce" });
@@ -260,4 +247,4 @@ test("on paper the tables are whole, without what can only be pressed", async ()
     await page.emulateMedia({ media: "screen", reducedMotion: "reduce" });
 });
 
-test("nothing was reported on the way", () => assert.deepEqual(opened.problems, []));
+test_that_nothing_was_reported();

@@ -1,18 +1,17 @@
 // Reference: the definition. On a phone one finger scrolls the page and does not change the view; two fingers rotate and zoom the view and
 // do not move the page.
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
-import { open_viewer, settle } from "./browser.mjs";
+import { test } from "node:test";
+import { open_viewer, page, settle, use_page } from "./browser.mjs";
 
-let opened, page, client;
+let client;
 
-before(async () => {
-    opened = await open_viewer(process.env.PBS_VIEWER_PAGE, "", { width: 390, height: 844, touch: true });
-    page = opened.page;
-    client = await page.context().newCDPSession(page);
-    await page.evaluate(() => { document.body.style.paddingBottom = "2000px"; });
+use_page(async () => {
+    const shown = await open_viewer(process.env.PBS_VIEWER_PAGE, "", { width: 390, height: 844, touch: true });
+    client = await shown.page.context().newCDPSession(shown.page);
+    await shown.page.evaluate(() => { document.body.style.paddingBottom = "2000px"; });
+    return shown;
 });
-after(() => opened?.close());
 
 function state() {
     return page.evaluate(() => {

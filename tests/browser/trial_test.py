@@ -47,8 +47,8 @@ def main(program, scratch):
     scratch.mkdir(parents=True, exist_ok=True)
     folder, truth = scratch / "trial", scratch / "trial_truth.json"
     shutil.rmtree(folder, ignore_errors=True)
-    surroundings = {**os.environ, "PBS_VIEWER_BUILD": str(scratch), "PBS_TRIAL_PAGE": str(folder / "report.html"),
-                    "PBS_TRIAL_TRUTH": str(truth), "PBS_VIEWER_PICTURES": str(scratch)}
+    surroundings = {**os.environ, "PBS_VIEWER_BUILD": str(scratch), "PBS_VIEWER_PAGE": str(folder / "report.html"),
+                    "PBS_VIEWER_TRUTH": str(truth), "PBS_VIEWER_PICTURES": str(scratch)}
     run(["node", "build.mjs"], cwd=root / "paper_figures/viewer", env=surroundings)
     model = rig_files.write("two_animations", str(scratch / "hero.glb"))  # a warning names the animation that is taken
     run([program, "try", model, "-o", folder, "--frames", str(frames), "--vertices", "400"], env=surroundings)

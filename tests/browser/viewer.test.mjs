@@ -1,7 +1,8 @@
 // Reference: the records. The viewer in a real browser draws and states what the study `frames` wrote, within the stated quantisation.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { apart, colours_of, drawn_positions, legend_words, opened, page, roundings, show, show_sample, truth } from "./viewer_page.mjs";
+import { opened, page, test_that_nothing_was_reported } from "./browser.mjs";
+import { apart, colours_of, drawn_positions, legend_words, roundings, show, show_sample, truth } from "./viewer_page.mjs";
 
 test("the page opens from disk, alone and without a word on the console", () => assert.deepEqual(opened.problems, []));
 
@@ -159,4 +160,4 @@ test("the legend's numbers are the record's", async () => {
     assert.deepEqual(await page.locator("#frame-viewer .vw-marks span").allTextContents(), ["0.5", "1", "1.5"]);
 });
 
-test("nothing was reported on the way", () => assert.deepEqual(opened.problems, []));
+test_that_nothing_was_reported();

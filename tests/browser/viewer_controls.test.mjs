@@ -1,8 +1,8 @@
 // Keys, buttons, links and the slider of the viewer do what their labels state, on a desktop and on a phone.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { open_viewer, settle } from "./browser.mjs";
-import { drawn_positions, file, opened, page, pictures, show, show_sample, truth } from "./viewer_page.mjs";
+import { in_window, page, settle, test_in_windows, test_that_nothing_was_reported } from "./browser.mjs";
+import { drawn_positions, file, pictures, show, show_sample, truth } from "./viewer_page.mjs";
 
 test("in a panel shift and the arrows shift the view, without turning it", async () => {
     const seen = () => page.evaluate(() => {
@@ -113,43 +113,32 @@ test("a claim's link opens its pose", async () => {
 });
 
 test("without an address the first claim's pose is open", async () => {
-    const other = await open_viewer(file);
-    try {
-        const [pose] = truth.poses;
-        const { run, frame, claim, rendered } = await other.page.evaluate(() => {
+    await in_window(file, "", {}, async (other) => {
+        const [{ run, frame, claim }] = truth.poses;
+        const opened_at = await other.evaluate(() => {
             const { viewer, state: { now } } = window.viewer;
             return { run: now.run, frame: viewer.run.frames[now.at], claim: now.claim, rendered: now.rendered };
         });
-        assert.deepEqual({ run, frame, claim, rendered }, { run: pose.run, frame: pose.frame, claim: pose.claim, rendered: true });
-    } finally {
-        await other.close();
-    }
+        assert.deepEqual(opened_at, { run, frame, claim, rendered: true });
+    });
 });
 
-for (const [name, width, height] of [["desktop", 1280, 900], ["phone", 390, 844]]) {
-    test(`nothing is wider than ${width} px, every control can be pressed`, async () => {
-        const other = await open_viewer(file, "#claim=C09", { width, height, touch: width < 500 });
-        try {
-            const wide = await other.page.evaluate(() => [...document.querySelectorAll("#frame-viewer, #frame-viewer *")]
-                .filter((one) => one.getBoundingClientRect().right > innerWidth + 0.5).map((one) => one.className || one.tagName));
-            assert.deepEqual(wide, []);
-            assert.ok(await other.page.evaluate(() => document.documentElement.scrollWidth <= innerWidth));
-            const controls = other.page.locator("#frame-viewer").locator("button, select, input");
-            const faulty = await controls.evaluateAll((all) => all.filter((one) => !one.getAttribute("aria-label")
-                || (one.offsetParent && one.getBoundingClientRect().height < 30)).map((one) => one.outerHTML));
-            assert.deepEqual(faulty, []);
-            const cut = await other.page.locator("#frame-viewer .vw-panel select").evaluateAll((all) => all.filter((one) => {
-                const pen = document.createElement("canvas").getContext("2d");
-                pen.font = getComputedStyle(one).font;
-                return pen.measureText(one.selectedOptions[0].text).width + 20 > one.clientWidth;  // plus the width of the arrow
-            }).map((one) => one.selectedOptions[0].text));
-            assert.deepEqual(cut, []);
-            if (pictures) await other.page.screenshot({ path: `${pictures}/viewer_${name}.png`, fullPage: true });
-            assert.deepEqual(other.problems, []);
-        } finally {
-            await other.close();
-        }
-    });
-}
+test_in_windows("nothing is wider than the window, every control can be pressed", file, "#claim=C09", async (other, name) => {
+    const wide = await other.evaluate(() => [...document.querySelectorAll("#frame-viewer, #frame-viewer *")]
+        .filter((one) => one.getBoundingClientRect().right > innerWidth + 0.5).map((one) => one.className || one.tagName));
+    assert.deepEqual(wide, []);
+    assert.ok(await other.evaluate(() => document.documentElement.scrollWidth <= innerWidth));
+    const controls = other.locator("#frame-viewer").locator("button, select, input");
+    const faulty = await controls.evaluateAll((all) => all.filter((one) => !one.getAttribute("aria-label")
+        || (one.offsetParent && one.getBoundingClientRect().height < 30)).map((one) => one.outerHTML));
+    assert.deepEqual(faulty, []);
+    const cut = await other.locator("#frame-viewer .vw-panel select").evaluateAll((all) => all.filter((one) => {
+        const pen = document.createElement("canvas").getContext("2d");
+        pen.font = getComputedStyle(one).font;
+        return pen.measureText(one.selectedOptions[0].text).width + 20 > one.clientWidth;  // plus the width of the arrow
+    }).map((one) => one.selectedOptions[0].text));
+    assert.deepEqual(cut, []);
+    if (pictures) await other.screenshot({ path: `${pictures}/viewer_${name}.png`, fullPage: true });
+});
 
-test("nothing was reported on the way", () => assert.deepEqual(opened.problems, []));
+test_that_nothing_was_reported();

@@ -1,19 +1,11 @@
-// The viewer's page for the tests of one file: it is opened before the first test and closed after the last one. browser_test.py names the
-// page and a file with samples of the records.
+// The viewer's page for the tests of one file. browser_test.py and trial_test.py name the page and a file with samples of the records.
 import fs from "node:fs";
-import { after, before } from "node:test";
-import { open_viewer, settle } from "./browser.mjs";
+import { open_viewer, page, settle, use_page } from "./browser.mjs";
 
 export const file = process.env.PBS_VIEWER_PAGE;
 export const truth = JSON.parse(fs.readFileSync(process.env.PBS_VIEWER_TRUTH));
 export const pictures = process.env.PBS_VIEWER_PICTURES;
-export let opened, page;
-
-before(async () => {
-    opened = await open_viewer(file);
-    page = opened.page;
-});
-after(() => opened?.close());
+use_page(() => open_viewer(file));
 
 // The number of colours in the panel, and the share of its pixels that differ from the most frequent one.
 export function colours_of(panel) {

@@ -22,8 +22,7 @@ def setUpModule():
 
 
 def configure(source, build, flags="", installed=None):
-    return run(CMAKE, "-S", source, "-B", folder / build, "-G", "Ninja", f"-DCMAKE_PREFIX_PATH={installed or prefix}",
-               f"-DCMAKE_CXX_FLAGS={own_flags} {flags}")
+    return installation.configured(source, build, f"-DCMAKE_PREFIX_PATH={installed or prefix}", f"-DCMAKE_CXX_FLAGS={own_flags} {flags}")
 
 
 def looked_for(build):
@@ -40,16 +39,10 @@ def asking_for(name, components, version=""):
     return configure(source, name + "_build")
 
 
-class MethodTest(unittest.TestCase):
-    def expect_built(self, configured, build, *options):
-        self.assertEqual(configured.returncode, 0, configured.stderr)
-        built = run(CMAKE, "--build", folder / build, *options)
-        self.assertEqual(built.returncode, 0, built.stdout)
-
+class MethodTest(installation.BuildTest):
     def expect_bent_bar(self, build, installed):
-        self.expect_built(configure(project, build, installed=installed), build)
-        told = run(folder / build / "bent_bar")
-        self.assertEqual(told.returncode, 0, told.stderr)
+        self.build(configure(project, build, installed=installed), build)
+        told = self.succeeds(run(folder / build / "bent_bar"))
         match = re.fullmatch(r"tets 1920, lbs (-[0-9.]+) %, pbs (-?[0-9.]+) %\n", told.stdout)
         self.assertTrue(match, told.stdout)
         lbs, pbs = map(float, match.groups())
@@ -63,8 +56,7 @@ class WithoutThreads(MethodTest):
         """Built and run, the method searches for no other package, and the number of threads does not change its result."""
         off = [f"-DPBS_WITH_{part}=OFF" for part in re.findall(r"option\(PBS_WITH_(\w+)", (SOURCE / "CMakeLists.txt").read_text())]
         self.assertIn("-DPBS_WITH_THREADS=OFF", off)
-        flags = f"-DCMAKE_CXX_FLAGS={own_flags}"
-        self.expect_built(run(CMAKE, "-S", SOURCE, "-B", folder / "alone", "-G", "Ninja", flags, *off), "alone", "--target", "pbs_method")
+        self.build(installation.configured(SOURCE, "alone", f"-DCMAKE_CXX_FLAGS={own_flags}", *off), "alone", "--target", "pbs_method")
         self.assertEqual(looked_for("alone"), {"Eigen3"})
         alone = self.expect_bent_bar("consumer_alone", installation.install("method", folder / "alone"))
         self.assertEqual(looked_for("consumer_alone"), {"pbs", "Eigen3"})
@@ -81,35 +73,24 @@ class Consumer(MethodTest):
     def test_wider_registers_are_refused(self):
         for build, flags in (("wider", "-mavx"), ("bounded", "-mavx -DEIGEN_MAX_ALIGN_BYTES=16")):
             with self.subTest(flags):
-                configured = configure(project, build, flags)
-                self.assertEqual(configured.returncode, 0, configured.stderr)
-                built = run(CMAKE, "--build", folder / build)
-                self.assertNotEqual(built.returncode, 0)
-                self.assertIn("pbs was built with Eigen's alignment of 16 bytes", built.stdout)
+                self.succeeds(configure(project, build, flags))
+                self.refused(run(CMAKE, "--build", folder / build), "pbs was built with Eigen's alignment of 16 bytes")
 
     def test_nothing_names_the_source_tree(self):
         texts = [name for name in installation.files_naming(prefix, SOURCE) if not name.endswith(".a")]
         self.assertEqual(texts, [])
 
-    def test_a_component_that_is_not_installed(self):
-        asked = asking_for("absent", "REQUIRED COMPONENTS method fem")
-        self.assertNotEqual(asked.returncode, 0)
-        self.assertIn("component 'fem' is not installed under", " ".join(asked.stderr.split()))
-
-    def test_a_component_that_does_not_exist(self):
-        asked = asking_for("unknown", "REQUIRED COMPONENTS skin")
-        self.assertNotEqual(asked.returncode, 0)
-        self.assertIn("there is no component 'skin': expected one of method, mesh_io", " ".join(asked.stderr.split()))
+    def test_components_and_versions_that_are_not_installed_are_named(self):
+        for name, components, version, words in (
+                ("absent", "REQUIRED COMPONENTS method fem", "", "component 'fem' is not installed under"),
+                ("unknown", "REQUIRED COMPONENTS skin", "", "there is no component 'skin': expected one of method, mesh_io"),
+                ("later", "REQUIRED", "99.0", 'compatible with requested version "99.0"')):
+            with self.subTest(name):
+                self.refused(asking_for(name, components, version), words)
 
     def test_an_optional_component_that_is_not_installed(self):
-        asked = asking_for("optional", "OPTIONAL_COMPONENTS fem COMPONENTS method")
-        self.assertEqual(asked.returncode, 0, asked.stderr)
+        asked = self.succeeds(asking_for("optional", "OPTIONAL_COMPONENTS fem COMPONENTS method"))
         self.assertRegex(asked.stdout, "found (TRUE|1)")
-
-    def test_a_version_to_come(self):
-        asked = asking_for("later", "REQUIRED", "99.0")
-        self.assertNotEqual(asked.returncode, 0)
-        self.assertIn('compatible with requested version "99.0"', " ".join(asked.stderr.split()))
 
 
 if __name__ == "__main__":

@@ -37,6 +37,25 @@ def install(component, build=BUILD):
     return (folder / "installed").rename(folder / f"moved_{component}_{build.name}")
 
 
+def configured(source, build, *definitions):
+    """The finished configuration of another project in a build folder."""
+    return run(CMAKE, "-S", source, "-B", folder / build, "-G", "Ninja", *definitions)
+
+
+class BuildTest(unittest.TestCase):
+    def succeeds(self, ended):
+        self.assertEqual(ended.returncode, 0, ended.stdout + ended.stderr)
+        return ended
+
+    def refused(self, ended, words):
+        self.assertNotEqual(ended.returncode, 0)
+        self.assertIn(words, " ".join((ended.stdout + ended.stderr).split()))
+
+    def build(self, configuration, build, *options):
+        self.succeeds(configuration)
+        self.succeeds(run(CMAKE, "--build", folder / build, *options))
+
+
 def files_naming(prefix, path):
     """Installed files that contain that path, without links."""
     return [str(file.relative_to(prefix)) for file in sorted(prefix.rglob("*"))

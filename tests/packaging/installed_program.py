@@ -15,13 +15,12 @@ def setUpModule():
     prefix = installation.install("program")
 
 
-class InstalledProgram(unittest.TestCase):
+class InstalledProgram(installation.BuildTest):
     def pbskin(self, *arguments):
         elsewhere = folder / "elsewhere"
         elsewhere.mkdir(exist_ok=True)
-        process = run(prefix / "bin/pbskin", *arguments, cwd=elsewhere, env={"PATH": "/usr/bin:/bin", "HOME": str(elsewhere)})
-        self.assertEqual(process.returncode, 0, process.stderr)
-        return process
+        environment = {"PATH": "/usr/bin:/bin", "HOME": str(elsewhere)}
+        return self.succeeds(run(prefix / "bin/pbskin", *arguments, cwd=elsewhere, env=environment))
 
     # A file that names the source tree would need it.
     def test_nothing_names_the_source_tree(self):
@@ -43,9 +42,8 @@ class InstalledProgram(unittest.TestCase):
         self.assertIn("C13", page)
 
     def sweep(self, *arguments):
-        process = run(prefix / "bin/pbskin-sweep", *arguments, cwd=folder / "elsewhere", env={"PATH": "/usr/bin:/bin", "HOME": str(folder)})
-        self.assertEqual(process.returncode, 0, process.stderr)
-        return process.stdout
+        environment = {"PATH": "/usr/bin:/bin", "HOME": str(folder)}
+        return self.succeeds(run(prefix / "bin/pbskin-sweep", *arguments, cwd=folder / "elsewhere", env=environment)).stdout
 
     def test_sweeps_by_the_program_beside(self):
         (folder / "elsewhere").mkdir(exist_ok=True)

@@ -1,70 +1,16 @@
 """A tet mesh, skeleton and scene that no part of the project has generated: a tapered box with two bones, written as Gmsh 2.2."""
 import itertools
+import pathlib
 
 import mesh_texts
 import program
 
-SKELETON = """[[joint]]
-name = "shoulder"
-parent = ""
-head_m = [0.0, 0.0, 0.0]
-tail_m = [0.5, 0.0, 0.0]
-[[joint]]
-name = "elbow"
-parent = "shoulder"
-head_m = [0.5, 0.0, 0.0]
-tail_m = [1.0, 0.0, 0.0]
-"""
-
-# What the paper leaves unstated, so that each scene with PBS states it.
-PBS = """[pbs]
-k_stretch = 0.2
-k_volume = 1.0
-k_bind = 1.0
-gravity_m_s2 = [0.0, 0.0, 0.0]
-"""
-
-SCENE = f"""schema = 1
-[character]
-mesh = "arm.msh"
-skeleton = "arm.skeleton.toml"
-[motion]
-joint = "elbow"
-axis = [0.0, 0.0, 1.0]
-angle_deg = 120.0
-frames = 5
-{PBS}[deformers]
-use = ["lbs", "dqs", "pbs"]
-"""
-
-CLIP = """HIERARCHY
-ROOT shoulder
-{
-  OFFSET 0 0 0
-  CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation
-  JOINT elbow
-  {
-    OFFSET 0.5 0 0
-    CHANNELS 3 Zrotation Xrotation Yrotation
-    End Site
-    {
-      OFFSET 0.5 0 0
-    }
-  }
-}
-MOTION
-Frames: %d
-Frame Time: 0.01
-"""
-
+FOLDER = pathlib.Path(__file__).with_name("arm")
+SCENE, SKELETON = (FOLDER / "arm.toml").read_text(), (FOLDER / "arm.skeleton.toml").read_text()
+PBS = SCENE[SCENE.index("[pbs]"):SCENE.index("[deformers]")]  # what the paper leaves unstated, so that each scene with PBS states it
+MOTION = SCENE[SCENE.index("joint ="):SCENE.index("[pbs]")]
 # The scene states the frames per second; a step takes 0.01 s, like the clip's frames.
-CLIP_SCENE = SCENE.replace("""joint = "elbow"
-axis = [0.0, 0.0, 1.0]
-angle_deg = 120.0
-frames = 5
-""", """clip = "arm.bvh"
-rate_hz = %.1f
-""").replace('["lbs", "dqs", "pbs"]', '["pbs"]')
+CLIP_SCENE = SCENE.replace(MOTION, 'clip = "arm.bvh"\nrate_hz = %.1f\n').replace('["lbs", "dqs", "pbs"]', '["pbs"]')
 
 
 def mesh(cells=(20, 4, 4)):
@@ -94,7 +40,7 @@ def write_msh(path, points, tets):
 def write_bvh(path, elbow_deg):
     """Writes a clip at 100 Hz with these angles of the elbow about z, after a frame in the T pose."""
     with open(path, "w", encoding="ascii") as file:
-        file.write(CLIP % (len(elbow_deg) + 1))
+        file.write((FOLDER / "arm.bvh").read_text() % (len(elbow_deg) + 1))
         for angle in [0.0, *elbow_deg]:
             file.write("0 0 0 0 0 0 %.17g 0 0\n" % angle)
 

@@ -30,6 +30,11 @@ class ProgramTest(unittest.TestCase):
             file.write(text)
         return self.path(name)
 
+    def script(self, name, text, mode=0o755):
+        """A shell script below the folder."""
+        os.makedirs(os.path.dirname(self.path(name)), exist_ok=True)
+        os.chmod(self.write(name, "#!/bin/sh\n" + text), mode)
+
     def read(self, *parts):
         with open(self.path(*parts), encoding="utf-8") as file:
             return file.read()

@@ -18,32 +18,7 @@ import time
 
 PROGRAMS = ("munged", "mungekey", "slurmctld", "slurmd", "sbatch", "scancel", "srun", "sinfo", "squeue", "scontrol")
 PATH = os.environ["PATH"] + ":/usr/sbin:/sbin"
-CONFIGURATION = """ClusterName=own
-SlurmctldHost=localhost(127.0.0.1)
-SlurmctldPort={controller_port}
-SlurmdPort={node_port}
-SlurmUser={user}
-SlurmdUser={user}
-AuthType=auth/munge
-AuthInfo=socket={folder}/munge/socket
-CredType=cred/munge
-StateSaveLocation={folder}/state
-SlurmdSpoolDir={folder}/spool
-SlurmctldPidFile={folder}/slurmctld.pid
-SlurmdPidFile={folder}/slurmd.pid
-MailProg=/bin/true
-ProctrackType=proctrack/linuxproc
-TaskPlugin=task/none
-JobAcctGatherType=jobacct_gather/none
-AccountingStorageType=accounting_storage/none
-SelectType=select/cons_tres
-SelectTypeParameters=CR_Core
-SchedulerParameters=sched_interval=1
-SlurmdParameters=config_overrides
-CommunicationParameters=NoInAddrAny,NoCtldInAddrAny
-NodeName=localhost NodeAddr=127.0.0.1 CPUs=2 RealMemory=4000
-PartitionName=local Nodes=localhost Default=YES MaxTime=60
-"""
+CONFIGURATION = pathlib.Path(__file__).with_name("slurm.conf.in")
 _prctl = ctypes.CDLL(None).prctl
 DEATH_SIGNAL, SUBREAPER = 1, 36
 
@@ -116,7 +91,7 @@ class SlurmCluster:
             (self.folder / name).chmod(mode)
         controller_port, node_port = free_ports(2)
         configuration = self.folder / "slurm.conf"
-        configuration.write_text(CONFIGURATION.format(folder=self.folder, user=getpass.getuser(), controller_port=controller_port,
+        configuration.write_text(CONFIGURATION.read_text().format(folder=self.folder, user=getpass.getuser(), controller_port=controller_port,
                                                       node_port=node_port))
         self.environment = {name: value for name, value in os.environ.items() if not name.startswith(("SLURM", "SBATCH", "SRUN"))}
         self.environment.update(PATH=PATH, SLURM_CONF=str(configuration), USER=getpass.getuser())

@@ -1,17 +1,8 @@
 // Reference: the records of the trial. Its page shows the sentence, the warnings, and the model's own surface as each deformer moves it.
 import assert from "node:assert/strict";
-import fs from "node:fs";
-import { after, before, test } from "node:test";
-import { open_viewer, settle } from "../browser.mjs";
-
-const truth = JSON.parse(fs.readFileSync(process.env.PBS_TRIAL_TRUTH)), pictures = process.env.PBS_VIEWER_PICTURES;
-let opened, page;
-
-before(async () => {
-    opened = await open_viewer(process.env.PBS_TRIAL_PAGE);
-    page = opened.page;
-});
-after(() => opened?.close());
+import { test } from "node:test";
+import { page, settle, test_that_nothing_was_reported } from "../browser.mjs";
+import { apart, drawn_positions, pictures, roundings, truth } from "../viewer_page.mjs";
 
 async function show(label, frame) {
     await page.evaluate(([panel, at]) => {
@@ -24,16 +15,10 @@ async function show(label, frame) {
     await settle(page);
 }
 
-function drawn() {
-    return page.evaluate(() => [...window.viewer.drawn_positions(0)]);
-}
-
 // The picture of the first panel as text.
 function picture() {
     return page.evaluate(() => window.viewer.pixels(0).join());
 }
-
-const roundings = (values, many) => many * Math.max(...values.map(Math.abs)) * 2 ** -24;
 
 test("the sentence and every warning are visible", async () => {
     assert.ok(truth.warnings.length > 0);
@@ -64,9 +49,8 @@ for (const { label, frame, skin_m, positions_m } of truth.samples)
             const { step_m, surface } = window.viewer.viewer.run;
             return { step_m, largest_sum: surface.largest_sum };
         });
-        const points_m = await drawn();
-        assert.equal(points_m.length, skin_m.length);
-        const largest_m = Math.max(...points_m.map((value, at) => Math.abs(value - skin_m[at])));
+        const { count, largest_m } = apart(await drawn_positions(), skin_m);
+        assert.equal(count, skin_m.length);
         assert.ok(largest_m <= largest_sum * (step_m / 2 + roundings(positions_m, 12)), `${largest_m} m apart`);
         if (pictures) await page.locator("#frame-viewer").screenshot({ path: `${pictures}/trial_${label}_${frame}.png` });
     });
@@ -85,4 +69,4 @@ test("each deformer can be chosen", async () => {
     for (const label of truth.deformers) await show(label, truth.frames - 1);
 });
 
-test("nothing was reported on the way", () => assert.deepEqual(opened.problems, []));
+test_that_nothing_was_reported();

@@ -5,7 +5,6 @@ would pass is printed.
 The sweeps end at a twist of 135 and a bend of 90 degrees. Beyond that (twist 180, bend 120), the float rounding of the projections decides
 how the crease folds, and single and double precision give -1.9 and -0.4 % (twist), -2.1 and -1.6 % (bend)."""
 import csv
-import io
 import pathlib
 import unittest
 
@@ -35,7 +34,7 @@ class LimbVolume(program.ProgramTest):
                           "--set", "output.frames_every=0", "--set", "output.metrics=[]", "--set", "reference.name=",
                           "--set", 'deformers.use=["lbs", "dqs", "pbs"]')
             tets_hash = self.json(scene, "run.json")["provenance"]["input_hashes"]["tets"]
-            for row in csv.DictReader(io.StringIO(self.read(scene, "metrics.csv"))):
+            for row in self.rows(scene, "metrics.csv"):
                 if row["frame"] != "0":
                     row.update(tets_hash=tets_hash, angle_deg="%.0f" % float(row["angle_deg"]))
                     rows.append({column: row[column] for column in COLUMNS})

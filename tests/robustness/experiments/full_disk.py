@@ -17,19 +17,7 @@ import reliability
 import run_records
 import sound_files
 
-CHECK = """schema = 1
-[[check.scene]]
-name = "arm"
-scene = "arm.toml"
-[[check.bound]]
-name = "volume"
-scene = "arm"
-deformer = "pbs"
-metric = "volume_change_pct"
-low = -90.0
-high = 90.0
-why = "a limit that holds"
-"""
+CHECK = pathlib.Path(__file__).with_name("full_disk_check.toml").read_text()
 LIMB = foreign_arm.SCENE.replace('mesh = "arm.msh"\nskeleton = "arm.skeleton.toml"', 'body = "limb"\nvertices = 600') \
     .replace('"elbow"', '"forearm"').replace('["lbs", "dqs", "pbs"]', '["lbs"]') + "[output]\nframes_every = 0\n"
 FULL = r"File too large|No space left on device"

@@ -24,35 +24,7 @@ import slurm_cluster
 
 SWEEPS = pathlib.Path(program.SOURCE, "experiments/sweeps")
 MODE_SHARE = 0.78  # share of a uniform transverse load in a cantilever's first mode
-BAD = """schema = 1
-scene = "limb_bend"
-[set]
-motion.frames = 2
-reference.name = ""
-deformers.use = ["pbs"]
-[grid]
-pbs.k_volume = [0.5, 1.4]
-"""
-LONG = """schema = 1
-scene = "limb_bend"
-[set]
-reference.name = ""
-deformers.use = ["pbs"]
-output.frames_every = 0
-[grid]
-motion.frames = [1000000, 1000001]
-"""  # hours
-BREAKING = """schema = 1
-scene = "limb_bend"
-[set]
-motion.frames = 2
-character.vertices = 300
-reference.name = ""
-deformers.use = ["nh_p1"]
-output.frames_every = 0
-[grid]
-motion.angle_deg = [20.0, 150.0]
-"""
+OWN = pathlib.Path(__file__).with_name("slurm_sweeps")
 
 
 class Sweeps(program.ProgramTest):
@@ -120,7 +92,7 @@ class Sweeps(program.ProgramTest):
         self.assertEqual({path: path.stat().st_ino for path in first}, first)
 
     def test_told_to_end_its_jobs_leave_the_queue(self):
-        process = subprocess.Popen(self.command(self.write("long.toml", LONG), "ended", "--slurm"), text=True,
+        process = subprocess.Popen(self.command(OWN / "long.toml", "ended", "--slurm"), text=True,
                                    env=self.cluster.environment, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
         slurm_cluster.wait_for("a job that runs", lambda: self.cluster.told("squeue", "-h", "-t", "R").strip(), 120)
         process.send_signal(signal.SIGINT)
@@ -129,22 +101,20 @@ class Sweeps(program.ProgramTest):
         slurm_cluster.wait_for("an empty queue", lambda: not self.cluster.told("squeue", "-h").strip(), 60)
 
     def test_bad_input_stops_the_sweep_and_is_in_the_log_of_the_job(self):
-        self.sweep(self.write("bad.toml", BAD), "bad", "--slurm", status=1)
+        self.sweep(OWN / "bad.toml", "bad", "--slurm", status=1)
         self.assertIn("pbs.k_volume = 1.4", "".join(log.read_text(errors="replace") for log in self.jobs_of("bad")))
         self.assertFalse(pathlib.Path(self.path("bad", "sweep.csv")).exists())
 
     def test_a_breakdown_is_a_row_of_the_table(self):
-        """One step to 150 degrees inverts the tets of the crease."""
-        sweep = self.write("breaking.toml", BREAKING)
-        self.sweep(sweep, "breaking_here")
-        self.sweep(sweep, "breaking_slurm", "--slurm")
+        self.sweep(OWN / "breaking.toml", "breaking_here")
+        self.sweep(OWN / "breaking.toml", "breaking_slurm", "--slurm")
         self.assert_same_tables("breaking_here", "breaking_slurm", rows=2)
         self.assertEqual(self.json("breaking_slurm", "sweep.json")["exit_statuses"], {"0": 1, "3": 1})
 
     def test_two_sweeps_in_one_folder_are_refused(self):
         with open(self.write(".lock", ""), "w", encoding="utf-8") as lock:
             fcntl.flock(lock, fcntl.LOCK_EX)
-            process = self.sweep(self.write("bad.toml", BAD), ".", status=2)
+            process = self.sweep(OWN / "bad.toml", ".", status=2)
         self.assertIn("another sweep runs there", process.stderr)
 
     def solve(self, command, name, status=0):

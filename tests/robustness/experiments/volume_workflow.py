@@ -50,12 +50,6 @@ class WorkflowTest(program.ProgramTest):
         for option in options:
             self.assertIn(f"option({option} ", (SOURCE / "CMakeLists.txt").read_text(encoding="utf-8"))
 
-    def write_script(self, text, *place):
-        os.makedirs(self.path(*place[:-1]), exist_ok=True)
-        with open(self.path(*place), "w", encoding="utf-8") as file:
-            file.write("#!/bin/sh\n" + text)
-        os.chmod(self.path(*place), 0o755)
-
     def act(self, script, environment):
         return subprocess.run([*SHELL, script], cwd=self.folder, env=environment, capture_output=True, text=True, timeout=120)
 
@@ -68,7 +62,7 @@ class VolumeWorkflow(WorkflowTest):
         self.expect_what_there_is(steps()["Build"], steps()["Build"])
 
     def test_the_steps_of_pbskin_run(self):
-        self.write_script(f'exec "{program.PBSKIN}" "$@"\n', "build", "release", "bin", "pbskin")
+        self.script("build/release/bin/pbskin", f'exec "{program.PBSKIN}" "$@"\n')
         environment = {**os.environ, "GITHUB_ACTIONS": "true", "GITHUB_STEP_SUMMARY": self.path("summary.md")}
         status = {}
         for name in ("Hold the bounds", "Measure written frames"):
@@ -100,10 +94,10 @@ cp "$1/frame_0000.vtu" "$1/rest.vtu"
 
     def test_frames_within_and_beyond_the_bounds(self):
         """A limb twisted by 150 degrees, by the paper's method and by linear blend skinning (C01, C02)."""
-        self.write_script(f'exec "{program.PBSKIN}" "$@"\n', "pbskin", "build", "release", "bin", "pbskin")
+        self.script("pbskin/build/release/bin/pbskin", f'exec "{program.PBSKIN}" "$@"\n')
         for deformer, status in (("pbs", 0), ("lbs", 1)):
             with self.subTest(deformer):
-                self.write_script(self.EXPORT.format(pbskin=program.PBSKIN, deformer=deformer), "EXPORT_FRAMES")
+                self.script("EXPORT_FRAMES", self.EXPORT.format(pbskin=program.PBSKIN, deformer=deformer))
                 for name in ("Export frames", "Hold the bounds"):
                     process = self.act(steps(ELSEWHERE)[name], os.environ)
                     self.assertEqual(process.returncode, status if name == "Hold the bounds" else 0, process.stdout + process.stderr)

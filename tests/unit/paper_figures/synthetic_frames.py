@@ -1,29 +1,14 @@
 """Recorded frames of a run in the layout of the study `frames`: two tets that grow, so that every number can be predicted."""
 import json
+import pathlib
 
 from synthetic_records import write_table
 
 rest = [(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0), (1.0, 1.0, 1.0)]
 tets = [(0, 1, 2, 3), (1, 2, 3, 4)]
 labels = {"nh_p1": 1.0, "lbs": 1.1, "dqs": 1.2, "pbs": 1.05}  # the rate at which each grows
-vtu = """<?xml version="1.0"?>
-<VTKFile type="UnstructuredGrid" version="0.1" byte_order="LittleEndian"><UnstructuredGrid>
-<Piece NumberOfPoints="5" NumberOfCells="2">
-<PointData><DataArray type="Float64" Name="rest_position" NumberOfComponents="3" format="ascii">{rest}</DataArray></PointData>
-<CellData><DataArray type="Float64" Name="volume_ratio" format="ascii">{ratios}</DataArray></CellData>
-<Points><DataArray type="Float64" NumberOfComponents="3" format="ascii">{positions}</DataArray></Points>
-<Cells><DataArray type="Int64" Name="connectivity" format="ascii">{corners}</DataArray>
-<DataArray type="Int64" Name="offsets" format="ascii">4 8</DataArray>
-<DataArray type="UInt8" Name="types" format="ascii">10 10</DataArray></Cells>
-</Piece></UnstructuredGrid></VTKFile>
-"""
-
-skin = """<?xml version="1.0"?>
-<VTKFile type="PolyData" version="0.1" byte_order="LittleEndian"><PolyData><Piece NumberOfPoints="3" NumberOfPolys="1">
-<Points><DataArray type="Float64" NumberOfComponents="3" format="ascii">{positions}</DataArray></Points>
-<Polys><DataArray type="Int64" Name="connectivity" format="ascii">0 1 2</DataArray>
-<DataArray type="Int64" Name="offsets" format="ascii">3</DataArray></Polys></Piece></PolyData></VTKFile>
-"""
+vtu = pathlib.Path(__file__).with_name("synthetic.vtu").read_text()
+skin = pathlib.Path(__file__).with_name("synthetic.vtp").read_text()
 carriers = [(0, (0.25, 0.25, 0.25, 0.25)), (1, (-0.5, 0.5, 0.5, 0.5)), (0, (1.0, 0.0, 0.0, 0.0))]  # of each point of the skin
 
 

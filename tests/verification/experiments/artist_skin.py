@@ -3,6 +3,7 @@ file by skin_formula.py and fbx_formula.py. The tolerance of 1e-6 of the model's
 their numbers. Between the keys of an FBX file assimp turns the joints in another way than the format does, which slerp_bound bounds."""
 import glob
 import os
+import pathlib
 import unittest
 import xml.etree.ElementTree
 import zipfile
@@ -15,23 +16,7 @@ import rig_files
 import skin_formula
 from written_frames import points_of
 
-SCENE = """schema = 1
-[character]
-model = "%s"
-vertices = 400
-[motion]
-animation = "%s"
-rate_hz = %.17g
-[pbs]
-k_stretch = 0.2
-k_volume = 1.0
-k_bind = 1.0
-[deformers]
-use = ["lbs"]
-[output]
-frames_every = 1
-metrics = []
-"""
+SCENE = pathlib.Path(__file__).with_name("artist_skin.toml").read_text()
 FRAMES = 5
 INSTALLED = "/usr/share/assimp/models"
 SIMPLE_SKIN, FBX_SKIN = f"{INSTALLED}/glTF2/simple_skin/simple_skin.gltf", f"{INSTALLED}/FBX/animation_with_skeleton.fbx"

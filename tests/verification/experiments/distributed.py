@@ -6,6 +6,7 @@ bending mode has 0.78 of a uniform load across it, so |error| <= 1.3 |r| / |f| |
 import csv
 import json
 import os
+import pathlib
 import subprocess
 import unittest
 
@@ -20,20 +21,7 @@ ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROO
                    OMPI_MCA_btl_vader_single_copy_mechanism="none",
                    OMPI_MCA_mpi_yield_when_idle="1", OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1")
 MODE_SHARE = 0.78  # share of a uniform transverse load in a cantilever's first mode
-LIMB = """schema = 1
-[character]
-body = "limb"
-vertices = 300
-[motion]
-joint = "forearm"
-axis = [0.0, 0.0, 1.0]
-angle_deg = 10.0
-frames = 2
-[[fem]]
-element_order = 1
-[deformers]
-use = ["fem"]
-"""
+LIMB = pathlib.Path(__file__).with_name("distributed_limb.toml").read_text()
 ACROSS = ("--gravity", 0, 0, -9.81, "--traction", 0, 0, -1000)
 
 

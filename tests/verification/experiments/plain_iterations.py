@@ -94,16 +94,16 @@ class PlainIterations(foreign_arm.ArmTest):
         settings = ("pbs.order=plain", "pbs.precision=f64", f"pbs.iterations={ITERATIONS}")
         self.succeeds("run", self.scene, "-o", self.path("out"), *(word for one in settings for word in ("--set", one)))
         rest = self.frame("lbs", 0)
-        self.rest = self.points(rest)
+        self.rest = self.positions(rest)
         self.tets = [tuple(map(int, tet)) for tet in written_frames.tets(rest)]
         self.body = Body(self.rest, self.tets)
-        self.start = self.points(self.frame("lbs", 1))
-        self.found = self.points(self.frame("pbs", 1))
+        self.start = self.positions(self.frame("lbs", 1))
+        self.found = self.positions(self.frame("pbs", 1))
 
     def frame(self, deformer, number):
         return written_frames.read(self.path("out", "frames", f"{deformer}_{number:06d}.vtu"))
 
-    def points(self, grid):
+    def positions(self, grid):
         return written_frames.points(grid).astype(numpy.float64)
 
     def tolerance_m(self, expected):

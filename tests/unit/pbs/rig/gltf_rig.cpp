@@ -10,24 +10,55 @@ namespace {
 
 using namespace pbs;
 using nlohmann::json;
-using test_support::GltfDocument;
-using test_support::two_joint_document;
 
-Rig rig_of_nodes(const std::string& nodes, const std::string& scenes = "")
-{
-    GltfDocument gltf = two_joint_document();
-    for (const char* member : {"scene", "scenes", "skins", "animations"}) gltf.json.erase(member);
-    gltf.json["nodes"] = json::parse(nodes);
-    gltf.json["meshes"][0]["primitives"][0]["attributes"] = {{"POSITION", 0}};
-    if (!scenes.empty()) gltf.json.update(json::parse(scenes));
-    const test_support::ScratchFolder folder;
-    return read_gltf_rig(folder.file("a.gltf", gltf.text()));
-}
+// A document of two joints, which a test changes and reads.
+class GltfRig : public testing::Test {
+protected:
+    json& primitive() { return gltf.json["meshes"][0]["primitives"][0]; }
+    json& animation() { return gltf.json["animations"][0]; }
 
-TEST(GltfRig, HasItsNodesMeshesAndMetres)
+    Rig read() const
+    {
+        const test_support::ScratchFolder folder;
+        return read_gltf_rig(folder.file("a.gltf", gltf.text()));
+    }
+
+    RigMesh read_mesh() const { return read().meshes.at(0); }
+
+    Rig rig_of_nodes(const std::string& nodes, const std::string& scenes = "{}")
+    {
+        for (const char* member : {"scene", "scenes", "skins", "animations"}) gltf.json.erase(member);
+        gltf.json["nodes"] = json::parse(nodes);
+        primitive()["attributes"] = {{"POSITION", 0}};
+        gltf.json.update(json::parse(scenes));
+        return read();
+    }
+
+    Triangles triangles_in_mode(int mode, const std::vector<std::uint16_t>& indices)
+    {
+        primitive()["mode"] = mode;
+        primitive()["indices"] = gltf.put("SCALAR", indices);
+        return read_mesh().triangles;
+    }
+
+    // The last key's rotation where the document's rotations are these.
+    template <typename Number>
+    Eigen::Vector4d last_rotation(const std::vector<Number>& numbers)
+    {
+        animation()["samplers"][0]["output"] = gltf.put("VEC4", numbers, true);
+        return read().animations.at(0).nodes.at(0).rotation->values.back();
+    }
+
+    test_support::GltfDocument gltf = test_support::two_joint_document();
+};
+using GltfMeshes = GltfRig;
+using GltfAnimations = GltfRig;
+using GltfNumbers = GltfRig;
+
+TEST_F(GltfRig, HasItsNodesMeshesAndMetres)
 {
     const test_support::ScratchFolder folder;
-    const std::string path = folder.file("a.gltf", two_joint_document().text());
+    const std::string path = folder.file("a.gltf", gltf.text());
     const Rig rig = read_gltf_rig(path);
     EXPECT_EQ(rig.file, path);
     EXPECT_EQ(rig.unit_m, 1.0);
@@ -41,7 +72,7 @@ TEST(GltfRig, HasItsNodesMeshesAndMetres)
     EXPECT_TRUE(rig.remarks.empty());
 }
 
-TEST(GltfRig, ParentsPrecedeTheirChildrenWhateverTheFilesOrder)
+TEST_F(GltfRig, ParentsPrecedeTheirChildrenWhateverTheFilesOrder)
 {
     const Rig rig = rig_of_nodes(R"([{"name": "tip"}, {"name": "elbow", "children": [0]}, {"name": "root", "children": [1, 3]},
                                      {"name": "body", "mesh": 0}])");
@@ -58,7 +89,7 @@ TEST(GltfRig, ParentsPrecedeTheirChildrenWhateverTheFilesOrder)
     EXPECT_EQ(rig.nodes[std::size_t(rig.meshes.at(0).node)].name, "body");
 }
 
-TEST(GltfRig, TransformsAreReadAsPartsOrAsMatrix)
+TEST_F(GltfRig, TransformsAreReadAsPartsOrAsMatrix)
 {
     const Rig rig = rig_of_nodes(R"([{"translation": [1, 2, 3], "rotation": [0, 0, 3, 4], "scale": [1, -2, 3]},
                                      {"matrix": [0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 5, 6, 7, 1]}])");
@@ -70,7 +101,7 @@ TEST(GltfRig, TransformsAreReadAsPartsOrAsMatrix)
     EXPECT_EQ(*rig.nodes[1].rest.matrix * Vec3(1, 0, 0), Vec3(5, 7, 7)) << "stored by columns";
 }
 
-TEST(GltfRig, ShowsTheMeshesOfTheDefaultScene)
+TEST_F(GltfRig, ShowsTheMeshesOfTheDefaultScene)
 {
     const std::string nodes = R"([{"name": "a", "mesh": 0}, {"name": "b", "children": [2]}, {"name": "c", "mesh": 0}])";
     const auto shown = [&](const std::string& scenes) {
@@ -84,20 +115,19 @@ TEST(GltfRig, ShowsTheMeshesOfTheDefaultScene)
     EXPECT_EQ(shown("{\"scene\": 0, " + scenes + "}"), "a");
     EXPECT_EQ(shown("{\"scene\": 1, " + scenes + "}"), "c");
     EXPECT_EQ(shown("{" + scenes + "}"), "a") << "the first scene where none is default";
-    EXPECT_EQ(shown(""), "ac") << "all nodes where there is no scene";
+    EXPECT_EQ(shown("{}"), "ac") << "all nodes where there is no scene";
 }
 
-TEST(GltfRig, OneMeshMayBelongToSeveralNodes)
+TEST_F(GltfRig, OneMeshMayBelongToSeveralNodes)
 {
     const Rig rig = rig_of_nodes(R"([{"name": "left", "mesh": 0}, {"name": "right", "mesh": 0}])");
     ASSERT_EQ(rig.meshes.size(), 2u);
     EXPECT_NE(rig.meshes[0].node, rig.meshes[1].node);
 }
 
-TEST(GltfRig, ExtensionsThatDoNotMoveVerticesAreAllowed)
+TEST_F(GltfRig, ExtensionsThatDoNotMoveVerticesAreAllowed)
 {
     for (const char* extension : {"KHR_materials_unlit", "KHR_texture_transform", "KHR_mesh_quantization"}) {
-        GltfDocument gltf = two_joint_document();
         gltf.json["extensionsRequired"] = {extension};
         const test_support::ScratchFolder folder;
         EXPECT_NO_THROW(read_gltf_rig(folder.file("a.gltf", gltf.text()))) << extension;
@@ -106,74 +136,51 @@ TEST(GltfRig, ExtensionsThatDoNotMoveVerticesAreAllowed)
 
 // Reference: glTF 2.0, Sec. 3.7.2 (primitives) and 3.7.3 (skins), on four points.
 
-Rig rig_from(const GltfDocument& gltf)
-{
-    const test_support::ScratchFolder folder;
-    return read_gltf_rig(folder.file("a.gltf", gltf.text()));
-}
-
-json& primitive_of(GltfDocument& gltf)
-{
-    return gltf.json["meshes"][0]["primitives"][0];
-}
-
-Triangles triangles_in_mode(int mode, const std::vector<std::uint16_t>& indices)
-{
-    GltfDocument gltf = two_joint_document();
-    primitive_of(gltf)["mode"] = mode;
-    primitive_of(gltf)["indices"] = gltf.put("SCALAR", indices);
-    return rig_from(gltf).meshes.at(0).triangles;
-}
-
-TEST(GltfMeshes, ListsStripsAndFansOfTriangles)
+TEST_F(GltfMeshes, ListsStripsAndFansOfTriangles)
 {
     EXPECT_EQ(triangles_in_mode(4, {0, 1, 2, 2, 1, 3}), (Triangles(2, 3) << 0, 1, 2, 2, 1, 3).finished());
     EXPECT_EQ(triangles_in_mode(5, {0, 1, 2, 3}), (Triangles(2, 3) << 0, 1, 2, 1, 3, 2).finished());
     EXPECT_EQ(triangles_in_mode(6, {0, 1, 2, 3}), (Triangles(2, 3) << 0, 1, 2, 0, 2, 3).finished());
 }
 
-TEST(GltfMeshes, WithoutIndicesTrianglesAreThoseOfTheVerticesInTheirOrder)
+TEST_F(GltfMeshes, WithoutIndicesTrianglesAreThoseOfTheVerticesInTheirOrder)
 {
-    GltfDocument gltf = two_joint_document();
-    primitive_of(gltf).erase("indices");
-    EXPECT_EQ(rig_from(gltf).meshes.at(0).triangles, (Triangles(1, 3) << 0, 1, 2).finished()) << "the fourth vertex begins no triangle";
+    primitive().erase("indices");
+    EXPECT_EQ(read_mesh().triangles, (Triangles(1, 3) << 0, 1, 2).finished()) << "the fourth vertex begins no triangle";
 }
 
-TEST(GltfMeshes, SeveralPrimitivesAreOneMesh)
+TEST_F(GltfMeshes, SeveralPrimitivesAreOneMesh)
 {
-    GltfDocument gltf = two_joint_document();
-    gltf.json["meshes"][0]["primitives"].push_back(primitive_of(gltf));
-    const RigMesh mesh = rig_from(gltf).meshes.at(0);
+    gltf.json["meshes"][0]["primitives"].push_back(primitive());
+    const RigMesh mesh = read_mesh();
     EXPECT_EQ(mesh.points.rows(), 8);
     EXPECT_EQ(mesh.triangles, (Triangles(4, 3) << 0, 1, 3, 1, 2, 3, 4, 5, 7, 5, 6, 7).finished());
     EXPECT_EQ(mesh.skin.first, (std::vector<int>{0, 1, 3, 4, 6, 7, 9, 10, 12}));
 }
 
-TEST(GltfMeshes, PointsAndLinesAreLeftOutWithARemark)
+TEST_F(GltfMeshes, PointsAndLinesAreLeftOutWithARemark)
 {
-    GltfDocument gltf = two_joint_document();
-    json lines = primitive_of(gltf);
+    json lines = primitive();
     lines["mode"] = 1;
     gltf.json["meshes"][0]["primitives"].push_back(lines);
-    const Rig rig = rig_from(gltf);
+    const Rig rig = read();
     EXPECT_EQ(rig.meshes.at(0).points.rows(), 4);
     EXPECT_EQ(rig.remarks, std::vector<std::string>{"mesh arm: points and lines are left out"});
-    primitive_of(gltf)["mode"] = 0;
-    EXPECT_TRUE(rig_from(gltf).meshes.empty()) << "a mesh without triangles is none";
+    primitive()["mode"] = 0;
+    EXPECT_TRUE(read().meshes.empty()) << "a mesh without triangles is none";
 }
 
-TEST(GltfMeshes, MorphTargetsAreLeftOutWithARemark)
+TEST_F(GltfMeshes, MorphTargetsAreLeftOutWithARemark)
 {
-    GltfDocument gltf = two_joint_document();
-    primitive_of(gltf)["targets"] = {{{"POSITION", 0}}, {{"POSITION", 0}}};
-    const Rig rig = rig_from(gltf);
+    primitive()["targets"] = {{{"POSITION", 0}}, {{"POSITION", 0}}};
+    const Rig rig = read();
     EXPECT_EQ(rig.meshes.at(0).points.row(0), Eigen::RowVector3d(1, 0, 0));
     EXPECT_EQ(rig.remarks, std::vector<std::string>{"mesh arm: 2 morph targets are left out"});
 }
 
-TEST(GltfMeshes, HaveTheSkinOfTheirNode)
+TEST_F(GltfMeshes, HaveTheSkinOfTheirNode)
 {
-    const RigMesh mesh = rig_from(two_joint_document()).meshes.at(0);
+    const RigMesh mesh = read_mesh();
     EXPECT_EQ(mesh.name, "arm");
     ASSERT_EQ(mesh.joints.size(), 2u);
     EXPECT_EQ(mesh.joints[1].node, 1);
@@ -183,62 +190,50 @@ TEST(GltfMeshes, HaveTheSkinOfTheirNode)
     EXPECT_EQ(mesh.skin.weight, (std::vector<double>{1.0, 0.5, 0.5, 1.0, 0.25, 0.75}));
 }
 
-TEST(GltfMeshes, WithoutInverseBindMatricesTheyAreIdentities)
+TEST_F(GltfMeshes, WithoutInverseBindMatricesTheyAreIdentities)
 {
-    GltfDocument gltf = two_joint_document();
     gltf.json["skins"][0].erase("inverseBindMatrices");
-    for (const SkinJoint& joint : rig_from(gltf).meshes.at(0).joints)
-        EXPECT_EQ(joint.inverse_bind.matrix(), Eigen::Matrix4d(Eigen::Matrix4d::Identity()));
+    for (const SkinJoint& joint : read_mesh().joints) EXPECT_EQ(joint.inverse_bind.matrix(), Eigen::Matrix4d(Eigen::Matrix4d::Identity()));
 }
 
-TEST(GltfMeshes, ASecondSetOfJointsAddsItsWeights)
+TEST_F(GltfMeshes, ASecondSetOfJointsAddsItsWeights)
 {
-    GltfDocument gltf = two_joint_document();
     const int joints = gltf.put<std::uint8_t>("VEC4", {1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0});
     const int weights = gltf.put<float>("VEC4", {1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0});
-    primitive_of(gltf)["attributes"].update({{"JOINTS_1", joints}, {"WEIGHTS_1", weights}});
-    const Rig rig = rig_from(gltf);
+    primitive()["attributes"].update({{"JOINTS_1", joints}, {"WEIGHTS_1", weights}});
+    const Rig rig = read();
     EXPECT_EQ(rig.meshes.at(0).skin.bone, (std::vector<int>{0, 1, 0, 1, 1, 0, 1}));
     EXPECT_EQ(rig.meshes.at(0).skin.weight, (std::vector<double>{0.5, 0.5, 0.5, 0.5, 1.0, 0.25, 0.75}));
     EXPECT_EQ(rig.remarks.size(), 1u) << "1 + 1 is not one";
 }
 
-TEST(GltfMeshes, NormalisedBytesAsWeights)
+TEST_F(GltfMeshes, NormalisedBytesAsWeights)
 {
-    GltfDocument gltf = two_joint_document();
-    primitive_of(gltf)["attributes"]["WEIGHTS_0"] =
+    primitive()["attributes"]["WEIGHTS_0"] =
         gltf.put<std::uint8_t>("VEC4", {255, 0, 0, 0, 51, 204, 0, 0, 255, 0, 0, 0, 102, 153, 0, 0}, true);
-    const Weights skin = rig_from(gltf).meshes.at(0).skin;
+    const Weights skin = read_mesh().skin;
     ASSERT_EQ(skin.weight.size(), 6u);
     EXPECT_DOUBLE_EQ(skin.weight[1], 0.2);
     EXPECT_DOUBLE_EQ(skin.weight[4], 0.4);
 }
 
-TEST(GltfMeshes, TheJointOfAWeightOfZeroMayBeAnything)  // glTF 2.0, Sec. 3.7.3.3: unused joints should be zero, and often are not
+TEST_F(GltfMeshes, TheJointOfAWeightOfZeroMayBeAnything)  // glTF 2.0, Sec. 3.7.3.3: unused joints should be zero, and often are not
 {
-    GltfDocument gltf = two_joint_document();
-    primitive_of(gltf)["attributes"]["JOINTS_0"] = gltf.put<std::uint8_t>("VEC4", {0, 99, 0, 0, 0, 1, 99, 0, 1, 0, 0, 99, 0, 1, 0, 0});
-    EXPECT_EQ(rig_from(gltf).meshes.at(0).skin.bone, (std::vector<int>{0, 0, 1, 1, 0, 1}));
+    primitive()["attributes"]["JOINTS_0"] = gltf.put<std::uint8_t>("VEC4", {0, 99, 0, 0, 0, 1, 99, 0, 1, 0, 0, 99, 0, 1, 0, 0});
+    EXPECT_EQ(read_mesh().skin.bone, (std::vector<int>{0, 0, 1, 1, 0, 1}));
 }
 
-TEST(GltfMeshes, AMeshWithoutANameIsCalledAsItsNode)
+TEST_F(GltfMeshes, AMeshWithoutANameIsCalledAsItsNode)
 {
-    GltfDocument gltf = two_joint_document();
     gltf.json["meshes"][0].erase("name");
-    EXPECT_EQ(rig_from(gltf).meshes.at(0).name, "body");
+    EXPECT_EQ(read_mesh().name, "body");
 }
 
 // Reference: glTF 2.0, Sec. 3.11, on an animation of two keys.
 
-Rig animated(const GltfDocument& gltf)
+TEST_F(GltfAnimations, HaveTheKeysOfTheirSamplers)
 {
-    const test_support::ScratchFolder folder;
-    return read_gltf_rig(folder.file("a.gltf", gltf.text()));
-}
-
-TEST(GltfAnimations, HaveTheKeysOfTheirSamplers)
-{
-    const Rig rig = animated(two_joint_document());
+    const Rig rig = read();
     ASSERT_EQ(rig.animations.size(), 1u);
     EXPECT_EQ(rig.animations[0].name, "Bend");
     EXPECT_EQ(rig.animations[0].start_s, 0.0);
@@ -253,26 +248,24 @@ TEST(GltfAnimations, HaveTheKeysOfTheirSamplers)
     EXPECT_EQ(tracks.rotation->values, (std::vector<Eigen::Vector4d>{{0, 0, 0, 1}, {0, 0, 1, 0}}));
 }
 
-TEST(GltfAnimations, ACubicSplineHasThreeValuesPerKey)
+TEST_F(GltfAnimations, ACubicSplineHasThreeValuesPerKey)
 {
-    GltfDocument gltf = two_joint_document();
     const int output = gltf.put<float>("VEC3", {1, 0, 0, 2, 0, 0, 3, 0, 0, 4, 0, 0, 5, 0, 0, 6, 0, 0});
-    gltf.json["animations"][0]["samplers"][0].update({{"interpolation", "CUBICSPLINE"}, {"output", output}});
-    gltf.json["animations"][0]["channels"][0]["target"]["path"] = "translation";
-    const Rig rig = animated(gltf);
+    animation()["samplers"][0].update({{"interpolation", "CUBICSPLINE"}, {"output", output}});
+    animation()["channels"][0]["target"]["path"] = "translation";
+    const Rig rig = read();
     const KeyTrack& track = rig.animations.at(0).nodes.at(0).translation.value();
     EXPECT_EQ(track.interpolation, Interpolation::cubic_spline);
     ASSERT_EQ(track.values.size(), 6u);
     EXPECT_EQ(track.values[4], Eigen::Vector4d(5, 0, 0, 0));
 }
 
-TEST(GltfAnimations, AStepAndALinearTrackOfOneNodeAreReadTogether)
+TEST_F(GltfAnimations, AStepAndALinearTrackOfOneNodeAreReadTogether)
 {
-    GltfDocument gltf = two_joint_document();
     const int times = gltf.put<float>("SCALAR", {0.5F, 2.0F}), scales = gltf.put<float>("VEC3", {1, 1, 1, 2, 2, 2});
-    gltf.json["animations"][0]["samplers"].push_back({{"input", times}, {"output", scales}, {"interpolation", "STEP"}});
-    gltf.json["animations"][0]["channels"].push_back({{"sampler", 1}, {"target", {{"node", 1}, {"path", "scale"}}}});
-    const RigAnimation animation = animated(gltf).animations.at(0);
+    animation()["samplers"].push_back({{"input", times}, {"output", scales}, {"interpolation", "STEP"}});
+    animation()["channels"].push_back({{"sampler", 1}, {"target", {{"node", 1}, {"path", "scale"}}}});
+    const RigAnimation animation = read().animations.at(0);
     ASSERT_EQ(animation.nodes.size(), 1u);
     EXPECT_TRUE(animation.nodes[0].rotation && animation.nodes[0].scale && !animation.nodes[0].translation);
     EXPECT_EQ(animation.nodes[0].scale->interpolation, Interpolation::step);
@@ -280,128 +273,72 @@ TEST(GltfAnimations, AStepAndALinearTrackOfOneNodeAreReadTogether)
     EXPECT_EQ(animation.end_s, 2.0);
 }
 
-TEST(GltfAnimations, WithoutANameAreNumbered)
+TEST_F(GltfAnimations, WhatMovesNoNodeIsLeftOut)
 {
-    GltfDocument gltf = two_joint_document();
-    gltf.json["animations"].push_back(gltf.json["animations"][0]);
-    gltf.json["animations"][1].erase("name");
-    EXPECT_EQ(animated(gltf).animations.at(1).name, "animation 1");
-}
-
-TEST(GltfAnimations, AChannelWithoutANodeIsIgnored)
-{
-    GltfDocument gltf = two_joint_document();
-    gltf.json["animations"][0]["channels"].push_back({{"sampler", 0}, {"target", {{"path", "rotation"}}}});
-    EXPECT_EQ(animated(gltf).animations.at(0).nodes.size(), 1u);
-    gltf.json["animations"][0]["channels"].erase(0);
-    EXPECT_TRUE(animated(gltf).animations.empty()) << "it moves no node";
-}
-
-TEST(GltfAnimations, WithoutChannelsAreLeftOut)
-{
-    GltfDocument gltf = two_joint_document();
-    gltf.json["animations"][0]["channels"] = nlohmann::json::array();
-    EXPECT_TRUE(animated(gltf).animations.empty());
-}
-
-TEST(GltfAnimations, OfMorphTargetsAreLeftOutWithARemark)
-{
-    GltfDocument gltf = two_joint_document();
-    gltf.json["animations"][0]["channels"].push_back({{"sampler", 0}, {"target", {{"node", 2}, {"path", "weights"}}}});
-    const Rig rig = animated(gltf);
-    EXPECT_EQ(rig.animations.at(0).nodes.size(), 1u);
-    EXPECT_EQ(rig.remarks, std::vector<std::string>{"animation Bend: the changes of morph targets are left out"});
-}
-
-TEST(GltfAnimations, AFileMayHaveNone)
-{
-    GltfDocument gltf = two_joint_document();
+    const json turn = animation()["channels"][0], no_node = {{"sampler", 0}, {"target", {{"path", "rotation"}}}},
+               morph = {{"sampler", 0}, {"target", {{"node", 2}, {"path", "weights"}}}};
+    for (const json& nothing : {json::array({no_node}), json::array()}) {
+        animation()["channels"] = nothing;
+        EXPECT_TRUE(read().animations.empty()) << nothing;
+    }
+    for (const json& other : {no_node, morph}) {
+        animation()["channels"] = {turn, other};
+        const Rig rig = read();
+        EXPECT_EQ(rig.animations.at(0).nodes.size(), 1u) << other;
+        const std::vector<std::string> morphs = {"animation Bend: the changes of morph targets are left out"};
+        EXPECT_EQ(rig.remarks, other == morph ? morphs : std::vector<std::string>{}) << other;
+    }
     gltf.json.erase("animations");
-    EXPECT_TRUE(animated(gltf).animations.empty());
+    EXPECT_TRUE(read().animations.empty());
+}
+
+TEST_F(GltfAnimations, WithoutANameAreNumbered)
+{
+    gltf.json["animations"].push_back(animation());
+    gltf.json["animations"][1].erase("name");
+    EXPECT_EQ(read().animations.at(1).name, "animation 1");
 }
 
 // Reference: glTF 2.0, Sec. 3.6.2 (accessors, sparse accessors) and the conversion of normalised integers in Sec. 3.6.2.2, by hand.
 
-Rig read_document(const GltfDocument& gltf)
-{
-    const test_support::ScratchFolder folder;
-    return read_gltf_rig(folder.file("a.gltf", gltf.text()));
-}
-
-Positions points_in(const GltfDocument& gltf)
-{
-    return read_document(gltf).meshes.at(0).points;
-}
-
-// The last key's rotation where the document's rotations are these.
-template <typename Number>
-Eigen::Vector4d last_rotation(const std::vector<Number>& numbers)
-{
-    GltfDocument gltf = two_joint_document();
-    gltf.json["animations"][0]["samplers"][0]["output"] = gltf.put("VEC4", numbers, true);
-    return read_document(gltf).animations.at(0).nodes.at(0).rotation->values.back();
-}
-
-TEST(GltfNumbers, NormalisedBytesAndShorts)
+TEST_F(GltfNumbers, NormalisedBytesAndShorts)  // the least signed number is minus one, too
 {
     EXPECT_EQ(last_rotation<std::uint8_t>({0, 0, 0, 255, 0, 51, 102, 255}), Eigen::Vector4d(0.0, 0.2, 0.4, 1.0));
     EXPECT_EQ(last_rotation<std::uint16_t>({0, 0, 0, 65535, 0, 13107, 26214, 65535}), Eigen::Vector4d(0.0, 0.2, 0.4, 1.0));
     EXPECT_EQ(last_rotation<std::int8_t>({0, 0, 0, 127, 0, 127, -127, 1}), Eigen::Vector4d(0.0, 1.0, -1.0, 1.0 / 127.0));
     EXPECT_EQ(last_rotation<std::int16_t>({0, 0, 0, 32767, 0, 32767, -32767, 1}), Eigen::Vector4d(0.0, 1.0, -1.0, 1.0 / 32767.0));
-}
-
-TEST(GltfNumbers, TheLeastSignedNumberIsMinusOneToo)
-{
     EXPECT_EQ(last_rotation<std::int8_t>({0, 0, 0, 127, -128, 0, 0, 127}).x(), -1.0);
     EXPECT_EQ(last_rotation<std::int16_t>({0, 0, 0, 32767, -32768, 0, 0, 32767}).x(), -1.0);
 }
 
-TEST(GltfNumbers, IntegersThatAreNotNormalisedKeepTheirValues)  // as KHR_mesh_quantization stores points
+TEST_F(GltfNumbers, IntegersThatAreNotNormalisedKeepTheirValues)  // as KHR_mesh_quantization stores points
 {
-    GltfDocument gltf = two_joint_document();
-    gltf.json["meshes"][0]["primitives"][0]["attributes"]["POSITION"] =
-        gltf.put<std::int16_t>("VEC3", {-300, 0, 7, 1, 2, 0, 1, 4, 0, 2, 2, 0});
-    EXPECT_EQ(Vec3(points_in(gltf).row(0)), Vec3(-300, 0, 7));
+    primitive()["attributes"]["POSITION"] = gltf.put<std::int16_t>("VEC3", {-300, 0, 7, 1, 2, 0, 1, 4, 0, 2, 2, 0});
+    EXPECT_EQ(Vec3(read_mesh().points.row(0)), Vec3(-300, 0, 7));
 }
 
-TEST(GltfNumbers, OfAStridedViewAndAnOffset)
+TEST_F(GltfNumbers, OfAStridedViewAndAnOffset)
 {
-    GltfDocument gltf = two_joint_document();
     // Each of the four points is followed by a number that is none of its own; one number precedes them.
     gltf.put<float>("SCALAR", {99, 1, 2, 3, 99, 4, 5, 6, 99, 7, 8, 9, 99, 10, 11, 12});
     gltf.json["bufferViews"].back()["byteStride"] = 16;
     gltf.json["accessors"].back().update({{"byteOffset", 4}, {"type", "VEC3"}, {"count", 4}});
-    gltf.json["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = gltf.json["accessors"].size() - 1;
-    EXPECT_EQ(points_in(gltf), (Positions(4, 3) << 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12).finished());
+    primitive()["attributes"]["POSITION"] = gltf.json["accessors"].size() - 1;
+    EXPECT_EQ(read_mesh().points, (Positions(4, 3) << 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12).finished());
 }
 
 // Points 1 and 3 get other places.
-GltfDocument with_sparse_points()
+TEST_F(GltfNumbers, ASparseAccessorReplacesSomeElementsOfItsViewOrOfZeros)
 {
-    GltfDocument gltf = two_joint_document();
     const int indices = gltf.put_bytes<std::uint8_t>({1, 3}), values = gltf.put_bytes<float>({10, 20, 30, 40, 50, 60});
-    gltf.json["accessors"][0]["sparse"] = {
+    json& points = gltf.json["accessors"][0];
+    points["sparse"] = {
         {"count", 2}, {"indices", {{"bufferView", indices}, {"componentType", 5121}}}, {"values", {{"bufferView", values}}}};
-    return gltf;
-}
-
-TEST(GltfNumbers, ASparseAccessorReplacesSomeElements)
-{
-    EXPECT_EQ(points_in(with_sparse_points()), (Positions(4, 3) << 1, 0, 0, 10, 20, 30, 1, 4, 0, 40, 50, 60).finished());
-}
-
-TEST(GltfNumbers, ASparseAccessorWithoutAViewReplacesZeros)
-{
-    GltfDocument gltf = with_sparse_points();
-    gltf.json["accessors"][0].erase("bufferView");
-    EXPECT_EQ(points_in(gltf), (Positions(4, 3) << 0, 0, 0, 10, 20, 30, 0, 0, 0, 40, 50, 60).finished());
-}
-
-TEST(GltfNumbers, AnAccessorWithoutAViewHoldsZeros)
-{
-    GltfDocument gltf = two_joint_document();
-    gltf.json["accessors"][0].erase("bufferView");
-    EXPECT_EQ(points_in(gltf), Positions(Positions::Zero(4, 3)));
+    EXPECT_EQ(read_mesh().points, (Positions(4, 3) << 1, 0, 0, 10, 20, 30, 1, 4, 0, 40, 50, 60).finished());
+    points.erase("bufferView");
+    EXPECT_EQ(read_mesh().points, (Positions(4, 3) << 0, 0, 0, 10, 20, 30, 0, 0, 0, 40, 50, 60).finished());
+    points.erase("sparse");
+    EXPECT_EQ(read_mesh().points, Positions(Positions::Zero(4, 3)));
 }
 
 }  // namespace

@@ -29,9 +29,16 @@ RigMesh small_mesh(const std::string& name, int node, const std::vector<SkinJoin
     return mesh;
 }
 
-double largest_difference(const Positions& a, const Positions& b)
+void expect_rest_points(const RigBinding& binding, std::size_t mesh, const Positions& expected)
 {
-    return a.rows() == b.rows() ? (a - b).cwiseAbs().maxCoeff() : 1e300;
+    const Positions points = rest_points(binding.meshes.at(mesh), binding);
+    ASSERT_EQ(points.rows(), expected.rows());
+    EXPECT_LE((points - expected).cwiseAbs().maxCoeff(), bind_rounding);
+}
+
+Positions moved(const Positions& points, double x, double y, double z)
+{
+    return points.rowwise() + Eigen::RowVector3d(x, y, z);
 }
 
 TEST(RigBinding, RestPointsAreThoseOfTheMeshInMetres)
@@ -40,7 +47,7 @@ TEST(RigBinding, RestPointsAreThoseOfTheMeshInMetres)
     rig.unit_m = 0.01;
     const RigBinding binding = bind_rig(rig, nullptr, 50.0);
     EXPECT_EQ(binding.metres_per_unit, 0.5);
-    EXPECT_LE(largest_difference(rest_points(binding.meshes[0], binding), 0.5 * rig.meshes[0].points), bind_rounding);
+    expect_rest_points(binding, 0, 0.5 * rig.meshes[0].points);
     EXPECT_LE((binding.bind.at(1).translation() - Vec3(0.5, 1, 0)).norm(), bind_rounding);
     EXPECT_TRUE(binding.remarks.empty());
 }
@@ -49,28 +56,21 @@ TEST(RigBinding, TheBindPoseCountsWhereTheFileRestsInAnother)
 {
     Rig rig = two_joint_rig();
     rig.nodes[1].rest.rotation = Eigen::Quaterniond(0, 0, 0, 1);  // the elbow rests half round
-    const RigBinding binding = bind_rig(rig, nullptr, 1.0);
-    EXPECT_LE(largest_difference(rest_points(binding.meshes[0], binding), rig.meshes[0].points), bind_rounding);
+    expect_rest_points(bind_rig(rig, nullptr, 1.0), 0, rig.meshes[0].points);
 }
 
 TEST(RigBinding, TheBindPoseIsAttachedWhereTheRootJointRests)
 {
     Rig rig = two_joint_rig();
     rig.nodes[0].rest.translation = Vec3(1, 0, 7);
-    Positions expected = rig.meshes[0].points;
-    expected.col(2).array() += 7.0;
-    const RigBinding binding = bind_rig(rig, nullptr, 1.0);
-    EXPECT_LE(largest_difference(rest_points(binding.meshes[0], binding), expected), bind_rounding);
+    expect_rest_points(bind_rig(rig, nullptr, 1.0), 0, moved(rig.meshes[0].points, 0, 0, 7));
 }
 
 TEST(RigBinding, IdentitiesAsInverseBindMatricesMeanPointsInTheJointsFrames)
 {
     Rig rig = two_joint_rig();
     for (SkinJoint& joint : rig.meshes[0].joints) joint.inverse_bind.setIdentity();
-    const RigBinding binding = bind_rig(rig, nullptr, 1.0);
-    Positions expected = rig.meshes[0].points;
-    expected.col(0).array() += 1.0;  // all frames are where the root joint is
-    EXPECT_LE(largest_difference(rest_points(binding.meshes[0], binding), expected), bind_rounding);
+    expect_rest_points(bind_rig(rig, nullptr, 1.0), 0, moved(rig.meshes[0].points, 1, 0, 0));  // all frames are where the root joint is
 }
 
 TEST(RigBinding, TheLargestMeshComesFirstAndDeterminesTheBindPose)
@@ -83,9 +83,7 @@ TEST(RigBinding, TheLargestMeshComesFirstAndDeterminesTheBindPose)
     EXPECT_EQ(binding.meshes[0].name, "arm");
     EXPECT_LE((binding.bind.at(1).translation() - Vec3(1, 2, 0)).norm(), bind_rounding);
     EXPECT_LE((binding.bind.at(3).translation() - Vec3(1, 3, 0)).norm(), bind_rounding);
-    Positions expected = rig.meshes[0].points;
-    expected.col(2).array() -= 3.0;  // brought to where the larger mesh was bound
-    EXPECT_LE(largest_difference(rest_points(binding.meshes[1], binding), expected), bind_rounding);
+    expect_rest_points(binding, 1, moved(rig.meshes[0].points, 0, 0, -3));  // brought to where the larger mesh was bound
 }
 
 TEST(RigBinding, BindPosesThatContradictEachOtherAreARemark)
@@ -106,9 +104,7 @@ TEST(RigBinding, AMeshWithoutASkinHangsOnTheJointAboveIt)
     ASSERT_EQ(binding.meshes.size(), 2u);
     ASSERT_EQ(binding.meshes[1].joints.size(), 1u);
     EXPECT_EQ(binding.meshes[1].joints[0].node, 1);
-    Positions expected = rig.meshes[1].points;
-    expected.rowwise() += Eigen::RowVector3d(1, 3, 0);
-    EXPECT_LE(largest_difference(rest_points(binding.meshes[1], binding), expected), bind_rounding);
+    expect_rest_points(binding, 1, moved(rig.meshes[1].points, 1, 3, 0));
 }
 
 TEST(RigBinding, AMeshThatNoJointMovesIsLeftOutWithARemark)
@@ -126,10 +122,8 @@ TEST(RigBinding, OfAFileWithoutAnyJointKeepsItsMeshesAtRest)
     rig.animations.clear();
     rig.meshes = {small_mesh("statue", 1, {})};
     const RigBinding binding = bind_rig(rig, nullptr, 1.0);
-    Positions expected = rig.meshes[0].points;
-    expected.rowwise() += Eigen::RowVector3d(1, 2, 0);
     ASSERT_EQ(binding.meshes.size(), 1u);
-    EXPECT_LE(largest_difference(rest_points(binding.meshes[0], binding), expected), bind_rounding);
+    expect_rest_points(binding, 0, moved(rig.meshes[0].points, 1, 2, 0));
 }
 
 TEST(RigBinding, WhereNoJointMovesAnyMeshTheRigIsRefused)

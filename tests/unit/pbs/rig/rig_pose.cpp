@@ -38,51 +38,40 @@ TEST(KeyTracks, BeforeTheFirstAndAfterTheLastKeyTheValueIsThatKeys)
         EXPECT_EQ(vector_at(track, -5.0).x(), 1.0);
         EXPECT_EQ(vector_at(track, 9.0).x(), 2.0);
     }
-    const KeyTrack spline = track_with(Interpolation::cubic_spline, {1.0, 3.0},
-                                       {{7, 0, 0, 0},
-                                        {1, 0, 0, 0},
-                                        {7, 0, 0, 0},  //
-                                        {7, 0, 0, 0},
-                                        {2, 0, 0, 0},
-                                        {7, 0, 0, 0}});
+    const Eigen::Vector4d tangent(7, 0, 0, 0), one(1, 0, 0, 0), two(2, 0, 0, 0);
+    const KeyTrack spline = track_with(Interpolation::cubic_spline, {1.0, 3.0}, {tangent, one, tangent, tangent, two, tangent});
     EXPECT_EQ(vector_at(spline, 0.0).x(), 1.0);
     EXPECT_EQ(vector_at(spline, 3.0).x(), 2.0);
     EXPECT_EQ(vector_at(spline, 4.0).x(), 2.0);
 }
 
-TEST(KeyTracks, AStepKeepsTheKeyBefore)
+TEST(KeyTracks, StepsSingleKeysAndJumps)
 {
-    const KeyTrack track = track_with(Interpolation::step, {0.0, 1.0, 2.0}, {{1, 0, 0, 0}, {2, 0, 0, 0}, {3, 0, 0, 0}});
-    EXPECT_EQ(vector_at(track, 0.999).x(), 1.0);
-    EXPECT_EQ(vector_at(track, 1.0).x(), 2.0);
-    EXPECT_EQ(vector_at(track, 1.5).x(), 2.0);
-}
-
-TEST(KeyTracks, ASingleKeyHoldsAtAllTimes)
-{
-    const KeyTrack track = track_with(Interpolation::linear, {0.5}, {{1, 2, 3, 0}});
-    for (const double time_s : {0.0, 0.5, 1.0}) EXPECT_EQ(vector_at(track, time_s), Vec3(1, 2, 3));
-}
-
-TEST(KeyTracks, TwoKeysAtOneTimeAreAJump)
-{
-    const KeyTrack track =
-        track_with(Interpolation::linear, {0.0, 1.0, 1.0, 2.0}, {{0, 0, 0, 0}, {1, 0, 0, 0}, {5, 0, 0, 0}, {6, 0, 0, 0}});
-    EXPECT_EQ(vector_at(track, 0.5).x(), 0.5);
-    EXPECT_EQ(vector_at(track, 1.0).x(), 5.0);
-    EXPECT_EQ(vector_at(track, 1.5).x(), 5.5);
+    const auto track = [](Interpolation kind, const std::vector<double>& times_s, const std::vector<double>& x) {
+        std::vector<Eigen::Vector4d> values;
+        for (const double value : x) values.emplace_back(value, 0, 0, 0);
+        return track_with(kind, times_s, values);
+    };
+    const KeyTrack step = track(Interpolation::step, {0.0, 1.0, 2.0}, {1, 2, 3});
+    const KeyTrack single = track(Interpolation::linear, {0.5}, {4});
+    const KeyTrack jump = track(Interpolation::linear, {0.0, 1.0, 1.0, 2.0}, {0, 1, 5, 6});
+    for (const auto& [keys, time_s, x] : {std::tuple(&step, 0.999, 1.0),
+                                          {&step, 1.0, 2.0},
+                                          {&step, 1.5, 2.0},
+                                          {&single, 0.0, 4.0},
+                                          {&single, 0.5, 4.0},
+                                          {&single, 1.0, 4.0},
+                                          {&jump, 0.5, 0.5},
+                                          {&jump, 1.0, 5.0},
+                                          {&jump, 1.5, 5.5}})
+        EXPECT_EQ(vector_at(*keys, time_s), Vec3(x, 0, 0)) << time_s;
 }
 
 // At the middle of two keys: (p0 + p1) / 2 + distance (m0 - m1) / 8.
 TEST(KeyTracks, ACubicSplineAtItsMiddle)
 {
-    const KeyTrack track = track_with(Interpolation::cubic_spline, {0.0, 2.0},
-                                      {{9, 9, 9, 0},
-                                       {1, 0, 2, 0},
-                                       {4, 0, 1, 0},  //
-                                       {2, 8, 1, 0},
-                                       {3, 1, 6, 0},
-                                       {9, 9, 9, 0}});
+    const Eigen::Vector4d p0(1, 0, 2, 0), p1(3, 1, 6, 0), m0(4, 0, 1, 0), m1(2, 8, 1, 0), other(9, 9, 9, 0);
+    const KeyTrack track = track_with(Interpolation::cubic_spline, {0.0, 2.0}, {other, p0, m0, m1, p1, other});
     EXPECT_EQ(vector_at(track, 1.0), Vec3(2.0 + 2.0 * 2.0 / 8.0, 0.5 - 2.0 * 8.0 / 8.0, 4.0));
 }
 

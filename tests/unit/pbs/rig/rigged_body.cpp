@@ -152,37 +152,30 @@ Vec3 tail_of(const std::string& name, const Rig& rig)
     return body.skeleton.bones.at(static_cast<std::size_t>(find_bone(body.skeleton, name))).tail;
 }
 
-TEST(BoneTails, ABoneEndsAtTheJointBelowIt)
+void expect_tail(const std::string& rule, const Vec3& tail, const std::string& bone, const std::vector<PlacedJoint>& joints,
+                 const std::vector<Vec3>& points, const std::vector<int>& joint_of_point)
 {
-    const Rig rig = rig_with({{"a", -1, {0, 0, 0}}, {"b", 0, {0, 2, 0}}}, {{0, 1, 0}, {0, 2, 0}, {0, 4, 0}}, {0, 1, 1});
-    EXPECT_LE((tail_of("a", rig) - Vec3(0, 2, 0)).norm(), tail_rounding);
+    EXPECT_LE((tail_of(bone, rig_with(joints, points, joint_of_point)) - tail).norm(), tail_rounding) << rule;
 }
 
-TEST(BoneTails, AJointWithoutWeightBelowCountsToo)
+TEST(BoneTails, FollowTheRules)
 {
-    const Rig rig = rig_with({{"a", -1, {0, 0, 0}}, {"end", 0, {3, 0, 0}}}, {{1, 0, 0}, {2, 0, 0}, {0, 1, 0}}, {0, 0, 0});
-    EXPECT_LE((tail_of("a", rig) - Vec3(3, 0, 0)).norm(), tail_rounding);
-}
-
-TEST(BoneTails, SeveralJointsBelowEndItInTheirMiddle)
-{
-    const Rig rig =
-        rig_with({{"hand", -1, {0, 0, 0}}, {"b", 0, {4, 1, 0}}, {"c", 0, {4, -3, 0}}}, {{1, 0, 0}, {4, 1, 0}, {4, -3, 0}}, {0, 1, 2});
-    EXPECT_LE((tail_of("hand", rig) - Vec3(4, -1, 0)).norm(), tail_rounding);
-}
-
-TEST(BoneTails, JointsOnOppositeSidesEndItAtTheOneThatMovesMost)
-{
-    const Rig rig = rig_with({{"hips", -1, {0, 0, 0}}, {"spine", 0, {0, 3, 0}}, {"tail", 0, {0, -3, 0}}},
-                             {{0, 0, 1}, {0, 3, 0}, {0, 4, 0}, {0, -3, 0}}, {0, 1, 1, 2});
-    EXPECT_LE((tail_of("hips", rig) - Vec3(0, 3, 0)).norm(), tail_rounding);
-}
-
-TEST(BoneTails, BelowAJointAtTheSamePlaceTheNextOneCounts)
-{
-    const Rig rig =
-        rig_with({{"a", -1, {0, 0, 0}}, {"twist", 0, {0, 0, 0}}, {"b", 1, {0, 2, 0}}}, {{0, 1, 0}, {0, 2, 0}, {0, 4, 0}}, {0, 1, 2});
-    EXPECT_LE((tail_of("a", rig) - Vec3(0, 2, 0)).norm(), tail_rounding);
+    const std::vector<Vec3> upwards = {{0, 1, 0}, {0, 2, 0}, {0, 4, 0}};
+    expect_tail("a bone ends at the joint below it", {0, 2, 0}, "a", {{"a", -1, {0, 0, 0}}, {"b", 0, {0, 2, 0}}}, upwards, {0, 1, 1});
+    expect_tail("a joint below without weight counts too", {3, 0, 0}, "a", {{"a", -1, {0, 0, 0}}, {"end", 0, {3, 0, 0}}},
+                {{1, 0, 0}, {2, 0, 0}, {0, 1, 0}}, {0, 0, 0});
+    expect_tail("several joints below end it in their middle", {4, -1, 0}, "hand",
+                {{"hand", -1, {0, 0, 0}}, {"b", 0, {4, 1, 0}}, {"c", 0, {4, -3, 0}}}, {{1, 0, 0}, {4, 1, 0}, {4, -3, 0}}, {0, 1, 2});
+    expect_tail("joints on opposite sides end it at the one that moves most", {0, 3, 0}, "hips",
+                {{"hips", -1, {0, 0, 0}}, {"spine", 0, {0, 3, 0}}, {"tail", 0, {0, -3, 0}}}, {{0, 0, 1}, {0, 3, 0}, {0, 4, 0}, {0, -3, 0}},
+                {0, 1, 1, 2});
+    expect_tail("below a joint at the same place the next one counts", {0, 2, 0}, "a",
+                {{"a", -1, {0, 0, 0}}, {"twist", 0, {0, 0, 0}}, {"b", 1, {0, 2, 0}}}, upwards, {0, 1, 2});
+    // The middle of the leaf's points is at (0, 5, 0), so that it points along y; the farthest one is 4 along y.
+    expect_tail("a leaf ends at nine tenths of the way to its farthest point", {0, 2 + 0.9 * 4, 0}, "b",
+                {{"a", -1, {0, 0, 0}}, {"b", 0, {0, 2, 0}}}, {{0, 1, 0}, {1, 4, 0}, {-1, 6, 0}}, {0, 1, 1});
+    expect_tail("a leaf whose points say nothing goes on as its parent, by three tenths of its length", {3 + 0.3 * 3, 0, 0}, "b",
+                {{"a", -1, {0, 0, 0}}, {"b", 0, {3, 0, 0}}}, {{0, 1, 0}, {0, -1, 0}, {3, 0, 0}}, {0, 0, 1});
 }
 
 TEST(BoneTails, ANodeWithAMeshIsNoJointBelow)
@@ -193,13 +186,6 @@ TEST(BoneTails, ANodeWithAMeshIsNoJointBelow)
     EXPECT_LE((tail_of("a", rig) - Vec3(0, 2, 0)).norm(), tail_rounding);
 }
 
-TEST(BoneTails, ALeafEndsAtNineTenthsOfTheWayToItsFarthestPoint)
-{
-    // The middle of its points is at (0, 5, 0), so that it points along y; the farthest one is 4 along y.
-    const Rig rig = rig_with({{"a", -1, {0, 0, 0}}, {"b", 0, {0, 2, 0}}}, {{0, 1, 0}, {1, 4, 0}, {-1, 6, 0}}, {0, 1, 1});
-    EXPECT_LE((tail_of("b", rig) - Vec3(0, 2 + 0.9 * 4, 0)).norm(), tail_rounding);
-}
-
 TEST(BoneTails, PointsThatOthersMoveMoreDoNotLengthenALeaf)
 {
     Rig rig = rig_with({{"a", -1, {0, 0, 0}}, {"b", 0, {0, 2, 0}}}, {{0, 1, 0}, {0, 6, 0}, {0, 9, 0}}, {0, 1, 0});
@@ -207,12 +193,6 @@ TEST(BoneTails, PointsThatOthersMoveMoreDoNotLengthenALeaf)
     rig.meshes[0].skin.bone = {0, 1, 0, 1};
     rig.meshes[0].skin.weight = {1.0, 1.0, 0.75, 0.25};
     EXPECT_LE((tail_of("b", rig) - Vec3(0, 2 + 0.9 * 4, 0)).norm(), tail_rounding);
-}
-
-TEST(BoneTails, ALeafWhosePointsSayNothingGoesOnAsItsParent)
-{
-    const Rig rig = rig_with({{"a", -1, {0, 0, 0}}, {"b", 0, {3, 0, 0}}}, {{0, 1, 0}, {0, -1, 0}, {3, 0, 0}}, {0, 0, 1});
-    EXPECT_LE((tail_of("b", rig) - Vec3(3 + 0.3 * 3, 0, 0)).norm(), tail_rounding);  // three tenths of its parent's length
 }
 
 TEST(BoneTails, ASingleJointAmongItsPointsStillHasALength)
