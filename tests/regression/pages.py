@@ -1,7 +1,7 @@
 """The README and the pages state what the kept records have, and the verdicts of the kept records are those on record by the bounds of
 claims.toml: they change only with new records or another rule. Every study and every claim has its page, with the required sections, whose
-generated part is current. `pbskin explain` prints each page, and those of deformers. The files and columns that the pages quote are those of
-the kept records. Reference: the kept records, claims.toml and figures.toml."""
+generated part is current. `pbskin explain` prints each page, and those of deformers. The files and columns that the pages quote are those
+of the kept records. Reference: the kept records, claims.toml and figures.toml."""
 import csv
 import fnmatch
 import pathlib

@@ -91,8 +91,8 @@ class SlurmCluster:
             (self.folder / name).chmod(mode)
         controller_port, node_port = free_ports(2)
         configuration = self.folder / "slurm.conf"
-        configuration.write_text(CONFIGURATION.read_text().format(folder=self.folder, user=getpass.getuser(), controller_port=controller_port,
-                                                      node_port=node_port))
+        configuration.write_text(CONFIGURATION.read_text().format(folder=self.folder, user=getpass.getuser(),
+                                                                  controller_port=controller_port, node_port=node_port))
         self.environment = {name: value for name, value in os.environ.items() if not name.startswith(("SLURM", "SBATCH", "SRUN"))}
         self.environment.update(PATH=PATH, SLURM_CONF=str(configuration), USER=getpass.getuser())
         munge = self.folder / "munge"

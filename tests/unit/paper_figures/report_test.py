@@ -169,7 +169,8 @@ class Report(ReportTest):
     def test_costs_are_summed(self):
         (self.results / "volume" / "costs.csv").write_text("run,expected_cpu_s,cpu_s\na,10,60\nb,20,120\n")
         self.assertEqual(origin.costs_sentence(self.found()), "These records took 3 min of processor time (1 study).")
-        self.assertIn("<td>30</td><td>180</td><td>\u2013</td>", origin.costs_section(self.found()))  # an earlier version recorded no wall time
+        # an earlier version recorded no wall time
+        self.assertIn("<td>30</td><td>180</td><td>\u2013</td>", origin.costs_section(self.found()))
 
     def test_wall_time_and_the_size_of_a_study_stand_beside_its_cost(self):
         (self.results / "volume" / "costs.csv").write_text("run,expected_cpu_s,cpu_s,wall_s\na,10,60,70\nb,20,120,125\n")

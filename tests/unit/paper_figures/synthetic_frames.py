@@ -58,7 +58,8 @@ def write_bones(folder, frames):
         return [{"bone": bone, "parent": ""} | dict(zip(columns, (at, 0, z, at + 1, 0, z))) for bone, at in (("upper", 0), ("forearm", 1))]
 
     write_table(folder / "bones_rest.csv", bones_at(0))
-    write_table(folder / "bones.csv", [{"frame": frame, "time_s": frame / 100} | bone for frame in range(frames) for bone in bones_at(frame)])
+    write_table(folder / "bones.csv",
+                [{"frame": frame, "time_s": frame / 100} | bone for frame in range(frames) for bone in bones_at(frame)])
 
 
 def write_frames(results, scene="limb_twist", frames=4, body="limb", not_reached=()):

@@ -1,6 +1,6 @@
-"""Names, sentences and captions agree with the facts of small claims, with the rows behind a figure and with looks.toml, and captions contain
-no number that another run would change. Reference: the definition, and looks.toml, with which checked_looks.py compares every figure that
-other tests draw."""
+"""Names, sentences and captions agree with the facts of small claims, with the rows behind a figure and with looks.toml, and captions
+contain no number that another run would change. Reference: the definition, and looks.toml, with which checked_looks.py compares every
+figure that other tests draw."""
 import dataclasses
 import importlib
 import re
