@@ -117,22 +117,42 @@ def unready():
     return None
 
 
-def main(program, scratch):
-    """Returns the exit status."""
-    if (status := unready()) is not None:
-        return status
-    scratch.mkdir(parents=True, exist_ok=True)
-    results = recorded(program, scratch)
-    page, truth = scratch / "viewer.html", scratch / "truth.json"
-    surroundings = {**os.environ, "PBS_VIEWER_BUILD": str(scratch), "PBS_VIEWER_PAGE": str(page), "PBS_VIEWER_TRUTH": str(truth),
-                    "PBS_VIEWER_PICTURES": str(scratch), "PBS_REPORT_PAGE": str(results / "report.html")}
-    truth.write_text(json.dumps(truth_of(results)))
+def built(scratch, **names):
+    """The environment of the tests, with the viewer's program built into `scratch`, and names of files."""
+    surroundings = {**os.environ, "PBS_VIEWER_BUILD": str(scratch), "PBS_VIEWER_PICTURES": str(scratch),
+                    **{f"PBS_{name.upper()}": str(file) for name, file in names.items()}}
     run(["node", "build.mjs"], cwd=root / "paper_figures/viewer", env=surroundings)
-    run([sys.executable, "-B", "-m", "viewer.page", results, page], cwd=root / "paper_figures", env=surroundings)
+    return surroundings
+
+
+def report(results, surroundings):
     run([sys.executable, "-B", root / "paper_figures/make_report.py", "--quiet", results], env=surroundings)
-    tests = sorted(str(file) for file in pathlib.Path(__file__).parent.glob("*.test.mjs"))
+
+
+def status_of(pattern, surroundings):
+    """The exit status of the tests in these files."""
+    tests = sorted(str(file) for file in pathlib.Path(__file__).parent.glob(pattern))
     return subprocess.run(["node", "--test", *tests], env=surroundings).returncode
 
 
+def main(program, scratch):
+    """Returns the exit status."""
+    results, page, truth = recorded(program, scratch), scratch / "viewer.html", scratch / "truth.json"
+    surroundings = built(scratch, viewer_page=page, viewer_truth=truth, report_page=results / "report.html")
+    truth.write_text(json.dumps(truth_of(results)))
+    run([sys.executable, "-B", "-m", "viewer.page", results, page], cwd=root / "paper_figures", env=surroundings)
+    report(results, surroundings)
+    return status_of("*.test.mjs", surroundings)
+
+
+def run_test(test):
+    """test(program, scratch) returns the exit status; it runs if everything that it needs is there."""
+    if (status := unready()) is None:
+        scratch = pathlib.Path(sys.argv[2]).resolve()
+        scratch.mkdir(parents=True, exist_ok=True)
+        status = test(sys.argv[1], scratch)
+    sys.exit(status)
+
+
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1], pathlib.Path(sys.argv[2]).resolve()))
+    run_test(main)

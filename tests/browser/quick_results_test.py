@@ -6,9 +6,7 @@ without errors. `./check --long` runs this test and sets PBS_LONG=1; otherwise i
 PBS_QUICK_RESULTS=DIR uses the records of an existing quick run of ./reproduce; otherwise one is made, which takes ten minutes on two cores.
 The records are copied, so nothing is written into DIR."""
 import os
-import pathlib
 import shutil
-import subprocess
 import sys
 
 import browser_test
@@ -36,9 +34,6 @@ def lacking(folder):
 
 def main(program, scratch):
     """Returns the exit status."""
-    if (status := browser_test.unready()) is not None:
-        return status
-    scratch.mkdir(parents=True, exist_ok=True)
     folder = quick_records(program, scratch)
     run(["xvfb-run", "-a", sys.executable, "-B", root / "paper_figures" / "make_all.py", folder])  # status 0: every figure was drawn
     undrawn, expected = browser_test.undrawn(folder), lacking(folder)
@@ -47,11 +42,10 @@ def main(program, scratch):
     if undrawn != expected or not redrawn - undrawn:
         print(f"not drawn: {sorted(undrawn)}, expected {sorted(expected)}")
         return 1
-    surroundings = {**os.environ, "PBS_VIEWER_BUILD": str(scratch), "PBS_REPORT_PAGE": str(folder / "report.html")}
-    run(["node", "build.mjs"], cwd=root / "paper_figures/viewer", env=surroundings)
-    run([sys.executable, "-B", root / "paper_figures/make_report.py", "--quiet", folder], env=surroundings)
-    return subprocess.run(["node", "--test", root / "tests/browser/report.test.mjs"], env=surroundings).returncode
+    surroundings = browser_test.built(scratch, report_page=folder / "report.html")
+    browser_test.report(folder, surroundings)
+    return browser_test.status_of("report.test.mjs", surroundings)
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1], pathlib.Path(sys.argv[2]).resolve()))
+    browser_test.run_test(main)

@@ -5,10 +5,7 @@ otherwise it is skipped (exit status 77). The model is one of tests/support/rig_
 """
 import csv
 import json
-import os
-import pathlib
 import shutil
-import subprocess
 import sys
 
 import browser_test
@@ -42,20 +39,14 @@ def truth_of(folder):
 
 def main(program, scratch):
     """Returns the exit status."""
-    if (status := browser_test.unready()) is not None:
-        return status
-    scratch.mkdir(parents=True, exist_ok=True)
     folder, truth = scratch / "trial", scratch / "trial_truth.json"
     shutil.rmtree(folder, ignore_errors=True)
-    surroundings = {**os.environ, "PBS_VIEWER_BUILD": str(scratch), "PBS_VIEWER_PAGE": str(folder / "report.html"),
-                    "PBS_VIEWER_TRUTH": str(truth), "PBS_VIEWER_PICTURES": str(scratch)}
-    run(["node", "build.mjs"], cwd=root / "paper_figures/viewer", env=surroundings)
+    surroundings = browser_test.built(scratch, viewer_page=folder / "report.html", viewer_truth=truth)
     model = rig_files.write("two_animations", str(scratch / "hero.glb"))  # a warning names the animation that is taken
     run([program, "try", model, "-o", folder, "--frames", str(frames), "--vertices", "400"], env=surroundings)
     truth.write_text(json.dumps(truth_of(folder)))
-    tests = sorted(str(file) for file in (pathlib.Path(__file__).parent / "trial").glob("*.test.mjs"))
-    return subprocess.run(["node", "--test", *tests], env=surroundings).returncode
+    return browser_test.status_of("trial/*.test.mjs", surroundings)
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1], pathlib.Path(sys.argv[2]).resolve()))
+    browser_test.run_test(main)

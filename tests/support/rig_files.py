@@ -18,19 +18,14 @@ FLOAT, UNSIGNED_BYTE, UNSIGNED_SHORT, UNSIGNED_INT = 5126, 5121, 5123, 5125
 
 def tube(begin=0.0, end=LENGTH):
     """Points, #P x 3, and outward triangles, #F x 3, of a closed tube."""
-    points = [(begin - 0.3 * RADIUS, 0.0, 0.0)]
-    for ring in range(RINGS):
-        x = begin + (end - begin) * ring / (RINGS - 1)
-        points += [(x, RADIUS * math.cos(a), RADIUS * math.sin(a)) for a in (2 * math.pi * s / SIDES for s in range(SIDES))]
-    points.append((end + 0.3 * RADIUS, 0.0, 0.0))
-
-    def at(ring, side):
-        return 1 + ring * SIDES + side % SIDES
-
+    angles = [2 * math.pi * side / SIDES for side in range(SIDES)]
+    rings = [(begin + (end - begin) * ring / (RINGS - 1), RADIUS * math.cos(angle), RADIUS * math.sin(angle))
+             for ring in range(RINGS) for angle in angles]
+    points = [(begin - 0.3 * RADIUS, 0.0, 0.0), *rings, (end + 0.3 * RADIUS, 0.0, 0.0)]
+    at = lambda ring, side: 1 + ring * SIDES + side % SIDES
     triangles = []
     for side in range(SIDES):
-        triangles.append((0, at(0, side + 1), at(0, side)))
-        triangles.append((len(points) - 1, at(RINGS - 1, side), at(RINGS - 1, side + 1)))
+        triangles += [(0, at(0, side + 1), at(0, side)), (len(points) - 1, at(RINGS - 1, side), at(RINGS - 1, side + 1))]
         for ring in range(RINGS - 1):
             triangles += [(at(ring, side), at(ring, side + 1), at(ring + 1, side)),
                           (at(ring + 1, side), at(ring, side + 1), at(ring + 1, side + 1))]
@@ -39,11 +34,7 @@ def tube(begin=0.0, end=LENGTH):
 
 def weights_of(points):
     """Smooth weights of the joints, #P x 3; the leaf joint `tip` moves the end of the tube."""
-    x = points[:, 0]
-
-    def step(at, width):
-        return numpy.clip((x - at) / width + 0.5, 0.0, 1.0)
-
+    step = lambda at, width: numpy.clip((points[:, 0] - at) / width + 0.5, 0.0, 1.0)
     elbow, tip = step(PLACES[1][0], 0.2), step(PLACES[2][0], 0.15)
     return numpy.stack([1.0 - elbow, elbow * (1.0 - tip), elbow * tip], axis=1)
 

@@ -14,6 +14,7 @@ import time
 import unittest
 
 import limb_alone
+import processes
 import program
 import reliability
 import run_records
@@ -27,25 +28,12 @@ AIMS = ["parent", "child", "group"]
 QUIET = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
 
 
-def statuses():
-    """Process -> (state, parent, session) of all processes."""
-    found = {}
-    for entry in os.listdir("/proc"):
-        try:
-            fields = pathlib.Path("/proc", entry, "stat").read_text().rsplit(")", 1)[1].split() if entry.isdigit() else None
-        except OSError:  # the process has ended meanwhile
-            continue
-        if fields:
-            found[int(entry)] = (fields[0], int(fields[1]), int(fields[3]))
-    return found
-
-
 def of_session(session):
-    return [process for process, (state, _, its_session) in statuses().items() if its_session == session and state != "Z"]
+    return [process for process, (state, _, its_session) in processes.statuses().items() if its_session == session and state != "Z"]
 
 
 def children(of):
-    return [process for process, (state, parent, _) in statuses().items() if parent == of and state != "Z"]
+    return [process for process, (state, parent, _) in processes.statuses().items() if parent == of and state != "Z"]
 
 
 def send(process, kill, aim, chance):
