@@ -102,11 +102,6 @@ def is_allowed(name, leaves):
     return in_the_cache and not run_records.is_temporary(pathlib.Path(name)) or name.startswith(leaves or ("/",))
 
 
-def names_of(case, common):
-    """The names that the line may use for the place of the error."""
-    return {*common, *case.files, *map(str, case.command), *(word.split(":")[0] for word in case.says if ": " in word)}
-
-
 def is_well_formed(line, names):
     """FILE[:LINE[:COLUMN]]: [FIELD = VALUE: ]RULE; without a file, for a word of the command: FIELD = VALUE: RULE; or the usage."""
     if USAGE.fullmatch(line):
@@ -119,10 +114,12 @@ def is_well_formed(line, names):
 
 def what_is_wrong_with(told, case, common):
     lines = told.splitlines()
+    # the names that the line may use for the place of the error
+    names = {*common, *case.files, *map(str, case.command), *(word.split(":")[0] for word in case.says if ": " in word)}
     ours = [line.startswith("pbskin: ") for line in lines if not line.startswith("pbskin: warning: ")]
     if sum(ours) != 1 or not lines[-1].startswith("pbskin: "):
         yield "expected one line that begins with `pbskin: `, and that the last"
-    elif not is_well_formed(lines[-1], names_of(case, common)):
+    elif not is_well_formed(lines[-1], names):
         yield "expected the form `FILE[:LINE]: FIELD = VALUE: RULE`"
 
 

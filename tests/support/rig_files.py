@@ -45,15 +45,10 @@ def turn(axis, degrees):
     return [*(math.sin(half) * numpy.array(axis, dtype=float) / numpy.linalg.norm(axis)), math.cos(half)]
 
 
-def encoded(document, data):
-    """The text of a document and the bytes of its buffer, each filled up to a multiple of four bytes."""
-    text = json.dumps(document).encode()
-    return text + b" " * (-len(text) % 4), bytes(data) + bytes(-len(data) % 4)
-
-
 def glb(document, data, version=2, json_length=None, length=None):
-    """The bytes of a .glb file, with the lengths that it states."""
-    text, data = encoded(document, data)
+    """The bytes of a .glb file, with the lengths that it states; both parts are filled up to a multiple of four bytes."""
+    text = json.dumps(document).encode()
+    text, data = text + b" " * (-len(text) % 4), bytes(data) + bytes(-len(data) % 4)
     chunks = struct.pack("<I4s", len(text) if json_length is None else json_length, b"JSON") + text
     chunks += struct.pack("<I4s", len(data), b"BIN\0") + data
     return struct.pack("<4sII", b"glTF", version, 12 + len(chunks) if length is None else length) + chunks
@@ -127,11 +122,6 @@ def add_mesh(gltf, points, triangles, weights, unit, compact):
     return len(gltf.document["meshes"]) - 1
 
 
-def without_tip(weights):
-    """The weights with those of the tip given to the elbow."""
-    return numpy.stack([weights[:, 0], weights[:, 1] + weights[:, 2], numpy.zeros(len(weights))], axis=1)
-
-
 def add_bead(gltf, unit):
     """A bead of 8 mm on the axis of the tube, far from its skin, which alone follows the tip."""
     points, triangles = tube()
@@ -184,7 +174,9 @@ def rig(containers=(), unit=1.0, compact=False, halves=1, rest_deg=0.0, mesh_nam
         begin, end = LENGTH * half / halves, LENGTH * (half + 1) / halves
         overlap = 0.05 if halves > 1 else 0.0
         points, triangles = tube(begin - overlap * (half > 0), end)
-        weights = without_tip(weights_of(points)) if tiny_tip else weights_of(points)
+        weights = weights_of(points)
+        if tiny_tip:  # the elbow has the weights of the tip
+            weights = numpy.stack([weights[:, 0], weights[:, 1] + weights[:, 2], numpy.zeros(len(weights))], axis=1)
         mesh = add_mesh(gltf, points, triangles, weights, unit, compact)
         gltf.node(name=mesh_name, mesh=mesh, skin=0)
     if tiny_tip:

@@ -28,10 +28,6 @@ AIMS = ["parent", "child", "group"]
 QUIET = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
 
 
-def of_session(session):
-    return [process for process, (state, _, its_session) in processes.statuses().items() if its_session == session and state != "Z"]
-
-
 def children(of):
     return [process for process, (state, parent, _) in processes.statuses().items() if parent == of and state != "Z"]
 
@@ -85,7 +81,9 @@ class Kills(program.ProgramTest):
 
     def expect_nothing_goes_on(self, session):
         deadline = time.monotonic() + 1  # shorter than a run
-        while (left := of_session(session)) and time.monotonic() < deadline:
+        while left := [pid for pid, (state, _, its_session) in processes.statuses().items() if its_session == session and state != "Z"]:
+            if time.monotonic() > deadline:
+                break
             time.sleep(0.01)
         self.assertEqual(left, [], "processes that go on")
 

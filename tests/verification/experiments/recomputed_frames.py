@@ -23,18 +23,15 @@ from written_frames import signed_volumes
 TOLERANCE_PCT = 1e-6
 
 
-def longest_edge(grid):
-    corners = written_frames.points(grid)[written_frames.tets(grid)]
-    return numpy.linalg.norm(corners[:, :, None] - corners[:, None, :], axis=3).max()
-
-
 def ratio_rounding(grid, rest):
     """The rounding error of a volume over that at rest, on both sides. Six volumes are a sum of products of three edges, whose magnitudes
     add up to at most 3 sqrt(3) longest edges cubed; a product goes through ten roundings, and the quotient is one more."""
     least = signed_volumes(rest).min()
 
     def of_volume(body):
-        return 10 * numpy.finfo(float).eps / 2 * 3 ** 1.5 * longest_edge(body) ** 3 / 6.0
+        corners = written_frames.points(body)[written_frames.tets(body)]
+        longest_edge = numpy.linalg.norm(corners[:, :, None] - corners[:, None, :], axis=3).max()
+        return 10 * numpy.finfo(float).eps / 2 * 3 ** 1.5 * longest_edge ** 3 / 6.0
 
     largest_ratio = numpy.abs(signed_volumes(grid)).max() / least
     return 2 * (of_volume(grid) + largest_ratio * of_volume(rest)) / least + numpy.finfo(float).eps * largest_ratio
