@@ -48,9 +48,7 @@ class ManPage(unittest.TestCase):
             section = self.text.split(f".SS {verb}\n")[1].split(".SS ")[0]
             for name in options(verb):
                 self.assertIn(f"\\fB{name}\\fR", section, f"{verb} {name}")
-
-    def test_hidden_options_are_not_there(self):
-        self.assertNotIn("--describe", self.text)
+        self.assertNotIn("--describe", self.text)  # a hidden option
 
     @unittest.skipUnless(shutil.which("mandoc"), "mandoc is not installed")
     def test_readers_take_it(self):

@@ -33,8 +33,7 @@ def mesh(cells=(20, 4, 4)):
 
 
 def write_msh(path, points, tets):
-    with open(path, "w", encoding="ascii") as file:
-        file.write(mesh_texts.msh(points, tets))
+    pathlib.Path(path).write_text(mesh_texts.msh(points, tets), encoding="ascii")
 
 
 def bvh(names, frames, time_s=0.01, length_m=0.5):

@@ -6,7 +6,9 @@ skinning that the file format defines is computed by skin_formula.py, without pb
 import base64
 import json
 import math
+import pathlib
 import struct
+import tomllib
 
 import numpy
 
@@ -196,25 +198,9 @@ def rig(containers=(), unit=1.0, compact=False, halves=1, rest_deg=0.0, mesh_nam
     return gltf.written()
 
 
-quarter = turn((1, 0, 0), -90)
-VARIANTS = {
-    "plain": {},
-    "scaled_container": {"containers": (("RootNode", {"rotation": quarter}),
-                                        ("Armature", {"scale": [0.01] * 3, "translation": [0.1, 0.2, 0.3]})),
-                         "unit": 0.01},
-    "doubled_container": {"containers": (("Armature", {"scale": [2.0] * 3}),)},
-    "bind_pose_is_not_rest": {"rest_deg": 40.0},
-    "two_animations": {"animations": ("Bend", "Twist")},
-    "spline": {"animations": ("Spline",)},
-    "mesh_named_like_a_joint": {"mesh_name": "elbow"},
-    "two_meshes": {"halves": 2},
-    "compact_weights": {"compact": True},
-    "centimetres": {"unit": 0.01},
-    "no_animation": {"animations": ()},
-}
+VARIANTS = tomllib.loads(pathlib.Path(__file__).with_name("rig_variants.toml").read_text())
 
 
 def write(variant, path, **options):
-    with open(path, "wb") as file:
-        file.write(glb(*rig(**{**VARIANTS[variant], **options})))
+    pathlib.Path(path).write_bytes(glb(*rig(**{**VARIANTS[variant], **options})))
     return path

@@ -7,9 +7,9 @@ import unittest
 
 import vtk
 
-import check_records
 import foreign_arm
 import program
+import run_records
 
 POINTS, TETS = foreign_arm.mesh((6, 2, 2))
 
@@ -65,7 +65,7 @@ class ForeignFrames(program.ProgramTest):
         process = self.measure(1, "arm_%04d.vtu", "--max-volume-change", "0.5", "--max-inverted", "0", "--junit", "volume.xml", "--github")
         self.assertIn("pbskin: arm_0002.vtu: |volume_change_pct| = 0.9 > 0.5", process.stderr)
         message = "frame arm_0002.vtu: |volume_change_pct| = 0.9, expected at most 0.5 (2 of 3 frames outside)"
-        cases = {name: case for (_, name), case in check_records.cases(self.path("volume.xml")).items()}
+        cases = {name: case for (_, name), case in run_records.junit_cases(self.path("volume.xml")).items()}
         self.assertEqual(cases["--max-volume-change 0.5"].find("failure").get("message"), message)
         self.assertIsNone(cases["--max-inverted 0"].find("failure"))
         self.assertIn("::error title=rest.msh --max-volume-change 0.5::" + message, process.stdout)
@@ -115,12 +115,12 @@ class ForeignFrames(program.ProgramTest):
         self.measure(2, "arm_%04d.vtu", "--csv", "volume.csv", "--max-volume-change", "0.5", "--junit", "volume.xml",
                      says="pbskin: arm_0003.vtu")
         self.assertEqual(self.measured_frames(), ["arm_0001.vtu", "arm_0002.vtu", "arm_0004.vtu"])
-        cases = {name: case for (_, name), case in check_records.cases(self.path("volume.xml")).items()}
+        cases = {name: case for (_, name), case in run_records.junit_cases(self.path("volume.xml")).items()}
         self.assertEqual(list(cases), ["--max-volume-change 0.5", "frame arm_0003.vtu"])
         self.assertIn("frame arm_0002.vtu", cases["--max-volume-change 0.5"].find("failure").get("message"))
         self.assertIn("arm_0003.vtu", cases["frame arm_0003.vtu"].find("error").get("message"))
         self.measure(2, "arm_0003.vtu", "--max-volume-change", "0.5", "--junit", "volume.xml")
-        self.assertEqual(check_records.failed(self.path("volume.xml")), {("rest.msh", "frame arm_0003.vtu")})
+        self.assertEqual(run_records.failed_cases(self.path("volume.xml")), {("rest.msh", "frame arm_0003.vtu")})
 
     def test_reports_that_cannot_be_written_are_refused_before_the_work(self):
         self.frames({1: 0.1})

@@ -13,7 +13,6 @@ import subprocess
 import time
 import unittest
 
-import limb_alone
 import processes
 import program
 import reliability
@@ -140,15 +139,15 @@ class Kills(program.ProgramTest):
             subprocess.run(self.command(folder, "--resume"), check=True, **QUIET)
             resumed = run_records.records(folder)
             self.assertEqual(resumed, self.undisturbed)
-            type(self).hashes += len(limb_alone.state_hashes(resumed))
+            type(self).hashes += len(run_records.state_hashes(resumed))
         type(self).kills += kills
-        return limb_alone.state_hashes(self.undisturbed)
+        return run_records.state_hashes(self.undisturbed)
 
     def test_studies_of_the_limb_and_the_human(self):
         self.kill_and_resume(STUDIES)
 
     def test_whole_runs_of_scenes(self):
-        hashes = self.kill_and_resume(["frames"], limb_alone.before())
+        hashes = self.kill_and_resume(["frames"], run_records.limb_alone())
         self.assertIn("frames/limb_twist/run.json pbs", hashes)
 
 
@@ -220,14 +219,14 @@ class ResumedStudy(program.ProgramTest):
         self.assertEqual((self.killed / "claims.json").read_text(), (self.whole / "claims.json").read_text())
 
     def test_whole_runs_of_scenes(self):
-        by_itself, to_kill = ([*limb_alone.before(), *self.command(results, study="frames")] for results in (self.whole, self.killed))
+        by_itself, to_kill = ([*run_records.limb_alone(), *self.command(results, study="frames")] for results in (self.whole, self.killed))
         subprocess.run(by_itself, check=True, **QUIET)
         first = self.kill_after_first_run(to_kill, self.killed / "frames")
         ended = identity(first)
         subprocess.run([*to_kill, "--resume"], check=True, **QUIET)
         self.assertEqual(identity(first), ended)
         self.assertEqual(run_records.records(self.killed), run_records.records(self.whole))
-        self.assertIn("frames/limb_twist/run.json pbs", limb_alone.state_hashes(run_records.records(self.killed)))
+        self.assertIn("frames/limb_twist/run.json pbs", run_records.state_hashes(run_records.records(self.killed)))
 
     def test_a_run_with_another_setting_is_repeated(self):
         results = self.whole

@@ -141,9 +141,6 @@ use = ["lbs"]
         process = self.succeeds("run", self.write("ring.toml", scene), "-o", self.path("run"))
         self.assertNotIn("warning", process.stderr)
 
-    def test_a_model_with_joints_takes_no_other_skeleton(self):
-        self.assertIn("joints of its own", self.refused("try", self.rig(), "--skeleton", "human", "-o", self.path("out")))
-
     def test_a_joint_that_only_moves_along_is_no_warning(self):
         slide = [(2, "translation", [0.0, 1.0], [[0.35, 0, 0], [0.45, 0, 0]], "LINEAR")]
         facts, _ = self.tried(self.rig(animations=(), extra=[("Slide", slide)]))

@@ -8,21 +8,15 @@ import re
 import subprocess
 import unittest
 
-import check_records
 import program
+import run_records
 
 SOURCE = pathlib.Path(program.SOURCE)
 WORKFLOW = SOURCE / ".github" / "workflows" / "volume.yml"
 ELSEWHERE = SOURCE / ".github" / "examples" / "volume_elsewhere.yml"
 SHELL = ["sh", "-e", "-c"]
 
-EXPORT = """set -e
-"{pbskin}" run limb_twist -o run --quiet --set 'deformers.use=["{deformer}"]' --set reference.name= --set motion.frames=3 \\
-    --set motion.angle_deg=150 --set output.frames_every=1
-mkdir -p "$1"
-for i in 0 1 2; do cp "run/frames/{deformer}_00000$i.vtu" "$1/frame_000$i.vtu"; done
-cp "$1/frame_0000.vtu" "$1/rest.vtu"
-"""
+EXPORT = pathlib.Path(__file__).with_name("export_frames.sh.in").read_text()
 
 
 def steps(workflow=WORKFLOW):
@@ -72,11 +66,11 @@ class Workflows(program.ProgramTest):
             status[name] = self.act(steps()[name], environment).returncode
         report = self.path("results", "volume.xml")
         # meshes of another CGAL, whose baselines must differ
-        other_meshes = check_records.scenes_of_another_mesh(self.path("results", "check"))
-        failed = check_records.failed(report)
-        self.assertEqual(failed, check_records.baselines_of(other_meshes, report))
+        other_meshes = run_records.scenes_of_another_mesh(self.path("results", "check"))
+        failed = run_records.failed_cases(report)
+        self.assertEqual(failed, run_records.baselines_of(other_meshes, report))
         self.assertEqual(status, {"Hold the bounds": 1 if failed else 0, "Measure written frames": 0})
-        self.assertEqual(check_records.failed(self.path("results", "frames.xml")), set())
+        self.assertEqual(run_records.failed_cases(self.path("results", "frames.xml")), set())
         self.assertIn("### pbskin:", self.read("summary.md"))
 
     def test_frames_within_and_beyond_the_bounds(self):
@@ -88,7 +82,7 @@ class Workflows(program.ProgramTest):
                 for name in ("Export frames", "Hold the bounds"):
                     process = self.act(steps(ELSEWHERE)[name], os.environ)
                     self.assertEqual(process.returncode, status if name == "Hold the bounds" else 0, process.stdout + process.stderr)
-                failed = check_records.failed(self.path("results", "frames.xml"))
+                failed = run_records.failed_cases(self.path("results", "frames.xml"))
                 self.assertEqual(bool(failed), status == 1, failed)
 
 

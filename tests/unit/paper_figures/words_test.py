@@ -98,8 +98,7 @@ class Outcome(unittest.TestCase):
         readings = [{"order": "plain", "precision": "f64", "verdict": "reproduced_only_for", "own_verdict": "reproduced_only_for",
                      "same": True, "differing": [], "cases": []},
                     {"order": "grouped", "precision": "f32", "verdict": "not_reproduced", "own_verdict": "reproduced_only_for",
-                     "same": False,
-                     "differing": [0], "cases": runs[:1]}]
+                     "same": False, "differing": [0], "cases": runs[:1]}]
         full = sentences.verdict_in_full(told(
             verdict="reproduced_only_for", rule="share_within", cases=runs, readings=readings, n=1, bounds=[
             {"quantity": name, "low": -0.5, "high": 0.5} for name in ("volume_change_pct", "volume_abs_change_pct")]))
