@@ -81,16 +81,12 @@ def main(results, only=None, folder=None):
     return 0 if all(drawn) else 1
 
 
-def arguments():
+if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("results", metavar="DIR", type=pathlib.Path, help="the records of ./reproduce")
     parser.add_argument("--only", metavar="NAME", help="draw only this figure")
     parser.add_argument("--into", metavar="FOLDER", type=pathlib.Path, help="folder of the figures (default: DIR/figures)")
-    return parser.parse_args()
-
-
-if __name__ == "__main__":
-    chosen = arguments()
+    chosen = parser.parse_args()
     try:
         sys.exit(main(chosen.results, chosen.only, chosen.into))
     except whole_file.CannotBeWritten as error:

@@ -38,11 +38,6 @@ def points_of(results, needed):
     return {file.parent.name: records.table(file, needed) for file in sorted((results / "work_precision").glob("*/points.csv"))}
 
 
-def evaluated_cases(results):
-    """The names of the poses that are evaluated."""
-    return [case for case, rows in points_of(results, {"half"}).items() if rows[0]["half"] == "evaluation"]
-
-
 def added_up(results, comparison, cases):
     """One row per deformer and reason, of the points in all of these cases, whether they have the omission or not. The best code is that of
     all cases."""

@@ -41,8 +41,7 @@ class Stage:
     """A window with its lights and camera."""
 
     def __init__(self, width_px, height_px, background=paper):
-        if not os.environ.get("DISPLAY"):
-            raise records.RecordsMissing("no display to render on; run under xvfb-run -a")
+        records.need(os.environ.get("DISPLAY"), "no display to render on; run under xvfb-run -a")
         self.renderer = made(vtkRenderer, Background=background)
         self.renderer.GetActiveCamera().ParallelProjectionOn()
         for direction, strength in (((-0.6, 0.8, 1.0), 0.9), ((1.0, 0.3, 0.6), 0.4)):
@@ -96,8 +95,7 @@ def middle_of(file):
 
 
 def read(file):
-    if not file.is_file():
-        raise records.RecordsMissing(f"{file}: does not exist")
+    records.need(file.is_file(), f"{file}: does not exist")
     data = output_of(made(vtkXMLPolyDataReader if file.suffix == ".vtp" else vtkXMLUnstructuredGridReader, FileName=str(file)))
     if data.GetNumberOfPoints() == 0:
         raise records.RecordsMissing(f"{file}: no points")

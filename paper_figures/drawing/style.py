@@ -177,9 +177,8 @@ def source_of(provenance):
 
 
 def save(figure, stem, provenance, table, formats=("pdf", "png", "svg")):
-    """Writes stem.pdf, stem.png and stem.svg with the revision in their metadata, and stem.csv with the rows (dicts) behind the figure; a
-    cell is empty if its row has no such column. In the SVG, every drawn point has its label and numbers as a title, which a browser shows
-    under the pointer."""
+    """Writes stem.pdf, stem.png and stem.svg with the revision in their metadata, and stem.csv with the rows behind the figure. In the
+    SVG, every drawn point has its label and numbers as a title, which a browser shows under the pointer."""
     source, rights = source_of(provenance), provenance.get("rights", "")
     metadata = {"pdf": {"Title": stem.name, "Subject": source, "Keywords": rights, "CreationDate": None},
                 "png": {"Title": stem.name, "Source": source, "Copyright": rights, "Software": "pbskin paper_figures"},
@@ -192,11 +191,15 @@ def save(figure, stem, provenance, table, formats=("pdf", "png", "svg")):
             if ending == "svg":
                 hover_titles.add(figure, path)
     pyplot.close(figure)
-    columns = dict.fromkeys(column for row in table for column in row)
-    with whole_file.beside(stem.with_suffix(".csv")) as path, open(path, "w", newline="") as stream:
-        writer = csv.DictWriter(stream, fieldnames=list(columns), restval="", lineterminator="\n")
+    write_table(stem.with_suffix(".csv"), table)
+
+
+def write_table(file, rows):
+    """The rows (dicts) as CSV; a cell is empty if its row has no such column."""
+    with whole_file.beside(file) as path, open(path, "w", newline="") as stream:
+        writer = csv.DictWriter(stream, list(dict.fromkeys(column for row in rows for column in row)), restval="", lineterminator="\n")
         writer.writeheader()
-        writer.writerows(table)
+        writer.writerows(rows)
 
 
 def taken(rows, columns, **first):

@@ -22,8 +22,7 @@ def of_default(rows, start, missing):
     """The rows in the default order and stiffness from this initial guess."""
     rows = [row for row in rows if (row["order"], row["precision"], row["start"]) == ("ordered", "f32", start)
             and float(row["k_stretch"]) == 0.2]
-    if not rows:
-        raise records.RecordsMissing(missing)
+    records.need(rows, missing)
     return rows
 
 

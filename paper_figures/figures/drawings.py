@@ -159,12 +159,6 @@ def draw_lengths(panel, corners):
     panel.legend(loc="upper right", ncol=1, handletextpad=0.2)
 
 
-def one_scale(panels):
-    half = max(abs(numpy.array([*panel.get_xlim(), *panel.get_ylim()])).max() for panel in panels)
-    for panel in panels:
-        panel.set(xlim=(-half, half), ylim=(-half, half))
-
-
 def fig_06_constraints(results):
     frames = Frames(results, "limb_bend")
     frame = frames.frame_at_angle(90)
@@ -174,7 +168,9 @@ def fig_06_constraints(results):
     figure, axes = style.panels(1, 4, height_in=2.1, width_ratios=(1, 1, 1, 1.5))
     for panel, state in zip(axes[0], states):
         draw_tet(panel, state, corners[state], corners["rest"])
-    one_scale(axes[0][:3])
+    half = max(abs(numpy.array([*panel.get_xlim(), *panel.get_ylim()])).max() for panel in axes[0][:3])
+    for panel in axes[0][:3]:  # one scale
+        panel.set(xlim=(-half, half), ylim=(-half, half))
     draw_lengths(axes[0, 3], corners)
     return figure, [{"scene": "limb_bend", "frame": frame, "tet": tet, "state": state, "volume_cm3": volume_cm3(of)}
                     | {f"length_{one + 1}{other + 1}_mm": length for (one, other), length in zip(edges, lengths_mm(of))}

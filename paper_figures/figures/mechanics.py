@@ -25,8 +25,7 @@ def drift_of(results, body):
               "precision": row["precision"], "drift": row["value"]}
              for row in records.table(file, {"quantity", "body", "masses", "constraint", "precision", "value"})
              if row["quantity"] in quantities and row["body"] == body]
-    if not found:
-        raise records.RecordsMissing(f"{file}: no drift of {body}")
+    records.need(found, f"{file}: no drift of {body}")
     return found
 
 

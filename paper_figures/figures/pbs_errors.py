@@ -27,8 +27,7 @@ def draw_parts(axes, rows, pose):
     drawn = []
     for k_stretch, shade in ((0.2, 1.0), (0.9, 0.35)):
         chosen = with_k_stretch(rows, k_stretch)
-        if not chosen:
-            raise records.RecordsMissing(f"parts.csv of {pose}: no row with k_stretch {k_stretch}")
+        records.need(chosen, f"parts.csv of {pose}: no row with k_stretch {k_stretch}")
         for column in parts:
             draw_part(axes, chosen, column, alpha=shade, **({} if shade == 1.0 else {"label": None}))
         drawn += [{"pose": pose, "k_stretch": row["k_stretch"], "shown": column, "at": row["iterations"], "value_pct": row[column]}
@@ -119,8 +118,7 @@ def error_parts(results):
     tables = {file.parent.name: records.table(file, columns) for file in sorted(folder.glob("*/points.csv"))}
     cases = [case for case, rows in tables.items() if of_pbs(rows)]
     cases = sorted(cases, key=lambda case: tables[case][0]["body"] != "limb")[:most_panels]
-    if not cases:
-        raise records.RecordsMissing(f"{folder}: no case with the error split")
+    records.need(cases, f"{folder}: no case with the error split")
     figure, (*lines, (below,)) = style.stacked(*[(2, 2.1)] * -(-len(cases) // 2), (1, 0.6))
     panels = [panel for line in lines for panel in line]
     behind = [row for panel, case in zip(panels, cases) for row in draw_case(panel, of_pbs(tables[case]))]
@@ -194,8 +192,7 @@ def improvements(results):
     curves = records.table(folder / "curves.csv", curve_columns)
     gains = [row for row in records.table(folder / "gains.csv", gain_columns) if row["than"] == "pbs" and row["group"] == "all"]
     bodies = list(dict.fromkeys(row["body"] for row in curves))
-    if not bodies:
-        raise records.RecordsMissing(f"{folder}: no pose with a reference")
+    records.need(bodies, f"{folder}: no pose with a reference")
     figure, (upper, (lower,)) = style.stacked((len(bodies), 2.9), (1, 2.7))
     behind = [row for panel, body in zip(upper, bodies)
               for row in draw_curves(panel, body, [row for row in curves if row["body"] == body])]

@@ -240,8 +240,7 @@ def moments(results, actor_of):
     frames, stage = Frames(results, "human_jump"), rendering.Stage(*moment_pixels)
     labels, recorded = ("lbs", "pbs", frames.run.reference()), [int(row["frame"]) for row in frames.run.select("lbs")]
     written = [frame for frame in recorded if all(frames.is_written(label, frame) for label in labels)]
-    if not written:
-        raise records.RecordsMissing(f"{frames.folder / 'frames'}: no frame that all of {', '.join(labels)} have")
+    records.need(written, f"{frames.folder / 'frames'}: no frame that all of {', '.join(labels)} have")
     shown = {frame: rendering.bounds_of(frames.tets("lbs", frame)) for frame in evenly(written)}
     width_m = max(numpy.hypot(*(high - low)[[0, 2]]) for low, high in shown.values())
     height_m = max((high - low)[1] for low, high in shown.values())

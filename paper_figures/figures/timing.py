@@ -22,8 +22,7 @@ def matched(file):
     over a body that substitutes it."""
     needed = {"mesh", "model", "stands_in", "variant", "precision", "total_ms", "frames_per_s", "paper_ms", "paper_ct_ms", "cpu_model"}
     rows = [row for row in records.table(file, needed) if row["model"] not in ("", "-")]
-    if not rows:
-        raise records.RecordsMissing(f"{file}: no mesh matched to Table 1")
+    records.need(rows, f"{file}: no mesh matched to Table 1")
     models = {}
     for row in sorted(rows, key=lambda row: row["stands_in"] != "0"):
         mesh = models.setdefault(row["model"], {"mesh": row["mesh"]})
@@ -211,8 +210,7 @@ def scaling(results):
     record = read_bench(file)
     figure, (axes,) = style.panels(1, 3, height_in=2.6)
     behind = draw_cost(axes[0], record, "f32") + draw_cost(axes[1], record, "f64") + draw_threads(axes[2], record)
-    if not behind:
-        raise records.RecordsMissing(f"{file}: no timings")
+    records.need(behind, f"{file}: no timings")
     style.legend_above(figure, columns=6)
     return figure, behind
 

@@ -33,8 +33,7 @@ def draw_convergence(axes, rows):
         color, marker = looks[elements]
         for quantity, (norm, line, gain) in norms.items():
             ladder = [row for row in solved_with(rows, elements) if row["quantity"] == quantity]
-            if not ladder:
-                raise records.RecordsMissing(f"verification.csv: no {quantity} of elements of order {element_order}")
+            records.need(ladder, f"verification.csv: no {quantity} of elements of order {element_order}")
             order = element_order + gain
             style.plot(axes, ladder, "h_m", "value", color=color, linestyle=line, marker=marker,
                        label=f"{case_words.elements(*elements)} in {norm}, theory $h^{order}$")
@@ -129,8 +128,7 @@ def verification(results):
                           "difference_pct"})
     manufactured, locking = ([row for row in rows if row["problem"] == name] for name in ("manufactured_solution", "locking"))
     shown = finest(rows)
-    if not shown:
-        raise records.RecordsMissing("verification.csv: no benchmark")
+    records.need(shown, "verification.csv: no benchmark")
     drawing, (above, below) = style.stacked((2, 2.5), (1, 3.1))
     dotted = draw_convergence(above[0], manufactured)
     draw_locking(above[1], locking)

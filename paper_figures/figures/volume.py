@@ -144,8 +144,7 @@ def draw_kind(axes, rows):
 def volume_by_region(results):
     file = results / "volume" / "regions.csv"
     rows = [row for row in records.table(file, region_columns) if row["run"] == run_shown and row["deformer"] in of_regions]
-    if not rows:
-        raise records.RecordsMissing(f"{file}: no rows of {run_shown}")
+    records.need(rows, f"{file}: no rows of {run_shown}")
     drawing, axes = style.panels(1, 2, height_in=2.3)
     behind = []
     for panel, kind, title in zip(axes[0], ("bone", "joint"), ("by nearest bone", "blended between two bones")):
@@ -183,8 +182,7 @@ def section_profiles(results):
     for panel, (case, pose, title) in zip(axes.flat, cases):
         file = results / "artefacts" / case / "profiles.csv"
         found = profiles(records.table(file, section_columns), pose)
-        if not found:
-            raise records.RecordsMissing(f"{file}: no sections of {pose}")
+        records.need(found, f"{file}: no sections of {pose}")
         for deformer, rows in found.items():
             shown = [{"case": case, "pose": pose, "deformer": deformer, "offset_cm": 100 * offset_m, "area_over_rest_pct": 100 * area}
                      for offset_m, area in zip(records.numbers(rows, "offset_m"), records.numbers(rows, "area_over_rest"))]

@@ -133,17 +133,9 @@ def panels_of(comparison, results):
             title = case_words.posed(rows[0]) if rows else case.replace("_", " ")
             shown.append(Panel(comparison, case, title, rows, found))
     shown = [panel for panel in shown if panel.fronts]
-    if not shown:
-        raise records.RecordsMissing(f"{folder}: no evaluated pose with a reference in {comparison}")
+    records.need(shown, f"{folder}: no evaluated pose with a reference in {comparison}")
     return sorted(shown, key=lambda panel: ("evaluated" not in panel.title, not panel.title.startswith("limb"),
                                             "mean" in panel.title))[:most_panels]
-
-
-def clock_notes(shown):
-    """A line for each deformer of the user's own whose time is not processor time."""
-    words = {"own": "time as the program states it", "wall": "wall time of the program over its poses"}
-    clocks = {(row["deformer"], row["clock"]): None for panel in shown for row in panel.points if row.get("clock") in words}
-    return [f"{deformer}: {words[clock]}" for deformer, clock in clocks]
 
 
 def draw_comparison(comparison, results):
@@ -155,8 +147,10 @@ def draw_comparison(comparison, results):
     for axes_of_panel in axes.flat[len(shown):]:
         axes_of_panel.set_visible(False)
     axes.flat[0].plot([], [], linestyle="none", marker="o", color="#777777", markersize=2.2, alpha=0.4, label="small marks: all settings")
-    notes = ("name above a line: nearest within that time", "? (n): the references do not decide against n groups")
-    for note in (*notes, *clock_notes(shown)):
+    words = {"own": "time as the program states it", "wall": "wall time of the program over its poses"}
+    clocks = dict.fromkeys(f"{row['deformer']}: {words[row['clock']]}" for panel in shown for row in panel.points
+                           if row.get("clock") in words)  # deformers of the user's own whose time is not processor time
+    for note in ("name above a line: nearest within that time", "? (n): the references do not decide against n groups", *clocks):
         axes.flat[0].plot([], [], linestyle="none", label=note)
     style.legend_above(figure, columns=3)
     return figure, [row for panel in shown for row in rows_behind(panel)]
@@ -190,7 +184,8 @@ def draw_profiles(axes, rows, span_ms):
 
 def omitted_in(results, rows, comparison):
     """The omissions of the evaluated poses, and per tolerance the groups without a curve because they solve no pose."""
-    lines = omission_boxes.lines(omission_boxes.added_up(results, comparison, omission_boxes.evaluated_cases(results)))
+    evaluated = [case for case, of in omission_boxes.points_of(results, {"half"}).items() if of[0]["half"] == "evaluation"]
+    lines = omission_boxes.lines(omission_boxes.added_up(results, comparison, evaluated))
     fronts = records.table(results / "work_precision" / "fronts.csv", {"comparison", "front"})
     known = {looks.group_of(row["front"]) for row in fronts if row["comparison"] == comparison and row["front"] != "all"}
     for tolerance_pct in tolerances_pct:

@@ -23,16 +23,14 @@ def of(claims, name):
 
 def values_of(claims, name, quantity):
     values = [case["value"] for case in of(claims, name)["cases"] if case["quantity"] == quantity and case["value"] is not None]
-    if not values:
-        raise records.RecordsMissing(f"claims.json: {name}: no value of {quantity}")
+    records.need(values, f"claims.json: {name}: no value of {quantity}")
     return values
 
 
 def volume(claims):
     """The clip with the most frames within the bound; sweeps over an angle are not clips."""
     clips = [case for case in of(claims, "C02")["cases"] if case["quantity"] == "volume_change_pct" and not case["sweep"]]
-    if not clips:
-        raise records.RecordsMissing("claims.json: C02: no clip with volume_change_pct")
+    records.need(clips, "claims.json: C02: no clip with volume_change_pct")
     best, worst = (choose(clips, key=lambda case: case["share_of_frames"]["estimate"]) for choose in (max, min))
     share = best["share_of_frames"]
     return (f"**Volume.** With 24 iterations, PBS keeps the volume within 0.5 % in at most {100 * share['estimate']:.0f} % of the "
@@ -47,8 +45,7 @@ def artefacts(claims):
     failing = [case for case in sections if case["holds"] == "none"]
     first = min((case["angle_deg"] for case in failing), default=float("inf"))
     held = [case for case in sections if case["angle_deg"] < first and case["quantity"] == "smallest_section_radius_over_rest"]
-    if not held:
-        raise records.RecordsMissing("claims.json: C04: no section holds at the smallest angle")
+    records.need(held, "claims.json: C04: no section holds at the smallest angle")
     text = (f"**Artefacts.** Up to a twist of {max(case['angle_deg'] for case in held):.0f}\u00b0 PBS shows no candy wrapper: sections "
             f"keep at least {100 * min(case['value'] for case in held):.0f} % of their radius.")
     if failing:

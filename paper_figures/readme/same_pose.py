@@ -6,7 +6,6 @@
 
 The kept records have no frames. The runs' rows must agree with the records.
 """
-import csv
 import math
 import pathlib
 import sys
@@ -44,8 +43,7 @@ def row_of(folder, pose, deformer):
     """The row of this pose in the metrics.csv of a run or a kept record."""
     rows = [row for row in records.table(folder / "metrics.csv", {"deformer", "variant", "iterations", "angle_deg", *compared})
             if row["deformer"] == deformer and row["variant"] == "default" and row["iterations"] in ("", "24")]
-    if not rows:
-        raise records.RecordsMissing(f"{folder / 'metrics.csv'}: no rows of {deformer}")
+    records.need(rows, f"{folder / 'metrics.csv'}: no rows of {deformer}")
     return records.at_angle(rows, pose.angle_deg)
 
 
@@ -90,10 +88,7 @@ def draw(folders):
 def save(figure, rows):
     with whole_file.beside(picture) as path:
         figure.savefig(path, dpi=width_px / figure.get_figwidth(), metadata={"Software": "pbskin paper_figures"})
-    with whole_file.beside(picture.with_suffix(".csv")) as path, open(path, "w", newline="") as stream:
-        writer = csv.DictWriter(stream, fieldnames=list(rows[0]), lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(rows)
+    style.write_table(picture.with_suffix(".csv"), rows)
 
 
 def main(arguments):

@@ -24,8 +24,7 @@ def of_revision(run):
 
 def claims_of(results):
     file = results / "claims.json"
-    if not file.is_file():
-        raise records.RecordsMissing(f"{file.name}: does not exist: `pbskin reproduce --judge` writes it next to the records")
+    records.need(file.is_file(), f"{file.name}: does not exist: `pbskin reproduce --judge` writes it next to the records")
     return sentences.claims_of(file)
 
 
@@ -42,8 +41,7 @@ def claims_lines(results):
     for file in sorted(results.glob("*/*/run.json")):
         revision = of_revision(shapes.read(file, shapes.run).get("provenance", {}))
         studies.setdefault(revision, {})[file.parent.parent.name] = True
-    if not studies:
-        raise records.RecordsMissing(f"{results}: no run.json of a study's run in it")
+    records.need(studies, f"{results}: no run.json of a study's run in it")
     most, *others = sorted(studies, key=lambda revision: -len(studies[revision]))
     measured = ", ".join([most, *(f"{revision} ({', '.join(studies[revision])})" for revision in others)])
     return [*table, "", f"Measured at revision {measured}."]
@@ -67,8 +65,7 @@ def features_lines(results):
 
 def reliability_lines(folder):
     files = sorted(folder.glob("*.json"))
-    if not files:
-        raise records.RecordsMissing(f"{folder}: no record of a test")
+    records.need(files, f"{folder}: no record of a test")
     told = [shapes.read(file, shapes.reliability) for file in files]
     notes = [f" ({record['note']})" if record.get("note") else "" for record in told]
     return [line("what", "measured", "by", "revision"), "|---|---|---|---|",

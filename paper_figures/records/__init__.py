@@ -14,6 +14,12 @@ class RecordsMissing(Exception):
     pass
 
 
+def need(found, message):
+    """Raises RecordsMissing with this message if nothing was found."""
+    if not found:
+        raise RecordsMissing(message)
+
+
 class Run:
     """The directory of a run: run.json and metrics.csv (one row per deformer and frame)."""
 
@@ -26,8 +32,7 @@ class Run:
     def select(self, deformer, iterations=None, variant="default"):
         """The deformer's rows, ordered by frame."""
         rows = [row for row in self.rows if is_of(row, deformer, variant, iterations)]
-        if not rows:
-            raise RecordsMissing(f"{self.folder / 'metrics.csv'}: no rows of {in_words(deformer, variant, iterations)}")
+        need(rows, f"{self.folder / 'metrics.csv'}: no rows of {in_words(deformer, variant, iterations)}")
         return sorted(rows, key=lambda row: int(float(row["frame"])))
 
     def statistics(self, deformer, iterations=None, variant="default"):
@@ -64,8 +69,7 @@ def in_words(deformer, variant, iterations):
 def frame_statistics(folder, deformer, variant="default", iterations=None):
     """A deformer's rows of frame_statistics.csv: for each setting, the order statistics over the run's frames."""
     file = folder / "frame_statistics.csv"
-    if not file.is_file():
-        raise RecordsMissing(f"{file}: does not exist: the run is of an earlier version and has to be made again")
+    need(file.is_file(), f"{file}: does not exist: the run is of an earlier version and has to be made again")
     rows = table(file, {"deformer", "variant", "iterations", "frames"})
     return [row for row in rows if is_of(row, deformer, variant, iterations)]
 
@@ -117,8 +121,7 @@ def is_reached(row):
 def provenance(results):
     """Version and git revision of the first run in a folder or below."""
     files = sorted(results.glob("**/run.json"))
-    if not files:
-        raise RecordsMissing(f"{results}: no run.json in it or below")
+    need(files, f"{results}: no run.json in it or below")
     return read_json(files[0]).get("provenance", {})
 
 
@@ -132,8 +135,7 @@ def read_json(file):
         raise RecordsMissing(f"{file}:{error.lineno}: not JSON: {error.msg}") from None
     except (ValueError, RecursionError) as error:
         raise RecordsMissing(f"{file}: not JSON: {error}") from None
-    if not isinstance(record, dict):
-        raise RecordsMissing(f"{file}: expected an object")
+    need(isinstance(record, dict), f"{file}: expected an object")
     return record
 
 
@@ -175,8 +177,7 @@ def rows_if_any(file):
 def table(file, columns):
     """The rows of a CSV file that must have these columns."""
     rows = read_rows(file)
-    if not rows:
-        raise RecordsMissing(f"{file}: no rows")
+    need(rows, f"{file}: no rows")
     absent = columns - rows[0].keys()
     if absent:
         raise RecordsMissing(f"{file}: no column {', '.join(sorted(absent))}")

@@ -48,8 +48,7 @@ class Entry:
     def files(self, results):
         found = {pattern: sorted(results.glob(pattern)) for pattern in self.records}
         for pattern, files in found.items():
-            if not files:
-                raise records.RecordsMissing(f"{results / pattern}: does not exist")
+            records.need(files, f"{results / pattern}: does not exist")
         return [file for files in found.values() for file in files]
 
     def runs(self, results):
@@ -80,7 +79,8 @@ class Entry:
         revisions = {}
         for file in self.files(results):
             for run in runs_behind(file, results):
-                check_plan(run)
+                if not is_planned(run):
+                    raise RecordsStale(f"stale: {run.parent} is no run of its study's plan.json: left from an earlier one")
                 check_times(file, run)
                 revisions.setdefault(revision_of(run), run)
         if len(revisions) > 1:
@@ -113,8 +113,7 @@ def runs_behind(file, results):
             return [folder / "run.json"]
     study = results / file.relative_to(results).parts[0]
     runs = [run for run in sorted(study.glob("*/run.json")) if is_planned(run)]
-    if not runs:
-        raise records.RecordsMissing(f"{study}: no run.json in it")
+    records.need(runs, f"{study}: no run.json in it")
     return runs
 
 
@@ -142,11 +141,6 @@ def is_in_form(study, run):
     plan = records.read_json(study / "plan.json") if (study / "plan.json").is_file() else {}
     left_out = [left.get("scene") for left in plan.get("left_out", [])]
     return plan.get("extent") != "quick" or run in planned_runs(study) or run in left_out
-
-
-def check_plan(run):
-    if not is_planned(run):
-        raise RecordsStale(f"stale: {run.parent} is no run of its study's plan.json: left from an earlier one")
 
 
 def check_times(file, run):

@@ -19,18 +19,9 @@ class Bone:
 
 
 class Frames:
-    def __init__(self, results, scene):
-        self._open(results / "frames" / scene)
-
-    @classmethod
-    def of_run(cls, folder):
-        """The frames of any run, by its folder."""
-        frames = cls.__new__(cls)
-        frames._open(folder)
-        return frames
-
-    def _open(self, folder):
-        self.folder = folder
+    def __init__(self, results, scene=None):
+        """Without a scene, the frames of any run, by its folder."""
+        self.folder = results / "frames" / scene if scene else results
         self.run = records.Run(self.folder)
         shapes.check(self.folder / "run.json", self.run.record, shapes.shown_run)
         self.body = self.run.record["scene"]["character"]["body"]
@@ -76,8 +67,7 @@ class Frames:
     def bones(self, frame):
         rows = records.table(self.folder / "bones.csv", {"frame", "bone", *bone_ends})
         posed = [bone_of(row) for row in rows if int(row["frame"]) == frame]
-        if not posed:
-            raise records.RecordsMissing(f"{self.folder / 'bones.csv'}: no frame {frame}")
+        records.need(posed, f"{self.folder / 'bones.csv'}: no frame {frame}")
         return posed
 
     def bones_at_rest(self):
@@ -98,8 +88,7 @@ class Frames:
     def apart(self, frame, one, other):
         """The distances between two deformers' positions of the same points of a frame: points, rms_mm, largest_mm."""
         file = self.folder / "distances.csv"
-        if not file.is_file():
-            raise records.RecordsMissing(f"{file}: does not exist: the run is of an earlier version and has to be made again")
+        records.need(file.is_file(), f"{file}: does not exist: the run is of an earlier version and has to be made again")
         for row in records.table(file, {"frame", "deformer", "other", "points", "rms_mm", "largest_mm"}):
             if int(row["frame"]) == frame and {row["deformer"], row["other"]} == {one, other}:
                 return {"points": int(row["points"]), "rms_mm": float(row["rms_mm"]), "largest_mm": float(row["largest_mm"])}
@@ -107,8 +96,7 @@ class Frames:
 
     def _file(self, name, below="frames"):
         file = self.folder / below / name
-        if not file.is_file():
-            raise records.RecordsMissing(f"{file}: does not exist")
+        records.need(file.is_file(), f"{file}: does not exist")
         return file
 
 

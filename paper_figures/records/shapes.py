@@ -3,8 +3,8 @@
     run = record_shapes.read(folder / "run.json", record_shapes.run)
 
 A shape is a Rule for a single value; {"key": shape, "other?": shape} for an object in which `other` may be missing and members that are not
-named here are ignored; {"*": shape} for an object of any keys; [shape] for a list; (shape, shape) for a list of that length; Cases for an
-object of one of two shapes; OrNull for a shape or null.
+named here are ignored; {"*": shape} for an object of any keys; [shape] for a list; (shape, shape) for a list of that length; a function for
+a shape that depends on the value.
 """
 import json
 import sys
@@ -22,19 +22,6 @@ class Rule:
     holds: Callable
 
 
-@dataclass(frozen=True)
-class Cases:
-    """An object of one shape if it has this member, otherwise of another shape."""
-    member: str
-    having: object
-    other: object
-
-
-@dataclass(frozen=True)
-class OrNull:
-    shape: object
-
-
 def one_of(*words):
     return Rule(f"one of {', '.join(words)}", lambda value: value in words)
 
@@ -43,6 +30,12 @@ def is_number(value):
     return type(value) in (int, float) and abs(value) <= sys.float_info.max
 
 
+def with_member(member, having, other):
+    """An object of one shape if it has this member, otherwise of another shape."""
+    return lambda value: having if isinstance(value, dict) and member in value else other
+
+
+anything = Rule("anything", lambda value: True)
 text = Rule("a text", lambda value: isinstance(value, str) and not any("\ud800" <= letter <= "\udfff" for letter in value))
 truth = Rule("true or false", lambda value: isinstance(value, bool))
 number = Rule("a number", is_number)
@@ -61,11 +54,8 @@ def check(file, value, shape, field=""):
     if isinstance(shape, Rule):
         if not shape.holds(value):
             refuse(file, field, value, shape.words)
-    elif isinstance(shape, Cases):
-        check(file, value, shape.having if isinstance(value, dict) and shape.member in value else shape.other, field)
-    elif isinstance(shape, OrNull):
-        if value is not None:
-            check(file, value, shape.shape, field)
+    elif callable(shape):
+        check(file, value, shape(value), field)
     elif isinstance(shape, dict):
         if not isinstance(value, dict):
             refuse(file, field, value, "an object")
@@ -126,19 +116,18 @@ measured = {"value": figure, "low": figure, "high": figure, "quantity": text}
 value = key | measured | {"unit?": text, "run?": text, "holds?": extent, "limit?": one_of("at_least", "at_most", "more_than"), "n?": whole,
                           "not_reached?": whole, "frames?": whole, "bound_low?": figure, "bound_high?": figure}
 run_of_a_scene = key | measured | judged_frames | {"unit": text, "run": text, "holds": extent, "frames": whole}
-a_value = Cases("frames", run_of_a_scene, Cases("bound_low", key | measured | {"bound_low": figure, "bound_high": figure, "holds": extent},
-                                                value | {"unit": text, "run": text}))
+printed = key | measured | {"bound_low": figure, "bound_high": figure, "holds": extent}
+a_value = with_member("frames", run_of_a_scene, with_member("bound_low", printed, value | {"unit": text, "run": text}))
 primary = key | measured | {"unit": text, "statistic": one_of("share_of_frames", "mean", "value", "printed"), "bound_low": figure,
                             "bound_high": figure}
 reading = {"order": text, "precision": text, "verdict": verdict, "own_verdict": verdict, "same": truth, "differing": [whole],
            "cases": [run_of_a_scene]}
 claim = {"id": text, "statement": text, "place": text, "study": text,
          "rule": one_of("share_within", "mean_within", "measured", "printed", "untestable"), "reason": text, "verdict": verdict,
-         "primary": OrNull(primary), "n": whole, "within": whole, "bounds": [{"quantity": text, "low": figure, "high": figure}],
-         "expected": figure, "subject": text, "subjects": [{"name": text, "within": whole, "n": whole, "holds": extent}], "each": [text],
-         "of": key, "cases": [a_value], "controls": [a_value], "readings": [reading], "left_out": [{"scene": text, "reason": text}],
-         "missing": [text], "runs": [text]}
-claims = {"schema": second_schema, "quantities": {"*": {"title": text, "unit": text}},
-          "claims": [claim]}
+         "primary": lambda value: anything if value is None else primary, "n": whole, "within": whole,
+         "bounds": [{"quantity": text, "low": figure, "high": figure}], "expected": figure, "subject": text,
+         "subjects": [{"name": text, "within": whole, "n": whole, "holds": extent}], "each": [text], "of": key, "cases": [a_value],
+         "controls": [a_value], "readings": [reading], "left_out": [{"scene": text, "reason": text}], "missing": [text], "runs": [text]}
+claims = {"schema": second_schema, "quantities": {"*": {"title": text, "unit": text}}, "claims": [claim]}
 
 reliability = {"name": text, "count": number, "of": number, "command": text, "revision": text, "note?": text}

@@ -82,16 +82,10 @@ def how_far(found):
     if not shown:
         told = f"How far PBS is from the finite elements is {not_run(found, 'work_precision')}."
         return left_out or element("p", told, class_="missing")
-    return joined([element("p", distance_sentence(shown), class_="answer"), pose_table(shown), element("p", bar_sentence(shown)), left_out])
-
-
-def errors(shown, deformer):
-    return [number(getattr(pose, deformer), "error_joint_pct") for pose in shown]
-
-
-def distance_sentence(shown):
-    return (f"At the joints, in {counted(len(shown), 'pose')}, PBS with 24 iterations is {span(errors(shown, 'pbs'))} % away from "
-            f"neo-Hookean finite elements, LBS {span(errors(shown, 'lbs'))} % (of the mean distance to the bone).")
+    pbs, lbs = (span([number(getattr(pose, deformer), "error_joint_pct") for pose in shown]) for deformer in ("pbs", "lbs"))
+    told = (f"At the joints, in {counted(len(shown), 'pose')}, PBS with 24 iterations is {pbs} % away from neo-Hookean finite elements, "
+            f"LBS {lbs} % (of the mean distance to the bone).")
+    return joined([element("p", told, class_="answer"), pose_table(shown), element("p", bar_sentence(shown)), left_out])
 
 
 def pose_table(shown):
@@ -110,11 +104,6 @@ def bar_sentence(shown):
         return "Each of these distances exceeds the bound on the reference's own error."
     return (f"In {below} of {counted(len(shown), 'pose')} PBS lies within the bound on the reference's own error, so that the distance "
             "is not significant.")
-
-
-def at_what_cost(found):
-    parts = [frame_sentence(found), beside_sentence(found), origin.costs_sentence(found)]
-    return items([part for part in parts if part], "answers")
 
 
 def frame_sentence(found):
@@ -145,7 +134,8 @@ def beside_sentence(found):
 
 
 def first_screen(found):
+    costs = [told for told in (frame_sentence(found), beside_sentence(found), origin.costs_sentence(found)) if told]
     cards = [("Do the paper\u2019s claims hold?", "hold", do_they_hold(found)), ("When not?", "not", when_not(found)),
-             ("How far from the finite elements?", "far", how_far(found)), ("At what cost?", "cost", at_what_cost(found))]
+             ("How far from the finite elements?", "far", how_far(found)), ("At what cost?", "cost", items(costs, "answers"))]
     return joined((element("section", joined([element("h2", title), content]), class_=f"card {name}") for title, name, content in cards),
                   "\n")

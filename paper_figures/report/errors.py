@@ -66,11 +66,6 @@ def verdict(rows):
             f"{len(rows) - len(bounded)} more have no bound and are reported only.")
 
 
-def notes_of(rows):
-    """Sources and origins of bounds, each once, in the order of the rows."""
-    return list(dict.fromkeys(row[column] for row in rows for column in ("source", "bound_from") if row[column]))
-
-
 def cells(row, notes):
     ends = [number(row, "low"), number(row, "high")]
     order = "" if number(row, "observed_order") is None else f"{number(row, 'observed_order'):.2f}"
@@ -88,7 +83,8 @@ def reference_section(found):
     rows = found.rows("verification/verification.csv")
     if not rows:
         return element("p", f"The reference against theory and benchmarks is {not_run(found, 'verification')}.", class_="missing")
-    notes = notes_of(rows)
+    # Sources and origins of bounds, each once, in the order of the rows.
+    notes = list(dict.fromkeys(row[column] for row in rows for column in ("source", "bound_from") if row[column]))
     shown = table("The reference against theory and published benchmarks", reference_header, [cells(row, notes) for row in rows], "tall")
     answer = element("p", verdict(rows), class_="answer")
     return joined([answer, shown, element("ol", joined(element("li", inline(note)) for note in notes)) if notes else ""])

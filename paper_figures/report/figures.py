@@ -10,13 +10,7 @@ from report import record_set
 from report.markup import Markup, beside_the_page, details, element, escaped, joined
 from words import captions
 
-slack_s = 60.0  # possible difference between the times of the files of a copied folder
 most_inline_kb = 400  # size of a CSV that the page contains
-pictures = {"png": "image/png", "webp": "image/webp"}
-
-
-class NotDrawn(Exception):
-    pass
 
 
 def inline_svg(text, name, label):
@@ -37,34 +31,23 @@ def drawn(found, entry):
     """The figure's file, which is refused if its records are gone or have changed since."""
     absent = next((study for study in entry.studies() if study not in found.studies), None)
     if absent:
-        raise NotDrawn(record_set.why_absent(found, absent))
-    try:
-        entry.check(found.results)
-    except records.RecordsMissing as error:
-        raise NotDrawn(str(error).replace(f"{found.results}/", "")) from None
+        raise records.RecordsMissing(record_set.why_absent(found, absent))
+    entry.check(found.results)
     for ending in ("svg", "png", "webp"):
         file = found.results / "figures" / f"{entry.name}.{ending}"
         if file.is_file():
             newest_s = max(behind.stat().st_mtime for behind in entry.files(found.results))
-            if file.stat().st_mtime < newest_s - slack_s:
-                raise NotDrawn("stale: its records are newer; draw it anew (paper_figures/make_all.py)")
+            if file.stat().st_mtime < newest_s - entries.slack_s:
+                raise records.RecordsMissing("stale: its records are newer; draw it anew (paper_figures/make_all.py)")
             return file
-    raise NotDrawn("does not exist yet: paper_figures/make_all.py draws it")
-
-
-def as_drawn(found, entry):
-    """The figure with its caption as it was when the figure was drawn."""
-    try:
-        return dataclasses.replace(entry, caption=captions.read(entry, found.results / "figures"))
-    except records.RecordsMissing as error:
-        raise NotDrawn(str(error).replace(f"{found.results}/", "")) from None
+    raise records.RecordsMissing("does not exist yet: paper_figures/make_all.py draws it")
 
 
 def picture(file, entry):
     label = f"{entry.title}. {entry.caption}"
     if file.suffix == ".svg":
         return element("div", inline_svg(file.read_text(), entry.name, label), class_="scroll drawing")
-    return "" if file.suffix == ".webp" else Markup(f'<img alt="{html.escape(label)}" src="{data_uri(file, pictures[file.suffix[1:]])}">')
+    return "" if file.suffix == ".webp" else Markup(f'<img alt="{html.escape(label)}" src="{data_uri(file, "image/png")}">')
 
 
 def clip(found, entry):
@@ -72,7 +55,7 @@ def clip(found, entry):
     file = found.results / "figures" / f"{entry.name}.webp"
     if not file.is_file():
         return ""
-    moving = Markup(f'<img alt="{html.escape(entry.title)}, moving" src="{data_uri(file, pictures["webp"])}">')
+    moving = Markup(f'<img alt="{html.escape(entry.title)}, moving" src="{data_uri(file, "image/webp")}">')
     return element("details", joined([element("summary", "The clip, moving"), moving]), class_="clip")
 
 
@@ -86,10 +69,6 @@ def numbers_link(found, entry):
     return Markup(f' <a download="{file.name}" href="{target}">numbers (CSV)</a>{apart}')
 
 
-def claims_links(entry, known):
-    return joined((element("a", claim, href=f"#{claim}") if claim in known else escaped(claim) for claim in entry.claims), ", ")
-
-
 def numbered(entry, number):
     """The title with a number; a title that contains the paper's own number stays unchanged."""
     return entry.title if re.match(r"(Figure|Table) \d", entry.title) else f"Figure {number}: {entry.title}"
@@ -98,7 +77,8 @@ def numbered(entry, number):
 def drawn_figure(found, entry, number, file):
     known = {claim["id"] for claim in found.claims or []}
     about = [element("b", f"{numbered(entry, number)}. "), entry.caption, " "]
-    about += ["Claims: ", claims_links(entry, known), ". "] if entry.claims else []
+    claims = joined((element("a", claim, href=f"#{claim}") if claim in known else claim for claim in entry.claims), ", ")
+    about += ["Claims: ", claims, ". "] if entry.claims else []
     about += [Markup(f'<abbr title="{html.escape(entries.marks[entry.mark])}">{entry.mark}</abbr>'), numbers_link(found, entry)]
     caption = element("figcaption", joined(about))
     return element("figure", joined([picture(file, entry), clip(found, entry), caption], "\n"), id=f"figure-{entry.name}")
@@ -123,10 +103,11 @@ def section(found):
         number += not entry.title.startswith("Table")
         try:
             file = drawn(found, entry)
-            parts.append(drawn_figure(found, as_drawn(found, entry), number, file))
+            as_drawn = dataclasses.replace(entry, caption=captions.read(entry, found.results / "figures"))  # as when it was drawn
+            parts.append(drawn_figure(found, as_drawn, number, file))
             parts += conclusions(found, entry, told)
-        except NotDrawn as reason:
-            missing.append(f"figure {entry.name}: {reason}")
+        except records.RecordsMissing as error:
+            missing.append(f"figure {entry.name}: {error}".replace(f"{found.results}/", ""))
     intro = ("R: redrawn in minutes on any machine; CR: in hours; NR: not from this repository\u2019s records. "
              "Values are shown next to the pointer or the finger; with the keyboard: tab to a plot, then the arrow keys.")
     listed = element("ul", joined(element("li", line) for line in missing), class_="not-drawn") if missing else ""

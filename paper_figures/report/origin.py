@@ -66,7 +66,8 @@ def section(found, with_viewer=False):
     parts = [element("p", f"Note: the records are of {revisions} revisions.", class_="missing")] if revisions > 1 else []
     parts += [facts_table(found), inputs_table(found)]
     for title, shown in (("Left out", [f"{study}: {scene}: {reason}" for study, scene, reason in found.left_out()]),
-                         ("Bodies and motions", rights(found)), ("Program of the viewer", [case_words.tables["credit"]["viewer"]] if with_viewer else [])):
+                         ("Bodies and motions", rights(found)),
+                         ("Program of the viewer", [case_words.tables["credit"]["viewer"]] if with_viewer else [])):
         parts += [element("h3", title), items(shown)] if shown else []
     return joined(parts, "\n")
 
@@ -116,12 +117,6 @@ def value(text, key):
     return found.group(1) if found else ""
 
 
-def paper_sentence(text):
-    families, given = re.findall(r'family-names: "([^"]+)"', text), re.findall(r'given-names: "([^"]+)"', text)
-    authors = ", ".join(f"{first} {last}" for first, last in zip(given, families))
-    return f"{authors}: {value(text, 'title')}. {value(text, 'collection-title')}, {value(text, 'year')}."
-
-
 def citation_section(found):
     if not citation.is_file():
         return element("p", "CITATION.cff: does not exist", class_="missing")
@@ -130,5 +125,9 @@ def citation_section(found):
     authors = ", ".join(re.findall(r'- name: "([^"]+)"', own))
     parts = [element("p", f"{authors}: {value(own, 'title')}, version {value(own, 'version')}, {value(own, 'license')}. "
                           f"Revision of these records: {revision}.")]
-    parts += [element("p", "The paper: " + paper_sentence(text)) for text in references]
+    for text in references:
+        families, given = (re.findall(rf'{name}-names: "([^"]+)"', text) for name in ("family", "given"))
+        authors = ", ".join(f"{first} {last}" for first, last in zip(given, families))
+        told = f"The paper: {authors}: {value(text, 'title')}. {value(text, 'collection-title')}, {value(text, 'year')}."
+        parts.append(element("p", told))
     return joined([*parts, details("CITATION.cff", element("pre", citation.read_text(), tabindex=0))])

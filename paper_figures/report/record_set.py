@@ -10,13 +10,11 @@ from words import sentences
 
 class RecordSet:
     def __init__(self, results):
-        if not results.is_dir():
-            raise records.RecordsMissing(f"{results}: no such folder")
+        records.need(results.is_dir(), f"{results}: no such folder")
         self.results = results
         self.runs = {file.parent.relative_to(results).as_posix(): shapes.read(file, shapes.run)
                      for file in self.files("**/run.json")}
-        if not self.runs:
-            raise records.RecordsMissing(f"{results}: no records: no run.json in it or below; run `pbskin reproduce -o` into it first")
+        records.need(self.runs, f"{results}: no records: no run.json in it or below; run `pbskin reproduce -o` into it first")
         self.studies = sorted({name.split("/")[0] for name in self.runs})
         self.plans = {file.parent.name: shapes.read(file, shapes.plan) for file in self.files("*/plan.json")}
         judged = results / "claims.json"

@@ -145,8 +145,7 @@ def over_frames(found):
     for panel, (column, name) in zip(axes[:, 0], shown):
         for label, of in rows.items():
             x, unit = abscissa(of)
-            values = [number(row, column) for row in of]
-            values = [float("nan") if value is None else value for value in values]
+            values = [math.nan if number(row, column) is None else number(row, column) for row in of]
             panel.plot(x, values, **style.as_of(label, markevery=max(1, len(x) // 9)))
         panel.set_ylabel(name)
         panel.margins(x=0)
@@ -194,20 +193,13 @@ def figures_section(found):
     return joined([element("p", Markup("Values are shown next to the pointer or the finger.")), *parts], "\n")
 
 
-def warnings_of(found):
-    outcome = found.record["outcome"]
-    warnings = list((found.trial or outcome).get("warnings", []))
-    warnings += [text for text in (outcome.get("breakdown"), outcome.get("bad_frame")) if text]
-    return warnings
-
-
 def viewer_of(found):
     """The viewer, and the reason if there is none although frames were written."""
     if not any((found.folder / "frames").glob("*.vtu")):
         return None, []
     try:
         recorded_frames, page_of_viewer = map(importlib.import_module, ("records.recorded_frames", "viewer.page"))
-        return Markup(page_of_viewer.fragment_of([recorded_frames.Frames.of_run(found.folder)])), []
+        return Markup(page_of_viewer.fragment_of([recorded_frames.Frames(found.folder)])), []
     except (ImportError, records.RecordsMissing) as error:
         return None, [f"viewer: {str(error).replace(f'{found.folder}/', '')}"]
 
@@ -215,7 +207,8 @@ def viewer_of(found):
 def page(folder):
     """The text of the page, and what is missing in it."""
     found = RunRecords(folder)
-    warnings = warnings_of(found)
+    outcome = found.record["outcome"]
+    warnings = [*(found.trial or outcome).get("warnings", []), *filter(None, (outcome.get("breakdown"), outcome.get("bad_frame")))]
     viewer, missing = viewer_of(found)
     as_set = types.SimpleNamespace(results=folder, runs={found.name: found.record}, left_out=lambda: [])
     sections = [("summary", "What was found", summary(found)), ("warnings", "Warnings", items(warnings, "missing") if warnings else ""),
@@ -224,6 +217,5 @@ def page(folder):
                 ("model", "What was taken from the model", model(found)),
                 ("origin", "Where the records come from", origin.section(as_set, with_viewer=viewer is not None))]
     sections = [section for section in sections if section[-1]]
-    frames = found.record["outcome"].get("frames", 0)
-    lead = element("p", f"{found.name}, {frames} frames, moved by {', '.join(found.labels())}.", class_="lead")
+    lead = element("p", f"{found.name}, {outcome.get('frames', 0)} frames, moved by {', '.join(found.labels())}.", class_="lead")
     return whole(f"pbskin: {found.name}", lead, [navigation(sections), *written(sections)], "summary"), missing

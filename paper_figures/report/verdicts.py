@@ -129,7 +129,8 @@ def measured(claim):
         return "\u2013"
     if claim["rule"] == "printed":
         return sentences.within(claim)
-    ranges = [f"{name}: {sentences.range_with_intervals(values)}" for name, values in sentences.judged_groups(claim).items()]
+    groups = sentences.grouped(claim, claim["cases"], claim["each"])
+    ranges = [f"{name}: {sentences.range_with_intervals(values)}" for name, values in groups.items()]
     return joined([sentences.within(claim), items(ranges, "plain")])
 
 

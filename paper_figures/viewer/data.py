@@ -31,8 +31,7 @@ def read_frame(file):
     if not ratio or not rest:
         raise records.RecordsMissing(f"{file}: no {'rest_position' if ratio else 'volume_ratio'}")
     positions = vtk_to_numpy(grid.GetPoints().GetData())
-    if not numpy.isfinite(positions).all():
-        raise records.RecordsMissing(f"{file}: a position is not finite: nothing to show")
+    records.need(numpy.isfinite(positions).all(), f"{file}: a position is not finite: nothing to show")
     return tuple(numpy.array(array) for array in (positions, rendering.corners_of(grid), vtk_to_numpy(ratio), vtk_to_numpy(rest)))
 
 
@@ -158,8 +157,7 @@ def recorded_runs(results):
     """The runs of the study `frames`, after a check that they are planned, written by their own run and not changed since, like the records
     of a figure, and that all have one revision."""
     found = [recorded_frames.Frames(results, name) for name in titles if (results / "frames" / name).is_dir()]
-    if not found:
-        raise records.RecordsMissing(f"{results / 'frames'}: no frames on record; the study `frames` writes them")
+    records.need(found, f"{results / 'frames'}: no frames on record; the study `frames` writes them")
     files = [f"frames/{recorded.run.name}/{file}" for recorded in found for file in ("metrics.csv", "bones.csv", "frames/*.vtu")]
     entries.Entry("viewer", "", "", [], files, "", "R").check(results)
     return found

@@ -68,8 +68,7 @@ def fragment(results):
 
 def fragment_of(recorded, claims=None):
     """The HTML of the viewer for these runs."""
-    if not bundle_file().is_file():
-        raise records.RecordsMissing(f"{bundle_file().name} is not built: {how_to_build}")
+    records.need(bundle_file().is_file(), f"{bundle_file().name} is not built: {how_to_build}")
     header, block = pack(recorded)
     header.update(colours=colours(), poses=poses_of(header["runs"]), claims=claims or {})
     words = json.dumps(header, separators=(",", ":"), allow_nan=False).replace("</", "<\\/")
@@ -117,15 +116,12 @@ def poses_of(runs):
     return found
 
 
-def link_of(pose):
-    panels = f"&panels={pose['panels']}" if pose["panels"] else ""
-    return f"#run={pose['run']}&frame={pose['frame']}&colour={pose['colour']}{panels}&claim={pose['claim']}"
-
-
 def claim_links(results):
     """For each claim, the link that opens its pose."""
     runs = [viewer_data.facts_of(recorded, 1) for recorded in viewer_data.recorded_runs(results)]
-    return {pose["claim"]: link_of(pose) for pose in poses_of(runs)}
+    return {pose["claim"]: f"#run={pose['run']}&frame={pose['frame']}&colour={pose['colour']}"
+                           + (f"&panels={pose['panels']}" if pose["panels"] else "") + f"&claim={pose['claim']}"
+            for pose in poses_of(runs)}
 
 
 def main(results, file):

@@ -29,13 +29,11 @@ def whole(entry, figures, origin):
     return entry.caption.format_map(told) if asked(entry) else entry.caption
 
 
-def not_on_record(names, planned):
-    return f" Planned runs without records, {len(names)} of {planned}: {', '.join(names)}." if names else ""
-
-
 def write(entry, results, figures):
+    absent, planned = entry.absent(results)
+    told = f" Planned runs without records, {len(absent)} of {planned}: {', '.join(absent)}." if absent else ""
     with whole_file.beside(file_of(entry, figures)) as path:
-        path.write_text(whole(entry, figures, entry.origin(results)) + not_on_record(*entry.absent(results)) + "\n")
+        path.write_text(whole(entry, figures, entry.origin(results)) + told + "\n")
 
 
 def read(entry, figures):

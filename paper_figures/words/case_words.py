@@ -26,13 +26,9 @@ def motion(case):
     if "time_s" in case:
         return f"clip {name} at {number(case['time_s'])} s"
     if "pose" in case:
-        return f"clip {name}, {pose_words(case['pose'])}"
+        fraction = re.sub(r"^(\d+)_(\d+)_", r"\1/\2 ", case["pose"])  # 2/5 of the clip, for 2_5_of_the_clip
+        return f"clip {name}, {in_plain(fraction)}"
     return name if name in (*tables["sweep"], "turn") else f"clip {name}"
-
-
-def pose_words(pose):
-    """in the air; 2/5 of the clip, for 2_5_of_the_clip."""
-    return in_plain(re.sub(r"^(\d+)_(\d+)_", r"\1/\2 ", pose))
 
 
 def in_plain(identifier):

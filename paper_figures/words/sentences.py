@@ -90,36 +90,16 @@ def angles_text(case):
     return f"{case_words.run(case)} " + (f"by {held} of {figure(case['last_angle_deg'])}\u00b0" if held else "by no angle")
 
 
-def runs_in_short(claim):
-    """The range of each sweep; for clips, the number by which they are judged."""
-    runs = own_runs(claim)
-    clips = [case for case in runs if not case["sweep"]]
-    texts = [run_text(claim, case) for case in runs if case["sweep"]]
-    return texts + ([f"{counted(len(clips), 'clip')}: {clips_text(claim, clips)}"] if clips else [])
-
-
 # Claims about values that a study measured.
-
-def measured_values(claim):
-    return [case for case in claim["cases"] if "frames" not in case]
-
 
 def grouped(claim, values, fields):
     """The values by the title of their quantity, with the fields that distinguish its groups."""
     groups = {}
-    for value in values:
+    for value in (value for value in values if "frames" not in value):
         own = all(value.get(field) == wanted for field, wanted in claim["of"].items())
         told = [case_words.of_field(field, value[field]) for field in fields if field in value and not (own and field in claim["of"])]
         groups.setdefault(", ".join([title(claim, value["quantity"]), *told]), []).append(value)
     return groups
-
-
-def judged_groups(claim):
-    return grouped(claim, measured_values(claim), claim["each"])
-
-
-def control_groups(claim):
-    return grouped(claim, [value for value in claim["controls"] if "frames" not in value], [*claim["of"], *claim["each"]])
 
 
 def range_of(values):
@@ -151,8 +131,7 @@ def farthest(claim, in_short=False):
     words = "" if in_short else case_words.of(primary)
     of = f" of {words}" if words else ""
     value = "not a number" if primary["value"] is None else figure(primary["value"]) + with_unit(primary["unit"])
-    expected_of_it = bound(primary["bound_low"], primary["bound_high"])
-    return f"farthest: {title(claim, primary['quantity'])}{of} is {value}, expected {expected_of_it}"
+    return f"farthest: {title(claim, primary['quantity'])}{of} is {value}, expected {bound(primary['bound_low'], primary['bound_high'])}"
 
 
 # The subjects for which a claim holds.
@@ -208,11 +187,10 @@ def by_other_metrics(claim):
 def by_other_orders(claim):
     same = [reading_name(reading) for reading in claim["readings"] if reading["same"]]
     texts = [f"the same verdict in {'; '.join(same)}"] if same else []
-    for reading in claim["readings"]:
-        if not reading["same"]:
-            places = "; ".join(differing(claim, reading))
-            texts.append(f"{names[reading['verdict']]} in {reading_name(reading)}, as against {names[reading['own_verdict']]}"
-                         + (f" ({places})" if places else ""))
+    for reading in (reading for reading in claim["readings"] if not reading["same"]):
+        places = "; ".join(differing(claim, reading))
+        texts.append(f"{names[reading['verdict']]} in {reading_name(reading)}, as against {names[reading['own_verdict']]}"
+                     + (f" ({places})" if places else ""))
     return texts
 
 
@@ -236,7 +214,8 @@ def verdict_in_full(claim):
 def controls(claim, most=4):
     """The first quantities that were measured for comparison, without a bound, from the smallest to the largest value; empty if there are
     none."""
-    return ", ".join([control_text(of, values) for of, values in control_groups(claim).items()][:most])
+    groups = grouped(claim, claim["controls"], [*claim["of"], *claim["each"]])
+    return ", ".join([control_text(of, values) for of, values in groups.items()][:most])
 
 
 def control_text(of, values):
@@ -257,20 +236,20 @@ most_quantities = 3  # quantities named one by one
 def measured_in_line(claim):
     """The number by which its runs are judged, or the range of each bounded quantity, and how much of it is as expected."""
     runs = own_runs(claim)
-    if runs:
-        partly = sum(case["holds"] == "part" for case in runs)
-        return "; ".join([*runs_in_short(claim), f"{claim['within']} of {counted(claim['n'], 'run')} within the bound, {partly} in part"])
+    if runs:  # the range of each sweep; for clips, the number by which they are judged
+        clips, partly = [case for case in runs if not case["sweep"]], sum(case["holds"] == "part" for case in runs)
+        texts = [run_text(claim, case) for case in runs if case["sweep"]]
+        texts += [f"{counted(len(clips), 'clip')}: {clips_text(claim, clips)}"] if clips else []
+        return "; ".join([*texts, f"{claim['within']} of {counted(claim['n'], 'run')} within the bound, {partly} in part"])
     if not claim["n"]:
         return ""
     if claim["rule"] == "printed":
         return within(claim)
     if len(expected(claim)) > most_quantities:
         return "; ".join(filter(None, [within(claim), farthest(claim, in_short=True)]))
-    values = measured_values(claim)
-    if len(expected(claim)) == 1:
-        return f"{range_of(values)}; {within(claim)}"
-    ranges = [range_of([value for value in values if value["quantity"] == of["quantity"]]) for of in claim["bounds"]]
-    return "; ".join([*filter(None, ranges), within(claim)])
+    values = [case for case in claim["cases"] if "frames" not in case]
+    groups = [[value for value in values if value["quantity"] == of["quantity"]] for of in claim["bounds"]]
+    return "; ".join([*filter(None, map(range_of, [values] if len(expected(claim)) == 1 else groups)), within(claim)])
 
 
 def key_number(claim):

@@ -4,6 +4,7 @@
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 
+#include <algorithm>
 #include <set>
 #include <utility>
 
@@ -16,15 +17,10 @@ void check_within(const char* field, double value, double highest)
         throw InputError("pbs_author", 0, field, std::to_string(value), "expected 0 <= k <= " + std::to_string(static_cast<int>(highest)));
 }
 
-void check_sizes(const TetMesh& mesh, const BoneBinding& binding)
+AuthorOptions checked(const AuthorOptions& options, const TetMesh& mesh, const BoneBinding& binding)
 {
     if (static_cast<Eigen::Index>(binding.bone.size()) != mesh.rest.rows())
         throw InputError("pbs_author", 0, "binding", std::to_string(binding.bone.size()) + " vertices", "expected those of the mesh");
-}
-
-AuthorOptions checked(const AuthorOptions& options, const TetMesh& mesh, const BoneBinding& binding)
-{
-    check_sizes(mesh, binding);
     check_within("k_compression", options.k_compression, 1.0);
     check_within("k_stretch", options.k_stretch, 1.0);
     check_within("k_volume_inverted", options.k_volume_inverted, 6.0);
@@ -157,38 +153,25 @@ Weights author_weights(const BoneBinding& binding, const Skeleton& skeleton)
 
 namespace {
 
-// First-fit colouring: which vertices the groups have so far.
-class FirstFit {
-public:
-    explicit FirstFit(std::size_t vertices) : vertices_(vertices) {}
+// First-fit colouring.
+struct FirstFit {
+    std::size_t vertices;
+    std::vector<AuthorGroup> groups = {};
+    std::vector<std::vector<bool>> has_vertex = {};  // #groups x #V
 
-    // The group that these vertices join; the number of groups so far if they need another one.
+    // The group that these vertices join, which is a new one if they need another.
     template <std::size_t size>
-    std::size_t place(const std::array<int, size>& constrained)
+    AuthorGroup& of(const std::array<int, size>& constrained)
     {
-        std::size_t group = 0;
-        while (group < has_vertex_.size() && has_any(has_vertex_[group], constrained)) ++group;
-        if (group == has_vertex_.size()) has_vertex_.emplace_back(vertices_, false);
-        for (const int vertex : constrained) has_vertex_[group][vertex] = true;
-        return group;
+        const auto is_free = [&](const std::vector<bool>& has) {
+            return std::none_of(constrained.begin(), constrained.end(), [&](int vertex) { return has[vertex]; });
+        };
+        const std::size_t group = std::find_if(has_vertex.begin(), has_vertex.end(), is_free) - has_vertex.begin();
+        if (group == groups.size()) groups.emplace_back(), has_vertex.emplace_back(vertices, false);
+        for (const int vertex : constrained) has_vertex[group][vertex] = true;
+        return groups[group];
     }
-
-private:
-    template <std::size_t size>
-    static bool has_any(const std::vector<bool>& has_vertex, const std::array<int, size>& constrained)
-    {
-        return std::any_of(constrained.begin(), constrained.end(), [&](int vertex) { return has_vertex[vertex]; });
-    }
-
-    std::size_t vertices_;
-    std::vector<std::vector<bool>> has_vertex_;  // #groups x #V
 };
-
-AuthorGroup& group_at(std::vector<AuthorGroup>& groups, std::size_t index)
-{
-    if (index == groups.size()) groups.emplace_back();
-    return groups[index];
-}
 
 }  // namespace
 
@@ -209,22 +192,21 @@ Edges edges_by_appearance(const Tets& tets)
 
 std::vector<AuthorGroup> author_groups(const TetMesh& mesh, const BoneBinding& binding)
 {
-    FirstFit fit(mesh.rest.rows());
-    std::vector<AuthorGroup> groups;
+    FirstFit fit{static_cast<std::size_t>(mesh.rest.rows())};
     const Eigen::VectorXd volumes = tet_volumes(mesh.rest, mesh.tets);
     for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t) {
         const std::array<int, 4> vertex = {mesh.tets(t, 0), mesh.tets(t, 1), mesh.tets(t, 2), mesh.tets(t, 3)};
-        group_at(groups, fit.place(vertex)).volume.push_back({vertex, std::abs(volumes(t))});
+        fit.of(vertex).volume.push_back({vertex, std::abs(volumes(t))});
     }
     for (int i = 0; i < static_cast<int>(binding.bone.size()); ++i)
-        group_at(groups, fit.place<1>({i})).bind.push_back({i, binding.bone[i], binding.distance(i)});
+        fit.of<1>({i}).bind.push_back({i, binding.bone[i], binding.distance(i)});
     const Edges edges = edges_by_appearance(mesh.tets);
     for (Eigen::Index e = 0; e < edges.rows(); ++e) {
         const std::array<int, 2> vertex = {edges(e, 0), edges(e, 1)};
         const double rest_length = (mesh.rest.row(vertex[0]) - mesh.rest.row(vertex[1])).norm();
-        group_at(groups, fit.place(vertex)).stretch.push_back({vertex, rest_length});
+        fit.of(vertex).stretch.push_back({vertex, rest_length});
     }
-    return groups;
+    return fit.groups;
 }
 
 }  // namespace pbs

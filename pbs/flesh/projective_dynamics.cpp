@@ -46,12 +46,6 @@ ProjectiveSummary ProjectiveDynamics<Scalar>::minimise(const Positions& centres,
 template class ProjectiveDynamics<float>;
 template class ProjectiveDynamics<double>;
 
-namespace {
-
-constexpr int ends_of_edge[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
-
-}  // namespace
-
 ProjectiveWeights projective_weights(double poisson, bool keeps_volume)
 {
     const FleshMaterial material = flesh_material(poisson);
@@ -105,7 +99,7 @@ double ProjectiveEnergy::value_and_gradient(const Positions& x, const Positions&
         forces.rightCols<3>() = of_tet.columns;
         forces.col(0) = -of_tet.columns.rowwise().sum();
         for (int e = 0; e < 6; ++e) {
-            const auto [i, j] = ends_of_edge[e];
+            const auto [i, j] = edges_of_tet[e];
             const Vec3 edge = corners.col(i) - corners.col(j);
             value += 0.5 * tet.w[e] * edge.squaredNorm();
             forces.col(i) += tet.w[e] * edge;

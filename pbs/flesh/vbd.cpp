@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 namespace pbs {
@@ -238,17 +239,15 @@ private:
 
 }  // namespace
 
-template <>
-std::unique_ptr<VertexSweep<float>> make_vertex_sweep(const TetMesh& mesh, const FleshEnergy& energy, bool, int threads)
+template <typename Scalar>
+std::unique_ptr<VertexSweep<Scalar>> make_vertex_sweep(const TetMesh& mesh, const FleshEnergy& energy, bool packed, int threads)
 {
-    return std::make_unique<PackedVertexSweep<float>>(mesh, energy, threads);
+    if constexpr (std::is_same_v<Scalar, double>)
+        if (!packed) return std::make_unique<PlainVertexSweep>(mesh, energy);
+    return std::make_unique<PackedVertexSweep<Scalar>>(mesh, energy, threads);
 }
 
-template <>
-std::unique_ptr<VertexSweep<double>> make_vertex_sweep(const TetMesh& mesh, const FleshEnergy& energy, bool packed, int threads)
-{
-    if (!packed) return std::make_unique<PlainVertexSweep>(mesh, energy);
-    return std::make_unique<PackedVertexSweep<double>>(mesh, energy, threads);
-}
+template std::unique_ptr<VertexSweep<float>> make_vertex_sweep(const TetMesh&, const FleshEnergy&, bool, int);
+template std::unique_ptr<VertexSweep<double>> make_vertex_sweep(const TetMesh&, const FleshEnergy&, bool, int);
 
 }  // namespace pbs

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <type_traits>
 #include <utility>
 
 namespace pbs {
@@ -162,17 +163,6 @@ std::array<Vec3, 4> gradients_at(const Positions& rest, const Positions&, const 
     return gradient<double>(tet, corner(0), corner(1), corner(2), corner(3));
 }
 
-int vertex_of(const BindConstraint<double>& bind, std::size_t)
-{
-    return bind.vertex;
-}
-
-template <typename Constraint>
-int vertex_of(const Constraint& constraint, std::size_t corner)
-{
-    return constraint.vertex[corner];
-}
-
 }  // namespace
 
 StepNearRest::StepNearRest(const Positions& rest, const Positions& bind_point, int iterations, double step_s, bool forgets_multipliers)
@@ -206,7 +196,10 @@ void StepNearRest::add_gradients(const Constraint& constraint, const std::array<
     std::fill(std::begin(projection.gradient), std::end(projection.gradient), Vec3::Zero());
     std::fill(std::begin(projection.moved), std::end(projection.moved), Vec3::Zero());
     for (std::size_t i = 0; i < count; ++i) {
-        projection.vertex[i] = vertex_of(constraint, i);
+        if constexpr (std::is_same_v<decltype(constraint.vertex), int>)
+            projection.vertex[i] = constraint.vertex;
+        else
+            projection.vertex[i] = constraint.vertex[i];
         const double w = inverse_mass[projection.vertex[i]];
         projection.gradient[i] = gradients[i];
         projection.moved[i] = w * gradients[i];

@@ -7,14 +7,6 @@
 #include <cmath>
 
 namespace pbs {
-namespace {
-
-void check_stiffness(const char* field, double k)
-{
-    if (!(k >= 0.0 && k <= 1.0)) throw InputError("pbs", 0, field, std::to_string(k), "expected 0 <= k <= 1");
-}
-
-}  // namespace
 
 double share_removed(double k, const PbsOptions& options)
 {
@@ -31,9 +23,20 @@ double stiffness_at_length(double k, double l0_m, double length_m)
 
 namespace {
 
+template <typename Number>
+void require(bool holds, const char* field, Number value, const char* rule)
+{
+    if (!holds) throw InputError("pbs", 0, field, std::to_string(value), rule);
+}
+
+void check_stiffness(const char* field, double k)
+{
+    require(k >= 0.0 && k <= 1.0, field, k, "expected 0 <= k <= 1");
+}
+
 void check_volume_of(const PbsOptions& options)
 {
-    if (options.region_tets < 1) throw InputError("pbs", 0, "region_tets", std::to_string(options.region_tets), "expected 1 or more");
+    require(options.region_tets >= 1, "region_tets", options.region_tets, "expected 1 or more");
     if (options.volume_of == VolumeOf::tets) return;
     const char* of = options.volume_of == VolumeOf::regions ? "regions" : "tets_and_regions";
     if (options.sleep) throw InputError("pbs", 0, "volume_of", of, "expected tets with sleep = true: regions do not sleep");
@@ -45,19 +48,17 @@ void check_volume_of(const PbsOptions& options)
 
 void check_options(const PbsOptions& options)
 {
-    if (options.iterations < 0) throw InputError("pbs", 0, "iterations", std::to_string(options.iterations), "expected 0 or more");
+    require(options.iterations >= 0, "iterations", options.iterations, "expected 0 or more");
     check_stiffness("k_stretch", options.k_stretch);
     check_stiffness("k_volume", options.k_volume);
     check_stiffness("k_bind", options.k_bind);
     if (options.jiggle) check_stiffness("jiggle.k_stretch", options.jiggle->k_stretch);
     if (options.jiggle && options.jiggle->k_bind) check_stiffness("jiggle.k_bind", *options.jiggle->k_bind);
-    if (!(options.stop_residual >= 0.0))
-        throw InputError("pbs", 0, "stop_residual", std::to_string(options.stop_residual), "expected 0 or more");
-    if (options.threads < 1) throw InputError("pbs", 0, "threads", std::to_string(options.threads), "expected 1 or more");
-    if (!(options.sleep_tolerance >= 0.0))
-        throw InputError("pbs", 0, "sleep_tolerance", std::to_string(options.sleep_tolerance), "expected 0 or more");
-    if (!(options.k_stretch_length_m >= 0.0) || !std::isfinite(options.k_stretch_length_m))
-        throw InputError("pbs", 0, "k_stretch_length_m", std::to_string(options.k_stretch_length_m), "expected 0 or more, finite");
+    require(options.stop_residual >= 0.0, "stop_residual", options.stop_residual, "expected 0 or more");
+    require(options.threads >= 1, "threads", options.threads, "expected 1 or more");
+    require(options.sleep_tolerance >= 0.0, "sleep_tolerance", options.sleep_tolerance, "expected 0 or more");
+    require(options.k_stretch_length_m >= 0.0 && std::isfinite(options.k_stretch_length_m), "k_stretch_length_m",
+            options.k_stretch_length_m, "expected 0 or more, finite");
     check_volume_of(options);
 }
 
@@ -85,13 +86,10 @@ void check_held(const std::vector<bool>& held, const std::vector<bool>& jiggle_z
 {
     for (std::size_t i = 0; i < held.size(); ++i) {
         if (!held[i]) continue;
-        if (options.jiggle && !jiggle_zone.empty() && jiggle_zone[i])
-            throw InputError("pbs", 0, "held", "vertex " + std::to_string(i), "expected a vertex outside the jiggling zone");
-        if (options.lbs_entry == LbsEntry::increment)
-            throw InputError("pbs", 0, "held", "vertex " + std::to_string(i), "expected none with lbs_entry increment: all are integrated");
-        if (options.volume_form != VolumeForm::derived)
-            throw InputError("pbs", 0, "held", "vertex " + std::to_string(i),
-                             "expected none with a printed volume_form: all masses are one");
+        const auto refuse = [i](const char* rule) { throw InputError("pbs", 0, "held", "vertex " + std::to_string(i), rule); };
+        if (options.jiggle && !jiggle_zone.empty() && jiggle_zone[i]) refuse("expected a vertex outside the jiggling zone");
+        if (options.lbs_entry == LbsEntry::increment) refuse("expected none with lbs_entry increment: all are integrated");
+        if (options.volume_form != VolumeForm::derived) refuse("expected none with a printed volume_form: all masses are one");
     }
 }
 

@@ -13,15 +13,6 @@
 #include <map>
 
 namespace pbs {
-namespace {
-
-void check_numbers(const XpbdOptions& options)
-{
-    if (options.substeps < 1) throw InputError("xpbd", 0, "substeps", std::to_string(options.substeps), "expected 1 or more");
-    if (options.threads < 1) throw InputError("xpbd", 0, "threads", std::to_string(options.threads), "expected 1 or more");
-}
-
-}  // namespace
 
 XpbdSolver::XpbdSolver(const TetMesh& mesh, const Eigen::VectorXd& bind_distance, const std::vector<bool>& jiggle_zone,
                        const XpbdOptions& options, const std::vector<bool>& held)
@@ -32,7 +23,8 @@ XpbdSolver::XpbdSolver(const TetMesh& mesh, const Eigen::VectorXd& bind_distance
       before_(mesh.rest),
       v_(Positions::Zero(mesh.rest.rows(), 3))
 {
-    check_numbers(options);
+    for (const auto& [field, number] : {std::pair("substeps", options.substeps), {"threads", options.threads}})
+        if (number < 1) throw InputError("xpbd", 0, field, std::to_string(number), "expected 1 or more");
     projection_ = make_xpbd_projection(constraints_, mesh.tets, options);
     for (std::size_t i = 0; i < integrated_.size(); ++i) integrated_[i] = options.jiggle && !jiggle_zone.empty() && jiggle_zone[i];
     integrates_ = std::find(integrated_.begin(), integrated_.end(), true) != integrated_.end();
@@ -258,14 +250,6 @@ private:
     std::vector<Point> x_, q_;  // relative to the origin [m], #V
 };
 
-template <typename Scalar>
-std::vector<BindConstraint<Scalar>> rigid_binds(const XpbdConstraints& constraints)
-{
-    std::vector<BindConstraint<Scalar>> binds;
-    for (const auto& [bind, compliance] : constraints.bind) binds.push_back({bind.vertex, Scalar(bind.rest_distance), Scalar(1)});
-    return binds;
-}
-
 // The orders `ordered` and `grouped`: the batches, the slabs and the sequence of BatchedProjection, with a compliance and a multiplier for
 // each constraint. Any machine and any number of threads project alike, and threads give the same bits.
 template <typename Scalar>
@@ -274,7 +258,7 @@ public:
     BatchedXpbdProjection(const XpbdConstraints& constraints, const Tets& tets, Order order, int threads)
         : batched_(make_batched_constraints<Scalar>(constraints, tets, order)),
           parallel_(batched_.order.slabs() >= slabs_worth_threads ? threads : 1),
-          particles_(batched_, {constraints.inverse_mass.begin(), constraints.inverse_mass.end()}, rigid_binds<Scalar>(constraints)),
+          particles_(batched_, {constraints.inverse_mass.begin(), constraints.inverse_mass.end()}, rigid_binds(constraints)),
           stretch_(multipliers_of(batched_.stretch)),
           volume_(multipliers_of(batched_.volume))
     {
@@ -305,6 +289,13 @@ private:
         std::vector<Lambdas> lambdas;                        // by runs, then batches, then constraints
         std::vector<std::vector<std::size_t>> first_of_run;  // of each slab
     };
+
+    static std::vector<BindConstraint<Scalar>> rigid_binds(const XpbdConstraints& constraints)
+    {
+        std::vector<BindConstraint<Scalar>> binds;
+        for (const auto& [bind, compliance] : constraints.bind) binds.push_back({bind.vertex, Scalar(bind.rest_distance), Scalar(1)});
+        return binds;
+    }
 
     static Multipliers multipliers_of(const BatchProgram<Scalar>& program)
     {

@@ -5,6 +5,7 @@
 #include "pbs/geometry/topology.hpp"
 #include "pbs/skinning/delta_mush.hpp"
 #include "tests/support/scalar_rounding.hpp"
+#include "tests/support/two_bone_limb.hpp"
 
 #include <Eigen/LU>
 #include <Eigen/SVD>
@@ -13,6 +14,19 @@
 #include <cmath>
 
 namespace test_support {
+
+// The limb with one more vertex, which no tet uses and the forearm alone moves.
+inline TwoBoneLimb with_loose_vertex(TwoBoneLimb limb)
+{
+    const Eigen::Index last = limb.mesh.rest.rows();
+    limb.mesh.rest.conservativeResize(last + 1, 3);
+    limb.mesh.rest.row(last) << 0.9, 0.5, 0.25;
+    limb.weights.first.push_back(limb.weights.first.back() + 1);
+    limb.weights.bone.push_back(1);
+    limb.weights.weight.push_back(1.0);
+    pbs::linear_blend_skinning(limb.mesh.rest, limb.weights, limb.pose, limb.lbs);
+    return limb;
+}
 
 // Mean positions of the neighbours, again and again, half-way: the default step.
 inline pbs::Positions halfway_smoothed(const pbs::Adjacency& neighbours, pbs::Positions positions, int iterations)

@@ -23,12 +23,13 @@ namespace test_support {
 // disturbances: the last roundings are not damped. Disturbances have the standard deviation size_m / sqrt 3. The largest of sixteen
 // normally distributed changes is less than their standard deviation with a probability of 0.683^16 = 0.2 %, in one coordinate, and there
 // are thousands. In double precision, where rounding is 1e-8 of a disturbance.
-inline double step_condition(const TwoBoneLimb& limb, pbs::PbsOptions options)
+template <typename Solver, typename Options>
+double step_condition(const TwoBoneLimb& limb, Options options)
 {
     options.precision = pbs::Precision::f64;
     constexpr double size_m = 1e-8;
     const auto stepped = [&](const pbs::Positions& lbs) -> pbs::Positions {
-        pbs::PbsSolver solver(limb.mesh, limb.binding.distance, {}, options);
+        Solver solver(limb.mesh, limb.binding.distance, {}, options);
         solver.advance(lbs, limb.bind_points, 0.01);
         return solver.positions();
     };
@@ -84,7 +85,7 @@ inline double added_rounding_m(const TwoBoneLimb& limb, const pbs::PbsOptions& o
 // In the precision of the options [m], for coordinates as large as those of the limb.
 inline double step_rounding_m(const TwoBoneLimb& limb, const pbs::PbsOptions& options)
 {
-    return 6.0 * added_rounding_m(limb, options) * step_condition(limb, options);
+    return 6.0 * added_rounding_m(limb, options) * step_condition<pbs::PbsSolver>(limb, options);
 }
 
 struct ResidualRounding {

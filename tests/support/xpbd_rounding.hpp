@@ -16,21 +16,6 @@ inline pbs::Positions stepped_by_xpbd(const TwoBoneLimb& limb, const pbs::Positi
     return solver.positions();
 }
 
-inline double xpbd_condition(const TwoBoneLimb& limb, pbs::XpbdOptions options)
-{
-    options.precision = pbs::Precision::f64;
-    constexpr double size_m = 1e-8;
-    const pbs::Positions undisturbed = stepped_by_xpbd(limb, limb.lbs, options);
-    RandomPoints random(71);
-    double largest_m = 0.0;
-    for (int draw = 0; draw < 16; ++draw) {
-        pbs::Positions moved = limb.lbs;
-        for (Eigen::Index v = 0; v < moved.rows(); ++v) moved.row(v) += random.point(size_m).transpose();
-        largest_m = std::max(largest_m, (stepped_by_xpbd(limb, moved, options) - undisturbed).cwiseAbs().maxCoeff());
-    }
-    return std::max(1.0, largest_m / (size_m / std::sqrt(3.0)));
-}
-
 // Between two evaluations in the precision of the options [m], for coordinates as large as those of the limb.
 inline double xpbd_rounding_m(const TwoBoneLimb& limb, const pbs::XpbdOptions& options)
 {
@@ -39,7 +24,7 @@ inline double xpbd_rounding_m(const TwoBoneLimb& limb, const pbs::XpbdOptions& o
     rigid.masses = pbs::Masses::lumped;
     rigid.iterations = options.iterations * options.substeps;
     rigid.precision = options.precision;
-    return 2.0 * 2.0 * 6.0 * added_rounding_m(limb, rigid) * xpbd_condition(limb, options);
+    return 2.0 * 2.0 * 6.0 * added_rounding_m(limb, rigid) * step_condition<pbs::XpbdSolver>(limb, options);
 }
 
 }  // namespace test_support

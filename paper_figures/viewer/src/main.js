@@ -59,7 +59,8 @@ class Viewer {
         for (const { whole } of this.panel_elements ?? []) whole.remove();
         const options = this.run.deformers.map((deformer) => [deformer.label, deformer.title]);
         this.panel_elements = now.panels.map((label, at) => {
-            const choice = select(`deformer of panel ${at + 1}`, options, (chosen) => this.choose(at, chosen));
+            const choose = (chosen) => this.user({ panels: now.panels.map((shown, place) => place === at ? chosen : shown) });
+            const choice = select(`deformer of panel ${at + 1}`, options, choose);
             choice.value = label;
             const { title, colour } = this.run.deformer(label);
             const name = `${title}: arrows turn, plus and minus zoom`;
@@ -73,12 +74,6 @@ class Viewer {
         this.panels_element.classList.toggle("vw-wide", is_wide(this.run));
         this.panels = now.panels.map(() => new Panel());
         this.views.show(this.panel_elements.map((made) => made.view), this.panels.map((panel) => panel.contents));
-    }
-
-    choose(at, label) {
-        const panels = [...this.state.now.panels];
-        panels[at] = label;
-        this.user({ panels });
     }
 
     update(now, changed) {
@@ -138,40 +133,31 @@ class Viewer {
         const now = () => this.state.now, last = () => this.run.frames.length - 1;
         const go = (at) => this.user({ at: Math.min(last(), Math.max(0, at)), playing: false });
         const cut = (changes) => now().cut && this.user({ cut: { ...now().cut, ...changes } });
+        const toggle = (key) => () => this.user({ [key]: !now()[key] });
+        const moved = (action) => (...by) => {
+            action(...by);
+            this.redraw();
+        };
+        const cut_axis = (axis) => {
+            if (!axis) return this.user({ cut: null });
+            const [low, high] = this.run.rest_range(axis);
+            this.user({ cut: { axis, at_m: (low + high) / 2, above: false } });
+        };
         return {
-            run: (name) => this.choose_run(name),
+            run: (name) => {
+                const run = this.data.runs.find((one) => one.name === name);
+                this.user({ run: name, at: 0, panels: panels_for(run), cut: null, playing: false });
+            },
             at: go, step: (by) => go(now().at + by), first: () => go(0), last: () => go(last()),
-            play: () => this.user({ playing: !now().playing }),
+            play: toggle("playing"), bones: toggle("bones"), follow: toggle("follow"), shifting: toggle("shifting"),
             colour: (colour) => this.user({ colour }),
-            rendered: () => no_surface_because(this.run, now()) === null && this.user({ rendered: !now().rendered }),
-            bones: () => this.user({ bones: !now().bones }),
-            follow: () => this.user({ follow: !now().follow }),
-            shifting: () => this.user({ shifting: !now().shifting }),
-            cut: () => this.cut_axis(now().cut ? "" : "z"),
-            cut_axis: (axis) => this.cut_axis(axis),
+            rendered: () => no_surface_because(this.run, now()) === null && toggle("rendered")(),
+            cut: () => cut_axis(now().cut ? "" : "z"), cut_axis,
             cut_at: (at_m) => cut({ at_m }), cut_side: () => cut({ above: !now().cut.above }),
             move_cut: (by) => cut({ at_m: this.run.stepped(now().cut, by) }),
-            turn: (around, up) => this.moved(() => this.views.turn(around, up)),
-            shift: (right, up) => this.moved(() => this.views.shift(right, up)),
-            zoom: (factor) => this.moved(() => this.views.zoom(factor)),
-            reset: () => this.moved(() => this.views.first(this.run, now())),
+            turn: moved((around, up) => this.views.turn(around, up)), shift: moved((right, up) => this.views.shift(right, up)),
+            zoom: moved((factor) => this.views.zoom(factor)), reset: moved(() => this.views.first(this.run, now())),
         };
-    }
-
-    choose_run(name) {
-        const run = this.data.runs.find((one) => one.name === name);
-        this.user({ run: name, at: 0, panels: panels_for(run), cut: null, playing: false });
-    }
-
-    cut_axis(axis) {
-        if (!axis) return this.user({ cut: null });
-        const [low, high] = this.run.rest_range(axis);
-        this.user({ cut: { axis, at_m: (low + high) / 2, above: false } });
-    }
-
-    moved(action) {
-        action();
-        this.redraw();
     }
 }
 

@@ -141,42 +141,6 @@ double BatchProgram<Scalar>::fill() const
 template class BatchProgram<float>;
 template class BatchProgram<double>;
 
-namespace {
-
-template <typename Constraints>
-auto vertices_of_class(const Constraints& constraints)
-{
-    std::vector<decltype(constraints.front().vertex)> vertices;
-    vertices.reserve(constraints.size());
-    for (const auto& constraint : constraints) vertices.push_back(constraint.vertex);
-    return vertices;
-}
-
-template <typename Scalar>
-ConstraintValues<Scalar> stretch_values(const ConstraintSet<Scalar>& constraints)
-{
-    ConstraintValues<Scalar> values;
-    for (const StretchConstraint<Scalar>& edge : constraints.stretch) {
-        const Scalar w = constraints.inverse_mass[edge.vertex[0]] + constraints.inverse_mass[edge.vertex[1]];
-        values.rest.push_back(edge.rest_length);
-        values.stiffness.push_back(w > Scalar(0) ? edge.stiffness / w : Scalar(0));
-    }
-    return values;
-}
-
-template <typename Scalar>
-ConstraintValues<Scalar> volume_values(const ConstraintSet<Scalar>& constraints)
-{
-    ConstraintValues<Scalar> values;
-    for (const VolumeConstraint<Scalar>& tet : constraints.volume) {
-        values.rest.push_back(Scalar(6) * tet.rest_volume);
-        values.stiffness.push_back(tet.stiffness);
-    }
-    return values;
-}
-
-}  // namespace
-
 template <typename Scalar>
 BatchedConstraints<Scalar> make_batched_constraints(const ConstraintClassData<Scalar, 2>& stretch,
                                                     const ConstraintClassData<Scalar, 4>& volume, int vertices, const Tets& tets,
@@ -195,8 +159,19 @@ BatchedConstraints<Scalar> make_batched_constraints(const ConstraintClassData<Sc
 template <typename Scalar>
 BatchedConstraints<Scalar> make_batched_constraints(const ConstraintSet<Scalar>& constraints, const Tets& tets, Order order)
 {
-    const ConstraintClassData<Scalar, 2> stretch{vertices_of_class(constraints.stretch), stretch_values(constraints)};
-    const ConstraintClassData<Scalar, 4> volume{vertices_of_class(constraints.volume), volume_values(constraints)};
+    ConstraintClassData<Scalar, 2> stretch;
+    for (const StretchConstraint<Scalar>& edge : constraints.stretch) {
+        const Scalar w = constraints.inverse_mass[edge.vertex[0]] + constraints.inverse_mass[edge.vertex[1]];
+        stretch.vertex.push_back(edge.vertex);
+        stretch.values.rest.push_back(edge.rest_length);
+        stretch.values.stiffness.push_back(w > Scalar(0) ? edge.stiffness / w : Scalar(0));
+    }
+    ConstraintClassData<Scalar, 4> volume;
+    for (const VolumeConstraint<Scalar>& tet : constraints.volume) {
+        volume.vertex.push_back(tet.vertex);
+        volume.values.rest.push_back(Scalar(6) * tet.rest_volume);
+        volume.values.stiffness.push_back(tet.stiffness);
+    }
     return make_batched_constraints(stretch, volume, static_cast<int>(constraints.inverse_mass.size()), tets, order);
 }
 

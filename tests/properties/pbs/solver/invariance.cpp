@@ -131,7 +131,7 @@ TEST(StepInvariance, UnusedVerticesChangeNoBit)
 }
 
 // Eq. 3 for whole iterations of stretch and volume. Bind is left out, since its bone takes the reaction. (Eq. 4 holds for each projection
-// about its initial positions, which the previous projections have moved: see constraints/momentum.)
+// about its initial positions, which the previous projections have moved.)
 TEST(StepInvariance, LinearMomentumOfStretchAndVolumeIsConserved)
 {
     for (const auto& [precision, tolerance] : settings)

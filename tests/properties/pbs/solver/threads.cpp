@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
 
 #ifdef PBS_WITH_THREADS
 #include <tbb/global_control.h>
@@ -32,21 +33,28 @@ const tbb::global_control four_threads(tbb::global_control::max_allowed_parallel
 const TwoBoneLimb limb = two_bone_limb({550, 6, 6}, Vec3::UnitZ(), 60.0);  // 26,999 vertices
 const Order batched_orders[] = {Order::ordered, Order::grouped};
 
+template <typename Solver>
+using OptionsOf = std::conditional_t<std::is_same_v<Solver, pbs::PbsSolver>, PbsOptions, pbs::XpbdOptions>;
+
 // The hash after three steps, with one jiggling half.
+template <typename Solver>
 std::string hash_of_run(Order order, Precision precision, int threads)
 {
-    PbsOptions options;
+    OptionsOf<Solver> options;
     options.order = order;
     options.precision = precision;
     options.threads = threads;
     options.iterations = 2;
-    options.jiggle = pbs::Jiggle{0.1};
+    if constexpr (std::is_same_v<Solver, pbs::PbsSolver>)
+        options.jiggle = pbs::Jiggle{0.1};
+    else
+        options.substeps = 2, options.jiggle = true;
     std::vector<bool> jiggles(limb.lbs.rows());
     for (Eigen::Index i = 0; i < limb.lbs.rows(); ++i) jiggles[i] = limb.mesh.rest(i, 0) > 0.0;
-    pbs::PbsSolver solver(limb.mesh, limb.binding.distance, jiggles, options);
+    Solver solver(limb.mesh, limb.binding.distance, jiggles, options);
     analysis::StateHash hash;
-    for (int step = 0; step < 3; ++step) {
-        solver.advance(step == 0 ? limb.mesh.rest : limb.lbs, limb.bind_points, 0.01);
+    for (const auto* lbs : {&limb.mesh.rest, &limb.lbs, &limb.lbs}) {
+        solver.advance(*lbs, limb.bind_points, 0.01);
         hash.add(solver.positions());
     }
     return hash.hex();
@@ -59,13 +67,30 @@ TEST(Threads, TheMeshHasSlabsForFourThreadsAtOnce)
     EXPECT_GE(pbs::make_batched_constraints(constraints, limb.mesh.tets, Order::ordered).order.slabs(), 8);
 }
 
-TEST(Threads, OneTwoAndFourGiveTheSameBits)
+template <typename Solver>
+class ThreadsOf : public testing::Test {
+};
+using Solvers = testing::Types<pbs::PbsSolver, pbs::XpbdSolver>;
+TYPED_TEST_SUITE(ThreadsOf, Solvers);
+
+TYPED_TEST(ThreadsOf, OneTwoAndFourGiveTheSameBitsAndOthersInEachCode)
 {
+    std::set<std::string> hashes;
     for (const Order order : batched_orders)
         for (const Precision precision : {Precision::f32, Precision::f64}) {
-            const std::string alone = hash_of_run(order, precision, 1);
-            for (const int threads : {2, 4}) EXPECT_EQ(hash_of_run(order, precision, threads), alone) << threads << " threads";
+            const std::string alone = hash_of_run<TypeParam>(order, precision, 1);
+            for (const int threads : {2, 4}) EXPECT_EQ(hash_of_run<TypeParam>(order, precision, threads), alone) << threads << " threads";
+            hashes.insert(alone);
         }
+    hashes.insert(hash_of_run<TypeParam>(Order::plain, Precision::f32, 1));
+    EXPECT_EQ(hashes.size(), 5u) << "orders and precisions differ";
+}
+
+TYPED_TEST(ThreadsOf, RunsRepeatToTheBit)
+{
+    for (const Order order : {Order::plain, Order::ordered, Order::grouped})
+        for (const int threads : {1, 2})
+            EXPECT_EQ(hash_of_run<TypeParam>(order, Precision::f32, threads), hash_of_run<TypeParam>(order, Precision::f32, threads));
 }
 
 // Regions lie across slabs and are projected after them; the blended position is a target of each vertex alone.
@@ -90,46 +115,6 @@ TEST(Threads, ChangesToTheMethodGiveTheSameBits)
         for (const int threads : {2, 4}) EXPECT_EQ(hash(volume_of, threads), alone) << threads << " threads";
     }
     EXPECT_NE(hash(pbs::VolumeOf::regions, 1), hash(pbs::VolumeOf::tets, 1));
-}
-
-// The hash of XPBD after two steps of two substeps, with one jiggling half.
-std::string hash_of_xpbd(Order order, Precision precision, int threads)
-{
-    std::vector<bool> jiggles(limb.lbs.rows());
-    for (Eigen::Index i = 0; i < limb.lbs.rows(); ++i) jiggles[i] = limb.mesh.rest(i, 0) > 0.0;
-    pbs::XpbdSolver solver(limb.mesh, limb.binding.distance, jiggles,
-                           {.iterations = 2, .substeps = 2, .jiggle = true, .order = order, .precision = precision, .threads = threads});
-    analysis::StateHash hash;
-    for (const auto* lbs : {&limb.mesh.rest, &limb.lbs}) {
-        solver.advance(*lbs, limb.bind_points, 0.01);
-        hash.add(solver.positions());
-    }
-    return hash.hex();
-}
-
-TEST(Threads, OneTwoAndFourGiveTheSameBitsOfXpbd)
-{
-    for (const Order order : batched_orders)
-        for (const Precision precision : {Precision::f32, Precision::f64}) {
-            const std::string alone = hash_of_xpbd(order, precision, 1);
-            for (const int threads : {2, 4}) EXPECT_EQ(hash_of_xpbd(order, precision, threads), alone) << threads << " threads";
-        }
-}
-
-TEST(Threads, RunsRepeatToTheBit)
-{
-    for (const Order order : {Order::plain, Order::ordered, Order::grouped})
-        for (const int threads : {1, 2})
-            EXPECT_EQ(hash_of_run(order, Precision::f32, threads), hash_of_run(order, Precision::f32, threads));
-}
-
-TEST(Threads, OrdersAndPrecisionsDiffer)
-{
-    EXPECT_NE(hash_of_xpbd(Order::ordered, Precision::f32, 1), hash_of_xpbd(Order::grouped, Precision::f32, 1));
-    EXPECT_NE(hash_of_xpbd(Order::ordered, Precision::f32, 1), hash_of_xpbd(Order::ordered, Precision::f64, 1));
-    EXPECT_NE(hash_of_run(Order::plain, Precision::f32, 1), hash_of_run(Order::ordered, Precision::f32, 1));
-    EXPECT_NE(hash_of_run(Order::ordered, Precision::f32, 1), hash_of_run(Order::grouped, Precision::f32, 1));
-    EXPECT_NE(hash_of_run(Order::ordered, Precision::f32, 1), hash_of_run(Order::ordered, Precision::f64, 1));
 }
 
 struct alignas(64) Block {

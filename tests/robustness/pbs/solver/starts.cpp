@@ -84,9 +84,9 @@ double farthest(const Positions& positions)
 }
 
 template <typename Expect>
-void for_each_start_and_order(Expect expect)
+void for_each_start_and_order(Expect expect, const std::vector<Start>& from = starts())
 {
-    for (const auto& [name, start] : starts())
+    for (const auto& [name, start] : from)
         for (const Order order : {Order::plain, Order::ordered, Order::grouped})
             for (const Precision precision : {Precision::f32, Precision::f64}) {
                 SCOPED_TRACE(testing::Message() << name << " order " << int(order) << " precision " << int(precision));
@@ -119,28 +119,20 @@ TEST(Starts, WithoutBindAreFiniteWherePlainIs)
 // In a point, the corrections of edges and tets have no direction; the result has the same bits.
 TEST(Starts, APointWithoutBindStays)
 {
-    for (const Order order : {Order::plain, Order::ordered, Order::grouped})
-        for (const Precision precision : {Precision::f32, Precision::f64})
-            EXPECT_EQ(stepped(scaled(0, 0, 0), order, precision, 0.0).positions, scaled(0, 0, 0));
+    for_each_start_and_order(
+        [](const Positions& point, Order order, Precision precision) { EXPECT_EQ(stepped(point, order, precision, 0.0).positions, point); },
+        {{"a point", scaled(0, 0, 0)}});
 }
 
-TEST(Starts, NotANumberIsAnOutcomeInEveryOrder)
+// The outcome is that of plain, never a hang or an exception.
+TEST(Starts, WhatIsNotFiniteIsAnOutcomeInEveryOrder)
 {
-    Positions start = limb.lbs;
-    start(100, 2) = std::numeric_limits<double>::quiet_NaN();
-    for (const Order order : {Order::plain, Order::ordered, Order::grouped})
-        for (const Precision precision : {Precision::f32, Precision::f64})
-            EXPECT_EQ(stepped(start, order, precision, 1.0).outcome, Outcome::not_finite);
-}
-
-// Infinite and huge coordinates: the outcome is that of plain, never a hang or an exception.
-TEST(Starts, InfiniteCoordinatesAreAnOutcomeInEveryOrder)
-{
-    Positions start = limb.lbs;
-    start(100, 2) = std::numeric_limits<double>::infinity();
-    for (const Order order : {Order::plain, Order::ordered, Order::grouped})
-        for (const Precision precision : {Precision::f32, Precision::f64})
-            EXPECT_EQ(stepped(start, order, precision, 1.0).outcome, Outcome::not_finite);
+    Positions not_a_number = limb.lbs, infinite = limb.lbs;
+    not_a_number(100, 2) = std::numeric_limits<double>::quiet_NaN();
+    infinite(100, 2) = std::numeric_limits<double>::infinity();
+    for_each_start_and_order([](const Positions& start, Order order,
+                                Precision precision) { EXPECT_EQ(stepped(start, order, precision, 1.0).outcome, Outcome::not_finite); },
+                             {{"not a number", not_a_number}, {"infinite", infinite}});
 }
 
 }  // namespace

@@ -81,15 +81,17 @@ TEST(AuthorStretch, IsThatOfThePaper)
 
 TEST(AuthorStretch, HasAStiffnessForEachSign)
 {
-    const Points from = {{0, 0, 0}, {4, 0, 0}};
-    Points x = from;
-    project(pbs::AuthorStretch{{0, 1}, 2.0}, {1.0, 0.0, 1.0, 1.0, 0.0}, x);
-    EXPECT_EQ(x, from);
-    project(pbs::AuthorStretch{{0, 1}, 2.0}, {0.0, 0.5, 0.0, 0.0, 0.0}, x);
-    EXPECT_EQ(x, (Points{{0.5, 0, 0}, {3.5, 0, 0}}));
-    x = from;
-    project(pbs::AuthorStretch{{0, 1}, 8.0}, {0.5, 0.0, 0.0, 0.0, 0.0}, x);
-    EXPECT_EQ(x, (Points{{-1, 0, 0}, {5, 0, 0}}));
+    struct Case {
+        double k_compression, k_stretch, rest_length;
+        Points expected;
+    };
+    for (const auto& [k_compression, k_stretch, rest_length, expected] : {Case{1.0, 0.0, 2.0, {{0, 0, 0}, {4, 0, 0}}},
+                                                                          {0.0, 0.5, 2.0, {{0.5, 0, 0}, {3.5, 0, 0}}},
+                                                                          {0.5, 0.0, 8.0, {{-1, 0, 0}, {5, 0, 0}}}}) {
+        Points x = {{0, 0, 0}, {4, 0, 0}};
+        project(pbs::AuthorStretch{{0, 1}, rest_length}, {k_compression, k_stretch, 1.0, 1.0, 0.0}, x);
+        EXPECT_EQ(x, expected);
+    }
 }
 
 TEST(AuthorStretch, OfAnEdgeWithoutLengthMovesNothing)
@@ -100,31 +102,25 @@ TEST(AuthorStretch, OfAnEdgeWithoutLengthMovesNothing)
     EXPECT_EQ(x, from);
 }
 
-const std::vector<pbs::BoneSegment> bones = {{{0, 0, 0}, {4, 0, 0}}, {{1, 1, 1}, {1, 1, 1}}};
-
-pbs::Vector3<double> bound(const pbs::Vector3<double>& p, int bone, double distance)
-{
-    Points x = {p};
-    project(pbs::AuthorBind{0, bone, distance}, bones, all_one, x);
-    return x[0];
-}
-
 TEST(AuthorBind, MovesHalfOfTheWayToTheDistanceFromTheSegment)
 {
-    EXPECT_EQ(bound({1, 4, 0}, 0, 2.0), (pbs::Vector3<double>(1, 3, 0)));
-    EXPECT_EQ(bound({1, 0, 4}, 0, 8.0), (pbs::Vector3<double>(1, 0, 6)));
-    EXPECT_EQ(bound({8, 0, 0}, 0, 2.0), (pbs::Vector3<double>(7, 0, 0)));    // beyond the tail
-    EXPECT_EQ(bound({-4, 0, 0}, 0, 2.0), (pbs::Vector3<double>(-3, 0, 0)));  // beyond the head
-}
-
-TEST(AuthorBind, OfAVertexOnItsBoneMovesNothing)
-{
-    EXPECT_EQ(bound({1, 0, 0}, 0, 2.0), (pbs::Vector3<double>(1, 0, 0)));
-}
-
-TEST(AuthorBind, TakesTheHeadOfABoneWithoutLength)
-{
-    EXPECT_EQ(bound({1, 1, 5}, 1, 2.0), (pbs::Vector3<double>(1, 1, 4)));
+    const std::vector<pbs::BoneSegment> bones = {{{0, 0, 0}, {4, 0, 0}}, {{1, 1, 1}, {1, 1, 1}}};
+    struct Case {
+        const char* name;
+        pbs::Vector3<double> from;
+        int bone;
+        double distance;
+        pbs::Vector3<double> to;
+    };
+    for (const auto& [name, from, bone, distance, to] :
+         {Case{"beside the bone", {1, 4, 0}, 0, 2.0, {1, 3, 0}}, Case{"too near", {1, 0, 4}, 0, 8.0, {1, 0, 6}},
+          Case{"beyond the tail", {8, 0, 0}, 0, 2.0, {7, 0, 0}}, Case{"beyond the head", {-4, 0, 0}, 0, 2.0, {-3, 0, 0}},
+          Case{"a vertex on its bone stays", {1, 0, 0}, 0, 2.0, {1, 0, 0}},
+          Case{"a bone without length is its head", {1, 1, 5}, 1, 2.0, {1, 1, 4}}}) {
+        Points x = {from};
+        project(pbs::AuthorBind{0, bone, distance}, bones, all_one, x);
+        EXPECT_EQ(x[0], to) << name;
+    }
 }
 
 }  // namespace

@@ -11,9 +11,9 @@
 #include <map>
 #include <set>
 
-// First-fit colouring over all kinds of constraints together. Reference: the rule in author_solver.hpp, by hand.
-
 namespace {
+
+// First-fit colouring over all kinds of constraints together.
 
 // Two tets that share the face 1, 2, 3.
 const pbs::TetMesh two_tets = [] {
@@ -33,19 +33,24 @@ TEST(AuthorGroups, EdgesAreListedAsTheyFirstAppear)
     EXPECT_EQ(pbs::edges_by_appearance(two_tets.tets), expected);
 }
 
+// The vertices of each constraint, by tets, vertices and edges.
+std::vector<std::vector<int>> vertices_of(const pbs::AuthorGroup& group)
+{
+    std::vector<std::vector<int>> vertices;
+    for (const auto& constraint : group.volume) vertices.emplace_back(constraint.vertex.begin(), constraint.vertex.end());
+    for (const auto& constraint : group.bind) vertices.push_back({constraint.vertex});
+    for (const auto& constraint : group.stretch) vertices.emplace_back(constraint.vertex.begin(), constraint.vertex.end());
+    return vertices;
+}
+
 // Tet 0 leaves vertex 4 free in group 0, and tet 1 leaves vertex 0 free in group 1. The binds of 4 and 0 join these groups; the others open
 // group 2. The edges 0-1, 0-2 and 0-3 open groups 3 to 5, which their opposite edges 2-3, 1-3 and 1-2 join. Vertex 4 is still free there,
 // but the other end of each of its edges is not: each of them opens a group of its own.
 TEST(AuthorGroups, EachConstraintJoinsTheFirstGroupWithoutItsVertices)
 {
-    const auto groups = pbs::author_groups(two_tets, pbs::bind_to_nearest_bone(two_tets.rest, one_bone));
     std::vector<std::vector<std::vector<int>>> found;
-    for (const pbs::AuthorGroup& group : groups) {
-        found.emplace_back();
-        for (const auto& constraint : group.volume) found.back().emplace_back(constraint.vertex.begin(), constraint.vertex.end());
-        for (const auto& constraint : group.bind) found.back().push_back({constraint.vertex});
-        for (const auto& constraint : group.stretch) found.back().emplace_back(constraint.vertex.begin(), constraint.vertex.end());
-    }
+    for (const pbs::AuthorGroup& group : pbs::author_groups(two_tets, pbs::bind_to_nearest_bone(two_tets.rest, one_bone)))
+        found.push_back(vertices_of(group));
     const decltype(found) expected = {{{0, 1, 2, 3}, {4}},
                                       {{4, 2, 1, 3}, {0}},
                                       {{1}, {2}, {3}},
@@ -60,19 +65,16 @@ TEST(AuthorGroups, EachConstraintJoinsTheFirstGroupWithoutItsVertices)
 
 TEST(AuthorGroups, ShareNoVertexAndHoldEachConstraintOnce)
 {
-    const auto limb = test_support::two_bone_limb({8, 2, 2}, {0, 0, 1}, 0.0);
-    Eigen::Index tets = 0, binds = 0, edges = 0;
-    for (const pbs::AuthorGroup& group : pbs::author_groups(limb.mesh, limb.binding)) {
-        std::vector<int> vertices;
-        for (const auto& constraint : group.volume) vertices.insert(vertices.end(), constraint.vertex.begin(), constraint.vertex.end());
-        for (const auto& constraint : group.bind) vertices.push_back(constraint.vertex);
-        for (const auto& constraint : group.stretch) vertices.insert(vertices.end(), constraint.vertex.begin(), constraint.vertex.end());
-        EXPECT_EQ(std::set<int>(vertices.begin(), vertices.end()).size(), vertices.size());
-        tets += group.volume.size(), binds += group.bind.size(), edges += group.stretch.size();
+    const auto body = test_support::two_bone_limb({8, 2, 2}, {0, 0, 1}, 0.0);
+    Eigen::Index constraints = 0;
+    for (const pbs::AuthorGroup& group : pbs::author_groups(body.mesh, body.binding)) {
+        std::set<int> used;
+        for (const std::vector<int>& vertices : vertices_of(group)) {
+            for (const int vertex : vertices) EXPECT_TRUE(used.insert(vertex).second) << vertex;
+            ++constraints;
+        }
     }
-    EXPECT_EQ(tets, limb.mesh.tets.rows());
-    EXPECT_EQ(binds, limb.mesh.rest.rows());
-    EXPECT_EQ(edges, pbs::edges_by_appearance(limb.mesh.tets).rows());
+    EXPECT_EQ(constraints, body.mesh.tets.rows() + body.mesh.rest.rows() + pbs::edges_by_appearance(body.mesh.tets).rows());
 }
 
 TEST(AuthorGroups, RestDataAreThoseOfTheMesh)
@@ -86,7 +88,7 @@ TEST(AuthorGroups, RestDataAreThoseOfTheMesh)
     EXPECT_EQ(groups[2].bind[0].distance, 1.0);
 }
 
-// Eq. 2 as the published code reads it. Reference: the rule in author_solver.hpp, by hand.
+// Eq. 2 as the published code reads it.
 
 using pbs::Vec3;
 
@@ -97,47 +99,30 @@ const pbs::Skeleton skeleton = {{{"root", -1, Vec3(0, 0, 0), Vec3(6, 0, 0)},
                                  {"middle", 0, Vec3(3, 0, 4), Vec3(3, 0, 10)},
                                  {"point", 1, Vec3(20, 20, 20), Vec3(20, 20, 20)}}};
 
-std::map<int, double> weights_at(const Vec3& vertex)
+TEST(AuthorWeights, OfEachPartOfABone)
 {
-    const pbs::Positions rest = vertex.transpose();
-    const pbs::Weights weights = pbs::author_weights(pbs::bind_to_nearest_bone(rest, skeleton), skeleton);
-    std::map<int, double> by_bone;
-    for (int entry = weights.first[0]; entry < weights.first[1]; ++entry) by_bone[weights.bone[entry]] = weights.weight[entry];
-    return by_bone;
-}
-
-using Expected = std::map<int, double>;
-
-TEST(AuthorWeights, GiveTheMiddleToTheBoneAlone)
-{
-    EXPECT_EQ(weights_at({3.0, 0.1, 0.0}), (Expected{{0, 1.0}}));
-}
-
-TEST(AuthorWeights, GiveTheHeadOfARootToTheRootAlone)
-{
-    EXPECT_EQ(weights_at({0.5, 0.1, 0.0}), (Expected{{0, 1.0}}));
-    EXPECT_EQ(weights_at({-1.0, 0.1, 0.0}), (Expected{{0, 1.0}}));
-}
-
-TEST(AuthorWeights, ShareTheTailWithAllChildrenWhereverTheyStart)
-{
-    EXPECT_EQ(weights_at({5.5, 0.0, 0.1}), (Expected{{0, 0.25}, {1, 0.25}, {2, 0.25}, {3, 0.25}}));
-}
-
-TEST(AuthorWeights, ShareTheHeadWithTheParentButNotWithSiblings)
-{
-    EXPECT_EQ(weights_at({6.0, 0.5, 0.1}), (Expected{{1, 0.5}, {0, 0.5}}));
-    EXPECT_EQ(weights_at({3.0, 0.0, 4.5}), (Expected{{3, 0.5}, {0, 0.5}}));
-}
-
-TEST(AuthorWeights, GiveATailWithoutChildrenToTheBoneAlone)
-{
-    EXPECT_EQ(weights_at({6.0, -5.9, 0.0}), (Expected{{2, 1.0}}));
-}
-
-TEST(AuthorWeights, TakeTheHeadOfABoneWithoutLength)
-{
-    EXPECT_EQ(weights_at({20.0, 20.0, 21.0}), (Expected{{4, 0.5}, {1, 0.5}}));
+    struct Case {
+        const char* name;
+        Vec3 vertex;
+        std::map<int, double> expected;  // by bone
+    };
+    const Case cases[] = {
+        {"the middle belongs to the bone alone", {3.0, 0.1, 0.0}, {{0, 1.0}}},
+        {"the head of a root belongs to the root alone", {0.5, 0.1, 0.0}, {{0, 1.0}}},
+        {"before the head of a root", {-1.0, 0.1, 0.0}, {{0, 1.0}}},
+        {"the tail is shared with all children, wherever they start", {5.5, 0.0, 0.1}, {{0, 0.25}, {1, 0.25}, {2, 0.25}, {3, 0.25}}},
+        {"the head is shared with the parent, not with siblings", {6.0, 0.5, 0.1}, {{1, 0.5}, {0, 0.5}}},
+        {"the head of the child at the middle", {3.0, 0.0, 4.5}, {{3, 0.5}, {0, 0.5}}},
+        {"a tail without children belongs to the bone alone", {6.0, -5.9, 0.0}, {{2, 1.0}}},
+        {"a bone without length is its head", {20.0, 20.0, 21.0}, {{4, 0.5}, {1, 0.5}}},
+    };
+    for (const auto& [name, vertex, expected] : cases) {
+        const pbs::Positions rest = vertex.transpose();
+        const pbs::Weights weights = pbs::author_weights(pbs::bind_to_nearest_bone(rest, skeleton), skeleton);
+        std::map<int, double> by_bone;
+        for (int entry = weights.first[0]; entry < weights.first[1]; ++entry) by_bone[weights.bone[entry]] = weights.weight[entry];
+        EXPECT_EQ(by_bone, expected) << name;
+    }
 }
 
 using pbs::AuthorOptions;
@@ -145,12 +130,12 @@ using pbs::AuthorSolver;
 using pbs::Positions;
 using test_support::rounding_error;
 
-const test_support::TwoBoneLimb limb = test_support::two_bone_limb({16, 4, 4}, Vec3::UnitZ(), 60.0);
+const test_support::TwoBoneLimb body = test_support::two_bone_limb({16, 4, 4}, Vec3::UnitZ(), 60.0);
 constexpr int constraints_at_a_vertex = 50;
 
 AuthorSolver solver_with(const AuthorOptions& options)
 {
-    return {limb.mesh, limb.skeleton, limb.binding, options};
+    return {body.mesh, body.skeleton, body.binding, options};
 }
 
 pbs::Pose moved(const Vec3& offset_m)
@@ -160,7 +145,7 @@ pbs::Pose moved(const Vec3& offset_m)
 
 Positions rest_moved(const Vec3& offset_m)
 {
-    return limb.mesh.rest.rowwise() + offset_m.transpose();
+    return body.mesh.rest.rowwise() + offset_m.transpose();
 }
 
 double largest(const Positions& difference)
@@ -172,26 +157,26 @@ double largest(const Positions& difference)
 TEST(AuthorSolver, RestStaysAtRest)
 {
     AuthorSolver solver = solver_with({});
-    EXPECT_EQ(solver.positions(), limb.mesh.rest);
+    EXPECT_EQ(solver.positions(), body.mesh.rest);
     EXPECT_EQ(solver.advance(moved(Vec3::Zero())).iterations, 12);
-    EXPECT_LT(largest(solver.positions() - limb.mesh.rest), rounding_error(12 * constraints_at_a_vertex, 1.0));
+    EXPECT_LT(largest(solver.positions() - body.mesh.rest), rounding_error(12 * constraints_at_a_vertex, 1.0));
 }
 
 TEST(AuthorSolver, WithoutIterationsTheFirstFrameIsLbs)
 {
     AuthorSolver solver = solver_with({.iterations = 0});
-    solver.advance(limb.pose);
+    solver.advance(body.pose);
     Positions lbs;
-    pbs::linear_blend_skinning(limb.mesh.rest, pbs::author_weights(limb.binding, limb.skeleton), limb.pose, lbs);
+    pbs::linear_blend_skinning(body.mesh.rest, pbs::author_weights(body.binding, body.skeleton), body.pose, lbs);
     EXPECT_LT(largest(solver.positions() - lbs), rounding_error(20, 2.0));  // blends of another order of operations
 }
 
 TEST(AuthorSolver, RestoresVolumeThatBlendingLost)
 {
     const auto lost = [](const Positions& positions) {
-        return pbs::tet_volumes(limb.mesh.rest, limb.mesh.tets).sum() - pbs::tet_volumes(positions, limb.mesh.tets).sum();
+        return pbs::tet_volumes(body.mesh.rest, body.mesh.tets).sum() - pbs::tet_volumes(positions, body.mesh.tets).sum();
     };
-    const pbs::Pose twisted = pbs::joint_sweep(limb.skeleton, 1, Vec3::UnitX(), 90.0, 2, 0.01).steps.back();
+    const pbs::Pose twisted = pbs::joint_sweep(body.skeleton, 1, Vec3::UnitX(), 90.0, 2, 0.01).steps.back();
     AuthorSolver blended = solver_with({.iterations = 0}), projected = solver_with({});
     blended.advance(twisted), projected.advance(twisted);
     EXPECT_GT(lost(blended.positions()), 0.0);
@@ -226,7 +211,7 @@ TEST(AuthorSolver, TheTimeStepCancelsWithoutGravity)
 {
     AuthorSolver one = solver_with({.time_step_s = 0.125}), other = solver_with({.time_step_s = 0.5});  // powers of two are exact
     for (AuthorSolver* solver : {&one, &other}) {
-        solver->advance(limb.pose);
+        solver->advance(body.pose);
         solver->advance(moved({0.0, 0.5, 0.0}));
     }
     EXPECT_EQ(one.positions(), other.positions());
@@ -235,9 +220,9 @@ TEST(AuthorSolver, TheTimeStepCancelsWithoutGravity)
 TEST(AuthorSolver, DoesNotStepAPoseThatEqualsTheLastOne)
 {
     AuthorSolver solver = solver_with({});
-    solver.advance(limb.pose);
+    solver.advance(body.pose);
     const Positions before = solver.positions();
-    EXPECT_EQ(solver.advance(limb.pose).iterations, 0);
+    EXPECT_EQ(solver.advance(body.pose).iterations, 0);
     EXPECT_EQ(solver.positions(), before);
     EXPECT_EQ(solver.advance(moved(Vec3::Zero())).iterations, 12);
     EXPECT_NE(solver.positions(), before);
@@ -249,7 +234,7 @@ TEST(AuthorSolver, TheUnitOfLengthDecidesWhichTetsAreLeftOut)
 {
     const auto bent_with = [](double length_unit_m, double k_volume) {
         AuthorSolver solver = solver_with({.length_unit_m = length_unit_m, .k_volume_inverted = k_volume, .k_volume = k_volume});
-        solver.advance(limb.pose);
+        solver.advance(body.pose);
         return solver.positions();
     };
     EXPECT_EQ(bent_with(100.0, 1.0), bent_with(100.0, 0.0));
@@ -270,8 +255,8 @@ TEST(AuthorSolver, RefusesOptionsOutOfRangeAndOtherBindings)
           AuthorOptions{.k_compression = 1.1}, AuthorOptions{.k_stretch = -0.1}, AuthorOptions{.k_volume_inverted = 6.1},
           AuthorOptions{.k_volume = std::numeric_limits<double>::quiet_NaN()}})
         EXPECT_THROW(solver_with(options), pbs::InputError);
-    const pbs::BoneBinding of_fewer = pbs::bind_to_nearest_bone(limb.mesh.rest.topRows(3), limb.skeleton);
-    EXPECT_THROW(AuthorSolver(limb.mesh, limb.skeleton, of_fewer, {}), pbs::InputError);
+    const pbs::BoneBinding of_fewer = pbs::bind_to_nearest_bone(body.mesh.rest.topRows(3), body.skeleton);
+    EXPECT_THROW(AuthorSolver(body.mesh, body.skeleton, of_fewer, {}), pbs::InputError);
 }
 
 }  // namespace

@@ -87,6 +87,11 @@ TEST(BoneHold, AVertexWithoutSpringsHasNoCentre)
 
 constexpr int springs = 200;
 constexpr double stiffness = 10.0;  // times 0.5 to 1.5
+const pbs::BoneHold& held()
+{
+    static const pbs::BoneHold hold(bent.mesh, test_support::random_springs(springs, stiffness), 2);
+    return hold;
+}
 
 Positions gradient_of_modes(const pbs::HoldModes& modes, const Positions& x)
 {
@@ -120,12 +125,11 @@ Positions gradient_of_hold(const pbs::BoneHold& hold, const Positions& x)
 // orthonormal to some 50 roundings.
 TEST(HoldModes, HaveTheForcesOfTheSprings)
 {
-    const pbs::BoneHold hold(bent.mesh, test_support::random_springs(springs, stiffness), 2);
-    const pbs::HoldModes modes(hold);
+    const pbs::HoldModes modes(held());
     for (const double size : {0.0, 0.1, 1.0}) {
         const Positions x = test_support::jittered(bent.lbs, size);
-        const Positions expected = gradient_of_hold(hold, x);
-        const double largest = hold.stiffness().maxCoeff() * 3.0;
+        const Positions expected = gradient_of_hold(held(), x);
+        const double largest = held().stiffness().maxCoeff() * 3.0;
         EXPECT_LE((gradient_of_modes(modes, x) - expected).cwiseAbs().maxCoeff(), test_support::rounding_error(springs + 50, largest));
         EXPECT_TRUE(size == 0.0 || expected.cwiseAbs().maxCoeff() > 1e-3 * largest);
     }
@@ -134,8 +138,7 @@ TEST(HoldModes, HaveTheForcesOfTheSprings)
 // beta_s^T X = X_s for every spring, so that v^T X = d at rest. A small eigenvalue magnifies the rounding of the moments by its reciprocal.
 TEST(HoldModes, AreMetAtRest)
 {
-    const pbs::BoneHold hold(bent.mesh, test_support::random_springs(springs, stiffness), 2);
-    const pbs::HoldModes modes(hold);
+    const pbs::HoldModes modes(held());
     Positions targets;
     modes.targets(pbs::Pose(2, Eigen::Isometry3d::Identity()), targets);
     for (std::size_t r = 0; r < modes.modes().size(); ++r) {
@@ -149,8 +152,7 @@ TEST(HoldModes, AreMetAtRest)
 
 TEST(HoldModes, AreAtMostFourPerTetAndStiff)
 {
-    const pbs::BoneHold hold(bent.mesh, test_support::random_springs(2000, stiffness), 2);
-    const pbs::HoldModes modes(hold);
+    const pbs::HoldModes modes(pbs::BoneHold(bent.mesh, test_support::random_springs(2000, stiffness), 2));
     std::vector<int> of_tet(bent.mesh.tets.rows(), 0);
     for (const pbs::HoldMode& mode : modes.modes()) {
         ++of_tet[mode.tet];

@@ -3,7 +3,6 @@
 
 #include "pbs/flesh/held_flesh.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "tests/support/flesh_rounding.hpp"
 #include "tests/support/held_bar.hpp"
 
 #include <gtest/gtest.h>
@@ -12,53 +11,32 @@ namespace {
 
 using pbs::Positions;
 
-const test_support::TwoBoneLimb bent = test_support::two_bone_limb({12, 3, 3}, pbs::Vec3::UnitZ(), 70.0);
-const pbs::HeldFlesh& flesh()
+const test_support::HeldBar& bar()
 {
-    static const pbs::HeldFlesh held(bent.mesh, test_support::random_springs(60, 0.3), 2, {});
+    static const test_support::HeldBar held({12, 3, 3});
     return held;
 }
-const Positions& centres()
+const test_support::TwoBoneLimb& bent = bar().bent;
+const Positions& centres = bar().centres;
+const pbs::HeldFlesh& flesh()
 {
-    static const Positions positions = [] {
-        Positions of_pose;
-        flesh().hold().centres(bent.pose, of_pose);
-        return of_pose;
-    }();
-    return positions;
+    static const pbs::HeldFlesh held(bent.mesh, bar().springs, 2, {});
+    return held;
 }
 
 template <typename Scalar>
 pbs::QuasiNewtonSummary minimise(const pbs::QuasiNewtonOptions& options, Positions& x)
 {
-    return pbs::QuasiNewton<Scalar>(bent.mesh, flesh().energy(), flesh().factor(), options).minimise(centres(), x);
-}
-
-double gradient_norm(const Positions& x)
-{
-    Positions gradient;
-    flesh().energy().value_and_gradient(x, centres(), gradient);
-    return gradient.norm();
-}
-
-TEST(QuasiNewton, EndsWhereTheGradientVanishes)
-{
-    for (const bool packed : {false, true}) {
-        Positions x = bent.lbs;
-        const double first = gradient_norm(x);
-        const auto summary = minimise<double>({.iterations = 500, .stop_gradient = 1e-9, .packed = packed}, x);
-        EXPECT_TRUE(summary.converged);
-        EXPECT_LT(gradient_norm(x), 1e-6 * first);
-    }
+    return pbs::QuasiNewton<Scalar>(bent.mesh, bar().energy, flesh().factor(), options).minimise(centres, x);
 }
 
 TEST(QuasiNewton, EveryIterationLowersTheEnergy)
 {
-    double last = flesh().energy().value(bent.lbs, centres());
+    double last = bar().energy.value(bent.lbs, centres);
     for (const int iterations : {1, 2, 3, 5, 8, 13, 21}) {
         Positions x = bent.lbs;
         const auto summary = minimise<double>({.iterations = iterations, .packed = false}, x);
-        const double energy = flesh().energy().value(x, centres());
+        const double energy = bar().energy.value(x, centres);
         EXPECT_LT(energy, last) << iterations;
         EXPECT_NEAR(energy, summary.energy, 1e-12 * energy);
         EXPECT_EQ(summary.iterations, iterations);
@@ -78,22 +56,6 @@ TEST(QuasiNewton, HistorySavesIterations)
     EXPECT_LT(2 * iterations(5), iterations(0));
 }
 
-TEST(QuasiNewton, FloatEndsNearTheSameMinimum)
-{
-    Positions in_double = bent.lbs, in_float = bent.lbs;
-    minimise<double>({.iterations = 500, .stop_gradient = 1e-9, .packed = false}, in_double);
-    minimise<float>({.iterations = 200}, in_float);
-    EXPECT_LT((in_float - in_double).norm(), test_support::displaced_by_rounding<float>(flesh().energy(), centres(), in_double));
-}
-
-TEST(QuasiNewton, TheMinimumDoesNotDependOnTheStart)
-{
-    Positions from_lbs = bent.lbs, from_rest = bent.mesh.rest;
-    minimise<double>({.iterations = 1000, .stop_gradient = 1e-10}, from_lbs);
-    minimise<double>({.iterations = 1000, .stop_gradient = 1e-10}, from_rest);
-    EXPECT_LT((from_lbs - from_rest).norm(), 1e-6 * (bent.lbs - bent.mesh.rest).norm());
-}
-
 TEST(QuasiNewton, CollapsedToAPointRecovers)
 {
     Positions x = Positions::Zero(bent.mesh.rest.rows(), 3);
@@ -102,29 +64,13 @@ TEST(QuasiNewton, CollapsedToAPointRecovers)
     EXPECT_TRUE(x.allFinite());
 }
 
-TEST(QuasiNewton, MirroredStartStaysFinite)
-{
-    Positions x = bent.lbs;
-    x.col(2) *= -1.0;
-    minimise<double>({.iterations = 50}, x);
-    EXPECT_TRUE(x.allFinite());
-}
-
-TEST(QuasiNewton, AStartThatIsNotANumberIsNotHidden)
-{
-    Positions x = bent.lbs;
-    x(3, 1) = std::numeric_limits<double>::quiet_NaN();
-    minimise<double>({.iterations = 5}, x);
-    EXPECT_FALSE(x.allFinite());
-}
-
 // At rest the initial guess is the minimum, and every step is rounding: there is nothing to lower its norm to a share of the first one.
 template <typename Scalar>
 void expect_converged_at_rest(bool packed)
 {
     Positions rest_centres, x = bent.mesh.rest;
-    flesh().hold().centres(pbs::Pose(2, Eigen::Isometry3d::Identity()), rest_centres);
-    pbs::QuasiNewton<Scalar> solver(bent.mesh, flesh().energy(), flesh().factor(), {.stop_gradient = 1e-3, .packed = packed});
+    bar().hold.centres(pbs::Pose(2, Eigen::Isometry3d::Identity()), rest_centres);
+    pbs::QuasiNewton<Scalar> solver(bent.mesh, bar().energy, flesh().factor(), {.stop_gradient = 1e-3, .packed = packed});
     const auto summary = solver.minimise(rest_centres, x);
     EXPECT_TRUE(summary.converged);
     EXPECT_EQ(summary.iterations, 0);
@@ -135,14 +81,6 @@ TEST(QuasiNewton, RestIsConvergedAtOnce)
     expect_converged_at_rest<float>(true);
     expect_converged_at_rest<double>(true);
     expect_converged_at_rest<double>(false);
-}
-
-TEST(QuasiNewton, NoIterationsLeaveTheStart)
-{
-    Positions x = bent.lbs;
-    const auto summary = minimise<double>({.iterations = 0, .packed = false}, x);
-    EXPECT_EQ(x, bent.lbs);
-    EXPECT_EQ(summary.evaluations, 1);
 }
 
 TEST(HeldFlesh, SmoothWeightsAddUpToOneAndFollowTheSprings)

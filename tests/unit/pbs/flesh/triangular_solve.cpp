@@ -30,24 +30,6 @@ std::vector<int> reversed_places()
     return place;
 }
 
-template <typename Scalar>
-pbs::Rows<Scalar> rows_of(const Positions& positions, const std::vector<int>& place)
-{
-    pbs::Rows<Scalar> rows(static_cast<int>(place.size()));
-    for (std::size_t i = 0; i < place.size(); ++i)
-        for (int axis = 0; axis < 3; ++axis) rows[place[i]][axis] = Scalar(positions(static_cast<Eigen::Index>(i), axis));
-    return rows;
-}
-
-template <typename Scalar>
-Positions positions_of(const pbs::Rows<Scalar>& rows, const std::vector<int>& place)
-{
-    Positions positions(static_cast<Eigen::Index>(place.size()), 3);
-    for (std::size_t i = 0; i < place.size(); ++i)
-        for (int axis = 0; axis < 3; ++axis) positions(static_cast<Eigen::Index>(i), axis) = double(rows[place[i]][axis]);
-    return positions;
-}
-
 // The residual of a Cholesky solve is at most some 4 n eps |A| |x|, |A| its largest row sum (N. Higham, Accuracy and stability,
 // theorem 10.4).
 template <typename Scalar, typename Solve>
@@ -56,30 +38,29 @@ void expect_solved(Solve solve)
     const Eigen::SparseMatrix<double> lower = laplacian(), H = lower.selfadjointView<Eigen::Lower>();
     const std::vector<int> place = reversed_places();
     const Positions b = test_support::jittered(bar.mesh.rest, 0.1);
-    pbs::Rows<Scalar> rows = rows_of<Scalar>(b, place);
+    pbs::Rows<Scalar> rows(static_cast<int>(place.size()));
+    Positions x;
+    pbs::load_rows(b, place, pbs::Vec3::Zero(), rows);
     solve(pbs::cholesky_factor(lower), place, rows);
-    const Positions x = positions_of(rows, place);
+    pbs::store_rows(rows, place, pbs::Vec3::Zero(), x);
     const double norm = (H.cwiseAbs() * Eigen::VectorXd::Ones(H.cols())).maxCoeff();
     EXPECT_LE((H * x - b).norm(), 4.0 * double(b.rows()) * std::numeric_limits<Scalar>::epsilon() * norm * x.norm());
     EXPECT_GT(x.norm(), 1e-3 * b.norm());
 }
 
-TEST(TriangularSolve, PlainSolvesTheSystem)
+template <typename Scalar>
+void expect_solved_by_supernodes()
+{
+    expect_solved<Scalar>(
+        [](const auto& factor, const auto& place, auto& rows) { pbs::TriangularSolve<Scalar>(factor, place).apply(rows.data()); });
+}
+
+TEST(TriangularSolve, SolvesTheSystemPlainlyAndBySupernodes)
 {
     std::vector<double> work;
     expect_solved<double>([&](const auto& factor, const auto& place, auto& rows) { pbs::solve_plainly(factor, place, rows.data(), work); });
-}
-
-TEST(TriangularSolve, SupernodesSolveTheSystemInDouble)
-{
-    expect_solved<double>(
-        [](const auto& factor, const auto& place, auto& rows) { pbs::TriangularSolve<double>(factor, place).apply(rows.data()); });
-}
-
-TEST(TriangularSolve, SupernodesSolveTheSystemInFloat)
-{
-    expect_solved<float>(
-        [](const auto& factor, const auto& place, auto& rows) { pbs::TriangularSolve<float>(factor, place).apply(rows.data()); });
+    expect_solved_by_supernodes<double>();
+    expect_solved_by_supernodes<float>();
 }
 
 TEST(Cholesky, AnIndefiniteMatrixHasNoFactor)

@@ -24,8 +24,9 @@ const pbs::FleshEnergy& energy = bar.energy;
 const Positions& centres = bar.centres;
 constexpr int tets = 6 * 12 * 3 * 3;
 
-Positions mirrored(Positions x)
+Positions mirrored()
 {
+    Positions x = bent.lbs;
     x.col(1) *= -1.0;
     return x;
 }
@@ -34,7 +35,7 @@ class VertexBlockOf : public testing::TestWithParam<double> {
 protected:
     const pbs::FleshEnergy energy{bent.mesh, pbs::flesh_material(GetParam()), hold};
     const std::vector<pbs::VertexStar> stars = pbs::vertex_stars(energy);
-    const std::vector<Positions> shapes = {bent.lbs, test_support::jittered(bent.lbs, 0.1), mirrored(bent.lbs)};
+    const std::vector<Positions> shapes = {bent.lbs, test_support::jittered(bent.lbs, 0.1), mirrored()};
 
     // The largest term of a gradient: a pressure of kappa (|6 V| + d) on the largest face, or a spring or edge of 2 m.
     double largest_term() const
@@ -137,13 +138,6 @@ TEST(VertexBlock, CoincidentVerticesLeaveTheDiagonal)
 
 using pbs::Acceleration;
 
-Positions mirrored()
-{
-    Positions x = bent.lbs;
-    x.col(2) *= -1.0;
-    return x;
-}
-
 const Positions collapsed = Positions::Zero(bent.mesh.rest.rows(), 3);
 
 template <typename Scalar>
@@ -212,14 +206,6 @@ TEST(VertexBlockDescent, BeyondTwoTheEnergyIncreases)
     EXPECT_GT(energy.value(swept(2.2, bent.lbs), centres), 1.01 * before);
 }
 
-TEST(VertexBlockDescent, EndsWhereTheGradientVanishes)
-{
-    for (const bool packed : {false, true}) {
-        const Positions x = minimised<double>({.iterations = 600, .packed = packed}, bent.lbs);
-        EXPECT_LT(gradient_norm(x), 1e-6 * gradient_norm(bent.lbs));
-    }
-}
-
 TEST(VertexBlockDescent, TheMinimumDependsNeitherOnTheStartNorOnOmegaNorOnTheAcceleration)
 {
     const double size = (bent.lbs - bent.mesh.rest).norm();
@@ -230,30 +216,6 @@ TEST(VertexBlockDescent, TheMinimumDependsNeitherOnTheStartNorOnOmegaNorOnTheAcc
     for (const Positions& start : {bent.lbs, bent.mesh.rest}) EXPECT_LT((minimised<double>(slow, start) - expected).norm(), 1e-6 * size);
     const pbs::VertexBlockOptions chebyshev{.iterations = 3000, .acceleration = Acceleration::chebyshev, .rho = 0.95};
     EXPECT_LT((minimised<double>(chebyshev, bent.lbs) - expected).norm(), 1e-6 * size);
-}
-
-// The energy has more than one minimum. From where the tets are inverted or have no volume, one of them is reached, not always the lowest.
-TEST(VertexBlockDescent, InvertedAndCollapsedStartsEndWhereTheGradientVanishes)
-{
-    for (const Positions& start : {mirrored(), collapsed}) {
-        const Positions x = minimised<double>({.iterations = 1500}, start);
-        EXPECT_LT(gradient_norm(x), 1e-6 * gradient_norm(start));
-    }
-}
-
-TEST(VertexBlockDescent, FloatEndsNearTheSameMinimum)
-{
-    const Positions in_double = minimised<double>({.iterations = 600, .packed = false}, bent.lbs);
-    const Positions in_float = minimised<float>({.iterations = 600}, bent.lbs);
-    EXPECT_LT((in_float - in_double).norm(), test_support::displaced_by_rounding<float>(energy, centres, in_double));
-}
-
-TEST(VertexBlockDescent, OverRelaxationSavesSweeps)
-{
-    const auto gradient_after_60 = [](double omega) {
-        return gradient_norm(minimised<double>({.iterations = 60, .omega = omega}, bent.lbs));
-    };
-    EXPECT_LT(10.0 * gradient_after_60(1.8), gradient_after_60(1.0));
 }
 
 // Theory (G. Golub, R. Varga, Numer. Math. 3, 1961): omega_{k+1} = 2 T_k(1 / rho) / (rho T_{k+1}(1 / rho)), T_k(x) = cosh(k acosh x).
@@ -295,27 +257,26 @@ TEST(VertexBlockDescent, ChebyshevFollowsItsRecurrence)
     EXPECT_GT((x[5] - x[4]).cwiseAbs().maxCoeff(), 1e-4);
 }
 
-TEST(VertexBlockDescent, ChebyshevSavesSweeps)
+TEST(VertexBlockDescent, AccelerationSavesSweeps)
 {
-    const auto gradient_after_60 = [](double rho) {
-        return gradient_norm(minimised<double>({.iterations = 60, .acceleration = Acceleration::chebyshev, .rho = rho}, bent.lbs));
+    const auto gradient_after_60 = [](pbs::VertexBlockOptions options) {
+        options.iterations = 60;
+        return gradient_norm(minimised<double>(options, bent.lbs));
     };
-    EXPECT_LT(4.0 * gradient_after_60(0.95), gradient_after_60(0.0));
+    const double plain = gradient_after_60({.omega = 1.0});
+    EXPECT_LT(10.0 * gradient_after_60({.omega = 1.8}), plain);
+    EXPECT_LT(4.0 * gradient_after_60({.acceleration = Acceleration::chebyshev, .rho = 0.95}), plain);
 }
 
 TEST(VertexBlockDescent, ARadiusOfZeroIsPlainGaussSeidel)
 {
-    const pbs::VertexBlockOptions chebyshev{.iterations = 7, .acceleration = Acceleration::chebyshev, .rho = 0.0};
+    pbs::VertexBlockOptions chebyshev{.iterations = 7, .acceleration = Acceleration::chebyshev, .rho = 0.0};
     EXPECT_EQ(minimised<float>(chebyshev, bent.lbs), minimised<float>({.iterations = 7, .omega = 1.0}, bent.lbs));
+    chebyshev.iterations = 0;
+    EXPECT_EQ(minimised<double>(chebyshev, bent.lbs), minimised<double>({.iterations = 0}, bent.lbs));
 }
 
-TEST(VertexBlockDescent, NoSweepsLeaveTheStart)
-{
-    for (const Acceleration acceleration : {Acceleration::over_relaxation, Acceleration::chebyshev})
-        EXPECT_EQ(minimised<double>({.iterations = 0, .acceleration = acceleration, .packed = false}, bent.lbs), bent.lbs);
-}
-
-TEST(VertexBlockDescent, AStartThatIsNotANumberIsReported)
+TEST(VertexBlockDescent, ReportsWhetherPositionsAreNumbers)
 {
     Positions x = bent.lbs;
     pbs::VertexBlockDescent<float> solver(bent.mesh, energy, {.iterations = 3});

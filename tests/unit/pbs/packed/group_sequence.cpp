@@ -30,47 +30,34 @@ void expect_a_sequence(const std::vector<ConstraintGroup>& groups, int vertices)
     for (std::size_t i = 0; i < places.size(); ++i) ASSERT_EQ(places[i], static_cast<int>(i));
 }
 
-TEST(ProjectionSequence, NoGroups)
-{
-    EXPECT_TRUE(projection_sequence({}, 3).empty());
-    EXPECT_TRUE(projection_sequence({}, 0).empty());
-}
-
-// Two colours: 0, 2, 4 and then 1, 3.
-TEST(ProjectionSequence, AChainOfEdges)
-{
-    EXPECT_EQ(projection_sequence(pbs::single_edges({{0, 1}, {1, 2}, {2, 3}, {3, 4}, {4, 5}}), 6), (std::vector<int>{0, 3, 1, 4, 2}));
-}
-
-TEST(ProjectionSequence, GroupsWithoutNeighboursKeepTheirOrder)
-{
-    EXPECT_EQ(projection_sequence(pbs::single_edges({{6, 7}, {0, 1}, {4, 5}, {2, 3}}), 8), (std::vector<int>{0, 1, 2, 3}));
-}
-
+// A chain of edges has two colours: 0, 2, 4 and then 1, 3. The same tets twice share four vertices, which is a face and more. Fans 0 1 |
+// 2 3 4 and 0 1 | 5 6 7 share an edge, which does not count in groups of several tets, so that the first one stays first.
 //                   face  edge  vertex
 // A  0 1 2 3           0     0     0
 // B  0 1 4 5           0     1     1     an edge with A
 // C  0 6 7 8           0     0     2     a vertex with A and B
 // D  1 2 3 9           1     1     2     a face with A, a vertex with B
 // Ascending by face, descending by edge, ascending by vertex: B, A, C, D.
-TEST(ProjectionSequence, TetsByFaceThenEdgeThenVertex)
+TEST(ProjectionSequence, OfSmallMeshes)
 {
-    const std::vector<std::array<int, 4>> tets = {{0, 1, 2, 3}, {0, 1, 4, 5}, {0, 6, 7, 8}, {1, 2, 3, 9}};
-    EXPECT_EQ(projection_sequence(pbs::single_tets(tets), 10), (std::vector<int>{1, 0, 2, 3}));
-}
-
-// The same tets twice share four vertices, which is a face and more.
-TEST(ProjectionSequence, TheSameTetTwice)
-{
-    EXPECT_EQ(projection_sequence(pbs::single_tets({{0, 1, 2, 3}, {3, 2, 1, 0}}), 4), (std::vector<int>{0, 1}));
-}
-
-// Fans 0 1 | 2 3 4 and 0 1 | 5 6 7 share an edge. It does not count in groups of several tets, so the first one stays first.
-TEST(ProjectionSequence, SharedEdgesDoNotCountBetweenFans)
-{
-    const ConstraintGroup one{pbs::GroupKind::tet_fan_2, {0, 1, 2, 3, 4}, {0, 1}},
+    const ConstraintGroup fan{pbs::GroupKind::tet_fan_2, {0, 1, 2, 3, 4}, {0, 1}},
         other{pbs::GroupKind::tet_fan_2, {0, 1, 5, 6, 7}, {2, 3}};
-    EXPECT_EQ(projection_sequence({one, other}, 8), (std::vector<int>{0, 1}));
+    struct Case {
+        const char* name;
+        std::vector<ConstraintGroup> groups;
+        int vertices;
+        std::vector<int> expected;
+    };
+    const Case cases[] = {
+        {"no groups", {}, 3, {}},
+        {"no vertices", {}, 0, {}},
+        {"a chain of edges", pbs::single_edges({{0, 1}, {1, 2}, {2, 3}, {3, 4}, {4, 5}}), 6, {0, 3, 1, 4, 2}},
+        {"groups without neighbours", pbs::single_edges({{6, 7}, {0, 1}, {4, 5}, {2, 3}}), 8, {0, 1, 2, 3}},
+        {"tets A to D", pbs::single_tets({{0, 1, 2, 3}, {0, 1, 4, 5}, {0, 6, 7, 8}, {1, 2, 3, 9}}), 10, {1, 0, 2, 3}},
+        {"the same tet twice", pbs::single_tets({{0, 1, 2, 3}, {3, 2, 1, 0}}), 4, {0, 1}},
+        {"two fans", {fan, other}, 8, {0, 1}},
+    };
+    for (const auto& [name, groups, vertices, expected] : cases) EXPECT_EQ(projection_sequence(groups, vertices), expected) << name;
 }
 
 TEST(ProjectionSequence, EveryGroupOfABarHasOnePlace)
@@ -168,19 +155,11 @@ Batches expect_sound(int vertices, const std::vector<ConstraintGroup>& groups)
     return expect_sound(scheduler, groups);
 }
 
-std::vector<ConstraintGroup> edges_between(const std::vector<std::array<int, 2>>& edges)
-{
-    return pbs::single_edges(edges);
-}
-
-TEST(BatchSchedule, NothingIsNoBatch)
+TEST(BatchSchedule, OfFewGroupsHasThisManyBatches)
 {
     EXPECT_TRUE(expect_sound(3, {}).empty());
-}
-
-TEST(BatchSchedule, OneGroup)
-{
-    EXPECT_EQ(expect_sound(2, edges_between({{0, 1}})).size(), 1u);
+    EXPECT_EQ(expect_sound(2, pbs::single_edges({{0, 1}})).size(), 1u);
+    EXPECT_EQ(expect_sound(2, pbs::single_edges({{0, 1}, {1, 0}})).size(), 3u) << "two groups on the same vertices";
 }
 
 // Groups without common vertices fill every lane.
@@ -188,7 +167,7 @@ TEST(BatchSchedule, DisjointGroupsFillAllLanes)
 {
     std::vector<std::array<int, 2>> edges;
     for (int e = 0; e < 100; ++e) edges.push_back({2 * e, 2 * e + 1});
-    const Batches batches = expect_sound(200, edges_between(edges));
+    const Batches batches = expect_sound(200, pbs::single_edges(edges));
     ASSERT_EQ(batches.size(), 7u);
     for (std::size_t b = 0; b + 1 < batches.size(); ++b) EXPECT_EQ(batches[b].size(), 16u);
 }
@@ -198,14 +177,9 @@ TEST(BatchSchedule, AllGroupsShareOneVertex)
 {
     std::vector<std::array<int, 2>> edges;
     for (int i = 1; i <= 40; ++i) edges.push_back({0, i});
-    const Batches batches = expect_sound(41, edges_between(edges));
+    const Batches batches = expect_sound(41, pbs::single_edges(edges));
     ASSERT_EQ(batches.size(), 79u);
     for (std::size_t b = 0; b < batches.size(); ++b) EXPECT_EQ(batches[b].size(), b % 2 == 0 ? 1u : 0u);
-}
-
-TEST(BatchSchedule, TwoGroupsOnTheSameVertices)
-{
-    EXPECT_EQ(expect_sound(2, edges_between({{0, 1}, {1, 0}})).size(), 3u);
 }
 
 // Each edge waits for the one before, and pauses for one batch: the only possible schedule that keeps the order.
@@ -213,7 +187,7 @@ TEST(BatchSchedule, AChainOfEdgesKeepsItsOrder)
 {
     std::vector<std::array<int, 2>> edges;
     for (int i = 0; i < 40; ++i) edges.push_back({i, i + 1});
-    const Batches batches = expect_sound(41, edges_between(edges));
+    const Batches batches = expect_sound(41, pbs::single_edges(edges));
     ASSERT_EQ(batches.size(), 79u);
     for (std::size_t b = 0; b < batches.size(); ++b) EXPECT_EQ(batches[b], b % 2 == 0 ? std::vector<int>{int(b) / 2} : std::vector<int>{});
 }
@@ -224,7 +198,7 @@ TEST(BatchSchedule, AChainOfEdgesByColours)
     std::vector<std::array<int, 2>> edges;
     for (const int colour : {0, 1})
         for (int i = colour; i < 400; i += 2) edges.push_back({i, i + 1});
-    EXPECT_LE(expect_sound(401, edges_between(edges)).size(), 2u * 13);
+    EXPECT_LE(expect_sound(401, pbs::single_edges(edges)).size(), 2u * 13);
 }
 
 // Thirty edges without neighbours come before a chain in the order given, and fill its lanes nevertheless.
@@ -233,7 +207,7 @@ TEST(BatchSchedule, TheLongestChainComesFirst)
     std::vector<std::array<int, 2>> edges;
     for (int i = 0; i < 30; ++i) edges.push_back({100 + 2 * i, 101 + 2 * i});
     for (int i = 0; i < 10; ++i) edges.push_back({i, i + 1});
-    const Batches batches = expect_sound(160, edges_between(edges));
+    const Batches batches = expect_sound(160, pbs::single_edges(edges));
     ASSERT_EQ(batches.size(), 19u);
     EXPECT_EQ(batches[0].front(), 30);
     EXPECT_EQ(batches[0].size(), 16u);

@@ -82,42 +82,49 @@ EdgeList edges_of_rows(const Tets& tets)
     return rows_of(pbs::edges_of(tets));
 }
 
-TEST(GroupedEdges, OneTetIsOneGroup)
+Tets tets_of(const std::vector<std::array<int, 4>>& rows)
 {
-    const Tets tet = tet_ring(1, false);
-    EXPECT_EQ(count_by_kind(expect_sound(edges_of_rows(tet), tet)), (Counts{{GroupKind::edge_tet, 1}}));
+    Tets tets(rows.size(), 4);
+    for (std::size_t t = 0; t < rows.size(); ++t) tets.row(t) << rows[t][0], rows[t][1], rows[t][2], rows[t][3];
+    return tets;
 }
 
-// The second tet adds three edges, all at one vertex.
-TEST(GroupedEdges, TwoTets)
+TEST(GroupedEdges, OfSmallMeshesAreCounted)
 {
-    const Tets tets = tet_ring(2, false);
-    EXPECT_EQ(count_by_kind(expect_sound(edges_of_rows(tets), tets)),
-              (Counts{{GroupKind::edge_tet, 1}, {GroupKind::edge_wedge, 1}, {GroupKind::edge, 1}}));
+    using enum GroupKind;
+    const Tets one = tet_ring(1, false), two = tet_ring(2, false), apart = tets_of({{0, 1, 2, 3}, {0, 1, 4, 5}, {5, 6, 7, 8}}), none(0, 4);
+    struct Case {
+        const char* name;
+        EdgeList edges;
+        Tets tets;
+        Counts expected;
+    };
+    const Case cases[] = {
+        {"one tet is one group", edges_of_rows(one), one, {{edge_tet, 1}}},
+        {"a second tet adds three edges, all at one vertex", edges_of_rows(two), two, {{edge_tet, 1}, {edge_wedge, 1}, {edge, 1}}},
+        {"tets that share an edge or a vertex: the second lacks one edge", edges_of_rows(apart), apart, {{edge_tet, 3}}},
+        {"five edges of a tet", {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}}, one, {{edge_tet, 1}}},
+        {"a triangle of a tet", {{1, 2}, {2, 3}, {1, 3}}, one, {{edge_triangle, 1}}},
+        {"three edges at one corner", {{0, 1}, {0, 2}, {0, 3}}, one, {{edge_wedge, 1}, {edge, 1}}},
+        {"opposite edges", {{0, 1}, {2, 3}}, one, {{edge, 2}}},
+        {"one edge", {{3, 1}}, one, {{edge, 1}}},
+        {"a star of edges of no tet: pairs at its centre",
+         {{0, 1}, {0, 2}, {0, 3}, {0, 4}, {0, 5}, {0, 6}, {0, 7}},
+         none,
+         {{edge_wedge, 3}, {edge, 1}}},
+    };
+    for (const auto& [name, edges, tets, expected] : cases) {
+        SCOPED_TRACE(name);
+        EXPECT_EQ(count_by_kind(expect_sound(edges, tets)), expected);
+    }
 }
 
-TEST(GroupedEdges, RingsOfTets)
+TEST(GroupedEdges, OfRingsAndOfThreeTetsOnOneFaceAreSound)
 {
+    std::vector<Tets> meshes = {tets_of({{0, 1, 2, 3}, {0, 2, 1, 4}, {0, 1, 2, 5}})};
     for (int count = 3; count <= 9; ++count)
-        for (const bool closed : {false, true}) {
-            const Tets tets = tet_ring(count, closed);
-            expect_sound(edges_of_rows(tets), tets);
-        }
-}
-
-TEST(GroupedEdges, ThreeTetsOnOneFace)
-{
-    Tets tets(3, 4);
-    tets << 0, 1, 2, 3, 0, 2, 1, 4, 0, 1, 2, 5;
-    expect_sound(edges_of_rows(tets), tets);
-}
-
-TEST(GroupedEdges, TetsThatShareAnEdgeOrAVertexOnly)
-{
-    Tets tets(3, 4);
-    tets << 0, 1, 2, 3, 0, 1, 4, 5, 5, 6, 7, 8;
-    // The second tet lacks one edge and still forms a group; the third is complete.
-    EXPECT_EQ(count_by_kind(expect_sound(edges_of_rows(tets), tets)), (Counts{{GroupKind::edge_tet, 3}}));
+        for (const bool closed : {false, true}) meshes.push_back(tet_ring(count, closed));
+    for (const Tets& tets : meshes) expect_sound(edges_of_rows(tets), tets);
 }
 
 TEST(GroupedEdges, BarInAnyNumbering)
@@ -145,24 +152,6 @@ TEST(GroupedEdges, OnlySomeEdgesAreConstrained)
     }
 }
 
-TEST(GroupedEdges, PartsOfOneTet)
-{
-    const Tets tet = tet_ring(1, false);
-    EXPECT_EQ(count_by_kind(expect_sound({{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}}, tet)), (Counts{{GroupKind::edge_tet, 1}}));
-    EXPECT_EQ(count_by_kind(expect_sound({{1, 2}, {2, 3}, {1, 3}}, tet)), (Counts{{GroupKind::edge_triangle, 1}}));
-    EXPECT_EQ(count_by_kind(expect_sound({{0, 1}, {0, 2}, {0, 3}}, tet)), (Counts{{GroupKind::edge_wedge, 1}, {GroupKind::edge, 1}}));
-    EXPECT_EQ(count_by_kind(expect_sound({{0, 1}, {2, 3}}, tet)), (Counts{{GroupKind::edge, 2}}));
-    EXPECT_EQ(count_by_kind(expect_sound({{3, 1}}, tet)), (Counts{{GroupKind::edge, 1}}));
-}
-
-// A star of edges that belong to no tet: they form pairs at its centre.
-TEST(GroupedEdges, EdgesOfNoTet)
-{
-    EdgeList star;
-    for (int i = 1; i <= 7; ++i) star.push_back({0, i});
-    EXPECT_EQ(count_by_kind(expect_sound(star, Tets(0, 4))), (Counts{{GroupKind::edge_wedge, 3}, {GroupKind::edge, 1}}));
-}
-
 // Reference: each tet in one group with its own orientation, and small meshes whose fans are counted by hand.
 
 using TetList = std::vector<std::array<int, 4>>;
@@ -177,35 +166,40 @@ std::vector<pbs::ConstraintGroup> expect_sound(const TetList& tets)
     return groups;
 }
 
-Counts kinds_of_ring(int count, bool closed)
+TEST(GroupedTets, OfSmallMeshesAreCounted)
 {
-    return count_by_kind(expect_sound(rows_of(tet_ring(count, closed))));
+    using enum GroupKind;
+    const auto ring = [](int count, bool closed) { return rows_of(tet_ring(count, closed)); };
+    struct Case {
+        const char* name;
+        TetList tets;
+        Counts expected;
+    };
+    const Case cases[] = {
+        {"one tet is alone", ring(1, false), {{tet, 1}}},
+        {"two tets on a face are a fan", ring(2, false), {{tet_fan_2, 1}}},
+        {"an open ring of 3", ring(3, false), {{tet_fan_3, 1}}},
+        {"an open ring of 5", ring(5, false), {{tet_fan_3, 1}, {tet_fan_2, 1}}},
+        {"an open ring of 6", ring(6, false), {{tet_fan_3, 2}}},
+        {"a closed ring of 3: a fan of three would return to its first vertex", ring(3, true), {{tet_fan_2, 1}, {tet, 1}}},
+        {"a closed ring of 4", ring(4, true), {{tet_fan_3, 1}, {tet, 1}}},
+        {"a closed ring of 6", ring(6, true), {{tet_fan_3, 2}}},
+        {"tets that share no face are alone", {{0, 1, 2, 3}, {0, 1, 4, 5}, {5, 6, 7, 8}, {9, 10, 11, 12}}, {{tet, 4}}},
+        {"a mirrored neighbour lies on the same side of the common face", {{0, 1, 2, 3}, {0, 1, 4, 3}}, {{tet, 2}}},
+        {"the same tet twice", {{0, 1, 2, 3}, {0, 1, 2, 3}}, {{tet, 2}}},
+    };
+    for (const auto& [name, tets, expected] : cases) {
+        SCOPED_TRACE(name);
+        EXPECT_EQ(count_by_kind(expect_sound(tets)), expected);
+    }
 }
 
-TEST(GroupedTets, OneTetIsAlone)
+TEST(GroupedTets, OfManyTetsOnOneFaceOrRoundOneEdgeAreSound)
 {
-    EXPECT_EQ(kinds_of_ring(1, false), (Counts{{GroupKind::tet, 1}}));
-}
-
-TEST(GroupedTets, TwoTetsOnAFaceAreAFan)
-{
-    EXPECT_EQ(kinds_of_ring(2, false), (Counts{{GroupKind::tet_fan_2, 1}}));
-}
-
-TEST(GroupedTets, OpenRings)
-{
-    EXPECT_EQ(kinds_of_ring(3, false), (Counts{{GroupKind::tet_fan_3, 1}}));
-    EXPECT_EQ(kinds_of_ring(5, false), (Counts{{GroupKind::tet_fan_3, 1}, {GroupKind::tet_fan_2, 1}}));
-    EXPECT_EQ(kinds_of_ring(6, false), (Counts{{GroupKind::tet_fan_3, 2}}));
-}
-
-// In a closed ring of three tets, a fan of three would return to its first vertex: it has five vertices, not six.
-TEST(GroupedTets, ClosedRings)
-{
-    EXPECT_EQ(kinds_of_ring(3, true), (Counts{{GroupKind::tet_fan_2, 1}, {GroupKind::tet, 1}}));
-    EXPECT_EQ(kinds_of_ring(4, true), (Counts{{GroupKind::tet_fan_3, 1}, {GroupKind::tet, 1}}));
-    EXPECT_EQ(kinds_of_ring(6, true), (Counts{{GroupKind::tet_fan_3, 2}}));
-    for (int count = 5; count <= 12; ++count) kinds_of_ring(count, true);
+    for (int count = 5; count <= 12; ++count) expect_sound(rows_of(tet_ring(count, true)));
+    expect_sound({{0, 1, 2, 3}, {0, 2, 1, 4}, {0, 1, 2, 5}});
+    expect_sound({{0, 1, 2, 3}, {0, 2, 1, 4}, {0, 1, 2, 5}, {0, 2, 1, 6}});
+    expect_sound({{0, 1, 2, 3}, {1, 0, 2, 3}, {0, 1, 3, 4}});
 }
 
 TEST(GroupedTets, RingsInAnyNumbering)
@@ -215,29 +209,6 @@ TEST(GroupedTets, RingsInAnyNumbering)
             const bool closed = count > 2 && seed % 2 == 0;
             expect_sound(rows_of(shuffled(tet_ring(count, closed), count + 3, seed)));
         }
-}
-
-TEST(GroupedTets, TetsThatShareNoFaceAreAlone)
-{
-    EXPECT_EQ(count_by_kind(expect_sound({{0, 1, 2, 3}, {0, 1, 4, 5}, {5, 6, 7, 8}, {9, 10, 11, 12}})), (Counts{{GroupKind::tet, 4}}));
-}
-
-// A mirrored neighbour lies on the same side of the common face, and no fan contains both.
-TEST(GroupedTets, MirroredNeighbourIsNoFan)
-{
-    EXPECT_EQ(count_by_kind(expect_sound({{0, 1, 2, 3}, {0, 1, 4, 3}})), (Counts{{GroupKind::tet, 2}}));
-}
-
-TEST(GroupedTets, ThreeAndFourTetsOnOneFace)
-{
-    expect_sound({{0, 1, 2, 3}, {0, 2, 1, 4}, {0, 1, 2, 5}});
-    expect_sound({{0, 1, 2, 3}, {0, 2, 1, 4}, {0, 1, 2, 5}, {0, 2, 1, 6}});
-}
-
-TEST(GroupedTets, TheSameTetTwice)
-{
-    EXPECT_EQ(count_by_kind(expect_sound({{0, 1, 2, 3}, {0, 1, 2, 3}})), (Counts{{GroupKind::tet, 2}}));
-    expect_sound({{0, 1, 2, 3}, {1, 0, 2, 3}, {0, 1, 3, 4}});
 }
 
 TEST(GroupedTets, BarInAnyNumbering)

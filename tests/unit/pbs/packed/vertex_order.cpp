@@ -66,10 +66,35 @@ VertexOrder expect_sound(const Tets& tets, int vertices, int vertices_a_slab)
 const pbs::TetMesh bar = structured_bar({0, 0, 0}, {40, 3, 3}, {40, 3, 3});
 const int bar_vertices = static_cast<int>(bar.rest.rows());
 
-TEST(VertexOrder, BarInSlabsOfManySizes)
+TEST(VertexOrder, IsSoundForSlabsOfManySizes)
 {
-    for (const int vertices_a_slab : {1, 2, 16, 17, 100, 1024})
-        for (const Tets& tets : {bar.tets, shuffled(bar.tets, bar_vertices, 7)}) expect_sound(tets, bar_vertices, vertices_a_slab);
+    const Tets two = beside(bar.tets, bar_vertices, shuffled(bar.tets, bar_vertices, 9));
+    const Tets three = beside(two, 2 * bar_vertices, tet_ring(5, true)), after = (bar.tets.array() + 7).matrix();
+    Tets apart(0, 4);  // each with a level of one vertex and one of three: the end of one and the start of the next share slabs
+    for (int t = 0; t < 20; ++t) apart = beside(apart, 4 * t, tet_ring(1, false));
+    struct Case {
+        const char* name;
+        Tets tets;
+        int vertices;
+        std::vector<int> vertices_a_slab;
+    };
+    const Case cases[] = {
+        {"a bar", bar.tets, bar_vertices, {1, 2, 16, 17, 100, 1024}},
+        {"in any numbering", shuffled(bar.tets, bar_vertices, 7), bar_vertices, {1, 2, 16, 17, 100, 1024}},
+        {"one tet", tet_ring(1, false), 4, {1}},
+        {"vertices alone", Tets(0, 4), 5, {1}},
+        {"unused vertices behind", bar.tets, bar_vertices + 7, {1, 3, 100}},
+        {"unused vertices before and behind", after, bar_vertices + 14, {1, 3, 100}},
+        {"three components", three, 2 * bar_vertices + 7, {1, 2, 5, 100}},
+        {"three components in any numbering", shuffled(three, 2 * bar_vertices + 7, 10), 2 * bar_vertices + 7, {1, 2, 5, 100}},
+        {"many small components", apart, 80, {1, 4, 7}},
+    };
+    for (const auto& [name, tets, vertices, sizes] : cases)
+        for (const int vertices_a_slab : sizes) {
+            SCOPED_TRACE(testing::Message() << name << " in slabs of " << vertices_a_slab);
+            expect_sound(tets, vertices, vertices_a_slab);
+        }
+    EXPECT_EQ(expect_sound(tet_ring(1, false), 4, 1024).slabs(), 1);
 }
 
 TEST(VertexOrder, SlabsAreAsManyAsTheSizeAsksFor)
@@ -103,40 +128,6 @@ TEST(VertexOrder, EmptyMesh)
     EXPECT_EQ(order.slabs(), 1);
     EXPECT_TRUE(order.old_of_new.empty());
     EXPECT_TRUE(order.slab_of_new().empty());
-}
-
-TEST(VertexOrder, OneTet)
-{
-    expect_sound(tet_ring(1, false), 4, 1);
-    EXPECT_EQ(expect_sound(tet_ring(1, false), 4, 1024).slabs(), 1);
-}
-
-TEST(VertexOrder, UnusedVertices)
-{
-    expect_sound(Tets(0, 4), 5, 1);
-    const Tets after = (bar.tets.array() + 7).matrix();
-    for (const int vertices_a_slab : {1, 3, 100}) {
-        expect_sound(bar.tets, bar_vertices + 7, vertices_a_slab);
-        expect_sound(after, bar_vertices + 14, vertices_a_slab);
-    }
-}
-
-TEST(VertexOrder, SeveralComponents)
-{
-    const Tets two = beside(bar.tets, bar_vertices, shuffled(bar.tets, bar_vertices, 9));
-    const Tets three = beside(two, 2 * bar_vertices, tet_ring(5, true));
-    for (const int vertices_a_slab : {1, 2, 5, 100}) {
-        expect_sound(three, 2 * bar_vertices + 7, vertices_a_slab);
-        expect_sound(shuffled(three, 2 * bar_vertices + 7, 10), 2 * bar_vertices + 7, vertices_a_slab);
-    }
-}
-
-// Separate tets, each with a level of one vertex and one of three: the end of one and the start of the next share slabs.
-TEST(VertexOrder, ManySmallComponents)
-{
-    Tets tets(0, 4);
-    for (int t = 0; t < 20; ++t) tets = beside(tets, 4 * t, tet_ring(1, false));
-    for (const int vertices_a_slab : {1, 4, 7}) expect_sound(tets, 80, vertices_a_slab);
 }
 
 // Reference: the definition of a colouring, checked tet by tet.
@@ -177,20 +168,11 @@ TEST(VertexColours, AreAtMostOneMoreThanTheLargestNumberOfNeighbours)
     EXPECT_LE(pbs::vertex_colours(bar.tets, static_cast<int>(bar.rest.rows())).size(), 15u);
 }
 
-TEST(VertexColours, OfOneTetAreFour)
-{
-    const pbs::Tets tet = test_support::tet_ring(1, false);
-    EXPECT_EQ(pbs::vertex_colours(tet, 4).size(), 4u);
-}
-
-TEST(VertexColours, AVertexWithoutTetsHasTheFirstColour)
+TEST(VertexColours, OfOneTetAreFourAndAVertexWithoutTetsHasTheFirst)
 {
     const auto colours = pbs::vertex_colours(test_support::tet_ring(1, false), 5);
+    EXPECT_EQ(colours.size(), 4u);
     EXPECT_EQ(colour_of_vertex(colours, 5)[4], 0);
-}
-
-TEST(VertexColours, OfNoVertexAreNone)
-{
     EXPECT_TRUE(pbs::vertex_colours(pbs::Tets(0, 4), 0).empty());
 }
 

@@ -76,25 +76,21 @@ TEST(DualQuaternionSkinning, AgreesWithLinearBlendingWhereOneBoneMoves)
         motion_error(3 + 1, point.norm()));
 }
 
-TEST(DualQuaternionSkinning, TakesTheShortWayForAntipodalQuaternions)
+// Rotations by 170 and -170 degrees are 20 degrees apart; their quaternions lie in opposite hemispheres. An entry without weight must not
+// determine the hemisphere of the others: 180 lies between 100 and 260.
+TEST(DualQuaternionSkinning, TakesTheShortWayAndPivotsOnTheHeaviestBone)
 {
-    // Rotations by 170 and -170 degrees are 20 degrees apart; their quaternions lie in opposite hemispheres.
-    pbs::Pose pose(2, Eigen::Isometry3d::Identity());
-    pose[0].linear() = Eigen::AngleAxisd(170.0 * degree, Vec3::UnitX()).toRotationMatrix();
-    pose[1].linear() = Eigen::AngleAxisd(-170.0 * degree, Vec3::UnitX()).toRotationMatrix();
-    const Positions posed = blended_point(pbs::dual_quaternion_skinning, {0, 1, 0}, half_and_half(), pose);
-    EXPECT_LT((posed.row(0).transpose() - Vec3(0, -1, 0)).norm(), motion_error(3, 1.0));
-}
-
-TEST(DualQuaternionSkinning, PivotsOnTheHeaviestBone)
-{
-    // The first entry has no weight, so it must not determine the hemisphere of the others.
-    pbs::Pose pose(3, Eigen::Isometry3d::Identity());
-    pose[1].linear() = Eigen::AngleAxisd(100.0 * degree, Vec3::UnitX()).toRotationMatrix();
-    pose[2].linear() = Eigen::AngleAxisd(-100.0 * degree, Vec3::UnitX()).toRotationMatrix();
-    const pbs::Weights weights = {{0, 3}, {0, 1, 2}, {0.0, 0.5, 0.5}};
-    const Positions posed = blended_point(pbs::dual_quaternion_skinning, {0, 1, 0}, weights, pose);
-    EXPECT_LT((posed.row(0).transpose() - Vec3(0, -1, 0)).norm(), motion_error(3, 1.0));  // 180, between 100 and 260
+    const auto turned = [](std::vector<double> angles_deg) {
+        pbs::Pose pose(angles_deg.size(), Eigen::Isometry3d::Identity());
+        for (std::size_t bone = 0; bone < pose.size(); ++bone)
+            pose[bone].linear() = Eigen::AngleAxisd(angles_deg[bone] * degree, Vec3::UnitX()).toRotationMatrix();
+        return pose;
+    };
+    const pbs::Weights with_zero = {{0, 3}, {0, 1, 2}, {0.0, 0.5, 0.5}};
+    for (const auto& [weights, pose] : {std::pair(half_and_half(), turned({170, -170})), {with_zero, turned({0, 100, -100})}}) {
+        const Positions posed = blended_point(pbs::dual_quaternion_skinning, {0, 1, 0}, weights, pose);
+        EXPECT_LT((posed.row(0).transpose() - Vec3(0, -1, 0)).norm(), motion_error(3, 1.0));
+    }
 }
 
 TEST(Blends, LeaveTheRestPoseWhereItIs)
@@ -139,27 +135,13 @@ void append_rigid(Weights& weights, int bone)
     weights.first.push_back(static_cast<int>(weights.bone.size()));
 }
 
-TEST(PackedWeights, AVertexOfOneBoneIsMovedByItsMatrix)
-{
-    const PackedWeights<double> packed = pbs::pack_weights<double>(five_vertices);
-    EXPECT_EQ(packed.bones, 3);
-    EXPECT_EQ(packed.matrix[0], 2);
-    EXPECT_EQ(packed.matrix[3], 2);
-}
-
-TEST(PackedWeights, VerticesOfEqualRowsShareOne)
-{
-    const PackedWeights<double> packed = pbs::pack_weights<double>(five_vertices);
-    EXPECT_EQ(packed.shared.rows(), 1);
-    EXPECT_EQ(packed.shared.bone, (std::vector<int>{0, 1}));
-    EXPECT_EQ(packed.matrix[1], 3);  // after the three bones
-    EXPECT_EQ(packed.matrix[4], 3);
-}
-
-TEST(PackedWeights, ARowOfOneVertexIsItsOwn)
+TEST(PackedWeights, OneBoneOrASharedRowIsAMatrixAndARowOfOneVertexItsOwn)
 {
     const PackedWeights<float> packed = pbs::pack_weights<float>(five_vertices);
-    EXPECT_EQ(packed.matrix[2], -1);
+    EXPECT_EQ(packed.bones, 3);
+    EXPECT_TRUE(std::equal(packed.matrix.begin(), packed.matrix.begin() + 5, std::vector{2, 3, -1, 2, 3}.begin()));  // 3: after the bones
+    EXPECT_EQ(packed.shared.rows(), 1);
+    EXPECT_EQ(packed.shared.bone, (std::vector<int>{0, 1}));
     EXPECT_EQ(packed.own.rows(), 1);
     EXPECT_EQ(packed.own.weight, (std::vector<float>{0.25F, 0.75F}));
 }
@@ -296,17 +278,6 @@ TYPED_TEST(BlendSkinningOf, NoVertices)
     EXPECT_EQ(posed.rows(), 0);
     skinning.dual_quaternion({}, posed);
     EXPECT_EQ(posed.rows(), 0);
-}
-
-TYPED_TEST(BlendSkinningOf, OneVertex)
-{
-    const Positions point = four_points.row(1);
-    const Weights weights = {{0, 2}, {0, 1}, {0.25, 0.75}};
-    BlendSkinning<TypeParam> skinning(point, weights);
-    Positions posed, plain;
-    skinning.dual_quaternion(two_bones(), posed);
-    pbs::dual_quaternion_skinning(point, weights, two_bones(), plain);
-    EXPECT_LT((posed - plain).norm(), std::sqrt(3.0) * dual_quaternion_error<TypeParam>());
 }
 
 TYPED_TEST(BlendSkinningOf, BonesWithoutVertices)  // bones 0 and 2 of four

@@ -7,9 +7,9 @@
 
 #include <numbers>
 
-// Reference: the bones that meet at each point, read from the drawing.
-
 namespace {
+
+// Reference: the bones that meet at each point, read from the drawing.
 
 using pbs::BoneEnd;
 using Indices = std::vector<int>;
@@ -30,47 +30,33 @@ TEST(FindBone, ByName)
     EXPECT_EQ(pbs::find_bone(body(), "tail"), -1);
 }
 
-TEST(BonesMeeting, AtAHeadAreParentAndSiblingsThatStartThere)
+TEST(BonesMeeting, AreThoseThatShareTheEnd)
 {
-    EXPECT_EQ(pbs::bones_meeting(body(), 2, BoneEnd::head), (Indices{2, 0, 3}));
-    EXPECT_EQ(pbs::bones_meeting(body(), 1, BoneEnd::head), (Indices{1, 0}));  // the hips start elsewhere
-}
-
-TEST(BonesMeeting, AtATailAreChildrenThatStartThere)
-{
-    EXPECT_EQ(pbs::bones_meeting(body(), 0, BoneEnd::tail), (Indices{0, 1}));
-    EXPECT_EQ(pbs::bones_meeting(body(), 2, BoneEnd::tail), (Indices{2, 4}));
-}
-
-TEST(BonesMeeting, AtARootsHeadAreChildrenThatStartThere)
-{
-    EXPECT_EQ(pbs::bones_meeting(body(), 0, BoneEnd::head), (Indices{0, 2, 3}));
-}
-
-TEST(BonesMeeting, AtAFreeEndIsTheBoneAlone)
-{
-    EXPECT_EQ(pbs::bones_meeting(body(), 4, BoneEnd::tail), Indices{4});
-}
-
-TEST(BonesMeeting, IsWithinTwoPercentOfTheDiagonal)
-{
-    pbs::Skeleton skeleton = {{{"a", -1, {0, 0, 0}, {1, 0, 0}}, {"b", 0, {1, 0.019, 0}, {1, 0, 0}}}};
-    EXPECT_EQ(pbs::bones_meeting(skeleton, 0, BoneEnd::tail), (Indices{0, 1}));
-    skeleton.bones[1].head.y() = 0.021;
-    EXPECT_EQ(pbs::bones_meeting(skeleton, 0, BoneEnd::tail), Indices{0});
-}
-
-TEST(BonesMeeting, SingleBone)
-{
-    const pbs::Skeleton skeleton = {{{"only", -1, {0, 0, 0}, {1, 0, 0}}}};
-    EXPECT_EQ(pbs::bones_meeting(skeleton, 0, BoneEnd::head), Indices{0});
-    EXPECT_EQ(pbs::bones_meeting(skeleton, 0, BoneEnd::tail), Indices{0});
-}
-
-TEST(BonesMeeting, ZeroLengthBone)
-{
-    const pbs::Skeleton skeleton = {{{"a", -1, {0, 0, 0}, {1, 0, 0}}, {"point", 0, {1, 0, 0}, {1, 0, 0}}, {"c", 1, {1, 0, 0}, {2, 0, 0}}}};
-    EXPECT_EQ(pbs::bones_meeting(skeleton, 1, BoneEnd::head), (Indices{1, 0, 2}));
+    const pbs::Skeleton single = {{{"only", -1, {0, 0, 0}, {1, 0, 0}}}};
+    const pbs::Skeleton with_point = {
+        {{"a", -1, {0, 0, 0}, {1, 0, 0}}, {"point", 0, {1, 0, 0}, {1, 0, 0}}, {"c", 1, {1, 0, 0}, {2, 0, 0}}}};
+    const auto child_at = [](double y) -> pbs::Skeleton { return {{{"a", -1, {0, 0, 0}, {1, 0, 0}}, {"b", 0, {1, y, 0}, {1, 0, 0}}}}; };
+    struct Case {
+        const char* name;
+        pbs::Skeleton skeleton;
+        int bone;
+        BoneEnd end;
+        Indices expected;
+    };
+    const Case cases[] = {
+        {"at a head: parent and siblings that start there", body(), 2, BoneEnd::head, {2, 0, 3}},
+        {"siblings that start elsewhere are left out", body(), 1, BoneEnd::head, {1, 0}},
+        {"at a tail: children that start there", body(), 0, BoneEnd::tail, {0, 1}},
+        {"at the tail of a child", body(), 2, BoneEnd::tail, {2, 4}},
+        {"at a root's head: children that start there", body(), 0, BoneEnd::head, {0, 2, 3}},
+        {"at a free end: the bone alone", body(), 4, BoneEnd::tail, {4}},
+        {"within two percent of the diagonal", child_at(0.019), 0, BoneEnd::tail, {0, 1}},
+        {"farther away", child_at(0.021), 0, BoneEnd::tail, {0}},
+        {"the head of a single bone", single, 0, BoneEnd::head, {0}},
+        {"the tail of a single bone", single, 0, BoneEnd::tail, {0}},
+        {"a bone of length zero", with_point, 1, BoneEnd::head, {1, 0, 2}},
+    };
+    for (const auto& [name, skeleton, bone, end, expected] : cases) EXPECT_EQ(pbs::bones_meeting(skeleton, bone, end), expected) << name;
 }
 
 using pbs::Vec3;

@@ -27,6 +27,8 @@ pbs::Pose pose(const Eigen::Quaterniond& upper, const Eigen::Quaterniond& fore, 
     return pbs::pose_from_joints(arm, {upper, fore, hand}, root);
 }
 
+const Eigen::Quaterniond still = Eigen::Quaterniond::Identity();
+const pbs::Pose at_rest = pose(still, still, still, Vec3::Zero());
 const pbs::Pose crouched = pose(turn(40, {1, 2, 0}), turn(100, {0, 1, 3}), turn(-70, {1, 1, 1}), {0.3, -2, 1});
 const pbs::Pose stretched = pose(turn(-20, {0, 1, 0}), turn(5, {1, 0, 0}), turn(60, {0, 0, 1}), {1, 1, 1});
 
@@ -62,17 +64,14 @@ TEST(PosePath, JointsStayJoinedAndBonesRigid)
 
 TEST(PosePath, TurnsAtAnEvenRateAndTheShortWayRound)
 {
-    const Eigen::Quaterniond still = Eigen::Quaterniond::Identity();
-    const pbs::Pose rest = pose(still, still, still, Vec3::Zero());
-    expect_near(PosePath(arm, rest, pose(still, turn(80, Vec3::UnitZ()), still, Vec3::Zero())).at(0.25),
+    expect_near(PosePath(arm, at_rest, pose(still, turn(80, Vec3::UnitZ()), still, Vec3::Zero())).at(0.25),
                 pose(still, turn(20, Vec3::UnitZ()), still, Vec3::Zero()));
-    expect_near(PosePath(arm, rest, pose(still, turn(270, Vec3::UnitZ()), still, Vec3::Zero())).at(0.5),
+    expect_near(PosePath(arm, at_rest, pose(still, turn(270, Vec3::UnitZ()), still, Vec3::Zero())).at(0.5),
                 pose(still, turn(-45, Vec3::UnitZ()), still, Vec3::Zero()));
 }
 
 TEST(PosePath, TheRootMovesInAStraightLine)
 {
-    const Eigen::Quaterniond still = Eigen::Quaterniond::Identity();
     const PosePath path(arm, pose(still, still, still, {1, 0, 0}), pose(turn(90, Vec3::UnitY()), still, still, {3, 4, 0}));
     EXPECT_LT((path.at(0.5)[0] * arm.bones[0].head - Vec3(2, 2, 0)).norm(), test_support::motion_error(3, 5.0));
 }
@@ -89,11 +88,9 @@ TEST(PosePath, AHeadThatLeavesItsParentMovesEvenly)
 
 TEST(PosePath, TheLargestTurnIsThatOfABoneInTheWorld)
 {
-    const Eigen::Quaterniond still = Eigen::Quaterniond::Identity();
-    const pbs::Pose rest = pose(still, still, still, Vec3::Zero());
     const pbs::Pose bent = pose(still, turn(30, Vec3::UnitZ()), turn(25, Vec3::UnitZ()), Vec3::Zero());
     const double rounding = test_support::motion_matrix_error(3 + 1, 0.0);  // three joints, and the angle of a matrix
-    EXPECT_NEAR(PosePath(arm, rest, bent).largest_turn_deg(), 55.0, rounding * 180.0 / std::acos(-1.0));
+    EXPECT_NEAR(PosePath(arm, at_rest, bent).largest_turn_deg(), 55.0, rounding * 180.0 / std::acos(-1.0));
     EXPECT_EQ(PosePath(arm, bent, bent).largest_turn_deg(), 0.0);
 }
 
@@ -172,20 +169,23 @@ TEST(StepsPerFrame, AcceptTimesWrittenWithSixDigits)
     EXPECT_EQ(steps_per_frame({.rate_hz = 1.0, .time_step_s = 1e-5}), 100000);
 }
 
-TEST(StepsPerFrame, ThatAreNotWholeOrTooManyAreRefused)
+TEST(StepsPerFrame, ThatAreNotWholeOrTooManyOrOfNoTimeAreRefused)
 {
-    EXPECT_NE(refusal_of([] { steps_per_frame({.rate_hz = 30.0, .time_step_s = 0.01}); }).find("expected 1 / n"), std::string::npos);
-    EXPECT_NE(refusal_of([] { steps_per_frame({.rate_hz = 30.0, .time_step_s = 0.1}); }).find("expected 1 / n"), std::string::npos);
-    EXPECT_NE(refusal_of([] { steps_per_frame({.rate_hz = 1.0, .time_step_s = 1e-6}); }).find("100000 steps"), std::string::npos);
-}
-
-TEST(StepsPerFrame, OfARateOrATimeStepThatIsNotPositiveAreRefusedByName)
-{
-    for (const double bad : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
-        EXPECT_EQ(refusal_of([&] { steps_per_frame({.rate_hz = bad}); }).rfind("rate_hz = ", 0), 0u) << bad;
-        EXPECT_EQ(refusal_of([&] { steps_per_frame({.time_step_s = bad}); }).rfind("time_step_s = ", 0), 0u) << bad;
+    const double nan = std::numeric_limits<double>::quiet_NaN(), infinite = std::numeric_limits<double>::infinity();
+    struct Case {
+        MotionSampling sampling;
+        std::string message;  // a part of it
+    };
+    for (const auto& [sampling, message] :
+         {Case{{.rate_hz = 30.0, .time_step_s = 0.01}, "expected 1 / n"}, Case{{.rate_hz = 30.0, .time_step_s = 0.1}, "expected 1 / n"},
+          Case{{.rate_hz = 1.0, .time_step_s = 1e-6}, "100000 steps"}, Case{{.rate_hz = 0.0}, "rate_hz = "},
+          Case{{.rate_hz = -1.0}, "rate_hz = "}, Case{{.rate_hz = nan}, "rate_hz = "}, Case{{.rate_hz = infinite}, "rate_hz"},
+          Case{{.time_step_s = 0.0}, "time_step_s = "}, Case{{.time_step_s = -1.0}, "time_step_s = "},
+          Case{{.time_step_s = nan}, "time_step_s = "}}) {
+        const std::string refusal = refusal_of([&] { steps_per_frame(sampling); });
+        EXPECT_NE(refusal.find(message), std::string::npos) << refusal;
+        EXPECT_NE(refusal, "nothing was refused");
     }
-    EXPECT_NE(refusal_of([] { steps_per_frame({.rate_hz = std::numeric_limits<double>::infinity()}); }), "nothing was refused");
 }
 
 TEST(FramesAfterTheFirst, FillTheStretch)

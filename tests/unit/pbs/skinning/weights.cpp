@@ -26,56 +26,38 @@ pbs::BoneBinding bind_one(const Vec3& vertex, const pbs::Skeleton& skeleton)
     return pbs::bind_to_nearest_bone(pbs::Positions(vertex.transpose()), skeleton);
 }
 
-TEST(BoneBinding, BesideABoneIsItsFoot)
-{
-    const pbs::BoneBinding binding = bind_one({0.25, 0.3, 0.4}, limb);
-    EXPECT_EQ(binding.bone[0], 1);
-    EXPECT_DOUBLE_EQ(binding.parameter(0), 0.25);
-    EXPECT_EQ(Vec3(binding.rest_point.row(0)), Vec3(0.25, 0, 0));
-    EXPECT_DOUBLE_EQ(binding.distance(0), 0.5);
-}
-
-TEST(BoneBinding, BeyondAnEndIsTheEndWithAnUnclampedParameter)
-{
-    const pbs::BoneBinding binding = bind_one({1.5, 0, 0}, limb);
-    EXPECT_DOUBLE_EQ(binding.parameter(0), 1.5);
-    EXPECT_EQ(Vec3(binding.rest_point.row(0)), Vec3(1, 0, 0));
-    EXPECT_DOUBLE_EQ(binding.distance(0), 0.5);
-    const pbs::BoneBinding before_head = bind_one({-3, 0, 0}, limb);
-    EXPECT_DOUBLE_EQ(before_head.parameter(0), -2.0);
-    EXPECT_EQ(Vec3(before_head.rest_point.row(0)), Vec3(-1, 0, 0));
-    EXPECT_DOUBLE_EQ(before_head.distance(0), 2.0);
-}
-
-TEST(BoneBinding, FirstOfEquals)
-{
-    EXPECT_EQ(bind_one({0, 0.2, 0}, limb).bone[0], 0);
-}
-
-TEST(BoneBinding, VertexOnTheBoneHasDistanceZero)
-{
-    EXPECT_EQ(bind_one({0.5, 0, 0}, limb).distance(0), 0.0);
-}
-
-TEST(BoneBinding, ZeroLengthBoneIsAPoint)
+TEST(BoneBinding, IsTheNearestPointWithAnUnclampedParameter)
 {
     const pbs::Skeleton point = {{{"point", -1, {1, 1, 1}, {1, 1, 1}}}};
-    const pbs::BoneBinding binding = bind_one({1, 1, 3}, point);
-    EXPECT_EQ(binding.bone[0], 0);
-    EXPECT_EQ(binding.parameter(0), 0.0);
-    EXPECT_EQ(Vec3(binding.rest_point.row(0)), Vec3(1, 1, 1));
-    EXPECT_DOUBLE_EQ(binding.distance(0), 2.0);
-}
-
-TEST(BoneBinding, WithoutBonesIsRefused)
-{
-    EXPECT_THROW(bind_one({0, 0, 0}, {}), pbs::InputError);
+    struct Case {
+        const char* name;
+        const pbs::Skeleton& skeleton;
+        Vec3 vertex, rest_point;
+        int bone;
+        double parameter, distance;
+    };
+    const Case cases[] = {
+        {"beside a bone", limb, {0.25, 0.3, 0.4}, {0.25, 0, 0}, 1, 0.25, 0.5},
+        {"beyond a tail", limb, {1.5, 0, 0}, {1, 0, 0}, 1, 1.5, 0.5},
+        {"before a head", limb, {-3, 0, 0}, {-1, 0, 0}, 0, -2.0, 2.0},
+        {"the first of equals", limb, {0, 0.2, 0}, {0, 0, 0}, 0, 1.0, 0.2},
+        {"on the bone", limb, {0.5, 0, 0}, {0.5, 0, 0}, 1, 0.5, 0.0},
+        {"a bone of length zero is a point", point, {1, 1, 3}, {1, 1, 1}, 0, 0.0, 2.0},
+    };
+    for (const auto& [name, skeleton, vertex, rest_point, bone, parameter, distance] : cases) {
+        SCOPED_TRACE(name);
+        const pbs::BoneBinding binding = bind_one(vertex, skeleton);
+        EXPECT_EQ(binding.bone[0], bone);
+        EXPECT_DOUBLE_EQ(binding.parameter(0), parameter);
+        EXPECT_EQ(Vec3(binding.rest_point.row(0)), rest_point);
+        EXPECT_DOUBLE_EQ(binding.distance(0), distance);
+    }
+    EXPECT_THROW(bind_one({0, 0, 0}, {}), pbs::InputError) << "no bones";
 }
 
 TEST(PosedBindPoints, AreCarriedByTheirBones)
 {
-    pbs::Positions rest(2, 3);
-    rest << -0.5, 0.1, 0, 0.5, 0.1, 0;
+    const pbs::Positions rest = (pbs::Positions(2, 3) << -0.5, 0.1, 0, 0.5, 0.1, 0).finished();
     const pbs::BoneBinding binding = pbs::bind_to_nearest_bone(rest, limb);
     const pbs::Pose pose = pbs::joint_sweep(limb, 1, Vec3::UnitZ(), 90.0, 2, 0.01).steps[1];
     const pbs::Positions points = pbs::posed_bind_points(binding, pose);
@@ -86,12 +68,10 @@ TEST(PosedBindPoints, AreCarriedByTheirBones)
 // The forearm turned by 90 degrees about z lies along y; (0.1, 0.4, 0) is 0.4 along it, and (0.3, 2, 0) beyond its tail.
 TEST(ReprojectedBindPoints, AreOnThePosedSegment)
 {
-    pbs::Positions rest(2, 3);
-    rest << 0.5, 0.1, 0, 0.9, 0.1, 0;
+    const pbs::Positions rest = (pbs::Positions(2, 3) << 0.5, 0.1, 0, 0.9, 0.1, 0).finished();
     const pbs::BoneBinding binding = pbs::bind_to_nearest_bone(rest, limb);
     const pbs::Pose bent = pbs::joint_sweep(limb, 1, Vec3::UnitZ(), 90.0, 2, 0.01).steps.back();
-    pbs::Positions moved(2, 3);
-    moved << 0.1, 0.4, 0, 0.3, 2.0, 0;
+    const pbs::Positions moved = (pbs::Positions(2, 3) << 0.1, 0.4, 0, 0.3, 2.0, 0).finished();
     const pbs::Positions points = pbs::reprojected_bind_points(binding, limb, bent, moved);
     EXPECT_LT((Vec3(points.row(0)) - Vec3(0, 0.4, 0)).norm(), motion_error(3, 1.0));  // two of the bone, one for the projection
     EXPECT_LT((Vec3(points.row(1)) - Vec3(0, 1, 0)).norm(), motion_error(3, 1.0));
@@ -99,20 +79,13 @@ TEST(ReprojectedBindPoints, AreOnThePosedSegment)
 
 TEST(ReprojectedBindPoints, OfARigidlyMovedBodyAreTheCarriedOnes)
 {
-    pbs::Positions rest(2, 3);
-    rest << -0.5, 0.1, 0.2, 0.9, 0.1, 0;
+    const pbs::Positions rest = (pbs::Positions(2, 3) << -0.5, 0.1, 0.2, 0.9, 0.1, 0).finished();
     const pbs::BoneBinding binding = pbs::bind_to_nearest_bone(rest, limb);
     const pbs::Pose turned(2, Eigen::Isometry3d(Eigen::Translation3d(1, 2, 3) * Eigen::AngleAxisd(0.7, Vec3(1, 2, 2) / 3.0)));
     pbs::Positions moved(2, 3);
     for (int i = 0; i < 2; ++i) moved.row(i) = turned[0] * Vec3(rest.row(i));
     EXPECT_LT((pbs::reprojected_bind_points(binding, limb, turned, moved) - pbs::posed_bind_points(binding, turned)).norm(),
               std::sqrt(2.0) * motion_error(1 + 1 + 3, 5.0));  // of two points: the body, the points, and the projection on the moved bone
-}
-
-pbs::Weights weights_at(const pbs::Skeleton& skeleton, const Vec3& vertex)
-{
-    const pbs::BoneBinding binding = pbs::bind_to_nearest_bone(pbs::Positions(vertex.transpose()), skeleton);
-    return pbs::paper_weights(binding, skeleton);
 }
 
 // A palm with three fingers that start at its tail.
@@ -124,58 +97,47 @@ pbs::Skeleton palm()
              {"little", 0, {1, 0, 0}, {1, -1, 0}}}};
 }
 
-TEST(PaperWeights, AreOneInTheMiddle)
-{
-    const pbs::Weights weights = weights_at(palm(), {0.5, 0.1, 0});
-    EXPECT_EQ(weights.bone, std::vector{0});
-    EXPECT_EQ(weights.weight, std::vector{1.0});
-    EXPECT_FALSE(weights.blended(0));
-}
-
 TEST(PaperWeights, AreSharedByTheBonesAtTheJoint)
 {
-    const pbs::Weights weights = weights_at(palm(), {0.9, 0.01, 0});
-    EXPECT_EQ(weights.bone, (std::vector{0, 1, 2, 3}));
-    EXPECT_EQ(weights.weight, std::vector(4, 0.25));
-    EXPECT_TRUE(weights.blended(0));
-    EXPECT_EQ(weights_at(palm(), {1.1, 0.01, 0}).bone, (std::vector{2, 0, 1, 3}));  // the same four bones from the other side
-}
-
-TEST(PaperWeights, AreOneWhereOnlyOneBoneMeets)
-{
-    for (const Vec3& vertex : {Vec3(0.05, 0.1, 0), Vec3(-0.5, 0, 0), Vec3(2.5, 0, 0)}) {
-        const pbs::Weights weights = weights_at(palm(), vertex);
-        EXPECT_EQ(weights.weight, std::vector{1.0}) << vertex.transpose();
-    }
-}
-
-TEST(PaperWeights, BoundsAreInclusive)
-{
-    const pbs::Skeleton skeleton = {{{"a", -1, {-6, 0, 0}, {0, 0, 0}}, {"b", 0, {0, 0, 0}, {6, 0, 0}}}};
-    EXPECT_FALSE(weights_at(skeleton, {1, 0, 0}).blended(0));   // t = 1/6 of b
-    EXPECT_FALSE(weights_at(skeleton, {-1, 0, 0}).blended(0));  // t = 5/6 of a
-    EXPECT_TRUE(weights_at(skeleton, {0.999, 0, 0}).blended(0));
-    EXPECT_TRUE(weights_at(skeleton, {-0.999, 0, 0}).blended(0));
-}
-
-TEST(PaperWeights, SingleBone)
-{
+    const pbs::Skeleton sixes = {{{"a", -1, {-6, 0, 0}, {0, 0, 0}}, {"b", 0, {0, 0, 0}, {6, 0, 0}}}};
     const pbs::Skeleton single = {{{"only", -1, {0, 0, 0}, {1, 0, 0}}}};
-    for (const double x : {-1.0, 0.0, 0.5, 1.0, 2.0}) EXPECT_EQ(weights_at(single, {x, 0, 0}).weight, std::vector{1.0});
-}
-
-TEST(PaperWeights, ZeroLengthBoneIsSharedAtItsJoint)
-{
-    const pbs::Skeleton skeleton = {{{"point", -1, {0, 0, 0}, {0, 0, 0}}, {"bone", 0, {0, 0, 0}, {1, 0, 0}}}};
-    const pbs::Weights weights = weights_at(skeleton, {-0.5, 0, 0});
-    EXPECT_EQ(weights.bone, (std::vector{0, 1}));
-    EXPECT_EQ(weights.weight, (std::vector{0.5, 0.5}));
+    const pbs::Skeleton with_point = {{{"point", -1, {0, 0, 0}, {0, 0, 0}}, {"bone", 0, {0, 0, 0}, {1, 0, 0}}}};
+    struct Case {
+        const char* name;
+        pbs::Skeleton skeleton;
+        Vec3 vertex;
+        std::vector<int> bones;  // with equal weights
+    };
+    const Case cases[] = {
+        {"one in the middle", palm(), {0.5, 0.1, 0}, {0}},
+        {"at the joint", palm(), {0.9, 0.01, 0}, {0, 1, 2, 3}},
+        {"the same four bones from the other side", palm(), {1.1, 0.01, 0}, {2, 0, 1, 3}},
+        {"near the free head", palm(), {0.05, 0.1, 0}, {0}},
+        {"before the free head", palm(), {-0.5, 0, 0}, {0}},
+        {"beyond a free tail", palm(), {2.5, 0, 0}, {2}},
+        {"the bound t = 1/6 is inclusive", sixes, {1, 0, 0}, {1}},
+        {"the bound t = 5/6 is inclusive", sixes, {-1, 0, 0}, {0}},
+        {"just below t = 1/6", sixes, {0.999, 0, 0}, {1, 0}},
+        {"just above t = 5/6", sixes, {-0.999, 0, 0}, {0, 1}},
+        {"before a single bone", single, {-1, 0, 0}, {0}},
+        {"the head of a single bone", single, {0, 0, 0}, {0}},
+        {"the middle of a single bone", single, {0.5, 0, 0}, {0}},
+        {"the tail of a single bone", single, {1, 0, 0}, {0}},
+        {"beyond a single bone", single, {2, 0, 0}, {0}},
+        {"a bone of length zero at its joint", with_point, {-0.5, 0, 0}, {0, 1}},
+    };
+    for (const auto& [name, skeleton, vertex, bones] : cases) {
+        const pbs::Weights weights = pbs::paper_weights(bind_one(vertex, skeleton), skeleton);
+        EXPECT_EQ(weights.bone, bones) << name;
+        EXPECT_EQ(weights.weight, std::vector(bones.size(), 1.0 / double(bones.size()))) << name;
+        EXPECT_EQ(weights.blended(0), bones.size() > 1) << name;
+    }
 }
 
 TEST(PaperWeights, SumToOne)
 {
     for (double x = -0.5; x < 2.5; x += 0.01) {
-        const pbs::Weights weights = weights_at(palm(), {x, 0.02, 0.01});
+        const pbs::Weights weights = pbs::paper_weights(bind_one({x, 0.02, 0.01}, palm()), palm());
         double sum = 0.0;
         for (const double weight : weights.weight) sum += weight;
         EXPECT_NEAR(sum, 1.0, test_support::mean_error(weights.weight.size(), 1.0));
@@ -210,11 +172,12 @@ using pbs::harmonic_weights;
 
 const pbs::TetMesh bar = test_support::structured_bar({0, 0, 0}, {1, 0.2, 0.2}, {10, 2, 2});
 
-double weight_of(const pbs::Weights& weights, int vertex, int bone)
+Eigen::MatrixXd dense(const pbs::Weights& weights, int bones)
 {
-    for (int k = weights.first[vertex]; k < weights.first[vertex + 1]; ++k)
-        if (weights.bone[k] == bone) return weights.weight[k];
-    return 0.0;
+    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(weights.vertices(), bones);
+    for (int v = 0; v < weights.vertices(); ++v)
+        for (int e = weights.first[v]; e < weights.first[v + 1]; ++e) matrix(v, weights.bone[e]) += weights.weight[e];
+    return matrix;
 }
 
 // Whole cross-sections are gripped beyond x = 0.2 and x = 0.7. The term that keeps the matrix L regular, 1e-9 of its diagonal D, changes
@@ -228,19 +191,18 @@ TEST(HarmonicWeights, AreLinearBetweenGrippedCrossSections)
         if (bar.rest(v, 0) < 0.2 + 1e-9) gripping[v] = 0;
         if (bar.rest(v, 0) > 0.7 - 1e-9) gripping[v] = 1;
     }
-    const pbs::Weights weights = harmonic_weights(bar, gripping, 2);
+    const Eigen::MatrixXd weights = dense(harmonic_weights(bar, gripping, 2), 2);
     const double of_regularity = 1e-9 * 10.0 * (0.5 * 0.5 / 8.0) / (0.1 * 0.1);
     for (int v = 0; v < bar.rest.rows(); ++v) {
         const double expected = std::clamp((bar.rest(v, 0) - 0.2) / 0.5, 0.0, 1.0);
-        EXPECT_NEAR(weight_of(weights, v, 1), expected, of_regularity);
-        EXPECT_NEAR(weight_of(weights, v, 0) + weight_of(weights, v, 1), 1.0, test_support::mean_error(2, 1.0));
+        EXPECT_NEAR(weights(v, 1), expected, of_regularity);
+        EXPECT_NEAR(weights(v, 0) + weights(v, 1), 1.0, test_support::mean_error(2, 1.0));
     }
 }
 
 TEST(HarmonicWeights, APartThatNothingGripsGoesWithTheFirstBone)
 {
-    const pbs::Weights weights = harmonic_weights(bar, std::vector<int>(bar.rest.rows(), -1), 2);
-    for (int v = 0; v < bar.rest.rows(); ++v) EXPECT_EQ(weight_of(weights, v, 0), 1.0);
+    EXPECT_EQ(dense(harmonic_weights(bar, std::vector<int>(bar.rest.rows(), -1), 2), 2).col(0).minCoeff(), 1.0);
 }
 
 // Reference: functions that are linear in the place are harmonic, and linear elements represent them exactly. The term 1e-9 that keeps the
@@ -250,14 +212,6 @@ using pbs::harmonic_extension;
 
 constexpr double extension_tolerance = 3e-6;
 const pbs::TetMesh extension_bar = test_support::structured_bar({0, 0, 0}, {1, 1, 0.5}, {6, 5, 4});
-
-Eigen::MatrixXd dense(const pbs::Weights& weights, int bones)
-{
-    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(weights.vertices(), bones);
-    for (int v = 0; v < weights.vertices(); ++v)
-        for (int e = weights.first[v]; e < weights.first[v + 1]; ++e) matrix(v, weights.bone[e]) += weights.weight[e];
-    return matrix;
-}
 
 // Three weights that are linear in the place and sum to one.
 Eigen::MatrixXd linear_weights_of(const pbs::Positions& rest)
@@ -284,13 +238,6 @@ TEST(HarmonicExtension, ReproducesLinearWeightsFromTheBoundary)
     EXPECT_LE((dense(harmonic_extension(extension_bar, boundary, given), 3) - expected).cwiseAbs().maxCoeff(), extension_tolerance);
 }
 
-TEST(HarmonicExtension, KeepsWeightsThatAreAllKnown)
-{
-    const Eigen::MatrixXd given = linear_weights_of(extension_bar.rest);
-    const std::vector<bool> all(std::size_t(given.rows()), true);
-    EXPECT_LE((dense(harmonic_extension(extension_bar, all, given), 3) - given).cwiseAbs().maxCoeff(), 1e-14);
-}
-
 // Weights are from the least to the greatest known one (maximum principle, whose condition the Kuhn tets of cubes fulfil).
 TEST(HarmonicExtension, StaysBetweenTheKnownWeightsAndSumsToOne)
 {
@@ -308,24 +255,16 @@ TEST(HarmonicExtension, StaysBetweenTheKnownWeightsAndSumsToOne)
     EXPECT_LE((extended.rowwise().sum().array() - 1.0).abs().maxCoeff(), 1e-14);
 }
 
-TEST(HarmonicExtension, RemovesWeightsOfAMillionthAndDividesByTheSumOfTheOthers)
+// Known weights stay; those of a millionth are removed, and the others are divided by their sum.
+TEST(HarmonicExtension, OfAllOrNoKnownWeights)
 {
-    const std::vector<bool> all(std::size_t(extension_bar.rest.rows()), true);
-    Eigen::MatrixXd given = Eigen::MatrixXd::Zero(extension_bar.rest.rows(), 3);
-    given.col(0).setConstant(0.5);
-    given.col(1).setConstant(5e-7);
-    given.col(2).setConstant(1.5);
-    const Eigen::MatrixXd weights = dense(harmonic_extension(extension_bar, all, given), 3);
-    EXPECT_EQ(weights.col(0).minCoeff(), 0.25);
-    EXPECT_EQ(weights.col(1).maxCoeff(), 0.0);
-    EXPECT_EQ(weights.col(2).maxCoeff(), 0.75);
-}
-
-TEST(HarmonicExtension, WithoutAnyKnownWeightBelongsToTheFirstBone)
-{
-    const std::vector<bool> none(std::size_t(extension_bar.rest.rows()), false);
-    const Eigen::MatrixXd given = Eigen::MatrixXd::Zero(extension_bar.rest.rows(), 2);
-    EXPECT_EQ(dense(harmonic_extension(extension_bar, none, given), 2).col(0).minCoeff(), 1.0);
+    const Eigen::Index rows = extension_bar.rest.rows();
+    const std::vector<bool> all(rows, true), none(rows, false);
+    const Eigen::MatrixXd linear = linear_weights_of(extension_bar.rest);
+    EXPECT_LE((dense(harmonic_extension(extension_bar, all, linear), 3) - linear).cwiseAbs().maxCoeff(), 1e-14);
+    const Eigen::RowVector3d given(0.5, 5e-7, 1.5), expected(0.25, 0.0, 0.75);
+    EXPECT_EQ(dense(harmonic_extension(extension_bar, all, given.replicate(rows, 1)), 3), Eigen::MatrixXd(expected.replicate(rows, 1)));
+    EXPECT_EQ(dense(harmonic_extension(extension_bar, none, Eigen::MatrixXd::Zero(rows, 2)), 2).col(0).minCoeff(), 1.0) << "the first bone";
 }
 
 // Reference: the definition on rows of cross-sections, and what diffusion conserves.
@@ -334,22 +273,14 @@ using pbs::diffused_weights;
 
 const test_support::TwoBoneLimb straight = test_support::two_bone_limb({16, 3, 3}, pbs::Vec3::UnitZ(), 0.0);
 
-double diffused_weight(const pbs::Weights& weights, int vertex, int bone)
-{
-    for (int k = weights.first[vertex]; k < weights.first[vertex + 1]; ++k)
-        if (weights.bone[k] == bone) return weights.weight[k];
-    return 0.0;
-}
-
 // The largest difference of the forearm's weight between two ends of an edge.
 double largest_jump(const pbs::Weights& weights)
 {
+    const Eigen::VectorXd forearm = dense(weights, 2).col(1);
     double largest = 0.0;
-    for (Eigen::Index t = 0; t < straight.mesh.tets.rows(); ++t)
-        for (int a = 0; a < 4; ++a)
-            for (int b = 0; b < a; ++b)
-                largest = std::max(largest, std::abs(diffused_weight(weights, straight.mesh.tets(t, a), 1) -
-                                                     diffused_weight(weights, straight.mesh.tets(t, b), 1)));
+    const pbs::Edges edges = pbs::edges_of(straight.mesh.tets);
+    for (const auto& edge : edges.rowwise())
+        largest = std::max(largest, std::abs(forearm(edge(0)) - forearm(edge(1))));
     return largest;
 }
 
@@ -371,9 +302,7 @@ TEST(DiffusedWeights, AreNotNegativeAndAddUpToOne)
 
 TEST(DiffusedWeights, WithoutStepsAreTheGivenOnes)
 {
-    const pbs::Weights weights = diffused_weights(straight.mesh, straight.weights, 0);
-    for (int v = 0; v < weights.vertices(); ++v)
-        for (const int bone : {0, 1}) EXPECT_EQ(diffused_weight(weights, v, bone), diffused_weight(straight.weights, v, bone));
+    EXPECT_EQ(dense(diffused_weights(straight.mesh, straight.weights, 0), 2), dense(straight.weights, 2));
 }
 
 TEST(DiffusedWeights, OneStepGoesHalfWayToTheMeanOfTheNeighbours)
@@ -382,10 +311,10 @@ TEST(DiffusedWeights, OneStepGoesHalfWayToTheMeanOfTheNeighbours)
     tet.rest = (pbs::Positions(5, 3) << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 2, 2, 2).finished();
     tet.tets = (pbs::Tets(1, 4) << 0, 1, 2, 3).finished();
     const pbs::Weights given = {{0, 1, 2, 3, 4, 5}, {0, 1, 1, 1, 0}, {1.0, 1.0, 1.0, 1.0, 1.0}};
-    const pbs::Weights weights = diffused_weights(tet, given, 1);
-    EXPECT_NEAR(diffused_weight(weights, 0, 0), 0.5, test_support::rounding_error(6, 1.0));
-    EXPECT_NEAR(diffused_weight(weights, 1, 0), 0.5 / 3.0, test_support::rounding_error(6, 1.0));
-    EXPECT_EQ(diffused_weight(weights, 4, 0), 1.0) << "a vertex without tets keeps its own";
+    const Eigen::VectorXd first = dense(diffused_weights(tet, given, 1), 2).col(0);
+    EXPECT_NEAR(first(0), 0.5, test_support::rounding_error(6, 1.0));
+    EXPECT_NEAR(first(1), 0.5 / 3.0, test_support::rounding_error(6, 1.0));
+    EXPECT_EQ(first(4), 1.0) << "a vertex without tets keeps its own";
 }
 
 // A step takes means, so that the jumps along edges do not grow, and spread over several edges they fall.

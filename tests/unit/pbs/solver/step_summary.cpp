@@ -24,31 +24,25 @@ FrameStep after(const std::vector<Outcome>& outcomes)
     return frame;
 }
 
-TEST(FrameStep, AStepThatFailsBetweenFramesIsTheFramesOutcome)
+// The worst outcome of all and the first step that has it; the seconds of the last step.
+TEST(FrameStep, HasTheWorstOutcomeOfItsSteps)
 {
-    for (const Outcome failed : {Outcome::not_converged, Outcome::not_finite}) {
-        const FrameStep frame = after({Outcome::finished, failed, Outcome::finished, Outcome::finished});
-        EXPECT_EQ(frame.summary().outcome, failed);
-        EXPECT_EQ(frame.worst_step(), 1u);
+    using enum Outcome;
+    struct Case {
+        std::vector<Outcome> steps;
+        Outcome outcome;
+        std::size_t worst_step;
+    };
+    for (const auto& [steps, outcome, worst_step] :
+         {Case{{finished, not_converged, finished, finished}, not_converged, 1},
+          Case{{finished, not_finite, finished, finished}, not_finite, 1}, Case{{not_converged, not_finite}, not_finite, 1},
+          Case{{not_finite, not_converged}, not_finite, 0}, Case{{not_converged, not_converged}, not_converged, 0},
+          Case{{not_converged, finished}, not_converged, 0}, Case{{finished, finished, finished}, finished, 2}}) {
+        const FrameStep frame = after(steps);
+        EXPECT_EQ(frame.summary().outcome, outcome);
+        EXPECT_EQ(frame.worst_step(), worst_step);
+        EXPECT_EQ(frame.summary().seconds, double(steps.size() - 1));
     }
-}
-
-TEST(FrameStep, TheWorstOfTwoFailuresIsTold)
-{
-    EXPECT_EQ(after({Outcome::not_converged, Outcome::not_finite}).summary().outcome, Outcome::not_finite);
-    EXPECT_EQ(after({Outcome::not_converged, Outcome::not_finite}).worst_step(), 1u);
-    EXPECT_EQ(after({Outcome::not_finite, Outcome::not_converged}).summary().outcome, Outcome::not_finite);
-    EXPECT_EQ(after({Outcome::not_finite, Outcome::not_converged}).worst_step(), 0u);
-    EXPECT_EQ(after({Outcome::not_converged, Outcome::not_converged}).worst_step(), 0u);
-}
-
-TEST(FrameStep, OtherwiseItIsTheLastStep)
-{
-    const FrameStep frame = after({Outcome::finished, Outcome::finished, Outcome::finished});
-    EXPECT_EQ(frame.summary().outcome, Outcome::finished);
-    EXPECT_EQ(frame.worst_step(), 2u);
-    EXPECT_EQ(frame.summary().seconds, 2.0);
-    EXPECT_EQ(after({Outcome::not_converged, Outcome::finished}).summary().seconds, 1.0);
 }
 
 // Reference: root mean squares by hand.

@@ -1,0 +1,200 @@
+// Sixteen groups of vertices, or sixteen poses of one body, and the kernels that project their constraints side by side.
+//   Sixteen<float> groups; groups.links = {{{0, 1}}};
+//   Groups<float, GroupKind::edge>::project(groups);
+#pragma once
+
+#include "pbs/solver/batched/pbs_kernels.hpp"
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <vector>
+
+namespace test_support {
+
+constexpr int lanes = pbs::batch_size, most_vertices = 6;
+
+// With the same constraints in each lane.
+template <typename Scalar>
+struct Sixteen {
+    using Vector = pbs::Vector3<Scalar>;
+    struct Link {
+        std::vector<int> vertex;                                     // one: bind, two: stretch, four: volume
+        Scalar rest[lanes] = {}, k[lanes] = {}, lambda[lanes] = {};  // rest: [m] or [m^3]; k: 1 / alpha for XPBD
+    };
+
+    Vector p[lanes][most_vertices], q[lanes][most_vertices];  // positions and bind points
+    Scalar w[lanes][most_vertices] = {};
+    std::vector<Link> links;
+
+    Sixteen()
+    {
+        std::fill_n(p[0], lanes * most_vertices, Vector::Zero());
+        std::fill_n(q[0], lanes * most_vertices, Vector::Zero());
+    }
+};
+
+// One batch, with vertices of its own in each lane. k: as the kernel takes it, from k and the sum of two inverse masses.
+template <typename Scalar, pbs::GroupKind kind>
+struct Packed {
+    using Shape = pbs::GroupShape<kind>;
+    alignas(64) Scalar xyzw[lanes * Shape::vertices][4] = {};
+    alignas(64) Scalar lambda[Shape::constraints][lanes] = {};
+    pbs::Batch<Scalar, kind> batch = {};
+
+    template <typename Stiffness>
+    Packed(const Sixteen<Scalar>& from, Stiffness stiffness)
+    {
+        for (int lane = 0; lane < lanes; ++lane) {
+            for (int v = 0; v < Shape::vertices; ++v) {
+                batch.offset[v][lane] = 4 * (lane * Shape::vertices + v);
+                for (int axis = 0; axis < 3; ++axis) xyzw[lane * Shape::vertices + v][axis] = from.p[lane][v](axis);
+                xyzw[lane * Shape::vertices + v][3] = from.w[lane][v];
+            }
+            for (int c = 0; c < Shape::constraints; ++c) {
+                const auto& link = from.links[c];
+                batch.rest[c][lane] = (pbs::of_edges<kind> ? Scalar(1) : Scalar(6)) * link.rest[lane];
+                batch.stiffness[c][lane] = stiffness(link.k[lane], from.w[lane][link.vertex[0]] + from.w[lane][link.vertex[1]]);
+                lambda[c][lane] = link.lambda[lane];
+            }
+        }
+    }
+    void store(Sixteen<Scalar>& to) const
+    {
+        for (int lane = 0; lane < lanes; ++lane) {
+            for (int v = 0; v < Shape::vertices; ++v) {
+                const Scalar* vertex = xyzw[lane * Shape::vertices + v];
+                to.p[lane][v] = {vertex[0], vertex[1], vertex[2]};
+                to.w[lane][v] = vertex[3];
+            }
+            for (int c = 0; c < Shape::constraints; ++c) to.links[c].lambda[lane] = lambda[c][lane];
+        }
+    }
+};
+
+template <typename S, pbs::GroupKind kind>
+struct Groups {
+    using Scalar = S;
+    static constexpr bool one_body = false, compliant = false;
+    static constexpr int vertices = pbs::GroupShape<kind>::vertices;
+    static std::vector<std::vector<int>> links()
+    {
+        std::vector<std::vector<int>> joined;
+        for (const auto& join : pbs::GroupShape<kind>::joins) joined.emplace_back(join.begin(), join.end());
+        return joined;
+    }
+    static Packed<S, kind> packed(const Sixteen<S>& from)
+    {
+        return {from, [](S k, S w) { return !pbs::of_edges<kind> ? k : w > S(0) ? k / w : S(0); }};
+    }
+    static void project(Sixteen<S>& groups)
+    {
+        auto batch = packed(groups);
+        pbs::project_batches<S>(kind, &batch.batch, 1, batch.xyzw[0]);
+        batch.store(groups);
+    }
+};
+
+// XPBD. Of tets, stiffness and multiplier are those of six times the volume.
+template <typename S, pbs::GroupKind kind>
+struct Compliant : Groups<S, kind> {
+    static constexpr bool compliant = true;
+    static void project(Sixteen<S>& groups, S dt2 = S(0.25))
+    {
+        Packed<S, kind> batch(groups, [](S k, S) { return k; });
+        pbs::project_compliant_batches<S>(kind, &batch.batch, 1, dt2, batch.lambda[0], batch.xyzw[0]);
+        batch.store(groups);
+    }
+};
+
+template <typename S>
+struct BindBatches {
+    using Scalar = S;
+    static constexpr bool one_body = false, compliant = false;
+    static constexpr int vertices = most_vertices;
+    static std::vector<std::vector<int>> links() { return {{0}, {1}, {2}, {3}, {4}, {5}}; }
+
+    explicit BindBatches(const Sixteen<S>& from)
+    {
+        for (int v = 0; v < vertices; ++v)
+            for (int lane = 0; lane < lanes; ++lane) {
+                S* to = xyzw[v * lanes + lane];
+                for (int axis = 0; axis < 3; ++axis) to[axis] = from.p[lane][v](axis);
+                to[3] = from.w[lane][v];
+                batches[v].x[lane] = from.q[lane][v](0), batches[v].y[lane] = from.q[lane][v](1), batches[v].z[lane] = from.q[lane][v](2);
+                batches[v].rest_distance[lane] = from.links[v].rest[lane];
+                batches[v].stiffness[lane] = from.w[lane][v] > S(0) ? from.links[v].k[lane] : S(0);
+            }
+    }
+    static void project(Sixteen<S>& groups)
+    {
+        BindBatches packed(groups);
+        pbs::project_bind_batches<S>(packed.batches, vertices, packed.xyzw[0]);
+        for (int v = 0; v < vertices; ++v)
+            for (int lane = 0; lane < lanes; ++lane) groups.p[lane][v] = Eigen::Map<const pbs::Vector3<S>>(packed.xyzw[v * lanes + lane]);
+    }
+
+    alignas(64) S xyzw[vertices * lanes][4];
+    pbs::BindBatch<S> batches[vertices] = {};
+};
+
+// Sixteen poses of up to six vertices: masses and rest values belong to the mesh, and every pose has its own stiffness in each class.
+template <typename S, int corners>
+struct Poses {
+    using Scalar = S;
+    static constexpr bool one_body = true, compliant = false;
+    static constexpr int vertices = most_vertices;
+    static std::vector<std::vector<int>> links()
+    {
+        if (corners == 1) return {{0}, {1}, {2}, {3}, {4}, {5}};
+        if (corners == 2) return {{0, 1}, {2, 3}, {0, 2}, {1, 3}, {0, 3}, {1, 2}};
+        return {{0, 1, 2, 3}, {0, 1, 3, 4}, {0, 1, 4, 5}};
+    }
+
+    static void project(Sixteen<S>& poses)
+    {
+        alignas(64) S p[vertices][3][lanes], q[vertices][3][lanes], k[pbs::stiffness_classes][lanes] = {};
+        const auto& links = poses.links;
+        const S* w = poses.w[0];
+        const auto at = [](int v) { return static_cast<std::uint32_t>(v); };
+        for (int v = 0; v < vertices; ++v)
+            for (int axis = 0; axis < 3; ++axis)
+                for (int pose = 0; pose < lanes; ++pose)
+                    p[v][axis][pose] = poses.p[pose][v](axis), q[v][axis][pose] = poses.q[pose][v](axis);
+        const auto of_class = [&](std::size_t c, pbs::StiffnessOf which) {
+            std::copy_n(links[c].k, lanes, k[static_cast<int>(which)]);
+            return which;
+        };
+        if constexpr (corners == 1) {
+            std::vector<pbs::PoseBind<S>> binds;
+            for (std::size_t c = 0; c < links.size(); ++c) binds.push_back({links[c].rest[0], S(w[c] > 0)});
+            pbs::project_pose_binds(binds.data(), binds.size(), links[0].k, q[0][0], p[0][0]);
+        } else if constexpr (corners == 2) {
+            std::vector<pbs::PoseEdge<S>> edges;
+            for (std::size_t c = 0; c < links.size(); ++c) {
+                const int i = links[c].vertex[0], j = links[c].vertex[1];
+                const S sum = w[i] + w[j];
+                edges.push_back({{at(i), at(j)},
+                                 of_class(c, c % 2 == 0 ? pbs::StiffnessOf::stretch : pbs::StiffnessOf::jiggling_stretch),
+                                 links[c].rest[0],
+                                 {w[i], w[j]},
+                                 sum > 0 ? 1 / sum : 0});
+            }
+            pbs::project_pose_edges(edges.data(), edges.size(), k[0], p[0][0]);
+        } else {
+            std::vector<pbs::PoseTet<S>> tets;
+            for (std::size_t c = 0; c < links.size(); ++c) {
+                const auto& v = links[c].vertex;
+                tets.push_back({{at(v[0]), at(v[1]), at(v[2]), at(v[3])},
+                                of_class(c, pbs::StiffnessOf::volume),
+                                S(6) * links[c].rest[0],
+                                {w[v[0]], w[v[1]], w[v[2]], w[v[3]]}});
+            }
+            pbs::project_pose_tets(tets.data(), tets.size(), k[0], p[0][0]);
+        }
+        for (int v = 0; v < vertices; ++v)
+            for (int pose = 0; pose < lanes; ++pose) poses.p[pose][v] = {p[v][0][pose], p[v][1][pose], p[v][2][pose]};
+    }
+};
+
+}  // namespace test_support
