@@ -61,9 +61,7 @@ class Workflows(program.ProgramTest):
     def test_the_steps_of_pbskin_run(self):
         self.script("build/release/bin/pbskin", f'exec "{program.PBSKIN}" "$@"\n')
         environment = {**os.environ, "GITHUB_ACTIONS": "true", "GITHUB_STEP_SUMMARY": self.path("summary.md")}
-        status = {}
-        for name in ("Hold the bounds", "Measure written frames"):
-            status[name] = self.act(steps()[name], environment).returncode
+        status = {name: self.act(steps()[name], environment).returncode for name in ("Hold the bounds", "Measure written frames")}
         report = self.path("results", "volume.xml")
         # meshes of another CGAL, whose baselines must differ
         other_meshes = run_records.scenes_of_another_mesh(self.path("results", "check"))
