@@ -7,13 +7,10 @@ pbs_tests(unit reference_fem_laws FOLDERS reference_fem/laws LIBRARIES reference
 pbs_tests(unit reference_fem BLAS FOLDERS reference_fem EXCEPT reference_fem/laws
     ALONE reference_fem/linear_elasticity reference_fem/newton/newton reference_fem/assembly
     LIBRARIES reference_fem_verification)
-pbs_tests(verification reference_fem_laws FILES reference_fem/laws reference_fem/laws_closed_form
-    ALONE reference_fem/laws_closed_form
-    LIBRARIES reference_fem_laws)
+pbs_tests(verification reference_fem_laws FILES reference_fem/laws LIBRARIES reference_fem_laws)
 pbs_tests(verification reference_fem BLAS FOLDERS reference_fem
-    EXCEPT reference_fem/laws reference_fem/laws_closed_form
-    ALONE reference_fem/linear_response reference_fem/near_incompressible_attachment
-        reference_fem/rigid_rotation reference_fem/spring_attachment reference_fem/twisted_bar
+    EXCEPT reference_fem/laws
+    ALONE reference_fem/attachment reference_fem/linear_response
     LIBRARIES reference_fem_verification)
 if(NOT TARGET fem_verification)
     return()
@@ -24,7 +21,7 @@ if(NOT PBS_WITH_CGAL)
     list(APPEND left_out experiments/studies/verification/calculix)
 endif()
 if(NOT PBS_WITH_RIG_IMPORT OR NOT PBS_WITH_CGAL OR NOT PBS_WITH_MESH_IO)
-    list(APPEND left_out experiments/deformers/fem/human_grip experiments/deformers/fem/limb_at_large_rotations)
+    list(APPEND left_out experiments/deformers/fem/bodies)
 endif()
 pbs_tests(unit experiments_fem BLAS FOLDERS experiments/deformers/fem
     EXCEPT experiments/deformers/fem/fem_module
@@ -32,5 +29,5 @@ pbs_tests(unit experiments_fem BLAS FOLDERS experiments/deformers/fem
 pbs_tests(verification experiments_fem BLAS FOLDERS experiments/deformers/fem
     FILES experiments/studies/stability/broken_fem_starts experiments/studies/verification/calculix experiments/verification_record
     EXCEPT ${left_out}
-    ALONE experiments/deformers/fem/elastic_bar experiments/deformers/fem/young_cancels
+    ALONE experiments/deformers/fem/elastic_bar
     LIBRARIES fem_verification experiments)

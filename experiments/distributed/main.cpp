@@ -120,7 +120,8 @@ LoadedBody limb(const BodyArguments& arguments, const reference_fem::LinearOptio
     LoadedBody body{character.name, character.mesh, {}, fem};
     body.problem.options = options;
     body.problem.attachment = bones.attachment;
-    body.problem.spring_targets = spring_targets(bones, pbs::pose_from_joints(character.skeleton, joints, pbs::Vec3::Zero()));
+    body.problem.spring_targets =
+        targets(bones, character.mesh.rest, pbs::pose_from_joints(character.skeleton, joints, pbs::Vec3::Zero())).springs;
     return body;
 }
 

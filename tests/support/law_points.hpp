@@ -43,9 +43,6 @@ inline std::string name_of_model(const testing::TestParamInfo<NamedModel>& info)
     return info.param.name;
 }
 
-// Instantiated only in verification/reference_fem/laws.cpp, for the tests of all files of that program.
-class EveryLaw : public testing::TestWithParam<NamedModel> {};
-
 struct LawPoint {
     std::unique_ptr<const reference_fem::ConstitutiveLaw> law;
 
@@ -61,6 +58,12 @@ struct LawPoint {
         return reference_fem::tangent(law->evaluate(f, Derivatives::second), law->lambda_pa());
     }
 };
+
+inline bool all_finite(const reference_fem::PointResponse& response)
+{
+    return std::isfinite(response.shape) && std::isfinite(response.dilatation) && response.shape_gradient.allFinite() &&
+           response.dilatation_gradient.allFinite() && response.shape_hessian.allFinite() && response.dilatation_hessian.allFinite();
+}
 
 inline Eigen::Matrix3d random_matrix(RandomPoints& random, double size)
 {

@@ -9,10 +9,13 @@ namespace test_support {
 
 inline pbs::TetMesh unit_tet()
 {
-    pbs::TetMesh mesh{pbs::Positions(4, 3), pbs::Tets(1, 4)};
-    mesh.rest << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1;
-    mesh.tets << 0, 1, 2, 3;
-    return mesh;
+    return {pbs::Positions{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, pbs::Tets{{0, 1, 2, 3}}};
+}
+
+// The unit tet and a second one below it on the triangle 0 1 2, of `depth_m` / 6 m^3.
+inline pbs::TetMesh two_tets(double depth_m = 1.0)
+{
+    return {pbs::Positions{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, -depth_m}}, pbs::Tets{{0, 1, 2, 3}, {0, 2, 1, 4}}};
 }
 
 }  // namespace test_support

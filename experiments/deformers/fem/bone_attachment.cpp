@@ -1,6 +1,5 @@
 #include "experiments/deformers/fem/bone_attachment.hpp"
 
-#include "pbs/character/bone_capsules.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 
@@ -11,121 +10,89 @@
 namespace experiments {
 namespace {
 
-// Capsules that hold nothing yet.
-BoneAttachment empty_attachment(const pbs::Character& character, double core_radius)
+// The children of the tets that are held in the unrefined character, which are the same parts of the flesh.
+void hold_children(const BoneAttachment& coarse, const pbs::Character& character, BoneAttachment& bones)
 {
-    BoneAttachment bones;
-    bones.capsules = pbs::bone_capsules(character, core_radius);
-    bones.vertex_bone.assign(character.mesh.rest.rows(), -1);
-    return bones;
+    const int children = 1 << 3 * character.refinements;
+    for (std::size_t k = 0; k < coarse.tet_bone.size(); ++k)
+        for (int child = 0; child < children; ++child) {
+            const int tet = children * coarse.attachment.prescribed_tets[k] + child;
+            bones.attachment.prescribed_tets.push_back(tet);
+            bones.tet_bone.push_back(coarse.tet_bone[k]);
+            for (const int v : character.mesh.tets.row(tet)) bones.vertex_bone[v] = coarse.tet_bone[k];
+        }
+}
+
+void hold_tets(const pbs::Character& character, BoneAttachment& bones)
+{
+    const pbs::TetMesh& mesh = character.mesh;
+    for (int j = 0; j < static_cast<int>(bones.capsules.size()); ++j) {
+        // All of a tet is inside if its corners are, for a capsule is convex.
+        const auto may_hold = [&](int v) {
+            return bones.capsules[j].contains(mesh.rest.row(v)) && (bones.vertex_bone[v] == -1 || bones.vertex_bone[v] == j);
+        };
+        for (int tet = 0; tet < mesh.tets.rows(); ++tet) {
+            const auto corners = mesh.tets.row(tet);
+            if (!std::all_of(corners.begin(), corners.end(), may_hold)) continue;
+            for (const int v : corners) bones.vertex_bone[v] = j;
+            bones.attachment.prescribed_tets.push_back(tet);
+            bones.tet_bone.push_back(j);
+        }
+        if (bones.tet_bone.empty() || bones.tet_bone.back() != j)
+            throw pbs::InputError(character.name, 0, "bone", character.skeleton.bones[j].name,
+                                  "expected four vertices of whole tets inside its capsule that are not in one plane; refine the mesh, "
+                                  "raise core_radius or use attachment smooth or embedded");
+    }
+}
+
+void bind_vertices(const pbs::Character& character, const FemOptions& options, BoneAttachment& bones)
+{
+    bones.binding = character.binding;
+    bones.attachment.bind_distance = character.binding.distance;
+    bones.attachment.bind_stiffness =
+        options.used_spring_factor() * options.young_pa * pbs::lumped_volumes(character.mesh.rest, character.mesh.tets);
+    for (Eigen::Index v = 0; v < character.mesh.rest.rows(); ++v) {
+        const double radius = bones.capsules[character.binding.bone[v]].radius_m;
+        bones.attachment.bind_stiffness(v) /= radius * radius;
+    }
 }
 
 // Springs at the sample points of the capsules, each with the stiffness of its share of the volume.
-BoneAttachment attached_by(pbs::CapsuleSprings held, const pbs::Character& character, const FemOptions& options)
+void tie_springs(const pbs::Character& character, const FemOptions& options, BoneAttachment& bones)
 {
-    BoneAttachment bones;
+    const pbs::SmoothSpringOptions sampled{.core_radius = options.used_core_radius(),
+                                           .spring_factor = options.used_spring_factor(),
+                                           .kernel = options.attachment_kernel,
+                                           .ends = options.attachment_ends,
+                                           .samples = options.attachment_samples};
+    const auto everywhere = [](const pbs::BoneCapsule&, const pbs::Vec3&) { return 1.0; };
+    pbs::CapsuleSprings held =
+        options.is_smooth() ? pbs::smooth_springs(character, sampled) : pbs::capsule_springs(character, sampled, everywhere);
     bones.capsules = std::move(held.capsules);
     bones.attachment.spring_points = std::move(held.springs.points);
     bones.attachment.spring_stiffness = options.young_pa * held.springs.stiffness;
     bones.spring_bone = std::move(held.springs.bone);
     bones.spring_density = std::move(held.density);
-    bones.vertex_bone.assign(character.mesh.rest.rows(), -1);
-    return bones;
-}
-
-pbs::SmoothSpringOptions spring_options(const FemOptions& options)
-{
-    return {.core_radius = core_radius_of(options),
-            .spring_factor = spring_factor_of(options),
-            .kernel = options.attachment_kernel,
-            .ends = options.attachment_ends,
-            .samples = options.attachment_samples};
-}
-
-// The children of the tets that are held in the unrefined character, which are the same parts of the flesh.
-BoneAttachment nodes_of_unrefined(const pbs::Character& character, const FemOptions& options)
-{
-    const BoneAttachment coarse = nodes_attachment(*character.unrefined, options);
-    BoneAttachment bones = empty_attachment(character, core_radius_of(options));
-    const int children = 1 << 3 * character.refinements;
-    for (std::size_t k = 0; k < coarse.tet_bone.size(); ++k) {
-        const int first = children * coarse.attachment.prescribed_tets[k];
-        for (int child = first; child < first + children; ++child) {
-            bones.attachment.prescribed_tets.push_back(child);
-            bones.tet_bone.push_back(coarse.tet_bone[k]);
-            for (const int v : character.mesh.tets.row(child)) bones.vertex_bone[v] = coarse.tet_bone[k];
-        }
-    }
-    return bones;
 }
 
 }  // namespace
 
 BoneAttachment bone_attachment(const pbs::Character& character, const FemOptions& options)
 {
-    switch (options.attachment) {
-        case FemAttachment::smooth:
-            return smooth_attachment(character, options);
-        case FemAttachment::embedded:
-            return embedded_attachment(character, options);
-        case FemAttachment::nodes:
-            return nodes_attachment(character, options);
-        case FemAttachment::bind:
-            return bind_attachment(character, options);
+    BoneAttachment bones;
+    bones.vertex_bone.assign(character.mesh.rest.rows(), -1);
+    if (options.has_sample_points()) {
+        tie_springs(character, options, bones);
+        return bones;
     }
-    return {};
-}
-
-BoneAttachment smooth_attachment(const pbs::Character& character, const FemOptions& options)
-{
-    return attached_by(pbs::smooth_springs(character, spring_options(options)), character, options);
-}
-
-BoneAttachment embedded_attachment(const pbs::Character& character, const FemOptions& options)
-{
-    const auto everywhere = [](const pbs::BoneCapsule&, const pbs::Vec3&) { return 1.0; };
-    return attached_by(pbs::capsule_springs(character, spring_options(options), everywhere), character, options);
-}
-
-BoneAttachment nodes_attachment(const pbs::Character& character, const FemOptions& options)
-{
-    if (character.unrefined) return nodes_of_unrefined(character, options);
-    const pbs::TetMesh& mesh = character.mesh;
-    BoneAttachment bones = empty_attachment(character, core_radius_of(options));
-    for (int j = 0; j < static_cast<int>(bones.capsules.size()); ++j) {
-        int kept = 0;
-        for (int tet = 0; tet < mesh.tets.rows(); ++tet) {
-            const auto corners = mesh.tets.row(tet);
-            // All of a tet is inside if its corners are, for a capsule is convex.
-            const auto inside = [&](int v) { return bones.capsules[j].contains(mesh.rest.row(v)); };
-            const auto free_for_bone = [&](int v) { return bones.vertex_bone[v] == -1 || bones.vertex_bone[v] == j; };
-            if (!std::all_of(corners.begin(), corners.end(), inside)) continue;
-            if (!std::all_of(corners.begin(), corners.end(), free_for_bone)) continue;
-            for (const int v : corners) bones.vertex_bone[v] = j;
-            bones.attachment.prescribed_tets.push_back(tet);
-            bones.tet_bone.push_back(j);
-            ++kept;
-        }
-        if (kept == 0)
-            throw pbs::InputError(character.name, 0, "bone", character.skeleton.bones[j].name,
-                                  "expected four vertices of whole tets inside its capsule that are not in one plane; refine the mesh, "
-                                  "raise core_radius or use attachment smooth or embedded");
-    }
-    return bones;
-}
-
-BoneAttachment bind_attachment(const pbs::Character& character, const FemOptions& options)
-{
-    const pbs::TetMesh& mesh = character.mesh;
     constexpr double whole_limb = 1.0;
-    BoneAttachment bones = empty_attachment(character, whole_limb);
-    bones.binding = character.binding;
-    bones.attachment.bind_distance = character.binding.distance;
-    bones.attachment.bind_stiffness = spring_factor_of(options) * options.young_pa * pbs::lumped_volumes(mesh.rest, mesh.tets);
-    for (Eigen::Index v = 0; v < mesh.rest.rows(); ++v) {
-        const double radius = bones.capsules[character.binding.bone[v]].radius_m;
-        bones.attachment.bind_stiffness(v) /= radius * radius;
-    }
+    bones.capsules = pbs::bone_capsules(character, options.has_capsules() ? options.used_core_radius() : whole_limb);
+    if (options.attachment == FemAttachment::bind)
+        bind_vertices(character, options, bones);
+    else if (character.unrefined)
+        hold_children(bone_attachment(*character.unrefined, options), character, bones);
+    else
+        hold_tets(character, bones);
     return bones;
 }
 
@@ -139,34 +106,22 @@ std::vector<int> gripping_bones(const BoneAttachment& bones, const pbs::Tets& te
 
     std::vector<int> gripping = bones.vertex_bone;
     std::vector<double> largest(gripping.size(), 0.0);
-    for (const auto& entry : stiffness) {
-        const int vertex = entry.first.first, bone = entry.first.second;
-        if (entry.second <= largest[vertex]) continue;
-        largest[vertex] = entry.second;
-        gripping[vertex] = bone;
+    for (const auto& [place, sum] : stiffness) {
+        if (sum <= largest[place.first]) continue;
+        largest[place.first] = sum;
+        gripping[place.first] = place.second;
     }
     return gripping;
 }
 
-pbs::Positions spring_targets(const BoneAttachment& bones, const pbs::Pose& pose)
-{
-    pbs::Positions targets = bones.attachment.spring_points;
-    for (Eigen::Index s = 0; s < targets.rows(); ++s)
-        targets.row(s) = (pose[bones.spring_bone[s]] * pbs::Vec3(targets.row(s).transpose())).transpose();
-    return targets;
-}
-
-pbs::Positions vertex_targets(const BoneAttachment& bones, const pbs::Positions& rest, const pbs::Pose& pose)
-{
-    pbs::Positions targets = rest;
-    for (Eigen::Index v = 0; v < rest.rows(); ++v)
-        if (bones.vertex_bone[v] >= 0) targets.row(v) = (pose[bones.vertex_bone[v]] * pbs::Vec3(rest.row(v).transpose())).transpose();
-    return targets;
-}
-
 reference_fem::Targets targets(const BoneAttachment& bones, const pbs::Positions& rest, const pbs::Pose& pose)
 {
-    return {spring_targets(bones, pose), vertex_targets(bones, rest, pose), pbs::posed_bind_points(bones.binding, pose)};
+    reference_fem::Targets held{bones.attachment.spring_points, rest, pbs::posed_bind_points(bones.binding, pose)};
+    const auto carry = [&](auto point, int bone) { point = (pose[bone] * pbs::Vec3(point.transpose())).transpose(); };
+    for (Eigen::Index s = 0; s < held.springs.rows(); ++s) carry(held.springs.row(s), bones.spring_bone[s]);
+    for (Eigen::Index v = 0; v < rest.rows(); ++v)
+        if (bones.vertex_bone[v] >= 0) carry(held.vertices.row(v), bones.vertex_bone[v]);
+    return held;
 }
 
 }  // namespace experiments

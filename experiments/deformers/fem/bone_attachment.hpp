@@ -18,24 +18,17 @@ struct BoneAttachment {
     pbs::BoneBinding binding;                // of bound vertices; otherwise empty
 };
 
-BoneAttachment bone_attachment(const pbs::Character& character, const FemOptions& options);  // by options.attachment
-
-// Springs over each capsule's volume, of density q E / r^2 times smooth_density (pbs/character/bone_capsules.hpp).
-BoneAttachment smooth_attachment(const pbs::Character& character, const FemOptions& options);
-
-// Springs of density q E / r^2 over each capsule's volume.
-BoneAttachment embedded_attachment(const pbs::Character& character, const FemOptions& options);
-
-// Whole tets inside the capsules. No vertex is shared by two bones: the tet of the later bone is left out. A bone that keeps no tet
-// (fewer than four vertices that are not in one plane) is a pbs::InputError. A refined character has the children of the tets of the
-// unrefined one.
-BoneAttachment nodes_attachment(const pbs::Character& character, const FemOptions& options);
-
-// Every vertex at its rest distance d from its rest projection on its bone: k_i = q E V_i / R^2, V_i the vertex's lumped rest volume and R
-// the limb radius of its bone. The sum over the vertices is then the vertex rule for the integral over the flesh of
-// q E / (2 R^2) (|x - q(X)| - d(X))^2 dV, which does not depend on the mesh. The weight is R, not d, because 1 / d^2 is not integrable at
-// the bone.
-BoneAttachment bind_attachment(const pbs::Character& character, const FemOptions& options);
+// By options.attachment:
+//   smooth    springs over each capsule's volume, of density q E / r^2 times smooth_density (pbs/character/bone_capsules.hpp)
+//   embedded  springs of density q E / r^2 over each capsule's volume
+//   nodes     whole tets inside the capsules. No vertex is shared by two bones: the tet of the later bone is left out. A bone that keeps
+//             no tet (fewer than four vertices that are not in one plane) is a pbs::InputError. A refined character has the children of
+//             the tets of the unrefined one
+//   bind      every vertex at its rest distance d from its rest projection on its bone: k_i = q E V_i / R^2, V_i the vertex's lumped rest
+//             volume and R the limb radius of its bone. The sum over the vertices is then the vertex rule for the integral over the flesh
+//             of q E / (2 R^2) (|x - q(X)| - d(X))^2 dV, which does not depend on the mesh. The weight is R, not d, because 1 / d^2 is not
+//             integrable at the bone
+BoneAttachment bone_attachment(const pbs::Character& character, const FemOptions& options);
 
 // Springs of a smaller density, over that on the axis, do not grip: the flesh yields to them.
 constexpr double gripping_density = 0.5;
@@ -44,10 +37,7 @@ constexpr double gripping_density = 0.5;
 // holds each spring, -1: outside.
 std::vector<int> gripping_bones(const BoneAttachment& bones, const pbs::Tets& tets, const std::vector<int>& spring_tet);
 
-// Positions [m] of what is attached, in a pose: of springs, #springs x 3; of vertices, #V x 3, with rest positions where nothing is
-// prescribed; of everything.
-pbs::Positions spring_targets(const BoneAttachment& bones, const pbs::Pose& pose);
-pbs::Positions vertex_targets(const BoneAttachment& bones, const pbs::Positions& rest, const pbs::Pose& pose);
+// Positions [m] of what is attached, in a pose. Vertices that are not prescribed are at rest.
 reference_fem::Targets targets(const BoneAttachment& bones, const pbs::Positions& rest, const pbs::Pose& pose);
 
 }  // namespace experiments

@@ -1,6 +1,5 @@
 #include "experiments/deformers/fem/fem_deformers.hpp"
 
-#include "experiments/deformers/fem/fem_options.hpp"
 #include "pbs/geometry/cost.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/skinning/blend.hpp"
@@ -11,40 +10,29 @@
 #include <cmath>
 
 namespace experiments {
-namespace {
-
-reference_fem::LinearOptions linear_options(const FemOptions& options)
-{
-    return {.element_order = options.element_order,
-            .young_pa = options.young_pa,
-            .poisson = options.poisson,
-            .density_kg_m3 = options.density_kg_m3,
-            .gravity_m_s2 = options.gravity_m_s2,
-            .solver = options.solver,
-            .formulation = options.formulation};
-}
-
-}  // namespace
 
 void LinearFemDeformer::reset(const pbs::Character& character)
 {
     character_ = &character;
     bones_ = bone_attachment(character, options_);
-    elasticity_ = std::make_unique<reference_fem::LinearElasticity>(character.mesh, linear_options(options_), bones_.attachment);
-    record_ = FemRecord(character, options_, bones_, elasticity_->setup().spring_tet);
-    frames_not_finite_ = 0;
+    const reference_fem::LinearOptions linear{.element_order = options_.element_order,
+                                              .young_pa = options_.young_pa,
+                                              .poisson = options_.poisson,
+                                              .density_kg_m3 = options_.density_kg_m3,
+                                              .gravity_m_s2 = options_.gravity_m_s2,
+                                              .solver = options_.solver,
+                                              .formulation = options_.formulation};
+    elasticity_ = std::make_unique<reference_fem::LinearElasticity>(character.mesh, linear, bones_.attachment);
+    frames_not_finite_ = most_iterations_ = 0;
     largest_residual_ = 0.0;
-    most_iterations_ = 0;
-    facts_ = {};
-    if (options_.attachment == FemAttachment::nodes) facts_.prescribed = elasticity_->prescribed_vertices();
-    facts_.last_state = positions_ = character.mesh.rest;
+    start(elasticity_->setup().spring_tet, elasticity_->prescribed_vertices());
 }
 
 pbs::StepSummary LinearFemDeformer::advance(const pbs::Pose& pose, double)
 {
     const pbs::Stopwatch stopwatch;
     const pbs::RootFrame frame(character_->skeleton, pose);
-    const reference_fem::Targets held = targets(bones_, character_->mesh.rest, frame.pose());
+    const reference_fem::Targets held = targets_of(frame.pose());
     const reference_fem::SolveSummary solve = elasticity_->solve(held.springs, held.vertices, frame.from_world(options_.gravity_m_s2));
     facts_.last_state = positions_ = frame.to_world(elasticity_->positions());
 
@@ -53,11 +41,11 @@ pbs::StepSummary LinearFemDeformer::advance(const pbs::Pose& pose, double)
     summary.seconds = stopwatch.seconds();
     summary.work.linear_solves = 1;
 
-    record_.add_frame(frame.pose());
+    record_frame(frame.pose());
     largest_residual_ = std::max(largest_residual_, solve.residual);
     most_iterations_ = std::max(most_iterations_, solve.iterations);
     if (solve.finite)
-        record_.add_grip(held.springs, (held.springs - elasticity_->spring_points_deformed()).rowwise().norm());
+        record_grip(held.springs, (held.springs - elasticity_->spring_points_deformed()).rowwise().norm());
     else
         ++frames_not_finite_;
     return summary;
@@ -66,7 +54,7 @@ pbs::StepSummary LinearFemDeformer::advance(const pbs::Pose& pose, double)
 nlohmann::json LinearFemDeformer::record() const
 {
     if (!elasticity_) return nullptr;
-    nlohmann::json json = record_.to_json(elasticity_->setup());
+    nlohmann::json json = recorded(elasticity_->setup());
     json.update({{"frames_not_finite", frames_not_finite_}, {"largest_residual", largest_residual_}});
     if (options_.solver == reference_fem::LinearSolver::cg_ml) json["most_iterations"] = most_iterations_;
     return json;
@@ -78,45 +66,32 @@ constexpr double largest_turn_deg = 45.0;     // of a bone in one solve
 constexpr int most_indefinite_in_a_row = 40;  // where Newton's steps are limited
 constexpr double far_turn_deg = 15.0;         // beyond it the solution with fewer nodes is a better initial guess than the last pose's
 
-reference_fem::NewtonOptions newton_options(const FemOptions& options)
-{
-    reference_fem::NewtonOptions newton;
-    // Quadratic elements start at the solution of linear ones, so that there is no way to halve where they need many steps.
-    const bool has_no_way = options.nested_start && options.element_order == 2;
-    if (options.most_newton_steps > 0)
-        newton.iterations = has_no_way ? options.most_newton_steps : std::min(newton.iterations, options.most_newton_steps);
-    if (options.most_newton_steps > 0) newton.indefinite_in_a_row = most_indefinite_in_a_row;
-    if (options.dynamics == reference_fem::Dynamics::quasi_static) newton.reuse_contraction = 0.1;
-    return newton;
-}
-
 reference_fem::ElasticOptions solver_options(const FemOptions& options)
 {
-    return {.model = options.model,
-            .element_order = options.element_order,
-            .formulation = options.formulation,
-            .young_pa = options.young_pa,
-            .poisson = options.poisson,
-            .density_kg_m3 = options.density_kg_m3,
-            .dynamics = options.dynamics,
-            .rayleigh_mass_1_s = options.rayleigh_mass_1_s,
-            .rayleigh_stiffness_s = options.rayleigh_stiffness_s,
-            .solver = options.solver,
-            .newton = newton_options(options),
-            .path = {.most_newton_steps = options.most_newton_steps}};
+    reference_fem::ElasticOptions elastic{.model = options.model,
+                                          .element_order = options.element_order,
+                                          .formulation = options.formulation,
+                                          .young_pa = options.young_pa,
+                                          .poisson = options.poisson,
+                                          .density_kg_m3 = options.density_kg_m3,
+                                          .dynamics = options.dynamics,
+                                          .rayleigh_mass_1_s = options.rayleigh_mass_1_s,
+                                          .rayleigh_stiffness_s = options.rayleigh_stiffness_s,
+                                          .solver = options.solver,
+                                          .path = {.most_newton_steps = options.most_newton_steps}};
+    if (options.dynamics == reference_fem::Dynamics::quasi_static) elastic.newton.reuse_contraction = 0.1;
+    if (options.most_newton_steps == 0) return elastic;
+    // Quadratic elements start at the solution of linear ones, so that there is no way to halve where they need many steps.
+    const bool has_no_way = options.nested_start && options.element_order == 2;
+    elastic.newton.iterations = has_no_way ? options.most_newton_steps : std::min(elastic.newton.iterations, options.most_newton_steps);
+    elastic.newton.indefinite_in_a_row = most_indefinite_in_a_row;
+    return elastic;
 }
 
 pbs::Pose placed(pbs::Pose pose, const Eigen::Isometry3d& place)
 {
     for (Eigen::Isometry3d& bone : pose) bone = place * bone;
     return pose;
-}
-
-// The motion of each bone from one pose to the other.
-pbs::Pose turned_from(const pbs::Pose& from, pbs::Pose to)
-{
-    for (std::size_t j = 0; j < to.size(); ++j) to[j] = to[j] * from[j].inverse();
-    return to;
 }
 
 // A step of order 1 takes less than a tenth of the time of one of order 2, so that more of them are allowed.
@@ -155,13 +130,10 @@ void ElasticFemDeformer::reset(const pbs::Character& character)
     unspent_s_ = 0.0;
     start_ = {};
     is_started_ = false;
-    facts_ = {};
-    if (options_.attachment == FemAttachment::nodes) facts_.prescribed = body_->prescribed_vertices();
     failures_in_a_row_ = 0;
-    record_ = FemRecord(character, options_, bones_, body_->setup().spring_tet);
     newton_record_ = NewtonRecord(pbs::tet_volumes(character.mesh.rest, character.mesh.tets).sum());
     has_tried_ = true;
-    positions_ = facts_.last_state = character.mesh.rest;
+    start(body_->setup().spring_tet, body_->prescribed_vertices());
 }
 
 pbs::StepSummary ElasticFemDeformer::advance(const pbs::Pose& pose, double dt_s)
@@ -170,19 +142,16 @@ pbs::StepSummary ElasticFemDeformer::advance(const pbs::Pose& pose, double dt_s)
     const pbs::RootFrame frame(character_->skeleton, pose);
     FrameSolve solve;
     facts_.fewer_nodes = {};
-    if (!has_memory()) {
-        if (start_.rows() > 0)
-            solve = settle_from_start(frame);
-        else if (!settle_from_fewer_nodes(pose, frame, solve) && may_go_the_way(solve))
-            solve = settle(frame);
-        has_tried_ = !solve.stages.empty();
-        positions_ = frame.to_world(body_->positions());
-        facts_.last_state = solve.converged() ? positions_ : frame.to_world(last_iterate_at(character_->mesh.rest));
-    } else {
+    if (has_memory())
         solve = is_started_ ? move(pose, dt_s) : start_at(frame);
-        positions_ = body_->positions();
-        facts_.last_state = solve.converged() ? positions_ : last_iterate_at(character_->mesh.rest);
-    }
+    else if (start_.rows() > 0)
+        solve = settle_from_start(frame);
+    else if (!settle_from_fewer_nodes(pose, frame, solve) && may_go_the_way(solve))
+        solve = settle(frame);
+    has_tried_ = !solve.stages.empty();
+    const auto in_the_world = [&](const pbs::Positions& points) { return has_memory() ? points : frame.to_world(points); };
+    positions_ = in_the_world(body_->positions());
+    facts_.last_state = solve.converged() ? positions_ : in_the_world(last_iterate_at(character_->mesh.rest));
     is_started_ = true;
     pbs::StepSummary summary;
     summary.outcome = solve.converged() ? pbs::Outcome::finished : pbs::Outcome::not_converged;
@@ -193,7 +162,7 @@ pbs::StepSummary ElasticFemDeformer::advance(const pbs::Pose& pose, double dt_s)
     if (facts_.fewer_nodes.deformer) summary.work += facts_.fewer_nodes.step.work;
     summary.seconds = stopwatch.seconds();
 
-    record_.add_frame(frame.pose());
+    record_frame(frame.pose());
     record_solve(solve);
     return summary;
 }
@@ -202,14 +171,16 @@ void ElasticFemDeformer::record_solve(const FrameSolve& solve)
 {
     const reference_fem::Jacobians jacobians = body_->jacobians();
     facts_.lowest_det_f = jacobians.lowest;
-    if (solve.converged()) {
-        newton_record_.add_frame(solve, jacobians);
-        record_grip();
-    } else if (has_tried_) {
-        newton_record_.add_frame(solve, body_->jacobians_of_last_iterate());
-    } else {
+    if (!has_tried_) {
         newton_record_.add_frame_without_start(fewer_nodes_->newton_record_.last_failure());
+        return;
     }
+    newton_record_.add_frame(solve, solve.converged() ? jacobians : body_->jacobians_of_last_iterate());
+    if (!solve.converged()) return;
+    const reference_fem::Targets held = targets_of(reached_pose_);
+    if (held.springs.rows() > 0) record_grip(held.springs, (held.springs - body_->spring_points_deformed()).rowwise().norm());
+    if (options_.attachment == FemAttachment::bind)
+        record_grip(held.bind_points, (body_->positions() - held.bind_points).rowwise().norm() - bones_.attachment.bind_distance);
 }
 
 // Where Newton's method was not tried with these nodes, the state is the last one with fewer nodes.
@@ -228,9 +199,11 @@ void ElasticFemDeformer::follow(const pbs::PosePath& way, const Eigen::Isometry3
         const pbs::Pose from = placed(way.at(on_the_way(0.0)), place);
         const pbs::Positions before = rest + Eigen::Map<const pbs::Positions>(body_->displacement().data(), rest.rows(), 3);
         const auto targets_at = [&](double fraction) {
-            const pbs::Pose pose = placed(way.at(on_the_way(fraction)), place);
+            pbs::Pose pose = placed(way.at(on_the_way(fraction)), place);
             reference_fem::Targets held = targets_of(pose);
-            if (guide_weights_.vertices() > 0) pbs::dual_quaternion_skinning(before, guide_weights_, turned_from(from, pose), held.guide);
+            if (options_.attachment == FemAttachment::bind) return held;
+            for (std::size_t j = 0; j < pose.size(); ++j) pose[j] = pose[j] * from[j].inverse();  // the motion of each bone
+            pbs::dual_quaternion_skinning(before, guide_weights_, pose, held.guide);
             return held;
         };
         solve.stages.push_back(body_->solve(targets_at, gravity_m_s2));
@@ -313,8 +286,8 @@ FrameSolve ElasticFemDeformer::move(const pbs::Pose& pose, double dt_s)
     const pbs::PosePath way(character_->skeleton, reached_pose_, pose);
     unspent_s_ += dt_s;
     FrameSolve solve;
-    solve.stages.push_back(
-        body_->advance([&](double fraction) { return targets_of(way.at(fraction)); }, options_.gravity_m_s2, unspent_s_));
+    const auto targets_at = [&](double fraction) { return targets_of(way.at(fraction)); };
+    solve.stages.push_back(body_->advance(targets_at, options_.gravity_m_s2, unspent_s_));
     if (!solve.stages.back().converged()) return solve;
     solve.reached = 1.0;
     reached_pose_ = pose;
@@ -322,18 +295,10 @@ FrameSolve ElasticFemDeformer::move(const pbs::Pose& pose, double dt_s)
     return solve;
 }
 
-void ElasticFemDeformer::record_grip()
-{
-    const reference_fem::Targets held = targets_of(reached_pose_);
-    if (held.springs.rows() > 0) record_.add_grip(held.springs, (held.springs - body_->spring_points_deformed()).rowwise().norm());
-    if (options_.attachment == FemAttachment::bind)
-        record_.add_grip(held.bind_points, (body_->positions() - held.bind_points).rowwise().norm() - bones_.attachment.bind_distance);
-}
-
 nlohmann::json ElasticFemDeformer::record() const
 {
     if (!body_) return nullptr;
-    nlohmann::json json = record_.to_json(body_->setup());
+    nlohmann::json json = recorded(body_->setup());
     json["newton"] = newton_record_.to_json();
     return json;
 }

@@ -1,5 +1,4 @@
-// The record of a reference's frames, for every model: what the attachment grips of each bone and how well, the set-up, and the largest
-// rotation. It accumulates over the frames.
+// The finite element reference as deformers, linear and at large rotations, and their records, which accumulate over the frames.
 #pragma once
 
 #include "experiments/deformers/deformer.hpp"
@@ -9,58 +8,13 @@
 #include "reference_fem/linear_elasticity.hpp"
 
 #include <nlohmann/json.hpp>
-#include <nlohmann/json_fwd.hpp>
 
 #include <memory>
 
 namespace experiments {
 
-// The flesh that the attachment of one bone holds.
-struct BoneGrip {
-    std::string name;
-    int holds = 0;             // smooth and embedded: sample points; bind: vertices
-    int inside = 0;            // the holds that are in the flesh
-    int tets = 0;              // tets gripped
-    double skin_share = 0.0;   // share of the gripped tets' vertices that lie on the skin
-    int shared_vertices = 0;   // vertices of the gripped tets that another bone grips too: P1 cannot follow both
-    double error_rms_m = 0.0;  // largest over the frames of the frame's rms error of its holds, weighted by their density
-};
-
 // The kind of the attachment and those parameters that it has.
 nlohmann::json attachment_json(const FemOptions& options);
-
-class FemRecord {
-public:
-    FemRecord() = default;
-
-    // spring_tet: the tet that holds each spring, -1: outside. A bone that grips nothing is a pbs::InputError, except with bind.
-    FemRecord(const pbs::Character& character, const FemOptions& options, const BoneAttachment& bones, const std::vector<int>& spring_tet);
-
-    void add_frame(const pbs::Pose& relative_pose);  // relative to the root
-    // targets [m], #holds x 3: where the holds (springs, or bind points) should be. errors_m, #holds: the distance of the flesh from them;
-    // not a number for a hold outside the flesh.
-    void add_grip(const pbs::Positions& targets, const Eigen::VectorXd& errors_m);
-
-    nlohmann::json to_json(const reference_fem::SetupSummary& setup) const;
-
-private:
-    void add_bound_vertices(const pbs::Character& character);
-    void add_gripped_tets(const pbs::Character& character, const std::vector<int>& spring_tet);
-
-    FemOptions options_;
-    BoneAttachment bones_;
-    std::vector<int> hold_bone_;       // #holds
-    pbs::Positions hold_rest_;         // [m], #holds x 3
-    std::vector<double> hold_weight_;  // #holds: the relative density of springs; 1 with bind
-    std::vector<BoneGrip> grips_;      // #bones
-    int frames_ = 0;
-    double largest_rotation_rad_ = 0.0;
-    double largest_grip_error_m_ = 0.0;
-    double grip_error_over_motion_ = 0.0;  // largest over the frames of rms error / rms motion of all holds
-};
-
-// The record of Newton's method for a nonlinear reference: its cost, the guards that were needed, and each frame that was not reached, with
-// the reason. It accumulates over the frames.
 
 // The solves for one frame.
 struct FrameSolve {
@@ -71,6 +25,7 @@ struct FrameSolve {
     bool converged() const { return reached >= 1.0; }
 };
 
+// The cost of Newton's method for a nonlinear reference, the guards that were needed, and each frame that was not reached, with the reason.
 class NewtonRecord {
 public:
     NewtonRecord() = default;
@@ -85,8 +40,6 @@ public:
     nlohmann::json to_json() const;
 
 private:
-    void add_failure(const FrameSolve& solve, const reference_fem::Jacobians& flesh);
-
     int frames_ = 0, restarts_ = 0;
     int newton_steps_ = 0, most_newton_steps_ = 0;  // in total, and the most of one frame
     int factorisations_ = 0, projected_ = 0, halvings_ = 0;
@@ -99,37 +52,64 @@ private:
     int most_inverted_points_ = 0;
 };
 
-// Linear elasticity on the character's own tets, held by its bones, quasi-static: one factor, and one re-solve per frame.
-class LinearFemDeformer : public Deformer {
+// What both deformers have, with the record of what the attachment grips of each bone and how well, of the set-up, and of the largest
+// rotation.
+class FemDeformer : public Deformer {
 public:
-    explicit LinearFemDeformer(const FemOptions& options) : options_(options) {}
-
-    // Assembles and factors. A bone that cannot be gripped is a pbs::InputError that names it.
-    void reset(const pbs::Character& character) override;
-
-    // Linear strain is not invariant under rotation, so the pose is taken relative to the root bone: the root's rigid motion is removed
-    // before the solve and applied after, which is exact. Gravity is turned into the root's frame.
-    pbs::StepSummary advance(const pbs::Pose& pose, double dt_s) override;
-
     const pbs::Positions& positions() const override { return positions_; }
     const FemFacts* facts() const override { return &facts_; }
-    nlohmann::json record() const override;
 
-private:
+protected:
+    explicit FemDeformer(const FemOptions& options) : options_(options) {}
+
+    // At rest, with character_ and bones_. spring_tet: the tet that holds each spring, -1: outside. A bone that grips nothing is a
+    // pbs::InputError that names it, except with bind. prescribed_vertices: with nodes.
+    void start(const std::vector<int>& spring_tet, const std::vector<bool>& prescribed_vertices);
+    reference_fem::Targets targets_of(const pbs::Pose& pose) const { return targets(bones_, character_->mesh.rest, pose); }
+
+    void record_frame(const pbs::Pose& relative_pose);  // relative to the root
+    // targets [m], #holds x 3: where the holds (springs, or bind points) should be. errors_m, #holds: the distance of the flesh from them;
+    // not a number for a hold outside the flesh.
+    void record_grip(const pbs::Positions& targets, const Eigen::VectorXd& errors_m);
+    nlohmann::json recorded(const reference_fem::SetupSummary& setup) const;
+
     FemOptions options_;
     const pbs::Character* character_ = nullptr;
     BoneAttachment bones_;
+    FemFacts facts_;
+    pbs::Positions positions_;  // [m], #V x 3
+
+private:
+    nlohmann::json grips_;              // the flesh that the attachment of each bone holds, #bones
+    std::vector<int> hold_bone_;        // #holds
+    pbs::Positions hold_rest_;          // [m], #holds x 3
+    std::vector<double> hold_weight_;   // #holds: the relative density of springs; 1 with bind
+    std::vector<double> grip_error_m_;  // #bones: largest over the frames of the frame's rms error of its holds, weighted by their density
+    int frames_ = 0;
+    double largest_rotation_rad_ = 0.0, largest_grip_error_m_ = 0.0;
+    double grip_error_over_motion_ = 0.0;  // largest over the frames of rms error / rms motion of all holds
+};
+
+// Linear elasticity on the character's own tets, held by its bones, quasi-static: one factor, and one re-solve per frame. Linear strain is
+// not invariant under rotation, so the pose is taken relative to the root bone: the root's rigid motion is removed before the solve and
+// applied after, which is exact. Gravity is turned into the root's frame.
+class LinearFemDeformer : public FemDeformer {
+public:
+    explicit LinearFemDeformer(const FemOptions& options) : FemDeformer(options) {}
+
+    void reset(const pbs::Character& character) override;  // assembles and factors
+    pbs::StepSummary advance(const pbs::Pose& pose, double dt_s) override;
+    nlohmann::json record() const override;
+
+private:
     std::unique_ptr<reference_fem::LinearElasticity> elasticity_;
-    FemRecord record_;
     int frames_not_finite_ = 0;
     double largest_residual_ = 0.0;
     int most_iterations_ = 0;  // of an iterative solver, per frame
-    FemFacts facts_;
-    pbs::Positions positions_;  // [m], #V x 3
 };
 
-// The reference at large rotations as a deformer: any of the laws on the character's own tets, held by its bones, solved by Newton's
-// method, in equilibrium with every pose or in time.
+// The reference at large rotations: any of the laws on the character's own tets, held by its bones, solved by Newton's method, in
+// equilibrium with every pose or in time.
 //
 // Quasi-static: the path from the last solved pose to the frame's pose is followed in stages. No bone turns by more than 45 degrees in a
 // stage, and each stage is halved until its parts converge. Where a frame is not reached, the positions are those of the last equilibrium
@@ -143,23 +123,17 @@ private:
 //
 // In time: the body rests in equilibrium in the first pose; then every step is a time step. A step that does not converge is undone, and
 // the next step covers its time too.
-class ElasticFemDeformer : public Deformer {
+class ElasticFemDeformer : public FemDeformer {
 public:
-    explicit ElasticFemDeformer(const FemOptions& options) : options_(options) {}
+    explicit ElasticFemDeformer(const FemOptions& options) : FemDeformer(options) {}
 
-    // A bone that cannot be gripped is a pbs::InputError that names it.
     void reset(const pbs::Character& character) override;
-
     pbs::StepSummary advance(const pbs::Pose& pose, double dt_s) override;
-
-    const pbs::Positions& positions() const override { return positions_; }
     void start_from(const pbs::Positions& shape) override { start_ = shape; }
     bool has_memory() const override { return options_.dynamics != reference_fem::Dynamics::quasi_static; }
-    const FemFacts* facts() const override { return &facts_; }
     nlohmann::json record() const override;
 
 private:
-    reference_fem::Targets targets_of(const pbs::Pose& pose) const { return targets(bones_, character_->mesh.rest, pose); }
     FrameSolve settle(const pbs::RootFrame& frame);  // in the root's frame
     FrameSolve settle_from_start(const pbs::RootFrame& frame);
     bool settle_from_fewer_nodes(const pbs::Pose& pose, const pbs::RootFrame& frame, FrameSolve& solve);
@@ -169,11 +143,7 @@ private:
     void follow(const pbs::PosePath& way, const Eigen::Isometry3d& place, const pbs::Vec3& gravity_m_s2, FrameSolve& solve);
     pbs::Positions last_iterate_at(const pbs::Positions& points_at_rest) const;
     void record_solve(const FrameSolve& solve);
-    void record_grip();
 
-    FemOptions options_;
-    const pbs::Character* character_ = nullptr;
-    BoneAttachment bones_;
     pbs::Weights guide_weights_;  // empty where the attachment leaves rotations free: the initial guess alone would determine them
     std::unique_ptr<reference_fem::ElasticBody> body_;
     pbs::Pose reached_pose_;   // of the body: relative to the root, or in the world where it moves in time
@@ -183,10 +153,7 @@ private:
     int failures_in_a_row_ = 0;
     std::unique_ptr<ElasticFemDeformer> fewer_nodes_;  // nested_start
     bool has_tried_ = true;  // to reach the last pose by Newton's method; if not, the solution with fewer nodes was not reached
-    FemRecord record_;
     NewtonRecord newton_record_;
-    FemFacts facts_;
-    pbs::Positions positions_;  // [m], #V x 3
 };
 
 }  // namespace experiments

@@ -7,8 +7,9 @@
 namespace experiments {
 namespace {
 
-void add_material_keys(OptionFields<FemOptions>& fields)
+OptionFields<FemOptions> declared_fields()
 {
+    OptionFields<FemOptions> fields("fem", true);
     fields.key("name", KeyType::text, "fem", {.meaning = "the name this reference has in the records"})
         .add("model", &FemOptions::model,
              {.meaning =
@@ -30,56 +31,37 @@ void add_material_keys(OptionFields<FemOptions>& fields)
         .add("gravity_m_s2", &FemOptions::gravity_m_s2, {.unit = "m/s^2", .meaning = "gravity on the reference"})
         .add("dynamics", &FemOptions::dynamics,
              {.meaning = "time integration: quasi_static (equilibrium in every frame), newmark (average acceleration), generalized_alpha"});
-}
-
-// One key sets two members.
-void add_rayleigh_key(OptionFields<FemOptions>& fields)
-{
-    const auto read = [](FemOptions& options, const SceneValues& values, const std::string& path) {
+    const auto read_rayleigh = [](FemOptions& options, const SceneValues& values, const std::string& path) {
         const std::vector<double> rayleigh = values.numbers(path);
         if (rayleigh.size() != 2) values.refuse(path, "expected two numbers, [mass, stiffness]");
         options.rayleigh_mass_1_s = rayleigh[0];
         options.rayleigh_stiffness_s = rayleigh[1];
     };
-    const auto write = [](const FemOptions& options, nlohmann::json& record) {
+    const auto write_rayleigh = [](const FemOptions& options, nlohmann::json& record) {
         record["rayleigh"] = {options.rayleigh_mass_1_s, options.rayleigh_stiffness_s};
     };
-    const FemOptions by_default;
-    fields.add("rayleigh", KeyType::numbers, {by_default.rayleigh_mass_1_s, by_default.rayleigh_stiffness_s},
+    fields.add("rayleigh", KeyType::numbers, {FemOptions{}.rayleigh_mass_1_s, FemOptions{}.rayleigh_stiffness_s},
                {.unit = "1/s, s",
                 .lowest = 0,
                 .highest = 1e6,
                 .meaning = "Rayleigh damping [mass, stiffness]: C = mass M + stiffness K(rest); without dynamics, zero"},
-               read, write);
-}
-
-// A key whose value 0 stands for the attachment's own, which records state.
-void add_key_with_own_value(OptionFields<FemOptions>& fields, const std::string& name, double FemOptions::*member,
-                            double (*value_of)(const FemOptions&), const FieldText& text)
-{
-    fields.add(
-        name, KeyType::number, FemOptions{}.*member, text,
-        [member](FemOptions& options, const SceneValues& values, const std::string& path) { options.*member = values.number(path); },
-        [name, value_of](const FemOptions& options, nlohmann::json& record) { record[name] = value_of(options); });
-}
-
-void add_attachment_keys(OptionFields<FemOptions>& fields)
-{
+               read_rayleigh, write_rayleigh);
     fields.add(
         "attachment", &FemOptions::attachment,
         {.meaning = "smooth: springs whose density decreases smoothly to zero from the bone's axis to the surface of a capsule around it; "
                     "embedded: bones as rigid capsules tied to the flesh by stiff springs; nodes: whole tets inside the capsules "
                     "prescribed; bind: the paper's bind constraint as an energy on every vertex, for nonlinear models"});
-    add_key_with_own_value(
-        fields, "core_radius", &FemOptions::core_radius, core_radius_of,
+    // The value 0 of the next two stands for the attachment's own, which records state.
+    fields.add(
+        "core_radius", &FemOptions::core_radius,
         {.lowest = 0,
          .highest = 1,
          .meaning =
              "attachments smooth, embedded and nodes: radius of the bone's capsule, a factor on the local limb radius, without a unit; 0: "
              "0.7 with attachment smooth, otherwise 0.35. Both are choices of this project. The study ensemble compares "
              "smooth springs with 0.7 and 0.5"});
-    add_key_with_own_value(
-        fields, "spring_factor", &FemOptions::spring_factor, spring_factor_of,
+    fields.add(
+        "spring_factor", &FemOptions::spring_factor,
         {.lowest = 0,
          .highest = 1e9,
          .meaning =
@@ -87,7 +69,8 @@ void add_attachment_keys(OptionFields<FemOptions>& fields)
              "capsule's radius (smooth: the density on the axis) or the local limb radius (bind); 0: 10 with attachment smooth, otherwise "
              "1e4. Both are choices of this project. The study ensemble compares smooth springs with 10 and 100; doubling "
              "1e4 with attachment embedded changes no reported value"});
-    fields
+    fields.derived("core_radius", [](const FemOptions& options) { return options.used_core_radius(); })
+        .derived("spring_factor", [](const FemOptions& options) { return options.used_spring_factor(); })
         .add("attachment_kernel", &FemOptions::attachment_kernel,
              {.meaning =
                   "attachment smooth, s = distance to the axis / r: biweight: density (1 - s^2)^2 across the bone (Tukey's biweight: "
@@ -105,10 +88,6 @@ void add_attachment_keys(OptionFields<FemOptions>& fields)
               .highest = 4,
               .meaning = "attachments smooth and embedded: multiplies the 40 stations along a bone, the 8 rings of sample points across it "
                          "and the 24 points of a ring"});
-}
-
-void add_solution_keys(OptionFields<FemOptions>& fields)
-{
     fields
         .add(
             "solver", &FemOptions::solver,
@@ -125,6 +104,7 @@ void add_solution_keys(OptionFields<FemOptions>& fields)
                   "nonlinear model, with element_order 2 or a refined character: in the first pose and where a bone turns by more than 15 "
                   "degrees from the last pose, Newton's iterations start from the solution with order 1 or of the unrefined character. "
                   "This leads to the same solution in fewer steps"});
+    return fields;
 }
 
 // The rules that involve more than one key.
@@ -132,48 +112,42 @@ void check(const SceneValues& values, const std::string& table, FemOptions& opti
 {
     const bool linear = options.model == reference_fem::Model::linear;
     const bool quasi_static = options.dynamics == reference_fem::Dynamics::quasi_static;
-    if (linear && options.attachment == FemAttachment::bind)
-        values.refuse(table + ".attachment", "expected smooth, embedded or nodes with model linear: the bind constraint is not linear");
-    if (!has_capsules(options.attachment) && values.given(table + ".core_radius"))
-        values.refuse(table + ".core_radius", "expected attachment smooth, embedded or nodes, which have capsules");
-    if (!has_spring_factor(options.attachment) && values.given(table + ".spring_factor"))
-        values.refuse(table + ".spring_factor", "expected attachment smooth, embedded or bind: prescribed nodes have no springs");
-    for (const char* key : {".attachment_kernel", ".attachment_ends"})
-        if (options.attachment != FemAttachment::smooth && values.given(table + key))
-            values.refuse(table + key, "expected attachment smooth, which alone has it");
-    if (!has_sample_points(options.attachment) && values.given(table + ".attachment_samples"))
-        values.refuse(table + ".attachment_samples", "expected attachment smooth or embedded, which have sample points");
-    if (options.core_radius > 0.0 && options.core_radius < 0.01) values.refuse(table + ".core_radius", "expected 0, or 0.01 to 1");
-    if (options.spring_factor > 0.0 && options.spring_factor < 1e-3) values.refuse(table + ".spring_factor", "expected 0, or 0.001 to 1e9");
-    if (!linear && options.solver != reference_fem::LinearSolver::cholmod)
-        values.refuse(table + ".solver",
-                      "expected cholmod with a nonlinear model: Newton needs to know where a matrix is not positive definite");
-    if (options.formulation == reference_fem::Formulation::taylor_hood)
-        if (!linear || !quasi_static || options.element_order != 2 || !(options.poisson > 0.0) ||
-            options.solver == reference_fem::LinearSolver::cg_ml)
-            values.refuse(
-                table + ".formulation",
-                "expected taylor_hood only with model linear, dynamics quasi_static, element_order 2, poisson > 0 and a direct solver");
-    if (quasi_static && (options.rayleigh_mass_1_s > 0.0 || options.rayleigh_stiffness_s > 0.0))
-        values.refuse(table + ".rayleigh", "expected [0, 0] with dynamics quasi_static: nothing moves there");
-    if (options.nested_start && (linear || !quasi_static || (options.element_order != 2 && values.integer("character.refine") == 0)))
-        values.refuse(table + ".nested_start",
-                      "expected false unless element_order is 2 or character.refine > 0, the model nonlinear and dynamics quasi_static");
-    if (!quasi_static && !(options.density_kg_m3 > 0.0)) values.refuse(table + ".density_kg_m3", "expected a density > 0 with dynamics");
+    const bool damped = options.rayleigh_mass_1_s > 0.0 || options.rayleigh_stiffness_s > 0.0;
+    const bool may_be_taylor_hood = linear && quasi_static && options.element_order == 2 && options.poisson > 0.0 &&
+                                    options.solver != reference_fem::LinearSolver::cg_ml;
+    const bool may_be_nested =
+        !options.nested_start || (!linear && quasi_static && (options.element_order == 2 || values.integer("character.refine") != 0));
+    const auto given = [&](const char* key) { return values.given(table + "." + key); };
+    const auto refuse_if = [&](bool is_wrong, const char* key, const char* expected) {
+        if (is_wrong) values.refuse(table + "." + key, expected);
+    };
+    refuse_if(linear && options.attachment == FemAttachment::bind, "attachment",
+              "expected smooth, embedded or nodes with model linear: the bind constraint is not linear");
+    refuse_if(!options.has_capsules() && given("core_radius"), "core_radius",
+              "expected attachment smooth, embedded or nodes, which have capsules");
+    refuse_if(!options.has_spring_factor() && given("spring_factor"), "spring_factor",
+              "expected attachment smooth, embedded or bind: prescribed nodes have no springs");
+    for (const char* key : {"attachment_kernel", "attachment_ends"})
+        refuse_if(!options.is_smooth() && given(key), key, "expected attachment smooth, which alone has it");
+    refuse_if(!options.has_sample_points() && given("attachment_samples"), "attachment_samples",
+              "expected attachment smooth or embedded, which have sample points");
+    refuse_if(options.core_radius > 0.0 && options.core_radius < 0.01, "core_radius", "expected 0, or 0.01 to 1");
+    refuse_if(options.spring_factor > 0.0 && options.spring_factor < 1e-3, "spring_factor", "expected 0, or 0.001 to 1e9");
+    refuse_if(!linear && options.solver != reference_fem::LinearSolver::cholmod, "solver",
+              "expected cholmod with a nonlinear model: Newton needs to know where a matrix is not positive definite");
+    refuse_if(options.formulation == reference_fem::Formulation::taylor_hood && !may_be_taylor_hood, "formulation",
+              "expected taylor_hood only with model linear, dynamics quasi_static, element_order 2, poisson > 0 and a direct solver");
+    refuse_if(quasi_static && damped, "rayleigh", "expected [0, 0] with dynamics quasi_static: nothing moves there");
+    refuse_if(!may_be_nested, "nested_start",
+              "expected false unless element_order is 2 or character.refine > 0, the model nonlinear and dynamics quasi_static");
+    refuse_if(!quasi_static && !(options.density_kg_m3 > 0.0), "density_kg_m3", "expected a density > 0 with dynamics");
 }
 
 }  // namespace
 
 const OptionFields<FemOptions>& fem_fields()
 {
-    static const OptionFields<FemOptions> fields = [] {
-        OptionFields<FemOptions> declared("fem", true);
-        add_material_keys(declared);
-        add_rayleigh_key(declared);
-        add_attachment_keys(declared);
-        add_solution_keys(declared);
-        return declared;
-    }();
+    static const OptionFields<FemOptions> fields = declared_fields();
     return fields;
 }
 

@@ -38,33 +38,16 @@ struct FemOptions {
     reference_fem::LinearSolver solver = reference_fem::LinearSolver::cholmod;
     int most_newton_steps = 0;  // quasi-static: per stage of the way to a pose, which is then not reached; 0: no limit
     bool nested_start = false;  // nonlinear: the way to a far pose begins at the solution with fewer nodes (order 1, unrefined)
+
+    // Bound vertices have no capsules, prescribed tets have no springs, and both have no sample points.
+    bool has_capsules() const { return attachment != FemAttachment::bind; }
+    bool has_spring_factor() const { return attachment != FemAttachment::nodes; }
+    bool has_sample_points() const { return is_smooth() || attachment == FemAttachment::embedded; }
+    bool is_smooth() const { return attachment == FemAttachment::smooth; }
+    // core_radius and spring_factor, or the attachment's own values where these are 0.
+    double used_core_radius() const { return core_radius > 0.0 ? core_radius : is_smooth() ? 0.7 : 0.35; }
+    double used_spring_factor() const { return spring_factor > 0.0 ? spring_factor : is_smooth() ? 10.0 : 1e4; }
 };
-
-// Bound vertices have no capsules, prescribed tets have no springs, and both have no sample points.
-constexpr bool has_capsules(FemAttachment attachment)
-{
-    return attachment != FemAttachment::bind;
-}
-constexpr bool has_spring_factor(FemAttachment attachment)
-{
-    return attachment != FemAttachment::nodes;
-}
-constexpr bool has_sample_points(FemAttachment attachment)
-{
-    return attachment == FemAttachment::smooth || attachment == FemAttachment::embedded;
-}
-
-// The options themselves, or the attachment's own values where these are 0.
-inline double core_radius_of(const FemOptions& options)
-{
-    if (options.core_radius > 0.0) return options.core_radius;
-    return options.attachment == FemAttachment::smooth ? 0.7 : 0.35;
-}
-inline double spring_factor_of(const FemOptions& options)
-{
-    if (options.spring_factor > 0.0) return options.spring_factor;
-    return options.attachment == FemAttachment::smooth ? 10.0 : 1e4;
-}
 
 // The names of the values of the reference's options in scenes and records.
 template <>

@@ -1,5 +1,4 @@
 #include "experiments/deformers/fem/fem_deformers.hpp"
-#include "experiments/deformers/fem/fem_options.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/topology.hpp"
 
@@ -13,35 +12,6 @@
 namespace experiments {
 namespace {
 
-std::set<int> vertices_of(const pbs::Tets& tets, const std::set<int>& gripped)
-{
-    std::set<int> vertices;
-    for (const int tet : gripped) vertices.insert(tets.row(tet).begin(), tets.row(tet).end());
-    return vertices;
-}
-
-// Share of the vertices that lie on the skin.
-double skin_share(const pbs::Character& character, const std::set<int>& vertices)
-{
-    if (vertices.empty()) return 0.0;
-    const std::vector<bool> skin = pbs::boundary_vertices(character.mesh.tets, character.mesh.rest.rows());
-    const auto on_skin = std::count_if(vertices.begin(), vertices.end(), [&](int v) { return skin[v]; });
-    return static_cast<double>(on_skin) / static_cast<double>(vertices.size());
-}
-
-nlohmann::json to_json(const BoneGrip& grip, const pbs::BoneCapsule& capsule, FemAttachment attachment)
-{
-    nlohmann::json json = {
-        {"bone", grip.name}, {"radius_m", capsule.radius_m}, {"radius_from", capsule.radius_from}, {"skin_share", grip.skin_share}};
-    if (attachment == FemAttachment::bind) {
-        json.update({{"bound_vertices", grip.holds}, {"bind_error_rms_m", grip.error_rms_m}});
-        return json;
-    }
-    json.update({{"tets_gripped", grip.tets}, {"shared_vertices", grip.shared_vertices}});
-    if (grip.holds > 0) json.update({{"samples", grip.holds}, {"inside", grip.inside}, {"grip_error_rms_m", grip.error_rms_m}});
-    return json;
-}
-
 nlohmann::json to_json(const reference_fem::SetupSummary& setup)
 {
     return {{"dofs", setup.dofs},         {"assemble_s", setup.assemble_s}, {"analyse_s", setup.analyse_s},
@@ -51,69 +21,69 @@ nlohmann::json to_json(const reference_fem::SetupSummary& setup)
 
 }  // namespace
 
-FemRecord::FemRecord(const pbs::Character& character, const FemOptions& options, const BoneAttachment& bones,
-                     const std::vector<int>& spring_tet)
-    : options_(options), bones_(bones), grips_(bones.capsules.size())
+void FemDeformer::start(const std::vector<int>& spring_tet, const std::vector<bool>& prescribed_vertices)
 {
-    for (std::size_t j = 0; j < grips_.size(); ++j) grips_[j].name = character.skeleton.bones[j].name;
-    if (options.attachment == FemAttachment::bind)
-        add_bound_vertices(character);
-    else
-        add_gripped_tets(character, spring_tet);
-}
+    const pbs::TetMesh& mesh = character_->mesh;
+    const bool is_bound = options_.attachment == FemAttachment::bind;
+    facts_ = {};
+    if (options_.attachment == FemAttachment::nodes) facts_.prescribed = prescribed_vertices;
+    facts_.last_state = positions_ = mesh.rest;
+    frames_ = 0;
+    largest_rotation_rad_ = largest_grip_error_m_ = grip_error_over_motion_ = 0.0;
+    hold_bone_ = is_bound ? bones_.binding.bone : bones_.spring_bone;
+    hold_rest_ = is_bound ? bones_.binding.rest_point : bones_.attachment.spring_points;
+    hold_weight_ = is_bound ? std::vector<double>(hold_bone_.size(), 1.0) : bones_.spring_density;
+    const std::size_t bones = bones_.capsules.size();
+    grip_error_m_.assign(bones, 0.0);
 
-void FemRecord::add_bound_vertices(const pbs::Character& character)
-{
-    hold_bone_ = bones_.binding.bone;
-    hold_rest_ = bones_.binding.rest_point;
-    hold_weight_.assign(hold_bone_.size(), 1.0);
-    std::vector<std::set<int>> bound(grips_.size());
-    for (std::size_t v = 0; v < hold_bone_.size(); ++v) bound[hold_bone_[v]].insert(static_cast<int>(v));
-    for (std::size_t j = 0; j < grips_.size(); ++j) {
-        grips_[j].holds = grips_[j].inside = static_cast<int>(bound[j].size());
-        grips_[j].skin_share = skin_share(character, bound[j]);
+    std::vector<std::set<int>> tets(bones), vertices(bones);  // that each bone holds
+    std::vector<int> holds(bones, 0), inside(bones, 0), bones_at_vertex(mesh.rest.rows(), 0);
+    for (std::size_t s = 0; s < hold_bone_.size(); ++s) {
+        const int bone = hold_bone_[s];
+        ++holds[bone];
+        if (is_bound) vertices[bone].insert(static_cast<int>(s));
+        if (is_bound || spring_tet[s] < 0) continue;
+        ++inside[bone];
+        if (hold_weight_[s] >= gripping_density) tets[bone].insert(spring_tet[s]);
+    }
+    for (std::size_t k = 0; k < bones_.tet_bone.size(); ++k) tets[bones_.tet_bone[k]].insert(bones_.attachment.prescribed_tets[k]);
+    for (std::size_t j = 0; j < bones; ++j) {
+        for (const int tet : tets[j]) vertices[j].insert(mesh.tets.row(tet).begin(), mesh.tets.row(tet).end());
+        for (const int v : vertices[j]) ++bones_at_vertex[v];
+    }
+
+    const std::vector<bool> skin = pbs::boundary_vertices(mesh.tets, mesh.rest.rows());
+    grips_ = nlohmann::json::array();
+    for (std::size_t j = 0; j < bones; ++j) {
+        const std::string& name = character_->skeleton.bones[j].name;
+        if (!is_bound && tets[j].empty())
+            throw pbs::InputError(character_->name, 0, "bone", name, "expected a part of its middle to lie inside the flesh");
+        const auto on_skin = std::ranges::count_if(vertices[j], [&](int v) { return skin[v]; });
+        const double share = vertices[j].empty() ? 0.0 : static_cast<double>(on_skin) / static_cast<double>(vertices[j].size());
+        const pbs::BoneCapsule& capsule = bones_.capsules[j];
+        nlohmann::json& grip = grips_.emplace_back(
+            nlohmann::json{{"bone", name}, {"radius_m", capsule.radius_m}, {"radius_from", capsule.radius_from}, {"skin_share", share}});
+        if (is_bound) {
+            grip["bound_vertices"] = holds[j];
+            continue;
+        }
+        grip["tets_gripped"] = tets[j].size();
+        grip["shared_vertices"] =  // that another bone grips too, so that P1 cannot follow both
+            std::ranges::count_if(vertices[j], [&](int v) { return bones_at_vertex[v] > 1; });
+        if (holds[j] > 0) grip.update({{"samples", holds[j]}, {"inside", inside[j]}});
     }
 }
 
-void FemRecord::add_gripped_tets(const pbs::Character& character, const std::vector<int>& spring_tet)
-{
-    hold_bone_ = bones_.spring_bone;
-    hold_rest_ = bones_.attachment.spring_points;
-    hold_weight_ = bones_.spring_density;
-    std::vector<std::set<int>> gripped(grips_.size());
-    for (std::size_t s = 0; s < spring_tet.size(); ++s) {
-        BoneGrip& grip = grips_[hold_bone_[s]];
-        ++grip.holds;
-        if (spring_tet[s] < 0) continue;
-        ++grip.inside;
-        if (bones_.spring_density[s] >= gripping_density) gripped[hold_bone_[s]].insert(spring_tet[s]);
-    }
-    for (std::size_t k = 0; k < bones_.tet_bone.size(); ++k) gripped[bones_.tet_bone[k]].insert(bones_.attachment.prescribed_tets[k]);
-
-    std::vector<int> bones_at_vertex(character.mesh.rest.rows(), 0);
-    for (const std::set<int>& tets : gripped)
-        for (const int v : vertices_of(character.mesh.tets, tets)) ++bones_at_vertex[v];
-    for (std::size_t j = 0; j < grips_.size(); ++j) {
-        if (gripped[j].empty())
-            throw pbs::InputError(character.name, 0, "bone", grips_[j].name, "expected a part of its middle to lie inside the flesh");
-        const std::set<int> vertices = vertices_of(character.mesh.tets, gripped[j]);
-        grips_[j].tets = static_cast<int>(gripped[j].size());
-        grips_[j].skin_share = skin_share(character, vertices);
-        grips_[j].shared_vertices =
-            static_cast<int>(std::count_if(vertices.begin(), vertices.end(), [&](int v) { return bones_at_vertex[v] > 1; }));
-    }
-}
-
-void FemRecord::add_frame(const pbs::Pose& relative_pose)
+void FemDeformer::record_frame(const pbs::Pose& relative_pose)
 {
     ++frames_;
     for (const Eigen::Isometry3d& bone : relative_pose)
         largest_rotation_rad_ = std::max(largest_rotation_rad_, Eigen::AngleAxisd(bone.linear()).angle());
 }
 
-void FemRecord::add_grip(const pbs::Positions& targets, const Eigen::VectorXd& errors_m)
+void FemDeformer::record_grip(const pbs::Positions& targets, const Eigen::VectorXd& errors_m)
 {
-    std::vector<double> squared(grips_.size(), 0.0), weight(grips_.size(), 0.0);
+    std::vector<double> squared(grip_error_m_.size(), 0.0), weight(grip_error_m_.size(), 0.0);
     double error_squared = 0.0, motion_squared = 0.0;
     for (Eigen::Index s = 0; s < targets.rows(); ++s) {
         if (!std::isfinite(errors_m(s))) continue;  // outside the flesh
@@ -123,35 +93,35 @@ void FemRecord::add_grip(const pbs::Positions& targets, const Eigen::VectorXd& e
         error_squared += hold_weight_[s] * errors_m(s) * errors_m(s);
         motion_squared += hold_weight_[s] * (targets.row(s) - hold_rest_.row(s)).squaredNorm();
     }
-    for (std::size_t j = 0; j < grips_.size(); ++j)
-        if (weight[j] > 0.0) grips_[j].error_rms_m = std::max(grips_[j].error_rms_m, std::sqrt(squared[j] / weight[j]));
+    for (std::size_t j = 0; j < weight.size(); ++j)
+        if (weight[j] > 0.0) grip_error_m_[j] = std::max(grip_error_m_[j], std::sqrt(squared[j] / weight[j]));
     if (motion_squared > 0.0) grip_error_over_motion_ = std::max(grip_error_over_motion_, std::sqrt(error_squared / motion_squared));
 }
 
 nlohmann::json attachment_json(const FemOptions& options)
 {
     nlohmann::json attachment = {{"kind", name_of(options.attachment)}};
-    if (has_capsules(options.attachment)) attachment["core_radius"] = core_radius_of(options);
-    if (has_spring_factor(options.attachment)) attachment["spring_factor"] = spring_factor_of(options);
-    if (options.attachment == FemAttachment::smooth) {
-        attachment["kernel"] = name_of(options.attachment_kernel);
-        attachment["ends"] = options.attachment_ends;
-    }
-    if (has_sample_points(options.attachment)) attachment["samples"] = options.attachment_samples;
+    if (options.has_capsules()) attachment["core_radius"] = options.used_core_radius();
+    if (options.has_spring_factor()) attachment["spring_factor"] = options.used_spring_factor();
+    if (options.is_smooth()) attachment.update({{"kernel", name_of(options.attachment_kernel)}, {"ends", options.attachment_ends}});
+    if (options.has_sample_points()) attachment["samples"] = options.attachment_samples;
     return attachment;
 }
 
-nlohmann::json FemRecord::to_json(const reference_fem::SetupSummary& setup) const
+nlohmann::json FemDeformer::recorded(const reference_fem::SetupSummary& setup) const
 {
     nlohmann::json attachment = attachment_json(options_);
-    for (std::size_t j = 0; j < grips_.size(); ++j)
-        attachment["bones"].push_back(experiments::to_json(grips_[j], bones_.capsules[j], options_.attachment));
+    attachment["bones"] = grips_;
+    for (std::size_t j = 0; j < grips_.size(); ++j) {
+        if (grips_[j].contains("samples")) attachment["bones"][j]["grip_error_rms_m"] = grip_error_m_[j];
+        if (grips_[j].contains("bound_vertices")) attachment["bones"][j]["bind_error_rms_m"] = grip_error_m_[j];
+    }
     nlohmann::json json = {
         {"model", name_of(options_.model)},
         {"formulation", name_of(options_.formulation)},
         {"dynamics", name_of(options_.dynamics)},
         {"attachment", attachment},
-        {"setup", experiments::to_json(setup)},
+        {"setup", to_json(setup)},
         {"frames", frames_},
         {"largest_rotation_deg", largest_rotation_rad_ * 180.0 / std::numbers::pi},
         {"root_motion", options_.dynamics == reference_fem::Dynamics::quasi_static
@@ -164,21 +134,6 @@ nlohmann::json FemRecord::to_json(const reference_fem::SetupSummary& setup) cons
     if (!hold_bone_.empty())
         json.update({{"largest_grip_error_m", largest_grip_error_m_}, {"grip_error_over_motion", grip_error_over_motion_}});
     return json;
-}
-
-void NewtonRecord::add_failure(const FrameSolve& solve, const reference_fem::Jacobians& flesh)
-{
-    nlohmann::json failure = {{"frame", frames_},
-                              {"reached", solve.reached},
-                              {"restarted_from_rest", solve.restarted},
-                              {"worst_tet", flesh.lowest_tet},
-                              {"lowest_det_f", flesh.lowest},
-                              {"inverted_points", flesh.inverted}};
-    const reference_fem::NewtonSummary& last = solve.stages.back().steps.back().newton;
-    failure["newton"] = reference_fem::name_of(last.outcome);
-    failure["last_residual_n"] = last.iterations.back().residual_n;
-    failure["force_scale_n"] = last.iterations.back().force_scale_n;
-    not_converged_.push_back(failure);
 }
 
 void NewtonRecord::add_frame_without_start(const nlohmann::json& failure_with_fewer_nodes)
@@ -215,7 +170,16 @@ void NewtonRecord::add_frame(const FrameSolve& solve, const reference_fem::Jacob
         lowest_det_f_ = std::min(lowest_det_f_, flesh.lowest);
         most_inverted_points_ = std::max(most_inverted_points_, flesh.inverted);
     } else {
-        add_failure(solve, flesh);
+        const reference_fem::NewtonSummary& last = solve.stages.back().steps.back().newton;
+        not_converged_.push_back({{"frame", frames_},
+                                  {"reached", solve.reached},
+                                  {"restarted_from_rest", solve.restarted},
+                                  {"worst_tet", flesh.lowest_tet},
+                                  {"lowest_det_f", flesh.lowest},
+                                  {"inverted_points", flesh.inverted},
+                                  {"newton", reference_fem::name_of(last.outcome)},
+                                  {"last_residual_n", last.iterations.back().residual_n},
+                                  {"force_scale_n", last.iterations.back().force_scale_n}});
     }
     ++frames_;
 }

@@ -284,8 +284,8 @@ private:
     {
         const auto& fem = options_of<FemOptions>(flesh);
         AttachmentRow row{of_.of, flesh.label, name_of(fem.model), name_of(fem.attachment)};
-        if (has_spring_factor(fem.attachment)) row.spring_factor = spring_factor_of(fem);
-        if (has_capsules(fem.attachment)) row.core_radius = core_radius_of(fem);
+        if (fem.has_spring_factor()) row.spring_factor = fem.used_spring_factor();
+        if (fem.has_capsules()) row.core_radius = fem.used_core_radius();
         row.difference_pct = distance(shape, reference_shape_).joint_pct;
         row.k_stretch = k_stretch;
         row.model_pct = distance(converged, shape).joint_pct;

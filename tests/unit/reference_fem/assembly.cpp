@@ -24,6 +24,7 @@ using namespace test_support;
 using pbs::Vec3;
 
 const Lame material{2.0, 3.0};
+constexpr const char* proves_nothing = "a bound that would let a wrong entry pass proves nothing";
 const pbs::TetMesh bar = structured_bar({0, 0, 0}, {2, 1, 1}, {3, 2, 2});
 
 Eigen::VectorXd at_nodes(const SimplexSpace& space, const VectorField& field)
@@ -40,11 +41,7 @@ double sum_of_weights(const SimplexSpace& space, int points_1d)
 
 TEST(Assembly, StiffnessOfOneLinearTetIsTheClosedForm)
 {
-    pbs::TetMesh tet;
-    tet.rest.resize(4, 3);
-    tet.rest << 0.1, 0, 0, 1.2, 0.1, 0, 0.2, 0.9, 0.1, 0, 0.3, 1.1;
-    tet.tets.resize(1, 4);
-    tet.tets << 0, 1, 2, 3;
+    const pbs::TetMesh tet{pbs::Positions{{0.1, 0, 0}, {1.2, 0.1, 0}, {0.2, 0.9, 0.1}, {0, 0.3, 1.1}}, pbs::Tets{{0, 1, 2, 3}}};
     Eigen::Matrix3d edges = (tet.rest.bottomRows(3).rowwise() - tet.rest.row(0)).transpose();
     Eigen::Matrix<double, 3, 4> gradient;  // gradients of the four shape functions
     gradient.rightCols(3) = edges.inverse().transpose();
@@ -68,9 +65,12 @@ TEST(Assembly, StiffnessIsSymmetricAndKnowsNoRigidMotion)
         const SparseMatrix stiffness = stiffness_matrix(space, material);
         const SparseMatrix terms = magnitudes(stiffness);
         const double roundings = entry_roundings(space, order, 2);
+        ASSERT_TRUE(stiffness.isCompressed());  // with each entry once, sorted
+        for (Eigen::Index c = 0; c < stiffness.cols(); ++c)
+            for (auto k = stiffness.outerIndexPtr()[c] + 1; k < stiffness.outerIndexPtr()[c + 1]; ++k)
+                EXPECT_LT(stiffness.innerIndexPtr()[k - 1], stiffness.innerIndexPtr()[k]);
         EXPECT_LT((stiffness - SparseMatrix(stiffness.transpose())).norm(), rounding_error(roundings, terms.norm()));
-        EXPECT_LT(rounding_error(roundings, terms.norm()), 1e-11 * stiffness.norm())
-            << "a bound that would let a wrong entry pass proves nothing";
+        EXPECT_LT(rounding_error(roundings, terms.norm()), 1e-11 * stiffness.norm()) << proves_nothing;
         for (int axis = 0; axis < 3; ++axis) {
             const Eigen::VectorXd translation = at_nodes(space, [&](const Vec3&) -> Vec3 { return Vec3::Unit(axis); });
             const Eigen::VectorXd rotation = at_nodes(space, [&](const Vec3& x) -> Vec3 { return Vec3::Unit(axis).cross(x); });
@@ -79,15 +79,6 @@ TEST(Assembly, StiffnessIsSymmetricAndKnowsNoRigidMotion)
                           rounding_error(roundings + most_entries(stiffness), (terms * rigid.cwiseAbs()).norm()));
         }
     }
-}
-
-TEST(Assembly, StiffnessHasEachEntryOnceAndSorted)
-{
-    const SparseMatrix stiffness = stiffness_matrix(SimplexSpace(bar, 2), material);
-    ASSERT_TRUE(stiffness.isCompressed());
-    for (Eigen::Index c = 0; c < stiffness.cols(); ++c)
-        for (auto k = stiffness.outerIndexPtr()[c] + 1; k < stiffness.outerIndexPtr()[c + 1]; ++k)
-            EXPECT_LT(stiffness.innerIndexPtr()[k - 1], stiffness.innerIndexPtr()[k]);
 }
 
 TEST(Assembly, LoadAddsUpToTheTotalForceAndItsMoment)
@@ -106,7 +97,7 @@ TEST(Assembly, LoadAddsUpToTheTotalForceAndItsMoment)
         EXPECT_LT((total - volume * force).norm(), rounding_error(roundings, terms));
         EXPECT_LT((moment - volume * Vec3(1.0, 0.5, 0.5).cross(force)).norm(),  // of the weight at the bar's centre
                   rounding_error(roundings + 2, terms * farthest));
-        EXPECT_LT(rounding_error(roundings, terms), 1e-11) << "a bound that would let a wrong entry pass proves nothing";
+        EXPECT_LT(rounding_error(roundings, terms), 1e-11) << proves_nothing;
     }
 }
 
@@ -139,7 +130,7 @@ TEST(Assembly, EnergyIsHalfTheWorkOfTheStiffness)
         const double rounding =
             rounding_error(roundings, displacement.cwiseAbs().dot(magnitudes(stiffness) * displacement.cwiseAbs()) / 2.0);
         EXPECT_NEAR(strain_energy(space, material, displacement), work, rounding);
-        EXPECT_LT(rounding, 1e-10 * work) << "a bound that would let a wrong entry pass proves nothing";
+        EXPECT_LT(rounding, 1e-10 * work) << proves_nothing;
     }
 }
 
@@ -166,7 +157,7 @@ TEST(Assembly, ErrorNormsOfZeroAreTheNormsOfTheField)
 TEST(NodalMatrix, AddsWhatADenseMatrixAdds)
 {
     for (const int order : {1, 2}) {
-        const SimplexSpace space(test_support::structured_bar({0, 0, 0}, {1, 1, 1}, {1, 1, 1}), order);
+        const SimplexSpace space(structured_bar({0, 0, 0}, {1, 1, 1}, {1, 1, 1}), order);
         NodalMatrix matrix(space);
         Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(space.dofs(), space.dofs());
         const auto nodes = space.tet_nodes().cols();
@@ -188,21 +179,14 @@ TEST(NodalMatrix, AddsWhatADenseMatrixAdds)
 // Reference: the definition of nodal elements. Vertex v is node v, shape functions are 1 at their own node and 0 at the others. At nodes
 // they are polynomials of 0, 1/2 and 1, which are not rounded.
 
-using reference_fem::SimplexSpace;
-
-TEST(SimplexSpace, KeepsVerticesAndTetsInTheirOrder)
+TEST(SimplexSpace, KeepsVerticesAndTetsInTheirOrderAndAddsANodePerEdgeToQuadraticTets)
 {
     for (const int order : {1, 2}) {
         const SimplexSpace space(bar, order);
         EXPECT_EQ(space.node_positions().topRows(bar.rest.rows()), bar.rest);
         EXPECT_EQ(space.tet_nodes().leftCols(4), bar.tets);
+        EXPECT_EQ(space.nodes(), bar.rest.rows() + (order == 2 ? pbs::edges_of(bar.tets).rows() : 0));
     }
-}
-
-TEST(SimplexSpace, LinearHasOneNodeAVertexAndQuadraticOneMoreAnEdge)
-{
-    EXPECT_EQ(SimplexSpace(bar, 1).nodes(), bar.rest.rows());
-    EXPECT_EQ(SimplexSpace(bar, 2).nodes(), bar.rest.rows() + pbs::edges_of(bar.tets).rows());
 }
 
 TEST(SimplexSpace, MidEdgeNodesLieInTheMiddleOfTheirEdges)
@@ -231,30 +215,23 @@ TEST(SimplexSpace, ShapeFunctionsAreOneAtTheirOwnNodeAndZeroAtTheOthers)
             EXPECT_EQ(space.shape_values(point), expected) << "order " << order << ", node " << node;
         }
         // A function goes through eight roundings and the sum of ten. The terms of L_i (2 L_i - 1) and 4 L_i L_j add up to 3 in magnitude.
-        EXPECT_NEAR(space.shape_values({0.1, 0.2, 0.3}).sum(), 1.0, test_support::rounding_error(8 + 10, 3.0));
+        EXPECT_NEAR(space.shape_values({0.1, 0.2, 0.3}).sum(), 1.0, rounding_error(8 + 10, 3.0));
     }
 }
 
 TEST(SimplexSpace, AffineValuesAtVerticesAreAffineOnAllNodes)
 {
     const SimplexSpace space(bar, 2);
-    Eigen::Matrix3d gradient;
-    gradient << 1, 2, 3, -4, 5, 6, 7, -8, 9;
+    const Eigen::Matrix3d gradient{{1, 2, 3}, {-4, 5, 6}, {7, -8, 9}};
     const pbs::Positions expected = space.node_positions() * gradient.transpose();
     // There are three products and sums on both sides, and the mean of two.
     const pbs::Positions terms = space.node_positions().cwiseAbs() * gradient.cwiseAbs().transpose();
-    EXPECT_LT((space.from_vertices(bar.rest * gradient.transpose()) - expected).norm(),
-              test_support::rounding_error(3 + 3 + 1, terms.norm()));
+    EXPECT_LT((space.from_vertices(bar.rest * gradient.transpose()) - expected).norm(), rounding_error(3 + 3 + 1, terms.norm()));
 }
 
-TEST(SimplexSpace, RefusesAnElementOrderItDoesNotHave)
+TEST(SimplexSpace, RefusesDegenerateMeshesAndOrdersThatItDoesNotHave)
 {
-    EXPECT_THROW(SimplexSpace(bar, 0), pbs::InputError);
-    EXPECT_THROW(SimplexSpace(bar, 3), pbs::InputError);
-}
-
-TEST(SimplexSpace, RefusesDegenerateMeshes)
-{
+    for (const int order : {0, 3}) EXPECT_THROW(SimplexSpace(bar, order), pbs::InputError) << order;
     pbs::TetMesh inverted = bar, flat = bar, unused = bar, out_of_range = bar, not_finite = bar;
     std::swap(inverted.tets(4, 0), inverted.tets(4, 1));
     flat.rest.row(flat.tets(0, 3)) = flat.rest.row(flat.tets(0, 2));
@@ -268,22 +245,15 @@ TEST(SimplexSpace, RefusesDegenerateMeshes)
 
 // Reference: relations between elastic constants, by hand: E = mu (3 lambda + 2 mu) / (lambda + mu), nu = lambda / (2 (lambda + mu)).
 
-using reference_fem::Lame;
-using reference_fem::lame_parameters;
-
 // Each relation goes through some fifteen roundings. 1 - 2 nu cancels in lambda, but E and nu depend on lambda by a factor below 1 - 2 nu
 // where nu is close to 1/2. At nu = -0.4 the sums lambda + mu and 3 lambda + 2 mu cancel, by factors of 2.6 and 5.
-TEST(Material, LameParametersReturnYoungsModulusAndPoissonsRatio)
+TEST(Material, LameParametersReturnYoungsModulusAndPoissonsRatioOfAStableMaterial)
 {
     for (const double poisson : {-0.4, 0.0, 0.3, 0.45, 0.4999}) {
         const auto [lambda, mu] = lame_parameters(7e4, poisson);
-        EXPECT_NEAR(mu * (3.0 * lambda + 2.0 * mu) / (lambda + mu), 7e4, test_support::rounding_error(15, 5.0 * 7e4));
-        EXPECT_NEAR(lambda / (2.0 * (lambda + mu)), poisson, test_support::rounding_error(15, 2.6 * 0.5));
+        EXPECT_NEAR(mu * (3.0 * lambda + 2.0 * mu) / (lambda + mu), 7e4, rounding_error(15, 5.0 * 7e4));
+        EXPECT_NEAR(lambda / (2.0 * (lambda + mu)), poisson, rounding_error(15, 2.6 * 0.5));
     }
-}
-
-TEST(Material, RefusesWhatNoStableMaterialHas)
-{
     for (const double young : {0.0, -1.0, double(INFINITY), std::nan("")}) EXPECT_THROW(lame_parameters(young, 0.3), pbs::InputError);
     for (const double poisson : {-1.0, 0.5, 0.6, std::nan("")}) EXPECT_THROW(lame_parameters(1.0, poisson), pbs::InputError);
 }

@@ -7,9 +7,12 @@
 #include "pbs/geometry/input_error.hpp"
 #include "reference_fem/assembly.hpp"
 #include "tests/support/element_rounding.hpp"
+#include "tests/support/unit_tet.hpp"
 #include "tests/verification/reference_fem/jittered_cube.hpp"
 
 #include <gtest/gtest.h>
+
+#include <numeric>
 
 namespace {
 
@@ -22,8 +25,7 @@ const Lame lame{300.0, 100.0};
 // u = (2 x + y, -y + 3 z, 4 z - x) [m]: div u = 5, |eps|^2 = 2^2 + 1^2 + 4^2 + 2 ((1/2)^2 + (1/2)^2 + (3/2)^2) = 26.5.
 Eigen::VectorXd affine(const SimplexSpace& space)
 {
-    Eigen::Matrix3d gradient;
-    gradient << 2, 1, 0, 0, -1, 3, -1, 0, 4;
+    const Eigen::Matrix3d gradient{{2, 1, 0}, {0, -1, 3}, {-1, 0, 4}};
     const pbs::Positions values = space.node_positions() * gradient.transpose();
     return Eigen::Map<const Eigen::VectorXd>(values.data(), values.size());
 }
@@ -49,7 +51,7 @@ double energy_error(const SimplexSpace& space, const Eigen::VectorXd& displaceme
 std::vector<int> all_tets_but_the_last()
 {
     std::vector<int> tets(cube.tets.rows() - 1);
-    for (std::size_t t = 0; t < tets.size(); ++t) tets[t] = static_cast<int>(t);
+    std::iota(tets.begin(), tets.end(), 0);
     return tets;
 }
 
@@ -106,10 +108,7 @@ INSTANTIATE_TEST_SUITE_P(Formulations, EveryFormulation,
 // u = (x^2, 0, 0) on the unit tet: div u = 2 x has the mean 1/2, and x^2 has the mean 1/10.
 TEST(LinearFlesh, MeanDilatationTakesEachTetsMean)
 {
-    pbs::TetMesh tet{pbs::Positions::Zero(4, 3), pbs::Tets(1, 4)};
-    tet.rest.bottomRows(3).setIdentity();
-    tet.tets << 0, 1, 2, 3;
-    const SimplexSpace space(tet, 2);
+    const SimplexSpace space(test_support::unit_tet(), 2);
     Eigen::VectorXd displacement = Eigen::VectorXd::Zero(space.dofs());
     for (int node = 0; node < space.nodes(); ++node) displacement(3 * node) = std::pow(space.node_positions()(node, 0), 2);
     const LinearFlesh mean(space, lame, Formulation::mean_dilatation), pointwise(space, lame, Formulation::displacement);
@@ -123,19 +122,13 @@ TEST(LinearFlesh, MeanDilatationTakesEachTetsMean)
     EXPECT_NEAR(pointwise.strain_energy_j(displacement, {}), shear + lame.lambda_pa / 2.0 * 0.4 * volume, of_energy);
 }
 
-TEST(LinearFlesh, PressuresThatOnlyHeldTetsHaveAreNotSolvedFor)
+TEST(LinearFlesh, PressuresAreInPascalsAndThoseThatOnlyHeldTetsHaveAreNotSolvedFor)
 {
     const SimplexSpace space(cube, 2);
     const LinearFlesh flesh(space, lame, Formulation::taylor_hood, all_tets_but_the_last());
     const std::vector<bool> prescribed = flesh.prescribed(std::vector<bool>(space.dofs(), false));
     const auto last = cube.tets.bottomRows<1>();
     for (int v = 0; v < cube.rest.rows(); ++v) EXPECT_EQ(!prescribed[space.dofs() + v], (last.array() == v).any());
-}
-
-TEST(LinearFlesh, PressureComesBackInPascals)
-{
-    const SimplexSpace space(cube, 2);
-    const LinearFlesh flesh(space, lame, Formulation::taylor_hood);
     Eigen::VectorXd unknowns = flesh.on_unknowns(affine(space));
     EXPECT_EQ(flesh.displacement(unknowns), affine(space));
     EXPECT_EQ(flesh.pressure_pa(unknowns), Eigen::VectorXd::Zero(cube.rest.rows()));

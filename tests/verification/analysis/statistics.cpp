@@ -69,19 +69,16 @@ double four_standard_errors(double coverage)
     return 4.0 * std::sqrt(coverage * (1.0 - coverage) / trials);
 }
 
-class BlockBootstrap : public testing::TestWithParam<int> {};
-
-TEST_P(BlockBootstrap, CoversTheMeanAsTheorySays)
+TEST(BlockBootstrap, CoversTheMeanOfAnAutoregressiveSeriesAsTheorySays)
 {
-    const double expected = expected_coverage(GetParam());
-    const Coverage observed = observed_coverage(GetParam());
-    EXPECT_NEAR(observed.inside, expected, four_standard_errors(expected));
-    const double either_side = 0.5 * (1.0 - expected);  // the noise is symmetric
-    EXPECT_NEAR(observed.too_high, either_side, four_standard_errors(either_side));
-    EXPECT_NEAR(observed.too_low, either_side, four_standard_errors(either_side));
+    for (const int block : {1, 4, 16}) {
+        const double expected = expected_coverage(block), either_side = 0.5 * (1.0 - expected);  // the noise is symmetric
+        const Coverage observed = observed_coverage(block);
+        EXPECT_NEAR(observed.inside, expected, four_standard_errors(expected));
+        EXPECT_NEAR(observed.too_high, either_side, four_standard_errors(either_side));
+        EXPECT_NEAR(observed.too_low, either_side, four_standard_errors(either_side));
+    }
 }
-
-INSTANTIATE_TEST_SUITE_P(OfAnAutoregressiveSeries, BlockBootstrap, testing::Values(1, 4, 16));
 
 // With the block length chosen from the series itself, at least the coverage of half the best length for this phi.
 TEST(BlockBootstrap, ChoosesABlockThatCovers)
@@ -147,26 +144,6 @@ TEST(LineFit, NorrisCertifiedValues)
     EXPECT_EQ(fit.slope.n, 36);
 }
 
-TEST(LineFit, ExactLineHasNoWidth)
-{
-    const std::vector<double> x = {0.0, 1.0, 3.0, 4.0}, y = {1.0, 3.0, 7.0, 9.0};
-    const auto fit = fit_line(x, y);
-    const FitRounding rounding(x, y, 2.0);
-    // Residuals are rounding errors: the standard errors are at most their root mean square over two degrees of freedom, times the root of
-    // 1 / Sxx for the slope and of 1 / n + mean^2 / Sxx for the intercept, with Sxx = 10 and a mean of 2.
-    const double wide = gsl_cdf_tdist_Pinv(0.975, 2) * std::sqrt(4.0 / 2.0) * rounding.residual;
-    EXPECT_NEAR(fit.slope.estimate, 2.0, rounding.slope);
-    EXPECT_NEAR(fit.slope.low, 2.0, rounding.slope + wide * std::sqrt(1.0 / 10.0));
-    EXPECT_NEAR(fit.intercept.high, 1.0, rounding.intercept + wide * std::sqrt(1.0 / 4.0 + 4.0 / 10.0));
-}
-
-TEST(LineFit, TwoPointsHaveNoInterval)
-{
-    const auto fit = fit_line({0.0, 1.0}, {1.0, 3.0});
-    EXPECT_DOUBLE_EQ(fit.slope.estimate, 2.0);
-    EXPECT_TRUE(std::isnan(fit.slope.low));
-}
-
 TEST(ObservedOrder, OfAPowerLawIsItsExponent)
 {
     const std::vector<double> h = {0.1, 0.05, 0.025, 0.0125};
@@ -183,12 +160,24 @@ TEST(ObservedOrder, OfAPowerLawIsItsExponent)
     EXPECT_NEAR(fit.intercept.estimate, std::log(3.0), rounding.intercept + of_logarithms + of_slope * -x[3]);
 }
 
-TEST(LineFit, RefusesWhatHasNoLine)
+TEST(LineFit, AnExactLineHasNoWidthTwoPointsHaveNoIntervalAndOneHasNoLine)
 {
-    EXPECT_THROW(fit_line({1.0}, {1.0}), pbs::InputError);
-    EXPECT_THROW(fit_line({1.0, 2.0}, {1.0}), pbs::InputError);
-    EXPECT_THROW(fit_line({1.0, 1.0}, {1.0, 2.0}), pbs::InputError);
+    const auto two = fit_line({0.0, 1.0}, {1.0, 3.0});
+    EXPECT_DOUBLE_EQ(two.slope.estimate, 2.0);
+    EXPECT_TRUE(std::isnan(two.slope.low));
+    using Points = std::vector<double>;
+    for (const auto& [x, y] : {std::pair(Points{1.0}, Points{1.0}), {{1.0, 2.0}, {1.0}}, {{1.0, 1.0}, {1.0, 2.0}}})
+        EXPECT_THROW(fit_line(x, y), pbs::InputError);
     EXPECT_THROW(observed_order({0.1, 0.05}, {0.0, 1.0}), pbs::InputError);
+    const std::vector<double> x = {0.0, 1.0, 3.0, 4.0}, y = {1.0, 3.0, 7.0, 9.0};
+    const auto fit = fit_line(x, y);
+    const FitRounding rounding(x, y, 2.0);
+    // Residuals are rounding errors: the standard errors are at most their root mean square over two degrees of freedom, times the root of
+    // 1 / Sxx for the slope and of 1 / n + mean^2 / Sxx for the intercept, with Sxx = 10 and a mean of 2.
+    const double wide = gsl_cdf_tdist_Pinv(0.975, 2) * std::sqrt(4.0 / 2.0) * rounding.residual;
+    EXPECT_NEAR(fit.slope.estimate, 2.0, rounding.slope);
+    EXPECT_NEAR(fit.slope.low, 2.0, rounding.slope + wide * std::sqrt(1.0 / 10.0));
+    EXPECT_NEAR(fit.intercept.high, 1.0, rounding.intercept + wide * std::sqrt(1.0 / 4.0 + 4.0 / 10.0));
 }
 
 // Reference: series made from the formula, with and without noise of a known size.
@@ -240,31 +229,23 @@ TEST(DampedOscillation, IntervalHoldsTheTruthAsOftenAsItSays)
 }
 
 // A swing of 25 Hz with a damping ratio of 0.3 has decayed after 8 samples.
-TEST(DampedOscillation, OneThatDiesAtOnceIsTooShort)
+TEST(DampedOscillation, WhatHasNoPeriodIsNamed)
 {
-    EXPECT_EQ(fit_damped_oscillation(oscillation(25.0, 0.3), 0.01).outcome, OscillationOutcome::too_short);
-}
-
-TEST(DampedOscillation, ACreepIsOverdamped)
-{
-    std::vector<double> series;
-    for (int i = 0; i < 300; ++i) series.push_back(std::exp(-0.03 * i));
-    EXPECT_EQ(fit_damped_oscillation(series, 0.01).outcome, OscillationOutcome::overdamped);
-}
-
-TEST(DampedOscillation, StillnessShortnessAndNoiseAreNone)
-{
-    EXPECT_EQ(fit_damped_oscillation({}, 0.01).outcome, OscillationOutcome::none);
-    EXPECT_EQ(fit_damped_oscillation(std::vector<double>(50, 3.0), 0.01).outcome, OscillationOutcome::none);
-    EXPECT_EQ(fit_damped_oscillation({1.0, std::nan(""), 2.0}, 0.01).outcome, OscillationOutcome::none);
-    std::vector<double> one_kick(100, 0.0);
+    std::vector<double> creep, one_kick(100, 0.0), noise(300);
+    for (int i = 0; i < 300; ++i) creep.push_back(std::exp(-0.03 * i));
     one_kick[0] = 1.0;
-    EXPECT_EQ(fit_damped_oscillation(one_kick, 0.01).outcome, OscillationOutcome::too_short);
     std::mt19937_64 random(7);
     std::normal_distribution<double> normal(0.0, 1.0);
-    std::vector<double> noise(300);
     for (double& y : noise) y = normal(random);
-    EXPECT_EQ(fit_damped_oscillation(noise, 0.01).outcome, OscillationOutcome::unclear);
+    const std::vector<std::tuple<const char*, std::vector<double>, OscillationOutcome>> all = {
+        {"dies at once", oscillation(25.0, 0.3), OscillationOutcome::too_short},
+        {"one kick", one_kick, OscillationOutcome::too_short},
+        {"a creep", creep, OscillationOutcome::overdamped},
+        {"nothing", {}, OscillationOutcome::none},
+        {"still", std::vector<double>(50, 3.0), OscillationOutcome::none},
+        {"not a number", {1.0, std::nan(""), 2.0}, OscillationOutcome::none},
+        {"noise", noise, OscillationOutcome::unclear}};
+    for (const auto& [name, series, outcome] : all) EXPECT_EQ(fit_damped_oscillation(series, 0.01).outcome, outcome) << name;
 }
 
 // Grid convergence compared with printed values, and with a field of a known order. Reference: the sample table of I. B. Celik et al.,
@@ -279,39 +260,28 @@ struct PrintedColumn {
     double ratio, order, extrapolated, gci_pct;
 };
 
-class CelikTable : public testing::TestWithParam<PrintedColumn> {};
-
-// The printed order has two decimals: half a digit of it changes the limit by at most `of_order`, to which half of the last printed digit
-// is added.
-TEST_P(CelikTable, LimitAndIndex)
+// Reattachment length and axial velocity over a backward facing step. The printed order has two decimals: half a digit of it changes the
+// limit by at most `of_order`, to which half of the last printed digit is added.
+TEST(PrintedGrids, CelikTable)
 {
-    const PrintedColumn& column = GetParam();
-    const auto at = [&](double order) { return analysis::two_grids(column.values, column.ratio, order); };
-    const analysis::GridConvergence grids = at(column.order);
-    const double of_order = std::abs(at(column.order - 0.005).extrapolated - grids.extrapolated);
-    EXPECT_NEAR(grids.extrapolated, column.extrapolated, of_order + 0.00005);
-    EXPECT_NEAR(100.0 * of_three_grids * grids.bounds[0] / column.values[0], column.gci_pct, 125.0 * of_order / column.values[0] + 0.05);
+    for (const PrintedColumn& column :
+         {PrintedColumn{{6.063, 5.972}, 1.5, 1.53, 6.1685, 2.2}, PrintedColumn{{10.7880, 10.7250}, 2.0, 0.75, 10.8801, 1.1}}) {
+        const auto at = [&](double order) { return analysis::two_grids(column.values, column.ratio, order); };
+        const analysis::GridConvergence grids = at(column.order);
+        const double of_order = std::abs(at(column.order - 0.005).extrapolated - grids.extrapolated);
+        EXPECT_NEAR(grids.extrapolated, column.extrapolated, of_order + 0.00005);
+        EXPECT_NEAR(100.0 * of_three_grids * grids.bounds[0] / column.values[0], column.gci_pct,
+                    125.0 * of_order / column.values[0] + 0.05);
+    }
 }
 
-// Reattachment length and axial velocity over a backward facing step.
-INSTANTIATE_TEST_SUITE_P(Columns, CelikTable,
-                         testing::Values(PrintedColumn{{6.063, 5.972}, 1.5, 1.53, 6.1685, 2.2},
-                                         PrintedColumn{{10.7880, 10.7250}, 2.0, 0.75, 10.8801, 1.1}));
-
-TEST(NparcTutorial, PressureRecovery)
+TEST(PrintedGrids, NparcTutorial)
 {
     const analysis::GridConvergence grids = analysis::two_grids({0.97050, 0.96854}, 2.0, 1.786170);
     EXPECT_NEAR(grids.extrapolated, 0.97130, 5e-6);
     // The order has six decimals, so that it changes the index by less than half of its last printed digit.
     EXPECT_NEAR(100.0 * of_three_grids * grids.bounds[0] / 0.97050, 0.103083, 5e-7 + 1e-7);
     EXPECT_NEAR(100.0 * of_three_grids * grids.bounds[1] / 0.96854, 0.356249, 5e-7 + 1e-7);
-}
-
-// The fields limit + h e and limit + 2 h e differ by h |e|. The coarser one is twice as far from the limit, and the safety factor is 3.
-TEST(MadeUpField, IsBoundedByThreeTimesItsDistance)
-{
-    constexpr double difference = 0.3;
-    EXPECT_EQ(analysis::two_fields(difference, 2.0, 1.0).bounds[1], 3.0 * 2.0 * difference);
 }
 
 }  // namespace

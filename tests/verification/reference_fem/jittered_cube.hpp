@@ -3,7 +3,6 @@
 
 #include "tests/support/structured_bar.hpp"
 
-#include <cmath>
 #include <random>
 
 namespace test_support {
@@ -11,13 +10,12 @@ namespace test_support {
 // Moves every vertex that is not on the box's surface by up to `share` / 2 of a cell along each axis; the seed is fixed.
 inline pbs::TetMesh jittered(pbs::TetMesh mesh, const pbs::Vec3& cell_size_m, double share)
 {
-    const pbs::Vec3 low = mesh.rest.colwise().minCoeff(), high = mesh.rest.colwise().maxCoeff();
+    const Eigen::RowVector3d low = mesh.rest.colwise().minCoeff(), high = mesh.rest.colwise().maxCoeff();
     std::mt19937 random(12345);
     for (auto vertex : mesh.rest.rowwise()) {
-        pbs::Vec3 shift;
+        Eigen::RowVector3d shift;
         for (int c = 0; c < 3; ++c) shift(c) = cell_size_m(c) * share * (random() / 4294967295.0 - 0.5);
-        const pbs::Vec3 point = vertex.transpose();
-        if (((point - low).array() > 1e-9).all() && ((high - point).array() > 1e-9).all()) vertex += shift.transpose();
+        if (((vertex - low).array() > 1e-9).all() && ((high - vertex).array() > 1e-9).all()) vertex += shift;
     }
     return mesh;
 }

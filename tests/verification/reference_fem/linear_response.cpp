@@ -19,21 +19,17 @@ const pbs::TetMesh bar =
     test_support::jittered(test_support::structured_bar({0, -0.25, -0.25}, {1, 0.25, 0.25}, {8, 4, 4}), Vec3::Constant(0.125), 0.25);
 
 // Points on two short lines inside the two ends, and one beyond the bar.
-Positions tied_points()
-{
-    Positions points(9, 3);
-    points << 0.1, 0, 0, 0.2, 0.03, 0, 0.15, 0, 0.05, 0.12, -0.1, 0.02, 0.9, 0, 0, 0.8, 0.03, 0, 0.85, 0, 0.05, 0.88, -0.1, 0.02, 3, 0, 0;
-    return points;
-}
+const Positions tied_points{{0.1, 0, 0},    {0.2, 0.03, 0},  {0.15, 0, 0.05},    {0.12, -0.1, 0.02}, {0.9, 0, 0},
+                            {0.8, 0.03, 0}, {0.85, 0, 0.05}, {0.88, -0.1, 0.02}, {3, 0, 0}};
 
 Attachment springs(double factor = 1.0)
 {
-    return {tied_points(), factor * Eigen::VectorXd::LinSpaced(9, 1e4, 2e5), {}};
+    return {tied_points, factor * Eigen::VectorXd::LinSpaced(9, 1e4, 2e5), {}};
 }
 
 Positions moved_points(double x, double y)
 {
-    Positions targets = tied_points();
+    Positions targets = tied_points;
     targets.bottomRows(5).rowwise() += Eigen::RowVector3d(x, y, 0.02);
     return targets;
 }
@@ -88,10 +84,23 @@ TEST_P(LinearResponse, DisplacementsSuperpose)
         return fem.displacement();
     };
     const Eigen::VectorXd pull = displacement(moved_points(0.1, 0.0), Vec3::Zero());
-    const Eigen::VectorXd weight = displacement(tied_points(), Vec3(0, -9.81, 0));
-    const Eigen::VectorXd both = displacement(tied_points() + 2.0 * (moved_points(0.1, 0.0) - tied_points()), Vec3(0, -9.81, 0));
+    const Eigen::VectorXd weight = displacement(tied_points, Vec3(0, -9.81, 0));
+    const Eigen::VectorXd both = displacement(tied_points + 2.0 * (moved_points(0.1, 0.0) - tied_points), Vec3(0, -9.81, 0));
     const double sizes_m = 2.0 * pull.norm() + weight.norm() + both.norm();
     EXPECT_LT((2.0 * pull + weight - both).norm(), rounding_of(fem).relative() * sizes_m);
+}
+
+// If gravity is given at the solve instead of in the options, nothing else changes; nor does the element order change which points are
+// tied.
+TEST_P(LinearResponse, GravityMayTurnBetweenFramesAndEveryElementOrderGripsTheSamePoints)
+{
+    LinearElasticity fixed(bar, options, springs()), given(bar, {.element_order = GetParam()}, springs());
+    fixed.solve(tied_points, bar.rest);
+    given.solve(tied_points, bar.rest, options.gravity_m_s2);
+    EXPECT_EQ(fixed.positions(), given.positions());
+    const LinearElasticity other(bar, {.element_order = 3 - GetParam()}, springs());
+    EXPECT_EQ(fixed.setup().spring_tet, other.setup().spring_tet);
+    EXPECT_EQ(fixed.setup().spring_tet.back(), -1);
 }
 
 TEST_P(LinearResponse, WithoutLoadsYoungsModulusCancels)
@@ -105,24 +114,16 @@ TEST_P(LinearResponse, WithoutLoadsYoungsModulusCancels)
     EXPECT_LT((hard.positions() - weak.positions()).norm(), 2.0 * rounding_of(weak).error_m());
 }
 
-TEST_P(LinearResponse, AKeptFactorGivesWhatAFreshOneGivesToTheBit)
+TEST_P(LinearResponse, AKeptFactorGivesWhatAFreshOneGivesAndTheRestPoseToTheBit)
 {
     LinearElasticity kept(bar, options, springs()), fresh(bar, options, springs());
     for (const double x : {0.3, -0.2, 0.0}) kept.solve(moved_points(x, x), bar.rest);
     kept.solve(moved_points(0.1, 0.1), bar.rest);
     fresh.solve(moved_points(0.1, 0.1), bar.rest);
     EXPECT_EQ(kept.positions(), fresh.positions());
-}
-
-TEST_P(LinearResponse, TheRestPoseIsReturnedToTheBit)
-{
-    LinearOptions weightless = options;
-    weightless.gravity_m_s2 = Vec3::Zero();
-    LinearElasticity fem(bar, weightless, springs());
-    fem.solve(moved_points(0.1, 0.1), bar.rest);
-    const SolveSummary summary = fem.solve(tied_points(), bar.rest);
-    EXPECT_EQ(fem.positions(), bar.rest);
-    EXPECT_EQ(summary.residual, 0.0);
+    const SolveSummary weightless = fresh.solve(tied_points, bar.rest, Vec3::Zero());
+    EXPECT_EQ(fresh.positions(), bar.rest);
+    EXPECT_EQ(weightless.residual, 0.0);
 }
 
 TEST_P(LinearResponse, NumberingOfVerticesAndTetsDoesNotMatter)
@@ -145,16 +146,6 @@ TEST_P(LinearResponse, NumberingOfVerticesAndTetsDoesNotMatter)
     Positions back(bar.rest.rows(), 3);
     for (Eigen::Index v = 0; v < bar.rest.rows(); ++v) back.row(v) = other.positions().row(order[v]);
     EXPECT_LT((back - plain.positions()).norm(), 2.0 * rounding_of(plain).error_m());
-}
-
-// A higher element order changes the solution, but not the problem: the same points are tied to the same targets.
-TEST_P(LinearResponse, TheSamePointsAreGrippedByEveryElementOrder)
-{
-    LinearOptions other = options;
-    other.element_order = 3 - options.element_order;
-    const LinearElasticity one(bar, options, springs()), two(bar, other, springs());
-    EXPECT_EQ(one.setup().spring_tet, two.setup().spring_tet);
-    EXPECT_EQ(one.setup().spring_tet.back(), -1);
 }
 
 INSTANTIATE_TEST_SUITE_P(ElementOrder, LinearResponse, testing::Values(1, 2));

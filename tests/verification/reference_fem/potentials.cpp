@@ -3,8 +3,10 @@
 // no energy.
 #include "pbs/geometry/input_error.hpp"
 #include "reference_fem/assembly.hpp"
+#include "reference_fem/dynamics/time_stepper.hpp"
 #include "reference_fem/potentials/potentials.hpp"
 
+#include "tests/support/element_rounding.hpp"
 #include "tests/support/eps_sweep.hpp"
 #include "tests/verification/reference_fem/jittered_cube.hpp"
 
@@ -70,18 +72,19 @@ struct Case {
     Formulation formulation;
 };
 
-class Flesh : public testing::TestWithParam<Case> {};
+class Flesh : public testing::TestWithParam<Case> {
+protected:
+    const SimplexSpace space{cube, GetParam().element_order};
+    const ElasticPotential flesh{space, GetParam().model, lame, GetParam().formulation};
+};
 
 TEST_P(Flesh, GradientIsTheSlopeOfTheEnergyAndHessianThatOfTheGradient)
 {
-    const SimplexSpace space(cube, GetParam().element_order);
-    expect_consistent(ElasticPotential(space, GetParam().model, lame, GetParam().formulation), space, 0.3);
+    expect_consistent(flesh, space, 0.3);
 }
 
 TEST_P(Flesh, ARotationStoresNothingUnlessTheLawIsLinear)
 {
-    const SimplexSpace space(cube, GetParam().element_order);
-    const ElasticPotential flesh(space, GetParam().model, lame, GetParam().formulation);
     const Eigen::Matrix3d turn = Eigen::AngleAxisd(2.0, pbs::Vec3(1, 2, 3).normalized()).toRotationMatrix();
     const pbs::Positions moved = space.node_positions() * (turn - Eigen::Matrix3d::Identity()).transpose();
     const double energy = flesh.value(Eigen::Map<const Eigen::VectorXd>(moved.data(), moved.size()));
@@ -95,8 +98,6 @@ TEST_P(Flesh, ARotationStoresNothingUnlessTheLawIsLinear)
 
 TEST_P(Flesh, ProjectedHessianHasNoNegativeEigenvalues)
 {
-    const SimplexSpace space(cube, GetParam().element_order);
-    const ElasticPotential flesh(space, GetParam().model, lame, GetParam().formulation);
     // Compressed to half along x: compressed laws soften, so that the Hessian of most of them has negative eigenvalues.
     Eigen::VectorXd squeezed = random_dofs(space.dofs(), 0.02, 4);
     for (int n = 0; n < space.nodes(); ++n) squeezed(3 * n) -= 0.5 * space.node_positions()(n, 0);
@@ -124,9 +125,7 @@ TEST(ElasticPotential, TheLinearLawIsTheStiffnessThatDealIiAssembles)
 {
     for (const int order : {1, 2}) {
         const SimplexSpace space(cube, order);
-        NodalMatrix hessian(space);
-        ElasticPotential(space, Model::linear, lame, Formulation::displacement)
-            .add_hessian(Eigen::VectorXd::Zero(space.dofs()), Definiteness::as_it_is, hessian);
+        const NodalMatrix hessian = rest_stiffness(space, ElasticPotential(space, Model::linear, lame, Formulation::displacement));
         const SparseMatrix stiffness = stiffness_matrix(space, lame);
         EXPECT_LT((hessian.matrix() - stiffness).norm(), rounding(2 * (of_entry - of_law)) * stiffness.norm()) << "P" << order;
     }
@@ -136,15 +135,11 @@ TEST(ElasticPotential, EveryLawHasTheLinearStiffnessAtRest)
 {
     const SimplexSpace space(cube, 2);
     for (const Formulation formulation : {Formulation::displacement, Formulation::mean_dilatation}) {
-        const auto at_rest = [&](Model model) {
-            NodalMatrix hessian(space);
-            ElasticPotential(space, model, lame, formulation)
-                .add_hessian(Eigen::VectorXd::Zero(space.dofs()), Definiteness::as_it_is, hessian);
-            return SparseMatrix(hessian.matrix());
-        };
-        const SparseMatrix linear = at_rest(Model::linear);
-        for (const Model model : {Model::corotational, Model::stable_neo_hookean, Model::neo_hookean, Model::st_venant_kirchhoff})
-            EXPECT_LT((at_rest(model) - linear).norm(), rounding(of_entry) * linear.norm());
+        const SparseMatrix linear = rest_stiffness(space, ElasticPotential(space, Model::linear, lame, formulation)).matrix();
+        for (const Model model : {Model::corotational, Model::stable_neo_hookean, Model::neo_hookean, Model::st_venant_kirchhoff}) {
+            const SparseMatrix at_rest = rest_stiffness(space, ElasticPotential(space, model, lame, formulation)).matrix();
+            EXPECT_LT((at_rest - linear).norm(), rounding(of_entry) * linear.norm());
+        }
     }
 }
 
@@ -172,11 +167,6 @@ TEST(ElasticPotential, JacobiansOfAnAffineMotion)
     EXPECT_NEAR(jacobians.volume, -2.0, rounding(20 + 80) * 300.0);
     EXPECT_TRUE(std::isfinite(flesh.value(mirrored)));
     EXPECT_TRUE(std::isinf(ElasticPotential(space, Model::neo_hookean, lame, Formulation::displacement).value(mirrored)));
-}
-
-TEST(ElasticPotential, RefusesWhatItCannotDo)
-{
-    const SimplexSpace space(cube, 2);
     EXPECT_THROW(ElasticPotential(space, Model::linear, lame, Formulation::taylor_hood), pbs::InputError);
     EXPECT_THROW(ElasticPotential(space, Model::isochoric_neo_hookean, lame, Formulation::mean_dilatation), pbs::InputError);
 }
@@ -206,7 +196,7 @@ TEST(BindPotential, IsConsistent)
     expect_consistent(potential, space, 1.0);
 }
 
-TEST(BindPotential, AVertexOnItsBonePointHasAFiniteHessian)
+TEST(BindPotential, AVertexOnItsBonePointHasAFiniteHessianAndADeadLoadIsConsistent)
 {
     const SimplexSpace space(cube, 1);
     const Eigen::Index vertices = cube.rest.rows();
@@ -214,12 +204,44 @@ TEST(BindPotential, AVertexOnItsBonePointHasAFiniteHessian)
     NodalMatrix hessian(space);
     potential.add_hessian(Eigen::VectorXd::Zero(space.dofs()), Definiteness::as_it_is, hessian);
     EXPECT_EQ((Eigen::MatrixXd(hessian.matrix()) - 2.0 * Eigen::MatrixXd::Identity(3 * vertices, 3 * vertices)).norm(), 0.0);
+    expect_consistent(DeadLoad(random_dofs(space.dofs(), 1.0, 6)), space, 1.0);
 }
 
-TEST(DeadLoad, IsConsistent)
+// c / 2 (u - u0)^T A (u - u0), separately and together. A value goes through the product and sum of a row, of the dofs' products and the
+// factor c. The gradient is added to ones, and these are taken away again: two more roundings of at most the gradient and one.
+TEST(QuadraticForm, OfAStiffnessAndOfTheMass)
 {
-    const SimplexSpace space(cube, 1);
-    expect_consistent(DeadLoad(random_dofs(space.dofs(), 1.0, 6)), space, 1.0);
+    for (const int order : {1, 2}) {
+        const SimplexSpace space(cube, order);
+        const Eigen::VectorXd u = random_dofs(space.dofs(), 1.0, 7), u0 = random_dofs(space.dofs(), 1.0, 8);
+        const auto expect_form = [&](const Potential& potential, const SparseMatrix& A, double c, const Eigen::VectorXd& offset) {
+            const Eigen::VectorXd gradient = c * (A * offset), ones = Eigen::VectorXd::Ones(u.size());
+            const Eigen::VectorXd magnitudes = c * (SparseMatrix(A.cwiseAbs()) * offset.cwiseAbs());
+            const int row = test_support::most_entries(A), dofs = space.dofs();
+            const double value = c / 2.0 * offset.dot(A * offset);
+            const double value_error = rounding(2 * (row + dofs + 3)) * magnitudes.dot(offset.cwiseAbs()) / 2.0;
+            Eigen::VectorXd alone = ones, together = ones;
+            potential.add_gradient(u, alone);
+            EXPECT_NEAR(potential.value_and_add_gradient(u, together), value, value_error);
+            EXPECT_NEAR(potential.value(u), value, value_error);
+            EXPECT_LT((alone - ones - gradient).norm(), rounding(2 * (row + 3)) * magnitudes.norm() + rounding(2) * std::sqrt(u.size()));
+            EXPECT_LT(value_error, 1e-10 * value) << "a bound that would let a wrong entry pass proves nothing";
+            EXPECT_EQ(alone, together);
+            NodalMatrix hessian(space);
+            potential.add_hessian(u, Definiteness::projected, hessian);
+            EXPECT_EQ((hessian.matrix() - c * A).norm(), 0.0);  // the same products, each rounded once
+            EXPECT_TRUE(potential.is_quadratic());
+        };
+        const NodalMatrix stiffness = rest_stiffness(space, ElasticPotential(space, Model::linear, lame, Formulation::displacement));
+        StiffnessPotential spring(stiffness);
+        expect_form(spring, stiffness.matrix(), 1.0, u);  // as it is, the linear law
+        spring.set(2.5, u0);
+        expect_form(spring, stiffness.matrix(), 2.5, u - u0);
+        const ConsistentMass mass(space, 7.0);
+        InertiaPotential inertia(mass);
+        inertia.set(40.0, u0);
+        expect_form(inertia, mass.matrix(), 40.0, u - u0);
+    }
 }
 
 }  // namespace

@@ -15,7 +15,9 @@ namespace {
 
 using analysis::cross_section_area;
 using analysis::Plane;
+using pbs::Positions;
 using pbs::Vec3;
+using test_support::rounding_error;
 
 std::vector<int> all_of(const pbs::Tets& tets)
 {
@@ -54,48 +56,36 @@ pbs::TetMesh cone(int sides)
 // diagonals, each at most as long as an edge of its tet, with two cut points each.
 double area_error(int cut_tets, double longest_edge, double farthest, double sine)
 {
-    using test_support::rounding_error;
     return cut_tets * 2.0 * longest_edge * (rounding_error(6, farthest) + rounding_error(4 + 4, farthest) / sine);
 }
 
 // Cells of the bar are 0.25 x 0.15 x 0.15; a section across cuts four of them, of six tets each.
 const double bar_edge = std::sqrt(0.25 * 0.25 + 2.0 * 0.15 * 0.15), across_error = area_error(4 * 6, bar_edge, 1.0, 0.25 / bar_edge);
 
-TEST(CrossSection, OfABoxBetweenItsVertices)
+TEST(CrossSection, OfABox)
 {
-    EXPECT_NEAR(area_of(bar(), {{0.1, 5.0, -7.0}, {1.0, 0.0, 0.0}}), 0.09, across_error);
-}
-
-TEST(CrossSection, ThroughVerticesAndFacesCountsOnce)
-{
-    for (double x : {-0.75, 0.0, 0.25}) {
-        EXPECT_NEAR(area_of(bar(), {{x, 0.0, 0.0}, {1.0, 0.0, 0.0}}), 0.09, across_error);
-        EXPECT_NEAR(area_of(bar(), {{x, 0.0, 0.0}, {-2.0, 0.0, 0.0}}), 0.09, across_error);
-    }
-}
-
-TEST(CrossSection, BoundaryFaceCountsFromTheNormalsSide)
-{
-    EXPECT_NEAR(area_of(bar(), {{-1.0, 0.0, 0.0}, {1.0, 0.0, 0.0}}), 0.09, across_error);
-    EXPECT_EQ(area_of(bar(), {{-1.0, 0.0, 0.0}, {-1.0, 0.0, 0.0}}), 0.0);
-}
-
-TEST(CrossSection, ObliquePlaneCutsMore)
-{
-    const double tilt = 0.4;
-    // Within 0.4 m of the origin, it cuts cells on both sides of x = 0; the edges closest to it lie in the diagonal of y and z.
-    EXPECT_NEAR(area_of(bar(), {Vec3::Zero(), {std::cos(tilt), std::sin(tilt), 0.0}}), 0.09 / std::cos(tilt),
-                area_error(2 * 4 * 6, bar_edge, 0.4, std::sin(tilt) / std::sqrt(2.0)));
-}
-
-TEST(CrossSection, AlongABox)
-{
-    EXPECT_NEAR(area_of(bar(), {{0.0, 0.0, 0.01}, {0.0, 0.0, 3.0}}), 2.0 * 0.3, area_error(8 * 2 * 6, bar_edge, 1.1, 0.15 / bar_edge));
-}
-
-TEST(CrossSection, MissingTheBodyIsNothing)
-{
-    EXPECT_EQ(area_of(bar(), {{1.1, 0.0, 0.0}, {1.0, 0.0, 0.0}}), 0.0);
+    const double tilt = 0.4, along_error = area_error(8 * 2 * 6, bar_edge, 1.1, 0.15 / bar_edge);
+    // Within 0.4 m of the origin, the oblique plane cuts cells on both sides of x = 0; the edges closest to it lie in the diagonal of y and
+    // z.
+    const double oblique_error = area_error(2 * 4 * 6, bar_edge, 0.4, std::sin(tilt) / std::sqrt(2.0));
+    struct Case {
+        const char* name;
+        Plane plane;
+        double area, error;
+    };
+    const std::vector<Case> all = {{"between its vertices", {{0.1, 5.0, -7.0}, {1, 0, 0}}, 0.09, across_error},
+                                   {"through vertices and faces", {{-0.75, 0, 0}, {1, 0, 0}}, 0.09, across_error},
+                                   {"through vertices and faces, other normal", {{-0.75, 0, 0}, {-2, 0, 0}}, 0.09, across_error},
+                                   {"in the middle", {{0, 0, 0}, {1, 0, 0}}, 0.09, across_error},
+                                   {"in the middle, other normal", {{0, 0, 0}, {-2, 0, 0}}, 0.09, across_error},
+                                   {"on the other side", {{0.25, 0, 0}, {1, 0, 0}}, 0.09, across_error},
+                                   {"on the other side, other normal", {{0.25, 0, 0}, {-2, 0, 0}}, 0.09, across_error},
+                                   {"the boundary counts from the normal's side", {{-1, 0, 0}, {1, 0, 0}}, 0.09, across_error},
+                                   {"and not from the other", {{-1, 0, 0}, {-1, 0, 0}}, 0.0, 0.0},
+                                   {"oblique", {Vec3::Zero(), {std::cos(tilt), std::sin(tilt), 0}}, 0.09 / std::cos(tilt), oblique_error},
+                                   {"along it", {{0, 0, 0.01}, {0, 0, 3}}, 2.0 * 0.3, along_error},
+                                   {"beyond it", {{1.1, 0, 0}, {1, 0, 0}}, 0.0, 0.0}};
+    for (const Case& of : all) EXPECT_NEAR(area_of(bar(), of.plane), of.area, of.error) << of.name;
 }
 
 // The rounding error of the area in which a plane cuts a cone of so many tets, with edges of sqrt 2 m at 45 degrees.
@@ -119,9 +109,8 @@ TEST(CrossSection, FoldedFleshCountsOnceASheet)
     const double once = area_of(mesh, plane);
     auto twice = all_of(mesh.tets);
     twice.insert(twice.end(), twice.begin(), twice.begin() + static_cast<long>(mesh.tets.rows()));
-    EXPECT_NEAR(cross_section_area(mesh.rest, mesh.tets, twice, plane), 2.0 * once,
-                test_support::rounding_error(4, 2.0 * once));  // two sums
-    mesh.tets.col(0).swap(mesh.tets.col(1));                   // inverted
+    EXPECT_NEAR(cross_section_area(mesh.rest, mesh.tets, twice, plane), 2.0 * once, rounding_error(4, 2.0 * once));  // two sums
+    mesh.tets.col(0).swap(mesh.tets.col(1));                                                                         // inverted
     EXPECT_NEAR(area_of(mesh, plane), once, 2.0 * cone_error(6));
 }
 
@@ -160,16 +149,12 @@ TEST(SectionExtremes, OnlyTheTetsOfTheStationCount)
     EXPECT_NEAR(analysis::section_extremes(mesh.rest, mesh.rest, mesh.tets, {{plane, plane, limb}}).area_m2[0], 0.09, across_error);
 }
 
-TEST(SectionExtremes, WithoutStationsThereIsNone)
-{
-    const auto sections = analysis::section_extremes(bar().rest, bar().rest, bar().tets, {});
-    EXPECT_EQ(sections.smallest, -1);
-    EXPECT_EQ(sections.smallest_ratio, 1.0);
-}
-
-TEST(SectionExtremes, RefusesStationsThatCannotBeMeasured)
+TEST(SectionExtremes, AreNoneWithoutStationsAndRefuseThoseThatCannotBeMeasured)
 {
     const auto mesh = bar();
+    const auto none = analysis::section_extremes(mesh.rest, mesh.rest, mesh.tets, {});
+    EXPECT_EQ(none.smallest, -1);
+    EXPECT_EQ(none.smallest_ratio, 1.0);
     const Plane good{Vec3::Zero(), Vec3::UnitX()}, outside{{3.0, 0.0, 0.0}, Vec3::UnitX()}, no_normal{Vec3::Zero(), Vec3::Zero()};
     const auto extremes = [&](const analysis::SectionStation& s) {
         return analysis::section_extremes(mesh.rest, mesh.rest, mesh.tets, {s});
@@ -183,8 +168,6 @@ TEST(SectionExtremes, RefusesStationsThatCannotBeMeasured)
 // Reference: regular polygons, rectangles and a figure eight in closed form. Tolerances: a vertex and its distance from the centroid go
 // through some twenty roundings of coordinates. Those of the rectangle are multiples of powers of two, which are not rounded.
 
-using pbs::Positions;
-
 const Plane horizontal{Vec3::Zero(), Vec3::UnitZ()};
 
 Positions polygon(int sides, double radius, const Vec3& centre)
@@ -197,55 +180,38 @@ Positions polygon(int sides, double radius, const Vec3& centre)
     return outline;
 }
 
-TEST(SectionOutline, RegularPolygonHasItsAreaAndItsTwoRadii)
+// A hexagon, within 8 m of the origin: six triangles of two radii of 2 m have an area in error by 2 m times that of a vertex. An additional
+// vertex on one side of the rectangle shifts the mean of the vertices, but not the centroid of the length.
+TEST(SectionOutline, HasItsAreaAndItsTwoRadii)
 {
-    const auto size = analysis::outline_size(polygon(6, 2.0, {5.0, -3.0, 1.0}));
-    // Vertices are within 8 m of the origin. Six triangles of two radii of 2 m have an area in error by 2 m times that of a vertex.
-    const double of_vertex = test_support::rounding_error(20, 8.0);
-    EXPECT_NEAR(size.area_m2, 6.0 * std::sqrt(3.0), 6 * 2.0 * of_vertex);
-    EXPECT_NEAR(size.largest_radius_m, 2.0, of_vertex);
-    EXPECT_NEAR(size.smallest_radius_m, std::sqrt(3.0), of_vertex);
+    const double of_hexagon = rounding_error(20, 8.0), of_eight = rounding_error(20, std::sqrt(2.0));
+    struct Case {
+        const char* name;
+        Positions outline;
+        double area, smallest, largest, area_error, radius_error;
+    };
+    const std::vector<Case> all = {
+        {"hexagon", polygon(6, 2.0, {5, -3, 1}), 6.0 * std::sqrt(3.0), std::sqrt(3.0), 2.0, 6 * 2.0 * of_hexagon, of_hexagon},
+        {"rectangle", Positions{{0, 0, 0}, {0.25, 0, 0}, {4, 0, 0}, {4, 2, 0}, {0, 2, 0}}, 8.0, 1.0, std::sqrt(5.0), 0.0, 0.0},
+        {"a figure eight encloses the difference", Positions{{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}}, 0.0, 0.0, std::sqrt(0.5),
+         4 * of_eight, of_eight},
+        {"collapsed to a point", Positions::Ones(4, 3), 0.0, 0.0, 0.0, 0.0, 0.0},
+        {"empty", Positions(0, 3), 0.0, 0.0, 0.0, 0.0, 0.0}};
+    for (const Case& of : all) {
+        SCOPED_TRACE(of.name);
+        const auto size = analysis::outline_size(of.outline);
+        EXPECT_NEAR(size.area_m2, of.area, of.area_error);
+        EXPECT_NEAR(size.smallest_radius_m, of.smallest, of.radius_error);
+        EXPECT_NEAR(size.largest_radius_m, of.largest, of.radius_error);
+    }
 }
 
-// An additional vertex on one side shifts the mean of the vertices, but not the centroid of the length.
-TEST(SectionOutline, DoesNotDependOnHowItsSidesAreCutUp)
-{
-    Positions rectangle(5, 3);
-    rectangle << 0, 0, 0, 0.25, 0, 0, 4, 0, 0, 4, 2, 0, 0, 2, 0;
-    const auto size = analysis::outline_size(rectangle);
-    EXPECT_EQ(size.area_m2, 8.0);
-    EXPECT_EQ(size.smallest_radius_m, 1.0);
-    EXPECT_EQ(size.largest_radius_m, std::sqrt(5.0));
-}
-
-TEST(SectionOutline, FigureEightEnclosesTheDifference)
-{
-    Positions eight(4, 3);
-    eight << 0, 0, 0, 1, 1, 0, 1, 0, 0, 0, 1, 0;
-    const auto size = analysis::outline_size(eight);
-    const double of_vertex = test_support::rounding_error(20, std::sqrt(2.0));
-    EXPECT_NEAR(size.area_m2, 0.0, 4 * of_vertex);
-    EXPECT_NEAR(size.smallest_radius_m, 0.0, of_vertex);
-}
-
-TEST(SectionOutline, CollapsedToAPointOrEmptyHasNoSize)
-{
-    const auto point = analysis::outline_size(Positions::Ones(4, 3));
-    EXPECT_EQ(point.area_m2, 0.0);
-    EXPECT_EQ(point.largest_radius_m, 0.0);
-    EXPECT_EQ(analysis::outline_size(Positions(0, 3)).largest_radius_m, 0.0);
-}
-
-TEST(SectionOutline, WindsOnceRoundWhatItEnclosesEitherWay)
+TEST(SectionOutline, WindsOnceRoundWhatItEnclosesEitherWayAndIsTakenBeforeANearerOne)
 {
     const Positions ring = polygon(7, 1.0, Vec3::Zero()), backwards = ring.colwise().reverse();
     EXPECT_EQ(analysis::winding_number(ring, horizontal), 1);
     EXPECT_EQ(analysis::winding_number(backwards, horizontal), -1);
     EXPECT_EQ(analysis::winding_number(ring, {{2.0, 0.0, 0.0}, Vec3::UnitZ()}), 0);
-}
-
-TEST(SectionOutline, EnclosingOneIsTakenBeforeANearerOne)
-{
     const std::vector<Positions> outlines = {polygon(8, 0.1, {0.3, 0, 0}), polygon(8, 1.0, Vec3::Zero()), polygon(8, 3.0, Vec3::Zero())};
     EXPECT_EQ(analysis::enclosing_outline(outlines, horizontal), &outlines[1]);
     const std::vector<Positions> outside = {polygon(8, 0.1, {2, 0, 0}), polygon(8, 0.1, {1, 0, 0})};
@@ -255,18 +221,16 @@ TEST(SectionOutline, EnclosingOneIsTakenBeforeANearerOne)
 
 // Reference: prisms over a triangle with sides 3, 4 and 5, cut across; a corner of the outline stands for half of each side that it ends.
 
-using analysis::share_of_outline;
-
 // Only the sides, from z = -0.9 to 1; vertices 2 i below and 2 i + 1 above corner i.
 struct Prisms {
-    pbs::Positions positions, outline{3, 3};  // of the first
+    Positions positions, outline{3, 3};  // of the first
     pbs::Triangles skin;
 };
 
 Prisms prisms(int count)
 {
     const double corners[3][2] = {{0, 0}, {4, 0}, {0, 3}};
-    Prisms prisms{.positions = pbs::Positions(6 * count, 3), .skin = pbs::Triangles(6 * count, 3)};
+    Prisms prisms{.positions = Positions(6 * count, 3), .skin = pbs::Triangles(6 * count, 3)};
     for (int p = 0; p < count; ++p)
         for (int i = 0; i < 3; ++i) {
             const pbs::Vec3 corner(10.0 * p + corners[i][0], corners[i][1], 0.0);
@@ -284,35 +248,24 @@ double share(const Prisms& cut, const std::vector<int>& vertices)
 {
     std::vector<bool> chosen(cut.positions.rows());
     for (const int v : vertices) chosen[v] = true;
-    return share_of_outline(cut.outline, {pbs::Vec3::Zero(), 3.0 * pbs::Vec3::UnitZ()}, cut.positions, cut.skin, chosen);
+    return analysis::share_of_outline(cut.outline, {pbs::Vec3::Zero(), 3.0 * pbs::Vec3::UnitZ()}, cut.positions, cut.skin, chosen);
 }
 
-TEST(OutlineSkin, IsOfTheNearerVertexOfEachEdge)
+TEST(OutlineSkin, IsSharedByLengthAmongTheNearerVerticesOfTheEdges)
 {
-    EXPECT_EQ(share(prisms(1), {0, 2, 4}), 1.0);  // 0.9 below, 1 above
-    EXPECT_EQ(share(prisms(1), {1, 3, 5}), 0.0);
-}
-
-TEST(OutlineSkin, IsSharedByLength)
-{
-    EXPECT_DOUBLE_EQ(share(prisms(1), {0}), 3.5 / 12.0);
-    EXPECT_DOUBLE_EQ(share(prisms(1), {2}), 4.5 / 12.0);
-    EXPECT_DOUBLE_EQ(share(prisms(1), {2, 4}), 8.5 / 12.0);
-}
-
-TEST(OutlineSkin, IsNothingOfAnotherPartThatThePlaneCutsToo)
-{
-    EXPECT_EQ(share(prisms(2), {6, 8, 10}), 0.0);
-    EXPECT_EQ(share(prisms(2), {0, 2, 4}), 1.0);
-}
-
-TEST(OutlineSkin, WithoutLengthIsAllTheLimbs)
-{
-    Prisms one = prisms(1);
-    one.outline = pbs::Positions(one.outline.topRows(1));
-    EXPECT_EQ(share(one, {}), 1.0);
-    one.outline.resize(0, 3);
-    EXPECT_EQ(share(one, {}), 1.0);
+    const Prisms one = prisms(1), two = prisms(2);
+    EXPECT_EQ(share(one, {0, 2, 4}), 1.0);  // 0.9 below, 1 above
+    EXPECT_EQ(share(one, {1, 3, 5}), 0.0);
+    EXPECT_DOUBLE_EQ(share(one, {0}), 3.5 / 12.0);
+    EXPECT_DOUBLE_EQ(share(one, {2}), 4.5 / 12.0);
+    EXPECT_DOUBLE_EQ(share(one, {2, 4}), 8.5 / 12.0);
+    EXPECT_EQ(share(two, {6, 8, 10}), 0.0) << "another part that the plane cuts too";
+    EXPECT_EQ(share(two, {0, 2, 4}), 1.0);
+    Prisms without_length = one;
+    for (const int corners : {1, 0}) {
+        without_length.outline = Positions(one.outline.topRows(corners));
+        EXPECT_EQ(share(without_length, {}), 1.0) << "all of it is the limb's";
+    }
 }
 
 }  // namespace

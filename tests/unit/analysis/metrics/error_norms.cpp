@@ -5,6 +5,7 @@
 #include "pbs/geometry/input_error.hpp"
 #include "tests/support/rounding_error.hpp"
 #include "tests/support/structured_bar.hpp"
+#include "tests/support/unit_tet.hpp"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
@@ -18,6 +19,7 @@ using analysis::ErrorDomain;
 using analysis::ErrorMetrics;
 using analysis::ErrorNorms;
 using pbs::Positions;
+using pbs::Vec3;
 using test_support::rounding_error;
 
 ErrorDomain bar_domain()
@@ -40,23 +42,21 @@ TEST(ErrorNorms, TranslationByKnownDistance)
     EXPECT_NEAR(error.joint_pct, 130.0, 100.0 * rounding_m / 0.1);
 }
 
+// Two tets of volumes 1/6 and 3/6 on one face: the apex of the large one carries 3/4 of a quarter of the whole. Tolerances: some twenty
+// roundings of products and of sums of positive terms.
 TEST(ErrorNorms, VerticesWeighByTheirLumpedRestVolume)
 {
-    // Two tets of volumes 1/6 and 3/6 on one face: the apex of the large one carries 3/4 of a quarter of the whole.
-    ErrorDomain domain;
-    domain.rest.resize(5, 3);
-    domain.rest << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, -3;
-    domain.tets.resize(2, 4);
-    domain.tets << 0, 1, 2, 3, 0, 2, 1, 4;
-    domain.blended = {3, 4};
-    domain.bone_distance_m = (Eigen::VectorXd(5) << 9, 9, 9, 1.0, 3.0).finished();
+    const pbs::TetMesh mesh = test_support::two_tets(3.0);
+    const ErrorDomain domain{mesh.rest, mesh.tets, {}, {3, 4}, (Eigen::VectorXd(5) << 9, 9, 9, 1.0, 3.0).finished()};
     Positions moved = domain.rest;
     moved(4, 0) += 1.0;
-    const ErrorNorms error = ErrorMetrics(domain).measure(moved, domain.rest);
-    // Some twenty roundings of products and of sums of positive terms.
+    const ErrorMetrics metrics(domain);
+    const ErrorNorms error = metrics.measure(moved, domain.rest);
     const double l2_pct = 100.0 * std::sqrt(0.75 / 4.0) / std::sqrt(18.0), joint_pct = 100.0 * std::sqrt(0.75) / (0.25 * 1.0 + 0.75 * 3.0);
     EXPECT_NEAR(error.l2_pct, l2_pct, rounding_error(20, l2_pct));
     EXPECT_NEAR(error.joint_pct, joint_pct, rounding_error(20, joint_pct));
+    EXPECT_NEAR(metrics.share_pct({false, false, false, false, true}), 75.0 / 4.0, rounding_error(20, 75.0 / 4.0));
+    EXPECT_NEAR(metrics.share_pct({true, true, true, true, true}), 100.0, rounding_error(20, 100.0));
 }
 
 // Two vertices are blended, and the far one is left out: the near one, at 1 m from its bone, has moved by 0.2 m. An inverted mask would
@@ -81,18 +81,6 @@ TEST(ErrorNorms, WhatIsLeftOutOfAFrameCountsInNoNorm)
     EXPECT_THROW(metrics.measure(moved, domain.rest, std::vector<bool>(3)), pbs::InputError);
 }
 
-// A tet of volume 1/6 and one of 3/6 on one face: the apex of the large one carries 3/4 of a quarter of the whole.
-TEST(ErrorNorms, TheShareOfVerticesIsThatOfTheirVolume)
-{
-    ErrorDomain domain;
-    domain.rest.resize(5, 3);
-    domain.rest << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, -3;
-    domain.tets.resize(2, 4);
-    domain.tets << 0, 1, 2, 3, 0, 2, 1, 4;
-    EXPECT_NEAR(ErrorMetrics(domain).share_pct({false, false, false, false, true}), 75.0 / 4.0, rounding_error(20, 75.0 / 4.0));
-    EXPECT_NEAR(ErrorMetrics(domain).share_pct({true, true, true, true, true}), 100.0, rounding_error(20, 100.0));
-}
-
 TEST(ErrorNorms, PrescribedVerticesAreLeftOut)
 {
     ErrorDomain domain = bar_domain();
@@ -108,39 +96,29 @@ TEST(ErrorNorms, PrescribedVerticesAreLeftOut)
     EXPECT_EQ(error.joint_pct, 0.0);
 }
 
-TEST(ErrorNorms, NothingToMeasureIsNaN)
+TEST(ErrorNorms, NothingToMeasureAndABrokenFrameAreNaN)
 {
-    ErrorDomain domain = bar_domain();
+    ErrorDomain domain = bar_domain(), prescribed = domain;
     EXPECT_TRUE(std::isnan(ErrorMetrics(domain).measure(domain.rest, domain.rest).joint_pct));
-    domain.prescribed.assign(domain.rest.rows(), true);
-    const ErrorNorms error = ErrorMetrics(domain).measure(domain.rest, domain.rest);
-    EXPECT_TRUE(std::isnan(error.l2_pct));
-    EXPECT_TRUE(std::isnan(error.linf_m));
-}
-
-TEST(ErrorNorms, BrokenFrameIsNaN)
-{
-    const ErrorDomain domain = bar_domain();
+    prescribed.prescribed.assign(domain.rest.rows(), true);
     Positions broken = domain.rest;
-    broken(3, 1) = std::numeric_limits<double>::quiet_NaN();
-    const ErrorNorms error = ErrorMetrics(domain).measure(broken, domain.rest);
-    EXPECT_TRUE(std::isnan(error.l2_pct));
-    EXPECT_TRUE(std::isnan(error.linf_m));
+    broken(3, 1) = std::nan("");
+    for (const ErrorNorms& error :
+         {ErrorMetrics(prescribed).measure(domain.rest, domain.rest), ErrorMetrics(domain).measure(broken, domain.rest)}) {
+        EXPECT_TRUE(std::isnan(error.l2_pct));
+        EXPECT_TRUE(std::isnan(error.linf_m));
+    }
 }
 
 TEST(ErrorNorms, RefusesArraysThatDoNotFit)
 {
     const ErrorDomain good = bar_domain();
-    ErrorDomain bad = good;
-    bad.prescribed.assign(3, false);
-    EXPECT_THROW(ErrorMetrics{bad}, pbs::InputError);
-    bad = good;
-    bad.blended = {static_cast<int>(good.rest.rows())};
-    EXPECT_THROW(ErrorMetrics{bad}, pbs::InputError);
-    bad = good;
-    bad.blended = {0};
-    bad.bone_distance_m.resize(0);
-    EXPECT_THROW(ErrorMetrics{bad}, pbs::InputError);
+    ErrorDomain of_three = good, out_of_range = good, without_distances = good;
+    of_three.prescribed.assign(3, false);
+    out_of_range.blended = {static_cast<int>(good.rest.rows())};
+    without_distances.blended = {0};
+    without_distances.bone_distance_m.resize(0);
+    for (const ErrorDomain& bad : {of_three, out_of_range, without_distances}) EXPECT_THROW(ErrorMetrics{bad}, pbs::InputError);
     EXPECT_THROW(ErrorMetrics(good).measure(good.rest.topRows(2), good.rest), pbs::InputError);
     EXPECT_THROW(ErrorMetrics(good).measure(good.rest, good.rest.topRows(2)), pbs::InputError);
 }
@@ -152,27 +130,19 @@ double gradient_error_pct(double farthest_m)
     return 100.0 * 2.0 * std::sqrt(3.0) * rounding_error(4, farthest_m) * std::sqrt(5.0) / 0.15;
 }
 
-TEST(ErrorH1, OfALinearDifferenceIsTheNormOfItsGradient)
+TEST(ErrorH1, OfALinearDifferenceIsTheNormOfItsGradientAndOfATranslationZero)
 {
     const ErrorDomain domain = bar_domain();
-    Eigen::Matrix3d gradient;
-    gradient << 0.01, 0.02, 0.0, -0.03, 0.0, 0.01, 0.0, 0.05, 0.02;
+    const Eigen::Matrix3d gradient{{0.01, 0.02, 0.0}, {-0.03, 0.0, 0.01}, {0.0, 0.05, 0.02}};
     const Positions moved = domain.rest + domain.rest * gradient.transpose();
     EXPECT_NEAR(analysis::error_h1_pct(domain.rest, domain.tets, moved, domain.rest), 100.0 * gradient.norm(), gradient_error_pct(1.2));
-}
-
-TEST(ErrorH1, DoesNotSeeTranslations)
-{
-    const ErrorDomain domain = bar_domain();
-    const Positions moved = domain.rest.rowwise() + Eigen::RowVector3d(1.0, 2.0, 3.0);
-    EXPECT_NEAR(analysis::error_h1_pct(domain.rest, domain.tets, moved, domain.rest), 0.0, gradient_error_pct(4.2));
+    const Positions translated = domain.rest.rowwise() + Eigen::RowVector3d(1.0, 2.0, 3.0);
+    EXPECT_NEAR(analysis::error_h1_pct(domain.rest, domain.tets, translated, domain.rest), 0.0, gradient_error_pct(4.2));
 }
 
 // Reference: strains and angles of boxes in closed form.
 
 using analysis::SmoothnessMetrics;
-using pbs::Vec3;
-
 pbs::TetMesh bar()
 {
     return test_support::structured_bar({-1.0, -0.5, -0.5}, {1.0, 0.5, 0.5}, {2, 1, 1});
@@ -188,7 +158,6 @@ SmoothnessMetrics metrics_of(const pbs::TetMesh& mesh)
 // condition number sqrt 6 sqrt 5. E has the error |F| dF, and a jump has it twice. A normal turns by less.
 double jump_error(double farthest_m, double stretch, double cell_m)
 {
-    using test_support::rounding_error;
     const double of_edges = 2.0 * std::sqrt(3.0) * rounding_error(6, farthest_m);
     const double of_gradient = of_edges * std::sqrt(5.0) / cell_m + rounding_error(12 + 3, std::sqrt(30.0) * stretch);
     return 2.0 * std::sqrt(3.0) * stretch * of_gradient;
@@ -229,14 +198,11 @@ TEST(Smoothness, JumpOfStrainAcrossAPlane)
 // are multiples of powers of two, which are not rounded.
 TEST(Smoothness, JumpBetweenTwoTets)
 {
-    pbs::TetMesh mesh;
-    mesh.rest.resize(5, 3);
-    mesh.rest << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, -1;
-    mesh.tets.resize(2, 4);
-    mesh.tets << 0, 1, 2, 3, 0, 2, 1, 4;
+    const pbs::TetMesh mesh = test_support::two_tets();
     Positions positions = mesh.rest;
     positions(3, 2) = 2.0;
     EXPECT_EQ(metrics_of(mesh).measure(positions).strain_jump_rms, 1.5);
+    EXPECT_THROW(SmoothnessMetrics(mesh.rest, mesh.tets, {true}), pbs::InputError) << "a region of another size";
 }
 
 // The right end is sheared off. A region that it does not touch is smooth, and so is one without vertices.
@@ -260,23 +226,13 @@ TEST(Smoothness, OnlyTheRegionIsMeasured)
 // One tet whose apex is rotated by 0.3 about an edge of its base: the change of both dihedral angles is known, and no other angle changes.
 TEST(Smoothness, BendingOfASkinThatIsTurnedAboutOneEdge)
 {
-    pbs::TetMesh mesh;
-    mesh.rest.resize(4, 3);
-    mesh.rest << 0, 0, 0, 1, 0, 0, 0.5, 1, 0, 0.5, 0, 1;
-    mesh.tets.resize(1, 4);
-    mesh.tets << 0, 1, 2, 3;
+    const pbs::TetMesh mesh{Positions{{0, 0, 0}, {1, 0, 0}, {0.5, 1, 0}, {0.5, 0, 1}}, pbs::Tets{{0, 1, 2, 3}}};
     std::vector<bool> edge = {true, true, false, false};
     Positions positions = mesh.rest;
     positions.row(3) << 0.5, std::sin(0.3), std::cos(0.3);
     // Two angles of at most pi, from normals of some ten roundings each.
     EXPECT_NEAR(SmoothnessMetrics(mesh.rest, mesh.tets, edge).measure(positions).bending_rms_rad, 0.3,
-                test_support::rounding_error(2 * 10, std::numbers::pi));
-}
-
-TEST(Smoothness, RegionOfAnotherSizeIsRefused)
-{
-    const pbs::TetMesh mesh = bar();
-    EXPECT_THROW(SmoothnessMetrics(mesh.rest, mesh.tets, {true}), pbs::InputError);
+                rounding_error(2 * 10, std::numbers::pi));
 }
 
 }  // namespace

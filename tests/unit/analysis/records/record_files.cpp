@@ -2,10 +2,9 @@
 // file.
 
 #include "analysis/records/record_files.hpp"
-#include "pbs/geometry/input_error.hpp"
+#include "tests/support/refusal.hpp"
 #include "tests/support/scratch_folder.hpp"
 
-#include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -21,6 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 using analysis::read_text;
 using analysis::write_text_atomically;
+using test_support::refusal_of;
 
 class AtomicFile : public testing::Test {
 protected:
@@ -32,14 +32,14 @@ protected:
     const fs::path folder = scratch.path();
 };
 
-TEST_F(AtomicFile, WritesAndReplaces)
+TEST_F(AtomicFile, WritesAndReplacesAlsoUnderANameOfTheGreatestLength)
 {
-    const std::string path = folder / "run.json";
-    write_text_atomically(path, std::string("a\0b\n", 4));
-    EXPECT_EQ(read_text(path), std::string("a\0b\n", 4));
-    write_text_atomically(path, "");
-    EXPECT_EQ(read_text(path), "");
-    EXPECT_EQ(files(), 1);
+    for (const fs::path& path : {folder / "run.json", folder / std::string(255, 'x')})
+        for (const std::string& text : {std::string("a\0b\n", 4), std::string()}) {
+            write_text_atomically(path, text);
+            EXPECT_EQ(read_text(path), text);
+        }
+    EXPECT_EQ(files(), 2);
 }
 
 TEST_F(AtomicFile, GivesUsualPermissions)
@@ -50,32 +50,6 @@ TEST_F(AtomicFile, GivesUsualPermissions)
     struct stat status;
     ASSERT_EQ(stat((folder / "run.json").c_str(), &status), 0);
     EXPECT_EQ(status.st_mode & 0777, 0644u);
-}
-
-TEST_F(AtomicFile, ANameOfTheGreatestLengthIsWritten)
-{
-    const std::string path = folder / std::string(255, 'x');
-    write_text_atomically(path, "whole");
-    EXPECT_EQ(read_text(path), "whole");
-}
-
-TEST_F(AtomicFile, MissingFolderIsRefused)
-{
-    EXPECT_THROW(write_text_atomically(folder / "missing" / "run.json", "{}"), pbs::InputError);
-    EXPECT_EQ(files(), 0);
-}
-
-TEST_F(AtomicFile, FileInPlaceOfFolderIsRefused)
-{
-    write_text_atomically(folder / "file", "");
-    EXPECT_THROW(write_text_atomically(folder / "file" / "run.json", "{}"), pbs::InputError);
-}
-
-TEST_F(AtomicFile, FolderInPlaceOfFileIsRefusedAndNothingIsLeft)
-{
-    fs::create_directory(folder / "run.json");
-    EXPECT_THROW(write_text_atomically(folder / "run.json", "{}"), pbs::InputError);
-    EXPECT_EQ(files(), 1);
 }
 
 TEST_F(AtomicFile, ReadOnlyFolderIsRefused)
@@ -92,29 +66,16 @@ TEST_F(AtomicFile, ReadOnlyFolderIsRefused)
     EXPECT_EQ(files(), 0);
 }
 
-// The messages of require_writable and of a write; empty if there is none.
-std::pair<std::string, std::string> refusals(const std::string& path)
-{
-    const auto said_by = [&](auto write) -> std::string {
-        try {
-            return write(), "";
-        } catch (const pbs::InputError& error) {
-            return error.what();
-        }
-    };
-    return {said_by([&] { analysis::require_writable(path); }), said_by([&] { write_text_atomically(path, "{}"); })};
-}
-
 TEST_F(AtomicFile, WhatCannotBeWrittenIsSaidBeforehandInTheSameWords)
 {
     fs::create_directory(folder / "run.json");
     write_text_atomically(folder / "file", "");
     const std::map<std::string, std::string> reasons{
-        {"run.json", "Is a directory"}, {"file/a", "Not a directory"}, {"none/a", "No such file"}};
+        {"run.json", "Is a directory"}, {"file/a", "Not a directory"}, {"none/a", "No such file or directory"}};
     for (const auto& [name, reason] : reasons) {
-        const auto [beforehand, then] = refusals(folder / name);
-        EXPECT_EQ(beforehand, then) << name;
-        EXPECT_NE(beforehand.find("cannot be written: " + reason), std::string::npos) << beforehand;
+        const std::string path = folder / name, refusal = path + ": cannot be written: " + reason;
+        EXPECT_EQ(refusal_of([&] { analysis::require_writable(path); }), refusal);
+        EXPECT_EQ(refusal_of([&] { write_text_atomically(path, "{}"); }), refusal);
     }
     EXPECT_EQ(files(), 2);
     EXPECT_NO_THROW(analysis::require_writable(folder / "metrics.csv"));
@@ -189,16 +150,6 @@ TEST_F(AtomicFile, AKilledWriterLeavesTheOldFileAndWhatIsRemoved)
     EXPECT_EQ(files(), 1);
 }
 
-TEST_F(AtomicFile, ErrorNamesFileAndReason)
-{
-    try {
-        write_text_atomically(folder / "missing" / "run.json", "{}");
-        FAIL();
-    } catch (const pbs::InputError& error) {
-        EXPECT_EQ(std::string(error.what()), (folder / "missing" / "run.json").string() + ": cannot be written: No such file or directory");
-    }
-}
-
 TEST_F(AtomicFile, ReadingWhatIsNotThereIsRefused)
 {
     EXPECT_THROW(read_text(folder / "missing"), pbs::InputError);
@@ -211,34 +162,18 @@ TEST_F(AtomicFile, ReadingWhatIsNotThereIsRefused)
 // removed, and the reverse.
 
 using test_support::ScratchFolder;
-namespace fs = std::filesystem;
 
-template <typename Work>
-std::string refusal_of(const Work& work)
-{
-    try {
-        work();
-    } catch (const pbs::InputError& error) {
-        return error.what();
-    }
-    return "accepted";
-}
-
-TEST(FolderFiles, ARecordIsRemovedWhereItIs)
+TEST(FolderFiles, ARecordIsRemovedAndOneThatStaysIsNamedWithTheReason)
 {
     const ScratchFolder folder;
     const std::string record = folder.file("run.json", "{}");
-    analysis::remove_record(record);
-    EXPECT_FALSE(fs::exists(record));
-    analysis::remove_record(record);
-}
-
-TEST(FolderFiles, OneThatStaysIsNamedWithTheReason)
-{
-    const ScratchFolder folder;
+    for (int k = 0; k < 2; ++k) {
+        analysis::remove_record(record);
+        EXPECT_FALSE(fs::exists(record));
+    }
     fs::create_directories(folder / "run.json/kept");
-    EXPECT_EQ(refusal_of([&] { analysis::remove_record(folder / "run.json"); }),
-              folder / "run.json" + ": an earlier run's record cannot be removed: Directory not empty");
+    EXPECT_EQ(refusal_of([&] { analysis::remove_record(record); }),
+              record + ": an earlier run's record cannot be removed: Directory not empty");
 }
 
 TEST(FolderFiles, FilesOfAFolder)
@@ -255,19 +190,12 @@ TEST(FolderFiles, FilesOfAFolder)
 
 // Reference: Unicode's definition of UTF-8 (RFC 3629).
 
-using analysis::is_utf8;
-using analysis::record_text;
-
-TEST(RecordText, KnowsUtf8)
+TEST(RecordText, KnowsUtf8AndANameThatIsNotLosesNothingElse)
 {
     for (const char* text : {"", "limb", "Gelenk \xc3\xa4", "\xe2\x82\xac", "\xf0\x9d\x84\x9e"})
         EXPECT_TRUE(analysis::is_utf8(text)) << text;
     for (const char* text : {"\xff", "limb\xfe", "\xc3", "\xc0\xaf", "\xed\xa0\x80", "\xf5\x80\x80\x80"})
         EXPECT_FALSE(analysis::is_utf8(text)) << text;
-}
-
-TEST(RecordText, ANameThatIsNotUtf8LosesNothingElse)
-{
     const auto record = nlohmann::json::parse(analysis::record_text({{"name", "li\xffmb"}, {"frames", 3}}));
     EXPECT_EQ(record.at("name"), "li\xef\xbf\xbdmb");
     EXPECT_EQ(record.at("frames"), 3);

@@ -1,3 +1,6 @@
+// Reference: the definitions, on small tables and texts. No line is longer than requested, every word is there and in order, and columns
+// begin at the same position.
+
 #include "analysis/records/report_table.hpp"
 #include "pbs/geometry/input_error.hpp"
 
@@ -5,8 +8,7 @@
 
 namespace {
 
-using analysis::CsvTable;
-using analysis::ReportColumn;
+using namespace analysis;
 
 const std::vector<ReportColumn> columns = {{"body", "body"}, {"step [ms]", "step_s", "{:.1f}", 1e3, "-"}};
 
@@ -18,102 +20,59 @@ CsvTable table()
     return table;
 }
 
-TEST(ReportTable, MarkdownHasOneRuleBelowTheHeadingsAndAScaledNumberPerRow)
+TEST(ReportTable, HasARowOfHeadingsAndAScaledNumberPerRow)
 {
+    const CsvTable none({"body", "step_s"});
     EXPECT_EQ(markdown_table(table(), columns), "| body | step [ms] |\n|---|---|\n| limb | 12.5 |\n| lady | - |\n");
+    EXPECT_EQ(markdown_table(table(), report_columns("body step_s:.2f")), "| body | step_s |\n|---|---|\n| limb | 0.01 |\n| lady |  |\n");
+    EXPECT_EQ(markdown_table(none, columns), "| body | step [ms] |\n|---|---|\n");
+    EXPECT_EQ(text_table(table(), columns), "body  step [ms]\nlimb       12.5\nlady          -\n") << "words left, numbers right";
+    EXPECT_EQ(text_table(none, columns), "body  step [ms]\n");
+    EXPECT_THROW(text_table(table(), {{"step", "step_ms"}}), pbs::InputError) << "a missing column";
+    EXPECT_THROW(text_table(table(), {{"body", "body", "{:g}"}}), pbs::InputError) << "text under a format";
 }
 
-TEST(ReportTable, ColumnsUnderTheirOwnNames)
+TEST(TextColumns, BreakBetweenWords)
 {
-    EXPECT_EQ(markdown_table(table(), analysis::report_columns("body step_s:.2f")),
-              "| body | step_s |\n|---|---|\n| limb | 0.01 |\n| lady |  |\n");
-}
-
-TEST(ReportTable, TextAlignsWordsLeftAndNumbersRight)
-{
-    EXPECT_EQ(text_table(table(), columns),
-              "body  step [ms]\n"
-              "limb       12.5\n"
-              "lady          -\n");
-}
-
-TEST(ReportTable, ARecordWithoutRowsIsItsHeadings)
-{
-    EXPECT_EQ(text_table(CsvTable({"body", "step_s"}), columns), "body  step [ms]\n");
-    EXPECT_EQ(markdown_table(CsvTable({"body", "step_s"}), columns), "| body | step [ms] |\n|---|---|\n");
-}
-
-TEST(ReportTable, AMissingColumnAndTextUnderAFormatAreRefused)
-{
-    EXPECT_THROW(text_table(table(), {{"step", "step_ms"}}), pbs::InputError);
-    EXPECT_THROW(text_table(table(), {{"body", "body", "{:g}"}}), pbs::InputError);
-}
-
-// Reference: the definition. No line is longer than requested, every word is there and in order, and columns begin at the same position.
-
-using namespace analysis;
-
-TEST(TextColumns, BreaksBetweenWords)
-{
-    EXPECT_EQ(wrapped("one two three", 7), (std::vector<std::string>{"one two", "three"}));
-    EXPECT_EQ(wrapped("one two three", 6), (std::vector<std::string>{"one", "two", "three"}));
-    EXPECT_TRUE(wrapped("", 6).empty());
-}
-
-TEST(TextColumns, BreaksAWordThatIsLonger)
-{
-    EXPECT_EQ(wrapped("a abcdefgh", 3), (std::vector<std::string>{"a", "abc", "def", "gh"}));
-}
-
-TEST(TextColumns, KeepsLineBreaks)
-{
-    EXPECT_EQ(wrapped("one\ntwo", 20), (std::vector<std::string>{"one", "two"}));
-}
-
-TEST(TextColumns, CountsCharactersNotBytes)
-{
+    struct Case {
+        const char *name, *text;
+        std::size_t width;
+        std::vector<std::string> lines;
+    };
+    const std::vector<Case> all = {{"lines of the width", "one two three", 7, {"one two", "three"}},
+                                   {"one character less", "one two three", 6, {"one", "two", "three"}},
+                                   {"nothing", "", 6, {}},
+                                   {"a longer word", "a abcdefgh", 3, {"a", "abc", "def", "gh"}},
+                                   {"line breaks are kept", "one\ntwo", 20, {"one", "two"}},
+                                   {"characters, not bytes", "\u2264\u2264 \u2264\u2264", 5, {"\u2264\u2264 \u2264\u2264"}},
+                                   {"a longer word of characters", "\u2264\u2264\u2264", 2, {"\u2264\u2264", "\u2264"}}};
+    for (const Case& of : all) EXPECT_EQ(wrapped(of.text, of.width), of.lines) << of.name;
     EXPECT_EQ(characters("90\u00b0 \u2264"), 5u);
-    EXPECT_EQ(wrapped("\u2264\u2264 \u2264\u2264", 5), (std::vector<std::string>{"\u2264\u2264 \u2264\u2264"}));
-    EXPECT_EQ(wrapped("\u2264\u2264\u2264", 2), (std::vector<std::string>{"\u2264\u2264", "\u2264"}));
 }
 
-TEST(TextColumns, ColumnsBeginAtTheSamePlace)
+TEST(TextColumns, BeginAtTheSamePlaceAndAColourTakesNoRoom)
 {
     EXPECT_EQ(side_by_side({{"a", 2}, {"\u2264 and more", 5}, {"end of it", 6}}), "a   \u2264 and  end of\n    more   it\n");
-}
-
-TEST(TextColumns, AColourTakesNoRoom)
-{
     EXPECT_EQ(side_by_side({{"a b", 1, "\033[31m"}, {"c", 1}}), "\033[31ma\033[0m  c\n\033[31mb\033[0m\n");
 }
 
-}  // namespace
-
-// Reference: the definition, on small texts.
-
-TEST(PlainMarkdown, FillsParagraphsAndLeavesOutCommentsAndLinks)
+TEST(PlainMarkdown, IsSetForATerminal)
 {
-    EXPECT_EQ(plain_text("# A title\n\nOne [page](../page.md) has\n`code` in it.\n\n<!-- kept:begin -->\n\n## Next\n", 20),
-              "A title\n\nOne page has code in\nit.\n\nNext\n");
-}
-
-TEST(PlainMarkdown, IndentsItems)
-{
-    EXPECT_EQ(plain_text("- one two three four\n  five\n- six\n1. seven\n", 16), "-  one two three\n   four five\n-  six\n1.  seven\n");
-}
-
-TEST(PlainMarkdown, KeepsCodeUnlessItIsTooLong)
-{
-    EXPECT_EQ(plain_text("    a  =  b\n    c = d (and more)\n", 14), "    a  =  b\nc = d (and\nmore)\n");
-}
-
-TEST(PlainMarkdown, SetsTablesInColumns)
-{
-    EXPECT_EQ(plain_text("| a | b |\n|---|---|\n| 1 | two words |\n\nend\n", 30), "a  b\n1  two words\n\nend\n");
-    EXPECT_EQ(plain_text("| a | b |\n|---|---|\n| 1 | two words |\n", 9), "a  b\n1  two\n   words\n");
-}
-
-TEST(PlainMarkdown, FindsTheFirstParagraph)
-{
+    struct Case {
+        const char *name, *markdown;
+        std::size_t width;
+        std::string text;
+    };
+    const std::vector<Case> all = {
+        {"paragraphs are filled, comments and links left out",
+         "# A title\n\nOne [page](../page.md) has\n`code` in it.\n\n<!-- kept:begin -->\n\n## Next\n", 20,
+         "A title\n\nOne page has code in\nit.\n\nNext\n"},
+        {"items", "- one two three four\n  five\n- six\n1. seven\n", 16, "-  one two three\n   four five\n-  six\n1.  seven\n"},
+        {"code is kept unless it is too long", "    a  =  b\n    c = d (and more)\n", 14, "    a  =  b\nc = d (and\nmore)\n"},
+        {"a table", "| a | b |\n|---|---|\n| 1 | two words |\n\nend\n", 30, "a  b\n1  two words\n\nend\n"},
+        {"a narrow table", "| a | b |\n|---|---|\n| 1 | two words |\n", 9, "a  b\n1  two\n   words\n"}};
+    for (const Case& of : all) EXPECT_EQ(plain_text(of.markdown, of.width), of.text) << of.name;
     EXPECT_EQ(first_paragraph("# volume\n\nHow much\nis lost?\n\nMore.\n"), "How much is lost?");
 }
+
+}  // namespace

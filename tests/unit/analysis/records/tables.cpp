@@ -1,10 +1,8 @@
 // Reference: RFC 4180 and the identity: a table that is written reads back to the same bits.
 
 #include "analysis/records/tables.hpp"
-#include "pbs/geometry/input_error.hpp"
+#include "tests/support/refusal.hpp"
 #include "tests/support/scratch_folder.hpp"
-
-#include <gtest/gtest.h>
 
 #include <bit>
 #include <cmath>
@@ -17,14 +15,11 @@ namespace {
 using analysis::CsvTable;
 using analysis::parse_csv;
 
+using test_support::refusal_of;
+
 std::string message_of(const std::string& text)
 {
-    try {
-        parse_csv(text, "m.csv");
-    } catch (const pbs::InputError& error) {
-        return error.what();
-    }
-    return "accepted";
+    return refusal_of([&] { parse_csv(text, "m.csv"); });
 }
 
 double round_trip(double value)
@@ -37,20 +32,9 @@ double round_trip(double value)
 TEST(CsvTable, NumbersRoundTripToTheBit)
 {
     using limits = std::numeric_limits<double>;
-    std::vector<double> values = {0.0,
-                                  -0.0,
-                                  0.1,
-                                  -1.0 / 3.0,
-                                  limits::min(),
-                                  limits::denorm_min(),
-                                  -limits::denorm_min() * 12345,
-                                  limits::max(),
-                                  limits::lowest(),
-                                  limits::epsilon(),
-                                  limits::infinity(),
-                                  -limits::infinity(),
-                                  1e22,
-                                  123456789.0};
+    std::vector<double> values = {1.0 / 3.0, limits::denorm_min() * 12345, 1e22, 123456789.0};
+    for (const double value : {0.0, 0.1, limits::min(), limits::denorm_min(), limits::max(), limits::epsilon(), limits::infinity()})
+        values.insert(values.end(), {value, -value});
     std::mt19937_64 random(3);
     while (values.size() < 2000) {
         const double value = std::bit_cast<double>(random());
@@ -70,13 +54,6 @@ TEST(CsvTable, NumbersAreTheShortestText)
     EXPECT_EQ(analysis::number_text(-INFINITY), "-inf");
 }
 
-TEST(CsvTable, TextOfATable)
-{
-    CsvTable table{{"scene", "frame", "volume_change_pct", "error_l2_pct"}};
-    table.add_row({"limb", 3, -0.25, std::nullopt});
-    EXPECT_EQ(table.text(), "scene,frame,volume_change_pct,error_l2_pct\nlimb,3,-0.25,\n");
-}
-
 TEST(CsvTable, QuotedFieldsRoundTrip)
 {
     const std::vector<std::string> fields = {"plain", "with,comma", "with \"quotes\"", "two\nlines", "cr\r\nlf",
@@ -92,38 +69,28 @@ TEST(CsvTable, QuotedFieldsRoundTrip)
     }
 }
 
-TEST(CsvTable, SingleEmptyFieldIsNotLost)
+TEST(CsvTable, WritesAndReadsTypedCells)
 {
-    CsvTable table{{"x"}};
-    table.add_row({""});
-    EXPECT_EQ(parse_csv(table.text(), "m.csv").rows(), 1);
-}
+    CsvTable table{{"scene", "frame", "volume_change_pct", "error_l2_pct"}}, empty{{"x"}};
+    table.add_row({"limb", 3, -0.25, std::nullopt});
+    EXPECT_EQ(table.text(), "scene,frame,volume_change_pct,error_l2_pct\nlimb,3,-0.25,\n");
+    EXPECT_THROW(table.add_row({1}), std::logic_error) << "a mistake of the caller";
+    empty.add_row({""});
+    EXPECT_EQ(parse_csv(empty.text(), "m.csv").rows(), 1) << "a single empty field is not lost";
+    EXPECT_EQ(parse_csv("a,b\r\n1,2\r\n", "m.csv").number(0, "b"), 2.0) << "line ends of Windows";
 
-TEST(CsvTable, ReadsWindowsLineEnds)
-{
-    const CsvTable table = parse_csv("a,b\r\n1,2\r\n", "m.csv");
-    EXPECT_EQ(table.number(0, "b"), 2.0);
-}
-
-TEST(CsvTable, TypedAccess)
-{
-    const CsvTable table = parse_csv("a,b\n1,\n2.5,x\n", "m.csv");
-    EXPECT_EQ(table.integer(0, "a"), 1);
-    EXPECT_EQ(table.numbers("a"), (std::vector<double>{1.0, 2.5}));
-    EXPECT_FALSE(table.number_or_nothing(0, "b"));
-    EXPECT_TRUE(table.has_column("a"));
-    EXPECT_FALSE(table.has_column("c"));
+    const CsvTable read = parse_csv("a,b\n1,\n2.5,x\n", "m.csv");
+    EXPECT_EQ(read.integer(0, "a"), 1);
+    EXPECT_EQ(read.numbers("a"), (std::vector<double>{1.0, 2.5}));
+    EXPECT_FALSE(read.number_or_nothing(0, "b"));
+    EXPECT_TRUE(read.has_column("a"));
+    EXPECT_FALSE(read.has_column("c"));
 }
 
 TEST(CsvTable, WrongValuesAreNamedWithFileLineColumn)
 {
     const CsvTable table = parse_csv("a,b\n\"1\n2\",3\n4,5x\n", "m.csv");
-    try {
-        table.number(1, "b");
-        FAIL();
-    } catch (const pbs::InputError& error) {
-        EXPECT_STREQ(error.what(), "m.csv:4:2: b = 5x: expected a number");
-    }
+    EXPECT_EQ(refusal_of([&] { table.number(1, "b"); }), "m.csv:4:2: b = 5x: expected a number");
     EXPECT_THROW(table.integer(1, "b"), pbs::InputError);
     EXPECT_THROW(table.number(0, "missing"), pbs::InputError);
     EXPECT_THROW(parse_csv("a\n1.5\n", "m.csv").integer(0, "a"), pbs::InputError);
@@ -145,33 +112,16 @@ TEST(CsvTable, BrokenFilesAreRefusedWithFileLineColumn)
     EXPECT_EQ(message_of("a,b\r1,2\r"), "m.csv:1:2: unexpected text after a field");
 }
 
-TEST(CsvTable, RowsOfAnotherLengthAreAMistakeOfTheCaller)
-{
-    CsvTable table{{"a", "b"}};
-    EXPECT_THROW(table.add_row({1}), std::logic_error);
-}
-
-TEST(CsvTable, AppendsTheRowsOfOthersUnderOneHead)
+TEST(CsvTable, AppendsTheRowsOfOthersUnderOneHeadAndGoesThroughAFile)
 {
     CsvTable all{{}};
     all.append(parse_csv("a,b\n1,\"x,y\"\n", "first.csv"));
     all.append(parse_csv("a,b\n", "none.csv"));
     all.append(parse_csv("a,b\n2,\n3,z\n", "second.csv"));
+    for (const char* other : {"b,a\n1,2\n", "a\n1\n"}) EXPECT_THROW(all.append(parse_csv(other, "other.csv")), pbs::InputError) << other;
     EXPECT_EQ(all.text(), "a,b\n1,\"x,y\"\n2,\n3,z\n");
     EXPECT_FALSE(all.number_or_nothing(1, "b"));
     EXPECT_THROW(all.number(2, "b"), pbs::InputError);  // the error names its line as well
-}
-
-TEST(CsvTable, AppendsNoTableOfOtherColumns)
-{
-    CsvTable all = parse_csv("a,b\n1,2\n", "first.csv");
-    EXPECT_THROW(all.append(parse_csv("b,a\n1,2\n", "other.csv")), pbs::InputError);
-    EXPECT_THROW(all.append(parse_csv("a\n1\n", "other.csv")), pbs::InputError);
-    EXPECT_EQ(all.text(), "a,b\n1,2\n");
-}
-
-TEST(CsvTable, GoesThroughAFile)
-{
     const test_support::ScratchFolder folder;
     const std::string path = folder / "table.csv";
     CsvTable table{{"a"}};
@@ -223,25 +173,19 @@ const std::vector<Row> rows = {{0, {"man, sitting", 0.1}, true, Ending::not_fini
 
 std::string message_of_rows(const std::string& text)
 {
-    try {
-        rows_of(row_columns, parse_csv(text, "m.csv"));
-    } catch (const pbs::InputError& error) {
-        return error.what();
-    }
-    return "no error";
+    return refusal_of([&] { rows_of(row_columns, parse_csv(text, "m.csv")); });
 }
 
-TEST(TypedTable, RowsAreWrittenUnderTheirColumnsNames)
+TEST(TypedTable, RowsAreWrittenUnderTheirColumnsNamesAndReadBackAsTheyWere)
 {
-    EXPECT_EQ(table_of(row_columns, rows).text(),
-              "frame,body,height_m,is_masked,ending,error_pct\n"
-              "0,\"man, sitting\",0.1,1,not_finite,0.25\n"
-              "1,limb,inf,0,finished,\n");
-}
-
-TEST(TypedTable, RowsReadBackAsTheyWere)
-{
-    EXPECT_EQ(rows_of(row_columns, parse_csv(table_of(row_columns, rows).text(), "m.csv")), rows);
+    const std::string text =
+        "frame,body,height_m,is_masked,ending,error_pct\n0,\"man, sitting\",0.1,1,not_finite,0.25\n1,limb,inf,0,finished,\n";
+    EXPECT_EQ(table_of(row_columns, rows).text(), text);
+    EXPECT_EQ(rows_of(row_columns, parse_csv(text, "m.csv")), rows);
+    EXPECT_EQ(rows_of(place_columns, parse_csv("more,height_m,body\n7,0.5,limb\n", "m.csv")), (std::vector<Place>{{"limb", 0.5}}))
+        << "by name in any order";
+    EXPECT_EQ(row_columns[3].name, "is_masked");
+    EXPECT_EQ(row_columns[3].unit, "0/1");
 }
 
 TEST(TypedTable, AListOfNamesIsOneCell)
@@ -252,12 +196,6 @@ TEST(TypedTable, AListOfNamesIsOneCell)
     EXPECT_EQ(table_of(columns, lists).text(), "names\npbs delta_mush\n\"\"\nxpbd\n");
     const std::vector<Names> with_columns = rows_of(columns, parse_csv("other,names\n1,pbs delta_mush\n2,\n3,xpbd\n", "m.csv"));
     EXPECT_EQ(with_columns, lists);
-}
-
-TEST(TypedTable, ColumnsAreReadByNameInAnyOrder)
-{
-    const auto read = rows_of(place_columns, parse_csv("more,height_m,body\n7,0.5,limb\n", "m.csv"));
-    EXPECT_EQ(read, (std::vector<Place>{{"limb", 0.5}}));
 }
 
 TEST(TypedTable, AGroupIsThereAsAWholeOrNotAtAll)
@@ -302,31 +240,15 @@ TEST(TypedTable, WrongCellsAreNamedWithFileLineColumnValueAndRule)
     EXPECT_EQ(message_of_rows("frame\n0\n"), "m.csv:1: columns = frame: expected a column body");
 }
 
-TEST(TypedTable, AFlagIsZeroOrOne)
-{
-    EXPECT_EQ(row_columns[3].name, "is_masked");
-    EXPECT_EQ(row_columns[3].unit, "0/1");
-}
-
 TEST(TypedTable, AColumnsNameEndsWithItsUnit)
 {
-    for (const auto& [name, unit] : std::vector<std::pair<std::string, std::string>>{{"time_s", "s"},
-                                                                                     {"volume_change_pct", "%"},
-                                                                                     {"speed_m_s", "m/s"},
-                                                                                     {"stiffness_n_m", "N/m"},
-                                                                                     {"frames_per_s", "1/s"},
-                                                                                     {"step_ms_median", "ms"},
-                                                                                     {"step_ms_ratio", ""},
-                                                                                     {"frame", ""}})
-        EXPECT_NO_THROW(analysis::require_unit(name, unit)) << name;
-    for (const auto& [name, unit] : std::vector<std::pair<std::string, std::string>>{{"time_s", "ms"},
-                                                                                     {"time_s", ""},
-                                                                                     {"time", "s"},
-                                                                                     {"speed_m_s", "s"},
-                                                                                     {"stiffness_n_m", "m"},
-                                                                                     {"step_ms_median", "s"},
-                                                                                     {"frame", "frames"}})
-        EXPECT_THROW(analysis::require_unit(name, unit), std::logic_error) << name;
+    using Names = std::vector<std::pair<std::string, std::string>>;
+    const Names right = {{"time_s", "s"},         {"volume_change_pct", "%"}, {"speed_m_s", "m/s"},  {"stiffness_n_m", "N/m"},
+                         {"frames_per_s", "1/s"}, {"step_ms_median", "ms"},   {"step_ms_ratio", ""}, {"frame", ""}};
+    const Names wrong = {{"time_s", "ms"},       {"time_s", ""},          {"time", "s"},      {"speed_m_s", "s"},
+                         {"stiffness_n_m", "m"}, {"step_ms_median", "s"}, {"frame", "frames"}};
+    for (const auto& [name, unit] : right) EXPECT_NO_THROW(analysis::require_unit(name, unit)) << name;
+    for (const auto& [name, unit] : wrong) EXPECT_THROW(analysis::require_unit(name, unit), std::logic_error) << name;
 }
 
 }  // namespace

@@ -25,31 +25,38 @@ double place_error(double tolerance, double rounding_of_value, double curvature)
 
 const double default_tolerance = MinimiseOptions().tolerance;
 
-TEST(Minimise, ParabolaIsFoundToTheTolerance)
-{
-    const auto minimum = minimise([](double x) { return 2.0 + std::pow(x - 0.3, 2); }, 0.0, 1.0, {.tolerance = 1e-7});
-    EXPECT_EQ(minimum.outcome, MinimumOutcome::converged);
-    const double of_value = test_support::rounding_error(1, 2.0), of_place = place_error(1e-7, of_value, 2.0);
-    EXPECT_NEAR(minimum.x, 0.3, of_place);
-    EXPECT_NEAR(minimum.value, 2.0, of_place * of_place + of_value);
-}
+// A minimum without zero value or symmetry of the samples; its value and curvature there, with the roundings of the value.
+struct Valley {
+    const char* name;
+    Misfit function;
+    double low, high, x, value, curvature, roundings;
+    MinimiseOptions options = {};
+};
 
-TEST(Minimise, LogarithmicValleyIsFoundToTheTolerance)
+TEST(Minimise, ValleysAreFoundToTheTolerance)
 {
-    // The minimum is at 1, without symmetry; value and curvature are 1 there.
-    const auto minimum = minimise([](double x) { return x - std::log(x); }, 0.1, 7.0, {.tolerance = 1e-6});
-    const double of_value = test_support::rounding_error(2, 1.0), of_place = place_error(1e-6 * (7.0 - 0.1), of_value, 1.0);
-    EXPECT_EQ(minimum.outcome, MinimumOutcome::converged);
-    EXPECT_NEAR(minimum.x, 1.0, of_place);
-    EXPECT_TRUE(minimum.identifiable() == (minimum.rise >= 0.01));
+    const auto parabola = [](double x, double value) { return [=](double at) { return value + std::pow(at - x, 2); }; };
+    const auto logarithmic = [](double x) { return x - std::log(x); };
+    const auto two = [](double x) { return std::min(1.0 + 4.0 * std::pow(x - 0.2, 2), 0.5 + 4.0 * std::pow(x - 0.8, 2)); };
+    const std::vector<Valley> all = {{"parabola", parabola(0.3, 2.0), 0.0, 1.0, 0.3, 2.0, 2.0, 1, {.tolerance = 1e-7}},
+                                     {"without symmetry", logarithmic, 0.1, 7.0, 1.0, 1.0, 1.0, 2, {.tolerance = 1e-6}},
+                                     {"the deeper of two", two, 0.0, 1.0, 0.8, 0.5, 8.0, 1},
+                                     {"nearer to the lower bound than to a sample", parabola(0.002, 1.0), 0.0, 0.5, 0.002, 1.0, 2.0, 1},
+                                     {"to the upper bound", parabola(0.4987, 1.0), 0.0, 0.5, 0.4987, 1.0, 2.0, 1}};
+    for (const Valley& of : all) {
+        SCOPED_TRACE(of.name);
+        const Minimum minimum = minimise(of.function, of.low, of.high, of.options);
+        const double of_value = test_support::rounding_error(of.roundings, of.value);
+        const double of_place = place_error(of.options.tolerance * (of.high - of.low), of_value, of.curvature);
+        EXPECT_EQ(minimum.outcome, MinimumOutcome::converged);
+        EXPECT_NEAR(minimum.x, of.x, of_place);
+        EXPECT_NEAR(minimum.value, of.value, of.curvature / 2.0 * of_place * of_place + of_value);
+    }
     // 1.1 - log 1.1 - 1 and 0.9 - log 0.9 - 1: the smaller of the two. It changes by 0.1 times the place, whose square is negligible.
+    const Minimum minimum = minimise(logarithmic, 0.1, 7.0, {.tolerance = 1e-6});
+    const double of_value = test_support::rounding_error(2, 1.0), of_place = place_error(1e-6 * (7.0 - 0.1), of_value, 1.0);
+    EXPECT_TRUE(minimum.identifiable() == (minimum.rise >= 0.01));
     EXPECT_NEAR(minimum.rise, 0.1 - std::log(1.1), 0.1 * of_place + of_place * of_place + 4.0 * of_value);
-}
-
-TEST(Minimise, TakesTheDeepestOfSeveralValleys)
-{
-    const auto two_valleys = [](double x) { return std::min(1.0 + 4.0 * std::pow(x - 0.2, 2), 0.5 + 4.0 * std::pow(x - 0.8, 2)); };
-    EXPECT_NEAR(minimise(two_valleys, 0.0, 1.0).x, 0.8, place_error(default_tolerance, test_support::rounding_error(1, 0.5), 8.0));
 }
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
@@ -95,33 +102,21 @@ TEST(Minimise, OutcomesThatAreKnown)
     EXPECT_EQ(minimise(all[7].function, 0.0, 0.5, all[7].options).iterations, 1);
 }
 
-TEST(Minimise, LooksInsideTheLastCellBeforeItSaysBound)
-{
-    for (const double centre : {0.002, 0.4987}) {  // nearer to the bound than to any other sample
-        const auto minimum = minimise([centre](double x) { return 1.0 + std::pow(x - centre, 2); }, 0.0, 0.5);
-        EXPECT_EQ(minimum.outcome, MinimumOutcome::converged);
-        EXPECT_NEAR(minimum.x, centre, place_error(0.5 * default_tolerance, test_support::rounding_error(1, 1.0), 2.0));
-    }
-}
-
-TEST(Minimise, FlatBottomBetweenWallsIsNotIdentifiable)
+TEST(Minimise, AFlatBottomAndAShallowValleyAreNotIdentifiable)
 {
     const auto tub = minimise([](double x) { return 1.0 + std::max(0.0, std::abs(x - 0.5) - 0.3); }, 0.0, 1.0);
     EXPECT_EQ(tub.value, 1.0);
     EXPECT_TRUE(tub.flat_valley);
     EXPECT_FALSE(tub.identifiable());
-}
-
-TEST(Minimise, ShallowValleyIsNotIdentifiable)
-{
-    const auto valley = [](double depth) { return [depth](double x) { return 20.0 + depth * std::pow(x / 0.3 - 1.0, 2); }; };
-    // A change of 10 % increases the value by depth / 100 of 20: 0.5 % and 5 %.
-    EXPECT_FALSE(minimise(valley(10.0), 0.0, 0.5).identifiable());
-    // At 1.1 x the derivative of the rise is 2 depth 0.1 1.1 / 0.3 / 20.
+    // A change of 10 % increases the value by depth / 100 of 20: 0.5 % and 5 %. At 1.1 x the derivative of the rise is
+    // 2 depth 0.1 1.1 / 0.3 / 20.
+    const auto valley = [](double depth) {
+        return minimise([depth](double x) { return 20.0 + depth * std::pow(x / 0.3 - 1.0, 2); }, 0.0, 0.5);
+    };
     const double of_place = place_error(0.5 * default_tolerance, test_support::rounding_error(1, 20.0), 2.0 * 10.0 / (0.3 * 0.3));
-    EXPECT_NEAR(minimise(valley(10.0), 0.0, 0.5).rise, 0.005,
-                2.0 * 10.0 * 0.1 * 1.1 / 0.3 / 20.0 * of_place + test_support::rounding_error(6, 1.0));
-    EXPECT_TRUE(minimise(valley(100.0), 0.0, 0.5).identifiable());
+    EXPECT_FALSE(valley(10.0).identifiable());
+    EXPECT_NEAR(valley(10.0).rise, 0.005, 2.0 * 10.0 * 0.1 * 1.1 / 0.3 / 20.0 * of_place + test_support::rounding_error(6, 1.0));
+    EXPECT_TRUE(valley(100.0).identifiable());
 }
 
 // A hole that Brent's method meets is reported, and the best number is kept.
@@ -133,21 +128,16 @@ TEST(Minimise, AHoleInTheBracketIsNotFinite)
     EXPECT_LE(std::abs(hole.x - 0.31), 0.31 - 0.25);  // 0.25 is a sample
 }
 
-TEST(Minimise, KeepsEveryEvaluationInOrder)
+TEST(Minimise, KeepsEveryEvaluationInOrderAndRefusesWhatIsNoInterval)
 {
     int calls = 0;
     const auto minimum = minimise([&](double x) { return ++calls, std::pow(x - 0.31, 2); }, 0.0, 1.0);
     ASSERT_EQ(static_cast<int>(minimum.evaluations.size()), calls);
     for (std::size_t i = 1; i < minimum.evaluations.size(); ++i)
         EXPECT_LE(minimum.evaluations[i - 1].parameter, minimum.evaluations[i].parameter);
-}
-
-TEST(Minimise, RefusesWhatIsNoInterval)
-{
     const auto constant = [](double) { return 0.0; };
-    EXPECT_THROW(minimise(constant, 1.0, 1.0), pbs::InputError);
-    EXPECT_THROW(minimise(constant, 1.0, 0.0), pbs::InputError);
-    EXPECT_THROW(minimise(constant, 0.0, std::numeric_limits<double>::infinity()), pbs::InputError);
+    for (const auto& [low, high] : {std::pair(1.0, 1.0), {1.0, 0.0}, {0.0, infinity}})
+        EXPECT_THROW(minimise(constant, low, high), pbs::InputError) << low << " " << high;
     EXPECT_THROW(minimise(constant, 0.0, 1.0, {.samples = 2}), pbs::InputError);
     EXPECT_THROW(fit_over_cases({}, 0.0, 1.0), pbs::InputError);
 }
@@ -173,12 +163,16 @@ TEST(FitOverCases, JackknifeOfAMeanIsItsStandardError)
     for (std::size_t i = 0; i < centres.size(); ++i) EXPECT_NEAR(fit.cases[i].x, centres[i], tolerance);
 }
 
-TEST(FitOverCases, IntervalIsCutToTheBounds)
+TEST(FitOverCases, IntervalIsCutToTheBoundsAndOneCaseHasNone)
 {
     const auto at = [](double centre) { return [centre](double x) { return std::abs(x - centre); }; };
     const auto fit = fit_over_cases({at(0.05), at(0.9)}, 0.0, 1.0);
     EXPECT_EQ(fit.interval.low, 0.0);
     EXPECT_EQ(fit.interval.high, 1.0);
+    const auto one = fit_over_cases({at(0.4)}, 0.0, 1.0);
+    EXPECT_NEAR(one.all.x, 0.4, default_tolerance);
+    EXPECT_TRUE(std::isnan(one.interval.low));
+    EXPECT_TRUE(one.without.empty());
 }
 
 TEST(FitOverCases, AsksACaseOnceAtEachParameter)
@@ -188,14 +182,6 @@ TEST(FitOverCases, AsksACaseOnceAtEachParameter)
     fit_over_cases({counted, [](double x) { return std::abs(x - 0.4); }}, 0.0, 1.0);
     std::sort(asked.begin(), asked.end());
     EXPECT_EQ(std::adjacent_find(asked.begin(), asked.end()), asked.end());
-}
-
-TEST(FitOverCases, OneCaseHasNoInterval)
-{
-    const auto fit = fit_over_cases({[](double x) { return std::abs(x - 0.4); }}, 0.0, 1.0);
-    EXPECT_NEAR(fit.all.x, 0.4, default_tolerance);
-    EXPECT_TRUE(std::isnan(fit.interval.low));
-    EXPECT_TRUE(fit.without.empty());
 }
 
 // Fronts and crossings. Reference: the definitions, evaluated by hand on a few points.
@@ -264,11 +250,10 @@ TEST(NearerFrom, IsTheBudgetBeyondWhichItIsAlwaysSo)
     for (const Case& of : all) {
         const auto crossing = nearer_from(of.one, of.other);
         ASSERT_EQ(crossing.has_value(), of.expected.has_value()) << of.name;
-        if (!crossing) continue;
-        EXPECT_EQ(crossing->from, of.expected->from) << of.name;
-        EXPECT_EQ(crossing->one, of.expected->one) << of.name;
-        EXPECT_EQ(crossing->other_error, of.expected->other_error) << of.name;
-        EXPECT_EQ(crossing->from_the_start, of.expected->from_the_start) << of.name;
+        if (crossing)
+            EXPECT_EQ(std::tie(crossing->from, crossing->one, crossing->other_error, crossing->from_the_start),
+                      std::tie(of.expected->from, of.expected->one, of.expected->other_error, of.expected->from_the_start))
+                << of.name;
     }
 }
 

@@ -26,65 +26,51 @@ TEST(Statistics, OfOneToFive)
     EXPECT_NEAR(standard_error(values), std::sqrt(0.5), test_support::rounding_error(3 * 5 / 2.0 + 4, std::sqrt(0.5)));
 }
 
-TEST(Statistics, MedianOfAnEvenNumberIsTheMiddle)
-{
-    EXPECT_EQ(median({1.0, 2.0, 10.0, 4.0}), 3.0);
-}
+constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
-TEST(Statistics, QuantileIsLinearBetweenTwo)
-{
-    EXPECT_EQ(quantile({0.0, 1.0}, 0.3), 0.3);
-}
+struct Known {
+    const char* name;
+    double value, expected;
+};
 
-TEST(Statistics, TooFewValuesAreNaN)
+TEST(Statistics, OfFewValuesAreKnown)
 {
-    EXPECT_TRUE(std::isnan(mean({})));
-    EXPECT_TRUE(std::isnan(median({})));
-    EXPECT_TRUE(std::isnan(standard_deviation({1.0})));
-    EXPECT_TRUE(std::isnan(standard_error({})));
-}
-
-TEST(Statistics, NaNIsNotSortedAway)
-{
-    EXPECT_TRUE(std::isnan(quantile({1.0, std::nan(""), 2.0}, 0.5)));
-}
-
-TEST(AutocorrelationTime, OfAConstantSeriesIsOne)
-{
-    EXPECT_EQ(integrated_autocorrelation_time(std::vector<double>(20, 0.5)), 1.0);
-}
-
-TEST(AutocorrelationTime, OfAnAlternatingSeriesIsNotBelowOne)
-{
-    EXPECT_EQ(integrated_autocorrelation_time({1, -1, 1, -1, 1, -1, 1, -1}), 1.0);
-}
-
-TEST(AutocorrelationTime, OfTooFewSamplesIsOne)
-{
-    EXPECT_EQ(integrated_autocorrelation_time({}), 1.0);
-    EXPECT_EQ(integrated_autocorrelation_time({3.0}), 1.0);
+    const std::vector<Known> all = {
+        {"the median of an even number is the middle", median({1.0, 2.0, 10.0, 4.0}), 3.0},
+        {"a quantile is linear between two", quantile({0.0, 1.0}, 0.3), 0.3},
+        {"no mean of nothing", mean({}), no_number},
+        {"no median of nothing", median({}), no_number},
+        {"no deviation of one", standard_deviation({1.0}), no_number},
+        {"no error of nothing", standard_error({}), no_number},
+        {"NaN is not sorted away", quantile({1.0, no_number, 2.0}, 0.5), no_number},
+        {"autocorrelation of a constant series", integrated_autocorrelation_time(std::vector<double>(20, 0.5)), 1.0},
+        {"an alternating series is not below one", integrated_autocorrelation_time({1, -1, 1, -1, 1, -1, 1, -1}), 1.0},
+        {"autocorrelation of no sample", integrated_autocorrelation_time({}), 1.0},
+        {"autocorrelation of one sample", integrated_autocorrelation_time({3.0}), 1.0},
+        {"the block of uncorrelated samples", static_cast<double>(block_length({1, -1, 1, -1, 1, -1, 1, -1})), 1.0},
+        {"no correlation of one", rank_correlation({1}, {1}), no_number},
+        {"no rank of NaN", rank_correlation({1, 2}, {1, no_number}), no_number}};
+    for (const Known& of : all) {
+        const bool none = std::isnan(of.value) && std::isnan(of.expected);
+        EXPECT_TRUE(none || of.value == of.expected) << of.name << ": " << of.value;
+    }
 }
 
 // Spearman 1904: 1 - 6 sum d^2 / (n (n^2 - 1)) without ties; n = 5, d = 0, 0, 1, 1, 0.
 TEST(Statistics, RankCorrelationIsOfRanksAlone)
 {
-    EXPECT_DOUBLE_EQ(analysis::rank_correlation({1, 2, 3, 4, 5}, {1, 10, 1000, 100, 1e6}), 1.0 - 6.0 * 2.0 / 120.0);
-    EXPECT_DOUBLE_EQ(analysis::rank_correlation({1, 2, 3}, {5, 7, 90}), 1.0);
-    EXPECT_DOUBLE_EQ(analysis::rank_correlation({1, 2, 3}, {9, 2, 1}), -1.0);
-    EXPECT_TRUE(std::isnan(analysis::rank_correlation({1}, {1})));
-    EXPECT_TRUE(std::isnan(analysis::rank_correlation({1, 2}, {1, std::nan("")})));
+    EXPECT_DOUBLE_EQ(rank_correlation({1, 2, 3, 4, 5}, {1, 10, 1000, 100, 1e6}), 1.0 - 6.0 * 2.0 / 120.0);
+    EXPECT_DOUBLE_EQ(rank_correlation({1, 2, 3}, {5, 7, 90}), 1.0);
+    EXPECT_DOUBLE_EQ(rank_correlation({1, 2, 3}, {9, 2, 1}), -1.0);
 }
 
 // Reference: degenerate cases by definition, and reproducibility by seed. tests/verification/analysis/statistics.cpp tests the coverage.
 
-using analysis::bootstrap_mean;
-using analysis::bootstrap_share;
-using analysis::Interval;
 using test_support::mean_error;
 
 const std::vector<double> series = {0.3, 0.4, 0.4, 0.5, 0.6, 0.7, 0.9, 0.8, 1.0, 1.0, 1.1, 1.2, 1.2, 1.4, 1.3, 1.4};
 
-TEST(Bootstrap, EnclosesItsEstimate)
+TEST(Bootstrap, EnclosesItsEstimateAndIsWiderAtAHigherLevel)
 {
     const Interval interval = bootstrap_mean(series);
     EXPECT_NEAR(interval.estimate, 14.2 / 16.0, mean_error(16, 14.2 / 16.0));
@@ -94,6 +80,9 @@ TEST(Bootstrap, EnclosesItsEstimate)
     EXPECT_EQ(interval.n, 16);
     EXPECT_GE(interval.block, 2);
     EXPECT_LE(interval.block, 8);
+    const Interval narrow = bootstrap_mean(series, {.level = 0.5}), wide = bootstrap_mean(series, {.level = 0.99});
+    EXPECT_LT(wide.low, narrow.low);
+    EXPECT_GT(wide.high, narrow.high);
 }
 
 TEST(Bootstrap, RepeatsToTheBitAndFollowsItsSeed)
@@ -104,49 +93,30 @@ TEST(Bootstrap, RepeatsToTheBitAndFollowsItsSeed)
     EXPECT_TRUE(a.low != c.low || a.high != c.high);
 }
 
-TEST(Bootstrap, HigherLevelIsWider)
-{
-    const Interval narrow = bootstrap_mean(series, {.level = 0.5}), wide = bootstrap_mean(series, {.level = 0.99});
-    EXPECT_LT(wide.low, narrow.low);
-    EXPECT_GT(wide.high, narrow.high);
-}
-
-TEST(Bootstrap, GivenBlockIsKept)
+TEST(Bootstrap, AGivenBlockIsKeptAndOneAsLongAsTheSeriesHasNoSpread)
 {
     EXPECT_EQ(bootstrap_mean(series, {.block = 3}).block, 3);
     EXPECT_EQ(bootstrap_mean(series, {.block = 99}).block, 16);
-}
-
-TEST(Bootstrap, BlockAsLongAsTheSeriesHasNoSpread)
-{
     const Interval interval = bootstrap_mean(series, {.block = 16});
     const double of_two_orders = 2.0 * mean_error(16, interval.estimate);
     EXPECT_NEAR(interval.low, interval.estimate, of_two_orders);
     EXPECT_NEAR(interval.high, interval.estimate, of_two_orders);
-}
-
-TEST(Bootstrap, SeriesWithoutSpreadHasNoWidth)
-{
     const Interval same = bootstrap_mean(std::vector<double>(20, 3.5));
     EXPECT_EQ(same.low, 3.5);
     EXPECT_EQ(same.high, 3.5);
 }
 
-// Clopper and Pearson 1934: none of n independent samples holds with probability (1 - p)^n, which is 2.5 % at p = 1 - 0.025^(1/n).
+// Clopper and Pearson 1934: none of n independent samples holds with probability (1 - p)^n, which is 2.5 % at p = 1 - 0.025^(1/n). Tables
+// of the exact bound print 0.16843 for 0 of 20: half of the last digit. 200 samples with an autocorrelation time of 10 are equivalent to
+// 20.
 TEST(Bootstrap, AShareOfAllOrNoneHasTheExactBinomialBound)
 {
-    const Interval none = bootstrap_share(std::vector<bool>(20, false));
+    const Interval none = bootstrap_share(std::vector<bool>(20, false)), all = bootstrap_share(std::vector<bool>(20, true));
     EXPECT_EQ(none.low, 0.0);
-    EXPECT_NEAR(none.high, 0.16843, 0.5e-5);  // tables of the exact bound, 0 of 20: half of the last digit
-    const Interval all = bootstrap_share(std::vector<bool>(20, true));
+    EXPECT_NEAR(none.high, 0.16843, 0.5e-5);
     EXPECT_NEAR(all.low, 1.0 - 0.16843, 0.5e-5);
     EXPECT_EQ(all.high, 1.0);
-}
-
-TEST(Bootstrap, CorrelatedSamplesSayLessAboutNone)
-{
-    const Interval correlated = bootstrap_share(std::vector<bool>(200, false), {.autocorrelation_time = 10.0});
-    EXPECT_NEAR(correlated.high, 0.16843, 0.5e-5);  // equivalent to 20 independent samples
+    EXPECT_NEAR(bootstrap_share(std::vector<bool>(200, false), {.autocorrelation_time = 10.0}).high, 0.16843, 0.5e-5);
 }
 
 TEST(Bootstrap, ShareStaysBetweenNoneAndAll)
@@ -164,18 +134,11 @@ TEST(Bootstrap, TooFewOrBrokenSamplesHaveNoInterval)
     EXPECT_TRUE(std::isnan(bootstrap_mean({}).estimate));
     EXPECT_EQ(bootstrap_mean({2.0}).estimate, 2.0);
     EXPECT_TRUE(std::isnan(bootstrap_mean({2.0}).low));
-    EXPECT_TRUE(std::isnan(bootstrap_mean({1.0, std::numeric_limits<double>::quiet_NaN(), 2.0}).high));
+    EXPECT_TRUE(std::isnan(bootstrap_mean({1.0, no_number, 2.0}).high));
     EXPECT_TRUE(std::isnan(bootstrap_mean({1.0, std::numeric_limits<double>::infinity(), 2.0}).low));
 }
 
-TEST(BlockLength, OfUncorrelatedSamplesIsOne)
-{
-    EXPECT_EQ(analysis::block_length({1, -1, 1, -1, 1, -1, 1, -1}), 1);
-}
-
 // Reference: theory where none or all are counted; else the definition, by sums of the binomial distribution.
-
-using analysis::share_interval;
 
 // The probability of `counted` or fewer out of `all` with probability p each.
 double at_most(int counted, int all, double p)
@@ -207,7 +170,7 @@ TEST(ShareInterval, EndsWhereTheTailsAreAFortieth)
 }
 
 // An error of the probability (1 - p)^n = 0.025 is one of p over its derivative, n 0.025 / (1 - p) > n 0.025.
-TEST(ShareInterval, OfNoneAndOfAll)
+TEST(ShareInterval, OfNoneAndOfAllAndWiderOfFewerAndOfAHigherLevel)
 {
     for (const int all : {1, 8, 100}) {
         const double end = 1.0 - std::pow(0.025, 1.0 / all);
@@ -218,18 +181,11 @@ TEST(ShareInterval, OfNoneAndOfAll)
         EXPECT_NEAR(every.low, 1.0 - end, rounding);
         EXPECT_EQ(every.high, 1.0);
     }
-}
-
-TEST(ShareInterval, IsWiderOfFewerAndOfAHigherLevel)
-{
     EXPECT_GT(share_interval(2, 8).high - share_interval(2, 8).low, share_interval(20, 80).high - share_interval(20, 80).low);
     EXPECT_GT(share_interval(2, 8, 0.99).high, share_interval(2, 8, 0.95).high);
 }
 
 // Reference: order statistics of a few frames by hand, linear between them.
-
-using analysis::CsvTable;
-using analysis::frame_statistics;
 
 CsvTable metrics()
 {
@@ -261,7 +217,7 @@ TEST(FrameStatistics, FramesWithoutAValueAreLeftOut)
 {
     CsvTable table = metrics();
     table.add_row({"walk", "lbs", "default", "", "f64", std::nullopt, 0, 1.0, 1.0, std::nullopt});
-    table.add_row({"walk", "lbs", "default", "", "f64", std::nullopt, 1, std::numeric_limits<double>::quiet_NaN(), 1.0, 30.0});
+    table.add_row({"walk", "lbs", "default", "", "f64", std::nullopt, 1, no_number, 1.0, 30.0});
     const CsvTable statistics = frame_statistics(table);
     ASSERT_EQ(statistics.rows(), 1);
     EXPECT_EQ(statistics.number(0, "volume_change_median_pct"), 1.0);

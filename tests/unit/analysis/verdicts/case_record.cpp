@@ -1,15 +1,13 @@
-// Reference: the rows of a metrics.csv with the columns of the contract.
+// Reference: the definition (a key is recovered from its cells and from JSON, and every member has one field), and the rows of a
+// metrics.csv with the columns of the contract.
 
 #include "analysis/records/tables.hpp"
 #include "analysis/verdicts/case_record.hpp"
-#include "pbs/geometry/input_error.hpp"
+#include "tests/support/refusal.hpp"
 
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include <set>
-
-// Reference: the definition. A key is recovered from its cells and from JSON, and every member has one field.
 
 namespace {
 
@@ -50,64 +48,41 @@ TEST(CaseKey, EachFieldHasANameAndAMemberOfItsOwn)
     EXPECT_EQ(case_key_field("colour"), nullptr);
 }
 
-TEST(CaseKey, ComesBackFromItsCells)
+TEST(CaseKey, ComesBackFromItsCellsAndFromJsonWithColumnsForWhatIsSetAlone)
 {
     const CaseKey key = with_every_field();
     const CsvTable table = table_of(case_key_columns(), {key});
     EXPECT_EQ(rows_of(case_key_columns(), parse_csv(table.text(), "m.csv")), std::vector{key});
-}
-
-TEST(CaseKey, HasColumnsForWhatIsSetAlone)
-{
+    EXPECT_EQ(case_key(to_json_of(key), "plan.json"), key);
+    EXPECT_EQ(to_json_of(CaseKey{.body = "man"}).size(), 1u);
     const CaseKey limb = bent_limb(), body = {.body = "man"};
     EXPECT_EQ(used_columns(case_key_columns(), {body, limb}).names(),
               (std::vector<std::string>{"body", "motion", "joint", "angle_deg", "deformer", "k_stretch"}));
     EXPECT_TRUE(used_columns(case_key_columns(), {}).empty());
 }
 
-TEST(CaseKey, ComesBackFromJson)
-{
-    EXPECT_EQ(case_key(to_json_of(with_every_field()), "plan.json"), with_every_field());
-    EXPECT_EQ(to_json_of(CaseKey{.body = "man"}).size(), 1u);
-}
-
 TEST(CaseKey, WhatIsNoKeyIsRefusedByFileAndField)
 {
-    const auto message = [](const char* text) -> std::string {
-        try {
-            case_key(nlohmann::json::parse(text), "plan.json");
-        } catch (const pbs::InputError& error) {
-            return error.what();
-        }
-        return "accepted";
-    };
-    EXPECT_NE(message("[]").find("plan.json: of = []: expected an object"), std::string::npos) << message("[]");
-    EXPECT_NE(message(R"({"colour": "red"})").find("of.colour"), std::string::npos);
-    EXPECT_NE(message(R"({"body": 3})").find("of.body = 3: expected a text"), std::string::npos);
-    EXPECT_NE(message(R"({"angle_deg": "90"})").find("expected a number"), std::string::npos);
+    for (const auto& [text, part] : {std::pair("[]", "plan.json: of = []: expected an object"),
+                                     {R"({"colour": "red"})", "of.colour"},
+                                     {R"({"body": 3})", "of.body = 3: expected a text"},
+                                     {R"({"angle_deg": "90"})", "expected a number"}})
+        test_support::expect_refused(part, [&] { case_key(nlohmann::json::parse(text), "plan.json"); });
 }
 
-TEST(CaseKey, MatchesWhatAsksForNoMore)
+TEST(CaseKey, MatchesWhatAsksForNoMoreAndNamesWhatIsSet)
 {
     EXPECT_TRUE(matches(bent_limb(), {}));
     EXPECT_TRUE(matches(bent_limb(), {.deformer = "pbs", .k_stretch = 0.2}));
     EXPECT_FALSE(matches(bent_limb(), {.deformer = "lbs"}));
     EXPECT_FALSE(matches(bent_limb(), {.k_stretch = 0.9}));
     EXPECT_FALSE(matches(bent_limb(), {.order = "plain"}));
-}
-
-TEST(CaseKey, ItsTextNamesWhatIsSet)
-{
     EXPECT_EQ(text_of(bent_limb()), "limb, bend, upper|forearm, 90 deg, pbs, k_stretch 0.2");
     EXPECT_EQ(text_of({.reference = "nh_p2", .masses = "unit", .equation = "12"}), "reference nh_p2, masses unit, equation 12");
     EXPECT_EQ(text_of({.iterations = 12.0, .iterations_to = 48.0, .time_step_s = 0.01}), "iterations 12 to 48, time_step 0.01 s");
     EXPECT_EQ(text_of({.time_step_s = 0.02, .time_step_to_s = 0.005}), "time_step 0.02 to 0.005 s");
     EXPECT_EQ(text_of({}), "");
 }
-
-using analysis::case_records;
-using analysis::CaseRecord;
-using analysis::parse_csv;
 
 const std::string head =
     "scene,deformer,variant,order,precision,iterations,threads,frame,time_s,volume_change_pct,volume_abs_change_pct,inverted_tets";
@@ -131,13 +106,14 @@ TEST(CaseRecords, RowsAreGroupedByCase)
     EXPECT_EQ(records[2].frame.size(), 1u);
 }
 
-TEST(CaseRecords, AnglesMakeASweep)
+TEST(CaseRecords, AnglesMakeASweepAndThoseOfSomeFramesOnlyOrMissingColumnsAreRefused)
 {
-    const auto table = parse_csv(
-        head + ",angle_deg\nlimb,lbs,,,,0,1,0,0,0,0,0,0\nlimb,lbs,,,,0,1,1,0.01,-3,4,2,10\nwalk,lbs,,,,0,1,0,0,0,0,0,\n", "metrics.csv");
-    const auto records = case_records(table, "");
+    const std::string angles = head + ",angle_deg\nlimb,lbs,,,,0,1,0,0,0,0,0,0\nlimb,lbs,,,,0,1,1,0.01,-3,4,2,";
+    const auto records = case_records(parse_csv(angles + "10\nwalk,lbs,,,,0,1,0,0,0,0,0,\n", "metrics.csv"), "");
     EXPECT_EQ(records[0].angle_deg, (std::vector<double>{0.0, 10.0}));
     EXPECT_FALSE(records[1].is_sweep());
+    for (const std::string& text : {angles + "\n", std::string("scene\nlimb\n")})
+        EXPECT_THROW(case_records(parse_csv(text, "m.csv"), ""), pbs::InputError) << text;
 }
 
 TEST(CaseRecords, AReferencesFramesThatAreNotReachedAreLeftOutAndCounted)
@@ -152,29 +128,18 @@ TEST(CaseRecords, AReferencesFramesThatAreNotReachedAreLeftOutAndCounted)
     EXPECT_EQ(records[1].frame.size(), 1u) << "PBS above its residual still is in its pose";
 }
 
-TEST(CaseRecords, AnglesOfSomeFramesOnlyAreRefused)
-{
-    EXPECT_THROW(case_records(parse_csv(head + ",angle_deg\nlimb,lbs,,,,0,1,0,0,0,0,0,0\nlimb,lbs,,,,0,1,1,0.01,-3,4,2,\n", "m.csv"), ""),
-                 pbs::InputError);
-}
-
-TEST(CaseRecords, MissingColumnsAreRefused)
-{
-    EXPECT_THROW(case_records(parse_csv("scene\nlimb\n", "m.csv"), ""), pbs::InputError);
-}
-
 TEST(MetricSeries, LossIsMinusTheSignedChange)
 {
     CaseRecord record;
     record.frame = record.time_s = record.inverted_tets = {0.0, 1.0};
     record.volume_change_pct = {-3.0, 1.0};
     record.volume_abs_change_pct = {4.0, 2.0};
-    EXPECT_EQ(analysis::metric_series(record, "volume_loss_pct"), (std::vector<double>{3.0, -1.0}));
-    EXPECT_EQ(analysis::metric_series(record, "volume_change_pct"), record.volume_change_pct);
-    EXPECT_EQ(analysis::metric_series(record, "volume_abs_change_pct"), record.volume_abs_change_pct);
-    EXPECT_THROW(analysis::metric_series(record, "beauty"), pbs::InputError);
+    EXPECT_EQ(metric_series(record, "volume_loss_pct"), (std::vector<double>{3.0, -1.0}));
+    EXPECT_EQ(metric_series(record, "volume_change_pct"), record.volume_change_pct);
+    EXPECT_EQ(metric_series(record, "volume_abs_change_pct"), record.volume_abs_change_pct);
+    EXPECT_THROW(metric_series(record, "beauty"), pbs::InputError);
     record.time_s.pop_back();
-    EXPECT_THROW(analysis::metric_series(record, "volume_loss_pct"), pbs::InputError);
+    EXPECT_THROW(metric_series(record, "volume_loss_pct"), pbs::InputError);
 }
 
 }  // namespace

@@ -1,66 +1,32 @@
 // Reference: the documented fields of the file; an error is named with its line.
 
-#include "analysis/records/record_files.hpp"
 #include "analysis/records/report_table.hpp"
 #include "analysis/verdicts/claims.hpp"
 #include "analysis/verdicts/verdict.hpp"
-#include "pbs/geometry/input_error.hpp"
-#include "tests/support/volume_claim.hpp"
+#include "tests/support/refusal.hpp"
 
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 namespace {
 
-using analysis::Claim;
-using analysis::ClaimRule;
-using analysis::parse_claims;
+using namespace analysis;
 
 const std::string head = "schema = 1\n[[claim]]\nid = \"X\"\nstatement = \"s\"\nplace = \"p\"\nstudy = \"volume\"\ncost_minutes = 1\n";
 const std::string body = "rule = \"share_within\"\nmetrics = [\"volume_change_pct\"]\ndeformer = \"pbs\"\nlow_pct = -1\nhigh_pct = 1\n";
 
 std::string message_of(const std::string& text)
 {
-    try {
-        parse_claims(text, "claims.toml");
-    } catch (const pbs::InputError& error) {
-        return error.what();
-    }
-    return "accepted";
+    return test_support::refusal_of([&] { parse_claims(text, "claims.toml"); });
 }
 
-const Claim& claim_of(const std::vector<Claim>& claims, const std::string& id)
-{
-    return *std::find_if(claims.begin(), claims.end(), [&](const Claim& claim) { return claim.id == id; });
-}
-
-TEST(Claims, TheProjectsOwnFileIsRead)
-{
-    const auto claims = parse_claims(analysis::read_text(PBS_CLAIMS_FILE), "claims.toml");
-    const Claim& lbs = claim_of(claims, "C01");
-    EXPECT_EQ(lbs.rule, ClaimRule::mean_within);
-    EXPECT_EQ(lbs.metrics, (std::vector<std::string>{"volume_loss_pct", "volume_abs_change_pct"}));
-    EXPECT_EQ(lbs.low, 12.0);
-    EXPECT_EQ(lbs.high, 16.0);
-    const Claim& pbs = claim_of(claims, "C02");
-    EXPECT_EQ(pbs.rule, ClaimRule::share_within);
-    EXPECT_EQ(pbs.iterations, 24);
-    EXPECT_EQ(pbs.low, -0.5);
-    EXPECT_EQ(pbs.high, 0.5);
-    EXPECT_EQ(pbs.share, 0.95);
-    EXPECT_EQ(pbs.level, 0.95);
-}
-
-TEST(Claims, WholeNumbersServeAsReals)
-{
-    const auto claims = parse_claims(head + body, "claims.toml");
-    EXPECT_EQ(claims.at(0).high, 1.0);
-    EXPECT_EQ(claims.at(0).cost_minutes, 1.0);
-}
-
+// Those of the project's own file are judged in verdict.cpp.
 TEST(Claims, BrokenFilesAreNamedWithTheirLine)
 {
-    EXPECT_EQ(message_of(head + body), "accepted");
+    const auto accepted = parse_claims(head + body, "claims.toml");  // where whole numbers serve as reals
+    EXPECT_EQ(accepted.at(0).high, 1.0);
+    EXPECT_EQ(accepted.at(0).cost_minutes, 1.0);
+    const std::string again = (head + body).substr(std::string("schema = 1\n").size());
+    EXPECT_EQ(message_of(head + body + again), "claims.toml:13: id = X: expected each claim once");
     EXPECT_EQ(message_of(""), "claims.toml: schema: missing: expected schema = 1");
     EXPECT_EQ(message_of(std::string("\1\2", 2)).substr(0, 14), "claims.toml:1:");
     EXPECT_EQ(message_of("[" + std::string(100, '.') + "]\n").substr(0, 21), "claims.toml:1: key = ");
@@ -113,24 +79,43 @@ TEST(Claims, AMeasuredClaimBoundsEachOfItsQuantities)
     EXPECT_EQ(message_of(measured + "bounds = 3\n"), "claims.toml:10: bounds = 3: expected a list");
 }
 
-TEST(Claims, EachOnlyOnce)
-{
-    const std::string again = (head + body).substr(std::string("schema = 1\n").size());
-    EXPECT_EQ(message_of(head + body + again), "claims.toml:13: id = X: expected each claim once");
-}
-
 // Reference: the contract of claims.json and claims.md.
 
-using namespace analysis;
+// A claim of volume, and one walk by which it is judged: four frames, the third outside the bounds.
+Claim volume_claim(const std::string& statement)
+{
+    Claim claim;
+    claim.id = "C02";
+    claim.statement = statement;
+    claim.place = "Sec. 4";
+    claim.study = "volume";
+    claim.metrics = {"volume_change_pct"};
+    claim.deformer = "pbs";
+    claim.expected = claim.high = 0.5;
+    claim.low = -0.5;
+    return claim;
+}
+
+CaseRecord walk()
+{
+    CaseRecord walk;
+    walk.scene = "walk";
+    walk.deformer = "pbs";
+    walk.run = "volume/walk";
+    walk.frame = walk.time_s = walk.inverted_tets = {0, 1, 2, 3};
+    walk.volume_change_pct = {0, -0.1, -0.9, -0.2};
+    walk.volume_abs_change_pct = {0, 1, 2, 3};
+    return walk;
+}
 
 std::vector<Verdict> two_verdicts()
 {
-    const Claim claim = test_support::volume_claim("volume | kept");
+    const Claim claim = volume_claim("volume | kept");
     Claim other = claim;
     other.id = "C016";
     other.rule = ClaimRule::untestable;
     other.reason = "no figures";
-    return {judge(claim, {.cases = {test_support::walk()}}), judge(other, {})};
+    return {judge(claim, {.cases = {walk()}}), judge(other, {})};
 }
 
 nlohmann::json document_of(const std::vector<Verdict>& verdicts)
@@ -161,26 +146,15 @@ TEST(ClaimsJson, CarriesTheContractsFields)
     EXPECT_EQ(judged.at("deformer"), "pbs");
     EXPECT_EQ(judged.at("value"), 0.75);
     EXPECT_EQ(judged.at("deepest").at(0).at("frame"), 2.0);
+    EXPECT_TRUE(judged.at("deepest").at(0).at("angle_deg").is_null()) << "not known";
+    EXPECT_EQ(document.dump().find("nan"), std::string::npos);
     EXPECT_TRUE(document.at("claims").at(1).at("primary").is_null());
     EXPECT_EQ(document.at("claims").at(1).at("reason"), "no figures");
-}
-
-// No sentence: every text is a name, a title, a path, or a text of claims.toml.
-TEST(ClaimsJson, HoldsNoSentence)
-{
-    const auto document = document_of(two_verdicts());
-    for (const auto& claim : document.at("claims"))
-        for (const auto& [key, value] : claim.items())
+    for (const auto& each : document.at("claims"))  // no sentence: every text is a name, a title, a path, or a text of claims.toml
+        for (const auto& [key, value] : each.items())
             if (value.is_string() && key != "statement" && key != "place" && key != "reason") {
                 EXPECT_EQ(value.get<std::string>().find(' '), std::string::npos) << key << ": " << value;
             }
-}
-
-TEST(ClaimsJson, ValuesThatAreNotKnownAreNull)
-{
-    const auto text = document_of(two_verdicts()).dump();
-    EXPECT_EQ(text.find("nan"), std::string::npos);
-    EXPECT_TRUE(nlohmann::json::parse(text).at("claims").at(0).at("cases").at(0).at("deepest").at(0).at("angle_deg").is_null());
 }
 
 TEST(ClaimsJson, SaysWhetherEachValueHolds)
@@ -204,48 +178,6 @@ TEST(ClaimsJson, SaysWhetherEachValueHolds)
     EXPECT_EQ(document.at("claims").at(0).at("subjects").at(2).at("holds"), "none");
 }
 
-TEST(ClaimsMarkdown, IsOneTableWithARowForEachClaim)
-{
-    std::istringstream lines(claims_markdown(two_verdicts()));
-    int rows = 0;
-    for (std::string line; std::getline(lines, line);) {
-        ASSERT_TRUE(line.starts_with('|')) << line;
-        ++rows;
-        const auto bars = std::count(line.begin(), line.end(), '|');
-        const bool has_escaped_bar = line.find("\\|") != std::string::npos;
-        EXPECT_EQ(bars, has_escaped_bar ? 13 : 12) << line;
-    }
-    EXPECT_EQ(rows, 4);  // header, rule and two claims
-}
-
-TEST(ClaimsMarkdown, GivesThePrimaryValueWithItsBound)
-{
-    const std::string text = claims_markdown(two_verdicts());
-    EXPECT_NE(text.find("| not_reproduced | 0 | 1 | share_of_frames of volume_change_pct | 0.75 | ["), std::string::npos) << text;
-    EXPECT_NE(text.find("] | 0.95 to 1 | walk, pbs | volume |"), std::string::npos) << text;
-    EXPECT_NE(text.find("| cannot_be_tested_here | 0 | 0 |"), std::string::npos) << text;
-}
-
-// Reference: the definition. A claim takes a few lines, its columns begin at the same position, and no line is longer than the terminal's.
-
-std::vector<Verdict> three_verdicts()
-{
-    const Claim claim = test_support::volume_claim("Volume is kept within half a per cent of what it was");
-    Claim measured = claim;
-    measured.rule = ClaimRule::measured;
-    measured.metrics = {"frames_per_s"};
-    measured.low = 30;
-    measured.high = 1e12;
-    Claim other = claim;
-    other.id = "C016";
-    other.rule = ClaimRule::untestable;
-    other.reason = "no figures";
-    Records timed;
-    timed.measurements = {{"C02", "frames_per_s", {.body = "man"}, 60, 59, 61, "1/s"},
-                          {"C02", "frames_per_s", {.body = "giant"}, 9, 8, 10, "1/s"}};
-    return {judge(claim, {.cases = {test_support::walk()}}), judge(measured, timed), judge(other, {})};
-}
-
 std::vector<std::string> lines_of(const std::string& text)
 {
     std::vector<std::string> lines;
@@ -254,28 +186,58 @@ std::vector<std::string> lines_of(const std::string& text)
     return lines;
 }
 
-TEST(ClaimsTable, NoLineIsLongerThanTheTerminals)
+TEST(ClaimsMarkdown, IsOneTableWithARowAndThePrimaryValueForEachClaim)
+{
+    const std::string text = claims_markdown(two_verdicts());
+    for (const std::string& line : lines_of(text)) {
+        EXPECT_TRUE(line.starts_with('|')) << line;
+        const bool has_escaped_bar = line.find("\\|") != std::string::npos;
+        EXPECT_EQ(std::count(line.begin(), line.end(), '|'), has_escaped_bar ? 13 : 12) << line;
+    }
+    EXPECT_EQ(lines_of(text).size(), 4u);  // header, rule and two claims
+    for (const char* part : {"| not_reproduced | 0 | 1 | share_of_frames of volume_change_pct | 0.75 | [",
+                             "] | 0.95 to 1 | walk, pbs | volume |", "| cannot_be_tested_here | 0 | 0 |"})
+        EXPECT_NE(text.find(part), std::string::npos) << text;
+}
+
+// Reference: the definition. A claim takes a few lines, its columns begin at the same position, and no line is longer than the terminal's.
+
+std::vector<Verdict> three_verdicts()
+{
+    const Claim claim = volume_claim("Volume is kept within half a per cent of what it was");
+    Claim measured = claim;
+    measured.rule = ClaimRule::measured;
+    measured.metrics = {"frames_per_s"};
+    measured.low = 30;
+    measured.high = 1e12;
+    Records timed;
+    timed.measurements = {{"C02", "frames_per_s", {.body = "man"}, 60, 59, 61, "1/s"},
+                          {"C02", "frames_per_s", {.body = "giant"}, 9, 8, 10, "1/s"}};
+    return {judge(claim, {.cases = {walk()}}), judge(measured, timed), two_verdicts().at(1)};
+}
+
+TEST(ClaimsTable, HasColumnsAtTheSamePlaceAndNoLongerLineThanTheTerminal)
 {
     for (const std::size_t width : {60u, 80u, 100u, 160u})
         for (const std::string& line : lines_of(claims_table(three_verdicts(), width, false))) EXPECT_LE(characters(line), width) << line;
-}
-
-TEST(ClaimsTable, ColumnsBeginAtTheSamePlace)
-{
     const auto lines = lines_of(claims_table(three_verdicts(), 100, false));
-    const std::size_t verdict = lines.at(0).find("verdict"), claim = lines.at(0).find("claim"), facts = lines.at(0).find("facts");
-    EXPECT_EQ(lines.at(2).find("not reproduced"), verdict);
-    EXPECT_EQ(lines.at(2).find("Volume is"), claim);
-    EXPECT_EQ(lines.at(2).find("within the bound: 0 of 1"), facts);
+    EXPECT_EQ(lines.at(2).find("not reproduced"), lines.at(0).find("verdict"));
+    EXPECT_EQ(lines.at(2).find("Volume is"), lines.at(0).find("claim"));
+    EXPECT_EQ(lines.at(2).find("within the bound: 0 of 1"), lines.at(0).find("facts"));
 }
 
-TEST(ClaimsTable, GivesTheFactsAndCountsTheVerdicts)
+TEST(ClaimsTable, GivesTheFactsAndCountsTheVerdictsWithColoursOnlyWhenAsked)
 {
     const std::string text = claims_table(three_verdicts(), 160, false);
     for (const char* part : {"reproduced", "within the bound: 1 of 2", "frames_per_s: 9 1/s [8, 10]; bound 30 or more", "of: giant",
                              "cannot be", "reason: no figures", "share_of_frames of volume_change_pct: 0.75 [",
                              "3 claims: 1 reproduced in part, 1 not reproduced, 1 cannot be tested here"})
         EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
+    EXPECT_EQ(claims_table(three_verdicts(), 100, false).find('\033'), std::string::npos);
+    const std::string coloured = claims_table(three_verdicts(), 100, true);
+    EXPECT_NE(coloured.find("\033[31mnot reproduced\033[0m"), std::string::npos);
+    EXPECT_NE(coloured.find("\033[33mreproduced in\033[0m"), std::string::npos);
+    EXPECT_NE(coloured.find("\033[90mcannot be\033[0m"), std::string::npos);
 }
 
 TEST(ClaimsTable, NamesWhatIsLeftOutOnce)
@@ -289,15 +251,6 @@ TEST(ClaimsTable, NamesWhatIsLeftOutOnce)
               std::string::npos)
         << text;
     EXPECT_EQ(text.find("lady_"), std::string::npos);
-}
-
-TEST(ClaimsTable, HasColoursOnlyWhenAsked)
-{
-    EXPECT_EQ(claims_table(three_verdicts(), 100, false).find('\033'), std::string::npos);
-    const std::string coloured = claims_table(three_verdicts(), 100, true);
-    EXPECT_NE(coloured.find("\033[31mnot reproduced\033[0m"), std::string::npos);
-    EXPECT_NE(coloured.find("\033[33mreproduced in\033[0m"), std::string::npos);
-    EXPECT_NE(coloured.find("\033[90mcannot be\033[0m"), std::string::npos);
 }
 
 }  // namespace

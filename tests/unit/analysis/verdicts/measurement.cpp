@@ -53,16 +53,11 @@ TEST(Measurement, ComesBackFromItsTable)
     EXPECT_EQ(read[0].value, written.value);
     EXPECT_EQ(read[0].high, written.high);
     EXPECT_EQ(read[1].value, 1e-300);
+    write_text_atomically(path, "claim,quantity,value,low,high,unit,limit\nC07,linear_drift,1,1,1,1,roughly\n");
+    EXPECT_THROW(measurements(path), pbs::InputError) << "an unknown limit";
 }
 
-TEST(Measurement, AnUnknownLimitIsRefused)
-{
-    const test_support::ScratchFolder folder;
-    write_text_atomically(folder / "m.csv", "claim,quantity,value,low,high,unit,limit\nC07,linear_drift,1,1,1,1,roughly\n");
-    EXPECT_THROW(measurements(folder / "m.csv"), pbs::InputError);
-}
-
-TEST(Measurement, HoldsWholeInPartOrNot)
+TEST(Measurement, HoldsWholeInPartOrNotWhereAQuantityMayHaveABoundOfItsOwn)
 {
     Measurement measured = drift("limb", 5e-4);
     EXPECT_EQ(extent_of(drift_claim(), measured), Extent::whole);
@@ -70,6 +65,14 @@ TEST(Measurement, HoldsWholeInPartOrNot)
     EXPECT_EQ(extent_of(drift_claim(), measured), Extent::part);
     EXPECT_EQ(extent_of(drift_claim(), drift("limb", 2e-3)), Extent::none);
     EXPECT_EQ(extent_of(drift_claim(), drift("limb", std::nan(""))), Extent::none);
+    Claim claim = drift_claim();
+    claim.bounds = {{"angular_drift", 0.5, 2.0}};
+    EXPECT_EQ(bound_of(claim, "linear_drift").high, 1e-3);
+    EXPECT_EQ(extent_of(claim, {"C07", "angular_drift", {}, 1.0, 0.5, 2.0, "1"}), Extent::whole);
+    EXPECT_EQ(extent_of(claim, {"C07", "angular_drift", {}, 1e-4, 1e-4, 1e-4, "1"}), Extent::none);
+    EXPECT_EQ(bound_text({"", 0.0, 0.0}), "0");
+    EXPECT_EQ(bound_text({"", 30.0, 1e9}), "30 or more");
+    EXPECT_EQ(bound_text({"", 0.9, 1.1}), "0.9 to 1.1");
 }
 
 TEST(Measurement, AlteredRecordsFlipTheVerdict)
@@ -96,30 +99,6 @@ TEST(Measurement, AlteredRecordsFlipTheVerdict)
     EXPECT_EQ(judge(drift_claim(), records).kind, VerdictKind::cannot_be_tested_here);
 }
 
-TEST(Measurement, AQuantityMayHaveABoundOfItsOwn)
-{
-    Claim claim = drift_claim();
-    claim.bounds = {{"angular_drift", 0.5, 2.0}};
-    EXPECT_EQ(bound_of(claim, "linear_drift").high, 1e-3);
-    EXPECT_EQ(extent_of(claim, {"C07", "angular_drift", {}, 1.0, 0.5, 2.0, "1"}), Extent::whole);
-    EXPECT_EQ(extent_of(claim, {"C07", "angular_drift", {}, 1e-4, 1e-4, 1e-4, "1"}), Extent::none);
-    EXPECT_EQ(bound_text({"", 0.0, 0.0}), "0");
-    EXPECT_EQ(bound_text({"", 30.0, 1e9}), "30 or more");
-    EXPECT_EQ(bound_text({"", 0.9, 1.1}), "0.9 to 1.1");
-}
-
-TEST(Measurement, WhatIsReportedIsNoPartOfTheVerdict)
-{
-    Claim claim = drift_claim();
-    claim.reported = {"energy"};
-    Records records;
-    records.measurements = {drift("limb", 1e-6), {"C07", "energy", {.body = "limb"}, 9.0, 9.0, 9.0, "J"}};
-    const Verdict verdict = judge(claim, records);
-    EXPECT_EQ(verdict.kind, VerdictKind::reproduced);
-    ASSERT_EQ(verdict.controls.size(), 1u);
-    EXPECT_EQ(verdict.controls[0].quantity, "energy");
-}
-
 TEST(Measurement, AVerdictCountsValuesBySubject)
 {
     Records records;
@@ -138,24 +117,26 @@ TEST(Measurement, AVerdictCountsValuesBySubject)
     EXPECT_EQ(judge(claim, records).subjects.size(), 3u);  // bent, straight, none
 }
 
-TEST(Measurement, OfTheSameQuantityOtherKeysAreControls)
+TEST(Measurement, WhatIsReportedAndOtherKeysOfTheSameQuantityAreControls)
 {
     Claim claim = drift_claim();
+    claim.reported = {"energy"};
     claim.of = {.deformer = "pbs"};
-    Records records;
-    records.measurements = {drift_of({.body = "limb", .deformer = "pbs"}, 1e-6), drift_of({.body = "limb", .deformer = "lbs"}, 0.5)};
-    const Verdict verdict = judge(claim, records);
+    const CaseKey pbs = {.body = "limb", .deformer = "pbs"}, lbs = {.body = "limb", .deformer = "lbs"};
+    const Verdict verdict =
+        judge(claim, {.measurements = {drift_of(pbs, 1e-6), drift_of(lbs, 0.5), {"C07", "energy", pbs, 9.0, 9.0, 9.0, "J"}}});
     EXPECT_EQ(verdict.kind, VerdictKind::reproduced);
     EXPECT_EQ(verdict.n, 1);
-    ASSERT_EQ(verdict.controls.size(), 1u);
+    ASSERT_EQ(verdict.controls.size(), 2u);
     EXPECT_EQ(verdict.controls[0].of.deformer, "lbs");
+    EXPECT_EQ(verdict.controls[1].quantity, "energy");
 }
 
 TEST(Measurement, ASubjectHoldsForEachValueOfAFieldThatIsCountedApart)
 {
     Claim claim = drift_claim();
-    Records records;
-    records.measurements = {drift_of({.body = "limb", .deformer = "pbs"}, 1e-6), drift_of({.body = "limb", .deformer = "lbs"}, 0.5)};
+    const Records records{
+        .measurements = {drift_of({.body = "limb", .deformer = "pbs"}, 1e-6), drift_of({.body = "limb", .deformer = "lbs"}, 0.5)}};
     EXPECT_EQ(judge(claim, records).kind, VerdictKind::reproduced_only_for);
     claim.each = {"deformer"};
     EXPECT_EQ(judge(claim, records).kind, VerdictKind::not_reproduced);
@@ -202,10 +183,7 @@ TEST(Measurement, AClaimOfSeveralQuantitiesAsksForAllOfThem)
 
 TEST(Measurement, WithoutAPlannedRunNothingIsJudged)
 {
-    Records records;
-    records.measurements = {drift("limb", 1e-6)};
-    records.missing_runs = {"human"};
-    const Verdict verdict = judge(drift_claim(), records);
+    const Verdict verdict = judge(drift_claim(), {.measurements = {drift("limb", 1e-6)}, .missing_runs = {"human"}});
     EXPECT_EQ(verdict.kind, VerdictKind::not_computable);
     EXPECT_EQ(verdict.missing, std::vector<std::string>{"human"});
 }

@@ -49,14 +49,13 @@ TEST(PairOrder, HoldsForEveryExactSolutionWithinTheBoundAndForNoLargerOne)
 
 TEST(PairOrder, IsUndecidedForEqualErrorsAndForWhatIsNotFinite)
 {
-    EXPECT_EQ(order_of({1.0, 1.0, 0.5, 0.0}), PairOrder::undecided);
-    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_EQ(order_of({nan, 1.0, 0.5, 0.1}), PairOrder::undecided);
-    EXPECT_EQ(order_of({2.0, 1.0, 0.5, nan}), PairOrder::undecided);
-    EXPECT_EQ(order_of({std::numeric_limits<double>::infinity(), 1.0, 0.5, 0.1}), PairOrder::undecided);
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
     EXPECT_EQ(order_of({2.0, 1.0, 1.0, 0.0}), PairOrder::second_is_closer);
-    EXPECT_EQ(order_of({std::nullopt, 1.0, 0.5, 0.1}), PairOrder::undecided);
+    EXPECT_EQ(order_of({1.0, 1.0, 0.5, 0.0}), PairOrder::undecided);
+    EXPECT_EQ(order_of({2.0, 1.0, 0.5, nan}), PairOrder::undecided);
     EXPECT_EQ(order_of({2.0, 1.0, 0.5, std::nullopt}), PairOrder::undecided);
+    for (const std::optional<double> first : {std::optional(nan), std::optional(infinity), std::optional<double>()})
+        EXPECT_EQ(order_of({first, 1.0, 0.5, 0.1}), PairOrder::undecided);
 }
 
 // Without the distance the rule is that the errors differ by more than twice the bound.

@@ -1,11 +1,11 @@
 // Verdicts are computed: each kind follows from its records and changes when they are altered. Reference: the rules in
-// experiments/verdicts/claims.toml.
+// experiments/verdicts/claims.toml. C01: LBS loses 12 to 16 % in the mean; C02: PBS stays within 0.5 % in 95 % of the frames.
 #include "analysis/verdicts/verdict.hpp"
 
 #include "analysis/records/record_files.hpp"
+#include "analysis/records/report_table.hpp"
+#include "tests/support/json_facts.hpp"
 #include "tests/support/rounding_error.hpp"
-
-#include <gtest/gtest.h>
 
 #include <cmath>
 
@@ -66,296 +66,180 @@ CaseRecord with_abs(CaseRecord record, double abs_change_pct)
     return record;
 }
 
-Verdict verdict_on(const std::string& id, const std::vector<CaseRecord>& cases)
+CaseRecord walk(double change_pct, int frames = 100)
 {
-    return judge(claim_of(id), {.cases = cases});
+    return clip("walk", "pbs", 24, constant(frames, change_pct));
 }
 
-struct KindCase {
-    const char* name;
-    std::string claim;  // C01: LBS loses 12 to 16 % in the mean; C02: PBS stays within 0.5 % in 95 % of the frames
-    std::vector<CaseRecord> cases;
-    VerdictKind kind;
-};
-
-TEST(Verdict, KindFollowsFromTheRecords)
+CaseRecord twist(const std::vector<double>& change_pct, const std::string& deformer = "pbs")
 {
-    using enum VerdictKind;
-    const auto walk = [](double change_pct, int frames = 100) { return clip("walk", "pbs", 24, constant(frames, change_pct)); };
-    const auto twist = [](const std::vector<double>& change_pct) { return sweep("twist", "pbs", 24, change_pct); };
-    const auto lbs = [](double change_pct) { return clip("walk", "lbs", 0, constant(100, change_pct)); };
-    std::vector<double> noisy_loss;
-    for (int i = 0; i < 100; ++i) noisy_loss.push_back(-12.1 + (i % 2 == 0 ? 3.0 : -3.0));
-    const CaseRecord tenth_fails = changed(walk(-0.3), 20, 29, -0.51);
-    const std::vector<double> to_60_deg = {0, -0.1, -0.2, -0.3, -0.5, -0.4, -0.5};
-    const std::vector<KindCase> all = {
-        {"a clip within the bound", "C02", {walk(-0.3)}, reproduced},
-        {"90 % of the frames hold", "C02", {tenth_fails}, not_reproduced},
-        {"another case holds", "C02", {tenth_fails, twist(constant(9, 0.1))}, reproduced_only_for},
-        {"a gain counts like a loss", "C02", {walk(0.6, 30)}, not_reproduced},
-        {"a sweep on its bound", "C02", {twist(to_60_deg)}, reproduced},
-        {"a claim that holds in the rest pose alone", "C02", {changed(twist(to_60_deg), 1, 1, -0.7)}, not_reproduced},
-        {"the rest pose is no sweep", "C02", {twist({0.0})}, not_reproduced},
-        {"up to 40 of 200 deg: less than one quarter", "C02", {changed(twist(constant(21, -2.0)), 0, 4, 0.0)}, not_reproduced},
-        {"up to 50 of 200 deg", "C02", {changed(twist(constant(21, -2.0)), 0, 5, 0.0)}, reproduced_only_for},
-        {"other deformers and iterations decide nothing",
-         "C02",
-         {walk(0.0), clip("walk", "lbs", 24, constant(30, -9.0)), clip("walk", "pbs", 4, constant(30, -9.0))},
-         reproduced},
-        {"only other deformers and iterations",
-         "C02",
-         {clip("walk", "lbs", 24, constant(30, -9.0)), clip("walk", "pbs", 4, constant(30, -9.0))},
-         not_computable},
-        {"no frames", "C01", {clip("walk", "lbs", 0, {})}, not_computable},
-        {"no records", "C01", {}, not_computable},
-        {"a mean in the band", "C01", {lbs(-14.0)}, reproduced},
-        {"the interval of the mean leaves the band", "C01", {with_abs(clip("walk", "lbs", 0, noisy_loss), 1.0)}, reproduced_only_for},
-        {"a mean outside of the band", "C01", {with_abs(lbs(-11.9), 28.0)}, not_reproduced},
-        {"a gain is no loss", "C01", {with_abs(lbs(14.0), 28.0)}, not_reproduced},
-        {"the absolute change is in the band", "C01", {with_abs(lbs(14.0), 12.5)}, reproduced_only_for},
-    };
-    for (const KindCase& of : all) EXPECT_EQ(verdict_on(of.claim, of.cases).kind, of.kind) << of.name;
+    return sweep("twist", deformer, deformer == "pbs" ? 24 : 0, change_pct);
 }
 
-TEST(VolumeIsPreserved, ReproducedWhereEveryCaseHolds)
+CaseRecord lbs(const std::vector<double>& change_pct)
 {
-    const auto walk = clip("walk", "pbs", 24, constant(100, -0.3));
-    const auto twist = sweep("twist", "pbs", 24, constant(18, -0.5));  // a value on the bound is within
-    const Verdict verdict = verdict_on("C02", {walk, twist});
-    EXPECT_EQ(verdict.kind, VerdictKind::reproduced);
-    EXPECT_EQ(verdict.runs, (std::vector<std::string>{"volume/twist", "volume/walk"}));
-    EXPECT_EQ(verdict.interval.estimate, 1.0);
-    ASSERT_TRUE(verdict.primary);
-    EXPECT_EQ(verdict.primary->statistic, "share_of_frames");
-    EXPECT_EQ(verdict.primary->of.body, "walk");
-    EXPECT_EQ(verdict.primary->bound_low, 0.95);
-    EXPECT_EQ(verdict.within, 2);
-    EXPECT_EQ(verdict.n, 2);
-    EXPECT_EQ(verdict.cases.size(), 4u);  // two cases with two metrics
+    return clip("walk", "lbs", 0, change_pct);
 }
 
-TEST(VolumeIsPreserved, ShareAboveTheBoundWithAnIntervalBelowItDoesNotHold)
-{
-    const auto walk = changed(clip("walk", "pbs", 24, constant(100, 0.0)), 40, 42, -2.0);  // 97 % hold, and the failures are consecutive
-    const Verdict verdict = verdict_on("C02", {walk});
-    EXPECT_NEAR(verdict.interval.estimate, 0.97, test_support::mean_error(100, 0.97));
-    EXPECT_LT(verdict.interval.low, 0.95);
-    EXPECT_EQ(verdict.kind, VerdictKind::not_reproduced);
-}
-
-TEST(VolumeIsPreserved, TheClipWithTheLowestShareRepresentsTheClaimInAnyVariant)
-{
-    CaseRecord walk = clip("walk", "pbs", 24, constant(100, -0.6)), jiggling = clip("jump", "pbs", 24, constant(100, -0.6));
-    jiggling.variant = "jiggle";
-    walk = changed(walk, 3, 3, 0.0);
-    EXPECT_EQ(verdict_on("C02", {walk, jiggling}).primary->of.body, "jump");
-    jiggling = changed(changed(jiggling, 3, 3, 0.0), 60, 60, 0.0);
-    EXPECT_EQ(verdict_on("C02", {walk, jiggling}).primary->of.body, "walk");
-}
-
-TEST(VolumeIsPreserved, SweepHoldsUpToItsFirstFailure)
-{
-    const auto twist = sweep("twist", "pbs", 24, {0, -0.1, -0.2, -0.3, -0.6, -0.4, -0.9});
-    const Verdict verdict = verdict_on("C02", {twist});
-    EXPECT_EQ(verdict.kind, VerdictKind::reproduced_only_for);
-    ASSERT_EQ(verdict.cases[0].angles.size(), 1u);
-    EXPECT_EQ(verdict.cases[0].angles[0].to_deg, 30.0);
-    EXPECT_EQ(verdict.cases[0].deepest.size(), 2u);
-    EXPECT_EQ(verdict.cases[0].deepest[0].angle_deg, 60.0);
-    EXPECT_EQ(verdict.cases[0].deepest[0].value, -0.9);
-    EXPECT_EQ(verdict.cases[0].last_angle_deg, 60.0);
-    EXPECT_EQ(verdict.cases[0].extent, Extent::part);
-    EXPECT_EQ(verdict.cases[1].metric, "volume_abs_change_pct");
-    EXPECT_EQ(verdict.cases[1].angles.at(0).to_deg, 20.0);
-    EXPECT_FALSE(verdict.primary);  // only sweeps
-
-    EXPECT_EQ(verdict_on("C02", {changed(twist, 4, 4, -0.5)}).cases[0].angles[0].to_deg, 50.0);
-}
-
-TEST(VolumeIsPreserved, InvertedTetsInFramesThatHoldAreTold)
-{
-    auto bend = sweep("bend", "pbs", 24, constant(10, -0.2));
-    bend.inverted_tets[7] = bend.inverted_tets[9] = 15.0;
-    const Verdict verdict = verdict_on("C02", {bend});
-    EXPECT_EQ(verdict.cases[0].holding_with_inverted_tets, 2);
-}
-
-TEST(VolumeIsPreserved, BreakdownDoesNotHold)
-{
-    const auto walk = changed(clip("walk", "pbs", 24, constant(60, -0.3)), 30, 59, std::numeric_limits<double>::quiet_NaN());
-    const Verdict verdict = verdict_on("C02", {walk});
-    EXPECT_EQ(verdict.kind, VerdictKind::not_reproduced);
-    EXPECT_EQ(verdict.cases[0].share.estimate, 0.5);
-    EXPECT_EQ(verdict.cases[0].deepest[0].frame, 30.0);
-    EXPECT_TRUE(std::isnan(verdict.cases[0].least));
-}
-
-TEST(VolumeIsPreserved, OtherDeformersAreComparedAndDecideNothing)
-{
-    const auto good = clip("walk", "pbs", 24, constant(100, 0.0)), reference = clip("walk", "fem_p2", 0, constant(100, 7.0));
-    const Verdict verdict = verdict_on("C02", {good, reference});
-    EXPECT_EQ(verdict.kind, VerdictKind::reproduced);
-    ASSERT_EQ(verdict.compared.size(), 1u);
-    EXPECT_EQ(verdict.compared[0].deformer, "fem_p2");
-    EXPECT_EQ(verdict.compared[0].extent, Extent::none);
-    EXPECT_NEAR(verdict.compared[0].mean.estimate, 7.0, test_support::mean_error(100, 7.0));
-}
-
-TEST(LossOfLbs, ReproducedWhereTheMeansLieInTheBand)
-{
-    const Verdict verdict = verdict_on("C01", {clip("walk", "lbs", 0, {-13, -14, -15, -14, -13, -14})});
-    EXPECT_EQ(verdict.kind, VerdictKind::reproduced);
-    EXPECT_NEAR(verdict.interval.estimate, 83.0 / 6.0, test_support::mean_error(6, 83.0 / 6.0));
-    ASSERT_TRUE(verdict.primary);
-    EXPECT_EQ(verdict.primary->statistic, "mean");
-    EXPECT_EQ(verdict.primary->quantity, "volume_loss_pct");
-    EXPECT_EQ(verdict.primary->bound_high, 16.0);
-    EXPECT_LE(verdict.interval.low, verdict.interval.estimate);
-}
-
-TEST(LossOfLbs, IsCountedByTheClaimsOwnMetric)
-{
-    const Verdict verdict = verdict_on("C01", {with_abs(clip("walk", "lbs", 0, constant(20, 14.0)), 12.5)});
-    EXPECT_EQ(verdict.within, 0);
-    EXPECT_EQ(verdict.cases.at(1).metric, "volume_abs_change_pct");
-    EXPECT_EQ(verdict.cases.at(1).extent, Extent::whole);
-}
-
-TEST(LossOfLbs, MeanOutsideWithFramesInTheBandIsAPart)
-{
-    auto walk = clip("walk", "lbs", 0, {-2, -3, -13, -14, -4, -2});
-    walk.volume_abs_change_pct = constant(6, 1.0);
-    const Verdict verdict = verdict_on("C01", {walk});
-    EXPECT_EQ(verdict.kind, VerdictKind::reproduced_only_for);
-    EXPECT_EQ(verdict.cases[0].extent, Extent::part);
-    EXPECT_NEAR(verdict.cases[0].share.estimate, 1.0 / 3.0, test_support::mean_error(6, 1.0 / 3.0));
-}
-
-TEST(LossOfLbs, SweepTellsTheAnglesThatReachTheBand)
-{
-    auto twist = sweep("twist", "lbs", 0, {0, -4, -9, -13, -15, -17, -14});
-    twist.volume_abs_change_pct = constant(7, 1.0);
-    const Verdict verdict = verdict_on("C01", {twist});
-    EXPECT_EQ(verdict.kind, VerdictKind::reproduced_only_for);
-    ASSERT_EQ(verdict.cases[0].angles.size(), 2u);
-    EXPECT_EQ(verdict.cases[0].angles[0].from_deg, 30.0);
-    EXPECT_EQ(verdict.cases[0].angles[0].to_deg, 40.0);
-    EXPECT_EQ(verdict.cases[0].angles[1].from_deg, 60.0);
-    EXPECT_EQ(verdict.cases.at(1).extent, Extent::none);
-}
-
-TEST(Verdict, MissingRecordsAreNoResult)
-{
-    Records records{.cases = {clip("walk", "lbs", 0, constant(20, -14.0))}, .planned_scenes = {"walk", "twist"}};
-    const Verdict verdict = judge(claim_of("C01"), records);
-    EXPECT_EQ(verdict.kind, VerdictKind::not_computable);
-    EXPECT_EQ(verdict.missing, std::vector<std::string>{"twist"});
-    records.left_out = {{"twist", "package missing"}};
-    EXPECT_EQ(judge(claim_of("C01"), records).kind, VerdictKind::reproduced);
-}
-
-TEST(Verdict, WhatWasLeftOutIsTold)
-{
-    Records records{.cases = {clip("walk", "lbs", 0, constant(20, -14.0))}, .left_out = {{"man", "man-data is not installed"}}};
-    EXPECT_EQ(judge(claim_of("C01"), records).left_out.at(0).reason, "man-data is not installed");
-    records.cases.clear();
-    const Verdict verdict = judge(claim_of("C01"), records);
-    EXPECT_EQ(verdict.kind, VerdictKind::cannot_be_tested_here);
-    EXPECT_EQ(verdict.left_out.at(0).scene, "man");
-}
-
-TEST(Verdict, ValuesInPrintFlipWithTheirBounds)
-{
-    Claim claim = claim_of("C01");
-    claim.rule = ClaimRule::printed;
-    const double infinity = std::numeric_limits<double>::infinity();
-    Records records{.printed = {{claim.id, "edges", {.model = "Man"}, 6342, 6653, infinity},
-                                {claim.id, "edges", {.model = "Lady"}, 9387, 7862, infinity},
-                                {"C00", "another", {}, 1, 2, 3}}};
-    const Verdict verdict = judge(claim, records);
-    EXPECT_EQ(verdict.kind, VerdictKind::inconsistent_in_print);
-    ASSERT_TRUE(verdict.primary);
-    EXPECT_EQ(verdict.primary->of.model, "Man");
-    EXPECT_EQ(verdict.primary->value, 6342.0);
-    EXPECT_EQ(verdict.primary->bound_low, 6653.0);
-    EXPECT_EQ(verdict.within, 1);
-    EXPECT_EQ(verdict.n, 2);
-    records.printed[0].printed = 6653;
-    EXPECT_EQ(judge(claim, records).kind, VerdictKind::reproduced);
-    EXPECT_EQ(judge(claim, {}).kind, VerdictKind::not_computable);
-}
-
-TEST(Verdict, UntestableClaimsSayWhy)
-{
-    Claim claim = claim_of("C01");
-    claim.rule = ClaimRule::untestable;
-    claim.reason = "no published figures";
-    EXPECT_EQ(judge(claim, {}).kind, VerdictKind::cannot_be_tested_here);
-    EXPECT_EQ(judge(claim, {}).claim.reason, "no published figures");
-}
-
-CaseRecord in_order(CaseRecord record, const std::string& order, const std::string& precision)
+CaseRecord in_order(CaseRecord record, const std::string& order, const std::string& precision, int iterations = 24)
 {
     record.deformer = "pbs_orders";
     record.order = order;
     record.precision = precision;
+    record.iterations = iterations;
     return record;
 }
 
-TEST(OtherOrders, AreJudgedByThemselvesAndAreNoPartOfTheVerdict)
+void expect_facts(const Verdict& verdict, const std::string& facts)
 {
-    const auto walk = clip("walk", "pbs", 24, constant(100, -0.3));
-    const auto other = in_order(clip("walk", "pbs", 24, constant(100, -0.9)), "plain", "f64");
-    const Verdict verdict = verdict_on("C02", {walk, other});
-    EXPECT_EQ(verdict.kind, VerdictKind::reproduced);
-    EXPECT_EQ(verdict.cases.size(), 2u);  // one case with two metrics
-    ASSERT_EQ(verdict.orders.size(), 1u);
-    EXPECT_EQ(verdict.orders[0].kind, VerdictKind::not_reproduced);
-    EXPECT_EQ(verdict.orders[0].own_kind, VerdictKind::reproduced);
-    ASSERT_EQ(verdict.orders[0].differing, std::vector<std::size_t>{0});  // the absolute change holds in neither
-    EXPECT_EQ(verdict.orders[0].cases[0].metric, "volume_change_pct");
-    EXPECT_EQ(verdict.orders[0].cases[0].of.order, "plain");
+    test_support::expect_facts(claims_json({verdict}, "").at("claims").at(0), facts);
 }
 
-TEST(OtherOrders, FlipWhenTheirRecordsAreAltered)
+// facts: values of the claim's object in claims.json.
+Verdict judged(const char* name, const std::vector<CaseRecord>& cases, VerdictKind kind, const std::string& facts = "{}",
+               const std::string& claim = "C02")
 {
-    const auto walk = clip("walk", "pbs", 24, constant(100, -0.3));
-    auto plain = in_order(walk, "plain", "f32");
-    EXPECT_TRUE(verdict_on("C02", {walk, plain}).orders.at(0).same());
-    EXPECT_FALSE(verdict_on("C02", {walk, changed(plain, 20, 29, -0.51)}).orders.at(0).same());
+    SCOPED_TRACE(name);
+    const Verdict verdict = judge(claim_of(claim), {.cases = cases});
+    EXPECT_EQ(verdict.kind, kind);
+    expect_facts(verdict, facts);
+    return verdict;
 }
 
-TEST(OtherOrders, AreComparedOnTheScenesTheyWereRecordedOn)
-{
-    const auto walk = clip("walk", "pbs", 24, constant(100, -0.9));  // fails, and was recorded in only one order
-    const auto twist = sweep("twist", "pbs", 24, constant(18, -0.3));
-    const Verdict verdict = verdict_on("C02", {walk, twist, in_order(twist, "grouped", "f32"), in_order(twist, "grouped", "f64")});
-    EXPECT_EQ(verdict.kind, VerdictKind::reproduced_only_for);
-    ASSERT_EQ(verdict.orders.size(), 2u);
-    EXPECT_EQ(verdict.orders[0].own_kind, VerdictKind::reproduced);
-    for (const OrderVerdict& other : verdict.orders) EXPECT_TRUE(other.same()) << other.precision;
-}
+using enum VerdictKind;
 
-TEST(OtherOrders, OfOtherIterationsAreNotLookedAt)
+TEST(Verdict, OfVolumeFollowsFromTheClips)
 {
-    const auto walk = clip("walk", "pbs", 24, constant(100, -0.3));
-    auto other = in_order(walk, "plain", "f32");
-    other.iterations = 12;
-    EXPECT_TRUE(verdict_on("C02", {walk, other}).orders.empty());
-}
+    judged("clips within the bound, and a sweep on it", {walk(-0.3), twist(constant(18, -0.5))}, reproduced,
+           R"({"runs": ["volume/twist", "volume/walk"], "interval": {"estimate": 1.0}, "within": 2, "n": 2,
+               "primary": {"statistic": "share_of_frames", "body": "walk", "bound_low": 0.95}, "cases": [{}, {}, {}, {}]})");
+    const CaseRecord tenth_fails = changed(walk(-0.3), 20, 29, -0.51);
+    judged("90 % of the frames hold", {tenth_fails}, not_reproduced);
+    judged("another case holds", {tenth_fails, twist(constant(9, 0.1))}, reproduced_only_for);
+    judged("a gain counts like a loss", {walk(0.6, 30)}, not_reproduced);
+    const Verdict failures_in_a_row = judged("97 % of the frames hold", {changed(walk(0.0), 40, 42, -2.0)}, not_reproduced);
+    EXPECT_NEAR(failures_in_a_row.interval.estimate, 0.97, test_support::mean_error(100, 0.97));
+    EXPECT_LT(failures_in_a_row.interval.low, 0.95);
+    judged("a breakdown", {changed(walk(-0.3, 60), 30, 59, std::nan(""))}, not_reproduced,
+           R"({"cases": [{"share_of_frames": {"estimate": 0.5}, "deepest": [{"frame": 30}, {}, {}], "least": null}, {}]})");
 
-TEST(VolumeIsPreserved, TheSameBodyOnAnotherMeshIsShownAndNotJudged)
-{
-    const auto walk = clip("walk", "pbs", 24, constant(100, -0.3));
-    auto finer = clip("walk_4800", "pbs", 24, constant(100, -3.0));
+    const CaseRecord other_deformer = clip("walk", "lbs", 24, constant(30, -9.0)),
+                     other_iterations = clip("walk", "pbs", 4, constant(30, -9.0));
+    judged("other deformers and iterations decide nothing", {walk(0.0), other_deformer, other_iterations}, reproduced);
+    judged("only other deformers and iterations", {other_deformer, other_iterations}, not_computable);
+    const Verdict compared = judged("other deformers are compared", {walk(0.0), clip("walk", "fem_p2", 0, constant(100, 7.0))}, reproduced,
+                                    R"({"controls": [{"deformer": "fem_p2", "holds": "none"}]})");
+    EXPECT_NEAR(compared.compared[0].mean.estimate, 7.0, test_support::mean_error(100, 7.0));
+
+    const CaseRecord one_holds = changed(walk(-0.6), 3, 3, 0.0);
+    CaseRecord jump = clip("jump", "pbs", 24, constant(100, -0.6));
+    jump.variant = "jiggle";
+    judged("the lowest share represents a claim in any variant", {one_holds, jump}, not_reproduced, R"({"primary": {"body": "jump"}})");
+    jump = changed(changed(jump, 3, 3, 0.0), 60, 60, 0.0);
+    judged("here that of the walk", {one_holds, jump}, not_reproduced, R"({"primary": {"body": "walk"}})");
+
+    CaseRecord finer = clip("walk_4800", "pbs", 24, constant(100, -3.0));
+    judged("another mesh as a case of its own", {walk(-0.3), finer}, reproduced_only_for);
     finer.beside = true;
-    const Verdict verdict = verdict_on("C02", {walk, finer});
-    EXPECT_EQ(verdict.kind, VerdictKind::reproduced);
-    EXPECT_EQ(verdict.cases.size(), 2u);  // one case with two metrics
-    ASSERT_EQ(verdict.compared.size(), 1u);
-    EXPECT_EQ(verdict.compared[0].scene, "walk_4800");
-    finer.beside = false;
-    EXPECT_EQ(verdict_on("C02", {walk, finer}).kind, VerdictKind::reproduced_only_for);
+    judged("the same body on another mesh is shown and not judged", {walk(-0.3), finer}, reproduced,
+           R"({"controls": [{"scene": "walk_4800"}], "cases": [{}, {}]})");
+}
+
+TEST(Verdict, OfVolumeFollowsFromTheSweeps)
+{
+    const std::vector<double> to_60_deg = {0, -0.1, -0.2, -0.3, -0.5, -0.4, -0.5};
+    judged("on its bound", {twist(to_60_deg)}, reproduced);
+    judged("holds in the rest pose alone", {changed(twist(to_60_deg), 1, 1, -0.7)}, not_reproduced);
+    judged("the rest pose is no sweep", {twist({0.0})}, not_reproduced);
+    judged("up to 40 of 200 deg: less than one quarter", {changed(twist(constant(21, -2.0)), 0, 4, 0.0)}, not_reproduced);
+    judged("up to 50 of 200 deg", {changed(twist(constant(21, -2.0)), 0, 5, 0.0)}, reproduced_only_for);
+    const CaseRecord fails_at_40_deg = twist({0, -0.1, -0.2, -0.3, -0.6, -0.4, -0.9});
+    judged("up to its first failure, and without a primary value", {fails_at_40_deg}, reproduced_only_for,
+           R"({"primary": null,
+               "cases": [{"held_angles_deg": [[0, 30]], "deepest": [{"angle_deg": 60, "value": -0.9}, {}], "last_angle_deg": 60,
+                          "holds": "part"},
+                         {"quantity": "volume_abs_change_pct", "held_angles_deg": [[0, 20]]}]})");
+    judged("up to the next one", {changed(fails_at_40_deg, 4, 4, -0.5)}, reproduced_only_for,
+           R"({"cases": [{"held_angles_deg": [[0, 50]]}, {}]})");
+    CaseRecord bend = sweep("bend", "pbs", 24, constant(10, -0.2));
+    bend.inverted_tets[7] = bend.inverted_tets[9] = 15.0;
+    judged("inverted tets in frames that hold", {bend}, reproduced, R"({"cases": [{"holding_with_inverted_tets": 2}, {}]})");
+}
+
+TEST(Verdict, OfTheLossOfLbsFollowsFromTheRecords)
+{
+    const auto loss = [](const char* name, const std::vector<CaseRecord>& cases, VerdictKind kind, const std::string& facts = "{}") {
+        return judged(name, cases, kind, facts, "C01");
+    };
+    std::vector<double> noisy;
+    for (int i = 0; i < 100; ++i) noisy.push_back(-12.1 + (i % 2 == 0 ? 3.0 : -3.0));
+    loss("no frames", {lbs({})}, not_computable);
+    loss("no records", {}, not_computable);
+    loss("a mean in the band", {lbs(constant(100, -14.0))}, reproduced);
+    loss("the interval of the mean leaves the band", {with_abs(lbs(noisy), 1.0)}, reproduced_only_for);
+    loss("a mean outside of the band", {with_abs(lbs(constant(100, -11.9)), 28.0)}, not_reproduced);
+    loss("a gain is no loss", {with_abs(lbs(constant(100, 14.0)), 28.0)}, not_reproduced);
+    loss("the absolute change is in the band", {with_abs(lbs(constant(20, 14.0)), 12.5)}, reproduced_only_for,
+         R"({"within": 0, "cases": [{}, {"quantity": "volume_abs_change_pct", "holds": "whole"}]})");
+    const Interval mean = loss("means in the band", {lbs({-13, -14, -15, -14, -13, -14})}, reproduced,
+                               R"({"primary": {"statistic": "mean", "quantity": "volume_loss_pct", "bound_high": 16}})")
+                              .interval;
+    EXPECT_NEAR(mean.estimate, 83.0 / 6.0, test_support::mean_error(6, 83.0 / 6.0));
+    EXPECT_LE(mean.low, mean.estimate);
+    const Verdict part = loss("a mean outside with frames in the band", {with_abs(lbs({-2, -3, -13, -14, -4, -2}), 1.0)},
+                              reproduced_only_for, R"({"cases": [{"holds": "part"}, {}]})");
+    EXPECT_NEAR(part.cases[0].share.estimate, 1.0 / 3.0, test_support::mean_error(6, 1.0 / 3.0));
+    loss("angles of a sweep that reach the band", {with_abs(twist({0, -4, -9, -13, -15, -17, -14}, "lbs"), 1.0)}, reproduced_only_for,
+         R"({"cases": [{"held_angles_deg": [[30, 40], [60, 60]]}, {"holds": "none"}]})");
+}
+
+TEST(Verdict, MissingRecordsAreNoResultAndWhatWasLeftOutIsTold)
+{
+    const std::vector<CaseRecord> cases = {lbs(constant(20, -14.0))};
+    Records records{.cases = cases, .planned_scenes = {"walk", "twist"}};
+    const Verdict verdict = judge(claim_of("C01"), records);
+    EXPECT_EQ(verdict.kind, not_computable);
+    EXPECT_EQ(verdict.missing, std::vector<std::string>{"twist"});
+    records.left_out = {{"twist", "package missing"}};
+    EXPECT_EQ(judge(claim_of("C01"), records).kind, reproduced);
+    for (const auto& [of, kind] : {std::pair(cases, reproduced), {{}, cannot_be_tested_here}}) {
+        const Verdict told = judge(claim_of("C01"), {.cases = of, .left_out = records.left_out});
+        EXPECT_EQ(told.kind, kind);
+        expect_facts(told, R"({"left_out": [{"scene": "twist", "reason": "package missing"}]})");
+    }
+}
+
+TEST(Verdict, ValuesInPrintFlipWithTheirBoundsAndUntestableClaimsSayWhy)
+{
+    Claim claim = claim_of("C01");
+    claim.rule = ClaimRule::printed;
+    claim.reason = "no published figures";
+    const double infinity = std::numeric_limits<double>::infinity();
+    Records records{.printed = {{claim.id, "edges", {.model = "Man"}, 6342, 6653, infinity},
+                                {claim.id, "edges", {.model = "Lady"}, 9387, 7862, infinity},
+                                {"C00", "another", {}, 1, 2, 3}}};
+    EXPECT_EQ(judge(claim, records).kind, inconsistent_in_print);
+    expect_facts(judge(claim, records), R"({"primary": {"model": "Man", "value": 6342, "bound_low": 6653}, "within": 1, "n": 2})");
+    records.printed[0].printed = 6653;
+    EXPECT_EQ(judge(claim, records).kind, reproduced);
+    EXPECT_EQ(judge(claim, {}).kind, not_computable);
+    claim.rule = ClaimRule::untestable;
+    EXPECT_EQ(judge(claim, {}).kind, cannot_be_tested_here);
+    EXPECT_EQ(judge(claim, {}).claim.reason, "no published figures");
+}
+
+TEST(OtherOrders, AreJudgedByThemselvesOnTheirScenesAndAreNoPartOfTheVerdict)
+{
+    const CaseRecord held = walk(-0.3), twisted = twist(constant(18, -0.3)), plain = in_order(held, "plain", "f32");
+    judged("one that fails; the absolute change holds in neither", {held, in_order(walk(-0.9), "plain", "f64")}, reproduced,
+           R"({"readings": [{"verdict": "not_reproduced", "own_verdict": "reproduced", "differing": [0],
+                             "cases": [{"quantity": "volume_change_pct", "order": "plain"}, {}]}], "cases": [{}, {}]})");
+    judged("the same values", {held, plain}, reproduced, R"({"readings": [{"same": true}]})");
+    judged("altered ones", {held, changed(plain, 20, 29, -0.51)}, reproduced, R"({"readings": [{"same": false}]})");
+    judged("a walk that fails, recorded in one order alone",
+           {walk(-0.9), twisted, in_order(twisted, "grouped", "f32"), in_order(twisted, "grouped", "f64")}, reproduced_only_for,
+           R"({"readings": [{"own_verdict": "reproduced", "same": true}, {"same": true}]})");
+    judged("other iterations", {held, in_order(held, "plain", "f32", 12)}, reproduced, R"({"readings": []})");
 }
 
 }  // namespace

@@ -2,11 +2,14 @@
 
 #include "pbs/geometry/input_error.hpp"
 #include "reference_fem/dynamics/time_stepper.hpp"
+#include "reference_fem/dynamics/vibrating_body.hpp"
 #include "reference_fem/potentials/potentials.hpp"
 #include "reference_fem/verification/problems.hpp"
-#include "tests/support/rounding_error.hpp"
+#include "tests/support/element_rounding.hpp"
 #include "tests/support/structured_bar.hpp"
+#include "tests/verification/reference_fem/jittered_cube.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
 namespace {
@@ -45,22 +48,21 @@ protected:
     std::unique_ptr<NewtonMinimiser> newton;
 };
 
-TEST_F(Stepper, RefusesAStepThatIsNotPositive)
+TEST_F(Stepper, RefusesAStepThatIsNotPositiveABodyWithoutMassAndNegativeDamping)
 {
     TimeStepper time = stepper({});
     for (const double step_s : {0.0, -0.01, std::nan(""), std::numeric_limits<double>::infinity()})
         EXPECT_THROW(step(time, step_s), pbs::InputError) << step_s;
-}
-
-TEST_F(Stepper, RefusesABodyWithoutMass)
-{
     for (const double density : {0.0, -1.0, std::nan("")}) EXPECT_THROW(stepper({.density_kg_m3 = density}), pbs::InputError);
-}
-
-TEST_F(Stepper, RefusesNegativeDamping)
-{
     EXPECT_THROW(stepper({.rayleigh_mass_1_s = -1.0}), pbs::InputError);
     EXPECT_THROW(stepper({.rayleigh_stiffness_s = -1.0}), pbs::InputError);
+}
+
+void expect_same(const Motion& a, const Motion& b)
+{
+    EXPECT_EQ(a.displacement, b.displacement);
+    EXPECT_EQ(a.velocity, b.velocity);
+    EXPECT_EQ(a.acceleration, b.acceleration);
 }
 
 TEST_F(Stepper, RestStaysRestToTheBit)
@@ -69,9 +71,7 @@ TEST_F(Stepper, RestStaysRestToTheBit)
         TimeStepper time = stepper({.scheme = scheme, .rayleigh_mass_1_s = 1.0, .rayleigh_stiffness_s = 0.1});
         for (int k = 0; k < 10; ++k) ASSERT_TRUE(step(time, 0.01).converged());
         const Eigen::VectorXd zero = Eigen::VectorXd::Zero(space.dofs());
-        EXPECT_EQ(time.motion().displacement, zero);
-        EXPECT_EQ(time.motion().velocity, zero);
-        EXPECT_EQ(time.motion().acceleration, zero);
+        expect_same(time.motion(), {zero, zero, zero});
         EXPECT_EQ(time.kinetic_energy_j(), 0.0);
     }
 }
@@ -134,13 +134,6 @@ TEST_F(Stepper, TheFirstAccelerationFollowsFromTheBalanceOfForces)
     EXPECT_LT(fine, 1e-3 * force.norm()) << "a remainder that is no smaller proves nothing";
 }
 
-void expect_same(const Motion& a, const Motion& b)
-{
-    EXPECT_EQ(a.displacement, b.displacement);
-    EXPECT_EQ(a.velocity, b.velocity);
-    EXPECT_EQ(a.acceleration, b.acceleration);
-}
-
 // The target at the end is NaN: parts of the step converge, and are discarded with it.
 TEST_F(Stepper, OfAStepThatFailsNothingIsKept)
 {
@@ -158,18 +151,17 @@ TEST_F(Stepper, OfAStepThatFailsNothingIsKept)
 
 TEST_F(Stepper, AFailureLeavesNoTraceInWhatFollows)
 {
-    TimeStepper plain = stepper({.density_kg_m3 = 10.0});
-    plain.start(pulled());
-    for (int k = 0; k < 3; ++k) ASSERT_TRUE(step(plain, 0.01).converged());
-    const Motion expected = plain.motion();
-
-    TimeStepper time = stepper({.density_kg_m3 = 10.0});
-    time.start(pulled());
-    for (int k = 0; k < 3; ++k) {
-        ASSERT_FALSE(step(time, 0.02, {}, {.iterations = 0}).converged());
-        ASSERT_TRUE(step(time, 0.01).converged());
+    Motion end[2];
+    for (const bool fails : {false, true}) {
+        TimeStepper time = stepper({.density_kg_m3 = 10.0});
+        time.start(pulled());
+        for (int k = 0; k < 3; ++k) {
+            ASSERT_TRUE(!fails || !step(time, 0.02, {}, {.iterations = 0}).converged());
+            ASSERT_TRUE(step(time, 0.01).converged());
+        }
+        end[fails] = time.motion();
     }
-    expect_same(time.motion(), expected);
+    expect_same(end[true], end[false]);
 }
 
 // Newton's method has one iteration too few for the whole step, which is divided into parts that end at the same time.
@@ -201,64 +193,50 @@ TEST_F(Stepper, DampingBringsTheBarToRest)
 
 using test_support::rounding_error;
 
-class Scheme : public testing::TestWithParam<TimeScheme> {
-protected:
-    const double h = 0.3;
-    const Motion before{Eigen::Vector2d(0.4, -1.0), Eigen::Vector2d(2.0, 0.7), Eigen::Vector2d(-3.0, 0.2)};
-    const Eigen::Vector2d w{0.9, -0.5};
-};
-
-TEST_P(Scheme, AnAcceptedStepSatisfiesTheEquationsOfTheScheme)
+TEST(Scheme, SatisfiesItsEquationsAndTheConditionsOfStability)
 {
-    const TimeScheme& s = GetParam();
-    const Motion after = accept(s, before, w, h);
-    const auto mean = [](double alpha, const Eigen::VectorXd& now, const Eigen::VectorXd& next) -> Eigen::VectorXd {
-        return (1.0 - alpha) * next + alpha * now;
-    };
-    const Eigen::VectorXd u =
-        before.displacement + h * before.velocity + h * h * ((0.5 - s.beta) * before.acceleration + s.beta * after.acceleration);
-    const Eigen::VectorXd v = before.velocity + h * ((1.0 - s.gamma) * before.acceleration + s.gamma * after.acceleration);
-    const double size = before.displacement.norm() + w.norm() + h * before.velocity.norm() + h * h * before.acceleration.norm();
-    const double c_m = inertia_coefficient(s, h), c_c = damping_coefficient(s, h);
-    // The increment is (w - u) / (1 - alpha_f), twice the size at most. The new acceleration takes it in eight roundings, and the test's
-    // own equation in eight.
-    EXPECT_LT((after.displacement - u).norm(), rounding_error(8 + 8, 2.0 * size));
-    EXPECT_LT((after.velocity - v).norm(),  // six roundings on each side, of the same accelerations
-              rounding_error(6 + 6, before.velocity.norm() + h * (before.acceleration.norm() + s.gamma * after.acceleration.norm())));
-    EXPECT_LT((mean(s.alpha_f, before.displacement, after.displacement) - w).norm(), rounding_error(8, 2.0 * size));
-    // Eqs. (d) to (g): the rates in the balance are affine in w, with the factors c_m and c_c. Each side goes through some fifteen
-    // roundings.
-    EXPECT_LT((mean(s.alpha_m, before.acceleration, after.acceleration) - c_m * (w - inertia_centre(s, before, h))).norm(),
-              rounding_error(15 + 15, c_m * size));
-    EXPECT_LT((mean(s.alpha_f, before.velocity, after.velocity) - c_c * (w - damping_centre(s, before, h))).norm(),
-              rounding_error(15 + 15, c_c * size));
+    for (const TimeScheme& s :
+         {newmark(), generalized_alpha(0.0), generalized_alpha(0.5), generalized_alpha(0.8), generalized_alpha(1.0)}) {
+        const double h = 0.3;
+        const Motion before{Eigen::Vector2d(0.4, -1.0), Eigen::Vector2d(2.0, 0.7), Eigen::Vector2d(-3.0, 0.2)};
+        const Eigen::Vector2d w{0.9, -0.5};
+        const Motion after = accept(s, before, w, h);
+        const auto mean = [](double alpha, const Eigen::VectorXd& now, const Eigen::VectorXd& next) -> Eigen::VectorXd {
+            return (1.0 - alpha) * next + alpha * now;
+        };
+        const Eigen::VectorXd u =
+            before.displacement + h * before.velocity + h * h * ((0.5 - s.beta) * before.acceleration + s.beta * after.acceleration);
+        const Eigen::VectorXd v = before.velocity + h * ((1.0 - s.gamma) * before.acceleration + s.gamma * after.acceleration);
+        const double size = before.displacement.norm() + w.norm() + h * before.velocity.norm() + h * h * before.acceleration.norm();
+        const double c_m = inertia_coefficient(s, h), c_c = damping_coefficient(s, h);
+        // The increment is (w - u) / (1 - alpha_f), twice the size at most. The new acceleration takes it in eight roundings, and the
+        // test's own equation in eight.
+        EXPECT_LT((after.displacement - u).norm(), rounding_error(8 + 8, 2.0 * size));
+        EXPECT_LT((after.velocity - v).norm(),  // six roundings on each side, of the same accelerations
+                  rounding_error(6 + 6, before.velocity.norm() + h * (before.acceleration.norm() + s.gamma * after.acceleration.norm())));
+        EXPECT_LT((mean(s.alpha_f, before.displacement, after.displacement) - w).norm(), rounding_error(8, 2.0 * size));
+        // Eqs. (d) to (g): the rates in the balance are affine in w, with the factors c_m and c_c. Each side goes through some fifteen
+        // roundings.
+        EXPECT_LT((mean(s.alpha_m, before.acceleration, after.acceleration) - c_m * (w - inertia_centre(s, before, h))).norm(),
+                  rounding_error(15 + 15, c_m * size));
+        EXPECT_LT((mean(s.alpha_f, before.velocity, after.velocity) - c_c * (w - damping_centre(s, before, h))).norm(),
+                  rounding_error(15 + 15, c_c * size));
+        // It is of second order and unconditionally stable.
+        EXPECT_EQ(s.gamma, 0.5 - s.alpha_m + s.alpha_f);
+        EXPECT_LE(s.alpha_m, s.alpha_f);
+        EXPECT_LE(s.alpha_f, 0.5);
+        EXPECT_GE(s.beta, 0.25 + (s.alpha_f - s.alpha_m) / 2.0);  // equal, and of exact numbers, if alpha_f = alpha_m; well above otherwise
+    }
 }
 
-TEST_P(Scheme, IsOfSecondOrderAndUnconditionallyStable)
-{
-    const TimeScheme& s = GetParam();
-    EXPECT_EQ(s.gamma, 0.5 - s.alpha_m + s.alpha_f);
-    EXPECT_LE(s.alpha_m, s.alpha_f);
-    EXPECT_LE(s.alpha_f, 0.5);
-    EXPECT_GE(s.beta, 0.25 + (s.alpha_f - s.alpha_m) / 2.0);  // equal, and of exact numbers, if alpha_f = alpha_m; well above otherwise
-}
-
-INSTANTIATE_TEST_SUITE_P(All, Scheme,
-                         testing::Values(newmark(), generalized_alpha(0.0), generalized_alpha(0.5), generalized_alpha(0.8),
-                                         generalized_alpha(1.0)));
-
-TEST(GeneralizedAlpha, RefusesASpectralRadiusOutsideZeroToOne)
-{
-    for (const double radius : {-0.1, 1.1, std::nan("")}) EXPECT_THROW(generalized_alpha(radius), pbs::InputError);
-}
-
-TEST(GeneralizedAlpha, OfSpectralRadiusOneHalfIsAsPrinted)
+TEST(GeneralizedAlpha, OfSpectralRadiusOneHalfIsAsPrintedAndOneOutsideZeroToOneIsRefused)
 {
     const TimeScheme scheme = generalized_alpha(0.5);
     EXPECT_DOUBLE_EQ(scheme.alpha_m, 0.0);
     EXPECT_DOUBLE_EQ(scheme.alpha_f, 1.0 / 3.0);
     EXPECT_DOUBLE_EQ(scheme.beta, 4.0 / 9.0);
     EXPECT_DOUBLE_EQ(scheme.gamma, 5.0 / 6.0);
+    for (const double radius : {-0.1, 1.1, std::nan("")}) EXPECT_THROW(generalized_alpha(radius), pbs::InputError);
 }
 
 // Reference: polynomials, whose derivatives are known. A parabola through three displacements gives the velocity of quadratic motion
@@ -335,13 +313,98 @@ TEST_F(Prescribed, RestStaysRestToTheBitAndFreeDegreesOfFreedomAreNotTouched)
     EXPECT_EQ(motion.displacement, Eigen::Vector2d(5.0, 0.1));
     EXPECT_EQ(motion.velocity(0), 6.0);
     EXPECT_EQ(motion.acceleration(0), 7.0);
+    const Eigen::Vector3d ones = Eigen::Vector3d::Ones();
+    EXPECT_EQ(PrescribedMotion({false, false, false}).next({ones, ones, ones}, 2.0 * ones, 0.1).displacement, ones)
+        << "it may be of nothing";
 }
 
-TEST(PrescribedMotion, MayBeOfNothing)
+// Reference: rigid motion. M sums to the mass of the body, and a rigid velocity has the kinetic energy of mechanics. Tolerances: a term of
+// v M v goes through the roundings of an entry, of its row and of the sum over the degrees of freedom.
+class Mass : public testing::TestWithParam<int> {
+protected:
+    const SimplexSpace space{test_support::jittered_cube(2), GetParam()};
+    const ConsistentMass mass{space, 3.0};
+
+    Eigen::VectorXd field(const Eigen::Matrix3d& gradient, const pbs::Vec3& constant) const
+    {
+        Eigen::VectorXd values(space.dofs());
+        for (int node = 0; node < space.nodes(); ++node)
+            values.segment<3>(3 * node) = gradient * space.node_positions().row(node).transpose() + constant;
+        return values;
+    }
+
+    double product_error(const Eigen::VectorXd& v) const
+    {
+        const double roundings =
+            test_support::entry_roundings(space, GetParam() + 1, 2) + test_support::most_entries(mass.matrix()) + space.dofs();
+        return rounding_error(roundings, v.cwiseAbs().dot(test_support::magnitudes(mass.matrix()) * v.cwiseAbs()));
+    }
+};
+
+// A unit cube of density 3 that moves, and one that rotates about the z axis through its corner: I = 3 (1/3 + 1/3).
+TEST_P(Mass, OfATranslationIsThatOfTheBodyAndOfARotationTheMomentOfInertia)
 {
-    const PrescribedMotion none({false, false, false});
-    const Eigen::Vector3d ones = Eigen::Vector3d::Ones();
-    EXPECT_EQ(none.next({ones, ones, ones}, 2.0 * ones, 0.1).displacement, ones);
+    const pbs::Vec3 velocity(1.0, -2.0, 0.5);
+    const Eigen::VectorXd v = field(Eigen::Matrix3d::Zero(), velocity);
+    EXPECT_NEAR(v.dot(mass.times(v)), 3.0 * velocity.squaredNorm(), product_error(v));
+    EXPECT_LT(product_error(v), 1e-9) << "a bound that would let a wrong entry pass proves nothing";
+    const Eigen::VectorXd spin = field(Eigen::Matrix3d{{0, -1, 0}, {1, 0, 0}, {0, 0, 0}}, pbs::Vec3::Zero());
+    EXPECT_NEAR(spin.dot(mass.times(spin)), 2.0, product_error(spin));
+}
+
+// The three products have the same terms, and each goes through the product and the sum of a row.
+TEST_P(Mass, AsAMatrixAndAsBlocksIsTheSameOperator)
+{
+    const Eigen::VectorXd v = field(Eigen::Matrix3d::Random(), pbs::Vec3(1, 2, 3)).cwiseAbs2();
+    NodalMatrix blocks(space);
+    mass.add_to(blocks, 2.0);
+    const Eigen::VectorXd product = mass.times(v);
+    const SparseMatrix matrix = mass.matrix();
+    const double row = rounding_error(test_support::most_entries(matrix), (matrix.cwiseAbs() * v).norm());
+    EXPECT_LE((matrix * v - product).norm(), 2.0 * row);
+    EXPECT_LE((blocks.matrix() * v - 2.0 * product).norm(), 2.0 * 2.0 * row);
+}
+
+INSTANTIATE_TEST_SUITE_P(ElementOrder, Mass, testing::Values(1, 2));
+
+// Reference: a dense eigenvalue problem by Eigen. Tolerances: both reduce it to eigenvalues of L^-1 K L^-T with M = L L^T, whose error by
+// rounding is sqrt(n) eps |K| |M^-1| (G. Golub, C. Van Loan, Matrix Computations, 4th ed., Sec. 8.7.2), and omega is the root of an
+// eigenvalue. The iteration ends at a change of the shape of 1e-13; (K - omega^2 M) turns it and the rounding of the solve into a residual.
+
+std::vector<int> free_dofs(const VibratingBody& body)
+{
+    std::vector<int> free;
+    for (int i = 0; i < body.space().dofs(); ++i)
+        if (!body.fixed()[i]) free.push_back(i);
+    return free;
+}
+
+Eigen::VectorXd eigenvalues(const Eigen::MatrixXd& symmetric)
+{
+    return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(symmetric, Eigen::EigenvaluesOnly).eigenvalues();
+}
+
+TEST(FirstMode, IsTheLowestOfADenseEigenvalueProblemIfThereIsOne)
+{
+    const VibratingBody body(test_support::jittered_cube(2), {.held = [](const pbs::Vec3& x) { return x.z() < 1e-9; }});
+    const Mode mode = body.first_mode();
+    NodalMatrix stiffness(body.space());
+    body.flesh().add_hessian(Eigen::VectorXd::Zero(body.space().dofs()), Definiteness::as_it_is, stiffness);
+    const std::vector<int> free = free_dofs(body);
+    const Eigen::MatrixXd K = Eigen::MatrixXd(stiffness.matrix())(free, free), M = Eigen::MatrixXd(body.mass().matrix())(free, free);
+    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> dense(K, M);
+    const double c = std::sqrt(static_cast<double>(free.size())) * std::numeric_limits<double>::epsilon(), lowest = dense.eigenvalues()(0),
+                 norm_of_K = eigenvalues(K).maxCoeff();
+    const double omega_bound = c * norm_of_K / eigenvalues(M).minCoeff() / lowest;
+    EXPECT_NEAR(mode.omega_rad_s, std::sqrt(lowest), omega_bound * mode.omega_rad_s);
+    EXPECT_LT(omega_bound, 1e-8) << "a bound that would let an error of a percent pass proves nothing";
+    const Eigen::VectorXd phi = mode.shape(free);
+    EXPECT_LT((K * phi - mode.omega_rad_s * mode.omega_rad_s * (M * phi)).norm(), (1e-13 + c) * norm_of_K * phi.norm());
+    EXPECT_EQ(mode.shape.cwiseAbs().maxCoeff(), 1.0);
+    for (const bool held : {false, true}) {
+        const VibratingBody rigid(test_support::jittered_cube(1), {.held = [=](const pbs::Vec3&) { return held; }});
+        EXPECT_TRUE(std::isnan(rigid.first_mode().omega_rad_s)) << held;
+    }
 }
 
 }  // namespace

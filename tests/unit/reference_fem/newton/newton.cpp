@@ -25,22 +25,31 @@ std::vector<bool> held_end(const SimplexSpace& space)
     return held;
 }
 
-Eigen::VectorXd weight(const SimplexSpace& space, double force_n_m3)
-{
-    return load_vector(space, [&](const pbs::Vec3&) { return pbs::Vec3(0, 0, -force_n_m3); });
-}
-
-// Concave along every displacement, so that no Hessian is positive definite.
-class Concave : public Potential {
-public:
-    double value(const Eigen::VectorXd& u) const override { return -u.squaredNorm(); }
-    void add_gradient(const Eigen::VectorXd& u, Eigen::VectorXd& gradient) const override { gradient -= 2.0 * u; }
-    void add_hessian(const Eigen::VectorXd&, Definiteness definiteness, NodalMatrix& hessian) const override
+// The bar with its end held.
+struct HeldBar {
+    explicit HeldBar(Model model, int element_order = 1)
+        : space(bar, element_order),
+          flesh(space, model, lame, Formulation::displacement),
+          newton(space, held_end(space), LinearSolver::cholmod)
     {
-        if (definiteness == Definiteness::projected) return;
-        for (int n = 0; n < hessian.matrix().rows() / 3; ++n) hessian.add_block(n, n, -2.0 * Eigen::Matrix3d::Identity());
     }
-    bool is_quadratic() const override { return false; }
+
+    Eigen::VectorXd weight(double force_n_m3) const
+    {
+        return load_vector(space, [&](const pbs::Vec3&) { return pbs::Vec3(0, 0, -force_n_m3); });
+    }
+    // Displaced along itself by this strain.
+    Eigen::VectorXd strained(double strain) const
+    {
+        Eigen::VectorXd u = zero;
+        for (int d = 0; d < space.dofs(); d += 3) u(d) = strain * space.node_positions()(d / 3, 0);
+        return u;
+    }
+
+    SimplexSpace space;
+    ElasticPotential flesh;
+    NewtonMinimiser newton;
+    Eigen::VectorXd zero = Eigen::VectorXd::Zero(space.dofs());
 };
 
 // E = sum of (u_d - 1)^2 / 2, but -u_0^2 / 2 + u_0^4 / 4 of the first degree of freedom, which has no force at u_0 = 0. The projected
@@ -69,14 +78,12 @@ public:
     bool is_quadratic() const override { return false; }
 };
 
-TEST(Newton, AQuadraticTakesOneStepAndKeepsItsFactor)
+TEST(Newton, AQuadraticTakesOneStepAndKeepsItsFactorAndNothingToDoTakesNone)
 {
-    const SimplexSpace space(bar, 1);
-    const ElasticPotential flesh(space, Model::linear, lame, Formulation::displacement);
-    DeadLoad load(weight(space, 10.0));
-    NewtonMinimiser newton(space, held_end(space), LinearSolver::cholmod);
-    Eigen::VectorXd u = Eigen::VectorXd::Zero(space.dofs());
-    NewtonSummary summary = newton.minimise({&flesh, &load}, u, u, {});
+    HeldBar held(Model::linear);
+    DeadLoad load(held.weight(10.0));
+    Eigen::VectorXd u = held.zero;
+    NewtonSummary summary = held.newton.minimise({&held.flesh, &load}, u, u, {});
     EXPECT_TRUE(summary.converged());
     EXPECT_EQ(summary.steps(), 1);
     EXPECT_EQ(summary.factorisations, 1);
@@ -84,23 +91,27 @@ TEST(Newton, AQuadraticTakesOneStepAndKeepsItsFactor)
     EXPECT_EQ(summary.work, (pbs::WorkCounters{.gradients = 2, .tet_visits = 3 * 12, .linear_solves = 1, .factorisations = 1}));
     const Eigen::VectorXd once = u;
 
-    load.set(weight(space, 20.0));
-    summary = newton.minimise({&flesh, &load}, u, u, {});
+    load.set(held.weight(20.0));
+    summary = held.newton.minimise({&held.flesh, &load}, u, u, {});
     EXPECT_EQ(summary.factorisations, 0);
     EXPECT_EQ(summary.work, (pbs::WorkCounters{.gradients = 2, .tet_visits = 2 * 12, .linear_solves = 1}));
     // Two direct solves with one factor, each in error by rounding.
-    const Spectrum of_flesh = spectrum(rest_stiffness(space, flesh).matrix(), held_end(space));
+    const Spectrum of_flesh = spectrum(rest_stiffness(held.space, held.flesh).matrix(), held_end(held.space));
     EXPECT_LT((u - 2.0 * once).norm(), 2.0 * rounding_bound(of_flesh) * u.norm());
+    HeldBar other(Model::corotational);
+    u = held.zero;
+    summary = other.newton.minimise({&other.flesh}, u, u, {});
+    EXPECT_TRUE(summary.converged());
+    EXPECT_EQ(summary.steps(), 0);
+    EXPECT_EQ(u, held.zero);
 }
 
 TEST(Newton, ConvergesFasterThanLinearly)
 {
-    const SimplexSpace space(bar, 2);
-    const ElasticPotential flesh(space, Model::stable_neo_hookean, lame, Formulation::displacement);
-    const DeadLoad load(weight(space, 10.0));
-    NewtonMinimiser newton(space, held_end(space), LinearSolver::cholmod);
-    Eigen::VectorXd u = Eigen::VectorXd::Zero(space.dofs());
-    const NewtonSummary summary = newton.minimise({&flesh, &load}, u, u, {.relative_tolerance = 1e-11});
+    HeldBar held(Model::stable_neo_hookean, 2);
+    const DeadLoad load(held.weight(10.0));
+    Eigen::VectorXd u = held.zero;
+    const NewtonSummary summary = held.newton.minimise({&held.flesh, &load}, u, u, {.relative_tolerance = 1e-11});
     ASSERT_TRUE(summary.converged());
     ASSERT_GE(summary.iterations.size(), 4u);
     const auto& last = summary.iterations;
@@ -117,14 +128,13 @@ TEST(Newton, ConvergesFasterThanLinearly)
 // The same minimum with fewer factorisations. A kept factor serves only after a whole step that contracted enough.
 TEST(Newton, ReusesItsFactorWhileStepsContract)
 {
-    const SimplexSpace space(bar, 2);
-    const ElasticPotential flesh(space, Model::stable_neo_hookean, lame, Formulation::displacement);
-    const DeadLoad load(weight(space, 10.0));
+    HeldBar held(Model::stable_neo_hookean, 2);
+    const DeadLoad load(held.weight(10.0));
     constexpr double contraction = 0.1, tolerance = 1e-11;
     const auto minimise = [&](double reuse_contraction, Eigen::VectorXd& u) {
-        NewtonMinimiser newton(space, held_end(space), LinearSolver::cholmod);
-        u = Eigen::VectorXd::Zero(space.dofs());
-        return newton.minimise({&flesh, &load}, u, u, {.relative_tolerance = tolerance, .reuse_contraction = reuse_contraction});
+        NewtonMinimiser newton(held.space, held_end(held.space), LinearSolver::cholmod);
+        u = held.zero;
+        return newton.minimise({&held.flesh, &load}, u, u, {.relative_tolerance = tolerance, .reuse_contraction = reuse_contraction});
     };
     Eigen::VectorXd anew, kept;
     const NewtonSummary each_step = minimise(0.0, anew), reusing = minimise(contraction, kept);
@@ -139,7 +149,7 @@ TEST(Newton, ReusesItsFactorWhileStepsContract)
     }
     // Both residuals are at most the tolerance times the scale of the forces, and the Hessian, that at rest to first order, divides them by
     // its smallest eigenvalue.
-    const Spectrum of_flesh = spectrum(rest_stiffness(space, flesh).matrix(), held_end(space));
+    const Spectrum of_flesh = spectrum(rest_stiffness(held.space, held.flesh).matrix(), held_end(held.space));
     const double residuals = tolerance * (each_step.iterations.back().force_scale_n + reusing.iterations.back().force_scale_n);
     EXPECT_LT((kept - anew).norm(), 2.0 * residuals / of_flesh.smallest);
 }
@@ -168,34 +178,19 @@ TEST(Newton, TheIncrementOfPrescribedDataGoesIntoTheFirstSolve)
     }
 }
 
-TEST(Newton, NothingToDoIsConvergedWithoutAStep)
-{
-    const SimplexSpace space(bar, 1);
-    const ElasticPotential flesh(space, Model::corotational, lame, Formulation::displacement);
-    NewtonMinimiser newton(space, held_end(space), LinearSolver::cholmod);
-    Eigen::VectorXd u = Eigen::VectorXd::Zero(space.dofs());
-    const NewtonSummary summary = newton.minimise({&flesh}, u, u, {});
-    EXPECT_TRUE(summary.converged());
-    EXPECT_EQ(summary.steps(), 0);
-    EXPECT_EQ(u, Eigen::VectorXd::Zero(space.dofs()));
-}
-
 TEST(Newton, AnIndefiniteHessianIsProjectedAndSaidSo)
 {
-    const SimplexSpace space(bar, 1);
-    const ElasticPotential flesh(space, Model::stable_neo_hookean, lame, Formulation::displacement);
-    NewtonMinimiser newton(space, held_end(space), LinearSolver::cholmod);
-    Eigen::VectorXd u(space.dofs());  // compressed flat and beyond
-    for (int d = 0; d < space.dofs(); ++d) u(d) = d % 3 == 0 ? -1.4 * space.node_positions()(d / 3, 0) : 0.0;
-    const NewtonSummary summary = newton.minimise({&flesh}, Eigen::VectorXd::Zero(space.dofs()), u, {});
+    HeldBar held(Model::stable_neo_hookean);
+    Eigen::VectorXd u = held.strained(-1.4);  // compressed flat and beyond
+    const NewtonSummary summary = held.newton.minimise({&held.flesh}, held.zero, u, {});
     ASSERT_TRUE(summary.converged()) << name_of(summary.outcome);
     EXPECT_TRUE(std::any_of(summary.iterations.begin(), summary.iterations.end(), [](const auto& it) { return it.projected; }));
     // The only stress-free state with this end held is rest. All forces vanish there, so Newton's method ends at the residual that the
     // rounding of positions causes, 4 eps D |diag H|, D = sqrt 6 m; the error of u is at most that over the smallest eigenvalue. The factor
     // 2 is for the Hessian of the step before, at which the solver takes this residual.
-    const SparseMatrix hessian = rest_stiffness(space, flesh).matrix();
+    const SparseMatrix hessian = rest_stiffness(held.space, held.flesh).matrix();
     const double residual_n = 4.0 * std::numeric_limits<double>::epsilon() * std::sqrt(6.0) * hessian.diagonal().norm();
-    EXPECT_LT(u.norm(), 2.0 * residual_n / spectrum(hessian, held_end(space)).smallest);
+    EXPECT_LT(u.norm(), 2.0 * residual_n / spectrum(hessian, held_end(held.space)).smallest);
 }
 
 // Each step reduces the residual, at first sqrt(35) N, to a tenth. A single term converges down to the rounding of positions,
@@ -203,13 +198,22 @@ TEST(Newton, AnIndefiniteHessianIsProjectedAndSaidSo)
 // the largest component each. The Hessian is 1 N/m for all but the first degree of freedom, so that the residual is the error.
 const double rounding_n = 4.0 * std::numeric_limits<double>::epsilon() * std::sqrt(6.0) * 300.0;
 
-TEST(Newton, StepsAreThoseOfTheHessianItselfWhereItIsIndefinite)
-{
-    const SimplexSpace space(bar, 1);
+class NewtonAtASaddle : public testing::Test {
+protected:
+    NewtonSummary minimise(Eigen::VectorXd& u, const NewtonOptions& options = {}) const
+    {
+        NewtonMinimiser newton(space, std::vector<bool>(space.dofs(), false), LinearSolver::cholmod);
+        return newton.minimise({&saddle}, u, u, options);
+    }
+
+    const SimplexSpace space{bar, 1};
     const Saddle saddle;
-    NewtonMinimiser newton(space, std::vector<bool>(space.dofs(), false), LinearSolver::cholmod);
     Eigen::VectorXd u = Eigen::VectorXd::Zero(space.dofs());
-    const NewtonSummary summary = newton.minimise({&saddle}, u, u, {});
+};
+
+TEST_F(NewtonAtASaddle, StepsAreThoseOfTheHessianItselfWhereItIsIndefinite)
+{
+    const NewtonSummary summary = minimise(u);
     ASSERT_TRUE(summary.converged());
     EXPECT_LE(summary.steps(), 14);
     for (int d = 1; d < space.dofs(); ++d) EXPECT_NEAR(u(d), 1.0, rounding_n) << d;
@@ -217,30 +221,18 @@ TEST(Newton, StepsAreThoseOfTheHessianItselfWhereItIsIndefinite)
 }
 
 // Where the force has a component along the direction of negative curvature, the way leads from the saddle to a minimum, u_0 = 1.
-TEST(Newton, LeavesASaddleAlongNegativeCurvature)
+TEST_F(NewtonAtASaddle, LeavesItAlongNegativeCurvature)
 {
-    const SimplexSpace space(bar, 1);
-    const Saddle saddle;
-    NewtonMinimiser newton(space, std::vector<bool>(space.dofs(), false), LinearSolver::cholmod);
-    Eigen::VectorXd u = Eigen::VectorXd::Zero(space.dofs());
     u(0) = 0.01;
-    const NewtonSummary summary = newton.minimise({&saddle}, u, u, {});
-    ASSERT_TRUE(summary.converged());
+    ASSERT_TRUE(minimise(u).converged());
     for (int d = 0; d < space.dofs(); ++d) EXPECT_NEAR(u(d), 1.0, rounding_n) << d;
 }
 
 // At u_0 = 0 every Hessian of the saddle is indefinite.
-TEST(Newton, EndsAfterSoManyIndefiniteHessiansInARow)
+TEST_F(NewtonAtASaddle, EndsAfterSoManyIndefiniteHessiansInARow)
 {
-    const SimplexSpace space(bar, 1);
-    const Saddle saddle;
-    const Eigen::VectorXd zero = Eigen::VectorXd::Zero(space.dofs());
-    const auto minimised = [&](int in_a_row) {
-        NewtonMinimiser newton(space, std::vector<bool>(space.dofs(), false), LinearSolver::cholmod);
-        Eigen::VectorXd u = zero;
-        return newton.minimise({&saddle}, zero, u, {.indefinite_in_a_row = in_a_row});
-    };
-    const NewtonSummary ended = minimised(3), allowed = minimised(15);
+    Eigen::VectorXd other = u;
+    const NewtonSummary ended = minimise(u, {.indefinite_in_a_row = 3}), allowed = minimise(other, {.indefinite_in_a_row = 15});
     EXPECT_EQ(ended.outcome, NewtonOutcome::iterations_exhausted);
     EXPECT_EQ(ended.steps(), 3);
     EXPECT_TRUE(allowed.converged()) << "fewer than 15 steps lead to the saddle";
@@ -248,34 +240,18 @@ TEST(Newton, EndsAfterSoManyIndefiniteHessiansInARow)
 
 TEST(Newton, OutcomesOfFailure)
 {
-    const SimplexSpace space(bar, 1);
-    const ElasticPotential log_law(space, Model::neo_hookean, lame, Formulation::displacement);
-    NewtonMinimiser newton(space, held_end(space), LinearSolver::cholmod);
-    const Eigen::VectorXd zero = Eigen::VectorXd::Zero(space.dofs());
-
-    Eigen::VectorXd inverted(space.dofs());
-    for (int d = 0; d < space.dofs(); ++d) inverted(d) = d % 3 == 0 ? -2.0 * space.node_positions()(d / 3, 0) : 0.0;
-    EXPECT_EQ(newton.minimise({&log_law}, zero, inverted, {}).outcome, NewtonOutcome::not_finite);
-
-    const ElasticPotential flesh(space, Model::stable_neo_hookean, lame, Formulation::displacement);
-    const DeadLoad load(weight(space, 10.0));
-    Eigen::VectorXd u = zero;
-    EXPECT_EQ(newton.minimise({&flesh, &load}, zero, u, {.iterations = 1}).outcome, NewtonOutcome::iterations_exhausted);
-
-    const Concave concave;
-    NewtonMinimiser other(space, held_end(space), LinearSolver::cholmod);
-    u = Eigen::VectorXd::Ones(space.dofs());
-    EXPECT_EQ(other.minimise({&concave}, u, u, {}).outcome, NewtonOutcome::not_positive_definite);
+    HeldBar infinite(Model::neo_hookean), held(Model::stable_neo_hookean), other(Model::linear);
+    Eigen::VectorXd inverted = held.strained(-2.0), u = held.zero, ones = Eigen::VectorXd::Ones(held.space.dofs());
+    EXPECT_EQ(infinite.newton.minimise({&infinite.flesh}, held.zero, inverted, {}).outcome, NewtonOutcome::not_finite);
+    const DeadLoad load(held.weight(10.0));
+    EXPECT_EQ(held.newton.minimise({&held.flesh, &load}, held.zero, u, {.iterations = 1}).outcome, NewtonOutcome::iterations_exhausted);
+    const NodalMatrix stiffness = rest_stiffness(other.space, other.flesh);
+    StiffnessPotential concave(stiffness);
+    concave.set(-1.0, other.zero);
+    EXPECT_EQ(other.newton.minimise({&concave}, ones, ones, {}).outcome, NewtonOutcome::not_positive_definite);
 }
 
 // Reference: an attempt that fails in a known way.
-
-NewtonSummary ended(NewtonOutcome outcome)
-{
-    NewtonSummary summary;
-    summary.outcome = outcome;
-    return summary;
-}
 
 // Converges only in steps of at most `longest`, and never beyond `wall`; u(0) equals the fraction.
 struct Attempt {
@@ -286,18 +262,11 @@ struct Attempt {
     {
         const bool converges = fraction - u(0) <= longest && fraction <= wall;
         u(0) = converges ? fraction : -99.0;  // the state that a failed solve leaves
-        return ended(converges ? NewtonOutcome::converged : NewtonOutcome::no_descent);
+        NewtonSummary summary;
+        summary.outcome = converges ? NewtonOutcome::converged : NewtonOutcome::no_descent;
+        return summary;
     }
 };
-
-TEST(LoadPath, OneStepWhereItConverges)
-{
-    Eigen::VectorXd u = Eigen::VectorXd::Zero(1);
-    const LoadPathSummary path = follow_load_path(Attempt{u, 1.0}, u, {});
-    EXPECT_TRUE(path.converged());
-    EXPECT_EQ(path.steps.size(), 1u);
-    EXPECT_EQ(path.halvings(), 0);
-}
 
 // Two Newton steps per attempt.
 TEST(LoadPath, EndsWhereItHasTakenTheStepsItMay)
@@ -319,18 +288,16 @@ TEST(LoadPath, EndsWhereItHasTakenTheStepsItMay)
     EXPECT_GT(path.reached, 0.0);
 }
 
-TEST(LoadPath, HalvesUntilAStepConvergesAndReachesTheEnd)
+TEST(LoadPath, TakesOneStepWhereItConvergesHalvesUntilItDoesAndDoublesAfterTwo)
 {
-    Eigen::VectorXd u = Eigen::VectorXd::Zero(1);
-    const LoadPathSummary path = follow_load_path(Attempt{u, 0.3}, u, {});
-    EXPECT_TRUE(path.converged());
-    EXPECT_EQ(u(0), 1.0);
+    Eigen::VectorXd u = Eigen::VectorXd::Zero(1), halved = u;
+    const LoadPathSummary one = follow_load_path(Attempt{u, 1.0}, u, {}), path = follow_load_path(Attempt{halved, 0.3}, halved, {});
+    EXPECT_TRUE(one.converged() && path.converged());
+    EXPECT_EQ(one.steps.size(), 1u);
+    EXPECT_EQ(one.halvings(), 0);
+    EXPECT_EQ(halved(0), 1.0);
     EXPECT_GE(path.halvings(), 2);  // 1 and 1/2 fail at first
-}
-
-TEST(LoadPath, DoublesAfterTwoThatConverge)
-{
-    Eigen::VectorXd u = Eigen::VectorXd::Zero(1);
+    u.setZero();
     std::vector<double> fractions;
     const auto attempt = [&](double fraction) {
         fractions.push_back(fraction);

@@ -1,12 +1,17 @@
 // Reference: volumes in closed form, and the topology of a ball. Tolerances: the roundings of tets' volumes and of their sum. Where
 // coordinates are multiples of 1/2 a volume is rounded once, by its division by 6.
+#include "reference_fem/verification/problems.hpp"
 
+#include "analysis/records/tables.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/geometry/topology.hpp"
-#include "reference_fem/verification/problems.hpp"
+#include "reference_fem/verification/verification_record.hpp"
+#include "tests/support/scratch_folder.hpp"
 #include "tests/support/volume_rounding.hpp"
 
 #include <gtest/gtest.h>
+
+#include <cmath>
 
 namespace {
 
@@ -33,7 +38,7 @@ void expect_ball(const pbs::TetMesh& mesh)
     EXPECT_EQ(topology.unused_vertices, 0);
 }
 
-TEST(StructuredMesh, ABoxIsFilledByEqualTets)
+TEST(StructuredMesh, ABoxIsFilledByEqualTetsAndJoinedBoxesShareTheirVertices)
 {
     const pbs::TetMesh box = box_mesh({0, -1, 2}, {3, 1, 3}, {3, 2, 2});
     EXPECT_EQ(box.tets.rows(), 6 * 12);
@@ -41,6 +46,12 @@ TEST(StructuredMesh, ABoxIsFilledByEqualTets)
     EXPECT_EQ(lowest_volume(box), 0.5 / 6.0);
     expect_ball(box);
     EXPECT_EQ(text_of({3, 2, 2}), "3 x 2 x 2");
+    const pbs::TetMesh mirrored = mapped(box, [](const Vec3& p) -> Vec3 { return {-p.x(), p.y(), p.z()}; });
+    EXPECT_GT(lowest_volume(mirrored), 0.0) << "a mirrored mesh is turned right side out";
+    const pbs::TetMesh whole = joined({box_mesh({0, 0, 0}, {1, 1, 1}, {2, 2, 2}), box_mesh({1, 0, 0}, {2, 1, 1}, {2, 2, 2})});
+    EXPECT_EQ(whole.rest.rows(), 5 * 3 * 3);
+    EXPECT_NEAR(volume(whole), 2.0, rounding_error(1 + 2 * 6 * 8, 2.0));
+    expect_ball(whole);
 }
 
 TEST(StructuredMesh, JitterMovesInnerVerticesOnly)
@@ -52,30 +63,8 @@ TEST(StructuredMesh, JitterMovesInnerVerticesOnly)
     for (Eigen::Index v = 0; v < even.rest.rows(); ++v) EXPECT_EQ(even.rest.row(v) == moved.rest.row(v), on_boundary[v]);
 }
 
-TEST(StructuredMesh, AMirroredMeshIsTurnedRightSideOut)
-{
-    const pbs::TetMesh mirrored = mapped(box_mesh({0, 0, 0}, {1, 1, 1}, {2, 2, 2}), [](const Vec3& p) -> Vec3 {
-        return {-p.x(), p.y(), p.z()};
-    });
-    EXPECT_GT(lowest_volume(mirrored), 0.0);
-}
-
-TEST(StructuredMesh, JoinedBoxesShareTheirVertices)
-{
-    const pbs::TetMesh whole = joined({box_mesh({0, 0, 0}, {1, 1, 1}, {2, 2, 2}), box_mesh({1, 0, 0}, {2, 1, 1}, {2, 2, 2})});
-    EXPECT_EQ(whole.rest.rows(), 5 * 3 * 3);
-    EXPECT_NEAR(volume(whole), 2.0, rounding_error(1 + 2 * 6 * 8, 2.0));
-    expect_ball(whole);
-}
-
 // Reference: beam theory. A slender beam follows Bernoulli and Euler, and the reduction by shear and rotary inertia is proportional to (h /
 // L)^2.
-
-double share_of_shear(double length_m)
-{
-    const Beam beam{length_m, 0.1, 1e5, 0.3, 1000.0};
-    return 1.0 - timoshenko_rad_s(beam) / bernoulli_euler_rad_s(beam);
-}
 
 // Rayleigh's quotient over the Bernoulli-Euler mode lowers omega^2 by a factor of 1 + 2 s with s = 4.647 (r / L)^2 (1 + E / (k G)) / 2.
 double first_order_share(double length_m)
@@ -89,24 +78,133 @@ TEST(BeamFrequency, IsLoweredByRotaryInertiaAndShear)
 {
     for (const double length_m : {2.0, 4.0, 10.0}) {
         const double s = first_order_share(length_m);
-        EXPECT_NEAR(share_of_shear(length_m), 1.0 - 1.0 / std::sqrt(1.0 + 2.0 * s), s * s + 0.0005 / 4.647 * s);
+        const Beam beam{length_m, 0.1, 1e5, 0.3, 1000.0};
+        EXPECT_NEAR(1.0 - timoshenko_rad_s(beam) / bernoulli_euler_rad_s(beam), 1.0 - 1.0 / std::sqrt(1.0 + 2.0 * s),
+                    s * s + 0.0005 / 4.647 * s);
     }
 }
 
-// Factors of powers of two change no digit.
-TEST(BeamFrequency, ScalesAsTheRootOfYoungsModulusOverDensity)
+// Factors of powers of two change no digit. Blevins, Formulas for natural frequency and mode shape, 1979, table 8-1:
+// f = 1.87510407^2 / (2 pi L^2) sqrt(E I / m). The printed root is rounded by half a unit of its last digit, which changes its square by
+// twice the root times as much.
+TEST(BeamFrequency, OfBernoulliAndEulerIsAsPrintedAndScalesAsTheRootOfYoungsModulusOverDensity)
 {
     const Beam beam{1.0, 0.1, 1e5, 0.3, 1000.0}, stiff{1.0, 0.1, 4e5, 0.3, 1000.0}, heavy{1.0, 0.1, 1e5, 0.3, 4000.0};
     EXPECT_EQ(timoshenko_rad_s(stiff), 2.0 * timoshenko_rad_s(beam));
     EXPECT_EQ(timoshenko_rad_s(heavy), 0.5 * timoshenko_rad_s(beam));
-}
-
-TEST(BeamFrequency, OfBernoulliAndEulerIsAsPrinted)
-{
-    // Blevins, Formulas for natural frequency and mode shape, 1979, table 8-1: f = 1.87510407^2 / (2 pi L^2) sqrt(E I / m). The
-    // printed root is rounded by half a unit of its last digit, which changes its square by twice the root times as much.
     const double root = 1.87510407, half_a_unit = 0.5e-8, scale = std::sqrt(1e5 * 1e-4 / 12.0 / (1000.0 * 1e-2));
     EXPECT_NEAR(bernoulli_euler_rad_s({1.0, 0.1, 1e5, 0.0, 1000.0}), root * root * scale, 2.0 * root * half_a_unit * scale);
+}
+
+// Reference: the rules in the header, by hand.
+
+VerificationRow row()
+{
+    return {.problem = "beam",
+            .quantity = {"mean_deflection", "deflection, \"mean\"", "newmark"},
+            .elements = {2, "taylor_hood"},
+            .material = {"linear", 0.3},
+            .mesh = "4 x 1 x 1",
+            .h_m = 0.25,
+            .dofs = 90,
+            .value = 1.96,
+            .reference = -2.0,
+            .unit = "m",
+            .source = "closed form: a beam",
+            .low = 1.95,
+            .high = 2.05,
+            .bound_from = "theory"};
+}
+
+TEST(VerificationRowTest, TheDifferenceIsSignedAndOfTheReferencesSize)
+{
+    VerificationRow without = row();
+    EXPECT_DOUBLE_EQ(*difference_pct(without), 198.0);
+    without.reference = 0.0;
+    EXPECT_FALSE(difference_pct(without));
+}
+
+TEST(VerificationRowTest, HoldsBetweenItsBoundsWithItsOrder)
+{
+    struct Case {
+        const char* name;
+        std::function<void(VerificationRow&)> change;
+        std::optional<bool> holds;
+    };
+    const auto ordered = [](std::optional<double> observed, double value = 1.96) {
+        return [=](VerificationRow& r) { r.expected_order = 2.0, r.observed_order = observed, r.value = value; };
+    };
+    const std::vector<Case> all = {
+        {"between the bounds", [](auto&) {}, true},
+        {"below", [](auto& r) { r.value = 1.94; }, false},
+        {"above", [](auto& r) { r.value = 2.06; }, false},
+        {"not a number", [](auto& r) { r.value = std::nan(""); }, false},
+        {"without an upper bound", [](auto& r) { r.high = std::nullopt, r.value = 1e300; }, true},
+        {"no order was observed", ordered({}), false},
+        {"its order", ordered(1.91), true},
+        {"another order", ordered(2.11), false},
+        {"its order outside of the bounds", ordered(2.0, 0.0), false},
+        {"without bounds there is nothing to hold", [](auto& r) { r.low = r.high = std::nullopt, r.observed_order = 1.2; }, {}}};
+    for (const Case& of : all) {
+        VerificationRow changed = row();
+        of.change(changed);
+        EXPECT_EQ(holds(changed), of.holds) << of.name;
+    }
+}
+
+TEST(VerificationRowTest, ComesBackFromJson)
+{
+    VerificationRow written = row();
+    written.observed_order = 1.9;
+    written.value = std::nan("");
+    const VerificationRow read = verification_row(nlohmann::json::parse(to_json(written).dump()));
+    EXPECT_TRUE(std::isnan(read.value));
+    VerificationRow comparable = read;
+    comparable.value = written.value = 1.0;
+    EXPECT_EQ(to_json(comparable), to_json(written));
+}
+
+TEST(VerificationRecordTest, IsWrittenAsCsvJsonAndMarkdown)
+{
+    const test_support::ScratchFolder folder;
+    VerificationRow seen = row();
+    seen.low = seen.high = std::nullopt;
+    seen.material = {"none"};
+    seen.elements = {.formulation = "pbs"};
+    write_verification_record(folder.path().string(), {row(), seen});
+    const analysis::CsvTable table = analysis::read_csv(folder / "verification.csv");
+    EXPECT_EQ(table.rows(), 2);
+    const std::vector<std::tuple<int, const char*, const char*>> cells = {{0, "quantity", "mean_deflection"},
+                                                                          {0, "description", "deflection, \"mean\""},
+                                                                          {0, "element_order", "2"},
+                                                                          {0, "formulation", "taylor_hood"},
+                                                                          {0, "setting", "newmark"},
+                                                                          {0, "material", "linear"},
+                                                                          {0, "holds", "yes"},
+                                                                          {1, "poisson", ""},
+                                                                          {1, "element_order", ""},
+                                                                          {1, "formulation", "pbs"},
+                                                                          {1, "holds", ""}};
+    for (const auto& [number, column, text] : cells) EXPECT_EQ(table.text_at(number, column), text) << column;
+    EXPECT_EQ(table.number(0, "value"), 1.96);
+    EXPECT_EQ(table.number(0, "poisson"), 0.3);
+    EXPECT_TRUE(std::filesystem::exists(folder / "verification.json"));
+    EXPECT_TRUE(std::filesystem::exists(folder / "verification.md"));
+}
+
+TEST(VerificationRecordTest, TheTableCountsWhatHoldsAndNamesWhatDoesNot)
+{
+    VerificationRow failing = row(), seen = row();
+    failing.value = 3.0;
+    failing.observed_order = 1.75;
+    failing.expected_order = 2.0;
+    seen.low = seen.high = std::nullopt;
+    const std::string table = verification_table({row(), failing, seen});
+    for (const char* part :
+         {"+198 to +250", "-0.25", "1 of 2 rows hold; 1 more",
+          "does not hold: deflection, \"mean\", P2 taylor_hood, linear, poisson 0.3, 4 x 1 x 1: 3 m, expected 1.95 to 2.05 "
+          "1.75 (2)"})
+        EXPECT_NE(table.find(part), std::string::npos) << part << "\n" << table;
 }
 
 }  // namespace

@@ -20,6 +20,14 @@ std::unique_ptr<experiments::Deformer> make_fem(const experiments::FemOptions& o
     return std::unique_ptr<experiments::Deformer>(make(options));
 }
 
+// The forearm turned by 0.1 about its axis.
+pbs::Pose turned()
+{
+    pbs::Pose pose(2, Eigen::Isometry3d::Identity());
+    pose[1].rotate(Eigen::AngleAxisd(0.1, pbs::Vec3::UnitX()));
+    return pose;
+}
+
 bool is_loaded(const char* library)
 {
     void* handle = dlopen(library, RTLD_NOW | RTLD_NOLOAD);
@@ -38,6 +46,7 @@ TEST(FemModule, BringsDealIIOnlyWhenItIsAskedFor)
     EXPECT_EQ(fem->advance(rest, 0.01).outcome, pbs::Outcome::finished);
     EXPECT_EQ(fem->positions(), character.mesh.rest);
     EXPECT_NE(fem->record()["setup"]["blas"].get<std::string>().find("blas"), std::string::npos);
+    EXPECT_THROW(make_fem({.element_order = 7})->reset(character), pbs::InputError) << "input errors are caught outside";
 }
 
 // MPI starts with the first multigrid hierarchy and ends with the program. The iteration ends with a residual of 1e-10, so that |error| <=
@@ -47,11 +56,9 @@ TEST(FemModule, ConjugateGradientsRunInsideIt)
     const auto character = test_support::bar_character({12, 3, 3});
     const auto direct = make_fem({.element_order = 2});
     const auto iterative = make_fem({.element_order = 2, .solver = reference_fem::LinearSolver::cg_ml});
-    pbs::Pose turned(2, Eigen::Isometry3d::Identity());
-    turned[1].rotate(Eigen::AngleAxisd(0.1, pbs::Vec3::UnitX()));
     for (experiments::Deformer* fem : {direct.get(), iterative.get()}) {
         fem->reset(character);
-        EXPECT_EQ(fem->advance(turned, 0.01).outcome, pbs::Outcome::finished);
+        EXPECT_EQ(fem->advance(turned(), 0.01).outcome, pbs::Outcome::finished);
     }
     const double edges = static_cast<double>(pbs::edges_of(character.mesh.tets).rows()), vertices = character.mesh.rest.rows();
     const double size_m = (direct->positions() - character.mesh.rest).norm() * std::sqrt(1.0 + edges / vertices);
@@ -64,14 +71,12 @@ TEST(FemModule, ConjugateGradientsRunInsideIt)
 TEST(FemModule, EveryFormulationOfTheLinearModelKeepsItsFactor)
 {
     const auto character = test_support::bar_character({24, 4, 4});
-    pbs::Pose turned(2, Eigen::Isometry3d::Identity());
-    turned[1].rotate(Eigen::AngleAxisd(0.1, pbs::Vec3::UnitX()));
     pbs::Positions of_displacement;
     for (const auto formulation :
          {reference_fem::Formulation::displacement, reference_fem::Formulation::mean_dilatation, reference_fem::Formulation::taylor_hood}) {
         const auto fem = make_fem({.formulation = formulation, .poisson = 0.3});
         fem->reset(character);
-        EXPECT_EQ(fem->advance(turned, 0.01).outcome, pbs::Outcome::finished);
+        EXPECT_EQ(fem->advance(turned(), 0.01).outcome, pbs::Outcome::finished);
         EXPECT_TRUE(fem->record().contains("largest_residual")) << "only the linear deformer has it";
         if (formulation == reference_fem::Formulation::displacement) of_displacement = fem->positions();
         const pbs::Positions motion = of_displacement - character.mesh.rest;
@@ -79,13 +84,6 @@ TEST(FemModule, EveryFormulationOfTheLinearModelKeepsItsFactor)
         EXPECT_LT(difference, 0.03);
         EXPECT_EQ(difference == 0.0, formulation == reference_fem::Formulation::displacement);
     }
-}
-
-TEST(FemModule, ItsInputErrorsAreCaughtOutside)
-{
-    const auto fem = make_fem({.element_order = 7});
-    const auto character = test_support::bar_character({24, 4, 4});
-    EXPECT_THROW(fem->reset(character), pbs::InputError);
 }
 
 }  // namespace

@@ -83,8 +83,7 @@ TEST(ComparedDeformers, PutTheirPackedCodeFirstAndThenPlainF64)
         if (!is_available(one)) continue;
         const std::vector<SceneKey>& keys = find_deformer_kind(one.kind)->keys;
         const bool has_keys_of_xpbd = one.kind == "xpbd_small_steps";
-        const bool may_choose =
-            has_keys_of_xpbd || std::ranges::any_of(keys, [](const SceneKey& key) { return key.name == "precision"; });
+        const bool may_choose = has_keys_of_xpbd || std::ranges::any_of(keys, [](const SceneKey& key) { return key.name == "precision"; });
         const std::vector<KeyValues> codes = codes_of(one);
         EXPECT_EQ(codes.size(), may_choose ? 2u : 1u) << one.name;
         if (codes.size() < 2) continue;
@@ -118,8 +117,8 @@ TEST(ComparedDeformers, HaveTheSpringsOfTheReference)
     const auto& flesh = options_of<FemOptions>(reference);
     for (const char* name : {"quasi_newton", "vbd", "xpbd_neo_hookean", "projective_dynamics"}) {
         const nlohmann::json options = to_json(spec_with(entry(name), scene, {})).at("options");
-        EXPECT_EQ(options.at("core_radius"), core_radius_of(flesh)) << name;
-        EXPECT_EQ(options.at("spring_factor"), spring_factor_of(flesh)) << name;
+        EXPECT_EQ(options.at("core_radius"), flesh.used_core_radius()) << name;
+        EXPECT_EQ(options.at("spring_factor"), flesh.used_spring_factor()) << name;
         EXPECT_EQ(options.at("poisson"), flesh.poisson) << name;
     }
 }

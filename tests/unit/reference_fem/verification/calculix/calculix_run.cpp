@@ -1,10 +1,8 @@
 // Reference: what the stand-in programs do, shell scripts in the place of ccx.
 
-#include "pbs/geometry/input_error.hpp"
 #include "reference_fem/verification/calculix/calculix_run.hpp"
+#include "tests/support/refusal.hpp"
 #include "tests/support/scratch_folder.hpp"
-
-#include <gtest/gtest.h>
 
 #include <cstdlib>
 #include <cstring>
@@ -52,30 +50,21 @@ TEST_F(CalculixStandIn, RunsOnOneThreadInAFolderOfItsOwnThatIsRemoved)
     EXPECT_FALSE(std::filesystem::exists(path));
 }
 
-TEST_F(CalculixStandIn, ErrorsAreRefusals)
+TEST_F(CalculixStandIn, ErrorsAreRefusalsAndTheTimeLimitHolds)
 {
-    EXPECT_EQ(run(program("exit 201\n")).outcome, CalculixOutcome::refused);
-    EXPECT_EQ(run(program("echo ' *ERROR reading *NODE'\n")).outcome, CalculixOutcome::refused);
-    EXPECT_EQ(run(program("kill -9 $$\n")).outcome, CalculixOutcome::refused);
-}
-
-TEST_F(CalculixStandIn, TheTimeLimitHolds)
-{
-    const CalculixRun result = run(program("exec sleep 30\n"), 0.1);
-    EXPECT_EQ(result.outcome, CalculixOutcome::out_of_time);
-    EXPECT_LT(result.wall_s, 10.0);
+    for (const char* script : {"exit 201\n", "echo ' *ERROR reading *NODE'\n", "kill -9 $$\n"})
+        EXPECT_EQ(run(program(script)).outcome, CalculixOutcome::refused) << script;
+    for (const std::string& path : {folder_ / "none", folder_.file("text", "no program")})
+        EXPECT_EQ(run(path).outcome, CalculixOutcome::not_started) << path;
+    const CalculixRun endless = run(program("exec sleep 30\n"), 0.1);
+    EXPECT_EQ(endless.outcome, CalculixOutcome::out_of_time);
+    EXPECT_LT(endless.wall_s, 10.0);
 }
 
 TEST_F(CalculixStandIn, ProcessorTimeIsThatOfTheProgram)
 {
     EXPECT_LT(run(program("exec sleep 0.3\n")).cpu_s, 0.2);
     EXPECT_GT(run(program("i=0; while [ $i -lt 30000 ]; do i=$((i+1)); done\n")).cpu_s, 0.002);
-}
-
-TEST_F(CalculixStandIn, AProgramThatIsNoneIsNotStarted)
-{
-    EXPECT_EQ(run(folder_ / "none").outcome, CalculixOutcome::not_started);
-    EXPECT_EQ(run(folder_.file("text", "no program")).outcome, CalculixOutcome::not_started);
 }
 
 TEST_F(CalculixStandIn, IsFoundOnThePath)
@@ -124,17 +113,6 @@ std::string record(const std::vector<Number>& values)
 // Node by node: temperature and three displacements.
 const std::vector<double> exact = {20.0, 1.2345678901e-3, -2.0, 0.0, 20.0, -7.6543210987e-12, 1.0 / 3.0, 1.234567e-101};
 
-void expect_refused(const std::string& text, const std::string& what)
-{
-    try {
-        read_printed_displacements(text, "deck.dat", 2);
-        ADD_FAILURE() << "accepted: " << text;
-    } catch (const pbs::InputError& error) {
-        EXPECT_NE(std::string(error.what()).find("deck.dat"), std::string::npos) << error.what();
-        EXPECT_NE(std::string(error.what()).find(what), std::string::npos) << error.what();
-    }
-}
-
 TEST(PrintedDisplacements, AreReadInAnyOrder)
 {
     const pbs::Positions read = read_printed_displacements(header + second + first, "deck.dat", 2);
@@ -144,39 +122,37 @@ TEST(PrintedDisplacements, AreReadInAnyOrder)
 
 TEST(PrintedDisplacements, MalformedFilesAreRefused)
 {
-    expect_refused("", "expected a block");
-    expect_refused(first + second, "below a header");
-    expect_refused(header + first, "node = 2");
-    expect_refused(header + first + first + second, "one line a node");
-    expect_refused(header + first + "         3  0.0 0.0 0.0\n", "expected 1 to 2");
-    expect_refused(header + first + "       1.5  0.0 0.0 0.0\n", "expected 1 to 2");
-    expect_refused(header + first + "         2  0.0 0.0\n", "three numbers");
-    expect_refused(header + first + "         2  0.0 0.0 ******\n", "displacement = ******");
-    expect_refused(header + first + "         2  0.0 NaN 0.0\n", "displacement = NaN");
-    expect_refused(header + first + "         2  0.0 0.0 1.2x\n", "displacement = 1.2x");
-    expect_refused(header + first + second + header + first + second, "one block");
-    expect_refused("\n displacements (vx,vy,vz) for set NODES and time  0.5000000E+00\n\n" + first + second, "time");
+    const std::string half = "\n displacements (vx,vy,vz) for set NODES and time  0.5000000E+00\n\n", once = header + first;
+    const std::vector<std::pair<std::string, std::string>> all = {{"", "expected a block"},
+                                                                  {first + second, "below a header"},
+                                                                  {once, "node = 2"},
+                                                                  {once + first + second, "one line a node"},
+                                                                  {once + "         3  0.0 0.0 0.0\n", "expected 1 to 2"},
+                                                                  {once + "       1.5  0.0 0.0 0.0\n", "expected 1 to 2"},
+                                                                  {once + "         2  0.0 0.0\n", "three numbers"},
+                                                                  {once + "         2  0.0 0.0 ******\n", "displacement = ******"},
+                                                                  {once + "         2  0.0 NaN 0.0\n", "displacement = NaN"},
+                                                                  {once + "         2  0.0 0.0 1.2x\n", "displacement = 1.2x"},
+                                                                  {once + second + once + second, "one block"},
+                                                                  {half + first + second, "time"}};
+    for (const auto& [text, what] : all) {
+        const std::string refusal = test_support::refusal_of([&] { read_printed_displacements(text, "deck.dat", 2); });
+        EXPECT_TRUE(refusal.find("deck.dat") != std::string::npos && refusal.find(what) != std::string::npos) << text << "\n" << refusal;
+    }
 }
 
+// Ends of springs are behind the nodes.
 TEST(RestartFile, GivesTheDisplacementsInDouble)
 {
-    std::vector<double> others = exact;
+    std::vector<double> others = exact, with_an_end = exact;
     others[1] += 1e-8;
-    const std::string restart = record<double>({1.0}) + record(others) + record<std::int32_t>({7, 8}) + record(exact) + record<char>({});
-    const CalculixDisplacements read = read_displacements(header + first + second, restart, 2);
-    EXPECT_TRUE(read.in_double);
-    EXPECT_EQ(read.displacements.row(0), Eigen::RowVector3d(exact[1], exact[2], exact[3]));
-    EXPECT_EQ(read.displacements.row(1), Eigen::RowVector3d(exact[5], exact[6], exact[7]));
-}
-
-TEST(RestartFile, EndsOfSpringsAreBehindTheNodes)
-{
-    std::vector<double> with_an_end = exact;
     with_an_end.insert(with_an_end.end(), {20.0, 5.0, 6.0, 7.0});
-    const CalculixDisplacements read = read_displacements(header + first + second, record(with_an_end), 2);
-    EXPECT_TRUE(read.in_double);
-    ASSERT_EQ(read.displacements.rows(), 2);
-    EXPECT_EQ(read.displacements.row(1), Eigen::RowVector3d(exact[5], exact[6], exact[7]));
+    const std::string several = record<double>({1.0}) + record(others) + record<std::int32_t>({7, 8}) + record(exact) + record<char>({});
+    for (const std::string& restart : {several, record(with_an_end)}) {
+        const CalculixDisplacements read = read_displacements(header + first + second, restart, 2);
+        EXPECT_TRUE(read.in_double);
+        EXPECT_EQ(read.displacements, (pbs::Positions{{exact[1], exact[2], exact[3]}, {exact[5], exact[6], exact[7]}}));
+    }
 }
 
 TEST(RestartFile, WithoutTheRecordThePrintedDigitsStay)

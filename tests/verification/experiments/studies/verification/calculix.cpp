@@ -124,9 +124,10 @@ TEST_P(CalculixSmoothAttachment, AgreesAtLargeStrain)
 TEST_P(CalculixSmoothAttachment, DisagreesWithSpringsOfTheWrongBone)
 {
     const auto to_the_other_bone = [&](GroundSprings& springs) {
-        BoneAttachment bones = smooth_attachment(limb_, {.attachment = FemAttachment::smooth});
+        BoneAttachment bones = bone_attachment(limb_, {.attachment = FemAttachment::smooth});
         for (int& bone : bones.spring_bone) bone = bone == 0 ? 1 : 0;
-        springs.targets = spring_targets(bones, pbs::joint_sweep(limb_.skeleton, 1, pbs::Vec3::UnitZ(), 10.0, 2, 0.01).steps.back());
+        springs.targets =
+            targets(bones, limb_.mesh.rest, pbs::joint_sweep(limb_.skeleton, 1, pbs::Vec3::UnitZ(), 10.0, 2, 0.01).steps.back()).springs;
     };
     EXPECT_GT(difference(to_the_other_bone), 0.5);
 }
