@@ -9,7 +9,8 @@ import sys
 import records
 from records import kept, whole_file
 
-studies = ("convergence", "ensemble", "timing", "work_precision")  # each with a module that has page(folder)
+# Each with a module that has page(folder).
+studies = ("ambiguity", "artefacts", "audit", "convergence", "ensemble", "jiggle", "stiffness", "timing", "work_precision")
 
 
 def write(results):
@@ -46,7 +47,12 @@ def table(rows, columns):
     return "\n".join([*lines, *("| " + " | ".join(cell(row, of) for of in columns.values()) + " |" for row in rows)]) + "\n"
 
 
+def files(folder, name):
+    """The file of each run that has it, in the order of the plan."""
+    runs = [run["name"] for run in records.read_json(folder / "plan.json")["runs"]]
+    return [folder / run / name for run in runs if (folder / run / name).is_file()]
+
+
 def of_runs(folder, name, needed):
     """The rows of a table of all runs, in the order of the plan."""
-    runs = [run["name"] for run in records.read_json(folder / "plan.json")["runs"]]
-    return [row for run in runs if (folder / run / name).is_file() for row in records.table(folder / run / name, needed)]
+    return [row for file in files(folder, name) for row in records.table(file, needed)]

@@ -173,18 +173,12 @@ Violations kernel_includes(const SourceTree& tree)
 
 Violations machine_flags(const SourceTree& tree)
 {
-    Violations violations;
-    for (const auto& [path, text] : tree) {
-        if (!is_cmake_file(path)) continue;
-        const std::vector<std::string> lines = lines_of(text);
-        for (std::size_t i = 0; i < lines.size(); ++i) {
-            const std::string code = lines[i].substr(0, lines[i].find('#'));
-            const auto says = [&](const std::string& part) { return code.find(part) != std::string::npos; };
-            if ((says("-march") || says("-mtune") || says("-mavx")) && std::ranges::none_of(built_for_the_machine, says))
-                violations.push_back(at(path, static_cast<int>(i) + 1, "built for one machine, and no kernel"));
-        }
-    }
-    return violations;
+    return in_lines(tree, is_cmake_file, [](const std::string& line) {
+        const std::string code = line.substr(0, line.find('#'));
+        const auto says = [&](const std::string& part) { return code.find(part) != std::string::npos; };
+        const bool is_for_one = says("-march") || says("-mtune") || says("-mavx");
+        return is_for_one && std::ranges::none_of(built_for_the_machine, says) ? "built for one machine, and no kernel" : "";
+    });
 }
 
 Violations registers_at_home(const SourceTree& tree)
@@ -252,17 +246,10 @@ Violations package_list_cover(const SourceTree& tree)
 {
     std::set<std::string> known = known_to_cmake(tree);
     known.insert("pbs");  // this project, which tests/packaging finds
-    Violations violations;
-    for (const auto& [path, text] : tree) {
-        if (!is_cmake_file(path)) continue;
-        int number = 0;
-        for (const std::string& line : lines_of(text)) {
-            ++number;
-            const std::string name = looked_for(line);
-            if (!name.empty() && !known.contains(name)) violations.push_back(at(path, number, name + " is in no [...] of " + list));
-        }
-    }
-    return violations;
+    return in_lines(tree, is_cmake_file, [&](const std::string& line) {
+        const std::string name = looked_for(line);
+        return name.empty() || known.contains(name) ? "" : name + " is in no [...] of " + list;
+    });
 }
 
 }  // namespace architecture

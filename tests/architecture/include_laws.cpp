@@ -55,7 +55,6 @@ const std::vector<std::vector<std::string>> layers = {
     {"experiments/verdicts/", "experiments/distributed/", "experiments/sweeps/"},
     {"experiments/command_line/"},
 };
-const std::string includes_studies = "experiments/studies/ambiguity/";  // measures each claim by the functions of the claim's own study
 
 // "experiments/studies/volume/" for "experiments/studies/volume/study.cpp"; for any other file its first two folders, or "" if there are
 // none.
@@ -82,8 +81,7 @@ std::optional<std::size_t> layer_of(const std::string& room)
 bool may_include(const std::string& room, const std::string& other)
 {
     const auto layer = layer_of(room), other_layer = layer_of(other);
-    const bool both_studies = other_layer == layer_of("experiments/studies/*");
-    return room == other || (other_layer && *other_layer < *layer) || (room == includes_studies && both_studies);
+    return room == other || (other_layer && *other_layer < *layer);
 }
 
 const FolderLaw* law_for(const std::string& path)
@@ -91,19 +89,6 @@ const FolderLaw* law_for(const std::string& path)
     for (const FolderLaw& law : folder_laws)
         if (path.starts_with(law.folder)) return &law;
     return nullptr;
-}
-
-Violations form_of_file(const SourceTree& tree, const std::string& path, const std::string& text)
-{
-    Violations violations;
-    for (const Include& include : includes_of(text)) {
-        const bool is_ours = starts_with_any(include.target, ours);
-        if (is_ours && !include.quoted) violations.push_back(at(path, include.line, "<" + include.target + ">: ours goes in quotes"));
-        if (include.quoted && !include.target.starts_with(generated) && !tree.contains(include.target))
-            violations.push_back(at(path, include.line, "\"" + include.target + "\": no such file, seen from the root"));
-    }
-    if (path.ends_with(".hpp") && text.find("#pragma once") == std::string::npos) violations.push_back(at(path, 1, "no #pragma once"));
-    return violations;
 }
 
 }  // namespace
@@ -146,29 +131,31 @@ Violations layer_direction(const SourceTree& tree)
 Violations include_form(const SourceTree& tree)
 {
     Violations violations;
-    for (const auto& [path, text] : tree)
-        if (is_cpp(path)) {
-            const Violations found = form_of_file(tree, path, text);
-            violations.insert(violations.end(), found.begin(), found.end());
+    for (const auto& [path, text] : tree) {
+        if (!is_cpp(path)) continue;
+        for (const auto& [line, target, quoted] : includes_of(text)) {
+            if (starts_with_any(target, ours) && !quoted) violations.push_back(at(path, line, "<" + target + ">: ours goes in quotes"));
+            if (quoted && !target.starts_with(generated) && !tree.contains(target))
+                violations.push_back(at(path, line, "\"" + target + "\": no such file, seen from the root"));
         }
+        if (path.ends_with(".hpp") && text.find("#pragma once") == std::string::npos) violations.push_back(at(path, 1, "no #pragma once"));
+    }
     return violations;
 }
 
 Violations values_compute(const SourceTree& tree)
 {
     static const std::regex starts_programs(R"(\b(subprocess|ctypes|cffi|os\.system|os\.popen|os\.exec\w*|os\.spawn\w*|scipy)\b)");
-    Violations violations;
-    for (const auto& [path, text] : tree) {
-        if (!path.starts_with("paper_figures/")) continue;
-        int number = 0;
-        for (const std::string& line : lines_of(text)) {
-            ++number;
+    const auto of_figures = [](const std::string& path) { return path.starts_with("paper_figures/"); };
+    Violations violations = in_lines(
+        tree, [&](const std::string& path) { return of_figures(path) && path.ends_with(".py"); },
+        [](const std::string& line) {
             std::smatch match;
-            if (path.ends_with(".py") && std::regex_search(line, match, starts_programs))
-                violations.push_back(at(path, number, match.str() + ": a figure reads records, it runs and solves nothing"));
-        }
-        if (is_cpp(path)) violations.push_back(at(path, 1, "compiled code among the figures"));
-    }
+            return std::regex_search(line, match, starts_programs) ? match.str() + ": a figure reads records, it runs and solves nothing"
+                                                                   : "";
+        });
+    for (const auto& [path, text] : tree)
+        if (of_figures(path) && is_cpp(path)) violations.push_back(at(path, 1, "compiled code among the figures"));
     return violations;
 }
 
@@ -176,20 +163,13 @@ Violations deformers_tested_by_name(const SourceTree& tree)
 {
     static const std::regex compares(
         R"re(\bkind(\(\))?\s*([!=]=\s*["']|(\.|->)(starts_with|ends_with|find|compare)\()|["']\s*[!=]=\s*[\w.>-]*\bkind\b)re");
-    Violations violations;
-    for (const auto& [path, text] : tree) {
-        const bool is_source = is_cpp(path) || path.ends_with(".py");
-        if (!is_source || !starts_with_any(path, {"experiments/", "analysis/", "paper_figures/"}) ||
-            path.starts_with("experiments/deformers/"))
-            continue;
-        int number = 0;
-        for (const std::string& line : lines_of(text)) {
-            ++number;
-            if (std::regex_search(line, compares))
-                violations.push_back(at(path, number, "depends on the name of a deformer's kind: ask its traits or options"));
-        }
-    }
-    return violations;
+    const auto concerns = [](const std::string& path) {
+        return (is_cpp(path) || path.ends_with(".py")) && starts_with_any(path, {"experiments/", "analysis/", "paper_figures/"}) &&
+               !path.starts_with("experiments/deformers/");
+    };
+    return in_lines(tree, concerns, [](const std::string& line) {
+        return std::regex_search(line, compares) ? "depends on the name of a deformer's kind: ask its traits or options" : "";
+    });
 }
 
 namespace {

@@ -36,6 +36,10 @@ std::vector<Include> includes_of(const std::string& text);
 
 std::string at(const std::string& path, int line, const std::string& what);
 
+// The offence of each line of the files that the law concerns; "" if there is none.
+Violations in_lines(const SourceTree& tree, const std::function<bool(const std::string& path)>& concerns,
+                    const std::function<std::string(const std::string& line)>& offence);
+
 using Law = std::function<Violations(const SourceTree&)>;
 
 // Which folder may include which: geometry < skinning < character; geometry < constraints < solver. The reference (reference_fem) and the

@@ -1,7 +1,6 @@
 #include "tests/architecture/laws.hpp"
 
 #include <algorithm>
-#include <functional>
 #include <regex>
 
 namespace architecture {
@@ -207,54 +206,33 @@ Violations function_sizes(const SourceTree& tree)
 
 Violations line_lengths(const SourceTree& tree)
 {
-    Violations violations;
-    for (const auto& [path, text] : tree) {
-        int number = 0;
-        for (const std::string& line : is_line_of_source(path) ? lines_of(text) : std::vector<std::string>{}) {
-            ++number;
-            const int columns = columns_of(line);
-            if (columns > longest_line)
-                violations.push_back(at(path, number, std::to_string(columns) + " columns, at most " + std::to_string(longest_line)));
-        }
-    }
-    return violations;
+    return in_lines(tree, is_line_of_source, [](const std::string& line) {
+        const int columns = columns_of(line);
+        return columns > longest_line ? std::to_string(columns) + " columns, at most " + std::to_string(longest_line) : "";
+    });
 }
 
-namespace {
-
-Violations in_every_line(const SourceTree& tree, const std::function<bool(const std::string&)>& offends, const std::string& what)
+// In every file, what the lines that `offends` matches should not have.
+Violations in_every_line(const SourceTree& tree, const std::regex& offends, const std::string& what)
 {
-    Violations violations;
-    for (const auto& [path, text] : tree) {
-        int number = 0;
-        for (const std::string& line : lines_of(text)) {
-            ++number;
-            if (offends(line)) violations.push_back(at(path, number, what));
-        }
-    }
-    return violations;
+    return in_lines(
+        tree, [](const std::string&) { return true; },
+        [&](const std::string& line) { return std::regex_search(line, offends) ? what : ""; });
 }
-
-}  // namespace
 
 Violations absolute_paths(const SourceTree& tree)
 {
-    static const std::regex home(R"((^|[^\w.])/(home|root|work|Users)/\w)");
-    return in_every_line(
-        tree, [](const std::string& line) { return std::regex_search(line, home); }, "a path of one machine");
+    return in_every_line(tree, std::regex(R"((^|[^\w.])/(home|root|work|Users)/\w)"), "a path of one machine");
 }
 
 Violations unfinished_marks(const SourceTree& tree)
 {
-    static const std::regex mark(R"(\b(TO[D]O|FIX[M]E|XX[X]|HAC[K])\b)");
-    return in_every_line(
-        tree, [](const std::string& line) { return std::regex_search(line, mark); }, "finish it, or open an issue");
+    return in_every_line(tree, std::regex(R"(\b(TO[D]O|FIX[M]E|XX[X]|HAC[K])\b)"), "finish it, or open an issue");
 }
 
 Violations stray_whitespace(const SourceTree& tree)
 {
-    const auto offends = [](const std::string& line) { return line.find('\t') != std::string::npos || line.ends_with(' '); };
-    return in_every_line(tree, offends, "a tab, or blanks at the end of the line");
+    return in_every_line(tree, std::regex("\\t| $"), "a tab, or blanks at the end of the line");
 }
 
 }  // namespace architecture

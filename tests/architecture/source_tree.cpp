@@ -36,7 +36,7 @@ SourceTree read_source_tree()
     SourceTree tree;
     for (auto entry = std::filesystem::recursive_directory_iterator(root); entry != std::filesystem::recursive_directory_iterator();
          ++entry) {
-        const std::string path = std::filesystem::relative(entry->path(), root).generic_string();
+        const std::string path = entry->path().lexically_relative(root).generic_string();
         if (entry->is_directory() && starts_with_any(path + "/", left_out)) entry.disable_recursion_pending();
         // Of the kept records, other files than texts are only counted.
         if (entry->is_regular_file() && (belongs(path) || path.starts_with("experiments/records/")))
@@ -100,6 +100,20 @@ std::vector<Include> includes_of(const std::string& text)
 std::string at(const std::string& path, int line, const std::string& what)
 {
     return path + ":" + std::to_string(line) + ": " + what;
+}
+
+Violations in_lines(const SourceTree& tree, const std::function<bool(const std::string&)>& concerns,
+                    const std::function<std::string(const std::string&)>& offence)
+{
+    Violations violations;
+    for (const auto& [path, text] : tree) {
+        int number = 0;
+        for (const std::string& line : concerns(path) ? lines_of(text) : std::vector<std::string>{}) {
+            ++number;
+            if (const std::string what = offence(line); !what.empty()) violations.push_back(at(path, number, what));
+        }
+    }
+    return violations;
 }
 
 }  // namespace architecture

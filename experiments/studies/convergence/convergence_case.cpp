@@ -70,9 +70,9 @@ std::vector<FrameStarts> starts_of(const pbs::Character& character, const pbs::M
     for (const int frame : frames) {
         const std::size_t step = static_cast<std::size_t>(frame) * motion.steps_per_frame;
         const pbs::Pose& pose = motion.steps.at(step);
-        all.push_back(
-            {pbs::posed_bind_points(character.binding, pose),
-             {blended(character, character.weights, pose), warm.before(step), character.mesh.rest, blended(character, rigid, pose)}});
+        const pbs::Positions lbs = blended(character, character.weights, pose);
+        all.push_back({bind_points_of(options, character, pose, lbs),
+                       {lbs, warm.before(step), character.mesh.rest, blended(character, rigid, pose)}});
     }
     return all;
 }

@@ -34,7 +34,8 @@ struct FrameStarts {
     std::array<pbs::Positions, 4> shapes;  // by SolverStart [m], #V x 3
 };
 
-// frames: of the motion, increasing. options: for the steps that lead to previous_frame. Before the first frame it is LBS.
+// frames: of the motion, increasing. options: for the bind points, and for the steps that lead to previous_frame, whose own bind points are
+// always the bones' material points. Before the first frame previous_frame is LBS.
 std::vector<FrameStarts> starts_of(const pbs::Character& character, const pbs::Motion& motion, const std::vector<int>& frames,
                                    const pbs::PbsOptions& options);
 

@@ -92,11 +92,34 @@ StudyConclusion conclude(const FinishedRuns& finished)
             !finished.none()};
 }
 
+// C03, C12: the paths in one pose, on the scene's mesh and in its order. C12 is judged on characters alone. The first reading's k_stretch
+// names the case of all of them.
+std::vector<ReadingValues> read_paths(const StudyCase& of, const std::vector<Overrides>& readings)
+{
+    std::vector<ReadingValues> all;
+    std::optional<double> k_stretch;
+    for (const Overrides& reading : readings) {
+        ConvergenceCase read;
+        read.scene = of.scene(reading);
+        read.frames = {{of.value<int>("frame"), of.name, of.key()}};
+        read.most_iterations = of.value<int>("iterations");
+        const auto& options = options_of<pbs::PbsOptions>(spec_of(read.scene, "pbs"));
+        read.k_stretch = {options.k_stretch};
+        read.settings = {{options.order, options.precision}};
+        ConvergenceResult result = measure_convergence(read);
+        if (!k_stretch) k_stretch = options.k_stretch;
+        result.all.front().k_stretch = *k_stretch;
+        all.push_back({convergence_values(result), !result.breakdown.empty()});
+        if (!result.all.front().character) all.back().left_out = all_but("C12", {}, "judged on characters alone");
+    }
+    return all;
+}
+
 }  // namespace
 
 Study convergence_study()
 {
-    return {"convergence", plan, quick_and_full, conclude};
+    return {"convergence", plan, quick_and_full, conclude, false, nullptr, read_paths};
 }
 
 }  // namespace experiments

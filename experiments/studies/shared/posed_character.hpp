@@ -34,6 +34,12 @@ const analysis::Columns<analysis::FrameMetrics>& volume_columns();  // volume_ch
 // The shape that linear blend skinning gives [m], #V x 3.
 pbs::Positions blended(const pbs::Character& character, const pbs::Pose& pose);
 
+// The shapes that a deformer gives a character in all frames of a motion [m], #V x 3. With memory it takes the steps between them, too.
+std::vector<pbs::Positions> shapes_in_motion(const pbs::Character& character, const pbs::Motion& motion, const DeformerSpec& spec);
+
+// The character with the weights that the scene states, if it states any.
+pbs::Character reweighted(const pbs::Character& character, const Scene& scene);
+
 struct Shape {
     pbs::Positions positions;  // vertices [m], #V x 3
     bool finished = false;     // false: not finite or not converged; nothing is measured against it

@@ -40,8 +40,9 @@ namespace {
 std::vector<ComparedDeformer> entries_of(const std::string& table, const ComparedDeformer& base)
 {
     std::vector<ComparedDeformer> entries;
-    for (nlohmann::json one : tables_of("work_precision", table)) {
-        for (const nlohmann::json& ladder : tables_of("work_precision", "ladder"))
+    const nlohmann::json document = cases_document("work_precision");
+    for (nlohmann::json one : document.at(table)) {
+        for (const nlohmann::json& ladder : document.at("ladder"))
             if (ladder.at("name") == one.value("ladder", ""))
                 one.update({{"iterations", ladder.at("iterations")}, {"few", ladder.at("few")}});
         one.erase("ladder");

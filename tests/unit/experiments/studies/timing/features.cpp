@@ -16,7 +16,8 @@ using namespace experiments;
 // Those that the study times on the human.
 std::vector<Feature> features()
 {
-    for (nlohmann::json one : tables_of("timing", "case"))
+    const nlohmann::json document = cases_document("timing");
+    for (nlohmann::json one : document.at("case"))
         if (one.at("name") == "features_{body}") {
             one.update({{"body", "human"}, {"full_s", 1.0}});
             return features_of({"timing", one, true});

@@ -40,7 +40,8 @@ SettingKey tuned(SettingKey key, const std::string& setting)
 TEST(CaseSplit, AlternatesWithinEachBodyAndOnlyEvaluatesALonePose)
 {
     std::map<std::string, std::vector<std::string>> halves;
-    for (const nlohmann::json& one : tables_of("work_precision", "case"))
+    const nlohmann::json document = cases_document("work_precision");
+    for (const nlohmann::json& one : document.at("case"))
         for (const std::string body : one.at("bodies")) halves[body].push_back(one.at("half"));
     EXPECT_EQ(halves.size(), 5u);
     for (const auto& [body, of] : halves)
