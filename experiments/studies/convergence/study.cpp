@@ -108,7 +108,7 @@ std::vector<ReadingValues> read_paths(const StudyCase& of, const std::vector<Ove
         read.settings = {{options.order, options.precision}};
         ConvergenceResult result = measure_convergence(read);
         if (!k_stretch) k_stretch = options.k_stretch;
-        result.all.front().k_stretch = *k_stretch;
+        result.all.front().of.k_stretch = *k_stretch;
         all.push_back({convergence_values(result), !result.breakdown.empty()});
         if (!result.all.front().character) all.back().left_out = all_but("C12", {}, "judged on characters alone");
     }
