@@ -17,7 +17,7 @@ endif()
 # verdicts that it must change by theory, and no others.
 pbs_tests(claims experiments FOLDERS experiments EXCEPT ${left_out}
     ALONE experiments/broken_bulge experiments/momentum experiments/stiffness experiments/broken_weights
-        experiments/jiggle experiments/setup_verdict
+        experiments/jiggle
     LIBRARIES experiments)
 target_compile_definitions(test_claims_experiments PRIVATE ${claims_file})
 pbs_tests(unit experiments BLAS
@@ -28,7 +28,7 @@ pbs_tests(unit experiments BLAS
     ALONE experiments/run/frame_measurement experiments/run/reference_error_bar
     LIBRARIES experiments)
 pbs_tests(unit experiments_studies BLAS FOLDERS experiments/studies EXCEPT ${left_out}
-    ALONE experiments/studies/ambiguity/reading experiments/studies/ambiguity/reading_values experiments/studies/convergence/starts
+    ALONE experiments/studies/ambiguity/moved_readings experiments/studies/ambiguity/reading_values experiments/studies/convergence/starts
         experiments/studies/recorded_settings experiments/studies/shared/iteration_path
         experiments/studies/stability/stability_cells experiments/studies/stiffness/stiffness_ratios experiments/studies/timing/frames
         experiments/studies/work_precision/measured_points
@@ -63,7 +63,6 @@ pbs_program_test(robustness experiments/bench)
 pbs_program_test(robustness experiments/check)
 pbs_program_test(robustness experiments/foreign_frames)
 pbs_program_test(robustness experiments/volume_workflow)
-pbs_program_test(robustness experiments/fetch)
 pbs_program_test(robustness experiments/full_disk)
 if(PBS_WITH_FEM)
     pbs_program_test(robustness experiments/breakdown)
@@ -71,7 +70,6 @@ if(PBS_WITH_FEM)
     pbs_program_test(properties experiments/same_records)
 endif()
 pbs_program_test(verification experiments/recomputed_frames)
-pbs_program_test(verification experiments/plain_iterations)
 if(PBS_WITH_FEM)
     pbs_program_test(verification experiments/reference_error_bar)
     set_tests_properties(verification/experiments/reference_error_bar verification/experiments/recomputed_frames

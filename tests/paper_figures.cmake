@@ -8,10 +8,10 @@ endfunction()
 figures_test("" figures drawing)
 figures_test(/listed listed_figures drawing)
 figures_test(/plots plots drawing)
-figures_test(/report_records report_records drawing)
+figures_test(/report report drawing)
 figures_test(/run_page run_page drawing)
 figures_test(/stills stills drawing xvfb-run -a)
-foreach(name readme_part report viewer whole_file words)
+foreach(name readme_part viewer words)
     figures_test(/${name} ${name} unit)
 endforeach()
 
@@ -28,14 +28,14 @@ else()
 endif()
 
 # Tests in a real browser; only ./check --long runs them.
+# browser_test(NAME FOLDER TIMEOUT)
+function(browser_test name folder timeout)
+    add_test(NAME browser/${name} COMMAND ${PBS_TEST_PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/browser/browser_test.py
+        $<TARGET_FILE:pbskin> ${CMAKE_BINARY_DIR}/tests/${folder} ${name})
+    set_tests_properties(browser/${name} PROPERTIES LABELS browser SKIP_RETURN_CODE 77 TIMEOUT ${timeout})
+endfunction()
 if(TARGET pbskin)
-    add_test(NAME browser/viewer COMMAND ${PBS_TEST_PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/browser/browser_test.py
-        $<TARGET_FILE:pbskin> ${CMAKE_BINARY_DIR}/tests/browser)
-    set_tests_properties(browser/viewer PROPERTIES LABELS browser SKIP_RETURN_CODE 77 TIMEOUT 1800)
-    add_test(NAME browser/quick_results COMMAND ${PBS_TEST_PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/browser/quick_results_test.py
-        $<TARGET_FILE:pbskin> ${CMAKE_BINARY_DIR}/tests/browser_quick)
-    set_tests_properties(browser/quick_results PROPERTIES LABELS browser SKIP_RETURN_CODE 77 TIMEOUT 3600)
-    add_test(NAME browser/trial COMMAND ${PBS_TEST_PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/browser/trial_test.py
-        $<TARGET_FILE:pbskin> ${CMAKE_BINARY_DIR}/tests/browser_trial)
-    set_tests_properties(browser/trial PROPERTIES LABELS browser SKIP_RETURN_CODE 77 TIMEOUT 900)
+    browser_test(viewer browser 1800)
+    browser_test(quick_results browser_quick 3600)
+    browser_test(trial browser_trial 900)
 endif()

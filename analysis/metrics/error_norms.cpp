@@ -149,21 +149,6 @@ double ErrorMetrics::share_pct(const std::vector<bool>& vertices) const
     return 100.0 * sum.value() / total.value();
 }
 
-double error_h1_pct(const pbs::Positions& rest, const pbs::Tets& tets, const pbs::Positions& positions, const pbs::Positions& reference)
-{
-    const Eigen::VectorXd volumes = checked_rest_volumes(rest, tets);
-    require_points(positions, rest.rows(), "the frame");
-    require_points(reference, rest.rows(), "the reference");
-    const pbs::Positions difference = positions - reference;
-    CompensatedSum sum, total;
-    for (Eigen::Index t = 0; t < tets.rows(); ++t) {
-        const Eigen::Matrix3d gradient = edge_matrix(difference, tets, t) * edge_matrix(rest, tets, t).inverse();  // F - Fref
-        sum += volumes(t) * gradient.squaredNorm();
-        total += volumes(t);
-    }
-    return 100.0 * std::sqrt(sum.value() / total.value());
-}
-
 SmoothnessMetrics::SmoothnessMetrics(const Positions& rest, const pbs::Tets& tets, const std::vector<bool>& near) : rest_(rest), tets_(tets)
 {
     checked_rest_volumes(rest, tets);

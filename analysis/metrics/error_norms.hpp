@@ -46,10 +46,6 @@ private:
     double diagonal_m_ = 0.0;
 };
 
-// H1 seminorm of the difference: 100 sqrt(sum V0_t |F_t - Fref_t|^2 / sum V0_t), F the deformation gradient of the tet, Frobenius norm.
-// InputError for a mesh that checked_rest_volumes refuses, and for frames with another number of points.
-double error_h1_pct(const pbs::Positions& rest, const pbs::Tets& tets, const pbs::Positions& positions, const pbs::Positions& reference);
-
 // The smoothness of a deformed body in a region: jumps of strain between neighbouring tets, and bending of the skin between neighbouring
 // faces.
 //   const SmoothnessMetrics smoothness_metrics(mesh.rest, mesh.tets, near_the_joint);

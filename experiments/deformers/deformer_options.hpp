@@ -44,6 +44,12 @@ template <>
 inline constexpr NameTable<pbs::BindOnBone, 2> option_names<pbs::BindOnBone>{
     {{pbs::BindOnBone::pinned, "pinned"}, {pbs::BindOnBone::unbound, "unbound"}}};
 template <>
+inline constexpr NameTable<pbs::BindPoint, 2> option_names<pbs::BindPoint>{
+    {{pbs::BindPoint::carried, "carried"}, {pbs::BindPoint::reprojected, "reprojected"}}};
+template <>
+inline constexpr NameTable<pbs::ZoneMean, 2> option_names<pbs::ZoneMean>{
+    {{pbs::ZoneMean::of_all, "of_all"}, {pbs::ZoneMean::of_bone, "of_bone"}}};
+template <>
 inline constexpr NameTable<pbs::BindTo, 2> option_names<pbs::BindTo>{
     {{pbs::BindTo::bone_distance, "bone_distance"}, {pbs::BindTo::blended_position, "blended_position"}}};
 template <>
@@ -68,6 +74,10 @@ struct BlendOptions {
 // The keys `precision` and `packed` of a table, for plain code exists in f64 alone: what the scene does not state follows from what it
 // states. InputError where it states precision f32 and packed false.
 void agree_on_code(const SceneValues& values, const std::string& table, pbs::Precision& precision, bool& packed);
+
+// The material points that the options bind the vertices to, posed [m], #V x 3. lbs: the vertices by linear blend skinning [m], #V x 3.
+pbs::Positions bind_points_of(const pbs::PbsOptions& options, const pbs::Character& character, const pbs::Pose& pose,
+                              const pbs::Positions& lbs);
 
 // The keys of PBS in scenes.
 const OptionFields<pbs::PbsOptions>& pbs_fields();

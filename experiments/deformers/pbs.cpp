@@ -11,7 +11,27 @@
 #include <optional>
 
 namespace experiments {
+
+pbs::Positions bind_points_of(const pbs::PbsOptions& options, const pbs::Character& character, const pbs::Pose& pose,
+                              const pbs::Positions& lbs)
+{
+    return options.bind_point == pbs::BindPoint::reprojected
+               ? pbs::reprojected_bind_points(character.binding, character.skeleton, pose, lbs)
+               : pbs::posed_bind_points(character.binding, pose);
+}
+
 namespace {
+
+std::vector<bool> zone_of(const pbs::PbsOptions& options, const pbs::BoneBinding& binding)
+{
+    if (!options.jiggle) return {};
+    return options.jiggle->zone_mean == pbs::ZoneMean::of_bone ? pbs::jiggle_zone_by_bone(binding) : pbs::jiggle_zone(binding);
+}
+
+std::vector<bool> zone_of(const pbs::XpbdOptions& options, const pbs::BoneBinding& binding)
+{
+    return options.jiggle ? pbs::jiggle_zone(binding) : std::vector<bool>{};
+}
 
 // Blends, and projects what LBS leaves. The positions are the solver's.
 template <typename Options, typename Solver>
@@ -22,14 +42,13 @@ public:
     {
         character_ = &character;
         skinning_.emplace(character.mesh.rest, character.weights);
-        const std::vector<bool> zone = options_.jiggle ? pbs::jiggle_zone(character.binding) : std::vector<bool>{};
-        solver_ = std::make_unique<Solver>(character.mesh, character.binding.distance, zone, options_);
+        solver_ = std::make_unique<Solver>(character.mesh, character.binding.distance, zone_of(options_, character.binding), options_);
     }
     pbs::StepSummary advance(const pbs::Pose& pose, double dt_s) override
     {
         const pbs::Stopwatch stopwatch;
         skinning_->linear(pose, lbs_);
-        pbs::StepSummary summary = solver_->advance(lbs_, pbs::posed_bind_points(character_->binding, pose), dt_s);
+        pbs::StepSummary summary = solver_->advance(lbs_, bind_points(pose, lbs_), dt_s);
         summary.seconds = stopwatch.seconds();
         summary.work.vertex_visits += lbs_.rows();
         return summary;
@@ -38,6 +57,12 @@ public:
     bool has_memory() const override { return bool(options_.jiggle); }
 
 protected:
+    pbs::Positions bind_points(const pbs::Pose& pose, const pbs::Positions& lbs) const
+    {
+        if constexpr (std::is_same_v<Options, pbs::PbsOptions>) return bind_points_of(options_, *character_, pose, lbs);
+        return pbs::posed_bind_points(character_->binding, pose);
+    }
+
     Options options_;
     const pbs::Character* character_ = nullptr;
     std::optional<pbs::BlendSkinning<double>> skinning_;
@@ -99,7 +124,7 @@ pbs::StepSummary PbsDeformer::advance_ahead(double dt_s)
         std::vector<pbs::Positions> lbs(lot), bind_points(lot);
         for (std::size_t i = 0; i < lot; ++i) {
             skinning_->linear(foreseen_[next_ + i], lbs[i]);
-            bind_points[i] = pbs::posed_bind_points(character_->binding, foreseen_[next_ + i]);
+            bind_points[i] = bind_points_of(options_, *character_, foreseen_[next_ + i], lbs[i]);
         }
         if (!ahead_ || lot != steps_ahead_.size())
             ahead_ = std::make_unique<pbs::PosesSolver>(character_->mesh, character_->binding.distance, std::vector<bool>{},

@@ -50,21 +50,37 @@ void add_keys(OptionFields<PbsOptions>& fields)
         .add("record_iterations", &PbsOptions::record_iterations, {.meaning = "writes iterations.csv: residuals per frame and iteration"});
 }
 
-// Only studies set the k_bind of the zone.
 void add_jiggle_keys(OptionFields<PbsOptions>& fields)
 {
-    const auto read = [](PbsOptions& options, const SceneValues& values, const std::string& path) {
+    constexpr double as_elsewhere = -1.0;
+    const auto read_k_stretch = [](PbsOptions& options, const SceneValues& values, const std::string& path) {
         options.jiggle = pbs::Jiggle{values.number(path)};
     };
-    const auto write = [](const PbsOptions& options, nlohmann::json& record) {
-        if (options.jiggle) record["jiggle"] = {{"k_stretch", options.jiggle->k_stretch}};
-        if (options.jiggle && options.jiggle->k_bind) record["jiggle"]["k_bind"] = *options.jiggle->k_bind;
+    const auto read_k_bind = [](PbsOptions& options, const SceneValues& values, const std::string& path) {
+        if (values.number(path) != as_elsewhere) options.jiggle->k_bind = values.number(path);
     };
-    fields.in_table("jiggle").add("k_stretch", KeyType::number, pbs::Jiggle{}.k_stretch,
-                                  {.lowest = 0,
-                                   .highest = 1,
-                                   .meaning = "stiffness of edges with both ends in the jiggling zone; without this table nothing jiggles"},
-                                  read, write);
+    const auto read_zone_mean = [](PbsOptions& options, const SceneValues& values, const std::string& path) {
+        options.jiggle->zone_mean = read_option<pbs::ZoneMean>(values, path);
+    };
+    const auto write = [](const PbsOptions& options, nlohmann::json& record) {
+        if (!options.jiggle) return;
+        record["jiggle"] = {{"k_stretch", options.jiggle->k_stretch}, {"zone_mean", name_of(options.jiggle->zone_mean)}};
+        if (options.jiggle->k_bind) record["jiggle"]["k_bind"] = *options.jiggle->k_bind;
+    };
+    fields.in_table("jiggle")
+        .add("k_stretch", KeyType::number, pbs::Jiggle{}.k_stretch,
+             {.lowest = 0,
+              .highest = 1,
+              .meaning = "stiffness of edges with both ends in the jiggling zone; without this table nothing jiggles"},
+             read_k_stretch, write)
+        .add("k_bind", KeyType::number, as_elsewhere,
+             {.lowest = -1, .highest = 1, .meaning = "stiffness of the bind constraints of the zone's vertices; -1: that of pbs.k_bind"},
+             read_k_bind, nullptr)
+        .add("zone_mean", KeyType::text, name_of(pbs::ZoneMean::of_all),
+             {.choices = names_of_options<pbs::ZoneMean>(),
+              .meaning = "the jiggling zone has the vertices that are farther from their bone than the mean: of_all: over all vertices; "
+                         "of_bone: over the vertices of the same bone"},
+             read_zone_mean, nullptr);
 }
 
 void add_variant_keys(OptionFields<PbsOptions>& fields)
@@ -81,6 +97,9 @@ void add_variant_keys(OptionFields<PbsOptions>& fields)
                          "particles are integrated, and moved by the change of LBS since the last step"})
         .add("bind_on_bone", &PbsOptions::bind_on_bone,
              {.meaning = "a vertex on its bone is pinned to it, or unbound: it has no bind constraint"})
+        .add("bind_point", &PbsOptions::bind_point,
+             {.meaning = "the point on the bone that a vertex is bound to: carried: its projection at rest, which the bone carries along; "
+                         "reprojected: the projection of its LBS position on the posed bone, anew in each step"})
         .add("volume_form", &PbsOptions::volume_form,
              {.meaning = "the volume correction: derived from Eq. 11, or with errors of the print (labels_relative, labels_absolute: Eq. "
                          "12-14 with the printed particles; sign: Eq. 17-20; as_printed: all)"});
@@ -115,6 +134,7 @@ std::string variant_of(const PbsOptions& options)
     if (options.volume_of != paper.volume_of) return std::string("volume_of_") + name_of(options.volume_of);
     if (options.bind_to != paper.bind_to) return name_of(options.bind_to);
     if (options.volume_form != paper.volume_form) return name_of(options.volume_form);
+    if (options.bind_point != paper.bind_point) return name_of(options.bind_point);
     if (options.bind_on_bone != paper.bind_on_bone) return name_of(options.bind_on_bone);
     if (options.lbs_entry != paper.lbs_entry) return name_of(options.lbs_entry);
     if (options.class_order != paper.class_order) return name_of(options.class_order);

@@ -40,8 +40,8 @@ const DeformerKind& kind_named(const std::string& name)
     return *kind;
 }
 
-constexpr std::array<pbs::WeightKind, 5> own_weights = {pbs::WeightKind::paper, pbs::WeightKind::rigid, pbs::WeightKind::smooth,
-                                                        pbs::WeightKind::diffused, pbs::WeightKind::artist};
+constexpr std::array<pbs::WeightKind, 6> own_weights = {pbs::WeightKind::paper,    pbs::WeightKind::rigid,      pbs::WeightKind::smooth,
+                                                        pbs::WeightKind::diffused, pbs::WeightKind::either_end, pbs::WeightKind::artist};
 
 class WeightedDeformer : public Deformer {
 public:

@@ -77,7 +77,7 @@ nlohmann::json to_json(const DeformerSpec& spec);  // name, label, kind, variant
 // table. InputError at reset where the character brings no such weights.
 std::unique_ptr<Deformer> with_own_weights(std::unique_ptr<Deformer> deformer, pbs::WeightKind weights);
 
-// The values of the key `weights` of a deformer's table: scene (the default), paper, rigid, smooth, diffused or artist.
+// The values of the key `weights` of a deformer's table: scene (the default), paper, rigid, smooth, diffused, either_end or artist.
 std::vector<std::string> own_weights_choices();
 
 // Sets the weights and, unless they are the scene's, the variant: weights_smooth.

@@ -121,8 +121,8 @@ SceneSchema scene_schema(const std::vector<DeformerKind>& kinds)
         Keys("skinning")
             .key("weights", text, "",
                  {.meaning = "paper (Eq. 2), rigid (nearest bone), smooth (Eq. 2 with smooth transitions), diffused (Eq. 2 smoothed over "
-                             "the mesh's edges), artist (of character.model), or a CSV file vertex,joint,weight; empty: artist for a "
-                             "model with joints, paper for all others"})
+                             "the mesh's edges), either_end (Eq. 2 with n_joints at both ends of a bone), artist (of character.model), "
+                             "or a CSV file vertex,joint,weight; empty: artist for a model with joints, paper for all others"})
             .keys());
     for (const DeformerKind& kind : kinds) {
         append(kind.keys);

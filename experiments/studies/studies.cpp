@@ -19,10 +19,10 @@ namespace fs = std::filesystem;
 
 const std::vector<Study>& studies()
 {
-    static const std::vector<Study> all = {
-        volume_study(),       audit_study(),     momentum_study(),       convergence_study(), stability_study(), artefacts_study(),
-        jiggle_study(),       stiffness_study(), setup_study(),          ambiguity_study(),   frames_study(),    timing_study(),
-        verification_study(), fit_study(),       work_precision_study(), ensemble_study()};
+    static const std::vector<Study> all = {volume_study(),       audit_study(),     momentum_study(),       convergence_study(),
+                                           stability_study(),    artefacts_study(), jiggle_study(),         stiffness_study(),
+                                           setup_study(),        ambiguity_study(), frames_study(),         timing_study(),
+                                           verification_study(), fit_study(),       work_precision_study(), ensemble_study()};
     return all;
 }
 
@@ -127,6 +127,14 @@ const analysis::Claim& claim_named(const std::string& id)
     const auto found = std::find_if(claims().begin(), claims().end(), [&](const analysis::Claim& claim) { return claim.id == id; });
     if (found == claims().end()) throw std::logic_error("no claim " + id);
     return *found;
+}
+
+std::vector<ReadingValues::LeftOut> all_but(const std::string& claim, const std::vector<std::string>& measured, const std::string& reason)
+{
+    std::vector<ReadingValues::LeftOut> left_out;
+    for (const std::string& quantity : claim_named(claim).metrics)
+        if (std::find(measured.begin(), measured.end(), quantity) == measured.end()) left_out.push_back({claim, quantity, reason});
+    return left_out;
 }
 
 }  // namespace experiments

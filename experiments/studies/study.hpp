@@ -110,7 +110,9 @@ public:
         return has(key) ? at(key).get<T>() : otherwise;
     }
     Scene scene(const std::vector<std::string>& further_overrides = {}) const;  // of `scene` and `overrides`
+    pbs::Vec3 direction(const std::string& key) const;                          // of a jolt; upwards if the case does not state it
     analysis::CaseKey key() const;                                              // body, motion, pose, angle_deg
+    const nlohmann::json& values() const;                                       // all keys, which then count as read
     void require_nothing_unread() const;
 
 private:
@@ -121,6 +123,9 @@ private:
     mutable std::set<std::string> read_;
 };
 
+// The tables of studies/NAME/cases.toml: case, and what else the study states there.
+nlohmann::json cases_document(const std::string& study);
+
 // The plan of a study whose cases are data: `add` makes the run of each case of this form. A body that is not installed, or that `add`
 // refuses by InputError, for example because a clip is missing, is left out with all of its further cases.
 StudyPlan plan_of_cases(const std::string& study, bool full, const std::function<void(const StudyCase& of, StudyPlan& plan)>& add);
@@ -130,6 +135,21 @@ struct StudyConclusion {
     std::string text;  // for the terminal
     bool holds = true;
 };
+
+// What a study measures of a case in which the scene has further overrides: another reading of the paper (the study `ambiguity`).
+struct ReadingValues {
+    std::vector<analysis::Measurement> values;
+    bool broke_down = false;  // some positions are not finite
+    // The quantities of claims that cannot be measured in this way, each with the reason.
+    struct LeftOut {
+        std::string claim, quantity, reason;
+    };
+    std::vector<LeftOut> left_out = {};
+};
+using Overrides = std::vector<std::string>;  // KEY=VALUE of the scene
+
+// The quantities that the claim is judged by and that are not among those measured.
+std::vector<ReadingValues::LeftOut> all_but(const std::string& claim, const std::vector<std::string>& measured, const std::string& reason);
 
 // The extent in which `pbskin reproduce` and `pbskin reproduce --full`, both without names, run a study.
 struct Sets {
@@ -148,6 +168,8 @@ struct Study {
     bool alone = false;                                                   // it measures time: one run at a time, whatever -j is
     // The plan with deformers of the user's own from the [[external]] tables of a file. Null: the study has a fixed list of deformers.
     StudyPlan (*plan_with)(bool full, const std::string& external_file) = nullptr;
+    // The values of the study's claims for a case of `ambiguity`, by each of the readings. Null: it has none.
+    std::vector<ReadingValues> (*read)(const StudyCase& of, const std::vector<Overrides>& readings) = nullptr;
 };
 const std::vector<Study>& studies();
 
@@ -162,7 +184,7 @@ Study jiggle_study();
 Study stiffness_study();
 Study setup_study();
 Study ambiguity_study();
-Study frames_study();
+Study frames_study();  // study_cases.cpp: scenes alone
 Study timing_study();
 Study verification_study();
 Study fit_study();
@@ -222,5 +244,8 @@ std::string cost_table(const std::vector<std::pair<std::string, StudyCosts>>& st
 const std::vector<analysis::Claim>& claims();
 
 const analysis::Claim& claim_named(const std::string& id);  // std::logic_error for an id that claims.toml does not contain
+
+// The paths at which two JSON objects differ: "pbs.k_volume". An object that only one of them has is one path.
+std::vector<std::string> differing_paths(const nlohmann::json& a, const nlohmann::json& b);
 
 }  // namespace experiments

@@ -1,4 +1,5 @@
 #include "analysis/records/toml_keys.hpp"
+#include "experiments/deformers/deformer_options.hpp"
 #include "experiments/studies/study.hpp"
 #include "generated/cases_texts.hpp"
 #include "pbs/character/bodies.hpp"
@@ -12,14 +13,6 @@
 
 namespace experiments {
 namespace {
-
-nlohmann::json cases_of(const std::string& study)
-{
-    const toml::table document = analysis::parse_toml_document(*::cases::by_name.at(study), study + "/cases.toml", {"case"});
-    std::ostringstream json;
-    json << toml::json_formatter{document};
-    return nlohmann::json::parse(json.str()).at("case");
-}
 
 // The keys of a form or a body replace those that all have in common.
 void select(nlohmann::json& values, const std::vector<std::string>& tables, const std::string& selected)
@@ -45,7 +38,37 @@ nlohmann::json resolved(nlohmann::json values, const std::string& body, bool ful
     return nlohmann::json::parse(text);
 }
 
+void add_differences(const nlohmann::json& a, const nlohmann::json& b, const std::string& path, std::vector<std::string>& differing)
+{
+    if (a == b) return;
+    if (!a.is_object() || !b.is_object()) {
+        differing.push_back(path);
+        return;
+    }
+    nlohmann::json both = a;
+    both.update(b);
+    for (const auto& [name, value] : both.items())
+        add_differences(a.value(name, nlohmann::json()), b.value(name, nlohmann::json()), path.empty() ? name : path + "." + name,
+                        differing);
+}
+
 }  // namespace
+
+nlohmann::json cases_document(const std::string& study)
+{
+    const toml::table document = analysis::parse_toml_document(*::cases::by_name.at(study), study + "/cases.toml",
+                                                               {"case", "baseline", "place", "untouched", "ladder", "deformer", "change"});
+    std::ostringstream json;
+    json << toml::json_formatter{document};
+    return nlohmann::json::parse(json.str());
+}
+
+std::vector<std::string> differing_paths(const nlohmann::json& a, const nlohmann::json& b)
+{
+    std::vector<std::string> differing;
+    add_differences(a, b, "", differing);
+    return differing;
+}
 
 StudyCase::StudyCase(const std::string& study, const nlohmann::json& values, bool is_full)
     : name(values.at("name").get<std::string>()),
@@ -77,6 +100,18 @@ Scene StudyCase::scene(const std::vector<std::string>& further) const
     return read_scene(value<std::string>("scene"), overrides);
 }
 
+pbs::Vec3 StudyCase::direction(const std::string& key) const
+{
+    const auto along = value<std::vector<double>>(key, {0.0, 1.0, 0.0});
+    return {along.at(0), along.at(1), along.at(2)};
+}
+
+const nlohmann::json& StudyCase::values() const
+{
+    for (const auto& [key, value] : values_.items()) read_.insert(key);
+    return values_;
+}
+
 analysis::CaseKey StudyCase::key() const
 {
     analysis::CaseKey key{.body = value<std::string>("body", ""), .motion = value<std::string>("motion")};
@@ -94,7 +129,7 @@ void StudyCase::require_nothing_unread() const
 StudyPlan plan_of_cases(const std::string& study, bool full, const std::function<void(const StudyCase& of, StudyPlan& plan)>& add)
 {
     StudyPlan plan;
-    const nlohmann::json cases = cases_of(study);
+    const nlohmann::json cases = cases_document(study).at("case");
     const auto is_left_out = [&](const std::string& body) {
         return std::ranges::count(plan.left_out, body, &analysis::LeftOut::scene) > 0;
     };
@@ -121,6 +156,42 @@ StudyPlan plan_of_cases(const std::string& study, bool full, const std::function
             for (std::size_t one = first; one < last; ++one) add_case(cases[one], body);
     }
     return plan;
+}
+
+// The study `frames`: the frames that figures and the report's viewer show (frames/cases.toml). No claim is judged by them. It writes
+// DIR/frames/RUN/frames/*.vtu and .vtp, and in DIR/frames/RUN the records of a scene.
+namespace {
+
+// The column "jiggling" of Table 1 is k_stretch in the zone. Outside the zone k_stretch is 1.
+void add_pbs(Scene& scene, const nlohmann::json& other)
+{
+    DeformerSpec spec = *find_deformer_with<pbs::PbsOptions>(scene);
+    spec.label = other.at("label");
+    spec.variant = other.at("variant");
+    auto& options = options_of<pbs::PbsOptions>(spec);
+    options.k_stretch = other.value("k_stretch", options.k_stretch);
+    if (other.contains("k_in_zone")) options.jiggle = pbs::Jiggle{other.at("k_in_zone").get<double>()};
+    if (other.contains("lbs_entry")) options.lbs_entry = option_of<pbs::LbsEntry>(other.at("lbs_entry").get<std::string>());
+    scene.deformers.push_back(spec);
+}
+
+StudyPlan plan(bool full)
+{
+    return plan_of_cases("frames", full, [](const StudyCase& of, StudyPlan& plan) {
+        StudyRun run{.name = of.name, .cost_s = of.cost_s};
+        run.scene = of.scene({"output.frames=[]", "output.frame_names=[]", "output.frames_every=1"});
+        run.scene.name = of.name;
+        run.bad_frames_are_results = !run.scene.reference.empty();  // the sweeps go beyond the last pose that flesh reaches
+        for (const nlohmann::json& other : of.value<nlohmann::json>("pbs", nlohmann::json::array())) add_pbs(run.scene, other);
+        plan.runs.push_back(run);
+    });
+}
+
+}  // namespace
+
+Study frames_study()
+{
+    return {"frames", plan};
 }
 
 }  // namespace experiments

@@ -9,7 +9,8 @@ import sys
 import records
 from records import kept, whole_file
 
-studies = ("convergence", "ensemble", "work_precision")  # each with a module that has page(folder)
+# Each with a module that has page(folder).
+studies = ("ambiguity", "artefacts", "audit", "convergence", "ensemble", "jiggle", "stiffness", "timing", "work_precision")
 
 
 def write(results):
@@ -30,7 +31,8 @@ def write(results):
 
 
 def table(rows, columns):
-    """A Markdown table. columns: {heading: column, or (column, decimals), or a function of the row}."""
+    """A Markdown table. columns: {heading: column, (column, decimals), (column, "g") with three digits or "g4" with four, or a function of
+    the row}."""
     def cell(row, of):
         if callable(of):
             return of(row)
@@ -38,13 +40,19 @@ def table(rows, columns):
         if decimals is None or row[name] == "":
             return row[name]
         value = float(row[name])
-        return "\u2013" if math.isnan(value) else f"{value:.{decimals}f}"
+        digits = f".{decimals[1:] or 3}g" if isinstance(decimals, str) else f".{decimals}f"
+        return "\u2013" if math.isnan(value) else f"{value:{digits}}"
 
     lines = ["| " + " | ".join(columns) + " |", "|" + "---|" * len(columns)]
     return "\n".join([*lines, *("| " + " | ".join(cell(row, of) for of in columns.values()) + " |" for row in rows)]) + "\n"
 
 
+def files(folder, name):
+    """The file of each run that has it, in the order of the plan."""
+    runs = [run["name"] for run in records.read_json(folder / "plan.json")["runs"]]
+    return [folder / run / name for run in runs if (folder / run / name).is_file()]
+
+
 def of_runs(folder, name, needed):
     """The rows of a table of all runs, in the order of the plan."""
-    runs = [run["name"] for run in records.read_json(folder / "plan.json")["runs"]]
-    return [row for run in runs if (folder / run / name).is_file() for row in records.table(folder / run / name, needed)]
+    return [row for file in files(folder, name) for row in records.table(file, needed)]

@@ -68,7 +68,8 @@ Character refined(const Character& character)
     result.blended.clear();
     for (int vertex = 0; vertex < paper.vertices(); ++vertex) result.blended.push_back(paper.blended(vertex));
     if (character.artist) result.artist->weights = mean_of_parents(character.artist->weights, fine.parents);
-    if (character.weight_kind == WeightKind::paper || character.weight_kind == WeightKind::rigid)
+    if (character.weight_kind == WeightKind::paper || character.weight_kind == WeightKind::rigid ||
+        character.weight_kind == WeightKind::either_end)
         result.weights = weights_by(character.weight_kind, result);
     else
         result.weights = mean_of_parents(character.weights, fine.parents);

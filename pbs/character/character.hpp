@@ -13,9 +13,9 @@
 
 namespace pbs {
 
-// The rule that weights come from: Eq. 2, the nearest bone alone, Eq. 2 with smooth transitions, Eq. 2 smoothed over the mesh's edges, the
-// artist of a rigged file, a file of weights (skinning_weights.hpp).
-enum class WeightKind { paper, rigid, smooth, diffused, artist, file };
+// The rule that weights come from: Eq. 2, the nearest bone alone, Eq. 2 with smooth transitions, Eq. 2 smoothed over the mesh's edges,
+// Eq. 2 with the other reading of n_joints, the artist of a rigged file, a file of weights (skinning_weights.hpp).
+enum class WeightKind { paper, rigid, smooth, diffused, either_end, artist, file };
 
 struct RiggedModel;
 

@@ -32,7 +32,7 @@ bool has_artist_weights(const Character& character)
 
 const char* name_of(WeightKind kind)
 {
-    constexpr const char* names[] = {"paper", "rigid", "smooth", "diffused", "artist", "file"};  // in the order of WeightKind
+    constexpr const char* names[] = {"paper", "rigid", "smooth", "diffused", "either_end", "artist", "file"};  // in the order of WeightKind
     return names[static_cast<int>(kind)];
 }
 
@@ -47,6 +47,8 @@ Weights weights_by(WeightKind kind, const Character& character)
             return smooth_weights(character);
         case WeightKind::diffused:
             return diffused_weights(character.mesh, paper_weights(character.binding, character.skeleton));
+        case WeightKind::either_end:
+            return either_end_weights(character.binding, character.skeleton);
         case WeightKind::artist:
             if (has_artist_weights(character)) return character.artist->weights;
             break;

@@ -22,7 +22,7 @@ Character with_weights(WeightKind kind, Character character);
 
 bool has_artist_weights(const Character& character);
 
-const char* name_of(WeightKind kind);  // paper, rigid, smooth, diffused, artist, file
+const char* name_of(WeightKind kind);  // paper, rigid, smooth, diffused, either_end, artist, file
 
 // An artist's skin weights in the flesh.
 struct TransferredWeights {

@@ -43,6 +43,14 @@ enum class LbsEntry { start, increment };
 // A vertex on its bone (d_i = 0) is pinned to its material point, or has no bind constraint.
 enum class BindOnBone { pinned, unbound };
 
+// The material point q_i that a vertex is bound to ("its projection on the nearest bone", Sec. 3.6). carried: moved by the bone.
+// reprojected: the projection of the LBS position on the posed bone, anew in each step. Solvers are given the points by their caller.
+enum class BindPoint { carried, reprojected };
+
+// The mean distance from the nearest bone that a vertex of the jiggling zone exceeds (Sec. 4): that of all vertices, or of the vertices of
+// its own bone. Solvers are given the zone by their caller.
+enum class ZoneMean { of_all, of_bone };
+
 // The bind constraint holds a vertex to one of these. bone_distance: its rest distance from its material point on the bone (Sec. 3.6),
 // which leaves the turn about the bone free. blended_position: its position by LBS in this step, at distance zero, which resists that turn
 // too. With k_bind = 1 it undoes the other constraints in each iteration, so that it needs a small k_bind.
@@ -56,6 +64,7 @@ enum class VolumeOf { tets, regions, tets_and_regions };
 struct Jiggle {
     double k_stretch = 0.1;             // of edges with both ends in the jiggling zone
     std::optional<double> k_bind = {};  // of the zone's vertices; nothing: as elsewhere
+    ZoneMean zone_mean = ZoneMean::of_all;
 };
 
 // The paper states 24 iterations and m_i = 1; it leaves k_volume, k_bind, gravity and k_stretch outside the jiggling zone unstated.
@@ -77,6 +86,7 @@ struct PbsOptions {
     ClassOrder class_order = ClassOrder::bind_stretch_volume;     // as printed
     LbsEntry lbs_entry = LbsEntry::start;                         // increment: no vertex can be held
     BindOnBone bind_on_bone = BindOnBone::pinned;                 // k_bind applies to it as to any other
+    BindPoint bind_point = BindPoint::carried;                    // for the caller, who gives the points
     // A constraint is left out of the frame if LBS satisfies it and all constraints around it within the tolerance. At the end of the
     // frame, those left out are checked, and the frame is repeated with those that are not satisfied any more. The tolerance is one of
     // ratios; for bind constraints it is a share of the mean edge.

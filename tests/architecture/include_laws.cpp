@@ -55,7 +55,6 @@ const std::vector<std::vector<std::string>> layers = {
     {"experiments/verdicts/", "experiments/distributed/", "experiments/sweeps/"},
     {"experiments/command_line/"},
 };
-const std::string includes_studies = "experiments/studies/ambiguity/";  // measures each claim by the functions of the claim's own study
 
 // "experiments/studies/volume/" for "experiments/studies/volume/study.cpp"; for any other file its first two folders, or "" if there are
 // none.
@@ -82,8 +81,7 @@ std::optional<std::size_t> layer_of(const std::string& room)
 bool may_include(const std::string& room, const std::string& other)
 {
     const auto layer = layer_of(room), other_layer = layer_of(other);
-    const bool both_studies = other_layer == layer_of("experiments/studies/*");
-    return room == other || (other_layer && *other_layer < *layer) || (room == includes_studies && both_studies);
+    return room == other || (other_layer && *other_layer < *layer);
 }
 
 const FolderLaw* law_for(const std::string& path)

@@ -45,11 +45,6 @@ def broken_links(page):
     return broken
 
 
-def width_of(picture):
-    """The width of a PNG, from its first chunk."""
-    return struct.unpack(">I", picture.read_bytes()[16:20])[0]
-
-
 class Readme(unittest.TestCase):
     readme = source / "README.md"
 
@@ -61,7 +56,8 @@ class Readme(unittest.TestCase):
         self.assertGreaterEqual(len(pictures), 1)
         for picture in pictures:
             self.assertLess((source / picture).stat().st_size, largest_bytes, picture)
-            self.assertLessEqual(width_of(source / picture), widest_px, picture)
+            width_px, = struct.unpack(">I", (source / picture).read_bytes()[16:20])  # from the first chunk of a PNG
+            self.assertLessEqual(width_px, widest_px, picture)
 
     def test_every_link_of_every_page_leads_somewhere(self):
         self.assertGreater(len(links_of(self.readme)), 15)

@@ -1,10 +1,12 @@
-"""The report and its viewer in Debian's Chromium, with software rendering. `./check --long` runs this test and sets PBS_LONG=1; with that,
-missing programs fail the test, otherwise it is skipped (exit status 77).
+"""Three tests in Debian's Chromium, with software rendering; each is a function of a program and a folder that returns the exit status.
+`./check --long` runs them and sets PBS_LONG=1; with that, missing programs fail the test, otherwise it is skipped (exit status 77).
 
-    PBS_LONG=1 python3 tests/browser/browser_test.py build/release/bin/pbskin SCRATCH
+    PBS_LONG=1 python3 tests/browser/browser_test.py build/release/bin/pbskin SCRATCH viewer
 
-PBS_BROWSER_RESULTS=DIR uses the records and figures of an existing run. Otherwise the kept records are judged again, the studies `frames`
-and `audit` are run (a minute or two), and all figures are drawn that these records allow."""
+viewer: the report and its viewer. PBS_BROWSER_RESULTS=DIR uses the records and figures of an existing run. Otherwise the kept records are
+judged again, the studies `frames` and `audit` are run (a minute or two), and all figures are drawn that these records allow.
+quick_results: the report of a quick run. PBS_QUICK_RESULTS=DIR uses the records of an existing quick run of ./reproduce, which are copied;
+otherwise one is made, which takes ten minutes on two cores. trial: the page of a model of tests/support/rig_files.py."""
 import csv
 import json
 import os
@@ -16,8 +18,9 @@ import sys
 import numpy
 
 root = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(root / "paper_figures"))
+sys.path[:0] = [str(root / "paper_figures"), str(root / "tests" / "support")]
 
+import rig_files  # noqa: E402
 from drawing import bodies  # noqa: E402
 from records import entries, kept  # noqa: E402
 from viewer import data as viewer_data, page as viewer_html  # noqa: E402
@@ -117,22 +120,101 @@ def unready():
     return None
 
 
-def main(program, scratch):
-    """Returns the exit status."""
-    if (status := unready()) is not None:
-        return status
-    scratch.mkdir(parents=True, exist_ok=True)
-    results = recorded(program, scratch)
-    page, truth = scratch / "viewer.html", scratch / "truth.json"
-    surroundings = {**os.environ, "PBS_VIEWER_BUILD": str(scratch), "PBS_VIEWER_PAGE": str(page), "PBS_VIEWER_TRUTH": str(truth),
-                    "PBS_VIEWER_PICTURES": str(scratch), "PBS_REPORT_PAGE": str(results / "report.html")}
-    truth.write_text(json.dumps(truth_of(results)))
+def built(scratch, **names):
+    """The environment of the tests, with the viewer's program built into `scratch`, and names of files."""
+    surroundings = {**os.environ, "PBS_VIEWER_BUILD": str(scratch), "PBS_VIEWER_PICTURES": str(scratch),
+                    **{f"PBS_{name.upper()}": str(file) for name, file in names.items()}}
     run(["node", "build.mjs"], cwd=root / "paper_figures/viewer", env=surroundings)
-    run([sys.executable, "-B", "-m", "viewer.page", results, page], cwd=root / "paper_figures", env=surroundings)
+    return surroundings
+
+
+def report(results, surroundings):
     run([sys.executable, "-B", root / "paper_figures/make_report.py", "--quiet", results], env=surroundings)
-    tests = sorted(str(file) for file in pathlib.Path(__file__).parent.glob("*.test.mjs"))
+
+
+def status_of(pattern, surroundings):
+    """The exit status of the tests in these files."""
+    tests = sorted(str(file) for file in pathlib.Path(__file__).parent.glob(pattern))
     return subprocess.run(["node", "--test", *tests], env=surroundings).returncode
 
 
+def viewer(program, scratch):
+    """The report and its viewer, from kept and new records."""
+    results, page, truth = recorded(program, scratch), scratch / "viewer.html", scratch / "truth.json"
+    surroundings = built(scratch, viewer_page=page, viewer_truth=truth, report_page=results / "report.html")
+    truth.write_text(json.dumps(truth_of(results)))
+    run([sys.executable, "-B", "-m", "viewer.page", results, page], cwd=root / "paper_figures", env=surroundings)
+    report(results, surroundings)
+    return status_of("*.test.mjs", surroundings)
+
+
+def quick_records(program, scratch):
+    """A new folder with the records of a quick run, without figures."""
+    folder = scratch / "records"
+    shutil.rmtree(folder, ignore_errors=True)
+    given = os.environ.get("PBS_QUICK_RESULTS")
+    if given:
+        shutil.copytree(given, folder, ignore=shutil.ignore_patterns("figures", "report.html"))
+    else:
+        run([program, "reproduce", "--quick", "--quiet", "-o", folder], [bound_missed])
+    return folder
+
+
+def lacking(folder):
+    """Figures of studies that are not in the quick set."""
+    return {entry.name for entry in entries.read() if any(not (folder / study).is_dir() for study in entry.studies())}
+
+
+def quick_results(program, scratch):
+    """One make_all draws every figure that can be redrawn in minutes, and their report opens without errors."""
+    folder = quick_records(program, scratch)
+    run(["xvfb-run", "-a", sys.executable, "-B", root / "paper_figures" / "make_all.py", folder])  # status 0: every figure was drawn
+    left, expected = undrawn(folder), lacking(folder)
+    redrawn = {entry.name for entry in entries.read() if entry.mark == "R"}
+    print(f"{len(redrawn - left)} of {len(redrawn)} figures of mark R drawn; without their studies: {', '.join(sorted(expected))}")
+    if left != expected or not redrawn - left:
+        print(f"not drawn: {sorted(left)}, expected {sorted(expected)}")
+        return 1
+    surroundings = built(scratch, report_page=folder / "report.html")
+    report(folder, surroundings)
+    return status_of("report.test.mjs", surroundings)
+
+
+trial_frames = 5
+compared = ("lbs", "pbs", "lbs_paper")  # deformers whose surfaces are compared
+
+
+def trial_sample_of(folder, label, frame):
+    """Points of the deformed surface and vertices of the tets [m]."""
+    skin_m = bodies.points_of(folder / "frames" / f"{label}_surface_{frame:06}.vtp")
+    positions_m = viewer_data.read_frame(folder / "frames" / f"{label}_{frame:06}.vtu")[0]
+    return {"label": label, "frame": frame, "skin_m": skin_m.ravel().tolist(), "positions_m": positions_m.ravel().tolist()}
+
+
+def truth_of_trial(folder):
+    facts = json.loads((folder / "try.json").read_text())
+    artist_m = bodies.points_of(folder / "skin" / "artist_000000.vtp")
+    with open(folder / "metrics.csv", newline="") as stream:
+        deformers = list(dict.fromkeys(row["deformer"] for row in csv.DictReader(stream)))
+    samples = [trial_sample_of(folder, label, frame) for label in compared for frame in (0, trial_frames // 2, trial_frames - 1)]
+    return {"summary": facts["summary"], "warnings": facts["warnings"], "frames": trial_frames, "points": len(artist_m),
+            "deformers": deformers, "samples": samples}
+
+
+def trial(program, scratch):
+    """The page that `pbskin try` writes for a rigged model."""
+    folder, truth = scratch / "trial", scratch / "trial_truth.json"
+    shutil.rmtree(folder, ignore_errors=True)
+    surroundings = built(scratch, viewer_page=folder / "report.html", viewer_truth=truth)
+    model = rig_files.write("two_animations", str(scratch / "hero.glb"))  # a warning names the animation that is taken
+    run([program, "try", model, "-o", folder, "--frames", str(trial_frames), "--vertices", "400"], env=surroundings)
+    truth.write_text(json.dumps(truth_of_trial(folder)))
+    return status_of("trial/*.test.mjs", surroundings)
+
+
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1], pathlib.Path(sys.argv[2]).resolve()))
+    if (status := unready()) is None:
+        folder = pathlib.Path(sys.argv[2]).resolve()
+        folder.mkdir(parents=True, exist_ok=True)
+        status = {"viewer": viewer, "quick_results": quick_results, "trial": trial}[sys.argv[3]](sys.argv[1], folder)
+    sys.exit(status)

@@ -3,8 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { in_window, open_viewer, page, settle, test_in_windows, test_that_nothing_was_reported, use_page } from "./browser.mjs";
-import { claims, file, pictures, rows_of, undrawn } from "./records.mjs";
-import { rows_about, stand_in } from "./standing.mjs";
+import { claims, file, pictures, rows_about, rows_of, stand_in, undrawn } from "./records.mjs";
 
 const named = { reproduced: "reproduced", reproduced_only_for: "reproduced in part", not_reproduced: "not reproduced",
                 inconsistent_in_print: "inconsistent in print", cannot_be_tested_here: "cannot be tested here",

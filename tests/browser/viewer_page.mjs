@@ -1,4 +1,4 @@
-// The viewer's page for the tests of one file. browser_test.py and trial_test.py name the page and a file with samples of the records.
+// The viewer's page for the tests of one file. browser_test.py names the page and a file with samples of the records.
 import fs from "node:fs";
 import { open_viewer, page, settle, use_page } from "./browser.mjs";
 

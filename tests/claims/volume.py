@@ -1,7 +1,7 @@
-"""The volume claims C01 and C02 on the limb, as the program reports them: the pose decides, a small signed change hides inverted tets, and a
-broken solver changes the verdict. Reference: the bounds of claims.toml against the paper's values, and geometry: blending folds the sections
-of a twist and the crease of a bend. If the volume constraints are dropped, their gradient has the wrong sign or nothing is projected, the
-volume holds at fewer angles. No value here is our own."""
+"""The volume claims C01 and C02 on the limb, as the program reports them: the pose decides, a small signed change hides inverted tets, and
+a broken solver changes the verdict. Reference: the bounds of claims.toml against the paper's values, and geometry: blending folds the
+sections of a twist and the crease of a bend. If the volume constraints are dropped, their gradient has the wrong sign or nothing is
+projected, the volume holds at fewer angles. No value here is our own."""
 import json
 import pathlib
 import unittest

@@ -27,8 +27,7 @@ def fuzz(name):
     words = [f"-dict={path}" for path in [SOURCE / f"{name}.dict"] if path.exists()]
     process = subprocess.run(
         [PROGRAMS / f"fuzz_{name}", f"-max_total_time={SECONDS}", "-max_len=65536", "-timeout=10", "-rss_limit_mb=2048",
-         "-print_final_stats=1", *words,
-         f"-artifact_prefix={failed}/", grown, *seeds],
+         "-print_final_stats=1", *words, f"-artifact_prefix={failed}/", grown, *seeds],
         capture_output=True, text=True, errors="replace")
     runs = re.search(r"stat::number_of_executed_units:\s*(\d+)", process.stderr)
     library = re.search(r"^library: .*, (\d+) ended by a signal, (\d+) at the time limit, (\d+) ended otherwise", process.stderr, re.M)

@@ -16,11 +16,11 @@ def setUpModule():
 
 
 class InstalledProgram(installation.BuildTest):
-    def pbskin(self, *arguments):
+    def pbskin(self, *arguments, program="pbskin"):
         elsewhere = folder / "elsewhere"
         elsewhere.mkdir(exist_ok=True)
         environment = {"PATH": "/usr/bin:/bin", "HOME": str(elsewhere)}
-        return self.succeeds(run(prefix / "bin/pbskin", *arguments, cwd=elsewhere, env=environment))
+        return self.succeeds(run(prefix / "bin" / program, *arguments, cwd=elsewhere, env=environment))
 
     # A file that names the source tree would need it.
     def test_nothing_names_the_source_tree(self):
@@ -41,25 +41,19 @@ class InstalledProgram(installation.BuildTest):
         page = (folder / "elsewhere/audit/report.html").read_text(encoding="utf-8")
         self.assertIn("C13", page)
 
-    def sweep(self, *arguments):
-        environment = {"PATH": "/usr/bin:/bin", "HOME": str(folder)}
-        return self.succeeds(run(prefix / "bin/pbskin-sweep", *arguments, cwd=folder / "elsewhere", env=environment)).stdout
-
     def test_sweeps_by_the_program_beside(self):
-        (folder / "elsewhere").mkdir(exist_ok=True)
         example = prefix / "share/pbskin/sweeps/examples/limb_bend.toml"
-        self.assertRegex(self.sweep("check", example), r"(?m)^\d+ runs$")
+        self.assertRegex(self.pbskin("check", example, program="pbskin-sweep").stdout, r"(?m)^\d+ runs$")
         if shutil.which("snakemake", path="/usr/bin:/bin"):
-            self.sweep("run", example, "-o", "sweep", "-j", "2")
+            self.pbskin("run", example, "-o", "sweep", "-j", "2", program="pbskin-sweep")
             self.assertTrue((folder / "elsewhere/sweep/sweep.csv").is_file())
 
     def test_what_it_reads_is_there(self):
         for name in ("share/pbskin/paper_figures/make_all.py", "share/pbskin/CITATION.cff", "share/pbskin/claims.toml",
                      "share/pbskin/scenes/limb_twist.toml", "share/man/man1/pbskin.1", "share/man/man5/pbskin-scene.5",
-                     "share/bash-completion/completions/pbskin",
-                     "share/zsh/site-functions/_pbskin", "lib/pbskin/libpbskin_native_plain.so", "bin/pbskin-sweep",
-                     "share/pbskin/sweeps/Snakefile", "share/pbskin/sweeps/slurm/config.yaml",
-                     "share/pbskin/sweeps/examples/limb_bend.toml"):
+                     "share/bash-completion/completions/pbskin", "share/zsh/site-functions/_pbskin",
+                     "lib/pbskin/libpbskin_native_plain.so", "bin/pbskin-sweep", "share/pbskin/sweeps/Snakefile",
+                     "share/pbskin/sweeps/slurm/config.yaml", "share/pbskin/sweeps/examples/limb_bend.toml"):
             self.assertTrue((prefix / name).is_file(), name)
         left_behind = [str(file) for file in prefix.rglob("*") if file.name in ("node_modules", "__pycache__", "src", "package.json")]
         self.assertEqual(left_behind, [])

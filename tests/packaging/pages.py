@@ -48,9 +48,7 @@ class ManPage(unittest.TestCase):
             section = self.text.split(f".SS {verb}\n")[1].split(".SS ")[0]
             for name in options(verb):
                 self.assertIn(f"\\fB{name}\\fR", section, f"{verb} {name}")
-
-    def test_hidden_options_are_not_there(self):
-        self.assertNotIn("--describe", self.text)
+        self.assertNotIn("--describe", self.text)  # a hidden option
 
     @unittest.skipUnless(shutil.which("mandoc"), "mandoc is not installed")
     def test_readers_take_it(self):
@@ -95,21 +93,14 @@ class Bash(unittest.TestCase):
         for verb in verbs():
             self.assertEqual(sorted(completed(verb, "-")), sorted(options(verb)), verb)
 
-    def test_choices(self):
-        self.assertEqual(completed("list", "sc"), ["scenes"])
-
-    def test_names_that_the_program_lists(self):
-        self.assertEqual(completed("run", "limb_t"), ["limb_twist"])
-        self.assertEqual(completed("explain", "C0")[0], "C01")
-
-    def test_files(self):
+    def test_choices_names_and_files_but_none_for_a_number(self):
         (folder / "own scene.toml").write_text("")
-        self.assertEqual(completed("run", "own"), ["own scene.toml"])
-        self.assertEqual(completed("measure", "own"), ["own scene.toml"])
-        self.assertEqual(completed("run", "limb_twist", "-o", "own"), ["own scene.toml"])
-
-    def test_no_files_for_a_number(self):
-        self.assertEqual(completed("run", "limb_twist", "--threads", ""), [])
+        for words, replies in (("list sc", ["scenes"]), ("run limb_t", ["limb_twist"]), ("run own", ["own scene.toml"]),
+                               ("measure own", ["own scene.toml"]), ("run limb_twist -o own", ["own scene.toml"]),
+                               ("run limb_twist --threads ", [])):
+            with self.subTest(words):
+                self.assertEqual(completed(*words.split(" ")), replies)
+        self.assertEqual(completed("explain", "C0")[0], "C01")
 
 
 @unittest.skipUnless(shutil.which("zsh"), "zsh is not there")

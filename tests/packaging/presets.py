@@ -1,5 +1,5 @@
-"""`cmake --workflow --preset ci` is what ./check runs, and ./check is what continuous integration runs. A command of these tests that exceeds
-its time limit ends with all processes that it started, such as cmake with ninja and the compilers.
+"""`cmake --workflow --preset ci` is what ./check runs, and ./check is what continuous integration runs. A command of these tests that
+exceeds its time limit ends with all processes that it started, such as cmake with ninja and the compilers.
 
 Reference: the files themselves, compared with each other; the processes that exist.
 """

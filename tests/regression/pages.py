@@ -1,7 +1,7 @@
 """The README and the pages state what the kept records have, and the verdicts of the kept records are those on record by the bounds of
 claims.toml: they change only with new records or another rule. Every study and every claim has its page, with the required sections, whose
-generated part is current. `pbskin explain` prints each page, and those of deformers. The files and columns that the pages quote are those of
-the kept records. Reference: the kept records, claims.toml and figures.toml."""
+generated part is current. `pbskin explain` prints each page, and those of deformers. The files and columns that the pages quote are those
+of the kept records. Reference: the kept records, claims.toml and figures.toml."""
 import csv
 import fnmatch
 import pathlib
@@ -79,23 +79,18 @@ class Pages(program.ProgramTest):
                 self.assertEqual(sections(text), CLAIM_SECTIONS)
 
     def test_the_program_prints_every_page(self):
-        for name in [*self.studies(), *self.claims()]:
-            folder = readme_pages.claim_pages if name in self.claims() else readme_pages.studies / name
-            page = folder / (f"{name}.md" if name in self.claims() else "README.md")
-            printed = self.explained(name)
-            for section in sections(page.read_text(encoding="utf-8")):
-                self.assertIn(section, printed, name)
-        self.assertIn("reproduce --full:", self.explained("volume"))
-
-    def test_the_program_prints_the_page_of_each_deformer_that_has_one(self):
+        """Of studies, of claims, and of the deformers that have one."""
         folder = SOURCE / "experiments" / "deformers"
         pages = {page.stem: page for page in folder.glob("*.md") if page.stem != "README"}
         pages |= {page.parent.name: page for page in folder.glob("*/README.md")}
         self.assertLessEqual({"pbs_author", "external"}, set(pages))
+        pages |= {study: readme_pages.studies / study / "README.md" for study in self.studies()}
+        pages |= {claim: readme_pages.claim_pages / f"{claim}.md" for claim in self.claims()}
         for name, page in sorted(pages.items()):
             printed = self.explained(name)
             for section in sections(page.read_text(encoding="utf-8")):
                 self.assertIn(section, printed, name)
+        self.assertIn("reproduce --full:", self.explained("volume"))
 
     def test_quoted_files_and_columns_are_on_record(self):
         for study in self.studies():

@@ -40,15 +40,6 @@ class Case:
     as_nobody: bool = False  # for tests run by root, to whom file modes do not apply
 
 
-@dataclasses.dataclass
-class Answer:
-    status: int
-    told: str
-    seconds: float  # processor time of all its processes
-    bytes: int  # memory of the largest process
-    left: list
-
-
 def demands_a_rule(case):
     """Whether one of the words that stderr must contain is a rule, and not the name of a command or file, a line, a field, or a value."""
     names = {*case.files, *map(str, case.command)}
@@ -62,18 +53,12 @@ def make(folder, files):
         path.parent.mkdir(parents=True, exist_ok=True)
         if callable(content):
             content(path)
-        elif isinstance(content, bytes):
-            path.write_bytes(content)
         else:
-            path.write_bytes(content.encode())  # with the line ends that it has
+            path.write_bytes(content if isinstance(content, bytes) else content.encode())  # with the line ends that it has
 
 
 def listing(folder):
     return {str(path.relative_to(folder)) for path in folder.rglob("*")}
-
-
-def someone_else(case):
-    return NOBODY if case.as_nobody and os.geteuid() == 0 else {}
 
 
 def nobody_can_run_it():
@@ -88,7 +73,7 @@ def finished(case, folder):
     environment = {**os.environ, "PBSKIN_CACHE": f"{folder}/cache", "TMPDIR": f"{folder}/tmp", "NO_COLOR": "1"}
     with tempfile.TemporaryFile() as errors:
         process = subprocess.Popen([PBSKIN, *case.command], cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=errors,
-                                   env=environment, **someone_else(case))
+                                   env=environment, **(NOBODY if case.as_nobody and os.geteuid() == 0 else {}))
         stop = threading.Timer(MOST_WAITING_SECONDS[case.status], process.kill)
         stop.start()
         _, status, used = os.wait4(process.pid, 0)
@@ -99,6 +84,7 @@ def finished(case, folder):
 
 
 def answer(case, common):
+    """Exit status, stderr, processor time of all processes [s], memory of the largest one [bytes], and the files left behind."""
     with tempfile.TemporaryDirectory() as temporary:
         folder = pathlib.Path(temporary)
         folder.chmod(0o755)
@@ -108,17 +94,12 @@ def answer(case, common):
         before = listing(folder)
         status, told, used = finished(case, folder)
         left = [name for name in sorted(listing(folder) - before) if not is_allowed(name, case.leaves)]
-        return Answer(status, told, used.ru_utime + used.ru_stime, used.ru_maxrss * 1024, left)
+        return status, told, used.ru_utime + used.ru_stime, used.ru_maxrss * 1024, left
 
 
 def is_allowed(name, leaves):
     in_the_cache = name == "cache" or name.startswith("cache/")
     return in_the_cache and not run_records.is_temporary(pathlib.Path(name)) or name.startswith(leaves or ("/",))
-
-
-def names_of(case, common):
-    """The names that the line may use for the place of the error."""
-    return {*common, *case.files, *map(str, case.command), *(word.split(":")[0] for word in case.says if ": " in word)}
 
 
 def is_well_formed(line, names):
@@ -133,10 +114,12 @@ def is_well_formed(line, names):
 
 def what_is_wrong_with(told, case, common):
     lines = told.splitlines()
+    # the names that the line may use for the place of the error
+    names = {*common, *case.files, *map(str, case.command), *(word.split(":")[0] for word in case.says if ": " in word)}
     ours = [line.startswith("pbskin: ") for line in lines if not line.startswith("pbskin: warning: ")]
     if sum(ours) != 1 or not lines[-1].startswith("pbskin: "):
         yield "expected one line that begins with `pbskin: `, and that the last"
-    elif not is_well_formed(lines[-1], names_of(case, common)):
+    elif not is_well_formed(lines[-1], names):
         yield "expected the form `FILE[:LINE]: FIELD = VALUE: RULE`"
 
 
@@ -147,21 +130,18 @@ def typed(value, case):
 
 def problems(case, common):
     """The defects of the answer to `case`; empty if there are none. `common` files exist in every case."""
-    given = answer(case, common)
-    found = [f"exit status {given.status}, expected {case.status}"] if given.status != case.status else []
+    status, told, seconds, memory, left = answer(case, common)
+    found = [f"exit status {status}, expected {case.status}"] if status != case.status else []
     if case.status == 2:
-        found += what_is_wrong_with(given.told, case, common)
+        found += what_is_wrong_with(told, case, common)
     if not (SANITIZED and UNLIMITED.search(case.name)):
-        found += [f"does not say {word!r}" for word in case.says if word not in given.told]
-    found += [f"says that a value is {value}, which nobody typed" for value in re.findall(NO_NUMBER, given.told) if not typed(value, case)]
-    found += [f"says {word!r}" for word in WORDS_OF_NO_USER if word in given.told]
-    if case.status == 2 and given.seconds > MOST_SECONDS:
-        found.append(f"took {given.seconds:.1f} s of processor time")
-    if given.bytes > MOST_BYTES:
-        found.append(f"took {given.bytes >> 20} MB")
-    if given.left:
-        found.append(f"left behind: {given.left[:5]}")
-    return [f"{case.name}: {problem}\n    {given.told.strip()[:300]}" for problem in found]
+        found += [f"does not say {word!r}" for word in case.says if word not in told]
+    found += [f"says that a value is {value}, which nobody typed" for value in re.findall(NO_NUMBER, told) if not typed(value, case)]
+    found += [f"says {word!r}" for word in WORDS_OF_NO_USER if word in told]
+    found += [f"took {seconds:.1f} s of processor time"] if case.status == 2 and seconds > MOST_SECONDS else []
+    found += [f"took {memory >> 20} MB"] if memory > MOST_BYTES else []
+    found += [f"left behind: {left[:5]}"] if left else []
+    return [f"{case.name}: {problem}\n    {told.strip()[:300]}" for problem in found]
 
 
 def limit_address_space():

@@ -3,11 +3,11 @@
     [name, what stderr must contain, how the content of the file differs from the sound one]
 
 What stderr must contain, besides the file's name, is a text for all `variants` (formats of the file, or verbs), or a list of texts, each
-behind its variants. A content is the name of a sound file (sound_files.py), `@` and the name of something special, or a table: it begins
-as `text`, as `parts` put together, or as a sound file, whose writer is called `with` other arguments. `scale` changes the points of a mesh;
-`set` and `drop` change the numbers of a mesh or of a glTF document by their paths, and `put` bytes of the accessor at a path, from this byte
-on. Then `replace`, `begin`, `end` (a number of bytes, or a share), `before` and `after` change the whole. A part is a text, a repeated text,
-packed numbers, or `@noise`. Each row of a `case` is [name, command, what stderr must contain, files, further members of the case]."""
+behind its variants. A content is the name of a sound file (sound_files.py), `@` and the name of something special, or a table: it begins as
+`text`, as `parts` put together, or as a sound file, whose writer is called `with` other arguments. `scale` changes the points of a mesh;
+`set` and `drop` change the numbers of a mesh or of a glTF document by their paths, and `put` bytes of the accessor at a path, from this
+byte on. Then `replace`, `begin`, `end` (a number of bytes, or a share), `before` and `after` change the whole. A part is a text, a repeated
+text, packed numbers, or `@noise`. Each row of a `case` is [name, command, what stderr must contain, files, further members of the case]."""
 import concurrent.futures
 import copy
 import os

@@ -33,16 +33,24 @@ def mesh(cells=(20, 4, 4)):
 
 
 def write_msh(path, points, tets):
-    with open(path, "w", encoding="ascii") as file:
-        file.write(mesh_texts.msh(points, tets))
+    pathlib.Path(path).write_text(mesh_texts.msh(points, tets), encoding="ascii")
+
+
+def bvh(names, frames, time_s=0.01, length_m=0.5):
+    """A clip of a chain of joints; frames: the position of the first joint and the angles of each, about z, x and y [degrees]."""
+    inner = f"End Site\n{{\nOFFSET {length_m} 0 0\n}}\n"
+    for name in reversed(names[1:]):
+        inner = f"JOINT {name}\n{{\nOFFSET {length_m} 0 0\nCHANNELS 3 Zrotation Xrotation Yrotation\n{inner}}}\n"
+    rows = "".join(" ".join(frame) + "\n" for frame in frames)
+    channels = "6 Xposition Yposition Zposition Zrotation Xrotation Yrotation"
+    return (f"HIERARCHY\nROOT {names[0]}\n{{\nOFFSET 0 0 0\nCHANNELS {channels}\n{inner}}}\n"
+            f"MOTION\nFrames: {len(frames)}\nFrame Time: {time_s}\n{rows}")
 
 
 def write_bvh(path, elbow_deg):
     """Writes a clip at 100 Hz with these angles of the elbow about z, after a frame in the T pose."""
-    with open(path, "w", encoding="ascii") as file:
-        file.write((FOLDER / "arm.bvh").read_text() % (len(elbow_deg) + 1))
-        for angle in [0.0, *elbow_deg]:
-            file.write("0 0 0 0 0 0 %.17g 0 0\n" % angle)
+    frames = [["0 0 0", "0 0 0", f"{angle:.17g} 0 0"] for angle in [0.0, *elbow_deg]]
+    pathlib.Path(path).write_text(bvh(["shoulder", "elbow"], frames), encoding="ascii")
 
 
 class ArmTest(program.ProgramTest):

@@ -31,11 +31,12 @@ inline experiments::IterationPath path_to_floor(int most, double floor, double a
 inline experiments::ConvergencePaths starts_at_rates(int vertices, const std::vector<double>& rates, int most = 1000)
 {
     experiments::ConvergencePaths paths;
-    paths.body = "human";
-    paths.pose = "01_01 crouch";
+    paths.of.body = "human";
+    paths.of.pose = "01_01 crouch";
     paths.character = true;
-    paths.vertices = vertices;
-    paths.k_stretch = 0.2;
+    paths.of.vertices = vertices;
+    paths.of.order = "ordered", paths.of.precision = "f32";
+    paths.of.k_stretch = 0.2;
     for (const double rate : rates) paths.paths.push_back(path_to_floor(most, 1.0, 1.0, rate));
     paths.limit_from_lbs_pct.assign(rates.size(), 0.0);
     return paths;

@@ -6,7 +6,9 @@ skinning that the file format defines is computed by skin_formula.py, without pb
 import base64
 import json
 import math
+import pathlib
 import struct
+import tomllib
 
 import numpy
 
@@ -18,19 +20,14 @@ FLOAT, UNSIGNED_BYTE, UNSIGNED_SHORT, UNSIGNED_INT = 5126, 5121, 5123, 5125
 
 def tube(begin=0.0, end=LENGTH):
     """Points, #P x 3, and outward triangles, #F x 3, of a closed tube."""
-    points = [(begin - 0.3 * RADIUS, 0.0, 0.0)]
-    for ring in range(RINGS):
-        x = begin + (end - begin) * ring / (RINGS - 1)
-        points += [(x, RADIUS * math.cos(a), RADIUS * math.sin(a)) for a in (2 * math.pi * s / SIDES for s in range(SIDES))]
-    points.append((end + 0.3 * RADIUS, 0.0, 0.0))
-
-    def at(ring, side):
-        return 1 + ring * SIDES + side % SIDES
-
+    angles = [2 * math.pi * side / SIDES for side in range(SIDES)]
+    rings = [(begin + (end - begin) * ring / (RINGS - 1), RADIUS * math.cos(angle), RADIUS * math.sin(angle))
+             for ring in range(RINGS) for angle in angles]
+    points = [(begin - 0.3 * RADIUS, 0.0, 0.0), *rings, (end + 0.3 * RADIUS, 0.0, 0.0)]
+    at = lambda ring, side: 1 + ring * SIDES + side % SIDES
     triangles = []
     for side in range(SIDES):
-        triangles.append((0, at(0, side + 1), at(0, side)))
-        triangles.append((len(points) - 1, at(RINGS - 1, side), at(RINGS - 1, side + 1)))
+        triangles += [(0, at(0, side + 1), at(0, side)), (len(points) - 1, at(RINGS - 1, side), at(RINGS - 1, side + 1))]
         for ring in range(RINGS - 1):
             triangles += [(at(ring, side), at(ring, side + 1), at(ring + 1, side)),
                           (at(ring + 1, side), at(ring, side + 1), at(ring + 1, side + 1))]
@@ -39,11 +36,7 @@ def tube(begin=0.0, end=LENGTH):
 
 def weights_of(points):
     """Smooth weights of the joints, #P x 3; the leaf joint `tip` moves the end of the tube."""
-    x = points[:, 0]
-
-    def step(at, width):
-        return numpy.clip((x - at) / width + 0.5, 0.0, 1.0)
-
+    step = lambda at, width: numpy.clip((points[:, 0] - at) / width + 0.5, 0.0, 1.0)
     elbow, tip = step(PLACES[1][0], 0.2), step(PLACES[2][0], 0.15)
     return numpy.stack([1.0 - elbow, elbow * (1.0 - tip), elbow * tip], axis=1)
 
@@ -54,15 +47,10 @@ def turn(axis, degrees):
     return [*(math.sin(half) * numpy.array(axis, dtype=float) / numpy.linalg.norm(axis)), math.cos(half)]
 
 
-def encoded(document, data):
-    """The text of a document and the bytes of its buffer, each filled up to a multiple of four bytes."""
-    text = json.dumps(document).encode()
-    return text + b" " * (-len(text) % 4), bytes(data) + bytes(-len(data) % 4)
-
-
 def glb(document, data, version=2, json_length=None, length=None):
-    """The bytes of a .glb file, with the lengths that it states."""
-    text, data = encoded(document, data)
+    """The bytes of a .glb file, with the lengths that it states; both parts are filled up to a multiple of four bytes."""
+    text = json.dumps(document).encode()
+    text, data = text + b" " * (-len(text) % 4), bytes(data) + bytes(-len(data) % 4)
     chunks = struct.pack("<I4s", len(text) if json_length is None else json_length, b"JSON") + text
     chunks += struct.pack("<I4s", len(data), b"BIN\0") + data
     return struct.pack("<4sII", b"glTF", version, 12 + len(chunks) if length is None else length) + chunks
@@ -136,11 +124,6 @@ def add_mesh(gltf, points, triangles, weights, unit, compact):
     return len(gltf.document["meshes"]) - 1
 
 
-def without_tip(weights):
-    """The weights with those of the tip given to the elbow."""
-    return numpy.stack([weights[:, 0], weights[:, 1] + weights[:, 2], numpy.zeros(len(weights))], axis=1)
-
-
 def add_bead(gltf, unit):
     """A bead of 8 mm on the axis of the tube, far from its skin, which alone follows the tip."""
     points, triangles = tube()
@@ -193,7 +176,9 @@ def rig(containers=(), unit=1.0, compact=False, halves=1, rest_deg=0.0, mesh_nam
         begin, end = LENGTH * half / halves, LENGTH * (half + 1) / halves
         overlap = 0.05 if halves > 1 else 0.0
         points, triangles = tube(begin - overlap * (half > 0), end)
-        weights = without_tip(weights_of(points)) if tiny_tip else weights_of(points)
+        weights = weights_of(points)
+        if tiny_tip:  # the elbow has the weights of the tip
+            weights = numpy.stack([weights[:, 0], weights[:, 1] + weights[:, 2], numpy.zeros(len(weights))], axis=1)
         mesh = add_mesh(gltf, points, triangles, weights, unit, compact)
         gltf.node(name=mesh_name, mesh=mesh, skin=0)
     if tiny_tip:
@@ -213,25 +198,9 @@ def rig(containers=(), unit=1.0, compact=False, halves=1, rest_deg=0.0, mesh_nam
     return gltf.written()
 
 
-quarter = turn((1, 0, 0), -90)
-VARIANTS = {
-    "plain": {},
-    "scaled_container": {"containers": (("RootNode", {"rotation": quarter}),
-                                        ("Armature", {"scale": [0.01] * 3, "translation": [0.1, 0.2, 0.3]})),
-                         "unit": 0.01},
-    "doubled_container": {"containers": (("Armature", {"scale": [2.0] * 3}),)},
-    "bind_pose_is_not_rest": {"rest_deg": 40.0},
-    "two_animations": {"animations": ("Bend", "Twist")},
-    "spline": {"animations": ("Spline",)},
-    "mesh_named_like_a_joint": {"mesh_name": "elbow"},
-    "two_meshes": {"halves": 2},
-    "compact_weights": {"compact": True},
-    "centimetres": {"unit": 0.01},
-    "no_animation": {"animations": ()},
-}
+VARIANTS = tomllib.loads(pathlib.Path(__file__).with_name("rig_variants.toml").read_text())
 
 
 def write(variant, path, **options):
-    with open(path, "wb") as file:
-        file.write(glb(*rig(**{**VARIANTS[variant], **options})))
+    pathlib.Path(path).write_bytes(glb(*rig(**{**VARIANTS[variant], **options})))
     return path

@@ -1,11 +1,25 @@
-"""The files below a folder of records: whether each is complete, and its content except time and provenance."""
+"""The files below a folder of records: whether each is complete, and its content except time and provenance.
+
+limb_alone() runs the study `frames` without the human: whole scene runs, with state hashes and frames on disk, in seconds. The study has no
+such option. In a mount namespace of its own, it sees an empty folder in place of the installed motions."""
 import csv
+import functools
 import io
 import json
+import os
 import pathlib
 import re
+import subprocess
+import tempfile
+import unittest
 from xml.etree import ElementTree
 
+import program
+
+MOTIONS = "/usr/share/assimp/models/BVH"
+HIDE = f'mount --bind "$0" {MOTIONS} && exec "$@"'
+EMPTY = tempfile.TemporaryDirectory()
+NAMESPACES = [["unshare", "--mount"], ["unshare", "--map-root-user", "--mount"]]
 TIME_COLUMNS = re.compile(r"step_ms|.*cpu_s|.*wall_s|.*seconds|.*_ns|ms_.*|ns_.*")
 TIMED = "analyse|assemble|assembly|character|cost|cpu|factor|mesh|records|set_?up|solve|timing|total|wall"
 TIME_KEYS = re.compile(rf"provenance|peak_memory_mb|.*seconds|.*_utc|(.*_)?({TIMED})_s|.*frames_per_s|gb_s")
@@ -67,3 +81,58 @@ def records(folder, left_out=()):
     """Name below the folder -> content of the file."""
     named = ((str(path.relative_to(folder)), path) for path in files(folder))
     return {name: said(path) for name, path in named if not name.endswith(tuple(left_out))}
+
+
+@functools.cache
+def limb_alone():
+    """The words to be put before those of pbskin, which replaces their process. The test is skipped if no namespace is available."""
+    if not os.path.isdir(MOTIONS):
+        return []
+    for namespace in NAMESPACES:
+        words = [*namespace, "sh", "-c", HIDE, EMPTY.name]
+        try:
+            if subprocess.run([*words, "true"], capture_output=True).returncode == 0:
+                return words
+        except FileNotFoundError:
+            pass
+    raise unittest.SkipTest("no mount namespace can be had here, and the whole study takes minutes")
+
+
+def state_hashes(records):
+    """`RUN/run.json DEFORMER` -> hash, for the records of a folder."""
+    return {f"{name} {label}": state for name, record in records.items() if name.endswith("run.json")
+            for label, state in record.get("state_hash", {}).items()}
+
+
+def junit_cases(path):
+    """The test cases of a JUnit report, by classname and name."""
+    found = {}
+    for case in ElementTree.parse(path).getroot().iter("testcase"):
+        key = case.get("classname"), case.get("name")
+        assert key not in found, key
+        found[key] = case
+    return found
+
+
+def failed_cases(path):
+    """Classname and name of each case with a <failure> or an <error>."""
+    return {key for key, case in junit_cases(path).items() if case.find("failure") is not None or case.find("error") is not None}
+
+
+def scenes_of_another_mesh(folder):
+    """The scenes of a check's folder whose counts of vertices and tets differ from the project's baseline, as with another version of
+    CGAL."""
+    with open(os.path.join(program.SOURCE, "experiments", "verdicts", "check", "check_baseline.csv"), encoding="utf-8", newline="") as file:
+        baseline = {row["scene"]: (int(row["vertices"]), int(row["tets"])) for row in csv.DictReader(file)}
+    others = set()
+    for scene, counts in baseline.items():
+        with open(os.path.join(folder, scene, "run.json"), encoding="utf-8") as file:
+            character = json.load(file)["character"]
+        if (character["vertices"], character["tets"]) != counts:
+            others.add(scene)
+    return others
+
+
+def baselines_of(scenes, path):
+    """The cases of a JUnit report that compare one of the scenes with the baseline."""
+    return {(scene, name) for scene, name in junit_cases(path) if scene in scenes and name.startswith("baseline of ")}

@@ -16,6 +16,8 @@ import subprocess
 import tempfile
 import time
 
+import processes
+
 PROGRAMS = ("munged", "mungekey", "slurmctld", "slurmd", "sbatch", "scancel", "srun", "sinfo", "squeue", "scontrol")
 PATH = os.environ["PATH"] + ":/usr/sbin:/sbin"
 CONFIGURATION = pathlib.Path(__file__).with_name("slurm.conf.in")
@@ -46,15 +48,7 @@ def wait_for(what, condition, seconds=60):
 
 def children():
     """The process ids of this process's children, including orphans that it inherited."""
-    found = []
-    for stat in pathlib.Path("/proc").glob("[0-9]*/stat"):
-        try:
-            name, fields = stat.read_text().rsplit(")", 1)
-        except (OSError, ValueError):
-            continue
-        if int(fields.split()[1]) == os.getpid():
-            found.append(int(name.split()[0]))
-    return found
+    return [process for process, (_, parent, _) in processes.statuses().items() if parent == os.getpid()]
 
 
 class SlurmCluster:
@@ -91,8 +85,8 @@ class SlurmCluster:
             (self.folder / name).chmod(mode)
         controller_port, node_port = free_ports(2)
         configuration = self.folder / "slurm.conf"
-        configuration.write_text(CONFIGURATION.read_text().format(folder=self.folder, user=getpass.getuser(), controller_port=controller_port,
-                                                      node_port=node_port))
+        configuration.write_text(CONFIGURATION.read_text().format(folder=self.folder, user=getpass.getuser(),
+                                                                  controller_port=controller_port, node_port=node_port))
         self.environment = {name: value for name, value in os.environ.items() if not name.startswith(("SLURM", "SBATCH", "SRUN"))}
         self.environment.update(PATH=PATH, SLURM_CONF=str(configuration), USER=getpass.getuser())
         munge = self.folder / "munge"

@@ -82,10 +82,10 @@ FAR = [*POINTS, *[(x + 3.0, y, z) for x, y, z in POINTS]], [*TETS, *[[vertex + l
 SOUND = {
     **{name: (write, {"points": POINTS, "cells": TETS}) for name, write in mesh_texts.FORMATS.items()},
     **{name: (write, {"points": CORNERS, "cells": FACES}) for name, write in mesh_texts.SURFACES.items()},
-    **models("", surface(CORNERS, FACES)), **models("twenty triangles", surface(TWELVE, TWENTY)), **models("clip", clip()), **models("clip without keys", without_keys(*clip())),
-    **models("rig", rig_files.rig()),
+    **models("", surface(CORNERS, FACES)), **models("twenty triangles", surface(TWELVE, TWENTY)), **models("rig", rig_files.rig()),
+    **models("clip", clip()), **models("clip without keys", without_keys(*clip())),
     "two arms.vtu": (mesh_texts.vtu, dict(zip(("points", "cells"), FAR))),
-    "other tets.vtu": (mesh_texts.vtu, {"points": POINTS, "cells": [[7 - vertex if vertex in (0, 7) else vertex for vertex in tet] for tet in TETS]}),
+    "other tets.vtu": (mesh_texts.vtu, {"points": POINTS, "cells": [[7 - v if v in (0, 7) else v for v in tet] for tet in TETS]}),
     "longer.vtu": (mesh_texts.vtu, dict(zip(("points", "cells"), foreign_arm.mesh((5, 2, 2))))),
     "bvh": (bvh, {}), "clip.bvh": (bvh, {"frames": "3", "motion": 3 * ROW}),
     "plan": (lambda **plan: json.dumps(plan), PLAN),

@@ -1,6 +1,7 @@
 // The project's own claims, and the values that a study's own runs measure for them.
 //   const analysis::Records records = test_support::records_of(experiments::audit_study().plan(false));
 //   judge(test_support::claim("C13"), records)
+//   verdict_from("C09", jiggle_values("limb", measured)).kind
 #pragma once
 
 #include "analysis/records/record_files.hpp"
@@ -18,6 +19,12 @@ inline analysis::Claim claim(const std::string& id)
 {
     const auto claims = analysis::parse_claims(analysis::read_text(PBS_CLAIMS_FILE), PBS_CLAIMS_FILE);
     return *std::find_if(claims.begin(), claims.end(), [&](const auto& one) { return one.id == id; });
+}
+
+// The verdict on the claim from these values alone.
+inline analysis::Verdict verdict_from(const std::string& id, const std::vector<analysis::Measurement>& measured)
+{
+    return judge(claim(id), {.measurements = measured});
 }
 
 // Carries out the first `runs` runs of the plan, like `pbskin reproduce`.

@@ -1,6 +1,7 @@
 #include "experiments/studies/ambiguity/claim_changes.hpp"
 
-#include "analysis/records/report_table.hpp"
+#include "experiments/deformers/registry.hpp"
+#include "experiments/studies/shared/posed_character.hpp"
 #include "pbs/character/body_cache.hpp"
 
 #include <fmt/format.h>
@@ -8,12 +9,57 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <map>
-#include <set>
 
 namespace experiments {
+
+std::vector<Reading> readings_of(const StudyCase& of, const std::string& which)
+{
+    const nlohmann::json document = cases_document("ambiguity");
+    std::vector<Reading> readings;
+    const auto add = [&](const std::string& place, const std::string& name, const std::string& baseline, const Overrides& overrides) {
+        const Scene scene = of.scene(overrides);
+        nlohmann::json settings = to_json(spec_of(scene, "pbs")).at("options");
+        settings["weights"] = scene.resolved.at("skinning").at("weights");
+        settings["time_step_s"] = scene.motion.time_step_s;
+        readings.push_back({place, name, baseline, overrides, settings});
+    };
+    for (const nlohmann::json& place : document.at("place")) {
+        if (which != "all" && (which == "of_motion") != place.value("motion", false)) continue;
+        const std::string baseline = place.value("baseline", own_reading);
+        const auto& baselines = document.at("baseline");
+        const auto named = std::ranges::find_if(baselines, [&](const nlohmann::json& one) { return one.at("name") == baseline; });
+        const Overrides common = named->at("overrides");
+        if (std::ranges::find(readings, baseline, &Reading::name) == readings.end()) add("", baseline, baseline, common);
+        for (const Overrides reading : place.at("readings")) {
+            Overrides overrides = common;
+            overrides.insert(overrides.end(), reading.begin() + 1, reading.end());
+            add(place.at("name"), reading.front(), baseline, overrides);
+        }
+    }
+    return readings;
+}
+
+std::string untouched_because(const std::string& claim, const Reading& reading, const Reading& baseline)
+{
+    const std::vector<std::string> differing = differing_paths(reading.settings, baseline.settings);
+    if (differing.empty()) return "the scene is so by itself";
+    const nlohmann::json document = cases_document("ambiguity");
+    for (const nlohmann::json& rule : document.at("untouched")) {
+        const auto has = [&](const char* key, const std::string& name) {
+            return std::ranges::count(rule.value(key, std::vector<std::string>{}), name) > 0;
+        };
+        if (!has("claims", claim)) continue;
+        if (has("unless", reading.name)) return "";
+        const bool by_jiggle = rule.value("jiggling", false) && reading.jiggles();
+        const bool has_no_effect =
+            rule.contains("settings") && std::ranges::all_of(differing, [&](const std::string& name) { return has("settings", name); });
+        const bool lacks_the_cause =
+            rule.contains("only") && std::ranges::none_of(differing, [&](const std::string& name) { return has("only", name); });
+        if (by_jiggle || has_no_effect || lacks_the_cause) return rule.at("reason");
+    }
+    return "";
+}
 
 const analysis::Columns<ClaimChange>& claim_change_columns()
 {
@@ -46,7 +92,7 @@ const analysis::Columns<ClaimChange>& claim_change_columns()
 
 namespace {
 
-const JudgedValue* find(const ReadingValues& of, const JudgedValue& wanted)
+const JudgedValue* find(const JudgedReading& of, const JudgedValue& wanted)
 {
     const auto found = std::ranges::find_if(of.values, [&](const JudgedValue& one) {
         return one.claim == wanted.claim && one.quantity == wanted.quantity && one.of == wanted.of;
@@ -103,8 +149,8 @@ ClaimChange row_of(const std::string& body, const std::string& claim, const Read
 
 }  // namespace
 
-std::vector<ClaimChange> claim_changes(const std::string& body, const std::string& claim, const Reading& reading, const ReadingValues& a,
-                                       const ReadingValues& b)
+std::vector<ClaimChange> claim_changes(const std::string& body, const std::string& claim, const Reading& reading, const JudgedReading& a,
+                                       const JudgedReading& b)
 {
     const ClaimChange row = row_of(body, claim, reading);
     std::vector<ClaimChange> changes;
@@ -112,7 +158,7 @@ std::vector<ClaimChange> claim_changes(const std::string& body, const std::strin
         if (of_a.claim == claim) changes.push_back(compared(named(row, of_a), &of_a, find(b, of_a), b.broke_down));
     for (const JudgedValue& of_b : b.values)
         if (of_b.claim == claim && !find(a, of_b)) changes.push_back(compared(named(row, of_b), nullptr, &of_b, b.broke_down));
-    for (const LeftOutQuantity& one : b.left_out)
+    for (const ReadingValues::LeftOut& one : b.left_out)
         if (one.claim == claim) changes.push_back(without_value(row, "no_value", one.reason, one.quantity));
     if (changes.empty()) changes.push_back(without_value(row, "no_value", b.broke_down ? "B breaks down" : "neither reading has a value"));
     return changes;
@@ -125,7 +171,7 @@ ClaimChange untouched_claim(const std::string& body, const std::string& claim, c
 
 const Reading& ReadingComparison::baseline_of(const Reading& reading) const
 {
-    return *std::ranges::find_if(readings_, [&](const Reading& other) { return other.place.empty() && other.name == reading.baseline; });
+    return *std::ranges::find(readings_, reading.baseline, &Reading::name);
 }
 
 void ReadingComparison::measure(const std::vector<std::string>& claims, const Measure& measure)
@@ -140,8 +186,8 @@ void ReadingComparison::measure(const std::vector<std::string>& claims, const Me
             add(baseline_of(reading));
             add(reading);
         }
-    const std::vector<ReadingValues> values = measure(measured);
-    std::map<std::string, const ReadingValues*> by_name;
+    const std::vector<JudgedReading> values = measure(measured);
+    std::map<std::string, const JudgedReading*> by_name;
     for (std::size_t i = 0; i < measured.size(); ++i) {
         by_name[measured[i].name] = &values.at(i);
         if (values[i].broke_down) breakdown_ += fmt::format("{} ({}). ", measured[i].name, fmt::join(claims, ", "));
@@ -158,23 +204,6 @@ void ReadingComparison::measure(const std::vector<std::string>& claims, const Me
         }
 }
 
-namespace {
-
-JudgedValue of_case(const analysis::Claim& claim, const analysis::CaseRecord& record, const std::string& metric)
-{
-    const analysis::CaseJudgement judgement = analysis::judge_case(claim, record, metric);
-    const bool of_share = claim.rule == analysis::ClaimRule::share_within;
-    return {claim.id,
-            (of_share ? "share_of_frames_by_" : "mean_") + metric,
-            {.body = record.scene},
-            of_share ? "1" : "%",
-            of_share ? analysis::bound_text({"", claim.share, 1.0}) : analysis::bound_text({"", claim.low, claim.high}),
-            of_share ? judgement.share.estimate : judgement.mean.estimate,
-            judgement.extent};
-}
-
-}  // namespace
-
 std::string digest_of(const std::vector<analysis::Claim>& claims)
 {
     nlohmann::json all = nlohmann::json::array();
@@ -184,14 +213,6 @@ std::string digest_of(const std::vector<analysis::Claim>& claims)
         for (const analysis::QuantityBound& bound : claim.bounds) all.push_back({bound.quantity, bound.low, bound.high});
     }
     return pbs::content_hash(all.dump());
-}
-
-std::vector<LeftOutQuantity> all_but(const std::string& claim, const std::vector<std::string>& measured, const std::string& reason)
-{
-    std::vector<LeftOutQuantity> left_out;
-    for (const std::string& quantity : claim_named(claim).metrics)
-        if (std::find(measured.begin(), measured.end(), quantity) == measured.end()) left_out.push_back({claim, quantity, reason});
-    return left_out;
 }
 
 std::vector<JudgedValue> judged(const std::vector<analysis::Measurement>& measured)
@@ -204,134 +225,6 @@ std::vector<JudgedValue> judged(const std::vector<analysis::Measurement>& measur
                           one.value, analysis::extent_of(claim, one), one.limit});
     }
     return values;
-}
-
-std::vector<JudgedValue> judged(const ReadMotion& moved)
-{
-    std::vector<JudgedValue> values;
-    for (const analysis::Claim& claim : claims()) {
-        if (claim.study != "volume") continue;
-        for (const std::string& metric : claim.metrics)
-            values.push_back(of_case(claim, claim.deformer == "lbs" ? moved.lbs : moved.pbs, metric));
-    }
-    return values;
-}
-
-namespace {
-
-constexpr std::size_t widest = 120, name_width = 36, cell_width = 7;  // of a cell, without the mark of a flip
-
-template <typename T>
-void add_new(std::vector<T>& to, const T& value)
-{
-    if (std::ranges::find(to, value) == to.end()) to.push_back(value);
-}
-
-std::string shortened(const std::string& text)
-{
-    return text.size() <= name_width ? text : text.substr(0, name_width - 2) + "..";
-}
-
-// How far B over A is from 1, either way.
-double size_of_change(const ClaimChange& row)
-{
-    if (!row.change) return -1.0;
-    if (!row.b_over_a) return *row.change == 0.0 ? 0.0 : std::numeric_limits<double>::infinity();
-    return *row.b_over_a > 0.0 ? std::abs(std::log(*row.b_over_a)) : std::numeric_limits<double>::infinity();
-}
-
-std::string value_text(const ClaimChange& row)
-{
-    if (row.b_over_a) {
-        const std::string text = fmt::format("x{:.3g}", *row.b_over_a);
-        return text.size() <= cell_width ? text : fmt::format("x{:.0e}", *row.b_over_a);
-    }
-    return row.a && row.b ? fmt::format("0>{:.2g}", *row.b) : "-";
-}
-
-// rows: of a body, a reading and a claim.
-std::string cell_text(const std::vector<ClaimChange>& rows)
-{
-    if (rows.empty()) return "";
-    if (std::ranges::find(rows, "not_touched", &ClaimChange::verdict_flips) != rows.end()) return ".";
-    const auto rank = [](const ClaimChange& row) { return std::pair(row.verdict_flips == "yes", size_of_change(row)); };
-    const ClaimChange& chosen = *std::ranges::max_element(rows, {}, rank);
-    return value_text(chosen) + (chosen.verdict_flips == "yes" ? "!" : "");
-}
-
-std::set<std::string> claims_of(const std::vector<ClaimChange>& changes)
-{
-    std::set<std::string> claims;
-    for (const ClaimChange& row : changes) claims.insert(row.claim);
-    return claims;
-}
-
-std::string block_of(const std::string& body, const std::vector<ClaimChange>& changes)
-{
-    const std::set<std::string> claims = claims_of(changes);
-    std::vector<std::pair<std::string, std::string>> readings;  // place, name
-    std::map<std::vector<std::string>, std::vector<ClaimChange>> cells;
-    for (const ClaimChange& row : changes) {
-        if (row.body != body) continue;
-        add_new(readings, {row.place, row.reading_b});
-        cells[{row.place, row.reading_b, row.claim}].push_back(row);
-    }
-    std::vector<std::string> columns = {"reading"};
-    std::vector<analysis::ReportColumn> shown = {{body, "reading"}};
-    for (const std::string& claim : claims) columns.push_back(claim), shown.push_back({claim, claim});
-    analysis::CsvTable table(columns);
-    std::string last_place;
-    for (const auto& [place, reading] : readings) {
-        std::vector<analysis::CsvTable::Cell> heading(columns.size(), std::string()), line = {shortened("  " + reading)};
-        heading.front() = shortened(title_of_place(place));
-        if (place != last_place) table.add_row(heading);
-        last_place = place;
-        for (const std::string& claim : claims) line.emplace_back(cell_text(cells[{place, reading, claim}]));
-        table.add_row(line);
-    }
-    return text_table(table, shown) + "\n";
-}
-
-// Lines of at most `widest`, all but the first indented.
-std::string hanging(const std::string& head, const std::vector<std::string>& parts)
-{
-    if (parts.empty()) return head + "\n";
-    const std::string indent(head.size() + 1, ' ');
-    const auto lines = analysis::wrapped(fmt::format("{}", fmt::join(parts, "; ")), widest - indent.size());
-    return fmt::format("{} {}\n", head, fmt::join(lines, "\n" + indent));
-}
-
-std::string words_of(const std::string& claim, const std::vector<ClaimChange>& changes)
-{
-    std::vector<std::string> flipping, reasons;
-    std::map<std::string, std::vector<std::string>> without;  // quantities by why there is none
-    int values = 0, flips = 0;
-    for (const ClaimChange& row : changes) {
-        if (row.claim != claim) continue;
-        values += row.verdict_flips == "yes" || row.verdict_flips == "no";
-        flips += row.verdict_flips == "yes";
-        if (row.verdict_flips == "yes") add_new(flipping, row.body + ", " + row.reading_b);
-        if (row.verdict_flips == "not_touched") add_new(reasons, row.reason);
-        if (row.verdict_flips == "no_value") add_new(without[row.reason], row.quantity);
-    }
-    std::string text = hanging(fmt::format("{}: {} of {} values flip{}", claim, flips, values, flips > 0 ? " by" : ""), flipping);
-    if (!reasons.empty()) text += hanging("     not touched where", reasons);
-    for (const auto& [reason, quantities] : without)
-        text += hanging("     no value:", {fmt::format("{}: {}", reason, fmt::join(quantities, ", "))});
-    return text;
-}
-
-}  // namespace
-
-std::string claim_changes_text(const std::vector<ClaimChange>& changes)
-{
-    std::vector<std::string> bodies;
-    for (const ClaimChange& row : changes) add_new(bodies, row.body);
-    std::string text;
-    for (const std::string& body : bodies) text += block_of(body, changes);
-    text += "B over A of the value that flips, or else changes most;  ! its verdict flips;  . not touched;  - no value\n\n";
-    for (const std::string& claim : claims_of(changes)) text += words_of(claim, changes);
-    return text;
 }
 
 }  // namespace experiments

@@ -1,15 +1,16 @@
-// The changes that each reading makes in the judged values of each claim: the values of A and B, and whether the claim's bound judges them
-// otherwise.
-//   ReadingComparison comparison("limb", readings);
-//   comparison.measure({"C03", "C12"}, [&](const auto& touching) { return values_of_starts(of, touching); });
+// The readings of the paper, and the changes that each of them makes in the judged values of each claim: the values of A and B, and whether
+// the claim's bound judges them otherwise.
+//   ReadingComparison comparison("limb", readings_of(of, "all"));
+//   comparison.measure({"C03", "C12"}, [&](const auto& touching) { return values_of(of, touching); });
 //   table_of(used_columns(claim_change_columns(), changes), changes).write("ambiguity.csv");
 #pragma once
 
 #include "analysis/records/tables.hpp"
 #include "analysis/verdicts/measurement.hpp"
 #include "analysis/verdicts/verdict.hpp"
-#include "experiments/studies/ambiguity/reading.hpp"
 #include "experiments/studies/study.hpp"
+
+#include <nlohmann/json.hpp>
 
 #include <functional>
 #include <optional>
@@ -18,9 +19,29 @@
 
 namespace experiments {
 
+inline constexpr const char* own_reading = "as_the_scene";  // the baseline of readings in which nothing jiggles
+
+// A reading of the paper at a place that can be read in more than one way: a set of keys of the scene. Reading A of a place is the baseline
+// that a reading names, and B is the reading itself. Substeps are no reading where nothing jiggles: every step then begins with LBS, and
+// the step before has no influence.
+struct Reading {
+    std::string place;  // an identifier; empty: a baseline
+    std::string name;
+    std::string baseline;
+    Overrides overrides = {};      // of the case's scene, with those of the baseline
+    nlohmann::json settings = {};  // options of PBS, weights and time step that follow from them
+
+    bool jiggles() const { return settings.contains("jiggle"); }
+};
+
+// The baselines and readings of cases.toml, each baseline before its readings. which: all, of_a_step, of_motion. The latter are those whose
+// steps depend on the last one, since particles are integrated.
+std::vector<Reading> readings_of(const StudyCase& of, const std::string& which);
+
+// Why a reading cannot change a claim, from how the claim's values are measured and not from the results; empty where it can.
+std::string untouched_because(const std::string& claim, const Reading& reading, const Reading& baseline);
+
 // A value that a claim is judged by, for a character that is moved by one reading, and whether it lies in the claim's bound.
-//   const std::vector<JudgedValue> values = judged(measurements);   // only of quantities that a claim is judged by
-//   const std::vector<JudgedValue> of_sweep = judged(read_motion);   // C01, C02
 struct JudgedValue {
     std::string claim, quantity;
     analysis::CaseKey of;
@@ -30,25 +51,15 @@ struct JudgedValue {
     analysis::Limit limit = analysis::Limit::none;     // where the value only bounds the quantity
 };
 
-// A quantity that a claim is judged by and that is not measured of readings.
-struct LeftOutQuantity {
-    std::string claim, quantity, reason;
-};
-
 // The values of the measured claims by one reading.
-struct ReadingValues {
+struct JudgedReading {
     std::vector<JudgedValue> values;
     bool broke_down = false;  // some positions are not finite
-    std::vector<LeftOutQuantity> left_out = {};
+    std::vector<ReadingValues::LeftOut> left_out = {};
 };
 
-// The quantities that the claim is judged by and that are not among those measured.
-std::vector<LeftOutQuantity> all_but(const std::string& claim, const std::vector<std::string>& measured, const std::string& reason);
-
+// Only of quantities that a claim is judged by.
 std::vector<JudgedValue> judged(const std::vector<analysis::Measurement>& measured);
-
-// C01: the mean of its metrics over the frames; C02: the share of frames within; both judged as analysis::judge_case does.
-std::vector<JudgedValue> judged(const ReadMotion& moved);
 
 // A hash of everything that decides whether a value holds: another bound gives another digest.
 std::string digest_of(const std::vector<analysis::Claim>& claims);
@@ -67,15 +78,15 @@ struct ClaimChange {
 };
 const analysis::Columns<ClaimChange>& claim_change_columns();  // case_body: of the value's case, or its scene
 
-std::vector<ClaimChange> claim_changes(const std::string& body, const std::string& claim, const Reading& reading, const ReadingValues& a,
-                                       const ReadingValues& b);
+std::vector<ClaimChange> claim_changes(const std::string& body, const std::string& claim, const Reading& reading, const JudgedReading& a,
+                                       const JudgedReading& b);
 ClaimChange untouched_claim(const std::string& body, const std::string& claim, const Reading& reading, const std::string& reason);
 
 // Readings and their baselines, claim by claim. Only readings that can touch one of the claims are measured, and their baselines before
 // them.
 class ReadingComparison {
 public:
-    using Measure = std::function<std::vector<ReadingValues>(const std::vector<Reading>&)>;  // one per reading
+    using Measure = std::function<std::vector<JudgedReading>(const std::vector<Reading>&)>;  // one per reading
 
     ReadingComparison(const std::string& body, const std::vector<Reading>& readings) : body_(body), readings_(readings) {}
 
@@ -91,10 +102,5 @@ private:
     std::vector<Reading> readings_;
     std::vector<ClaimChange> changes_;
 };
-
-// The changes as people read them, at most 120 columns wide: one block per body, one line per reading, one column per claim. A cell is B
-// over A of the value whose verdict flips, or else of the one that changes most. The lines below state by which readings each claim flips,
-// and why others cannot touch it.
-std::string claim_changes_text(const std::vector<ClaimChange>& changes);
 
 }  // namespace experiments

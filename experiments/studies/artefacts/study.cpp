@@ -11,26 +11,22 @@
 // The quick form has the limb, the human, and the elbow of the others. Quadratic elements have Poisson's ratios 0.45 and 0.49; with --full
 // the human has them too.
 //
-// Writes DIR/artefacts/CASE/{profiles,sections,intersections,smoothness,iterations,measurements}.csv, intersections.md and sections.md.
-// The paper states that it does not handle self-intersections; they are counted. sections.md states where C04 and C05 have a value, and why
-// they have none elsewhere.
+// Writes DIR/artefacts/CASE/{profiles,sections,intersections,smoothness,iterations,measurements}.csv. The paper states that it does not
+// handle self-intersections; they are counted. sections.csv states where C04 and C05 have a value, and why they have none elsewhere.
 #include "analysis/records/record_files.hpp"
-#include "analysis/records/report_table.hpp"
 #include "experiments/studies/artefacts/artefact_values.hpp"
-#include "experiments/studies/shared/bodies.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 #include "experiments/studies/study.hpp"
+#include "pbs/geometry/input_error.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include <filesystem>
+#include <algorithm>
 #include <map>
+#include <optional>
 
 namespace experiments {
 namespace {
-
-namespace fs = std::filesystem;
 
 std::string look_and_record(const ArtefactCase& of, const std::string& folder)
 {
@@ -51,170 +47,97 @@ std::string look_and_record(const ArtefactCase& of, const std::string& folder)
     return records.breakdown;
 }
 
-const char* const all_deformers = R"(deformers.use=["lbs","dqs","pbs","delta_mush","xpbd","nh_p1"])";
-const char* const with_second_order = R"(deformers.use=["lbs","dqs","pbs","delta_mush","xpbd","nh_p1","nh_p2","nh_p2_nu_049"])";
-
-// A sweep in equal steps, without the rest pose.
-ArtefactCase sweep(const std::string& scene, std::vector<std::string> overrides, const std::string& what, int step_deg, int poses)
+// A joint that turns by step_deg from pose to pose, without the rest pose, or one pose of a clip.
+ArtefactCase case_of(const StudyCase& of)
 {
-    ArtefactCase of;
-    overrides.push_back(fmt::format("motion.angle_deg={}", step_deg * poses));
-    overrides.push_back(fmt::format("motion.frames={}", poses + 1));
-    overrides.push_back("reference.name=nh_p1");
-    of.scene = read_scene(scene, overrides);
-    of.claim = what == "twist" ? ArtefactCase::Claim::candy_wrapper : ArtefactCase::Claim::bulge;
-    for (int i = 1; i <= poses; ++i)
-        of.poses.push_back({i, fmt::format("{}_{}_deg", what, i * step_deg), {.motion = what, .angle_deg = double(i * step_deg)}});
-    return of;
-}
-
-ArtefactCase limb_sweep(const std::string& what, int poses, bool full)
-{
-    ArtefactCase of = sweep("limb_" + what, {with_second_order}, what, 30, poses);
-    of.vertices = full ? std::vector<int>{1200, 2600} : std::vector<int>{1200};
-    of.second_order_poses = full ? (what == "twist" ? poses : 3) : 2;  // beyond a bend of 90 degrees a pose takes minutes
-    return of;
-}
-
-// The human alone has quadratic elements.
-const char* deformers_of(const std::string& body, bool full)
-{
-    return full && body == "human" ? with_second_order : all_deformers;
-}
-
-ArtefactCase body_sweep(const std::string& body, const pbs::Skeleton& skeleton, const LimbJoint& joint, const std::string& what, bool full)
-{
-    const pbs::Vec3 axis = what == "twist" ? twist_axis(skeleton, joint) : hinge_axis(skeleton, joint);
-    ArtefactCase of = sweep("limb_bend",
-                            {deformers_of(body, full), "character.body=" + body, "motion.joint=" + skeleton.bones[joint.child].name,
-                             fmt::format("motion.axis=[{:.9f},{:.9f},{:.9f}]", axis.x(), axis.y(), axis.z())},
-                            what, 45, 2);
-    of.joint = joint.name;
-    of.second_order_poses = 2;
-    return of;
-}
-
-ArtefactCase crouch(const std::string& body, bool full)
-{
-    ArtefactCase of;
-    of.scene = read_scene("human_01_01", {deformers_of(body, full), "character.body=" + body, "reference.name=nh_p1"});
-    of.poses = {{clip_frames::crouch, "01_01_crouch", {.motion = "01_01", .pose = "crouch"}}};
-    of.second_order_poses = 1;
-    return of;
-}
-
-// How the joints of the bodies are turned, by the human's names of bones. A body with other names has all of its joints turned.
-struct TurnedJoint {
-    enum class QuickFor { no_body, human, every_body };
-
-    std::string name;
-    bool twisted, bent;
-    QuickFor quick_for;
-
-    bool is_turned(const std::string& body, bool full) const
-    {
-        return full || quick_for == QuickFor::every_body || (quick_for == QuickFor::human && body == "human");
+    ArtefactCase made;
+    made.joint = of.value<std::string>("joint", "");
+    made.vertices = of.value<std::vector<int>>("vertices", {});
+    made.second_order_poses = of.value("second_order_poses", 0);
+    const double finer = of.value("finer", 0.0);  // a further mesh, by its size over that of the body's own
+    std::optional<pbs::Character> character;
+    if (finer > 0.0 || !made.joint.empty()) character = pbs::make_character(of.scene().character);
+    if (finer > 0.0) made.vertices.push_back(static_cast<int>(finer * static_cast<double>(character->mesh.rest.rows())));
+    Overrides overrides;
+    if (of.has("frame"))
+        made.poses = {{of.value<int>("frame"), of.key().motion + "_" + of.key().pose, {.motion = of.key().motion, .pose = of.key().pose}}};
+    else {
+        const auto what = of.value<std::string>("what");
+        const int step_deg = of.value<int>("step_deg"), poses = of.value<int>("poses"), frame_deg = of.value("frame_deg", step_deg);
+        made.claim = what == "twist" ? ArtefactCase::Claim::candy_wrapper : ArtefactCase::Claim::bulge;
+        overrides.push_back(fmt::format("motion.angle_deg={}", step_deg * poses));
+        overrides.push_back(fmt::format("motion.frames={}", step_deg * poses / frame_deg + 1));
+        for (int i = 1; i <= poses; ++i)
+            made.poses.push_back({i * step_deg / frame_deg,
+                                  fmt::format("{}_{}_deg", what, i * step_deg),
+                                  {.motion = what, .angle_deg = double(i * step_deg)}});
+        if (!made.joint.empty()) {
+            const std::vector<LimbJoint> joints = limb_joints(*character);
+            const auto joint = std::ranges::find(joints, made.joint, &LimbJoint::name);
+            if (joint == joints.end())
+                throw pbs::InputError(character->name, 0, "joint", made.joint, "expected it among the body's joints");
+            const pbs::Vec3 axis = what == "twist" ? twist_axis(character->skeleton, *joint) : hinge_axis(character->skeleton, *joint);
+            overrides.push_back("motion.joint=" + character->skeleton.bones[joint->child].name);
+            overrides.push_back(fmt::format("motion.axis=[{:.9f},{:.9f},{:.9f}]", axis.x(), axis.y(), axis.z()));
+        }
     }
-};
-const TurnedJoint turned_joints[] = {{"upper_arm.L|forearm_upper.L", true, true, TurnedJoint::QuickFor::every_body},
-                                     {"forearm_upper.L|forearm_lower.L", true, false, TurnedJoint::QuickFor::no_body},
-                                     {"thigh.L|shin.L", true, true, TurnedJoint::QuickFor::human},
-                                     {"tail_2|tail_3", true, true, TurnedJoint::QuickFor::no_body}};
-
-std::vector<TurnedJoint> joints_to_turn(const std::vector<LimbJoint>& joints)
-{
-    std::vector<TurnedJoint> turned, all;
-    for (const LimbJoint& joint : joints) {
-        all.push_back({joint.name, true, true, TurnedJoint::QuickFor::every_body});
-        for (const TurnedJoint& known : turned_joints)
-            if (known.name == joint.name) turned.push_back(known);
-    }
-    return turned.empty() ? all : turned;
+    made.scene = of.scene(overrides);
+    return made;
 }
 
-void plan_body(const std::string& body, bool full, StudyPlan& plan)
+// C04 or C05 of readings: sections in the poses of a sweep all steps of which are taken, and one reference.
+std::vector<ReadingValues> read_sections(const StudyCase& of, const std::vector<Overrides>& readings)
 {
-    const pbs::Character character = pbs::make_character({.body = body});
-    const std::vector<LimbJoint> joints = limb_joints(character);
-    const int finer = static_cast<int>(1.3 * static_cast<double>(character.mesh.rest.rows()));
-    const auto add = [&](const std::string& name, ArtefactCase of, double cost_s) {
-        if (full) of.vertices = {finer};
-        plan.runs.push_back(work_run(name, of, full ? 1.5 * cost_s : cost_s, look_and_record));
+    const ArtefactCase base = case_of(of);
+    const ArtefactBody body(base);
+    const pbs::Character& character = body.posed.character();
+    const pbs::Motion motion = make_motion(base.scene.motion, character.skeleton, base.scene.file);
+    const auto add = [&](std::vector<ArtefactSample>& samples, const char* group, std::size_t pose, const pbs::Positions& shape) {
+        const int element_order = group == std::string("reference") ? 1 : 0;
+        for (std::size_t joint = 0; joint < body.joints.size(); ++joint)
+            samples.push_back({group, pose, joint, extremes_of(body.sections[joint].measure(shape, body.posed.pose(pose))), element_order});
     };
-    for (const TurnedJoint& turned : joints_to_turn(joints))
-        for (const LimbJoint& joint : joints) {
-            if (joint.name != turned.name || !turned.is_turned(body, full)) continue;
-            const std::string& bone = character.skeleton.bones[joint.child].name;
-            if (turned.twisted) add(body + "_twist_" + bone, body_sweep(body, character.skeleton, joint, "twist", full), 4.0);
-            if (turned.bent) add(body + "_bend_" + bone, body_sweep(body, character.skeleton, joint, "bend", full), 4.0);
-        }
-    if (full || body == "human") add(body + "_crouch", crouch(body, full), body == "frankie" ? 8.0 : 4.0);
-}
-
-struct RunIntersection {
-    std::string run;
-    IntersectionRow row;
-};
-
-// The surfaces on which a pose changes the number of pairs of triangles that intersect.
-std::string intersections_text(const FinishedRuns& finished)
-{
-    static const analysis::Columns<RunIntersection> columns =
-        analysis::Columns<RunIntersection>{{"run", &RunIntersection::run, "", "name of the run"}} +
-        analysis::within(&RunIntersection::row, intersection_columns);
-    std::vector<RunIntersection> changed;
-    for (const std::string& file : finished.files("intersections.csv"))
-        for (const auto& row : rows_of(intersection_columns, analysis::read_csv(file)))
-            if (row.pairs != row.pairs_at_rest) changed.push_back({fs::path(file).parent_path().filename().string(), row});
-    return markdown_table(table_of(columns, changed), {{"case", "run"},
-                                                       {"pose", "pose"},
-                                                       {"surface", "surface"},
-                                                       {"deformer", "deformer"},
-                                                       {"pairs", "pairs"},
-                                                       {"at rest", "pairs_at_rest"}});
-}
-
-// The number of sections by which each claim is judged, those that are left out with the reason, and the remarks.
-std::string sections_text(const FinishedRuns& finished)
-{
-    std::map<std::string, std::map<std::string, std::vector<std::string>>> sections;  // by claim and outcome
-    std::string remarks;
-    for (const SectionRow& row : finished.rows(section_columns, "sections.csv")) {
-        const std::string of = fmt::format("{} {} {}", row.body, row.pose, row.joint);
-        sections[row.claim][row.outcome].push_back(of);
-        if (!row.remark.empty()) remarks += fmt::format("{}: {}, {}: {}\n", row.claim, of, row.outcome, row.remark);
+    const bool is_bulge = base.claim == ArtefactCase::Claim::bulge;
+    std::vector<ArtefactSample> reference;  // C04 does without it
+    const Shapes flesh = is_bulge ? body.posed.shapes(spec_of(base.scene, base.scene.reference)) : Shapes{};
+    for (std::size_t pose = 0; pose < flesh.size(); ++pose)
+        if (flesh[pose].finished) add(reference, "reference", pose, flesh[pose].positions);
+    std::vector<ReadingValues> all;
+    for (const Overrides& reading : readings) {
+        const Scene scene = of.scene(reading);
+        const std::vector<pbs::Positions> shapes = shapes_in_motion(reweighted(character, scene), motion, spec_of(scene, "pbs"));
+        std::vector<ArtefactSample> samples = reference;
+        for (std::size_t pose = 0; pose < base.poses.size(); ++pose)
+            if (const pbs::Positions& shape = shapes.at(static_cast<std::size_t>(base.poses[pose].frame)); shape.allFinite())
+                add(samples, "pbs", pose, shape);
+        const bool finite = std::ranges::all_of(shapes, [](const pbs::Positions& shape) { return shape.allFinite(); });
+        all.push_back({is_bulge ? bulge_values(base, body, samples) : candy_wrapper_values(base, body, samples), !finite});
     }
-    std::string text;
-    for (const auto& [claim, outcomes] : sections)
-        for (const auto& [outcome, names] : outcomes) {
-            text += fmt::format("{}: {} sections {}", claim, names.size(), outcome);
-            text += outcome == name_of(SectionOutcome::measured) ? "\n" : fmt::format(": {}\n", fmt::join(names, "; "));
-        }
-    return text + remarks;
+    return all;
 }
 
 StudyPlan plan(bool full)
 {
-    StudyPlan plan;
-    plan.runs.push_back(work_run("limb_twist", limb_sweep("twist", 6, full), full ? 26.0 : 11.0, look_and_record));
-    plan.runs.push_back(work_run("limb_bend", limb_sweep("bend", 5, full), full ? 60.0 : 40.0, look_and_record));
-    for_each_installed_body(plan.left_out, [&](const std::string& body) { plan_body(body, full, plan); });
-    return plan;
+    return plan_of_cases("artefacts", full, [](const StudyCase& of, StudyPlan& plan) {
+        plan.runs.push_back(work_run(of.name, case_of(of), of.cost_s, look_and_record));
+    });
 }
 
 StudyConclusion conclude(const FinishedRuns& finished)
 {
-    const std::string intersections = intersections_text(finished), sections = sections_text(finished);
-    finished.write("intersections.md", intersections);
-    finished.write("sections.md", sections);
-    return {intersections + "\n" + sections, !finished.none()};
+    std::map<std::string, std::map<std::string, int>> sections;  // by claim and outcome
+    for (const SectionRow& row : finished.rows(section_columns, "sections.csv")) ++sections[row.claim][row.outcome];
+    std::string text;
+    for (const auto& [claim, outcomes] : sections)
+        for (const auto& [outcome, count] : outcomes) text += fmt::format("{}: {} sections {}\n", claim, count, outcome);
+    return {text, !finished.none()};
 }
 
 }  // namespace
 
 Study artefacts_study()
 {
-    return {"artefacts", plan, quick_and_full, conclude};
+    return {"artefacts", plan, quick_and_full, conclude, false, nullptr, read_sections};
 }
 
 }  // namespace experiments

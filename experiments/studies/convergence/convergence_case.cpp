@@ -70,9 +70,9 @@ std::vector<FrameStarts> starts_of(const pbs::Character& character, const pbs::M
     for (const int frame : frames) {
         const std::size_t step = static_cast<std::size_t>(frame) * motion.steps_per_frame;
         const pbs::Pose& pose = motion.steps.at(step);
-        all.push_back(
-            {pbs::posed_bind_points(character.binding, pose),
-             {blended(character, character.weights, pose), warm.before(step), character.mesh.rest, blended(character, rigid, pose)}});
+        const pbs::Positions lbs = blended(character, character.weights, pose);
+        all.push_back({bind_points_of(options, character, pose, lbs),
+                       {lbs, warm.before(step), character.mesh.rest, blended(character, rigid, pose)}});
     }
     return all;
 }
@@ -153,7 +153,7 @@ private:
     {
         for (std::size_t start = 0; start < paths.paths.size(); ++start)
             if (!paths.paths[start].finite)
-                result.breakdown += fmt::format("{} from {} is not finite. ", paths.pose, name_of(static_cast<SolverStart>(start)));
+                result.breakdown += fmt::format("{} from {} is not finite. ", paths.of.pose, name_of(static_cast<SolverStart>(start)));
         result.all.push_back(std::move(paths));
     }
 
@@ -164,20 +164,14 @@ private:
         const pbs::Character& character = posed_.character();
         const FrameReference& reference = references_[frame];
         const IterationMetrics iteration_metrics(character, starts.bind_points, reference.solved ? &*reference.solved : nullptr);
-        ConvergencePaths paths{of_.scene.character.body,
-                               of_.frames[frame].name,
-                               of_.frames[frame].key,
-                               int(character.mesh.rest.rows()),
-                               int(character.mesh.tets.rows()),
-                               own_,
-                               options.k_stretch,
-                               setting,
-                               !of_.scene.motion.clip.empty(),
-                               of_.frames[frame].twist,
-                               reference.name,
-                               reference.solved ? quality_of(*reference.solved) : ReferenceQuality(),
-                               {},
-                               {}};
+        ConvergencePaths paths{
+            .of = {of_.scene.character.body, of_.frames[frame].name, int(character.mesh.rest.rows()), int(character.mesh.tets.rows()), own_,
+                   name_of(options.order), name_of(options.precision), options.k_stretch},
+            .key = of_.frames[frame].key,
+            .character = !of_.scene.motion.clip.empty(),
+            .twist = of_.frames[frame].twist,
+            .reference = reference.name};
+        if (reference.solved) paths.quality = quality_of(*reference.solved);
         paths.paths = iterate(character, options, starts.bind_points, {starts.shapes.begin(), starts.shapes.end()}, of_.most_iterations,
                               iteration_metrics);
         for (const IterationPath& path : paths.paths)

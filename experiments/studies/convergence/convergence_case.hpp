@@ -34,7 +34,8 @@ struct FrameStarts {
     std::array<pbs::Positions, 4> shapes;  // by SolverStart [m], #V x 3
 };
 
-// frames: of the motion, increasing. options: for the steps that lead to previous_frame. Before the first frame it is LBS.
+// frames: of the motion, increasing. options: for the bind points, and for the steps that lead to previous_frame, whose own bind points are
+// always the bones' material points. Before the first frame previous_frame is LBS.
 std::vector<FrameStarts> starts_of(const pbs::Character& character, const pbs::Motion& motion, const std::vector<int>& frames,
                                    const pbs::PbsOptions& options);
 
@@ -53,11 +54,11 @@ struct ProjectionSetting {
 
 struct ConvergenceCase {
     Scene scene;
-    std::vector<NamedFrame> frames;           // increasing
-    std::vector<double> k_stretch;            // the first one is the scene's
-    std::vector<ProjectionSetting> settings;  // on the scene's own mesh; on the others only the first one
-    std::vector<int> other_vertices;          // further meshes by their wanted size
-    int every_setting_to = 0;                 // further meshes up to this wanted size take all settings
+    std::vector<NamedFrame> frames = {};           // increasing
+    std::vector<double> k_stretch = {};            // the first one is the scene's
+    std::vector<ProjectionSetting> settings = {};  // on the scene's own mesh; on the others only the first one
+    std::vector<int> other_vertices = {};          // further meshes by their wanted size
+    int every_setting_to = 0;                      // further meshes up to this wanted size take all settings
     bool ladder = false;  // other_vertices are a ladder of sizes with values of their own; otherwise their spread is the uncertainty
     int most_iterations = 1000;
     DeformerSpec reference = {};    // as PosedReference takes it, solved on the scene's own mesh and on those of a ladder
@@ -75,18 +76,24 @@ struct ReferenceQuality {
     std::optional<bool> order_is_reliable = {};
 };
 
-struct ConvergencePaths {
+// A body in a pose, a setting of the solver and, in a row of a record, the initial guess.
+struct PathCase {
     std::string body, pose;
-    analysis::CaseKey key = {};  // of the pose, as NamedFrame has it
     int vertices = 0, tets = 0;
     bool own_mesh = true;  // the scene's
+    std::string order, precision;
     double k_stretch = 0.0;
-    ProjectionSetting setting;
+    std::string start = {};
+};
+
+struct ConvergencePaths {
+    PathCase of;
+    analysis::CaseKey key = {};             // of the pose, as NamedFrame has it
     bool character = false, twist = false;  // character: in a clip; twist: see NamedFrame
-    std::string reference;                  // its name, or why there is none
+    std::string reference = {};             // its name, or why there is none
     ReferenceQuality quality = {};
-    std::vector<IterationPath> paths;        // by SolverStart
-    std::vector<double> limit_from_lbs_pct;  // between the last shapes of each path and of that from LBS, at the joints
+    std::vector<IterationPath> paths = {};        // by SolverStart
+    std::vector<double> limit_from_lbs_pct = {};  // between the last shapes of each path and of that from LBS, at the joints
 };
 
 struct ConvergenceResult {
@@ -99,15 +106,6 @@ ConvergenceResult measure_convergence(const ConvergenceCase& of);
 
 // The records of convergence: residuals by iteration, one row per path, and the error to the reference by iteration.
 
-// The path that a row belongs to.
-struct PathCase {
-    std::string body, pose;
-    int vertices = 0, tets = 0;
-    bool own_mesh = true;
-    std::string order, precision;
-    double k_stretch = 0.0;
-    std::string start;
-};
 // rates.csv
 struct RateRow {
     PathCase of;

@@ -1,7 +1,6 @@
 #include "experiments/studies/convergence/convergence_case.hpp"
 
 #include "analysis/statistics/fits.hpp"
-#include "experiments/deformers/deformer_options.hpp"
 
 #include <fmt/format.h>
 
@@ -10,6 +9,7 @@
 #include <functional>
 #include <limits>
 #include <optional>
+#include <tuple>
 
 namespace experiments {
 namespace {
@@ -27,17 +27,10 @@ const Columns<PathCase> case_columns = {{"body", &PathCase::body, "", "name of t
                                         {"k_stretch", &PathCase::k_stretch, "", "stiffness of the stretch constraints"},
                                         {"start", &PathCase::start, "", "initial guess: lbs, previous_frame, rest_pose or rigid_bind"}};
 
-PathCase case_of(const ConvergencePaths& of, std::size_t start)
+PathCase case_of(PathCase of, std::size_t start)
 {
-    return {of.body,
-            of.pose,
-            of.vertices,
-            of.tets,
-            of.own_mesh,
-            name_of(of.setting.order),
-            name_of(of.setting.precision),
-            of.k_stretch,
-            name_of(all_starts[start])};
+    of.start = name_of(all_starts[start]);
+    return of;
 }
 
 // Six digits are enough for drawing. All digits would double the size of the record.
@@ -66,7 +59,7 @@ RateRow rate_row(const ConvergencePaths& of, std::size_t start, double floor)
 {
     const IterationPath& path = of.paths[start];
     RateRow row;
-    row.of = case_of(of, start);
+    row.of = case_of(of.of, start);
     row.outcome = path.finite ? "finished" : "not_finite";
     row.first = path.looks.front();
     row.paper = look_at(path, 24);
@@ -163,9 +156,9 @@ std::vector<LookRow> look_rows(const ConvergenceResult& result)
 {
     std::vector<LookRow> rows;
     for (const ConvergencePaths& paths : result.all) {
-        if (!paths.own_mesh && !result.ladder) continue;  // of other tessellations only the rates are recorded
+        if (!paths.of.own_mesh && !result.ladder) continue;  // of other tessellations only the rates are recorded
         for (std::size_t start = 0; start < paths.paths.size(); ++start)
-            for (const Look& look : thinned(paths.paths[start])) rows.push_back({case_of(paths, start), look});
+            for (const Look& look : thinned(paths.paths[start])) rows.push_back({case_of(paths.of, start), look});
     }
     return rows;
 }
@@ -202,7 +195,8 @@ std::vector<Group> groups_of(const ConvergenceResult& result)
     for (const ConvergencePaths& paths : result.all) {
         const auto same = [&](const Group& group) {
             const ConvergencePaths& first = *group.front();
-            return first.pose == paths.pose && first.k_stretch == paths.k_stretch && (!result.ladder || first.vertices == paths.vertices);
+            return first.of.pose == paths.of.pose && first.of.k_stretch == paths.of.k_stretch &&
+                   (!result.ladder || first.of.vertices == paths.of.vertices);
         };
         if (const auto found = std::find_if(groups.begin(), groups.end(), same); found != groups.end())
             found->push_back(&paths);
@@ -215,12 +209,12 @@ std::vector<Group> groups_of(const ConvergenceResult& result)
 analysis::CaseKey key_of(const ConvergencePaths& of)
 {
     analysis::CaseKey key = of.key;
-    key.body = of.body;
+    key.body = of.of.body;
     key.deformer = "pbs";
-    key.order = experiments::name_of(of.setting.order);
-    key.precision = experiments::name_of(of.setting.precision);
-    key.vertices = of.vertices;
-    key.k_stretch = of.k_stretch;
+    key.order = of.of.order;
+    key.precision = of.of.precision;
+    key.vertices = of.of.vertices;
+    key.k_stretch = of.of.k_stretch;
     return key;
 }
 
@@ -318,29 +312,28 @@ void add_neither(std::vector<analysis::Measurement>& to, const ConvergenceResult
             for (std::size_t start = 1; start < paths.paths.size(); ++start, ++all) neither += !over_lbs(tolerance, start)(paths);
         if (all == 0) continue;
         const double share = neither / double(all);
-        const analysis::CaseKey key = {.body = result.all.front().body, .tolerance = tolerance.name};
+        const analysis::CaseKey key = {.body = result.all.front().of.body, .tolerance = tolerance.name};
         to.push_back({"C03", "share_of_ratios_not_reached", key, share, share, share, "1"});
         to.back().n = all;
     }
 }
 
-bool on_one_ladder(const ConvergencePaths& a, const ConvergencePaths& b)
+bool on_one_ladder(const PathCase& a, const PathCase& b)
 {
-    return a.pose == b.pose && a.k_stretch == b.k_stretch && a.setting.order == b.setting.order &&
-           a.setting.precision == b.setting.precision;
+    return std::tie(a.pose, a.k_stretch, a.order, a.precision) == std::tie(b.pose, b.k_stretch, b.order, b.precision);
 }
 
 // iterations ~ vertices^exponent, over the sizes that reach the tolerance, by order.
 void add_exponents(std::vector<analysis::Measurement>& to, const ConvergenceResult& result)
 {
     for (const ConvergencePaths& first : result.all) {
-        const auto same = [&](const ConvergencePaths& other) { return on_one_ladder(first, other); };
+        const auto same = [&](const ConvergencePaths& other) { return on_one_ladder(first.of, other.of); };
         if (&*std::find_if(result.all.begin(), result.all.end(), same) != &first) continue;
         for (const Tolerance& tolerance : tolerances) {
             std::vector<double> vertices, iterations;
             for (const ConvergencePaths& paths : result.all)
                 if (const Reached lbs = tolerance.reached(paths, 0); same(paths) && lbs.within && lbs.iterations > 0) {
-                    vertices.push_back(paths.vertices);
+                    vertices.push_back(paths.of.vertices);
                     iterations.push_back(lbs.iterations);
                 }
             if (vertices.size() < 3) continue;

@@ -28,14 +28,14 @@
 namespace experiments {
 
 struct EnsembleCase {
-    analysis::CaseKey of;  // body, motion, and the pose or the angle
-    Scene scene;           // its character and motion
-    int frame = 0;         // of its motion
-    DeformerSpec flesh;    // a [[fem]] deformer, which the members change
-    std::vector<EnsembleMember> members;
-    std::vector<DeformerSpec> deformers;  // that are ordered
+    analysis::CaseKey of;     // body, motion, and the pose or the angle
+    Scene scene;              // its character and motion
+    int frame = 0;            // of its motion
+    DeformerSpec flesh = {};  // a [[fem]] deformer, which the members change
+    std::vector<EnsembleMember> members = {};
+    std::vector<DeformerSpec> deformers = {};  // that are ordered
     // The parts of PBS's error, of each stiffness of the stretch constraints and number of iterations.
-    DeformerSpec pbs;
+    DeformerSpec pbs = {};
     std::vector<DeformerSpec> other_flesh = {};  // is compared with the first member
     std::vector<double> k_stretch = {};
     std::vector<int> iterations = {};

@@ -16,11 +16,6 @@
 #include "experiments/studies/shared/posed_character.hpp"
 #include "experiments/studies/shared/posed_reference.hpp"
 #include "experiments/studies/study.hpp"
-#include "pbs/geometry/input_error.hpp"
-
-#include <fmt/format.h>
-
-#include <tuple>
 
 namespace experiments {
 namespace {
@@ -37,65 +32,27 @@ std::string measure_and_record(const EnsembleCase& of, const std::string& folder
     return records.breakdown;
 }
 
-EnsembleCase ensemble_case(const analysis::CaseKey& key, const Scene& scene, int frame, bool full)
-{
-    EnsembleCase of;
-    of.of = key;
-    of.scene = scene;
-    of.frame = frame;
-    of.members = family();
-    of.flesh = reference_flesh(scene);
-    for (const char* kind : {"lbs", "dqs", "delta_mush", "xpbd"}) of.deformers.push_back(default_spec(kind));
-    DeformerSpec pbs = spec_of(scene, "pbs");
-    options_of<pbs::PbsOptions>(pbs).jiggle.reset();
-    of.deformers.push_back(pbs);
-    DeformerSpec elastic = of.flesh;
-    elastic.name = elastic.label = "fem_linear";
-    auto& small_strain = options_of<FemOptions>(elastic);
-    small_strain.model = reference_fem::Model::linear;
-    small_strain.most_newton_steps = 0;
-    of.deformers.push_back(elastic);
-    of.pbs = pbs;
-    of.other_flesh = other_attachments(of.flesh);
-    of.k_stretch = {0.05, 0.2, 0.9};
-    of.iterations = {1, 4, 24, 96, 384};
-    of.converged_iterations = full ? 32000 : 8000;
-    return of;
-}
-
-StudyRun limb_run(const std::string& motion, int angle_deg, bool full, double cost_s)
-{
-    const Scene scene = read_scene("limb_" + motion, {fmt::format("motion.angle_deg={}", angle_deg), "motion.frames=2"});
-    const EnsembleCase of = ensemble_case({.body = "limb", .motion = motion, .angle_deg = angle_deg}, scene, 1, full);
-    return work_run(case_name(of.of), of, cost_s, measure_and_record);
-}
-
-// pbs::InputError if the body is not installed.
-StudyRun human_run(const std::string& pose, int frame, double cost_s)
-{
-    const Scene scene = read_scene("human_01_01", {});
-    const EnsembleCase of = ensemble_case({.body = "human", .motion = "01_01", .pose = pose}, scene, frame, true);
-    return work_run(case_name(of.of), of, cost_s, measure_and_record);
-}
-
 StudyPlan plan(bool full)
 {
-    StudyPlan plan;
-    plan.runs.push_back(limb_run("twist", 90, full, full ? 1100.0 : 550.0));
-    plan.runs.push_back(limb_run("bend", 60, full, full ? 1200.0 : 620.0));
-    if (!full) return plan;
-    plan.runs.push_back(limb_run("twist", 150, full, 1200.0));
-    plan.runs.push_back(limb_run("bend", 90, full, 5800.0));
-    try {
-        for (const auto& [pose, frame, cost_s] : {std::tuple{"crouch", clip_frames::crouch, 1800.0},
-                                                  {"standing", clip_frames::standing, 3600.0},
-                                                  {"in_the_air", clip_frames::in_the_air, 1200.0},
-                                                  {"landing", clip_frames::landing, 1200.0}})
-            plan.runs.push_back(human_run(pose, frame, cost_s));
-    } catch (const pbs::InputError& error) {
-        plan.left_out.push_back({"human", error.what()});
-    }
-    return plan;
+    return plan_of_cases("ensemble", full, [full](const StudyCase& in_file, StudyPlan& plan) {
+        EnsembleCase of{.of = in_file.key(), .scene = in_file.scene(), .frame = in_file.value<int>("frame")};
+        of.members = family();
+        of.flesh = reference_flesh(of.scene);
+        of.pbs = spec_of(of.scene, "pbs");
+        options_of<pbs::PbsOptions>(of.pbs).jiggle.reset();
+        DeformerSpec elastic = of.flesh;
+        elastic.name = elastic.label = "fem_linear";
+        auto& small_strain = options_of<FemOptions>(elastic);
+        small_strain.model = reference_fem::Model::linear;
+        small_strain.most_newton_steps = 0;
+        for (const char* kind : {"lbs", "dqs", "delta_mush", "xpbd"}) of.deformers.push_back(default_spec(kind));
+        of.deformers.insert(of.deformers.end(), {of.pbs, elastic});
+        of.other_flesh = other_attachments(of.flesh);
+        of.k_stretch = {0.05, 0.2, 0.9};
+        of.iterations = {1, 4, 24, 96, 384};
+        of.converged_iterations = full ? 32000 : 8000;
+        plan.runs.push_back(work_run(in_file.name, of, in_file.cost_s, measure_and_record));
+    });
 }
 
 // For the terminal: the pairs, and the parts after the paper's 24 iterations.

@@ -66,7 +66,6 @@ struct JoltResponse {
 };
 
 JoltResponse jolt_response(const pbs::Character& character, const DeformerSpec& spec, const std::vector<int>& probe, const Jolt& jolt);
-JoltResponse jolt_response(const pbs::Character& character, Deformer& deformer, const std::vector<int>& probe, const Jolt& jolt);
 
 // The same flesh as an elastic body in time. The Young's modulus of the finite elements is chosen so that they swing as fast as PBS does at
 // one setting; damping and amplitude can then be compared.

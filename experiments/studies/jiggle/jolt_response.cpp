@@ -59,26 +59,22 @@ JoltResponse at_frequency(const pbs::Character& character, const DeformerSpec& f
 
 JoltResponse jolt_response(const pbs::Character& character, const DeformerSpec& spec, const std::vector<int>& probe, const Jolt& jolt)
 {
-    return jolt_response(character, *make_deformer(spec), probe, jolt);
-}
-
-JoltResponse jolt_response(const pbs::Character& character, Deformer& deformer, const std::vector<int>& probe, const Jolt& jolt)
-{
-    deformer.reset(character);
+    const std::unique_ptr<Deformer> deformer = make_deformer(spec);
+    deformer->reset(character);
     const pbs::Pose still = moved_by(character.skeleton.bones.size(), pbs::Vec3::Zero()),
                     moved = moved_by(character.skeleton.bones.size(), jolt.length_m * jolt.direction);
     const Eigen::Index vertices = character.mesh.rest.rows();
     JoltResponse response;
     const auto advance = [&](const pbs::Pose& pose) {
         stop_if_interrupted();
-        response.finished = response.finished && deformer.advance(pose, jolt.time_step_s).outcome == pbs::Outcome::finished;
+        response.finished = response.finished && deformer->advance(pose, jolt.time_step_s).outcome == pbs::Outcome::finished;
     };
     for (int step = 0; step < jolt.still_steps; ++step) advance(still);
-    const pbs::Positions lay = deformer.positions().topRows(vertices);
+    const pbs::Positions lay = deformer->positions().topRows(vertices);
     for (int step = 0; step < jolt.steps && response.finished; ++step) {
-        const pbs::Positions before = deformer.positions().topRows(vertices);
+        const pbs::Positions before = deformer->positions().topRows(vertices);
         advance(moved);
-        const pbs::Positions now = deformer.positions().topRows(vertices);
+        const pbs::Positions now = deformer->positions().topRows(vertices);
         double excursion_m = 0.0;
         for (const int v : probe) excursion_m += (now.row(v) - lay.row(v)).dot(jolt.direction) - jolt.length_m;
         response.excursion_m.push_back(excursion_m / static_cast<double>(probe.size()));

@@ -4,14 +4,193 @@
 //   human at 1,200, 2,400 and 4,800 vertices; man, lady, frankie where installed; ring, a body with a handle
 //
 // Writes DIR/setup/BODY/measurements.csv, changed_keys.csv, trials.csv and run/ (the folder of a run), and setup.csv.
+#include "analysis/records/record_files.hpp"
 #include "analysis/records/report_table.hpp"
+#include "analysis/records/tables.hpp"
+#include "analysis/statistics/statistics.hpp"
 #include "analysis/verdicts/measurement.hpp"
+#include "experiments/run/run.hpp"
+#include "experiments/settings/recorded_settings.hpp"
 #include "experiments/studies/setup/body_setup.hpp"
 #include "experiments/studies/study.hpp"
+#include "pbs/character/body_cache.hpp"
+#include "pbs/geometry/input_error.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
 
 namespace experiments {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> shared_overrides(double rate_hz)
+{
+    return {fmt::format("motion.rate_hz={:.1f}", rate_hz), R"(deformers.use=["pbs"])", R"(reference.name="")", "output.frames=[]",
+            "output.frame_names=[]"};
+}
+
+// Sets an empty cache of meshes. Fetched packages remain visible in it.
+void use_own_cache(const fs::path& cache)
+{
+    const fs::path packages = fs::path(pbs::cache_folder()) / "packages";
+    fs::create_directories(cache);
+    if (fs::exists(packages)) fs::create_directory_symlink(fs::absolute(packages), cache / "packages");
+    setenv("PBSKIN_CACHE", cache.c_str(), 1);
+}
+
+// So that every trial meshes anew.
+void forget_meshes(const fs::path& cache)
+{
+    for (const fs::path& file : analysis::files_in(cache))
+        if (file.filename() != "packages") fs::remove_all(file);
+}
+
+analysis::CaseKey key_of(const BodySetup& setup)
+{
+    return {.body = setup.body, .motion = "01_01", .deformer = "pbs"};
+}
+
+analysis::CaseKey key_of(const BodySetup& setup, const nlohmann::json& run)
+{
+    analysis::CaseKey key = key_of(setup);
+    key.vertices = run.at("character").at("vertices").get<double>();
+    return key;
+}
+
+std::vector<analysis::Measurement> measured_in(const fs::path& run_folder, const BodySetup& setup, const std::vector<std::string>& changed)
+{
+    const analysis::CsvTable metrics = analysis::read_csv((run_folder / "metrics.csv").string());
+    return analysis::from_record((run_folder / "run.json").string(),
+                                 [&](const nlohmann::json& run) { return setup_measurements(key_of(setup, run), metrics, run, changed); });
+}
+
+void write_trials(const std::vector<TriedSetup>& tried, const std::string& path)
+{
+    std::vector<TrialRow> trials;
+    for (std::size_t i = 0; i < tried.size(); ++i)
+        trials.push_back({int(i), fmt::format("{}", fmt::join(tried[i].setup.further, " ")), tried[i].failure});
+    table_of(trial_columns, trials).write(path);
+}
+
+}  // namespace
+
+const analysis::Columns<TrialRow> trial_columns = {
+    {"trial", &TrialRow::trial, "", "number of the trial, from 0"},
+    {"further_keys", &TrialRow::further_keys, "", "key=value: what else was changed in the scene"},
+    {"failure", &TrialRow::failure, "", "why it did not run; empty where it did"}};
+
+const analysis::Columns<std::string> key_columns = {{"key", std::identity{}, "", "a key that differs from the shared scene's"}};
+
+Scene shared_scene(double rate_hz)
+{
+    return read_scene("human_01_01", shared_overrides(rate_hz));
+}
+
+Scene scene_of(const BodySetup& setup, double rate_hz)
+{
+    std::vector<std::string> overrides = shared_overrides(rate_hz);
+    overrides.push_back("character.body=" + setup.body);
+    overrides.push_back("character.vertices=" + std::to_string(setup.vertices));
+    overrides.insert(overrides.end(), setup.further.begin(), setup.further.end());
+    return read_scene("human_01_01", overrides);
+}
+
+RECORD_SETTINGS(BodySetup, body, vertices, further)
+
+RECORD_SETTINGS_AND(SetupCase,
+                    .derived("scene", [](const SetupCase& one) { return to_json(scene_of(one.setup, one.rate_hz)); })
+                        .derived("compared_with", [](const SetupCase& one) { return shared_scene(one.rate_hz).resolved; })
+                        .constant("further_keys", further_keys()),
+                    setup, rate_hz)
+
+std::vector<std::string> keys_changed(const nlohmann::json& shared, const nlohmann::json& own)
+{
+    std::vector<std::string> changed = differing_paths(shared, own);
+    std::erase_if(changed, [](const auto& key) { return key == "character.body" || key == "character.vertices"; });
+    return changed;
+}
+
+const std::vector<std::vector<std::string>>& further_keys()
+{
+    static const std::vector<std::vector<std::string>> keys = {
+        {}, {R"(skinning.weights="rigid")"}, {R"(pbs.precision="f64")"}, {R"(pbs.precision="f64")", "pbs.k_volume=0.5"}};
+    return keys;
+}
+
+std::vector<TriedSetup> tried_setups(const BodySetup& setup, const Trial& trial)
+{
+    std::vector<TriedSetup> tried;
+    for (const std::vector<std::string>& further : further_keys()) {
+        BodySetup own = setup;
+        own.further.insert(own.further.end(), further.begin(), further.end());
+        try {
+            tried.push_back({own, trial(own)});
+        } catch (const pbs::InputError& error) {
+            tried.push_back({own, error.what()});
+        }
+        if (tried.back().failure.empty()) break;
+    }
+    return tried;
+}
+
+std::vector<analysis::Measurement> setup_measurements(const analysis::CaseKey& of, const analysis::CsvTable& metrics,
+                                                      const nlohmann::json& run, const std::vector<std::string>& changed)
+{
+    const std::vector<double> change_pct = metrics.numbers("volume_change_pct"), inverted = metrics.numbers("inverted_tets");
+    std::vector<bool> good;
+    double largest_pct = 0.0;
+    for (std::size_t frame = 0; frame < change_pct.size(); ++frame) {
+        good.push_back(std::isfinite(change_pct[frame]) && inverted[frame] == 0.0);
+        if (!(std::abs(change_pct[frame]) <= std::abs(largest_pct))) largest_pct = change_pct[frame];
+    }
+    analysis::BootstrapOptions options;
+    options.autocorrelation_time = analysis::integrated_autocorrelation_time(change_pct);
+    const analysis::Interval share = analysis::bootstrap_share(good, options), mean = analysis::bootstrap_mean(change_pct);
+    const nlohmann::json& seconds = run.at("cost").at("cpu_seconds");
+    const double set_up_s = seconds.at("character").get<double>() + seconds.at("motion").get<double>() + seconds.at("set_up").get<double>();
+    const double keys = static_cast<double>(changed.size());
+    return {{"C17", "keys_changed", of, keys, keys, keys, "1"},
+            {"C17", "share_of_sound_frames", of, share.estimate, share.low, share.high, "1"},
+            {"C17", "mean_volume_change_pct", of, mean.estimate, mean.low, mean.high, "%"},
+            {"C17", "largest_volume_change_pct", of, largest_pct, largest_pct, largest_pct, "%"},
+            {"C17", "set_up_s", of, set_up_s, set_up_s, set_up_s, "s"}};
+}
+
+std::vector<analysis::Measurement> not_set_up(const analysis::CaseKey& of)
+{
+    const double none = analysis::not_known;
+    return {{"C17", "keys_changed", of, none, none, none, "1"}, {"C17", "share_of_sound_frames", of, 0.0, 0.0, 0.0, "1"}};
+}
+
+std::string set_up_and_record(const SetupCase& of, const std::string& folder)
+{
+    const auto& [setup, rate_hz] = of;
+    const fs::path cache = fs::absolute(folder) / "cache", run_folder = fs::path(folder) / "run";
+    fs::remove_all(cache);
+    use_own_cache(cache);
+    const auto run = [&](const BodySetup& own) {
+        forget_meshes(cache);
+        return run_scene(scene_of(own, of.rate_hz), run_folder.string()).failure();
+    };
+    const std::vector<TriedSetup> tried = tried_setups(setup, run);
+    fs::remove_all(cache);
+
+    const BodySetup& last = tried.back().setup;
+    const bool runs = tried.back().failure.empty();
+    const auto path = [&](const char* name) { return (fs::path(folder) / name).string(); };
+    const std::vector<std::string> changed = keys_changed(shared_scene(rate_hz).resolved, scene_of(last, rate_hz).resolved);
+    analysis::measurement_table(runs ? measured_in(run_folder, last, changed) : not_set_up(key_of(setup))).write(path("measurements.csv"));
+    table_of(key_columns, changed).write(path("changed_keys.csv"));
+    write_trials(tried, path("trials.csv"));
+    return tried.back().failure;
+}
+
 namespace {
 
 // A measured value with its interval, for the terminal.

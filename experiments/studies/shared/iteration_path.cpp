@@ -5,12 +5,14 @@
 #include "experiments/process/machine.hpp"
 #include "experiments/process/terminal.hpp"
 #include "experiments/studies/shared/posed_reference.hpp"
+#include "pbs/solver/batched/batched_projection.hpp"
 #include "pbs/solver/particles.hpp"
 #include "pbs/solver/projection.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <random>
 #include <utility>
 
@@ -21,10 +23,14 @@ template <typename Scalar>
 std::vector<IterationPath> iterate_in(const pbs::Character& character, const pbs::PbsOptions& options, const pbs::Positions& bind_points,
                                       const std::vector<pbs::Positions>& starts, int most, const IterationMetrics& iteration_metrics)
 {
-    const auto projection = pbs::make_projection<Scalar>(
-        pbs::make_constraint_set<Scalar>(character.mesh, character.binding.distance, {}, options), character.mesh.tets, options);
+    pbs::Positions start;
+    const StepLoops loops = step_loops(pbs::make_constraint_set<Scalar>(character.mesh, character.binding.distance, {}, options),
+                                       character.mesh.tets, options, {start, bind_points});
     std::vector<IterationPath> paths;
-    for (const pbs::Positions& start : starts) paths.push_back(follow(*projection, start, bind_points, most, iteration_metrics));
+    for (const pbs::Positions& each : starts) {
+        start = each;
+        paths.push_back(follow(loops, start, most, iteration_metrics));
+    }
     return paths;
 }
 
@@ -78,24 +84,51 @@ std::vector<int> looked_at(int most)
 }
 
 template <typename Scalar>
-IterationPath follow(pbs::Projection<Scalar>& projection, const pbs::Positions& start, const pbs::Positions& bind_points, int most,
-                     const IterationMetrics& iteration_metrics)
+StepLoops step_loops(const pbs::ConstraintSet<Scalar>& constraints, const pbs::Tets& tets, const pbs::PbsOptions& options,
+                     const StepStart& start)
 {
-    IterationPath path{{}, start, true};
-    const pbs::Vec3 origin = pbs::local_origin<Scalar>(start);
-    projection.load(start, bind_points, origin);
+    struct State {
+        pbs::Vec3 origin = pbs::Vec3::Zero();
+        pbs::Positions positions;
+    };
+    const std::shared_ptr<pbs::Projection<Scalar>> projection = pbs::make_projection(constraints, tets, options);
+    const auto state = std::make_shared<State>();
+    StepLoops loops;
+    loops.load = [projection, state, start] {
+        if (start.has_local_origin) state->origin = pbs::local_origin<Scalar>(start.guess);
+        projection->load(start.guess, start.bind_points, state->origin);
+    };
+    loops.bind = [projection] { projection->project_bind_constraints(); };
+    loops.stretch = [projection] { projection->project_stretch_constraints(); };
+    loops.volume = [projection] { projection->project_volume_constraints(); };
+    loops.store = [projection, state, start]() -> const pbs::Positions& {
+        state->positions.resize(start.guess.rows(), 3);
+        projection->store(state->origin, state->positions);
+        return state->positions;
+    };
+    loops.residuals = [projection] { return projection->residuals(); };
+    if (const auto* batched = dynamic_cast<const pbs::BatchedProjection<Scalar>*>(projection.get())) {
+        loops.stretch_fill = batched->stretch_fill();
+        loops.volume_fill = batched->volume_fill();
+    }
+    return loops;
+}
+
+template StepLoops step_loops(const pbs::ConstraintSet<float>&, const pbs::Tets&, const pbs::PbsOptions&, const StepStart&);
+template StepLoops step_loops(const pbs::ConstraintSet<double>&, const pbs::Tets&, const pbs::PbsOptions&, const StepStart&);
+
+IterationPath follow(const StepLoops& loops, const pbs::Positions& guess, int most, const IterationMetrics& iteration_metrics)
+{
+    IterationPath path{{}, guess};
+    loops.load();
     int iteration = 0;
     double seconds = 0.0;
     for (const int look : looked_at(most)) {
         stop_if_interrupted();
         const double start_s = process_cpu_s();
-        for (; iteration < look; ++iteration) {
-            projection.project_bind_constraints();     // (11)
-            projection.project_stretch_constraints();  // (12)
-            projection.project_volume_constraints();   // (13)
-        }
+        for (; iteration < look; ++iteration) loops.iterate();  // (11) to (13)
         seconds += process_cpu_s() - start_s;
-        if (look > 0) projection.store(origin, path.last);
+        if (look > 0) path.last = loops.store();
         path.finite = path.last.allFinite();
         path.looks.push_back(iteration_metrics.measure(look, path.last));
         if (!path.finite) break;
@@ -103,9 +136,6 @@ IterationPath follow(pbs::Projection<Scalar>& projection, const pbs::Positions& 
     path.iteration_ms = 1e3 * seconds / std::max(iteration, 1);
     return path;
 }
-
-template IterationPath follow(pbs::Projection<float>&, const pbs::Positions&, const pbs::Positions&, int, const IterationMetrics&);
-template IterationPath follow(pbs::Projection<double>&, const pbs::Positions&, const pbs::Positions&, int, const IterationMetrics&);
 
 std::vector<IterationPath> iterate(const pbs::Character& character, const pbs::PbsOptions& options, const pbs::Positions& bind_points,
                                    const std::vector<pbs::Positions>& starts, int most, const IterationMetrics& iteration_metrics)

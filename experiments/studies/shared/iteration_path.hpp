@@ -18,6 +18,7 @@
 #include "pbs/solver/options.hpp"
 #include "pbs/solver/projection.hpp"
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -64,10 +65,29 @@ std::vector<int> looked_at(int most);
 std::vector<IterationPath> iterate(const pbs::Character& character, const pbs::PbsOptions& options, const pbs::Positions& bind_points,
                                    const std::vector<pbs::Positions>& starts, int most, const IterationMetrics& iteration_metrics);
 
-// The path of one initial guess by a projection of the caller's, for example of constraints in a sequence of its own.
+// The parts of a step of Algorithm 1: `load` puts the particles at the initial guess, an iteration projects bind, stretch and volume, and
+// `store` gives positions [m], #V x 3, which are valid until it is called again.
+struct StepLoops {
+    std::function<void()> load, bind, stretch, volume;
+    std::function<const pbs::Positions&()> store;
+    std::function<pbs::Residuals()> residuals;
+    std::optional<double> stretch_fill = {}, volume_fill = {};  // share of lanes that hold a constraint, of the batched orders
+
+    void iterate() const { bind(), stretch(), volume(); }
+};
+
+// The initial guess and the posed bind points [m], #V x 3, which each `load` reads and which outlive the loops.
+struct StepStart {
+    const pbs::Positions &guess, &bind_points;
+    bool has_local_origin = true;  // positions are relative to pbs::local_origin; false: to the origin of the world
+};
+
 template <typename Scalar>
-IterationPath follow(pbs::Projection<Scalar>& projection, const pbs::Positions& start, const pbs::Positions& bind_points, int most,
-                     const IterationMetrics& iteration_metrics);
+StepLoops step_loops(const pbs::ConstraintSet<Scalar>& constraints, const pbs::Tets& tets, const pbs::PbsOptions& options,
+                     const StepStart& start);
+
+// The path of one initial guess, which `loops` load.
+IterationPath follow(const StepLoops& loops, const pbs::Positions& guess, int most, const IterationMetrics& iteration_metrics);
 
 inline constexpr double residual_tolerance = 0.05;  // of the floor
 inline constexpr double satisfied_residual = 1e-4;

@@ -3,6 +3,7 @@
 #include "experiments/process/terminal.hpp"
 #include "experiments/run/frame_measurement.hpp"
 #include "experiments/scene/scene.hpp"
+#include "pbs/character/skinning_weights.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/geometry/topology.hpp"
@@ -21,6 +22,26 @@ pbs::Positions blended(const pbs::Character& character, const pbs::Pose& pose)
     pbs::Positions positions;
     pbs::linear_blend_skinning(character.mesh.rest, character.weights, pose, positions);
     return positions;
+}
+
+std::vector<pbs::Positions> shapes_in_motion(const pbs::Character& character, const pbs::Motion& motion, const DeformerSpec& spec)
+{
+    const std::unique_ptr<Deformer> deformer = make_deformer(spec);
+    deformer->reset(character);
+    std::vector<pbs::Positions> shapes;
+    for (int step = 0; step < static_cast<int>(motion.steps.size()); ++step) {
+        const bool is_frame = step % motion.steps_per_frame == 0;
+        if (!is_frame && !deformer->has_memory()) continue;
+        stop_if_interrupted();
+        deformer->advance(motion.steps[step], motion.time_step_s);
+        if (is_frame) shapes.push_back(deformer->positions());
+    }
+    return shapes;
+}
+
+pbs::Character reweighted(const pbs::Character& character, const Scene& scene)
+{
+    return scene.character.weights ? pbs::with_weights(*scene.character.weights, character) : character;
 }
 
 PosedCharacter::PosedCharacter(const Scene& scene, const std::vector<int>& frames)

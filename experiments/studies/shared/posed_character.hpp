@@ -16,15 +16,9 @@
 #include <string>
 #include <vector>
 
-namespace experiments::clip_frames {
-
-// The frames of CMU's clip 01_01 (100 Hz) that several studies measure.
-//   read_scene("human_01_01", {}), clip_frames::crouch
-inline constexpr int standing = 0, crouch = 164, in_the_air = 672, landing = 708;
-
-}  // namespace experiments::clip_frames
-
 namespace experiments {
+
+inline constexpr int crouch_frame = 164;  // of CMU's clip 01_01 (100 Hz)
 
 // The name of a pose's run, and of its diagram in the tables: limb_twist_90, human_crouch.
 
@@ -39,6 +33,12 @@ const analysis::Columns<analysis::FrameMetrics>& volume_columns();  // volume_ch
 
 // The shape that linear blend skinning gives [m], #V x 3.
 pbs::Positions blended(const pbs::Character& character, const pbs::Pose& pose);
+
+// The shapes that a deformer gives a character in all frames of a motion [m], #V x 3. With memory it takes the steps between them, too.
+std::vector<pbs::Positions> shapes_in_motion(const pbs::Character& character, const pbs::Motion& motion, const DeformerSpec& spec);
+
+// The character with the weights that the scene states, if it states any.
+pbs::Character reweighted(const pbs::Character& character, const Scene& scene);
 
 struct Shape {
     pbs::Positions positions;  // vertices [m], #V x 3

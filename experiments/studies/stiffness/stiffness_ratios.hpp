@@ -94,9 +94,9 @@ inline constexpr NameTable<Varied, 3> option_names<Varied>{
     {{Varied::iterations, "iterations"}, {Varied::time_step, "time_step"}, {Varied::resolution, "resolution"}}};
 
 struct VariedText {
-    const char *factor, *doubled;  // "1 / time step", "half the time step"
-    const char* quantity;          // in measurements.csv
-    double first, last;            // settings next to the paper's, in the factor's unit
+    const char* doubled;   // "half the time step"
+    const char* quantity;  // in measurements.csv
+    double first, last;    // settings next to the paper's: iterations, 1 / time step [1/s], vertices
 };
 const VariedText& text_of(Varied varied);
 
@@ -126,19 +126,12 @@ struct analysis::EnumNames<experiments::Varied> : experiments::OptionNames<exper
 
 namespace experiments {
 
-// The report of the stiffness study: a page with every exponent and every value of the claim, and a short table for the terminal.
+// The report of the stiffness study for the terminal: the ratios of PBS at k_stretch 0.2, of the same with the exponent, and of XPBD at
+// 30 kPa; and how many values of the control stay within the bounds that the claim sets for PBS. XPBD's stiffness is a material's, so its
+// values should; those of XPBD that forgets its multipliers should not, which shows that the study can tell the difference.
 using SweptRows = std::pair<Varied, std::vector<StiffnessRow>>;
-
-std::string stiffness_markdown(const std::vector<SweptRows>& sweeps);
-
-// The ratios of PBS at k_stretch 0.2, of the same with the exponent, and of XPBD at 30 kPa.
 std::string stiffness_text(const std::vector<SweptRows>& sweeps);
-
-// XPBD is a control. Its stiffness is a material's, so its values should stay within the bounds that the claim sets for PBS; those of XPBD
-// that forgets its multipliers should not, which shows that the study can tell the difference. The text has, for each thing doubled, how
-// many values stay; the page lists XPBD's values that do not stay.
 std::string control_text(const std::vector<SweptRows>& sweeps, const analysis::Claim& claim);
-std::string control_markdown(const std::vector<SweptRows>& sweeps, const analysis::Claim& claim);
 
 // One run of the stiffness study: one body, and one thing that is varied.
 struct StiffnessSweep {

@@ -5,8 +5,8 @@
 //
 // On the limb XPBD also runs with its multipliers reset in every iteration: a control that has to fail, and no part of the claim. The claim
 // is judged by the zone on what the solver moves, as the paper runs it; bars and zones on what is held are for comparison ("flesh held").
-// Writes DIR/stiffness/{iterations,time_step,resolution}_BODY/stiffness.csv and measurements.csv; DIR/stiffness/stiffness.csv,
-// exponents.csv and stiffness.md.
+// Writes DIR/stiffness/{iterations,time_step,resolution}_BODY/stiffness.csv and measurements.csv; DIR/stiffness/stiffness.csv
+// and exponents.csv.
 #include "analysis/records/tables.hpp"
 #include "experiments/studies/stiffness/stiffness_ratios.hpp"
 #include "experiments/studies/study.hpp"
@@ -42,11 +42,9 @@ StudyConclusion conclude(const FinishedRuns& finished)
         std::ranges::copy(swept.back().second, std::back_inserter(all));
         std::ranges::copy(stiffness_exponents(swept.back().second, varied), std::back_inserter(exponents));
     }
-    const analysis::Claim& claim = claim_named("C11");
     finished.write("stiffness.csv", stiffness_columns, all);
     finished.write("exponents.csv", used_columns(exponent_columns(), exponents), exponents);
-    finished.write("stiffness.md", stiffness_markdown(swept) + control_markdown(swept, claim));
-    return {stiffness_text(swept) + control_text(swept, claim), !finished.none()};
+    return {stiffness_text(swept) + control_text(swept, claim_named("C11")), !finished.none()};
 }
 
 }  // namespace

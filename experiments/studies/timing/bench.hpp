@@ -6,6 +6,7 @@
 #pragma once
 
 #include "experiments/deformers/deformer.hpp"
+#include "experiments/studies/shared/iteration_path.hpp"
 #include "experiments/studies/shared/timed_rounds.hpp"
 #include "pbs/character/character.hpp"
 #include "pbs/solver/step_summary.hpp"
@@ -24,15 +25,18 @@ struct DeformerKind;
 // The body and the pose of every value: a twist of 90 degrees about the mesh's longest axis.
 //   bar:  [-1, 1] x [-0.15, 0.15]^2 m     held o=======o=======o 90 degrees
 struct BenchBody {
-    pbs::Character character;    // two bones of equal length along the axis, Eq. 2's weights
-    pbs::Positions twisted;      // turned by an angle that grows linearly along the axis [m], #V x 3
-    pbs::Positions bind_points;  // on the axis, which does not move [m], #V x 3
-    std::vector<bool> held;      // the first 2.5 % of the length, #V
-    pbs::Pose pose;              // the second bone turned by 90 degrees
+    pbs::Character character;         // two bones of equal length along the axis, Eq. 2's weights
+    pbs::Positions twisted = {};      // turned by an angle that grows linearly along the axis [m], #V x 3
+    pbs::Positions bind_points = {};  // on the axis, which does not move [m], #V x 3
+    std::vector<bool> held = {};      // the first 2.5 % of the length, #V
+    pbs::Pose pose = {};              // the second bone turned by 90 degrees
     int edges = 0;
 
     const pbs::TetMesh& mesh() const { return character.mesh; }
 };
+
+// The mesh with these bones and Eq. 2's weights.
+pbs::Character skinned_along(const std::string& name, pbs::TetMesh mesh, pbs::Skeleton skeleton);
 
 BenchBody make_bench_body(const std::string& name, pbs::TetMesh mesh);
 
@@ -54,16 +58,9 @@ std::vector<MemoryBandwidth> measure_bandwidth(double seconds, double largest_by
 // Interpolates linearly in the logarithm of the working set; constant outside the measured sizes.
 double bandwidth_at(const std::vector<MemoryBandwidth>& memory, double bytes);
 
-// One step of one order, in the parts that are timed: `load` puts the particles at the twisted positions, 24 iterations repeat the three
-// classes, and `store` gives positions back.
-struct StepLoops {
-    std::function<void()> load, bind, stretch, volume, store;
-    std::function<pbs::Residuals()> residuals;
-};
-
 inline constexpr int iterations_per_step = 24;
 
-// plain, ordered, grouped: the orders. poses: sixteen poses per thread side by side, here all the same one.
+// plain, ordered, grouped: the orders. poses: sixteen poses per thread side by side.
 // Two baselines for comparison with `plain`, which gives the same bits on every machine. plain_native has the same loops with all that the
 // compiler offers. plain_spread has those loops on constraints whose neighbours in the list lie far apart in the mesh, so that no
 // projection waits for the stores of the one before (sorted edges share their first vertex with their neighbours): the best that plain
@@ -71,12 +68,16 @@ inline constexpr int iterations_per_step = 24;
 struct ProjectionVariant {
     std::string variant, precision;  // precision: f32, f64
     int threads = 1;
-    int poses = 1;  // that one step projects side by side
-    StepLoops loops = {};
-    std::optional<double> stretch_fill = {}, volume_fill = {};  // share of lanes that hold a constraint, of the batched orders
+    int poses = 1;         // that one step projects side by side
+    StepLoops loops = {};  // the particles begin at the twisted positions
 
     double scalar_bytes() const { return precision == "f32" ? 4.0 : 8.0; }
 };
+
+// The loops of sixteen poses per thread, all the same one, in the order `ordered`.
+template <typename Scalar>
+StepLoops loops_of_poses(const pbs::ConstraintSet<Scalar>& constraints, const pbs::Tets& tets, const pbs::PbsOptions& options,
+                         const StepStart& start, int threads);
 
 // All variants for one thread, and those that know threads for the other numbers of threads.
 std::vector<ProjectionVariant> projection_variants(const BenchBody& body, const std::vector<int>& threads);

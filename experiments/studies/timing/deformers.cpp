@@ -38,23 +38,15 @@ std::vector<std::string> choices_of(const DeformerKind& kind, const std::string&
     return key && !key->choices.empty() ? key->choices : std::vector<std::string>{""};
 }
 
-struct Choice {
-    std::string key, value;  // value: in TOML
-};
-
-// As a scene would set it. A kind without keys for any choice has its defaults.
-DeformerSpec spec_with(const DeformerKind& kind, const std::vector<Choice>& choices)
+// As a scene would set it, with these KEY=VALUE of the kind's table. A kind without keys for any choice has its defaults.
+DeformerSpec spec_with(const DeformerKind& kind, const std::vector<std::string>& keys)
 {
     DeformerSpec spec = default_spec(kind.name);
-    if (choices.empty() || !kind.read) return spec;
-    const bool in_list = std::any_of(choices.begin(), choices.end(), [&](const Choice& one) { return key_of(kind, one.key)->in_list; });
-    std::string list = in_list ? "[[" + kind.name + "]]\nname = \"" + kind.name + "\"\n" : "";
+    if (keys.empty() || !kind.read) return spec;
+    const bool in_list = scene_schema().is_list(kind.name);
     std::vector<std::string> overrides = stated_in_every_scene;
-    for (const Choice& choice : choices)
-        if (in_list)
-            list += choice.key + " = " + choice.value + "\n";
-        else
-            overrides.push_back(kind.name + "." + choice.key + "=" + choice.value);
+    for (const std::string& key : keys) overrides.push_back(kind.name + "." + key);
+    const std::string list = in_list ? "[[" + kind.name + "]]\nname = \"" + kind.name + "\"\n" : "";
     const SceneValues values("schema = 1\n" + list, "bench", overrides, scene_schema());
     kind.read(values, in_list ? kind.name + ".0" : kind.name, spec);
     return spec;
@@ -193,17 +185,17 @@ std::vector<DeformerSetting> deformer_settings(const DeformerKind& kind)
         for (const std::string& precision : choices_of(kind, "precision"))
             for (const std::string packed : {"true", "false"}) {
                 if (packed == "false" && (!has_packed || precision == "f32")) continue;  // plain code is in f64
-                std::vector<Choice> choices;
-                if (!order.empty()) choices.push_back({"order", '"' + order + '"'});
-                if (!precision.empty()) choices.push_back({"precision", '"' + precision + '"'});
-                if (has_packed) choices.push_back({"packed", packed});
-                DeformerSetting setting{spec_with(kind, choices), {}, order, precision};
+                std::vector<std::string> keys;
+                if (!order.empty()) keys.push_back("order=" + order);
+                if (!precision.empty()) keys.push_back("precision=" + precision);
+                if (has_packed) keys.push_back("packed=" + packed);
+                DeformerSetting setting{spec_with(kind, keys), {}, order, precision};
                 const DeformerTraits traits = traits_of(setting.spec);
                 if (precision.empty()) setting.precision = traits.precision;
                 if (has_packed) setting.order = traits.packed ? "packed" : "plain";
                 if (key_of(kind, "iterations") && traits.iterations.value_or(0) > 0) {
-                    choices.push_back({"iterations", std::to_string(2 * *traits.iterations)});
-                    setting.twice = spec_with(kind, choices);
+                    keys.push_back("iterations=" + std::to_string(2 * *traits.iterations));
+                    setting.twice = spec_with(kind, keys);
                 }
                 settings.push_back(std::move(setting));
             }

@@ -1,17 +1,14 @@
 #include "experiments/studies/timing/equal_quality.hpp"
 
 #include "analysis/records/record_files.hpp"
-#include "analysis/records/report_table.hpp"
 #include "experiments/deformers/deformer_options.hpp"
 #include "experiments/scene/scene.hpp"
-#include "experiments/settings/option_fields.hpp"
-#include "experiments/studies/shared/iteration_path.hpp"
+#include "experiments/settings/recorded_settings.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
+#include "experiments/studies/timing/bench.hpp"
 #include "pbs/character/bodies.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
-#include "pbs/skinning/blend.hpp"
 #include "pbs/solver/batched/pose_projection.hpp"
-#include "pbs/solver/particles.hpp"
 
 #include <fmt/format.h>
 
@@ -19,10 +16,12 @@
 #include <array>
 #include <cmath>
 #include <stdexcept>
+#include <type_traits>
 
 namespace experiments {
 namespace {
 
+const std::string tapered_name = "tapered_limb";
 constexpr int layers = 25, across = 9;
 constexpr double half_length = 1.0, first_radius = 0.24, last_radius = 0.12;  // [m]
 
@@ -31,7 +30,7 @@ int vertex(const std::array<int, 3>& at)
     return (at[0] * across + at[1]) * across + at[2];
 }
 
-// The square [-1, 1]^2 becomes a disc of radius one: (u sqrt(1 - v^2 / 2), v sqrt(1 - u^2 / 2)).
+// The vertices of a layer: the square [-1, 1]^2 becomes a disc of radius one by (u sqrt(1 - v^2 / 2), v sqrt(1 - u^2 / 2)).
 pbs::Positions grid_points()
 {
     pbs::Positions points(layers * across * across, 3);
@@ -75,118 +74,52 @@ pbs::Tets grid_tets(const pbs::Positions& points)
 
 pbs::Character tapered_limb()
 {
-    pbs::Character limb;
-    limb.name = "tapered_limb";
-    limb.mesh.rest = grid_points();
-    limb.mesh.tets = grid_tets(limb.mesh.rest);
-    const pbs::Vec3 end(half_length, 0.0, 0.0);
-    limb.skeleton = {{{"upper", -1, -end, pbs::Vec3::Zero()}, {"forearm", 0, pbs::Vec3::Zero(), end}}};
-    limb.binding = pbs::bind_to_nearest_bone(limb.mesh.rest, limb.skeleton);
-    limb.weights = pbs::paper_weights(limb.binding, limb.skeleton);
-    for (int i = 0; i < limb.weights.vertices(); ++i) limb.blended.push_back(limb.weights.blended(i));
-    return limb;
+    const pbs::Vec3 end(half_length, 0.0, 0.0), middle = pbs::Vec3::Zero();
+    pbs::TetMesh mesh{grid_points(), {}};
+    mesh.tets = grid_tets(mesh.rest);
+    return skinned_along(tapered_name, std::move(mesh), {{{"upper", -1, -end, middle}, {"forearm", 0, middle, end}}});
 }
 
 namespace {
 
-struct PosedBody {
-    explicit PosedBody(const EqualQualityCase& of)
-        : character(of.is_tapered ? tapered_limb() : pbs::make_character(of.scene.character)),
-          options(options_of<pbs::PbsOptions>(spec_of(of.scene, "pbs")))
-    {
-        const pbs::Motion motion = make_motion(of.scene.motion, character.skeleton, of.scene.file);
-        const pbs::Pose& pose = motion.steps.at(static_cast<std::size_t>(of.frame) * motion.steps_per_frame);
-        lbs = blended(character, pose);
-        bind_points = pbs::posed_bind_points(character.binding, pose);
-        options.jiggle.reset();
-        options.sleep = false;
-        options.threads = 1;
-    }
-
-    pbs::Character character;
-    pbs::PbsOptions options;
-    pbs::Positions lbs, bind_points;  // [m], #V x 3
-};
-
-// One order that is measured, and its timing of 24 iterations [ms per iteration and pose].
+// One order that is measured, and the loops of its timing.
 struct Contender {
     MeasuredOrder measured;
-    TimedVariant turn;
-};
+    StepLoops loops;
 
-double ms_per_iteration(const std::function<void()>& iterate)
-{
-    return 1e3 / paper_iterations * cpu_seconds([&] {
-               for (int iteration = 0; iteration < paper_iterations; ++iteration) iterate();
-           });
-}
-
-template <typename Scalar>
-Contender alone(const PosedBody& body, const pbs::ConstraintSet<Scalar>& constraints, pbs::Order order, int most,
-                const IterationMetrics& metrics)
-{
-    pbs::PbsOptions options = body.options;
-    options.order = order;
-    const std::shared_ptr<pbs::Projection<Scalar>> projection = pbs::make_projection(constraints, body.character.mesh.tets, options);
-    Contender contender{{.order = name_of(order), .path = follow(*projection, body.lbs, body.bind_points, most, metrics)}, {}};
-    contender.turn = [projection, &body] {
-        projection->load(body.lbs, body.bind_points, pbs::local_origin<Scalar>(body.lbs));
-        return std::vector{ms_per_iteration([&] {
-            projection->project_bind_constraints();
-            projection->project_stretch_constraints();
-            projection->project_volume_constraints();
-        })};
-    };
-    return contender;
-}
-
-template <typename Scalar>
-struct SixteenPoses {
-    SixteenPoses(const PosedBody& body, const pbs::ConstraintSet<Scalar>& constraints)
-        : program(pbs::make_pose_program(constraints, body.character.mesh.tets, {}, pbs::Order::ordered)),
-          block(program, std::vector<pbs::PbsOptions>(pbs::poses_a_block, body.options))
+    // [ms per iteration and pose]
+    std::vector<double> turn() const
     {
+        loops.load();
+        const double seconds = cpu_seconds([&] {
+            for (int iteration = 0; iteration < paper_iterations; ++iteration) loops.iterate();
+        });
+        return {1e3 * seconds / paper_iterations / (measured.order == "poses" ? pbs::poses_a_block : 1)};
     }
-    SixteenPoses(const SixteenPoses&) = delete;  // the block points to the program
-
-    pbs::PoseProgram<Scalar> program;
-    pbs::PoseBlock<Scalar> block;
 };
 
-// path: that of `ordered`, whose bits each pose gets.
 template <typename Scalar>
-Contender side_by_side(const PosedBody& body, const pbs::ConstraintSet<Scalar>& constraints, const IterationPath& path)
-{
-    const auto poses = std::make_shared<SixteenPoses<Scalar>>(body, constraints);
-    Contender contender{{.order = "poses", .path = path}, {}};
-    contender.turn = [poses, &body] {
-        const pbs::Vec3 origin = pbs::local_origin<Scalar>(body.lbs);
-        for (int lane = 0; lane < pbs::poses_a_block; ++lane) poses->block.load(lane, body.lbs, body.bind_points, origin);
-        return std::vector{ms_per_iteration([&] {
-                               poses->block.project_bind_constraints();
-                               poses->block.project_stretch_constraints();
-                               poses->block.project_volume_constraints();
-                           }) /
-                           pbs::poses_a_block};
-    };
-    return contender;
-}
-
-template <typename Scalar>
-void append(const EqualQualityCase& of, const PosedBody& body, const IterationMetrics& metrics, pbs::Precision precision,
+void append(const EqualQualityCase& of, const pbs::Character& character, pbs::PbsOptions options, const StepStart& start,
             std::vector<Contender>& contenders)
 {
+    const pbs::Tets& tets = character.mesh.tets;
+    const IterationMetrics metrics(character, start.bind_points);
     const auto add = [&](const std::string& sequence, const pbs::ConstraintSet<Scalar>& constraints) {
-        const std::size_t first = contenders.size();
-        for (const pbs::Order order : {pbs::Order::plain, pbs::Order::ordered, pbs::Order::grouped})
-            contenders.push_back(alone(body, constraints, order, of.most_iterations, metrics));
-        contenders.push_back(side_by_side(body, constraints, contenders[first + 1].measured.path));
-        for (std::size_t i = first; i < contenders.size(); ++i) {
-            contenders[i].measured.precision = name_of(precision);
-            contenders[i].measured.sequence = sequence;
+        const auto add_order = [&](const std::string& order, const StepLoops& loops, const IterationPath& path) {
+            contenders.push_back({{order, name_of(options.precision), sequence, path}, loops});
+        };
+        IterationPath of_ordered;
+        for (const pbs::Order order : {pbs::Order::plain, pbs::Order::ordered, pbs::Order::grouped}) {
+            pbs::PbsOptions in_order = options;
+            in_order.order = order;
+            const StepLoops loops = step_loops(constraints, tets, in_order, start);
+            add_order(name_of(order), loops, follow(loops, start.guess, of.most_iterations, metrics));
+            if (order == pbs::Order::ordered) of_ordered = contenders.back().measured.path;
         }
+        add_order("poses", loops_of_poses(constraints, tets, options, start, 1), of_ordered);  // each pose has its bits
     };
-    const auto in_file_order = pbs::make_constraint_set<Scalar>(body.character.mesh, body.character.binding.distance, {}, body.options);
+    options.precision = std::is_same_v<Scalar, float> ? pbs::Precision::f32 : pbs::Precision::f64;
+    const auto in_file_order = pbs::make_constraint_set<Scalar>(character.mesh, character.binding.distance, {}, options);
     add(file_sequence, in_file_order);
     pbs::ConstraintSet<Scalar> spread = in_file_order;
     in_spread_sequence(spread);
@@ -200,30 +133,24 @@ void append(const EqualQualityCase& of, const PosedBody& body, const IterationMe
 
 }  // namespace
 
-nlohmann::json to_json(const EqualQualityCase& of)
-{
-    static const auto fields = OptionFields<EqualQualityCase>("equal_quality")
-                                   .record("of", &EqualQualityCase::of)
-                                   .record("scene", &EqualQualityCase::scene)
-                                   .record("frame", &EqualQualityCase::frame)
-                                   .record("is_tapered", &EqualQualityCase::is_tapered)
-                                   .record("random", &EqualQualityCase::random)
-                                   .record("most_iterations", &EqualQualityCase::most_iterations)
-                                   .record("rounds", &EqualQualityCase::rounds)
-                                   .complete();
-    return fields.json(of);
-}
+RECORD_SETTINGS(EqualQualityCase, of, scene, frame, random, most_iterations, rounds)
 
 std::vector<MeasuredOrder> measure_orders(const EqualQualityCase& of)
 {
-    const PosedBody body(of);
-    const IterationMetrics metrics(body.character, body.bind_points);
+    const pbs::Character character = of.of.body == tapered_name ? tapered_limb() : pbs::make_character(of.scene.character);
+    const pbs::Motion motion = make_motion(of.scene.motion, character.skeleton, of.scene.file);
+    const pbs::Pose& pose = motion.steps.at(static_cast<std::size_t>(of.frame) * motion.steps_per_frame);
+    const pbs::Positions lbs = blended(character, pose), bind_points = pbs::posed_bind_points(character.binding, pose);
+    pbs::PbsOptions options = options_of<pbs::PbsOptions>(spec_of(of.scene, "pbs"));
+    options.jiggle.reset();
+    options.sleep = false;
+    options.threads = 1;
     std::vector<Contender> contenders;
-    append<float>(of, body, metrics, pbs::Precision::f32, contenders);
-    append<double>(of, body, metrics, pbs::Precision::f64, contenders);
+    append<float>(of, character, options, {lbs, bind_points}, contenders);
+    append<double>(of, character, options, {lbs, bind_points}, contenders);
 
     std::vector<TimedVariant> turns;
-    for (const Contender& contender : contenders) turns.push_back(contender.turn);
+    for (const Contender& contender : contenders) turns.push_back([&contender] { return contender.turn(); });
     const std::vector<Samples> samples = take_turns(turns, of.rounds);
     std::vector<MeasuredOrder> measured;
     for (std::size_t i = 0; i < contenders.size(); ++i) {
@@ -239,66 +166,54 @@ using analysis::CaseKey;
 using analysis::Columns;
 using analysis::within;
 
-CaseKey key_of(CaseKey of, const MeasuredOrder& measured)
-{
-    of.order = measured.order;
-    of.precision = measured.precision;
-    return of;
-}
-
-const IterationPath& plain_in_file_order(const std::vector<MeasuredOrder>& measured, const std::string& precision)
-{
-    const auto found = std::find_if(measured.begin(), measured.end(), [&](const MeasuredOrder& one) {
-        return one.order == "plain" && one.sequence == file_sequence && one.precision == precision;
-    });
-    if (found == measured.end()) throw std::logic_error("no plain in file order and " + precision);
-    return found->path;
-}
-
 struct Target {
     const char* name;
     double Look::*value;
     double bound;
 };
 
-std::vector<Target> targets(const IterationPath& plain)
+// In this precision.
+std::vector<Target> targets(const std::vector<MeasuredOrder>& measured, const std::string& precision)
 {
-    const Look& after_24 = look_at(plain, paper_iterations);
+    const auto plain = std::ranges::find_if(measured, [&](const MeasuredOrder& one) {
+        return one.order == "plain" && one.sequence == file_sequence && one.precision == precision;
+    });
+    if (plain == measured.end()) throw std::logic_error("no plain in file order and " + precision);
+    const Look& after_24 = look_at(plain->path, paper_iterations);
     return {{"residual_of_plain", &Look::combined, after_24.combined},
             {"volume_of_plain", &Look::volume_abs_change_pct, after_24.volume_abs_change_pct},
             {"volume_2_pct", &Look::volume_abs_change_pct, 2.0},
             {"volume_05_pct", &Look::volume_abs_change_pct, volume_tolerance_pct}};
 }
 
-const Columns<CaseKey>& order_key_columns()
+const Columns<CaseKey> order_key_columns = {{"body", &CaseKey::body, "", "name of the body"},
+                                            {"motion", &CaseKey::motion, "", "twist, or the name of a clip"},
+                                            {"pose", &CaseKey::pose, "", "name of a pose in a clip"},
+                                            {"angle_deg", &CaseKey::angle_deg, "deg", "angle of the joint that is twisted"},
+                                            {"order", &CaseKey::order, "", "plain, ordered, grouped or poses"},
+                                            {"precision", &CaseKey::precision, "", "f32 or f64"}};
+
+Columns<OrderRow> look_columns(Look OrderRow::*look, const std::string& name, const std::string& when)
 {
-    static const Columns<CaseKey> columns = {{"body", &CaseKey::body, "", "name of the body"},
-                                             {"motion", &CaseKey::motion, "", "twist, or the name of a clip"},
-                                             {"pose", &CaseKey::pose, "", "name of a pose in a clip"},
-                                             {"angle_deg", &CaseKey::angle_deg, "deg", "angle of the joint that is twisted"},
-                                             {"order", &CaseKey::order, "", "plain, ordered, grouped or poses"},
-                                             {"precision", &CaseKey::precision, "", "f32 or f64"}};
-    return columns;
+    return within(
+        look, Columns<Look>{{"residual_" + name, &Look::combined, "", "combined residual " + when},
+                            {"volume_abs_change_" + name + "_pct", &Look::volume_abs_change_pct, "%", "absolute volume change " + when}});
 }
+
+const char* const sequence_meaning = "of the constraints: file, spread, random_SEED";
 
 }  // namespace
 
 const Columns<OrderRow> order_columns =
-    within(&OrderRow::of, order_key_columns()) +
-    Columns<OrderRow>{{"sequence", &OrderRow::sequence, "", "of the constraints: file, spread, random_SEED"}} +
+    within(&OrderRow::of, order_key_columns) + Columns<OrderRow>{{"sequence", &OrderRow::sequence, "", sequence_meaning}} +
     within(&OrderRow::ms_iteration, spread_columns("iteration_ms", "ms", "one iteration of one pose, processor time of one thread")) +
-    Columns<OrderRow>{
-        {"residual_24", &OrderRow::residual_24, "", "combined residual after 24 iterations"},
-        {"volume_abs_change_24_pct", &OrderRow::volume_abs_change_24_pct, "%", "absolute volume change after 24 iterations"},
-        {"residual_limit", &OrderRow::residual_limit, "", "combined residual after the last iteration"},
-        {"volume_abs_change_limit_pct", &OrderRow::volume_abs_change_limit_pct, "%", "absolute volume change after the last iteration"},
-        {"residual_half", &OrderRow::residual_half, "", "combined residual after half of the iterations"},
-        {"volume_abs_change_half_pct", &OrderRow::volume_abs_change_half_pct, "%", "absolute volume change after half of the iterations"},
-        {"iterations", &OrderRow::iterations, "", "number of the last iteration"}};
+    look_columns(&OrderRow::after_24, "24", "after 24 iterations") + look_columns(&OrderRow::limit, "limit", "after the last iteration") +
+    look_columns(&OrderRow::half, "half", "after half of the iterations") +
+    within(&OrderRow::limit, Columns<Look>{{"iterations", &Look::iteration, "", "number of the last iteration"}});
 
 const Columns<TargetRow> target_columns =
-    within(&TargetRow::of, order_key_columns()) +
-    Columns<TargetRow>{{"sequence", &TargetRow::sequence, "", "of the constraints: file, spread, random_SEED"},
+    within(&TargetRow::of, order_key_columns) +
+    Columns<TargetRow>{{"sequence", &TargetRow::sequence, "", sequence_meaning},
                        {"target", &TargetRow::target, "",
                         "residual_of_plain or volume_of_plain after 24 iterations in file order; volume_2_pct, volume_05_pct"},
                        {"bound", &TargetRow::bound, "", "value of the target: a ratio, of a volume in %"},
@@ -307,9 +222,19 @@ const Columns<TargetRow> target_columns =
                        {"ms", &TargetRow::ms, "ms", "time of these iterations, one thread, per pose"},
                        {"limit", &TargetRow::limit, "", "the value after the last iteration: a ratio, of a volume in %"}};
 
+const Columns<EqualAnswer> answer_columns = [] {
+    Columns<TargetRow> in_file_order = target_columns;
+    std::erase_if(in_file_order, [](const auto& column) { return column.name == "sequence" || column.name == "reached"; });
+    return within(&EqualAnswer::row, in_file_order) +
+           Columns<EqualAnswer>{
+               {"speedup_to_plain", &EqualAnswer::speedup_to_plain, "", "time of plain in file order to the same target over this one's"},
+               {"speedup_to_plain_spread", &EqualAnswer::speedup_to_plain_spread, "",
+                "time of plain in the spread sequence over this one's"}};
+}();
+
 std::optional<int> first_within(const IterationPath& path, double Look::*value, double bound)
 {
-    const auto found = std::find_if(path.looks.begin(), path.looks.end(), [&](const Look& look) { return look.*value <= bound; });
+    const auto found = std::ranges::find_if(path.looks, [&](const Look& look) { return look.*value <= bound; });
     return found == path.looks.end() ? std::nullopt : std::optional(found->iteration);
 }
 
@@ -317,10 +242,11 @@ std::vector<OrderRow> order_rows(const CaseKey& of, const std::vector<MeasuredOr
 {
     std::vector<OrderRow> rows;
     for (const MeasuredOrder& one : measured) {
-        const Look &last = one.path.looks.back(), &half = look_at(one.path, last.iteration / 2),
-                   &after_24 = look_at(one.path, paper_iterations);
-        rows.push_back({key_of(of, one), one.sequence, one.ms_iteration, after_24.combined, after_24.volume_abs_change_pct, last.combined,
-                        last.volume_abs_change_pct, half.combined, half.volume_abs_change_pct, last.iteration});
+        const Look& last = one.path.looks.back();
+        rows.push_back(
+            {of, one.sequence, one.ms_iteration, look_at(one.path, paper_iterations), last, look_at(one.path, last.iteration / 2)});
+        rows.back().of.order = one.order;
+        rows.back().of.precision = one.precision;
     }
     return rows;
 }
@@ -329,31 +255,20 @@ std::vector<TargetRow> target_rows(const CaseKey& of, const std::vector<Measured
 {
     std::vector<TargetRow> rows;
     for (const MeasuredOrder& one : measured)
-        for (const Target& target : targets(plain_in_file_order(measured, one.precision))) {
-            TargetRow row{key_of(of, one), one.sequence, target.name, target.bound};
+        for (const Target& target : targets(measured, one.precision)) {
+            TargetRow& row = rows.emplace_back(TargetRow{of, one.sequence, target.name, target.bound});
+            row.of.order = one.order;
+            row.of.precision = one.precision;
             row.iterations = first_within(one.path, target.value, target.bound);
             row.reached = row.iterations.has_value();
             if (row.iterations) row.ms = *row.iterations * one.ms_iteration.median;
             row.limit = one.path.looks.back().*target.value;
-            rows.push_back(row);
         }
     return rows;
 }
 
-const Columns<EqualAnswer> answer_columns =
-    within(&EqualAnswer::of, order_key_columns()) +
-    Columns<EqualAnswer>{
-        {"target", &EqualAnswer::target, "", "as in targets.csv"},
-        {"bound", &EqualAnswer::bound, "", "value of the target: a ratio, of a volume in %"},
-        {"iterations", &EqualAnswer::iterations, "", "until the target is reached in file order"},
-        {"ms", &EqualAnswer::ms, "ms", "time of these iterations"},
-        {"limit", &EqualAnswer::limit, "", "the value after the last iteration in file order: a ratio, of a volume in %"},
-        {"speedup_to_plain", &EqualAnswer::speedup_to_plain, "", "time of plain in file order to the same target over this one's"},
-        {"speedup_to_plain_spread", &EqualAnswer::speedup_to_plain_spread, "", "time of plain in the spread sequence over this one's"}};
-
 std::vector<EqualAnswer> equal_answers(const std::vector<TargetRow>& rows)
 {
-    // Nothing if either never reaches the target. std::out_of_range without the sequence.
     const auto speedup = [&](const TargetRow& row, const std::string& sequence) -> std::optional<double> {
         CaseKey of_plain = row.of;
         of_plain.order = "plain";
@@ -364,26 +279,8 @@ std::vector<EqualAnswer> equal_answers(const std::vector<TargetRow>& rows)
     };
     std::vector<EqualAnswer> all;
     for (const TargetRow& row : rows)
-        if (row.sequence == file_sequence)
-            all.push_back({row.of, row.target, row.bound, row.iterations, row.ms, row.limit, speedup(row, file_sequence),
-                           speedup(row, spread_sequence)});
+        if (row.sequence == file_sequence) all.push_back({row, speedup(row, file_sequence), speedup(row, spread_sequence)});
     return all;
-}
-
-std::string order_report(std::vector<OrderRow> orders, const std::vector<EqualAnswer>& answers)
-{
-    std::erase_if(orders, [](const OrderRow& row) { return row.sequence != file_sequence; });
-    const std::string of = "body angle_deg:.0f pose order precision ";
-    return "The first table has each order after 24 iterations and in the limit, in file order. Every time of plain is that of the order "
-           "`plain`, which is built for the same bits on every machine.\n\n" +
-           markdown_table(table_of(order_columns, orders),
-                          analysis::report_columns(of + "iteration_ms:.4f residual_24:.4g volume_abs_change_24_pct:.3f residual_limit:.4g "
-                                                        "volume_abs_change_limit_pct:.3f")) +
-           "\nThe second table has the time to an equal answer. An empty cell states that the target is never reached, so that no speed-up "
-           "exists.\n\n" +
-           markdown_table(table_of(answer_columns, answers),
-                          analysis::report_columns(of + "target bound:.4g iterations:.0f ms:.2f limit:.4g speedup_to_plain:.2f "
-                                                        "speedup_to_plain_spread:.2f"));
 }
 
 std::string measure_equal_quality(const EqualQualityCase& of, const std::string& folder)

@@ -1,6 +1,6 @@
 // Measures the residuals and volume changes of every order of projection, in both precisions and for several sequences of the constraints,
 // and the time until they are reached. The case is one body in one pose, and the initial guess is LBS.
-//   const std::vector<MeasuredOrder> measured = measure_orders(of);
+//   const std::vector<TargetRow> rows = target_rows(of.of, measure_orders(of));
 // The sequences: file order, spread (that of bench's plain_spread) and random ones. `poses` projects sixteen poses side by side. The
 // results of each are bit-identical to those of `ordered`, and only the time differs.
 #pragma once
@@ -21,20 +21,17 @@ namespace experiments {
 // A limb that tapers, of 2,025 vertices and 9,216 tets on a regular grid: the body on which the order of projection matters most. The
 // bodies of the mesher list their tets in no particular order; here the file order is a sweep through the body.
 //   (======______)    x from -1 to 1 m, radius from 0.24 to 0.12 m, bones as those of the limb: o=====o=====o
-
 // 25 layers of 9 x 9 vertices; each cube is cut into six tets along a diagonal. Weights by Eq. 2.
 pbs::Character tapered_limb();
 
 struct EqualQualityCase {
-    analysis::CaseKey of;          // body, motion, and angle or pose
+    analysis::CaseKey of;          // body, motion, and angle or pose; the body tapered_limb takes the place of the scene's character
     Scene scene;                   // its character, motion and options of PBS
     int frame = 0;                 // of its motion
-    bool is_tapered = false;       // tapered_limb() takes the place of the scene's character
     std::vector<int> random = {};  // seeds of the random sequences
     int most_iterations = 1000;    // where the limit is read
     Rounds rounds = {};            // of the timings
 };
-
 nlohmann::json to_json(const EqualQualityCase& of);
 
 inline constexpr int paper_iterations = 24;
@@ -51,23 +48,20 @@ struct MeasuredOrder {
 // The first one is `plain` in file order.
 std::vector<MeasuredOrder> measure_orders(const EqualQualityCase& of);
 
-// orders.csv and targets.csv: what each order gives after the paper's 24 iterations and in the limit, and when it first reaches a target.
-//   const std::vector<TargetRow> rows = target_rows(of.of, measured);
-// A target is a residual or an absolute volume change: those that `plain` has after 24 iterations in file order in the same precision, and
-// the paper's 0.5 % and 2 %. It is reached at the first iteration at which the value is not above it. Up to the 64th, every iteration is
-// looked at, then steps of two per cent. Where an order does not reach a target within all iterations, the record states the limit, which
-// lies above the bound.
+// orders.csv, one row per order, precision and sequence: the answer after the paper's 24 iterations and in the limit.
 struct OrderRow {
     analysis::CaseKey of;  // body, motion, angle or pose, order, precision
     std::string sequence;
     Spread ms_iteration;
-    double residual_24 = 0.0, volume_abs_change_24_pct = 0.0;        // after 24 iterations; residual: Look::combined
-    double residual_limit = 0.0, volume_abs_change_limit_pct = 0.0;  // after the last iteration
-    double residual_half = 0.0, volume_abs_change_half_pct = 0.0;    // after half of them: the limit is reached where it is the same
-    int iterations = 0;                                              // the last one
+    Look after_24, limit, half;  // limit: after the last iteration, which is reached if half of the iterations give the same
 };
 extern const analysis::Columns<OrderRow> order_columns;
+std::vector<OrderRow> order_rows(const analysis::CaseKey& of, const std::vector<MeasuredOrder>& measured);
 
+// targets.csv, one row per order, precision, sequence and target: when it first reaches the target. A target is a residual or an absolute
+// volume change: those that `plain` has after 24 iterations in file order in the same precision, and the paper's 0.5 % and 2 %. It is
+// reached at the first iteration at which the value is not above it. Where an order does not reach a target within all iterations, the
+// record states the limit, which lies above the bound.
 struct TargetRow {
     analysis::CaseKey of;
     std::string sequence;
@@ -79,35 +73,22 @@ struct TargetRow {
     double limit = 0.0;                  // the value that the order converges to
 };
 extern const analysis::Columns<TargetRow> target_columns;
+// std::logic_error without `plain` in file order.
+std::vector<TargetRow> target_rows(const analysis::CaseKey& of, const std::vector<MeasuredOrder>& measured);
 
 // The first look at which the value is not above the bound.
 std::optional<int> first_within(const IterationPath& path, double Look::*value, double bound);
 
-// One row per order, precision and sequence. of: body, motion, angle or pose.
-std::vector<OrderRow> order_rows(const analysis::CaseKey& of, const std::vector<MeasuredOrder>& measured);
-
-// One row per order, precision, sequence and target. std::logic_error without `plain` in file order.
-std::vector<TargetRow> target_rows(const analysis::CaseKey& of, const std::vector<MeasuredOrder>& measured);
-
-// The conclusion of the study: each order is compared with `plain` after 24 iterations and at equal residuals and volume changes.
-
-// One per case, order, precision and target, in file order. A speed-up is the ratio of the times to the target. There is none where either
-// never reaches it.
+// answers.csv of the study, one row per case, order, precision and target in file order. A speed-up is the ratio of the times to the
+// target. There is none where either never reaches it.
 struct EqualAnswer {
-    analysis::CaseKey of;
-    std::string target;
-    double bound = 0.0;
-    std::optional<int> iterations = {};
-    std::optional<double> ms = {};
-    double limit = 0.0;
+    TargetRow row;
     std::optional<double> speedup_to_plain = {};         // plain in file order
     std::optional<double> speedup_to_plain_spread = {};  // plain in the spread sequence
 };
 extern const analysis::Columns<EqualAnswer> answer_columns;
+// std::out_of_range without `plain` in both sequences.
 std::vector<EqualAnswer> equal_answers(const std::vector<TargetRow>& rows);
-
-// Both tables as Markdown, with a sentence on each.
-std::string order_report(std::vector<OrderRow> orders, const std::vector<EqualAnswer>& answers);
 
 // The work of a run: writes orders.csv and targets.csv. Returns what broke down, or "".
 std::string measure_equal_quality(const EqualQualityCase& of, const std::string& folder);

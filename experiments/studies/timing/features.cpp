@@ -6,7 +6,7 @@
 #include "experiments/process/child_process.hpp"
 #include "experiments/process/terminal.hpp"
 #include "experiments/scene/scene.hpp"
-#include "experiments/settings/option_fields.hpp"
+#include "experiments/settings/recorded_settings.hpp"
 #include "experiments/studies/shared/timed_rounds.hpp"
 #include "pbs/solver/options.hpp"
 
@@ -14,49 +14,24 @@
 #include <cstdlib>
 #include <filesystem>
 #include <stdexcept>
+#include <tuple>
 
 #include <fcntl.h>
 #include <unistd.h>
 
 namespace experiments {
-namespace {
 
-constexpr const char* errors = R"(output.metrics=["errors"])";
-constexpr const char* with_lbs = R"(deformers.use=["lbs","pbs"])";
-const Variant quadratic_reference = {{R"(deformers.use=["pbs","fem_p2"])", R"(reference.name="fem_p2")", errors}};
-
-}  // namespace
-
-const std::vector<Feature>& features()
+std::vector<Feature> features_of(const StudyCase& of)
 {
-    static const std::vector<Feature> all = {
-        // The bare scene has these three. Their cost is what their absence saves.
-        {.name = "stretch_constraints", .without = {{"pbs.k_stretch=0"}}, .changes_result = true},
-        {.name = "volume_constraints", .without = {{"pbs.k_volume=0"}}, .changes_result = true},
-        {.name = "bind_constraints", .without = {{"pbs.k_bind=0"}}, .changes_result = true},
-        {.name = "jiggling_zone", .with = {{"pbs.jiggle.k_stretch=0.1"}}, .changes_result = true},
-        {.name = "residuals_of_every_iteration", .with = {{"pbs.record_iterations=true"}}},
-        {.name = "stop_residual_0.1", .with = {{"pbs.stop_residual=0.1"}}, .changes_result = true},
-        {.name = "sleep", .with = {{"pbs.sleep=true"}}, .changes_result = true},
-        {.name = "lumped_masses", .with = {{"pbs.masses=lumped"}}, .changes_result = true},
-        {.name = "precision_f64_for_f32", .with = {{"pbs.precision=f64"}}, .changes_result = true},
-        {.name = "order_plain_for_ordered", .with = {{"pbs.order=plain"}}, .changes_result = true},
-        {.name = "order_grouped_for_ordered", .with = {{"pbs.order=grouped"}}, .changes_result = true},
-        {.name = "two_threads_for_one", .with = {.threads = 2}, .changes_result = true},
-        {.name = "LBS_for_comparison", .with = {{with_lbs}}},
-        {.name = "DQS_for_comparison", .with = {{R"(deformers.use=["dqs","pbs"])"}}},
-        {.name = "errors_against_LBS", .without = {{with_lbs}}, .with = {{with_lbs, R"(reference.name="lbs")", errors}}},
-        {.name = "smallest_cross_sections", .with = {{R"(output.metrics=["sections"])"}}},
-        {.name = "volume_of_the_rendered_surface", .with = {{R"(output.metrics=["surface"])"}}, .needs_surface = true},
-        {.name = "every_frame_written", .with = {{"output.frames_every=1"}}},
-        {.name = "linear_reference_order_1", .with = {{R"(deformers.use=["pbs","fem_p1"])", R"(reference.name="fem_p1")", errors}}},
-        {.name = "linear_reference_order_2", .with = quadratic_reference},
-        {.name = "error_bar_of_the_reference_orders",
-         .without = quadratic_reference,
-         .with = {{quadratic_reference.overrides[0], quadratic_reference.overrides[1], errors, R"(reference.error_bar="orders")"}}},
-        {.name = "progress_bar_on_a_terminal", .with = {.progress = true}},
-    };
-    return all;
+    std::vector<Feature> features;
+    for (const nlohmann::json& one : of.value<nlohmann::json>("features")) {
+        if (one.contains("only") && one.at("only") != of.value<std::string>("body")) continue;
+        Feature& feature = features.emplace_back(Feature{.name = one.at("name")});
+        feature.without.overrides = one.value("without", std::vector<std::string>{});
+        feature.with = {one.value("with", std::vector<std::string>{}), one.value("threads", 1), one.value("progress", false)};
+        feature.changes_result = one.value("changes_result", false);
+    }
+    return features;
 }
 
 Scene scene_of(const std::string& name, const std::vector<std::string>& cut, const Variant& variant)
@@ -75,16 +50,30 @@ namespace {
 using analysis::Columns;
 using analysis::within;
 
-constexpr Compared FeatureRow::*compared_costs[] = {&FeatureRow::frame_ms,    &FeatureRow::frame_cpu_ms, &FeatureRow::step_ms,
-                                                    &FeatureRow::step_cpu_ms, &FeatureRow::start_s,      &FeatureRow::peak_mb};
+// The costs that are compared, in the order of costs_of_run.
+struct Cost {
+    Compared FeatureRow::*part;
+    const char *name, *unit, *meaning;
+};
+constexpr Cost compared_costs[] = {
+    {&FeatureRow::frame_ms, "frame_ms", "ms", "wall time per frame, everything included"},
+    {&FeatureRow::frame_cpu_ms, "frame_cpu_ms", "ms", "processor time of all threads per frame, everything included"},
+    {&FeatureRow::step_ms, "step_ms", "ms", "wall time of PBS's step"},
+    {&FeatureRow::step_cpu_ms, "step_cpu_ms", "ms", "processor time of PBS's step"},
+    {&FeatureRow::start_s, "start_s", "s", "wall time before the first frame"},
+    {&FeatureRow::peak_mb, "peak_mb", "MB", "peak memory, 10^6 bytes"}};
 
-Columns<FeatureRow> pair_columns(Compared FeatureRow::*part, const std::string& name, const std::string& unit, const std::string& meaning)
+Columns<FeatureRow> cost_columns()
 {
     const QuartileEndings endings = {"_lower", "_upper"};
-    const Columns<Compared> columns = within(&Compared::without, spread_columns(name + "_without", unit, meaning + ", without", endings)) +
-                                      within(&Compared::with, spread_columns(name + "_with", unit, meaning + ", with", endings)) +
-                                      within(&Compared::ratio, spread_columns(name + "_ratio", "", meaning + ", with / without", endings));
-    return within(part, columns);
+    Columns<FeatureRow> all;
+    for (const auto& [part, name, unit, meaning] : compared_costs)
+        for (const auto& [of, ending, of_unit, words] :
+             {std::tuple(&Compared::without, "_without", unit, ", without"), std::tuple(&Compared::with, "_with", unit, ", with"),
+              std::tuple(&Compared::ratio, "_ratio", "", ", with / without")})
+            all =
+                all + within(part, within(of, spread_columns(std::string(name) + ending, of_unit, std::string(meaning) + words, endings)));
+    return all;
 }
 
 const DeformerSpec& pbs_of(const Scene& scene)
@@ -109,12 +98,7 @@ const Rows feature_columns =
     Rows{{"scene", &FeatureRow::scene, "", "name of the run"},
          {"feature", &FeatureRow::feature, "", "what the second scene of the pair has"},
          {"rounds", &FeatureRow::rounds, "", "runs of each scene"}} +
-    pair_columns(&FeatureRow::frame_ms, "frame_ms", "ms", "wall time per frame, everything included") +
-    pair_columns(&FeatureRow::frame_cpu_ms, "frame_cpu_ms", "ms", "processor time of all threads per frame, everything included") +
-    pair_columns(&FeatureRow::step_ms, "step_ms", "ms", "wall time of PBS's step") +
-    pair_columns(&FeatureRow::step_cpu_ms, "step_cpu_ms", "ms", "processor time of PBS's step") +
-    pair_columns(&FeatureRow::start_s, "start_s", "s", "wall time before the first frame") +
-    pair_columns(&FeatureRow::peak_mb, "peak_mb", "MB", "peak memory, 10^6 bytes") +
+    cost_columns() +
     Rows{{"shared_objects_without", &FeatureRow::shared_objects_without, "", "loaded libraries, without"},
          {"shared_objects_with", &FeatureRow::shared_objects_with, "", "loaded libraries, with"}} +
     within(&FeatureRow::change,
@@ -122,18 +106,9 @@ const Rows feature_columns =
                {"largest_distance_m", &ResultChange::distance_m, "m", "largest distance of a vertex between the two results"},
                {"volume_difference_pct", &ResultChange::volume_difference_pct, "%", "largest difference of the two volume changes"}});
 
-nlohmann::json to_json(const FeaturesCase& of)
-{
-    static const auto fields = OptionFields<FeaturesCase>("features")
-                                   .record("name", &FeaturesCase::name)
-                                   .record("scene", &FeaturesCase::scene)
-                                   .record("cut", &FeaturesCase::cut)
-                                   .record("has_surface", &FeaturesCase::has_surface)
-                                   .record("sizes", &FeaturesCase::sizes)
-                                   .record("rounds", &FeaturesCase::rounds)
-                                   .complete();
-    return fields.json(of);
-}
+RECORD_SETTINGS(Variant, overrides, threads, progress)
+RECORD_SETTINGS(Feature, name, without, with, changes_result)
+RECORD_SETTINGS(FeaturesCase, name, scene, cut, features, rounds)
 
 Compared compare(const std::vector<double>& without, const std::vector<double>& with)
 {
@@ -164,7 +139,7 @@ FeatureRow feature_row(const std::string& scene, const std::string& feature, con
     row.feature = feature;
     row.change = change;
     std::size_t cost = 0;
-    for (Compared FeatureRow::*part : compared_costs) row.*part = compare(without.at(cost), with.at(cost)), ++cost;
+    for (const Cost& one : compared_costs) row.*one.part = compare(without.at(cost), with.at(cost)), ++cost;
     row.rounds = row.frame_ms.ratio.rounds;
     row.shared_objects_without = static_cast<int>(without.at(cost).back());
     row.shared_objects_with = static_cast<int>(with.at(cost).back());
@@ -215,30 +190,15 @@ std::optional<ResultChange> change_by(const Feature& feature, const FeaturesCase
     return ResultChange{change.at(0), change.at(1)};
 }
 
-// Each mesh against the smallest one.
-std::vector<Feature> growing(const std::vector<int>& vertices)
-{
-    std::vector<Feature> sizes;
-    const auto of = [](int count) { return Variant{{"character.vertices=" + std::to_string(count)}}; };
-    for (const int count : vertices)
-        if (count != vertices.front())
-            sizes.push_back({.name = "vertices_" + std::to_string(count), .without = of(vertices.front()), .with = of(count)});
-    return sizes;
-}
-
 }  // namespace
 
 // Returns the first breakdown. A bad frame is no failure here, since no reference has to reach a bend of 150 degrees.
 std::string measure_features(const FeaturesCase& of, const std::string& folder)
 {
-    std::vector<Feature> asked;
     std::vector<Variant> variants;  // each once, however many features it is a part of
-    for (const Feature& feature : of.sizes.empty() ? features() : growing(of.sizes)) {
-        if (feature.needs_surface && !of.has_surface) continue;
-        asked.push_back(feature);
+    for (const Feature& feature : of.features)
         for (const Variant& variant : {feature.without, feature.with})
-            if (std::find(variants.begin(), variants.end(), variant) == variants.end()) variants.push_back(variant);
-    }
+            if (std::ranges::find(variants, variant) == variants.end()) variants.push_back(variant);
     const std::string scratch = analysis::path_in(folder, "scratch");
     std::string breakdown;
     std::vector<TimedVariant> turns;
@@ -252,11 +212,9 @@ std::string measure_features(const FeaturesCase& of, const std::string& folder)
     const std::vector<Samples> costs = take_turns(turns, of.rounds);
     std::filesystem::remove_all(scratch);
 
-    const auto costs_with = [&](const Variant& variant) {
-        return costs[std::find(variants.begin(), variants.end(), variant) - variants.begin()];
-    };
+    const auto costs_with = [&](const Variant& variant) { return costs[std::ranges::find(variants, variant) - variants.begin()]; };
     std::vector<FeatureRow> rows;
-    for (const Feature& feature : asked)
+    for (const Feature& feature : of.features)
         rows.push_back(feature_row(of.name, feature.name, costs_with(feature.without), costs_with(feature.with), change_by(feature, of)));
     table_of(feature_columns, rows).write(analysis::path_in(folder, "features.csv"));
     return breakdown;

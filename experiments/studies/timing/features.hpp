@@ -3,6 +3,7 @@
 
 #include "experiments/scene/scene.hpp"
 #include "experiments/studies/shared/timed_rounds.hpp"
+#include "experiments/studies/study.hpp"
 
 #include <optional>
 #include <string>
@@ -19,29 +20,32 @@ struct Variant {
     bool operator==(const Variant&) const = default;
 };
 
+// A pair of scenes that differ in one feature alone.
 struct Feature {
     std::string name;
     Variant without = {}, with = {};
     bool changes_result = false;  // the positions; how far they move is measured too
-    bool needs_surface = false;   // only for a character with a rendered surface
 };
 
-const std::vector<Feature>& features();
+// The features of a case of cases.toml: features = [{ name = "sleep", with = ["pbs.sleep=true"], changes_result = true }, ...]. Further
+// keys of a feature: without, threads and progress (of the second scene), and only = "human" for one of the case's bodies.
+std::vector<Feature> features_of(const StudyCase& of);
 
 Scene scene_of(const std::string& name, const std::vector<std::string>& cut, const Variant& variant);
 
 // The cost of a feature: time and memory of both scenes of the pair, and how far the result moves.
 //   const Samples with = take_turns(...)[0];   // each turn is costs_of_run(run_scene_alone(scene, folder), scene)
-//   table_of(feature_columns, {feature_row("limb", "sleep", without, with)}).write("features.csv");
+//   table_of(feature_columns, {feature_row("limb", feature, without, with)}).write("features.csv");
 
 // A scene with features. `scene` and `cut` are a built-in scene and its overrides.
 struct FeaturesCase {
     std::string name, scene;
     std::vector<std::string> cut;
-    bool has_surface = false;
-    std::vector<int> sizes = {};  // not the features, but meshes with these numbers of vertices, each against the first
+    std::vector<Feature> features = {};
     Rounds rounds = {};
 };
+nlohmann::json to_json(const Variant& variant);
+nlohmann::json to_json(const Feature& feature);
 nlohmann::json to_json(const FeaturesCase& of);
 
 struct Compared {

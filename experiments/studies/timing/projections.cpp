@@ -1,4 +1,5 @@
 // The bodies of the bench, and the times of a step of projections on them.
+#include "experiments/deformers/deformer_options.hpp"
 #include "experiments/studies/shared/iteration_path.hpp"
 #include "experiments/studies/timing/bench.hpp"
 #include "experiments/studies/timing/plain_loops.hpp"
@@ -10,6 +11,7 @@
 #include "pbs/packed/parallel.hpp"
 #include "pbs/solver/batched/batched_projection.hpp"
 #include "pbs/solver/batched/pose_projection.hpp"
+#include "pbs/solver/particles.hpp"
 #include "pbs/solver/step_summary.hpp"
 
 #include <nlohmann/json.hpp>
@@ -53,12 +55,6 @@ int vertices_for_tets(int tets)
     return std::max(smallest_bar, static_cast<int>(vertices));
 }
 
-pbs::Skeleton two_bones(const Axis& axis)
-{
-    const pbs::Vec3 middle = (axis.begin + axis.end) / 2.0;
-    return {{{"upper", -1, axis.begin, middle}, {"forearm", 0, middle, axis.end}}};
-}
-
 pbs::Positions twisted(const pbs::Positions& rest, const Axis& axis)
 {
     const Eigen::AngleAxisd turn(angle_deg * std::numbers::pi / 180.0, (axis.end - axis.begin).normalized());
@@ -72,21 +68,29 @@ pbs::Positions twisted(const pbs::Positions& rest, const Axis& axis)
 
 }  // namespace
 
+pbs::Character skinned_along(const std::string& name, pbs::TetMesh mesh, pbs::Skeleton skeleton)
+{
+    pbs::Character character;
+    character.name = name;
+    character.skeleton = std::move(skeleton);
+    character.binding = pbs::bind_to_nearest_bone(mesh.rest, character.skeleton);
+    character.weights = pbs::paper_weights(character.binding, character.skeleton);
+    for (int i = 0; i < character.weights.vertices(); ++i) character.blended.push_back(character.weights.blended(i));
+    character.mesh = std::move(mesh);
+    return character;
+}
+
 BenchBody make_bench_body(const std::string& name, pbs::TetMesh mesh)
 {
     const Axis axis = longest_axis(mesh.rest);
-    BenchBody body;
-    body.character.name = name;
-    body.character.skeleton = two_bones(axis);
-    body.character.binding = pbs::bind_to_nearest_bone(mesh.rest, body.character.skeleton);
-    body.character.weights = pbs::paper_weights(body.character.binding, body.character.skeleton);
-    for (int i = 0; i < body.character.weights.vertices(); ++i) body.character.blended.push_back(body.character.weights.blended(i));
-    body.twisted = twisted(mesh.rest, axis);
+    const pbs::Vec3 middle = (axis.begin + axis.end) / 2.0;
+    BenchBody body{skinned_along(name, std::move(mesh), {{{"upper", -1, axis.begin, middle}, {"forearm", 0, middle, axis.end}}})};
+    const pbs::Positions& rest = body.mesh().rest;
+    body.twisted = twisted(rest, axis);
     body.bind_points = body.character.binding.rest_point;
-    for (Eigen::Index i = 0; i < mesh.rest.rows(); ++i) body.held.push_back(axis.share(mesh.rest.row(i).transpose()) < held_bar_share);
+    for (Eigen::Index i = 0; i < rest.rows(); ++i) body.held.push_back(axis.share(rest.row(i).transpose()) < held_bar_share);
     body.pose = pbs::joint_sweep(body.character.skeleton, 1, (axis.end - axis.begin).normalized(), angle_deg, 2, 0.01).steps[1];
-    body.edges = static_cast<int>(pbs::edges_of(mesh.tets).rows());
-    body.character.mesh = std::move(mesh);
+    body.edges = static_cast<int>(pbs::edges_of(body.mesh().tets).rows());
     return body;
 }
 
@@ -105,24 +109,6 @@ BenchBody bench_bar_of_tets(int tets)
 namespace {
 
 template <typename Scalar>
-constexpr const char* precision_of = std::is_same_v<Scalar, float> ? "f32" : "f64";
-
-// The stiffnesses are the scenes' defaults.
-pbs::PbsOptions bench_options(pbs::Order order, int threads)
-{
-    pbs::PbsOptions options;
-    options.order = order;
-    options.threads = threads;
-    return options;
-}
-
-template <typename Scalar>
-pbs::ConstraintSet<Scalar> bench_constraints(const BenchBody& body)
-{
-    return pbs::make_constraint_set<Scalar>(body.mesh(), body.character.binding.distance, {}, pbs::PbsOptions(), body.held);
-}
-
-template <typename Scalar>
 std::vector<pbs::Vector3<Scalar>> points_of(const pbs::Positions& positions)
 {
     std::vector<pbs::Vector3<Scalar>> points;
@@ -130,56 +116,26 @@ std::vector<pbs::Vector3<Scalar>> points_of(const pbs::Positions& positions)
     return points;
 }
 
+// Its particles keep their layout, so that there is nothing to store.
 template <typename Scalar>
-PlainLoops<Scalar> native_loops()
-{
-    const pbs::Module& module = pbs::load_module("pbskin_native_plain");
-    PlainLoops<Scalar> loops;
-    if constexpr (std::is_same_v<Scalar, float>)
-        module.function<decltype(pbskin_native_plain_f32)>("pbskin_native_plain_f32")(&loops);
-    else
-        module.function<decltype(pbskin_native_plain_f64)>("pbskin_native_plain_f64")(&loops);
-    return loops;
-}
-
-template <typename Scalar>
-ProjectionVariant of_native_loops(const BenchBody& body, const char* name, pbs::ConstraintSet<Scalar> constraints)
+StepLoops native_loops(const std::string& precision, const pbs::ConstraintSet<Scalar>& constraints, const StepStart& start)
 {
     struct State {
         pbs::ConstraintSet<Scalar> constraints;
         std::vector<pbs::Vector3<Scalar>> initial, q, p;
+        pbs::Positions nothing;
     };
-    const PlainLoops<Scalar> loops = native_loops<Scalar>();
-    const auto points = points_of<Scalar>(body.twisted);
-    const auto state = std::make_shared<State>(State{std::move(constraints), points, points_of<Scalar>(body.bind_points), points});
-    ProjectionVariant variant{name, precision_of<Scalar>};
-    variant.loops = {[state] { state->p = state->initial; },
-                     [state, loops] { loops.bind(state->constraints, state->q, state->p); },
-                     [state, loops] { loops.stretch(state->constraints, state->p); },
-                     [state, loops] { loops.volume(state->constraints, state->p); },
-                     [] {},
-                     [state] { return pbs::residuals_of(state->constraints, state->p, state->q); }};
-    return variant;
-}
-
-template <typename Scalar>
-ProjectionVariant of_order(const BenchBody& body, const char* name, pbs::Order order, int threads)
-{
-    const pbs::PbsOptions options = bench_options(order, threads);
-    const std::shared_ptr<pbs::Projection<Scalar>> projection =
-        pbs::make_projection(bench_constraints<Scalar>(body), body.mesh().tets, options);
-    ProjectionVariant variant{name, precision_of<Scalar>, threads};
-    variant.loops = {[projection, &body] { projection->load(body.twisted, body.bind_points, pbs::Vec3::Zero()); },
-                     [projection] { projection->project_bind_constraints(); },
-                     [projection] { projection->project_stretch_constraints(); },
-                     [projection] { projection->project_volume_constraints(); },
-                     [projection, positions = body.twisted]() mutable { projection->store(pbs::Vec3::Zero(), positions); },
-                     [projection] { return projection->residuals(); }};
-    if (const auto* batched = dynamic_cast<const pbs::BatchedProjection<Scalar>*>(projection.get())) {
-        variant.stretch_fill = batched->stretch_fill();
-        variant.volume_fill = batched->volume_fill();
-    }
-    return variant;
+    PlainLoops<Scalar> loops;
+    const std::string name = "pbskin_native_plain_" + precision;
+    pbs::load_module("pbskin_native_plain").function<void(PlainLoops<Scalar>*)>(name.c_str())(&loops);
+    const auto points = points_of<Scalar>(start.guess);
+    const auto state = std::make_shared<State>(State{constraints, points, points_of<Scalar>(start.bind_points), points, {}});
+    return {[state] { state->p = state->initial; },
+            [state, loops] { loops.bind(state->constraints, state->q, state->p); },
+            [state, loops] { loops.stretch(state->constraints, state->p); },
+            [state, loops] { loops.volume(state->constraints, state->p); },
+            [state]() -> const pbs::Positions& { return state->nothing; },
+            [state] { return pbs::residuals_of(state->constraints, state->p, state->q); }};
 }
 
 // A block has sixteen poses, and each thread has one block. Threads beyond the machine's have none, since blocks cost memory.
@@ -189,71 +145,78 @@ int pose_blocks(int threads)
 }
 
 template <typename Scalar>
-struct PoseBlocks {
-    PoseBlocks(const BenchBody& body, int threads)
-        : program(pbs::make_pose_program(bench_constraints<Scalar>(body), body.mesh().tets, {}, pbs::Order::ordered)),
-          parallel(threads),
-          posed(body.twisted)
-    {
-        const std::vector<pbs::PbsOptions> poses(pbs::poses_a_block, bench_options(pbs::Order::ordered, 1));
-        for (int block = 0; block < pose_blocks(threads); ++block) blocks.emplace_back(program, poses);
-    }
-    PoseBlocks(const PoseBlocks&) = delete;  // blocks point to the program
-
-    template <typename Work>
-    void on_all(const Work& work)
-    {
-        parallel.for_each(static_cast<int>(blocks.size()), [&](int block) { work(blocks[block]); });
-    }
-
-    pbs::PoseProgram<Scalar> program;
-    pbs::Parallel parallel;
-    std::vector<pbs::PoseBlock<Scalar>> blocks;
-    pbs::Positions posed;
-};
-
-template <typename Scalar>
-ProjectionVariant of_poses(const BenchBody& body, int threads)
-{
-    using Block = pbs::PoseBlock<Scalar>;
-    const auto all = std::make_shared<PoseBlocks<Scalar>>(body, threads);
-    const auto load = [&body](Block& block) {
-        for (int lane = 0; lane < pbs::poses_a_block; ++lane) block.load(lane, body.twisted, body.bind_points, pbs::Vec3::Zero());
-    };
-    const auto store = [all] {
-        for (const Block& block : all->blocks)
-            for (int lane = 0; lane < pbs::poses_a_block; ++lane) block.store(lane, pbs::Vec3::Zero(), all->posed);
-    };
-    ProjectionVariant variant{"poses", precision_of<Scalar>, threads, pose_blocks(threads) * pbs::poses_a_block};
-    variant.loops = {[all, load] { all->on_all(load); },
-                     [all] { all->on_all([](Block& block) { block.project_bind_constraints(); }); },
-                     [all] { all->on_all([](Block& block) { block.project_stretch_constraints(); }); },
-                     [all] { all->on_all([](Block& block) { block.project_volume_constraints(); }); },
-                     store,
-                     [all, store, &body] {
-                         store();
-                         return pbs::residuals_of(bench_constraints<Scalar>(body), points_of<Scalar>(all->posed),
-                                                  points_of<Scalar>(body.bind_points));
-                     }};
-    return variant;
-}
-
-template <typename Scalar>
 void append(const BenchBody& body, const std::vector<int>& threads, std::vector<ProjectionVariant>& variants)
 {
-    variants.push_back(of_order<Scalar>(body, "plain", pbs::Order::plain, 1));
-    pbs::ConstraintSet<Scalar> constraints = bench_constraints<Scalar>(body);
-    variants.push_back(of_native_loops<Scalar>(body, "plain_native", constraints));
-    in_spread_sequence(constraints);
-    variants.push_back(of_native_loops<Scalar>(body, "plain_spread", std::move(constraints)));
+    const std::string precision = std::is_same_v<Scalar, float> ? "f32" : "f64";
+    const StepStart start{body.twisted, body.bind_points, false};
+    const pbs::Tets& tets = body.mesh().tets;
+    pbs::PbsOptions options;  // the stiffnesses are the scenes' defaults
+    const auto constraints = pbs::make_constraint_set<Scalar>(body.mesh(), body.character.binding.distance, {}, options, body.held);
+    const auto append_order = [&](pbs::Order order, int count) {
+        options.order = order;
+        options.threads = count;
+        variants.push_back({name_of(order), precision, count, 1, step_loops(constraints, tets, options, start)});
+    };
+    append_order(pbs::Order::plain, 1);
+    pbs::ConstraintSet<Scalar> spread = constraints;
+    in_spread_sequence(spread);
+    variants.push_back({"plain_native", precision, 1, 1, native_loops(precision, constraints, start)});
+    variants.push_back({"plain_spread", precision, 1, 1, native_loops(precision, spread, start)});
     for (const int count : threads) {
-        variants.push_back(of_order<Scalar>(body, "ordered", pbs::Order::ordered, count));
-        variants.push_back(of_order<Scalar>(body, "grouped", pbs::Order::grouped, count));
-        variants.push_back(of_poses<Scalar>(body, count));
+        append_order(pbs::Order::ordered, count);
+        append_order(pbs::Order::grouped, count);
+        variants.push_back({"poses", precision, count, pose_blocks(count) * pbs::poses_a_block,
+                            loops_of_poses(constraints, tets, pbs::PbsOptions(), start, count)});
     }
 }
 
 }  // namespace
+
+template <typename Scalar>
+StepLoops loops_of_poses(const pbs::ConstraintSet<Scalar>& constraints, const pbs::Tets& tets, const pbs::PbsOptions& options,
+                         const StepStart& start, int threads)
+{
+    using Block = pbs::PoseBlock<Scalar>;
+    struct State {
+        pbs::ConstraintSet<Scalar> constraints;
+        pbs::PoseProgram<Scalar> program;
+        pbs::Parallel parallel;
+        std::vector<Block> blocks = {};
+        pbs::Vec3 origin = pbs::Vec3::Zero();
+        pbs::Positions posed = {};
+    };
+    const auto state = std::make_shared<State>(
+        State{constraints, pbs::make_pose_program(constraints, tets, {}, pbs::Order::ordered), pbs::Parallel(threads)});
+    state->blocks.assign(pose_blocks(threads), Block(state->program, std::vector<pbs::PbsOptions>(pbs::poses_a_block, options)));
+    const auto on_all = [state](const auto& work) {
+        return [state, work] {
+            state->parallel.for_each(static_cast<int>(state->blocks.size()), [&](int block) { work(state->blocks[block]); });
+        };
+    };
+    const auto store = [state, start]() -> const pbs::Positions& {
+        state->posed.resize(start.guess.rows(), 3);
+        for (const Block& block : state->blocks)
+            for (int lane = 0; lane < pbs::poses_a_block; ++lane) block.store(lane, state->origin, state->posed);
+        return state->posed;
+    };
+    const auto load_block = on_all([state, start](Block& block) {
+        for (int lane = 0; lane < pbs::poses_a_block; ++lane) block.load(lane, start.guess, start.bind_points, state->origin);
+    });
+    return {[state, start, load_block] {
+                if (start.has_local_origin) state->origin = pbs::local_origin<Scalar>(start.guess);
+                load_block();
+            },
+            on_all([](Block& block) { block.project_bind_constraints(); }),
+            on_all([](Block& block) { block.project_stretch_constraints(); }),
+            on_all([](Block& block) { block.project_volume_constraints(); }),
+            store,
+            [state, store, start] {
+                return pbs::residuals_of(state->constraints, points_of<Scalar>(store()), points_of<Scalar>(start.bind_points));
+            }};
+}
+
+template StepLoops loops_of_poses(const pbs::ConstraintSet<float>&, const pbs::Tets&, const pbs::PbsOptions&, const StepStart&, int);
+template StepLoops loops_of_poses(const pbs::ConstraintSet<double>&, const pbs::Tets&, const pbs::PbsOptions&, const StepStart&, int);
 
 std::vector<ProjectionVariant> projection_variants(const BenchBody& body, const std::vector<int>& threads)
 {
@@ -297,7 +260,7 @@ std::vector<double> time_step(const ProjectionVariant& variant)
     const StepLoops& loops = variant.loops;
     loops.load();
     const double warm_up = wall_s();  // brings the data into the caches after another variant's turn
-    loops.bind(), loops.stretch(), loops.volume();
+    loops.iterate();
     const bool by_cpu = variant.threads == 1 && (wall_s() - warm_up) * iterations_per_step > long_step_s;
 
     std::vector<double> seconds(samples, 0.0);
@@ -338,7 +301,7 @@ nlohmann::json entry_of(const ProjectionVariant& variant, const Samples& own, co
     put_spread(entry, "ms_step", scaled(spread_of(own[step_s]), 1e3 / variant.poses));
     const double step_bytes = iterations_per_step * pbs::bytes_per_iteration(layout, size) / variant.poses;
     if (variant.threads == 1) entry["ms_floor"] = 1e-6 * step_bytes / bandwidth_at(memory, working_set_bytes);
-    if (variant.stretch_fill) entry["fill"] = {{"stretch", *variant.stretch_fill}, {"volume", *variant.volume_fill}};
+    if (variant.loops.stretch_fill) entry["fill"] = {{"stretch", *variant.loops.stretch_fill}, {"volume", *variant.loops.volume_fill}};
     return entry;
 }
 

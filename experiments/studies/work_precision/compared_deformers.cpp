@@ -1,14 +1,19 @@
 #include "experiments/studies/work_precision/compared_deformers.hpp"
 
+#include "experiments/deformers/deformer_options.hpp"
 #include "experiments/deformers/external/external_deformers.hpp"
 #include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/process/child_process.hpp"
 #include "experiments/scene/scene.hpp"
+#include "experiments/settings/recorded_settings.hpp"
 #include "experiments/settings/scene_values.hpp"
 #include "experiments/studies/shared/posed_reference.hpp"
+#include "experiments/studies/study.hpp"
+#include "pbs/character/body_cache.hpp"
 #include "pbs/geometry/files.hpp"
 #include "pbs/geometry/input_error.hpp"
+#include "pbs/solver/options.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -18,146 +23,42 @@
 #include <stdexcept>
 
 namespace experiments {
+
+void from_json(const nlohmann::json& keys, SettingChange& change)
+{
+    const std::string of_young = "young_factor=";
+    for (const std::string key : keys)
+        if (key.starts_with(of_young))
+            change.young_factor = std::stod(key.substr(of_young.size()));
+        else
+            change.keys.push_back(key);
+}
+
 namespace {
 
-const std::vector<int> of_projections = {1, 2, 4, 8, 16, 24, 48, 96, 192}, few_of_projections = {4, 24, 96};
-const std::vector<int> of_minimisers = {1, 2, 4, 8, 12, 16, 24, 48, 96}, few_of_minimisers = {4, 12, 24};
-
-KeyValues set(const std::string& kind, const std::string& key, const std::string& value)
-{
-    return {kind + "." + key + "=" + value};
-}
-
-std::vector<SettingChange> each_of(const std::string& key, const std::vector<std::string>& values)
-{
-    std::vector<SettingChange> grid = {{}};
-    for (const std::string& value : values) grid.push_back({{key + "=" + value}});
-    return grid;
-}
-
-// In the code of each precision.
-std::vector<KeyValues> precisions_of(const std::string& kind)
-{
-    return {set(kind, "precision", "f32"), set(kind, "precision", "f64")};
-}
-
-std::vector<KeyValues> codes_of_blend(const std::string& kind)
-{
-    return {set(kind, "precision", "f32"), set(kind, "packed", "false")};
-}
-
-std::vector<ComparedDeformer> blending()
+// Reads the entries of cases.toml. A key that an entry lacks has the value of `base`.
+std::vector<ComparedDeformer> entries_of(const std::string& table, const ComparedDeformer& base)
 {
     std::vector<ComparedDeformer> entries;
-    for (const char* kind : {"lbs", "dqs"})
-        for (const char* weights : {"paper", "diffused"}) {
-            const std::string name = std::string(kind) + (weights == std::string("diffused") ? "_diffused" : "");
-            entries.push_back({.name = name, .kind = kind, .weights = weights, .codes = codes_of_blend(kind)});
-        }
-    return entries;
-}
-
-// Numbers of steps, and sizes of a step for the rotations (lambda) and the translations (kappa, of which alpha is the share).
-std::vector<SettingChange> direct_settings()
-{
-    std::vector<SettingChange> grid = each_of("direct_delta_mush.iterations", {"5", "40", "80"});
-    grid.push_back({{"direct_delta_mush.lambda=1", "direct_delta_mush.kappa=1", "direct_delta_mush.alpha=0.5"}});
-    grid.push_back({{"direct_delta_mush.lambda=2", "direct_delta_mush.kappa=2", "direct_delta_mush.alpha=0"}});
-    return grid;
-}
-
-// Direct delta mush smooths once for all poses, so that its iterations are a setting and no work of a frame.
-std::vector<ComparedDeformer> mushing()
-{
-    const ComparedDeformer mush = {.kind = "delta_mush",
-                                   .iterations_key = "delta_mush.iterations",
-                                   .iterations = {0, 1, 2, 5, 10, 20, 50, 100, 200},
-                                   .few_iterations = {2, 10, 50},
-                                   .grid = each_of("delta_mush.step", {"0.25", "0.9"}),
-                                   .codes = precisions_of("delta_mush")};
-    const ComparedDeformer direct = {.kind = "direct_delta_mush", .grid = direct_settings(), .codes = precisions_of("direct_delta_mush")};
-    std::vector<ComparedDeformer> entries;
-    for (ComparedDeformer entry : {mush, direct}) {
-        entry.name = entry.kind;
-        entries.push_back(entry);
-        entry.fixed = set(entry.kind, "weights", "diffused");
-        entry.name += "_diffused";
-        entries.push_back(entry);
+    const nlohmann::json document = cases_document("work_precision");
+    for (nlohmann::json one : document.at(table)) {
+        for (const nlohmann::json& ladder : document.at("ladder"))
+            if (ladder.at("name") == one.value("ladder", ""))
+                one.update({{"iterations", ladder.at("iterations")}, {"few", ladder.at("few")}});
+        one.erase("ladder");
+        ComparedDeformer& entry = entries.emplace_back(base);
+        const auto read = [&](const char* key, auto& value) {
+            if (one.contains(key)) one.at(key).get_to(value);
+            one.erase(key);
+        };
+        read("name", entry.name), read("kind", entry.kind), read("group", entry.group), read("weights", entry.weights);
+        read("fixed", entry.fixed), read("iterations_key", entry.iterations_key), read("iterations", entry.iterations);
+        read("few", entry.few_iterations), read("grid", entry.grid), read("codes", entry.codes), read("young_key", entry.young_key);
+        read("poisson_key", entry.poisson_key), read("smooth_weights", entry.smooth_weights);
+        read("k_by_edge_length", entry.k_by_edge_length);
+        if (!one.empty()) throw std::logic_error("work_precision/cases.toml: nothing reads " + one.dump() + " of " + entry.name);
     }
     return entries;
-}
-
-ComparedDeformer projecting(const std::string& kind, const std::string& table, const std::vector<SettingChange>& grid)
-{
-    return {.name = kind,
-            .kind = kind,
-            .iterations_key = table + ".iterations",
-            .iterations = of_projections,
-            .few_iterations = few_of_projections,
-            .grid = grid};
-}
-
-std::vector<ComparedDeformer> projecting_ones()
-{
-    const std::string exponent = "pbs.variant.stiffness=exponent";
-    ComparedDeformer pbs = projecting("pbs", "pbs",
-                                      {{},
-                                       {{"pbs.k_stretch=0.5"}},
-                                       {{"pbs.k_stretch=0.9"}},
-                                       {{"pbs.k_stretch=0.05"}},
-                                       {{"pbs.k_bind=0.1"}},
-                                       {{"pbs.k_bind=0.3"}},
-                                       {{exponent}},
-                                       {{"pbs.k_stretch=0.9", exponent}}});
-    pbs.codes = {{"pbs.order=ordered", "pbs.precision=f32"}, {"pbs.order=plain", "pbs.precision=f64"}};
-    std::vector<ComparedDeformer> entries = {pbs, projecting("pbs_author", "pbs_author", {{}})};
-    for (const char* kind : {"xpbd", "xpbd_small_steps"}) {
-        ComparedDeformer& xpbd = entries.emplace_back(projecting(kind, "pbs", {{}, {.young_factor = 4.0}, {.young_factor = 16.0}}));
-        xpbd.group = "xpbd";
-        xpbd.codes = {{"xpbd.order=ordered", "xpbd.precision=f32"}, {"xpbd.order=plain", "xpbd.precision=f64"}};
-        xpbd.young_key = "xpbd.young_pa";
-        xpbd.poisson_key = "xpbd.poisson";
-    }
-    return entries;
-}
-
-// Deformers with the reference's material, held by the reference's springs.
-ComparedDeformer elastic(const std::string& kind, const std::vector<SettingChange>& grid)
-{
-    return {.name = kind,
-            .kind = kind,
-            .iterations_key = kind + ".iterations",
-            .iterations = of_minimisers,
-            .few_iterations = few_of_minimisers,
-            .grid = grid,
-            .codes = {set(kind, "packed", "true"), set(kind, "packed", "false")},
-            .poisson_key = kind + ".poisson"};
-}
-
-std::vector<ComparedDeformer> elastic_ones()
-{
-    std::vector<SettingChange> of_vbd = each_of("vbd.omega", {"1", "1.5", "1.75"});
-    of_vbd.push_back({{"vbd.acceleration=chebyshev", "vbd.omega=1", "vbd.rho=0.9"}});
-    return {
-        elastic("quasi_newton", {{}, {{"quasi_newton.volume_share=0.3"}}, {{"quasi_newton.volume_share=1"}}, {{"quasi_newton.start=lbs"}}}),
-        elastic("vbd", of_vbd), elastic("xpbd_neo_hookean", each_of("xpbd_neo_hookean.time_step", {"0.4", "0.6"})),
-        elastic("projective_dynamics", {{}})};
-}
-
-// A change to PBS in its packed code. The settings that the quick form takes come first.
-ComparedDeformer change(const std::string& name, const KeyValues& fixed, const std::string& key = "",
-                        const std::vector<std::string>& values = {})
-{
-    ComparedDeformer entry = projecting("pbs", "pbs", {{}});
-    entry.name = name;
-    entry.fixed = fixed;
-    entry.iterations.pop_back();            // as many as the largest budget has
-    entry.few_iterations = {1, 4, 24, 96};  // a change that takes longer than PBS is interpolated from one iteration on
-    entry.codes = {{"pbs.order=ordered", "pbs.precision=f32"}};
-    if (values.empty()) return entry;
-    entry.grid = each_of(key, values);
-    entry.grid.erase(entry.grid.begin());
-    return entry;
 }
 
 const std::string& text_of_scene(const Scene& scene)
@@ -218,33 +119,15 @@ void check_external(const SceneValues& values, const std::string& table, const D
 
 const std::vector<ComparedDeformer>& compared_deformers()
 {
-    static const std::vector<ComparedDeformer> entries = [] {
-        std::vector<ComparedDeformer> all = blending();
-        for (const auto& more : {mushing(), projecting_ones(), elastic_ones()}) all.insert(all.end(), more.begin(), more.end());
-        return all;
-    }();
+    static const std::vector<ComparedDeformer> entries = entries_of("deformer", {});
     return entries;
 }
 
+// In the packed code of PBS.
 const std::vector<ComparedDeformer>& changes_to_pbs()
 {
-    static const std::vector<ComparedDeformer> entries = [] {
-        const std::string improved = "pbs.improved.";
-        std::vector<ComparedDeformer> all = {
-            change("smooth_weights", {}),
-            change("bind_to_blended_position", {improved + "bind_to=blended_position"}, "pbs.k_bind",
-                   {"0.02", "0.1", "0.002", "0.005", "0.01", "0.05", "0.2"}),
-            change("region_volumes", {improved + "volume_of=regions"}, improved + "region_tets", {"64", "256", "16", "1024"}),
-            change("tet_and_region_volumes", {improved + "volume_of=tets_and_regions"}, improved + "region_tets",
-                   {"64", "256", "16", "1024"}),
-            change("k_by_edge_length", {}),
-            change("another_order", {}, "pbs.order", {"grouped", "plain"}),
-            change(control, {}, "pbs.k_stretch", {"0.5", "0.05", "0.1", "0.9"})};
-        all[0].smooth_weights = all[4].k_by_edge_length = true;
-        all[5].codes = {{"pbs.precision=f32"}};
-        all[6].grid.insert(all[6].grid.begin() + 1, {{{"pbs.k_bind=0.5"}}, {{"pbs.k_bind=0.1"}}});
-        return all;
-    }();
+    static const std::vector<ComparedDeformer> entries =
+        entries_of("change", {.kind = "pbs", .iterations_key = "pbs.iterations", .codes = {{"pbs.order=ordered", "pbs.precision=f32"}}});
     return entries;
 }
 
@@ -340,6 +223,172 @@ std::vector<DeformerSpec> external_entries(const std::string& file)
     if (entries.empty()) throw pbs::InputError(file, 0, own, "", "missing: expected at least one [[" + own + "]] table");
     for (std::size_t i = 0; i < entries.size(); ++i) check_external(values, own + "." + std::to_string(i), entries[i]);
     return entries;
+}
+
+namespace {
+
+constexpr std::size_t grid_in_short = 3;
+
+// Finite elements with the reference's material and attachment.
+DeformerSpec fem_spec(const Scene& scene, reference_fem::Model model, int element_order)
+{
+    DeformerSpec spec = reference_flesh(scene);
+    spec.name = spec.label = fmt::format("{}_p{}", name_of(model), element_order);
+    auto& options = options_of<FemOptions>(spec);
+    options.model = model;
+    options.element_order = element_order;
+    options.nested_start = element_order == 2 && model != reference_fem::Model::linear;
+    return spec;
+}
+
+class SettingList {
+public:
+    SettingList(const Scene& scene, const SettingRange& range) : scene_(scene), range_(range) {}
+
+    // All settings at all rungs of the case's own mesh, and the default setting at some rungs of the other meshes.
+    void add(const ComparedDeformer& entry)
+    {
+        const std::vector<SettingChange> grid = grid_in_range(entry);
+        for (const KeyValues& code : codes_of(entry)) {
+            for (const SettingChange& change : grid)
+                add_ladder(entry, range_.in_short ? entry.few_iterations : entry.iterations, {{}, change, code}, 0);
+            for (const std::vector<int>* sizes : {&range_.other_vertices, &range_.without_fem})
+                for (const int vertices : *sizes) add_ladder(entry, entry.few_iterations, {{}, grid.front(), code}, vertices);
+        }
+    }
+
+    // A change to PBS, on the case's own mesh in its packed code alone.
+    void add_change(const ComparedDeformer& entry)
+    {
+        const std::size_t first = settings.size();
+        for (const SettingChange& change : grid_in_range(entry))
+            add_ladder(entry, range_.in_short ? entry.few_iterations : entry.iterations, {{}, change, codes_of(entry).front()}, 0);
+        for (std::size_t i = first; i < settings.size(); ++i) settings[i].change = &entry;
+    }
+
+    void add_fem()
+    {
+        using reference_fem::Model;
+        for (const Model model : {Model::linear, Model::corotational, Model::neo_hookean})
+            for (const int element_order : {1, 2})
+                if (element_order == 1 || (range_.quadratic && model != Model::corotational)) add_fem(model, element_order, 0);
+        add_fem(Model::stable_neo_hookean, 1, 0);  // the limit of the deformers that minimise an energy
+        for (const int vertices : range_.other_vertices)
+            for (const Model model : {Model::linear, Model::neo_hookean})
+                for (const int element_order : {1, 2})
+                    if (element_order == 1 || (range_.quadratic && model == Model::neo_hookean && vertices <= range_.quadratic_up_to))
+                        add_fem(model, element_order, vertices);
+        if (!range_.refined) return;
+        Setting setting{"fem_neo_hookean", fem_spec(scene_, Model::neo_hookean, 1)};
+        setting.refined = options_of<FemOptions>(setting.spec).nested_start = true;
+        settings.push_back(setting);
+    }
+
+    std::vector<Setting> settings;
+
+private:
+    std::vector<SettingChange> grid_in_range(const ComparedDeformer& entry) const
+    {
+        std::vector<SettingChange> grid = grid_of(entry);
+        if (range_.in_short) grid.resize(std::min(grid.size(), grid_in_short));
+        return grid;
+    }
+
+    void add_ladder(const ComparedDeformer& entry, const std::vector<int>& iterations, SettingChoice choice, int vertices)
+    {
+        std::vector<std::optional<int>> rungs(iterations.begin(), iterations.end());
+        if (rungs.empty()) rungs.emplace_back();
+        for (const std::optional<int> rung : rungs) {
+            choice.iterations = rung;
+            settings.push_back({entry.name, spec_with(entry, scene_, choice), rung, name_of(choice.change), vertices});
+        }
+    }
+
+    void add_fem(reference_fem::Model model, int element_order, int vertices)
+    {
+        Setting setting{"fem_" + name_of(model), fem_spec(scene_, model, element_order)};
+        setting.vertices = vertices;
+        settings.push_back(setting);
+    }
+
+    const Scene& scene_;
+    const SettingRange& range_;
+};
+
+}  // namespace
+
+SettingKey key_of(const Setting& setting)
+{
+    const DeformerSpec& spec = setting.spec;
+    const DeformerTraits traits = traits_of(spec);
+    SettingKey key{.deformer = setting.deformer, .iterations = setting.iterations, .precision = traits.precision};
+    if (setting.vertices > 0) key.wanted_vertices = setting.vertices;
+    key.refined = setting.refined;
+    key.tuned = setting.tuned;
+    key.packed = traits.packed;
+    if (setting.is_external()) key.precision.clear();  // it is not known
+    if (const auto* xpbd = options_if<pbs::XpbdOptions>(spec)) key.iterations = xpbd->iterations, key.substeps = xpbd->substeps;
+    if (const auto* fem = options_if<FemOptions>(spec)) key.element_order = fem->element_order;
+    const auto* pbs = options_if<pbs::PbsOptions>(spec);
+    if (!pbs) return key;
+    key.k_stretch = pbs->k_stretch;
+    key.order = name_of(pbs->order);
+    key.substeps = 1;
+    return key;
+}
+
+SettingKey rung_of(SettingKey key)
+{
+    key.k_stretch.reset();
+    key.tuned.clear();
+    return key;
+}
+
+const analysis::Columns<SettingKey>& setting_columns()
+{
+    static const analysis::Columns<SettingKey> columns =
+        analysis::Columns<SettingKey>{
+            {"iterations", &SettingKey::iterations, "", "iterations per step"},
+            {"k_stretch", &SettingKey::k_stretch, "", "PBS: stiffness of the stretch constraints"},
+            {"order", &SettingKey::order, "", "PBS: order of projection"},
+            {"precision", &SettingKey::precision, "", "f32 or f64"},
+            {"substeps", &SettingKey::substeps, "", "PBS and XPBD: substeps per frame"},
+            {"element_order", &SettingKey::element_order, "", "finite elements: 1 linear, 2 quadratic"},
+            {"wanted_vertices", &SettingKey::wanted_vertices, "", "wanted size of another mesh of the body; empty on the case's own"},
+            {"refined", &SettingKey::refined, "", "solved on the case's own tets, each cut into eight"}} +
+        analysis::Columns<SettingKey>{
+            {"tuned", &SettingKey::tuned, "", "the setting of the deformer's grid, as an identifier; empty: the default one"},
+            {"packed", &SettingKey::packed, "", "code that computes several constraints, vertices or tets per instruction"}}
+            .in_group("code");
+    return columns;
+}
+
+const analysis::Columns<SettingKey>& point_key_columns()
+{
+    static const analysis::Columns<SettingKey> columns =
+        analysis::Columns<SettingKey>{{"deformer", &SettingKey::deformer, "", "name of the deformer"}} + setting_columns();
+    return columns;
+}
+
+std::string digest_of(const std::vector<Setting>& settings)
+{
+    nlohmann::json all = nlohmann::json::array();
+    for (const Setting& setting : settings)
+        all.push_back({setting.deformer, to_json(setting.spec), setting.tuned, setting.vertices, setting.refined});
+    return pbs::content_hash(all.dump());
+}
+
+RECORD_SETTINGS(SettingRange, in_short, quadratic, other_vertices, without_fem, quadratic_up_to, refined, changes)
+
+std::vector<Setting> settings_of(const Scene& scene, const SettingRange& range)
+{
+    SettingList list(scene, range);
+    for (const ComparedDeformer& entry : compared_deformers())
+        if (is_available(entry)) list.add(entry);
+    list.add_fem();
+    if (range.changes)
+        for (const ComparedDeformer& entry : changes_to_pbs()) list.add_change(entry);
+    return list.settings;
 }
 
 }  // namespace experiments

@@ -23,14 +23,14 @@ namespace experiments {
 
 RECORD_SETTINGS_AND(WorkPrecisionCase,
                     .derived("points",
-                             [](const WorkPrecisionCase& one) -> nlohmann::json { return digest_of(point_settings(one.scene, one.range)); })
+                             [](const WorkPrecisionCase& one) -> nlohmann::json { return digest_of(settings_of(one.scene, one.range)); })
                         .derived("reference", [](const WorkPrecisionCase& one) { return to_json(reference_flesh(one.scene)); }),
                     of, scene, frame, half, range, rounds, newton_rounds, reference_is_refined, members, converged_iterations,
                     longest_frame_ms, external)
 
 namespace {
 
-PointRow row_on(const PointSetting& setting, const BodyMesh& mesh)
+PointRow row_on(const Setting& setting, const BodyMesh& mesh)
 {
     PointRow row{.key = key_of(setting)};
     row.is_external = setting.is_external();
@@ -72,7 +72,7 @@ void add_reference(PointRow& row, const PosedReference& reference)
     if (row.solver_pct) row.discretisation_pct = row.reference_error_joint_pct;
 }
 
-PointRow row_without_answer(const PointSetting& setting, const BodyMesh& mesh, const std::string& outcome, const std::string& reason)
+PointRow row_without_answer(const Setting& setting, const BodyMesh& mesh, const std::string& outcome, const std::string& reason)
 {
     PointRow row = row_on(setting, mesh);
     row.outcome = outcome;
@@ -198,22 +198,20 @@ PosePair poses_of(const WorkPrecisionCase& of, const pbs::Skeleton& skeleton)
 class CaseMeasuring {
 public:
     explicit CaseMeasuring(const WorkPrecisionCase& of)
-        : of_(of),
-          base_(std::make_shared<pbs::Character>(pbs::make_character(of.scene.character))),
-          poses_(poses_of(of, base_->skeleton)),
-          external_(external_settings(of.external))
+        : of_(of), base_(std::make_shared<pbs::Character>(pbs::make_character(of.scene.character))), poses_(poses_of(of, base_->skeleton))
     {
+        for (const DeformerSpec& spec : of.external) external_.push_back({spec.name, spec});
         meshes_.emplace(0, BodyMesh(base_));
     }
 
     // The user's programs are called first, so that one that fails ends the run at once.
     MeasuredPoints measure()
     {
-        for (const PointSetting& setting : external_) reach(setting);
+        for (const Setting& setting : external_) reach(setting);
         references_.emplace(of_, *base_, poses_);
         add_other_meshes();
-        compared_ = point_settings(of_.scene, of_.range);
-        for (PointSetting& setting : compared_) {
+        compared_ = settings_of(of_.scene, of_.range);
+        for (Setting& setting : compared_) {
             if (setting.change && setting.change->k_by_edge_length) {
                 auto& options = options_of<pbs::PbsOptions>(setting.spec);
                 options.k_stretch_length_m = neutral_length(options.k_stretch, edge_lengths_m(base_->mesh));
@@ -244,7 +242,7 @@ private:
     }
 
     // Later rungs of a ladder of which a rung took too long are not tried.
-    void reach(const PointSetting& setting)
+    void reach(const Setting& setting)
     {
         stop_if_interrupted();
         const bool is_smooth = setting.change && setting.change->smooth_weights;
@@ -322,7 +320,7 @@ private:
     }
 
     // The rows of changes have a table of their own, to which PBS belongs, too.
-    void add_row_of_case(PointRow row, const PointSetting* setting = nullptr)
+    void add_row_of_case(PointRow row, const Setting* setting = nullptr)
     {
         row.of = of_.of;
         row.half = of_.half;
@@ -359,7 +357,7 @@ private:
         row.not_converged_pct = reference.distance(converged_[0], converged_[1]).joint_pct;
     }
 
-    pbs::Positions converged(PointSetting setting, int iterations) const
+    pbs::Positions converged(Setting setting, int iterations) const
     {
         auto& options = options_of<pbs::PbsOptions>(setting.spec);
         options.precision = pbs::Precision::f64;
@@ -371,8 +369,8 @@ private:
     const WorkPrecisionCase& of_;
     std::shared_ptr<const pbs::Character> base_;
     PosePair poses_;
-    std::vector<PointSetting> external_, compared_;  // the settings of the user's own deformers and those of the others
-    std::optional<ReferenceSet> references_;         // none until the user's own deformers have reached the pose
+    std::vector<Setting> external_, compared_;  // the settings of the user's own deformers and those of the others
+    std::optional<ReferenceSet> references_;    // none until the user's own deformers have reached the pose
     static constexpr int refined = -1, smooth_weights = -2;
     std::map<int, BodyMesh> meshes_;  // by wanted size; 0: the case's own
     std::deque<PosedDeformer> deformers_;

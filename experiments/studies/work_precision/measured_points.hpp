@@ -6,7 +6,7 @@
 // and is marked. Further references of the family (shared/posed_reference.hpp) decide how far an order of deformers depends on the
 // choice of the reference. The error of PBS is split into solver, model and discretisation (ensemble/ensemble.hpp). A ladder of
 // iterations ends where a frame takes longer than the limit. The limit of the deformers that minimise an energy, from which their distance
-// is measured, is the point of linear elements with their law on the case's own tets (PointSetting::is_limit_of_deformers).
+// is measured, is the point of linear elements with their law on the case's own tets (Setting::is_limit_of_deformers).
 // On unrefined tets a reference has no bound, except in the rows of changes to PBS: there it is the distance from linear elements on the
 // same tets. It holds if quadratic elements at least halve the error of linear ones, |P2 - x| <= |P1 - x| / 2 <= (|P1 - P2| + |P2 - x|) /
 // 2, as they do in the poses of the quick form.
@@ -27,8 +27,9 @@ struct WorkPrecisionCase {
     Scene scene;           // its character and motion
     int frame = 0;         // of its motion; a timed frame begins in the one before it
     Half half = Half::evaluation;
-    SettingRange range;
-    Rounds rounds, newton_rounds;      // newton_rounds: of the nonlinear laws, which take seconds per frame; a failed round is dropped
+    SettingRange range = {};
+    Rounds rounds = {},
+           newton_rounds = {};         // newton_rounds: of the nonlinear laws, which take seconds per frame; a failed round is dropped
     bool reference_is_refined = true;  // solved on tets cut into eight too, without which there is no bound
     std::vector<EnsembleMember> members = {};  // further references of the family
     int converged_iterations = 8000;           // of PBS for the parts of its error; 0: no parts
@@ -41,7 +42,7 @@ nlohmann::json to_json(const WorkPrecisionCase& of);  // everything that a run o
 // The rows of points.csv: of a setting that reached the pose, of one without an answer (outcome is over_time_limit or not_applicable), and
 // of the reference itself (outcome is reference, or not_reached).
 PointRow point_row(const ReachedPoint& point);
-PointRow row_without_answer(const PointSetting& setting, const BodyMesh& mesh, const std::string& outcome, const std::string& reason);
+PointRow row_without_answer(const Setting& setting, const BodyMesh& mesh, const std::string& outcome, const std::string& reason);
 PointRow reference_row(const pbs::TetMesh& mesh, const PosedReference& reference);
 void add_reference(PointRow& row, const PosedReference& reference);  // and whether the error, if there is one, is below its bound
 

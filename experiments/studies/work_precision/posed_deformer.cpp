@@ -43,7 +43,7 @@ pbs::Positions BodyMesh::on_base(const pbs::Positions& positions) const
                    : pbs::Positions(positions.topRows(base_vertices_));
 }
 
-PosedDeformer::PosedDeformer(const PointSetting& setting, const BodyMesh& mesh, const PosePair& poses, int announced_turns)
+PosedDeformer::PosedDeformer(const Setting& setting, const BodyMesh& mesh, const PosePair& poses, int announced_turns)
     : mesh_(mesh), poses_(poses), deformer_(make_deformer(setting.spec)), has_own_clock_(traits_of(setting.spec).has_own_clock)
 {
     deformer_->reset(mesh.character());

@@ -11,7 +11,7 @@
 
 #include "analysis/records/tables.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
-#include "experiments/studies/work_precision/point_setting.hpp"
+#include "experiments/studies/work_precision/compared_deformers.hpp"
 #include "pbs/character/bodies.hpp"
 
 #include <memory>
@@ -51,7 +51,7 @@ private:
 
 // A setting's shape in the case's pose.
 struct ReachedPoint {
-    const PointSetting* setting = nullptr;
+    const Setting* setting = nullptr;
     const BodyMesh* mesh = nullptr;
     Shape shape;             // on its own mesh
     pbs::Positions on_base;  // on the case's own vertices
@@ -71,7 +71,7 @@ class PosedDeformer {
 public:
     // The mesh and the poses outlive it. announced_turns: the number of turns that follow reach(); a program computes them in the same
     // call.
-    PosedDeformer(const PointSetting& setting, const BodyMesh& mesh, const PosePair& poses, int announced_turns = 0);
+    PosedDeformer(const Setting& setting, const BodyMesh& mesh, const PosePair& poses, int announced_turns = 0);
 
     Shape reach();  // on its own mesh; a deformer with memory takes the way
     // One number, the time of the next frame [ms]. Not a number where the frame did not arrive, or the one before it did not.

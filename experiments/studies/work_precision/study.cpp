@@ -16,14 +16,9 @@
 
 #include "analysis/records/record_files.hpp"
 #include "analysis/records/report_table.hpp"
-#include "experiments/scene/scene.hpp"
-#include "experiments/studies/shared/bodies.hpp"
-#include "experiments/studies/shared/posed_character.hpp"
 #include "experiments/studies/work_precision/diagram_tables.hpp"
 #include "experiments/studies/work_precision/gains.hpp"
 #include "experiments/studies/work_precision/measured_points.hpp"
-
-#include <fmt/format.h>
 
 namespace experiments {
 namespace {
@@ -37,104 +32,30 @@ std::string measure_and_record(const WorkPrecisionCase& of, const std::string& f
     return points.breakdown;
 }
 
-struct PlannedPose {
-    std::string body = {}, motion = {}, pose = {};  // pose: in a clip
-    int angle_deg = 0;                              // of a sweep
-    int frame = 0;                                  // of 01_01 at 100 Hz
-    bool refined = false;                           // also solved on the tets cut into eight
-    bool changes = false;                           // the changes to PBS are measured too
-    double cost_s = 0.0, quick_cost_s = 0.0;        // in full and in the quick form; 0: not in the quick form
-};
-
-// 1. The poses. The limb is one body, twisted or bent. The human has four poses by name, and four that are not chosen: at 1/5, 2/5, 3/5 and
-// 4/5 of the clip. The order decides which poses train (point_row.hpp).
-std::vector<PlannedPose> limb_poses()
-{
-    return {{.body = "limb", .motion = "twist", .angle_deg = 90, .changes = true, .cost_s = 110.0, .quick_cost_s = 20.0},
-            {.body = "limb", .motion = "twist", .angle_deg = 150, .changes = true, .cost_s = 150.0, .quick_cost_s = 60.0},
-            {.body = "limb", .motion = "bend", .angle_deg = 60, .changes = true, .cost_s = 130.0, .quick_cost_s = 20.0},
-            {.body = "limb", .motion = "bend", .angle_deg = 90, .changes = true, .cost_s = 950.0}};
-}
-
-std::vector<PlannedPose> human_poses()
-{
-    std::vector<PlannedPose> poses = {
-        {.pose = "standing", .frame = clip_frames::standing, .changes = true},
-        {.pose = "crouch", .frame = clip_frames::crouch, .refined = true, .changes = true, .quick_cost_s = 45.0},
-        {.pose = "in_the_air", .frame = clip_frames::in_the_air, .refined = true, .changes = true},
-        {.pose = "landing", .frame = clip_frames::landing, .changes = true}};
-    const Scene scene = read_scene("human_01_01", {});
-    const pbs::Motion motion = make_motion(scene.motion, pbs::make_character(scene.character).skeleton, scene.file);
-    const int last = static_cast<int>(motion.steps.size()) / motion.steps_per_frame - 1;
-    for (const int fifths : {1, 2, 3, 4}) poses.push_back({.pose = fmt::format("{}_5_of_the_clip", fifths), .frame = last * fifths / 5});
-    for (PlannedPose& pose : poses) pose.body = "human", pose.motion = "01_01", pose.cost_s = 200.0;
-    return poses;
-}
-
-std::vector<PlannedPose> poses_of(const std::string& body)
-{
-    if (body == "human") return human_poses();
-    return {{.body = body, .motion = "01_01", .pose = "crouch", .frame = clip_frames::crouch, .cost_s = 300.0}};
-}
-
-// 2. The extent. In full: all rungs and settings, meshes of other sizes, a bound on the error of each reference, and on the evaluated poses
-// the other references of the family. In the fine creases of a bend Newton's method takes minutes per frame on a finer mesh, so that it has
-// no finite elements there. The changes to PBS are compared in the quick form in two poses of the limb.
-void set_extent(WorkPrecisionCase& of, const PlannedPose& pose, bool full)
-{
-    const bool is_limb = pose.angle_deg > 0;
-    of.range.in_short = !full;
-    of.range.quadratic = full;
-    of.range.refined = full && pose.refined;
-    of.range.changes = pose.changes && (full || (is_limb && of.half == Half::training));
-    of.range.quadratic_up_to = is_limb ? 600 : 1000;
-    of.range.other_vertices = {600};
-    if (full) of.range.other_vertices = is_limb ? std::vector{300, 600} : std::vector{600, 1000, 4650};
-    if (full && is_limb) (pose.motion == "twist" ? of.range.other_vertices : of.range.without_fem).push_back(5000);
-    of.rounds = {.seconds = full ? 10.0 : 1.0, .fewest = full ? 5 : 3, .most = 31};
-    of.newton_rounds = {.seconds = full ? 5.0 : 0.0, .fewest = 1, .most = 9};
-    of.converged_iterations = full ? 8000 : 2000;
-    of.reference_is_refined = full || (is_limb && of.half == Half::evaluation);
-    if (!full || of.half == Half::training) return;
-    of.members = family();
-    of.members.erase(of.members.begin());
-}
-
-StudyRun run_of(const PlannedPose& pose, Half half, bool full, const std::vector<DeformerSpec>& external)
-{
-    WorkPrecisionCase of;
-    of.external = external;
-    of.half = half;
-    of.of = {.body = pose.body, .motion = pose.motion, .pose = pose.pose};
-    of.frame = pose.frame;
-    if (pose.angle_deg > 0) {  // 5 degrees per frame, which is the step that is timed
-        of.of.angle_deg = pose.angle_deg;
-        of.frame = pose.angle_deg / 5;
-        of.scene = read_scene("limb_" + pose.motion,
-                              {fmt::format("motion.angle_deg={}", pose.angle_deg), fmt::format("motion.frames={}", of.frame + 1)});
-    } else {
-        of.scene = read_scene("human_01_01", {"character.body=" + pose.body});
-    }
-    set_extent(of, pose, full);
-    return work_run(case_name(of.of), of, full ? pose.cost_s : pose.quick_cost_s, measure_and_record);
-}
-
+// 1. The cases, in the order of cases.toml. In full: all rungs and settings, meshes of other sizes, a bound on the error of each reference,
+// and on the evaluated poses the other references of the family.
 StudyPlan plan_of(bool full, const std::vector<DeformerSpec>& external)
 {
-    std::vector<PlannedPose> poses = limb_poses();
-    std::vector<analysis::LeftOut> left_out;
-    for_each_installed_body(left_out, [&](const std::string& body) {
-        for (const PlannedPose& pose : poses_of(body)) poses.push_back(pose);
+    return plan_of_cases("work_precision", full, [&](const StudyCase& in_file, StudyPlan& plan) {
+        WorkPrecisionCase of{.of = in_file.key(), .scene = in_file.scene(), .frame = in_file.value<int>("frame"), .external = external};
+        of.half = option_of<Half>(in_file.value<std::string>("half"));
+        of.range.in_short = !full;
+        of.range.quadratic = full;
+        of.range.refined = in_file.value("refined", false);
+        of.range.changes = in_file.value("changes", false);
+        of.range.quadratic_up_to = in_file.value<int>("quadratic_up_to");
+        of.range.other_vertices = in_file.value<std::vector<int>>("other_vertices");
+        of.range.without_fem = in_file.value<std::vector<int>>("without_fem", {});
+        of.rounds = {.seconds = full ? 10.0 : 1.0, .fewest = full ? 5 : 3, .most = 31};
+        of.newton_rounds = {.seconds = full ? 5.0 : 0.0, .fewest = 1, .most = 9};
+        of.converged_iterations = full ? 8000 : 2000;
+        of.reference_is_refined = in_file.value("reference_is_refined", full);
+        if (full && of.half == Half::evaluation) {
+            of.members = family();
+            of.members.erase(of.members.begin());
+        }
+        plan.runs.push_back(work_run(in_file.name, of, in_file.cost_s, measure_and_record));
     });
-    std::vector<std::string> bodies;
-    for (const PlannedPose& pose : poses) bodies.push_back(pose.body);
-    const std::vector<Half> halves = halves_of(bodies);
-    StudyPlan plan;
-    for (std::size_t i = 0; i < poses.size(); ++i)
-        if (full || poses[i].quick_cost_s > 0.0) plan.runs.push_back(run_of(poses[i], halves[i], full, external));
-    for (const analysis::LeftOut& body : left_out)
-        if (full || body.scene == "human") plan.left_out.push_back(body);
-    return plan;
 }
 
 StudyPlan plan(bool full)
@@ -147,7 +68,7 @@ StudyPlan plan_with(bool full, const std::string& external_file)
     return plan_of(full, external_entries(external_file));
 }
 
-// 3. The tables over all cases, and for the terminal who is nearest within each time, and what the changes to PBS gain.
+// 2. The tables over all cases, and for the terminal who is nearest within each time, and what the changes to PBS gain.
 std::string nearest_text(const std::vector<Diagram>& diagrams)
 {
     std::string text;

@@ -79,9 +79,7 @@ WeightsComparison twisted_with(ForearmWeight forearm_weight, Broken how = Broken
 
 VerdictKind verdict(const std::vector<Measurement>& measured)
 {
-    analysis::Records records;
-    records.measurements = measured;
-    return judge(test_support::claim("C06"), records).kind;
+    return test_support::verdict_from("C06", measured).kind;
 }
 
 // The verdict for one deformer alone.

@@ -91,9 +91,7 @@ std::vector<Measurement> drifts(const pbs::PbsOptions& options)
 
 VerdictKind verdict(const std::vector<Measurement>& measured)
 {
-    analysis::Records records;
-    records.measurements = measured;
-    return judge(test_support::claim("C07"), records).kind;
+    return test_support::verdict_from("C07", measured).kind;
 }
 
 // A pass conserves angular momentum only to first order, so the verdict is based on single projections.
@@ -107,10 +105,7 @@ std::vector<Measurement> single(const std::vector<Measurement>& measured, const 
 
 double drift(const std::vector<Measurement>& measured, const std::string& quantity, const std::string& of)
 {
-    for (const Measurement& measurement : measured)
-        if (measurement.quantity == quantity && measurement.of.constraint == of) return measurement.value;
-    ADD_FAILURE() << quantity;
-    return 0.0;
+    return test_support::values_of(measured, quantity, {.constraint = of}).at(0).value;
 }
 
 TEST(BrokenMomentum, TheSignTurnedRoundConservesAsWell)

@@ -1,9 +1,6 @@
 // C08 judged from records like those of the stability study: a single cell that diverges changes the verdict.
 
-#include "analysis/records/record_files.hpp"
-#include "analysis/verdicts/claims.hpp"
 #include "analysis/verdicts/measurement.hpp"
-#include "analysis/verdicts/verdict.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/studies/stability/cell_table.hpp"
 #include "experiments/studies/stability/stability_cells.hpp"
@@ -40,48 +37,29 @@ VerdictKind verdict_on(const std::vector<MeasuredCell>& cells)
     const test_support::ScratchFolder folder;
     const std::string file = folder / "measurements.csv";
     stability_measurements(cells).write(file);
-    analysis::Records records;
-    records.measurements = analysis::measurements(file);
-    for (const auto& claim : analysis::parse_claims(analysis::read_text(PBS_CLAIMS_FILE), "claims.toml"))
-        if (claim.id == "C08") return analysis::judge(claim, records).kind;
-    ADD_FAILURE() << "no claim C08";
-    return VerdictKind::not_computable;
+    return test_support::verdict_from("C08", analysis::measurements(file)).kind;
 }
 
 const std::vector<MeasuredCell> stable = {cell_of("time_step", StabilityOutcome::converged),
                                           cell_of("time_step", StabilityOutcome::inverted),
                                           cell_of("k_stretch", StabilityOutcome::bounded)};
 
-std::vector<MeasuredCell> altered(std::size_t index, StabilityOutcome outcome)
+std::vector<MeasuredCell> altered(std::size_t index, StabilityOutcome outcome, std::vector<MeasuredCell> cells = stable)
 {
-    std::vector<MeasuredCell> cells = stable;
     cells[index].result.stability.outcome = outcome;
     return cells;
 }
 
-TEST(StabilityVerdict, NoCellThatRunsAwayIsReproduced)
+TEST(StabilityVerdict, TurnsWithTheCellsThatRunAway)
 {
+    using enum StabilityOutcome;
     EXPECT_EQ(verdict_on(stable), VerdictKind::reproduced);
-}
-
-TEST(StabilityVerdict, OneCellThatRunsAwayLeavesTheOtherSweeps)
-{
-    for (const StabilityOutcome outcome : {StabilityOutcome::diverged, StabilityOutcome::not_finite})
+    for (const StabilityOutcome outcome : {diverged, not_finite})  // the other sweeps are left
         EXPECT_EQ(verdict_on(altered(0, outcome)), VerdictKind::reproduced_only_for);
-}
-
-TEST(StabilityVerdict, ACellInEverySweepIsNotReproduced)
-{
-    std::vector<MeasuredCell> cells = altered(0, StabilityOutcome::diverged);
-    cells[2].result.stability.outcome = StabilityOutcome::not_finite;
-    EXPECT_EQ(verdict_on(cells), VerdictKind::not_reproduced);
-}
-
-TEST(StabilityVerdict, CellsThatThePaperDoesNotClaimDoNotCount)
-{
-    std::vector<MeasuredCell> cells = stable;
-    cells.push_back(cell_of("printed_form", StabilityOutcome::not_finite, false));
-    EXPECT_EQ(verdict_on(cells), VerdictKind::reproduced);
+    EXPECT_EQ(verdict_on(altered(0, diverged, altered(2, not_finite))), VerdictKind::not_reproduced) << "a cell in every sweep";
+    std::vector<MeasuredCell> not_claimed = stable;
+    not_claimed.push_back(cell_of("printed_form", not_finite, false));
+    EXPECT_EQ(verdict_on(not_claimed), VerdictKind::reproduced) << "the paper does not claim it";
 }
 
 std::vector<experiments::CellRow> rows_of_cells(const std::vector<MeasuredCell>& cells)
@@ -205,11 +183,7 @@ VerdictKind verdict(bool jiggle, Broken how)
         options_of<pbs::PbsOptions>(cell.spec) = broken(options_of<pbs::PbsOptions>(cell.spec), how);
         measured.push_back({cell, run_cell(cell)});
     }
-    analysis::Records records;
-    const test_support::ScratchFolder folder;
-    stability_measurements(measured).write(folder / "measurements.csv");
-    records.measurements = analysis::measurements(folder / "measurements.csv");
-    return judge(test_support::claim("C08"), records).kind;
+    return verdict_on(measured);
 }
 
 bool ran_away(const CellResult& result)

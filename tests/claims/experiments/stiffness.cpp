@@ -1,9 +1,7 @@
 // C11 is judged by the values of the stiffness study, and other values give another verdict. Reference: the project's own claims.toml. The
 // stiffnesses are invented; the values are those that the study computes from them.
 
-#include "analysis/records/record_files.hpp"
 #include "analysis/verdicts/measurement.hpp"
-#include "analysis/verdicts/verdict.hpp"
 #include "experiments/studies/stiffness/stiffness_ratios.hpp"
 #include "pbs/character/bodies.hpp"
 #include "tests/support/study_claims.hpp"
@@ -51,11 +49,7 @@ std::vector<analysis::Measurement> measured(Method method, double p, double q, d
 
 analysis::Verdict verdict(const std::vector<analysis::Measurement>& measurements)
 {
-    const auto claims = analysis::parse_claims(analysis::read_text(PBS_CLAIMS_FILE), PBS_CLAIMS_FILE);
-    const auto claim = std::find_if(claims.begin(), claims.end(), [](const analysis::Claim& of) { return of.id == "C11"; });
-    analysis::Records records;
-    records.measurements = measurements;
-    return judge(*claim, records);
+    return test_support::verdict_from("C11", measurements);
 }
 
 TEST(StiffnessVerdict, TurnsWithTheFigures)
@@ -66,6 +60,7 @@ TEST(StiffnessVerdict, TurnsWithTheFigures)
     auto two_bodies = measured(Method::pbs, 0.0, 0.0, 0.0);
     for (const auto& other : measured(Method::pbs, 1.0, 2.0, -0.7, "human")) two_bodies.push_back(other);
     EXPECT_EQ(verdict(two_bodies).kind, VerdictKind::reproduced_only_for);
+    EXPECT_EQ(verdict(measured(Method::xpbd, 0.0, 0.0, 0.0)).kind, VerdictKind::not_computable) << "the claim is on PBS";
 }
 
 // Held flesh is not what the paper runs.
@@ -89,11 +84,6 @@ TEST(StiffnessVerdict, IsOfThePaperAlone)
     EXPECT_EQ(judged.kind, VerdictKind::not_reproduced);
     EXPECT_EQ(judged.measurements.size(), 3u);
     EXPECT_EQ(judged.controls.size(), 3u);
-}
-
-TEST(StiffnessVerdict, NeedsFigures)
-{
-    EXPECT_EQ(verdict(measured(Method::xpbd, 0.0, 0.0, 0.0)).kind, VerdictKind::not_computable);
 }
 
 // C11 from a small limb's held flesh, with XPBD's multipliers kept and forgotten. Reference: with its multipliers the stiffness is the

@@ -9,7 +9,6 @@ import subprocess
 import unittest
 
 import foreign_arm
-import limb_alone
 import program
 import reliability
 import run_records
@@ -108,17 +107,17 @@ class SameRecords(program.ProgramTest):
         self.compare_jobs("momentum", ())
 
     def test_whole_runs_of_scenes_side_by_side(self):
-        hashes = self.compare_jobs("frames", limb_alone.before())
+        hashes = self.compare_jobs("frames", run_records.limb_alone())
         self.assertIn("frames/limb_twist/run.json pbs", hashes)
 
     def compare_jobs(self, study, before):
         """The study's state hashes, if it has any."""
         alone = self.records_of_jobs(1, study, before)
-        first = limb_alone.state_hashes(alone)
+        first = run_records.state_hashes(alone)
         for jobs in (2, 4) if LONG else (4,):
             with self.subTest(study=study, jobs=jobs):
                 records = self.records_of_jobs(jobs, study, before)
-                second = limb_alone.state_hashes(records)
+                second = run_records.state_hashes(records)
                 type(self).compared += len(first)
                 type(self).equal += sum(second.get(label) == state for label, state in first.items())
                 self.assertEqual(records, alone)

@@ -2,7 +2,7 @@
 #include "analysis/records/record_files.hpp"
 #include "experiments/run/metrics_table.hpp"
 #include "experiments/run/run_folder.hpp"
-#include "experiments/studies/ambiguity/reading_values.hpp"
+#include "experiments/studies/ambiguity/moved_readings.hpp"
 #include "experiments/studies/artefacts/artefact_values.hpp"
 #include "experiments/studies/convergence/convergence_case.hpp"
 #include "experiments/studies/ensemble/ensemble.hpp"

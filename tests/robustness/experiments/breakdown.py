@@ -106,14 +106,6 @@ class Breakdown(foreign_arm.ArmTest):
         worst = f"worst tet {ratios.index(min(ratios))} of volume ratio {min(ratios):.3g}, {sum(r <= 0 for r in ratios)} inverted"
         self.ends(0, "measure", self.path("arm.msh"), self.path("torn.msh"), says=worst)
 
-    def test_measure_refuses_a_frame_that_is_not_finite_and_names_the_vertex(self):
-        points = [list(point) for point in self.points]
-        points[17][1] = float("nan")
-        points[20][0] = float("inf")
-        foreign_arm.write_msh(self.path("broken.msh"), points, self.tets)
-        process = self.ends(2, "measure", self.path("arm.msh"), self.path("broken.msh"))
-        self.assertRegex(process.stderr, r"broken\.msh: vertex 17 = .*nan.*: expected finite coordinates")
-
 
 if __name__ == "__main__":
     unittest.main()

@@ -1,6 +1,6 @@
-"""Inputs that shrink, vanish or are replaced while they are read or played. A file that changes while it is read gives the result of the whole
-file, or is refused by name, at whatever moment it changes; each changed state by itself is refused. A run whose clip vanishes or is replaced
-ends normally, and its record states the bytes that were read. Reference: the results for the whole, unchanged file."""
+"""Inputs that shrink, vanish or are replaced while they are read or played. A file that changes while it is read gives the result of the
+whole file, or is refused by name, at whatever moment it changes; each changed state by itself is refused. A run whose clip vanishes or is
+replaced ends normally, and its record states the bytes that were read. Reference: the results for the whole, unchanged file."""
 import json
 import os
 import pathlib

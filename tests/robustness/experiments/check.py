@@ -9,9 +9,9 @@ import tomllib
 import unittest
 import xml.etree.ElementTree as ElementTree
 
-import check_records
 import foreign_arm
 import program
+import run_records
 
 BOUNDS = pathlib.Path(__file__).with_name("check_bounds.toml").read_text()
 REFUSED = tomllib.loads(pathlib.Path(__file__).with_name("check_refused.toml").read_text())["rows"]
@@ -34,7 +34,7 @@ class Check(foreign_arm.ArmTest):
 
     def message_of(self, kind, *key):
         """The message of the failure or error of a case."""
-        return check_records.cases(self.path("volume.xml"))[key].find(kind).get("message")
+        return run_records.junit_cases(self.path("volume.xml"))[key].find(kind).get("message")
 
     def write_bounds_with(self, *settings):
         self.write("check.toml", (BOUNDS % "-60.0").replace('name = "arm"', f'name = "arm"\nset = {list(settings)}'))
@@ -54,12 +54,12 @@ class Check(foreign_arm.ArmTest):
         os.mkdir(self.path("experiments"))
         self.write(os.path.join("experiments", "limb_twist"), "no scene")
         process = program.run("check", "-o", "own", "--junit", "own.xml", "--require-all", env=self.environment, cwd=self.folder)
-        other_meshes = check_records.scenes_of_another_mesh(self.path("own"))  # meshes of another CGAL, whose baselines must differ
-        failed = check_records.failed(self.path("own.xml"))
-        self.assertEqual(failed, check_records.baselines_of(other_meshes, self.path("own.xml")), process.stderr)
+        other_meshes = run_records.scenes_of_another_mesh(self.path("own"))  # meshes of another CGAL, whose baselines must differ
+        failed = run_records.failed_cases(self.path("own.xml"))
+        self.assertEqual(failed, run_records.baselines_of(other_meshes, self.path("own.xml")), process.stderr)
         self.assertEqual(process.returncode, 1 if failed else 0, process.stderr)
         self.assertEqual(self.json("own", "check.json")["outcome"]["FAILS"], len(failed))
-        volume = check_records.cases(self.path("own.xml"))["human_01_01", "volume kept in the jump"].find("system-out").text
+        volume = run_records.junit_cases(self.path("own.xml"))["human_01_01", "volume kept in the jump"].find("system-out").text
         least, largest = map(float, re.search(r"volume_change_pct of pbs = (\S+) to (\S+) %", volume).groups())
         change = self.volume_changes("own", "human_01_01", deformer="pbs")
         self.assertAlmostEqual(least, min(change), places=4)
@@ -69,7 +69,7 @@ class Check(foreign_arm.ArmTest):
         process = self.check(0, "--junit", self.path("volume.xml"))
         # the arm's tets are reoriented, with a warning
         self.assertEqual(process.stderr.count("pbskin:"), process.stderr.count("pbskin: warning:"), process.stderr)
-        self.assertIsNone(check_records.cases(self.path("volume.xml"))[VOLUME].find("failure"))
+        self.assertIsNone(run_records.junit_cases(self.path("volume.xml"))[VOLUME].find("failure"))
         root = ElementTree.parse(self.path("volume.xml")).getroot()
         self.assertEqual([root.get(key) for key in ("tests", "failures", "errors", "skipped")], ["2", "0", "0", "0"])
         self.assertGreater(float(root.get("time")), 0.0)
@@ -129,7 +129,7 @@ class Check(foreign_arm.ArmTest):
         row = self.read("baseline.csv").splitlines()[-1]
         self.write("baseline.csv", self.read("baseline.csv") + row.replace("arm,", "leg,", 1) + "\n")
         self.check(1, "--baseline", self.baseline, "--junit", self.path("volume.xml"))
-        self.assertEqual(check_records.failed(self.path("volume.xml")), {("leg", "baseline")})
+        self.assertEqual(run_records.failed_cases(self.path("volume.xml")), {("leg", "baseline")})
 
     def test_a_report_that_cannot_be_written_is_refused_before_the_work(self):
         for arguments, environment in ((("--junit", self.path("none", "x.xml")), {}),
@@ -172,21 +172,21 @@ class Check(foreign_arm.ArmTest):
         empty = {"PBSKIN_CACHE": self.path("cache")}  # fetched bodies are in the cache
         self.check(2, "--junit", self.path("volume.xml"), "--github", "--require-all", **empty)
         process = self.check(0, "--junit", self.path("volume.xml"), "--github", **empty)
-        cases = check_records.cases(self.path("volume.xml"))
+        cases = run_records.junit_cases(self.path("volume.xml"))
         self.assertEqual([key for key, case in cases.items() if case.find("skipped") is not None], [("man_01_01", "runs")])
         self.assertIn("::warning file=", process.stdout)
 
-    def test_a_pose_that_is_not_reached_is_exit_3_and_an_error_in_junit(self):
-        self.write_bounds_with("pbs.stop_residual=1e-12", "pbs.iterations=2")
-        process = self.check(3, "--junit", self.path("volume.xml"))
-        error = self.message_of("error", "arm", "runs")
-        self.assertRegex(error, r"^pose not reached: pbs is not converged in frame 0: worst tet \d+ of volume ratio")
-        self.assertIn(error, process.stderr)
-
-    def test_breakdown_is_exit_3_and_an_error_in_junit(self):
-        self.write_bounds_with("pbs.gravity_m_s2=[0.0,-1e300,0.0]", "pbs.jiggle.k_stretch=0.9")
-        self.check(3, "--junit", self.path("volume.xml"))
-        self.assertIn("not finite", self.message_of("error", "arm", "runs"))
+    def test_poses_that_are_not_reached_and_breakdowns_are_exit_3_and_errors_in_junit(self):
+        for settings, message in (
+                (("pbs.stop_residual=1e-12", "pbs.iterations=2"),
+                 r"^pose not reached: pbs is not converged in frame 0: worst tet \d+ of volume ratio"),
+                (("pbs.gravity_m_s2=[0.0,-1e300,0.0]", "pbs.jiggle.k_stretch=0.9"), "not finite")):
+            with self.subTest(message):
+                self.write_bounds_with(*settings)
+                process = self.check(3, "--junit", self.path("volume.xml"))
+                error = self.message_of("error", "arm", "runs")
+                self.assertRegex(error, message)
+                self.assertIn(error, process.stderr)
 
 
 if __name__ == "__main__":

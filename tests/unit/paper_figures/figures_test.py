@@ -1,5 +1,5 @@
-"""Reference: the definition. Records are read by name, errors name what is missing, and figures show the records' values and their origin. The
-paper's own figures show the recorded frames, name the origin of body and motion, and are refused without records."""
+"""Reference: the definition. Records are read by name, errors name what is missing, and figures show the records' values and their origin.
+The paper's own figures show the recorded frames, name the origin of body and motion, and are refused without records."""
 import json
 import unittest
 

@@ -5,13 +5,14 @@ import csv
 import importlib
 import json
 import math
+import tomllib
 import unittest
 
 from results_case import ResultsTest, listening, root
 import make_readme
 import pages
 import synthetic_records
-from pages import ensemble, work_precision
+from pages import ambiguity, artefacts, ensemble, stiffness, work_precision
 from readme import findings as readme_findings, pages as readme_pages, part as readme_part, tables as readme_tables
 from readme import same_pose
 from records import kept
@@ -229,6 +230,35 @@ class Pages(ResultsTest):
         text = work_precision.gains(self.results)
         self.assertIn("Not ranked, because no setting fits into the budget in every pose: in one pose (1 of 4 poses).", text)
         self.assertIn("the reference's own error may change it by 6.5 points", text)
+
+    def test_a_reading_shows_the_value_that_flips_or_changes_most(self):
+        row = {"verdict_flips": "no", "a": "2", "b": "3", "change": "1", "b_over_a": "1.5"}
+        flips = row | {"verdict_flips": "yes", "b_over_a": "1.1", "change": "0.2"}
+        for shown, rows in (("x1.5", [row]), ("x1.1!", [row | {"b_over_a": "9"}, flips]), ("x9", [row, row | {"b_over_a": "9"}]),
+                            ("0>0.5!", [flips | {"a": "0", "b": "0.5", "b_over_a": ""}]),
+                            (".", [{"verdict_flips": "not_touched", "change": ""}]), ("", []),
+                            ("-", [row | {"verdict_flips": "no_value", "a": "", "b": "", "change": "", "b_over_a": ""}]),
+                            ("-!", [flips | {"b": "", "change": "", "b_over_a": ""}])):
+            self.assertEqual(ambiguity.cell(rows), shown)
+
+    def test_a_claim_states_which_readings_flip_it_and_why_others_have_no_value(self):
+        rows = [{"body": "limb", "reading_b": name, "quantity": quantity, "verdict_flips": flips, "reason": reason}
+                for name, quantity, flips, reason in (
+                    ("B", "ratio", "yes", ""), ("C", "ratio", "no", ""), ("B", "share", "no_value", "four settings"),
+                    ("B", "range", "no_value", "four settings"), ("D", "", "not_touched", "another factor is no more work"))]
+        self.assertEqual(ambiguity.of_claim("C09", rows), "- C09: 1 of 2 values flip by limb, B\n  - not touched where another factor is "
+                         "no more work\n  - no value: four settings: share, range\n")
+
+    def test_sections_are_counted_by_outcome_and_those_left_out_named(self):
+        row = {"claim": "C05", "body": "human", "joint": "elbow", "remark": ""}
+        text = artefacts.of_sections([row | {"pose": "bend_45", "outcome": "measured"}, row | {"pose": "bend_90", "outcome": "too_far"},
+                                      row | {"pose": "crouch", "outcome": "measured", "remark": "pbs is wide"}])
+        self.assertEqual(text, "- C05: 2 sections measured\n- C05: 1 sections too_far: human bend_90 elbow\n\n## Remarks\n\n"
+                         "- C05: human crouch elbow, measured: pbs is wide\n")
+
+    def test_the_bounds_of_the_stiffness_are_those_of_the_claim(self):
+        claims = tomllib.loads((root / "experiments" / "verdicts" / "claims.toml").read_text(encoding="utf-8"))["claim"]
+        self.assertEqual([(claim["low"], claim["high"]) for claim in claims if claim["id"] == "C11"], [stiffness.bounds])
 
     def test_a_study_without_records_has_no_page(self):
         self.assertEqual(pages.write(self.results), [])

@@ -38,8 +38,7 @@ class ResultsTest(unittest.TestCase):
 
     def rows(self, name):
         """The rows of the table behind a figure."""
-        with open(self.results / "figures" / f"{name}.csv", newline="", encoding="utf-8") as stream:
-            return list(csv.DictReader(stream))
+        return list(csv.DictReader(io.StringIO((self.results / "figures" / f"{name}.csv").read_text(encoding="utf-8"))))
 
     def make_all(self, name=None, status=0):
         """What the script of all figures prints, as output and as errors; deformers are drawn as looks.toml states."""

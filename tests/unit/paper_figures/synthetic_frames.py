@@ -33,11 +33,6 @@ def text(rows):
     return " ".join(str(value) for row in rows for value in row)
 
 
-def write_frame(file, label, frame):
-    file.write_text(vtu.format(rest=text(rest), ratios=text([ratios_of(label, frame)]), positions=text(positions_of(label, frame)),
-                               corners=text(tets)))
-
-
 def error_m(label, frame):
     return max(sum((a - b) ** 2 for a, b in zip(p, q)) ** 0.5 for p, q in zip(positions_of(label, frame), positions_of("nh_p1", frame)))
 
@@ -58,7 +53,8 @@ def write_bones(folder, frames):
         return [{"bone": bone, "parent": ""} | dict(zip(columns, (at, 0, z, at + 1, 0, z))) for bone, at in (("upper", 0), ("forearm", 1))]
 
     write_table(folder / "bones_rest.csv", bones_at(0))
-    write_table(folder / "bones.csv", [{"frame": frame, "time_s": frame / 100} | bone for frame in range(frames) for bone in bones_at(frame)])
+    write_table(folder / "bones.csv",
+                [{"frame": frame, "time_s": frame / 100} | bone for frame in range(frames) for bone in bones_at(frame)])
 
 
 def write_frames(results, scene="limb_twist", frames=4, body="limb", not_reached=()):
@@ -77,7 +73,8 @@ def write_frames(results, scene="limb_twist", frames=4, body="limb", not_reached
                          "inverted_tets": sum(ratio <= 0 for ratio in ratios), "j_min": min(ratios), "error_joint_pct": 10 * frame,
                          "error_linf_m": error_m(label, frame), "min_section_pct": 100 - frame, "angle_deg": 10 * frame,
                          "outcome": "not_converged" if (label, frame) in not_reached else "finished"})
-            write_frame(folder / "frames" / f"{label}_{frame:06}.vtu", label, frame)
+            (folder / "frames" / f"{label}_{frame:06}.vtu").write_text(vtu.format(
+                rest=text(rest), ratios=text([ratios]), positions=text(positions_of(label, frame)), corners=text(tets)))
     write_table(folder / "metrics.csv", rows)
     write_bones(folder, frames)
     if body != "limb":

@@ -61,8 +61,8 @@ def write_verification(results):
     folder = results / "verification"
     write_origin(folder / "beam")
     columns = ("problem", "quantity", "setting", "description", "element_order", "formulation", "material", "poisson", "mesh", "h_m",
-               "dofs", "value", "reference", "unit", "difference_pct", "source", "bound_from", "low", "high", "observed_order", "expected_order",
-               "note", "holds")
+               "dofs", "value", "reference", "unit", "difference_pct", "source", "bound_from", "low", "high", "observed_order",
+               "expected_order", "note", "holds")
     of_all = dict.fromkeys(columns, "") | {"formulation": "displacement", "material": "linear", "poisson": 0.3}
     rows = []
     for order in (1, 2):

@@ -55,6 +55,7 @@ class Viewer(ResultsTest):
         self.assertEqual(ends[3].tolist(), [[0, 0, 3, 1, 0, 3], [1, 0, 3, 2, 0, 3]])
 
     def test_the_rendered_surface_is_carried_within_the_rounding_of_the_tets(self):
+        self.assertIsNone(self.unpacked()[0]["surface"])  # the limb has none but its tets
         shutil.rmtree(self.run)
         synthetic_frames.write_frames(self.results, "human_jump", body="human")
         run, block = self.unpacked()
@@ -81,9 +82,6 @@ class Viewer(ResultsTest):
         self.assertEqual([viewer_data.title_of(recorded, label) for label in ("lbs", *options)],
                          ["LBS", "PBS", "PBS, k_stretch 1, zone 0.1", "PBS, k_stretch 1, no zone", "PBS, no start from LBS",
                           "neo-Hookean FEM, linear elements"])
-
-    def test_the_limb_has_no_surface_but_its_tets(self):
-        self.assertIsNone(self.unpacked()[0]["surface"])
 
     def test_a_surface_and_what_carries_it_belong_together(self):
         synthetic_frames.write_frames(self.results, "human_jump", body="human")

@@ -1,6 +1,6 @@
-"""Names, sentences and captions agree with the facts of small claims, with the rows behind a figure and with looks.toml, and captions contain
-no number that another run would change. Reference: the definition, and looks.toml, with which checked_looks.py compares every figure that
-other tests draw."""
+"""Names, sentences and captions agree with the facts of small claims, with the rows behind a figure and with looks.toml, and captions
+contain no number that another run would change. Reference: the definition, and looks.toml, with which checked_looks.py compares every
+figure that other tests draw."""
 import dataclasses
 import importlib
 import re
@@ -98,8 +98,7 @@ class Outcome(unittest.TestCase):
         readings = [{"order": "plain", "precision": "f64", "verdict": "reproduced_only_for", "own_verdict": "reproduced_only_for",
                      "same": True, "differing": [], "cases": []},
                     {"order": "grouped", "precision": "f32", "verdict": "not_reproduced", "own_verdict": "reproduced_only_for",
-                     "same": False,
-                     "differing": [0], "cases": runs[:1]}]
+                     "same": False, "differing": [0], "cases": runs[:1]}]
         full = sentences.verdict_in_full(told(
             verdict="reproduced_only_for", rule="share_within", cases=runs, readings=readings, n=1, bounds=[
             {"quantity": name, "low": -0.5, "high": 0.5} for name in ("volume_change_pct", "volume_abs_change_pct")]))
@@ -206,6 +205,11 @@ class Captions(ResultsTest):
         write_table(self.results / f"{name}.csv", rows)
         return captions.whole(listed[name], self.results, {"cpu_model": "a processor"})
 
+    def assert_told(self, name, rows, *words):
+        text = self.told(name, rows)
+        for one in words:
+            self.assertIn(one, text)
+
     def test_no_number_that_another_run_would_change_is_typed(self):
         for entry in listed.values():
             if extents_differ & set(entry.studies()):
@@ -228,19 +232,18 @@ class Captions(ResultsTest):
         rows = [{"model": model, "factor": factor, "outcome": outcome} for model, factor, outcome in (
             ("pbs", "gravity", "converged"), ("pbs", "gravity", "inverted"), ("pbs", "twist", "converged"),
             ("pbs_jiggle", "start", "bounded"), ("fem_linear", "gravity", "diverged"), ("fem_linear", "slivers_height_kept", "diverged"))]
-        text = self.told("stability_cells", rows)
-        self.assertIn("undisturbed: PBS in 2 of 3; PBS, jiggling in 0 of 1; linear FEM in 0 of 2 (", text)
-        self.assertIn("PBS keeps inverted tets after: gravity; the jiggling PBS after: none. ", text)
-        self.assertIn("Diverged: linear FEM (gravity and slivers, height kept); ", text)
-        self.assertIn("Not finite: none.", text)
+        self.assert_told("stability_cells", rows, "undisturbed: PBS in 2 of 3; PBS, jiggling in 0 of 1; linear FEM in 0 of 2 (",
+                         "PBS keeps inverted tets after: gravity; the jiggling PBS after: none. ",
+                         "Diverged: linear FEM (gravity and slivers, height kept); ",
+                         "Not finite: none.")
 
     def test_cells_of_each_map_are_counted(self):
         rows = [{"map": f"map_{name}.csv", "outcome": outcome, "steps": steps} for name, outcome, steps in (
             ("time_step_k_stretch", "inverted", 23), ("time_step_k_stretch", "converged", 611), ("iterations_twist", "bounded", 90))]
-        text = self.told("stability_maps", rows)
-        self.assertIn("k_stretch: of 2 cells 1 at rest as if undisturbed, 0 bounded, 1 with inverted tets, 0 diverged, 0 not finite.", text)
-        self.assertIn("twist: of 1 cells 0 at rest as if undisturbed, 1 bounded, ", text)
-        self.assertIn("The longest took 611 steps", text)
+        self.assert_told("stability_maps", rows,
+                         "k_stretch: of 2 cells 1 at rest as if undisturbed, 0 bounded, 1 with inverted tets, 0 diverged, 0 not finite.",
+                         "twist: of 1 cells 0 at rest as if undisturbed, 1 bounded, ",
+                         "The longest took 611 steps")
 
     def test_folds_of_frequency_are_largest_over_smallest(self):
         rows = [{"body": body, "varied": varied, "frequency_hz": hz, "deformer": "nh_p1" if pa else "pbs", "young_pa": pa or "nan"}
@@ -248,11 +251,10 @@ class Captions(ResultsTest):
                     ("limb", "k_stretch", 10, ""), ("limb", "k_stretch", 5, ""), ("limb", "k_stretch", 8, ""), ("man", "k_stretch", 7, ""),
                     ("limb", "iterations", 4, ""), ("limb", "iterations", 6, ""), ("limb_reference", "", 99, ""),
                     ("limb_reference", "", 98, 117e3), ("limb_reference", "", 97, 121e3))]
-        text = self.told("jiggle_response", rows)
-        self.assertIn("each with the others at k_stretch 0.1, 10 ms and 24 iterations.", text)
-        self.assertIn("Young's modulus (117 to 121 kPa) is chosen so that they swing as fast as PBS, so only the damping", text)
-        self.assertIn("changes with k_stretch 2-fold (limb); with the time step, which is no material property, none; "
-                      "with the iterations 1.5-fold (limb).", text)
+        self.assert_told("jiggle_response", rows, "each with the others at k_stretch 0.1, 10 ms and 24 iterations.",
+                         "Young's modulus (117 to 121 kPa) is chosen so that they swing as fast as PBS, so only the damping",
+                         "changes with k_stretch 2-fold (limb); with the time step, which is no material property, none; "
+                         "with the iterations 1.5-fold (limb).")
 
     def test_folds_of_stiffness_are_of_xpbd_over_iterations(self):
         rows = [{"body": body, "varied": varied, "method": method, "iterations": count, "stiffness_n_m": stiffness}
@@ -260,9 +262,8 @@ class Captions(ResultsTest):
                     ("bar", "iterations", "xpbd", 6, 10), ("bar", "iterations", "xpbd", 48, 25), ("bar", "time_step_ms", "xpbd", 24, 999),
                     ("bar", "iterations", "pbs", 48, 500), ("human", "iterations", "xpbd_small_steps", 6, 4),
                     ("human", "iterations", "xpbd_small_steps", 48, 5))]
-        text = self.told("stiffness", rows)
-        self.assertIn("others at 24 iterations and 10 ms; PBS with the exponent has k_stretch 0.2.", text)
-        self.assertIn("grows 2.5-fold (bar, 6 to 48) with the iterations; in small steps 1.25-fold (human, 6 to 48).", text)
+        self.assert_told("stiffness", rows, "others at 24 iterations and 10 ms; PBS with the exponent has k_stretch 0.2.",
+                         "grows 2.5-fold (bar, 6 to 48) with the iterations; in small steps 1.25-fold (human, 6 to 48).")
 
     def test_linear_elements_are_told_apart_from_the_truth(self):
         def row(problem, quantity, order, difference="", ratio=""):
@@ -273,9 +274,9 @@ class Captions(ResultsTest):
             (1, 0.5), (1, 0.0125), (2, 0.75), (2, 0.875), ("", 0.001))]
         rows += [row("locking", "torque", 1, 37, 1.37), row("thick_plate", "another", 2, 99)]
         rows += [row("thick_plate", "stress_yy_at_d", order, pct) for order, pct in ((1, -47), (1, 12), (2, -1.5), (2, 1))]
-        text = self.told("verification", rows)
-        self.assertIn("keep 75 to 87.5 % of a beam's bending towards incompressibility and meet published benchmarks within 1.5 %.", text)
-        self.assertIn("lock: they keep 1.25 to 50 % of the bending and miss benchmarks by up to 47 %.", text)
+        self.assert_told("verification", rows,
+                         "keep 75 to 87.5 % of a beam's bending towards incompressibility and meet published benchmarks within 1.5 %.",
+                         "lock: they keep 1.25 to 50 % of the bending and miss benchmarks by up to 47 %.")
 
     def test_figures_of_time_name_the_processor(self):
         timed = [entry for entry in listed.values() if set(entry.studies()) & {"timing", "work_precision"}]
@@ -295,13 +296,12 @@ class Captions(ResultsTest):
 
         rows = [row("bend", 900, 0.5, "nan"), row("bend", 300, 0.25, "nan"), row("twist", 300, 0.125, 23), row("twist", 600, 0.3, 21),
                 row("twist", 900, 0.75, "nan")]
-        text = self.told("convergence_mesh", rows)
-        self.assertIn("limb, 300 to 900 vertices, after 24 iterations (filled) and after 1000 (hollow)", text)
-        self.assertIn("In the bend, the residual on the coarsest and the finest mesh is 0.25 and 0.5 after 24 iterations and 0.01 and 0.01",
-                      text)
-        self.assertIn("reached on 1 of 2 meshes in the bend and on 2 of 3 in the twist", text)
-        self.assertIn("twisted 23 % after 24 and 40 % after 1000 on 300 vertices, 21 % after 24 and 40 % after 1000 on 600 vertices; "
-                      "bent no reference on record.", text)
+        self.assert_told("convergence_mesh", rows, "limb, 300 to 900 vertices, after 24 iterations (filled) and after 1000 (hollow)",
+                         "In the bend, the residual on the coarsest and the finest mesh is 0.25 and 0.5 after 24 iterations and 0.01 and "
+                         "0.01",
+                         "reached on 1 of 2 meshes in the bend and on 2 of 3 in the twist",
+                         "twisted 23 % after 24 and 40 % after 1000 on 300 vertices, 21 % after 24 and 40 % after 1000 on 600 vertices; "
+                         "bent no reference on record.")
 
     def test_inverted_tets_of_stills_and_clip(self):
         rows = [{"deformer": deformer, "inverted_tets": count} for deformer, count in (
@@ -313,9 +313,9 @@ class Captions(ResultsTest):
     def test_where_the_jiggling_skin_is_farthest(self):
         rows = [{"largest_mm": mm, "farthest_bone": bone, "time_s": time_s} for mm, bone, time_s in (
             (31.9, "upper_arm.R", 0.0), (65.1, "neck", 1.92))]
-        text = self.told("fig_09_jiggle", rows)
-        self.assertIn("The largest distances: 32 mm at the right upper arm (0.00 s), 65 mm at the neck (1.92 s).", text)
-        self.assertIn("moved yet: 32 mm at the right upper arm (0.00 s) is softness", text)
+        self.assert_told("fig_09_jiggle", rows,
+                         "The largest distances: 32 mm at the right upper arm (0.00 s), 65 mm at the neck (1.92 s).",
+                         "moved yet: 32 mm at the right upper arm (0.00 s) is softness")
 
     def test_it_is_written_with_the_figure_and_deleted_with_it(self):
         synthetic_records.write_study(self.results)

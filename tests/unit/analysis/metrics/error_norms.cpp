@@ -123,23 +123,6 @@ TEST(ErrorNorms, RefusesArraysThatDoNotFit)
     EXPECT_THROW(ErrorMetrics(good).measure(good.rest, good.rest.topRows(2)), pbs::InputError);
 }
 
-// Positions within `farthest_m` are rounded four times. An edge contains two, and the inverse of Kuhn tets' edges has the norm sqrt 5 /
-// 0.15 at most.
-double gradient_error_pct(double farthest_m)
-{
-    return 100.0 * 2.0 * std::sqrt(3.0) * rounding_error(4, farthest_m) * std::sqrt(5.0) / 0.15;
-}
-
-TEST(ErrorH1, OfALinearDifferenceIsTheNormOfItsGradientAndOfATranslationZero)
-{
-    const ErrorDomain domain = bar_domain();
-    const Eigen::Matrix3d gradient{{0.01, 0.02, 0.0}, {-0.03, 0.0, 0.01}, {0.0, 0.05, 0.02}};
-    const Positions moved = domain.rest + domain.rest * gradient.transpose();
-    EXPECT_NEAR(analysis::error_h1_pct(domain.rest, domain.tets, moved, domain.rest), 100.0 * gradient.norm(), gradient_error_pct(1.2));
-    const Positions translated = domain.rest.rowwise() + Eigen::RowVector3d(1.0, 2.0, 3.0);
-    EXPECT_NEAR(analysis::error_h1_pct(domain.rest, domain.tets, translated, domain.rest), 0.0, gradient_error_pct(4.2));
-}
-
 // Reference: strains and angles of boxes in closed form.
 
 using analysis::SmoothnessMetrics;

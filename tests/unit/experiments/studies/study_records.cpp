@@ -31,6 +31,15 @@ void finish(const std::string& study, const std::string& run, double value)
     analysis::write_text_atomically((folder / "run.json").string(), "{\"schema\": 3}\n");
 }
 
+Scene walk()
+{
+    Scene scene;
+    scene.name = "walk";
+    scene.character.body = "man";
+    scene.motion.clip = "clips/01_03.bvh";
+    return scene;
+}
+
 TEST(StudyRecords, ComeFromRunsThatEnded)
 {
     const ScratchFolder root;
@@ -52,11 +61,7 @@ TEST(StudyRecords, KnowWhatWasPlannedAndLeftOut)
 {
     const ScratchFolder root;
     StudyPlan plan = plan_of({"limb"});
-    Scene scene;
-    scene.name = "walk";
-    scene.character.body = "man";
-    scene.motion.clip = "clips/01_03.bvh";
-    plan.runs.push_back({.name = "a walk", .scene = scene});
+    plan.runs.push_back({.name = "a walk", .scene = walk()});
     plan.left_out = {{"man_01_01", "not installed"}};
     EXPECT_FALSE(has_study_plan(root / "volume"));
     write_study_plan(root / "volume", plan);
@@ -72,11 +77,7 @@ TEST(StudyRecords, ARecordIsOfTheBodyAndMotionThatThePlanGives)
     const ScratchFolder root;
     const std::string study = root / "volume", run = study + "/walk";
     StudyPlan plan;
-    Scene scene;
-    scene.name = "walk";
-    scene.character.body = "man";
-    scene.motion.clip = "clips/01_03.bvh";
-    plan.runs.push_back({.name = "walk", .scene = scene});
+    plan.runs.push_back({.name = "walk", .scene = walk()});
     write_study_plan(study, plan);
     std::filesystem::create_directories(run);
     analysis::write_text_atomically(run + "/metrics.csv",

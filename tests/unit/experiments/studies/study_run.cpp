@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 
 namespace {
 
@@ -160,44 +159,45 @@ TEST(StudyCosts, RecordsWithoutWallTimeAreRead)
     EXPECT_EQ(analysis::read_text(folder / "costs.csv"), "run,expected_cpu_s,cpu_s,wall_s\nlimb,10,12,\n");
 }
 
-// The process was killed before it wrote the table, so the record of each run supplies its cost.
-TEST(StudyCosts, AreCompletedFromTheRunsThatEndedInTheOrderOfThePlan)
+// costs.csv of a study whose runs, each with an expected cost of 2 s, left these records. seen: as measured by the parent.
+std::string completed(const std::vector<std::pair<std::string, std::string>>& records, const std::vector<RunCost>& seen)
 {
     const ScratchFolder folder;
-    for (const char* run : {"scene", "work", "lost"}) std::filesystem::create_directories(folder.path() / run);
-    folder.file("scene/run.json", R"({"cost": {"cpu_seconds": {"total": 3.5}}, "outcome": {}})");
-    folder.file("work/run.json", R"({"outcome": {"wall_s": 9.0, "cpu_seconds": 8.0}})");
     StudyPlan plan;
-    for (const char* run : {"scene", "lost", "work"}) plan.runs.push_back({.name = run, .cost_s = 2.0});
+    for (const auto& [run, record] : records) {
+        plan.runs.push_back({.name = run, .cost_s = 2.0});
+        fs::create_directories(folder.path() / run);
+        if (!record.empty()) folder.file(run + "/run.json", record);
+    }
     StudyCosts costs(folder.path().string());
-    costs.add("lost", 2.0, 100.0);  // from an earlier run; it did not end again
-    costs.add("work", 2.0, 8.5);    // as measured by the parent
+    for (const RunCost& cost : seen) costs.add(cost.run, cost.expected_s, cost.cpu_s);
     costs.complete(folder.path().string(), plan);
     costs.write();
-    std::ifstream file(folder / "costs.csv");
-    EXPECT_EQ(std::string(std::istreambuf_iterator<char>(file), {}), "run,expected_cpu_s,cpu_s,wall_s\nscene,2,3.5,\nwork,2,8.5,9\n");
+    return analysis::read_text(folder / "costs.csv");
+}
+
+// The process was killed before it wrote the table, so the record of each run supplies its cost; "lost" is from an earlier run, and did not
+// end again.
+TEST(StudyCosts, AreCompletedFromTheRunsThatEndedInTheOrderOfThePlan)
+{
+    EXPECT_EQ(completed({{"scene", R"({"cost": {"cpu_seconds": {"total": 3.5}}, "outcome": {}})"},
+                         {"lost", ""},
+                         {"work", R"({"outcome": {"wall_s": 9.0, "cpu_seconds": 8.0}})"}},
+                        {{"work", 2.0, 8.5}, {"lost", 2.0, 100.0}}),
+              "run,expected_cpu_s,cpu_s,wall_s\nscene,2,3.5,\nwork,2,8.5,9\n");
 }
 
 // Records of another version, or a file that is not a record: their cost is unknown, which is not an error.
 TEST(StudyCosts, RunsThatDoNotTellTheirCostAreLeftOutButForWhatTheParentSaw)
 {
-    const ScratchFolder folder;
-    StudyPlan plan;
-    for (const char* run : {"seen", "bare", "words", "list", "torn", "told"}) {
-        std::filesystem::create_directories(folder.path() / run);
-        plan.runs.push_back({.name = run, .cost_s = 2.0});
-    }
-    folder.file("seen/run.json", R"({"outcome": {"wall_s": 9.0}})");
-    folder.file("bare/run.json", R"({"cost": {}, "outcome": {"cpu_seconds": 8.0}})");
-    folder.file("words/run.json", R"({"outcome": {"cpu_seconds": "8"}})");
-    folder.file("list/run.json", "[1, 2]");
-    folder.file("torn/run.json", R"({"outcome": {"cpu_)");
-    folder.file("told/run.json", R"({"outcome": {"cpu_seconds": 3.0, "wall_s": "4"}})");
-    StudyCosts costs(folder.path().string());
-    costs.add("seen", 2.0, 8.5);
-    costs.complete(folder.path().string(), plan);
-    costs.write();
-    EXPECT_EQ(analysis::read_text(folder / "costs.csv"), "run,expected_cpu_s,cpu_s,wall_s\nseen,2,8.5,9\ntold,2,3,\n");
+    EXPECT_EQ(completed({{"seen", R"({"outcome": {"wall_s": 9.0}})"},
+                         {"bare", R"({"cost": {}, "outcome": {"cpu_seconds": 8.0}})"},
+                         {"words", R"({"outcome": {"cpu_seconds": "8"}})"},
+                         {"list", "[1, 2]"},
+                         {"torn", R"({"outcome": {"cpu_)"},
+                         {"told", R"({"outcome": {"cpu_seconds": 3.0, "wall_s": "4"}})"}},
+                        {{"seen", 2.0, 8.5}}),
+              "run,expected_cpu_s,cpu_s,wall_s\nseen,2,8.5,9\ntold,2,3,\n");
 }
 
 TEST(StudyCosts, PointAtWhatIsNotWithinAFactorOfTwo)

@@ -28,6 +28,7 @@ TEST(SkinningWeights, PaperAndRigidAreThoseOfTheBinding)
     const Character& bar = bar_of_two_bones;
     expect_same_weights(weights_by(WeightKind::paper, bar), paper_weights(bar.binding, bar.skeleton));
     expect_same_weights(weights_by(WeightKind::rigid, bar), rigid_weights(bar.binding));
+    expect_same_weights(weights_by(WeightKind::either_end, bar), either_end_weights(bar.binding, bar.skeleton));
 }
 
 TEST(SkinningWeights, SmoothOnesAreThoseOfEquation2WhereOneBoneHoldsAVertexAlone)
@@ -97,6 +98,7 @@ TEST(SkinningWeights, HaveNames)
     EXPECT_STREQ(name_of(WeightKind::rigid), "rigid");
     EXPECT_STREQ(name_of(WeightKind::smooth), "smooth");
     EXPECT_STREQ(name_of(WeightKind::diffused), "diffused");
+    EXPECT_STREQ(name_of(WeightKind::either_end), "either_end");
     EXPECT_STREQ(name_of(WeightKind::artist), "artist");
     EXPECT_STREQ(name_of(WeightKind::file), "file");
 }

@@ -81,11 +81,11 @@ const FleshMethod kept_xpbd = {"xpbd_neo_hookean", {}, 16, 1024, 4, 0.5};
 class FleshLimits : public testing::TestWithParam<double> {};
 INSTANTIATE_TEST_SUITE_P(PoissonsRatios, FleshLimits, testing::Values(0.3, 0.45));
 
-const std::vector<std::string> twisted = {"motion.angle_deg=90", "motion.frames=2", "character.vertices=600"};
+const std::vector<std::string> reference_of_twist = {"motion.angle_deg=90", "motion.frames=2", "character.vertices=600"};
 
 TEST_P(FleshLimits, OfTheTwistedLimb)
 {
-    const FleshReference reference("limb_twist", twisted, 1, GetParam());
+    const FleshReference reference("limb_twist", reference_of_twist, 1, GetParam());
     for (const FleshMethod& method : {quasi_newton("lbs"), relaxed_vbd, chebyshev_vbd, kept_xpbd})
         expect_convergence(reference, GetParam(), method);
 }
@@ -102,7 +102,7 @@ TEST_P(FleshLimits, OfTheBentLimbAndOfTheHumansCrouch)
 // The control: the multipliers of each step begin at zero and the residual is neglected, or they are reset in each iteration.
 TEST(XpbdNeoHookeanControls, AsPublishedOrWithResetMultipliersItStopsElsewhere)
 {
-    const FleshReference reference("limb_twist", twisted, 1, 0.45);
+    const FleshReference reference("limb_twist", reference_of_twist, 1, 0.45);
     for (const std::string multipliers : {"of_step", "reset"}) {
         const DeformerSpec control = spec_of("xpbd_neo_hookean", 1024, 0.45, {"multipliers=" + multipliers, "iterations_per_step=4"});
         EXPECT_GT(reference.difference(control), 1e-3) << multipliers;

@@ -190,13 +190,9 @@ TEST(JointsByHand, HaveTheirOwnReachAndTheRadiusOfTheirSection)
     EXPECT_EQ(joints[0].reach_child_m, 0.5);
 }
 
-TEST(JointsByHand, OneWithoutSectionIsNone)
+TEST(JointsByHand, OneWithoutSectionOrWithoutItsBonesIsNone)
 {
     EXPECT_TRUE(experiments::limb_joints(limb_as_frankie("thigh.L", "shin.L")).empty());
-}
-
-TEST(JointsByHand, OneWithoutItsBonesIsNone)
-{
     EXPECT_TRUE(experiments::limb_joints(limb_as_frankie("upper", "forearm")).empty());
 }
 

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace {
 
@@ -61,32 +62,50 @@ TEST_F(BulgeFigures, AreOverLinearElementsWhereThereAreNoOthers)
     EXPECT_EQ(measurements()[0].of.reference, "nh_p1");
 }
 
-TEST_F(BulgeFigures, PosesWithoutAReferenceAreCountedAndHaveNone)
+TEST_F(BulgeFigures, StateWhySectionsAreLeftOut)
 {
-    samples = {sample("pbs", 0, 1.0), sample("reference", 0, 1.0, 1), sample("pbs", 1, 1.0)};
-    EXPECT_EQ(measurements().size(), 1u);
-    EXPECT_EQ(outcome(0), SectionOutcome::measured);
-    EXPECT_EQ(outcome(1), SectionOutcome::reference_not_reached);
-}
-
-TEST_F(BulgeFigures, DeepFoldsAreLeftOutWhateverTheReference)
-{
-    samples = {sample("pbs", 2, 5.0), sample("reference", 2, 1.0, 1)};
-    EXPECT_TRUE(measurements().empty());
-    EXPECT_EQ(outcome(2), SectionOutcome::bent_too_far);
-    EXPECT_EQ(remark(2), "");
-}
-
-TEST_F(BulgeFigures, SectionsOfAPartThatTheReferenceHasGoneIntoAreLeftOut)
-{
-    samples = {sample("pbs", 0, 1.0), sample("reference", 0, 1.0, 1), sample("reference", 0, 3.1, 1),
-               sample("dqs", 0, 1.0), sample("pbs", 1, 1.0),          sample("reference", 1, 2.9, 1)};
-    EXPECT_EQ(measurements().size(), 1u);
-    EXPECT_TRUE(measurements("dqs").empty());
-    EXPECT_EQ(outcome(0), SectionOutcome::inside_another_part);
-    EXPECT_EQ(outcome(1), SectionOutcome::measured);
-    EXPECT_EQ(remark(0), "reference 3.1 times as wide as at rest, 100 % of that outline the limb's own skin");
-    EXPECT_EQ(remark(1), "");
+    using enum SectionOutcome;
+    const std::string wide = "reference 3.1 times as wide as at rest, 100 % of that outline the limb's own skin";
+    struct Row {
+        const char* name;
+        std::vector<ArtefactSample> samples;
+        std::size_t of_pbs, of_dqs;
+        std::map<std::size_t, SectionOutcome> outcomes;  // by pose
+        std::map<std::size_t, std::string> remarks;
+    };
+    const Row rows[] = {{"no reference",
+                         {sample("pbs", 0, 1.0), sample("reference", 0, 1.0, 1), sample("pbs", 1, 1.0)},
+                         1,
+                         0,
+                         {{0, measured}, {1, reference_not_reached}},
+                         {}},
+                        {"a deep fold, whatever the reference",
+                         {sample("pbs", 2, 5.0), sample("reference", 2, 1.0, 1)},
+                         0,
+                         0,
+                         {{2, bent_too_far}},
+                         {{2, ""}}},
+                        {"a part that the reference has gone into",
+                         {sample("pbs", 0, 1.0), sample("reference", 0, 1.0, 1), sample("reference", 0, 3.1, 1), sample("dqs", 0, 1.0),
+                          sample("pbs", 1, 1.0), sample("reference", 1, 2.9, 1)},
+                         1,
+                         0,
+                         {{0, inside_another_part}, {1, measured}},
+                         {{0, wide}, {1, ""}}},
+                        {"pbs broke down, and blends are compared",
+                         {sample("dqs", 0, 2.0), sample("reference", 0, 1.0, 1)},
+                         0,
+                         1,
+                         {{0, pbs_did_not_finish}},
+                         {}}};
+    for (const Row& row : rows) {
+        SCOPED_TRACE(row.name);
+        samples = row.samples;
+        EXPECT_EQ(measurements().size(), row.of_pbs);
+        EXPECT_EQ(measurements("dqs").size(), row.of_dqs);
+        for (const auto& [pose, expected] : row.outcomes) EXPECT_EQ(outcome(pose), expected);
+        for (const auto& [pose, expected] : row.remarks) EXPECT_EQ(remark(pose), expected);
+    }
 }
 
 // Whatever its width, C05 only denies a bulge of pbs.
@@ -102,14 +121,6 @@ TEST_F(BulgeFigures, WhatIsWideUnderPbsOrABlendAloneIsJudgedWithARemark)
               "pbs 3.1 times as wide as at rest, 25 % of that outline the limb's own skin; "
               "dqs 8 times as wide as at rest, 100 % of that outline the limb's own skin");
     EXPECT_EQ(section_rows(of, body, experiments::section_outcomes(of, body, samples)).at(0).remark, remark(0));
-}
-
-TEST_F(BulgeFigures, BlendsAreComparedWherePbsBrokeDown)
-{
-    samples = {sample("dqs", 0, 2.0), sample("reference", 0, 1.0, 1)};
-    EXPECT_TRUE(measurements().empty());
-    ASSERT_EQ(measurements("dqs").size(), 1u);
-    EXPECT_EQ(outcome(0), SectionOutcome::pbs_did_not_finish);
 }
 
 TEST_F(BulgeFigures, TableHasALineASectionWithItsOutcome)

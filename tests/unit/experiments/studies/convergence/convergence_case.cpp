@@ -37,9 +37,9 @@ TEST(ConvergenceCase, TheDistanceToTheReferenceBeginsWithThatOfLbs)
     EXPECT_EQ(result.breakdown, "");
     ASSERT_EQ(result.all.size(), 2u);
     for (const ConvergencePaths& paths : result.all) {
-        const Scene scene = read_scene("limb_twist", {"character.vertices=" + std::to_string(paths.own_mesh ? fewer : more)});
+        const Scene scene = read_scene("limb_twist", {"character.vertices=" + std::to_string(paths.of.own_mesh ? fewer : more)});
         const PosedCharacter limb(scene, {3});
-        ASSERT_EQ(limb.character().mesh.rest.rows(), paths.vertices);
+        ASSERT_EQ(limb.character().mesh.rest.rows(), paths.of.vertices);
         const PosedReference reference(limb.character(), of.reference, limb.pose(0), scene.motion.time_step_s);
         const double of_lbs = reference.error_of(limb.shapes(spec_of(scene, "lbs")).front().positions).joint_pct;
         EXPECT_GT(of_lbs, 0.0);
@@ -63,8 +63,8 @@ TEST(ConvergenceCase, AboveReferenceToThereIsNoneAndTheRecordSaysSo)
     of.reference_to = between;
     const ConvergenceResult result = measure_convergence(of);
     ASSERT_EQ(result.all.size(), 2u);
-    ASSERT_LE(result.all.front().vertices, between);
-    ASSERT_GT(result.all.back().vertices, between);
+    ASSERT_LE(result.all.front().of.vertices, between);
+    ASSERT_GT(result.all.back().of.vertices, between);
     EXPECT_TRUE(std::isfinite(result.all.front().paths.front().looks.back().error_joint_pct));
     EXPECT_TRUE(std::isnan(result.all.back().paths.front().looks.back().error_joint_pct));
     EXPECT_EQ(result.all.back().reference, "left_out_above_400_vertices");
@@ -72,7 +72,7 @@ TEST(ConvergenceCase, AboveReferenceToThereIsNoneAndTheRecordSaysSo)
     const analysis::CsvTable towards = table_of(experiments::towards_columns, towards_rows(look_rows(result)));
     EXPECT_EQ(rate_rows(result).back().reference, "left_out_above_400_vertices");
     ASSERT_GT(towards.rows(), 0);
-    for (int row = 0; row < towards.rows(); ++row) EXPECT_EQ(towards.integer(row, "vertices"), result.all.front().vertices);
+    for (int row = 0; row < towards.rows(); ++row) EXPECT_EQ(towards.integer(row, "vertices"), result.all.front().of.vertices);
 }
 
 TEST(ConvergenceCase, OtherTessellationsOfASizeHaveNone)

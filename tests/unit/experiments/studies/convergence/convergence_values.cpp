@@ -1,6 +1,7 @@
 // Reference: paths defined by formulas; a rate r needs ceil(log 0.05 / log r) iterations to the tolerance.
 #include "experiments/studies/convergence/convergence_case.hpp"
 
+#include "experiments/deformers/deformer_options.hpp"
 #include "tests/support/iteration_paths.hpp"
 
 #include <gtest/gtest.h>
@@ -108,7 +109,7 @@ TEST(ConvergenceFigures, ExponentOfALadderIsThatOfTheFormula)
         for (const auto order : {pbs::Order::ordered, pbs::Order::plain}) {
             const double rate = order == pbs::Order::plain ? 0.5 : std::exp(-1.0 / std::sqrt(vertices));
             ladder.all.push_back(starts_at_rates(vertices, {rate, 0.5, 0.5, 0.5}, 4000));
-            ladder.all.back().setting.order = order;
+            ladder.all.back().of.order = name_of(order);
         }
     const auto exponent = values_named(convergence_values(ladder), "exponent_of_iterations_over_vertices");
     ASSERT_EQ(exponent.size(), 2u);  // one for each order

@@ -198,22 +198,21 @@ TEST(OtherCells, TheOwnTimeStepOfPbsAuthorMatters)
     EXPECT_GT(reach(1.0), 10.0 * reach(1e-3));
 }
 
-// Negative control: Chebyshev's weights for a spectral radius above that of the sweeps.
-TEST(OtherCells, ChebyshevsWeightsBeyondTheirLimitAreSeenToFail)
-{
-    const StabilityOutcome within = run_cell(cell_with("vbd", "chebyshev_rho", 0.9)).stability.outcome;
-    EXPECT_EQ(within, StabilityOutcome::converged);
-    const StabilityOutcome beyond = run_cell(cell_with("vbd", "chebyshev_rho", 0.9999)).stability.outcome;
-    EXPECT_TRUE(beyond == StabilityOutcome::diverged || beyond == StabilityOutcome::not_finite);
-}
+// Negative controls: Chebyshev's weights for a spectral radius above that of the sweeps; time steps beyond 0.8 of the time in which the
+// stiffness of a vertex moves its mass.
+struct BeyondItsLimit {
+    const char *model, *setting;
+    double within, beyond;
+};
+const BeyondItsLimit beyond_limits[] = {{"vbd", "chebyshev_rho", 0.9, 0.9999}, {"xpbd_neo_hookean", "step_of_stiffness", 0.8, 16.0}};
 
-// Negative control: time steps beyond 0.8 of the time in which the stiffness of a vertex moves its mass.
-TEST(OtherCells, TimeStepsOfXpbdBeyondTheirLimitAreSeenToFail)
+TEST(OtherCells, SettingsBeyondTheLimitOfAMethodAreSeenToFail)
 {
-    const StabilityOutcome within = run_cell(cell_with("xpbd_neo_hookean", "step_of_stiffness", 0.8)).stability.outcome;
-    EXPECT_EQ(within, StabilityOutcome::converged);
-    const StabilityOutcome beyond = run_cell(cell_with("xpbd_neo_hookean", "step_of_stiffness", 16.0)).stability.outcome;
-    EXPECT_TRUE(beyond == StabilityOutcome::diverged || beyond == StabilityOutcome::not_finite);
+    for (const auto& [model, setting, within, beyond] : beyond_limits) {
+        EXPECT_EQ(run_cell(cell_with(model, setting, within)).stability.outcome, StabilityOutcome::converged) << model;
+        const StabilityOutcome failed = run_cell(cell_with(model, setting, beyond)).stability.outcome;
+        EXPECT_TRUE(failed == StabilityOutcome::diverged || failed == StabilityOutcome::not_finite) << model;
+    }
 }
 
 TEST(BrokenStart, IsReachedBySoundSettings)
@@ -238,9 +237,8 @@ TEST(BrokenStart, IsNotReachedByTooFewIterations)
 
 TEST(BrokenStart, DivergesBeyondTheLimitOfTheMethod)
 {
-    for (const auto& [model, setting, value] :
-         {std::tuple("vbd", "chebyshev_rho", 0.9999), std::tuple("xpbd_neo_hookean", "step_of_stiffness", 16.0)}) {
-        const StartRow row = run_broken_start(start_of(model, Start::flattened, setting, value), 512);
+    for (const auto& [model, setting, within, beyond] : beyond_limits) {
+        const StartRow row = run_broken_start(start_of(model, Start::flattened, setting, beyond), 512);
         EXPECT_TRUE(row.outcome == StartOutcome::diverged || row.outcome == StartOutcome::not_finite) << model;
     }
 }

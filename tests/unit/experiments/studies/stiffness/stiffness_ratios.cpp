@@ -144,12 +144,8 @@ TEST(StiffnessReport, SaysWhetherTheControlIsOne)
     claim.high = 1.1;
     const std::string text = control_text({{Varied::iterations, rows}}, claim);
     EXPECT_EQ(text, "the control, XPBD, at twice the iterations: 1 of 2 values lie within 0.9 to 1.1\n");
-    const std::string page = control_markdown({{Varied::iterations, rows}}, claim);
-    EXPECT_NE(page.find("| twice the iterations | limb, xpbd, vertices 600, young 30000 Pa"), std::string::npos);
-    EXPECT_EQ(page.find("human"), std::string::npos);
     claim.high = 5.0;
     EXPECT_NE(control_text({{Varied::iterations, rows}}, claim).find("2 of 2 values"), std::string::npos);
-    EXPECT_NE(control_markdown({{Varied::iterations, rows}}, claim).find("Nowhere."), std::string::npos);
 }
 
 // It has a line and a deformer of its own: its values count neither for the control nor for any claim.
@@ -160,10 +156,9 @@ TEST(StiffnessReport, TellsForgottenMultipliersApart)
     analysis::Claim claim;
     claim.low = 0.9;
     claim.high = 1.1;
-    const std::vector<SweptRows> sweeps = {{Varied::iterations, rows}};
-    EXPECT_EQ(control_text(sweeps, claim).find("the control, XPBD without its multipliers, at twice the iterations: 0 of 1 values"), 0u);
-    EXPECT_NE(control_markdown(sweeps, claim).find("Nowhere."), std::string::npos);
-    EXPECT_NE(stiffness_markdown(sweeps).find("xpbd_forgetting_multipliers"), std::string::npos);
+    EXPECT_EQ(control_text({{Varied::iterations, rows}}, claim)
+                  .find("the control, XPBD without its multipliers, at twice the iterations: 0 of 1 values"),
+              0u);
     EXPECT_EQ(stiffness_ratios(rows, Varied::iterations).at(0).of.deformer, "xpbd_forgetting_multipliers");
 }
 

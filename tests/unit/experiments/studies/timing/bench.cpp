@@ -53,34 +53,29 @@ TEST(BenchScaling, ExponentOfAPower)
     const double rounding = test_support::exponent_error(sizes, ms, 1.1, 3);
     EXPECT_NEAR(fits[0].at("exponent"), 1.1, rounding);
     EXPECT_LE(fits[0].at("interval").at(1).get<double>() - fits[0].at("interval").at(0).get<double>(), 2.0 * 12.71 * 2.0 * rounding);
+    EXPECT_TRUE(fit_scaling(nlohmann::json::array({of_size(1000, 1.0)})).empty()) << "one mesh has no exponent";
 }
 
-TEST(BenchScaling, OneMeshHasNoExponent)
-{
-    EXPECT_TRUE(fit_scaling(nlohmann::json::array({of_size(1000, 1.0)})).empty());
-}
-
-TEST(Bandwidth, BetweenAndBeyondWhatWasMeasured)
+TEST(Bandwidth, IsInterpolatedBetweenWhatWasMeasured)
 {
     const std::vector<MemoryBandwidth> memory = {{1e4, 400.0}, {1e6, 100.0}, {1e8, 20.0}};
-    EXPECT_DOUBLE_EQ(bandwidth_at(memory, 1e3), 400.0);
-    EXPECT_DOUBLE_EQ(bandwidth_at(memory, 1e4), 400.0);
-    EXPECT_DOUBLE_EQ(bandwidth_at(memory, 1e5), 250.0);  // half way in the logarithm
-    EXPECT_DOUBLE_EQ(bandwidth_at(memory, 1e6), 100.0);
-    EXPECT_DOUBLE_EQ(bandwidth_at(memory, 1e9), 20.0);
+    for (const auto& [bytes, gb_s] : {std::pair(1e3, 400.0), {1e4, 400.0}, {1e5, 250.0}, {1e6, 100.0}, {1e9, 20.0}})  // in the logarithm
+        EXPECT_DOUBLE_EQ(bandwidth_at(memory, bytes), gb_s) << bytes;
     EXPECT_DOUBLE_EQ(bandwidth_at({}, 1e6), 0.0);
+    const std::vector<MemoryBandwidth> measured = measure_bandwidth(1e-4, 1e5);
+    ASSERT_GE(measured.size(), 3u);
+    for (const MemoryBandwidth& point : measured) EXPECT_TRUE(std::isfinite(point.gb_s) && point.gb_s > 0.0);
 }
 
-TEST(Bandwidth, IsFiniteAndPositive)
+const BenchBody& twisted_bar()
 {
-    const std::vector<MemoryBandwidth> memory = measure_bandwidth(1e-4, 1e5);
-    ASSERT_GE(memory.size(), 3u);
-    for (const MemoryBandwidth& point : memory) EXPECT_TRUE(std::isfinite(point.gb_s) && point.gb_s > 0.0);
+    static const BenchBody body = make_bench_body("bar", test_support::structured_bar({-1, -0.15, -0.15}, {1, 0.15, 0.15}, {8, 2, 2}));
+    return body;
 }
 
 TEST(BenchBody, IsTwistedByNinetyDegreesFromTheHeldEnd)
 {
-    const BenchBody body = make_bench_body("bar", test_support::structured_bar({-1, -0.15, -0.15}, {1, 0.15, 0.15}, {8, 2, 2}));
+    const BenchBody& body = twisted_bar();
     const pbs::Positions& rest = body.mesh().rest;
     const double begin = rest.col(0).minCoeff(), end = rest.col(0).maxCoeff(), y0 = (rest.col(1).maxCoeff() + rest.col(1).minCoeff()) / 2.0,
                  z0 = (rest.col(2).maxCoeff() + rest.col(2).minCoeff()) / 2.0;
@@ -121,7 +116,7 @@ test_support::ResidualRounding rounding_on(const BenchBody& body)
 // bound of 30 % separates them from a shape that was not projected, whose residuals must differ by more than twice as much.
 TEST(ProjectionVariants, SettleOnTheSameResiduals)
 {
-    const BenchBody body = make_bench_body("bar", test_support::structured_bar({-1, -0.15, -0.15}, {1, 0.15, 0.15}, {8, 2, 2}));
+    const BenchBody& body = twisted_bar();
     const auto variants = projection_variants(body, {1, 2});
     ASSERT_EQ(variants.size(), 18u);  // for each precision three plain variants, and ordered, grouped and poses on one and on two threads
     const pbs::Residuals plain = settled(variants[0]), twisted = settled(variants[0], 0);
@@ -154,7 +149,7 @@ TEST(AnswerRatios, AreOfTheCombinedResidualAndOfTheVolume)
 // Each variant states what its answer loses to plain loops after the same step, next to its speed-up.
 TEST(AnswerRatios, StandNextToEachSpeedUp)
 {
-    const BenchBody body = make_bench_body("bar", test_support::structured_bar({-1, -0.15, -0.15}, {1, 0.15, 0.15}, {8, 2, 2}));
+    const BenchBody& body = twisted_bar();
     const nlohmann::json timings = time_projections(body, {1}, {{1e3, 80.0}, {1e9, 20.0}}, {.seconds = 0.0, .fewest = 1, .most = 1});
     ASSERT_EQ(timings.size(), 12u);
     for (const nlohmann::json& timing : timings) {

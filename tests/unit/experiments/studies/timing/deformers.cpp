@@ -5,16 +5,15 @@
 #include "experiments/deformers/registry.hpp"
 #include "experiments/process/machine.hpp"
 #include "experiments/settings/scene_values.hpp"
-#include "pbs/geometry/input_error.hpp"
-#include "pbs/solver/options.hpp"
 #include "tests/support/structured_bar.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
-#include <limits>
 #include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace {
 
@@ -28,85 +27,57 @@ const BenchBody& bar()
 
 constexpr Rounds two_rounds = {.seconds = 0.0, .fewest = 2, .most = 2};
 
-// PBS has three orders in two precisions.
-TEST(DeformerSettings, EveryOrderAndPrecision)
-{
-    const std::vector<DeformerSetting> settings = deformer_settings(*find_deformer_kind("pbs"));
-    ASSERT_EQ(settings.size(), 6u);
-    std::set<std::pair<std::string, std::string>> different;
-    for (const DeformerSetting& setting : settings) {
-        different.insert({setting.order, setting.precision});
-        const auto& options = options_of<pbs::PbsOptions>(setting.spec);
-        EXPECT_EQ(name_of(options.order), setting.order);
-        EXPECT_EQ(name_of(options.precision), setting.precision);
-        EXPECT_EQ(settings[setting.plain].order, "plain");
-        EXPECT_EQ(settings[setting.plain].precision, setting.precision);
-        ASSERT_TRUE(setting.twice);
-        EXPECT_EQ(options_of<pbs::PbsOptions>(*setting.twice).iterations, 2 * options.iterations);
-        EXPECT_EQ(options_of<pbs::PbsOptions>(*setting.twice).order, options.order);
-    }
-    EXPECT_EQ(different.size(), 6u);
-}
+using Code = std::pair<std::string, std::string>;  // order and precision, as the table states them
 
-// The ratio of a blend is to the plain blend, not to packed code in f64.
-TEST(DeformerSettings, OfABlendAreItsPrecisionsAndThePlainBlend)
+struct SettingsOfKinds {
+    std::vector<std::string> kinds;
+    std::set<Code> codes;
+    bool iterates = true;
+};
+
+class DeformerSettings : public testing::TestWithParam<SettingsOfKinds> {};
+
+// A ratio is to plain code: of the same precision where there is such code, otherwise in f64.
+TEST_P(DeformerSettings, AreTheCodesOfTheKindEachWithItsPlainOne)
 {
-    for (const char* kind : {"lbs", "dqs"}) {
+    const auto& [kinds, codes, iterates] = GetParam();
+    for (const std::string& kind : kinds) {
+        SCOPED_TRACE(kind);
         const std::vector<DeformerSetting> settings = deformer_settings(*find_deformer_kind(kind));
-        std::set<std::pair<std::string, std::string>> different;
+        EXPECT_EQ(settings.size(), codes.size());
+        std::set<Code> found;
         for (const DeformerSetting& setting : settings) {
-            EXPECT_FALSE(setting.twice);
-            EXPECT_FALSE(traits_of(settings[setting.plain].spec).packed);
-            different.insert({setting.order, setting.precision});
+            found.insert({setting.order, setting.precision});
+            const DeformerTraits traits = traits_of(setting.spec);
+            const nlohmann::json options = to_json(setting.spec).at("options");
+            EXPECT_EQ(traits.precision, setting.precision);
+            EXPECT_EQ(traits.packed, setting.order != "plain" && setting.order != "");
+            if (setting.order != "" && options.contains("order")) {
+                EXPECT_EQ(options.at("order"), setting.order);
+            }
+            const DeformerSetting& plain = settings.at(setting.plain);
+            EXPECT_FALSE(traits_of(plain.spec).packed);
+            EXPECT_EQ(plain.precision, codes.contains({"plain", setting.precision}) ? setting.precision : "f64");
+            ASSERT_EQ(setting.twice.has_value(), iterates);
+            if (!iterates) continue;
+            nlohmann::json expected = options, twice = to_json(*setting.twice).at("options");
+            EXPECT_EQ(traits_of(*setting.twice).iterations, 2 * *traits.iterations);
+            expected.erase("iterations"), twice.erase("iterations");
+            EXPECT_EQ(twice, expected);
         }
-        EXPECT_EQ(settings.size(), 3u);
-        EXPECT_EQ(different, (std::set<std::pair<std::string, std::string>>{{"packed", "f32"}, {"packed", "f64"}, {"plain", "f64"}}));
+        EXPECT_EQ(found, codes);
     }
 }
 
-TEST(DeformerSettings, WithoutKeysOfItsCodeThereIsOneWithItsDefaults)
-{
-    const std::vector<DeformerSetting> settings = deformer_settings(*find_deformer_kind("pbs_author"));
-    ASSERT_EQ(settings.size(), 1u);
-    EXPECT_EQ(settings[0].plain, 0u);
-    EXPECT_EQ(settings[0].order, "");
-    EXPECT_EQ(settings[0].precision, "f64");
-    EXPECT_TRUE(settings[0].twice);
-}
-
-// Each order in each precision; the baseline is the plain code of the same precision.
-TEST(DeformerSettings, EveryOrderAndPrecisionOfXpbd)
-{
-    for (const char* kind : {"xpbd", "xpbd_small_steps"}) {
-        const std::vector<DeformerSetting> settings = deformer_settings(*find_deformer_kind(kind));
-        ASSERT_EQ(settings.size(), std::string(kind) == "xpbd" ? 6u : 1u) << kind;
-        for (const DeformerSetting& setting : settings) {
-            EXPECT_EQ(traits_of(setting.spec).packed, setting.order != "plain" && setting.order != "") << kind;
-            EXPECT_EQ(traits_of(setting.spec).precision, setting.precision) << kind;
-            EXPECT_EQ(traits_of(settings[setting.plain].spec).packed, false) << kind;
-            EXPECT_EQ(settings[setting.plain].precision, setting.precision) << kind;
-        }
-    }
-}
-
-// Packed in both precisions, and plain in f64, the baseline of both.
-TEST(DeformerSettings, PackedAndPlainCode)
-{
-    for (const char* kind : {"quasi_newton", "vbd", "xpbd_neo_hookean", "projective_dynamics"}) {
-        const std::vector<DeformerSetting> settings = deformer_settings(*find_deformer_kind(kind));
-        ASSERT_EQ(settings.size(), 3u) << kind;
-        std::set<std::pair<std::string, std::string>> different;
-        for (const DeformerSetting& setting : settings) {
-            different.insert({setting.order, setting.precision});
-            EXPECT_EQ(setting.precision, traits_of(setting.spec).precision);
-            EXPECT_EQ(setting.order == "packed", traits_of(setting.spec).packed);
-            EXPECT_EQ(settings[setting.plain].order, "plain");
-            ASSERT_TRUE(setting.twice);
-            EXPECT_EQ(*traits_of(*setting.twice).iterations, 2 * *traits_of(setting.spec).iterations);
-        }
-        EXPECT_EQ(different, (std::set<std::pair<std::string, std::string>>{{"packed", "f32"}, {"packed", "f64"}, {"plain", "f64"}}));
-    }
-}
+const std::set<Code> three_orders = {{"plain", "f32"}, {"ordered", "f32"}, {"grouped", "f32"},
+                                     {"plain", "f64"}, {"ordered", "f64"}, {"grouped", "f64"}};
+const std::set<Code> packed_and_plain = {{"packed", "f32"}, {"packed", "f64"}, {"plain", "f64"}};
+INSTANTIATE_TEST_SUITE_P(
+    OfKinds, DeformerSettings,
+    testing::Values(SettingsOfKinds{{"pbs"}, three_orders}, SettingsOfKinds{{"xpbd"}, three_orders, false},
+                    SettingsOfKinds{{"lbs", "dqs"}, packed_and_plain, false},
+                    SettingsOfKinds{{"quasi_newton", "vbd", "xpbd_neo_hookean", "projective_dynamics"}, packed_and_plain},
+                    SettingsOfKinds{{"pbs_author"}, {{"", "f64"}}}, SettingsOfKinds{{"xpbd_small_steps"}, {{"", "f64"}}, false}));
 
 struct GivenOptions {
     std::string precision = "f64";

@@ -35,27 +35,15 @@ IterationPath falling(int most)
     return path_by(most, [](int n) { return 4.0 / (n + 1); });
 }
 
-TEST(FirstWithin, TheFirstLookNotAboveTheBound)
+TEST(FirstWithin, IsTheFirstLookNotAboveTheBound)
 {
-    EXPECT_EQ(first_within(falling(10), &Look::combined, 1.0), 3);
-    EXPECT_EQ(first_within(falling(10), &Look::combined, 4.0), 0);
-}
-
-TEST(FirstWithin, NothingWhereItIsNeverReached)
-{
-    EXPECT_EQ(first_within(falling(10), &Look::combined, 0.1), std::nullopt);
-    EXPECT_EQ(first_within({}, &Look::combined, 1.0), std::nullopt);
-}
-
-// A path that falls below the bound and rises again has reached it.
-TEST(FirstWithin, ARisingPathHasReachedIt)
-{
-    EXPECT_EQ(first_within(path_by(10, [](int n) { return std::abs(n - 5.0); }), &Look::combined, 1.0), 4);
-}
-
-TEST(FirstWithin, NotANumberIsNotReached)
-{
-    EXPECT_EQ(first_within(path_by(3, [](int) { return std::numeric_limits<double>::quiet_NaN(); }), &Look::combined, 1.0), std::nullopt);
+    const auto first = [](const IterationPath& path, double bound) { return first_within(path, &Look::combined, bound); };
+    EXPECT_EQ(first(falling(10), 1.0), 3);
+    EXPECT_EQ(first(falling(10), 4.0), 0);
+    EXPECT_EQ(first(falling(10), 0.1), std::nullopt);
+    EXPECT_EQ(first({}, 1.0), std::nullopt);
+    EXPECT_EQ(first(path_by(10, [](int n) { return std::abs(n - 5.0); }), 1.0), 4) << "it rises again and has reached it";
+    EXPECT_EQ(first(path_by(3, [](int) { return std::numeric_limits<double>::quiet_NaN(); }), 1.0), std::nullopt);
 }
 
 TEST(TargetRows, IterationsAndTimeToPlainsResidual)
@@ -100,11 +88,12 @@ TEST(OrderRows, ValuesAfter24AndInTheLimit)
 {
     const std::vector<OrderRow> rows = order_rows({.body = "limb"}, {measured("plain", file_sequence, falling(100), 2.0)});
     ASSERT_EQ(rows.size(), 1u);
-    EXPECT_DOUBLE_EQ(rows[0].residual_24, 4.0 / 25);
-    EXPECT_DOUBLE_EQ(rows[0].volume_abs_change_limit_pct, 4.0 / 101);
-    EXPECT_DOUBLE_EQ(rows[0].volume_abs_change_half_pct, 4.0 / 51);
-    EXPECT_EQ(rows[0].iterations, 100);
-    EXPECT_EQ(rows[0].of.order, "plain");
+    const analysis::CsvTable table = table_of(order_columns, rows);
+    EXPECT_DOUBLE_EQ(table.number(0, "residual_24"), 4.0 / 25);
+    EXPECT_DOUBLE_EQ(table.number(0, "volume_abs_change_limit_pct"), 4.0 / 101);
+    EXPECT_DOUBLE_EQ(table.number(0, "volume_abs_change_half_pct"), 4.0 / 51);
+    EXPECT_EQ(table.integer(0, "iterations"), 100);
+    EXPECT_EQ(table.text_at(0, "order"), "plain");
 }
 
 // A table is read as it was written.
@@ -128,30 +117,22 @@ TargetRow target_row(const std::string& order, const std::string& sequence, std:
     return row;
 }
 
+// Where either never reaches the target, there is no speed-up.
 TEST(EqualAnswers, SpeedUpsAreRatiosOfTimesToTheTarget)
 {
     const std::vector<EqualAnswer> all =
         equal_answers({target_row("plain", "file", 80.0), target_row("plain", "spread", 40.0), target_row("plain", "random_1", 60.0),
                        target_row("ordered", "file", 10.0), target_row("ordered", "random_1", 11.0)});
     ASSERT_EQ(all.size(), 2u);
-    EXPECT_DOUBLE_EQ(*all[1].speedup_to_plain, 8.0);
-    EXPECT_DOUBLE_EQ(*all[1].speedup_to_plain_spread, 4.0);
-}
-
-// Where either never reaches the target, there is no speed-up.
-TEST(EqualAnswers, NeverReachedIsNoSpeedUp)
-{
-    const std::vector<EqualAnswer> all = equal_answers({target_row("plain", "file", 80.0), target_row("plain", "spread", {}),
-                                                        target_row("ordered", "file", 10.0), target_row("grouped", "file", {})});
-    ASSERT_EQ(all.size(), 3u);
     EXPECT_EQ(all[1].speedup_to_plain, 8.0);
-    EXPECT_EQ(all[1].speedup_to_plain_spread, std::nullopt);
-    EXPECT_EQ(all[2].speedup_to_plain, std::nullopt);
-}
-
-TEST(EqualAnswers, WithoutTheSpreadBaselineThereIsNoRatio)
-{
-    EXPECT_THROW(equal_answers({target_row("plain", "file", 80.0)}), std::out_of_range);
+    EXPECT_EQ(all[1].speedup_to_plain_spread, 4.0);
+    const std::vector<EqualAnswer> unreached = equal_answers({target_row("plain", "file", 80.0), target_row("plain", "spread", {}),
+                                                              target_row("ordered", "file", 10.0), target_row("grouped", "file", {})});
+    ASSERT_EQ(unreached.size(), 3u);
+    EXPECT_EQ(unreached[1].speedup_to_plain, 8.0);
+    EXPECT_EQ(unreached[1].speedup_to_plain_spread, std::nullopt);
+    EXPECT_EQ(unreached[2].speedup_to_plain, std::nullopt);
+    EXPECT_THROW(equal_answers({target_row("plain", "file", 80.0)}), std::out_of_range) << "there is no spread baseline";
 }
 
 // The order `ordered` gives an answer that is no worse than the median of random orders. Reference: `plain` in the five random sequences of
@@ -164,7 +145,6 @@ std::map<std::pair<std::string, std::string>, double> volume_to_random_plain(con
     of.of = {.body = body, .motion = "twist", .angle_deg = angle_deg};
     of.scene = read_scene("limb_twist", {"motion.angle_deg=" + std::to_string(angle_deg), "motion.frames=2"});
     of.frame = 1;
-    of.is_tapered = body == "tapered_limb";
     of.random = {1, 2, 3, 4, 5};
     of.most_iterations = paper_iterations;
     of.rounds = {.seconds = 0.0, .fewest = 1, .most = 1};
@@ -175,71 +155,61 @@ std::map<std::pair<std::string, std::string>, double> volume_to_random_plain(con
         std::vector<double> random;
         for (const OrderRow& one : rows)
             if (one.of.order == "plain" && one.of.precision == row.of.precision && one.sequence.starts_with("random_"))
-                random.push_back(one.volume_abs_change_24_pct);
+                random.push_back(one.after_24.volume_abs_change_pct);
         EXPECT_EQ(random.size(), 5u);
-        ratios[{row.of.order, row.of.precision}] = row.volume_abs_change_24_pct / analysis::median(random);
+        ratios[{row.of.order, row.of.precision}] = row.after_24.volume_abs_change_pct / analysis::median(random);
     }
     return ratios;
 }
 
-// The order `grouped` is faster, and its answer is worse than that of random orders. `poses` has the bits of `ordered`.
-TEST(RandomOrders, OrderedIsNoWorseThanTheirMedianOnTheTwistedLimbAndGroupedIs)
+// `poses` has the bits of `ordered`.
+void expect_ordered_is_no_worse(const std::map<std::pair<std::string, std::string>, double>& ratios)
 {
-    const auto ratios = volume_to_random_plain("limb", 150.0);
-    for (const std::string precision : {"f32", "f64"}) {
-        for (const std::string order : {"ordered", "poses"}) EXPECT_LE(ratios.at({order, precision}), 1.0) << order << ", " << precision;
-        EXPECT_GT(ratios.at({"grouped", precision}), 1.0) << precision;
-    }
-}
-
-TEST(RandomOrders, OrderedIsNoWorseThanTheirMedianOnTheTaperedLimb)
-{
-    const auto ratios = volume_to_random_plain("tapered_limb", 165.0);
     for (const std::string precision : {"f32", "f64"})
         for (const std::string order : {"ordered", "poses"}) EXPECT_LE(ratios.at({order, precision}), 1.0) << order << ", " << precision;
 }
 
-const pbs::Character limb = experiments::tapered_limb();
-
-TEST(TaperedLimb, Counts)
+// The order `grouped` is faster, and its answer is worse than that of random orders.
+TEST(RandomOrders, OrderedIsNoWorseThanTheirMedianOnTheTwistedLimbAndGroupedIs)
 {
+    const auto ratios = volume_to_random_plain("limb", 150.0);
+    expect_ordered_is_no_worse(ratios);
+    for (const std::string precision : {"f32", "f64"}) EXPECT_GT(ratios.at({"grouped", precision}), 1.0) << precision;
+}
+
+TEST(RandomOrders, OrderedIsNoWorseThanTheirMedianOnTheTaperedLimb)
+{
+    expect_ordered_is_no_worse(volume_to_random_plain("tapered_limb", 165.0));
+}
+
+TEST(TaperedLimb, IsAGridOfPositiveTetsOnTwoBones)
+{
+    const pbs::Character limb = tapered_limb();
     EXPECT_EQ(limb.mesh.rest.rows(), 25 * 9 * 9);
     EXPECT_EQ(limb.mesh.tets.rows(), 6 * 24 * 8 * 8);
     // V - E + F - T = 1 of a ball, with 2 F = 4 T + B; each outer square has two of the B triangles.
     const int boundary = 2 * (2 * 8 * 8 + 4 * 24 * 8);
     EXPECT_EQ(pbs::edges_of(limb.mesh.tets).rows(), 2025 + 9216 + boundary / 2 - 1);
-}
-
-TEST(TaperedLimb, EveryTetHasAPositiveVolume)
-{
     EXPECT_GT(pbs::tet_volumes(limb.mesh.rest, limb.mesh.tets).minCoeff(), 0.0);
+    EXPECT_EQ(limb.skeleton.bones.size(), 2u);
+    EXPECT_EQ(limb.weights.vertices(), 2025);
+    EXPECT_EQ(limb.binding.distance.size(), 2025);
 }
 
-// The outline of a layer has 32 points on a circle. Its area is below that of the disc and above that of the inscribed square, which has
-// the share 2 / pi of the disc. Frustum: pi (R^2 + R r + r^2) / 3 times its length.
-TEST(TaperedLimb, VolumeIsNearlyThatOfTheFrustum)
+// The outline of a layer has 32 points on a circle: u^2 (1 - v^2 / 2) + v^2 (1 - u^2 / 2) = 1 where |u| = 1. Its area is below that of the
+// disc and above that of the inscribed square, which has the share 2 / pi of the disc. Frustum: pi (R^2 + R r + r^2) / 3 times its length.
+TEST(TaperedLimb, IsNearlyAFrustum)
 {
-    const double frustum = std::numbers::pi * (0.24 * 0.24 + 0.24 * 0.12 + 0.12 * 0.12) / 3.0 * 2.0;
-    const double volume = pbs::tet_volumes(limb.mesh.rest, limb.mesh.tets).sum();
-    EXPECT_LT(volume, frustum);
-    EXPECT_GT(volume, 2.0 / std::numbers::pi * frustum);
-}
-
-// The outline lies on the circle to the last digits: u^2 (1 - v^2 / 2) + v^2 (1 - u^2 / 2) = 1 where |u| = 1.
-TEST(TaperedLimb, TheOutlineOfALayerIsACircle)
-{
+    const pbs::Character limb = tapered_limb();
     for (const int i : {0, 12, 24})
         for (int k = 0; k < 9; ++k) {
             const Eigen::RowVector3d point = limb.mesh.rest.row(i * 81 + k);  // u = -1
             EXPECT_NEAR(std::hypot(point(1), point(2)), 0.24 - 0.12 * i / 24, 1e-15);
         }
-}
-
-TEST(TaperedLimb, BindsToTwoBones)
-{
-    EXPECT_EQ(limb.skeleton.bones.size(), 2u);
-    EXPECT_EQ(limb.weights.vertices(), 2025);
-    EXPECT_EQ(limb.binding.distance.size(), 2025);
+    const double frustum = std::numbers::pi * (0.24 * 0.24 + 0.24 * 0.12 + 0.12 * 0.12) / 3.0 * 2.0;
+    const double volume = pbs::tet_volumes(limb.mesh.rest, limb.mesh.tets).sum();
+    EXPECT_LT(volume, frustum);
+    EXPECT_GT(volume, 2.0 / std::numbers::pi * frustum);
 }
 
 }  // namespace

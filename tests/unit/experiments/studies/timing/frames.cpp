@@ -4,26 +4,26 @@
 
 #include "pbs/skinning/pose.hpp"
 #include "tests/support/limb_character.hpp"
+#include "tests/support/rounding_error.hpp"
 
 #include <gtest/gtest.h>
+
+#include <map>
 
 namespace {
 
 using namespace experiments;
 
-// Expected: a whole takes longer than its parts, and every variant has the same number of rounds. The times themselves are not compared,
-// since others use the machine too.
-
+// A whole takes longer than its parts, and every variant has the same number of rounds.
 TEST(FrameTiming, OfEveryVariantByTurns)
 {
     const pbs::Character limb = test_support::character_of(test_support::two_bone_limb({20, 6, 6}, pbs::Vec3::UnitZ(), 0.0));
     const pbs::Motion motion = pbs::joint_sweep(limb.skeleton, 1, pbs::Vec3::UnitZ(), 60.0, 4, 0.01);  // fewer frames than the turns need
-    const auto timings = time_frames(limb, motion, {.k_jiggle = 0.5, .frames_per_turn = 3}, {.seconds = 0.0, .fewest = 5, .most = 5});
+    const auto timings = time_frames(limb, motion, 0.5, {.seconds = 0.0, .fewest = 5, .most = 5}, 3);
     ASSERT_EQ(timings.size(), 3u);
-    EXPECT_EQ(timings[0].variant + timings[0].precision, "plainf64");
-    EXPECT_EQ(timings[1].variant + timings[1].precision, "plainf32");
-    EXPECT_EQ(timings[2].variant + timings[2].precision, "orderedf32");
+    const char* const variants[] = {"plainf64", "plainf32", "orderedf32"};
     for (const FrameTiming& timing : timings) {
+        EXPECT_EQ(timing.variant + timing.precision, variants[&timing - timings.data()]);
         EXPECT_EQ(timing.total_ms.rounds, 5);
         EXPECT_GT(timing.lbs_ms.median, 0.0);
         EXPECT_GT(timing.bind_ms.median, 0.0);
@@ -36,8 +36,6 @@ TEST(FrameTiming, OfEveryVariantByTurns)
         EXPECT_FALSE(timing.drawn_wall_ms);
     }
 }
-
-// Expected values follow from made-up timings and from Table 1 as the paper prints it; all of them are single quotients.
 
 Spread spread(double median)
 {
@@ -55,24 +53,20 @@ FrameTiming of_variant(const char* variant, const char* precision, double total_
     return timing;
 }
 
-TimedMesh man_mesh(const std::string& model)
+// Three variants, the first one with a surface.
+std::vector<TimingRow> rows_of_mesh(const std::string& model = "Man", int vertices = 1654, double wall_ms = 2.0)
 {
-    TimedMesh mesh{.name = "man_1654", .body = "man", .model = model};
-    mesh.vertices = 1654;
-    mesh.edges = 3 * 6342;
-    mesh.tets = 2 * 4998;
-    mesh.cpu_model = "a processor";
-    return mesh;
-}
-
-std::vector<FrameTiming> three_variants()
-{
-    return {of_variant("plain", "f64", 1.6, 2.0), of_variant("plain", "f32", 1.0, 4.0), of_variant("ordered", "f32", 0.5, 1.0)};
-}
-
-std::vector<TimingRow> man(const std::string& model = "Man")
-{
-    return timing_rows(man_mesh(model), three_variants());
+    std::vector<FrameTiming> timings = {of_variant("plain", "f64", 1.6, wall_ms), of_variant("plain", "f32", 1.0, 4.0),
+                                        of_variant("ordered", "f32", 0.5, 1.0)};
+    timings[0].drawn_wall_ms = spread(1.25 * wall_ms);
+    return timing_rows({.mesh = "man_1654",
+                        .body = "man",
+                        .model = model,
+                        .vertices = vertices,
+                        .edges = 3 * 6342,
+                        .tets = 2 * 4998,
+                        .cpu_model = "a processor"},
+                       timings);
 }
 
 double measurement(const std::vector<analysis::Measurement>& measured, const std::string& quantity, const analysis::CaseKey& of = {})
@@ -85,32 +79,25 @@ double measurement(const std::vector<analysis::Measurement>& measured, const std
 
 TEST(TimingTable, ComparesWithTableOne)
 {
-    const analysis::CsvTable table = table_of(timing_columns, man());
-    EXPECT_EQ(table.number(0, "vertices_over_table_1"), 1.0);
-    EXPECT_EQ(table.number(0, "edges_over_table_1"), 3.0);
-    EXPECT_EQ(table.number(0, "tets_over_table_1"), 2.0);
-    EXPECT_EQ(table.number(0, "frames_per_s"), 500.0);
-    EXPECT_EQ(table.number(0, "total_wall_ms_high"), 4.0);
+    const analysis::CsvTable table = table_of(timing_columns, rows_of_mesh());
+    for (const auto& [column, value] : std::map<std::string, double>{{"vertices_over_table_1", 1.0},
+                                                                     {"edges_over_table_1", 3.0},
+                                                                     {"tets_over_table_1", 2.0},
+                                                                     {"frames_per_s", 500.0},
+                                                                     {"drawn_frames_per_s", 400.0},
+                                                                     {"total_wall_ms_high", 4.0},
+                                                                     {"paper_ms", 1e3 / 90.5},
+                                                                     {"paper_ct_ms", 0.52}})
+        EXPECT_EQ(table.number(0, column), value) << column;
     EXPECT_EQ(table.text_at(0, "cpu_model"), "a processor");
-    EXPECT_EQ(table.number(0, "paper_ms"), 1e3 / 90.5);
-    EXPECT_EQ(table.number(0, "paper_ct_ms"), 0.52);
     EXPECT_FALSE(table.number_or_nothing(0, "surface_ms"));
-    EXPECT_FALSE(table.number_or_nothing(0, "drawn_frames_per_s"));
-}
-
-TEST(TimingTable, CountsTheSurfaceWhereThereIsOne)
-{
-    std::vector<FrameTiming> timings = three_variants();
-    timings[0].drawn_wall_ms = spread(2.5);
-    const analysis::CsvTable table = table_of(timing_columns, timing_rows(man_mesh("Man"), timings));
-    EXPECT_EQ(table.number(0, "drawn_frames_per_s"), 400.0);
-    EXPECT_EQ(table.number(0, "frames_per_s"), 500.0);
+    EXPECT_FALSE(table.number_or_nothing(1, "drawn_frames_per_s")) << "it has no surface";
 }
 
 // By wall time; plain and f64 alone are judged.
 TEST(TimingTable, ValuesOfTheClaim)
 {
-    const auto measured = timing_measurements(man());
+    const auto measured = timing_measurements(rows_of_mesh());
     EXPECT_EQ(measured[0].quantity, "frames_per_s");
     EXPECT_EQ(text_of(measured[0].of), "man, 01_01, pbs, plain, f64, vertices 1654, model Man");
     EXPECT_EQ(measured[0].value, 500.0);
@@ -120,40 +107,22 @@ TEST(TimingTable, ValuesOfTheClaim)
     EXPECT_EQ(measurement(measured, "frames_per_s", {.order = "plain", .precision = "f32"}), 250.0);
     EXPECT_EQ(measurement(measured, "frames_per_s", {.order = "ordered", .precision = "f32"}), 1000.0);
     EXPECT_EQ(measurement(measured, "frames_per_s_over_table_1"), 500.0 / 90.5);
-    EXPECT_TRUE(timing_measurements(man("")).empty());  // a step of the ladder
-}
-
-// Expected values are those of the reported table.
-
-std::vector<TimingRow> human(const std::string& model, int vertices, double wall_ms)
-{
-    TimedMesh mesh{.name = "human", .body = "human", .model = model};
-    mesh.vertices = vertices;
-    mesh.cpu_model = "a processor";
-    FrameTiming timing{.variant = "plain", .precision = "f64"};
-    for (Spread FrameTiming::*part : {&FrameTiming::lbs_ms, &FrameTiming::bind_ms, &FrameTiming::stretch_ms, &FrameTiming::volume_ms,
-                                      &FrameTiming::rest_ms, &FrameTiming::total_ms})
-        timing.*part = {0.25, 0.2, 0.3, 5};
-    timing.total_wall_ms = {wall_ms, wall_ms, wall_ms, 5};
-    timing.drawn_wall_ms = {2.0 * wall_ms, wall_ms, wall_ms, 5};
-    return timing_rows(mesh, {timing});
-}
-
-TEST(TimingReport, HasFrameRatesThoseOfThePaperAndTheProcessor)
-{
-    const auto rows = human("Man", 1654, 2.0);
-    for (const std::string& text : {timing_markdown(rows), timing_text(rows)})
-        for (const char* reported : {"500", "250", "90.5", "a processor"}) EXPECT_NE(text.find(reported), std::string::npos) << reported;
+    EXPECT_TRUE(timing_measurements(rows_of_mesh("")).empty());  // a step of the ladder
 }
 
 // 1 / 30 s by wall time at 100,000 vertices, on a straight line.
-TEST(TimingReport, RealTimeEndsByWallTimeOfTheLadder)
+TEST(RealTime, EndsByWallTimeOfTheLadder)
 {
-    std::vector<TimingRow> rows = human("", 1000, 1.0 / 3.0);
-    rows.push_back(human("", 10000, 10.0 / 3.0).front());
-    rows.push_back(human("Man", 1654, 9e9).front());
-    const std::string text = timing_text(rows);
-    EXPECT_NE(text.find("30 frames per second up to 1e+05 vertices (beyond the measured sizes)"), std::string::npos) << text;
+    std::vector<TimingRow> rows = rows_of_mesh("", 1000, 1.0 / 3.0);
+    rows.push_back(rows_of_mesh("", 10000, 10.0 / 3.0).front());
+    rows.push_back(rows_of_mesh("Man", 1654, 9e9).front());
+    const std::vector<RealTimeEnd> ends = real_time_ends(rows);
+    ASSERT_EQ(ends.size(), 1u);
+    EXPECT_NEAR(ends[0].vertices, 1e5, 1e5 * test_support::rounding_error(20, 1.0));
+    EXPECT_NEAR(ends[0].exponent, 1.0, test_support::rounding_error(20, 1.0));
+    EXPECT_TRUE(ends[0].is_beyond);
+    EXPECT_NE(timing_text(rows).find("1e+05"), std::string::npos) << timing_text(rows);
+    EXPECT_TRUE(real_time_ends(rows_of_mesh()).empty()) << "a size of Table 1 is no step of the ladder";
 }
 
 }  // namespace

@@ -3,12 +3,15 @@
 #include "experiments/studies/work_precision/diagram.hpp"
 
 #include "experiments/deformers/registry.hpp"
+#include "experiments/studies/study.hpp"
 #include "tests/support/comparison_records.hpp"
 #include "tests/support/rounding_error.hpp"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <set>
 
@@ -33,13 +36,17 @@ SettingKey tuned(SettingKey key, const std::string& setting)
     return key;
 }
 
+// In the order of the cases.
 TEST(CaseSplit, AlternatesWithinEachBodyAndOnlyEvaluatesALonePose)
 {
-    using enum Half;
-    EXPECT_EQ(halves_of({"limb", "limb", "limb", "limb"}), (std::vector{training, evaluation, training, evaluation}));
-    EXPECT_EQ(halves_of({"limb", "human", "limb", "human", "man", "human"}),
-              (std::vector{training, training, evaluation, evaluation, evaluation, training}));
-    EXPECT_TRUE(halves_of({}).empty());
+    std::map<std::string, std::vector<std::string>> halves;
+    const nlohmann::json document = cases_document("work_precision");
+    for (const nlohmann::json& one : document.at("case"))
+        for (const std::string body : one.at("bodies")) halves[body].push_back(one.at("half"));
+    EXPECT_EQ(halves.size(), 5u);
+    for (const auto& [body, of] : halves)
+        for (std::size_t i = 0; i < of.size(); ++i)
+            EXPECT_EQ(of[i], of.size() > 1 && i % 2 == 0 ? "training" : "evaluation") << body << " " << i;
 }
 
 // The geometric means of a are 20 (10 and 40), of b 16 (32 and 8), although b is worse in the first pose and in the evaluated one.
@@ -118,7 +125,7 @@ TEST(Comparisons, HaveTheBestCodeOfEachDeformerOrItsPlainOne)
 TEST(Comparisons, HaveEachDeformerOnce)
 {
     CaseRows rows;
-    for (const PointSetting& setting : point_settings(read_scene("limb_twist", {}), {.in_short = true, .quadratic = false}))
+    for (const Setting& setting : settings_of(read_scene("limb_twist", {}), {.in_short = true, .quadratic = false}))
         rows.push_back({.key = key_of(setting), .outcome = "finished"});
     const BestCodes best = best_codes({rows});
     for (const Comparison comparison : comparisons) {

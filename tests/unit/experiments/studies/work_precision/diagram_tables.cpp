@@ -21,19 +21,29 @@ using test_support::HandPoint;
 using test_support::in_f64;
 using test_support::pbs_24;
 
-TEST(DiagramTables, FrontsOfAllAndOfEachDeformer)
+// Of the front of all points by the error.
+std::vector<std::string> of_front(const CsvTable& fronts, const std::string& column)
 {
-    const CsvTable fronts = analysis::parse_csv(fronts_table({diagram_of_seven(30.0)}).text(), "fronts.csv");
-    std::vector<std::string> all;
+    std::vector<std::string> cells;
     for (int row = 0; row < fronts.rows(); ++row)
         if (fronts.text_at(row, "front") == "all" && fronts.text_at(row, "measure") == "error_joint_pct")
-            all.push_back(fronts.text_at(row, "deformer"));
-    EXPECT_EQ(all, (std::vector<std::string>{"lbs", "dqs", "delta_mush", "xpbd", "pbs", "fem_corotational"}));
+            cells.push_back(fronts.text_at(row, column));
+    return cells;
+}
+
+TEST(DiagramTables, FrontsOfAllAndOfEachDeformer)
+{
+    using Cells = std::vector<std::string>;
+    const CsvTable fronts = analysis::parse_csv(fronts_table({diagram_of_seven(30.0)}).text(), "fronts.csv");
+    EXPECT_EQ(of_front(fronts, "deformer"), (Cells{"lbs", "dqs", "delta_mush", "xpbd", "pbs", "fem_corotational"}));
     // Joints and L2 are the same here; the maximum is unknown. The volume falls with time, so all points are on its front.
     EXPECT_EQ(fronts.rows(), 2 * (6 + 7) + (7 + 7));
     EXPECT_EQ(fronts.text_at(0, "ms_q3"), "");
     EXPECT_EQ(fronts.text_at(fronts.rows() - 1, "measure"), "volume_abs_change_pct");
     EXPECT_EQ(fronts.number(fronts.rows() - 1, "value"), 0.1);
+    // LBS is alone; DQS by 10, delta mush by 17, XPBD by 8, PBS by 5 and FEM by 15 points, of which 12 are needed.
+    EXPECT_EQ(of_front(fronts_table({diagram_of_seven(33.0)}), "decision"),
+              (Cells{"", "reference_error", "decided", "reference_error", "reference_error", "decided"}));
 }
 
 // One against another: outcome, from, decision.
@@ -113,17 +123,6 @@ TEST(DiagramTables, WithinABudgetRowsHaveTheKeyOfTheirSetting)
     EXPECT_EQ(rows_of(budget_columns, table)[row].decision, xpbd->decision);
 }
 
-TEST(DiagramTables, TheFrontOfAllStatesWhetherItsPointsAreDecided)
-{
-    const CsvTable fronts = analysis::parse_csv(fronts_table({diagram_of_seven(33.0)}).text(), "fronts.csv");
-    std::vector<std::string> decisions;
-    for (int row = 0; row < fronts.rows(); ++row)
-        if (fronts.text_at(row, "front") == "all" && fronts.text_at(row, "measure") == "error_joint_pct")
-            decisions.push_back(fronts.text_at(row, "decision"));
-    // LBS is alone; DQS by 10, delta mush by 17, XPBD by 8, PBS by 5 and FEM by 15 points, of which 12 are needed.
-    EXPECT_EQ(decisions, (std::vector<std::string>{"", "reference_error", "decided", "reference_error", "reference_error", "decided"}));
-}
-
 SettingKey pbs(int iterations)
 {
     return {.deformer = "pbs", .iterations = iterations, .precision = "f32", .packed = true};
@@ -141,30 +140,27 @@ std::vector<CaseRows> profiled_cases()
                       Half::training)};
 }
 
-TEST(DataProfiles, RiseAtTheTimeAtWhichAPoseIsSolved)
+using Steps = std::vector<std::tuple<double, double, int, int, int>>;  // tolerance, from, solved, certain, poses
+
+Steps steps_of_pbs(const std::vector<CaseRows>& cases)
 {
-    std::vector<std::tuple<double, double, int, int>> steps;
-    for (const ProfileStep& step : data_profiles(hand_diagrams(profiled_cases())))
+    Steps steps;
+    for (const ProfileStep& step : data_profiles(hand_diagrams(cases)))
         if (step.comparison == Comparison::packed_f32 && step.group == "pbs")
-            steps.emplace_back(step.tolerance_pct, step.ms, step.solved, step.poses);
-    const std::vector<std::tuple<double, double, int, int>> expected = {
-        {10.0, 1.0, 1, 3}, {10.0, 4.0, 2, 3}, {5.0, 4.0, 2, 3}, {2.0, 4.0, 1, 3}};
-    EXPECT_EQ(steps, expected);
+            steps.emplace_back(step.tolerance_pct, step.ms, step.solved, step.certain, step.poses);
+    return steps;
 }
 
-// The bound of 3 % leaves 7 % of 10 %: certain are the first two poses after 4 ms.
-TEST(DataProfiles, StateHowManyPosesAreCertain)
+// The bound of 3 % leaves 7 % of 10 %: certain are the first two poses after 4 ms. One of 6 % leaves nothing of 5 %.
+TEST(DataProfiles, RiseAtTheTimeAtWhichAPoseIsSolved)
 {
+    const Steps solved = {{10.0, 1.0, 1, 0, 3}, {10.0, 4.0, 2, 1, 3}, {5.0, 4.0, 2, 0, 3}, {2.0, 4.0, 1, 0, 3}};
+    EXPECT_EQ(steps_of_pbs(profiled_cases()), solved);
     std::vector<CaseRows> with_bound = profiled_cases();
     for (CaseRows& rows : with_bound)
         for (PointRow& row : rows) row.reference_error_joint_pct = 3.0;
-    std::vector<std::tuple<double, double, int, int>> steps;
-    for (const ProfileStep& step : data_profiles(hand_diagrams(with_bound)))
-        if (step.comparison == Comparison::packed_f32 && step.group == "pbs")
-            steps.emplace_back(step.tolerance_pct, step.ms, step.solved, step.certain);
-    const std::vector<std::tuple<double, double, int, int>> expected = {
-        {10.0, 1.0, 1, 0}, {10.0, 4.0, 2, 2}, {5.0, 4.0, 2, 1}, {2.0, 4.0, 1, 0}};
-    EXPECT_EQ(steps, expected);
+    const Steps certain = {{10.0, 1.0, 1, 0, 3}, {10.0, 4.0, 2, 2, 3}, {5.0, 4.0, 2, 1, 3}, {2.0, 4.0, 1, 0, 3}};
+    EXPECT_EQ(steps_of_pbs(with_bound), certain);
 }
 
 TEST(DataProfiles, HaveNoPoseWithoutAReference)
@@ -179,11 +175,10 @@ TEST(DataProfiles, HaveNoPoseWithoutAReference)
 
 using Found = std::tuple<Comparison, std::string, std::string, std::string, int, int>;
 
-std::vector<Found> found_in(const std::vector<CaseRows>& cases)
+std::vector<Found> found_in(const std::vector<Omission>& omissions)
 {
     std::vector<Found> found;
-    for (const Omission& one : omissions_of(cases))
-        found.emplace_back(one.comparison, one.of, one.deformer, one.why, one.missing, one.points);
+    for (const Omission& one : omissions) found.emplace_back(one.comparison, one.of, one.deformer, one.why, one.missing, one.points);
     return found;
 }
 
@@ -210,7 +205,7 @@ TEST(Omissions, NameEachReasonWithItsPoints)
                                          {Comparison::plain_f64, "limb_b", "lbs", "not_run", 0, 0},
                                          {Comparison::plain_f64, "limb_b", "vbd", "no_such_code", 0, 0},
                                          {Comparison::plain_f64, "limb_b", "fem_linear", "not_run", 0, 0}};
-    EXPECT_EQ(found_in({first, second}), expected);
+    EXPECT_EQ(found_in(omissions_of({first, second})), expected);
     EXPECT_EQ(omissions_of({first})[1].reason, "900 ms on the rung before, 300 ms allowed");
 }
 
@@ -219,7 +214,7 @@ TEST(Omissions, NameAPoseWithoutAReference)
     CaseRows rows = hand_case({.body = "limb", .pose = "a"}, {{{.deformer = "lbs", .precision = "f64"}, 0.1, {}}, hand_reference()});
     rows.back().outcome = "not_reached";
     rows.back().reason = "worst tet 7 of volume ratio -0.1, 1 inverted";
-    EXPECT_EQ(found_in({rows}).front(), Found(Comparison::packed_f32, "limb_a", "lbs", "no_reference", 1, 1));
+    EXPECT_EQ(found_in(omissions_of({rows})).front(), Found(Comparison::packed_f32, "limb_a", "lbs", "no_reference", 1, 1));
     EXPECT_EQ(omissions_of({rows}).front().reason, "worst tet 7 of volume ratio -0.1, 1 inverted");
 }
 
@@ -234,15 +229,12 @@ TEST(Omissions, OfAMeanAreThoseOfItsPoses)
         hand_case({.body = "limb", .pose = "a"}, {{lbs, 0.1, 9.0}, {vbd, 1.0, 9.0}, diverged, hand_reference()}),
         hand_case({.body = "limb", .pose = "b"}, {{vbd, 1.0, 9.0}, diverged, hand_reference()}),
         hand_case({.body = "limb", .pose = "c"}, {{vbd, 1.0, 9.0}, diverged, hand_reference()}, Half::training)};
-    std::vector<Found> found;
-    for (const Omission& one : omissions_of_means(cases, test_support::hand_diagrams(cases)))
-        found.emplace_back(one.comparison, one.of, one.deformer, one.why, one.missing, one.points);
     const std::string mean = "mean_of_2_evaluated_poses";
     const std::vector<Found> expected = {{Comparison::packed_f32, mean, "vbd", "not_finite", 2, 4},
                                          {Comparison::packed_f32, mean, "lbs", "not_run", 0, 1},
                                          {Comparison::plain_f64, mean, "vbd", "not_finite", 2, 4},
                                          {Comparison::plain_f64, mean, "lbs", "not_run", 0, 1}};
-    EXPECT_EQ(found, expected);
+    EXPECT_EQ(found_in(omissions_of_means(cases, hand_diagrams(cases))), expected);
 }
 
 // A point of vbd diverges in one of four poses, in each of which it has two points.

@@ -32,9 +32,12 @@ PointRow change_point(const CaseKey& of, const std::string& change, const std::s
 }
 
 // The baseline takes 1, 6 and 24 ms for 4, 24 and 96 iterations and has an error of 10 % throughout.
-void add_baseline(std::vector<PointRow>& points, const CaseKey& of)
+std::vector<PointRow> baseline_in(const std::vector<CaseKey>& poses)
 {
-    for (const int iterations : budget_iterations) points.push_back(change_point(of, baseline, "", iterations, iterations / 4.0, 10.0));
+    std::vector<PointRow> points;
+    for (const CaseKey& of : poses)
+        for (const int iterations : budget_iterations) points.push_back(change_point(of, baseline, "", iterations, iterations / 4.0, 10.0));
+    return points;
 }
 
 const EqualTimeRow* row_of(const std::vector<EqualTimeRow>& rows, int budget, const std::string& change, const CaseKey& of)
@@ -47,41 +50,42 @@ const EqualTimeRow* row_of(const std::vector<EqualTimeRow>& rows, int budget, co
 
 TEST(EqualTime, InterpolatesInTheLogarithmOfTime)
 {
-    std::vector<PointRow> points;
-    add_baseline(points, limb_twist_pose);
+    std::vector<PointRow> points = baseline_in({limb_twist_pose});
     points.push_back(change_point(limb_twist_pose, "slower", "", 1, 3.0, 9.0));
     points.push_back(change_point(limb_twist_pose, "slower", "", 5, 12.0, 5.0));  // 6 ms are halfway between 3 and 12
     const std::vector<EqualTimeRow> rows = at_equal_time(points);
     const double rounding = test_support::rounding_error(10, 10.0);
     EXPECT_EQ(row_of(rows, 4, "slower", limb_twist_pose), nullptr) << "its first point takes longer than 1 ms";
-    ASSERT_NE(row_of(rows, 24, "slower", limb_twist_pose), nullptr);
-    EXPECT_NEAR(row_of(rows, 24, "slower", limb_twist_pose)->error_pct, 7.0, rounding);
-    EXPECT_NEAR(row_of(rows, 24, "slower", limb_twist_pose)->iterations, 3.0, rounding);
-    EXPECT_NEAR(row_of(rows, 24, "slower", limb_twist_pose)->gain_pct(), 3.0, rounding);
-    EXPECT_EQ(row_of(rows, 96, "slower", limb_twist_pose)->error_pct, 5.0) << "after the last point the error stays";
-    EXPECT_EQ(row_of(rows, 96, "slower", limb_twist_pose)->iterations, 5.0);
+    const EqualTimeRow *halfway = row_of(rows, 24, "slower", limb_twist_pose), *last = row_of(rows, 96, "slower", limb_twist_pose);
+    ASSERT_TRUE(halfway && last);
+    EXPECT_NEAR(halfway->error_pct, 7.0, rounding);
+    EXPECT_NEAR(halfway->iterations, 3.0, rounding);
+    EXPECT_NEAR(halfway->gain_pct(), 3.0, rounding);
+    EXPECT_EQ(last->error_pct, 5.0) << "after the last point the error stays";
+    EXPECT_EQ(last->iterations, 5.0);
 }
 
 TEST(EqualTime, ChoosesASettingOnTheOtherPoses)
 {
-    std::vector<PointRow> points;
-    for (const CaseKey& of : {limb_twist_pose, limb_bend_pose, human_crouch_pose}) {
-        add_baseline(points, of);
-        points.push_back(change_point(of, "change", "a", 1, 0.5, of == limb_twist_pose ? 1.0 : 8.0));
-        points.push_back(change_point(of, "change", "b", 1, 0.5, of == limb_twist_pose ? 9.0 : 4.0));
+    const std::vector<CaseKey> poses = {limb_twist_pose, limb_bend_pose, human_crouch_pose};
+    std::vector<PointRow> points = baseline_in(poses);
+    for (const CaseKey& of : poses) {
+        points.push_back(change_point(of, "change", "b", 1, 0.5, of == limb_twist_pose ? 1.0 : 8.0));
+        points.push_back(change_point(of, "change", "c", 1, 0.5, of == limb_twist_pose ? 9.0 : 4.0));
     }
+    points.push_back(change_point(limb_twist_pose, "change", "a_only_here", 1, 0.5, 0.1));
     const std::vector<EqualTimeRow> rows = at_equal_time(points);
-    EXPECT_EQ(row_of(rows, 24, "change", limb_twist_pose)->setting, "b") << "a is best in this pose and worst in the others";
+    EXPECT_EQ(row_of(rows, 24, "change", limb_twist_pose)->setting, "c") << "b is best in this pose and worst in the others";
     EXPECT_EQ(row_of(rows, 24, "change", limb_twist_pose)->error_pct, 9.0);
-    EXPECT_EQ(row_of(rows, 24, "change", limb_bend_pose)->setting, "a");
-    EXPECT_EQ(row_of(rows, 24, "change", human_crouch_pose)->setting, "a");
+    EXPECT_EQ(row_of(rows, 24, "change", limb_bend_pose)->setting, "b");
+    EXPECT_EQ(row_of(rows, 24, "change", human_crouch_pose)->setting, "b");
 }
 
 TEST(EqualTime, EachBodyChoosesOnItsOwnPosesToo)
 {
-    std::vector<PointRow> points;
-    for (const CaseKey& of : {limb_twist_pose, limb_bend_pose, human_crouch_pose, human_standing_pose}) {
-        add_baseline(points, of);
+    const std::vector<CaseKey> poses = {limb_twist_pose, limb_bend_pose, human_crouch_pose, human_standing_pose};
+    std::vector<PointRow> points = baseline_in(poses);
+    for (const CaseKey& of : poses) {
         points.push_back(change_point(of, "change", "of_the_limb", 1, 0.5, of.body == "limb" ? 1.0 : 8.0));
         points.push_back(change_point(of, "change", "of_the_human", 1, 0.5, of.body == "limb" ? 9.0 : 1.0));
     }
@@ -92,31 +96,24 @@ TEST(EqualTime, EachBodyChoosesOnItsOwnPosesToo)
         }
 }
 
-TEST(EqualTime, APoseWithoutAnErrorHasNoValue)
+// A rung without a time, as one whose frames are not finite, takes longer than any budget.
+TEST(EqualTime, APoseWithoutAnErrorOrATimeHasNoValue)
 {
-    std::vector<PointRow> points;
-    add_baseline(points, limb_twist_pose);
+    std::vector<PointRow> points = baseline_in({limb_twist_pose});
     points.push_back(change_point(limb_twist_pose, "broken", "", 1, 0.5, std::nan("")));
-    EXPECT_EQ(row_of(at_equal_time(points), 24, "broken", limb_twist_pose), nullptr);
-}
-
-TEST(EqualTime, ASettingThatIsMissingInAnotherPoseIsNotChosen)
-{
-    std::vector<PointRow> points;
-    for (const CaseKey& of : {limb_twist_pose, limb_bend_pose}) {
-        add_baseline(points, of);
-        points.push_back(change_point(of, "change", "b", 1, 0.5, 5.0));
-    }
-    points.push_back(change_point(limb_twist_pose, "change", "a", 1, 0.5, 1.0));
-    EXPECT_EQ(row_of(at_equal_time(points), 24, "change", limb_twist_pose)->setting, "b");
+    points.push_back(change_point(limb_twist_pose, "diverging", "", 1, 0.5, 8.0));
+    points.push_back(change_point(limb_twist_pose, "diverging", "", 4, 1.0, std::nan("")));
+    points.back().ms_median.reset();
+    for (const char* change : {"broken", "diverging"})
+        EXPECT_EQ(row_of(at_equal_time(points), 24, change, limb_twist_pose), nullptr) << change;
 }
 
 std::vector<PointRow> some_poses(const std::vector<double>& good, const std::vector<double>& better, double bound_pct)
 {
-    std::vector<PointRow> points;
-    const std::vector<CaseKey> poses = {limb_twist_pose, limb_bend_pose, human_crouch_pose, human_standing_pose};
+    std::vector<CaseKey> poses = {limb_twist_pose, limb_bend_pose, human_crouch_pose, human_standing_pose};
+    poses.resize(good.size());
+    std::vector<PointRow> points = baseline_in(poses);
     for (std::size_t i = 0; i < good.size(); ++i) {
-        add_baseline(points, poses[i]);
         points.push_back(change_point(poses[i], "good", "", 1, 0.5, good[i], bound_pct));
         points.push_back(change_point(poses[i], "better", "", 1, 0.5, better[i], bound_pct));
         points.push_back(change_point(poses[i], control, "k_bind_0.5", 1, 0.5, 0.5, bound_pct));
@@ -156,17 +153,13 @@ TEST(Gains, AreUndecidedWithinTheReferencesOwnError)
     EXPECT_EQ(gain_of(gains_of(at_equal_time(unknown)), "better", baseline).decision, GainDecision::reference_error);
 }
 
-TEST(Gains, AreUndecidedWhereThePosesDisagree)
+TEST(Gains, AreUndecidedWhereThePosesDisagreeOrAreFewerThanFour)
 {
     const std::vector<GainRow> gains = gains_of(at_equal_time(some_poses({2.0, 18.0, 5.0, 11.0}, {4.0, 17.0, 6.0, 12.0}, 0.01)));
     EXPECT_EQ(gain_of(gains, "good", baseline).decision, GainDecision::poses_disagree);
-}
-
-TEST(Gains, OfFewerThanFourPosesAreUndecided)
-{
-    const std::vector<GainRow> gains = gains_of(at_equal_time(some_poses({8.0, 7.0, 6.0}, {4.0, 5.0, 3.0}, 0.01)));
-    EXPECT_GT(*gain_of(gains, "better", baseline).gain_low_pct, 0.0);
-    EXPECT_EQ(gain_of(gains, "better", baseline).decision, GainDecision::few_poses);
+    const std::vector<GainRow> of_three = gains_of(at_equal_time(some_poses({8.0, 7.0, 6.0}, {4.0, 5.0, 3.0}, 0.01)));
+    EXPECT_GT(*gain_of(of_three, "better", baseline).gain_low_pct, 0.0);
+    EXPECT_EQ(gain_of(of_three, "better", baseline).decision, GainDecision::few_poses);
 }
 
 TEST(Gains, AreThoseOfEachBodyToo)
@@ -185,17 +178,6 @@ TEST(Gains, ChangesThatAreTooSlowInSomePoseAreNotRanked)
     EXPECT_EQ(gain_of(gains, "in_one_pose", baseline).poses, 1);
     EXPECT_FALSE(gain_of(gains, "in_one_pose", baseline).gain_low_pct) << "one pose has no interval";
     EXPECT_EQ(gain_of(gains, "better", "good").poses, 4);
-}
-
-// A change that takes longer than any budget after its first iterations, as one whose frames are not finite does, has no value there.
-TEST(EqualTime, ARungWithoutATimeTakesLongerThanAnyBudget)
-{
-    std::vector<PointRow> points;
-    add_baseline(points, limb_twist_pose);
-    points.push_back(change_point(limb_twist_pose, "diverging", "", 1, 0.5, 8.0));
-    points.push_back(change_point(limb_twist_pose, "diverging", "", 4, 1.0, std::nan("")));
-    points.back().ms_median.reset();
-    EXPECT_EQ(row_of(at_equal_time(points), 24, "diverging", limb_twist_pose), nullptr);
 }
 
 }  // namespace

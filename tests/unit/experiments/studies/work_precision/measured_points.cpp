@@ -73,10 +73,10 @@ TEST(PointSettings, AreEachOnce)
     range.without_fem = {5000};
     range.refined = true;
     range.quadratic_up_to = 500;
-    const std::vector<PointSetting> settings = point_settings(read_scene("limb_twist", {}), range);
+    const std::vector<Setting> settings = settings_of(read_scene("limb_twist", {}), range);
     std::set<SettingKey> keys;
     std::map<std::string, int> of_deformer;
-    for (const PointSetting& setting : settings) {
+    for (const Setting& setting : settings) {
         EXPECT_TRUE(keys.insert(key_of(setting)).second) << setting.deformer << " " << setting.tuned;
         ++of_deformer[setting.deformer];
     }
@@ -87,19 +87,19 @@ TEST(PointSettings, AreEachOnce)
     EXPECT_EQ(of_deformer["fem_stable_neo_hookean"], 1);   // the limit of the deformers that minimise an energy
     SettingRange in_short = range;
     in_short.in_short = true;
-    EXPECT_LT(point_settings(read_scene("limb_twist", {}), in_short).size(), settings.size() / 2);
+    EXPECT_LT(settings_of(read_scene("limb_twist", {}), in_short).size(), settings.size() / 2);
 }
 
 // Each change at each of its settings and rungs, in one code on the case's own mesh.
 TEST(PointSettings, OfChangesToPbsAreMarked)
 {
     SettingRange range;
-    const std::size_t without = point_settings(read_scene("limb_twist", {}), range).size();
+    const std::size_t without = settings_of(read_scene("limb_twist", {}), range).size();
     range.changes = true;
     range.other_vertices = {};
-    const std::vector<PointSetting> settings = point_settings(read_scene("limb_twist", {}), range);
+    const std::vector<Setting> settings = settings_of(read_scene("limb_twist", {}), range);
     std::map<std::string, std::size_t> of_change;
-    for (const PointSetting& setting : settings)
+    for (const Setting& setting : settings)
         if (setting.change) {
             ++of_change[setting.change->name];
             EXPECT_TRUE(setting.on_own_mesh());
@@ -113,7 +113,7 @@ TEST(PointSettings, OfChangesToPbsAreMarked)
 TEST(PointSettings, OfOneRungDifferInTheirSettingAlone)
 {
     std::map<SettingKey, std::set<std::string>> of_rung;
-    for (const PointSetting& setting : point_settings(read_scene("limb_twist", {}), {}))
+    for (const Setting& setting : settings_of(read_scene("limb_twist", {}), {}))
         EXPECT_TRUE(of_rung[rung_of(key_of(setting))].insert(setting.tuned).second);
     for (const auto& [rung, settings] : of_rung)
         if (rung.deformer == "pbs") {
@@ -123,9 +123,9 @@ TEST(PointSettings, OfOneRungDifferInTheirSettingAlone)
 
 TEST(PointSettings, HaveADigestOfAllTheyHangOn)
 {
-    std::vector<PointSetting> settings = point_settings(read_scene("limb_twist", {}), {});
+    std::vector<Setting> settings = settings_of(read_scene("limb_twist", {}), {});
     const std::string digest = digest_of(settings);
-    EXPECT_EQ(digest_of(point_settings(read_scene("limb_twist", {}), {})), digest);
+    EXPECT_EQ(digest_of(settings_of(read_scene("limb_twist", {}), {})), digest);
     options_of<FemOptions>(settings.back().spec).nested_start = !options_of<FemOptions>(settings.back().spec).nested_start;
     EXPECT_NE(digest_of(settings), digest);
 }
@@ -133,25 +133,18 @@ TEST(PointSettings, HaveADigestOfAllTheyHangOn)
 TEST(FrameTimes, DropAndCountTheRoundsThatFailed)
 {
     const double failed = std::nan("");
-    const FrameTime time = frame_time({failed, 1.0, 5.0, failed, 2.0});
-    EXPECT_EQ(time.failed_rounds, 2);
-    ASSERT_TRUE(time.ms);
-    EXPECT_EQ(time.ms->rounds, 3);
-    EXPECT_EQ(time.ms->median, 2.0);
+    PointRow row;
+    add_time(row, frame_time({failed, 1.0, 5.0, failed, 2.0}));
+    EXPECT_EQ(row.failed_rounds, 2);
+    EXPECT_EQ(row.rounds, 3);
+    EXPECT_EQ(row.ms_median, 2.0);
     EXPECT_FALSE(frame_time({failed, failed}).ms);
-}
-
-TEST(PointRows, QuartilesAreOfThreeRoundsOrMore)
-{
-    const BodyMesh own(limb(300));
-    const PointSetting setting{"lbs", default_spec("lbs")};
-    const ReachedPoint point{&setting, &own, {own.character().mesh.rest, true}, own.character().mesh.rest};
-    for (const std::vector<double>& samples : {std::vector{1.0, 2.0}, {1.0, 2.0, 4.0}}) {
-        PointRow row = point_row(point);
-        add_time(row, frame_time(samples));
-        EXPECT_EQ(row.ms_q1.has_value(), samples.size() == 3u);
-        EXPECT_EQ(row.ms_q3.has_value(), samples.size() == 3u);
-        EXPECT_EQ(row.rounds, static_cast<int>(samples.size()));
+    for (const std::vector<double>& samples : {std::vector{1.0, 2.0}, {1.0, 2.0, 4.0}}) {  // quartiles are of three rounds or more
+        PointRow timed;
+        add_time(timed, frame_time(samples));
+        EXPECT_EQ(timed.ms_q1.has_value(), samples.size() == 3u);
+        EXPECT_EQ(timed.ms_q3.has_value(), samples.size() == 3u);
+        EXPECT_EQ(timed.rounds, static_cast<int>(samples.size()));
     }
 }
 
@@ -163,7 +156,7 @@ pbs::Pose at_rest(const pbs::Character& character)
 TEST(PosedDeformers, TellARoundThatDoesNotArriveAndTheOneThatSetsOutFromThere)
 {
     const BodyMesh own(limb(300));
-    const PointSetting setting{"pbs", default_spec("pbs")};
+    const Setting setting{"pbs", default_spec("pbs")};
     const pbs::Pose rest = at_rest(own.character());
     pbs::Pose nowhere = rest;
     for (Eigen::Isometry3d& bone : nowhere) bone.translation().setConstant(std::nan(""));
@@ -194,7 +187,7 @@ TEST(PosedDeformers, WithMemoryTakeTheWayToTheirFirstPose)
 }
 
 // Reference: the definition of the counters; a frame of LBS blends each vertex once.
-TEST(PosedDeformers, CountTheWorkOfOneFrame)
+TEST(PosedDeformers, OfTheProjectCountTheWorkOfOneFrameInProcessorTime)
 {
     const BodyMesh own(limb(300));
     const PosePair poses{at_rest(own.character()), at_rest(own.character())};
@@ -202,13 +195,7 @@ TEST(PosedDeformers, CountTheWorkOfOneFrame)
     lbs.reach();
     for (int turn = 0; turn < 3; ++turn) lbs.turn();
     EXPECT_EQ(lbs.work(), pbs::WorkCounters{.vertex_visits = own.character().mesh.rest.rows()});
-}
-
-TEST(PosedDeformers, OfTheProjectHaveProcessorTime)
-{
-    const BodyMesh own(limb(300));
-    const PosePair poses{at_rest(own.character()), at_rest(own.character())};
-    EXPECT_EQ(PosedDeformer({"lbs", default_spec("lbs")}, own, poses).clock(), FrameClock::processor);
+    EXPECT_EQ(lbs.clock(), FrameClock::processor);
 }
 
 TEST(PointRows, HaveColumnsOfDeformersOfTheUsersOwnOnlyWithThem)

@@ -1,10 +1,11 @@
 // The narrowest section of a twisted limb, recomputed without CGAL and without the classes of the study. Reference: the limb lies along x
 // and its twist does not move that axis, so that a station's plane is x = const; the area that a closed skin cuts out of it is half the sum
 // of (p x q)_x over the segments p q in which its outward triangles meet the plane.
-#include "experiments/studies/ambiguity/reading_values.hpp"
+#include "experiments/studies/artefacts/artefact_case.hpp"
 
 #include "experiments/scene/scene.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
+#include "experiments/studies/study.hpp"
 #include "pbs/geometry/topology.hpp"
 #include "pbs/skinning/blend.hpp"
 #include "pbs/solver/pbs_solver.hpp"
@@ -17,8 +18,6 @@
 #include <limits>
 
 namespace {
-
-using experiments::Reading;
 
 double section_area_m2(const pbs::Positions& positions, const pbs::Triangles& skin, double x)
 {
@@ -37,16 +36,6 @@ double section_area_m2(const pbs::Positions& positions, const pbs::Triangles& sk
     return std::abs(0.5 * twice);
 }
 
-experiments::ArtefactCase twisted()
-{
-    experiments::ArtefactCase of;
-    of.scene = experiments::read_scene(
-        "limb_twist", {R"(deformers.use=["lbs","pbs"])", R"(reference.name="")", "motion.angle_deg=120", "motion.frames=3"});
-    of.claim = experiments::ArtefactCase::Claim::candy_wrapper;
-    of.poses = {{2, "twist 120 deg"}};
-    return of;
-}
-
 pbs::Positions shape_by_hand(const pbs::Character& character, const pbs::Pose& pose, const pbs::PbsOptions& options)
 {
     pbs::Positions lbs;
@@ -58,24 +47,30 @@ pbs::Positions shape_by_hand(const pbs::Character& character, const pbs::Pose& p
 
 TEST(ReadingSections, HaveTheNarrowestSectionThatPlainSlicingFinds)
 {
-    const experiments::ArtefactCase of = twisted();
-    Reading own = {.place = "",
-                   .name = "own",
-                   .baseline = "own",
-                   .options = experiments::options_of<pbs::PbsOptions>(experiments::spec_of(of.scene, "pbs"))};
-    Reading looser = own;
-    looser.options.k_bind = 0.1;
-    const auto all = values_of_sections(of, {own, looser});
+    const nlohmann::json twisted = {{"name", "limb_twist"},
+                                    {"quick_s", 1.0},
+                                    {"scene", "limb_twist"},
+                                    {"what", "twist"},
+                                    {"step_deg", 120},
+                                    {"frame_deg", 60},
+                                    {"poses", 1},
+                                    {"overrides", {R"(deformers.use=["lbs","pbs","nh_p1"])", "reference.name=nh_p1"}}};
+    const experiments::StudyCase of("ambiguity", twisted, false);
+    const experiments::Overrides readings[] = {{}, {"pbs.k_bind=0.1"}};
+    const auto all = experiments::artefacts_study().read(of, {readings[0], readings[1]});
+    const experiments::Scene scene = of.scene({"motion.angle_deg=120", "motion.frames=3"});
 
-    const pbs::Character character = pbs::make_character(of.scene.character);
+    const pbs::Character character = pbs::make_character(scene.character);
     const auto joints = experiments::limb_joints(character);
     ASSERT_EQ(joints.size(), 1u);
     const double radius_m = joints[0].radius_m;
     const pbs::Triangles skin = pbs::boundary_of(character.mesh.tets);
-    const pbs::Pose pose = experiments::make_motion(of.scene.motion, character.skeleton, of.scene.file).steps.at(2);
+    const pbs::Pose pose = experiments::make_motion(scene.motion, character.skeleton, scene.file).steps.at(2);
     double narrowest[2];
     for (const int reading : {0, 1}) {
-        const pbs::Positions shape = shape_by_hand(character, pose, reading == 0 ? own.options : looser.options);
+        const experiments::Scene read = of.scene(readings[reading]);
+        const pbs::Positions shape =
+            shape_by_hand(character, pose, experiments::options_of<pbs::PbsOptions>(experiments::spec_of(read, "pbs")));
         narrowest[reading] = std::numeric_limits<double>::infinity();
         for (int station = -10; station <= 10; ++station) {
             const double x = joints[0].point.x() + station * radius_m / 5.0;  // up to 2 radii

@@ -1,17 +1,10 @@
-// C03 and C12 from a limb bent by 15 degrees, at which the correct solver restores the volume from every initial guess, iterated by the
-// correct solver and by broken ones. Reference:
-// - volume sign: every projection doubles the error that it should remove, so no initial guess comes within 0.5 % of the volume, and the
-//   error after 1000 iterations is far above that of the correct solver.
-// - volume dropped: nothing restores the volume, so no initial guess converges by volume, and 24 iterations do not suffice. C03 has no
-//   value by volume and is judged by the residual alone.
-// - bind dropped: nothing moves the body towards the pose. The rest pose satisfies all remaining constraints, stays in place and is
-//   converged at once, so LBS is not the better initial guess.
-// - nothing projected: every initial guess stays unchanged, to the bit: the rest pose has its volume at once, LBS never.
-// - stretch dropped: the bind and the volume constraints remain, and the last residual of the edges is larger.
+// C03 and C12 are judged from the values that the convergence study writes: if the paths behind them are altered, the verdicts change.
+
 #include "experiments/studies/convergence/convergence_case.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 #include "pbs/geometry/topology.hpp"
 #include "tests/support/broken_solver.hpp"
+#include "tests/support/iteration_paths.hpp"
 #include "tests/support/scalar_rounding.hpp"
 #include "tests/support/study_claims.hpp"
 
@@ -19,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 
 namespace {
@@ -29,7 +23,71 @@ using experiments::ConvergencePaths;
 using experiments::SolverStart;
 using test_support::Broken;
 using test_support::claim;
+using test_support::path_by;
 using test_support::values_of;
+using test_support::verdict_from;
+
+// The volume converges after one iteration from LBS and after two from all other initial guesses, so only the residual decides.
+ConvergencePaths by_residual(const std::vector<double>& rates)
+{
+    ConvergencePaths paths = test_support::starts_at_rates(1780, rates);
+    for (std::size_t start = 0; start < paths.paths.size(); ++start)
+        for (auto& look : paths.paths[start].looks) look.volume_abs_change_pct = look.iteration < (start ? 2 : 1) ? 1.0 : 0.0;
+    return paths;
+}
+
+ConvergencePaths altered(ConvergencePaths paths, const std::function<void(ConvergencePaths&)>& alter)
+{
+    alter(paths);
+    return paths;
+}
+
+struct JudgedPaths {
+    const char *name, *claim;
+    std::vector<ConvergencePaths> paths;
+    VerdictKind kind;
+};
+
+// Reference: the rules in experiments/verdicts/claims.toml. A rate r needs ceil(log 0.05 / log r) iterations: 24 for 0.88, 26 for 0.89.
+TEST(ConvergenceVerdict, FollowsFromThePaths)
+{
+    using enum VerdictKind;
+    const ConvergencePaths lbs_is_best = by_residual({0.8, 0.9, 0.95, 0.85}), in_24 = by_residual({0.88, 0.9, 0.9, 0.9}),
+                           in_26 = by_residual({0.89, 0.9, 0.9, 0.9});
+    const auto never_by_volume = [](ConvergencePaths& of) {
+        for (auto& path : of.paths)
+            for (auto& look : path.looks) look.volume_abs_change_pct = 1.0;
+    };
+    const auto late_from_lbs = [](ConvergencePaths& of) { of.paths[0] = path_by(1000, [](int n) { return n < 500 ? 2.0 : 1.0; }); };
+    const auto never_from_lbs = [](ConvergencePaths& of) {
+        for (auto& look : of.paths[0].looks) look.volume_abs_change_pct = 0.51;
+    };
+    const JudgedPaths cases[] = {
+        {"every other initial guess takes longer", "C03", {lbs_is_best}, reproduced},
+        {"one of them arrives earlier", "C03", {by_residual({0.8, 0.7, 0.95, 0.85})}, reproduced_only_for},
+        {"one of them arrives earlier in another order", "C03", {lbs_is_best, by_residual({0.92, 0.9, 0.95, 0.85})}, reproduced_only_for},
+        {"LBS is the slowest", "C03", {altered(by_residual({0.95, 0.8, 0.8, 0.8}), late_from_lbs)}, not_reproduced},
+        {"neither arrives in another order", "C03", {lbs_is_best, altered(lbs_is_best, never_by_volume)}, reproduced_only_for},
+        {"twists are not judged", "C03", {altered(lbs_is_best, [](ConvergencePaths& of) { of.twist = true; })}, not_computable},
+        {"limbs are not judged", "C12", {altered(in_26, [](ConvergencePaths& of) { of.character = false; })}, not_computable},
+        {"24 iterations", "C12", {in_24}, reproduced},
+        {"26 iterations by residual, one by volume", "C12", {in_26}, reproduced_only_for},
+        {"26 iterations in another order", "C12", {in_24, in_26}, reproduced_only_for},
+        {"neither tolerance is reached", "C12", {altered(by_residual({0.999, 0.5, 0.5, 0.5}), never_from_lbs)}, not_reproduced}};
+    for (const auto& [name, id, paths, kind] : cases)
+        EXPECT_EQ(verdict_from(id, experiments::convergence_values({paths, false, ""})).kind, kind) << name;
+}
+
+// C03 and C12 from a limb bent by 15 degrees, at which the correct solver restores the volume from every initial guess, iterated by the
+// correct solver and by broken ones. Reference:
+// - volume sign: every projection doubles the error that it should remove, so no initial guess comes within 0.5 % of the volume, and the
+//   error after 1000 iterations is far above that of the correct solver.
+// - volume dropped: nothing restores the volume, so no initial guess converges by volume, and 24 iterations do not suffice. C03 has no
+//   value by volume and is judged by the residual alone.
+// - bind dropped: nothing moves the body towards the pose. The rest pose satisfies all remaining constraints, stays in place and is
+//   converged at once, so LBS is not the better initial guess.
+// - nothing projected: every initial guess stays unchanged, to the bit: the rest pose has its volume at once, LBS never.
+// - stretch dropped: the bind and the volume constraints remain, and the last residual of the edges is larger.
 
 const analysis::CaseKey by_volume = {.tolerance = "volume"};
 
@@ -57,9 +115,7 @@ const experiments::IterationPath& path(Broken how, SolverStart start)
 
 VerdictKind verdict_of_c03(const std::vector<Measurement>& measured)
 {
-    analysis::Records records;
-    records.measurements = measured;
-    return judge(claim("C03"), records).kind;
+    return verdict_from("C03", measured).kind;
 }
 
 // The limb is reported with C12; here it is judged like the value of a character.

@@ -1,0 +1,277 @@
+#include "experiments/studies/ambiguity/moved_readings.hpp"
+
+#include "analysis/metrics/frame_metrics.hpp"
+#include "analysis/records/record_files.hpp"
+#include "analysis/statistics/statistics.hpp"
+#include "experiments/deformers/registry.hpp"
+#include "experiments/process/terminal.hpp"
+#include "experiments/studies/shared/posed_character.hpp"
+#include "experiments/studies/shared/timed_rounds.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace experiments {
+
+const analysis::Columns<VolumeChange> volume_change_columns = {
+    {"scene", &VolumeChange::scene, "", "name of the scene"},
+    {"place", &VolumeChange::place, "", "place of the paper that can be read in two ways"},
+    {"reading_a", &VolumeChange::reading_a, "", "the baseline"},
+    {"reading_b", &VolumeChange::reading_b, "", "the other reading"},
+    {"quantity", &VolumeChange::quantity, "", "what is compared; its name ends with its unit"},
+    {"a", &VolumeChange::a, "", "value by reading A"},
+    {"b", &VolumeChange::b, "", "value by reading B"},
+    {"change", &VolumeChange::change, "", "b less a"},
+    {"verdict_changed", &VolumeChange::verdict_changed, "", "no, or the claims that are judged otherwise"}};
+
+namespace {
+
+// The frames of the motion as a record of one deformer.
+analysis::CaseRecord record_of(const Scene& scene, const pbs::Motion& motion, const analysis::MeshMetrics& mesh_metrics,
+                               const std::vector<pbs::Positions>& shapes)
+{
+    analysis::CaseRecord record{.scene = scene.name, .angle_deg = motion.angle_deg};
+    for (std::size_t frame = 0; frame < shapes.size(); ++frame) {
+        const analysis::FrameMetrics metrics = mesh_metrics.measure(shapes[frame]);
+        record.frame.push_back(double(frame));
+        record.time_s.push_back(double(frame) * motion.steps_per_frame * motion.time_step_s);
+        record.volume_change_pct.push_back(metrics.volume_change_pct);
+        record.volume_abs_change_pct.push_back(metrics.volume_abs_change_pct);
+        record.inverted_tets.push_back(metrics.inverted_tets);
+    }
+    return record;
+}
+
+JudgedValue of_case(const analysis::Claim& claim, const analysis::CaseRecord& record, const std::string& metric)
+{
+    const analysis::CaseJudgement judgement = analysis::judge_case(claim, record, metric);
+    const bool of_share = claim.rule == analysis::ClaimRule::share_within;
+    return {claim.id,
+            (of_share ? "share_of_frames_by_" : "mean_") + metric,
+            {.body = record.scene},
+            of_share ? "1" : "%",
+            of_share ? analysis::bound_text({"", claim.share, 1.0}) : analysis::bound_text({"", claim.low, claim.high}),
+            of_share ? judgement.share.estimate : judgement.mean.estimate,
+            judgement.extent};
+}
+
+// Claims of the volume study whose extent on this scene differs, by metric.
+std::string changed_verdicts(const ReadMotion& a, const ReadMotion& b)
+{
+    std::vector<std::string> changes;
+    for (const analysis::Claim& claim : claims()) {
+        if (claim.study != "volume") continue;
+        const bool of_lbs = claim.deformer == "lbs";
+        for (const std::string& metric : claim.metrics) {
+            const analysis::Extent before = analysis::judge_case(claim, of_lbs ? a.lbs : a.pbs, metric).extent,
+                                   after = analysis::judge_case(claim, of_lbs ? b.lbs : b.pbs, metric).extent;
+            if (before != after)
+                changes.push_back(fmt::format("{} by {}: {} -> {}", claim.id, metric, analysis::name_of(before), analysis::name_of(after)));
+        }
+    }
+    return changes.empty() ? "no" : fmt::format("{}", fmt::join(changes, "; "));
+}
+
+double share_within(const std::vector<double>& change_pct)
+{
+    constexpr double printed_pct = 0.5;  // Sec. 4
+    const auto holds = [](double change) { return std::abs(change) <= printed_pct; };
+    return double(std::ranges::count_if(change_pct, holds)) / double(change_pct.size());
+}
+
+// Root mean square over frames and vertices of the zone, or all where it is empty [m].
+double distance_m(const ReadMotion& a, const ReadMotion& b, const std::vector<bool>& zone)
+{
+    double sum = 0.0;
+    long long count = 0;
+    for (std::size_t frame = 0; frame < std::min(a.shapes.size(), b.shapes.size()); ++frame)
+        for (Eigen::Index i = 0; i < a.shapes[frame].rows(); ++i) {
+            if (!zone.empty() && !zone[i]) continue;
+            sum += (a.shapes[frame].row(i) - b.shapes[frame].row(i)).squaredNorm();
+            ++count;
+        }
+    return std::sqrt(sum / double(count));
+}
+
+}  // namespace
+
+ReadMotion move(const pbs::Character& character, const Scene& scene)
+{
+    const pbs::Motion motion = make_motion(scene.motion, character.skeleton, scene.file);
+    const analysis::MeshMetrics mesh_metrics(character.mesh.rest, character.mesh.tets);
+    const DeformerSpec& pbs = spec_of(scene, "pbs");
+    ReadMotion moved;
+    moved.shapes = shapes_in_motion(character, motion, pbs);
+    moved.pbs = record_of(scene, motion, mesh_metrics, moved.shapes);
+    moved.pbs.deformer = "pbs";
+    moved.pbs.iterations = *traits_of(pbs).iterations;
+    moved.lbs = record_of(scene, motion, mesh_metrics, shapes_in_motion(character, motion, default_spec("lbs")));
+    moved.lbs.deformer = "lbs";
+    moved.finite = std::ranges::all_of(moved.shapes, [](const pbs::Positions& shape) { return shape.allFinite(); });
+    return moved;
+}
+
+std::vector<JudgedValue> judged(const ReadMotion& moved)
+{
+    std::vector<JudgedValue> values;
+    for (const analysis::Claim& claim : claims()) {
+        if (claim.study != "volume") continue;
+        for (const std::string& metric : claim.metrics)
+            values.push_back(of_case(claim, claim.deformer == "lbs" ? moved.lbs : moved.pbs, metric));
+    }
+    return values;
+}
+
+std::vector<VolumeChange> volume_changes(const std::string& scene, const Reading& reading, const ReadMotion& a, const ReadMotion& b,
+                                         const ReadMotion& resting, const std::vector<bool>& zone)
+{
+    using analysis::mean;
+    const std::string verdict = changed_verdicts(a, b);
+    std::vector<VolumeChange> rows;
+    const auto add = [&](const std::string& quantity, double of_a, double of_b) {
+        rows.push_back({scene, reading.place, reading.baseline, reading.name, quantity, of_a, of_b, of_b - of_a, verdict});
+    };
+    add("mean_volume_change_pct", mean(a.pbs.volume_change_pct), mean(b.pbs.volume_change_pct));
+    add("mean_volume_abs_change_pct", mean(a.pbs.volume_abs_change_pct), mean(b.pbs.volume_abs_change_pct));
+    add("mean_volume_change_of_lbs_pct", mean(a.lbs.volume_change_pct), mean(b.lbs.volume_change_pct));
+    add("share_of_frames_within_printed", share_within(a.pbs.volume_change_pct), share_within(b.pbs.volume_change_pct));
+    add("mean_inverted_tets", mean(a.pbs.inverted_tets), mean(b.pbs.inverted_tets));
+    for (std::size_t frame = 0; frame < a.pbs.angle_deg.size(); ++frame) {
+        const double angle = a.pbs.angle_deg[frame];
+        if (std::abs(angle - 90.0) >= 1e-6 && std::abs(angle - 170.0) >= 1e-6) continue;
+        add(fmt::format("volume_change_at_{:.0f}_deg_pct", angle), a.pbs.volume_change_pct[frame], b.pbs.volume_change_pct[frame]);
+        add(fmt::format("volume_abs_change_at_{:.0f}_deg_pct", angle), a.pbs.volume_abs_change_pct[frame],
+            b.pbs.volume_abs_change_pct[frame]);
+    }
+    add("distance_of_b_from_a_rms_m", 0.0, distance_m(a, b, {}));
+    add("distance_of_zone_by_jiggle_rms_m", distance_m(a, resting, zone), distance_m(b, resting, zone));
+    return rows;
+}
+
+std::string record_volume(const StudyCase& of, const std::vector<Reading>& readings, const std::string& folder)
+{
+    const auto claims = of.value<std::vector<std::string>>("claims");
+    const auto body = of.value<std::string>("body");
+    const Scene scene = of.scene();
+    const pbs::Character character = pbs::make_character(scene.character);
+    const std::vector<bool> zone = pbs::jiggle_zone(character.binding);
+    struct Baseline {
+        Reading reading;
+        ReadMotion moved;
+    };
+    std::map<std::string, Baseline> baselines;
+    std::vector<VolumeChange> volumes;
+    std::vector<ClaimChange> changes;
+    std::string breakdown;
+    for (const Reading& reading : readings) {
+        if (reading.jiggles() && scene.motion.clip.empty()) {
+            if (reading.place.empty()) continue;
+            for (const std::string& claim : claims)
+                changes.push_back(untouched_claim(body, claim, reading, "a sweep has no speed of its own"));
+            continue;
+        }
+        Scene read = of.scene(reading.overrides);
+        read.name = of.name;
+        ReadMotion b = move(reweighted(character, read), read);
+        if (!b.finite) breakdown += reading.name + " is not finite. ";
+        if (reading.place.empty()) {
+            baselines.emplace(reading.name, Baseline{reading, std::move(b)});
+            continue;
+        }
+        const Baseline& a = baselines.at(reading.baseline);
+        std::ranges::copy(volume_changes(of.name, reading, a.moved, b, baselines.at(own_reading).moved, zone), std::back_inserter(volumes));
+        for (const std::string& claim : claims)
+            if (const std::string reason = untouched_because(claim, reading, a.reading); !reason.empty())
+                changes.push_back(untouched_claim(body, claim, reading, reason));
+            else
+                std::ranges::copy(claim_changes(body, claim, reading, {judged(a.moved), !a.moved.finite}, {judged(b), !b.finite}),
+                                  std::back_inserter(changes));
+    }
+    table_of(volume_change_columns, volumes).write(analysis::path_in(folder, "figures.csv"));
+    table_of(used_columns(claim_change_columns(), changes), changes).write(analysis::path_in(folder, "ambiguity.csv"));
+    return breakdown;
+}
+
+namespace {
+
+// One reading's way through the motion, one frame per turn, in the order and precision that are judged.
+class TimedReading {
+public:
+    TimedReading(const StudyCase& of, const pbs::Character& base, const pbs::Motion& motion, const Overrides& reading)
+        : motion_(motion), dt_s_(motion.time_step_s)
+    {
+        const Scene scene = of.scene(reading);
+        DeformerSpec spec = spec_of(scene, "pbs");
+        options_of<pbs::PbsOptions>(spec).order = pbs::Order::plain;
+        options_of<pbs::PbsOptions>(spec).precision = pbs::Precision::f64;
+        substeps_ = static_cast<int>(std::lround(dt_s_ / scene.motion.time_step_s));
+        character_ = reweighted(base, scene);
+        deformer_ = make_deformer(spec);
+        deformer_->reset(character_);
+    }
+
+    std::vector<double> turn()
+    {
+        stop_if_interrupted();
+        const pbs::Pose& pose = motion_.steps[next_];
+        next_ = (next_ + static_cast<std::size_t>(motion_.steps_per_frame)) % motion_.steps.size();
+        const double took_s = cpu_seconds([&] {
+            for (int substep = 0; substep < substeps_; ++substep) deformer_->advance(pose, dt_s_ / substeps_);
+        });
+        finite_ = finite_ && deformer_->positions().allFinite();
+        return {took_s};
+    }
+
+    bool finite() const { return finite_; }  // in every turn
+
+private:
+    const pbs::Motion& motion_;
+    int substeps_ = 1;
+    double dt_s_;
+    pbs::Character character_;
+    std::unique_ptr<Deformer> deformer_;
+    std::size_t next_ = 0;
+    bool finite_ = true;
+};
+
+JudgedValue of_frame(const std::string& body, int vertices, double ms)
+{
+    const analysis::Claim& claim = claim_named("C10");
+    const double frames_s = 1e3 / ms;
+    const analysis::Measurement pace{"C10", claim.metrics.front(), {}, frames_s, frames_s, frames_s, "1/s"};
+    return {"C10",
+            "processor_time_of_a_frame_ms",
+            {.body = body, .order = "plain", .precision = "f64", .vertices = vertices},
+            "ms",
+            fmt::format("{} frames per second", analysis::bound_text(analysis::bound_of(claim, pace.quantity))),
+            ms,
+            analysis::extent_of(claim, pace)};
+}
+
+}  // namespace
+
+std::vector<JudgedReading> values_of_frames(const StudyCase& of, const std::vector<Overrides>& readings)
+{
+    const Scene scene = of.scene();
+    const pbs::Character character = pbs::make_character(scene.character);
+    const pbs::Motion motion = make_motion(scene.motion, character.skeleton, scene.file);
+    std::vector<std::unique_ptr<TimedReading>> timed;
+    std::vector<TimedVariant> turns;
+    for (const Overrides& reading : readings) {
+        timed.push_back(std::make_unique<TimedReading>(of, character, motion, reading));
+        turns.push_back([one = timed.back().get()] { return one->turn(); });
+    }
+    const auto seconds = take_turns(turns, {.seconds = of.value<double>("timing_s")});
+    std::vector<JudgedReading> all;
+    for (std::size_t i = 0; i < timed.size(); ++i) {
+        const double ms = 1e3 * spread_of(seconds[i][0]).median;
+        all.push_back({{of_frame(scene.character.body, int(character.mesh.rest.rows()), ms)}, !timed[i]->finite()});
+    }
+    return all;
+}
+
+}  // namespace experiments

@@ -1,0 +1,89 @@
+"""How much each other reading of the paper changes the values of claims, by body, which verdicts flip, and the volume of each scene."""
+import math
+
+import pages
+
+titles = {
+    "nearest_bone": "Sec. 3.6: projection on the nearest bone", "vertex_on_bone": "Sec. 3.6: a vertex on the bone",
+    "n_joints": "Eq. 2: n_joints",
+    "stiffness_form": "Eq. 8-9: stiffness in each iteration", "masses": "Eq. 5: masses",
+    "class_order": "Algorithm 1, lines 11-13: order of the classes", "k_stretch_outside_zone": "unstated: k_stretch outside the zone",
+    "k_volume": "unstated: k_volume", "k_bind": "unstated: k_bind", "lbs_entry": "where LBS enters Algorithm 1",
+    "jiggling_zone": "Sec. 4: jiggling zone", "bind_in_zone": "Table 1: bind in the zone", "jiggling": "Table 1: jiggling",
+    "step_and_frame": "Sec. 4: step and frame", "gravity": "unstated: gravity"}
+
+
+def size_of_change(row):
+    """How far B over A is from 1, either way."""
+    if not row["change"]:
+        return -1.0
+    if not row["b_over_a"]:
+        return 0.0 if float(row["change"]) == 0.0 else math.inf
+    ratio = float(row["b_over_a"])
+    return abs(math.log(ratio)) if ratio > 0.0 else math.inf
+
+
+def cell(rows):
+    """Of a body, a reading and a claim: the value whose verdict flips, or else the one that changes most."""
+    if not rows:
+        return ""
+    if any(row["verdict_flips"] == "not_touched" for row in rows):
+        return "."
+    chosen = max(rows, key=lambda row: (row["verdict_flips"] == "yes", size_of_change(row)))
+    value = "x" + format(float(chosen["b_over_a"]), ".3g") if chosen["b_over_a"] else (
+        "0>" + format(float(chosen["b"]), ".2g") if chosen["a"] and chosen["b"] else "-")
+    return value + ("!" if chosen["verdict_flips"] == "yes" else "")
+
+
+def of_body(rows, claims):
+    readings = dict.fromkeys((row["place"], row["reading_b"]) for row in rows)
+    columns = {"place": lambda reading: titles.get(reading[0], reading[0]), "reading": lambda reading: reading[1]}
+    for claim in claims:
+        columns[claim] = lambda reading, claim=claim: cell(
+            [row for row in rows if (row["place"], row["reading_b"], row["claim"]) == (*reading, claim)])
+    return pages.table(readings, columns)
+
+
+def of_claim(claim, rows):
+    """The readings by which its verdict flips, and why others have no value."""
+    def named(flips, name):
+        return list(dict.fromkeys(name(row) for row in rows if row["verdict_flips"] == flips))
+
+    flipping = named("yes", lambda row: f"{row['body']}, {row['reading_b']}")
+    values, flips = (sum(row["verdict_flips"] in of for row in rows) for of in (("yes", "no"), ("yes",)))
+    text = f"- {claim}: {flips} of {values} values flip" + (" by " + "; ".join(flipping) if flipping else "")
+    if untouched := named("not_touched", lambda row: row["reason"]):
+        text += "\n  - not touched where " + "; ".join(untouched)
+    for reason in named("no_value", lambda row: row["reason"]):
+        quantities = dict.fromkeys(row["quantity"] for row in rows if (row["verdict_flips"], row["reason"]) == ("no_value", reason))
+        text += f"\n  - no value: {reason}: {', '.join(quantities)}"
+    return text + "\n"
+
+
+def of_volume(rows):
+    """One line per reading and scene."""
+    values = {}
+    for row in rows:
+        values.setdefault((row["scene"], row["place"], row["reading_b"]), {"verdict": row["verdict_changed"]})[row["quantity"]] = row
+
+    def change(name, scale=1.0):
+        return lambda of: f"{scale * float(of[1][name]['a']):.2f} -> {scale * float(of[1][name]['b']):.2f}"
+
+    return pages.table(values.items(), {
+        "scene": lambda of: of[0][0], "place": lambda of: titles.get(of[0][1], of[0][1]), "B": lambda of: of[0][2],
+        "signed A -> B [%]": change("mean_volume_change_pct"), "absolute A -> B [%]": change("mean_volume_abs_change_pct"),
+        "within 0.5 % A -> B": change("share_of_frames_within_printed"),
+        "distance of B from A [mm]": lambda of: f"{1e3 * float(of[1]['distance_of_b_from_a_rms_m']['b']):.3f}",
+        "jiggle A -> B [mm]": change("distance_of_zone_by_jiggle_rms_m", 1e3), "verdict changed": lambda of: of[1]["verdict"]})
+
+
+def page(folder):
+    rows = pages.of_runs(folder, "ambiguity.csv", {"body", "place", "reading_b", "claim", "quantity", "a", "b", "change", "b_over_a",
+                                                   "verdict_flips", "reason"})
+    claims = sorted({row["claim"] for row in rows})
+    text = ("# How other readings of the paper change the values of claims\n\nA cell is B over A of the value whose verdict flips, or else "
+            "of the one that changes most. `!`: its verdict flips; `.`: the reading cannot touch the claim; `-`: no value.\n")
+    for body in dict.fromkeys(row["body"] for row in rows):
+        text += f"\n## {body}\n\n" + of_body([row for row in rows if row["body"] == body], claims)
+    text += "\n## Verdicts that flip\n\n" + "".join(of_claim(claim, [row for row in rows if row["claim"] == claim]) for claim in claims)
+    return text + "\n## Volume\n\n" + of_volume(pages.of_runs(folder, "figures.csv", {"scene", "place", "reading_b", "quantity", "a", "b"}))

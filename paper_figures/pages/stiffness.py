@@ -1,0 +1,37 @@
+"""The ratio of stiffnesses for one doubling, the exponents over all settings, and where the control leaves the bounds of C11."""
+import pages
+import records
+from words import case_words
+
+doubled = {"iterations": "twice the iterations", "time_step": "half the time step", "resolution": "twice the vertices"}
+factors = {"iterations": "iterations", "time_step": "1 / time step", "resolution": "vertices"}
+bounds = (0.9, 1.1)  # of C11
+
+
+def words_of(row):
+    """bar, PBS, loaded as a cantilever, 1016 vertices, k_stretch 0.05, 12 to 48 iterations"""
+    numbers = ("vertices", "vertices_to", "k_stretch", "young_pa", "iterations", "iterations_to", "time_step_s", "time_step_to_s")
+    return case_words.of({name: row[name] for name in ("body", "deformer", "load", "ladder") if row.get(name)}
+                         | {name: float(row[name]) for name in numbers if row.get(name)})
+
+
+def leaves(row):
+    return row["deformer"] in ("xpbd", "xpbd_small_steps") and not (bounds[0] <= float(row["low"]) and float(row["high"]) <= bounds[1])
+
+
+def page(folder):
+    measured = pages.of_runs(folder, "measurements.csv", {"quantity", "deformer", "value", "low", "high"})
+    exponents = records.table(folder / "exponents.csv",
+                              {"varied", "first", "last", "exponent", "exponent_low", "exponent_high", "left_out"})
+    text = "# Effective stiffness\n\nWeight of the jiggling zone, or of a bar's free length, over its mean displacement.\n"
+    columns = {"case": words_of} | {heading: lambda row, name=name: f"{float(row[name]):.4g}"
+                                    for heading, name in (("ratio", "value"), ("least", "low"), ("largest", "high"))}
+    for varied, words in doubled.items():
+        quantity = "stiffness_ratio_at_" + words.replace("the ", "").replace("vertices", "resolution").replace(" ", "_")
+        text += f"\n## Ratio at {words}\n\n" + pages.table([row for row in measured if row["quantity"] == quantity], columns)
+        text += f"\n## Stiffness ~ ({factors[varied]})^p\n\n" + pages.table([row for row in exponents if row["varied"] == varied], {
+            "case": words_of, "from": "first", "to": "last", "p": ("exponent", 3), "p, low": ("exponent_low", 3),
+            "p, high": ("exponent_high", 3), "left out": "left_out"})
+    outside = [row for row in measured if leaves(row)]
+    return text + f"\n## Where XPBD, the control, leaves the claim's bounds of {bounds[0]:g} to {bounds[1]:g}\n\n" + (
+        pages.table(outside, {"quantity": "quantity"} | columns) if outside else "Nowhere.\n")

@@ -1,0 +1,123 @@
+// Claims that are judged from few values: the paper's printed ones (C13 to C16), frame rates (C10) and the effort of a set-up (C17). If the
+// values are altered, the verdicts change. Reference: Euler's formula, sums and quotients of Table 1, derivatives of Eq. 11; times and
+// frames that are made up.
+#include "experiments/studies/setup/body_setup.hpp"
+#include "experiments/studies/timing/frames.hpp"
+#include "tests/support/study_claims.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace {
+
+using analysis::VerdictKind;
+using namespace experiments;
+using test_support::claim;
+using test_support::verdict_from;
+
+const analysis::Records& print()
+{
+    static const analysis::Records records = test_support::records_of(experiments::audit_study().plan(false));
+    return records;
+}
+
+TEST(AuditVerdict, ThePaperContradictsItself)
+{
+    for (const char* id : {"C13", "C14", "C15"}) EXPECT_EQ(judge(claim(id), print()).kind, VerdictKind::inconsistent_in_print) << id;
+}
+
+TEST(AuditVerdict, APrintThatIsMendedIsConsistent)
+{
+    analysis::Records mended = print();
+    for (auto& value : mended.printed) value.printed = value.least;
+    for (const char* id : {"C13", "C14", "C15"}) {
+        EXPECT_EQ(judge(claim(id), mended).kind, VerdictKind::reproduced) << id;
+        analysis::Records one_wrong = mended;
+        const auto first = std::find_if(one_wrong.printed.begin(), one_wrong.printed.end(), [&](auto& value) { return value.claim == id; });
+        first->printed = first->least - 1.0;
+        EXPECT_EQ(judge(claim(id), one_wrong).kind, VerdictKind::inconsistent_in_print) << id;
+    }
+    EXPECT_EQ(judge(claim("C13"), {}).kind, VerdictKind::not_computable);
+}
+
+TEST(AuditVerdict, WhatCannotBeTestedSaysWhy)
+{
+    const analysis::Verdict verdict = judge(claim("C16"), {});
+    EXPECT_EQ(verdict.kind, VerdictKind::cannot_be_tested_here);
+    EXPECT_NE(verdict.claim.reason.find("no figure"), std::string::npos) << verdict.claim.reason;
+}
+
+std::vector<TimingRow> timed(const std::string& body, const std::string& model, double median_ms, double upper_ms)
+{
+    FrameTiming timing{.variant = "plain", .precision = "f64"};
+    timing.total_wall_ms = {median_ms, 0.9 * median_ms, upper_ms, 9};
+    timing.total_ms = {1.0, 1.0, 1.0, 9};  // processor time is not judged
+    FrameTiming quicker{.variant = "ordered", .precision = "f32"}, slower{.variant = "plain", .precision = "f32"};
+    quicker.total_wall_ms = {1.0, 1.0, 1.0, 9};
+    slower.total_wall_ms = {1e3, 1e3, 1e3, 9};  // neither are these
+    return timing_rows({.mesh = body, .body = body, .model = model}, {timing, quicker, slower});
+}
+
+VerdictKind of_timing(const std::vector<std::vector<TimingRow>>& meshes)
+{
+    std::vector<analysis::Measurement> all;
+    for (const auto& rows : meshes)
+        for (const auto& measurement : timing_measurements(rows)) all.push_back(measurement);
+    return verdict_from("C10", all).kind;
+}
+
+TEST(TimingVerdict, TurnsWithTheTimesOfTableOnesSizes)
+{
+    const std::vector<TimingRow> lady = timed("lady", "Lady", 6.0, 7.0), slow_lady = timed("lady", "Lady", 60.0, 70.0);
+    EXPECT_EQ(of_timing({timed("man", "Man", 5.0, 6.0), lady}), VerdictKind::reproduced);
+    EXPECT_EQ(of_timing({timed("man", "Man", 5.0, 6.0), slow_lady}), VerdictKind::reproduced_only_for);
+    EXPECT_EQ(of_timing({timed("man", "Man", 50.0, 60.0), slow_lady}), VerdictKind::not_reproduced);
+    EXPECT_EQ(of_timing({timed("man", "Man", 30.0, 32.0), lady}), VerdictKind::reproduced);
+    EXPECT_EQ(of_timing({timed("man", "Man", 30.0, 40.0), lady}), VerdictKind::reproduced_only_for)
+        << "a late quartile is no whole success";
+    EXPECT_EQ(of_timing({timed("human", "", 5.0, 6.0)}), VerdictKind::not_computable) << "a step of the ladder";
+}
+
+// The 100 frames of a body, with an inverted tet in every n-th; n = 0: in none.
+std::vector<analysis::Measurement> body(const std::string& name, int every, const std::vector<std::string>& changed = {})
+{
+    analysis::CsvTable metrics({"volume_change_pct", "inverted_tets"});
+    for (int frame = 0; frame < 100; ++frame) metrics.add_row({-0.1 * (frame % 7), every && frame % every == 0 ? 1 : 0});
+    const nlohmann::json run = {{"cost", {{"cpu_seconds", {{"character", 3.0}, {"motion", 0.25}, {"set_up", 0.5}}}}}};
+    return experiments::setup_measurements({.body = name}, metrics, run, changed);
+}
+
+VerdictKind of_setup(const std::vector<std::vector<analysis::Measurement>>& bodies)
+{
+    std::vector<analysis::Measurement> all;
+    for (const auto& measured : bodies) all.insert(all.end(), measured.begin(), measured.end());
+    return verdict_from("C17", all).kind;
+}
+
+TEST(SetupVerdict, TurnsWithBodiesThatTurnInsideOutOrNeverRun)
+{
+    EXPECT_EQ(of_setup({}), VerdictKind::not_computable);
+    EXPECT_EQ(of_setup({body("human", 0), body("ring", 0)}), VerdictKind::reproduced);
+    EXPECT_EQ(of_setup({body("human", 0), body("frankie", 2)}), VerdictKind::reproduced_only_for);
+    EXPECT_EQ(of_setup({body("human", 0), experiments::not_set_up({.body = "ring"})}), VerdictKind::reproduced_only_for);
+    EXPECT_EQ(of_setup({experiments::not_set_up({.body = "ring"})}), VerdictKind::not_reproduced);
+}
+
+// The keys that a body has changed if it runs with only those of `trial`, as the study finds them.
+std::vector<std::string> changed_for(std::size_t trial)
+{
+    using namespace experiments;
+    const auto tried = tried_setups(
+        {"ring"}, [&](const BodySetup& setup) { return std::string(setup.further == further_keys().at(trial) ? "" : "not finite"); });
+    return keys_changed(shared_scene(5.0).resolved, scene_of(tried.back().setup, 5.0).resolved);
+}
+
+TEST(SetupVerdict, ABodyThatNeedsAFurtherKeyFlipsIt)
+{
+    EXPECT_EQ(of_setup({body("human", 0), body("ring", 0, changed_for(0))}), VerdictKind::reproduced);
+    EXPECT_EQ(of_setup({body("human", 0), body("ring", 0, changed_for(1))}), VerdictKind::reproduced_only_for);
+    EXPECT_EQ(of_setup({body("ring", 0, changed_for(3))}), VerdictKind::not_reproduced);
+}
+
+}  // namespace
