@@ -7,7 +7,6 @@
 #include "pbs/constraints/volume.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
 namespace pbs {

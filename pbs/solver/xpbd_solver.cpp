@@ -9,7 +9,6 @@
 #include "pbs/solver/particles.hpp"
 
 #include <algorithm>
-#include <array>
 #include <map>
 
 namespace pbs {

@@ -27,7 +27,8 @@ inline std::string write_rigged_gltf(const ScratchFolder& folder, const std::str
                          {"channels", {{{"sampler", 0}, {"target", {{"node", 1}, {"path", "rotation"}}}}}}});
     gltf.json.update(nlohmann::json::parse(R"({
         "scene": 0, "scenes": [{"nodes": [0, 2]}],
-        "nodes": [{"name": "root", "children": [1]}, {"name": "elbow", "translation": [0.5, 0, 0]}, {"name": "body", "mesh": 0, "skin": 0}]})"));
+        "nodes": [{"name": "root", "children": [1]}, {"name": "elbow", "translation": [0.5, 0, 0]},
+                  {"name": "body", "mesh": 0, "skin": 0}]})"));
     gltf.json["skins"] = {{{"joints", {0, 1}}, {"inverseBindMatrices", bind}}};
     const nlohmann::json attributes = {{"POSITION", position}, {"WEIGHTS_0", weight}, {"JOINTS_0", joint}};
     gltf.json["meshes"] = {{{"name", "flesh"}, {"primitives", {{{"attributes", attributes}, {"indices", corners}}}}}};
