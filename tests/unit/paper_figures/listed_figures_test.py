@@ -49,14 +49,15 @@ class Listing(ResultsTest):
 
 
 def quick_studies():
-    """The studies that ./reproduce runs without --full, from the entry in each study.cpp and the sets in study.hpp."""
+    """The studies that ./reproduce runs without --full, from the definitions of the studies that study.hpp declares, and the sets there."""
     folder = root / "experiments" / "studies"
-    not_quick = set(re.findall(r"constexpr Sets (\w+) = \{Extent::none", (folder / "study.hpp").read_text()))
-    sources = [source.read_text() for source in folder.glob("*/study.cpp")]
-    entry = re.compile(r'^Study \w+_study\(\)\n\{\n\s+return \{"(\w+)",([^;]*)\};', re.MULTILINE)
-    found = [match for source in sources for match in entry.findall(source)]
-    if len(found) != len(sources):
-        raise AssertionError(f"{len(sources)} studies, but {len(found)} entries of the expected form")
+    header = (folder / "study.hpp").read_text()
+    not_quick = set(re.findall(r"constexpr Sets (\w+) = \{Extent::none", header))
+    entry = re.compile(r'^Study \w+_study\(\)\n\{\n\s+return \{"(\w+)",?([^;]*)\};', re.MULTILINE)
+    found = [match for source in folder.rglob("*.cpp") for match in entry.findall(source.read_text())]
+    declared = re.findall(r"^Study (\w+)_study\(\);", header, re.MULTILINE)
+    if sorted(declared) != sorted(name for name, _ in found):
+        raise AssertionError(f"declared {sorted(declared)}, but entries of the expected form are {sorted(name for name, _ in found)}")
     return {name for name, rest in found if not not_quick & set(re.findall(r"\w+", rest))}
 
 
