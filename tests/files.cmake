@@ -55,3 +55,8 @@ if(PBS_WITH_RIG_IMPORT)
     pbs_tests(robustness pbs_character FOLDERS pbs/character LIBRARIES pbs_character)
     pbs_tests(verification pbs_character FOLDERS pbs/character EXCEPT ${left_out} LIBRARIES pbs_character)
 endif()
+foreach(target unit_pbs_files unit_pbs_rig unit_pbs_character robustness_pbs_rig)  # tests/support/arm_in_formats.hpp
+    if(TARGET test_${target})
+        target_compile_definitions(test_${target} PRIVATE PBS_RIG_SEEDS="${CMAKE_CURRENT_SOURCE_DIR}/fuzz/corpus/assimp")
+    endif()
+endforeach()

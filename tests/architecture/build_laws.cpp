@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cctype>
 #include <iterator>
-#include <regex>
-#include <set>
 #include <sstream>
 
 namespace architecture {
@@ -30,10 +28,10 @@ bool names_word(const std::string& text, const std::string& word)
     return false;
 }
 
-// The words between "pbs_tests(" and ")", one list per call.
-std::vector<std::vector<std::string>> calls_of_pbs_tests(const std::string& cmake)
+// The words between NAME( and ), one list per call.
+std::vector<std::vector<std::string>> calls_of(const std::string& name, const std::string& cmake)
 {
-    const std::string opening = "pbs_tests(";
+    const std::string opening = name + "(";
     std::vector<std::vector<std::string>> calls;
     for (std::size_t place = cmake.find(opening); place != std::string::npos; place = cmake.find(opening, place + 1)) {
         const std::size_t start = place + opening.size();
@@ -73,7 +71,7 @@ bool is_registered(const std::string& cmake, const std::string& path)
     const std::string test = path.substr(path.find('/') + 1, path.rfind('.') - path.find('/') - 1);  // KIND/FOLDER/NAME
     const std::size_t kind_end = test.find('/');
     if (kind_end == std::string::npos) return false;
-    return std::ranges::any_of(calls_of_pbs_tests(cmake),
+    return std::ranges::any_of(calls_of("pbs_tests", cmake),
                                [&](const auto& call) { return compiles(call, test.substr(0, kind_end), test.substr(kind_end + 1)); });
 }
 
@@ -125,32 +123,11 @@ const std::vector<std::string> built_for_the_machine = {"target_compile_options(
 std::vector<std::string> sources_of(const SourceTree& tree, const std::string& library)
 {
     std::vector<std::string> sources;
-    for (const auto& [path, text] : tree) {
-        const std::size_t begin = is_cmake_file(path) ? text.find("add_library(" + library + " ") : std::string::npos;
-        if (begin == std::string::npos) continue;
-        std::istringstream words(text.substr(begin, text.find(')', begin) - begin));
-        for (std::string word; words >> word;)
-            if (word.ends_with(".cpp")) sources.push_back(folder_of(path) + "/" + word);
-    }
+    for (const auto& [path, text] : tree)
+        for (const auto& call : is_cmake_file(path) ? calls_of("add_library", text) : std::vector<std::vector<std::string>>{})
+            for (const std::string& word : call)
+                if (call.front() == library && word.ends_with(".cpp")) sources.push_back(folder_of(path) + "/" + word);
     return sources;
-}
-
-// Headers of other projects that the file includes, directly or through headers of this project.
-void collect_foreign(const SourceTree& tree, const std::string& path, std::set<std::string>& visited, std::set<std::string>& foreign)
-{
-    const auto file = tree.find(path);
-    if (file == tree.end() || !visited.insert(path).second) return;
-    for (const Include& include : includes_of(file->second)) {
-        if (!tree.contains(include.target)) foreign.insert(include.target);
-        collect_foreign(tree, include.target, visited, foreign);
-    }
-}
-
-std::set<std::string> foreign_headers(const SourceTree& tree, const std::string& path)
-{
-    std::set<std::string> visited, foreign;
-    collect_foreign(tree, path, visited, foreign);
-    return foreign;
 }
 
 bool names(const std::vector<std::string>& list, const std::string& entry)

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <regex>
-#include <set>
 
 namespace architecture {
 namespace {
@@ -148,12 +146,8 @@ Violations values_compute(const SourceTree& tree)
     static const std::regex starts_programs(R"(\b(subprocess|ctypes|cffi|os\.system|os\.popen|os\.exec\w*|os\.spawn\w*|scipy)\b)");
     const auto of_figures = [](const std::string& path) { return path.starts_with("paper_figures/"); };
     Violations violations = in_lines(
-        tree, [&](const std::string& path) { return of_figures(path) && path.ends_with(".py"); },
-        [](const std::string& line) {
-            std::smatch match;
-            return std::regex_search(line, match, starts_programs) ? match.str() + ": a figure reads records, it runs and solves nothing"
-                                                                   : "";
-        });
+        tree, [&](const std::string& path) { return of_figures(path) && path.ends_with(".py"); }, starts_programs,
+        "a figure reads records, it runs and solves nothing");
     for (const auto& [path, text] : tree)
         if (of_figures(path) && is_cpp(path)) violations.push_back(at(path, 1, "compiled code among the figures"));
     return violations;
@@ -167,9 +161,7 @@ Violations deformers_tested_by_name(const SourceTree& tree)
         return (is_cpp(path) || path.ends_with(".py")) && starts_with_any(path, {"experiments/", "analysis/", "paper_figures/"}) &&
                !path.starts_with("experiments/deformers/");
     };
-    return in_lines(tree, concerns, [](const std::string& line) {
-        return std::regex_search(line, compares) ? "depends on the name of a deformer's kind: ask its traits or options" : "";
-    });
+    return in_lines(tree, concerns, compares, "depends on the name of a deformer's kind: ask its traits or options");
 }
 
 namespace {
@@ -187,39 +179,26 @@ const std::vector<HeavyLibrary> heavy = {
     {"gmsh.h", {"pbs/geometry/"}, 1},    {"assimp/", {"pbs/geometry/", "pbs/rig/", "pbs/character/"}, 4},
 };
 
-bool is_heavy(const std::string& target, const HeavyLibrary& library)
-{
-    // vtk*.h are in no folder of their own; a folder "vtk..." of this project would be.
-    return target.starts_with(library.header) && (library.header != "vtk" || target.find('/') == std::string::npos);
-}
-
-// Whether the file includes the library, directly or through headers of this project.
-bool sees(const SourceTree& tree, const std::string& path, const HeavyLibrary& library, std::set<std::string>& visited)
-{
-    const auto file = tree.find(path);
-    if (file == tree.end() || !visited.insert(path).second) return false;
-    for (const Include& include : includes_of(file->second))
-        if (is_heavy(include.target, library) || sees(tree, include.target, library, visited)) return true;
-    return false;
-}
-
 }  // namespace
 
 Violations heavy_headers(const SourceTree& tree)
 {
     Violations violations;
-    for (const HeavyLibrary& library : heavy) {
-        std::size_t files = 0;
-        for (const auto& [path, text] : tree) {
-            std::set<std::string> visited;
-            if (!is_cpp(path) || path.starts_with("tests/") || !sees(tree, path, library, visited)) continue;
-            files += path.ends_with(".cpp");
-            if (!starts_with_any(path, library.at_home)) violations.push_back(at(path, 1, "sees " + library.header + " outside its place"));
+    std::map<std::string, std::size_t> files;
+    for (const auto& [path, text] : tree) {
+        if (!is_cpp(path) || path.starts_with("tests/")) continue;
+        const std::set<std::string> seen = foreign_headers(tree, path);
+        for (const auto& [header, at_home, most_files] : heavy) {
+            const auto belongs_to = [&header = header](const std::string& target) { return target.starts_with(header); };
+            if (std::ranges::none_of(seen, belongs_to)) continue;
+            files[header] += path.ends_with(".cpp");
+            if (!starts_with_any(path, at_home)) violations.push_back(at(path, 1, "sees " + header + " outside its place"));
         }
-        if (files > library.most_files)
-            violations.push_back(library.header + " is seen by " + std::to_string(files) + " .cpp files; at most " +
-                                 std::to_string(library.most_files) + " may");
     }
+    for (const auto& [header, at_home, most_files] : heavy)
+        if (files[header] > most_files)
+            violations.push_back(header + " is seen by " + std::to_string(files[header]) + " .cpp files; at most " +
+                                 std::to_string(most_files) + " may");
     return violations;
 }
 

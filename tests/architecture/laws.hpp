@@ -4,6 +4,8 @@
 
 #include <functional>
 #include <map>
+#include <regex>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,11 +36,17 @@ struct Include {
 };
 std::vector<Include> includes_of(const std::string& text);
 
+// Headers of other projects that the file includes, directly or through headers of this project.
+std::set<std::string> foreign_headers(const SourceTree& tree, const std::string& path);
+
 std::string at(const std::string& path, int line, const std::string& what);
 
 // The offence of each line of the files that the law concerns; "" if there is none.
 Violations in_lines(const SourceTree& tree, const std::function<bool(const std::string& path)>& concerns,
                     const std::function<std::string(const std::string& line)>& offence);
+// The offence is what the line should not have, where it matches.
+Violations in_lines(const SourceTree& tree, const std::function<bool(const std::string& path)>& concerns, const std::regex& forbidden,
+                    const std::string& what);
 
 using Law = std::function<Violations(const SourceTree&)>;
 

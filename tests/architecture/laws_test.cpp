@@ -51,33 +51,7 @@ const NamedLaw all_laws[] = {
     {"NoStrayWhitespace", stray_whitespace},
 };
 
-const auto law_name = [](const auto& info) { return info.param.name; };
-INSTANTIATE_TEST_SUITE_P(, Laws, testing::ValuesIn(all_laws), law_name);
-
-// The law finds exactly one violation in the planted files, and its text contains `expected`; nothing is found where that is "".
-struct Planted {
-    std::string name;
-    Law law;
-    SourceTree files;
-    std::string expected;
-};
-
-void PrintTo(const Planted& planted, std::ostream* out)
-{
-    *out << planted.name;
-}
-
-class Bite : public testing::TestWithParam<Planted> {};
-
-TEST_P(Bite, FindsWhatIsPlanted)
-{
-    const auto& [name, law, files, expected] = GetParam();
-    const Violations violations = law(files);
-    ASSERT_EQ(violations.size(), expected.empty() ? 0u : 1u);
-    if (!expected.empty()) {
-        EXPECT_NE(violations[0].find(expected), std::string::npos) << violations[0];
-    }
-}
+INSTANTIATE_TEST_SUITE_P(, Laws, testing::ValuesIn(all_laws), [](const auto& info) { return info.param.name; });
 
 std::string including(const std::string& header)
 {
@@ -91,37 +65,37 @@ SourceTree nine_files(const std::string& folder, const std::string& text)
     return nine;
 }
 
-// A file whose folder may not include a header, and that folder.
-struct ForbiddenInclude {
-    Law law;
-    std::string file, header, folder;
-};
-const ForbiddenInclude forbidden[] = {
-    {include_direction, "analysis/metrics/x.hpp", "pbs/skinning/a.hpp", "analysis/metrics/"},
-    {include_direction, "pbs/solver/x.hpp", "pbs/skinning/a.hpp", "pbs/solver/"},
-    {include_direction, "pbs/character/x.cpp", "tests/support/a.hpp", "pbs/character/"},
-    {include_direction, "reference_fem/x.cpp", "pbs/solver/b.hpp", "reference_fem/"},
-    {include_direction, "reference_fem/x.cpp", "reference_fem/verification/a.hpp", "reference_fem/"},
-    {include_direction, "reference_fem/laws/x.cpp", "reference_fem/assembly.hpp", "reference_fem/laws/"},
-    {include_direction, "reference_fem/verification/x.cpp", "analysis/metrics/error_norms.hpp", "reference_fem/verification/"},
-    {include_direction, "analysis/records/x.cpp", "analysis/verdicts/verdict.hpp", "analysis/records/"},
-    {include_direction, "analysis/statistics/x.cpp", "analysis/metrics/error_norms.hpp", "analysis/statistics/"},
-    {layer_direction, "experiments/studies/stiffness/x.cpp", "experiments/studies/fit/a.hpp", "experiments/studies/stiffness/"},
-    {layer_direction, "experiments/studies/ambiguity/x.cpp", "experiments/studies/jiggle/a.hpp", "experiments/studies/ambiguity/"},
-    {layer_direction, "experiments/studies/shared/x.cpp", "experiments/studies/volume/a.hpp", "experiments/studies/shared/"},
-    {layer_direction, "experiments/verdicts/x.cpp", "experiments/distributed/a.hpp", "experiments/verdicts/"},
-};
+const std::string kernel_library = "add_library(pbs_kernels OBJECT solver/k.cpp)\n";
 
-// Between headers that everything may include: that of its own folder and one of the mesh.
-TEST(IncludeLawsBite, ForbiddenIncludesAreFoundInTheirLine)
+std::string lines(int count)
 {
-    for (const auto& [law, file, header, folder] : forbidden) {
-        const std::string text = including(folder_of(file) + "/own.hpp") + "\n" + including(header) + including("pbs/geometry/a.hpp");
-        EXPECT_EQ(law({{file, text}}), Violations{file + ":3: " + folder + " may not include " + header});
-    }
+    std::string text;
+    for (int i = 0; i < count; ++i) text += "    line();\n";
+    return text;
 }
 
-const Planted includes[] = {
+const std::vector<Budget> made_up = {{.what = "libraries",
+                                      .folders = {"pbs/", "analysis/"},
+                                      .endings = {".cpp", ".hpp"},
+                                      .most_lines = 1000,
+                                      .most_files = 8,
+                                      .least_mean = 80,
+                                      .small_files = 1}};
+
+const Law made_up_folder_sizes = [](const SourceTree& tree) { return folder_sizes(tree, made_up); };
+const Law made_up_small_files = [](const SourceTree& tree) { return small_files(tree, made_up); };
+const std::string used = including("pbs/small.hpp");
+
+// The law finds exactly one violation in the planted files, and its text contains `expected`; nothing is found where that is "". One letter
+// of each forbidden text is written by its code, so that this file itself obeys the law.
+struct Planted {
+    std::string name;
+    Law law;
+    SourceTree files;
+    std::string expected;
+};
+
+const Planted planted[] = {
     {"SourcesInAFolderWithoutALaw", include_direction, {{"extras/x.cpp", ""}}, "no include law knows"},
     {"LawsIncludeTheirOptions", include_direction, {{"reference_fem/laws/x.cpp", including("reference_fem/options.hpp")}}, ""},
     {"AFolderOfExperimentsWithoutALayer", layer_direction, {{"experiments/extras/x.cpp", ""}}, "no layer knows"},
@@ -129,7 +103,7 @@ const Planted includes[] = {
     {"RelativeInclude", include_form, {{"analysis/x.cpp", including("y.hpp")}}, "no such file"},
     {"AngleBrackets", include_form, {{"analysis/x.cpp", "#include <analysis/y.hpp>\n"}}, "ours goes in quotes"},
     {"HeaderWithoutPragmaOnce", include_form, {{"analysis/x.hpp", "int f();\n"}}, "#pragma once"},
-    {"AFigureRunsTheSolver", values_compute, {{"paper_figures/x.py", "import csv\nimport subprocess\n"}}, "figures/x.py:2: subprocess"},
+    {"AFigureRunsTheSolver", values_compute, {{"paper_figures/x.py", "import csv\nimport subprocess\n"}}, "x.py:2: a figure reads records"},
     {"AStudyTestsForAKind", deformers_tested_by_name, {{"experiments/studies/x/y.cpp", "if (spec.kind == \"pbs\") f();\n"}}, "y.cpp:1: "},
     {"AStudyTestsForNoKind", deformers_tested_by_name, {{"experiments/studies/x/y.cpp", "return a.kind != \"fem\";\n"}}, "y.cpp:1: "},
     {"AStudyTestsForTheBeginningOfAKind",
@@ -144,25 +118,7 @@ const Planted includes[] = {
      "pbs/solver/x.cpp:1: sees CGAL/"},
     {"TooManyHeavyFiles", heavy_headers, nine_files("reference_fem/", "#include <deal.II/base/point.h>\n"),
      "deal.II/ is seen by 9 .cpp files"},
-};
-INSTANTIATE_TEST_SUITE_P(Includes, Bite, testing::ValuesIn(includes), law_name);
 
-TEST(IncludeLawsBite, EachLayerIncludesTheNext)
-{
-    const std::vector<std::string> rooms = {"process",        "settings", "deformers",      "scene",    "run",
-                                            "studies/shared", "studies",  "studies/volume", "verdicts", "command_line"};
-    for (std::size_t i = 0; i + 1 < rooms.size(); ++i) {
-        const std::string lower = "experiments/" + rooms[i] + "/", upper = "experiments/" + rooms[i + 1] + "/";
-        const Violations found = layer_direction({{lower + "x.hpp", including(upper + "a.hpp")}});
-        ASSERT_EQ(found.size(), 1u);
-        EXPECT_NE(found[0].find(lower + " may not include " + upper), std::string::npos) << found[0];
-        EXPECT_TRUE(layer_direction({{upper + "x.hpp", including(lower + "a.hpp")}}).empty()) << upper;
-    }
-}
-
-const std::string kernel_library = "add_library(pbs_kernels OBJECT solver/k.cpp)\n";
-
-const Planted builds[] = {
     {"EigenInAKernelThroughAHeader",
      kernel_includes,
      {{"pbs/CMakeLists.txt", kernel_library},
@@ -226,29 +182,7 @@ const Planted builds[] = {
      {{"cmake/packages.txt", "libgsl-dev 2 run [GSL] statistics\n"},
       {"analysis/CMakeLists.txt", "find_package(GSL REQUIRED)\nfind_package(Boost)  # find_package(X)\n"}},
      "analysis/CMakeLists.txt:2: Boost"},
-};
-INSTANTIATE_TEST_SUITE_P(Builds, Bite, testing::ValuesIn(builds), law_name);
 
-std::string lines(int count)
-{
-    std::string text;
-    for (int i = 0; i < count; ++i) text += "    line();\n";
-    return text;
-}
-
-const std::vector<Budget> made_up = {{.what = "libraries",
-                                      .folders = {"pbs/", "analysis/"},
-                                      .endings = {".cpp", ".hpp"},
-                                      .most_lines = 1000,
-                                      .most_files = 8,
-                                      .least_mean = 80,
-                                      .small_files = 1}};
-
-const Law made_up_folder_sizes = [](const SourceTree& tree) { return folder_sizes(tree, made_up); };
-const Law made_up_small_files = [](const SourceTree& tree) { return small_files(tree, made_up); };
-const std::string used = including("pbs/small.hpp");
-
-const Planted sizes[] = {
     {"FileOver500Lines",
      file_sizes,
      {{"analysis/x.cpp", lines(501)}, {"analysis/y.cpp", lines(500)}},
@@ -277,10 +211,66 @@ const Planted sizes[] = {
      made_up_small_files,
      {{"pbs/small.hpp", ""}, {"pbs/one.cpp", ""}, {"tests/a.cpp", used}, {"tests/b.cpp", used}, {"tests/c.cpp", used}},
      ""},
-};
-INSTANTIATE_TEST_SUITE_P(Sizes, Bite, testing::ValuesIn(sizes), law_name);
 
-TEST(SizeLawsBite, AHeaderWithTwoUsersAndItsOwnSource)
+    {"HomeFolder", absolute_paths, {{"analysis/x.cpp", "\n// see /\150ome/somebody/data\n"}}, "analysis/x.cpp:2"},
+    {"UnfinishedMark", unfinished_marks, {{"analysis/x.cpp", "// \124ODO later\n"}}, "analysis/x.cpp:1: finish it"},
+    {"Tab", stray_whitespace, {{"a.md", "tab\there\nclean\n"}}, "a.md:1"},
+    {"BlankAtTheEnd", stray_whitespace, {{"a.md", "clean\nblank \n"}}, "a.md:2"},
+};
+
+TEST(LawsBite, FindWhatIsPlanted)
+{
+    for (const auto& [name, law, files, expected] : planted) {
+        const Violations violations = law(files);
+        EXPECT_EQ(violations.size(), expected.empty() ? 0u : 1u) << name;
+        for (const std::string& violation : violations) EXPECT_NE(violation.find(expected), std::string::npos) << name << ": " << violation;
+    }
+}
+
+// A file whose folder may not include a header, and that folder.
+struct ForbiddenInclude {
+    Law law;
+    std::string file, header, folder;
+};
+const ForbiddenInclude forbidden[] = {
+    {include_direction, "analysis/metrics/x.hpp", "pbs/skinning/a.hpp", "analysis/metrics/"},
+    {include_direction, "pbs/solver/x.hpp", "pbs/skinning/a.hpp", "pbs/solver/"},
+    {include_direction, "pbs/character/x.cpp", "tests/support/a.hpp", "pbs/character/"},
+    {include_direction, "reference_fem/x.cpp", "pbs/solver/b.hpp", "reference_fem/"},
+    {include_direction, "reference_fem/x.cpp", "reference_fem/verification/a.hpp", "reference_fem/"},
+    {include_direction, "reference_fem/laws/x.cpp", "reference_fem/assembly.hpp", "reference_fem/laws/"},
+    {include_direction, "reference_fem/verification/x.cpp", "analysis/metrics/error_norms.hpp", "reference_fem/verification/"},
+    {include_direction, "analysis/records/x.cpp", "analysis/verdicts/verdict.hpp", "analysis/records/"},
+    {include_direction, "analysis/statistics/x.cpp", "analysis/metrics/error_norms.hpp", "analysis/statistics/"},
+    {layer_direction, "experiments/studies/stiffness/x.cpp", "experiments/studies/fit/a.hpp", "experiments/studies/stiffness/"},
+    {layer_direction, "experiments/studies/ambiguity/x.cpp", "experiments/studies/jiggle/a.hpp", "experiments/studies/ambiguity/"},
+    {layer_direction, "experiments/studies/shared/x.cpp", "experiments/studies/volume/a.hpp", "experiments/studies/shared/"},
+    {layer_direction, "experiments/verdicts/x.cpp", "experiments/distributed/a.hpp", "experiments/verdicts/"},
+};
+
+// Between headers that everything may include: that of its own folder and one of the mesh.
+TEST(LawsBite, ForbiddenIncludesAreFoundInTheirLine)
+{
+    for (const auto& [law, file, header, folder] : forbidden) {
+        const std::string text = including(folder_of(file) + "/own.hpp") + "\n" + including(header) + including("pbs/geometry/a.hpp");
+        EXPECT_EQ(law({{file, text}}), Violations{file + ":3: " + folder + " may not include " + header});
+    }
+}
+
+TEST(LawsBite, EachLayerIncludesTheNext)
+{
+    const std::vector<std::string> rooms = {"process",        "settings", "deformers",      "scene",    "run",
+                                            "studies/shared", "studies",  "studies/volume", "verdicts", "command_line"};
+    for (std::size_t i = 0; i + 1 < rooms.size(); ++i) {
+        const std::string lower = "experiments/" + rooms[i] + "/", upper = "experiments/" + rooms[i + 1] + "/";
+        const Violations found = layer_direction({{lower + "x.hpp", including(upper + "a.hpp")}});
+        ASSERT_EQ(found.size(), 1u);
+        EXPECT_NE(found[0].find(lower + " may not include " + upper), std::string::npos) << found[0];
+        EXPECT_TRUE(layer_direction({{upper + "x.hpp", including(lower + "a.hpp")}}).empty()) << upper;
+    }
+}
+
+TEST(LawsBite, AHeaderWithTwoUsersAndItsOwnSource)
 {
     const Violations found =
         made_up_small_files({{"pbs/small.hpp", lines(5)}, {"pbs/small.cpp", used}, {"tests/a.cpp", used}, {"tests/b.cpp", used}});
@@ -289,7 +279,7 @@ TEST(SizeLawsBite, AHeaderWithTwoUsersAndItsOwnSource)
     EXPECT_EQ(found[1], "pbs/small.hpp:1: file of 5 lines, at least 60 unless it is a header with 3 users");
 }
 
-TEST(SizeLawsBite, LineOver140Columns)
+TEST(LawsBite, LineOver140Columns)
 {
     for (const std::string path : {"analysis/x.cpp", "analysis/x.hpp", "tests/x.py", "cmake/x.cmake", "pbs/CMakeLists.txt", "cmake/x.sh",
                                    "check", "paper_figures/x.js", "tests/x.mjs", "paper_figures/x.css", "experiments/sweeps/Snakefile"})
@@ -299,14 +289,5 @@ TEST(SizeLawsBite, LineOver140Columns)
     EXPECT_TRUE(line_lengths({{"analysis/x.cpp", std::string(140, 'x') + "\n" + umlauts + "\n"}}).empty());
     EXPECT_TRUE(line_lengths({{"README.md", std::string(141, 'x')}, {"package-lock.json", std::string(141, 'x')}}).empty());
 }
-
-// One letter of each planted text is written by its code, so that this file itself obeys the law.
-const Planted texts[] = {
-    {"HomeFolder", absolute_paths, {{"analysis/x.cpp", "\n// see /\150ome/somebody/data\n"}}, "analysis/x.cpp:2"},
-    {"UnfinishedMark", unfinished_marks, {{"analysis/x.cpp", "// \124ODO later\n"}}, "analysis/x.cpp:1: finish it"},
-    {"Tab", stray_whitespace, {{"a.md", "tab\there\nclean\n"}}, "a.md:1"},
-    {"BlankAtTheEnd", stray_whitespace, {{"a.md", "clean\nblank \n"}}, "a.md:2"},
-};
-INSTANTIATE_TEST_SUITE_P(Texts, Bite, testing::ValuesIn(texts), law_name);
 
 }  // namespace

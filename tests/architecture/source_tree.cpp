@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <regex>
 #include <sstream>
 
 namespace architecture {
@@ -26,6 +25,16 @@ std::string read(const std::filesystem::path& file)
 {
     std::ifstream stream(file, std::ios::binary);
     return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+void collect_foreign(const SourceTree& tree, const std::string& path, std::set<std::string>& visited, std::set<std::string>& foreign)
+{
+    const auto file = tree.find(path);
+    if (file == tree.end() || !visited.insert(path).second) return;
+    for (const Include& include : includes_of(file->second)) {
+        if (!tree.contains(include.target)) foreign.insert(include.target);
+        collect_foreign(tree, include.target, visited, foreign);
+    }
 }
 
 }  // namespace
@@ -97,6 +106,13 @@ std::vector<Include> includes_of(const std::string& text)
     return includes;
 }
 
+std::set<std::string> foreign_headers(const SourceTree& tree, const std::string& path)
+{
+    std::set<std::string> visited, foreign;
+    collect_foreign(tree, path, visited, foreign);
+    return foreign;
+}
+
 std::string at(const std::string& path, int line, const std::string& what)
 {
     return path + ":" + std::to_string(line) + ": " + what;
@@ -114,6 +130,15 @@ Violations in_lines(const SourceTree& tree, const std::function<bool(const std::
         }
     }
     return violations;
+}
+
+Violations in_lines(const SourceTree& tree, const std::function<bool(const std::string&)>& concerns, const std::regex& forbidden,
+                    const std::string& what)
+{
+    return in_lines(tree, concerns, [&](const std::string& line) {
+        std::smatch match;
+        return std::regex_search(line, match, forbidden) ? what + ": '" + match.str() + "'" : "";
+    });
 }
 
 }  // namespace architecture

@@ -7,7 +7,7 @@
 
 #include "pbs/geometry/tet_mesh.hpp"
 #include "tests/support/random_points.hpp"
-#include "tests/support/scalar_rounding.hpp"
+#include "tests/support/rounding_error.hpp"
 
 #include <gtest/gtest.h>
 

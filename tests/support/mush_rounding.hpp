@@ -4,7 +4,7 @@
 #include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/geometry/topology.hpp"
 #include "pbs/skinning/delta_mush.hpp"
-#include "tests/support/scalar_rounding.hpp"
+#include "tests/support/rounding_error.hpp"
 #include "tests/support/two_bone_limb.hpp"
 
 #include <Eigen/LU>

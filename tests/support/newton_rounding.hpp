@@ -8,7 +8,7 @@
 #include "experiments/deformers/fem/bone_attachment.hpp"
 #include "reference_fem/attachment.hpp"
 #include "reference_fem/verification/problems.hpp"
-#include "tests/support/motion_rounding.hpp"
+#include "tests/support/rounding_error.hpp"
 
 #include <gtest/gtest.h>
 
@@ -48,7 +48,7 @@ inline double newton_error_m(const pbs::Character& character, const experiments:
     return residual_n / spectrum(hessian.matrix(), held.prescribed()).smallest;
 }
 
-// The rounding of positions [m] that are taken into the frame of a bone and back: two motions (motion_rounding.hpp), and two roundings of
+// The rounding of positions [m] that are taken into the frame of a bone and back: two motions (rounding_error.hpp), and two roundings of
 // each of three coordinates, of the difference from rest and of its sum with the place at rest. No norm on the way exceeds that of the
 // farthest.
 inline double frame_rounding_m(const pbs::Positions& positions)

@@ -1,15 +1,30 @@
-// A box of nx x ny x nz cubes, each Kuhn-split into six tets: a mesh with known volume, counts and topology, without a mesher.
+// Meshes with known volume, counts and topology, without a mesher.
 //   const pbs::TetMesh bar = test_support::structured_bar({-1, -0.15, -0.15}, {1, 0.15, 0.15}, {20, 3, 3});
 #pragma once
 
 #include "pbs/geometry/tet_mesh.hpp"
 
 #include <array>
+#include <random>
 #include <utility>
 
 namespace test_support {
 
-// Corners [m]; cells along x, y, z. (nx+1)(ny+1)(nz+1) vertices, x fastest; 6 nx ny nz tets, all positively oriented.
+// The smallest mesh: vertices at the origin and at 1 m on each axis, one positively oriented tet of 1/6 m^3 with three edges of 1 m and
+// three of sqrt 2 m.
+inline pbs::TetMesh unit_tet()
+{
+    return {pbs::Positions{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, pbs::Tets{{0, 1, 2, 3}}};
+}
+
+// The unit tet and a second one below it on the triangle 0 1 2, of `depth_m` / 6 m^3.
+inline pbs::TetMesh two_tets(double depth_m = 1.0)
+{
+    return {pbs::Positions{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, -depth_m}}, pbs::Tets{{0, 1, 2, 3}, {0, 2, 1, 4}}};
+}
+
+// A box of nx x ny x nz cubes, each Kuhn-split into six tets. Corners [m]; cells along x, y, z. (nx+1)(ny+1)(nz+1) vertices, x fastest; 6
+// nx ny nz tets, all positively oriented.
 inline pbs::TetMesh structured_bar(const pbs::Vec3& lower, const pbs::Vec3& upper, const std::array<int, 3>& cells)
 {
     const auto [nx, ny, nz] = cells;
@@ -39,6 +54,25 @@ inline pbs::TetMesh structured_bar(const pbs::Vec3& lower, const pbs::Vec3& uppe
                     if (order >= 3) std::swap(mesh.tets(t, 2), mesh.tets(t, 3));
                 }
     return mesh;
+}
+
+// Moves every vertex that is not on the box's surface by up to `share` / 2 of a cell along each axis; the seed is fixed.
+inline pbs::TetMesh jittered(pbs::TetMesh mesh, const pbs::Vec3& cell_size_m, double share)
+{
+    const Eigen::RowVector3d low = mesh.rest.colwise().minCoeff(), high = mesh.rest.colwise().maxCoeff();
+    std::mt19937 random(12345);
+    for (auto vertex : mesh.rest.rowwise()) {
+        Eigen::RowVector3d shift;
+        for (int c = 0; c < 3; ++c) shift(c) = cell_size_m(c) * share * (random() / 4294967295.0 - 0.5);
+        if (((vertex - low).array() > 1e-9).all() && ((high - vertex).array() > 1e-9).all()) vertex += shift;
+    }
+    return mesh;
+}
+
+// The unit cube of n^3 cells whose inner vertices are displaced at random, so that no symmetry of the mesh hides an error.
+inline pbs::TetMesh jittered_cube(int n, double share = 0.25)
+{
+    return jittered(structured_bar({0, 0, 0}, {1, 1, 1}, {n, n, n}), pbs::Vec3::Constant(1.0 / n), share);
 }
 
 }  // namespace test_support

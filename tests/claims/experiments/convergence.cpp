@@ -5,7 +5,7 @@
 #include "pbs/geometry/topology.hpp"
 #include "tests/support/broken_solver.hpp"
 #include "tests/support/iteration_paths.hpp"
-#include "tests/support/scalar_rounding.hpp"
+#include "tests/support/rounding_error.hpp"
 #include "tests/support/study_claims.hpp"
 
 #include <gtest/gtest.h>

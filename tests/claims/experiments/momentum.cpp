@@ -3,7 +3,7 @@
 
 #include "experiments/studies/momentum/momentum_drift.hpp"
 #include "tests/support/broken_solver.hpp"
-#include "tests/support/limb_character.hpp"
+#include "tests/support/bar_character.hpp"
 #include "tests/support/momentum_rounding.hpp"
 #include "tests/support/study_claims.hpp"
 

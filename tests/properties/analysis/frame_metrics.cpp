@@ -2,7 +2,7 @@
 // or lengths. Tolerance: the rounding of the moved positions, of volumes and of lengths.
 #include "analysis/metrics/frame_metrics.hpp"
 
-#include "tests/support/motion_rounding.hpp"
+#include "tests/support/rounding_error.hpp"
 #include "tests/support/structured_bar.hpp"
 
 #include <Eigen/Geometry>

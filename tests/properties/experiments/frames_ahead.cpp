@@ -1,7 +1,7 @@
 // Reference: the same frames one by one. A deformer that computes several frames at once on several threads changes no bit.
 #include "experiments/deformers/registry.hpp"
 #include "pbs/solver/options.hpp"
-#include "tests/support/limb_character.hpp"
+#include "tests/support/bar_character.hpp"
 
 #include <gtest/gtest.h>
 

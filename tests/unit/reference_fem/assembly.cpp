@@ -6,7 +6,7 @@
 #include "pbs/geometry/topology.hpp"
 #include "reference_fem/assembly.hpp"
 #include "reference_fem/options.hpp"
-#include "tests/support/element_rounding.hpp"
+#include "tests/support/fem_rounding.hpp"
 #include "tests/support/rounding_error.hpp"
 #include "tests/support/structured_bar.hpp"
 

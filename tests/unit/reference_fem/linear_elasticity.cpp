@@ -2,10 +2,9 @@
 
 #include "reference_fem/boundary_value_problem.hpp"
 #include "reference_fem/linear_elasticity.hpp"
-#include "tests/support/element_rounding.hpp"
+#include "tests/support/fem_rounding.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/structured_bar.hpp"
-#include "tests/verification/reference_fem/jittered_cube.hpp"
 
 namespace {
 

@@ -6,9 +6,8 @@
 
 #include "pbs/geometry/input_error.hpp"
 #include "reference_fem/assembly.hpp"
-#include "tests/support/element_rounding.hpp"
-#include "tests/support/unit_tet.hpp"
-#include "tests/verification/reference_fem/jittered_cube.hpp"
+#include "tests/support/fem_rounding.hpp"
+#include "tests/support/structured_bar.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,8 +7,8 @@
 #include "reference_fem/linear_elasticity.hpp"
 
 #include "pbs/geometry/tet_mesh.hpp"
-#include "tests/support/solve_rounding.hpp"
-#include "tests/verification/reference_fem/jittered_cube.hpp"
+#include "tests/support/fem_rounding.hpp"
+#include "tests/support/structured_bar.hpp"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>

@@ -8,7 +8,7 @@
 #include "reference_fem/potentials/potentials.hpp"
 #include "reference_fem/verification/problems.hpp"
 
-#include "tests/support/solve_rounding.hpp"
+#include "tests/support/fem_rounding.hpp"
 #include "tests/support/structured_bar.hpp"
 
 #include <Eigen/Eigenvalues>

@@ -2,8 +2,8 @@
 // program (a kept factor gives what a fresh one gives; two solvers agree). Tolerances: rounding of direct solves, by cond(K).
 #include "reference_fem/linear_elasticity.hpp"
 
-#include "tests/support/solve_rounding.hpp"
-#include "tests/verification/reference_fem/jittered_cube.hpp"
+#include "tests/support/fem_rounding.hpp"
+#include "tests/support/structured_bar.hpp"
 
 #include <gtest/gtest.h>
 

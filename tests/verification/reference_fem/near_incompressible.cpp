@@ -2,8 +2,8 @@
 #include "reference_fem/boundary_value_problem.hpp"
 #include "reference_fem/linear_flesh.hpp"
 
-#include "tests/support/solve_rounding.hpp"
-#include "tests/verification/reference_fem/jittered_cube.hpp"
+#include "tests/support/fem_rounding.hpp"
+#include "tests/support/structured_bar.hpp"
 
 #include <gtest/gtest.h>
 

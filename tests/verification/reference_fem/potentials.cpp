@@ -6,9 +6,9 @@
 #include "reference_fem/dynamics/time_stepper.hpp"
 #include "reference_fem/potentials/potentials.hpp"
 
-#include "tests/support/element_rounding.hpp"
+#include "tests/support/fem_rounding.hpp"
 #include "tests/support/eps_sweep.hpp"
-#include "tests/verification/reference_fem/jittered_cube.hpp"
+#include "tests/support/structured_bar.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>

@@ -6,7 +6,6 @@
 #include "tests/support/random_points.hpp"
 #include "tests/support/rounding_error.hpp"
 #include "tests/support/structured_bar.hpp"
-#include "tests/support/volume_rounding.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Reference: binding, weights and blends are geometry, so they commute with rigid motions, renumbering, mirrors and changes of unit.
-#include "tests/support/motion_rounding.hpp"
+#include "tests/support/rounding_error.hpp"
 #include "tests/support/random_points.hpp"
 #include "tests/support/two_bone_limb.hpp"
 

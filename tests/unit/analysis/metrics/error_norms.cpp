@@ -5,7 +5,6 @@
 #include "pbs/geometry/input_error.hpp"
 #include "tests/support/rounding_error.hpp"
 #include "tests/support/structured_bar.hpp"
-#include "tests/support/unit_tet.hpp"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>

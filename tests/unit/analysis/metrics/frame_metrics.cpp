@@ -7,8 +7,6 @@
 #include "pbs/geometry/topology.hpp"
 #include "tests/support/rounding_error.hpp"
 #include "tests/support/structured_bar.hpp"
-#include "tests/support/unit_tet.hpp"
-#include "tests/support/volume_rounding.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 #include "pbs/skinning/delta_mush.hpp"
 #include "pbs/skinning/direct_delta_mush.hpp"
 #include "tests/support/bar_character.hpp"
-#include "tests/support/scalar_rounding.hpp"
+#include "tests/support/rounding_error.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 #include <gtest/gtest.h>

@@ -6,8 +6,7 @@
 #include "pbs/character/bodies.hpp"
 #include "pbs/character/overlap_and_jiggle.hpp"
 #include "tests/support/bar_character.hpp"
-#include "tests/support/motion_rounding.hpp"
-#include "tests/support/wound_bar.hpp"
+#include "tests/support/rounding_error.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,12 +8,10 @@
 #include "pbs/character/bodies.hpp"
 #include "pbs/character/model_character.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
-#include "tests/support/limb_character.hpp"
-#include "tests/support/motion_rounding.hpp"
+#include "tests/support/bar_character.hpp"
 #include "tests/support/rounding_error.hpp"
-#include "tests/support/unit_tet.hpp"
+#include "tests/support/structured_bar.hpp"
 #include "tests/support/scratch_folder.hpp"
-#include "tests/support/volume_rounding.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -3,7 +3,7 @@
 #include "pbs/character/clip.hpp"
 #include "pbs/character/named_bodies.hpp"
 #include "pbs/character/retarget.hpp"
-#include "tests/support/motion_rounding.hpp"
+#include "tests/support/rounding_error.hpp"
 #include "tests/unit/pbs/character/expect_input_error.hpp"
 
 #include <gtest/gtest.h>

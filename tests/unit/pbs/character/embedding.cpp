@@ -6,7 +6,6 @@
 #include "tests/support/random_points.hpp"
 #include "tests/support/rounding_error.hpp"
 #include "tests/support/structured_bar.hpp"
-#include "tests/support/unit_tet.hpp"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>

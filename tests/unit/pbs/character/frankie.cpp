@@ -1,7 +1,7 @@
 // Reference: the documented format (a tetrahedron of volume 1/6 and two joints, laid out by hand); each refusal by file and field.
 
 #include "pbs/character/named_bodies.hpp"
-#include "tests/support/motion_rounding.hpp"
+#include "tests/support/rounding_error.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/unit/pbs/character/expect_input_error.hpp"
 

@@ -3,8 +3,6 @@
 #include "pbs/character/bodies.hpp"
 #include "pbs/character/overlap_and_jiggle.hpp"
 #include "tests/support/bar_character.hpp"
-#include "tests/support/limb_character.hpp"
-#include "tests/support/wound_bar.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,6 @@
 #include "tests/support/bar_character.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/structured_bar.hpp"
-#include "tests/support/unit_tet.hpp"
 #include "tests/unit/pbs/character/expect_input_error.hpp"
 
 #include <gtest/gtest.h>

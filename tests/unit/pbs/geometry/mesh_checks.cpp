@@ -5,7 +5,6 @@
 #include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/geometry/topology.hpp"
 #include "tests/support/structured_bar.hpp"
-#include "tests/support/unit_tet.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,6 @@
 #include "pbs/geometry/mesh_io.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/structured_bar.hpp"
-#include "tests/support/unit_tet.hpp"
 #include "tests/unit/pbs/character/expect_input_error.hpp"
 
 #include <gtest/gtest.h>

@@ -7,7 +7,7 @@
 #include "pbs/geometry/topology.hpp"
 #include "tests/support/closed_surfaces.hpp"
 #include "tests/support/mesher_error.hpp"
-#include "tests/support/volume_rounding.hpp"
+#include "tests/support/rounding_error.hpp"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>

@@ -5,7 +5,7 @@
 #include "pbs/geometry/nearest_rotation.hpp"
 
 #include "tests/support/random_points.hpp"
-#include "tests/support/scalar_rounding.hpp"
+#include "tests/support/rounding_error.hpp"
 
 #include <Eigen/LU>
 #include <Eigen/SVD>

@@ -4,7 +4,6 @@
 #include "pbs/geometry/topology.hpp"
 #include "tests/support/rounding_error.hpp"
 #include "tests/support/structured_bar.hpp"
-#include "tests/support/volume_rounding.hpp"
 
 #include <Eigen/Dense>
 #include <Eigen/LU>
@@ -109,7 +108,7 @@ double smallest_determinant(const TetMesh& mesh, Eigen::Index tet, const pbs::Ve
     return smallest;
 }
 
-// Each volume goes through ten roundings of products of edges, whose sum is bounded in tests/support/volume_rounding.hpp. A midpoint is
+// Each volume goes through ten roundings of products of edges, whose sum is bounded in tests/support/rounding_error.hpp. A midpoint is
 // rounded once; its coordinates are at most twice as long as an edge of a child, which has two ends: twelve more for three edges.
 TEST(Refinement, OfOneTetIsEightOfAnEighthOfItsVolume)
 {

@@ -4,7 +4,7 @@
 #include "pbs/rig/assimp_rig.hpp"
 #include "pbs/rig/rig_pose.hpp"
 #include "tests/support/arm_in_formats.hpp"
-#include "tests/support/scalar_rounding.hpp"
+#include "tests/support/rounding_error.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/unit/pbs/character/expect_input_error.hpp"
 

@@ -2,8 +2,7 @@
 // form and three where rotations become quaternions and back.
 
 #include "pbs/skinning/blend.hpp"
-#include "tests/support/motion_rounding.hpp"
-#include "tests/support/scalar_rounding.hpp"
+#include "tests/support/rounding_error.hpp"
 
 #include <gtest/gtest.h>
 

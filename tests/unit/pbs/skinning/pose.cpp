@@ -1,7 +1,7 @@
 // Reference: forward kinematics of a straight chain, by hand. Tolerances: the rounding of a motion per joint.
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/skinning/pose.hpp"
-#include "tests/support/motion_rounding.hpp"
+#include "tests/support/rounding_error.hpp"
 
 #include <gtest/gtest.h>
 

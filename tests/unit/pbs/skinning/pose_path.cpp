@@ -3,7 +3,7 @@
 
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/skinning/pose_path.hpp"
-#include "tests/support/motion_rounding.hpp"
+#include "tests/support/rounding_error.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,6 @@
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/topology.hpp"
 #include "pbs/skinning/weights.hpp"
-#include "tests/support/motion_rounding.hpp"
 #include "tests/support/rounding_error.hpp"
 #include "tests/support/structured_bar.hpp"
 #include "tests/support/two_bone_limb.hpp"
@@ -279,8 +278,7 @@ double largest_jump(const pbs::Weights& weights)
     const Eigen::VectorXd forearm = dense(weights, 2).col(1);
     double largest = 0.0;
     const pbs::Edges edges = pbs::edges_of(straight.mesh.tets);
-    for (const auto& edge : edges.rowwise())
-        largest = std::max(largest, std::abs(forearm(edge(0)) - forearm(edge(1))));
+    for (const auto& edge : edges.rowwise()) largest = std::max(largest, std::abs(forearm(edge(0)) - forearm(edge(1))));
     return largest;
 }
 

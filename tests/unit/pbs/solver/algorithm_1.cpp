@@ -2,7 +2,7 @@
 #include "pbs/solver/algorithm_1.hpp"
 
 #include "pbs/geometry/input_error.hpp"
-#include "tests/support/scalar_rounding.hpp"
+#include "tests/support/rounding_error.hpp"
 #include "tests/support/two_bone_limb.hpp"
 
 #include <gtest/gtest.h>

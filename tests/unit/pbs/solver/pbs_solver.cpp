@@ -4,7 +4,7 @@
 #include "pbs/geometry/topology.hpp"
 #include "pbs/solver/pbs_solver.hpp"
 #include "tests/support/projection_rounding.hpp"
-#include "tests/support/scalar_rounding.hpp"
+#include "tests/support/rounding_error.hpp"
 #include "tests/support/step_rounding.hpp"
 #include "tests/support/two_bone_limb.hpp"
 

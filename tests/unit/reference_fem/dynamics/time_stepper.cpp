@@ -5,9 +5,8 @@
 #include "reference_fem/dynamics/vibrating_body.hpp"
 #include "reference_fem/potentials/potentials.hpp"
 #include "reference_fem/verification/problems.hpp"
-#include "tests/support/element_rounding.hpp"
+#include "tests/support/fem_rounding.hpp"
 #include "tests/support/structured_bar.hpp"
-#include "tests/verification/reference_fem/jittered_cube.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>

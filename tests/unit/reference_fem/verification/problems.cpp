@@ -7,7 +7,7 @@
 #include "pbs/geometry/topology.hpp"
 #include "reference_fem/verification/verification_record.hpp"
 #include "tests/support/scratch_folder.hpp"
-#include "tests/support/volume_rounding.hpp"
+#include "tests/support/rounding_error.hpp"
 
 #include <gtest/gtest.h>
 

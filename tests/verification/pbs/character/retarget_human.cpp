@@ -3,8 +3,7 @@
 #include "pbs/character/clip.hpp"
 #include "pbs/character/named_bodies.hpp"
 
-#include "tests/support/motion_rounding.hpp"
-#include "tests/support/scalar_rounding.hpp"
+#include "tests/support/rounding_error.hpp"
 #include "tests/verification/pbs/character/bvh_kinematics.hpp"
 
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 #include "pbs/character/clip.hpp"
 
 #include "pbs/geometry/input_error.hpp"
-#include "tests/support/scalar_rounding.hpp"
+#include "tests/support/rounding_error.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include "tests/support/newton_rounding.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/rounding_error.hpp"
-#include "tests/support/solve_rounding.hpp"
+#include "tests/support/fem_rounding.hpp"
 
 namespace {
 

@@ -9,7 +9,7 @@
 #include "pbs/geometry/topology.hpp"
 #include "pbs/skinning/blend.hpp"
 #include "tests/support/mesher_error.hpp"
-#include "tests/support/motion_rounding.hpp"
+#include "tests/support/rounding_error.hpp"
 
 #include <gtest/gtest.h>
 

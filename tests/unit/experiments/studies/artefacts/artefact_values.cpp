@@ -3,8 +3,7 @@
 #include "experiments/studies/artefacts/artefact_values.hpp"
 #include "pbs/character/bodies.hpp"
 #include "tests/support/artefact_samples.hpp"
-#include "tests/support/motion_rounding.hpp"
-#include "tests/support/tet_rounding.hpp"
+#include "tests/support/rounding_error.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 #include "experiments/studies/convergence/convergence_case.hpp"
 
 #include "pbs/solver/pbs_solver.hpp"
-#include "tests/support/limb_character.hpp"
+#include "tests/support/bar_character.hpp"
 
 #include <gtest/gtest.h>
 

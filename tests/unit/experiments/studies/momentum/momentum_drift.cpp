@@ -4,7 +4,7 @@
 #include "experiments/studies/shared/posed_character.hpp"
 #include "pbs/constraints/volume.hpp"
 #include "pbs/solver/constraint_set.hpp"
-#include "tests/support/limb_character.hpp"
+#include "tests/support/bar_character.hpp"
 #include "tests/support/momentum_rounding.hpp"
 
 #include <gtest/gtest.h>

@@ -3,7 +3,7 @@
 
 #include "pbs/geometry/input_error.hpp"
 #include "tests/support/fit_rounding.hpp"
-#include "tests/support/motion_rounding.hpp"
+#include "tests/support/rounding_error.hpp"
 #include "tests/support/step_rounding.hpp"
 #include "tests/support/structured_bar.hpp"
 

@@ -3,7 +3,7 @@
 #include "experiments/studies/timing/frames.hpp"
 
 #include "pbs/skinning/pose.hpp"
-#include "tests/support/limb_character.hpp"
+#include "tests/support/bar_character.hpp"
 #include "tests/support/rounding_error.hpp"
 
 #include <gtest/gtest.h>

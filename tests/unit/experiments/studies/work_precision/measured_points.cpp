@@ -10,7 +10,6 @@
 #include "pbs/solver/constraint_set.hpp"
 #include "pbs/solver/options.hpp"
 #include "tests/support/rounding_error.hpp"
-#include "tests/support/tet_rounding.hpp"
 
 #include <gtest/gtest.h>
 

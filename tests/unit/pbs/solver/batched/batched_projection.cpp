@@ -4,7 +4,7 @@
 #include "pbs/solver/project_plain.hpp"
 #include "pbs/solver/step_summary.hpp"
 #include "tests/support/random_points.hpp"
-#include "tests/support/scalar_rounding.hpp"
+#include "tests/support/rounding_error.hpp"
 #include "tests/support/two_bone_limb.hpp"
 
 #include <gtest/gtest.h>

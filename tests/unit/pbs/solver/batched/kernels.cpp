@@ -4,7 +4,7 @@
 // rest value would give, so that twice the rounding of a projection that removes all of the error bounds the difference.
 #include "tests/support/projection_rounding.hpp"
 #include "tests/support/random_points.hpp"
-#include "tests/support/scalar_rounding.hpp"
+#include "tests/support/rounding_error.hpp"
 #include "tests/support/sixteen.hpp"
 
 #include <gtest/gtest.h>

@@ -5,8 +5,8 @@
 #include "pbs/geometry/tet_mesh.hpp"
 #include "tests/support/fem_bar.hpp"
 #include "tests/support/newton_rounding.hpp"
-#include "tests/support/solve_rounding.hpp"
-#include "tests/verification/reference_fem/jittered_cube.hpp"
+#include "tests/support/fem_rounding.hpp"
+#include "tests/support/structured_bar.hpp"
 
 namespace {
 

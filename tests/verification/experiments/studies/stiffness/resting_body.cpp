@@ -4,7 +4,7 @@
 // position based solver does not depend on dt, so its stiffness scales with 1 / dt^2; that of converged XPBD is the material's.
 #include "experiments/studies/stiffness/stiffness_ratios.hpp"
 
-#include "tests/support/limb_character.hpp"
+#include "tests/support/bar_character.hpp"
 
 #include <gtest/gtest.h>
 
