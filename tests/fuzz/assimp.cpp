@@ -7,7 +7,6 @@
 #include "tests/fuzz/library_child.hpp"
 #include "tests/fuzz/sound_rig.hpp"
 #include "tests/fuzz/token_mutator.hpp"
-#include "tests/support/scratch_folder.hpp"
 
 #include <assimp/Importer.hpp>
 
@@ -16,23 +15,17 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
     return fuzz::mutated_tokens(data, size, most, seed, 0);
 }
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
+void fuzz::try_input(const std::string& bytes)
 {
-    static const test_support::ScratchFolder folder;
-    const std::string path = folder.file("fuzz.bin", std::string(reinterpret_cast<const char*>(data), size));
-    const std::string extension = pbs::content_extension(path);
-    if (extension != ".fbx" && extension != ".dae" && extension != ".zae") return 0;
-    try {
-        if (extension != ".fbx") pbs::check_collada_weights(path);
-        const fuzz::LibraryChild child([&](fuzz::LibraryChild::Parent& parent) {
-            Assimp::Importer importer;
-            const aiScene& scene = pbs::read_assimp_scene(importer, path);
-            parent.library_is_done();
-            fuzz::expect_sound(pbs::checked(pbs::rig_of_scene(scene, path)));
-        });
-        if (child.broke_down_after_library()) std::abort();
-        if (child.broke_down_in_library()) fuzz::keep_breakdown(data, size);
-    } catch (const pbs::InputError&) {
-    }
-    return 0;
+    const std::string path = written("fuzz.bin", bytes), extension = pbs::content_extension(path);
+    if (extension != ".fbx" && extension != ".dae" && extension != ".zae") return;
+    if (extension != ".fbx") pbs::check_collada_weights(path);
+    const LibraryChild child([&](LibraryChild::Parent& parent) {
+        Assimp::Importer importer;
+        const aiScene& scene = pbs::read_assimp_scene(importer, path);
+        parent.library_is_done();
+        expect_sound(pbs::checked(pbs::rig_of_scene(scene, path)));
+    });
+    expect(!child.broke_down_after_library());
+    if (child.broke_down_in_library()) keep_breakdown(bytes);
 }

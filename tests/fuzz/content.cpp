@@ -8,11 +8,10 @@
 #include "pbs/geometry/module.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 #include "tests/fuzz/library_child.hpp"
+#include "tests/fuzz/target.hpp"
 #include "tests/fuzz/token_mutator.hpp"
-#include "tests/support/scratch_folder.hpp"
 
 #include <array>
-#include <filesystem>
 
 namespace pbs {
 
@@ -40,15 +39,12 @@ void try_reading(const std::string& path, const std::function<void(const std::st
 
 namespace {
 
+using fuzz::expect;
+
 constexpr std::array<const char*, 12> names = {"a",     "a.obj", "a.ply", "a.gltf", "a.glb",  "a.dae",
                                                "a.fbx", "a.vtu", "a.vtk", "a.msh",  "a.tobj", "a.node"};
 
-void expect(bool sound)
-{
-    if (!sound) std::abort();
-}
-
-void expect_format_of_content(const std::string& path, const std::string& other_name)
+void expect_format_of_content(const std::string& path, const std::string& other_name) noexcept  // an InputError is a finding, too
 {
     const std::string content = pbs::content_extension(path);
     expect(pbs::content_extension(other_name) == content);
@@ -80,17 +76,10 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
     return fuzz::mutated_tokens(data, size, most, seed, 2);
 }
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
+void fuzz::try_input(const std::string& bytes)
 {
-    static const test_support::ScratchFolder folder;
-    if (size < 2) return 0;
-    const std::string path = folder / names[data[0] % names.size()], other = folder / "b.other";
-    folder.file(std::filesystem::path(path).filename(), std::string(reinterpret_cast<const char*>(data) + 2, size - 2));
-    std::filesystem::copy_file(path, other, std::filesystem::copy_options::overwrite_existing);
-    expect_format_of_content(path, other);
-    try {
-        data[1] == 't' ? try_tets(path) : try_surface(path);
-    } catch (const pbs::InputError&) {
-    }
-    return 0;
+    if (bytes.size() < 2) return;
+    const std::string content = bytes.substr(2), path = written(names[static_cast<unsigned char>(bytes[0]) % names.size()], content);
+    expect_format_of_content(path, written("b.other", content));
+    bytes[1] == 't' ? try_tets(path) : try_surface(path);
 }

@@ -2,17 +2,12 @@
 // weights, IQM, and the checks before Gmsh reads .mesh and .msh. The result is valid, or an InputError.
 #include "pbs/character/named_bodies.hpp"
 #include "pbs/character/skinning_weights.hpp"
-#include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/mesh_io_formats.hpp"
 #include "pbs/geometry/module.hpp"
-#include "tests/support/scratch_folder.hpp"
+#include "tests/fuzz/target.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <cstdlib>
-#include <string>
 
 namespace pbs {
 
@@ -32,32 +27,22 @@ void* Module::address(const char*) const
 
 namespace {
 
+using fuzz::expect;
+using fuzz::written;
+
 const pbs::Skeleton arm = {{{"upper", -1, pbs::Vec3(-1, 0, 0), pbs::Vec3::Zero()}, {"forearm", 0, pbs::Vec3::Zero(), pbs::Vec3(1, 0, 0)}}};
 constexpr int vertices = 4;
 
-void expect(bool sound)
+void expect_valid(const pbs::TetMesh& mesh)
 {
-    if (!sound) std::abort();
-}
-
-std::string written(const std::string& name, const std::string& bytes)
-{
-    static const test_support::ScratchFolder folder;
-    return folder.file(name, bytes);
+    if (mesh.tets.size() > 0) expect(mesh.tets.minCoeff() >= 0 && mesh.tets.maxCoeff() < mesh.rest.rows());
 }
 
 void try_tetgen(const std::string& bytes)
 {
     const std::size_t parting = std::min(bytes.find('\0'), bytes.size());
     written("fuzz.ele", bytes.substr(std::min(parting + 1, bytes.size())));
-    const pbs::TetMesh mesh = pbs::read_tetgen(written("fuzz.node", bytes.substr(0, parting)));
-    if (mesh.tets.size() > 0) expect(mesh.tets.minCoeff() >= 0 && mesh.tets.maxCoeff() < mesh.rest.rows());
-}
-
-void try_tobj(const std::string& bytes)
-{
-    const pbs::TetMesh mesh = pbs::read_tobj(written("fuzz.tobj", bytes));
-    if (mesh.tets.size() > 0) expect(mesh.tets.minCoeff() >= 0 && mesh.tets.maxCoeff() < mesh.rest.rows());
+    expect_valid(pbs::read_tetgen(written("fuzz.node", bytes.substr(0, parting))));
 }
 
 void try_weights(const std::string& bytes)
@@ -80,18 +65,14 @@ void try_iqm(const std::string& bytes)
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
+void fuzz::try_input(const std::string& input)
 {
-    if (size == 0) return 0;
-    const std::string bytes(reinterpret_cast<const char*>(data) + 1, size - 1);
-    try {
-        if (data[0] == 't') try_tetgen(bytes);
-        if (data[0] == 'o') try_tobj(bytes);
-        if (data[0] == 'w') try_weights(bytes);
-        if (data[0] == 'i') try_iqm(bytes);
-        if (data[0] == 'm') pbs::check_gmsh_file(written("fuzz.mesh", bytes));
-        if (data[0] == 'g') pbs::check_gmsh_file(written("fuzz.msh", bytes));
-    } catch (const pbs::InputError&) {
-    }
-    return 0;
+    if (input.empty()) return;
+    const std::string bytes = input.substr(1);
+    if (input[0] == 't') try_tetgen(bytes);
+    if (input[0] == 'o') expect_valid(pbs::read_tobj(written("fuzz.tobj", bytes)));
+    if (input[0] == 'w') try_weights(bytes);
+    if (input[0] == 'i') try_iqm(bytes);
+    if (input[0] == 'm') pbs::check_gmsh_file(written("fuzz.mesh", bytes));
+    if (input[0] == 'g') pbs::check_gmsh_file(written("fuzz.msh", bytes));
 }

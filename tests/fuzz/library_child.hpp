@@ -162,13 +162,12 @@ private:
 };
 
 // For reports to the library's authors: PBS_FUZZ_BREAKDOWNS names a folder for the inputs on which it broke down.
-inline void keep_breakdown(const std::uint8_t* data, std::size_t size)
+inline void keep_breakdown(const std::string& bytes)
 {
     static int count = 0;
     const char* folder = std::getenv("PBS_FUZZ_BREAKDOWNS");
     if (!folder) return;
-    std::ofstream file(std::string(folder) + "/" + std::to_string(getpid()) + "_" + std::to_string(count++), std::ios::binary);
-    file.write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
+    std::ofstream(std::string(folder) + "/" + std::to_string(getpid()) + "_" + std::to_string(count++), std::ios::binary) << bytes;
 }
 
 }  // namespace fuzz

@@ -1,17 +1,9 @@
 // Any text as a scene: the result is a scene or an InputError.
 #include "experiments/settings/scene_values.hpp"
-#include "pbs/geometry/input_error.hpp"
 #include "tests/fuzz/fuzzed_schema.hpp"
+#include "tests/fuzz/target.hpp"
 
-#include <cstddef>
-#include <cstdint>
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
+void fuzz::try_input(const std::string& text)
 {
-    try {
-        const experiments::SceneValues values(std::string(reinterpret_cast<const char*>(data), size), "scene.toml", {}, fuzzed_schema());
-        values.resolved();
-    } catch (const pbs::InputError&) {
-    }
-    return 0;
+    experiments::SceneValues(text, "scene.toml", {}, fuzzed_schema()).resolved();
 }

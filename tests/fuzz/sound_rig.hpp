@@ -3,16 +3,11 @@
 
 #include "pbs/rig/rig_pose.hpp"
 #include "pbs/rig/rigged_body.hpp"
+#include "tests/fuzz/target.hpp"
 
 #include <cmath>
-#include <cstdlib>
 
 namespace fuzz {
-
-inline void expect(bool sound)
-{
-    if (!sound) std::abort();
-}
 
 inline void expect_sound(const pbs::Rig& rig)
 {

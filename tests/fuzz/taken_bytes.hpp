@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <cstring>
+#include <string>
 #include <vector>
 
 namespace fuzz {
@@ -11,7 +12,7 @@ namespace fuzz {
 // Once something does not fit, everything taken is zero or empty.
 class TakenBytes {
 public:
-    TakenBytes(const std::uint8_t* data, std::size_t size) : at_(data), left_(size) {}
+    explicit TakenBytes(const std::string& bytes) : at_(bytes.data()), left_(bytes.size()) {}
 
     template <typename Number>
     Number take()
@@ -40,7 +41,7 @@ private:
         at_ += size;
         left_ -= size;
     }
-    const std::uint8_t* at_;
+    const char* at_;
     std::size_t left_;
     bool sound_ = true;
 };

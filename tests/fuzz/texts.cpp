@@ -3,14 +3,10 @@
 #include "analysis/records/tables.hpp"
 #include "experiments/settings/scene_values.hpp"
 #include "pbs/character/clip.hpp"
-#include "pbs/geometry/input_error.hpp"
 #include "tests/fuzz/fuzzed_schema.hpp"
+#include "tests/fuzz/target.hpp"
 
-#include <cstddef>
-#include <cstdint>
-#include <cstdlib>
 #include <sstream>
-#include <string>
 #include <vector>
 
 namespace {
@@ -25,7 +21,7 @@ constexpr const char* scene =
 void try_csv(const std::string& text)
 {
     const std::string once = analysis::parse_csv(text, "record.csv").text();
-    if (analysis::parse_csv(once, "record.csv").text() != once) std::abort();
+    fuzz::expect(analysis::parse_csv(once, "record.csv").text() == once);
 }
 
 void try_settings(const std::string& text)
@@ -38,15 +34,11 @@ void try_settings(const std::string& text)
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
+void fuzz::try_input(const std::string& bytes)
 {
-    if (size == 0) return 0;
-    const std::string text(reinterpret_cast<const char*>(data) + 1, size - 1);
-    try {
-        if (data[0] == 'b' && pbs::is_bvh(text, "clip")) pbs::check_bvh_header(text, "clip.bvh");
-        if (data[0] == 'c') try_csv(text);
-        if (data[0] == 's') try_settings(text);
-    } catch (const pbs::InputError&) {
-    }
-    return 0;
+    if (bytes.empty()) return;
+    const std::string text = bytes.substr(1);
+    if (bytes[0] == 'b' && pbs::is_bvh(text, "clip")) pbs::check_bvh_header(text, "clip.bvh");
+    if (bytes[0] == 'c') try_csv(text);
+    if (bytes[0] == 's') try_settings(text);
 }

@@ -25,6 +25,9 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <map>
+#include <optional>
+#include <set>
 #include <sstream>
 
 namespace {
@@ -51,32 +54,12 @@ bool is_same_cell(const std::string& one, const std::string& other)
 
 void expect_same_cells(const analysis::CsvTable& written, const analysis::CsvTable& kept, const std::string& file)
 {
-    const auto sorted = [](std::vector<std::string> names) {
-        return std::ranges::sort(names), names;
-    };  // a table of several runs unites theirs
-    ASSERT_EQ(sorted(written.columns()), sorted(kept.columns())) << file;
+    ASSERT_TRUE(std::ranges::is_permutation(written.columns(), kept.columns())) << file;  // a table of several runs unites theirs
     ASSERT_EQ(written.rows(), kept.rows()) << file;
     for (int row = 0; row < kept.rows(); ++row)
         for (const std::string& column : kept.columns())
             EXPECT_PRED2(is_same_cell, written.text_at(row, column), kept.text_at(row, column))
                 << file << ", row " << row << ", " << column;
-}
-
-template <typename Row>
-void expect_same_file(const analysis::Columns<Row>& columns, const std::string& file)
-{
-    const analysis::CsvTable table = analysis::read_csv((fs::path(PBS_KEPT_RECORDS) / file).string());
-    expect_same_cells(table_of(columns, rows_of(columns, table)), table, file);
-}
-
-// A file that sums up a study.
-template <typename Row>
-void expect_same_sum(const analysis::Columns<Row>& all, const std::string& file)
-{
-    const analysis::CsvTable table = analysis::read_csv((fs::path(PBS_KEPT_RECORDS) / file).string());
-    ASSERT_GT(table.rows(), 0) << file;
-    const analysis::Columns<Row> columns = columns_in(table, all);
-    expect_same_cells(table_of(columns, rows_of(columns, table)), table, file);
 }
 
 // The rows of all runs, without the first column, which names the run. A row without further cells states that a run has none.
@@ -89,113 +72,77 @@ std::string without_runs(const fs::path& merged)
     return text;
 }
 
-// The tables NAME of all runs of a study.
+// A kept table. That of all runs of a study, in the folder runs, is without its first column.
+analysis::CsvTable kept_table(const std::string& name)
+{
+    const fs::path file = fs::path(PBS_KEPT_RECORDS) / name;
+    const analysis::CsvTable table = analysis::read_csv(file.string());
+    EXPECT_GT(table.rows(), 0) << file;
+    return file.parent_path().filename() == "runs" ? analysis::parse_csv(without_runs(file), file.string()) : table;
+}
+
+constexpr bool some = false;  // of the columns may be missing
+
 template <typename Row>
-void expect_same_records(const analysis::Columns<Row>& all, const std::string& study, const std::string& name, bool is_complete = true)
+void expect_same(const analysis::Columns<Row>& all, const std::string& file, bool is_complete = true)
 {
-    const fs::path file = fs::path(PBS_KEPT_RECORDS) / study / "runs" / name;
-    ASSERT_GT(analysis::read_csv(file.string()).rows(), 0) << file;
-    const analysis::CsvTable table = analysis::parse_csv(without_runs(file), file.string());
+    const analysis::CsvTable table = kept_table(file);
     const analysis::Columns<Row> columns = is_complete ? all : columns_in(table, all);
-    expect_same_cells(table_of(columns, rows_of(columns, table)), table, file.string());
+    expect_same_cells(table_of(columns, rows_of(columns, table)), table, file);
 }
 
-TEST(KeptTables, OfRuns)
+TEST(KeptTables, ReadAsRowsAndWrittenAgainAreTheSame)
 {
-    expect_same_records(experiments::metric_columns(), "volume", "metrics.csv", false);
-    expect_same_records(experiments::region_columns, "volume", "regions.csv");
-}
-
-TEST(KeptTables, OfArtefacts)
-{
-    expect_same_records(experiments::section_columns, "artefacts", "sections.csv");
-    expect_same_records(experiments::profile_columns, "artefacts", "profiles.csv");
-    expect_same_records(experiments::intersection_columns, "artefacts", "intersections.csv");
-    expect_same_records(experiments::smoothness_columns, "artefacts", "smoothness.csv");
-    expect_same_records(experiments::weight_iteration_columns, "artefacts", "iterations.csv");
-}
-
-TEST(KeptTables, OfJiggle)
-{
-    expect_same_records(experiments::response_columns, "jiggle", "responses.csv");
-    expect_same_records(experiments::zone_columns, "jiggle", "zone.csv");
-    expect_same_records(experiments::walk_columns, "jiggle", "walk.csv");
-}
-
-TEST(KeptTables, OfBodiesUnderLoad)
-{
-    expect_same_records(experiments::stiffness_columns, "stiffness", "stiffness.csv");
-    expect_same_sum(experiments::exponent_columns(), "stiffness/exponents.csv");
-    expect_same_records(experiments::sag_columns, "fit", "sag.csv");
-}
-
-TEST(KeptTables, OfAmbiguity)
-{
-    expect_same_records(experiments::claim_change_columns(), "ambiguity", "ambiguity.csv", false);
-    expect_same_records(experiments::volume_change_columns, "ambiguity", "figures.csv");
-}
-
-TEST(KeptTables, OfTimedStudies)
-{
-    expect_same_records(experiments::timing_columns, "timing", "timing.csv");
-    expect_same_records(experiments::feature_columns, "timing", "features.csv");
-    expect_same_records(experiments::change_columns, "work_precision", "changes.csv");
-}
-
-TEST(KeptTables, OfTheOrders)
-{
-    expect_same_records(experiments::order_columns, "timing", "orders.csv");
-    expect_same_records(experiments::target_columns, "timing", "targets.csv");
-    expect_same_sum(experiments::answer_columns, "timing/answers.csv");
-}
-
-TEST(KeptTables, OfTheVerification)
-{
-    expect_same_file(reference_fem::verification_columns(), "verification/verification.csv");
-}
-
-TEST(KeptTables, OfTheOtherStudies)
-{
-    expect_same_records(experiments::rate_columns, "convergence", "rates.csv");
-    expect_same_records(experiments::towards_columns, "convergence", "towards.csv");
-    expect_same_records(experiments::cell_columns, "stability", "cells.csv");
-    expect_same_records(experiments::start_columns, "stability", "starts.csv");
-    expect_same_records(experiments::part_columns, "ensemble", "parts.csv");
-    expect_same_records(experiments::attachment_columns, "ensemble", "attachments.csv");
-}
-
-TEST(KeptTables, OfTheComparison)
-{
-    expect_same_records(experiments::point_columns, "work_precision", "points.csv", false);  // without those of other programs
-    expect_same_records(experiments::family_columns, "work_precision", "members.csv");
-    expect_same_sum(experiments::chosen_columns, "work_precision/settings.csv");
-    expect_same_sum(experiments::budget_columns, "work_precision/best_within.csv");
-    expect_same_sum(experiments::data_profile_columns, "work_precision/data_profiles.csv");
-    expect_same_sum(experiments::omission_columns, "work_precision/omissions.csv");
-}
-
-TEST(KeptTables, ThatSumUpAStudy)
-{
-    expect_same_sum(experiments::cell_columns, "stability/map_time_step_k_stretch.csv");
-    expect_same_sum(experiments::cell_columns, "stability/map_iterations_twist.csv");
-    expect_same_sum(experiments::start_columns, "stability/starts.csv");
-    expect_same_sum(experiments::equal_time_columns, "work_precision/equal_time.csv");
-    expect_same_sum(experiments::gain_columns, "work_precision/gains.csv");
-    expect_same_sum(experiments::curve_columns, "work_precision/curves.csv");
-    expect_same_sum(experiments::pair_columns, "ensemble/pairs.csv");
-    expect_same_sum(experiments::member_columns, "ensemble/members.csv");
-}
-
-TEST(KeptTables, OfSetups)
-{
-    expect_same_records(experiments::trial_columns, "setup", "trials.csv");
-    expect_same_records(experiments::key_columns, "setup", "changed_keys.csv");
+    expect_same(experiments::metric_columns(), "volume/runs/metrics.csv", some);
+    expect_same(experiments::region_columns, "volume/runs/regions.csv");
+    expect_same(experiments::section_columns, "artefacts/runs/sections.csv");
+    expect_same(experiments::profile_columns, "artefacts/runs/profiles.csv");
+    expect_same(experiments::intersection_columns, "artefacts/runs/intersections.csv");
+    expect_same(experiments::smoothness_columns, "artefacts/runs/smoothness.csv");
+    expect_same(experiments::weight_iteration_columns, "artefacts/runs/iterations.csv");
+    expect_same(experiments::response_columns, "jiggle/runs/responses.csv");
+    expect_same(experiments::zone_columns, "jiggle/runs/zone.csv");
+    expect_same(experiments::walk_columns, "jiggle/runs/walk.csv");
+    expect_same(experiments::stiffness_columns, "stiffness/runs/stiffness.csv");
+    expect_same(experiments::exponent_columns(), "stiffness/exponents.csv", some);
+    expect_same(experiments::sag_columns, "fit/runs/sag.csv");
+    expect_same(experiments::claim_change_columns(), "ambiguity/runs/ambiguity.csv", some);
+    expect_same(experiments::volume_change_columns, "ambiguity/runs/figures.csv");
+    expect_same(experiments::timing_columns, "timing/runs/timing.csv");
+    expect_same(experiments::feature_columns, "timing/runs/features.csv");
+    expect_same(experiments::change_columns, "work_precision/runs/changes.csv");
+    expect_same(experiments::order_columns, "timing/runs/orders.csv");
+    expect_same(experiments::target_columns, "timing/runs/targets.csv");
+    expect_same(experiments::answer_columns, "timing/answers.csv", some);
+    expect_same(reference_fem::verification_columns(), "verification/verification.csv");
+    expect_same(experiments::rate_columns, "convergence/runs/rates.csv");
+    expect_same(experiments::towards_columns, "convergence/runs/towards.csv");
+    expect_same(experiments::cell_columns, "stability/runs/cells.csv");
+    expect_same(experiments::start_columns, "stability/runs/starts.csv");
+    expect_same(experiments::part_columns, "ensemble/runs/parts.csv");
+    expect_same(experiments::attachment_columns, "ensemble/runs/attachments.csv");
+    expect_same(experiments::point_columns, "work_precision/runs/points.csv", some);  // without those of other programs
+    expect_same(experiments::family_columns, "work_precision/runs/members.csv");
+    expect_same(experiments::chosen_columns, "work_precision/settings.csv", some);
+    expect_same(experiments::budget_columns, "work_precision/best_within.csv", some);
+    expect_same(experiments::data_profile_columns, "work_precision/data_profiles.csv", some);
+    expect_same(experiments::omission_columns, "work_precision/omissions.csv", some);
+    expect_same(experiments::cell_columns, "stability/map_time_step_k_stretch.csv", some);
+    expect_same(experiments::cell_columns, "stability/map_iterations_twist.csv", some);
+    expect_same(experiments::start_columns, "stability/starts.csv", some);
+    expect_same(experiments::equal_time_columns, "work_precision/equal_time.csv", some);
+    expect_same(experiments::gain_columns, "work_precision/gains.csv", some);
+    expect_same(experiments::curve_columns, "work_precision/curves.csv", some);
+    expect_same(experiments::pair_columns, "ensemble/pairs.csv", some);
+    expect_same(experiments::member_columns, "ensemble/members.csv", some);
+    expect_same(experiments::trial_columns, "setup/runs/trials.csv");
+    expect_same(experiments::key_columns, "setup/runs/changed_keys.csv");
 }
 
 // No two rows of verification.csv share these; description and mesh are words for readers.
 TEST(KeptTables, OfTheVerificationIdentifyEachRow)
 {
-    const analysis::CsvTable table = analysis::read_csv((fs::path(PBS_KEPT_RECORDS) / "verification/verification.csv").string());
+    const analysis::CsvTable table = kept_table("verification/verification.csv");
     std::set<std::vector<std::string>> keys;
     for (int row = 0; row < table.rows(); ++row) {
         std::vector<std::string> key;
@@ -256,6 +203,73 @@ TEST(KeptTables, OfMeasuredAndPrintedValues)
     }
     EXPECT_GT(measured, 6);
     EXPECT_EQ(printed, 1);
+}
+
+// Values that several studies measure are the same in all of them.
+
+using Wanted = std::map<std::string, std::string>;
+
+struct KeptValue {
+    std::string file;  // STUDY/RUN/TABLE, which the kept records have in STUDY/runs/TABLE
+    Wanted wanted;     // cells of its row
+    std::string column = "error_joint_pct";
+};
+
+bool is_wanted(const analysis::CsvTable& table, int row, const Wanted& wanted)
+{
+    return std::ranges::all_of(wanted, [&](const auto& cell) { return table.text_at(row, cell.first) == cell.second; });
+}
+
+// Nothing if there is no such row, or more than one.
+std::optional<double> only_value(const KeptValue& of)
+{
+    const fs::path file = of.file, run = file.parent_path();
+    const analysis::CsvTable table = analysis::read_csv((PBS_KEPT_RECORDS / run.parent_path() / "runs" / file.filename()).string());
+    Wanted wanted = of.wanted;
+    wanted["run"] = run.filename().string();
+    std::vector<double> found;
+    for (int row = 0; row < table.rows(); ++row)
+        if (is_wanted(table, row, wanted)) found.push_back(table.number(row, of.column));
+    return found.size() == 1 ? std::optional(found.front()) : std::nullopt;
+}
+
+const double six_digits = 1e-5;  // relative: half a unit of the last kept digit on either side
+
+const Wanted pbs_of_the_scene = {{"deformer", "pbs"},  {"iterations", "24"}, {"k_stretch", "0.2"}, {"order", "ordered"},
+                                 {"precision", "f32"}, {"substeps", "1"},    {"tuned", ""},        {"wanted_vertices", ""}};
+
+void expect_same_values(const std::vector<KeptValue>& values)
+{
+    const std::optional<double> first = only_value(values.front());
+    ASSERT_TRUE(first) << values.front().file;
+    for (const KeptValue& of : values) {
+        const std::optional<double> value = only_value(of);
+        ASSERT_TRUE(value) << of.file;
+        EXPECT_NEAR(*value, *first, six_digits * *first) << of.file << " and " << values.front().file;
+    }
+}
+
+// PBS after 24 iterations, on the scene's own tets, relative to the same reference.
+TEST(KeptValues, OfPbsInATwistBy90DegreesAreTheSameInEachStudy)
+{
+    expect_same_values(
+        {{"ensemble/limb_twist_90/parts.csv", {{"k_stretch", "0.2"}, {"iterations", "24"}}},
+         {"ensemble/limb_twist_90/errors.csv", {{"member", "smooth"}, {"deformer", "pbs"}}},
+         {"work_precision/limb_twist_90/points.csv", pbs_of_the_scene},
+         {"work_precision/limb_twist_90/changes.csv", {{"change", "pbs"}, {"iterations", "24"}}},
+         {"convergence/limb_twist/rates.csv",
+          {{"pose", "twist_90"}, {"own_mesh", "1"}, {"order", "ordered"}, {"precision", "f32"}, {"k_stretch", "0.2"}, {"start", "lbs"}},
+          "error_24_pct"}});
+}
+
+TEST(KeptValues, OfTheBoundOnAReferenceAreTheSameInEachStudy)
+{
+    for (const std::string pose : {"limb_twist_90", "limb_bend_60", "limb_twist_150", "limb_bend_90", "human_crouch", "human_standing",
+                                   "human_in_the_air", "human_landing"})
+        expect_same_values(
+            {{"work_precision/" + pose + "/points.csv", pbs_of_the_scene, "reference_error_joint_pct"},
+             {"work_precision/" + pose + "/changes.csv", {{"change", "pbs"}, {"iterations", "24"}}, "reference_error_joint_pct"},
+             {"ensemble/" + pose + "/members.csv", {{"member", "smooth"}}, "error_bound_pct"}});
 }
 
 }  // namespace
