@@ -1,6 +1,6 @@
 # Tests that read the source tree: includes, sizes, build files and text.
 pbs_tests(architecture laws FOLDERS . LIBRARIES pbs_settings)
-set_source_files_properties(architecture/source_tree.cpp PROPERTIES COMPILE_DEFINITIONS PBS_SOURCE_ROOT="${PROJECT_SOURCE_DIR}")
+target_compile_definitions(test_architecture_laws PRIVATE PBS_SOURCE_ROOT="${PROJECT_SOURCE_DIR}")
 
 add_test(NAME architecture/readme COMMAND ${PBS_TEST_PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/architecture/readme_test.py)
 set_tests_properties(architecture/readme PROPERTIES LABELS architecture TIMEOUT 60)

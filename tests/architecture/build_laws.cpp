@@ -85,32 +85,6 @@ bool is_folder(const SourceTree& tree, const std::string& folder)
     return std::ranges::any_of(tree, [&](const auto& file) { return file.first.starts_with(folder + "/"); });
 }
 
-}  // namespace
-
-Violations orphaned_sources(const SourceTree& tree)
-{
-    Violations violations;
-    for (const auto& [path, text] : tree)
-        if (path.ends_with(".cpp") && !is_built(cmake_text_above(tree, path), path))
-            violations.push_back(at(path, 1, "no CMake file at or above it names it"));
-    return violations;
-}
-
-Violations unit_mirror(const SourceTree& tree)
-{
-    const std::string units = "tests/unit/";
-    Violations violations;
-    for (const auto& [path, text] : tree) {
-        if (!path.starts_with(units) || !is_cpp(path)) continue;
-        const std::string mirrored = folder_of(path.substr(units.size()));
-        if (mirrored.empty() || (!is_folder(tree, mirrored) && !is_folder(tree, "pbs/" + mirrored)))
-            violations.push_back(at(path, 1, "mirrors no source folder '" + mirrored + "'"));
-    }
-    return violations;
-}
-
-namespace {
-
 const std::vector<std::string> headers_of_kernels = {"array",   "cmath",       "cstddef",           "cstdint",    "limits",
                                                      "utility", "type_traits", "experimental/simd", "immintrin.h"};
 const std::vector<std::string> headers_of_registers = {"experimental/simd", "immintrin.h", "x86intrin.h", "arm_neon.h"};
@@ -135,7 +109,58 @@ bool names(const std::vector<std::string>& list, const std::string& entry)
     return std::ranges::count(list, entry) > 0;
 }
 
+const std::string list = "cmake/packages.txt";
+
+std::vector<std::string> package_lines(const SourceTree& tree)
+{
+    const auto file = tree.find(list);
+    return file == tree.end() ? std::vector<std::string>{} : lines_of(file->second);
+}
+
+// The names in square brackets.
+std::set<std::string> known_to_cmake(const SourceTree& tree)
+{
+    std::set<std::string> names;
+    for (const std::string& line : package_lines(tree)) {
+        const std::size_t open = line.find('['), close = line.find(']');
+        if (line.starts_with('#') || open == std::string::npos || close == std::string::npos) continue;
+        std::istringstream inside(line.substr(open + 1, close - open - 1));
+        for (std::string name; std::getline(inside >> std::ws, name, ',');) names.insert(name);
+    }
+    return names;
+}
+
+// The name that is searched for: find_package(NAME ...), or find_library(VARIABLE NAME ...), also with NAMES before it.
+std::string looked_for(const std::string& line)
+{
+    static const std::regex call(R"(^[^#]*\bfind_(?:package\s*\(\s*|library\s*\(\s*\w+\s+(?:NAMES\s+)?)([\w.+-]+))");
+    std::smatch match;
+    return std::regex_search(line, match, call) ? match[1].str() : "";
+}
+
 }  // namespace
+
+Violations orphaned_sources(const SourceTree& tree)
+{
+    Violations violations;
+    for (const auto& [path, text] : tree)
+        if (path.ends_with(".cpp") && !is_built(cmake_text_above(tree, path), path))
+            violations.push_back(at(path, 1, "no CMake file at or above it names it"));
+    return violations;
+}
+
+Violations unit_mirror(const SourceTree& tree)
+{
+    const std::string units = "tests/unit/";
+    Violations violations;
+    for (const auto& [path, text] : tree) {
+        if (!path.starts_with(units) || !is_cpp(path)) continue;
+        const std::string mirrored = folder_of(path.substr(units.size()));
+        if (mirrored.empty() || (!is_folder(tree, mirrored) && !is_folder(tree, "pbs/" + mirrored)))
+            violations.push_back(at(path, 1, "mirrors no source folder '" + mirrored + "'"));
+    }
+    return violations;
+}
 
 Violations kernel_includes(const SourceTree& tree)
 {
@@ -168,39 +193,6 @@ Violations registers_at_home(const SourceTree& tree)
                 if (names(headers_of_registers, header)) violations.push_back(at(path, 1, "no kernel, and sees <" + header + ">"));
     return violations;
 }
-
-namespace {
-
-const std::string list = "cmake/packages.txt";
-
-std::vector<std::string> package_lines(const SourceTree& tree)
-{
-    const auto file = tree.find(list);
-    return file == tree.end() ? std::vector<std::string>{} : lines_of(file->second);
-}
-
-// The names in square brackets.
-std::set<std::string> known_to_cmake(const SourceTree& tree)
-{
-    std::set<std::string> names;
-    for (const std::string& line : package_lines(tree)) {
-        const std::size_t open = line.find('['), close = line.find(']');
-        if (line.starts_with('#') || open == std::string::npos || close == std::string::npos) continue;
-        std::istringstream inside(line.substr(open + 1, close - open - 1));
-        for (std::string name; std::getline(inside >> std::ws, name, ',');) names.insert(name);
-    }
-    return names;
-}
-
-// The name that is searched for: find_package(NAME ...), or find_library(VARIABLE NAME ...), also with NAMES before it.
-std::string looked_for(const std::string& line)
-{
-    static const std::regex call(R"(^[^#]*\bfind_(?:package\s*\(\s*|library\s*\(\s*\w+\s+(?:NAMES\s+)?)([\w.+-]+))");
-    std::smatch match;
-    return std::regex_search(line, match, call) ? match[1].str() : "";
-}
-
-}  // namespace
 
 Violations package_list_form(const SourceTree& tree)
 {

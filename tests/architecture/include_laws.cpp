@@ -89,6 +89,19 @@ const FolderLaw* law_for(const std::string& path)
     return nullptr;
 }
 
+struct HeavyLibrary {
+    std::string header;                // the beginning of its includes
+    std::vector<std::string> at_home;  // the places whose files may see it
+    std::size_t most_files;            // limit for the number of .cpp files outside tests that see it
+};
+
+const std::vector<HeavyLibrary> heavy = {
+    {"deal.II/", {"reference_fem/"}, 4}, {"mpi.h", {"reference_fem/"}, 1},
+    {"ml_", {"reference_fem/"}, 2},      {"Epetra_", {"reference_fem/"}, 1},
+    {"CGAL/", {"pbs/geometry/"}, 4},     {"vtk", {"pbs/geometry/"}, 3},
+    {"gmsh.h", {"pbs/geometry/"}, 1},    {"assimp/", {"pbs/geometry/", "pbs/rig/", "pbs/character/"}, 4},
+};
+
 }  // namespace
 
 Violations include_direction(const SourceTree& tree)
@@ -163,23 +176,6 @@ Violations deformers_tested_by_name(const SourceTree& tree)
     };
     return in_lines(tree, concerns, compares, "depends on the name of a deformer's kind: ask its traits or options");
 }
-
-namespace {
-
-struct HeavyLibrary {
-    std::string header;                // the beginning of its includes
-    std::vector<std::string> at_home;  // the places whose files may see it
-    std::size_t most_files;            // limit for the number of .cpp files outside tests that see it
-};
-
-const std::vector<HeavyLibrary> heavy = {
-    {"deal.II/", {"reference_fem/"}, 4}, {"mpi.h", {"reference_fem/"}, 1},
-    {"ml_", {"reference_fem/"}, 2},      {"Epetra_", {"reference_fem/"}, 1},
-    {"CGAL/", {"pbs/geometry/"}, 4},     {"vtk", {"pbs/geometry/"}, 3},
-    {"gmsh.h", {"pbs/geometry/"}, 1},    {"assimp/", {"pbs/geometry/", "pbs/rig/", "pbs/character/"}, 4},
-};
-
-}  // namespace
 
 Violations heavy_headers(const SourceTree& tree)
 {

@@ -30,6 +30,14 @@
 
 namespace test_support {
 
+// A field at all nodes, in its own unit, #dofs.
+inline Eigen::VectorXd at_nodes(const reference_fem::SimplexSpace& space, const reference_fem::VectorField& field)
+{
+    Eigen::VectorXd values(space.dofs());
+    for (int node = 0; node < space.nodes(); ++node) values.segment<3>(3 * node) = field(space.node_positions().row(node));
+    return values;
+}
+
 // Relative to the inverse and to the determinant on the worst tet: 12 cond(J) in the Frobenius norm.
 inline double jacobian_roundings(const reference_fem::SimplexSpace& space)
 {
@@ -115,10 +123,8 @@ inline SolveRounding rounding_of(const reference_fem::BoundaryValueSolution& sol
 // |u' - u| / |u| over all nodes.
 inline double relative_error(const reference_fem::BoundaryValueSolution& solution, const reference_fem::VectorField& exact)
 {
-    Eigen::VectorXd at_nodes(solution.space->dofs());
-    for (int node = 0; node < solution.space->nodes(); ++node)
-        at_nodes.segment<3>(3 * node) = exact(solution.space->node_positions().row(node));
-    return (solution.displacement - at_nodes).norm() / at_nodes.norm();
+    const Eigen::VectorXd expected = at_nodes(*solution.space, exact);
+    return (solution.displacement - expected).norm() / expected.norm();
 }
 
 // The spectrum of LinearElasticity(mesh, options, attachment).

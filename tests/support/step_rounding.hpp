@@ -7,7 +7,7 @@
 #include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/solver/constraint_set.hpp"
 #include "pbs/solver/pbs_solver.hpp"
-#include "tests/support/measured_condition.hpp"
+#include "tests/support/rounding_error.hpp"
 #include "tests/support/projection_rounding.hpp"
 #include "tests/support/random_points.hpp"
 #include "tests/support/two_bone_limb.hpp"

@@ -4,7 +4,7 @@
 #include "experiments/studies/artefacts/artefact_values.hpp"
 #include "tests/support/artefact_samples.hpp"
 #include "tests/support/broken_solver.hpp"
-#include "tests/support/measured_condition.hpp"
+#include "tests/support/rounding_error.hpp"
 #include "tests/support/study_claims.hpp"
 
 #include <gtest/gtest.h>

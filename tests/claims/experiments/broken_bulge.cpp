@@ -13,7 +13,7 @@
 #include "pbs/solver/options.hpp"
 #include "tests/support/broken_solver.hpp"
 #include "tests/support/hand_cut_sections.hpp"
-#include "tests/support/measured_condition.hpp"
+#include "tests/support/rounding_error.hpp"
 #include "tests/support/study_claims.hpp"
 
 #include "experiments/studies/artefacts/artefact_values.hpp"

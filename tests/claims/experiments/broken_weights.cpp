@@ -8,7 +8,7 @@
 // - nothing projected: LBS remains, whose value no solver changes, and the tears remain.
 #include "tests/support/broken_solver.hpp"
 #include "tests/support/hand_strain_jump.hpp"
-#include "tests/support/measured_condition.hpp"
+#include "tests/support/rounding_error.hpp"
 #include "tests/support/study_claims.hpp"
 
 #include "experiments/studies/artefacts/artefact_values.hpp"

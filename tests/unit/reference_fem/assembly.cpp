@@ -27,13 +27,6 @@ const Lame material{2.0, 3.0};
 constexpr const char* proves_nothing = "a bound that would let a wrong entry pass proves nothing";
 const pbs::TetMesh bar = structured_bar({0, 0, 0}, {2, 1, 1}, {3, 2, 2});
 
-Eigen::VectorXd at_nodes(const SimplexSpace& space, const VectorField& field)
-{
-    Eigen::VectorXd values(space.dofs());
-    for (int n = 0; n < space.nodes(); ++n) values.segment<3>(3 * n) = field(space.node_positions().row(n));
-    return values;
-}
-
 double sum_of_weights(const SimplexSpace& space, int points_1d)
 {
     return element_tables(space, points_1d).weights.cwiseAbs().sum();

@@ -24,9 +24,9 @@ const Lame lame{300.0, 100.0};
 // u = (2 x + y, -y + 3 z, 4 z - x) [m]: div u = 5, |eps|^2 = 2^2 + 1^2 + 4^2 + 2 ((1/2)^2 + (1/2)^2 + (3/2)^2) = 26.5.
 Eigen::VectorXd affine(const SimplexSpace& space)
 {
-    const Eigen::Matrix3d gradient{{2, 1, 0}, {0, -1, 3}, {-1, 0, 4}};
-    const pbs::Positions values = space.node_positions() * gradient.transpose();
-    return Eigen::Map<const Eigen::VectorXd>(values.data(), values.size());
+    return test_support::at_nodes(space, [](const pbs::Vec3& x) -> pbs::Vec3 {
+        return {2 * x(0) + x(1), 3 * x(2) - x(1), 4 * x(2) - x(0)};
+    });
 }
 const double affine_energy_j = lame.lambda_pa / 2.0 * 25.0 + lame.mu_pa * 26.5, affine_gradient = std::sqrt(32.0);  // |G|
 
@@ -108,8 +108,9 @@ INSTANTIATE_TEST_SUITE_P(Formulations, EveryFormulation,
 TEST(LinearFlesh, MeanDilatationTakesEachTetsMean)
 {
     const SimplexSpace space(test_support::unit_tet(), 2);
-    Eigen::VectorXd displacement = Eigen::VectorXd::Zero(space.dofs());
-    for (int node = 0; node < space.nodes(); ++node) displacement(3 * node) = std::pow(space.node_positions()(node, 0), 2);
+    const Eigen::VectorXd displacement = test_support::at_nodes(space, [](const pbs::Vec3& x) -> pbs::Vec3 {
+        return {x.x() * x.x(), 0, 0};
+    });
     const LinearFlesh mean(space, lame, Formulation::mean_dilatation), pointwise(space, lame, Formulation::displacement);
     const double of_pressure = std::sqrt(3.0) * lame.lambda_pa * gradient_error(space, displacement, 2.0);  // |G| = 2 x
     EXPECT_NEAR(mean.pressure_at_vertex_pa(displacement, {}, 1), lame.lambda_pa * 0.5, of_pressure);

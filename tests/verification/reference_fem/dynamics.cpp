@@ -3,6 +3,7 @@
 // amplification matrix, which falls from 1 at low to rho at infinite frequency (J. Chung, G. Hulbert, J. Appl. Mech. 60(2), 1993). Energy,
 // dissipation, damping and frequencies are rows of the verification problem `dynamics`. Tolerance 0.1 on the observed order: the next terms
 // of the error, of relative size (omega h)^2 and for rho = 0 some omega h = 0.05 on the finest pair, contribute up to 0.05.
+#include "reference_fem/boundary_value_problem.hpp"
 #include "reference_fem/dynamics/vibrating_body.hpp"
 #include "reference_fem/elastic_body.hpp"
 #include "reference_fem/potentials/potentials.hpp"
@@ -22,6 +23,7 @@ namespace {
 using namespace reference_fem;
 using pbs::Positions;
 using pbs::Vec3;
+using test_support::at_nodes;
 
 // A bar of these cells, clamped at one end.
 VibratingBody clamped_bar(const std::array<int, 3>& cells)
@@ -120,16 +122,10 @@ public:
     MovedCube()
         : space(test_support::structured_bar({0, 0, 0}, {1, 1, 1}, {3, 3, 3}), 1),
           law(space, Model::linear, lame_parameters(1e3, 0.3), Formulation::displacement),
-          on_surface(space.dofs())
+          on_surface(prescribed_data(space, {}).held)
     {
         const Eigen::Matrix3d A{{0.1, 0.2, -0.1}, {0.0, -0.15, 0.1}, {0.2, 0.05, 0.1}};
-        motion.field.resize(space.dofs());
-        for (int node = 0; node < space.nodes(); ++node) {
-            const Vec3 x = space.node_positions().row(node);
-            motion.field.segment<3>(3 * node) = A * x;
-            const bool surface = (x.array() < 1e-9 || x.array() > 1.0 - 1e-9).any();
-            for (int c = 0; c < 3; ++c) on_surface[3 * node + c] = surface;
-        }
+        motion.field = at_nodes(space, [&](const Vec3& x) -> Vec3 { return A * x; });
     }
 
     // Relative error of the displacement at the end, with steps that a load path with the given first step takes.
@@ -258,15 +254,11 @@ protected:
         const std::vector<bool> free(space.dofs(), false);
         NewtonMinimiser newton(space, free, LinearSolver::cholmod);
         TimeStepper time(space, free, flesh, {.scheme = GetParam(), .density_kg_m3 = density}, newton);
-        Eigen::VectorXd u(space.dofs()), v(space.dofs()), weight(space.dofs());
-        for (int node = 0; node < space.nodes(); ++node) {
-            const Vec3 x = space.node_positions().row(node);
-            u.segment<3>(3 * node) = Vec3(0.05 * x.x(), 0.0, 0.1 * x.x() * x.x());
-            v.segment<3>(3 * node) = Vec3(1.0, -0.5, 0.2) + Vec3(1.0, 4.0, 3.0).cross(x - Vec3(0.3, 0, 0));
-            weight.segment<3>(3 * node) = gravity;
-        }
-        time.start(u, v);
-        const DeadLoad load(time.mass().times(weight));
+        const Eigen::VectorXd u = at_nodes(space, [](const Vec3& x) -> Vec3 { return {0.05 * x.x(), 0.0, 0.1 * x.x() * x.x()}; });
+        time.start(u, at_nodes(space, [](const Vec3& x) -> Vec3 {
+                       return Vec3(1.0, -0.5, 0.2) + Vec3(1.0, 4.0, 3.0).cross(x - Vec3(0.3, 0, 0));
+                   }));
+        const DeadLoad load(time.mass().times(at_nodes(space, [&](const Vec3&) { return gravity; })));
         Flight flight{.before = momenta(time), .after = {}};
         Eigen::VectorXd guess = u;
         for (int k = 0; k < std::lround(0.2 / step_s); ++k) {

@@ -118,9 +118,7 @@ TEST(NearIncompressible, TaylorHoodPassesThePatchTest)
     const double bound = rounding_bound(spectrum(solution, material));
     ASSERT_LT(bound, 1e-9) << "a bound that would let an error of a percent pass proves nothing";
 
-    Eigen::VectorXd exact = flesh.on_unknowns(solution.displacement);
-    for (int node = 0; node < solution.space->nodes(); ++node)
-        exact.segment<3>(3 * node) = affine(solution.space->node_positions().row(node));
+    Eigen::VectorXd exact = flesh.on_unknowns(test_support::at_nodes(*solution.space, affine));
     exact.tail(flesh.pressures()).setConstant(pressure_pa / flesh.pressure_unit_pa());
     Eigen::VectorXd ours = flesh.on_unknowns(solution.displacement);
     ours.tail(flesh.pressures()) = solution.pressure_pa / flesh.pressure_unit_pa();

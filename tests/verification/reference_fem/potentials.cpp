@@ -17,6 +17,8 @@
 namespace {
 
 using namespace reference_fem;
+using pbs::Vec3;
+using test_support::at_nodes;
 
 const pbs::TetMesh cube = test_support::jittered(test_support::structured_bar({0, 0, 0}, {1, 1, 1}, {2, 1, 1}), {0.5, 1.0, 1.0}, 0.2);
 const Lame lame = lame_parameters(1e3, 0.4);
@@ -85,9 +87,8 @@ TEST_P(Flesh, GradientIsTheSlopeOfTheEnergyAndHessianThatOfTheGradient)
 
 TEST_P(Flesh, ARotationStoresNothingUnlessTheLawIsLinear)
 {
-    const Eigen::Matrix3d turn = Eigen::AngleAxisd(2.0, pbs::Vec3(1, 2, 3).normalized()).toRotationMatrix();
-    const pbs::Positions moved = space.node_positions() * (turn - Eigen::Matrix3d::Identity()).transpose();
-    const double energy = flesh.value(Eigen::Map<const Eigen::VectorXd>(moved.data(), moved.size()));
+    const Eigen::Matrix3d turn = Eigen::AngleAxisd(2.0, Vec3(1, 2, 3).normalized()).toRotationMatrix();
+    const double energy = flesh.value(at_nodes(space, [&](const Vec3& x) -> Vec3 { return turn * x - x; }));
     if (GetParam().model == Model::linear)
         EXPECT_GT(energy, lame.mu_pa);  // |u| is of order one, and so is the fictitious strain
     else
@@ -99,8 +100,9 @@ TEST_P(Flesh, ARotationStoresNothingUnlessTheLawIsLinear)
 TEST_P(Flesh, ProjectedHessianHasNoNegativeEigenvalues)
 {
     // Compressed to half along x: compressed laws soften, so that the Hessian of most of them has negative eigenvalues.
-    Eigen::VectorXd squeezed = random_dofs(space.dofs(), 0.02, 4);
-    for (int n = 0; n < space.nodes(); ++n) squeezed(3 * n) -= 0.5 * space.node_positions()(n, 0);
+    const Eigen::VectorXd squeezed = random_dofs(space.dofs(), 0.02, 4) + at_nodes(space, [](const Vec3& x) -> Vec3 {
+                                         return {-0.5 * x.x(), 0, 0};
+                                     });
     NodalMatrix hessian(space);
     flesh.add_hessian(squeezed, Definiteness::projected, hessian);
     const Eigen::MatrixXd dense = hessian.matrix();
@@ -158,8 +160,7 @@ TEST(ElasticPotential, JacobiansOfAnAffineMotion)
 {
     const SimplexSpace space(cube, 2);
     const ElasticPotential flesh(space, Model::stable_neo_hookean, lame, Formulation::displacement);
-    Eigen::VectorXd mirrored = Eigen::VectorXd::Zero(space.dofs());
-    for (int n = 0; n < space.nodes(); ++n) mirrored(3 * n) = -3.0 * space.node_positions()(n, 0);  // F = diag(-2, 1, 1)
+    const Eigen::VectorXd mirrored = at_nodes(space, [](const Vec3& x) -> Vec3 { return {-3.0 * x.x(), 0, 0}; });  // F = diag(-2, 1, 1)
     const Jacobians jacobians = flesh.jacobians(mirrored);
     // An entry of F sums ten products of |u| <= 3 m and |grad N| <= 10 / m; the volume sums 72 points more.
     EXPECT_NEAR(jacobians.lowest, -2.0, rounding(20) * 300.0);

@@ -3,9 +3,8 @@
 
 #include "analysis/statistics/fits.hpp"
 #include "analysis/statistics/grid_convergence.hpp"
-#include "tests/support/fit_rounding.hpp"
-#include "tests/support/refusal.hpp"
 #include "tests/support/rounding_error.hpp"
+#include "tests/support/refusal.hpp"
 
 #include <tuple>
 

@@ -7,7 +7,7 @@
 #include "pbs/character/model_character.hpp"
 #include "pbs/solver/options.hpp"
 #include "tests/support/bar_character.hpp"
-#include "tests/support/rigged_gltf.hpp"
+#include "tests/support/gltf_document.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/unit/pbs/character/expect_input_error.hpp"
 

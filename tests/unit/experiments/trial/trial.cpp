@@ -3,7 +3,7 @@
 #include "experiments/trial/trial.hpp"
 #include "pbs/character/clip.hpp"
 #include "pbs/character/model_character.hpp"
-#include "tests/support/rigged_gltf.hpp"
+#include "tests/support/gltf_document.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/unit/pbs/character/expect_input_error.hpp"
 

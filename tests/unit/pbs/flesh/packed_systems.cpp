@@ -5,7 +5,7 @@
 #include "pbs/flesh/vbd.hpp"
 #include "tests/support/flesh_rounding.hpp"
 #include "tests/support/held_xpbd.hpp"
-#include "tests/support/measured_condition.hpp"
+#include "tests/support/rounding_error.hpp"
 
 #include <gtest/gtest.h>
 

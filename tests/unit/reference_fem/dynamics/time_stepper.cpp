@@ -1,6 +1,7 @@
 // Reference: the balance of forces, and the specification in the header for failures, degenerate data and rest.
 
 #include "pbs/geometry/input_error.hpp"
+#include "reference_fem/boundary_value_problem.hpp"
 #include "reference_fem/dynamics/time_stepper.hpp"
 #include "reference_fem/dynamics/vibrating_body.hpp"
 #include "reference_fem/potentials/potentials.hpp"
@@ -14,25 +15,24 @@
 namespace {
 
 using namespace reference_fem;
-
-enum class Held { end, everywhere, nowhere };
+using pbs::Vec3;
+using test_support::at_nodes;
+using test_support::rounding_error;
 
 class Stepper : public testing::Test {
 protected:
-    TimeStepper stepper(const TimeStepperOptions& options, Held held = Held::end)
+    // Held at one end, or where this is true.
+    TimeStepper stepper(
+        const TimeStepperOptions& options, const std::function<Held(const Vec3&)>& held = [](const Vec3& x) { return x.x() < 1e-9; })
     {
-        for (int node = 0; node < space.nodes(); ++node)
-            for (int c = 0; c < 3; ++c)
-                fixed[3 * node + c] = held == Held::everywhere || (held == Held::end && space.node_positions()(node, 0) < 1e-9);
+        fixed = prescribed_data(space, {.held = held}).held;
         newton = std::make_unique<NewtonMinimiser>(space, fixed, LinearSolver::cholmod);
         return {space, fixed, flesh, options, *newton};
     }
 
     Eigen::VectorXd pulled() const
     {
-        Eigen::VectorXd u = Eigen::VectorXd::Zero(space.dofs());
-        for (int node = 0; node < space.nodes(); ++node) u(3 * node) = 0.1 * space.node_positions()(node, 0);
-        return u;
+        return at_nodes(space, [](const Vec3& x) -> Vec3 { return {0.1 * x.x(), 0.0, 0.0}; });
     }
 
     LoadPathSummary step(TimeStepper& stepper, double step_s, const MovingData& data = {}, const NewtonOptions& options = {})
@@ -43,7 +43,7 @@ protected:
 
     const SimplexSpace space{test_support::structured_bar({0, 0, 0}, {2, 1, 1}, {2, 1, 1}), 1};
     const ElasticPotential flesh{space, Model::stable_neo_hookean, lame_parameters(1e3, 0.3), Formulation::displacement};
-    std::vector<bool> fixed = std::vector<bool>(space.dofs());
+    std::vector<bool> fixed;
     std::unique_ptr<NewtonMinimiser> newton;
 };
 
@@ -77,13 +77,13 @@ TEST_F(Stepper, RestStaysRestToTheBit)
 
 TEST_F(Stepper, WithEveryDegreeOfFreedomPrescribedTheDataAreReturned)
 {
-    TimeStepper time = stepper({}, Held::everywhere);
+    TimeStepper time = stepper({}, [](const Vec3&) { return true; });
     const Eigen::VectorXd end = pulled();
     const MovingData data{[&](double fraction) -> Eigen::VectorXd { return fraction * end; }, {}};
     ASSERT_TRUE(step(time, 0.1, data).converged());
     EXPECT_EQ(time.motion().displacement, end);
     const Eigen::VectorXd velocity = 2.0 / 0.1 * end;  // from rest it is twice the mean velocity, in four roundings there and two here
-    EXPECT_LT((time.motion().velocity - velocity).norm(), test_support::rounding_error(4 + 2, velocity.norm()));
+    EXPECT_LT((time.motion().velocity - velocity).norm(), rounding_error(4 + 2, velocity.norm()));
 }
 
 // Nothing holds the body and no force acts on it, so its motion continues. Newton's method ends at the residual that the rounding of
@@ -92,9 +92,8 @@ TEST_F(Stepper, WithEveryDegreeOfFreedomPrescribedTheDataAreReturned)
 // moves the body for half a second on average.
 TEST_F(Stepper, AnUnheldBodyFliesOn)
 {
-    TimeStepper time = stepper({}, Held::nowhere);
-    Eigen::VectorXd velocity(space.dofs());
-    for (int node = 0; node < space.nodes(); ++node) velocity.segment<3>(3 * node) = pbs::Vec3(1.0, 2.0, -3.0);
+    TimeStepper time = stepper({}, [](const Vec3&) { return false; });
+    const Eigen::VectorXd velocity = at_nodes(space, [](const Vec3&) { return Vec3(1.0, 2.0, -3.0); });
     time.start(Eigen::VectorXd::Zero(space.dofs()), velocity);
     const double h = 0.1;
     for (int k = 0; k < 10; ++k) ASSERT_TRUE(step(time, h).converged());
@@ -102,7 +101,7 @@ TEST_F(Stepper, AnUnheldBodyFliesOn)
     const Eigen::VectorXd diagonal = inertia_coefficient(newmark(), h) * mass.diagonal() + rest_stiffness(space, flesh).matrix().diagonal();
     const double residual_n = 4.0 * std::numeric_limits<double>::epsilon() * std::sqrt(6.0) * diagonal.norm();
     const double of_residual = residual_n / spectrum(mass, fixed).smallest / 2.0;
-    const double of_positions = 10 * (1.0 + 2.0 / h * 0.5) * test_support::rounding_error(10, velocity.norm());
+    const double of_positions = 10 * (1.0 + 2.0 / h * 0.5) * rounding_error(10, velocity.norm());
     EXPECT_LT((time.motion().displacement - velocity).norm(), of_residual + of_positions);
     EXPECT_LT(of_residual + of_positions, 1e-9) << "a bound that would let a wrong velocity pass proves nothing";
 }
@@ -189,8 +188,6 @@ TEST_F(Stepper, DampingBringsTheBarToRest)
 
 // Reference: the scheme's own three equations, which the accepted step must satisfy, and the conditions of Chung and Hulbert. Tolerances:
 // roundings of the equations' terms, whose magnitudes add up in displacements to `size`; the rates divide them by powers of the step.
-
-using test_support::rounding_error;
 
 TEST(Scheme, SatisfiesItsEquationsAndTheConditionsOfStability)
 {
@@ -324,12 +321,9 @@ protected:
     const SimplexSpace space{test_support::jittered_cube(2), GetParam()};
     const ConsistentMass mass{space, 3.0};
 
-    Eigen::VectorXd field(const Eigen::Matrix3d& gradient, const pbs::Vec3& constant) const
+    Eigen::VectorXd field(const Eigen::Matrix3d& gradient, const Vec3& constant) const
     {
-        Eigen::VectorXd values(space.dofs());
-        for (int node = 0; node < space.nodes(); ++node)
-            values.segment<3>(3 * node) = gradient * space.node_positions().row(node).transpose() + constant;
-        return values;
+        return at_nodes(space, [&](const Vec3& x) -> Vec3 { return gradient * x + constant; });
     }
 
     double product_error(const Eigen::VectorXd& v) const
@@ -343,18 +337,18 @@ protected:
 // A unit cube of density 3 that moves, and one that rotates about the z axis through its corner: I = 3 (1/3 + 1/3).
 TEST_P(Mass, OfATranslationIsThatOfTheBodyAndOfARotationTheMomentOfInertia)
 {
-    const pbs::Vec3 velocity(1.0, -2.0, 0.5);
+    const Vec3 velocity(1.0, -2.0, 0.5);
     const Eigen::VectorXd v = field(Eigen::Matrix3d::Zero(), velocity);
     EXPECT_NEAR(v.dot(mass.times(v)), 3.0 * velocity.squaredNorm(), product_error(v));
     EXPECT_LT(product_error(v), 1e-9) << "a bound that would let a wrong entry pass proves nothing";
-    const Eigen::VectorXd spin = field(Eigen::Matrix3d{{0, -1, 0}, {1, 0, 0}, {0, 0, 0}}, pbs::Vec3::Zero());
+    const Eigen::VectorXd spin = field(Eigen::Matrix3d{{0, -1, 0}, {1, 0, 0}, {0, 0, 0}}, Vec3::Zero());
     EXPECT_NEAR(spin.dot(mass.times(spin)), 2.0, product_error(spin));
 }
 
 // The three products have the same terms, and each goes through the product and the sum of a row.
 TEST_P(Mass, AsAMatrixAndAsBlocksIsTheSameOperator)
 {
-    const Eigen::VectorXd v = field(Eigen::Matrix3d::Random(), pbs::Vec3(1, 2, 3)).cwiseAbs2();
+    const Eigen::VectorXd v = field(Eigen::Matrix3d::Random(), Vec3(1, 2, 3)).cwiseAbs2();
     NodalMatrix blocks(space);
     mass.add_to(blocks, 2.0);
     const Eigen::VectorXd product = mass.times(v);
@@ -370,14 +364,6 @@ INSTANTIATE_TEST_SUITE_P(ElementOrder, Mass, testing::Values(1, 2));
 // rounding is sqrt(n) eps |K| |M^-1| (G. Golub, C. Van Loan, Matrix Computations, 4th ed., Sec. 8.7.2), and omega is the root of an
 // eigenvalue. The iteration ends at a change of the shape of 1e-13; (K - omega^2 M) turns it and the rounding of the solve into a residual.
 
-std::vector<int> free_dofs(const VibratingBody& body)
-{
-    std::vector<int> free;
-    for (int i = 0; i < body.space().dofs(); ++i)
-        if (!body.fixed()[i]) free.push_back(i);
-    return free;
-}
-
 Eigen::VectorXd eigenvalues(const Eigen::MatrixXd& symmetric)
 {
     return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(symmetric, Eigen::EigenvaluesOnly).eigenvalues();
@@ -385,11 +371,13 @@ Eigen::VectorXd eigenvalues(const Eigen::MatrixXd& symmetric)
 
 TEST(FirstMode, IsTheLowestOfADenseEigenvalueProblemIfThereIsOne)
 {
-    const VibratingBody body(test_support::jittered_cube(2), {.held = [](const pbs::Vec3& x) { return x.z() < 1e-9; }});
+    const VibratingBody body(test_support::jittered_cube(2), {.held = [](const Vec3& x) { return x.z() < 1e-9; }});
     const Mode mode = body.first_mode();
     NodalMatrix stiffness(body.space());
     body.flesh().add_hessian(Eigen::VectorXd::Zero(body.space().dofs()), Definiteness::as_it_is, stiffness);
-    const std::vector<int> free = free_dofs(body);
+    std::vector<int> free;
+    for (int i = 0; i < body.space().dofs(); ++i)
+        if (!body.fixed()[i]) free.push_back(i);
     const Eigen::MatrixXd K = Eigen::MatrixXd(stiffness.matrix())(free, free), M = Eigen::MatrixXd(body.mass().matrix())(free, free);
     const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> dense(K, M);
     const double c = std::sqrt(static_cast<double>(free.size())) * std::numeric_limits<double>::epsilon(), lowest = dense.eigenvalues()(0),
@@ -401,7 +389,7 @@ TEST(FirstMode, IsTheLowestOfADenseEigenvalueProblemIfThereIsOne)
     EXPECT_LT((K * phi - mode.omega_rad_s * mode.omega_rad_s * (M * phi)).norm(), (1e-13 + c) * norm_of_K * phi.norm());
     EXPECT_EQ(mode.shape.cwiseAbs().maxCoeff(), 1.0);
     for (const bool held : {false, true}) {
-        const VibratingBody rigid(test_support::jittered_cube(1), {.held = [=](const pbs::Vec3&) { return held; }});
+        const VibratingBody rigid(test_support::jittered_cube(1), {.held = [=](const Vec3&) { return held; }});
         EXPECT_TRUE(std::isnan(rigid.first_mode().omega_rad_s)) << held;
     }
 }

@@ -1,7 +1,7 @@
 // Reference: stiffnesses that are powers of what is varied, so that ratios and exponents are known.
 #include "experiments/studies/stiffness/stiffness_ratios.hpp"
 
-#include "tests/support/fit_rounding.hpp"
+#include "tests/support/rounding_error.hpp"
 
 #include <gtest/gtest.h>
 

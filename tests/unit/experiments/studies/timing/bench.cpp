@@ -2,7 +2,6 @@
 #include "experiments/studies/timing/bench.hpp"
 
 #include "pbs/geometry/input_error.hpp"
-#include "tests/support/fit_rounding.hpp"
 #include "tests/support/rounding_error.hpp"
 #include "tests/support/step_rounding.hpp"
 #include "tests/support/structured_bar.hpp"
