@@ -38,48 +38,34 @@ const std::vector<FolderLaw> folder_laws = {
 const std::vector<std::string> ours = {"pbs/", "reference_fem/", "analysis/", "experiments/", "tests/", "paper_figures/"};
 const std::string generated = "generated/";  // files that the build writes
 
-// The folders of experiments from the bottom up. A file includes its own folder and lower ones; folders in the same row do not include each
+// The folders of experiments from the bottom up. A file includes its own folder and lower ones; folders of one line do not include each
 // other.
-const std::vector<std::vector<std::string>> layers = {
-    {"experiments/process/"},
-    {"experiments/settings/"},
-    {"experiments/deformers/"},
-    {"experiments/scene/"},
-    {"experiments/run/"},
-    {"experiments/trial/"},
-    {"experiments/studies/shared/"},
-    {"experiments/studies/"},   // the files in the folder itself: study.hpp, the list of studies, plans and costs
-    {"experiments/studies/*"},  // the folder of each study
-    {"experiments/verdicts/", "experiments/distributed/", "experiments/sweeps/"},
-    {"experiments/command_line/"},
+const std::vector<std::string> layers = {
+    "experiments/process/",
+    "experiments/settings/",
+    "experiments/deformers/",
+    "experiments/scene/",
+    "experiments/run/",
+    "experiments/trial/",
+    "experiments/studies/shared/",
+    "experiments/studies/(?=[^/]+$)",  // the files in the folder itself: study.hpp, the list of studies, plans and costs
+    "experiments/studies/[^/]+/",      // the folder of each study
+    "experiments/(verdicts|distributed|sweeps)/",
+    "experiments/command_line/",
 };
 
-// "experiments/studies/volume/" for "experiments/studies/volume/study.cpp"; for any other file its first two folders, or "" if there are
-// none.
-std::string room_of(const std::string& path)
-{
-    const std::string studies = "experiments/studies/";
-    const std::size_t from = path.starts_with(studies) ? studies.size() : std::string("experiments/").size();
-    const std::size_t end = path.find('/', from);
-    if (end != std::string::npos) return path.substr(0, end + 1);
-    return path.starts_with(studies) ? studies : "";
-}
+struct Place {
+    std::string folder;
+    std::size_t layer;
+};
 
-// The index of a room in `layers`; nothing if no layer contains it.
-std::optional<std::size_t> layer_of(const std::string& room)
+// Nothing if no layer contains the file.
+std::optional<Place> place_of(const std::string& path)
 {
-    std::optional<std::size_t> of_studies;
-    for (std::size_t i = 0; i < layers.size(); ++i) {
-        if (std::find(layers[i].begin(), layers[i].end(), room) != layers[i].end()) return i;
-        if (layers[i].front() == "experiments/studies/*" && room.starts_with("experiments/studies/")) of_studies = i;
-    }
-    return of_studies;
-}
-
-bool may_include(const std::string& room, const std::string& other)
-{
-    const auto layer = layer_of(room), other_layer = layer_of(other);
-    return room == other || (other_layer && *other_layer < *layer);
+    std::smatch match;
+    for (std::size_t i = 0; i < layers.size(); ++i)
+        if (std::regex_search(path, match, std::regex(layers[i]), std::regex_constants::match_continuous)) return Place{match.str(), i};
+    return std::nullopt;
 }
 
 const FolderLaw* law_for(const std::string& path)
@@ -127,14 +113,17 @@ Violations layer_direction(const SourceTree& tree)
     Violations violations;
     for (const auto& [path, text] : tree) {
         if (!is_cpp(path) || !path.starts_with("experiments/")) continue;
-        const std::string room = room_of(path);
-        if (!layer_of(room)) {
+        const std::optional<Place> own = place_of(path);
+        if (!own) {
             violations.push_back(at(path, 1, "in a folder of experiments that no layer knows"));
             continue;
         }
-        for (const Include& include : includes_of(text))
-            if (include.target.starts_with("experiments/") && !may_include(room, room_of(include.target)))
-                violations.push_back(at(path, include.line, room + " may not include " + include.target));
+        for (const Include& include : includes_of(text)) {
+            const std::optional<Place> other = place_of(include.target);
+            const bool is_lower = other && (other->folder == own->folder || other->layer < own->layer);
+            if (include.target.starts_with("experiments/") && !is_lower)
+                violations.push_back(at(path, include.line, own->folder + " may not include " + include.target));
+        }
     }
     return violations;
 }

@@ -20,19 +20,13 @@ struct NamedModel {
     bool through_inversion;  // true if defined at det F <= 0
 };
 
-inline const std::vector<NamedModel> nonlinear_models = {{Model::corotational, "corotational", true},
-                                                         {Model::stable_neo_hookean, "stable_neo_hookean", true},
-                                                         {Model::neo_hookean, "neo_hookean", false},
-                                                         {Model::st_venant_kirchhoff, "st_venant_kirchhoff", true},
-                                                         {Model::isochoric_neo_hookean, "isochoric_neo_hookean", false}};
-inline const NamedModel linear_model = {Model::linear, "linear", true};
-
-inline std::vector<NamedModel> all_models()
-{
-    std::vector<NamedModel> models = nonlinear_models;
-    models.push_back(linear_model);
-    return models;
-}
+inline const std::vector<NamedModel> all_models = {{Model::corotational, "corotational", true},
+                                                   {Model::stable_neo_hookean, "stable_neo_hookean", true},
+                                                   {Model::neo_hookean, "neo_hookean", false},
+                                                   {Model::st_venant_kirchhoff, "st_venant_kirchhoff", true},
+                                                   {Model::isochoric_neo_hookean, "isochoric_neo_hookean", false},
+                                                   {Model::linear, "linear", true}};
+inline const std::vector<NamedModel> nonlinear_models(all_models.begin(), all_models.end() - 1);
 
 inline void PrintTo(const NamedModel& model, std::ostream* stream)
 {
@@ -63,6 +57,11 @@ inline bool all_finite(const reference_fem::PointResponse& response)
 {
     return std::isfinite(response.shape) && std::isfinite(response.dilatation) && response.shape_gradient.allFinite() &&
            response.dilatation_gradient.allFinite() && response.shape_hessian.allFinite() && response.dilatation_hessian.allFinite();
+}
+
+inline Eigen::Matrix3d diagonal(double a, double b, double c)
+{
+    return Eigen::Vector3d(a, b, c).asDiagonal();
 }
 
 inline Eigen::Matrix3d random_matrix(RandomPoints& random, double size)

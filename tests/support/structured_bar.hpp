@@ -4,9 +4,12 @@
 
 #include "pbs/geometry/tet_mesh.hpp"
 
+#include <algorithm>
 #include <array>
+#include <numeric>
 #include <random>
 #include <utility>
+#include <vector>
 
 namespace test_support {
 
@@ -73,6 +76,30 @@ inline pbs::TetMesh jittered(pbs::TetMesh mesh, const pbs::Vec3& cell_size_m, do
 inline pbs::TetMesh jittered_cube(int n, double share = 0.25)
 {
     return jittered(structured_bar({0, 0, 0}, {1, 1, 1}, {n, n, n}), pbs::Vec3::Constant(1.0 / n), share);
+}
+
+// The mesh with vertices and tets in a random order; its vertex vertex[v] is vertex v of the mesh.
+struct Renumbered {
+    pbs::TetMesh mesh;
+    std::vector<int> vertex;
+};
+
+inline Renumbered renumbered(const pbs::TetMesh& mesh, unsigned seed)
+{
+    std::mt19937 random(seed);
+    std::vector<int> vertex(mesh.rest.rows()), tet(mesh.tets.rows());
+    std::iota(vertex.begin(), vertex.end(), 0);
+    std::iota(tet.begin(), tet.end(), 0);
+    std::shuffle(vertex.begin(), vertex.end(), random);
+    std::shuffle(tet.begin(), tet.end(), random);
+    Renumbered other{mesh, vertex};
+    other.mesh.rest(vertex, Eigen::all) = mesh.rest;
+    for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t) {
+        const auto corner = mesh.tets.row(t);
+        other.mesh.tets.row(tet[t]) << vertex[corner(1)], vertex[corner(2)], vertex[corner(0)],
+            vertex[corner(3)];  // of the same orientation
+    }
+    return other;
 }
 
 }  // namespace test_support

@@ -55,12 +55,7 @@ TEST(LinearElasticity, RefusesBadAttachmentsAndABodyThatCanMoveFreely)
 
 TEST(LinearElasticity, RefusesAPartOfTheMeshThatNothingHolds)
 {
-    pbs::TetMesh two = bar;
-    const int vertices = static_cast<int>(bar.rest.rows());
-    two.rest.conservativeResize(2 * vertices, 3);
-    two.rest.bottomRows(vertices) = bar.rest.array() + 5.0;
-    two.tets.conservativeResize(2 * bar.tets.rows(), 4);
-    two.tets.bottomRows(bar.tets.rows()) = bar.tets.array() + vertices;
+    const pbs::TetMesh two = joined({bar, test_support::structured_bar({5, 5, 5}, {7, 6, 6}, {2, 1, 1})});
     expect_refused("attachment", springs_at(three_points), {}, two);
     Attachment both = springs_at(three_points);
     both.prescribed_tets = {static_cast<int>(bar.tets.rows())};

@@ -60,7 +60,7 @@ const std::vector<int> held_tets = tets_where(coarse, [](const Vec3& x) { return
 
 Attachment holding(const std::vector<int>& tets)
 {
-    return {.spring_points = Positions(0, 3), .spring_stiffness = {}, .prescribed_tets = tets, .bind_distance = {}, .bind_stiffness = {}};
+    return {.prescribed_tets = tets};
 }
 
 Attachment tied(const Positions& points, double stiffness_n_m)
@@ -280,9 +280,7 @@ TEST_P(RigidRotation, StoresFictitiousEnergy)
     std::vector<int> all(mesh.tets.rows());
     std::iota(all.begin(), all.end(), 0);
     for (const int order : {1, 2}) {
-        LinearOptions of_order = linear_tets;
-        of_order.element_order = order;
-        LinearElasticity fem(mesh, of_order, holding(all));
+        LinearElasticity fem(mesh, {.element_order = order, .young_pa = young_pa, .poisson = linear_tets.poisson}, holding(all));
         ASSERT_TRUE(fem.solve(Positions(0, 3), rotated(mesh.rest, angle)).finite);
         // Positions are the sum of the rest and a difference from it: two roundings each.
         constexpr double eps = std::numeric_limits<double>::epsilon();

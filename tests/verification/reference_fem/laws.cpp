@@ -16,21 +16,15 @@ namespace {
 using namespace test_support;
 using reference_fem::Lame;
 using reference_fem::Tangent;
-
-using Vector9 = Eigen::Matrix<double, 9, 1>;
+using reference_fem::vec;
 
 const Lame lame{.lambda_pa = 7e4, .mu_pa = 4e4};
 const double lambda = lame.lambda_pa, mu = lame.mu_pa, kappa = lambda + 2.0 / 3.0 * mu;
 const Eigen::Matrix3d identity = Eigen::Matrix3d::Identity();
 
-Eigen::Matrix3d unstacked(const Eigen::VectorXd& x)
+Eigen::Matrix3d matrix_of(const Eigen::VectorXd& x)
 {
     return Eigen::Map<const Eigen::Matrix3d>(x.data());
-}
-
-Vector9 stacked(const Eigen::Matrix3d& matrix)
-{
-    return Eigen::Map<const Vector9>(matrix.data());
 }
 
 // A hundred roundings of the largest term of a law, which is of degree six in F.
@@ -59,17 +53,16 @@ TEST_P(NonlinearLaw, StressIsTheDerivativeOfTheEnergyAndTangentThatOfTheStress)
     RandomPoints random(8);
     for (const double lambda_pa : {0.0, law->lambda_pa()})
         for (const Eigen::Matrix3d& f : states(GetParam())) {
-            const Vector9 direction = stacked(random_matrix(random, 1.0)), component = stacked(random_matrix(random, 1.0));
+            const reference_fem::Vector9 direction = vec(random_matrix(random, 1.0)), component = vec(random_matrix(random, 1.0));
             const auto energy = [&](const Eigen::VectorXd& x) {
-                return energy_density(law->evaluate(unstacked(x), Derivatives::none), lambda_pa);
+                return energy_density(law->evaluate(matrix_of(x), Derivatives::none), lambda_pa);
             };
             const auto stress = [&](const Eigen::VectorXd& x) {
-                return component.dot(stacked(first_piola_kirchhoff(law->evaluate(unstacked(x), Derivatives::first), lambda_pa)));
+                return component.dot(vec(first_piola_kirchhoff(law->evaluate(matrix_of(x), Derivatives::first), lambda_pa)));
             };
             const auto response = law->evaluate(f, Derivatives::second);
-            expect_slope_by_eps_sweep(energy, stacked(f), direction, stacked(first_piola_kirchhoff(response, lambda_pa)).dot(direction),
-                                      0.1);
-            expect_slope_by_eps_sweep(stress, stacked(f), direction, component.dot(reference_fem::tangent(response, lambda_pa) * direction),
+            expect_slope_by_eps_sweep(energy, vec(f), direction, vec(first_piola_kirchhoff(response, lambda_pa)).dot(direction), 0.1);
+            expect_slope_by_eps_sweep(stress, vec(f), direction, component.dot(reference_fem::tangent(response, lambda_pa) * direction),
                                       0.1);
         }
 }
@@ -83,8 +76,7 @@ TEST(LinearLaw, DifferencesAreExactAtAnyStep)
         const Eigen::Matrix3d f = random_stretch(random), d = step * random_matrix(random, 1.0);
         const double tolerance = rounding(identity) * step * (1.0 + step);
         EXPECT_NEAR(linear.energy(f + d) - linear.energy(f - d), 2.0 * linear.stress(f).cwiseProduct(d).sum(), tolerance);
-        EXPECT_LE((stacked(linear.stress(f + d) - linear.stress(f)) - linear.tangent(f) * stacked(d)).norm(),
-                  rounding(identity) * (1.0 + step));
+        EXPECT_LE((vec(linear.stress(f + d) - linear.stress(f)) - linear.tangent(f) * vec(d)).norm(), rounding(identity) * (1.0 + step));
     }
 }
 
@@ -104,8 +96,8 @@ TEST_P(NonlinearLaw, IsIndifferentToTheFrameAndIsotropic)
         const Eigen::Matrix3d q = random_rotation(random), d = random_matrix(random, 1.0);
         EXPECT_NEAR(point.energy(q * f), point.energy(f), rounding(f));
         EXPECT_LE((point.stress(q * f) - q * point.stress(f)).norm(), rounding(f));
-        const Vector9 expected = stacked(q * unstacked(point.tangent(f) * stacked(d)));
-        EXPECT_LE((point.tangent(q * f) * stacked(q * d) - expected).norm(), rounding(f));
+        const reference_fem::Vector9 expected = vec(q * matrix_of(point.tangent(f) * vec(d)));
+        EXPECT_LE((point.tangent(q * f) * vec(q * d) - expected).norm(), rounding(f));
         EXPECT_NEAR(point.energy(f * q), point.energy(f), rounding(f));
         EXPECT_LE((point.stress(f * q) - point.stress(f) * q).norm(), rounding(f));
     }
@@ -144,7 +136,7 @@ TEST_P(NonlinearLaw, LeavesLinearElasticityAtThirdOrder)
 }
 
 INSTANTIATE_TEST_SUITE_P(Laws, NonlinearLaw, testing::ValuesIn(nonlinear_models), name_of_model);
-INSTANTIATE_TEST_SUITE_P(Laws, EveryLaw, testing::ValuesIn(all_models()), name_of_model);
+INSTANTIATE_TEST_SUITE_P(Laws, EveryLaw, testing::ValuesIn(all_models), name_of_model);
 
 // Reference: textbook stresses of each law, derived by hand from its energy in principal stretches or in shear, by formulas that no source
 // file contains. J. Bonet, R. Wood, Nonlinear Continuum Mechanics for Finite Element Analysis, chapter 6; R. Ogden, Non-Linear Elastic
@@ -156,11 +148,6 @@ double tolerance(double largest_stretch)
 {
     const double largest_term = (lambda + 2.0 * mu) * std::pow(std::max(largest_stretch, 1.0), 5);
     return 3.0 * 100.0 * std::numeric_limits<double>::epsilon() / 2.0 * largest_term;
-}
-
-Eigen::Matrix3d diagonal(double a, double b, double c)
-{
-    return Eigen::Vector3d(a, b, c).asDiagonal();
 }
 
 // F = s I: P = p I. At s = 1e6 and 1e-5 the terms of p differ by up to 30 digits. There each of the three entries goes through at most a
@@ -183,8 +170,8 @@ TEST_P(EveryLaw, UniformDilation)
         const bool extreme = s < 0.5 || s > 2.0;
         const LawPoint point(GetParam().model, extreme ? twice : lame);
         const double expected = pressure.at(GetParam().model)(s, extreme ? twice : lame);
-        const Eigen::Matrix3d f = s * Eigen::Matrix3d::Identity();
-        EXPECT_LE((point.stress(f) - expected * Eigen::Matrix3d::Identity()).norm(),
+        const Eigen::Matrix3d f = s * identity;
+        EXPECT_LE((point.stress(f) - expected * identity).norm(),
                   extreme ? std::sqrt(3.0) * rounding_error(100, 2.5 * std::abs(expected)) : tolerance(s))
             << s;
         EXPECT_TRUE(all_finite(point.law->evaluate(f, Derivatives::second))) << s;
@@ -240,7 +227,7 @@ Eigen::Matrix3d shear_stress(Model model, double g)
 TEST_P(EveryLaw, SimpleShear)
 {
     for (const double g : {-0.5, 0.1, 1.5}) {
-        Eigen::Matrix3d f = Eigen::Matrix3d::Identity();
+        Eigen::Matrix3d f = identity;
         f(0, 1) = g;
         const Eigen::Matrix3d stress = LawPoint(GetParam().model, lame).stress(f);
         const double stretch = std::abs(g) / 2.0 + std::sqrt(1.0 + g * g / 4.0);
@@ -309,7 +296,7 @@ TEST(StVenantKirchhoff, HasTheSameLimitPointUnderUniaxialStressAndIsAloneInGivin
     };
     for (const double s : {0.4, 1.0 / std::sqrt(3.0), 0.8}) EXPECT_NEAR(force(s), young * (s * s * s - s) / 2.0, 2.0 * tolerance(1.0));
     EXPECT_LT(force(1.0 / std::sqrt(3.0)), std::min(force(0.4), force(0.8)));
-    for (const NamedModel& model : all_models())
+    for (const NamedModel& model : all_models)
         for (double s = 0.95; s > 0.04 && model.model != Model::st_venant_kirchhoff; s -= 0.05)
             EXPECT_GT(LawPoint(model.model, lame).tangent(diagonal(s, 1.0, 1.0))(0, 0), 0.5 * (lambda + 2.0 * mu)) << model.name << s;
 }

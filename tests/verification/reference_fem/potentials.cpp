@@ -28,7 +28,7 @@ const Lame lame = lame_parameters(1e3, 0.4);
 // tets about an edge or vertex, the magnitudes of which are those of the entry, since the terms on the diagonal have one sign.
 double rounding(int roundings)
 {
-    return roundings * std::numeric_limits<double>::epsilon() / 2.0;
+    return test_support::rounding_error(roundings, 1.0);
 }
 const int of_law = 100, of_entry = of_law + 9 + 6 + 24, of_energy = of_law + 6 * 12;  // 6 points of 12 tets
 

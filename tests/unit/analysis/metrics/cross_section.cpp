@@ -74,18 +74,14 @@ TEST(CrossSection, OfABox)
         double area, error;
     };
     const std::vector<Case> all = {{"between its vertices", {{0.1, 5.0, -7.0}, {1, 0, 0}}, 0.09, across_error},
-                                   {"through vertices and faces", {{-0.75, 0, 0}, {1, 0, 0}}, 0.09, across_error},
-                                   {"through vertices and faces, other normal", {{-0.75, 0, 0}, {-2, 0, 0}}, 0.09, across_error},
-                                   {"in the middle", {{0, 0, 0}, {1, 0, 0}}, 0.09, across_error},
-                                   {"in the middle, other normal", {{0, 0, 0}, {-2, 0, 0}}, 0.09, across_error},
-                                   {"on the other side", {{0.25, 0, 0}, {1, 0, 0}}, 0.09, across_error},
-                                   {"on the other side, other normal", {{0.25, 0, 0}, {-2, 0, 0}}, 0.09, across_error},
                                    {"the boundary counts from the normal's side", {{-1, 0, 0}, {1, 0, 0}}, 0.09, across_error},
                                    {"and not from the other", {{-1, 0, 0}, {-1, 0, 0}}, 0.0, 0.0},
                                    {"oblique", {Vec3::Zero(), {std::cos(tilt), std::sin(tilt), 0}}, 0.09 / std::cos(tilt), oblique_error},
                                    {"along it", {{0, 0, 0.01}, {0, 0, 3}}, 2.0 * 0.3, along_error},
                                    {"beyond it", {{1.1, 0, 0}, {1, 0, 0}}, 0.0, 0.0}};
     for (const Case& of : all) EXPECT_NEAR(area_of(bar(), of.plane), of.area, of.error) << of.name;
+    for (const double x : {-0.75, 0.0, 0.25})  // through vertices and faces, from either side
+        for (const double normal : {1.0, -2.0}) EXPECT_NEAR(area_of(bar(), {{x, 0, 0}, {normal, 0, 0}}), 0.09, across_error) << x;
 }
 
 // The rounding error of the area in which a plane cuts a cone of so many tets, with edges of sqrt 2 m at 45 degrees.

@@ -10,6 +10,14 @@
 #include <limits>
 #include <random>
 
+enum class Ending { finished, not_finite };
+
+template <>
+struct analysis::EnumNames<Ending> {
+    static constexpr std::array<std::pair<Ending, const char*>, 2> table{
+        {{Ending::finished, "finished"}, {Ending::not_finite, "not_finite"}}};
+};
+
 namespace {
 
 using analysis::CsvTable;
@@ -132,18 +140,6 @@ TEST(CsvTable, AppendsTheRowsOfOthersUnderOneHeadAndGoesThroughAFile)
 }
 
 // Reference: RFC 4180 and the identity: rows that are written read back unchanged.
-
-enum class Ending { finished, not_finite };
-
-}  // namespace
-
-template <>
-struct analysis::EnumNames<Ending> {
-    static constexpr std::array<std::pair<Ending, const char*>, 2> table{
-        {{Ending::finished, "finished"}, {Ending::not_finite, "not_finite"}}};
-};
-
-namespace {
 
 using analysis::Columns;
 

@@ -24,11 +24,6 @@ PointResponse respond(Model model, const Eigen::Matrix3d& f)
     return constitutive_law(model, lame)->evaluate(f, Derivatives::second);
 }
 
-Eigen::Matrix3d diagonal(double a, double b, double c)
-{
-    return Eigen::Vector3d(a, b, c).asDiagonal();
-}
-
 class EveryLaw : public testing::TestWithParam<NamedModel> {};
 
 TEST_P(EveryLaw, AtRestStoresNothing)
@@ -72,7 +67,7 @@ TEST_P(EveryLaw, IsDefinedAndFiniteOrSaysNot)
     EXPECT_TRUE(!response.defined || !std::isfinite(energy_density(response, point.law->lambda_pa())));
 }
 
-INSTANTIATE_TEST_SUITE_P(Laws, EveryLaw, testing::ValuesIn(all_models()), name_of_model);
+INSTANTIATE_TEST_SUITE_P(Laws, EveryLaw, testing::ValuesIn(all_models), name_of_model);
 
 // psi, P and the tangent at F = 0, at reflections and of flat tets, by hand. St Venant-Kirchhoff gives way at zero, where its energy has a
 // maximum, and is blind to mirrors; stable neo-Hookean flesh has a minimum there, resists mirrors and pushes a flat tet open. For the

@@ -1,9 +1,9 @@
 // Reference: minima known by hand, and the outcome that each kind of failure must have.
 
-#include "reference_fem/assembly.hpp"
+#include "reference_fem/boundary_value_problem.hpp"
 #include "reference_fem/newton/newton.hpp"
 #include "reference_fem/potentials/potentials.hpp"
-#include "reference_fem/verification/problems.hpp"
+#include "tests/support/fem_rounding.hpp"
 #include "tests/support/structured_bar.hpp"
 
 #include <gtest/gtest.h>
@@ -20,9 +20,7 @@ const Lame lame = lame_parameters(1e3, 0.3);
 // The end x = 0 is held.
 std::vector<bool> held_end(const SimplexSpace& space)
 {
-    std::vector<bool> held(space.dofs());
-    for (int d = 0; d < space.dofs(); ++d) held[d] = space.node_positions()(d / 3, 0) == 0.0;
-    return held;
+    return prescribed_data(space, {.held = [](const pbs::Vec3& x) { return x.x() == 0.0; }}).held;
 }
 
 // The bar with its end held.
@@ -41,9 +39,7 @@ struct HeldBar {
     // Displaced along itself by this strain.
     Eigen::VectorXd strained(double strain) const
     {
-        Eigen::VectorXd u = zero;
-        for (int d = 0; d < space.dofs(); d += 3) u(d) = strain * space.node_positions()(d / 3, 0);
-        return u;
+        return test_support::at_nodes(space, [&](const pbs::Vec3& x) -> pbs::Vec3 { return {strain * x.x(), 0, 0}; });
     }
 
     SimplexSpace space;

@@ -5,7 +5,6 @@
 #include "tests/support/scratch_folder.hpp"
 
 #include <cstdlib>
-#include <cstring>
 #include <ostream>
 
 namespace {
@@ -103,11 +102,8 @@ template <typename Number>
 std::string record(const std::vector<Number>& values)
 {
     const auto length = static_cast<std::int32_t>(values.size() * sizeof(Number));
-    std::string bytes(2 * sizeof length + length, '\0');
-    std::memcpy(bytes.data(), &length, sizeof length);
-    std::memcpy(bytes.data() + sizeof length, values.data(), length);
-    std::memcpy(bytes.data() + sizeof length + length, &length, sizeof length);
-    return bytes;
+    const std::string around(reinterpret_cast<const char*>(&length), sizeof length);
+    return around + std::string(reinterpret_cast<const char*>(values.data()), length) + around;
 }
 
 // Node by node: temperature and three displacements.
