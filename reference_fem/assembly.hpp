@@ -16,7 +16,7 @@ namespace reference_fem {
 
 // Continuous vector-valued finite elements on the character's own tets: P1 or P2 on straight tets (deal.II's FE_SimplexP).
 // Node v is vertex v of the mesh; a P2 space numbers its mid-edge nodes after the vertices. Degree of freedom 3 n + c is component c at
-// node n. The header is plain; deal.II is seen by assembly.cpp and assembly.cpp alone.
+// node n. The header is plain; deal.II is seen by assembly.cpp alone.
 using TetNodes = Eigen::Matrix<int, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;  // #T x 4 or #T x 10
 
 // The mesh may go.
@@ -43,7 +43,7 @@ public:
     // Values given at the vertices, #V x 3, on all nodes, #nodes x 3: linear along each edge.
     pbs::Positions from_vertices(const pbs::Positions& at_vertices) const;
 
-    const Elements& elements() const { return *elements_; }  // deal.II's side, for those who include assembly.cpp
+    const Elements& elements() const { return *elements_; }  // deal.II's side, for assembly.cpp
 
 private:
     void number_nodes(const pbs::TetMesh& mesh);

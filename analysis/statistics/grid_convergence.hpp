@@ -4,8 +4,8 @@
 // P. J. Roache, Journal of Fluids Engineering 116, 1994: a bound is the distance from the extrapolated limit times a safety factor, which
 // is 3 for two grids with a presumed order. I. B. Celik et al., Journal of Fluids Engineering 130, 2008: the mesh sizes should differ by a
 // factor of at least 1.3, since the difference of more similar meshes is mostly noise. Grid 1 is the finer one. Values and bounds have the
-// unit of the measured quantity; the GCI of the literature is bounds[0] / |value|. With two grids no order is observed.
-// grid_convergence.hpp observes it from four nested solutions, and fits.hpp from the errors on any number of meshes.
+// unit of the measured quantity; the GCI of the literature is bounds[0] / |value|. With two grids no order is observed:
+// nested_order observes it from four nested solutions, and observed_order (fits.hpp) from the errors on any number of meshes.
 #pragma once
 
 #include "pbs/geometry/tet_mesh.hpp"

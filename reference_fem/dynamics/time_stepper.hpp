@@ -1,5 +1,5 @@
-// Steps a sum of potentials through time: M u'' + C u' + grad Pi(u) = 0, some degrees of freedom prescribed, by either scheme of
-// time_stepper.hpp. Consistent mass; Rayleigh's damping C = a M + b K, K the flesh's stiffness at rest.
+// Steps a sum of potentials through time: M u'' + C u' + grad Pi(u) = 0, some degrees of freedom prescribed, by either scheme
+// below. Consistent mass; Rayleigh's damping C = a M + b K, K the flesh's stiffness at rest.
 //   TimeStepper stepper(space, prescribed, flesh, {.density_kg_m3 = 1000.0}, newton);
 //   stepper.start(u0, v0);  // the acceleration follows from the balance of forces
 //   const LoadPathSummary step = stepper.advance({&flesh, &springs}, data, step_s, displacement, {}, {});

@@ -54,9 +54,8 @@ Eigen::Matrix3d first_piola_kirchhoff(const PointResponse& response, double lamb
 Tangent tangent(const PointResponse& response, double lambda_pa);                        // d vec P / d vec F [Pa], from a second derivative
 
 // Pieces that the derivatives of the laws share. vec stacks columns, so entry (i, j) of a 3 x 3 matrix is entry 3 j + i of a 9-vector.
-using Vector9 = Eigen::Matrix<double, 9, 1>;  // of a 3 x 3 matrix, column under column
+using Vector9 = Eigen::Matrix<double, 9, 1>;
 
-// Entry (i, j) becomes entry 3 j + i.
 inline Vector9 vec(const Eigen::Matrix3d& matrix)
 {
     return Eigen::Map<const Vector9>(matrix.data());

@@ -11,8 +11,6 @@
 
 namespace reference_fem {
 
-// One row of the verification record: a value of the reference solver compared with the value from theory, another code or a published
-// benchmark.
 struct RowMaterial {
     std::string law = {};                // an identifier: stable_neo_hookean; empty without an elastic law
     std::optional<double> poisson = {};  // its Poisson's ratio
@@ -34,6 +32,8 @@ struct RowElements {
     std::string text() const;  // P2, P2 taylor_hood, one_point
 };
 
+// One row of the verification record: a value of the reference solver compared with the value from theory, another code or a published
+// benchmark.
 struct VerificationRow {
     std::string problem = {};  // its name in the list of problems
     RowQuantity quantity = {};

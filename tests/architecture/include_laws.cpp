@@ -62,9 +62,10 @@ struct Place {
 // Nothing if no layer contains the file.
 std::optional<Place> place_of(const std::string& path)
 {
+    static const std::vector<std::regex> patterns(layers.begin(), layers.end());
     std::smatch match;
     for (std::size_t i = 0; i < layers.size(); ++i)
-        if (std::regex_search(path, match, std::regex(layers[i]), std::regex_constants::match_continuous)) return Place{match.str(), i};
+        if (std::regex_search(path, match, patterns[i], std::regex_constants::match_continuous)) return Place{match.str(), i};
     return std::nullopt;
 }
 

@@ -43,19 +43,15 @@ inline pbs::TetMesh structured_bar(const pbs::Vec3& lower, const pbs::Vec3& uppe
     // Each of the six tets follows a path from corner (0,0,0) to (1,1,1) along the axes in one order; odd orders are mirrored.
     const std::array<std::array<int, 3>, 6> axis_orders = {{{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}}};
     mesh.tets.resize(6 * nx * ny * nz, 4);
-    int t = 0;
-    for (int k = 0; k < nz; ++k)
-        for (int j = 0; j < ny; ++j)
-            for (int i = 0; i < nx; ++i)
-                for (std::size_t order = 0; order < axis_orders.size(); ++order, ++t) {
-                    std::array<int, 3> corner = {i, j, k};
-                    mesh.tets(t, 0) = vertex(corner[0], corner[1], corner[2]);
-                    for (int step = 0; step < 3; ++step) {
-                        ++corner[axis_orders[order][step]];
-                        mesh.tets(t, step + 1) = vertex(corner[0], corner[1], corner[2]);
-                    }
-                    if (order >= 3) std::swap(mesh.tets(t, 2), mesh.tets(t, 3));
-                }
+    for (int t = 0; t < mesh.tets.rows(); ++t) {
+        const int cube = t / 6;
+        std::array<int, 3> corner = {cube % nx, cube / nx % ny, cube / nx / ny};
+        for (int c = 0; c < 4; ++c) {
+            mesh.tets(t, c) = vertex(corner[0], corner[1], corner[2]);
+            if (c < 3) ++corner[axis_orders[t % 6][c]];
+        }
+        if (t % 6 >= 3) std::swap(mesh.tets(t, 2), mesh.tets(t, 3));
+    }
     return mesh;
 }
 

@@ -1,7 +1,7 @@
 // An elastic problem as an input deck of CalculiX 2.20 (G. Dhondt, CalculiX CrunchiX User's Manual; Debian's calculix-ccx).
 //   write_calculix_deck(stream, problem, {});
 // Elements C3D4 and C3D10, nodes and tets numbered from 1 in our order. A node that is held is held in all three components.
-// Springs at points of the flesh are written as the equivalent ones (calculix_deck.hpp). Each has a node behind the problem's own ones
+// Springs at points of the flesh are written as EquivalentSprings. Each has a node behind the problem's own ones
 // as its end, which *EQUATION ties to the nodes of its tet, and three elements SPRING1, springs to ground.
 #pragma once
 
@@ -12,7 +12,6 @@
 
 namespace reference_fem {
 
-// A static elastic problem as plain arrays at the nodes of a P1 or P2 space: the input of two programs.
 // Springs between points of the flesh and fixed targets: an energy sum_s k_s / 2 |X_s + u(X_s) - t_s|^2.
 struct GroundSprings {
     pbs::Positions points;          // X_s at rest [m], #S x 3; one outside the tets is left out
@@ -20,6 +19,7 @@ struct GroundSprings {
     Eigen::VectorXd stiffness_n_m;  // k_s [N/m], #S
 };
 
+// A static elastic problem as plain arrays at the nodes of a P1 or P2 space: the input of two programs.
 struct NodalProblem {
     pbs::Positions nodes;  // rest [m], #N x 3
     TetNodes tets;         // #T x 4 or #T x 10: corners, then the middles of the edges 01 12 20 03 13 23

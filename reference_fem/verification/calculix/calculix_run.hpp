@@ -24,7 +24,7 @@ enum class CalculixOutcome {
 };
 const char* name_of(CalculixOutcome outcome);
 
-// CalculiX's files and output; calculix_run.hpp reads the solution from them.
+// CalculiX's files and output, from which read_displacements reads the solution.
 struct CalculixRun {
     CalculixOutcome outcome = CalculixOutcome::not_started;
     double wall_s = 0.0;  // from the start of the process to its end, reading and writing of its files included
