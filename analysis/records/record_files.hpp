@@ -5,6 +5,7 @@
 #include "pbs/geometry/input_error.hpp"
 
 #include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <stdlib.h>
 
 #include <cerrno>

@@ -15,62 +15,36 @@
 
 namespace test_support {
 
-// References to all members, in order.
+#define PBS_TIE_MEMBERS(number, ...)  \
+    if constexpr (count == number) {  \
+        auto& [__VA_ARGS__] = of;     \
+        return std::tie(__VA_ARGS__); \
+    }
+
+// References to all members, in order. A struct with another number of members needs a further line.
 template <typename Struct>
 auto members_of(Struct& of)
 {
     constexpr std::size_t count = experiments::member_count<std::remove_const_t<Struct>>();
-    if constexpr (count == 1) {
-        auto& [a] = of;
-        return std::tie(a);
-    } else if constexpr (count == 2) {
-        auto& [a, b] = of;
-        return std::tie(a, b);
-    } else if constexpr (count == 3) {
-        auto& [a, b, c] = of;
-        return std::tie(a, b, c);
-    } else if constexpr (count == 4) {
-        auto& [a, b, c, d] = of;
-        return std::tie(a, b, c, d);
-    } else if constexpr (count == 5) {
-        auto& [a, b, c, d, e] = of;
-        return std::tie(a, b, c, d, e);
-    } else if constexpr (count == 6) {
-        auto& [a, b, c, d, e, f] = of;
-        return std::tie(a, b, c, d, e, f);
-    } else if constexpr (count == 7) {
-        auto& [a, b, c, d, e, f, g] = of;
-        return std::tie(a, b, c, d, e, f, g);
-    } else if constexpr (count == 8) {
-        auto& [a, b, c, d, e, f, g, h] = of;
-        return std::tie(a, b, c, d, e, f, g, h);
-    } else if constexpr (count == 10) {
-        auto& [a, b, c, d, e, f, g, h, i, j] = of;
-        return std::tie(a, b, c, d, e, f, g, h, i, j);
-    } else if constexpr (count == 11) {
-        auto& [a, b, c, d, e, f, g, h, i, j, k] = of;
-        return std::tie(a, b, c, d, e, f, g, h, i, j, k);
-    } else if constexpr (count == 12) {
-        auto& [a, b, c, d, e, f, g, h, i, j, k, l] = of;
-        return std::tie(a, b, c, d, e, f, g, h, i, j, k, l);
-    } else if constexpr (count == 13) {
-        auto& [a, b, c, d, e, f, g, h, i, j, k, l, m] = of;
-        return std::tie(a, b, c, d, e, f, g, h, i, j, k, l, m);
-    } else if constexpr (count == 16) {
-        auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p] = of;
-        return std::tie(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p);
-    } else if constexpr (count == 18) {
-        auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r] = of;
-        return std::tie(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r);
-    } else if constexpr (count == 19) {
-        auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s] = of;
-        return std::tie(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s);
-    } else {
-        static_assert(count == 24, "add this number of members");
-        auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x] = of;
-        return std::tie(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x);
-    }
+    PBS_TIE_MEMBERS(1, a);
+    PBS_TIE_MEMBERS(2, a, b);
+    PBS_TIE_MEMBERS(3, a, b, c);
+    PBS_TIE_MEMBERS(4, a, b, c, d);
+    PBS_TIE_MEMBERS(5, a, b, c, d, e);
+    PBS_TIE_MEMBERS(6, a, b, c, d, e, f);
+    PBS_TIE_MEMBERS(7, a, b, c, d, e, f, g);
+    PBS_TIE_MEMBERS(8, a, b, c, d, e, f, g, h);
+    PBS_TIE_MEMBERS(10, a, b, c, d, e, f, g, h, i, j);
+    PBS_TIE_MEMBERS(11, a, b, c, d, e, f, g, h, i, j, k);
+    PBS_TIE_MEMBERS(12, a, b, c, d, e, f, g, h, i, j, k, l);
+    PBS_TIE_MEMBERS(13, a, b, c, d, e, f, g, h, i, j, k, l, m);
+    PBS_TIE_MEMBERS(16, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p);
+    PBS_TIE_MEMBERS(18, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r);
+    PBS_TIE_MEMBERS(19, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s);
+    PBS_TIE_MEMBERS(24, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x);
 }
+
+#undef PBS_TIE_MEMBERS
 
 template <typename Value>
 inline constexpr bool is_vector = false;

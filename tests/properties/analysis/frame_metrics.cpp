@@ -6,7 +6,6 @@
 #include "tests/support/structured_bar.hpp"
 
 #include <Eigen/Geometry>
-#include <gtest/gtest.h>
 
 #include <random>
 

@@ -12,7 +12,6 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
-#include <gtest/gtest.h>
 
 #include <random>
 #include <set>

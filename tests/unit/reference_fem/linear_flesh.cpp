@@ -9,8 +9,6 @@
 #include "tests/support/fem_rounding.hpp"
 #include "tests/support/structured_bar.hpp"
 
-#include <gtest/gtest.h>
-
 #include <numeric>
 
 namespace {

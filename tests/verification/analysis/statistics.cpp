@@ -11,7 +11,6 @@
 #include "tests/support/rounding_error.hpp"
 
 #include <gsl/gsl_cdf.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>

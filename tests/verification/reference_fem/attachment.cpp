@@ -11,7 +11,6 @@
 #include "tests/support/structured_bar.hpp"
 
 #include <Eigen/Geometry>
-#include <gtest/gtest.h>
 
 #include <limits>
 #include <numeric>
@@ -68,20 +67,14 @@ Attachment tied(const Positions& points, double stiffness_n_m)
     return {points, Eigen::VectorXd::Constant(points.rows(), stiffness_n_m), {}};
 }
 
-// The positions of all nodes of the end tets: their corners, and for quadratic tets the midpoints of their edges.
-Positions end_nodes(int element_order)
+// The positions of all nodes of these tets.
+Positions nodes_of(const pbs::TetMesh& mesh, const std::vector<int>& tets, int element_order)
 {
-    std::set<std::array<double, 3>> points;
-    for (const int t : end_tets)
-        for (int a = 0; a < 4; ++a)
-            for (int b = a; b < (element_order == 1 ? a + 1 : 4); ++b) {
-                const Vec3 middle = (bar.rest.row(bar.tets(t, a)) + bar.rest.row(bar.tets(t, b))) / 2.0;
-                points.insert({middle(0), middle(1), middle(2)});
-            }
-    Positions nodes(points.size(), 3);
-    Eigen::Index next = 0;
-    for (const auto& point : points) nodes.row(next++) << point[0], point[1], point[2];
-    return nodes;
+    const SimplexSpace space(mesh, element_order);
+    std::set<int> nodes;
+    for (const int t : tets)
+        for (const int node : space.tet_nodes().row(t)) nodes.insert(node);
+    return space.node_positions()(std::vector<int>(nodes.begin(), nodes.end()), Eigen::all);
 }
 
 // The far end turned by 10 degrees about the axis and pulled.
@@ -103,7 +96,7 @@ TEST_P(SpringAttachment, ApproachesExactDirichletDataWithOneOverQ)
     ASSERT_TRUE(exact.solve(Positions(0, 3), posed(bar.rest)).finite);
     const double size = (exact.positions() - bar.rest).norm();
 
-    const Positions nodes = end_nodes(order);
+    const Positions nodes = nodes_of(bar, end_tets, order);
     std::vector<double> errors;
     for (const double q : {1e2, 1e3, 1e4}) {
         LinearElasticity by_springs(bar, {.element_order = order, .young_pa = young_pa}, tied(nodes, q * young_pa * cell_m));
@@ -120,7 +113,7 @@ TEST_P(SpringAttachment, ApproachesExactDirichletDataWithOneOverQ)
 
 TEST_P(SpringAttachment, RepeatsARigidTranslation)
 {
-    const Positions nodes = end_nodes(1);
+    const Positions nodes = nodes_of(bar, end_tets, 1);
     const Attachment attachment = tied(nodes, 1e4 * young_pa * cell_m);
     const LinearOptions options{.element_order = GetParam(), .young_pa = young_pa};
     LinearElasticity fem(bar, options, attachment);
@@ -223,16 +216,9 @@ TEST(NearIncompressibleAttachment, HeldTetsActByTheirNodesAlone)
     LinearElasticity fem(whole, options, held);
     ASSERT_TRUE(fem.solve(Positions(0, 3), (1.0 + swelling) * whole.rest).finite);
 
-    std::vector<Vec3> corners;
-    for (const int t : held.prescribed_tets)
-        for (const int v : whole.tets.row(t)) corners.emplace_back(whole.rest.row(v));
     const double held_volume = pbs::tet_volumes(whole.rest, whole.tets)(held.prescribed_tets).sum();
-    const auto is_held_node = [&](const Vec3& x) {  // a corner of a held tet, or the midpoint of two
-        for (std::size_t k = 0; k < corners.size(); ++k)
-            for (std::size_t l = k - k % 4; l <= k; ++l)
-                if ((x - (corners[k] + corners[l]) / 2.0).norm() < 1e-9) return true;
-        return false;
-    };
+    const Positions held_nodes = nodes_of(whole, held.prescribed_tets, 2);
+    const auto is_held_node = [&](const Vec3& x) { return (held_nodes.rowwise() - x.transpose()).rowwise().norm().minCoeff() < 1e-9; };
     const ElasticMaterial material{young_pa, incompressible};
     const BoundaryValueSolution alone =
         solve(free, material, {.displacement = swollen, .held = is_held_node, .formulation = Formulation::taylor_hood});
@@ -277,8 +263,7 @@ TEST_P(RigidRotation, StoresFictitiousEnergy)
 {
     const double angle = GetParam() * std::acos(-1.0) / 180.0;
     const pbs::TetMesh mesh = long_bar(2);
-    std::vector<int> all(mesh.tets.rows());
-    std::iota(all.begin(), all.end(), 0);
+    const std::vector<int> all = tets_where(mesh, [](const Vec3&) { return true; });
     for (const int order : {1, 2}) {
         LinearElasticity fem(mesh, {.element_order = order, .young_pa = young_pa, .poisson = linear_tets.poisson}, holding(all));
         ASSERT_TRUE(fem.solve(Positions(0, 3), rotated(mesh.rest, angle)).finite);
@@ -304,17 +289,8 @@ TEST_P(RigidRotation, SwellsFreeFleshBySineSquared)
 {
     const double angle = GetParam() * std::acos(-1.0) / 180.0;
     const pbs::TetMesh mesh = long_bar(4);
-    Attachment ends = holding({});
-    std::vector<int> middle;
-    for (int t = 0; t < mesh.tets.rows(); ++t) {
-        double nearest = 1e9, farthest = 0.0;
-        for (const int v : mesh.tets.row(t)) {
-            nearest = std::min(nearest, std::abs(mesh.rest(v, 0)));
-            farthest = std::max(farthest, std::abs(mesh.rest(v, 0)));
-        }
-        if (nearest > 1.85) ends.prescribed_tets.push_back(t);
-        if (farthest < 0.15) middle.push_back(t);
-    }
+    const Attachment ends = holding(tets_where(mesh, [](const Vec3& x) { return std::abs(x(0)) > 1.85; }));
+    const std::vector<int> middle = tets_where(mesh, [](const Vec3& x) { return std::abs(x(0)) < 0.15; });
     LinearElasticity fem(mesh, linear_tets, ends);
     ASSERT_TRUE(fem.solve(Positions(0, 3), rotated(mesh.rest, angle)).finite);
     const Eigen::VectorXd ratio = pbs::tet_volumes(fem.positions(), mesh.tets).cwiseQuotient(pbs::tet_volumes(mesh.rest, mesh.tets));

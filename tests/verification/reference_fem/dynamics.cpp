@@ -14,7 +14,6 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
-#include <gtest/gtest.h>
 
 #include <random>
 

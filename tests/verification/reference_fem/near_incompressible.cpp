@@ -5,8 +5,6 @@
 #include "tests/support/fem_rounding.hpp"
 #include "tests/support/structured_bar.hpp"
 
-#include <gtest/gtest.h>
-
 namespace {
 
 using namespace reference_fem;

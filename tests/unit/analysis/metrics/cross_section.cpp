@@ -5,8 +5,6 @@
 #include "tests/support/rounding_error.hpp"
 #include "tests/support/structured_bar.hpp"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <numbers>
 #include <numeric>

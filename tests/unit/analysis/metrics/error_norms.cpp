@@ -7,7 +7,6 @@
 #include "tests/support/structured_bar.hpp"
 
 #include <Eigen/Geometry>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>

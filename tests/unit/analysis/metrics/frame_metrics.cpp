@@ -8,8 +8,6 @@
 #include "tests/support/rounding_error.hpp"
 #include "tests/support/structured_bar.hpp"
 
-#include <gtest/gtest.h>
-
 namespace {
 
 using analysis::FrameMetrics;

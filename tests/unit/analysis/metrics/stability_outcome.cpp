@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <tuple>
+#include <type_traits>
 
 namespace {
 
@@ -14,18 +15,18 @@ using Steps = std::vector<StabilityStep>;
 constexpr StabilityBounds bounds;
 constexpr int disturbed = 10, still = 90;
 
-// Disturbed by a motion of 0.1 per step, and at rest from then on.
-Steps calm()
+// Disturbed by this motion per step, and at rest from then on.
+Steps calm(double disturbance = 0.1)
 {
     Steps steps(disturbed + still);
-    for (int i = 0; i < disturbed; ++i) steps[i].motion = 0.1;
+    for (int i = 0; i < disturbed; ++i) steps[i].motion = disturbance;
     return steps;
 }
 
 // The motion of the last third of the still steps grows by `factor` from each of its thirds to the next.
-Steps growing(double factor, double from)
+Steps growing(double factor, double from, double disturbance = 0.1)
 {
-    Steps steps = calm();
+    Steps steps = calm(disturbance);
     const std::size_t begin = steps.size() - still / 3;
     for (std::size_t i = begin; i < steps.size(); ++i) steps[i].motion = from * std::pow(factor, double((i - begin) / (still / 9)));
     return steps;
@@ -42,67 +43,50 @@ TEST(StabilityOutcome, RecoveryCountsTheStillStepsThatWereNotAtRest)
     EXPECT_EQ(outcome_of(steps, disturbed).recovery_steps, 21);
 }
 
-template <typename Change>
-Steps changed(Change change, Steps steps = calm())
+// Every step, or the step `from_end` before the end (1: the last one), has this value.
+template <typename Value>
+Steps with_all(Value StabilityStep::*member, std::type_identity_t<Value> value, Steps steps = calm())
 {
-    change(steps);
+    for (StabilityStep& step : steps) step.*member = value;
     return steps;
 }
-
-Steps with_all(double StabilityStep::*member, double value)
+template <typename Value>
+Steps with_one(std::size_t from_end, Value StabilityStep::*member, std::type_identity_t<Value> value)
 {
-    return changed([=](Steps& steps) {
-        for (auto& step : steps) step.*member = value;
-    });
-}
-
-// The step `from_end` before the end (1: the last one) is beyond its place by so many times the bound.
-Steps far_away(std::size_t from_end, double times)
-{
-    return changed([=](Steps& steps) { steps[steps.size() - from_end].reach = times * bounds.farthest; });
+    Steps steps = calm();
+    steps[steps.size() - from_end].*member = value;
+    return steps;
 }
 
 TEST(StabilityOutcome, FollowsFromTheSteps)
 {
     using enum StabilityOutcome;
     constexpr double infinity = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
-    const auto not_reached = [](std::size_t from_end) {
-        return changed([=](Steps& steps) { steps[steps.size() - from_end].solved = false; });
-    };
-    const auto inverted_at = [](std::size_t from_end) {
-        return changed([=](Steps& steps) { steps[steps.size() - from_end].inverted_tets = 1; });
-    };
+    const auto reaches = &StabilityStep::reach;
     const std::vector<std::tuple<const char*, Steps, StabilityOutcome>> all = {
         {"no step", {}, not_finite},
-        {"one step that is not finite, whatever follows", changed([](Steps& steps) { steps[3].finite = false; }), not_finite},
-        {"far away in the last third", far_away(still / 3, 1.01), diverged},
-        {"not so far away in the last third", far_away(still / 3, 0.99), converged},
-        {"far away before the last third", far_away(still / 3 + 1, 1e9), converged},
-        {"a reach beyond all numbers", far_away(1, infinity), diverged},
-        {"a reach that is not a number", far_away(1, nan), diverged},
+        {"one step that is not finite, whatever follows", with_one(still + disturbed - 3, &StabilityStep::finite, false), not_finite},
+        {"far away in the last third", with_one(still / 3, reaches, 1.01 * bounds.farthest), diverged},
+        {"not so far away in the last third", with_one(still / 3, reaches, 0.99 * bounds.farthest), converged},
+        {"far away before the last third", with_one(still / 3 + 1, reaches, 1e9 * bounds.farthest), converged},
+        {"a reach beyond all numbers", with_one(1, reaches, infinity), diverged},
+        {"a reach that is not a number", with_one(1, reaches, nan), diverged},
         // The bones have moved away and the step was undone: the body is held up and has not diverged.
-        {"left behind by steps that were not reached",
-         changed(
-             [](Steps& steps) {
-                 for (auto& step : steps) step.solved = false;
-             },
-             with_all(&StabilityStep::reach, 2.0 * bounds.farthest)),
+        {"left behind by steps that were not reached", with_all(&StabilityStep::solved, false, with_all(reaches, 2.0 * bounds.farthest)),
          bounded},
         {"motion that grows beyond the disturbance", growing(1.01 * bounds.growth, 0.1), diverged},
         {"motion that grows less", growing(0.99 * bounds.growth, 0.1), bounded},
         {"motion that grows to less than was put in", growing(2.0, 0.099 / 4), bounded},
         {"motion that grows to more than was put in", growing(2.0, 0.101 / 4), diverged},
-        {"motion that grows below rest is rounding",
-         changed([](Steps& steps) { std::fill_n(steps.begin(), disturbed, StabilityStep{}); }, growing(2.0, 0.2 * bounds.rest_motion)),
-         converged},
-        {"a tet inverted in the last step", inverted_at(1), inverted},
-        {"inverted before the end, and not at rest for long enough", inverted_at(2), bounded},
+        {"motion that grows below rest is rounding", growing(2.0, 0.2 * bounds.rest_motion, 0.0), converged},
+        {"a tet inverted in the last step", with_one(1, &StabilityStep::inverted_tets, 1), inverted},
+        {"inverted before the end, and not at rest for long enough", with_one(2, &StabilityStep::inverted_tets, 1), bounded},
         {"still moving", with_all(&StabilityStep::motion, 1.01 * bounds.rest_motion), bounded},
         {"at rest", with_all(&StabilityStep::motion, 0.99 * bounds.rest_motion), converged},
         {"at rest elsewhere than undisturbed", with_all(&StabilityStep::from_undisturbed, 1.01 * bounds.near_undisturbed), bounded},
         {"at rest near the undisturbed", with_all(&StabilityStep::from_undisturbed, 0.99 * bounds.near_undisturbed), converged},
-        {"a step that was not reached", not_reached(bounds.still_steps), bounded},
-        {"a step that was not reached earlier", not_reached(bounds.still_steps + 1), converged},
+        {"a step that was not reached", with_one(bounds.still_steps, &StabilityStep::solved, false), bounded},
+        {"a step that was not reached earlier", with_one(bounds.still_steps + 1, &StabilityStep::solved, false), converged},
     };
     for (const auto& [name, steps, expected] : all) EXPECT_EQ(name_of(outcome_of(steps, disturbed).outcome), name_of(expected)) << name;
     EXPECT_FALSE(outcome_of(with_all(&StabilityStep::motion, 1.01 * bounds.rest_motion), disturbed).recovery_steps);

@@ -3,8 +3,6 @@
 #include "analysis/statistics/statistics.hpp"
 #include "tests/support/rounding_error.hpp"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 
 namespace {

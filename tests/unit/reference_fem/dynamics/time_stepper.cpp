@@ -10,7 +10,6 @@
 #include "tests/support/structured_bar.hpp"
 
 #include <Eigen/Eigenvalues>
-#include <gtest/gtest.h>
 
 namespace {
 

@@ -97,8 +97,9 @@ TEST(DegenerateStates, HaveTheirEnergyStressAndTangent)
     for (const Case& of : all) {
         const LawPoint law(of.model, lame);
         EXPECT_EQ(law.energy(of.f), of.energy) << static_cast<int>(of.model) << "\n" << of.f;
-        if (of.stress) EXPECT_EQ(law.stress(of.f), *of.stress) << static_cast<int>(of.model) << "\n" << of.f;
-        if (of.tangent) EXPECT_EQ(law.tangent(of.f), *of.tangent * Tangent::Identity()) << static_cast<int>(of.model);
+        if (!of.stress) continue;
+        EXPECT_EQ(law.stress(of.f), *of.stress) << static_cast<int>(of.model) << "\n" << of.f;
+        EXPECT_TRUE(!of.tangent || law.tangent(of.f) == *of.tangent * Tangent::Identity()) << static_cast<int>(of.model);
     }
     // A change of this stretch by h changes |F|^2, -2 tr S and (tr S - 3)^2 by at most 2 h each. Their sum changes by at most 6 h - 2 h^2,
     // and 2 h^2 is larger than its rounding.

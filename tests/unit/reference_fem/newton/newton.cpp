@@ -6,8 +6,6 @@
 #include "tests/support/fem_rounding.hpp"
 #include "tests/support/structured_bar.hpp"
 
-#include <gtest/gtest.h>
-
 #include <limits>
 
 namespace {

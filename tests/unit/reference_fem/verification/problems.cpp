@@ -9,8 +9,6 @@
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/rounding_error.hpp"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 
 namespace {

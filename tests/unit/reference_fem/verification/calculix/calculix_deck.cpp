@@ -5,8 +5,6 @@
 #include "reference_fem/verification/calculix/calculix_deck.hpp"
 #include "tests/support/rounding_error.hpp"
 
-#include <gtest/gtest.h>
-
 #include <cstdlib>
 #include <random>
 
@@ -169,16 +167,10 @@ protected:
     EquivalentSpringsOfOrder()
     {
         constexpr int springs = 50;
-        problem_.springs.points.resize(springs, 3);
-        problem_.springs.targets.resize(springs, 3);
-        problem_.springs.stiffness_n_m.resize(springs);
-        for (int s = 0; s < springs; ++s) {
-            Eigen::Vector4d barycentric;
-            for (double& coordinate : barycentric) coordinate = number(0.1, 1.0);
-            problem_.springs.points.row(s) = (barycentric / barycentric.sum()).transpose() * problem_.nodes.topRows(4);
-            for (double& component : problem_.springs.targets.row(s)) component = number(-1.0, 1.0);
-            problem_.springs.stiffness_n_m(s) = number(1.0, 1000.0);
-        }
+        const Eigen::MatrixXd weights = Eigen::MatrixXd::NullaryExpr(springs, 4, [&] { return number(0.1, 1.0); });
+        problem_.springs.points = weights.rowwise().sum().cwiseInverse().asDiagonal() * weights * problem_.nodes.topRows(4);
+        problem_.springs.targets = pbs::Positions::NullaryExpr(springs, 3, [&] { return number(-1.0, 1.0); });
+        problem_.springs.stiffness_n_m = Eigen::VectorXd::NullaryExpr(springs, [&] { return number(1.0, 1000.0); });
     }
 
     double number(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
