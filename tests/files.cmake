@@ -5,8 +5,7 @@ if(PBS_WITH_MESH_IO)
     list(APPEND left_out pbs/geometry/mesh_io_unavailable)
 else()
     list(APPEND left_out pbs/geometry/content_format pbs/geometry/child_process pbs/geometry/mesh_checks pbs/geometry/mesh_io
-        pbs/geometry/module pbs/geometry/surface_reader pbs/geometry/damaged_meshes pbs/geometry/decimal_comma
-        pbs/geometry/referred_files pbs/character/bodies pbs/character/body_cache)
+        pbs/geometry/surface_reader pbs/character/bodies pbs/character/body_cache)
 endif()
 if(PBS_WITH_CGAL)
     list(APPEND left_out pbs/geometry/meshing_unavailable)
@@ -19,17 +18,21 @@ if(NOT PBS_WITH_RIG_IMPORT)
         pbs/rig/assimp_rig pbs/rig/glb_writer pbs/rig/gltf_rig pbs/rig/rig_reader)
 endif()
 
+add_library(test_arm STATIC)  # a rig in the formats of files, as texts
+embed_text(test_arm test_data support/arm/arm.dae support/arm/arm.fbx)
+target_include_directories(test_arm INTERFACE ${CMAKE_CURRENT_BINARY_DIR})
+
 pbs_tests(unit pbs_files
     FILES pbs/geometry/content_format pbs/geometry/child_process pbs/geometry/mesh_checks pbs/geometry/mesh_io
-        pbs/geometry/mesh_io_unavailable pbs/geometry/meshing pbs/geometry/meshing_unavailable pbs/geometry/module
+        pbs/geometry/mesh_io_unavailable pbs/geometry/meshing pbs/geometry/meshing_unavailable
         pbs/geometry/self_intersection pbs/geometry/surface_reader
     EXCEPT ${left_out}
     ALONE pbs/geometry/surface_reader
-    LIBRARIES pbs_mesh_io pbs_meshing pbs_module)
-pbs_tests(unit pbs_rig FOLDERS pbs/rig EXCEPT ${left_out} LIBRARIES pbs_rig pbs_mesh_io)
+    LIBRARIES pbs_mesh_io pbs_meshing pbs_module test_arm)
+pbs_tests(unit pbs_rig FOLDERS pbs/rig EXCEPT ${left_out} LIBRARIES pbs_rig pbs_mesh_io test_arm)
 pbs_tests(unit pbs_character FOLDERS pbs/character EXCEPT ${left_out}
     ALONE pbs/character/overlap_and_jiggle pbs/character/character pbs/character/retarget
-    LIBRARIES pbs_character pbs_mesh_io)
+    LIBRARIES pbs_character pbs_mesh_io test_arm)
 if(TARGET pbskin_cholmod)
     pbs_tests(unit pbs_flesh FOLDERS pbs/flesh
         ALONE pbs/flesh/bone_springs pbs/flesh/flesh_energy pbs/flesh/minimisers pbs/flesh/packed_systems pbs/flesh/projective_dynamics
@@ -51,7 +54,9 @@ if(PBS_WITH_RIG_IMPORT)
     if(NOT PBS_WITH_CGAL OR NOT PBS_WITH_MESH_IO)
         list(APPEND left_out pbs/character/human pbs/character/fetched_bodies pbs/character/model_character)
     endif()
-    pbs_tests(robustness pbs_rig FOLDERS pbs/rig LIBRARIES pbs_rig pbs_mesh_io)
+    if(PBS_WITH_MESH_IO)
+        pbs_tests(robustness pbs_readers FOLDERS pbs/readers LIBRARIES pbs_character pbs_rig pbs_mesh_io test_arm)
+    endif()
     pbs_tests(robustness pbs_character FOLDERS pbs/character LIBRARIES pbs_character)
     pbs_tests(verification pbs_character FOLDERS pbs/character EXCEPT ${left_out} LIBRARIES pbs_character)
 endif()
