@@ -5,8 +5,7 @@ if(PBS_WITH_MESH_IO)
     list(APPEND left_out pbs/geometry/mesh_io_unavailable)
 else()
     list(APPEND left_out pbs/geometry/content_format pbs/geometry/child_process pbs/geometry/mesh_checks pbs/geometry/mesh_io
-        pbs/geometry/module pbs/geometry/surface_reader pbs/geometry/damaged_meshes pbs/geometry/decimal_comma
-        pbs/geometry/referred_files pbs/character/bodies pbs/character/body_cache)
+        pbs/geometry/surface_reader pbs/character/bodies pbs/character/body_cache)
 endif()
 if(PBS_WITH_CGAL)
     list(APPEND left_out pbs/geometry/meshing_unavailable)
@@ -21,7 +20,7 @@ endif()
 
 pbs_tests(unit pbs_files
     FILES pbs/geometry/content_format pbs/geometry/child_process pbs/geometry/mesh_checks pbs/geometry/mesh_io
-        pbs/geometry/mesh_io_unavailable pbs/geometry/meshing pbs/geometry/meshing_unavailable pbs/geometry/module
+        pbs/geometry/mesh_io_unavailable pbs/geometry/meshing pbs/geometry/meshing_unavailable
         pbs/geometry/self_intersection pbs/geometry/surface_reader
     EXCEPT ${left_out}
     ALONE pbs/geometry/surface_reader
@@ -51,11 +50,13 @@ if(PBS_WITH_RIG_IMPORT)
     if(NOT PBS_WITH_CGAL OR NOT PBS_WITH_MESH_IO)
         list(APPEND left_out pbs/character/human pbs/character/fetched_bodies pbs/character/model_character)
     endif()
-    pbs_tests(robustness pbs_rig FOLDERS pbs/rig LIBRARIES pbs_rig pbs_mesh_io)
+    if(PBS_WITH_MESH_IO)
+        pbs_tests(robustness pbs_readers FOLDERS pbs/readers LIBRARIES pbs_character pbs_rig pbs_mesh_io)
+    endif()
     pbs_tests(robustness pbs_character FOLDERS pbs/character LIBRARIES pbs_character)
     pbs_tests(verification pbs_character FOLDERS pbs/character EXCEPT ${left_out} LIBRARIES pbs_character)
 endif()
-foreach(target unit_pbs_files unit_pbs_rig unit_pbs_character robustness_pbs_rig)  # tests/support/arm_in_formats.hpp
+foreach(target unit_pbs_files unit_pbs_rig unit_pbs_character robustness_pbs_readers)  # tests/support/arm_in_formats.hpp
     if(TARGET test_${target})
         target_compile_definitions(test_${target} PRIVATE PBS_RIG_SEEDS="${CMAKE_CURRENT_SOURCE_DIR}/fuzz/corpus/assimp")
     endif()

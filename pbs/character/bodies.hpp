@@ -51,7 +51,6 @@ Character make_character(const CharacterSource& source);
 // make_character with what was accepted in a mesh from a file although its author may not have meant it (mesh_io.hpp).
 //   std::vector<std::string> remarks;
 //   const Character arm = make_character({.mesh_file = "arm.msh", .skeleton_file = "arm.skeleton.toml"}, remarks);
-
 // One line each: turned tets, parts, an extent that speaks for other units than metres; none of a body by name.
 Character make_character(const CharacterSource& source, std::vector<std::string>& remarks);
 

@@ -80,15 +80,11 @@ std::vector<fs::path> files_of_key(const std::string& key)
     return files;
 }
 
-bool is_whole(const fs::path& file, const std::string& key)
-{
-    return file.filename().string() == key + "-" + hash_of_file(file.string()) + format;
-}
-
 std::optional<TetMesh> read_cached(const std::string& key)
 {
     for (const fs::path& file : files_of_key(key)) try {
-            if (is_whole(file, key)) return read_tet_frame(file.string());  // checked before it was stored
+            const bool is_whole = file.filename().string() == key + "-" + hash_of_file(file.string()) + format;
+            if (is_whole) return read_tet_frame(file.string());  // checked before it was stored
             fs::remove(file);
         } catch (const std::exception&) {  // unreadable: the mesh is made again
         }

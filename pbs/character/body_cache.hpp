@@ -24,14 +24,13 @@ std::string cache_folder();
 // every time.
 TetMesh cached_mesh(const std::string& key, const std::function<TetMesh()>& make);
 
-// Files that a run is made from, and the hashes of the bytes that were read.
-//   const InputFile clip("walk.gltf");  const Clip read = read_clip("walk.gltf");
-//   for (const auto& [name, hash] : clip.hashed()) ...
-
 // Records name files, not folders of the machine.
 std::string file_name(const std::string& path);
 
-// A file that a library opens by its name, with those that are read along with it: TetGen's other half, a glTF's buffers. Where what is
+// A file that a run is made from, and the hash of the bytes that were read.
+//   const InputFile clip("walk.gltf");  const Clip read = read_clip("walk.gltf");
+//   for (const auto& [name, hash] : clip.hashed()) ...
+// A library opens it by its name, with those that are read along with it: TetGen's other half, a glTF's buffers. Where what is
 // asked afterwards is what was there before, these are the bytes that were read.
 class InputFile {
 public:

@@ -7,6 +7,26 @@
 #include <map>
 
 namespace pbs {
+namespace {
+
+// Coarse vertices keep their weights; a new vertex has the mean of its parents' weights.
+Weights mean_of_parents(Weights weights, const Edges& parents)
+{
+    for (Eigen::Index e = 0; e < parents.rows(); ++e) {
+        std::map<int, double> mean;
+        for (const int parent : parents.row(e))
+            for (int entry = weights.first[parent]; entry < weights.first[parent + 1]; ++entry)
+                mean[weights.bone[entry]] += 0.5 * weights.weight[entry];
+        for (const auto& [bone, weight] : mean) {
+            weights.bone.push_back(bone);
+            weights.weight.push_back(weight);
+        }
+        weights.first.push_back(static_cast<int>(weights.bone.size()));
+    }
+    return weights;
+}
+
+}  // namespace
 
 std::vector<bool> jiggle_zone(const BoneBinding& binding)
 {
@@ -31,32 +51,6 @@ std::vector<bool> jiggle_zone_by_bone(const BoneBinding& binding)
     }
     return zone;
 }
-
-namespace {
-
-void append(Weights& weights, const std::map<int, double>& of_bones)
-{
-    for (const auto& [bone, weight] : of_bones) {
-        weights.bone.push_back(bone);
-        weights.weight.push_back(weight);
-    }
-    weights.first.push_back(static_cast<int>(weights.bone.size()));
-}
-
-// Coarse vertices keep their weights; a new vertex has the mean of its parents' weights.
-Weights mean_of_parents(Weights weights, const Edges& parents)
-{
-    for (Eigen::Index e = 0; e < parents.rows(); ++e) {
-        std::map<int, double> mean;
-        for (const int parent : parents.row(e))
-            for (int entry = weights.first[parent]; entry < weights.first[parent + 1]; ++entry)
-                mean[weights.bone[entry]] += 0.5 * weights.weight[entry];
-        append(weights, mean);
-    }
-    return weights;
-}
-
-}  // namespace
 
 Character refined(const Character& character)
 {

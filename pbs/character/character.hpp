@@ -55,8 +55,7 @@ std::vector<bool> jiggle_zone_by_bone(const BoneBinding& binding);
 // Skeleton and bones' sizes (Character::unrefined) stay; binding and weights follow the same rules on the finer mesh, a weights file's from
 // the mean of the two vertices that a new one lies between; the rendered surface stays where it is. A rule that asks for the nearest bone
 // jumps between vertices, so that a finer mesh shows Eq. 2's jumps more sharply: its limit is a jump.
-
-// Eight times the tets; Character::refinements is one higher.
+// It has eight times the tets, and Character::refinements is one higher.
 Character refined(const Character& character);
 
 }  // namespace pbs

@@ -51,16 +51,6 @@ Character make_human(const std::string& name, int, bool)
     refuse_body(name);
 }
 
-std::string makehuman_folder()
-{
-    return {};
-}
-
-MakehumanFiles makehuman_files(const std::string&)
-{
-    return {};
-}
-
 std::vector<std::string> figure_files(const std::string& name)
 {
     refuse_body(name);

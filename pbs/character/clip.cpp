@@ -2,6 +2,7 @@
 
 #include "pbs/geometry/assimp_files.hpp"
 #include "pbs/geometry/child_process.hpp"
+#include "pbs/geometry/content_format.hpp"
 #include "pbs/geometry/files.hpp"
 #include "pbs/geometry/input_error.hpp"
 
@@ -10,9 +11,7 @@
 #include <assimp/scene.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
-#include <filesystem>
 #include <map>
 #include <set>
 #include <sstream>
@@ -24,11 +23,9 @@ namespace {
 constexpr double shortest_frame_s = 1e-6, longest_frame_s = 1e3;
 constexpr double farthest = 1e9;  // [clip's units]
 constexpr int deepest_nesting = 500;
-
-int line_at(const std::string& text, std::size_t place)
-{
-    return 1 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(place), '\n'));
-}
+constexpr double free_key_rate_hz = 120.0;   // motions whose keys are not frames are sampled at this rate
+constexpr double default_tick_rate_hz = 25;  // assimp's word for files that state none
+constexpr int most_frames = 10'000'000;      // a day at 115 Hz
 
 // The word that follows `label` after `from`; empty where there is none. `place` becomes where it was looked for.
 std::string word_after(const std::string& text, const std::string& label, std::size_t& place)
@@ -74,42 +71,6 @@ void check_rows(const std::string& text, std::size_t place, double frames, const
         throw InputError(path, line_at(text, place) + 1, "motion", std::to_string(static_cast<long long>(words)) + " numbers",
                          "expected Frames times channels: " + std::to_string(static_cast<long long>(frames * channels)));
 }
-
-}  // namespace
-
-bool is_bvh(const std::string& text, const std::string& path)
-{
-    constexpr std::string_view mark = "\xef\xbb\xbf", first_word = "HIERARCHY";
-    std::string extension = std::filesystem::path(path).extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });
-    const std::size_t word = text.find_first_not_of(" \t\r\n\v\f", text.starts_with(mark) ? mark.size() : 0);
-    return extension == ".bvh" || (word != std::string::npos && text.compare(word, first_word.size(), first_word) == 0);
-}
-
-void check_bvh_header(const std::string& text, const std::string& path)
-{
-    std::size_t place = std::min(text.rfind("MOTION"), text.size());
-    check_nesting(text, place, path);
-
-    const std::string frames = word_after(text, "Frames:", place);
-    const double number = number_of(frames);
-    if (!frames.empty() && !(number >= 1.0 && number == std::floor(number)))
-        throw InputError(path, line_at(text, place), "Frames", frames, "expected a whole number of frames, 1 or more");
-    if (number > static_cast<double>(text.size()) / 2.0)
-        throw InputError(path, line_at(text, place), "Frames", frames, "the file is too short to hold them");
-
-    const std::string frame_time = word_after(text, "Time:", place);
-    const double seconds = number_of(frame_time);
-    if (!frame_time.empty() && !(seconds >= shortest_frame_s && seconds <= longest_frame_s))
-        throw InputError(path, line_at(text, place), "Frame Time", frame_time, "expected a time from 1e-6 to 1000 s");
-    check_rows(text, place, number, path);
-}
-
-namespace {
-
-constexpr double free_key_rate_hz = 120.0;   // motions whose keys are not frames are sampled at this rate
-constexpr double default_tick_rate_hz = 25;  // assimp's word for files that state none
-constexpr int most_frames = 10'000'000;      // a day at 115 Hz
 
 Eigen::Quaterniond to_eigen(const aiQuaternion& q)
 {
@@ -209,13 +170,9 @@ const aiScene& import(Assimp::Importer& importer, const std::string& path)
 {
     importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
-    const OwnFolder& files = only_own_folder(importer, path);
-    const aiScene* scene = importer.ReadFile(files.name_by_content(), 0);
-    if (!scene) files.refuse_what_was_referred_to();
-    if (!scene) throw InputError(path, 0, "", "", std::string("no clip that assimp can read: ") + importer.GetErrorString());
-    if (!scene->mRootNode || scene->mNumAnimations == 0 || scene->mAnimations[0]->mNumChannels == 0)
-        throw InputError(path, 0, "", "", "holds no motion");
-    return *scene;
+    const aiScene& scene = read_scene(importer, path, 0, "no clip that assimp can read: ");
+    if (scene.mNumAnimations == 0 || scene.mAnimations[0]->mNumChannels == 0) throw InputError(path, 0, "", "", "holds no motion");
+    return scene;
 }
 
 template <typename Key>
@@ -270,6 +227,32 @@ Clip clip_by_assimp(const std::string& path, bool bvh)
 }
 
 }  // namespace
+
+bool is_bvh(const std::string& text, const std::string& path)
+{
+    constexpr std::string_view mark = "\xef\xbb\xbf", first_word = "HIERARCHY";
+    const std::size_t word = text.find_first_not_of(" \t\r\n\v\f", text.starts_with(mark) ? mark.size() : 0);
+    return lower_extension(path) == ".bvh" || (word != std::string::npos && text.compare(word, first_word.size(), first_word) == 0);
+}
+
+void check_bvh_header(const std::string& text, const std::string& path)
+{
+    std::size_t place = std::min(text.rfind("MOTION"), text.size());
+    check_nesting(text, place, path);
+
+    const std::string frames = word_after(text, "Frames:", place);
+    const double number = number_of(frames);
+    if (!frames.empty() && !(number >= 1.0 && number == std::floor(number)))
+        throw InputError(path, line_at(text, place), "Frames", frames, "expected a whole number of frames, 1 or more");
+    if (number > static_cast<double>(text.size()) / 2.0)
+        throw InputError(path, line_at(text, place), "Frames", frames, "the file is too short to hold them");
+
+    const std::string frame_time = word_after(text, "Time:", place);
+    const double seconds = number_of(frame_time);
+    if (!frame_time.empty() && !(seconds >= shortest_frame_s && seconds <= longest_frame_s))
+        throw InputError(path, line_at(text, place), "Frame Time", frame_time, "expected a time from 1e-6 to 1000 s");
+    check_rows(text, place, number, path);
+}
 
 void check_clip(const Clip& clip)
 {

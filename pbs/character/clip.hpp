@@ -48,6 +48,22 @@ Motion retarget(const Clip& clip, const Skeleton& skeleton, const ClipSampling& 
 // in none of them.
 std::string find_clip(const std::string& name, const std::string& folder);
 
+// The joint of a clip that moves each bone: the names of CMU's motion capture (cgspeed's BVH conversion) for the bones of the `human`.
+struct JointMapping {
+    std::string bone, joint;       // their names in the skeleton and in the clip
+    bool aligned = false;          // the bone turns to the joint's limb; false: it keeps its own rest direction (spine, neck, clavicles)
+    bool leg = false;              // its length counts in the scale of the root's path
+    std::string twist_joint = {};  // takes a share of this joint's twist about the limb; empty: none
+    double twist_share = 0.0;      // 0 to 1
+};
+
+// CMU keeps the twist of the forearm in the wrist joint. Three joints can carry it here, elbow, mid-forearm and wrist; equal steps of a
+// third at each keep the largest step least: 1/3 on the upper half, 2/3 on the lower half, all of it on the hand.
+const std::vector<JointMapping>& cmu_joint_map();
+
+// Angle [rad], in (-pi, pi], of the twist of `rotation` about the unit vector `axis` (swing-twist decomposition).
+double twist_angle(const Eigen::Quaterniond& rotation, const Vec3& axis);
+
 // How much of a clip reaches a skeleton.
 struct ClipMatch {
     int moving = 0;                      // joints of the clip whose rotation changes
@@ -66,19 +82,16 @@ double largest_displacement_m(const Motion& motion, const Skeleton& skeleton);
 
 // The skeleton that a clip's file (BVH, glTF, FBX) carries: its joints in the zero pose.
 //   const Skeleton skeleton = skeleton_from_clip(read_clip("01_01.bvh"), 0.0254 / 0.45);   // CMU's unit in metres
-
 // A bone runs from each joint to its first child that lies elsewhere; joints without one (ends, and joints that coincide with their child)
 // have none, and what is attached to them is attached to the next bone above. scale: metres per unit of the clip. InputError where no bone
 // is left.
 Skeleton skeleton_from_clip(const Clip& clip, double scale);
 
-// Checks of a BVH file's header that assimp omits, done before assimp reads the file.
-
 // By the file's extension or its first word, HIERARCHY, as assimp tells it; white space and a byte-order mark may stand before that.
 bool is_bvh(const std::string& text, const std::string& path);
 
-// Throws an InputError where Frames or Frame Time is no positive number, more frames are announced than the text can hold, or joints are
-// nested deeper than a reader's stack. A header that is not there is left to the reader to refuse.
+// What assimp omits: an InputError where Frames or Frame Time is no positive number, more frames are announced than the text can hold, or
+// joints are nested deeper than a reader's stack. A header that is not there is left to the reader to refuse.
 void check_bvh_header(const std::string& text, const std::string& path);
 
 }  // namespace pbs

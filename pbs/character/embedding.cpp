@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 namespace pbs {
 namespace {
 
 using Box = Eigen::AlignedBox3d;
+using Tree = Eigen::KdBVH<double, 3, int>;
 using TetCorners = Eigen::Matrix<double, 4, 3>;
 
 TetCorners corners_of(const TetMesh& mesh, int tet)
@@ -54,86 +56,6 @@ double squared_distance_to_tet(const Vec3& point, const TetCorners& corners)
     return least;
 }
 
-// The functor of Eigen's BVMinimize, and the tet at which it ended.
-struct NearestTet {
-    using Scalar = double;
-    const TetMesh& mesh;
-    Vec3 point;
-    double least = std::numeric_limits<double>::max();
-    int tet = -1;
-
-    double minimumOnVolume(const Box& box) const { return box.squaredExteriorDistance(point); }
-    double minimumOnObject(int candidate)
-    {
-        const double distance = squared_distance_to_tet(point, corners_of(mesh, candidate));
-        if (distance < least) {
-            least = distance;
-            tet = candidate;
-        }
-        return distance;
-    }
-};
-
-Eigen::KdBVH<double, 3, int> tree_of_tets(const TetMesh& mesh)
-{
-    std::vector<int> tets;
-    std::vector<Box> boxes;
-    for (int t = 0; t < mesh.tets.rows(); ++t) {
-        const TetCorners corners = corners_of(mesh, t);
-        tets.push_back(t);
-        boxes.emplace_back(Vec3(corners.colwise().minCoeff()), Vec3(corners.colwise().maxCoeff()));
-    }
-    return {tets.begin(), tets.end(), boxes.begin(), boxes.end()};
-}
-
-}  // namespace
-
-EmbeddedSurface embed(const Positions& surface, const Triangles& triangles, const TetMesh& mesh)
-{
-    const Eigen::KdBVH<double, 3, int> tree = tree_of_tets(mesh);
-    EmbeddedSurface embedded{triangles, Eigen::VectorXi(surface.rows()), {}, 0.0};
-    embedded.barycentric.resize(surface.rows(), 4);
-    for (Eigen::Index s = 0; s < surface.rows(); ++s) {
-        NearestTet nearest{mesh, surface.row(s).transpose()};
-        Eigen::BVMinimize(tree, nearest);
-        embedded.tet(s) = nearest.tet;
-        embedded.barycentric.row(s) = barycentric_in_tet(nearest.point, corners_of(mesh, nearest.tet)).transpose();
-        embedded.largest_distance_outside_m = std::max(embedded.largest_distance_outside_m, std::sqrt(nearest.least));
-    }
-    return embedded;
-}
-
-EmbeddedSurface embed_in_children(const EmbeddedSurface& surface, const TetMesh& coarse, const TetMesh& fine)
-{
-    constexpr int children = 8;
-    const Positions points = embedded_positions(surface, coarse.rest, coarse.tets);
-    EmbeddedSurface embedded = surface;
-    for (Eigen::Index s = 0; s < surface.tet.rows(); ++s) {
-        double most_inside = -std::numeric_limits<double>::max();
-        for (int child = children * surface.tet(s); child < children * (surface.tet(s) + 1); ++child) {
-            const Eigen::Vector4d barycentric = barycentric_in_tet(points.row(s).transpose(), corners_of(fine, child));
-            if (barycentric.minCoeff() <= most_inside) continue;
-            most_inside = barycentric.minCoeff();
-            embedded.tet(s) = child;
-            embedded.barycentric.row(s) = barycentric.transpose();
-        }
-    }
-    return embedded;
-}
-
-Positions embedded_positions(const EmbeddedSurface& surface, const Positions& positions, const Tets& tets)
-{
-    Positions points = Positions::Zero(surface.tet.rows(), 3);
-    for (Eigen::Index s = 0; s < surface.tet.rows(); ++s)
-        for (int corner = 0; corner < 4; ++corner)
-            points.row(s) += surface.barycentric(s, corner) * positions.row(tets(surface.tet(s), corner));
-    return points;
-}
-
-namespace {
-
-using Box = Eigen::AlignedBox3d;
-
 Vec3 nearest_on_segment(const Vec3& point, const Vec3& a, const Vec3& b, int from, int to)
 {
     const double length2 = (b - a).squaredNorm();
@@ -166,67 +88,118 @@ Vec3 nearest_in_triangle(const Vec3& point, const Eigen::Matrix3d& corners)
     return best;
 }
 
-}  // namespace
-
-struct SurfaceTree::Tree {
-    const Positions& points;
-    const Triangles& triangles;
-    Eigen::KdBVH<double, 3, int> boxes = {};
-
-    Eigen::Matrix3d corners(int triangle) const
-    {
-        Eigen::Matrix3d corners;
-        for (int k = 0; k < 3; ++k) corners.row(k) = points.row(triangles(triangle, k));
-        return corners;
-    }
-};
-
-namespace {
-
-// The functor of Eigen's BVMinimize, and the triangle at which it ended.
-template <typename Tree>
-struct NearestTriangle {
+// The functor of Eigen's BVMinimize, and the cell at which it ended.
+template <typename SquaredDistance>
+struct NearestCell {
     using Scalar = double;
-    const Tree& tree;
     Vec3 point;
+    SquaredDistance squared_distance;  // of a cell
     double least = std::numeric_limits<double>::max();
-    SurfacePoint found = {};
+    int cell = -1;
 
     double minimumOnVolume(const Box& box) const { return box.squaredExteriorDistance(point); }
-    double minimumOnObject(int triangle)
+    double minimumOnObject(int candidate)
     {
-        const Eigen::Matrix3d corners = tree.corners(triangle);
-        const Vec3 barycentric = nearest_in_triangle(point, corners);
-        const double distance = (corners.transpose() * barycentric - point).squaredNorm();
+        const double distance = squared_distance(candidate);
         if (distance < least) {
             least = distance;
-            found = {triangle, barycentric, std::sqrt(distance)};
+            cell = candidate;
         }
         return distance;
     }
 };
 
+template <typename SquaredDistance>
+NearestCell<SquaredDistance> nearest_cell(const Tree& tree, const Vec3& point, const SquaredDistance& squared_distance)
+{
+    NearestCell<SquaredDistance> nearest{point, squared_distance};
+    Eigen::BVMinimize(tree, nearest);
+    return nearest;
+}
+
+template <typename Cells>
+Tree tree_of(const Positions& points, const Cells& cells)
+{
+    std::vector<int> numbers(static_cast<std::size_t>(cells.rows()));
+    std::iota(numbers.begin(), numbers.end(), 0);
+    std::vector<Box> boxes;
+    for (const auto& cell : cells.rowwise()) {
+        boxes.emplace_back();
+        for (const int corner : cell) boxes.back().extend(Vec3(points.row(corner)));
+    }
+    return {numbers.begin(), numbers.end(), boxes.begin(), boxes.end()};
+}
+
 }  // namespace
 
-SurfaceTree::SurfaceTree(const Positions& points, const Triangles& triangles) : tree_(new Tree{points, triangles})
+EmbeddedSurface embed(const Positions& surface, const Triangles& triangles, const TetMesh& mesh)
 {
-    std::vector<int> objects;
-    std::vector<Box> boxes;
-    for (int triangle = 0; triangle < triangles.rows(); ++triangle) {
-        const Eigen::Matrix3d corners = tree_->corners(triangle);
-        objects.push_back(triangle);
-        boxes.emplace_back(Vec3(corners.colwise().minCoeff()), Vec3(corners.colwise().maxCoeff()));
+    const Tree tree = tree_of(mesh.rest, mesh.tets);
+    EmbeddedSurface embedded{triangles, Eigen::VectorXi(surface.rows()), {}, 0.0};
+    embedded.barycentric.resize(surface.rows(), 4);
+    for (Eigen::Index s = 0; s < surface.rows(); ++s) {
+        const Vec3 point = surface.row(s);
+        const auto nearest = nearest_cell(tree, point, [&](int tet) { return squared_distance_to_tet(point, corners_of(mesh, tet)); });
+        embedded.tet(s) = nearest.cell;
+        embedded.barycentric.row(s) = barycentric_in_tet(point, corners_of(mesh, nearest.cell)).transpose();
+        embedded.largest_distance_outside_m = std::max(embedded.largest_distance_outside_m, std::sqrt(nearest.least));
     }
-    tree_->boxes.init(objects.begin(), objects.end(), boxes.begin(), boxes.end());
+    return embedded;
+}
+
+EmbeddedSurface embed_in_children(const EmbeddedSurface& surface, const TetMesh& coarse, const TetMesh& fine)
+{
+    constexpr int children = 8;
+    const Positions points = embedded_positions(surface, coarse.rest, coarse.tets);
+    EmbeddedSurface embedded = surface;
+    for (Eigen::Index s = 0; s < surface.tet.rows(); ++s) {
+        double most_inside = -std::numeric_limits<double>::max();
+        for (int child = children * surface.tet(s); child < children * (surface.tet(s) + 1); ++child) {
+            const Eigen::Vector4d barycentric = barycentric_in_tet(points.row(s).transpose(), corners_of(fine, child));
+            if (barycentric.minCoeff() <= most_inside) continue;
+            most_inside = barycentric.minCoeff();
+            embedded.tet(s) = child;
+            embedded.barycentric.row(s) = barycentric.transpose();
+        }
+    }
+    return embedded;
+}
+
+Positions embedded_positions(const EmbeddedSurface& surface, const Positions& positions, const Tets& tets)
+{
+    Positions points = Positions::Zero(surface.tet.rows(), 3);
+    for (Eigen::Index s = 0; s < surface.tet.rows(); ++s)
+        for (int corner = 0; corner < 4; ++corner)
+            points.row(s) += surface.barycentric(s, corner) * positions.row(tets(surface.tet(s), corner));
+    return points;
+}
+
+struct SurfaceTree::Tree {
+    const Positions& points;
+    const Triangles& triangles;
+    Eigen::KdBVH<double, 3, int> boxes;
+};
+
+SurfaceTree::SurfaceTree(const Positions& points, const Triangles& triangles)
+    : tree_(new Tree{points, triangles, tree_of(points, triangles)})
+{
 }
 
 SurfaceTree::~SurfaceTree() = default;
 
 SurfacePoint SurfaceTree::nearest(const Vec3& point) const
 {
-    NearestTriangle<Tree> search{*tree_, point};
-    Eigen::BVMinimize(tree_->boxes, search);
-    return search.found;
+    Eigen::Matrix3d corners;
+    const auto barycentric_in = [&](int triangle) {
+        for (int k = 0; k < 3; ++k) corners.row(k) = tree_->points.row(tree_->triangles(triangle, k));
+        return nearest_in_triangle(point, corners);
+    };
+    const auto nearest = nearest_cell(tree_->boxes, point, [&](int triangle) {
+        const Vec3 barycentric = barycentric_in(triangle);
+        return (corners.transpose() * barycentric - point).squaredNorm();
+    });
+    if (nearest.cell < 0) return {};
+    return {nearest.cell, barycentric_in(nearest.cell), std::sqrt(nearest.least)};
 }
 
 }  // namespace pbs

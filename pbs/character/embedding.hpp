@@ -25,9 +25,7 @@ EmbeddedSurface embed_in_children(const EmbeddedSurface& surface, const TetMesh&
 // Surface positions [m], #S x 3, from deformed tet vertices [m], #V x 3.
 Positions embedded_positions(const EmbeddedSurface& surface, const Positions& positions, const Tets& tets);
 
-// The point of a surface that is nearest to a given point.
-
-// A point of a triangle.
+// The point of a surface that is nearest to a given point, by its triangle.
 struct SurfacePoint {
     int triangle = -1;
     Vec3 barycentric = Vec3::Zero();  // 0 to 1, their sum is one

@@ -62,6 +62,17 @@ std::vector<int> parents_of(const std::vector<NamedJoint>& joints, const std::st
     return parent;
 }
 
+bool is_paired(const FoldedBone& bone)
+{
+    return bone.name.find('*') != std::string::npos;
+}
+
+std::string on_side(std::string name, char side)
+{
+    std::replace(name.begin(), name.end(), '*', side);
+    return name;
+}
+
 }  // namespace
 
 Skeleton order_skeleton(const std::vector<NamedJoint>& joints, const std::string& file)
@@ -88,21 +99,6 @@ Skeleton order_skeleton(const std::vector<NamedJoint>& joints, const std::string
         if (place[j] < 0) throw InputError(file, joints[j].line, joints[j].name + ".parent", joints[j].parent, "its parents form a cycle");
     return skeleton;
 }
-
-namespace {
-
-bool is_paired(const FoldedBone& bone)
-{
-    return bone.name.find('*') != std::string::npos;
-}
-
-std::string on_side(std::string name, char side)
-{
-    std::replace(name.begin(), name.end(), '*', side);
-    return name;
-}
-
-}  // namespace
 
 Skeleton fold_skeleton(const std::vector<FoldedBone>& bones, const std::string& file,
                        const std::function<Vec3(const std::string& point)>& point_named)

@@ -165,16 +165,6 @@ std::vector<IqmJoint> read_joints(const IqmFile& file)
     return joints;
 }
 
-}  // namespace
-
-IqmModel read_iqm(const std::string& path)
-{
-    const IqmFile file(path);
-    return {joined(read_positions(file), read_triangles(file)), read_joints(file)};
-}
-
-namespace {
-
 constexpr int skeleton_version = 1;  // raised with `fold`, so that the cache knows
 
 // 52 joints to 26 bones, with the human's names where clips know them. The forearm is cut in two, as the human's is, so that the wrist's
@@ -214,14 +204,13 @@ Skeleton skeleton_of(const IqmModel& model, const std::string& file)
     });
 }
 
-SurfaceMesh skin_of(const IqmModel& model)
-{
-    SurfaceMesh skin = model.surface;
-    for (Eigen::Index i = 0; i < skin.points.rows(); ++i) skin.points.row(i) = turned(model.surface.points.row(i)).transpose();
-    return skin;
-}
-
 }  // namespace
+
+IqmModel read_iqm(const std::string& path)
+{
+    const IqmFile file(path);
+    return {joined(read_positions(file), read_triangles(file)), read_joints(file)};
+}
 
 std::string frankie_file()
 {
@@ -237,10 +226,13 @@ Character make_frankie(const std::string& name, int vertices, bool)
 {
     const std::string file = frankie_file(), hash = hash_of_file(file);
     const IqmModel model = read_iqm(file);
+    const auto turned_skin = [&] {
+        SurfaceMesh skin = model.surface;
+        for (Eigen::Index i = 0; i < skin.points.rows(); ++i) skin.points.row(i) = turned(model.surface.points.row(i)).transpose();
+        return skin;
+    };
     const SurfaceBody body{
-        .name = name, .made_from = hash + std::to_string(skeleton_version), .skeleton = skeleton_of(model, file), .surface = [&] {
-            return skin_of(model);
-        }};
+        .name = name, .made_from = hash + std::to_string(skeleton_version), .skeleton = skeleton_of(model, file), .surface = turned_skin};
     Character frankie = make_surface_body(body, vertices, false);
     frankie.inputs = {{file_name(file), hash}};
     return frankie;

@@ -3,6 +3,8 @@
 //   const auto vertices = model.numbers<double>("vertices");
 #pragma once
 
+#include "pbs/character/body_cache.hpp"
+#include "pbs/geometry/files.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 #include <nlohmann/json.hpp>
@@ -16,14 +18,28 @@ namespace pbs {
 class JsonFile {
 public:
     // Reads it whole; an InputError by line where it is no JSON or cut short.
-    explicit JsonFile(const std::string& path);
+    explicit JsonFile(const std::string& path) : path_(path)
+    {
+        const std::string text = read_text_file(path);
+        hash_ = content_hash(text);
+        try {
+            json_ = nlohmann::json::parse(text);
+        } catch (const nlohmann::json::parse_error& error) {
+            throw InputError(path, line_at(text, error.byte), "", "", "no JSON, or cut short, at byte " + std::to_string(error.byte));
+        }
+    }
 
     const std::string& path() const { return path_; }  // as it was given
     const std::string& hash() const { return hash_; }  // of its bytes
 
     // The entry of a key of the whole, or of one of its parts.
     const nlohmann::json& at(const std::string& key) const { return at(json_, key); }
-    const nlohmann::json& at(const nlohmann::json& part, const std::string& key) const;  // an InputError where the key is missing
+    // An InputError where the key is missing.
+    const nlohmann::json& at(const nlohmann::json& part, const std::string& key) const
+    {
+        if (!part.is_object() || !part.contains(key)) refuse(key, "missing");
+        return part.at(key);
+    }
 
     // An array of numbers; whole ones where Number is an integer.
     template <typename Number>
@@ -47,7 +63,7 @@ public:
         return values;
     }
 
-    [[noreturn]] void refuse(const std::string& field, const std::string& rule) const;  // throws an InputError on this file
+    [[noreturn]] void refuse(const std::string& field, const std::string& rule) const { throw InputError(path_, 0, field, "", rule); }
 
 private:
     std::string path_, hash_;

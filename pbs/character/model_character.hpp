@@ -33,10 +33,9 @@ std::shared_ptr<const RiggedModel> read_model(const std::string& file, const std
 // those of read_rig and mesh_surface, and a file without joints if there is no other skeleton.
 Character make_model_character(const ModelSource& source, std::vector<std::string>& remarks);
 
-// Warnings about a character from a rigged model that is probably wrong.
-
-// One sentence each: an unlikely size, a surface without volume or far from the tets, bones outside the body, joints without flesh. The
-// character is made of the body and has its surface and its artist's weights.
+// Warnings about a character from a rigged model that is probably wrong, one sentence each: an unlikely size, a surface without volume or
+// far from the tets, bones outside the body, joints without flesh. The character is made of the body and has its surface and its artist's
+// weights.
 std::vector<std::string> remarks_on_model(const RiggedBody& body, const Character& character, const std::string& file);
 
 }  // namespace pbs

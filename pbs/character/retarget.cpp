@@ -1,6 +1,5 @@
-#include "pbs/character/retarget.hpp"
-
 #include "pbs/character/clip.hpp"
+
 #include "pbs/geometry/input_error.hpp"
 
 #include <algorithm>
@@ -11,6 +10,27 @@
 
 namespace pbs {
 namespace {
+
+using Rotations = std::vector<Eigen::Quaterniond>;
+
+constexpr double shortest_limb = 1e-6;      // of the zero pose's extent: CMU's hip joints and the like have no length
+constexpr double rounding = 1e-6;           // of a frame: times given in decimal are not refused for their last digit
+constexpr double same_rotation_rad = 1e-4;  // of keys in single precision, with margin
+
+// The plan of one bone.
+struct BoneFollowing {
+    int joint = -1;                                                 // of the clip; -1: the bone follows its parent
+    Eigen::Quaterniond alignment = Eigen::Quaterniond::Identity();  // A: rest direction of the bone -> limb in the zero pose
+    int twist_joint = -1;                                           // -1: none
+    double twist_share = 0.0;                                       // of that joint's twist about the limb, 0 to 1
+    Vec3 limb = Vec3::Zero();                                       // to the end of the joint's limb in the zero pose [clip's units]
+};
+
+// The plans of all bones of a skeleton, in its order.
+struct RetargetPlan {
+    std::vector<BoneFollowing> bones;  // #bones
+    double scale = 1.0;  // [m] per clip unit: bones' lengths over limbs', of the legs where they are known, else of all that follow
+};
 
 void add_side(std::vector<JointMapping>& map, const std::string& side, const std::string& joint_prefix)
 {
@@ -24,28 +44,6 @@ void add_side(std::vector<JointMapping>& map, const std::string& side, const std
     map.push_back({"shin" + side, joint("Leg"), true, true});
     map.push_back({"foot" + side, joint("Foot"), true});
 }
-
-std::vector<JointMapping> make_cmu_map()
-{
-    std::vector<JointMapping> map = {
-        {"pelvis", "Hips"}, {"spine", "LowerBack"}, {"chest", "Spine1"}, {"neck", "Neck"}, {"head", "Head"},
-    };
-    add_side(map, ".L", "Left");
-    add_side(map, ".R", "Right");
-    return map;
-}
-
-}  // namespace
-
-const std::vector<JointMapping>& cmu_joint_map()
-{
-    static const std::vector<JointMapping> map = make_cmu_map();
-    return map;
-}
-
-namespace {
-
-constexpr double shortest_limb = 1e-6;  // of the zero pose's extent: CMU's hip joints and the like have no length
 
 int joint_named(const Clip& clip, const std::string& name)
 {
@@ -114,8 +112,8 @@ double scale_of(const std::vector<double>& lengths, const RetargetPlan& plan, co
     return limbs > 0.0 ? bones / limbs : 1.0;
 }
 
-}  // namespace
-
+// Uses CMU's joint names for the bones of the `human`, else equal names. InputError where no joint has the name of a bone, or some have
+// CMU's and the legs' are missing.
 RetargetPlan plan_retargeting(const Clip& clip, const Skeleton& skeleton)
 {
     RetargetPlan plan;
@@ -136,20 +134,6 @@ RetargetPlan plan_retargeting(const Clip& clip, const Skeleton& skeleton)
     plan.scale = scale_of(lengths, plan, has_legs ? is_leg : follows);
     return plan;
 }
-
-double twist_angle(const Eigen::Quaterniond& rotation, const Vec3& axis)
-{
-    double angle = 2.0 * std::atan2(rotation.vec().dot(axis), rotation.w());
-    if (angle > M_PI) angle -= 2.0 * M_PI;
-    if (angle <= -M_PI) angle += 2.0 * M_PI;
-    return angle;
-}
-
-namespace {
-
-using Rotations = std::vector<Eigen::Quaterniond>;
-
-constexpr double rounding = 1e-6;  // of a frame: times given in decimal are not refused for their last digit
 
 // Local rotations and root position of the clip at `frame`, which may lie between two.
 struct ClipPose {
@@ -197,7 +181,46 @@ Pose pose_of(const RetargetPlan& plan, const Skeleton& skeleton, const Rotations
     return pose_from_joints(skeleton, local, root_translation);
 }
 
+bool moves(const Clip& clip, std::size_t joint)
+{
+    return std::any_of(clip.local.begin(), clip.local.end(), [&](const std::vector<Eigen::Quaterniond>& frame) {
+        return clip.local.front()[joint].angularDistance(frame[joint]) > same_rotation_rad;
+    });
+}
+
+// The first child of each joint that does not coincide with it, -1 where there is none, #joints.
+std::vector<int> first_children(const Clip& clip)
+{
+    std::vector<int> child(clip.joints.size(), -1);
+    for (int j = 0; j < static_cast<int>(clip.joints.size()); ++j) {
+        const int parent = clip.parent[j];
+        if (parent >= 0 && child[parent] < 0 && clip.zero_pose.row(j) != clip.zero_pose.row(parent)) child[parent] = j;
+    }
+    return child;
+}
+
 }  // namespace
+
+const std::vector<JointMapping>& cmu_joint_map()
+{
+    static const std::vector<JointMapping> map = [] {
+        std::vector<JointMapping> joints = {
+            {"pelvis", "Hips"}, {"spine", "LowerBack"}, {"chest", "Spine1"}, {"neck", "Neck"}, {"head", "Head"},
+        };
+        add_side(joints, ".L", "Left");
+        add_side(joints, ".R", "Right");
+        return joints;
+    }();
+    return map;
+}
+
+double twist_angle(const Eigen::Quaterniond& rotation, const Vec3& axis)
+{
+    double angle = 2.0 * std::atan2(rotation.vec().dot(axis), rotation.w());
+    if (angle > M_PI) angle -= 2.0 * M_PI;
+    if (angle <= -M_PI) angle += 2.0 * M_PI;
+    return angle;
+}
 
 Motion retarget(const Clip& clip, const Skeleton& skeleton, const ClipSampling& sampling)
 {
@@ -219,19 +242,6 @@ Motion retarget(const Clip& clip, const Skeleton& skeleton, const ClipSampling& 
     }
     return motion;
 }
-
-namespace {
-
-constexpr double same_rotation_rad = 1e-4;  // of keys in single precision, with margin
-
-bool moves(const Clip& clip, std::size_t joint)
-{
-    return std::any_of(clip.local.begin(), clip.local.end(), [&](const std::vector<Eigen::Quaterniond>& frame) {
-        return clip.local.front()[joint].angularDistance(frame[joint]) > same_rotation_rad;
-    });
-}
-
-}  // namespace
 
 ClipMatch match_of(const Clip& clip, const Skeleton& skeleton)
 {
@@ -270,21 +280,6 @@ double largest_displacement_m(const Motion& motion, const Skeleton& skeleton)
                 largest = std::max(largest, (pose[b] * end - motion.steps.front()[b] * end).norm());
     return largest;
 }
-
-namespace {
-
-// The first child of each joint that does not coincide with it, -1 where there is none, #joints.
-std::vector<int> first_children(const Clip& clip)
-{
-    std::vector<int> child(clip.joints.size(), -1);
-    for (int j = 0; j < static_cast<int>(clip.joints.size()); ++j) {
-        const int parent = clip.parent[j];
-        if (parent >= 0 && child[parent] < 0 && clip.zero_pose.row(j) != clip.zero_pose.row(parent)) child[parent] = j;
-    }
-    return child;
-}
-
-}  // namespace
 
 Skeleton skeleton_from_clip(const Clip& clip, double scale)
 {

@@ -15,15 +15,11 @@ namespace pbs {
 Skeleton read_skeleton(const std::string& path);
 Skeleton parse_skeleton(const std::string& text, const std::string& name);  // `name` stands for the file in errors
 
-// The tree of named joints: the parent of each joint, parents before children.
-
 // A joint as a skeleton file describes it, and the line at which it begins.
 struct NamedJoint {
-    // Given once.
-    std::string name, parent;  // parent "": a root
-    // The centre of its rotation [m].
-    Vec3 head, tail;  // where its bone ends [m]
-    int line = 0;     // for errors; 0: not known
+    std::string name, parent;  // each name once; parent "": a root
+    Vec3 head, tail;           // the centre of its rotation, and where its bone ends [m]
+    int line = 0;              // for errors; 0: not known
 };
 
 // Checked (duplicate names, unknown parents, cycles, no root, bones without length) and sorted; the file's order is kept where it can be.
@@ -31,13 +27,10 @@ Skeleton order_skeleton(const std::vector<NamedJoint>& joints, const std::string
 
 // A rig of many joints folded to fewer bones: each end of a bone is the mean of named points of the rig.
 //   Skeleton skeleton = fold_skeleton({{"thigh.*", "pelvis", {"hip.*"}, {"knee.*"}}, ...}, "rig.json", point_named);
-
 // A star in a name stands for L and R, so that one entry describes two bones. parent "": the root.
 struct FoldedBone {
-    // The name may contain a star.
-    std::string name, parent;  // a bone's name with its star; "": the root
-    // Points of the rig whose mean the bone's head is.
-    std::vector<std::string> head, tail;  // those of its tail
+    std::string name, parent;             // which may contain a star; parent "": the root
+    std::vector<std::string> head, tail;  // points of the rig, whose means are the bone's ends
 };
 
 // Bones in the middle first, then those of the left, then those of the right. `file` stands for the rig in errors.

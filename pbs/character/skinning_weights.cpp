@@ -16,11 +16,93 @@
 namespace pbs {
 namespace {
 
+constexpr double sum_tolerance = 1e-6;
+
 Weights smooth_weights(const Character& character)
 {
     std::vector<int> held(character.blended.size());
     for (std::size_t v = 0; v < held.size(); ++v) held[v] = character.blended[v] ? -1 : character.binding.bone[v];
     return harmonic_weights(character.mesh, held, static_cast<int>(character.skeleton.bones.size()));
+}
+
+struct Entry {
+    int bone;
+    double weight;
+};
+
+struct Row {
+    int vertex;
+    Entry entry;
+};
+
+template <typename Number>
+bool read_number(const std::string& text, Number& number)
+{
+    const char* end = text.data() + text.size();
+    const auto [stopped, error] = std::from_chars(text.data(), end, number);
+    return error == std::errc() && stopped == end;
+}
+
+std::vector<std::string> split(const std::string& line)
+{
+    std::vector<std::string> fields;
+    std::istringstream stream(line);
+    for (std::string field; std::getline(stream, field, ',');) fields.push_back(field);
+    return fields;
+}
+
+Row read_row(const std::vector<std::string>& fields, const Skeleton& skeleton, int vertices, const std::string& file, int line)
+{
+    if (fields.size() != 3) throw InputError(file, line, "", "", "expected three fields: vertex,joint,weight");
+    Row row{};
+    if (!read_number(fields[0], row.vertex) || row.vertex < 0 || row.vertex >= vertices)
+        throw InputError(file, line, "vertex", fields[0], expected_whole("a vertex", 0, vertices - 1));
+    row.entry.bone = find_bone(skeleton, fields[1]);
+    if (row.entry.bone < 0) {
+        std::vector<std::string> names;
+        for (const Bone& bone : skeleton.bones) names.push_back(bone.name);
+        throw InputError(file, line, "joint", fields[1], "no such joint; the nearest is '" + nearest_name(fields[1], names) + "'");
+    }
+    if (!read_number(fields[2], row.entry.weight) || !(row.entry.weight >= 0.0 && row.entry.weight <= 1.0))
+        throw InputError(file, line, "weight", fields[2], "expected 0 <= weight <= 1");
+    return row;
+}
+
+// The entries of each vertex and the last line that has one, 0 where none has.
+struct Rows {
+    std::vector<std::vector<Entry>> entries;
+    std::vector<int> line;
+};
+
+Rows read_rows(const std::string& csv, const std::string& path, const Skeleton& skeleton, int vertices)
+{
+    std::istringstream text(csv);
+    Rows rows{std::vector<std::vector<Entry>>(vertices), std::vector<int>(vertices, 0)};
+    int number = 0;
+    for (std::string line; std::getline(text, line);) {
+        ++number;
+        if (!line.empty() && line.back() == '\r') line.pop_back();
+        if (number == 1 && line != "vertex,joint,weight") throw InputError(path, 1, "", "", "expected the header vertex,joint,weight");
+        if (number == 1 || line.empty()) continue;
+        const Row row = read_row(split(line), skeleton, vertices, path, number);
+        for (const Entry& entry : rows.entries[row.vertex])
+            if (entry.bone == row.entry.bone)
+                throw InputError(path, number, "joint", skeleton.bones[entry.bone].name,
+                                 "vertex " + std::to_string(row.vertex) + " has this joint already");
+        rows.entries[row.vertex].push_back(row.entry);
+        rows.line[row.vertex] = number;
+    }
+    if (number == 0) throw InputError(path, 1, "", "", "expected the header vertex,joint,weight");
+    return rows;
+}
+
+void check_sum(const std::vector<Entry>& entries, std::size_t vertex, int line, const std::string& path)
+{
+    if (entries.empty()) throw InputError(path, 0, "vertex", std::to_string(vertex), "has no weights");
+    double sum = 0.0;
+    for (const Entry& entry : entries) sum += entry.weight;
+    if (std::abs(sum - 1.0) > sum_tolerance)
+        throw InputError(path, line, "vertex " + std::to_string(vertex), std::to_string(sum), "its weights must sum to one within 1e-6");
 }
 
 }  // namespace
@@ -110,92 +192,6 @@ double CarriedWeight::share_pct() const
     const double whole = std::accumulate(of_artist.begin(), of_artist.end(), 0.0);
     return whole > 0.0 ? 100.0 * std::accumulate(carried.begin(), carried.end(), 0.0) / whole : 0.0;
 }
-
-namespace {
-
-constexpr double sum_tolerance = 1e-6;
-
-struct Entry {
-    int bone;
-    double weight;
-};
-
-struct Row {
-    int vertex;
-    Entry entry;
-};
-
-template <typename Number>
-bool read_number(const std::string& text, Number& number)
-{
-    const char* end = text.data() + text.size();
-    const auto [stopped, error] = std::from_chars(text.data(), end, number);
-    return error == std::errc() && stopped == end;
-}
-
-std::vector<std::string> split(const std::string& line)
-{
-    std::vector<std::string> fields;
-    std::istringstream stream(line);
-    for (std::string field; std::getline(stream, field, ',');) fields.push_back(field);
-    return fields;
-}
-
-Row read_row(const std::vector<std::string>& fields, const Skeleton& skeleton, int vertices, const std::string& file, int line)
-{
-    if (fields.size() != 3) throw InputError(file, line, "", "", "expected three fields: vertex,joint,weight");
-    Row row{};
-    if (!read_number(fields[0], row.vertex) || row.vertex < 0 || row.vertex >= vertices)
-        throw InputError(file, line, "vertex", fields[0], expected_whole("a vertex", 0, vertices - 1));
-    row.entry.bone = find_bone(skeleton, fields[1]);
-    if (row.entry.bone < 0) {
-        std::vector<std::string> names;
-        for (const Bone& bone : skeleton.bones) names.push_back(bone.name);
-        throw InputError(file, line, "joint", fields[1], "no such joint; the nearest is '" + nearest_name(fields[1], names) + "'");
-    }
-    if (!read_number(fields[2], row.entry.weight) || !(row.entry.weight >= 0.0 && row.entry.weight <= 1.0))
-        throw InputError(file, line, "weight", fields[2], "expected 0 <= weight <= 1");
-    return row;
-}
-
-// The entries of each vertex and the last line that has one, 0 where none has.
-struct Rows {
-    std::vector<std::vector<Entry>> entries;
-    std::vector<int> line;
-};
-
-Rows read_rows(const std::string& csv, const std::string& path, const Skeleton& skeleton, int vertices)
-{
-    std::istringstream text(csv);
-    Rows rows{std::vector<std::vector<Entry>>(vertices), std::vector<int>(vertices, 0)};
-    int number = 0;
-    for (std::string line; std::getline(text, line);) {
-        ++number;
-        if (!line.empty() && line.back() == '\r') line.pop_back();
-        if (number == 1 && line != "vertex,joint,weight") throw InputError(path, 1, "", "", "expected the header vertex,joint,weight");
-        if (number == 1 || line.empty()) continue;
-        const Row row = read_row(split(line), skeleton, vertices, path, number);
-        for (const Entry& entry : rows.entries[row.vertex])
-            if (entry.bone == row.entry.bone)
-                throw InputError(path, number, "joint", skeleton.bones[entry.bone].name,
-                                 "vertex " + std::to_string(row.vertex) + " has this joint already");
-        rows.entries[row.vertex].push_back(row.entry);
-        rows.line[row.vertex] = number;
-    }
-    if (number == 0) throw InputError(path, 1, "", "", "expected the header vertex,joint,weight");
-    return rows;
-}
-
-void check_sum(const std::vector<Entry>& entries, std::size_t vertex, int line, const std::string& path)
-{
-    if (entries.empty()) throw InputError(path, 0, "vertex", std::to_string(vertex), "has no weights");
-    double sum = 0.0;
-    for (const Entry& entry : entries) sum += entry.weight;
-    if (std::abs(sum - 1.0) > sum_tolerance)
-        throw InputError(path, line, "vertex " + std::to_string(vertex), std::to_string(sum), "its weights must sum to one within 1e-6");
-}
-
-}  // namespace
 
 Weights parse_weights(const std::string& text, const std::string& name, const Skeleton& skeleton, int vertices)
 {

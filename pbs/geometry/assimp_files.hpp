@@ -1,8 +1,7 @@
-// assimp opens only files that content_format.hpp allows: the file itself and regular files below its folder. It chooses its reader by the
-// file's name, so that it is given a name whose extension fits the content.
+// assimp's one door, for surfaces, rigs and clips. It opens only files that content_format.hpp allows: the file itself and regular files
+// below its folder. It chooses its reader by the file's name, so that it is given a name whose extension fits the content.
 //   Assimp::Importer importer;
-//   const OwnFolder& files = only_own_folder(importer, path);
-//   if (!importer.ReadFile(files.name_by_content(), 0)) files.refuse_what_was_referred_to();
+//   const aiScene& scene = read_scene(importer, path, aiProcess_Triangulate);
 #pragma once
 
 #include "pbs/geometry/content_format.hpp"
@@ -13,8 +12,10 @@
 #include <assimp/scene.h>
 
 #include <filesystem>
+#include <new>
 #include <string>
 #include <system_error>
+#include <vector>
 
 namespace pbs {
 
@@ -58,17 +59,29 @@ private:
     std::string path_, name_, refused_;
 };
 
-// The importer owns it.
-inline const OwnFolder& only_own_folder(Assimp::Importer& importer, const std::string& path)
+// The scene, which the importer owns, with a root node. `refusal` begins the message of the InputError where assimp cannot read the file.
+inline const aiScene& read_scene(Assimp::Importer& importer, const std::string& path, unsigned steps,
+                                 const std::string& refusal = "assimp: ")
 {
     auto* files = new OwnFolder(path);
-    importer.SetIOHandler(files);
-    return *files;
+    importer.SetIOHandler(files);  // which owns it
+    const aiScene* scene = importer.ReadFile(files->name_by_content(), steps);
+    if (!scene) files->refuse_what_was_referred_to();
+    if (importer.GetErrorString() == std::string("std::bad_alloc")) throw std::bad_alloc();  // which assimp catches
+    if (!scene || !scene->mRootNode) throw InputError(path, 0, "", "", refusal + importer.GetErrorString());
+    return *scene;
 }
 
-// The unit of a file that assimp has read.
+// The corners of a mesh's triangles, for whose points `first` is the number of the first one; points and lines are left out.
+inline void add_triangles(const aiMesh& mesh, int first, std::vector<int>& corners)
+{
+    for (unsigned f = 0; f < mesh.mNumFaces; ++f)
+        for (unsigned c = 0; mesh.mFaces[f].mNumIndices == 3 && c < 3; ++c)
+            corners.push_back(first + static_cast<int>(mesh.mFaces[f].mIndices[c]));
+}
 
-// FBX states its unit in centimetres. COLLADA's is in the root's transform, and the other formats have none.
+// Of a file that assimp has read. FBX states its unit in centimetres. COLLADA's is in the root's transform, and the other formats have
+// none.
 inline double metres_per_unit(const aiScene& scene)
 {
     constexpr double metres_per_centimetre = 0.01;

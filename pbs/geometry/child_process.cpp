@@ -68,12 +68,6 @@ void limit(int resource, std::uintmax_t most)
     setrlimit(resource, &wanted);
 }
 
-// [s] of time, not of processor time: other work may keep the machine busy.
-double reading_limit_s(const std::string& path)
-{
-    return base_limit_s + limit_s_per_megabyte * 1e-6 * static_cast<double>(bytes_of(path));
-}
-
 // Limits this process from here on: memory, processor time and no core file. Memory is not limited under a sanitizer.
 void limit_reading(const std::string& path)
 {
@@ -97,13 +91,6 @@ std::function<void()>& question()
 
 constexpr const char* too_much_memory = "damaged: asks for more memory than such a file can need";
 
-void silence()
-{
-    const int nothing = open("/dev/null", O_WRONLY | O_CLOEXEC);
-    dup2(nothing, STDOUT_FILENO);
-    dup2(nothing, STDERR_FILENO);
-}
-
 // "+" where the file was read, otherwise "-" and the words of the error.
 std::string answer_to(const std::string& path, const std::function<void(const std::string&)>& read)
 {
@@ -125,7 +112,8 @@ std::string answer_to(const std::string& path, const std::function<void(const st
 {
     for (const int signal : {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGTERM}) std::signal(signal, SIG_DFL);
     std::signal(SIGINT, SIG_IGN);  // the parent decides
-    silence();
+    const int nothing = open("/dev/null", O_WRONLY | O_CLOEXEC);
+    for (const int output : {STDOUT_FILENO, STDERR_FILENO}) dup2(nothing, output);
     limit_reading(path);
     const std::string answer = answer_to(path, read);
     for (std::size_t at = 0; at < answer.size();) {
@@ -152,14 +140,6 @@ bool collect(int pipe, double limit_s, std::string& answer)
         if (count == 0) return true;
         if (count > 0) answer.append(buffer, static_cast<std::size_t>(count));
     }
-}
-
-int status_of(pid_t child)
-{
-    int status = 0;
-    while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-    }
-    return status;
 }
 
 // The process that tries and the pipe that it answers through, neither of which outlives this.
@@ -191,7 +171,15 @@ public:
     Reader& operator=(const Reader&) = delete;
 
     int answer() const { return answer_; }
-    int status() { return status_of(std::exchange(process_, 0)); }  // once it has answered
+    // Once it has answered.
+    int status()
+    {
+        int status = 0;
+        const pid_t child = std::exchange(process_, 0);
+        while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+        }
+        return status;
+    }
 
 private:
     pid_t process_ = 0;
@@ -217,7 +205,9 @@ void try_reading(const std::string& path, const std::function<void(const std::st
 {
     Reader reader(path, read);
     std::string answer;
-    if (!collect(reader.answer(), reading_limit_s(path), answer)) throw InputError(path, 0, "", "", "damaged: the reader did not end");
+    // [s] of time, not of processor time: other work may keep the machine busy.
+    const double limit_s = base_limit_s + limit_s_per_megabyte * 1e-6 * static_cast<double>(bytes_of(path));
+    if (!collect(reader.answer(), limit_s, answer)) throw InputError(path, 0, "", "", "damaged: the reader did not end");
     const int status = reader.status();
     if (status != 0 || answer.empty()) throw InputError(path, 0, "", "", "damaged: the reader " + death(status));
     if (answer[0] != '+') throw InputError("", 0, "", "", answer.substr(1));

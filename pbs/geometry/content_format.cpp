@@ -1,7 +1,6 @@
 #include "pbs/geometry/content_format.hpp"
 
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/mesh_io_formats.hpp"
 
 #include <algorithm>
 #include <array>
@@ -17,10 +16,9 @@
 #include <vector>
 
 namespace pbs {
+namespace {
 
 namespace fs = std::filesystem;
-
-namespace {
 
 bool holds(const std::string& beginning, const char* text)
 {
@@ -74,6 +72,11 @@ std::string extension_by_first_bytes(const std::string& beginning)
     return first != std::string::npos && beginning[first] == '{' ? ".gltf" : "";
 }
 
+bool lies_below(const fs::path& file, const fs::path& folder)
+{
+    return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
+}
+
 }  // namespace
 
 std::string lower_extension(const std::string& path)
@@ -121,17 +124,6 @@ std::string path_by_content(const std::string& path)
     return extension == lower_extension(path) ? path : path + extension;
 }
 
-namespace {
-
-namespace fs = std::filesystem;
-
-bool lies_below(const fs::path& file, const fs::path& folder)
-{
-    return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
-}
-
-}  // namespace
-
 bool may_be_opened_for(const std::string& path, const std::string& file)
 {
     std::error_code code;
@@ -140,8 +132,6 @@ bool may_be_opened_for(const std::string& path, const std::string& file)
     const fs::path own = fs::canonical(path, code), named = fs::weakly_canonical(fs::absolute(path).parent_path(), code);
     return target == own || lies_below(target, own.parent_path()) || lies_below(target, named);
 }
-
-namespace fs = std::filesystem;
 
 NamedLink::NamedLink(const std::string& path, const std::string& extension) : link_(path)
 {

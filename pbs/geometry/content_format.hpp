@@ -22,10 +22,9 @@ std::string format_extension(const std::string& path);   // content_extension if
 // is no file of this name.
 std::string path_by_content(const std::string& path);
 
-// Which files may be opened in order to read one file: that file, and those below its folder that it refers to (a glTF's buffers, an OBJ's
-// materials). A named pipe would be waited for without end, and no file decides what is read elsewhere on somebody else's machine.
-
-// Is `file` a regular file that may be opened in order to read `path`? Links are followed first.
+// Is `file` a regular file that may be opened in order to read `path`: that file itself, or one below its folder that it refers to (a
+// glTF's buffers, an OBJ's materials)? Links are followed first. A named pipe would be waited for without end, and no file decides what is
+// read elsewhere on somebody else's machine.
 bool may_be_opened_for(const std::string& path, const std::string& file);
 
 // Another name for a file, for libraries that choose their reader by the extension. A link in a new folder for temporary files, which is

@@ -16,10 +16,9 @@ private:
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-// Work that does not depend on the machine, counted by each deformer: what a step costs in the units of its method.
+// Work that does not depend on the machine, counted by each deformer: what a step costs in the units of its method, summed over one step.
 //   work += {.tet_visits = tets, .projections = constraints};
-
-// Sums over one step. Zero means none: every deformer of this program counts all of its work. Where nothing counts, as in a program of the
+// Zero means none: every deformer of this program counts all of its work. Where nothing counts, as in a program of the
 // user's own, records have empty cells.
 struct WorkCounters {
     std::int64_t gradients = 0;       // gradients of an energy of the whole body, with or without its value

@@ -21,58 +21,19 @@
 namespace pbs {
 namespace {
 
-// Opens for reading; the kind of a file is known only once it is open.
-class OpenFile {
-public:
-    explicit OpenFile(const std::string& path) : path_(path), file_(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC))
+struct OpenFile {
+    ~OpenFile()
     {
-        if (file_ < 0) refuse("cannot be opened: " + std::generic_category().message(errno));
-    }
-    ~OpenFile() { ::close(file_); }
-    OpenFile(const OpenFile&) = delete;
-    OpenFile& operator=(const OpenFile&) = delete;
-
-    std::uintmax_t bytes() const
-    {
-        struct stat status = {};
-        if (::fstat(file_, &status) != 0 || !S_ISREG(status.st_mode)) refuse("cannot be opened: expected a file");
-        return static_cast<std::uintmax_t>(status.st_size);
+        if (number >= 0) ::close(number);
     }
 
-    // False at the end of the file.
-    bool append_to(std::string& text) const
-    {
-        std::array<char, 1 << 16> buffer;
-        const ssize_t count = ::read(file_, buffer.data(), buffer.size());
-        if (count < 0 && errno != EINTR) refuse("cannot be read: " + std::generic_category().message(errno));
-        if (count > 0) text.append(buffer.data(), static_cast<std::size_t>(count));
-        return count != 0;
-    }
-
-private:
-    [[noreturn]] void refuse(const std::string& rule) const { throw InputError(path_, 0, "", "", rule); }
-
-    std::string path_;
-    int file_;
+    int number;
 };
 
-}  // namespace
-
-void require_size(const std::string& path, std::uintmax_t bytes, std::uintmax_t most_bytes)
+std::string reason()
 {
-    if (bytes > most_bytes) throw InputError(path, 0, "bytes", std::to_string(bytes), "expected at most " + std::to_string(most_bytes));
+    return std::generic_category().message(errno);
 }
-
-std::string read_text_file(const std::string& path, std::uintmax_t most_bytes)
-{
-    const OpenFile file(path);
-    require_size(path, file.bytes(), most_bytes);
-    std::string text;
-    while (file.append_to(text)) require_size(path, text.size(), most_bytes);  // it may grow
-    return text;
-}
-
-namespace {
 
 constexpr int most_parts = 64;
 
@@ -111,8 +72,7 @@ private:
 [[noreturn]] void refuse(const std::string& text, std::size_t place, const std::string& file, const std::string& field,
                          const std::string& value, const std::string& rule)
 {
-    const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(place), '\n');
-    throw InputError(file, static_cast<int>(line), field, value, rule);
+    throw InputError(file, line_at(text, place), field, value, rule);
 }
 
 std::string beginning_of_line(const std::string& text, std::size_t place)
@@ -125,31 +85,6 @@ bool is_within_a_word(char before)
 {
     return std::isalnum(static_cast<unsigned char>(before)) || std::string_view("_-+\"'").find(before) != std::string_view::npos;
 }
-
-}  // namespace
-
-void check_toml_keys(const std::string& text, const std::string& file)
-{
-    DotsOfKeys dots;
-    for (std::size_t place = 0; place < text.size();) {
-        const char c = text[place];
-        if (c == '"' || c == '\'') {
-            if (place > 0 && is_within_a_word(text[place - 1]))  // the parser goes on with its word, whatever letters the text has
-                refuse(text, place, file, "quote", beginning_of_line(text, place), "expected a text apart from what is before it");
-            place = after_quotes(text, place);
-        } else if (c == '#') {
-            place = std::min(text.find('\n', place), text.size());
-        } else {
-            if ((c < ' ' && c != '\t' && c != '\r' && c != '\n') || c > '~')  // TOML's bare words are ASCII
-                refuse(text, place, file, "byte", std::to_string(static_cast<unsigned char>(c)), "expected ASCII outside of texts");
-            if (dots.after(c) >= most_parts)
-                refuse(text, place, file, "key", beginning_of_line(text, place), "nested too deep: expected at most 64 parts");
-            ++place;
-        }
-    }
-}
-
-namespace {
 
 constexpr std::size_t most_name_bytes = 200;  // of NAME: with what is added it stays below the 255 that a file system allows
 
@@ -185,13 +120,57 @@ int open_new(const std::string& beginning, std::string& name)
 void flush_folder_of(const std::string& path)
 {
     const std::filesystem::path parent = std::filesystem::path(path).parent_path();
-    const int folder = ::open(parent.empty() ? "." : parent.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (folder < 0) return;
-    ::fsync(folder);
-    ::close(folder);
+    const OpenFile folder{::open(parent.empty() ? "." : parent.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)};
+    if (folder.number >= 0) ::fsync(folder.number);
 }
 
 }  // namespace
+
+void require_size(const std::string& path, std::uintmax_t bytes, std::uintmax_t most_bytes)
+{
+    if (bytes > most_bytes) throw InputError(path, 0, "bytes", std::to_string(bytes), "expected at most " + std::to_string(most_bytes));
+}
+
+std::string read_text_file(const std::string& path, std::uintmax_t most_bytes)
+{
+    const auto refuse = [&](const std::string& rule) { throw InputError(path, 0, "", "", rule); };
+    const OpenFile file{::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)};
+    if (file.number < 0) refuse("cannot be opened: " + reason());
+    struct stat status = {};  // the kind of a file is known only once it is open
+    if (::fstat(file.number, &status) != 0 || !S_ISREG(status.st_mode)) refuse("cannot be opened: expected a file");
+    require_size(path, static_cast<std::uintmax_t>(status.st_size), most_bytes);
+
+    std::string text;
+    std::array<char, 1 << 16> buffer;
+    for (ssize_t count = 1; count != 0;) {
+        count = ::read(file.number, buffer.data(), buffer.size());
+        if (count < 0 && errno != EINTR) refuse("cannot be read: " + reason());
+        if (count > 0) text.append(buffer.data(), static_cast<std::size_t>(count));
+        require_size(path, text.size(), most_bytes);  // it may grow
+    }
+    return text;
+}
+
+void check_toml_keys(const std::string& text, const std::string& file)
+{
+    DotsOfKeys dots;
+    for (std::size_t place = 0; place < text.size();) {
+        const char c = text[place];
+        if (c == '"' || c == '\'') {
+            if (place > 0 && is_within_a_word(text[place - 1]))  // the parser goes on with its word, whatever letters the text has
+                refuse(text, place, file, "quote", beginning_of_line(text, place), "expected a text apart from what is before it");
+            place = after_quotes(text, place);
+        } else if (c == '#') {
+            place = std::min(text.find('\n', place), text.size());
+        } else {
+            if ((c < ' ' && c != '\t' && c != '\r' && c != '\n') || c > '~')  // TOML's bare words are ASCII
+                refuse(text, place, file, "byte", std::to_string(static_cast<unsigned char>(c)), "expected ASCII outside of texts");
+            if (dots.after(c) >= most_parts)
+                refuse(text, place, file, "key", beginning_of_line(text, place), "nested too deep: expected at most 64 parts");
+            ++place;
+        }
+    }
+}
 
 void require_no_device(const std::string& path)
 {

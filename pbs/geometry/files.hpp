@@ -15,25 +15,22 @@ constexpr std::uintmax_t most_mesh_bytes = std::uintmax_t(1) << 30;       // .vt
 // An InputError where the file has more bytes.
 void require_size(const std::string& path, std::uintmax_t bytes, std::uintmax_t most_bytes);
 
-// A text file whole: the one reader of scenes, skeletons, weights, clips and records.
-
-// An InputError where it cannot be read, is larger or is no file: a named pipe would be waited for without end, a device has none.
+// A text file whole: the one reader of scenes, skeletons, weights, clips and records. An InputError where it cannot be read, is larger or
+// is no file: a named pipe would be waited for without end, a device has none.
 std::string read_text_file(const std::string& path, std::uintmax_t most_bytes = most_text_bytes);
 
-// toml++ ends the process on keys nested some ten thousand deep (a.a.a. ...) and, with assertions, on control characters and letters
-// outside ASCII in bare words: TOML is looked through before it is parsed.
-
-// An InputError that names the line where a key of the text has more than 64 parts or a bare word has other characters than ASCII.
+// An InputError that names the line where a key of the text has more than 64 parts or a bare word has other characters than ASCII. toml++
+// ends the process on keys nested some ten thousand deep (a.a.a. ...) and, with assertions, on control characters and letters outside ASCII
+// in bare words.
 void check_toml_keys(const std::string& text, const std::string& file);
+
+// An InputError where a device or a named pipe is there: renaming would leave a file in its place.
+void require_no_device(const std::string& path);
 
 // Whole files or none: bytes are written to a new file next to the target, .NAME.PROCESS.RANDOM, flushed to disk and renamed over it, so
 // that a killed writer leaves no torn file.
 //   write_atomically("results/run.json", document.dump(2) + "\n");
 //   AtomicFile file("large.glb");  file.write(beginning);  file.write(rest);  file.finish();
-
-// An InputError where a device or a named pipe is there: renaming would leave a file in its place.
-void require_no_device(const std::string& path);
-
 // An InputError with the system's reason where the folder is missing, cannot be written or is full; nothing is left behind then. And as
 // require_no_device.
 void write_atomically(const std::string& path, const std::string& bytes);

@@ -6,18 +6,13 @@
 namespace pbs {
 namespace {
 
-constexpr std::size_t longest = 80;
-
-bool continues_a_character(char c)  // UTF-8
-{
-    return (static_cast<unsigned char>(c) & 0xC0) == 0x80;
-}
+constexpr std::size_t longest = 80, most_letters = 200;  // of a name that is looked for; a file may hold one of megabytes
 
 std::string shortened(const std::string& text)
 {
     if (text.size() <= longest) return text;
     std::size_t end = longest;
-    while (end > 0 && continues_a_character(text[end])) --end;
+    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;  // within a character of UTF-8
     return text.substr(0, end) + "...";
 }
 
@@ -55,25 +50,6 @@ std::string message(const std::string& file, int line, const std::string& field,
     return escaped(text + rule);
 }
 
-}  // namespace
-
-InputError::InputError(const std::string& file, int line, const std::string& field, const std::string& value, const std::string& rule)
-    : std::runtime_error(message(file, line, field, value, rule))
-{
-}
-
-std::string name_list(const std::vector<std::string>& names)
-{
-    constexpr std::size_t most = 6;
-    std::string text;
-    for (std::size_t n = 0; n < names.size() && n < most; ++n) text += (n ? ", " : "") + names[n];
-    return names.size() > most ? text + " and " + std::to_string(names.size() - most) + " others" : text;
-}
-
-namespace {
-
-constexpr std::size_t most_letters = 200;  // of a name that is looked for; a file may hold one of megabytes
-
 int edit_distance(const std::string& a, const std::string& b)
 {
     std::vector<int> row(b.size() + 1);
@@ -91,6 +67,24 @@ int edit_distance(const std::string& a, const std::string& b)
 }
 
 }  // namespace
+
+InputError::InputError(const std::string& file, int line, const std::string& field, const std::string& value, const std::string& rule)
+    : std::runtime_error(message(file, line, field, value, rule))
+{
+}
+
+int line_at(const std::string& text, std::size_t byte)
+{
+    return 1 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(std::min(byte, text.size())), '\n'));
+}
+
+std::string name_list(const std::vector<std::string>& names)
+{
+    constexpr std::size_t most = 6;
+    std::string text;
+    for (std::size_t n = 0; n < names.size() && n < most; ++n) text += (n ? ", " : "") + names[n];
+    return names.size() > most ? text + " and " + std::to_string(names.size() - most) + " others" : text;
+}
 
 std::string nearest_name(const std::string& name, const std::vector<std::string>& known)
 {

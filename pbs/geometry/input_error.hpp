@@ -18,8 +18,6 @@ public:
     InputError(const std::string& file, int line, const std::string& field, const std::string& value, const std::string& rule);
 };
 
-// Numbers as error messages print them.
-
 // "expected an index from 0 to 7"; where one number alone is right, "expected 3". `what` with its article.
 inline std::string expected_whole(const std::string& what, long long low, long long high)
 {
@@ -36,25 +34,14 @@ inline std::string number_text(double number, int digits = 6)
     return text.str();
 }
 
-// "(0, 0.5, 1)"
-template <typename Row>
-std::string place_text(const Row& place)
-{
-    std::ostringstream text;
-    text << '(' << place(0) << ", " << place(1) << ", " << place(2) << ')';
-    return text.str();
-}
+// The line of a byte of the text, from 1.
+int line_at(const std::string& text, std::size_t byte);
 
-// The first few of many names, for messages.
-//   name_list({"a", "b", "c", "d", "e", "f", "g", "h"})   "a, b, c, d, e, f and 2 others"
-
-// All names if there are at most six.
+// All names if there are at most six; otherwise "a, b, c, d, e, f and 2 others".
 std::string name_list(const std::vector<std::string>& names);
 
-// The known name nearest to a mistyped one, for errors.
+// The known name nearest to a mistyped one by edit distance (Levenshtein), the first of equals; empty where there are none.
 //   throw InputError(file, line, key, "", "unknown key; the nearest known one is " + nearest_name(key, known));
-
-// The known name with the least edit distance (Levenshtein), the first of equals; empty where there are none.
 std::string nearest_name(const std::string& name, const std::vector<std::string>& known);
 
 }  // namespace pbs

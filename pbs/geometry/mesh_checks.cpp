@@ -2,9 +2,7 @@
 #include "pbs/geometry/mesh_io_formats.hpp"
 
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/mesh_io.hpp"
 #include "pbs/geometry/meshing.hpp"
-#include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/geometry/topology.hpp"
 
 #include <algorithm>
@@ -61,18 +59,20 @@ namespace {
 // |V| / (longest edge)^3 is 0.118 for the regular tet. Rounding of the coordinates alone leaves some 1e-16 D / l of it, D the distance
 // from the origin: 1e-10 keeps clear of that for every mesh with D / l < 1e5.
 constexpr double flat_tet = 1e-10;
-constexpr double farthest_m = 1e9;  // beyond, products of three lengths leave the range of a double
+constexpr double farthest_m = 1e9;                      // beyond, products of three lengths leave the range of a double
+constexpr double smallest_m = 1e-3, largest_m = 100.0;  // of a character
 
 std::string numbered(const char* what, Eigen::Index i)
 {
     return what + std::string(" ") + std::to_string(i);
 }
 
+// "(0, 0.5, 1)"
 template <typename Row>
-std::string listed(const Row& row)
+std::string listed(const Row& row, int digits = 17)
 {
     std::ostringstream text;
-    text.precision(17);
+    text.precision(digits);
     text << '(';
     for (Eigen::Index i = 0; i < row.size(); ++i) text << (i ? ", " : "") << row(i);
     return text.str() + ')';
@@ -120,32 +120,6 @@ void check_distinct(const std::string& path, const MeshReading& reading)
     }
 }
 
-struct Face {
-    std::array<int, 3> vertices;  // ascending
-    bool even = false;            // ascending order is an even permutation of the outward order
-    Eigen::Index tet = 0;
-};
-
-std::vector<Face> sorted_faces(const Tets& tets)
-{
-    std::vector<Face> faces;
-    faces.reserve(static_cast<std::size_t>(4 * tets.rows()));
-    for (Eigen::Index t = 0; t < tets.rows(); ++t)
-        for (int left_out = 0; left_out < 4; ++left_out) {
-            std::array<int, 3> v = {tets(t, (left_out + 1) % 4), tets(t, (left_out + 2) % 4), tets(t, (left_out + 3) % 4)};
-            bool even = left_out % 2 == 0;
-            for (const auto& [a, b] : {std::pair(0, 1), std::pair(1, 2), std::pair(0, 1)})
-                if (v[std::size_t(a)] > v[std::size_t(b)]) {
-                    std::swap(v[std::size_t(a)], v[std::size_t(b)]);
-                    even = !even;
-                }
-            faces.push_back({v, even, t});
-        }
-    std::sort(faces.begin(), faces.end(),
-              [](const Face& a, const Face& b) { return std::pair(a.vertices, a.tet) < std::pair(b.vertices, b.tet); });
-    return faces;
-}
-
 void check_places(const std::string& path, const Positions& points)
 {
     for (Eigen::Index i = 0; i < points.rows(); ++i) {
@@ -159,14 +133,14 @@ void check_places(const std::string& path, const Positions& points)
 // Two tets that share a face lie on either side of it; both positively oriented, they list it in opposite order.
 void check_faces(const std::string& path, const TetMesh& mesh)
 {
-    const std::vector<Face> faces = sorted_faces(mesh.tets);
+    const std::vector<TetFace> faces = sorted_faces(mesh.tets);
     for (std::size_t i = 1; i < faces.size(); ++i) {
-        const Face &face = faces[i], &before = faces[i - 1];
-        if (face.vertices != before.vertices) continue;
+        const TetFace &face = faces[i], &before = faces[i - 1];
+        if (face.sorted != before.sorted) continue;
         if (face.even == before.even)
             throw InputError(path, 0, numbered("tet", face.tet), listed(mesh.tets.row(face.tet)),
                              "expected to lie beside " + numbered("tet", before.tet) + ", with which it shares a face; they overlap");
-        if (i >= 2 && face.vertices == faces[i - 2].vertices)
+        if (i >= 2 && face.sorted == faces[i - 2].sorted)
             throw InputError(path, 0, numbered("tet", face.tet), listed(mesh.tets.row(face.tet)),
                              "expected faces of at most two tets; one face is in three");
     }
@@ -198,31 +172,6 @@ void check_boundary(const std::string& path, const MeshReading& reading)
     }
 #endif
 }
-
-}  // namespace
-
-void check_frame(const std::string& path, const TetMesh& mesh)
-{
-    if (mesh.tets.rows() == 0) throw InputError(path, 0, "tets", "0", "expected at least one tetrahedron");
-    for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t)
-        for (int corner = 0; corner < 4; ++corner) checked_index(path, t, mesh.tets(t, corner), mesh.rest.rows());
-    check_places(path, mesh.rest);
-}
-
-MeshReading check_rest(const std::string& path, TetMesh mesh)
-{
-    check_frame(path, mesh);
-    require_extent(path, mesh.rest);
-    const int flipped_tets = normalise_orientation(path, mesh);
-    check_faces(path, mesh);
-    MeshReading reading = repaired(mesh);
-    reading.flipped_tets = flipped_tets;
-    check_distinct(path, reading);
-    check_boundary(path, reading);
-    return reading;
-}
-
-namespace {
 
 // The number of triangles at each edge.
 std::map<std::pair<int, int>, int> triangles_at_edges(const Triangles& triangles)
@@ -266,47 +215,6 @@ std::vector<int> groups_at(int vertex, const std::vector<int>& around, const Tet
     return group;
 }
 
-}  // namespace
-
-MeshReading repaired(const TetMesh& mesh)
-{
-    MeshReading result;
-    result.file_vertices = static_cast<int>(mesh.rest.rows());
-    result.mesh.tets = mesh.tets;
-    const std::vector<std::vector<int>> tets_of = tets_of_vertices(mesh);
-    for (int vertex = 0; vertex < mesh.rest.rows(); ++vertex) {
-        const std::vector<int>& around = tets_of[static_cast<std::size_t>(vertex)];
-        if (around.empty()) {
-            result.unused_vertices.push_back(vertex);
-            continue;
-        }
-        const std::vector<int> groups = groups_at(vertex, around, mesh.tets);
-        std::map<int, int> index_of_group;
-        for (std::size_t member = 0; member < around.size(); ++member) {
-            const auto [index, added] = index_of_group.emplace(groups[member], static_cast<int>(result.file_vertex.size()));
-            if (added) result.file_vertex.push_back(vertex);
-            for (int corner = 0; corner < 4; ++corner)
-                if (mesh.tets(around[member], corner) == vertex) result.mesh.tets(around[member], corner) = index->second;
-        }
-        if (index_of_group.size() > 1) result.split_vertices.push_back(vertex);
-    }
-    result.mesh.rest.resize(static_cast<Eigen::Index>(result.file_vertex.size()), 3);
-    for (std::size_t v = 0; v < result.file_vertex.size(); ++v)
-        result.mesh.rest.row(static_cast<Eigen::Index>(v)) = mesh.rest.row(result.file_vertex[v]);
-    return result;
-}
-
-std::optional<std::array<int, 2>> edge_that_is_not_manifold(const Tets& tets)
-{
-    for (const auto& [edge, count] : triangles_at_edges(boundary_of(tets)))
-        if (count > 2) return std::array{edge.first, edge.second};
-    return std::nullopt;
-}
-
-namespace {
-
-constexpr double smallest_m = 1e-3, largest_m = 100.0;  // of a character
-
 template <typename Value>
 std::string remark(const std::string& path, const std::string& field, const Value& value, const std::string& treatment)
 {
@@ -344,8 +252,8 @@ void add_open_and_joined_edges(const std::string& path, const SurfaceMesh& surfa
     const auto first = std::find_if(triangles_at.begin(), triangles_at.end(), is_joint);
     if (first == triangles_at.end()) return;
     remarks.push_back(remark(path, "edges of three or more triangles", std::count_if(triangles_at.begin(), triangles_at.end(), is_joint),
-                             "not manifold there, first from " + place_text(surface.points.row(first->first.first)) + " to " +
-                                 place_text(surface.points.row(first->first.second)) + "; the surface is wrapped"));
+                             "not manifold there, first from " + listed(surface.points.row(first->first.first), 6) + " to " +
+                                 listed(surface.points.row(first->first.second), 6) + "; the surface is wrapped"));
 }
 
 // Skins of characters do so: MakeHuman's at lips and lids. Without CGAL this is not checked, and never for tet meshes.
@@ -358,11 +266,67 @@ void add_crossings([[maybe_unused]] const std::string& path, [[maybe_unused]] co
     Vec3 middle = Vec3::Zero();  // of the first one's first triangle
     for (const int point : surface.triangles.row(crossings.front()[0])) middle += surface.points.row(point).transpose() / 3.0;
     remarks.push_back(remark(path, "pairs of triangles that meet", crossings.size(),
-                             "it intersects or touches itself, first at " + place_text(middle) + "; what is outside is kept"));
+                             "it intersects or touches itself, first at " + listed(middle, 6) + "; what is outside is kept"));
 #endif
 }
 
 }  // namespace
+
+void check_frame(const std::string& path, const TetMesh& mesh)
+{
+    if (mesh.tets.rows() == 0) throw InputError(path, 0, "tets", "0", "expected at least one tetrahedron");
+    for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t)
+        for (int corner = 0; corner < 4; ++corner) checked_index(path, t, mesh.tets(t, corner), mesh.rest.rows());
+    check_places(path, mesh.rest);
+}
+
+MeshReading check_rest(const std::string& path, TetMesh mesh)
+{
+    check_frame(path, mesh);
+    require_extent(path, mesh.rest);
+    const int flipped_tets = normalise_orientation(path, mesh);
+    check_faces(path, mesh);
+    MeshReading reading = repaired(mesh);
+    reading.flipped_tets = flipped_tets;
+    check_distinct(path, reading);
+    check_boundary(path, reading);
+    return reading;
+}
+
+MeshReading repaired(const TetMesh& mesh)
+{
+    MeshReading result;
+    result.file_vertices = static_cast<int>(mesh.rest.rows());
+    result.mesh.tets = mesh.tets;
+    const std::vector<std::vector<int>> tets_of = tets_of_vertices(mesh);
+    for (int vertex = 0; vertex < mesh.rest.rows(); ++vertex) {
+        const std::vector<int>& around = tets_of[static_cast<std::size_t>(vertex)];
+        if (around.empty()) {
+            result.unused_vertices.push_back(vertex);
+            continue;
+        }
+        const std::vector<int> groups = groups_at(vertex, around, mesh.tets);
+        std::map<int, int> index_of_group;
+        for (std::size_t member = 0; member < around.size(); ++member) {
+            const auto [index, added] = index_of_group.emplace(groups[member], static_cast<int>(result.file_vertex.size()));
+            if (added) result.file_vertex.push_back(vertex);
+            for (int corner = 0; corner < 4; ++corner)
+                if (mesh.tets(around[member], corner) == vertex) result.mesh.tets(around[member], corner) = index->second;
+        }
+        if (index_of_group.size() > 1) result.split_vertices.push_back(vertex);
+    }
+    result.mesh.rest.resize(static_cast<Eigen::Index>(result.file_vertex.size()), 3);
+    for (std::size_t v = 0; v < result.file_vertex.size(); ++v)
+        result.mesh.rest.row(static_cast<Eigen::Index>(v)) = mesh.rest.row(result.file_vertex[v]);
+    return result;
+}
+
+std::optional<std::array<int, 2>> edge_that_is_not_manifold(const Tets& tets)
+{
+    for (const auto& [edge, count] : triangles_at_edges(boundary_of(tets)))
+        if (count > 2) return std::array{edge.first, edge.second};
+    return std::nullopt;
+}
 
 std::string remark_on_name(const std::string& path, const std::string& content_extension)
 {

@@ -24,21 +24,16 @@ TetFormat format_of(const std::string& path)
     throw InputError(path, 0, "extension", extension, "expected a tet mesh: .msh, .vtu, .vtk, .mesh, .tobj, .node or .ele");
 }
 
-TetMesh tets_of(const IndexedPoints& read)
-{
-    return {read.points, read.cells};
-}
-
 // Gmsh chooses its own reader by the extension.
 TetMesh read_by_gmsh(const std::string& path)
 {
     const long long named = check_gmsh_file(path);
     const NamedLink link(path, format_extension(path));
-    const IndexedPoints read = read_guarded(path, [&](const std::string& file) { return read_gmsh(file, link.path()); });
-    if (read.cells.rows() > 0 && named >= 0 && named != read.points.rows())  // it leaves out vertices that no element uses
+    TetMesh read = read_guarded(path, [&](const std::string& file) { return read_gmsh(file, link.path()); });
+    if (read.tets.rows() > 0 && named >= 0 && named != read.rest.rows())  // it leaves out vertices that no element uses
         throw InputError(path, 0, "vertices", std::to_string(named),
-                         "expected all in elements; Gmsh reads " + std::to_string(read.points.rows()));
-    return tets_of(read);
+                         "expected all in elements; Gmsh reads " + std::to_string(read.rest.rows()));
+    return read;
 }
 
 TetMesh read_by_content(const std::string& path)
@@ -47,7 +42,7 @@ TetMesh read_by_content(const std::string& path)
     require_readable(path, format == TetFormat::vtk ? most_mesh_bytes : most_text_bytes);
     if (format == TetFormat::tetgen) return read_tetgen(path);
     if (format == TetFormat::tobj) return read_tobj(path);
-    if (format == TetFormat::vtk) return tets_of(read_guarded(path, read_vtk));
+    if (format == TetFormat::vtk) return read_guarded(path, read_vtk);
     return read_by_gmsh(path);
 }
 

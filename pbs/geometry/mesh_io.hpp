@@ -69,7 +69,6 @@ void write_pvd(const std::string& path, const std::vector<std::pair<double, std:
 
 // Remarks on properties of a mesh that are accepted although its author may not have intended them: one line each, printed for the user.
 //   for (const std::string& remark : remarks_on("arm.msh", read_tet_mesh("arm.msh"))) ...
-
 // A name that does not fit the content, turned tets, vertices that were left out or split, parts that no face joins, and a size that speaks
 // for other units than metres (under 1 mm or above 100 m).
 std::vector<std::string> remarks_on(const std::string& path, const MeshReading& reading);

@@ -11,21 +11,13 @@
 
 namespace pbs {
 
-// A mesh of one kind of cell, as a reader returns it: nothing is checked.
-struct IndexedPoints {
-    Positions points;                                                           // [m], #V x 3
-    Eigen::Matrix<int, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> cells;  // vertex indices, #C x corners
-};
-
-IndexedPoints read_vtk(const std::string& path);  // .vtu, .vtk, by VTK
+TetMesh read_vtk(const std::string& path);  // .vtu, .vtk, by VTK
 // .msh 2.2 and 4.1, .mesh, by Gmsh, in a module. named: the path, or a link to it, with the extension that fits the content.
-IndexedPoints read_gmsh(const std::string& path, const std::string& named);
+TetMesh read_gmsh(const std::string& path, const std::string& named);
 TetMesh read_tobj(const std::string& path);    // .tobj
 TetMesh read_tetgen(const std::string& path);  // .node or .ele; the other file is in the same folder
 
-// Surfaces: points and triangles.
-IndexedPoints read_assimp(const std::string& path, const std::string& mesh_name);  // .obj, .gltf, .glb, .dae, .zae
-IndexedPoints read_polygons(const std::string& path);                              // .ply, .off, .stl, by CGAL
+SurfaceMesh read_polygons(const std::string& path);  // .ply, .off, .stl, by CGAL
 
 // Before Gmsh may see a file: it runs one that is no mesh as a script. Loads the module. Returns the number of vertices that the file
 // names, -1 where that is not known.
@@ -49,9 +41,8 @@ void require_extent(const std::string& path, const Positions& points);
 int checked_index(const std::string& path, long long tet, long long index, long long points);
 
 // The conditions on a tet mesh before anything is computed on it; each violation is an InputError naming the file, the vertex or tet, its
-// value and the rule. Vertices and tets are counted from 0, as in VTK.
-
-// At least one tet, indices in range, coordinates finite and within 1e9 m, so that volumes are finite too.
+// value and the rule. Vertices and tets are counted from 0, as in VTK. At least one tet, indices in range, coordinates finite and within
+// 1e9 m, so that volumes are finite too.
 void check_frame(const std::string& path, const TetMesh& mesh);
 
 // check_frame, and: not smaller than 1e-9 m, no tet without volume, no two vertices in one place, no face in three tets, no overlap of

@@ -48,8 +48,7 @@ int count_self_intersections(const Positions& positions, const Triangles& bounda
 // The closed lines in which each plane cuts a surface, points [m], #P x 3 a line, the first not repeated at its end. A surface that
 // intersects itself is cut all the same, triangle by triangle.
 struct CuttingPlane {
-    // Any point of the plane [m].
-    Vec3 point, normal;  // of any length but zero
+    Vec3 point, normal;  // any point of the plane [m]; of any length but zero
 };
 // The lines of each plane, #planes; lines that do not close are left out. InputError where a normal is zero.
 std::vector<std::vector<Positions>> section_outlines(const Positions& positions, const Triangles& boundary,

@@ -15,12 +15,6 @@ namespace pbs {
 // Exact predicates, double coordinates.
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
-// CGAL seeds its generator with the clock; a fixed seed makes meshing repeat to the bit.
-inline void fix_meshing_seed()
-{
-    CGAL::get_default_random() = CGAL::Random(0);
-}
-
 // CGAL prints a warning when no refinement can begin. Callers see the empty complex and choose another way to begin.
 class WithoutCgalWarnings {
 public:
@@ -38,7 +32,7 @@ private:
 template <typename Complex, class Domain, class Criteria, class... Refinement>
 Complex refine_mesh(const Domain& domain, const Criteria& criteria, const Refinement&... refinement)
 {
-    fix_meshing_seed();
+    CGAL::get_default_random() = CGAL::Random(0);  // instead of the clock: a fixed seed makes meshing repeat to the bit
     const WithoutCgalWarnings quiet;
     namespace parameters = CGAL::parameters;
     return CGAL::make_mesh_3<Complex>(domain, criteria, parameters::no_perturb(), parameters::no_exude(), refinement...);

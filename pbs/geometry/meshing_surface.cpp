@@ -20,6 +20,8 @@
 #include <CGAL/alpha_wrap_3.h>
 #include <CGAL/boost/graph/iterator.h>
 
+#include <boost/graph/connected_components.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -36,23 +38,13 @@ using Point = Kernel::Point_3;
 using Surface = CGAL::Surface_mesh<Point>;
 using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, CGAL::AABB_face_graph_triangle_primitive<Surface>>>;
 
-// The vertices of each connected part, ascending.
+// The vertices of each connected part, ascending; parts in the order of their first vertices.
 std::vector<std::vector<Surface::Vertex_index>> vertices_of_parts(const Surface& surface)
 {
-    std::vector<std::vector<Surface::Vertex_index>> parts;
-    std::vector<bool> seen(surface.number_of_vertices());
-    for (const auto first : surface.vertices()) {
-        if (seen[first]) continue;
-        seen[first] = true;
-        std::vector<Surface::Vertex_index> part = {first};
-        for (std::size_t at = 0; at < part.size(); ++at)
-            for (const auto neighbour : CGAL::vertices_around_target(surface.halfedge(part[at]), surface)) {
-                if (!seen[neighbour]) part.push_back(neighbour);
-                seen[neighbour] = true;
-            }
-        std::sort(part.begin(), part.end());
-        parts.push_back(std::move(part));
-    }
+    std::vector<int> part(surface.number_of_vertices());
+    const auto part_of = boost::make_iterator_property_map(part.begin(), get(boost::vertex_index, surface));
+    std::vector<std::vector<Surface::Vertex_index>> parts(boost::connected_components(surface, part_of));
+    for (const auto vertex : surface.vertices()) parts[part_of[vertex]].push_back(vertex);
     return parts;
 }
 
@@ -117,6 +109,12 @@ constexpr double facet_angle_deg = 25.0, radius_edge_ratio = 2.5, sliver_bound_d
 constexpr double smallest_cell = 0.0042, largest_cell = 0.021, facet_distance = 0.0032;
 constexpr double cells_across = 2.9;    // a cell is at most this part of the local thickness, at size 1
 constexpr double inside_to_skin = 1.2;  // size of cells over size of facets
+
+// |V| / diagonal^3 is 0.19 of the cube. Rounding leaves 1e-16 of a flat surface; a body so thin would be all wrap.
+constexpr double flat_surface = 1e-12;
+constexpr double smallest_m = 1e-9;       // squares and cubes of cells of a smaller surface leave the range that CGAL can compare
+constexpr double sheet_thickness = 0.05;  // over the diagonal: some tets across it at the default number of vertices
+constexpr const char* boundary_not_manifold = "the boundary is not manifold";
 
 double diagonal_of(const Positions& points)
 {
@@ -267,6 +265,30 @@ TetMesh optimised(Body& body, double size, double distance)
     return tet_mesh_of(complex);
 }
 
+// The first thing wrong with the mesh, which perturbing and exuding may have undone; empty when it is boundary-manifold, in one piece, of
+// the wanted Euler number and dihedral angle, free of self-intersections, and all points lie inside.
+std::string breach_of(const TetMesh& mesh, const SurfaceMeshing& options)
+{
+    if (mesh.tets.rows() == 0) return "no tets";
+    const Quality quality = quality_of(mesh);
+    if (!quality.topology.boundary_manifold) return boundary_not_manifold;
+    if (options.is_one_piece && quality.topology.components != 1) return std::to_string(quality.topology.components) + " pieces";
+    if (options.boundary_euler && quality.topology.boundary_euler != *options.boundary_euler)
+        return "Euler number of the boundary " + std::to_string(quality.topology.boundary_euler) + ", expected " +
+               std::to_string(*options.boundary_euler);
+    if (quality.min_dihedral_deg < options.min_dihedral_deg)
+        return "smallest dihedral angle " + std::to_string(quality.min_dihedral_deg) + " deg";
+
+    const Triangles boundary = boundary_of(mesh.tets);
+    if (self_intersects(mesh.rest, boundary)) return "the boundary intersects itself";
+    if (options.inside.empty()) return "";
+    const std::vector<bool> inside = points_inside(mesh.rest, boundary, options.inside);
+    const auto outside = std::count(inside.begin(), inside.end(), false);
+    if (outside == 0) return "";
+    const auto first = std::find(inside.begin(), inside.end(), false) - inside.begin();
+    return std::to_string(outside) + " of the points asked inside are outside, the first is number " + std::to_string(first);
+}
+
 // The first mesh of the quality asked; nothing where none of the distances gives one. may_thicken: gives up sooner at a boundary that is
 // not manifold, which is what becomes of a layer too thin to be meshed.
 std::optional<TetMesh> mesh_wrapped(const SurfaceMesh& surface, double alpha, double offset, bool may_thicken,
@@ -286,7 +308,30 @@ std::optional<TetMesh> mesh_wrapped(const SurfaceMesh& surface, double alpha, do
     return std::nullopt;
 }
 
+void check_surface(const SurfaceMesh& surface, const SurfaceMeshing& options)
+{
+    if (options.vertices < 150) throw InputError("", 0, "vertices", std::to_string(options.vertices), "expected at least 150");
+    if (surface.triangles.rows() < 4)
+        throw InputError("", 0, "triangles", std::to_string(surface.triangles.rows()), "expected a closed surface: at least 4");
+    if (!surface.points.allFinite()) throw InputError("", 0, "points", "", "expected finite coordinates [m]");
+    if (surface.triangles.minCoeff() < 0 || surface.triangles.maxCoeff() >= surface.points.rows())
+        throw InputError("", 0, "triangles", "", "expected indices of points");
+    const double diagonal = diagonal_of(surface.points);
+    if (!(diagonal >= smallest_m))
+        throw InputError("", 0, "diagonal of the surface [m]", number_text(diagonal), "expected at least " + number_text(smallest_m));
+    if (options.is_closed && sheet_offset_m(surface) > 0.0)
+        throw InputError("", 0, "enclosed volume [m^3]", number_text(fan_volume(surface.points, surface.triangles)),
+                         "expected a closed surface round a volume, neither flat nor open");
+}
+
 }  // namespace
+
+double sheet_offset_m(const SurfaceMesh& surface)
+{
+    const double diagonal = diagonal_of(surface.points);
+    const bool has_volume = std::abs(fan_volume(surface.points, surface.triangles)) > flat_surface * diagonal * diagonal * diagonal;
+    return has_volume ? 0.0 : diagonal * sheet_thickness / 2.0;
+}
 
 TetMesh mesh_surface(const SurfaceMesh& surface, const SurfaceMeshing& options)
 {

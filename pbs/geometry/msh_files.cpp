@@ -9,9 +9,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
 #include <functional>
-#include <iterator>
 #include <locale>
 #include <sstream>
 #include <utility>
@@ -153,20 +151,14 @@ bool has_all_nodes(const std::string& text, long long nodes)
 
 // Gmsh leaves out the nodes that no element uses. If the file numbers its nodes from 1 without gaps, each gets its place back; those that
 // were left out are put at the origin, and no tet names them.
-void restore_unused(const std::vector<std::size_t>& tags, Eigen::Index nodes, IndexedPoints& mesh)
+void restore_unused(const std::vector<std::size_t>& tags, Eigen::Index nodes, TetMesh& mesh)
 {
     if (tags.empty() || tags.front() < 1 || static_cast<Eigen::Index>(tags.back()) > nodes) return;
     Positions points = Positions::Zero(nodes, 3);
     for (std::size_t p = 0; p < tags.size(); ++p)
-        points.row(static_cast<Eigen::Index>(tags[p]) - 1) = mesh.points.row(static_cast<Eigen::Index>(p));
-    mesh.cells = mesh.cells.unaryExpr([&](int p) { return static_cast<int>(tags[static_cast<std::size_t>(p)]) - 1; }).eval();
-    mesh.points = std::move(points);
-}
-
-std::string text_of(const std::string& path)
-{
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+        points.row(static_cast<Eigen::Index>(tags[p]) - 1) = mesh.rest.row(static_cast<Eigen::Index>(p));
+    mesh.tets = mesh.tets.unaryExpr([&](int p) { return static_cast<int>(tags[static_cast<std::size_t>(p)]) - 1; }).eval();
+    mesh.rest = std::move(points);
 }
 
 bool is_msh(const std::string& path)
@@ -174,42 +166,8 @@ bool is_msh(const std::string& path)
     return format_extension(path) == ".msh";
 }
 
-long long named_nodes(const std::string& path, const std::string& text)
-{
-    return is_msh(path) ? nodes_in_msh(text) : vertices_in_medit(text);
-}
-
-}  // namespace
-
-long long check_gmsh_file(const std::string& path)
-{
-    const std::string text = text_of(path);
-    if (is_msh(path))
-        check_msh(path, text);
-    else
-        check_medit(path, text);
-    load_module(module_name);
-    return named_nodes(path, text);
-}
-
-IndexedPoints read_gmsh(const std::string& path, const std::string& named)
-{
-    IndexedPoints mesh;
-    std::vector<std::size_t> tags;
-    load_module(module_name)
-        .function<void(const std::string&, const std::string&, IndexedPoints&, std::vector<std::size_t>&)>("pbskin_gmsh_read")(path, named,
-                                                                                                                               mesh, tags);
-    const std::string text = text_of(path);
-    const long long nodes = named_nodes(path, text);
-    if (nodes > mesh.points.rows() && (is_msh(path) ? has_all_nodes(text, nodes) : medit_section(text, "Vertices").second == 4 * nodes))
-        restore_unused(tags, nodes, mesh);
-    return mesh;
-}
-
 // Gmsh 4.1 and MEDIT, both ASCII with 17 digits, one entity (3, 1) holding all tets.
 // Formats: Gmsh reference manual 4.8, "MSH file format"; MEDIT, Frey, "MEDIT: an interactive mesh visualization software" (INRIA, 2001).
-
-namespace {
 
 // 17 significant digits name a double exactly. Whatever the locale of the program that uses this library.
 void write_text(const std::string& path, const std::function<void(std::ostringstream&)>& write)
@@ -242,6 +200,29 @@ void write_msh_entities(std::ostringstream& file, const Positions& points)
 }
 
 }  // namespace
+
+long long check_gmsh_file(const std::string& path)
+{
+    const std::string text = read_text_file(path);
+    is_msh(path) ? check_msh(path, text) : check_medit(path, text);
+    load_module(module_name);
+    return is_msh(path) ? nodes_in_msh(text) : vertices_in_medit(text);
+}
+
+TetMesh read_gmsh(const std::string& path, const std::string& named)
+{
+    TetMesh mesh;
+    std::vector<std::size_t> tags;
+    load_module(module_name)
+        .function<void(const std::string&, const std::string&, TetMesh&, std::vector<std::size_t>&)>("pbskin_gmsh_read")(path, named, mesh,
+                                                                                                                         tags);
+    const std::string text = read_text_file(path);
+    const bool msh = is_msh(path);
+    const long long nodes = msh ? nodes_in_msh(text) : vertices_in_medit(text);
+    if (nodes > mesh.rest.rows() && (msh ? has_all_nodes(text, nodes) : medit_section(text, "Vertices").second == 4 * nodes))
+        restore_unused(tags, nodes, mesh);
+    return mesh;
+}
 
 void write_msh(const std::string& path, const TetMesh& mesh)
 {

@@ -51,24 +51,24 @@ std::vector<std::size_t> order_of(const std::vector<std::size_t>& tags)
 }
 
 // tags: of the points, ascending.
-IndexedPoints current_tets(const std::string& path, std::vector<std::size_t>& tags)
+TetMesh current_tets(const std::string& path, std::vector<std::size_t>& tags)
 {
     std::vector<std::size_t> node_tags, tet_tags, corners;
     std::vector<double> coordinates, parametric;
     gmsh::model::mesh::getNodes(node_tags, coordinates, parametric, -1, -1, false, false);
     gmsh::model::mesh::getElementsByType(tet_type, tet_tags, corners);
 
-    IndexedPoints mesh;
-    mesh.points.resize(static_cast<Eigen::Index>(node_tags.size()), 3);
+    TetMesh mesh;
+    mesh.rest.resize(static_cast<Eigen::Index>(node_tags.size()), 3);
     std::unordered_map<std::size_t, int> index_of;
     for (const std::size_t from : order_of(node_tags)) {
         const int to = static_cast<int>(index_of.size());
         if (!index_of.emplace(node_tags[from], to).second)
             throw InputError(path, 0, "node", std::to_string(node_tags[from]), "expected each tag once");
         tags.push_back(node_tags[from]);
-        mesh.points.row(to) << coordinates[3 * from], coordinates[3 * from + 1], coordinates[3 * from + 2];
+        mesh.rest.row(to) << coordinates[3 * from], coordinates[3 * from + 1], coordinates[3 * from + 2];
     }
-    mesh.cells.resize(static_cast<Eigen::Index>(tet_tags.size()), 4);
+    mesh.tets.resize(static_cast<Eigen::Index>(tet_tags.size()), 4);
     Eigen::Index to = 0;
     for (const std::size_t from : order_of(tet_tags)) {
         for (std::size_t k = 0; k < 4; ++k) {
@@ -76,7 +76,7 @@ IndexedPoints current_tets(const std::string& path, std::vector<std::size_t>& ta
             if (found == index_of.end())
                 throw InputError(path, 0, "element " + std::to_string(tet_tags[from]), std::to_string(corners[4 * from + k]),
                                  "expected the tag of a node");
-            mesh.cells(to, static_cast<Eigen::Index>(k)) = found->second;
+            mesh.tets(to, static_cast<Eigen::Index>(k)) = found->second;
         }
         ++to;
     }
@@ -87,8 +87,7 @@ IndexedPoints current_tets(const std::string& path, std::vector<std::size_t>& ta
 }  // namespace pbs
 
 // named: what Gmsh opens; path: what errors name.
-extern "C" void pbskin_gmsh_read(const std::string& path, const std::string& named, pbs::IndexedPoints& mesh,
-                                 std::vector<std::size_t>& tags)
+extern "C" void pbskin_gmsh_read(const std::string& path, const std::string& named, pbs::TetMesh& mesh, std::vector<std::size_t>& tags)
 {
     const pbs::GmshSession session;
     try {

@@ -11,7 +11,6 @@
 #include <CGAL/Polygon_mesh_processing/triangulate_faces.h>
 #include <CGAL/Surface_mesh.h>
 
-#include <array>
 #include <fstream>
 #include <vector>
 
@@ -20,28 +19,25 @@ namespace {
 
 using Point = CGAL::Exact_predicates_inexact_constructions_kernel::Point_3;
 using Polygon = std::vector<std::size_t>;
-using Triangle = std::array<std::size_t, 3>;
 
 // CGAL splits faces of a mesh: a mesh of this one polygon, its vertices numbered by corner.
-void add_triangles(const std::vector<Point>& points, const Polygon& polygon, std::vector<Triangle>& triangles)
+void add_triangles(const std::vector<Point>& points, const Polygon& polygon, std::vector<int>& triangles)
 {
-    if (polygon.size() == 3) return triangles.push_back({polygon[0], polygon[1], polygon[2]});
+    if (polygon.size() == 3) return static_cast<void>(triangles.insert(triangles.end(), polygon.begin(), polygon.end()));
     CGAL::Surface_mesh<Point> mesh;
     std::vector<CGAL::Surface_mesh<Point>::Vertex_index> corners;
     for (const std::size_t vertex : polygon) corners.push_back(mesh.add_vertex(points[vertex]));
     mesh.add_face(corners);
     CGAL::Polygon_mesh_processing::triangulate_faces(mesh);
-    for (const auto face : mesh.faces()) {
-        Triangle triangle{};
-        std::size_t k = 0;
-        for (const auto vertex : mesh.vertices_around_face(mesh.halfedge(face))) triangle[k++ % 3] = polygon[vertex.idx()];
-        triangles.push_back(triangle);
-    }
+    for (const auto face : mesh.faces())
+        for (const auto vertex : mesh.vertices_around_face(mesh.halfedge(face)))
+            triangles.push_back(static_cast<int>(polygon[vertex.idx()]));
 }
 
-std::vector<Triangle> triangulated(const std::string& path, const std::vector<Point>& points, const std::vector<Polygon>& polygons)
+// The corners of all triangles.
+std::vector<int> triangulated(const std::string& path, const std::vector<Point>& points, const std::vector<Polygon>& polygons)
 {
-    std::vector<Triangle> triangles;
+    std::vector<int> triangles;
     if (!polygons.empty()) require_points(path, static_cast<long long>(points.size()));
     for (std::size_t f = 0; f < polygons.size(); ++f) {
         for (const std::size_t vertex : polygons[f])
@@ -64,7 +60,7 @@ bool read_soup(const std::string& path, std::vector<Point>& points, std::vector<
 
 }  // namespace
 
-IndexedPoints read_polygons(const std::string& path)
+SurfaceMesh read_polygons(const std::string& path)
 {
     std::vector<Point> points;
     std::vector<Polygon> polygons;
@@ -73,15 +69,12 @@ IndexedPoints read_polygons(const std::string& path)
         throw InputError(path, 0, "", "",
                          "damaged: CGAL read " + std::to_string(points.size()) + " points and " + std::to_string(polygons.size()) +
                              " faces, and no further");
-    const std::vector<Triangle> triangles = triangulated(path, points, polygons);
-    IndexedPoints mesh;
+    const std::vector<int> triangles = triangulated(path, points, polygons);
+    SurfaceMesh mesh;
     mesh.points.resize(static_cast<Eigen::Index>(points.size()), 3);
     for (std::size_t i = 0; i < points.size(); ++i)
         mesh.points.row(static_cast<Eigen::Index>(i)) << points[i].x(), points[i].y(), points[i].z();
-    mesh.cells.resize(static_cast<Eigen::Index>(triangles.size()), 3);
-    for (std::size_t f = 0; f < triangles.size(); ++f)
-        for (std::size_t k = 0; k < 3; ++k)
-            mesh.cells(static_cast<Eigen::Index>(f), static_cast<Eigen::Index>(k)) = static_cast<int>(triangles[f][k]);
+    mesh.triangles = Eigen::Map<const Triangles>(triangles.data(), static_cast<Eigen::Index>(triangles.size() / 3), 3);
     return mesh;
 }
 

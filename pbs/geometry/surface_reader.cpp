@@ -17,37 +17,27 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
-#include <iterator>
 #include <map>
-#include <new>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace pbs {
-
-// The conditions on a surface; each violation is an InputError that names the file, the place, its value and the rule.
-
-// Checks the surface as the file has it: at least one triangle and one point, finite coordinates within 1e9 m, indices in range.
-void check_raw_surface(const std::string& path, const IndexedPoints& mesh);
-
-// Surfaces by assimp, in its single precision.
-
 namespace {
+
+constexpr double farthest_m = 1e9;
+constexpr std::array<std::string_view, 9> extensions = {".obj", ".ply", ".off", ".stl", ".gltf", ".glb", ".dae", ".zae", ".fbx"};
 
 // assimp takes a negative index of COLLADA's <p> for 0 and goes on with a torn surface.
 void refuse_negative_indices(const std::string& path)
 {
-    std::ifstream file(path, std::ios::binary);
-    const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+    const std::string text = read_text_file(path, most_mesh_bytes);
     for (std::size_t open = text.find("<p"); open != std::string::npos; open = text.find("<p", open + 1)) {
         if (text.find_first_of("> \t\r\n", open) != open + 2) continue;  // <param, ...
         const std::size_t begin = text.find('>', open), close = std::min(text.find('<', open + 1), text.size());
         const std::size_t minus = text.find('-', begin);
         if (minus >= close) continue;
-        const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(minus), '\n');
-        throw InputError(path, static_cast<int>(line), "p", text.substr(minus, text.find_first_of(" \t\r\n<", minus) - minus),
+        throw InputError(path, line_at(text, minus), "p", text.substr(minus, text.find_first_of(" \t\r\n<", minus) - minus),
                          "expected indices from 0");
     }
 }
@@ -89,24 +79,19 @@ private:
 };
 
 struct Collected {
-    std::vector<Vec3> points;
-    std::vector<std::array<int, 3>> triangles;
-    std::string names;  // of all meshes
+    std::vector<double> points;
+    std::vector<int> corners;  // of triangles
+    std::string names;         // of all meshes
 };
 
 void add_mesh(const aiMesh& mesh, const aiMatrix4x4& to_world, Collected& collected)
 {
-    const int first = static_cast<int>(collected.points.size());
+    const int first = static_cast<int>(collected.points.size() / 3);
     for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
         const aiVector3D p = to_world * mesh.mVertices[i];
-        collected.points.emplace_back(p.x, p.y, p.z);
+        collected.points.insert(collected.points.end(), {p.x, p.y, p.z});
     }
-    for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
-        const aiFace& face = mesh.mFaces[f];
-        if (face.mNumIndices != 3) continue;  // points and lines
-        collected.triangles.push_back({first + static_cast<int>(face.mIndices[0]), first + static_cast<int>(face.mIndices[1]),
-                                       first + static_cast<int>(face.mIndices[2])});
-    }
+    add_triangles(mesh, first, collected.corners);
 }
 
 // Meshes under a node, in world space.
@@ -122,62 +107,43 @@ void add_node(const aiScene& scene, const aiNode& node, const aiMatrix4x4& paren
     for (unsigned i = 0; i < node.mNumChildren; ++i) add_node(scene, *node.mChildren[i], to_world, wanted, collected);
 }
 
-}  // namespace
-
-IndexedPoints read_assimp(const std::string& path, const std::string& mesh_name)
+// By assimp, in its single precision.
+SurfaceMesh read_assimp(const std::string& path, const std::string& mesh_name)
 {
     if (format_extension(path) == ".dae") refuse_negative_indices(path);
     Assimp::Importer importer;
-    const OwnFolder& files = only_own_folder(importer, path);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);
     const LeftOut left_out;
-    const aiScene* scene = importer.ReadFile(files.name_by_content(), aiProcess_Triangulate);
-    if (!scene) files.refuse_what_was_referred_to();
-    if (importer.GetErrorString() == std::string("std::bad_alloc")) throw std::bad_alloc();  // which assimp catches
-    if (!scene || !scene->mRootNode) throw InputError(path, 0, "", "", std::string("assimp: ") + importer.GetErrorString());
-
+    const aiScene& scene = read_scene(importer, path, aiProcess_Triangulate);
     left_out.throw_if_any(path);
 
     Collected collected;
-    add_node(*scene, *scene->mRootNode, aiMatrix4x4(), mesh_name, collected);
-    if (collected.triangles.empty() && !mesh_name.empty())
+    add_node(scene, *scene.mRootNode, aiMatrix4x4(), mesh_name, collected);
+    if (collected.corners.empty() && !mesh_name.empty())
         throw InputError(path, 0, "mesh", mesh_name, "expected one of the file's meshes: " + collected.names);
-    const double unit_m = metres_per_unit(*scene);
-    IndexedPoints mesh;
-    mesh.points.resize(static_cast<Eigen::Index>(collected.points.size()), 3);
-    mesh.cells.resize(static_cast<Eigen::Index>(collected.triangles.size()), 3);
-    for (std::size_t i = 0; i < collected.points.size(); ++i)
-        mesh.points.row(static_cast<Eigen::Index>(i)) = unit_m * collected.points[i].transpose();
-    for (std::size_t f = 0; f < collected.triangles.size(); ++f)
-        mesh.cells.row(static_cast<Eigen::Index>(f)) << collected.triangles[f][0], collected.triangles[f][1], collected.triangles[f][2];
-    return mesh;
+    const auto points = static_cast<Eigen::Index>(collected.points.size() / 3),
+               triangles = static_cast<Eigen::Index>(collected.corners.size() / 3);
+    return {metres_per_unit(scene) * Eigen::Map<const Positions>(collected.points.data(), points, 3),
+            Eigen::Map<const Triangles>(collected.corners.data(), triangles, 3)};
 }
 
-namespace {
-
-constexpr double farthest_m = 1e9;
-
-}  // namespace
-
-void check_raw_surface(const std::string& path, const IndexedPoints& mesh)
+// The surface as the file has it: at least one triangle and one point, finite coordinates within 1e9 m, indices in range. Each violation is
+// an InputError that names the file, the place, its value and the rule.
+void check_raw_surface(const std::string& path, const SurfaceMesh& mesh)
 {
-    if (mesh.cells.rows() == 0) throw InputError(path, 0, "triangles", "0", "expected at least one triangle");
+    if (mesh.triangles.rows() == 0) throw InputError(path, 0, "triangles", "0", "expected at least one triangle");
     for (Eigen::Index i = 0; i < mesh.points.rows(); ++i)
         if (!(mesh.points.row(i).cwiseAbs().maxCoeff() <= farthest_m && mesh.points.row(i).allFinite()))
             throw InputError(path, 0, "vertex " + std::to_string(i), "", "expected finite coordinates within 1e9 m of the origin");
     require_points(path, mesh.points.rows());
-    for (Eigen::Index f = 0; f < mesh.cells.rows(); ++f)
-        for (Eigen::Index k = 0; k < 3; ++k)
-            if (mesh.cells(f, k) < 0 || mesh.cells(f, k) >= mesh.points.rows())
-                throw InputError(path, 0, "triangle " + std::to_string(f) + " vertex", std::to_string(mesh.cells(f, k)),
+    for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f)
+        for (const int point : mesh.triangles.row(f))
+            if (point < 0 || point >= mesh.points.rows())
+                throw InputError(path, 0, "triangle " + std::to_string(f) + " vertex", std::to_string(point),
                                  expected_whole("an index", 0, mesh.points.rows() - 1));
 }
 
-namespace {
-
-constexpr std::array<std::string_view, 9> extensions = {".obj", ".ply", ".off", ".stl", ".gltf", ".glb", ".dae", ".zae", ".fbx"};
-
-IndexedPoints read_by_library(const std::string& path, const std::string& mesh_name)
+SurfaceMesh read_by_library(const std::string& path, const std::string& mesh_name)
 {
     const std::string extension = format_extension(path);
     if (extension != ".ply" && extension != ".off" && extension != ".stl") return read_assimp(path, mesh_name);
@@ -189,22 +155,22 @@ IndexedPoints read_by_library(const std::string& path, const std::string& mesh_n
 #endif
 }
 
-int unused_points(const IndexedPoints& mesh)
+int unused_points(const SurfaceMesh& mesh)
 {
     std::vector<bool> used(static_cast<std::size_t>(mesh.points.rows()));
-    for (const int point : mesh.cells.reshaped()) used[static_cast<std::size_t>(point)] = true;
+    for (const int point : mesh.triangles.reshaped()) used[static_cast<std::size_t>(point)] = true;
     return static_cast<int>(std::count(used.begin(), used.end(), false));
 }
 
 // The points that triangles use, in the order of first use; triangles that joining makes a line or a point are left out.
-SurfaceMesh joined(const std::string& path, const IndexedPoints& mesh)
+SurfaceMesh joined(const std::string& path, const SurfaceMesh& mesh)
 {
     std::map<std::array<double, 3>, int> index_of;
     std::vector<std::array<int, 3>> triangles;
-    for (Eigen::Index f = 0; f < mesh.cells.rows(); ++f) {
+    for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {
         std::array<int, 3> triangle{};
         for (Eigen::Index k = 0; k < 3; ++k) {
-            const auto p = mesh.points.row(mesh.cells(f, k));
+            const auto p = mesh.points.row(mesh.triangles(f, k));
             triangle[static_cast<std::size_t>(k)] =
                 index_of.emplace(std::array{p(0), p(1), p(2)}, static_cast<int>(index_of.size())).first->second;
         }
@@ -217,18 +183,18 @@ SurfaceMesh joined(const std::string& path, const IndexedPoints& mesh)
         surface.triangles.row(static_cast<Eigen::Index>(f)) << triangles[f][0], triangles[f][1], triangles[f][2];
     require_extent(path, surface.points);
     if (triangles.empty())
-        throw InputError(path, 0, "triangles", std::to_string(mesh.cells.rows()), "expected one whose three corners differ");
+        throw InputError(path, 0, "triangles", std::to_string(mesh.triangles.rows()), "expected one whose three corners differ");
     return surface;
 }
 
-IndexedPoints checked_points(const std::string& path, const std::string& mesh_name)
+SurfaceMesh checked_points(const std::string& path, const std::string& mesh_name)
 {
     require_readable(path, most_mesh_bytes);
     const std::string content = content_extension(path), extension = format_extension(path);
     if (std::find(extensions.begin(), extensions.end(), extension) == extensions.end())
         throw InputError(path, 0, content.empty() ? "extension" : "format of the content", extension,
                          "expected a surface: .obj, .ply, .off, .stl, .gltf, .glb, .dae, .zae or .fbx");
-    IndexedPoints read = read_guarded(path, [&](const std::string& file) { return read_by_library(file, mesh_name); });
+    SurfaceMesh read = read_guarded(path, [&](const std::string& file) { return read_by_library(file, mesh_name); });
     check_raw_surface(path, read);
     return read;
 }
@@ -242,10 +208,10 @@ SurfaceMesh read_surface(const std::string& path, const std::string& mesh_name)
 
 SurfaceMesh read_surface(const std::string& path, std::vector<std::string>& remarks, double scale)
 {
-    const IndexedPoints read = checked_points(path, "");
+    const SurfaceMesh read = checked_points(path, "");
     SurfaceMesh surface = joined(path, read);
     surface.points *= scale;
-    remarks = remarks_on(path, surface, unused_points(read), static_cast<int>(read.cells.rows() - surface.triangles.rows()));
+    remarks = remarks_on(path, surface, unused_points(read), static_cast<int>(read.triangles.rows() - surface.triangles.rows()));
     if (const std::string content = content_extension(path); !content.empty() && content != lower_extension(path))
         remarks.insert(remarks.begin(), remark_on_name(path, content));
     return surface;

@@ -9,9 +9,127 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <ranges>
 #include <utility>
 
 namespace pbs {
+namespace {
+
+// Of refinement.
+using Nodes = std::array<int, 10>;  // of a tet: its corners, then the midpoints of 01, 02, 03, 12, 13, 23
+constexpr std::array<std::array<int, 2>, 6> edge_corners = {{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
+
+// The children in nodes of their parent, positively oriented.
+using Children = std::array<std::array<int, 4>, 4>;
+constexpr Children at_corners = {{{0, 4, 5, 6}, {4, 1, 7, 8}, {5, 7, 2, 9}, {6, 8, 9, 3}}};
+
+// The octahedron's diagonals, and its four tets round each of them.
+struct Diagonal {
+    int from, to;
+    Children tets;
+};
+constexpr std::array<Diagonal, 3> diagonals = {{{4, 9, {{{4, 9, 7, 5}, {4, 9, 8, 7}, {4, 9, 6, 8}, {4, 9, 5, 6}}}},
+                                                {5, 8, {{{5, 8, 4, 7}, {5, 8, 7, 9}, {5, 8, 9, 6}, {5, 8, 6, 4}}}},
+                                                {6, 7, {{{6, 7, 8, 4}, {6, 7, 9, 8}, {6, 7, 5, 9}, {6, 7, 4, 5}}}}}};
+
+// Row of `edges`, which are sorted.
+int index_of_edge(const Edges& edges, int a, int b)
+{
+    const std::pair<int, int> wanted = std::minmax(a, b);
+    const auto vertices = [&](Eigen::Index e) { return std::pair(edges(e, 0), edges(e, 1)); };
+    return static_cast<int>(*std::ranges::lower_bound(std::views::iota(Eigen::Index(0), edges.rows()), wanted, {}, vertices));
+}
+
+Nodes nodes_of(const TetMesh& mesh, const Edges& edges, Eigen::Index tet)
+{
+    Nodes nodes;
+    for (int corner = 0; corner < 4; ++corner) nodes[corner] = mesh.tets(tet, corner);
+    for (std::size_t e = 0; e < edge_corners.size(); ++e)
+        nodes[4 + e] = static_cast<int>(mesh.rest.rows()) + index_of_edge(edges, nodes[edge_corners[e][0]], nodes[edge_corners[e][1]]);
+    return nodes;
+}
+
+const Diagonal& shortest_diagonal(const Positions& rest, const Nodes& nodes)
+{
+    const auto squared_length = [&](const Diagonal& diagonal) {
+        return (rest.row(nodes[diagonal.from]) - rest.row(nodes[diagonal.to])).squaredNorm();
+    };
+    return *std::min_element(diagonals.begin(), diagonals.end(),
+                             [&](const Diagonal& a, const Diagonal& b) { return squared_length(a) < squared_length(b); });
+}
+
+// Of the tet at a point.
+constexpr double on_face = 1e-10;  // of a barycentric coordinate: some 1e5 roundings of a well-shaped tet
+
+Vec3 barycentric_in(const TetMesh& mesh, Eigen::Index tet, const Vec3& point)
+{
+    const auto corner = [&](int c) -> Vec3 { return mesh.rest.row(mesh.tets(tet, c)); };
+    Eigen::Matrix3d edges;
+    edges << corner(1) - corner(0), corner(2) - corner(0), corner(3) - corner(0);
+    return edges.inverse() * (point - corner(0));
+}
+
+// Of regions.
+constexpr int none = -1;
+using Neighbours = std::vector<std::array<int, 4>>;  // over the faces of each tet, opposite to its vertices; or none
+
+// A face in more than two tets joins the first two.
+Neighbours neighbours_over_faces(const Tets& tets)
+{
+    Neighbours neighbours(tets.rows(), {none, none, none, none});
+    const std::vector<TetFace> faces = sorted_faces(tets);
+    for (std::size_t f = 1; f < faces.size(); ++f) {
+        const TetFace &a = faces[f - 1], &b = faces[f];
+        if (a.sorted != b.sorted || (f > 1 && a.sorted == faces[f - 2].sorted)) continue;
+        neighbours[a.tet][a.face] = b.tet;
+        neighbours[b.tet][b.face] = a.tet;
+    }
+    return neighbours;
+}
+
+// Takes tets without a region, breadth-first from `first`, until there are `most`; calls take(tet) for each.
+template <typename IsFree, typename Take>
+std::vector<int> grow(int first, const Neighbours& neighbours, std::size_t most, const IsFree& is_free, const Take& take)
+{
+    std::vector<int> grown = {first};
+    take(first);
+    for (std::size_t done = 0; done < grown.size(); ++done)
+        for (const int t : neighbours[grown[done]]) {
+            if (t == none || grown.size() == most || !is_free(t)) continue;
+            take(t);
+            grown.push_back(t);
+        }
+    return grown;
+}
+
+std::vector<int> breadth_first(const Neighbours& neighbours)
+{
+    std::vector<bool> visited(neighbours.size(), false);
+    std::vector<int> order;
+    for (std::size_t t = 0; t < neighbours.size(); ++t) {
+        if (visited[t]) continue;
+        const std::vector<int> part = grow(
+            static_cast<int>(t), neighbours, neighbours.size(), [&](int other) { return !visited[other]; },
+            [&](int other) { visited[other] = true; });
+        order.insert(order.end(), part.begin(), part.end());
+    }
+    return order;
+}
+
+// The other region with most faces to these tets of region `own`, the first of equals; none where there is no other one.
+int nearest_region(const std::vector<int>& part, int own, const Neighbours& neighbours, const std::vector<int>& region)
+{
+    std::map<int, int> faces;
+    for (const int t : part)
+        for (const int other : neighbours[t])
+            if (other != none && region[other] != own) ++faces[region[other]];
+    int nearest = none;
+    for (const auto& [of, count] : faces)
+        if (nearest == none || count > faces[nearest]) nearest = of;
+    return nearest;
+}
+
+}  // namespace
 
 Eigen::VectorXd tet_volumes(const Positions& positions, const Tets& tets)
 {
@@ -39,59 +157,6 @@ double fan_volume(const Positions& points, const Triangles& triangles)
     return volume;
 }
 
-namespace {
-
-using Nodes = std::array<int, 10>;  // of a tet: its corners, then the midpoints of 01, 02, 03, 12, 13, 23
-constexpr std::array<std::array<int, 2>, 6> edge_corners = {{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
-
-// The children in nodes of their parent, positively oriented.
-using Children = std::array<std::array<int, 4>, 4>;
-constexpr Children at_corners = {{{0, 4, 5, 6}, {4, 1, 7, 8}, {5, 7, 2, 9}, {6, 8, 9, 3}}};
-
-// The octahedron's diagonals, and its four tets round each of them.
-struct Diagonal {
-    int from, to;
-    Children tets;
-};
-constexpr std::array<Diagonal, 3> diagonals = {{{4, 9, {{{4, 9, 7, 5}, {4, 9, 8, 7}, {4, 9, 6, 8}, {4, 9, 5, 6}}}},
-                                                {5, 8, {{{5, 8, 4, 7}, {5, 8, 7, 9}, {5, 8, 9, 6}, {5, 8, 6, 4}}}},
-                                                {6, 7, {{{6, 7, 8, 4}, {6, 7, 9, 8}, {6, 7, 5, 9}, {6, 7, 4, 5}}}}}};
-
-// Row of `edges`, which are sorted.
-int index_of_edge(const Edges& edges, int a, int b)
-{
-    const std::array<int, 2> wanted = {std::min(a, b), std::max(a, b)};
-    Eigen::Index first = 0, last = edges.rows();
-    while (first < last) {
-        const Eigen::Index middle = (first + last) / 2;
-        if (std::array<int, 2>{edges(middle, 0), edges(middle, 1)} < wanted)
-            first = middle + 1;
-        else
-            last = middle;
-    }
-    return static_cast<int>(first);
-}
-
-Nodes nodes_of(const TetMesh& mesh, const Edges& edges, Eigen::Index tet)
-{
-    Nodes nodes;
-    for (int corner = 0; corner < 4; ++corner) nodes[corner] = mesh.tets(tet, corner);
-    for (std::size_t e = 0; e < edge_corners.size(); ++e)
-        nodes[4 + e] = static_cast<int>(mesh.rest.rows()) + index_of_edge(edges, nodes[edge_corners[e][0]], nodes[edge_corners[e][1]]);
-    return nodes;
-}
-
-const Diagonal& shortest_diagonal(const Positions& rest, const Nodes& nodes)
-{
-    const auto squared_length = [&](const Diagonal& diagonal) {
-        return (rest.row(nodes[diagonal.from]) - rest.row(nodes[diagonal.to])).squaredNorm();
-    };
-    return *std::min_element(diagonals.begin(), diagonals.end(),
-                             [&](const Diagonal& a, const Diagonal& b) { return squared_length(a) < squared_length(b); });
-}
-
-}  // namespace
-
 Refinement refine(const TetMesh& mesh)
 {
     Refinement fine;
@@ -115,20 +180,6 @@ Positions prolongated(const Positions& coarse, const Edges& parents)
         fine.row(coarse.rows() + e) = 0.5 * (coarse.row(parents(e, 0)) + coarse.row(parents(e, 1)));
     return fine;
 }
-
-namespace {
-
-constexpr double on_face = 1e-10;  // of a barycentric coordinate: some 1e5 roundings of a well-shaped tet
-
-Vec3 barycentric_in(const TetMesh& mesh, Eigen::Index tet, const Vec3& point)
-{
-    const auto corner = [&](int c) -> Vec3 { return mesh.rest.row(mesh.tets(tet, c)); };
-    Eigen::Matrix3d edges;
-    edges << corner(1) - corner(0), corner(2) - corner(0), corner(3) - corner(0);
-    return edges.inverse() * (point - corner(0));
-}
-
-}  // namespace
 
 PointLocation::PointLocation(const TetMesh& mesh) : mesh_(mesh), low_(mesh.rest.colwise().minCoeff())
 {
@@ -182,76 +233,6 @@ Location PointLocation::locate(const Vec3& point) const
     }
     return {};
 }
-
-namespace {
-
-constexpr int none = -1;
-using Neighbours = std::vector<std::array<int, 4>>;  // over the faces of each tet, opposite to its vertices; or none
-
-// A face in more than two tets joins the first two.
-Neighbours neighbours_over_faces(const Tets& tets)
-{
-    Neighbours neighbours(tets.rows(), {none, none, none, none});
-    std::map<std::array<int, 3>, std::pair<int, int>> open;  // face -> tet and place of the face that wait for the other side
-    for (int t = 0; t < tets.rows(); ++t)
-        for (int opposite = 0; opposite < 4; ++opposite) {
-            std::array<int, 3> face;
-            for (int v = 0, corner = 0; v < 4; ++v)
-                if (v != opposite) face[corner++] = tets(t, v);
-            std::ranges::sort(face);
-            const auto [found, is_first] = open.try_emplace(face, t, opposite);
-            if (is_first) continue;
-            const auto [other, place] = found->second;
-            if (neighbours[other][place] != none) continue;
-            neighbours[other][place] = t;
-            neighbours[t][opposite] = other;
-        }
-    return neighbours;
-}
-
-// Takes tets without a region, breadth-first from `first`, until there are `most`; calls take(tet) for each.
-template <typename IsFree, typename Take>
-std::vector<int> grow(int first, const Neighbours& neighbours, std::size_t most, const IsFree& is_free, const Take& take)
-{
-    std::vector<int> grown = {first};
-    take(first);
-    for (std::size_t done = 0; done < grown.size(); ++done)
-        for (const int t : neighbours[grown[done]]) {
-            if (t == none || grown.size() == most || !is_free(t)) continue;
-            take(t);
-            grown.push_back(t);
-        }
-    return grown;
-}
-
-std::vector<int> breadth_first(const Neighbours& neighbours)
-{
-    std::vector<bool> visited(neighbours.size(), false);
-    std::vector<int> order;
-    for (std::size_t t = 0; t < neighbours.size(); ++t) {
-        if (visited[t]) continue;
-        const std::vector<int> part = grow(
-            static_cast<int>(t), neighbours, neighbours.size(), [&](int other) { return !visited[other]; },
-            [&](int other) { visited[other] = true; });
-        order.insert(order.end(), part.begin(), part.end());
-    }
-    return order;
-}
-
-// The other region with most faces to these tets of region `own`, the first of equals; none where there is no other one.
-int nearest_region(const std::vector<int>& part, int own, const Neighbours& neighbours, const std::vector<int>& region)
-{
-    std::map<int, int> faces;
-    for (const int t : part)
-        for (const int other : neighbours[t])
-            if (other != none && region[other] != own) ++faces[region[other]];
-    int nearest = none;
-    for (const auto& [of, count] : faces)
-        if (nearest == none || count > faces[nearest]) nearest = of;
-    return nearest;
-}
-
-}  // namespace
 
 std::vector<int> tet_regions(const Tets& tets, int region_size)
 {

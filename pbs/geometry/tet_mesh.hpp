@@ -21,8 +21,6 @@ struct TetMesh {
     Tets tets;       // #T x 4, positively oriented: (p2-p1) x (p3-p1) . (p4-p1) > 0
 };
 
-// Signed volumes of tets, in double. Indices of tets are in range (unchecked).
-
 // Signed volume [m^3] of one tet: (p2 - p1) x (p3 - p1) . (p4 - p1) / 6; negative when inverted.
 inline double tet_volume(const Vec3& p1, const Vec3& p2, const Vec3& p3, const Vec3& p4)
 {
@@ -31,7 +29,7 @@ inline double tet_volume(const Vec3& p1, const Vec3& p2, const Vec3& p3, const V
            (p21(0) * p31(1) - p21(1) * p31(0)) * p41(2) / 6.0;
 }
 
-// Signed volumes [m^3] of all tets, #T.
+// Signed volumes [m^3] of all tets, #T. Indices of tets are in range (unchecked), here and below.
 Eigen::VectorXd tet_volumes(const Positions& positions, const Tets& tets);
 
 // A quarter of the rest volume of each tet around a vertex [m^3], #V: the lumped rest volume.
@@ -48,8 +46,6 @@ double fan_volume(const Positions& points, const Triangles& triangles);
 // B. Joe, Mathematics of Computation 65, 1996), which bounds the mean ratio of its four tets, 12 (3 V)^(2/3) over the sum S of squared
 // edges, from below by 3/4 of their parent's: of the parent's edges they have five, halved, and the diagonal, and the squares of the three
 // diagonals sum to S / 4. Bey's rule (Computing 55, 1995), always 02-13, has three shapes in all but may begin with a long diagonal.
-
-// A refined mesh and where its vertices come from.
 struct Refinement {
     TetMesh mesh;   // tets 8 t .. 8 t + 7 are the children of tet t, oriented as it is; child k < 4 lies at its corner k, which it keeps
     Edges parents;  // the two coarse vertices that new vertex #V_coarse + e lies between: each coarse edge once, sorted
@@ -64,8 +60,7 @@ Positions prolongated(const Positions& coarse, const Edges& parents);
 // Finds the tet that contains a point, with a uniform grid over the mesh's bounding box: one look-up visits a few tets.
 //   const PointLocation where(mesh);
 //   where.locate(point).tet;
-
-// The place of a point in a tet. Its coordinate on corner 1 is 1 - the sum of the others.
+// A place in a tet: its coordinate on corner 1 is 1 - the sum of the others.
 struct Location {
     int tet = -1;                     // -1: outside every tet
     Vec3 barycentric = Vec3::Zero();  // coordinates on corners 2, 3, 4 of that tet
@@ -100,8 +95,7 @@ private:
 // Greedy growing (C. Farhat, A simple and efficient automatic FEM domain decomposer, Computers and Structures 28, 1988): a region begins at
 // the first tet, in breadth-first order over shared faces, that has no region yet, and takes neighbours breadth-first until it is full.
 // A part that is cut off with less than half of the size joins the region to which it has most faces, so that a region may be larger.
-
-// The region of each tet, #T; regions are numbered from 0 in the order in which they begin. region_size: in tets, 1 or more (unchecked). A
+// The region of each tet, #T: regions are numbered from 0 in the order in which they begin. region_size: in tets, 1 or more (unchecked). A
 // connected part of fewer tets than half of that, connected over faces, is a region of its own.
 std::vector<int> tet_regions(const Tets& tets, int region_size);
 

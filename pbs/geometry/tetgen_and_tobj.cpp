@@ -111,21 +111,8 @@ Tets read_elements(const std::string& path, long long points, long long first)
     return Eigen::Map<const Tets>(corners.data(), count, 4);
 }
 
-}  // namespace
-
-TetMesh read_tetgen(const std::string& path)
-{
-    long long first = 0;
-    TetMesh mesh;
-    mesh.rest = read_nodes(std::filesystem::path(path).replace_extension(".node").string(), first);
-    mesh.tets = read_elements(std::filesystem::path(path).replace_extension(".ele").string(), mesh.rest.rows(), first);
-    return mesh;
-}
-
 // .tobj, the tet meshes of HOBAK: lines "v x y z" and "t a b c d", vertices counted from 0; '#' begins a comment, other lines (the
 // triangles of the surface) are left out.
-
-namespace {
 
 // `count` numbers after the first word of a line.
 std::vector<double> numbers_of(const std::string& line, std::size_t count, const std::string& path, int number)
@@ -148,6 +135,15 @@ bool is_of_kind(const std::string& line, char kind)
 }
 
 }  // namespace
+
+TetMesh read_tetgen(const std::string& path)
+{
+    long long first = 0;
+    TetMesh mesh;
+    mesh.rest = read_nodes(std::filesystem::path(path).replace_extension(".node").string(), first);
+    mesh.tets = read_elements(std::filesystem::path(path).replace_extension(".ele").string(), mesh.rest.rows(), first);
+    return mesh;
+}
 
 TetMesh read_tobj(const std::string& path)
 {

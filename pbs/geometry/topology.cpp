@@ -23,12 +23,6 @@ namespace {
 // Faces of a positively oriented tet, outward.
 constexpr std::array<std::array<int, 3>, 4> outward_faces = {{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
 
-struct Face {
-    std::array<int, 3> sorted;  // vertex indices
-    int tet;
-    int face;  // row of outward_faces
-};
-
 struct BoundaryEdge {
     std::array<int, 2> vertex;  // first < second
     std::array<int, 2> corner;  // 3 * triangle + corner, of the first and the second vertex
@@ -87,22 +81,6 @@ std::vector<Entry> sorted_by_vertex(const Each& each, const Vertex& vertex, cons
     return entries;
 }
 
-std::vector<Face> sorted_faces(const Tets& tets)
-{
-    const auto each = [&](const auto& add) {
-        for (int t = 0; t < tets.rows(); ++t)
-            for (int f = 0; f < 4; ++f) {
-                std::array<int, 3> sorted;
-                for (int corner = 0; corner < 3; ++corner) sorted[corner] = tets(t, outward_faces[f][corner]);
-                std::sort(sorted.begin(), sorted.end());
-                add(Face{sorted, t, f});
-            }
-    };
-    return sorted_by_vertex<Face>(
-        each, [](const Face& face) { return face.sorted[0]; },
-        [](const Face& a, const Face& b) { return std::tie(a.sorted, a.tet) < std::tie(b.sorted, b.tet); });
-}
-
 std::vector<BoundaryEdge> sorted_edges(const Triangles& triangles)
 {
     std::vector<BoundaryEdge> edges;
@@ -148,11 +126,11 @@ void examine_boundary(const Triangles& boundary, int boundary_vertex_count, Topo
     topology.boundary_euler = boundary_vertex_count - edge_count + static_cast<int>(boundary.rows());
 }
 
-Triangles boundary_in(const std::vector<Face>& faces, const Tets& tets)
+Triangles boundary_in(const std::vector<TetFace>& faces, const Tets& tets)
 {
     std::vector<std::pair<int, int>> boundary;  // tet, face: in the order of the tets
     for_each_run(
-        faces, [](const Face& face) { return face.sorted; },
+        faces, [](const TetFace& face) { return face.sorted; },
         [&](std::size_t first, std::size_t last) {
             if (last - first == 1) boundary.emplace_back(faces[first].tet, faces[first].face);
         });
@@ -174,7 +152,7 @@ std::vector<bool> vertices_of(const Cells& cells, Eigen::Index vertices)
 }
 
 // The tets in classes of those that faces join.
-Classes joined_by_faces(const std::vector<Face>& faces, Eigen::Index tets)
+Classes joined_by_faces(const std::vector<TetFace>& faces, Eigen::Index tets)
 {
     Classes classes(tets);
     for (std::size_t f = 1; f < faces.size(); ++f)
@@ -195,7 +173,52 @@ std::vector<DirectedEdge> directed_edges(const Triangles& triangles, bool revers
     return edges;
 }
 
+// The six edges of a tet, each with the two corners that are not on it.
+constexpr std::array<std::array<int, 4>, 6> edge_corners = {
+    {{0, 1, 2, 3}, {0, 2, 1, 3}, {0, 3, 1, 2}, {1, 2, 0, 3}, {1, 3, 0, 2}, {2, 3, 0, 1}}};
+
+void examine_dihedrals(const TetMesh& mesh, Quality& quality)
+{
+    quality.min_dihedral_deg = 180.0;
+    for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t) {
+        const std::array<double, 6> angles_deg = dihedral_angles_deg(mesh.rest.row(mesh.tets(t, 0)), mesh.rest.row(mesh.tets(t, 1)),
+                                                                     mesh.rest.row(mesh.tets(t, 2)), mesh.rest.row(mesh.tets(t, 3)));
+        const auto [smallest, largest] = std::minmax_element(angles_deg.begin(), angles_deg.end());
+        quality.min_dihedral_deg = std::min(quality.min_dihedral_deg, *smallest);
+        quality.max_dihedral_deg = std::max(quality.max_dihedral_deg, *largest);
+    }
+}
+
+void examine_edges(const TetMesh& mesh, Quality& quality)
+{
+    const Edges edges = edges_of(mesh.tets);
+    quality.edges = static_cast<int>(edges.rows());
+    quality.shortest_edge_m = std::numeric_limits<double>::infinity();
+    for (Eigen::Index e = 0; e < edges.rows(); ++e) {
+        const double length = (mesh.rest.row(edges(e, 0)) - mesh.rest.row(edges(e, 1))).norm();
+        quality.shortest_edge_m = std::min(quality.shortest_edge_m, length);
+        quality.longest_edge_m = std::max(quality.longest_edge_m, length);
+    }
+}
+
 }  // namespace
+
+std::vector<TetFace> sorted_faces(const Tets& tets)
+{
+    const auto each = [&](const auto& add) {
+        for (int t = 0; t < tets.rows(); ++t)
+            for (int f = 0; f < 4; ++f) {
+                std::array<int, 3> v;
+                for (int corner = 0; corner < 3; ++corner) v[corner] = tets(t, outward_faces[f][corner]);
+                const bool even = (v[0] < v[1]) + (v[1] < v[2]) + (v[2] < v[0]) == 2;
+                std::sort(v.begin(), v.end());
+                add(TetFace{v, t, f, even});
+            }
+    };
+    return sorted_by_vertex<TetFace>(
+        each, [](const TetFace& face) { return face.sorted[0]; },
+        [](const TetFace& a, const TetFace& b) { return std::tie(a.sorted, a.tet) < std::tie(b.sorted, b.tet); });
+}
 
 Edges edges_of(const Tets& tets)
 {
@@ -269,12 +292,12 @@ bool is_watertight(const Triangles& triangles)
 Topology topology_of(const Tets& tets, Eigen::Index vertices)
 {
     Topology topology;
-    const std::vector<Face> faces = sorted_faces(tets);
+    const std::vector<TetFace> faces = sorted_faces(tets);
     const Triangles boundary = boundary_in(faces, tets);
     examine_boundary(boundary, count_used(vertices_of(boundary, vertices)), topology);
 
     for_each_run(
-        faces, [](const Face& face) { return face.sorted; },
+        faces, [](const TetFace& face) { return face.sorted; },
         [&](std::size_t first, std::size_t last) {
             if (last - first > 2) topology.boundary_manifold = false;
         });
@@ -307,38 +330,6 @@ TetMesh kept_tets(const TetMesh& mesh, const std::vector<bool>& kept)
     }
     return {mesh.rest(vertices, Eigen::all), of_file.unaryExpr([&](int v) { return new_index[v]; })};
 }
-
-namespace {
-
-// The six edges of a tet, each with the two corners that are not on it.
-constexpr std::array<std::array<int, 4>, 6> edge_corners = {
-    {{0, 1, 2, 3}, {0, 2, 1, 3}, {0, 3, 1, 2}, {1, 2, 0, 3}, {1, 3, 0, 2}, {2, 3, 0, 1}}};
-
-void examine_dihedrals(const TetMesh& mesh, Quality& quality)
-{
-    quality.min_dihedral_deg = 180.0;
-    for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t) {
-        const std::array<double, 6> angles_deg = dihedral_angles_deg(mesh.rest.row(mesh.tets(t, 0)), mesh.rest.row(mesh.tets(t, 1)),
-                                                                     mesh.rest.row(mesh.tets(t, 2)), mesh.rest.row(mesh.tets(t, 3)));
-        const auto [smallest, largest] = std::minmax_element(angles_deg.begin(), angles_deg.end());
-        quality.min_dihedral_deg = std::min(quality.min_dihedral_deg, *smallest);
-        quality.max_dihedral_deg = std::max(quality.max_dihedral_deg, *largest);
-    }
-}
-
-void examine_edges(const TetMesh& mesh, Quality& quality)
-{
-    const Edges edges = edges_of(mesh.tets);
-    quality.edges = static_cast<int>(edges.rows());
-    quality.shortest_edge_m = std::numeric_limits<double>::infinity();
-    for (Eigen::Index e = 0; e < edges.rows(); ++e) {
-        const double length = (mesh.rest.row(edges(e, 0)) - mesh.rest.row(edges(e, 1))).norm();
-        quality.shortest_edge_m = std::min(quality.shortest_edge_m, length);
-        quality.longest_edge_m = std::max(quality.longest_edge_m, length);
-    }
-}
-
-}  // namespace
 
 std::array<double, 6> dihedral_angles_deg(const Vec3& p1, const Vec3& p2, const Vec3& p3, const Vec3& p4)
 {

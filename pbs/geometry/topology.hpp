@@ -18,14 +18,20 @@ std::vector<bool> boundary_vertices(const Tets& tets, Eigen::Index vertices);  /
 
 // Neighbours of vertex i by edges: first[i] .. first[i + 1] - 1 of `neighbour`.
 struct Adjacency {
-    // #V + 1.
-    std::vector<int> first, neighbour;  // vertex indices, 2 #E, those of a vertex ascending
+    std::vector<int> first, neighbour;  // #V + 1, of all vertices, including those without a tet; 2 #E, those of a vertex ascending
 };
-// Counted over all vertices, including those without a tet.
 Adjacency adjacency_of(const Tets& tets, int vertices);
 
 // The triangles with each corner replaced by the first point at its place. Files of models repeat points along texture seams.
 Triangles joined_triangles(const Positions& points, const Triangles& triangles);
+
+// A face of a tet: its vertices, ascending, and whether they are an even permutation of its outward order.
+struct TetFace {
+    std::array<int, 3> sorted;
+    int tet, face;  // opposite to corner `face` of the tet
+    bool even;
+};
+std::vector<TetFace> sorted_faces(const Tets& tets);  // of all tets, by their vertices and then by their tets
 
 // An edge with its direction in a triangle.
 using DirectedEdge = std::pair<int, int>;
@@ -46,29 +52,23 @@ struct Topology {
 // Without a tet the boundary is manifold, by the letter, and all counts but unused_vertices are zero.
 Topology topology_of(const Tets& tets, Eigen::Index vertices);
 
-// The parts of a tet mesh that no face joins.
-
 // The part of each tet, from 0 in the order of first tets, #T. Tets belong together if they share a face.
 std::vector<int> parts_of(const Tets& tets);
 
 // The tets for which `kept` is true, #T, and the vertices that they use, in their order.
 TetMesh kept_tets(const TetMesh& mesh, const std::vector<bool>& kept);
 
-// How good a tet mesh is.
-
 // Angles [deg] between the faces that meet at each edge: 12, 13, 14, 23, 24, 34; in [0, 180], 0 and 180 where the tet is flat.
 std::array<double, 6> dihedral_angles_deg(const Vec3& p1, const Vec3& p2, const Vec3& p3, const Vec3& p4);
 
 // Quality of the rest pose. Without a tet everything except `vertices` and `topology` is zero.
 struct Quality {
-    // #V; #E, each edge once; #T; #F of boundary_of.
-    int vertices = 0, edges = 0, tets = 0, boundary_triangles = 0, boundary_vertices = 0;  // those in a boundary face
-    double volume_m3 = 0.0;  // signed, so that an inverted tet counts against the others
-    // Least of all tets' dihedral angles, in [0, 180]; 0: a flat tet.
-    double min_dihedral_deg = 0.0, max_dihedral_deg = 0.0;  // largest of them, in [0, 180]; 180: a flat tet
-    // Length of the shortest edge.
-    double shortest_edge_m = 0.0, longest_edge_m = 0.0;  // length of the longest edge
-    Topology topology;                                   // of tets and boundary
+    int vertices = 0, edges = 0, tets = 0;                  // #V; #E, each edge once; #T
+    int boundary_triangles = 0, boundary_vertices = 0;      // #F of boundary_of; those in a boundary face
+    double volume_m3 = 0.0;                                 // signed, so that an inverted tet counts against the others
+    double min_dihedral_deg = 0.0, max_dihedral_deg = 0.0;  // of all tets' dihedral angles, in [0, 180]; 0 and 180: a flat tet
+    double shortest_edge_m = 0.0, longest_edge_m = 0.0;
+    Topology topology;  // of tets and boundary
 };
 // Indices of tets are in range (unchecked).
 Quality quality_of(const TetMesh& mesh);

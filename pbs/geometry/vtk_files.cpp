@@ -3,7 +3,6 @@
 
 #include "pbs/geometry/files.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/mesh_io.hpp"
 #include "pbs/geometry/mesh_io_formats.hpp"
 
 #include <vtkCell.h>
@@ -28,21 +27,12 @@
 
 #include <algorithm>
 #include <locale>
+#include <mutex>
 #include <sstream>
 #include <string>
 #include <vector>
 
 namespace pbs {
-
-// Collects what VTK reports on this thread from the construction of the object on.
-class VtkMessages {
-public:
-    VtkMessages();  // forgets what the thread collected before
-
-    // An InputError with VTK's words, its file and line numbers taken off.
-    void throw_if_any(const std::string& path) const;
-};
-
 namespace {
 
 thread_local std::string collected;
@@ -81,25 +71,25 @@ std::string words_of(const std::string& message)
     return words;
 }
 
-}  // namespace
+// Collects what VTK reports on this thread from the construction of the object on.
+class VtkMessages {
+public:
+    VtkMessages()
+    {
+        static std::once_flag installed;
+        std::call_once(installed, [] {
+            vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
+            vtkOutputWindow::SetInstance(vtkSmartPointer<CollectingWindow>::New());
+        });
+        collected.clear();
+    }
 
-VtkMessages::VtkMessages()
-{
-    static const bool installed = [] {
-        vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
-        vtkOutputWindow::SetInstance(vtkSmartPointer<CollectingWindow>::New());
-        return true;
-    }();
-    static_cast<void>(installed);
-    collected.clear();
-}
-
-void VtkMessages::throw_if_any(const std::string& path) const
-{
-    if (!collected.empty()) throw InputError(path, 0, "", "", "VTK: " + words_of(collected));
-}
-
-namespace {
+    // An InputError with VTK's words, its file and line numbers taken off.
+    void throw_if_any(const std::string& path) const
+    {
+        if (!collected.empty()) throw InputError(path, 0, "", "", "VTK: " + words_of(collected));
+    }
+};
 
 template <typename Reader>
 vtkSmartPointer<vtkUnstructuredGrid> grid_of(const std::string& path, Reader& reader)
@@ -143,33 +133,6 @@ std::vector<vtkIdType> tet_cells(const std::string& path, vtkUnstructuredGrid& g
     }
     return cells;
 }
-
-}  // namespace
-
-IndexedPoints read_vtk(const std::string& path)
-{
-    const vtkSmartPointer<vtkUnstructuredGrid> grid = read_grid(path);
-    const std::vector<vtkIdType> cells = tet_cells(path, *grid);
-    const vtkIdType points = grid->GetNumberOfPoints();
-
-    IndexedPoints mesh;
-    mesh.points.resize(points, 3);
-    for (vtkIdType i = 0; i < points; ++i) grid->GetPoint(i, mesh.points.row(i).data());
-    mesh.cells.resize(static_cast<Eigen::Index>(cells.size()), 4);
-    vtkNew<vtkIdList> corners;
-    for (std::size_t t = 0; t < cells.size(); ++t) {
-        grid->GetCellPoints(cells[t], corners);
-        if (corners->GetNumberOfIds() != 4)
-            throw InputError(path, 0, "cell " + std::to_string(cells[t]) + " vertices", std::to_string(corners->GetNumberOfIds()),
-                             "expected 4");
-        for (int corner = 0; corner < 4; ++corner)
-            mesh.cells(static_cast<Eigen::Index>(t), corner) =
-                checked_index(path, static_cast<long long>(t), corners->GetId(corner), points);
-    }
-    return mesh;
-}
-
-namespace {
 
 void require_length(const std::string& path, const std::string& field, Eigen::Index length, Eigen::Index expected)
 {
@@ -244,6 +207,29 @@ void write_xml(const std::string& path, vtkXMLWriter& writer)
 }
 
 }  // namespace
+
+TetMesh read_vtk(const std::string& path)
+{
+    const vtkSmartPointer<vtkUnstructuredGrid> grid = read_grid(path);
+    const std::vector<vtkIdType> cells = tet_cells(path, *grid);
+    const vtkIdType points = grid->GetNumberOfPoints();
+
+    TetMesh mesh;
+    mesh.rest.resize(points, 3);
+    for (vtkIdType i = 0; i < points; ++i) grid->GetPoint(i, mesh.rest.row(i).data());
+    mesh.tets.resize(static_cast<Eigen::Index>(cells.size()), 4);
+    vtkNew<vtkIdList> corners;
+    for (std::size_t t = 0; t < cells.size(); ++t) {
+        grid->GetCellPoints(cells[t], corners);
+        if (corners->GetNumberOfIds() != 4)
+            throw InputError(path, 0, "cell " + std::to_string(cells[t]) + " vertices", std::to_string(corners->GetNumberOfIds()),
+                             "expected 4");
+        for (int corner = 0; corner < 4; ++corner)
+            mesh.tets(static_cast<Eigen::Index>(t), corner) =
+                checked_index(path, static_cast<long long>(t), corners->GetId(corner), points);
+    }
+    return mesh;
+}
 
 void write_vtu(const std::string& path, const Positions& points, const Tets& tets, const FrameFields& fields)
 {

@@ -15,7 +15,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <new>
 #include <set>
 
 namespace pbs {
@@ -168,10 +167,7 @@ RigMesh mesh_of(const aiMesh& source, int node, const Nodes& nodes, Rig& rig)
     for (unsigned p = 0; p < source.mNumVertices; ++p)
         mesh.points.row(p) << source.mVertices[p].x, source.mVertices[p].y, source.mVertices[p].z;
     std::vector<int> corners;
-    for (unsigned f = 0; f < source.mNumFaces; ++f) {
-        if (source.mFaces[f].mNumIndices != 3) continue;  // points and lines
-        for (unsigned c = 0; c < 3; ++c) corners.push_back(static_cast<int>(source.mFaces[f].mIndices[c]));
-    }
+    add_triangles(source, 0, corners);
     mesh.triangles = Eigen::Map<const Triangles>(corners.data(), static_cast<Eigen::Index>(corners.size() / 3), 3);
     for (unsigned joint = 0; joint < source.mNumBones; ++joint)
         mesh.joints.push_back(
@@ -201,12 +197,7 @@ const aiScene& read_assimp_scene(Assimp::Importer& importer, const std::string& 
 {
     importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
-    const OwnFolder& files = only_own_folder(importer, path);
-    const aiScene* scene = importer.ReadFile(files.name_by_content(), aiProcess_Triangulate | aiProcess_JoinIdenticalVertices);
-    if (!scene) files.refuse_what_was_referred_to();
-    if (importer.GetErrorString() == std::string("std::bad_alloc")) throw std::bad_alloc();  // which assimp catches
-    if (!scene || !scene->mRootNode) throw InputError(path, 0, "", "", std::string("assimp: ") + importer.GetErrorString());
-    return *scene;
+    return read_scene(importer, path, aiProcess_Triangulate | aiProcess_JoinIdenticalVertices);
 }
 
 Rig rig_of_scene(const aiScene& scene, const std::string& path)

@@ -11,12 +11,9 @@
 #include <string>
 
 struct aiScene;
-
 namespace Assimp {
-
 class Importer;
-
-}  // namespace Assimp
+}
 
 namespace pbs {
 
@@ -30,7 +27,6 @@ Rig rig_of_scene(const aiScene& scene, const std::string& path);
 
 // The skin weights of a COLLADA file as the file states them: assimp leaves out weights that are negative or not finite without a message.
 //   check_collada_weights("hero.dae");
-
 // .dae, or a .zae archive with .dae files. An InputError names the first weight, of a skin that the scene uses, that is negative or not
 // finite. Text that is not XML is left to the reader.
 void check_collada_weights(const std::string& path);

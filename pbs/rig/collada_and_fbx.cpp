@@ -135,18 +135,6 @@ void check_document(const std::string& text, const std::string& path)
             if (used.contains(std::string("#") + controller.attribute("id").as_string())) check_skin(controller, path);
 }
 
-}  // namespace
-
-void check_collada_weights(const std::string& path)
-{
-    if (content_extension(path) == ".zae")
-        for (const std::string& text : collada_files_in(path)) check_document(text, path);
-    else
-        check_document(read_text_file(path), path);
-}
-
-namespace {
-
 using Flags = std::vector<std::int32_t>;
 
 constexpr std::string_view name = "KeyAttrFlags";
@@ -194,6 +182,14 @@ std::optional<Flags> text_flags(const std::string& bytes, std::size_t at)
 }
 
 }  // namespace
+
+void check_collada_weights(const std::string& path)
+{
+    if (content_extension(path) == ".zae")
+        for (const std::string& text : collada_files_in(path)) check_document(text, path);
+    else
+        check_document(read_text_file(path), path);
+}
 
 FbxCurves count_fbx_curves(const std::string& bytes)
 {

@@ -1,22 +1,24 @@
 #include "pbs/rig/glb_writer.hpp"
 
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/rig/tiny_gltf.hpp"
 
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
 #include <cstdint>
 #include <fstream>
-#include <sstream>
 #include <string_view>
 
 namespace pbs {
 namespace {
 
+using nlohmann::json;
+
 constexpr double most_glb_bytes = 4.2e9;  // its lengths have 32 bits; some room for the description
 constexpr std::uint32_t json_chunk = 0x4E4F534A, binary_chunk = 0x004E4942;
 constexpr std::size_t header_bytes = 12, chunk_header_bytes = 8, bytes_per_number = 4;
+constexpr int of_indices = 5125, of_floats = 5126;                             // component types: unsigned int, float
+constexpr int for_vertices = 34962, for_triangles = 34963, triangle_list = 4;  // targets of views, and a mode of primitives
+constexpr const char *scalar = "SCALAR", *vec3 = "VEC3";
 
 template <typename Number>
 std::string_view bytes_of(const std::vector<Number>& numbers)
@@ -43,87 +45,47 @@ std::vector<float> single(const std::vector<double>& numbers)
 }
 
 // The description of a file whose numbers are all in one buffer, in the order in which they are added.
-class GlbModel {
-public:
-    tinygltf::Model model;
+struct GlbDocument {
+    json document = {{"asset", {{"generator", "pbskin"}, {"version", "2.0"}}}, {"scene", 0}, {"scenes", {{{"nodes", {0}}}}}};
+    std::size_t bytes = 0;  // of the buffer
 
-    GlbModel()
+    // The number of the accessor. All components have four bytes, so that every view begins at a multiple of four. target: 0 for none.
+    std::size_t add(std::size_t count, int component_type, const char* type, int target)
     {
-        model.asset.version = "2.0";
-        model.asset.generator = "pbskin";
+        json view = {{"buffer", 0}, {"byteLength", bytes_per_number * count * (type == vec3 ? 3 : 1)}};
+        if (bytes > 0) view["byteOffset"] = bytes;
+        if (target > 0) view["target"] = target;
+        bytes += view["byteLength"].get<std::size_t>();
+        document["bufferViews"].push_back(view);
+        const std::size_t number = document["bufferViews"].size() - 1;
+        document["accessors"].push_back({{"bufferView", number}, {"componentType", component_type}, {"count", count}, {"type", type}});
+        return document["accessors"].size() - 1;
     }
 
-    // All components have four bytes, so that every view begins at a multiple of four.
-    int add(std::size_t count, int component_type, int type, int target)
+    void bound(std::size_t accessor, const std::vector<double>& smallest, const std::vector<double>& largest)
     {
-        tinygltf::BufferView view;
-        view.buffer = 0;
-        view.byteOffset = bytes_;
-        view.byteLength = bytes_per_number * count * (type == TINYGLTF_TYPE_VEC3 ? 3 : 1);
-        view.target = target;
-        bytes_ += view.byteLength;
-        model.bufferViews.push_back(view);
-
-        tinygltf::Accessor accessor;
-        accessor.bufferView = static_cast<int>(model.bufferViews.size()) - 1;
-        accessor.byteOffset = 0;
-        accessor.componentType = component_type;
-        accessor.count = count;
-        accessor.type = type;
-        model.accessors.push_back(accessor);
-        return static_cast<int>(model.accessors.size()) - 1;
+        document["accessors"][accessor].update({{"min", smallest}, {"max", largest}});
     }
 
-    int add_scalars(std::size_t count) { return add(count, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_SCALAR, 0); }
-
-    std::size_t bytes() const { return bytes_; }  // of the buffer
-
-    // The description as JSON, padded with spaces to a multiple of four.
+    // As JSON, padded with spaces to a multiple of four.
     std::string text()
     {
-        std::ostringstream stream;
-        tinygltf::TinyGLTF().WriteGltfSceneToStream(&model, stream, false, false);
-        nlohmann::json document = nlohmann::json::parse(stream.str());
-        document["buffers"] = {{{"byteLength", bytes_}}};
+        document["buffers"] = {{{"byteLength", bytes}}};
         std::string text = document.dump();
         text.resize((text.size() + 3) / 4 * 4, ' ');
         return text;
     }
-
-private:
-    std::size_t bytes_ = 0;
 };
 
-void add_animation(const std::vector<double>& times_s, GlbModel& glb)
+void add_animation(const std::vector<double>& times_s, GlbDocument& glb)
 {
-    tinygltf::AnimationSampler sampler;
-    sampler.input = glb.add_scalars(times_s.size());
     const std::vector<float> times = single(times_s);
-    glb.model.accessors[sampler.input].minValues = {static_cast<double>(times.front())};
-    glb.model.accessors[sampler.input].maxValues = {static_cast<double>(times.back())};
-    sampler.output = glb.add_scalars(times_s.size() * (times_s.size() - 1));
-    sampler.interpolation = "LINEAR";
-    tinygltf::AnimationChannel channel;
-    channel.sampler = 0;
-    channel.target_node = 0;
-    channel.target_path = "weights";
-    tinygltf::Animation animation;
-    animation.name = "deformed";
-    animation.samplers.push_back(sampler);
-    animation.channels.push_back(channel);
-    glb.model.animations.push_back(animation);
-}
-
-void add_scene(const std::string& name, GlbModel& glb)
-{
-    tinygltf::Node node;
-    node.name = name;
-    node.mesh = 0;
-    glb.model.nodes.push_back(node);
-    tinygltf::Scene scene;
-    scene.nodes.push_back(0);
-    glb.model.scenes.push_back(scene);
-    glb.model.defaultScene = 0;
+    const std::size_t input = glb.add(times_s.size(), of_floats, scalar, 0);
+    glb.bound(input, {static_cast<double>(times.front())}, {static_cast<double>(times.back())});
+    const std::size_t output = glb.add(times_s.size() * (times_s.size() - 1), of_floats, scalar, 0);
+    glb.document["animations"] = {{{"name", "deformed"},
+                                   {"samplers", {{{"input", input}, {"interpolation", "LINEAR"}, {"output", output}}}},
+                                   {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "weights"}}}}}}}};
 }
 
 void copy(const std::string& from, AtomicFile& file)
@@ -163,30 +125,24 @@ void GlbWriter::add_frame(double time_s, const Positions& points)
 
 void GlbWriter::write()
 {
-    GlbModel glb;
-    tinygltf::Primitive primitive;
-    primitive.mode = TINYGLTF_MODE_TRIANGLES;
-    primitive.indices = glb.add(corners_, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, TINYGLTF_TYPE_SCALAR, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
+    GlbDocument glb;
+    json primitive = {{"mode", triangle_list}, {"indices", glb.add(corners_, of_indices, scalar, for_triangles)}};
     for (std::size_t f = 0; f < times_s_.size(); ++f) {
-        const int accessor = glb.add(static_cast<std::size_t>(first_frame_.rows()), TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3,
-                                     TINYGLTF_TARGET_ARRAY_BUFFER);
-        glb.model.accessors[accessor].minValues = extents_[f].smallest;
-        glb.model.accessors[accessor].maxValues = extents_[f].largest;
+        const std::size_t accessor = glb.add(static_cast<std::size_t>(first_frame_.rows()), of_floats, vec3, for_vertices);
+        glb.bound(accessor, extents_[f].smallest, extents_[f].largest);
         if (f == 0)
-            primitive.attributes["POSITION"] = accessor;
+            primitive["attributes"]["POSITION"] = accessor;
         else
-            primitive.targets.push_back({{"POSITION", accessor}});
+            primitive["targets"].push_back({{"POSITION", accessor}});
     }
-    tinygltf::Mesh mesh;
-    mesh.name = name_;
-    mesh.primitives.push_back(primitive);
-    mesh.weights.assign(times_s_.size() - 1, 0.0);
-    glb.model.meshes.push_back(mesh);
+    json mesh = {{"name", name_}, {"primitives", json::array({primitive})}};
+    if (times_s_.size() > 1) mesh["weights"] = std::vector<double>(times_s_.size() - 1, 0.0);
+    glb.document["meshes"] = json::array({mesh});
+    glb.document["nodes"] = {{{"mesh", 0}, {"name", name_}}};
     if (times_s_.size() > 1) add_animation(times_s_, glb);
-    add_scene(name_, glb);
 
     const std::string text = glb.text();
-    const auto json_bytes = static_cast<std::uint32_t>(text.size()), data_bytes = static_cast<std::uint32_t>(glb.bytes());
+    const auto json_bytes = static_cast<std::uint32_t>(text.size()), data_bytes = static_cast<std::uint32_t>(glb.bytes);
     const auto all_bytes = static_cast<std::uint32_t>(header_bytes + 2 * chunk_header_bytes) + json_bytes + data_bytes;
     AtomicFile file(path_);
     file.write("glTF" + words({2, all_bytes, json_bytes, json_chunk}) + text + words({data_bytes, binary_chunk}));

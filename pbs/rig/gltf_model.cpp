@@ -18,23 +18,15 @@
 namespace pbs {
 namespace {
 
+constexpr std::size_t most_elements = 100'000'000;
+
 // Extensions by how their names begin that do not change where vertices are, and the one that stores them as integers.
 constexpr std::array<std::string_view, 6> known_extensions = {"KHR_materials_",      "KHR_texture_", "EXT_texture_",
                                                               "KHR_lights_punctual", "KHR_xmp",      "KHR_mesh_quantization"};
 
-bool no_image(tinygltf::Image*, int, std::string*, std::string*, int, int, const unsigned char*, int, void*)
-{
-    return true;
-}
-
 bool file_exists(const std::string& file, void* path)
 {
     return may_be_opened_for(*static_cast<const std::string*>(path), file);
-}
-
-std::string file_as_named(const std::string& file, void*)
-{
-    return file;
 }
 
 bool read_own_file(std::vector<unsigned char>* bytes, std::string* error, const std::string& file, void* path)
@@ -62,32 +54,6 @@ std::string one_line(std::string text)
     return text.substr(0, text.find_last_not_of(' ') + 1);
 }
 
-}  // namespace
-
-void read_gltf_model(const std::string& path, tinygltf::Model& model)
-{
-    const std::string bytes = read_text_file(path, most_mesh_bytes), folder = std::filesystem::absolute(path).parent_path().string();
-    std::string own_path = path, error, warning;
-    tinygltf::TinyGLTF loader;
-    loader.SetImageLoader(no_image, nullptr);
-    loader.SetFsCallbacks({file_exists, file_as_named, read_own_file, nullptr, &own_path});
-    const auto length = static_cast<unsigned>(bytes.size());
-    const bool read =
-        bytes.rfind("glTF", 0) == 0
-            ? loader.LoadBinaryFromMemory(&model, &error, &warning, reinterpret_cast<const unsigned char*>(bytes.data()), length, folder)
-            : loader.LoadASCIIFromString(&model, &error, &warning, bytes.data(), length, folder);
-    if (!read) {
-        require_known_extensions(model, path);  // which may be why
-        throw InputError(path, 0, "", "", "no glTF that tinygltf can read: " + one_line(error));
-    }
-    if (model.asset.version.rfind("2.", 0) != 0) throw InputError(path, 0, "asset.version", model.asset.version, "expected 2.0");
-    require_known_extensions(model, path);
-}
-
-namespace {
-
-constexpr std::size_t most_elements = 100'000'000;
-
 // The place of a number in the file, for errors.
 struct Field {
     const std::string& path;
@@ -106,39 +72,23 @@ double converted(const unsigned char* bytes, bool normalised)
     return std::max(static_cast<double>(number) / static_cast<double>(std::numeric_limits<Number>::max()), -1.0);
 }
 
-double number_at(const unsigned char* bytes, int component_type, bool normalised)
-{
-    switch (component_type) {
-        case TINYGLTF_COMPONENT_TYPE_BYTE:
-            return converted<std::int8_t>(bytes, normalised);
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-            return converted<std::uint8_t>(bytes, normalised);
-        case TINYGLTF_COMPONENT_TYPE_SHORT:
-            return converted<std::int16_t>(bytes, normalised);
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-            return converted<std::uint16_t>(bytes, normalised);
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-            return converted<std::uint32_t>(bytes, normalised);
-        default:
-            return converted<float>(bytes, normalised);
-    }
-}
+struct Component {
+    int type;
+    std::size_t bytes;
+    double (*number_at)(const unsigned char* bytes, bool normalised);
+};
 
-std::size_t size_of_component(int component_type, const Field& field)
+const Component& component_of(int type, const Field& field)
 {
-    switch (component_type) {
-        case TINYGLTF_COMPONENT_TYPE_BYTE:
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-            return 1;
-        case TINYGLTF_COMPONENT_TYPE_SHORT:
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-            return 2;
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-        case TINYGLTF_COMPONENT_TYPE_FLOAT:
-            return 4;
-        default:
-            field.refuse(std::to_string(component_type), "expected a component type of glTF 2.0: 5120 to 5123, 5125 or 5126");
-    }
+    static constexpr Component components[] = {{TINYGLTF_COMPONENT_TYPE_BYTE, 1, converted<std::int8_t>},
+                                               {TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE, 1, converted<std::uint8_t>},
+                                               {TINYGLTF_COMPONENT_TYPE_SHORT, 2, converted<std::int16_t>},
+                                               {TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, 2, converted<std::uint16_t>},
+                                               {TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, 4, converted<std::uint32_t>},
+                                               {TINYGLTF_COMPONENT_TYPE_FLOAT, 4, converted<float>}};
+    for (const Component& component : components)
+        if (component.type == type) return component;
+    field.refuse(std::to_string(type), "expected a component type of glTF 2.0: 5120 to 5123, 5125 or 5126");
 }
 
 // A matrix whose columns of bytes would have to be padded is refused by the caller's number of components: only 4 x 4 floats are asked for.
@@ -156,7 +106,8 @@ AccessorNumbers read_elements(const tinygltf::Model& model, int view_index, cons
     if (view.buffer < 0 || view.buffer >= static_cast<int>(model.buffers.size()))
         field.refuse(std::to_string(view.buffer), "expected a buffer of the file");
     const std::vector<unsigned char>& bytes = model.buffers[view.buffer].data;
-    const std::size_t component = size_of_component(layout.component_type, field), element = component * layout.components;
+    const Component& component = component_of(layout.component_type, field);
+    const std::size_t element = component.bytes * layout.components;
     const std::size_t stride = view.byteStride > 0 ? view.byteStride : element;
     const bool view_fits = view.byteOffset <= bytes.size() && view.byteLength <= bytes.size() - view.byteOffset;
     if (!view_fits || layout.offset > view.byteLength || layout.count > most_elements || stride < element || stride > 252 + element ||
@@ -166,8 +117,8 @@ AccessorNumbers read_elements(const tinygltf::Model& model, int view_index, cons
     AccessorNumbers numbers(static_cast<Eigen::Index>(layout.count), static_cast<Eigen::Index>(layout.components));
     for (std::size_t e = 0; e < layout.count; ++e)
         for (std::size_t c = 0; c < layout.components; ++c)
-            numbers(static_cast<Eigen::Index>(e), static_cast<Eigen::Index>(c)) = number_at(
-                bytes.data() + view.byteOffset + layout.offset + e * stride + c * component, layout.component_type, layout.normalised);
+            numbers(static_cast<Eigen::Index>(e), static_cast<Eigen::Index>(c)) =
+                component.number_at(bytes.data() + view.byteOffset + layout.offset + e * stride + c * component.bytes, layout.normalised);
     return numbers;
 }
 
@@ -191,6 +142,26 @@ void apply_sparse(const tinygltf::Model& model, const tinygltf::Accessor& access
 }
 
 }  // namespace
+
+void read_gltf_model(const std::string& path, tinygltf::Model& model)
+{
+    const std::string bytes = read_text_file(path, most_mesh_bytes), folder = std::filesystem::absolute(path).parent_path().string();
+    std::string own_path = path, error, warning;
+    tinygltf::TinyGLTF loader;
+    loader.SetImageLoader([](tinygltf::Image*, auto...) { return true; }, nullptr);
+    loader.SetFsCallbacks({file_exists, [](const std::string& file, void*) { return file; }, read_own_file, nullptr, &own_path});
+    const auto length = static_cast<unsigned>(bytes.size());
+    const bool read =
+        bytes.rfind("glTF", 0) == 0
+            ? loader.LoadBinaryFromMemory(&model, &error, &warning, reinterpret_cast<const unsigned char*>(bytes.data()), length, folder)
+            : loader.LoadASCIIFromString(&model, &error, &warning, bytes.data(), length, folder);
+    if (!read) {
+        require_known_extensions(model, path);  // which may be why
+        throw InputError(path, 0, "", "", "no glTF that tinygltf can read: " + one_line(error));
+    }
+    if (model.asset.version.rfind("2.", 0) != 0) throw InputError(path, 0, "asset.version", model.asset.version, "expected 2.0");
+    require_known_extensions(model, path);
+}
 
 AccessorNumbers accessor_numbers(const tinygltf::Model& model, int accessor, int components, const std::string& path,
                                  const std::string& field_name)

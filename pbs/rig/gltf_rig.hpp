@@ -9,10 +9,8 @@
 #include <string>
 
 namespace pbs_tinygltf {
-
 class Model;
-
-}  // namespace pbs_tinygltf
+}
 
 namespace pbs {
 

@@ -19,10 +19,9 @@ Eigen::Quaterniond rotation_at(const KeyTrack& track, double time_s);
 // B_j^-1; W_node v of a mesh without a skin. #P x 3, in the scene's coordinates and the file's unit.
 Positions skinned_points(const RigMesh& mesh, const std::vector<Eigen::Affine3d>& node_transforms);
 
-// How the meshes of a rig are attached to its nodes in the bind pose: the joints that move them, and one rest space for all of them.
-
-// The rest space is the file's scene in the bind pose, in metres: where the root joint of the largest skin is at rest, the bind pose is
-// attached to it. B_j carries the frame of joint j into it.
+// How the meshes of a rig are attached to its nodes in the bind pose: the joints that move them, and one rest space for all of them. That
+// is the file's scene in the bind pose, in metres: where the root joint of the largest skin is at rest, the bind pose is attached to it.
+// B_j carries the frame of joint j into it.
 struct RigBinding {
     std::vector<RigMesh> meshes;          // those that joints move; one without a skin follows the joint above it with weight 1
     std::map<int, Eigen::Affine3d> bind;  // node of each joint of these meshes -> B_j [m]

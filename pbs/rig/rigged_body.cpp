@@ -17,12 +17,20 @@ constexpr double least_agreement = 0.5;    // of the mean distance of the joints
 constexpr double share_to_farthest = 0.9;  // a bone without a joint below ends inside the flesh
 constexpr double share_of_parent = 0.3;    // the length of a bone whose points say nothing about it
 
+// A closed body encloses at least this part of (its area)^(3/2): 0.02 for a tube forty times as long as it is thick.
+constexpr double least_closed = 1e-3;
+
 // A joint below a bone, and the weight of all that moves with it.
 struct JointBelow {
     Vec3 place;
     double weight = 0.0;
 };
 
+// The tails of all bones of a body, whose heads, surface and skin are known: a rig's file says only where its joints are. A bone ends
+// - at the joint below its own joint, whether that joint is a bone or not;
+// - where several are below, in their middle, or at the one that moves most if they lie on opposite sides;
+// - where none is below, at nine tenths of the way to the farthest point that it moves, in the direction of the middle of these points, or
+//   of its parent if that middle is at the joint.
 class Tails {
 public:
     Tails(const Rig& rig, RiggedBody& body) : rig_(rig), body_(body)
@@ -143,15 +151,6 @@ private:
     double extent_m_ = 0.0;
 };
 
-}  // namespace
-
-void set_tails(const Rig& rig, RiggedBody& body)
-{
-    Tails(rig, body).set();
-}
-
-namespace {
-
 std::string name_of(const Rig& rig, int node)
 {
     return rig.nodes[node].name.empty() ? "node " + std::to_string(node) : rig.nodes[node].name;
@@ -201,19 +200,14 @@ std::map<int, int> add_bones(const Rig& rig, RiggedBody& body)
     return bone_of_node;
 }
 
-// A closed body encloses at least this part of (its area)^(3/2): 0.02 for a tube forty times as long as it is thick.
-constexpr double least_closed = 1e-3;
-
 bool is_inside_out(const Positions& points, const Triangles& triangles)
 {
-    const Vec3 middle = points.colwise().mean().transpose();
-    double volume = 0.0, area = 0.0;
-    for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
-        const Vec3 a = points.row(triangles(f, 0)), b = points.row(triangles(f, 1)), c = points.row(triangles(f, 2));
-        volume += tet_volume(middle, a, b, c);
+    double area = 0.0;
+    for (const auto& triangle : triangles.rowwise()) {
+        const Vec3 a = points.row(triangle(0)), b = points.row(triangle(1)), c = points.row(triangle(2));
         area += 0.5 * (b - a).cross(c - a).norm();
     }
-    return volume < -least_closed * area * std::sqrt(area);
+    return fan_volume(points, triangles) < -least_closed * area * std::sqrt(area);
 }
 
 void turn_outward(RiggedBody& body)
@@ -289,7 +283,7 @@ RiggedBody make_rigged_body(const Rig& rig, const RigAnimation* animation, doubl
         return body;
     }
     body.containers = containers_of(rig, body.binding);
-    set_tails(rig, body);
+    Tails(rig, body).set();
     for (const Eigen::Isometry3d& bone : rigid_pose(body, node_transforms(rig, nullptr, 0.0)))
         body.bind_pose_deg = std::max(body.bind_pose_deg, Eigen::AngleAxisd(bone.linear()).angle() * 180.0 / M_PI);
     return body;

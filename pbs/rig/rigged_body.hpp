@@ -27,8 +27,8 @@ struct RiggedBody {
     std::vector<std::string> remarks;     // of the reader and of what was made of the rig
 };
 
-// A joint that moves points is a bone, from the joint to where the joints below it are (rigged_body.hpp); its parent is the next such joint
-// above it. Bones are named as the joints; a name that occurs twice gets a number.
+// A joint that moves points is a bone, from the joint to where the joints below it are (Tails in rigged_body.cpp); its parent is the next
+// such joint above it. Bones are named as the joints; a name that occurs twice gets a number.
 RiggedBody make_rigged_body(const Rig& rig, const RigAnimation* animation, double scale);
 
 // The surface as the artist's own skinning moves it: the format's formula with scale and shear, [m], #P x 3.
@@ -36,15 +36,6 @@ Positions artist_points(const RiggedBody& body, const std::vector<Eigen::Affine3
 
 // The rigid part of every bone's motion from rest. stretch: the largest relative change of a length that is lost with the rest, if wanted.
 Pose rigid_pose(const RiggedBody& body, const std::vector<Eigen::Affine3d>& node_transforms, double* stretch = nullptr);
-
-// Where the bones of a rig end: a rig's file says only where its joints are.
-
-// Sets the tails of all bones of `body`, whose heads, surface and skin are known. A bone ends
-// - at the joint below its own joint, whether that joint is a bone or not;
-// - where several are below, in their middle, or at the one that moves most if they lie on opposite sides;
-// - where none is below, at nine tenths of the way to the farthest point that it moves, in the direction of the middle of these points, or
-//   of its parent if that middle is at the joint.
-void set_tails(const Rig& rig, RiggedBody& body);
 
 // An animation of a rig as a motion of its bones.
 struct RigMotion {

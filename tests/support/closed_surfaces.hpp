@@ -44,6 +44,17 @@ inline pbs::SurfaceMesh icosphere(double radius, int splits)
     return sphere;
 }
 
+// Volume [m^3] inside a closed surface, by the divergence theorem; inward triangles count negative.
+inline double enclosed_volume(const pbs::Positions& points, const pbs::Triangles& triangles)
+{
+    double six_volumes = 0.0;
+    for (const auto& triangle : triangles.rowwise()) {
+        const pbs::Vec3 a = points.row(triangle(0)), b = points.row(triangle(1)), c = points.row(triangle(2));
+        six_volumes += a.dot(b.cross(c));
+    }
+    return six_volumes / 6.0;
+}
+
 // A torus around the z axis: ring radius and tube radius [m], `around` x `across` quads, two triangles each.
 inline pbs::SurfaceMesh torus(double ring, double tube, int around, int across)
 {

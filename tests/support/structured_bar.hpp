@@ -98,4 +98,19 @@ inline Renumbered renumbered(const pbs::TetMesh& mesh, unsigned seed)
     return other;
 }
 
+// Keeps only those tets of a Kuhn-split box of unit cubes for which keep(cell along x, y, z) is true.
+template <typename Keep>
+pbs::TetMesh carved_box(const std::array<int, 3>& cells, Keep keep)
+{
+    pbs::TetMesh box = structured_bar({0, 0, 0}, {double(cells[0]), double(cells[1]), double(cells[2])}, cells);
+    pbs::Tets kept(box.tets.rows(), 4);
+    Eigen::Index count = 0;
+    for (Eigen::Index t = 0; t < box.tets.rows(); ++t) {
+        const int cell = static_cast<int>(t) / 6;
+        if (keep(cell % cells[0], cell / cells[0] % cells[1], cell / (cells[0] * cells[1]))) kept.row(count++) = box.tets.row(t);
+    }
+    box.tets = kept.topRows(count);
+    return box;
+}
+
 }  // namespace test_support

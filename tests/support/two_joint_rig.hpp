@@ -36,22 +36,13 @@ inline pbs::Rig two_joint_rig()
     pbs::RigMesh mesh;
     mesh.name = "arm";
     mesh.node = 2;
-    mesh.points.resize(4, 3);
-    mesh.points << 1, 0, 0, 1, 2, 0, 1, 4, 0, 2, 2, 0;
-    mesh.triangles.resize(2, 3);
-    mesh.triangles << 0, 1, 3, 1, 2, 3;
+    mesh.points = pbs::Positions{{1, 0, 0}, {1, 2, 0}, {1, 4, 0}, {2, 2, 0}};
+    mesh.triangles = pbs::Triangles{{0, 1, 3}, {1, 2, 3}};
     mesh.joints = {joint_bound_at(0, {1, 0, 0}), joint_bound_at(1, {1, 2, 0})};
-    mesh.skin.first = {0, 1, 3, 4, 6};
-    mesh.skin.bone = {0, 0, 1, 1, 0, 1};
-    mesh.skin.weight = {1.0, 0.5, 0.5, 1.0, 0.25, 0.75};
+    mesh.skin = {.first = {0, 1, 3, 4, 6}, .bone = {0, 0, 1, 1, 0, 1}, .weight = {1.0, 0.5, 0.5, 1.0, 0.25, 0.75}};
     rig.meshes = {mesh};
-    pbs::KeyTrack turn;
-    turn.times_s = {0.0, 1.0};
-    turn.values = {{0, 0, 0, 1}, {0, 0, 1, 0}};
-    pbs::NodeTracks tracks;
-    tracks.node = 1;
-    tracks.rotation = turn;
-    rig.animations = {{"Bend", 0.0, 1.0, {tracks}}};
+    const pbs::KeyTrack turn{.times_s = {0.0, 1.0}, .values = {{0, 0, 0, 1}, {0, 0, 1, 0}}};
+    rig.animations = {{"Bend", 0.0, 1.0, {{.node = 1, .rotation = turn}}}};
     return rig;
 }
 

@@ -24,10 +24,7 @@ TEST(Meshing, OfTheBuiltInBodiesRepeatsToTheBit)
 TEST(Meshing, OfASurfaceRepeatsToTheBit)
 {
     const pbs::SurfaceMesh sphere = test_support::icosphere(1.0, 2);
-    pbs::SurfaceMeshing options;
-    options.vertices = 250;
-    options.wrap_alpha_m = 0.2;
-    options.wrap_offset_m = 0.02;
+    const pbs::SurfaceMeshing options{.vertices = 250, .wrap_alpha_m = 0.2, .wrap_offset_m = 0.02};
     const pbs::TetMesh first = pbs::mesh_surface(sphere, options);
     pbs::mesh_limb(300);
     expect_same(pbs::mesh_surface(sphere, options), first);
@@ -38,11 +35,8 @@ TEST(Meshing, OfASurfaceRepeatsToTheBit)
 // 1e-6 m on the scale of the body that is 1024 times smaller.
 TEST(Meshing, OfASurfaceHasNoUnit)
 {
-    pbs::SurfaceMeshing options;
-    options.vertices = 250;
-    pbs::SurfaceMesh sphere = test_support::icosphere(1.0, 2);
-    options.wrap_alpha_m = 0.25;
-    options.wrap_offset_m = 0.03125;
+    const pbs::SurfaceMesh sphere = test_support::icosphere(1.0, 2);
+    const pbs::SurfaceMeshing options{.vertices = 250, .wrap_alpha_m = 0.25, .wrap_offset_m = 0.03125};
     const pbs::TetMesh metre = pbs::mesh_surface(sphere, options);
     const double of_chain_m = test_support::rounding_error(100.0 * options.vertices, 1.0 + options.wrap_offset_m);
     for (const double scale : {0.0009765625, 1024.0}) {

@@ -2,8 +2,8 @@
 // JSON 3.1, the rig's vertex lists, int16 targets), laid out by hand.
 #include "pbs/character/named_bodies.hpp"
 
+#include "tests/support/folder_test.hpp"
 #include "tests/support/rounding_error.hpp"
-#include "tests/support/scratch_folder.hpp"
 #include "tests/unit/pbs/character/expect_input_error.hpp"
 
 #include <nlohmann/json.hpp>
@@ -12,6 +12,7 @@
 
 namespace {
 
+using MakehumanFigure = test_support::FolderTest;
 using namespace pbs;
 using nlohmann::json;
 
@@ -46,18 +47,16 @@ struct Package {
         targets[2 * vertices.size() + 1] = 3;
     }
 
-    MakehumanFigure read(const test_support::ScratchFolder& folder, const std::vector<std::string>& with) const
+    pbs::MakehumanFigure read(const test_support::ScratchFolder& folder, const std::vector<std::string>& with) const
     {
         return read_makehuman({folder.file("model.json", model.dump()), folder.file("rig.json", rig.dump()),
                                folder.file("list.json", list.dump()), folder.file("targets.bin", targets)},
                               with);
     }
 };
-
-TEST(MakehumanFigure, ReadsTheBodyAloneInMetres)
+TEST_F(MakehumanFigure, ReadsTheBodyAloneInMetres)
 {
-    const test_support::ScratchFolder folder;
-    const MakehumanFigure figure = Package().read(folder, {});
+    const pbs::MakehumanFigure figure = Package().read(folder, {});
     EXPECT_EQ(figure.skin.points.rows(), 4);
     EXPECT_EQ(figure.skin.triangles.rows(), 4);
     EXPECT_DOUBLE_EQ(figure.skin.points(1, 0), 1.0);
@@ -68,17 +67,15 @@ TEST(MakehumanFigure, ReadsTheBodyAloneInMetres)
     EXPECT_EQ(figure.inputs.size(), 3u);
 }
 
-TEST(MakehumanFigure, TargetsAreMatchedWholeAndMoveVertices)
+TEST_F(MakehumanFigure, TargetsAreMatchedWholeAndMoveVertices)
 {
-    const test_support::ScratchFolder folder;
     EXPECT_DOUBLE_EQ(Package().read(folder, {"caucasian-young"}).skin.points(0, 0), 0.1);
     EXPECT_EQ(Package().read(folder, {"asian-young"}).skin.points(0, 0), 0.0);
     EXPECT_EQ(Package().read(folder, {"caucasian-young"}).inputs.size(), 4u);
 }
 
-TEST(MakehumanFigure, RefusesTargetsThatDoNotFit)
+TEST_F(MakehumanFigure, RefusesTargetsThatDoNotFit)
 {
-    const test_support::ScratchFolder folder;
     expect_input_error([&] { Package().read(folder, {"young"}); }, folder / "list.json", "0 are named young");
     Package cut;
     cut.targets.pop_back();
@@ -88,9 +85,8 @@ TEST(MakehumanFigure, RefusesTargetsThatDoNotFit)
     expect_input_error([&] { unnamed.read(folder, {}); }, folder / "list.json", "targets");
 }
 
-TEST(MakehumanFigure, RefusesADamagedModel)
+TEST_F(MakehumanFigure, RefusesADamagedModel)
 {
-    const test_support::ScratchFolder folder;
     const auto refused = [&](const std::function<void(json&)>& damage, const std::string& field) {
         Package package;
         damage(package.model);
@@ -107,9 +103,8 @@ TEST(MakehumanFigure, RefusesADamagedModel)
     refused([](json& model) { model["faces"] = json::array(); }, "none is of the material");
 }
 
-TEST(MakehumanFigure, RefusesADamagedRig)
+TEST_F(MakehumanFigure, RefusesADamagedRig)
 {
-    const test_support::ScratchFolder folder;
     const auto refused = [&](const json& joint, const std::string& field) {
         Package package;
         package.rig["joints"]["wrist.L____head"] = joint;
@@ -124,9 +119,8 @@ TEST(MakehumanFigure, RefusesADamagedRig)
     expect_input_error([&] { without.read(folder, {}); }, folder / "rig.json", "wrist.L____head: missing");
 }
 
-TEST(MakehumanFigure, EveryTruncationOfTheModelIsRefusedWithItsPlace)
+TEST_F(MakehumanFigure, EveryTruncationOfTheModelIsRefusedWithItsPlace)
 {
-    const test_support::ScratchFolder folder;
     Package().read(folder, {});
     const std::string whole = Package().model.dump();
     for (std::size_t bytes = 0; bytes < whole.size(); bytes += 37) {

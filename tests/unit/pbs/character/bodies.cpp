@@ -4,9 +4,9 @@
 #include "pbs/character/body_cache.hpp"
 #include "pbs/geometry/mesh_io.hpp"
 #include "tests/support/arm_in_formats.hpp"
+#include "tests/support/folder_test.hpp"
 #include "tests/support/mesher_error.hpp"
 #include "tests/support/rounding_error.hpp"
-#include "tests/support/scratch_folder.hpp"
 #include "tests/support/structured_bar.hpp"
 #include "tests/unit/pbs/character/expect_input_error.hpp"
 
@@ -71,11 +71,14 @@ TEST(Bodies, RefusesWhatIsNotThere)
 
 // Reference: the contents written to the files.
 
-TEST(Bodies, FromFiles)
+class BodyFiles : public test_support::FolderTest {
+protected:
+    void SetUp() override { write_tet_mesh(mesh, test_support::structured_bar(Vec3(-1, -0.1, -0.1), Vec3(1, 0.1, 0.1), {2, 1, 1})); }
+    const std::string mesh = folder / "bar.vtu";
+};
+
+TEST_F(BodyFiles, AreReadAndHashed)
 {
-    const test_support::ScratchFolder folder;
-    const std::string mesh = (folder.path() / "bar.vtu").string();
-    write_tet_mesh(mesh, test_support::structured_bar(Vec3(-1, -0.1, -0.1), Vec3(1, 0.1, 0.1), {2, 1, 1}));
     const std::string bones = "[[joint]]\nname = \"only\"\nparent = \"\"\nhead_m = [-1, 0, 0]\ntail_m = [1, 0, 0]\n";
     const std::string skeleton = folder.file("bar.skeleton.toml", bones);
     std::string rows = "vertex,joint,weight\n";
@@ -93,11 +96,8 @@ TEST(Bodies, FromFiles)
 }
 
 // A COLLADA file whose body has no skin.
-TEST(Bodies, AColladaFileWithoutASkinIsNoSkeleton)
+TEST_F(BodyFiles, AColladaFileWithoutASkinIsNoSkeleton)
 {
-    const test_support::ScratchFolder folder;
-    const std::string mesh = folder / "bar.vtu";
-    write_tet_mesh(mesh, test_support::structured_bar(Vec3(-1, -0.1, -0.1), Vec3(1, 0.1, 0.1), {2, 1, 1}));
     std::string text = test_support::collada_arm();
     const std::string skinned = R"(<instance_controller url="#skin"><skeleton>#root</skeleton></instance_controller>)";
     text.replace(text.find(skinned), skinned.size(), R"(<instance_geometry url="#arm"/>)");

@@ -1,8 +1,9 @@
 // Reference: the specification of the cache: a hit is the mesh that was made, to the bit, and a damaged file is made again.
 
 #include "pbs/character/body_cache.hpp"
+#include "pbs/geometry/files.hpp"
 #include "pbs/geometry/mesh_io.hpp"
-#include "tests/support/scratch_folder.hpp"
+#include "tests/support/folder_test.hpp"
 #include "tests/unit/pbs/character/expect_input_error.hpp"
 
 #include <gtest/gtest.h>
@@ -20,17 +21,13 @@
 
 namespace {
 
+using InputFile = test_support::FolderTest;
 using namespace pbs;
 namespace fs = std::filesystem;
 
 TetMesh two_tets()
 {
-    TetMesh mesh;
-    mesh.rest.resize(5, 3);
-    mesh.rest << 0, 0, 0, 1.0 / 3.0, 0, 0, 0, 1e-3, 0, 0, 0, M_PI, 0.1, 0.1, -2.0 / 7.0;
-    mesh.tets.resize(2, 4);
-    mesh.tets << 0, 1, 2, 3, 0, 2, 1, 4;
-    return mesh;
+    return {Positions{{0, 0, 0}, {1.0 / 3.0, 0, 0}, {0, 1e-3, 0}, {0, 0, M_PI}, {0.1, 0.1, -2.0 / 7.0}}, Tets{{0, 1, 2, 3}, {0, 2, 1, 4}}};
 }
 
 class BodyCache : public testing::Test {
@@ -61,27 +58,21 @@ protected:
 TEST_F(BodyCache, AHitIsWhatWasMadeToTheBit)
 {
     get();
-    const TetMesh hit = get();
+    EXPECT_EQ(content_hash(get()), content_hash(two_tets()));
     EXPECT_EQ(made, 1);
-    EXPECT_EQ(content_hash(hit), content_hash(two_tets()));
+    EXPECT_TRUE(stored().filename().string().starts_with("two-")) << "no half-made file is left";
 }
 
 TEST_F(BodyCache, AnotherKeyIsAnotherMesh)
 {
-    get("two");
-    get("two-1");
-    get("tw");
+    for (const char* key : {"two", "two-1", "tw"}) get(key);
     EXPECT_EQ(made, 3);
 }
 
 TEST_F(BodyCache, AFileWithOneByteChangedIsMadeAnew)
 {
     get();
-    std::string bytes;
-    {
-        std::ifstream file(stored(), std::ios::binary);
-        bytes.assign(std::istreambuf_iterator<char>(file), {});
-    }
+    std::string bytes = read_text_file(stored().string());
     bytes[bytes.size() / 2] ^= 1;
     std::ofstream(stored(), std::ios::binary) << bytes;
     EXPECT_EQ(content_hash(get()), content_hash(two_tets()));
@@ -109,12 +100,6 @@ TEST_F(BodyCache, ATruncatedAndAnEmptyFileAreMadeAnew)
     fs::resize_file(stored(), 0);
     get();
     EXPECT_EQ(made, 3);
-}
-
-TEST_F(BodyCache, LeavesNoHalfMadeFilesBehind)
-{
-    get();
-    EXPECT_TRUE(stored().filename().string().starts_with("two-"));
 }
 
 TEST_F(BodyCache, WhatAKilledMakerLeftIsRemovedAndWhatALivingOneMakesIsNot)
@@ -201,59 +186,42 @@ TEST(ContentHash, IsXxh3)
 using Hashes = std::vector<std::pair<std::string, std::string>>;
 
 constexpr const char* changed = "was changed while it was read";
-
-TEST(InputFile, IsTheHashOfItsBytesUnderItsName)
+TEST_F(InputFile, IsTheHashOfItsBytesUnderItsName)
 {
-    const test_support::ScratchFolder folder;
-    const InputFile file(folder.file("walk.bvh", "HIERARCHY"));
+    const pbs::InputFile file(folder.file("walk.bvh", "HIERARCHY"));
     EXPECT_EQ(file.hashed(), (Hashes{{"walk.bvh", content_hash("HIERARCHY")}}));
 }
 
-TEST(InputFile, OneThatIsOverwrittenIsRefused)
+TEST_F(InputFile, OneThatIsOverwrittenGoesOrComesIsRefused)
 {
-    const test_support::ScratchFolder folder;
-    const std::string path = folder.file("arm.vtu", "one");
-    const InputFile file(path);
+    const std::string path = folder / "arm.vtu";
+    const pbs::InputFile none(path);
+    folder.file("arm.vtu", "one");
+    expect_input_error([&] { none.hashed(); }, path + ": ", changed);
+    const pbs::InputFile file(path);
     folder.file("arm.vtu", "two");  // of the same length
     expect_input_error([&] { file.hashed(); }, path + ": ", changed);
+    std::filesystem::remove(path);
+    expect_input_error([&] { file.hashed(); }, path + ": ", "No such file");
 }
 
 // The content is that of before, but a reader may have read the other content in between. The pause is longer than a tick of the file
 // system's clock, which is a few milliseconds.
-TEST(InputFile, OneThatIsOverwrittenAndRestoredIsRefused)
+TEST_F(InputFile, OneThatIsOverwrittenAndRestoredIsRefused)
 {
-    const test_support::ScratchFolder folder;
     const std::string path = folder.file("arm.vtu", "one");
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    const InputFile file(path);
+    const pbs::InputFile file(path);
     folder.file("arm.vtu", "two");
     folder.file("arm.vtu", "one");
     expect_input_error([&] { file.hashed(); }, path + ": ", changed);
 }
 
-TEST(InputFile, OneThatGoesIsRefused)
+TEST_F(InputFile, TetGensOtherHalfBelongsToIt)
 {
-    const test_support::ScratchFolder folder;
-    const std::string path = folder.file("arm.vtu", "one");
-    const InputFile file(path);
-    std::filesystem::remove(path);
-    expect_input_error([&] { file.hashed(); }, path + ": ", "No such file");
-}
-
-TEST(InputFile, OneThatComesIsRefused)
-{
-    const test_support::ScratchFolder folder;
-    const InputFile file(folder / "arm.vtu");
-    folder.file("arm.vtu", "one");
-    expect_input_error([&] { file.hashed(); }, folder / "arm.vtu" + ": ", changed);
-}
-
-TEST(InputFile, TetGensOtherHalfBelongsToIt)
-{
-    const test_support::ScratchFolder folder;
     const std::string points = folder.file("a.node", "points"), tets = folder.file("a.ele", "tets");
     for (const std::string& named : {points, tets}) {
-        const InputFile file(named);
+        const pbs::InputFile file(named);
         EXPECT_EQ(hashes_by_name(file.hashed()), hashes_by_name({{"a.node", hash_of_file(points)}, {"a.ele", hash_of_file(tets)}}));
         const std::string other = named == points ? tets : points;
         std::filesystem::resize_file(other, 2);
@@ -262,22 +230,20 @@ TEST(InputFile, TetGensOtherHalfBelongsToIt)
     }
 }
 
-TEST(InputFile, TheBuffersOfAGltfBelongToIt)
+TEST_F(InputFile, TheBuffersOfAGltfBelongToIt)
 {
-    const test_support::ScratchFolder folder;
     const std::string buffer = folder.file("walk.bin", "\1\2\3");
     const std::string text = R"({"buffers": [{"uri" : "walk.bin"}, {"uri": "data:;base64,AA=="}, {"uri": "none.bin"}], "name": "uri"})";
-    const InputFile file(folder.file("walk.gltf", text));
+    const pbs::InputFile file(folder.file("walk.gltf", text));
     EXPECT_EQ(file.hashed(), (Hashes{{"walk.gltf", content_hash(text)}, {"walk.bin", hash_of_file(buffer)}}));
     folder.file("walk.bin", "\1\2\4");
     expect_input_error([&] { file.hashed(); }, buffer + ": ", changed);
 }
 
-TEST(InputFile, AGltfThatEndsWithinAnAddressIsLeftToItsReader)
+TEST_F(InputFile, AGltfThatEndsWithinAnAddressIsLeftToItsReader)
 {
-    const test_support::ScratchFolder folder;
     for (const std::string text : {R"({"uri")", R"({"uri" : )", R"({"uri": "walk)", R"({"uri": ")"}) {
-        const InputFile file(folder.file("walk.gltf", text));
+        const pbs::InputFile file(folder.file("walk.gltf", text));
         EXPECT_EQ(file.hashed(), (Hashes{{"walk.gltf", content_hash(text)}})) << text;
     }
 }

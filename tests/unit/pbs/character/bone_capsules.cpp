@@ -1,9 +1,9 @@
 // Reference: the capsule of a bone of a bar of known width, by hand.
 #include "pbs/character/bone_capsules.hpp"
 
-#include "pbs/geometry/input_error.hpp"
 #include "tests/support/bar_character.hpp"
 #include "tests/support/rounding_error.hpp"
+#include "tests/unit/pbs/character/expect_input_error.hpp"
 
 #include <gtest/gtest.h>
 
@@ -19,6 +19,8 @@ pbs::Character bar()
     return test_support::bar_character({24, 2, 2});
 }
 
+const BoneCapsule capsule{{0, 0, 0}, {2, 0, 0}, 0.5, ""};  // of radius 1/2 and length 2 along x
+
 TEST(BoneCapsules, SpanTheMiddleOfTheBone)
 {
     const auto capsules = bone_capsules(bar(), 0.35);
@@ -30,11 +32,11 @@ TEST(BoneCapsules, SpanTheMiddleOfTheBone)
 // With two cells across, the skin around the axis has 4 vertices at the half width a and 4 at sqrt(2) a: the mean is a (1 + sqrt(2)) / 2.
 TEST(BoneCapsules, RadiusIsAShareOfTheMeanDistanceOfTheSkin)
 {
-    for (const BoneCapsule& capsule : bone_capsules(bar(), 0.35)) {
+    for (const BoneCapsule& of_bone : bone_capsules(bar(), 0.35)) {
         // The mean of eight distances in each of at most 25 sections, each after some eight roundings.
-        EXPECT_NEAR(capsule.radius_m, 0.35 * 0.15 * (1.0 + std::numbers::sqrt2) / 2.0,
-                    test_support::mean_error(8 * 25 + 8, capsule.radius_m));
-        EXPECT_EQ(capsule.radius_from, "skin on its middle");
+        EXPECT_NEAR(of_bone.radius_m, 0.35 * 0.15 * (1.0 + std::numbers::sqrt2) / 2.0,
+                    test_support::mean_error(8 * 25 + 8, of_bone.radius_m));
+        EXPECT_EQ(of_bone.radius_from, "skin on its middle");
     }
 }
 
@@ -54,17 +56,11 @@ TEST(BoneCapsules, ABoneWithoutLengthIsRefusedByName)
 {
     pbs::Character character = bar();
     character.skeleton.bones[1].tail = character.skeleton.bones[1].head;
-    try {
-        bone_capsules(character, 0.35);
-        FAIL();
-    } catch (const pbs::InputError& error) {
-        EXPECT_NE(std::string(error.what()).find("forearm"), std::string::npos);
-    }
+    expect_input_error([&] { bone_capsules(character, 0.35); }, "bar: bone = forearm: ", "");
 }
 
 TEST(BoneCapsules, ContainsItsAxisAndNothingBeyondItsEndsOrRadius)
 {
-    const BoneCapsule capsule{{0, 0, 0}, {2, 0, 0}, 0.5, ""};
     EXPECT_TRUE(capsule.contains({0, 0, 0}));
     EXPECT_TRUE(capsule.contains({1, 0.3, -0.39}));
     EXPECT_FALSE(capsule.contains({1, 0.3, -0.41}));
@@ -78,7 +74,6 @@ TEST(BoneCapsules, ContainsItsAxisAndNothingBeyondItsEndsOrRadius)
 // of r^2 / (2 n), n = 193 points per disc: 1.3e-5 of r^2.
 TEST(BoneCapsules, SamplesStandForEqualSharesOfTheVolume)
 {
-    const BoneCapsule capsule{{0, 0, 0}, {2, 0, 0}, 0.5, ""};
     const pbs::Positions samples = sample_points(capsule);
     EXPECT_EQ(samples.rows(), 40 * 193);
     // A sample goes through ten roundings. Those of the sums do not cancel, since all discs are alike.
@@ -89,11 +84,10 @@ TEST(BoneCapsules, SamplesStandForEqualSharesOfTheVolume)
     for (const auto& sample : samples.rowwise()) EXPECT_TRUE(capsule.contains(sample.transpose()));
 }
 
-// A capsule of radius 1/2 and length 2 along x, with steps of one radius. By hand: s = 1/2 a quarter off the axis, t = 1/2 a quarter from
+// With steps of one radius. By hand: s = 1/2 a quarter off the axis, t = 1/2 a quarter from
 // an end, where both steps are 1/2.
 TEST(SmoothDensity, IsThatOfTheKernelsFormulas)
 {
-    const BoneCapsule capsule{{0, 0, 0}, {2, 0, 0}, 0.5, ""};
     const auto at = [&](AttachmentKernel kernel, const Vec3& point) { return smooth_density(capsule, kernel, 1.0, point); };
     EXPECT_DOUBLE_EQ(at(AttachmentKernel::biweight, {1, 0, 0}), 1.0);
     EXPECT_DOUBLE_EQ(at(AttachmentKernel::wendland, {1, 0, 0}), 1.0);
@@ -108,14 +102,12 @@ TEST(SmoothDensity, IsThatOfTheKernelsFormulas)
 // Steps longer than half of the capsule would not meet: each is half of it then, and the density is 1 in the middle alone.
 TEST(SmoothDensity, StepsAreAtMostHalfOfTheCapsule)
 {
-    const BoneCapsule capsule{{0, 0, 0}, {2, 0, 0}, 0.5, ""};
     EXPECT_DOUBLE_EQ(smooth_density(capsule, AttachmentKernel::biweight, 10.0, {1, 0, 0}), 1.0);
     EXPECT_DOUBLE_EQ(smooth_density(capsule, AttachmentKernel::biweight, 10.0, {0.5, 0, 0}), 0.5);
 }
 
 TEST(BoneCapsules, ADensityOfSamplesMultipliesTheirNumbersInEachDirection)
 {
-    const BoneCapsule capsule{{0, 0, 0}, {2, 0, 0}, 0.5, ""};
     EXPECT_EQ(sample_points(capsule, 2).rows(), 80 * (1 + 16 * 48));
     EXPECT_THROW(sample_points(capsule, 0), std::invalid_argument);
 }

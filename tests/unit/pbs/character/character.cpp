@@ -2,19 +2,20 @@
 
 #include "pbs/character/character.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
+#include "tests/support/bar_character.hpp"
 #include "tests/support/random_points.hpp"
 #include "tests/support/rounding_error.hpp"
-#include "tests/support/two_bone_limb.hpp"
+#include "tests/support/weight_sums.hpp"
 
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <numeric>
 
 namespace {
 
 using namespace pbs;
+using test_support::weight_in;
 
 std::vector<bool> zone_of(const std::vector<double>& distances)
 {
@@ -26,20 +27,8 @@ std::vector<bool> zone_of(const std::vector<double>& distances)
 TEST(JiggleZone, IsFartherThanTheMean)
 {
     EXPECT_EQ(zone_of({1.0, 2.0, 3.0, 10.0}), (std::vector<bool>{false, false, false, true}));
-}
-
-TEST(JiggleZone, AtTheMeanIsOutside)
-{
-    EXPECT_EQ(zone_of({1.0, 2.0, 3.0}), (std::vector<bool>{false, false, true}));
-}
-
-TEST(JiggleZone, EqualDistancesHaveNone)
-{
+    EXPECT_EQ(zone_of({1.0, 2.0, 3.0}), (std::vector<bool>{false, false, true})) << "at the mean is outside";
     EXPECT_EQ(zone_of({0.25, 0.25}), (std::vector<bool>{false, false}));
-}
-
-TEST(JiggleZone, NoVerticesNoZone)
-{
     EXPECT_TRUE(zone_of({}).empty());
 }
 
@@ -58,24 +47,10 @@ TEST(JiggleZoneByBone, IsFartherThanTheMeanOfItsOwnBone)
 
 Character bar(WeightKind kind = WeightKind::paper)
 {
-    const test_support::TwoBoneLimb limb = test_support::two_bone_limb({12, 2, 2}, Vec3::UnitZ(), 0.0);
-    Character character;
-    character.mesh = limb.mesh;
-    character.skeleton = limb.skeleton;
-    character.binding = limb.binding;
-    character.weights = kind == WeightKind::rigid ? rigid_weights(limb.binding) : limb.weights;
+    Character character = test_support::bar_character({12, 2, 2});
+    if (kind == WeightKind::rigid) character.weights = rigid_weights(character.binding);
     character.weight_kind = kind;
-    for (int v = 0; v < limb.weights.vertices(); ++v) character.blended.push_back(limb.weights.blended(v));
     return character;
-}
-
-// The weight of bone 0; there are two bones.
-double weight_of_root(const Weights& weights, int vertex)
-{
-    double weight = 0.0;
-    for (int entry = weights.first[vertex]; entry < weights.first[vertex + 1]; ++entry)
-        if (weights.bone[entry] == 0) weight += weights.weight[entry];
-    return weight;
 }
 
 Positions lbs(const Character& character)
@@ -120,11 +95,11 @@ TEST(RefinedCharacter, TakesTheMeanOfWeightsFromAFile)
     ASSERT_EQ(fine.weights.vertices(), fine.mesh.rest.rows());
     for (int e = 0; e < parents.rows(); ++e) {
         const int vertex = static_cast<int>(coarse.mesh.rest.rows()) + e;
-        EXPECT_DOUBLE_EQ(weight_of_root(fine.weights, vertex),
-                         0.5 * (weight_of_root(coarse.weights, parents(e, 0)) + weight_of_root(coarse.weights, parents(e, 1))));
-        const int first = fine.weights.first[vertex], last = fine.weights.first[vertex + 1];
-        EXPECT_NEAR(std::accumulate(fine.weights.weight.begin() + first, fine.weights.weight.begin() + last, 0.0), 1.0,
-                    test_support::mean_error(2 * (last - first), 1.0));  // of two parents, whose weights are rounded themselves
+        EXPECT_DOUBLE_EQ(weight_in(fine.weights, vertex, 0),
+                         0.5 * (weight_in(coarse.weights, parents(e, 0), 0) + weight_in(coarse.weights, parents(e, 1), 0)));
+        const int entries = fine.weights.first[vertex + 1] - fine.weights.first[vertex];
+        EXPECT_NEAR(test_support::sum_of_weights(fine.weights, vertex), 1.0,
+                    test_support::mean_error(2 * entries, 1.0));  // of two parents, whose weights are rounded themselves
     }
 }
 

@@ -11,7 +11,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
 
 namespace {
 
@@ -28,18 +27,13 @@ TetMesh cube()
 
 Positions random_points(int count, double lowest, double highest)
 {
-    std::mt19937 generator(20140528);
-    std::uniform_real_distribution<double> coordinate(lowest, highest);
-    Positions points(count, 3);
-    for (Eigen::Index entry = 0; entry < points.size(); ++entry) points.data()[entry] = coordinate(generator);
-    return points;
+    test_support::RandomPoints random(20140528);
+    return Positions::NullaryExpr(count, 3, [&] { return random.number(lowest, highest); });
 }
 
 double largest_distance(const Vec3& point)
 {
-    Positions points(1, 3);
-    points << point.transpose();
-    return embed(points, Triangles(0, 3), unit_tet()).largest_distance_outside_m;
+    return embed(point.transpose(), Triangles(0, 3), unit_tet()).largest_distance_outside_m;
 }
 
 TEST(Embedding, BarycentricCoordinatesSumToOneInsideAndOutside)
@@ -94,9 +88,8 @@ TEST(Embedding, DistanceOutsideOfAFaceAnEdgeAndACorner)
 
 TEST(Embedding, TheNearestTetCarriesAPointOutside)
 {
-    Positions points(1, 3);
-    points << 1.2, 0.9, 0.1;  // beyond x = 1, where the first tet, x >= y >= z, has a face
-    const EmbeddedSurface surface = embed(points, Triangles(0, 3), cube());
+    // Beyond x = 1, where the first tet, x >= y >= z, has a face.
+    const EmbeddedSurface surface = embed(Positions{{1.2, 0.9, 0.1}}, Triangles(0, 3), cube());
     EXPECT_EQ(surface.tet(0), 0);
     EXPECT_NEAR(surface.largest_distance_outside_m, 0.2, rounding_error(8, 1.2));
 }
@@ -143,28 +136,17 @@ void expect_nearest(const Vec3& point, const Vec3& expected)
     EXPECT_NEAR(found.barycentric.sum(), 1.0, nearest_rounding);
 }
 
-TEST(NearestTriangle, AboveATriangleIsTheFootOfThePerpendicular)
+TEST(NearestTriangle, IsTheFootOfThePerpendicularOnTheTriangleAnEdgeOrACorner)
 {
-    expect_nearest({1, 2, 3}, {1, 2, 0});
-    expect_nearest({1, 1, -3}, {1, 1, 0});
-}
-
-TEST(NearestTriangle, BesideATriangleIsAnEdge)
-{
-    expect_nearest({1, -2, 1}, {1, 0, 0});
-    expect_nearest({-2, 3, 1}, {0, 3, 0});
-    expect_nearest({4, 4, 1}, {2, 2, 0});
-}
-
-TEST(NearestTriangle, BeyondACornerIsTheCorner)
-{
-    expect_nearest({-1, -2, 1}, {0, 0, 0});
-    expect_nearest({7, -1, 0}, {4, 0, 0});
-    expect_nearest({-1, 9, 0}, {0, 4, 0});
-}
-
-TEST(NearestTriangle, OnATriangleIsThePointItself)
-{
+    for (const auto& [point, nearest] : {std::pair(Vec3(1, 2, 3), Vec3(1, 2, 0)),
+                                         {{1, 1, -3}, {1, 1, 0}},  // above it
+                                         {{1, -2, 1}, {1, 0, 0}},
+                                         {{-2, 3, 1}, {0, 3, 0}},
+                                         {{4, 4, 1}, {2, 2, 0}},  // beside an edge
+                                         {{-1, -2, 1}, {0, 0, 0}},
+                                         {{7, -1, 0}, {4, 0, 0}},
+                                         {{-1, 9, 0}, {0, 4, 0}}})  // beyond a corner
+        expect_nearest(point, nearest);
     for (const Vec3& point : {Vec3(0, 0, 0), Vec3(2, 0, 0), Vec3(2, 2, 0), Vec3(1, 1, 0)}) expect_nearest(point, point);
 }
 

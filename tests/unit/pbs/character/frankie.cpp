@@ -1,6 +1,8 @@
 // Reference: the documented format (a tetrahedron of volume 1/6 and two joints, laid out by hand); each refusal by file and field.
 
 #include "pbs/character/named_bodies.hpp"
+#include "tests/support/closed_surfaces.hpp"
+#include "tests/support/folder_test.hpp"
 #include "tests/support/rounding_error.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/unit/pbs/character/expect_input_error.hpp"
@@ -59,27 +61,19 @@ inline std::string iqm_bytes()
 
 namespace {
 
+using Iqm = test_support::FolderTest;
 using namespace pbs;
 using P = test_support::IqmPlaces;
-
-TEST(Iqm, TrianglesTurnOutwardAndSeamsAreJoined)
+TEST_F(Iqm, TrianglesTurnOutwardAndSeamsAreJoined)
 {
-    const test_support::ScratchFolder folder;
     const IqmModel model = read_iqm(folder.file("tet.iqm", test_support::iqm_bytes()));
     EXPECT_EQ(model.surface.points.rows(), 4);
     ASSERT_EQ(model.surface.triangles.rows(), 4);
-    double volume = 0.0;
-    for (Eigen::Index t = 0; t < 4; ++t) {
-        const Vec3 a = model.surface.points.row(model.surface.triangles(t, 0)), b = model.surface.points.row(model.surface.triangles(t, 1)),
-                   c = model.surface.points.row(model.surface.triangles(t, 2));
-        volume += a.dot(b.cross(c)) / 6.0;
-    }
-    EXPECT_DOUBLE_EQ(volume, 1.0 / 6.0);
+    EXPECT_DOUBLE_EQ(test_support::enclosed_volume(model.surface.points, model.surface.triangles), 1.0 / 6.0);
 }
 
-TEST(Iqm, JointsStandWhereTheirParentsTurnThem)
+TEST_F(Iqm, JointsStandWhereTheirParentsTurnThem)
 {
-    const test_support::ScratchFolder folder;
     const IqmModel model = read_iqm(folder.file("tet.iqm", test_support::iqm_bytes()));
     ASSERT_EQ(model.joints.size(), 2u);
     EXPECT_EQ(model.joints[0].name, "root");
@@ -90,9 +84,8 @@ TEST(Iqm, JointsStandWhereTheirParentsTurnThem)
     EXPECT_NEAR((model.joints[1].position - Vec3(0.0, 3.0, 2.0)).norm(), 0.0, test_support::motion_error(2, 3.0 + 2.0));
 }
 
-TEST(Iqm, EveryTruncationIsRefused)
+TEST_F(Iqm, EveryTruncationIsRefused)
 {
-    const test_support::ScratchFolder folder;
     const std::string whole = test_support::iqm_bytes();
     for (std::size_t bytes = 0; bytes < whole.size(); bytes += 7) {
         const std::string path = folder.file("cut.iqm", whole.substr(0, bytes));
@@ -138,10 +131,5 @@ INSTANTIATE_TEST_SUITE_P(
         Damage{"name_beyond", P::joints, 400, "name"}, Damage{"its_own_parent", P::joints + 52, 1, "parent"},
         Damage{"nan_joint", P::joints + 8, nan_bits, "joint root"}, Damage{"no_rotation", P::joints + 48 + 8 + 24, 0, "joint arm"}),
     [](const auto& info) { return std::string(info.param.name); });
-
-TEST(Iqm, AFileThatIsNotThere)
-{
-    expect_input_error([] { read_iqm("no.iqm"); }, "no.iqm: ", "cannot be opened");
-}
 
 }  // namespace

@@ -16,23 +16,35 @@ using namespace pbs;
 
 const Skeleton limb{{{"upper", -1, Vec3(-1, 0, 0), Vec3(0, 0, 0)}, {"forearm", 0, Vec3(0, 0, 0), Vec3(1, 0, 0)}}};
 
+// A chain of joints, `spacing` apart, whose root stays; those of which `turns` is true turn by `degrees` per frame about z.
+Clip chain_of(const std::vector<std::string>& joints, const std::vector<bool>& turns, double degrees = 10.0, int frames = 3,
+              const Vec3& spacing = Vec3::UnitX())
+{
+    Clip clip;
+    clip.name = "chain.bvh";
+    clip.frame_time_s = 0.01;
+    clip.joints = joints;
+    clip.zero_pose.resize(Eigen::Index(joints.size()), 3);
+    for (int j = 0; j < int(joints.size()); ++j) {
+        clip.parent.push_back(j - 1);
+        clip.zero_pose.row(j) = j * spacing;
+    }
+    clip.root = Positions::Zero(frames, 3);
+    for (int frame = 0; frame < frames; ++frame) {
+        clip.local.emplace_back();
+        for (const bool turn : turns)
+            clip.local.back().emplace_back(Eigen::AngleAxisd(turn ? frame * degrees * M_PI / 180.0 : 0.0, Vec3::UnitZ()));
+    }
+    return clip;
+}
+
 // upper -> forearm -> hand along `direction`, bones 2 units long. Frame f turns the forearm by 10 f degrees about z and moves the root by f
 // along y.
 Clip bending_clip(int frames, const Vec3& direction = Vec3::UnitX())
 {
-    Clip clip;
+    Clip clip = chain_of({"upper", "forearm", "hand"}, {false, true, false}, 10.0, frames, 2.0 * direction);
     clip.name = "bending.bvh";
-    clip.frame_time_s = 0.01;
-    clip.joints = {"upper", "forearm", "hand"};
-    clip.parent = {-1, 0, 1};
-    clip.zero_pose.resize(3, 3);
-    for (int joint = 0; joint < 3; ++joint) clip.zero_pose.row(joint) = 2.0 * joint * direction;
-    clip.root.resize(frames, 3);
-    for (int frame = 0; frame < frames; ++frame) {
-        const Eigen::Quaterniond bend(Eigen::AngleAxisd(frame * M_PI / 18.0, Vec3::UnitZ()));
-        clip.local.push_back({Eigen::Quaterniond::Identity(), bend, Eigen::Quaterniond::Identity()});
-        clip.root.row(frame) << 0.0, frame, 0.0;
-    }
+    for (int frame = 0; frame < frames; ++frame) clip.root(frame, 1) = frame;
     return clip;
 }
 
@@ -153,60 +165,29 @@ TEST(Retarget, RefusesWhatItCannotDo)
 
 // Reference: clips of three joints, counted by hand.
 
-const Skeleton arm_to_match{{{"upper", -1, Vec3(-1, 0, 0), Vec3(0, 0, 0)}, {"forearm", 0, Vec3(0, 0, 0), Vec3(1, 0, 0)}}};
-
-// A chain of joints along x; those of which `turns` is true turn by 10 degrees per frame about z.
-Clip chain_of(const std::vector<std::string>& joints, const std::vector<bool>& turns, double degrees = 10.0)
-{
-    Clip clip;
-    clip.name = "chain.bvh";
-    clip.frame_time_s = 0.01;
-    clip.joints = joints;
-    clip.zero_pose.resize(Eigen::Index(joints.size()), 3);
-    for (int j = 0; j < int(joints.size()); ++j) {
-        clip.parent.push_back(j - 1);
-        clip.zero_pose.row(j) << j, 0, 0;
-    }
-    clip.root = Positions::Zero(3, 3);
-    for (int frame = 0; frame < 3; ++frame) {
-        clip.local.emplace_back();
-        for (const bool turn : turns)
-            clip.local.back().emplace_back(Eigen::AngleAxisd(turn ? frame * degrees * M_PI / 180.0 : 0.0, Vec3::UnitZ()));
-    }
-    return clip;
-}
-
 TEST(ClipMatch, CountsTheJointsThatMoveAndThoseThatABoneFollows)
 {
-    const ClipMatch match = match_of(chain_of({"upper", "forearm", "hand", "end"}, {true, true, true, false}), arm_to_match);
+    const ClipMatch match = match_of(chain_of({"upper", "forearm", "hand", "end"}, {true, true, true, false}), limb);
     EXPECT_EQ(match.moving, 3);
     EXPECT_EQ(match.matched, 2);
     EXPECT_EQ(match.unmatched, std::vector<std::string>{"hand"});
+    const ClipMatch resting = match_of(chain_of({"upper", "forearm", "hand"}, {false, true, false}), limb);
+    EXPECT_EQ(resting.moving, 1);
+    EXPECT_EQ(resting.matched, 1);
+    EXPECT_TRUE(resting.unmatched.empty());
 }
 
-TEST(ClipMatch, AJointThatRestsIsNotCounted)
+TEST(ClipMatch, ARotationOfSinglePrecisionAndANegativeQuaternionAreNoMotion)
 {
-    const ClipMatch match = match_of(chain_of({"upper", "forearm", "hand"}, {false, true, false}), arm_to_match);
-    EXPECT_EQ(match.moving, 1);
-    EXPECT_EQ(match.matched, 1);
-    EXPECT_TRUE(match.unmatched.empty());
-}
-
-TEST(ClipMatch, ARotationOfSinglePrecisionIsNone)
-{
-    EXPECT_EQ(match_of(chain_of({"upper", "forearm", "hand"}, {true, true, true}, 1e-4), arm_to_match).moving, 0);
-}
-
-TEST(ClipMatch, AQuaternionAndItsNegativeAreOneRotation)
-{
+    EXPECT_EQ(match_of(chain_of({"upper", "forearm", "hand"}, {true, true, true}, 1e-4), limb).moving, 0);
     Clip clip = chain_of({"upper", "forearm", "hand"}, {false, false, false});
     clip.local[1][1].coeffs() *= -1.0;
-    EXPECT_EQ(match_of(clip, arm_to_match).moving, 0);
+    EXPECT_EQ(match_of(clip, limb).moving, 0);
 }
 
 TEST(ClipMatch, AClipNoneOfWhoseNamesMatchesIsRefused)
 {
-    EXPECT_THROW(match_of(chain_of({"a", "b", "c"}, {true, true, true}), arm_to_match), InputError);
+    EXPECT_THROW(match_of(chain_of({"a", "b", "c"}, {true, true, true}), limb), InputError);
 }
 
 TEST(LargestRotation, IsThatOfAnyBoneFromTheFirstPose)

@@ -2,7 +2,10 @@
 
 #include "pbs/geometry/child_process.hpp"
 #include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/module.hpp"
+#include "tests/support/refusal.hpp"
 #include "tests/support/scratch_folder.hpp"
+#include "tests/unit/pbs/character/expect_input_error.hpp"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -25,12 +28,7 @@ using Reader = std::function<void(const std::string&)>;
 
 std::string message_of(const Reader& read, const std::string& path = "x.vtu")
 {
-    try {
-        pbs::try_reading(path, read);
-        return "read";
-    } catch (const pbs::InputError& error) {
-        return error.what();
-    }
+    return test_support::refusal_of([&] { pbs::try_reading(path, read); });
 }
 
 TEST(GuardedReading, ReadsInAChildAndThenHere)
@@ -110,7 +108,7 @@ TEST(GuardedReading, MoreThanHalfOfTheMemoryIsNotGiven)
             room.reserve(bytes);
         };
     };
-    EXPECT_EQ(message_of(taking(available_bytes() / 3), path), "read");
+    EXPECT_EQ(message_of(taking(available_bytes() / 3), path), "accepted");
     EXPECT_EQ(message_of(taking(available_bytes() * 2 / 3), path), path + ": damaged: asks for more memory than such a file can need");
 }
 
@@ -146,6 +144,45 @@ TEST(Process, IsGoneOnceItHasEndedThoughNobodyHasAskedHow)
     EXPECT_TRUE(pbs::process_is_gone(child));
     ASSERT_EQ(waitpid(child, nullptr, 0), child);
     EXPECT_TRUE(pbs::process_is_gone(child));
+}
+
+// Reference: the folders that the header specifies for the search for modules.
+
+class Modules : public ::testing::Test {
+protected:
+    void TearDown() override { unsetenv("PBSKIN_MODULES"); }
+};
+
+TEST_F(Modules, AMissingOneSaysWhereItWasLookedFor)
+{
+    for (const char* words : {"/lib/pbskin", "PBSKIN_MODULES"})
+        expect_input_error([] { pbs::load_module("pbskin_no_such_module"); }, "libpbskin_no_such_module.so: ", words);
+}
+
+TEST_F(Modules, TheEnvironmentVariableNamesTheOnlyFolder)
+{
+    setenv("PBSKIN_MODULES", "/no/such/folder", 1);
+    expect_input_error([] { pbs::load_module("pbskin_no_such_module"); }, "", "looked in /no/such/folder)");
+}
+
+TEST_F(Modules, AFileThatIsNoLibraryIsRefusedInTheLoadersWords)
+{
+    const test_support::ScratchFolder folder;
+    folder.file("libpbskin_text.so", "no library");
+    setenv("PBSKIN_MODULES", folder.path().c_str(), 1);
+    expect_input_error([] { pbs::load_module("pbskin_text"); }, folder / "libpbskin_text.so", "cannot be loaded");
+}
+
+TEST_F(Modules, AreLoadedOnceAndFoundBesideTheExecutable)
+{
+    const pbs::Module& gmsh = pbs::load_module("pbskin_gmsh");
+    EXPECT_EQ(&gmsh, &pbs::load_module("pbskin_gmsh"));
+    EXPECT_NE(gmsh.function<void()>("pbskin_gmsh_read"), nullptr);
+}
+
+TEST_F(Modules, AFunctionThatIsNotThereIsRefusedByName)
+{
+    expect_input_error([] { pbs::load_module("pbskin_gmsh").function<void()>("pbskin_no_such_function"); }, "", "pbskin_no_such_function");
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include "pbs/geometry/content_format.hpp"
 #include "pbs/geometry/mesh_io.hpp"
 #include "tests/support/arm_in_formats.hpp"
+#include "tests/support/folder_test.hpp"
 #include "tests/support/gltf_document.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/unit/pbs/character/expect_input_error.hpp"
@@ -18,6 +19,8 @@
 
 namespace {
 
+using ContentFormat = test_support::FolderTest;
+using NamedLink = test_support::FolderTest;
 using test_support::ScratchFolder;
 
 const std::string ply =
@@ -39,9 +42,8 @@ std::string binary_stl()
     return bytes + std::string(2, '\0');
 }
 
-TEST(ContentFormat, IsThatOfTheFirstBytesWhateverTheName)
+TEST_F(ContentFormat, IsThatOfTheFirstBytesWhateverTheName)
 {
-    const ScratchFolder folder;
     const auto content = [&](const std::string& text) { return pbs::content_extension(folder.file("a.step", text)); };
     EXPECT_EQ(content("glTF\x02"), ".glb");
     EXPECT_EQ(content(" \n{\"asset\": {}}"), ".gltf");
@@ -60,9 +62,8 @@ TEST(ContentFormat, IsThatOfTheFirstBytesWhateverTheName)
     EXPECT_EQ(content("# by hand\nMeshVersionFormatted 2\n"), ".mesh");
 }
 
-TEST(ContentFormat, OfOtherContentIsThatOfTheName)
+TEST_F(ContentFormat, OfOtherContentIsThatOfTheName)
 {
-    const ScratchFolder folder;
     for (const char* text : {"", "ISO-10303-21;", "solid rock\n", "plywood\n", "SCOFFS\n", "v\n", "# only a comment\n"}) {
         const std::string path = folder.file("A.STL", text);
         EXPECT_EQ(pbs::content_extension(path), "") << text;
@@ -73,9 +74,8 @@ TEST(ContentFormat, OfOtherContentIsThatOfTheName)
     EXPECT_EQ(pbs::format_extension(folder / "none.ply"), ".ply");
 }
 
-TEST(ContentFormat, GivesANameWithItsExtension)
+TEST_F(ContentFormat, GivesANameWithItsExtension)
 {
-    const ScratchFolder folder;
     const std::string path = folder.file("a.obj", ply);
     EXPECT_EQ(pbs::path_by_content(path), path + ".ply");
 }
@@ -96,7 +96,7 @@ void expect_read_under_any_name(const std::string& own_extension, const std::str
     }
 }
 
-TEST(ContentFormat, ChoosesTheReaderOfASurface)
+TEST_F(ContentFormat, ChoosesTheReaderOfASurface)
 {
     expect_read_under_any_name(".obj", obj);
     expect_read_under_any_name(".dae", test_support::collada_arm());
@@ -110,20 +110,12 @@ TEST(ContentFormat, ChoosesTheReaderOfASurface)
 }
 
 // The numbers of this .gltf file are in another file in its folder.
-TEST(ContentFormat, AGltfUnderAnotherNameFindsItsNumbers)
+TEST_F(ContentFormat, AGltfUnderAnotherNameFindsItsNumbers)
 {
-    const ScratchFolder folder;
     const std::string own = test_support::write_rigged_gltf(folder, "arm.gltf", {});
     const pbs::SurfaceMesh expected = pbs::read_surface(own);
     std::filesystem::rename(own, folder / "arm.fbx");
     EXPECT_EQ(pbs::read_surface(folder / "arm.fbx").points, expected.points);
-}
-
-TEST(ContentFormat, OfTetsIsRefusedAsASurface)
-{
-    const ScratchFolder folder;
-    const std::string path = folder.file("arm.obj", "$MeshFormat\n2.2 0 8\n");
-    expect_input_error([&] { pbs::read_surface(path); }, path + ": format of the content = .msh: ", "expected a surface");
 }
 
 // Reference: the interface. A file may refer to regular files in and below its own folder.
@@ -142,26 +134,17 @@ protected:
     const test_support::ScratchFolder scratch;
 };
 
-TEST_F(OwnFolderTest, AllowsTheFileItselfAndThoseBesideAndBelow)
-{
-    for (const char* file : {"own/a.gltf", "own/beside.bin", "own/deeper/below.bin", "own/deeper/../beside.bin", "own/./beside.bin"})
-        EXPECT_TRUE(may_open(file)) << file;
-}
-
-TEST_F(OwnFolderTest, RefusesFilesElsewhereAndThoseThatDoNotExist)
-{
-    for (const char* file : {"above.bin", "own/../above.bin", "own2/similar.bin", "own/none.bin", "own/deeper"})
-        EXPECT_FALSE(may_open(file)) << file;
-    EXPECT_FALSE(pbs::may_be_opened_for(scratch / "own/a.gltf", "/etc/passwd"));
-    EXPECT_FALSE(pbs::may_be_opened_for(scratch / "own/a.gltf", ""));
-}
-
-TEST_F(OwnFolderTest, FollowsLinksBeforeItDecides)
+TEST_F(OwnFolderTest, AllowsTheFileItselfAndRegularFilesBesideAndBelow)
 {
     std::filesystem::create_symlink(scratch / "above.bin", scratch / "own/out.bin");
     std::filesystem::create_symlink(scratch / "own/deeper/below.bin", scratch / "own/in.bin");
-    EXPECT_FALSE(may_open("own/out.bin"));
-    EXPECT_TRUE(may_open("own/in.bin"));
+    ASSERT_EQ(mkfifo((scratch / "own/pipe").c_str(), 0600), 0);
+    for (const char* file :
+         {"own/a.gltf", "own/beside.bin", "own/deeper/below.bin", "own/deeper/../beside.bin", "own/./beside.bin", "own/in.bin"})
+        EXPECT_TRUE(may_open(file)) << file;
+    for (const char* file : {"above.bin", "own/../above.bin", "own2/similar.bin", "own/none.bin", "own/deeper", "own/out.bin", "own/pipe"})
+        EXPECT_FALSE(may_open(file)) << file;
+    for (const char* file : {"/etc/passwd", ""}) EXPECT_FALSE(pbs::may_be_opened_for(scratch / "own/a.gltf", file)) << file;
 }
 
 TEST_F(OwnFolderTest, AllowsWhatLiesBesideTheFileOrBesideALinkToIt)
@@ -170,12 +153,6 @@ TEST_F(OwnFolderTest, AllowsWhatLiesBesideTheFileOrBesideALinkToIt)
     EXPECT_TRUE(pbs::may_be_opened_for(scratch / "own2/link.gltf", scratch / "own/beside.bin"));
     EXPECT_TRUE(pbs::may_be_opened_for(scratch / "own2/link.gltf", scratch / "own2/similar.bin"));
     EXPECT_FALSE(pbs::may_be_opened_for(scratch / "own2/link.gltf", scratch / "above.bin"));
-}
-
-TEST_F(OwnFolderTest, RefusesPipes)
-{
-    ASSERT_EQ(mkfifo((scratch / "own/pipe").c_str(), 0600), 0);
-    EXPECT_FALSE(may_open("own/pipe"));
 }
 
 // Reference: the specification in content_format.hpp.
@@ -197,8 +174,7 @@ public:
 private:
     std::string before_;
 };
-
-TEST(NamedLink, IsTheFileUnderTheOtherNameAndLeavesNothing)
+TEST_F(NamedLink, IsTheFileUnderTheOtherNameAndLeavesNothing)
 {
     const ScratchFolder folder, temporary;
     const std::string file = folder.file("a.txt", "text");
@@ -214,16 +190,14 @@ TEST(NamedLink, IsTheFileUnderTheOtherNameAndLeavesNothing)
     EXPECT_TRUE(fs::exists(file));
 }
 
-TEST(NamedLink, IsTheFileItselfIfItHasTheExtension)
+TEST_F(NamedLink, IsTheFileItselfIfItHasTheExtension)
 {
-    const ScratchFolder folder;
     const std::string file = folder.file("A.MESH", "text");
     EXPECT_EQ(pbs::NamedLink(file, ".mesh").path(), file);
 }
 
-TEST(NamedLink, AsksForAnotherNameWhereNoLinkCanBeMade)
+TEST_F(NamedLink, AsksForAnotherNameWhereNoLinkCanBeMade)
 {
-    const ScratchFolder folder;
     const std::string file = folder.file("a.txt", "text");
     const TemporaryFiles nowhere(folder / "none");
     expect_input_error([&] { pbs::NamedLink(file, ".mesh"); }, file + ": extension = .txt: ", "rename the file to .mesh");

@@ -2,7 +2,8 @@
 
 #include "pbs/geometry/files.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "tests/support/scratch_folder.hpp"
+#include "tests/support/folder_test.hpp"
+#include "tests/support/refusal.hpp"
 #include "tests/unit/pbs/character/expect_input_error.hpp"
 
 #include <gtest/gtest.h>
@@ -14,34 +15,32 @@
 
 namespace {
 
+using ReadTextFile = test_support::FolderTest;
+using WriteAtomically = test_support::FolderTest;
+using AtomicFile = test_support::FolderTest;
 using namespace pbs;
-
-TEST(ReadTextFile, IsWholeAndToTheByte)
+TEST_F(ReadTextFile, IsWholeAndToTheByte)
 {
-    const test_support::ScratchFolder folder;
     const std::string bytes("a\r\n\0b\n", 6);
     EXPECT_EQ(read_text_file(folder.file("bytes", bytes)), bytes);
 }
 
-TEST(ReadTextFile, RefusesWhatCannotBeOpened)
+TEST_F(ReadTextFile, RefusesWhatCannotBeOpened)
 {
-    const test_support::ScratchFolder folder;
     const std::string none = (folder.path() / "none").string();
     expect_input_error([&] { read_text_file(none); }, none + ": ", "cannot be opened: No such file or directory");
     expect_input_error([&] { read_text_file(folder.path().string()); }, folder.path().string(), "cannot be opened: expected a file");
 }
 
-TEST(ReadTextFile, WaitsForNoPipeAndReadsNoDevice)
+TEST_F(ReadTextFile, WaitsForNoPipeAndReadsNoDevice)
 {
-    const test_support::ScratchFolder folder;
     ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
     for (const std::string& endless : {folder / "pipe", std::string("/dev/zero")})
         expect_input_error([&] { read_text_file(endless); }, endless + ": ", "cannot be opened: expected a file");
 }
 
-TEST(ReadTextFile, RefusesTooLargeAFileByItsSize)
+TEST_F(ReadTextFile, RefusesTooLargeAFileByItsSize)
 {
-    const test_support::ScratchFolder folder;
     const std::string path = folder.file("text", "four");
     EXPECT_EQ(read_text_file(path, 4), "four");
     expect_input_error([&] { read_text_file(path, 3); }, path + ": bytes = 4: ", "expected at most 3");
@@ -60,12 +59,7 @@ std::string repeated(const std::string& before, int count, const std::string& te
 
 std::string message_of(const std::string& text)
 {
-    try {
-        pbs::check_toml_keys(text, "x.toml");
-    } catch (const pbs::InputError& error) {
-        return error.what();
-    }
-    return "accepted";
+    return test_support::refusal_of([&] { check_toml_keys(text, "x.toml"); });
 }
 
 TEST(TomlText, KeysOfManyPartsAreNamedWithTheirLine)
@@ -117,20 +111,14 @@ TEST(TomlText, BareWordsAreAscii)
 // Reference: the contents of the file system afterwards. Failing writes: tests/unit/analysis/records/record_files.cpp.
 
 namespace fs = std::filesystem;
-using pbs::InputError;
-using pbs::read_text_file;
-using pbs::require_no_device;
-using pbs::write_atomically;
-using test_support::ScratchFolder;
 
 long files_in(const fs::path& folder)
 {
     return std::distance(fs::directory_iterator(folder), fs::directory_iterator());
 }
 
-TEST(WriteAtomically, WritesAndReplaces)
+TEST_F(WriteAtomically, WritesAndReplaces)
 {
-    const ScratchFolder folder;
     const std::string path = folder / "limb.vtu", bytes("a\0b\n", 4);
     write_atomically(path, "old");
     write_atomically(path, bytes);
@@ -138,9 +126,8 @@ TEST(WriteAtomically, WritesAndReplaces)
     EXPECT_EQ(files_in(folder.path()), 1);
 }
 
-TEST(AtomicFile, IsThereOnceItIsFinished)
+TEST_F(AtomicFile, IsThereOnceItIsFinished)
 {
-    const ScratchFolder folder;
     const std::string path = folder / "hero.glb";
     {
         pbs::AtomicFile file(path);
@@ -155,18 +142,16 @@ TEST(AtomicFile, IsThereOnceItIsFinished)
     EXPECT_EQ(files_in(folder.path()), 1);
 }
 
-TEST(AtomicFile, ThatIsNotFinishedLeavesNothing)
+TEST_F(AtomicFile, ThatIsNotFinishedLeavesNothing)
 {
-    const ScratchFolder folder;
     write_atomically(folder / "hero.glb", "old");
     pbs::AtomicFile(folder / "hero.glb").write("new");
     EXPECT_EQ(read_text_file(folder / "hero.glb"), "old");
     EXPECT_EQ(files_in(folder.path()), 1);
 }
 
-TEST(WriteAtomically, GivesTheUsualPermissions)
+TEST_F(WriteAtomically, GivesTheUsualPermissions)
 {
-    const ScratchFolder folder;
     const mode_t before = umask(027);
     write_atomically(folder / "limb.vtu", "");
     umask(before);
@@ -175,9 +160,8 @@ TEST(WriteAtomically, GivesTheUsualPermissions)
     EXPECT_EQ(status.st_mode & 0777, 0640u);
 }
 
-TEST(WriteAtomically, ANameOfTheGreatestLengthIsWritten)
+TEST_F(WriteAtomically, ANameOfTheGreatestLengthIsWritten)
 {
-    const ScratchFolder folder;
     std::string name = ".vtu";
     name.insert(0, 251, 'x');
     const std::string path = folder / name;
@@ -186,9 +170,8 @@ TEST(WriteAtomically, ANameOfTheGreatestLengthIsWritten)
 }
 
 // Anyone who can write to the folder could create a link with the name of the temporary file, if that name were predictable.
-TEST(WriteAtomically, NothingThatLiesThereIsWrittenThrough)
+TEST_F(WriteAtomically, NothingThatLiesThereIsWrittenThrough)
 {
-    const ScratchFolder folder;
     const std::string theirs = folder.file("theirs", "theirs");
     fs::create_directory(folder.path() / "out");
     for (const std::string& name : {".limb." + std::to_string(getpid()) + ".vtu", ".limb.vtu." + std::to_string(getpid())})
@@ -198,9 +181,8 @@ TEST(WriteAtomically, NothingThatLiesThereIsWrittenThrough)
     EXPECT_EQ(files_in(folder.path() / "out"), 3);
 }
 
-TEST(WriteAtomically, ADeviceOrANamedPipeIsLeftThere)
+TEST_F(WriteAtomically, ADeviceOrANamedPipeIsLeftThere)
 {
-    const ScratchFolder folder;
     ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
     fs::create_symlink("/dev/null", folder.path() / "device");
     for (const char* name : {"pipe", "device"}) {
@@ -212,9 +194,8 @@ TEST(WriteAtomically, ADeviceOrANamedPipeIsLeftThere)
     EXPECT_EQ(files_in(folder.path()), 2);
 }
 
-TEST(WriteAtomically, ThreadsThatWriteOneFileLeaveAWholeOne)
+TEST_F(WriteAtomically, ThreadsThatWriteOneFileLeaveAWholeOne)
 {
-    const ScratchFolder folder;
     const std::string path = folder / "limb.vtu";
     std::vector<std::thread> writers;
     for (const char letter : {'a', 'b', 'c', 'd'})

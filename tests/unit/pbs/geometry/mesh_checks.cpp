@@ -5,6 +5,7 @@
 #include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/geometry/topology.hpp"
 #include "tests/support/structured_bar.hpp"
+#include "tests/unit/pbs/character/expect_input_error.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,8 +15,8 @@ namespace {
 
 using test_support::unit_tet;
 
-// Adds a point and a tet to a mesh.
-pbs::TetMesh with(pbs::TetMesh mesh, std::vector<pbs::Vec3> points, const std::array<int, 4>& tet)
+// Adds points and a tet to a mesh.
+pbs::TetMesh with(pbs::TetMesh mesh, const std::vector<pbs::Vec3>& points, const std::array<int, 4>& tet)
 {
     for (const pbs::Vec3& p : points) {
         mesh.rest.conservativeResize(mesh.rest.rows() + 1, 3);
@@ -26,16 +27,14 @@ pbs::TetMesh with(pbs::TetMesh mesh, std::vector<pbs::Vec3> points, const std::a
     return mesh;
 }
 
+// The unit tet and one that touches it in a vertex, in an edge, and in a face.
+const pbs::TetMesh touching_in_a_vertex = with(unit_tet(), {{-1, 0, 0}, {0, -1, 0}, {0, 0, -1}}, {0, 4, 6, 5});
+const pbs::TetMesh touching_in_an_edge = with(unit_tet(), {{0.2, -1, -1}, {0.2, -1, -2}}, {0, 1, 5, 4});
+const pbs::TetMesh touching_in_a_face = with(unit_tet(), {{0, 0, -1}}, {0, 2, 1, 4});
+
 void expect_refused(const pbs::TetMesh& mesh, const std::string& words)
 {
-    try {
-        pbs::check_rest("m.vtu", mesh);
-        FAIL() << "accepted; expected: " << words;
-    } catch (const pbs::InputError& error) {
-        const std::string what = error.what();
-        EXPECT_EQ(what.rfind("m.vtu: ", 0), 0u) << what;
-        EXPECT_NE(what.find(words), std::string::npos) << what;
-    }
+    expect_input_error([&] { pbs::check_rest("m.vtu", mesh); }, "m.vtu: ", words);
 }
 
 TEST(RestMesh, ASoundOneIsAccepted)
@@ -72,22 +71,20 @@ TEST(RestMesh, AFlatTetIsRefusedAtAnySize)
     }
 }
 
-TEST(RestMesh, ATetWithATwiceNamedVertexIsRefused)
+TEST(RestMesh, IsRefusedByItsDefect)
 {
+    const pbs::Tets none(0, 4);
+    expect_refused({unit_tet().rest, none}, "tets = 0");
     expect_refused(with(unit_tet(), {}, {0, 1, 2, 2}), "tet 1 = (0, 1, 2, 2): expected a volume");
-}
-
-TEST(RestMesh, NoTetsAreRefused)
-{
-    pbs::TetMesh mesh = unit_tet();
-    mesh.tets.resize(0, 4);
-    expect_refused(mesh, "tets = 0");
-}
-
-TEST(RestMesh, IndicesOutOfRangeAreRefused)
-{
     expect_refused(with(unit_tet(), {}, {1, 2, 3, 4}), "tet 1 vertex = 4: expected an index from 0 to 3");
     expect_refused(with(unit_tet(), {}, {-1, 2, 3, 0}), "tet 1 vertex = -1");
+    expect_refused(with(unit_tet(), {{0, 0, 0}, {1, 1, 1}}, {4, 2, 1, 5}), "vertex 0 is there already");
+    expect_refused(with(touching_in_a_face, {{0.1, 0.2, 2}}, {0, 1, 2, 5}), "one face is in three");
+    expect_refused(with(unit_tet(), {{0.2, 0.2, 0.5}}, {0, 1, 2, 4}), "they overlap");
+#ifdef PBS_WITH_CGAL
+    expect_refused(with(unit_tet(), {{0.1, 0.1, -1}, {0.2, 0.1, -1}, {0.1, 0.2, -1}, {0.12, 0.12, 3}}, {4, 5, 6, 7}),
+                   "does not intersect itself");
+#endif
 }
 
 TEST(RestMesh, CoordinatesThatAreNotFiniteAreRefused)
@@ -110,29 +107,11 @@ TEST(RestMesh, AnUnusedVertexIsLeftOut)
     EXPECT_EQ(reading.file_vertices, 5);
 }
 
-TEST(RestMesh, ADoubledVertexIsRefused)
+TEST(RestMesh, TetsThatTouchAreSeparatedThereOrJoinedByTheirFace)
 {
-    expect_refused(with(unit_tet(), {{0, 0, 0}, {1, 1, 1}}, {4, 2, 1, 5}), "vertex 0 is there already");
-}
-
-TEST(RestMesh, AFaceInThreeTetsIsRefused)
-{
-    const pbs::TetMesh pair = with(unit_tet(), {{0, 0, -1}}, {0, 2, 1, 4});
-    EXPECT_NO_THROW(pbs::check_rest("m.vtu", pair));
-    expect_refused(with(pair, {{0.1, 0.2, 2}}, {0, 1, 2, 5}), "one face is in three");
-}
-
-TEST(RestMesh, NeighboursFoldedOverEachOtherAreRefused)
-{
-    expect_refused(with(unit_tet(), {{0.2, 0.2, 0.5}}, {0, 1, 2, 4}), "they overlap");
-}
-
-TEST(RestMesh, TetsThatTouchInAnEdgeOrVertexAreSeparatedThere)
-{
-    const pbs::TetMesh edge = with(unit_tet(), {{0.2, -1, -1}, {0.2, -1, -2}}, {0, 1, 5, 4});
-    EXPECT_EQ(pbs::check_rest("m.vtu", edge).split_vertices, (std::vector<int>{0, 1}));
-    const pbs::TetMesh vertex = with(unit_tet(), {{-1, 0, 0}, {0, -1, 0}, {0, 0, -1}}, {0, 4, 6, 5});
-    EXPECT_EQ(pbs::check_rest("m.vtu", vertex).split_vertices, std::vector<int>{0});
+    EXPECT_EQ(pbs::check_rest("m.vtu", touching_in_an_edge).split_vertices, (std::vector<int>{0, 1}));
+    EXPECT_EQ(pbs::check_rest("m.vtu", touching_in_a_vertex).split_vertices, std::vector<int>{0});
+    EXPECT_TRUE(pbs::check_rest("m.vtu", touching_in_a_face).split_vertices.empty());
 }
 
 // Of three layers of 2 x 2 cubes, the middle one has two cubes that touch in an edge alone; the other layers join its ends.
@@ -143,14 +122,6 @@ TEST(RestMesh, TetsThatTouchInAnEdgeWhoseEndsAreJoinedAreRefusedByTheirVertices)
     for (const int cube : {5, 6}) std::fill_n(kept.begin() + 6 * cube, 6, false);
     expect_refused(pbs::kept_tets(bar, kept), "boundary = vertices 13 and 22: expected a manifold");
 }
-
-#ifdef PBS_WITH_CGAL
-TEST(RestMesh, BodiesThroughEachOtherAreRefused)
-{
-    const pbs::TetMesh through = with(unit_tet(), {{0.1, 0.1, -1}, {0.2, 0.1, -1}, {0.1, 0.2, -1}, {0.12, 0.12, 3}}, {4, 5, 6, 7});
-    expect_refused(through, "does not intersect itself");
-}
-#endif
 
 TEST(Frame, CoordinatesWhoseVolumesOverflowAreRefused)
 {
@@ -169,17 +140,6 @@ TEST(Frame, AsksForIndicesAndPlacesAlone)
 }
 
 // Reference: two or three tets, of which each vertex and each face is counted by hand.
-
-// The unit tet with further points and one further tet.
-pbs::TetMesh unit_tet_and(const std::vector<pbs::Vec3>& points, const std::array<int, 4>& tet)
-{
-    pbs::TetMesh mesh = test_support::unit_tet();
-    mesh.rest.conservativeResize(4 + Eigen::Index(points.size()), 3);
-    for (std::size_t p = 0; p < points.size(); ++p) mesh.rest.row(4 + Eigen::Index(p)) = points[p].transpose();
-    mesh.tets.conservativeResize(2, 4);
-    mesh.tets.row(1) << tet[0], tet[1], tet[2], tet[3];
-    return mesh;
-}
 
 // Every corner of every tet stays in its place.
 void expect_the_same_tets(const pbs::MeshReading& repair, const pbs::TetMesh& mesh)
@@ -217,53 +177,35 @@ TEST(MeshRepair, UnusedVerticesAreLeftOut)
     expect_the_same_tets(repair, mesh);
 }
 
-TEST(MeshRepair, TetsThatTouchInAVertexGetOneEach)
+TEST(MeshRepair, TetsThatTouchInAVertexOrAnEdgeGetVerticesOfTheirOwn)
 {
-    const pbs::TetMesh mesh = unit_tet_and({{-1, 0, 0}, {0, -1, 0}, {0, 0, -1}}, {0, 4, 6, 5});
-    const pbs::MeshReading repair = pbs::repaired(mesh);
-    EXPECT_EQ(repair.split_vertices, std::vector<int>{0});
-    EXPECT_EQ(repair.mesh.rest.rows(), 8);
-    expect_the_same_tets(repair, mesh);
-    EXPECT_TRUE(pbs::topology_of(repair.mesh.tets, 8).boundary_manifold);
-}
-
-TEST(MeshRepair, TetsThatTouchInAnEdgeAreSeparatedThere)
-{
-    const pbs::TetMesh mesh = unit_tet_and({{0.2, -1, -1}, {0.2, -1, -2}}, {0, 1, 5, 4});
-    const pbs::MeshReading repair = pbs::repaired(mesh);
-    EXPECT_EQ(repair.split_vertices, (std::vector<int>{0, 1}));
-    EXPECT_EQ(repair.mesh.rest.rows(), 8);
-    expect_the_same_tets(repair, mesh);
-    EXPECT_FALSE(pbs::edge_that_is_not_manifold(repair.mesh.tets));
+    for (const auto& [mesh, split] : {std::pair(touching_in_a_vertex, std::vector<int>{0}), {touching_in_an_edge, {0, 1}}}) {
+        const pbs::MeshReading repair = pbs::repaired(mesh);
+        EXPECT_EQ(repair.split_vertices, split);
+        EXPECT_EQ(repair.mesh.rest.rows(), 8);
+        expect_the_same_tets(repair, mesh);
+        EXPECT_TRUE(pbs::topology_of(repair.mesh.tets, 8).boundary_manifold);
+        EXPECT_FALSE(pbs::edge_that_is_not_manifold(repair.mesh.tets));
+        const pbs::MeshReading twice = pbs::repaired(repair.mesh);
+        EXPECT_EQ(twice.mesh.tets, repair.mesh.tets);
+        EXPECT_TRUE(twice.split_vertices.empty() && twice.unused_vertices.empty());
+    }
 }
 
 TEST(MeshRepair, TetsThatShareAFaceStayTogether)
 {
-    const pbs::TetMesh mesh = unit_tet_and({{0, 0, -1}}, {0, 2, 1, 4});
-    const pbs::MeshReading repair = pbs::repaired(mesh);
+    const pbs::MeshReading repair = pbs::repaired(touching_in_a_face);
     EXPECT_TRUE(repair.split_vertices.empty());
-    EXPECT_EQ(repair.mesh.tets, mesh.tets);
+    EXPECT_EQ(repair.mesh.tets, touching_in_a_face.tets);
 }
 
-TEST(MeshRepair, OfARepairedMeshChangesNothing)
+TEST(NonManifoldEdge, IsFoundWhereTwoTetsTouchInItAlone)
 {
-    const pbs::MeshReading once = pbs::repaired(unit_tet_and({{-1, 0, 0}, {0, -1, 0}, {0, 0, -1}}, {0, 4, 6, 5}));
-    const pbs::MeshReading twice = pbs::repaired(once.mesh);
-    EXPECT_EQ(twice.mesh.tets, once.mesh.tets);
-    EXPECT_TRUE(twice.split_vertices.empty() && twice.unused_vertices.empty());
-}
-
-TEST(NonManifoldEdge, IsFoundWhereTwoTetsTouchInIt)
-{
-    const auto edge = pbs::edge_that_is_not_manifold(unit_tet_and({{0.2, -1, -1}, {0.2, -1, -2}}, {0, 1, 5, 4}).tets);
+    const auto edge = pbs::edge_that_is_not_manifold(touching_in_an_edge.tets);
     ASSERT_TRUE(edge);
     EXPECT_EQ(*edge, (std::array{0, 1}));
-}
-
-TEST(NonManifoldEdge, IsNoneOfASoundMeshNorOfOneThatTouchesInAVertex)
-{
     EXPECT_FALSE(pbs::edge_that_is_not_manifold(test_support::structured_bar({0, 0, 0}, {1, 1, 1}, {2, 2, 2}).tets));
-    EXPECT_FALSE(pbs::edge_that_is_not_manifold(unit_tet_and({{-1, 0, 0}, {0, -1, 0}, {0, 0, -1}}, {0, 4, 6, 5}).tets));
+    EXPECT_FALSE(pbs::edge_that_is_not_manifold(touching_in_a_vertex.tets));
 }
 
 }  // namespace

@@ -1,20 +1,22 @@
 // Reference: a mesh that is written is read back to the bit, and files written by hand give the numbers in them.
 
-#include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/files.hpp"
 #include "pbs/geometry/mesh_io.hpp"
-#include "tests/support/scratch_folder.hpp"
+#include "tests/support/folder_test.hpp"
 #include "tests/support/structured_bar.hpp"
 #include "tests/unit/pbs/character/expect_input_error.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <limits>
 
 namespace {
 
+using Writing = test_support::FolderTest;
+using ReadByContent = test_support::FolderTest;
+using ReadTetMesh = test_support::FolderTest;
+using Tobj = test_support::FolderTest;
 using test_support::ScratchFolder;
 
 // A bar whose coordinates have all digits, some of them tiny and some huge.
@@ -28,18 +30,14 @@ pbs::TetMesh awkward_bar()
     return bar;
 }
 
-std::string content(const std::string& path)
-{
-    std::ifstream file(path);
-    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
-
-class TetFormats : public ::testing::TestWithParam<const char*> {};
+class TetFormats : public ::testing::TestWithParam<const char*> {
+protected:
+    const ScratchFolder folder;
+    const std::string path = folder / (std::string("bar") + GetParam());
+};
 
 TEST_P(TetFormats, AreReadBackToTheBit)
 {
-    const ScratchFolder folder;
-    const std::string path = folder / (std::string("bar") + GetParam());
     const pbs::TetMesh bar = awkward_bar();
     pbs::write_tet_mesh(path, bar);
     const pbs::MeshReading reading = pbs::read_tet_mesh(path);
@@ -51,8 +49,6 @@ TEST_P(TetFormats, AreReadBackToTheBit)
 
 TEST_P(TetFormats, NormaliseOrientationOfMeshesButNotOfFrames)
 {
-    const ScratchFolder folder;
-    const std::string path = folder / (std::string("bar") + GetParam());
     pbs::TetMesh bar = awkward_bar();
     const pbs::Tets upright = bar.tets;
     for (const int t : {0, 5, 17}) std::swap(bar.tets(t, 2), bar.tets(t, 3));
@@ -90,51 +86,37 @@ TEST(Frames, MayBeInvertedAndFlat)
     EXPECT_THROW(pbs::read_tet_mesh(folder / "flat.vtu"), pbs::InputError);
 }
 
-TEST(Writing, IntoAMissingFolderIsRefusedAndNamesTheFile)
+TEST_F(Writing, IntoAMissingFolderIsRefusedAndNamesTheFile)
 {
-    for (const char* name : {"/no/such/folder/a.msh", "/no/such/folder/a.vtu", "/no/such/folder/a.mesh"}) {
-        try {
-            pbs::write_tet_mesh(name, awkward_bar());
-            FAIL() << name;
-        } catch (const pbs::InputError& error) {
-            EXPECT_EQ(std::string(error.what()).rfind(name, 0), 0u) << error.what();
-        }
-    }
+    for (const std::string name : {"/no/such/folder/a.msh", "/no/such/folder/a.vtu", "/no/such/folder/a.mesh"})
+        expect_input_error([&] { pbs::write_tet_mesh(name, awkward_bar()); }, name, "");
     EXPECT_THROW(pbs::write_pvd("/no/such/folder/a.pvd", {}), pbs::InputError);
 }
 
-TEST(Writing, UnknownExtensionsAreRefused)
+TEST_F(Writing, UnknownExtensionsAreRefused)
 {
     EXPECT_THROW(pbs::write_tet_mesh("bar.stl", awkward_bar()), pbs::InputError);
 }
 
-TEST(Writing, FieldsOfTheWrongLengthAreRefusedByName)
+TEST_F(Writing, FieldsOfTheWrongLengthAreRefusedByName)
 {
-    const ScratchFolder folder;
     const pbs::TetMesh bar = awkward_bar();
     pbs::FrameFields fields;
     fields.cell_scalars["volume_ratio"] = Eigen::VectorXd::Ones(3);
-    try {
-        pbs::write_vtu(folder / "a.vtu", bar.rest, bar.tets, fields);
-        FAIL();
-    } catch (const pbs::InputError& error) {
-        EXPECT_NE(std::string(error.what()).find("volume_ratio = 3"), std::string::npos) << error.what();
-    }
+    expect_input_error([&] { pbs::write_vtu(folder / "a.vtu", bar.rest, bar.tets, fields); }, folder / "a.vtu", "volume_ratio = 3");
     EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
-TEST(Writing, TheSameFrameGivesTheSameBytes)
+TEST_F(Writing, TheSameFrameGivesTheSameBytes)
 {
-    const ScratchFolder folder;
     for (const char* name : {"a.vtu", "b.vtu"}) pbs::write_vtu(folder / name, awkward_bar().rest, awkward_bar().tets, {});
-    EXPECT_EQ(content(folder / "a.vtu"), content(folder / "b.vtu"));
+    EXPECT_EQ(pbs::read_text_file(folder / "a.vtu"), pbs::read_text_file(folder / "b.vtu"));
 }
 
-TEST(Writing, PvdListsFramesInOrderWithAllDigits)
+TEST_F(Writing, PvdListsFramesInOrderWithAllDigits)
 {
-    const ScratchFolder folder;
     pbs::write_pvd(folder / "pbs.pvd", {{0.0, "frames/pbs_000000.vtu"}, {1.0 / 3.0, "frames/pbs_000001.vtu"}});
-    const std::string text = content(folder / "pbs.pvd");
+    const std::string text = pbs::read_text_file(folder / "pbs.pvd");
     EXPECT_NE(text.find("timestep=\"0.33333333333333331\" part=\"0\" file=\"frames/pbs_000001.vtu\""), std::string::npos) << text;
     EXPECT_LT(text.find("pbs_000000"), text.find("pbs_000001"));
 }
@@ -146,10 +128,8 @@ using test_support::unit_tet;
 const std::string legacy_vtk =
     "# vtk DataFile Version 3.0\ntet\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n0 0 0 1 0 0 0 1 0 0 0 1\nCELLS 1 5\n4 0 1 2 3\n"
     "CELL_TYPES 1\n10\n";
-
-TEST(ReadByContent, BothFormatsOfVtkUnderEitherName)
+TEST_F(ReadByContent, BothFormatsOfVtkUnderEitherName)
 {
-    const ScratchFolder folder;
     pbs::write_tet_mesh(folder / "a.vtu", unit_tet());
     std::filesystem::copy_file(folder / "a.vtu", folder / "xml.vtk");
     for (const std::string& path : {folder / "xml.vtk", folder.file("legacy.vtu", legacy_vtk), folder.file("legacy.vtk", legacy_vtk),
@@ -157,9 +137,8 @@ TEST(ReadByContent, BothFormatsOfVtkUnderEitherName)
         EXPECT_EQ(pbs::read_tet_mesh(path).mesh.rest, unit_tet().rest) << path;
 }
 
-TEST(ReadByContent, GmshAndMeditUnderAnotherNameWithARemark)
+TEST_F(ReadByContent, GmshAndMeditUnderAnotherNameWithARemark)
 {
-    const ScratchFolder folder;
     for (const auto& [extension, name] :
          {std::pair{".msh", "gmsh.vtk"}, {".msh", "gmsh.mesh"}, {".mesh", "medit.txt"}, {".mesh", "medit"}}) {
         pbs::write_tet_mesh(folder / (std::string("a") + extension), unit_tet());
@@ -173,34 +152,8 @@ TEST(ReadByContent, GmshAndMeditUnderAnotherNameWithARemark)
     }
 }
 
-// Nodes that no element uses are counted in the file's own format.
-TEST(ReadByContent, GmshUnderAnotherNameKeepsItsNumbers)
+TEST_F(ReadTetMesh, LeavesOutUnusedVerticesWithARemark)
 {
-    const ScratchFolder folder;
-    const std::string path = folder.file("2.txt",
-                                         "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n5\n1 0 0 0\n2 1 0 0\n3 9 9 9\n4 0 1 0\n5 0 0 1\n"
-                                         "$EndNodes\n$Elements\n1\n1 4 2 0 1 1 2 4 5\n$EndElements\n");
-    EXPECT_EQ(pbs::read_tet_mesh(path).unused_vertices, std::vector<int>{2});
-}
-
-TEST(ReadByContent, ADamagedGmshFileUnderAnotherNameIsRefusedByItsOwnName)
-{
-    const ScratchFolder folder;
-    const std::string path = folder.file("a.vtk", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n");
-    expect_input_error([&] { pbs::read_tet_mesh(path); }, path + ": ", "$EndNodes is missing");
-}
-
-TEST(ReadByContent, AnUnknownFormatIsRefusedByItsExtension)
-{
-    const ScratchFolder folder;
-    const std::string path = folder.file("a.stl", "solid\n");
-    expect_input_error([&] { pbs::read_tet_mesh(path); }, path + ": extension = .stl: ", "expected a tet mesh");
-    expect_input_error([&] { pbs::read_tet_mesh(folder / "none.xyz"); }, (folder / "none.xyz") + ": ", "");
-}
-
-TEST(ReadTetMesh, LeavesOutUnusedVerticesWithARemark)
-{
-    const ScratchFolder folder;
     const std::string path = folder.file("a.tobj", "v 9 9 9\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nt 1 2 3 4\n");
     const pbs::MeshReading reading = pbs::read_tet_mesh(path);
     EXPECT_EQ(reading.mesh.rest, unit_tet().rest);
@@ -213,9 +166,8 @@ TEST(ReadTetMesh, LeavesOutUnusedVerticesWithARemark)
 }
 
 // Gmsh itself leaves such nodes out without a word.
-TEST(ReadTetMesh, ListsTheUnusedNodesOfGmshAndMeditFiles)
+TEST_F(ReadTetMesh, ListsTheUnusedNodesOfGmshAndMeditFiles)
 {
-    const ScratchFolder folder;
     const std::string nodes = "5\n1 0 0 0\n2 1 0 0\n3 9 9 9\n4 0 1 0\n5 0 0 1\n";
     const std::string version_2 =
         "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n" + nodes + "$EndNodes\n$Elements\n1\n1 4 2 0 1 1 2 4 5\n$EndElements\n";
@@ -223,7 +175,8 @@ TEST(ReadTetMesh, ListsTheUnusedNodesOfGmshAndMeditFiles)
     const std::string medit =
         "MeshVersionFormatted 2\nDimension 3\nVertices\n5\n0 0 0 1\n1 0 0 1\n9 9 9 1\n0 1 0 1\n0 0 1 1\n"
         "Tetrahedra\n1\n1 2 4 5 1\nEnd\n";
-    for (const std::string& path : {folder.file("2.msh", version_2), folder.file("1.msh", version_1), folder.file("a.mesh", medit)}) {
+    for (const std::string& path : {folder.file("2.msh", version_2), folder.file("2.txt", version_2), folder.file("1.msh", version_1),
+                                    folder.file("a.mesh", medit)}) {
         const pbs::MeshReading reading = pbs::read_tet_mesh(path);
         EXPECT_EQ(reading.mesh.rest, unit_tet().rest) << path;
         EXPECT_EQ(reading.file_vertex, (std::vector<int>{0, 1, 3, 4})) << path;
@@ -231,9 +184,8 @@ TEST(ReadTetMesh, ListsTheUnusedNodesOfGmshAndMeditFiles)
     }
 }
 
-TEST(ReadTetMesh, SplitsAVertexAtWhichPartsTouchWithARemark)
+TEST_F(ReadTetMesh, SplitsAVertexAtWhichPartsTouchWithARemark)
 {
-    const ScratchFolder folder;
     const std::string path =
         folder.file("a.tobj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv -1 0 0\nv 0 -1 0\nv 0 0 -1\nt 0 1 2 3\nt 0 4 6 5\n");
     const pbs::MeshReading reading = pbs::read_tet_mesh(path);
@@ -246,9 +198,8 @@ TEST(ReadTetMesh, SplitsAVertexAtWhichPartsTouchWithARemark)
     EXPECT_EQ(remarks[1], path + ": parts = 2: kept; no face joins them");
 }
 
-TEST(ReadTetMesh, OfAMillimetreOrAHundredMetresNeedsNoRemarkAboutItsSize)
+TEST_F(ReadTetMesh, OfAMillimetreOrAHundredMetresNeedsNoRemarkAboutItsSize)
 {
-    const ScratchFolder folder;
     const auto remarks_at = [&](const std::string& edge) {
         const std::string path = folder.file("a.tobj", "v 0 0 0\nv " + edge + " 0 0\nv 0 " + edge + " 0\nv 0 0 " + edge + "\nt 0 1 2 3\n");
         return pbs::remarks_on(path, pbs::read_tet_mesh(path)).size();
@@ -260,53 +211,17 @@ TEST(ReadTetMesh, OfAMillimetreOrAHundredMetresNeedsNoRemarkAboutItsSize)
 // Reference: HOBAK's format by hand: lines "v x y z" and "t a b c d", vertices counted from 0.
 
 const std::string unit_points = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
-
-TEST(Tobj, HasVerticesAndTets)
+TEST_F(Tobj, HasVerticesAndTets)
 {
-    const test_support::ScratchFolder folder;
     const pbs::MeshReading reading = pbs::read_tet_mesh(folder.file("a.tobj", unit_points + "t 0 1 2 3\n"));
     EXPECT_EQ(reading.mesh.rest, test_support::unit_tet().rest);
     EXPECT_EQ(reading.mesh.tets, test_support::unit_tet().tets);
 }
 
-TEST(Tobj, MayHaveCommentsTrianglesWindowsLineEndsAndExponents)
+TEST_F(Tobj, MayHaveCommentsTrianglesWindowsLineEndsAndExponents)
 {
-    const test_support::ScratchFolder folder;
     const std::string text = "# a tet\r\nv 0 0 0\r\nv 1e0 0 0\r\n\r\nv 0 1 0\r\nt 0 1 2 3\r\nf 1 2 3\r\nv 0 0 1\r\n";
     EXPECT_EQ(pbs::read_tet_mesh(folder.file("a.TOBJ", text)).mesh.rest, test_support::unit_tet().rest);
 }
-
-struct BadTobj {
-    const char* name;
-    std::string text, begins, holds;
-};
-
-class RefusedTobj : public testing::TestWithParam<BadTobj> {};
-
-TEST_P(RefusedTobj, NamesFileLineFieldAndRule)
-{
-    const test_support::ScratchFolder folder;
-    const std::string path = folder.file("bad.tobj", GetParam().text);
-    expect_input_error([&] { pbs::read_tet_mesh(path); }, path + GetParam().begins, GetParam().holds);
-}
-
-const BadTobj bad_tobj[] = {
-    {"two_coordinates", "v 0 0\n", ":1: v = v 0 0: ", "expected 3 numbers"},
-    {"four_coordinates", "v 0 0 0 0\n", ":1: v = ", "expected 3 numbers"},
-    {"coordinate_is_text", "v 0 0 x\n", ":1: v = x: ", "expected a number"},
-    {"coordinate_with_comma", "v 0 0 1,5\n", ":1: v = 1,5: ", "expected a number"},
-    {"coordinate_nan", "v 0 0 nan\nv 1 0 0\nv 0 1 0\nv 0 0 1\nt 0 1 2 3\n", ": vertex 0", "finite"},
-    {"three_corners", unit_points + "t 0 1 2\n", ":5: t = ", "expected 4 numbers"},
-    {"corner_out_of_range", unit_points + "t 0 1 2 4\n", ":5: t = 4: ", "expected an index from 0 to 3"},
-    {"corner_negative", unit_points + "t 0 1 2 -1\n", ":5: t = -1: ", "expected the number of a vertex, from 0"},
-    {"corner_not_whole", unit_points + "t 0 1 2 2.5\n", ":5: t = 2.5: ", "expected the number of a vertex, from 0"},
-    {"corner_nan", unit_points + "t 0 1 2 nan\n", ":5: t = nan: ", "expected the number of a vertex, from 0"},
-    {"corner_huge", unit_points + "t 0 1 2 1e300\n", ":5: t = 1e+300: ", "expected the number of a vertex, from 0"},
-    {"no_vertices", "t 0 1 2 3\n", ": points = 0: ", "at least one point"},
-    {"no_tets", unit_points, ": tets = 0: ", "at least one tetrahedron"},
-    {"empty", "", ": ", "the file is empty"},
-};
-
-INSTANTIATE_TEST_SUITE_P(Tobj, RefusedTobj, testing::ValuesIn(bad_tobj), [](const auto& info) { return std::string(info.param.name); });
 
 }  // namespace

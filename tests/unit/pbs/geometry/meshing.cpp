@@ -1,13 +1,14 @@
 // Reference: an artificial mesher whose number of vertices is a known power of the cell size.
 
-#include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/meshing.hpp"
 #include "pbs/geometry/meshing_attempts.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/geometry/topology.hpp"
 #include "tests/support/closed_surfaces.hpp"
+#include "tests/support/expect_ball.hpp"
 #include "tests/support/mesher_error.hpp"
 #include "tests/support/rounding_error.hpp"
+#include "tests/unit/pbs/character/expect_input_error.hpp"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
@@ -51,10 +52,6 @@ TEST(Count, ASizeThatFailsIsStepped)
     const pbs::TetMesh mesh =
         pbs::mesh_at_vertex_count(500, 1.0, [](double size) { return size > 0.7 ? pbs::TetMesh() : with_vertices(500); });
     EXPECT_EQ(mesh.rest.rows(), 500);
-}
-
-TEST(Count, NothingButFailuresGivesNoMesh)
-{
     EXPECT_EQ(pbs::mesh_at_vertex_count(500, 1.0, [](double) { return pbs::TetMesh(); }).tets.rows(), 0);
 }
 
@@ -66,11 +63,7 @@ constexpr double capsule_volume = std::numbers::pi * radius * radius * (2.0 + 4.
 void expect_sound(const pbs::TetMesh& mesh, int wanted)
 {
     const pbs::Quality quality = pbs::quality_of(mesh);
-    EXPECT_TRUE(quality.topology.boundary_manifold);
-    EXPECT_EQ(quality.topology.boundary_euler, 2);
-    EXPECT_EQ(quality.topology.boundary_components, 1);
-    EXPECT_EQ(quality.topology.components, 1);
-    EXPECT_EQ(quality.topology.unused_vertices, 0);
+    test_support::expect_ball(quality);
     EXPECT_GT(pbs::tet_volumes(mesh.rest, mesh.tets).minCoeff(), 0.0);
     EXPECT_GT(quality.min_dihedral_deg, 8.0);
     EXPECT_NEAR(quality.vertices, wanted, 0.1 * wanted);
@@ -152,21 +145,13 @@ using test_support::torus;
 // Coarse wraps make these tests quick.
 pbs::SurfaceMeshing quick(double alpha, double offset, int vertices)
 {
-    pbs::SurfaceMeshing options;
-    options.vertices = vertices;
-    options.wrap_alpha_m = alpha;
-    options.wrap_offset_m = offset;
-    return options;
+    return {.vertices = vertices, .wrap_alpha_m = alpha, .wrap_offset_m = offset};
 }
 
-std::string refusal(const pbs::SurfaceMesh& surface, const pbs::SurfaceMeshing& options)
+void expect_refused(const pbs::SurfaceMesh& surface, const pbs::SurfaceMeshing& options, const std::string& begins,
+                    const std::string& holds)
 {
-    try {
-        pbs::mesh_surface(surface, options);
-    } catch (const pbs::InputError& error) {
-        return error.what();
-    }
-    return "";
+    expect_input_error([&] { pbs::mesh_surface(surface, options); }, begins, holds);
 }
 
 TEST(SurfaceToTets, TheSphereIsABallOfItsVolume)
@@ -175,9 +160,7 @@ TEST(SurfaceToTets, TheSphereIsABallOfItsVolume)
     options.inside = {{0, 0, 0}, {0.9, 0, 0}, {0, -0.5, 0.5}};
     const pbs::TetMesh ball = pbs::mesh_surface(icosphere(1.0, 3), options);
     const pbs::Quality quality = pbs::quality_of(ball);
-    EXPECT_TRUE(quality.topology.boundary_manifold);
-    EXPECT_EQ(quality.topology.boundary_euler, 2);
-    EXPECT_EQ(quality.topology.components, 1);
+    test_support::expect_ball(quality);
     EXPECT_NEAR(quality.vertices, 500, 50);  // within 10 %, as for the built-in bodies
     EXPECT_GE(quality.min_dihedral_deg, options.min_dihedral_deg);
     EXPECT_GT(pbs::tet_volumes(ball.rest, ball.tets).minCoeff(), 0.0);
@@ -196,8 +179,7 @@ TEST(SurfaceToTets, TheTorusKeepsItsHandleWhenAsked)
     pbs::SurfaceMeshing options = quick(0.1, 0.01, 600);
     options.boundary_euler = 0;
     const pbs::Quality quality = pbs::quality_of(pbs::mesh_surface(torus(1.0, 0.4, 40, 20), options));
-    EXPECT_TRUE(quality.topology.boundary_manifold);
-    EXPECT_EQ(quality.topology.boundary_euler, 0);
+    test_support::expect_ball(quality, 0);
     // The offset of 0.01 m adds 5 %. The polygons of 20 and 40 sides lack 1.6 % and 0.4 %, and facets that fit in circles of radius alpha,
     // which sink by 0.1^2 / 0.8 = 0.0125 m, lack up to 6 %.
     EXPECT_NEAR(quality.volume_m3, 2.0 * std::numbers::pi * std::numbers::pi * 0.4 * 0.4, 0.08 * 3.2);
@@ -221,18 +203,12 @@ TEST(SurfaceToTets, ASmallPartBesideALargeOneIsKept)
     EXPECT_NEAR(mesh.rest.col(0).maxCoeff(), 1.84, 0.05);
 }
 
-TEST(SurfaceToTets, TheTorusIsRefusedAsABall)
+TEST(SurfaceToTets, WrapsOfAnotherShapeAndPointsOutsideAreRefused)
 {
-    const std::string words = refusal(torus(1.0, 0.4, 40, 20), quick(0.15, 0.02, 300));
-    EXPECT_NE(words.find("Euler number of the wrapped surface = 0: expected 2"), std::string::npos) << words;
-}
-
-TEST(SurfaceToTets, APointOutsideIsRefusedByNumber)
-{
+    expect_refused(torus(1.0, 0.4, 40, 20), quick(0.15, 0.02, 300), "Euler number of the wrapped surface = 0: ", "expected 2");
     pbs::SurfaceMeshing options = quick(0.2, 0.02, 200);
     options.inside = {{0, 0, 0}, {0, 0, 3}};
-    const std::string words = refusal(icosphere(1.0, 2), options);
-    EXPECT_NE(words.find("point 1 asked inside: expected inside the surface"), std::string::npos) << words;
+    expect_refused(icosphere(1.0, 2), options, "point 1 asked inside: ", "expected inside the surface");
 }
 
 TEST(SurfaceToTets, SmallHolesAreClosedAndOpenSheetsRefused)
@@ -241,30 +217,21 @@ TEST(SurfaceToTets, SmallHolesAreClosedAndOpenSheetsRefused)
     sphere.triangles = sphere.triangles.bottomRows(sphere.triangles.rows() - 1).eval();
     EXPECT_EQ(pbs::quality_of(pbs::mesh_surface(sphere, quick(0.25, 0.02, 300))).topology.boundary_euler, 2);
     sphere.triangles = sphere.triangles.topRows(sphere.triangles.rows() / 3).eval();
-    const std::string words = refusal(sphere, quick(0.1, 0.01, 300));
-    EXPECT_NE(words.find("expected 0.5 to 2: a closed or nearly closed surface"), std::string::npos) << words;
-}
-
-TEST(SurfaceToTets, ASurfaceWithoutAVolumeIsRefusedByIt)
-{
-    pbs::SurfaceMesh flat = icosphere(1.0, 1);
-    flat.points.col(2).setConstant(1.0 / 3.0);
-    const std::string words = refusal(flat, quick(0.2, 0.02, 200));
-    EXPECT_EQ(words.rfind("enclosed volume [m^3] = ", 0), 0u) << words;
-    EXPECT_NE(words.find("expected a closed surface round a volume, neither flat nor open"), std::string::npos) << words;
+    expect_refused(sphere, quick(0.1, 0.01, 300), "", "expected 0.5 to 2: a closed or nearly closed surface");
 }
 
 TEST(SurfaceToTets, BadInputIsRefused)
 {
     const pbs::SurfaceMeshing options = quick(0.2, 0.02, 200);
-    EXPECT_NE(refusal({}, options).find("triangles = 0"), std::string::npos);
-    pbs::SurfaceMesh sphere = icosphere(1.0, 1);
-    sphere.points(3, 1) = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_NE(refusal(sphere, options).find("expected finite coordinates"), std::string::npos);
-    sphere = icosphere(1.0, 1);
-    sphere.triangles(2, 2) = 1000;
-    EXPECT_NE(refusal(sphere, options).find("expected indices of points"), std::string::npos);
-    EXPECT_NE(refusal(icosphere(1.0, 1), quick(0.2, 0.02, 10)).find("vertices = 10"), std::string::npos);
+    pbs::SurfaceMesh flat = icosphere(1.0, 1), not_finite = flat, without_a_point = flat;
+    flat.points.col(2).setConstant(1.0 / 3.0);
+    not_finite.points(3, 1) = std::numeric_limits<double>::quiet_NaN();
+    without_a_point.triangles(2, 2) = 1000;
+    expect_refused(flat, options, "enclosed volume [m^3] = ", "expected a closed surface round a volume, neither flat nor open");
+    expect_refused({}, options, "triangles = 0: ", "");
+    expect_refused(not_finite, options, "", "expected finite coordinates");
+    expect_refused(without_a_point, options, "", "expected indices of points");
+    expect_refused(icosphere(1.0, 1), quick(0.2, 0.02, 10), "vertices = 10: ", "");
 }
 
 }  // namespace

@@ -1,20 +1,13 @@
 // Reference: a build without meshing states that in its errors.
 #include "pbs/geometry/meshing.hpp"
 
-#include "pbs/geometry/input_error.hpp"
-
-#include <gtest/gtest.h>
+#include "tests/unit/pbs/character/expect_input_error.hpp"
 
 namespace {
 
 TEST(Meshing, LeftOutSaysWhichOptionBringsItBack)
 {
-    try {
-        pbs::mesh_limb(1775);
-        FAIL();
-    } catch (const pbs::InputError& error) {
-        EXPECT_NE(std::string(error.what()).find("PBS_WITH_CGAL"), std::string::npos) << error.what();
-    }
+    expect_input_error([] { pbs::mesh_limb(1775); }, "limb: ", "PBS_WITH_CGAL");
     EXPECT_THROW(pbs::mesh_surface({}, {}), pbs::InputError);
     EXPECT_THROW(pbs::points_inside({}, {}, {}), pbs::InputError);
 }

@@ -2,6 +2,7 @@
 
 #include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/geometry/topology.hpp"
+#include "tests/support/closed_surfaces.hpp"
 #include "tests/support/rounding_error.hpp"
 #include "tests/support/structured_bar.hpp"
 
@@ -19,23 +20,11 @@ namespace {
 
 const pbs::Vec3 origin(0, 0, 0), x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
 
-TEST(TetVolume, OfTheUnitCornerIsASixth)
+TEST(TetVolume, OfTheUnitCornerAndOfMirroredFlatAndCollapsedTets)
 {
     EXPECT_DOUBLE_EQ(pbs::tet_volume(origin, x, y, z), 1.0 / 6.0);
-}
-
-TEST(TetVolume, OfAMirroredTetIsNegative)
-{
     EXPECT_DOUBLE_EQ(pbs::tet_volume(origin, y, x, z), -1.0 / 6.0);
-}
-
-TEST(TetVolume, OfAFlatTetIsZero)
-{
     EXPECT_EQ(pbs::tet_volume(origin, x, y, x + y), 0.0);
-}
-
-TEST(TetVolume, OfACollapsedTetIsZero)
-{
     EXPECT_EQ(pbs::tet_volume(x, x, x, x), 0.0);
 }
 
@@ -61,11 +50,10 @@ TEST(TetVolumes, AddUpToTheBar)
 
 TEST(LumpedVolumes, AreAQuarterOfEachTetAround)
 {
-    pbs::Positions rest(5, 3);
-    rest << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 9, 9, 9;
-    pbs::Tets tets(1, 4);
-    tets << 0, 1, 2, 3;
-    const Eigen::VectorXd lumped = pbs::lumped_volumes(rest, tets);
+    pbs::TetMesh tet = test_support::unit_tet();
+    tet.rest.conservativeResize(5, 3);
+    tet.rest.row(4) << 9, 9, 9;
+    const Eigen::VectorXd lumped = pbs::lumped_volumes(tet.rest, tet.tets);
     for (int corner = 0; corner < 4; ++corner) EXPECT_DOUBLE_EQ(lumped(corner), 1.0 / 24.0);
     EXPECT_EQ(lumped(4), 0.0);
 }
@@ -77,21 +65,7 @@ using pbs::TetMesh;
 
 TetMesh one_tet()
 {
-    TetMesh mesh{pbs::Positions(4, 3), pbs::Tets(1, 4)};
-    mesh.rest << 0, 0, 0, 1, 0, 0, 0.2, 1, 0, 0.1, 0.3, 1;
-    mesh.tets << 0, 1, 2, 3;
-    return mesh;
-}
-
-// A 3 x 3 x 1 box of unit cubes without the middle one: a body with one handle.
-TetMesh ring()
-{
-    TetMesh box = test_support::structured_bar({0, 0, 0}, {3, 3, 1}, {3, 3, 1});
-    constexpr int middle = 4, tets_a_cell = 6;
-    pbs::Tets kept(box.tets.rows() - tets_a_cell, 4);
-    kept << box.tets.topRows(tets_a_cell * middle), box.tets.bottomRows(box.tets.rows() - tets_a_cell * (middle + 1));
-    box.tets = kept;
-    return box;
+    return {pbs::Positions{{0, 0, 0}, {1, 0, 0}, {0.2, 1, 0}, {0.1, 0.3, 1}}, pbs::Tets{{0, 1, 2, 3}}};
 }
 
 // The smallest of the four determinants of a tet in which the point replaces a corner: not negative where the point lies in the tet. It is
@@ -147,7 +121,8 @@ TEST(Refinement, CountsAreThoseOfRedRefinement)
 
 TEST(Refinement, ABodyWithAHandleKeepsIt)
 {
-    for (TetMesh mesh = ring(); mesh.tets.rows() < 10000; mesh = pbs::refine(mesh).mesh) {
+    const auto all_but_the_middle = [](int i, int j, int) { return i != 1 || j != 1; };
+    for (TetMesh mesh = test_support::carved_box({3, 3, 1}, all_but_the_middle); mesh.tets.rows() < 10000; mesh = pbs::refine(mesh).mesh) {
         const pbs::Topology topology = pbs::topology_of(mesh.tets, mesh.rest.rows());
         EXPECT_TRUE(topology.boundary_manifold);
         EXPECT_EQ(topology.boundary_euler, 0);
@@ -172,10 +147,8 @@ TEST(Refinement, CutsTheOctahedronAlongItsShortestDiagonal)
 {
     for (int longest = 0; longest < 3; ++longest) {  // pairs of opposite edges of a box, so that the diagonals are its extents
         const pbs::Vec3 extent = pbs::Vec3(longest == 0 ? 1 : 3, longest == 1 ? 1 : 3, longest == 2 ? 1 : 3);
-        TetMesh mesh{pbs::Positions(4, 3), pbs::Tets(1, 4)};
-        mesh.rest << 0, 0, 0, 1, 1, 0, 0, 1, 1, 1, 0, 1;
+        TetMesh mesh{pbs::Positions{{0, 0, 0}, {1, 1, 0}, {0, 1, 1}, {1, 0, 1}}, pbs::Tets{{0, 1, 2, 3}}};
         mesh.rest = mesh.rest * extent.asDiagonal();
-        mesh.tets << 0, 1, 2, 3;
         const TetMesh fine = pbs::refine(mesh).mesh;
         std::set<double> inner;  // lengths of the edges between the midpoints of opposite edges, which lie along one axis
         for (Eigen::Index t = 4; t < 8; ++t)
@@ -298,11 +271,7 @@ TEST(PointLocation, PointsFarOutsideOrNotANumberAreInNoTet)
 
 TEST(PointLocation, OneTetAlone)
 {
-    pbs::TetMesh tet;
-    tet.rest = pbs::Positions::Zero(4, 3);
-    tet.rest(1, 0) = tet.rest(2, 1) = tet.rest(3, 2) = 1.0;
-    tet.tets.resize(1, 4);
-    tet.tets << 0, 1, 2, 3;
+    const pbs::TetMesh tet = test_support::unit_tet();
     const PointLocation where(tet);
     EXPECT_EQ(where.locate({0.2, 0.2, 0.2}).tet, 0);
     EXPECT_EQ(where.locate({0.4, 0.4, 0.4}).tet, -1);
@@ -350,12 +319,9 @@ TEST(TetRegions, OneTetOrAllOfThem)
 
 TEST(TetRegions, APartOfItsOwnIsARegionOfItsOwn)
 {
-    pbs::Tets two(2, 4);
-    two << 0, 1, 2, 3, 4, 5, 6, 7;
-    EXPECT_EQ(pbs::tet_regions(two, 100), (std::vector<int>{0, 1}));
-    pbs::Tets by_a_vertex = two;
-    by_a_vertex(1, 0) = 3;
-    EXPECT_EQ(pbs::tet_regions(by_a_vertex, 100), (std::vector<int>{0, 1})) << "a shared vertex is no shared face";
+    EXPECT_EQ(pbs::tet_regions(pbs::Tets{{0, 1, 2, 3}, {4, 5, 6, 7}}, 100), (std::vector<int>{0, 1}));
+    EXPECT_EQ(pbs::tet_regions(pbs::Tets{{0, 1, 2, 3}, {3, 5, 6, 7}}, 100), (std::vector<int>{0, 1}))
+        << "a shared vertex is no shared face";
 }
 
 TEST(TetRegions, SurfacesEncloseTheVolumesOfTheirTets)
@@ -364,12 +330,7 @@ TEST(TetRegions, SurfacesEncloseTheVolumesOfTheirTets)
     const std::vector<pbs::Triangles> surfaces = pbs::region_surfaces(divided_bar.tets, region);
     ASSERT_EQ(int(surfaces.size()), regions_in(region));
     for (std::size_t r = 0; r < surfaces.size(); ++r) {
-        double enclosed = 0.0;
-        for (const auto triangle : surfaces[r].rowwise()) {
-            const pbs::Vec3 a = divided_bar.rest.row(triangle(0)), b = divided_bar.rest.row(triangle(1)),
-                            c = divided_bar.rest.row(triangle(2));
-            enclosed += a.dot(b.cross(c)) / 6.0;
-        }
+        const double enclosed = test_support::enclosed_volume(divided_bar.rest, surfaces[r]);
         const pbs::Tets own = tets_in(divided_bar.tets, region, int(r));
         // Triangles with coordinates of up to 4 m, a dozen roundings each, and their sum.
         EXPECT_NEAR(enclosed, pbs::tet_volumes(divided_bar.rest, own).sum(), test_support::rounding_error(200.0 * (12 + 200), 4.0 / 6.0));

@@ -2,8 +2,9 @@
 
 #include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/geometry/topology.hpp"
-#include "tests/support/structured_bar.hpp"
+#include "tests/support/closed_surfaces.hpp"
 #include "tests/support/rounding_error.hpp"
+#include "tests/support/structured_bar.hpp"
 
 #include <gtest/gtest.h>
 
@@ -16,34 +17,14 @@ namespace {
 using pbs::Tets;
 using pbs::Topology;
 using pbs::Triangles;
+using test_support::carved_box;
 
-Tets one_tet()
-{
-    Tets tets(1, 4);
-    tets << 0, 1, 2, 3;
-    return tets;
-}
-
-// Keeps only those tets of a Kuhn-split box of unit cubes for which keep(cell along x, y, z) is true.
-template <typename Keep>
-pbs::TetMesh carved_box(const std::array<int, 3>& cells, Keep keep)
-{
-    pbs::TetMesh box = test_support::structured_bar({0, 0, 0}, {double(cells[0]), double(cells[1]), double(cells[2])}, cells);
-    Tets kept(box.tets.rows(), 4);
-    Eigen::Index count = 0;
-    for (Eigen::Index t = 0; t < box.tets.rows(); ++t) {
-        const int cell = static_cast<int>(t) / 6;
-        if (keep(cell % cells[0], cell / cells[0] % cells[1], cell / (cells[0] * cells[1]))) kept.row(count++) = box.tets.row(t);
-    }
-    box.tets = kept.topRows(count);
-    return box;
-}
+const Tets one_tet{{0, 1, 2, 3}};
 
 TEST(Edges, OfOneTetAreSixSortedPairs)
 {
-    pbs::Edges expected(6, 2);
-    expected << 0, 1, 0, 2, 0, 3, 1, 2, 1, 3, 2, 3;
-    EXPECT_EQ(pbs::edges_of(one_tet()), expected);
+    EXPECT_EQ(pbs::edges_of(Tets(0, 4)).rows(), 0);
+    EXPECT_EQ(pbs::edges_of(one_tet), (pbs::Edges{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}));
 }
 
 TEST(Edges, OfABallObeyEulersFormula)
@@ -55,31 +36,20 @@ TEST(Edges, OfABallObeyEulersFormula)
     EXPECT_EQ(edges, repeated);
 }
 
-TEST(Edges, OfNothingAreNone)
-{
-    EXPECT_EQ(pbs::edges_of(Tets(0, 4)).rows(), 0);
-}
-
 TEST(Boundary, OfOneTetIsItsFourFacesOutward)
 {
-    const Triangles boundary = pbs::boundary_of(one_tet());
+    const Triangles boundary = pbs::boundary_of(one_tet);
     ASSERT_EQ(boundary.rows(), 4);
-    const std::array<pbs::Vec3, 4> point = {pbs::Vec3(0, 0, 0), pbs::Vec3(1, 0, 0), pbs::Vec3(0, 1, 0), pbs::Vec3(0, 0, 1)};
-    const pbs::Vec3 middle(0.25, 0.25, 0.25);
-    for (int f = 0; f < 4; ++f)  // the tet from a face to an inner point is negative if the face points outward
-        EXPECT_LT(pbs::tet_volume(point[boundary(f, 0)], point[boundary(f, 1)], point[boundary(f, 2)], middle), 0.0);
+    const pbs::Positions point = test_support::unit_tet().rest;
+    for (const auto& f : boundary.rowwise())  // the tet from a face to an inner point is negative if the face points outward
+        EXPECT_LT(pbs::tet_volume(point.row(f(0)), point.row(f(1)), point.row(f(2)), {0.25, 0.25, 0.25}), 0.0);
 }
 
 TEST(Boundary, EnclosesTheVolumeOfTheBar)
 {
     const pbs::TetMesh bar = test_support::structured_bar({1, 2, 3}, {3, 3, 4}, {4, 2, 2});
     const Triangles boundary = pbs::boundary_of(bar.tets);
-    double six_volumes = 0.0;  // divergence theorem; exact, since all coordinates are small multiples of 1/2
-    for (Eigen::Index f = 0; f < boundary.rows(); ++f) {
-        const pbs::Vec3 a = bar.rest.row(boundary(f, 0)), b = bar.rest.row(boundary(f, 1)), c = bar.rest.row(boundary(f, 2));
-        six_volumes += a.dot(b.cross(c));
-    }
-    EXPECT_EQ(six_volumes, 6.0 * 2.0);
+    EXPECT_EQ(test_support::enclosed_volume(bar.rest, boundary), 2.0);  // exact, since all coordinates are small multiples of 1/2
     EXPECT_EQ(boundary.rows(), 2 * 2 * (4 * 2 + 4 * 2 + 2 * 2));
 }
 
@@ -90,43 +60,29 @@ TEST(Boundary, VerticesAreAllButTheInnerOnes)
     EXPECT_EQ(std::count(on_boundary.begin(), on_boundary.end(), false), 3 * 2 * 1);
 }
 
-TEST(Topology, OfABallIsManifoldWithEulerCharacteristicTwo)
-{
-    const pbs::TetMesh bar = test_support::structured_bar({0, 0, 0}, {1, 1, 1}, {4, 3, 2});
-    const Topology topology = pbs::topology_of(bar.tets, bar.rest.rows() + 3);
-    EXPECT_TRUE(topology.boundary_manifold);
-    EXPECT_EQ(topology.boundary_components, 1);
-    EXPECT_EQ(topology.boundary_euler, 2);
-    EXPECT_EQ(topology.components, 1);
-    EXPECT_EQ(topology.unused_vertices, 3);
-}
+struct CountedBody {
+    std::string name;
+    pbs::TetMesh mesh;
+    Topology expected;
+};
 
-TEST(Topology, OfAHandleHasEulerCharacteristicZero)
+TEST(Topology, OfBodiesThatAreCountedByHand)
 {
-    const pbs::TetMesh ring = carved_box({3, 3, 1}, [](int i, int j, int) { return i != 1 || j != 1; });
-    const Topology topology = pbs::topology_of(ring.tets, ring.rest.rows());
-    EXPECT_TRUE(topology.boundary_manifold);
-    EXPECT_EQ(topology.boundary_euler, 0);
-    EXPECT_EQ(topology.unused_vertices, 0);
-}
-
-TEST(Topology, OfAVoidHasTwoBoundaries)
-{
-    const pbs::TetMesh hollow = carved_box({3, 3, 3}, [](int i, int j, int k) { return i != 1 || j != 1 || k != 1; });
-    const Topology topology = pbs::topology_of(hollow.tets, hollow.rest.rows());
-    EXPECT_TRUE(topology.boundary_manifold);
-    EXPECT_EQ(topology.boundary_components, 2);
-    EXPECT_EQ(topology.boundary_euler, 4);
-    EXPECT_EQ(topology.components, 1);
-}
-
-TEST(Topology, CountsSeparateBodies)
-{
-    const pbs::TetMesh pair = carved_box({3, 1, 1}, [](int i, int, int) { return i != 1; });
-    const Topology topology = pbs::topology_of(pair.tets, pair.rest.rows());
-    EXPECT_TRUE(topology.boundary_manifold);
-    EXPECT_EQ(topology.components, 2);
-    EXPECT_EQ(topology.boundary_components, 2);
+    const CountedBody bodies[] = {
+        {"a ball", test_support::structured_bar({0, 0, 0}, {1, 1, 1}, {4, 3, 2}), {true, 1, 2, 1}},
+        {"a handle", carved_box({3, 3, 1}, [](int i, int j, int) { return i != 1 || j != 1; }), {true, 1, 0, 1}},
+        {"a void", carved_box({3, 3, 3}, [](int i, int j, int k) { return i != 1 || j != 1 || k != 1; }), {true, 2, 4, 1}},
+        {"two bodies", carved_box({3, 1, 1}, [](int i, int, int) { return i != 1; }), {true, 2, 4, 2}},
+    };
+    for (const auto& [name, mesh, expected] : bodies) {
+        SCOPED_TRACE(name);
+        const Topology topology = pbs::topology_of(mesh.tets, mesh.rest.rows() + 3);
+        EXPECT_EQ(topology.boundary_manifold, expected.boundary_manifold);
+        EXPECT_EQ(topology.boundary_components, expected.boundary_components);
+        EXPECT_EQ(topology.boundary_euler, expected.boundary_euler);
+        EXPECT_EQ(topology.components, expected.components);
+        EXPECT_EQ(topology.unused_vertices, 3);
+    }
 }
 
 TEST(Topology, CubesThatShareAnEdgeAreNotManifold)
@@ -145,15 +101,9 @@ TEST(Topology, CubesThatShareAVertexAreNotManifold)
     EXPECT_EQ(topology.boundary_components, 2);
 }
 
-TEST(Topology, ThreeTetsOnOneFaceAreNotManifold)
+TEST(Topology, OfThreeTetsOnOneFaceIsNotManifoldAndOfNothingCountsUnusedVertices)
 {
-    Tets tets(3, 4);
-    tets << 0, 1, 2, 3, 0, 2, 1, 4, 0, 1, 2, 5;
-    EXPECT_FALSE(pbs::topology_of(tets, 6).boundary_manifold);
-}
-
-TEST(Topology, OfNothingCountsUnusedVertices)
-{
+    EXPECT_FALSE(pbs::topology_of(Tets{{0, 1, 2, 3}, {0, 2, 1, 4}, {0, 1, 2, 5}}, 6).boundary_manifold);
     const Topology topology = pbs::topology_of(Tets(0, 4), 5);
     EXPECT_EQ(topology.components, 0);
     EXPECT_EQ(topology.unused_vertices, 5);
@@ -162,9 +112,7 @@ TEST(Topology, OfNothingCountsUnusedVertices)
 // Faces of a tet on these corners, outward if it is positively oriented.
 Triangles faces_of(int a, int b, int c, int d)
 {
-    Triangles faces(4, 3);
-    faces << b, c, d, a, d, c, a, b, d, a, c, b;
-    return faces;
+    return Triangles{{b, c, d}, {a, d, c}, {a, b, d}, {a, c, b}};
 }
 
 Triangles together(const Triangles& one, const Triangles& other)
@@ -192,7 +140,7 @@ TEST(ClosedTriangles, OfTetsThatTouchInAnEdgeAreClosedButNotWatertight)
 TEST(ClosedTriangles, WithAHoleAFinOrATurnedTriangleAreOpenAtTheirFirstEdge)
 {
     const Triangles tet = faces_of(0, 1, 2, 3);
-    const Triangles fin = together(tet, (Triangles(1, 3) << 0, 1, 4).finished());
+    const Triangles fin = together(tet, Triangles{{0, 1, 4}});
     Triangles turned = tet;
     turned.row(0) = turned.row(0).reverse().eval();
     for (const auto& [triangles, edge] : {std::pair(Triangles(tet.topRows(3)), pbs::DirectedEdge(0, 1)),
@@ -228,27 +176,18 @@ pbs::TetMesh two_bars()
     return both;
 }
 
-TEST(Parts, OfOneBodyAreOne)
-{
-    const std::vector<int> parts = pbs::parts_of(test_support::structured_bar({0, 0, 0}, {1, 1, 1}, {3, 2, 2}).tets);
-    EXPECT_EQ(parts, std::vector<int>(72, 0));
-}
-
 TEST(Parts, AreNumberedInTheOrderOfTheirFirstTets)
 {
+    EXPECT_TRUE(pbs::parts_of(Tets(0, 4)).empty());
+    EXPECT_EQ(pbs::parts_of(test_support::structured_bar({0, 0, 0}, {1, 1, 1}, {3, 2, 2}).tets), std::vector<int>(72, 0));
     EXPECT_EQ(pbs::parts_of(two_bars().tets), (std::vector<int>{0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1}));
 }
 
 TEST(Parts, ThatShareAVertexOrAnEdgeAlone)
 {
-    EXPECT_EQ(pbs::parts_of((pbs::Tets(2, 4) << 0, 1, 2, 3, 0, 4, 5, 6).finished()), (std::vector<int>{0, 1}));
-    EXPECT_EQ(pbs::parts_of((pbs::Tets(2, 4) << 0, 1, 2, 3, 0, 1, 5, 6).finished()), (std::vector<int>{0, 1}));
-    EXPECT_EQ(pbs::parts_of((pbs::Tets(2, 4) << 0, 1, 2, 3, 4, 2, 1, 0).finished()), (std::vector<int>{0, 0}));
-}
-
-TEST(Parts, OfNoTetsAreNone)
-{
-    EXPECT_TRUE(pbs::parts_of(pbs::Tets(0, 4)).empty());
+    EXPECT_EQ(pbs::parts_of(Tets{{0, 1, 2, 3}, {0, 4, 5, 6}}), (std::vector<int>{0, 1}));
+    EXPECT_EQ(pbs::parts_of(Tets{{0, 1, 2, 3}, {0, 1, 5, 6}}), (std::vector<int>{0, 1}));
+    EXPECT_EQ(pbs::parts_of(Tets{{0, 1, 2, 3}, {4, 2, 1, 0}}), (std::vector<int>{0, 0}));
 }
 
 TEST(Parts, DoNotDependOnTheOrderOfTets)

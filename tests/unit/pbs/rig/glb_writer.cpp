@@ -4,7 +4,7 @@
 #include "pbs/geometry/files.hpp"
 #include "pbs/rig/gltf_rig.hpp"
 #include "pbs/rig/tiny_gltf.hpp"
-#include "tests/support/scratch_folder.hpp"
+#include "tests/support/folder_test.hpp"
 #include "tests/unit/pbs/character/expect_input_error.hpp"
 
 #include <nlohmann/json.hpp>
@@ -19,6 +19,7 @@
 
 namespace {
 
+using GlbWriter = test_support::FolderTest;
 using namespace pbs;
 using nlohmann::json;
 
@@ -49,7 +50,7 @@ struct WrittenGlb {
 
 std::string file_of(const std::string& path, const std::vector<double>& times_s, const std::vector<Positions>& frames)
 {
-    GlbWriter writer(path, "hero", one_triangle);
+    pbs::GlbWriter writer(path, "hero", one_triangle);
     for (std::size_t f = 0; f < frames.size(); ++f) writer.add_frame(times_s[f], frames[f]);
     writer.write();
     return read_text_file(path);
@@ -69,7 +70,7 @@ WrittenGlb written_glb(const std::vector<double>& times_s, const std::vector<Pos
     return {json::parse(file.substr(20, length)), file.substr(28 + length)};
 }
 
-TEST(GlbWriter, TheFirstFrameIsTheMeshWithItsBoundingBox)
+TEST_F(GlbWriter, TheFirstFrameIsTheMeshWithItsBoundingBox)
 {
     const WrittenGlb glb = written_glb({0.0}, {first_frame.array() + 0.5});
     const json& primitive = glb.document["meshes"][0]["primitives"][0];
@@ -81,7 +82,7 @@ TEST(GlbWriter, TheFirstFrameIsTheMeshWithItsBoundingBox)
     EXPECT_FALSE(glb.document.contains("animations")) << "a single frame does not move";
 }
 
-TEST(GlbWriter, EveryOtherFrameIsAMorphTargetWithWeightOneAtItsTime)
+TEST_F(GlbWriter, EveryOtherFrameIsAMorphTargetWithWeightOneAtItsTime)
 {
     const Positions second = first_frame.array() + 2.0;
     const Positions third = -first_frame;
@@ -96,9 +97,8 @@ TEST(GlbWriter, EveryOtherFrameIsAMorphTargetWithWeightOneAtItsTime)
     EXPECT_EQ(glb.floats(animation["samplers"][0]["output"]), (std::vector<float>{0, 0, 1, 0, 0, 1}));
 }
 
-TEST(GlbWriter, ItsMeshIsReadAgain)
+TEST_F(GlbWriter, ItsMeshIsReadAgain)
 {
-    const test_support::ScratchFolder folder;
     file_of(folder / "a.glb", {0.0}, {first_frame});
     const Rig rig = read_gltf_rig(folder / "a.glb");
     EXPECT_EQ(rig.meshes.at(0).points, first_frame);
@@ -106,7 +106,7 @@ TEST(GlbWriter, ItsMeshIsReadAgain)
 }
 
 // Reference: tinygltf's own writer, which holds the whole buffer in memory, of the model that tinygltf reads.
-TEST(GlbWriter, ItsBytesAreThoseOfTinygltf)
+TEST_F(GlbWriter, ItsBytesAreThoseOfTinygltf)
 {
     for (const std::size_t count : {1, 2, 5}) {
         const test_support::ScratchFolder folder;
@@ -127,11 +127,10 @@ TEST(GlbWriter, ItsBytesAreThoseOfTinygltf)
     }
 }
 
-TEST(GlbWriter, WritesTheFramesSoFarAndLeavesNoOtherFile)
+TEST_F(GlbWriter, WritesTheFramesSoFarAndLeavesNoOtherFile)
 {
-    const test_support::ScratchFolder folder;
     {
-        GlbWriter writer(folder / "a.glb", "hero", one_triangle);
+        pbs::GlbWriter writer(folder / "a.glb", "hero", one_triangle);
         writer.add_frame(0.0, first_frame);
         writer.write();
         const std::string one = read_text_file(folder / "a.glb");
@@ -143,9 +142,9 @@ TEST(GlbWriter, WritesTheFramesSoFarAndLeavesNoOtherFile)
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), std::filesystem::directory_iterator()), 2);
 }
 
-TEST(GlbWriter, AFolderThatDoesNotExistIsRefusedByName)
+TEST_F(GlbWriter, AFolderThatDoesNotExistIsRefusedByName)
 {
-    expect_input_error([] { GlbWriter("/no/such/folder/a.glb", "hero", one_triangle); }, "/no/such/folder/a.glb", "");
+    expect_input_error([] { pbs::GlbWriter("/no/such/folder/a.glb", "hero", one_triangle); }, "/no/such/folder/a.glb", "");
 }
 
 }  // namespace

@@ -19,14 +19,7 @@ const double bind_rounding = test_support::rounding_error(64, 8.0);
 // Three points that follow the first of the given joints.
 RigMesh small_mesh(const std::string& name, int node, const std::vector<SkinJoint>& joints)
 {
-    RigMesh mesh;
-    mesh.name = name;
-    mesh.node = node;
-    mesh.points = Positions(Positions::Identity(3, 3));
-    mesh.triangles = (Triangles(1, 3) << 0, 1, 2).finished();
-    mesh.joints = joints;
-    if (!joints.empty()) mesh.skin = test_support::one_joint_each({0, 0, 0});
-    return mesh;
+    return {name, node, Positions::Identity(3, 3), Triangles{{0, 1, 2}}, joints, test_support::one_joint_each({0, 0, 0})};
 }
 
 void expect_rest_points(const RigBinding& binding, std::size_t mesh, const Positions& expected)
@@ -138,13 +131,8 @@ TEST(RigBinding, WhereNoJointMovesAnyMeshTheRigIsRefused)
 Rig with_scaled_root(const Vec3& first)
 {
     Rig rig = test_support::two_joint_rig();
-    KeyTrack track;
-    track.times_s = {0.0, 1.0};
-    track.values = {{first.x(), first.y(), first.z(), 0}, {9, 9, 9, 0}};
-    NodeTracks tracks;
-    tracks.node = 0;
-    tracks.scale = track;
-    rig.animations = {{"Grow", 0.0, 1.0, {tracks}}};
+    const KeyTrack track{.times_s = {0.0, 1.0}, .values = {{first.x(), first.y(), first.z(), 0}, {9, 9, 9, 0}}};
+    rig.animations = {{"Grow", 0.0, 1.0, {{.node = 0, .scale = track}}}};
     return rig;
 }
 
@@ -217,10 +205,7 @@ TEST_F(RigMotionOfAnElbow, BeginsAfterTheFirstKeyWhereverThatIs)
 TEST_F(RigMotionOfAnElbow, ReportsTheStretchThatIsLeftOut)
 {
     EXPECT_NEAR(motion({.rate_hz = 4.0, .time_step_s = 0.25}).stretch, 0.0, motion_rounding);
-    KeyTrack grow;
-    grow.times_s = {0.0, 1.0};
-    grow.values = {{1, 1, 1, 0}, {1, 1.25, 1, 0}};
-    rig.animations[0].nodes[0].scale = grow;
+    rig.animations[0].nodes[0].scale = KeyTrack{.times_s = {0.0, 1.0}, .values = {{1, 1, 1, 0}, {1, 1.25, 1, 0}}};
     EXPECT_NEAR(motion({.rate_hz = 4.0, .time_step_s = 0.25}).stretch, 0.25, motion_rounding);
 }
 

@@ -17,11 +17,7 @@ const double pose_rounding = test_support::rounding_error(64, 8.0);
 
 KeyTrack track_with(Interpolation interpolation, const std::vector<double>& times_s, const std::vector<Eigen::Vector4d>& values)
 {
-    KeyTrack track;
-    track.interpolation = interpolation;
-    track.times_s = times_s;
-    track.values = values;
-    return track;
+    return {interpolation, times_s, values};
 }
 
 TEST(KeyTracks, LinearVectorsLieBetweenTheirKeys)
@@ -98,19 +94,14 @@ TEST(KeyTracks, RotationsTurnAtAConstantRateTheShorterWay)
     }
 }
 
-TEST(KeyTracks, RotationsOfASplineHaveUnitLength)
+TEST(KeyTracks, RotationsHaveUnitLength)
 {
+    EXPECT_EQ(rotation_at(track_with(Interpolation::step, {0.0}, {{0, 0, 3, 4}}), 0.0).coeffs(), Eigen::Vector4d(0, 0, 0.6, 0.8));
     const Eigen::Vector4d still = Eigen::Vector4d::Zero();
     const KeyTrack track = track_with(Interpolation::cubic_spline, {0.0, 1.0}, {still, {0, 0, 0, 1}, still, still, {0, 0, 1, 0}, still});
     const Eigen::Quaterniond middle = rotation_at(track, 0.5);  // (0, 0, 1, 1) / 2 before it is normalised
     EXPECT_NEAR(middle.z(), std::sqrt(0.5), pose_rounding);
     EXPECT_NEAR(middle.w(), std::sqrt(0.5), pose_rounding);
-}
-
-TEST(KeyTracks, RotationsThatAreNotNormalisedAreMadeSo)
-{
-    const KeyTrack track = track_with(Interpolation::step, {0.0}, {{0, 0, 3, 4}});
-    EXPECT_EQ(rotation_at(track, 0.0).coeffs(), Eigen::Vector4d(0, 0, 0.6, 0.8));
 }
 
 TEST(FindAnimation, TheFirstOneWithoutANameAndAnErrorThatListsTheNames)
@@ -239,19 +230,15 @@ TEST(NodeTransforms, WhatHasNoKeysStaysAsItIsAtRest)
     EXPECT_LE((nodes[1] * Vec3(0, 1, 0) - Vec3(1, -1, 0)).norm(), skin_rounding);
 }
 
-TEST(SkinnedPoints, AtRestAreThoseOfTheMeshWhereTheBindPoseIsTheRestPose)
-{
-    const Rig rig = two_joint_rig();
-    expect_points(skinned_points(rig.meshes[0], node_transforms(rig, nullptr, 0.0)), rig.meshes[0].points);
-}
-
 TEST(SkinnedPoints, OfTwoJointsByHand)
 {
+    const Rig rig = two_joint_rig();  // whose bind pose is the rest pose
+    expect_points(skinned_points(rig.meshes[0], node_transforms(rig, nullptr, 0.0)), rig.meshes[0].points);
     Positions quarter(4, 3), half(4, 3);
     quarter << 1, 0, 0, 1, 2, 0, -1, 2, 0, 0.25 * 2 + 0.75 * 1, 0.25 * 2 + 0.75 * 3, 0;
     half << 1, 0, 0, 1, 2, 0, 1, 0, 0, 0.25 * 2 + 0.75 * 0, 2, 0;
-    expect_points(posed(two_joint_rig(), 0.5), quarter);
-    expect_points(posed(two_joint_rig(), 1.0), half);
+    expect_points(posed(rig, 0.5), quarter);
+    expect_points(posed(rig, 1.0), half);
 }
 
 TEST(SkinnedPoints, IgnoreWhereTheNodeOfASkinnedMeshIs)  // glTF 2.0, Sec. 3.7.3.3

@@ -2,8 +2,8 @@
 
 #include "pbs/rig/rig_reader.hpp"
 #include "tests/support/arm_in_formats.hpp"
+#include "tests/support/folder_test.hpp"
 #include "tests/support/gltf_document.hpp"
-#include "tests/support/scratch_folder.hpp"
 #include "tests/support/two_joint_rig.hpp"
 #include "tests/unit/pbs/character/expect_input_error.hpp"
 
@@ -14,14 +14,13 @@
 
 namespace {
 
+using RigReader = test_support::FolderTest;
 using namespace pbs;
 using test_support::GltfDocument;
 using test_support::ScratchFolder;
 using test_support::two_joint_document;
-
-TEST(RigReader, ReadsEachFormatByItsContent)
+TEST_F(RigReader, ReadsEachFormatByItsContent)
 {
-    const ScratchFolder folder;
     for (const auto& [extension, text] : {std::pair(".gltf", two_joint_document().text()), std::pair(".dae", test_support::collada_arm()),
                                           std::pair(".fbx", test_support::fbx_arm())}) {
         const std::string path = folder.file("arm" + std::string(extension), text);
@@ -95,16 +94,14 @@ TEST(CheckedRig, HasNoNumberThatIsNotFiniteOrHuge)
     }
 }
 
-TEST(RigReader, TheNameOfAGltfDoesNotMatter)
+TEST_F(RigReader, TheNameOfAGltfDoesNotMatter)
 {
-    const ScratchFolder folder;
     for (const char* name : {"arm.glb", "arm.fbx", "arm"})
         EXPECT_EQ(read_rig(folder.file(name, "\n " + two_joint_document().text())).meshes.at(0).joints.size(), 2u) << name;
 }
 
-TEST(RigReader, AFileWithoutASkinIsRecognised)
+TEST_F(RigReader, AFileWithoutASkinIsRecognised)
 {
-    const ScratchFolder folder;
     GltfDocument gltf = two_joint_document();
     gltf.json["nodes"][2].erase("skin");
     const std::string path = folder.file("statue.gltf", gltf.text());
@@ -116,9 +113,8 @@ TEST(RigReader, AFileWithoutASkinIsRecognised)
     expect_input_error([&] { read_rig(clip); }, clip + ": meshes = 0: ", "expected a mesh with triangles");
 }
 
-TEST(RigReader, WhatIsNoRigIsRefusedByName)
+TEST_F(RigReader, WhatIsNoRigIsRefusedByName)
 {
-    const ScratchFolder folder;
     for (const char* text : {"v 0 0 0\n", "HIERARCHY\n", "[1, 2]"}) {
         const std::string path = folder.file("a.glb", text);
         EXPECT_FALSE(is_rig_file(path)) << text;
@@ -126,21 +122,14 @@ TEST(RigReader, WhatIsNoRigIsRefusedByName)
     }
 }
 
-TEST(RigReader, WhatCannotBeReadIsRefusedByName)
+TEST_F(RigReader, WhatCannotBeReadIsNoRig)
 {
-    const ScratchFolder folder;
-    const std::string none = folder / "none.glb", empty = folder.file("empty.glb", "");
-    EXPECT_FALSE(is_rig_file(none));
-    EXPECT_FALSE(is_rig_file(empty));
-    EXPECT_FALSE(is_rig_file(folder.path().string()));
-    expect_input_error([&] { read_rig(none); }, none + ": ", "no such file");
-    expect_input_error([&] { read_rig(empty); }, empty + ": ", "the file is empty");
-    expect_input_error([&] { read_rig(folder.path().string()); }, folder.path().string() + ": ", "expected a file");
+    for (const std::string& path : {folder / "none.glb", folder.file("empty.glb", ""), folder.path().string()})
+        EXPECT_FALSE(is_rig_file(path)) << path;
 }
 
-TEST(RigReader, RemarksReachTheCaller)
+TEST_F(RigReader, RemarksReachTheCaller)
 {
-    const ScratchFolder folder;
     GltfDocument gltf = two_joint_document();
     gltf.json["meshes"][0]["primitives"][0]["targets"] = {{{"POSITION", 0}}};
     EXPECT_EQ(read_rig(folder.file("a.gltf", gltf.text())).remarks.size(), 1u);
@@ -155,49 +144,23 @@ Weights weights_of_one_point(const std::vector<JointShare>& shares, std::vector<
     return skin.normalised("a.glb", "arm", remarks);
 }
 
-TEST(SkinWeights, AreKeptWhereTheySumToOne)
+TEST(SkinWeights, SumToOneAfterThoseOfAJointWereAddedAndZerosLeftOut)
 {
-    std::vector<std::string> remarks;
-    SkinWeights skin;
-    skin.add_point({{2, 0.25}, {0, 0.75}});
-    skin.add_point({{1, 1.0}});
-    const Weights weights = skin.normalised("a.glb", "arm", remarks);
-    EXPECT_EQ(weights.first, (std::vector<int>{0, 2, 3}));
-    EXPECT_EQ(weights.bone, (std::vector<int>{2, 0, 1}));
-    EXPECT_EQ(weights.weight, (std::vector<double>{0.25, 0.75, 1.0}));
-    EXPECT_TRUE(remarks.empty());
-}
-
-TEST(SkinWeights, AreDividedByTheirSumWithARemark)
-{
-    std::vector<std::string> remarks;
-    const Weights weights = weights_of_one_point({{0, 1.0}, {1, 3.0}}, remarks);
-    EXPECT_EQ(weights.weight, (std::vector<double>{0.25, 0.75}));
-    ASSERT_EQ(remarks.size(), 1u);
-    EXPECT_NE(remarks[0].find("1 of the 1 points of mesh arm do not sum to one"), std::string::npos) << remarks[0];
-}
-
-TEST(SkinWeights, WithinAThousandthOfOneTheSumNeedsNoRemark)
-{
-    std::vector<std::string> remarks;
-    const Weights weights = weights_of_one_point({{0, 0.5}, {1, 0.5009}}, remarks);
-    EXPECT_DOUBLE_EQ(weights.weight[0] + weights.weight[1], 1.0);
-    EXPECT_TRUE(remarks.empty());
-}
-
-TEST(SkinWeights, OfAJointThatOccursTwiceAreAdded)
-{
-    std::vector<std::string> remarks;
-    const Weights weights = weights_of_one_point({{3, 0.25}, {1, 0.5}, {3, 0.25}}, remarks);
-    EXPECT_EQ(weights.bone, (std::vector<int>{3, 1}));
-    EXPECT_EQ(weights.weight, (std::vector<double>{0.5, 0.5}));
-}
-
-TEST(SkinWeights, OfZeroAreLeftOut)
-{
-    std::vector<std::string> remarks;
-    EXPECT_EQ(weights_of_one_point({{0, 0.0}, {1, 1.0}}, remarks).bone, std::vector<int>{1});
-    EXPECT_TRUE(remarks.empty());
+    for (const auto& [shares, bones, weights, is_sum] :
+         {std::tuple(std::vector<JointShare>{{2, 0.25}, {0, 0.75}}, std::vector<int>{2, 0}, std::vector<double>{0.25, 0.75}, true),
+          {{{0, 1.0}, {1, 3.0}}, {0, 1}, {0.25, 0.75}, false},
+          {{{0, 0.5}, {1, 0.5009}}, {0, 1}, {0.5 / 1.0009, 0.5009 / 1.0009}, true},  // within a thousandth of one
+          {{{3, 0.25}, {1, 0.5}, {3, 0.25}}, {3, 1}, {0.5, 0.5}, true},
+          {{{0, 0.0}, {1, 1.0}}, {1}, {1.0}, true}}) {
+        std::vector<std::string> remarks;
+        const Weights made = weights_of_one_point(shares, remarks);
+        EXPECT_EQ(made.bone, bones);
+        for (std::size_t w = 0; w < weights.size(); ++w) EXPECT_DOUBLE_EQ(made.weight.at(w), weights[w]);
+        ASSERT_EQ(remarks.size(), is_sum ? 0u : 1u);
+        if (!is_sum) {
+            EXPECT_NE(remarks[0].find("1 of the 1 points of mesh arm do not sum to one"), std::string::npos) << remarks[0];
+        }
+    }
 }
 
 TEST(SkinWeights, APointWithoutAnyFollowsTheFirstJointWithARemark)

@@ -5,6 +5,7 @@
 #include "tests/support/closed_surfaces.hpp"
 #include "tests/support/gltf_document.hpp"
 #include "tests/support/scratch_folder.hpp"
+#include "tests/support/weight_sums.hpp"
 #include "tests/unit/pbs/character/expect_input_error.hpp"
 
 #include <gtest/gtest.h>
@@ -88,12 +89,8 @@ TEST_F(ModelCharacter, HasTheVolumeTheBonesTheWeightsAndTheSurfaceOfItsModel)
     ASSERT_TRUE(hero.artist);
     ASSERT_EQ(hero.artist->weights.vertices(), hero.mesh.rest.rows());
     const Weights& weights = hero.artist->weights;
-    for (int v = 0; v < weights.vertices(); ++v) {
-        double upper = 0.0;
-        for (int e = weights.first[std::size_t(v)]; e < weights.first[std::size_t(v) + 1]; ++e)
-            if (weights.bone[std::size_t(e)] == 1) upper += weights.weight[std::size_t(e)];
-        EXPECT_NEAR(upper, upper_weight(hero.mesh.rest(v, 1)), 0.05) << "at y = " << hero.mesh.rest(v, 1);
-    }
+    for (int v = 0; v < weights.vertices(); ++v)
+        EXPECT_NEAR(test_support::weight_in(weights, v, 1), upper_weight(hero.mesh.rest(v, 1)), 0.05) << "at y = " << hero.mesh.rest(v, 1);
     ASSERT_TRUE(hero.surface);
     EXPECT_LE((embedded_positions(*hero.surface, hero.mesh.rest, hero.mesh.tets) - hero.artist->model->body.surface).cwiseAbs().maxCoeff(),
               1e-12);

@@ -7,6 +7,7 @@
 #include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/skinning/blend.hpp"
 #include "tests/support/rounding_error.hpp"
+#include "tests/support/weight_sums.hpp"
 
 #include <gtest/gtest.h>
 
@@ -47,13 +48,9 @@ TEST(SmoothWeightsOfTheHuman, SumUpToOneAndAreNotNegative)
     const Weights weights = weights_by(WeightKind::diffused, human_of_blends());
     ASSERT_EQ(weights.vertices(), human_of_blends().mesh.rest.rows());
     int blended = 0;
+    for (const double weight : weights.weight) EXPECT_GE(weight, 0.0);
     for (int v = 0; v < weights.vertices(); ++v) {
-        double sum = 0.0;
-        for (int k = weights.first[v]; k < weights.first[v + 1]; ++k) {
-            EXPECT_GE(weights.weight[k], 0.0);
-            sum += weights.weight[k];
-        }
-        EXPECT_NEAR(sum, 1.0, test_support::mean_error(weights.first[v + 1] - weights.first[v], 1.0));
+        EXPECT_NEAR(test_support::sum_of_weights(weights, v), 1.0, test_support::mean_error(weights.first[v + 1] - weights.first[v], 1.0));
         blended += weights.blended(v);
     }
     EXPECT_GT(blended, weights.vertices() / 10);

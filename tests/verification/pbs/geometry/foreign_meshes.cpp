@@ -1,8 +1,8 @@
 // Reference: another program. Gmsh and VTK's Python write files that this code reads, and read files that it writes, to the bit.
 #include "pbs/geometry/mesh_io.hpp"
 
+#include "tests/support/folder_test.hpp"
 #include "tests/support/rounding_error.hpp"
-#include "tests/support/scratch_folder.hpp"
 #include "tests/support/structured_bar.hpp"
 
 #include <gmsh.h>
@@ -13,6 +13,8 @@
 
 namespace {
 
+using Gmsh = test_support::FolderTest;
+using Vtk = test_support::FolderTest;
 using test_support::ScratchFolder;
 
 pbs::TetMesh bar()
@@ -38,9 +40,8 @@ void write_by_gmsh(const std::string& path, double version, bool binary)
     gmsh::finalize();
 }
 
-TEST(Gmsh, FilesOfBothVersionsAsciiAndBinaryAreRead)
+TEST_F(Gmsh, FilesOfBothVersionsAsciiAndBinaryAreRead)
 {
-    const ScratchFolder folder;
     for (const double version : {2.2, 4.1})
         for (const bool binary : {false, true}) {
             const std::string path = folder / (std::to_string(version) + (binary ? "b.msh" : "a.msh"));
@@ -54,9 +55,8 @@ TEST(Gmsh, FilesOfBothVersionsAsciiAndBinaryAreRead)
 }
 
 // Gmsh lists vertices by entity; rest mesh and frames must agree on the numbers in the file.
-TEST(Gmsh, VerticesKeepTheOrderOfTheirTags)
+TEST_F(Gmsh, VerticesKeepTheOrderOfTheirTags)
 {
-    const ScratchFolder folder;
     const std::string path = folder / "two_entities.msh";
     gmsh::initialize(0, nullptr, false);
     gmsh::option::setNumber("General.Terminal", 0);
@@ -79,9 +79,8 @@ int python(const std::string& script, const std::string& paths)
     return std::system((PBS_TEST_PYTHON " -B -c '" + script + "' " + paths).c_str());
 }
 
-TEST(Vtk, ReadsTheFramesWeWriteToTheBit)
+TEST_F(Vtk, ReadsTheFramesWeWriteToTheBit)
 {
-    const ScratchFolder folder;
     const pbs::TetMesh mesh = bar();
     pbs::FrameFields fields;
     fields.point_vectors["displacement"] = mesh.rest / 3.0;
@@ -112,9 +111,8 @@ assert all(grid.GetCellType(c) == vtk.VTK_TETRA for c in range(grid.GetNumberOfC
     EXPECT_EQ(found, expected);
 }
 
-TEST(Vtk, FilesOfEveryKindItWritesAreReadToTheBit)
+TEST_F(Vtk, FilesOfEveryKindItWritesAreReadToTheBit)
 {
-    const ScratchFolder folder;
     pbs::write_tet_mesh(folder / "bar.vtu", bar());
     ASSERT_EQ(python(R"(
 import sys, vtk
@@ -137,9 +135,8 @@ for mode in ("ASCII", "Binary"):
     }
 }
 
-TEST(Vtk, ReadsTheSurfacesAndCollectionsWeWrite)
+TEST_F(Vtk, ReadsTheSurfacesAndCollectionsWeWrite)
 {
-    const ScratchFolder folder;
     const pbs::Triangles two = (pbs::Triangles(2, 3) << 0, 1, 2, 0, 2, 3).finished();
     pbs::write_vtp(folder / "skin.vtp", bar().rest, two);
     pbs::write_pvd(folder / "skin.pvd", {{0.5, "skin.vtp"}});
