@@ -279,8 +279,7 @@ double largest_jump(const pbs::Weights& weights)
     const Eigen::VectorXd forearm = dense(weights, 2).col(1);
     double largest = 0.0;
     const pbs::Edges edges = pbs::edges_of(straight.mesh.tets);
-    for (const auto& edge : edges.rowwise())
-        largest = std::max(largest, std::abs(forearm(edge(0)) - forearm(edge(1))));
+    for (const auto& edge : edges.rowwise()) largest = std::max(largest, std::abs(forearm(edge(0)) - forearm(edge(1))));
     return largest;
 }
 
