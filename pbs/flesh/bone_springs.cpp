@@ -8,6 +8,17 @@
 #include <utility>
 
 namespace pbs {
+namespace {
+
+Positions posed_sums(const std::vector<BoneShare>& shares, const Pose& pose, Eigen::Index rows)
+{
+    Positions sums = Positions::Zero(rows, 3);
+    for (const BoneShare& share : shares)
+        sums.row(share.row) += (pose[share.bone].linear() * share.first + share.zeroth * pose[share.bone].translation()).transpose();
+    return sums;
+}
+
+}  // namespace
 
 BoneHold::BoneHold(const TetMesh& mesh, const BoneSprings& springs, int bones)
     : stiffness_(Eigen::VectorXd::Zero(mesh.rest.rows())),
@@ -52,11 +63,7 @@ BoneHold::BoneHold(const TetMesh& mesh, const BoneSprings& springs, int bones)
 
 void BoneHold::centres(const Pose& pose, Positions& centres) const
 {
-    centres.setZero(stiffness_.size(), 3);
-    for (const Share& share : shares_) {
-        const Eigen::Isometry3d& bone = pose[share.bone];
-        centres.row(share.vertex) += (bone.linear() * share.first + share.zeroth * bone.translation()).transpose();
-    }
+    centres = posed_sums(shares_, pose, stiffness_.size());
     for (Eigen::Index i = 0; i < centres.rows(); ++i)
         if (stiffness_(i) > 0.0) centres.row(i) /= stiffness_(i);
 }
@@ -112,11 +119,7 @@ HoldModes::HoldModes(const BoneHold& hold)
 
 void HoldModes::targets(const Pose& pose, Positions& targets) const
 {
-    targets.setZero(static_cast<Eigen::Index>(modes_.size()), 3);
-    for (const Share& share : shares_) {
-        const Eigen::Isometry3d& bone = pose[share.bone];
-        targets.row(share.mode) += (bone.linear() * share.first + share.zeroth * bone.translation()).transpose();
-    }
+    targets = posed_sums(shares_, pose, static_cast<Eigen::Index>(modes_.size()));
 }
 
 }  // namespace pbs

@@ -18,6 +18,14 @@ struct BoneSprings {
 // The edges of a tet between its corners, in the order of all values per edge of a tet in this folder.
 inline constexpr int edges_of_tet[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
 
+// What the bones contribute to the points that the springs draw to: row `row` is the sum of bone (first, zeroth)^T, bone being the 3 x 4
+// matrix of a bone's transform.
+struct BoneShare {
+    int row, bone;
+    Vec3 first;     // [m] times the unit of zeroth
+    double zeroth;  // a stiffness [m], or over one
+};
+
 // The springs summed over tets and vertices. The barycentric coordinates beta of a point in its tet add up to 1, so that
 //   |sum_i beta_i x_i - q|^2 = sum_i beta_i |x_i - q|^2 - sum_{i<j} beta_i beta_j |x_i - x_j|^2.
 // The first sum is a spring of each vertex to a centre c_i, of stiffness a_i; the second one does not depend on the pose.
@@ -45,11 +53,6 @@ public:
     double constant(const Pose& pose, const Positions& centres) const;
 
 private:
-    struct Share {
-        int vertex, bone;
-        Vec3 first;     // sum_s k_s beta_i X_s [m^2]
-        double zeroth;  // sum_s k_s beta_i [m]
-    };
     struct Moments {
         double zeroth = 0.0, second = 0.0;  // sum_s k_s, sum_s k_s |X_s|^2
         Vec3 first = Vec3::Zero();          // sum_s k_s X_s
@@ -58,7 +61,7 @@ private:
     Eigen::VectorXd stiffness_;
     Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor> edge_stiffness_;
     Eigen::MatrixXd of_bone_;
-    std::vector<Share> shares_;  // by vertex, then by bone
+    std::vector<BoneShare> shares_;  // by vertex, then by bone: sum_s k_s beta_i X_s [m^2], sum_s k_s beta_i [m]
     std::vector<TetMoment> tet_moments_;
     std::vector<Moments> moments_;
     int left_out_ = 0;
@@ -89,13 +92,8 @@ public:
     void targets(const Pose& pose, Positions& targets) const;      // d_r [m], #modes x 3
 
 private:
-    struct Share {
-        int mode, bone;
-        Vec3 first;     // v^T sum_s k_s beta_s X_s / sigma [m]
-        double zeroth;  // v^T sum_s k_s beta_s / sigma
-    };
     std::vector<HoldMode> modes_;
-    std::vector<Share> shares_;
+    std::vector<BoneShare> shares_;  // of each mode: v^T sum_s k_s beta_s X_s / sigma [m], v^T sum_s k_s beta_s / sigma
 };
 
 }  // namespace pbs

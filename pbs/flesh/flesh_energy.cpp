@@ -23,19 +23,21 @@ Eigen::Matrix<double, 3, 4> barycentric_gradients(const TetMesh& mesh, Eigen::In
     return gradients;
 }
 
-double six_volumes(const Vec3& p21, const Vec3& p31, const Vec3& p41)
+Eigen::VectorXd positive_volumes(const TetMesh& mesh)
 {
-    return p21.cross(p31).dot(p41);
+    const Eigen::VectorXd volumes = tet_volumes(mesh.rest, mesh.tets);
+    for (Eigen::Index t = 0; t < volumes.size(); ++t)
+        if (!(volumes(t) > 0.0))
+            throw InputError("flesh", 0, "tet " + std::to_string(t), std::to_string(volumes(t)) + " m^3", "expected a volume above 0");
+    return volumes;
 }
 
 }  // namespace
 
 FleshEnergy::FleshEnergy(const TetMesh& mesh, const FleshMaterial& material, const BoneHold& hold) : hold_(hold.stiffness())
 {
-    const Eigen::VectorXd volumes = tet_volumes(mesh.rest, mesh.tets);
+    const Eigen::VectorXd volumes = positive_volumes(mesh);
     for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t) {
-        if (!(volumes(t) > 0.0))
-            throw InputError("flesh", 0, "tet " + std::to_string(t), std::to_string(volumes(t)) + " m^3", "expected a volume above 0");
         FleshTet tet{{mesh.tets(t, 0), mesh.tets(t, 1), mesh.tets(t, 2), mesh.tets(t, 3)}, {}, 0.0, 0.0};
         const auto gradients = barycentric_gradients(mesh, t);
         for (int e = 0; e < 6; ++e) {
@@ -74,10 +76,9 @@ double FleshEnergy::value_and_gradient(const Positions& x, const Positions& cent
             g[j] -= tet.w[e] * edge;
         }
         const Vec3 p21 = p[1] - p[0], p31 = p[2] - p[0], p41 = p[3] - p[0];
-        const double beyond = six_volumes(p21, p31, p41) - tet.d;
-        value += tet.kappa / 2.0 * beyond * beyond;
-        const double pressure = tet.kappa * beyond;
         const Vec3 n2 = p31.cross(p41), n3 = p41.cross(p21), n4 = p21.cross(p31);
+        const double beyond = n4.dot(p41) - tet.d, pressure = tet.kappa * beyond;
+        value += tet.kappa / 2.0 * beyond * beyond;
         g[0] -= pressure * (n2 + n3 + n4);
         g[1] += pressure * n2;
         g[2] += pressure * n3;
@@ -124,11 +125,9 @@ FleshMaterial flesh_material(double poisson)
 
 std::vector<NeoHookeanTet> neo_hookean_tets(const TetMesh& mesh)
 {
-    const Eigen::VectorXd volumes = tet_volumes(mesh.rest, mesh.tets);
+    const Eigen::VectorXd volumes = positive_volumes(mesh);
     std::vector<NeoHookeanTet> tets;
     for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t) {
-        if (!(volumes(t) > 0.0))
-            throw InputError("flesh", 0, "tet " + std::to_string(t), std::to_string(volumes(t)) + " m^3", "expected a volume above 0");
         NeoHookeanTet tet{{mesh.tets(t, 0), mesh.tets(t, 1), mesh.tets(t, 2), mesh.tets(t, 3)}, {}, volumes(t)};
         Eigen::Matrix3d edges;
         for (int k = 0; k < 3; ++k) edges.col(k) = mesh.rest.row(tet.vertex[k + 1]) - mesh.rest.row(tet.vertex[0]);

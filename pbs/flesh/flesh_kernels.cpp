@@ -9,21 +9,9 @@ namespace {
 
 // x, y, z and one more.
 template <typename Scalar>
-using Row4 [[gnu::vector_size(4 * sizeof(Scalar)), gnu::may_alias, gnu::aligned(4 * sizeof(Scalar))]] = Scalar;
-
-template <typename Scalar>
-Row4<Scalar>& row(Scalar* rows, std::uint32_t offset)
+Four<Scalar>& row(Scalar* rows, std::uint32_t offset)
 {
-    return *reinterpret_cast<Row4<Scalar>*>(rows + offset);
-}
-
-// to += factor * a in x, y and z.
-template <typename Scalar>
-[[gnu::always_inline]] inline void add_to(LaneVector<Scalar>& to, const Lanes<Scalar>& factor, const LaneVector<Scalar>& a)
-{
-    to.x += factor * a.x;
-    to.y += factor * a.y;
-    to.z += factor * a.z;
+    return *reinterpret_cast<Four<Scalar>*>(rows + offset);
 }
 
 // Adds the gradient of as many tets as there are lanes; returns their energy. FleshEnergy, line by line.
@@ -44,12 +32,12 @@ template <typename Scalar>
 
     const LaneVector<Scalar> zero{Scalar(0), Scalar(0), Scalar(0)};
     LaneVector<Scalar> on2 = zero, on3 = zero, on4 = zero;
-    add_to(on2, pressure, n2), add_to(on3, pressure, n3), add_to(on4, pressure, n4);
-    add_to(on2, w[0], p21), add_to(on3, w[1], p31), add_to(on4, w[2], p41);
+    add(pressure, n2, on2), add(pressure, n3, on3), add(pressure, n4, on4);
+    add(w[0], p21, on2), add(w[1], p31, on3), add(w[2], p41, on4);
     const LaneVector<Scalar> to1 = on2 + (on3 + on4);  // what pulls at 1 pulls at the others in the opposite direction
-    add_to(on2, Lanes<Scalar>(-w[3]), p32), add_to(on3, w[3], p32);
-    add_to(on2, Lanes<Scalar>(-w[4]), p42), add_to(on4, w[4], p42);
-    add_to(on3, Lanes<Scalar>(-w[5]), p43), add_to(on4, w[5], p43);
+    add(Lanes<Scalar>(-w[3]), p32, on2), add(w[3], p32, on3);
+    add(Lanes<Scalar>(-w[4]), p42, on2), add(w[4], p42, on4);
+    add(Lanes<Scalar>(-w[5]), p43, on3), add(w[5], p43, on4);
 
     add(Lanes<Scalar>(Scalar(-1)), to1, g[0]), add(Lanes<Scalar>(Scalar(1)), on2, g[1]);
     add(Lanes<Scalar>(Scalar(1)), on3, g[2]), add(Lanes<Scalar>(Scalar(1)), on4, g[3]);
@@ -62,7 +50,7 @@ template <typename Scalar>
 template <typename Scalar, int width>
 void forward(const Supernode& node, const std::uint32_t* below, const Scalar* value, Scalar* work)
 {
-    Row4<Scalar> y[width];
+    Four<Scalar> y[width];
     for (int c = 0; c < width; ++c) {
         y[c] = row(work, 4u * (node.column + c));
         for (int d = 0; d < c; ++d) y[c] -= *value++ * y[d];
@@ -70,7 +58,7 @@ void forward(const Supernode& node, const std::uint32_t* below, const Scalar* va
         row(work, 4u * (node.column + c)) = y[c];
     }
     for (int k = 0; k < node.rows_below; ++k, value += width) {
-        Row4<Scalar> b = row(work, below[k]);
+        Four<Scalar> b = row(work, below[k]);
 #pragma GCC unroll 8
         for (int c = 0; c < width; ++c) b -= value[c] * y[c];
         row(work, below[k]) = b;
@@ -80,11 +68,11 @@ void forward(const Supernode& node, const std::uint32_t* below, const Scalar* va
 template <typename Scalar, int width>
 void backward(const Supernode& node, const std::uint32_t* below, const Scalar* values, Scalar* work)
 {
-    Row4<Scalar> x[width];
+    Four<Scalar> x[width];
     for (int c = 0; c < width; ++c) x[c] = row(work, 4u * (node.column + c));
     const Scalar* value = values + width * (width + 1) / 2;
     for (int k = 0; k < node.rows_below; ++k, value += width) {
-        const Row4<Scalar> b = row(work, below[k]);
+        const Four<Scalar> b = row(work, below[k]);
 #pragma GCC unroll 8
         for (int c = 0; c < width; ++c) x[c] -= value[c] * b;
     }
@@ -110,10 +98,10 @@ double set_gradient_of_hold(const Scalar* centres, int rows, const Scalar* x, Sc
     constexpr int rows_in_scalar = 64;  // then on in double
     double total = 0.0;
     for (int begin = 0; begin < rows; begin += rows_in_scalar) {
-        Row4<Scalar> sum_of_rows{};
+        Four<Scalar> sum_of_rows{};
         for (int i = begin; i < begin + rows_in_scalar && i < rows; ++i) {
-            const Row4<Scalar> centre = row(const_cast<Scalar*>(centres), 4u * i), from = row(const_cast<Scalar*>(x), 4u * i) - centre;
-            Row4<Scalar> g = centre[3] * from;
+            const Four<Scalar> centre = row(const_cast<Scalar*>(centres), 4u * i), from = row(const_cast<Scalar*>(x), 4u * i) - centre;
+            Four<Scalar> g = centre[3] * from;
             g[3] = Scalar(0);
             row(gradient, 4u * i) = g;
             sum_of_rows += g * from;
@@ -126,17 +114,7 @@ double set_gradient_of_hold(const Scalar* centres, int rows, const Scalar* x, Sc
 template <typename Scalar>
 double add_gradient_of_tets(const FleshBatch<Scalar>* batches, int count, const Scalar* x, Scalar* gradient)
 {
-    constexpr int parts_in_scalar = 32;  // then on in double
-    constexpr int parts_of_batch = batch_size / lanes<Scalar>;
-    double total = 0.0;
-    Lanes<Scalar> energy = Scalar(0);
-    for (int part = 0; part < count * parts_of_batch; ++part) {
-        energy += add_gradient_of_part(batches[part / parts_of_batch], part % parts_of_batch * lanes<Scalar>, x, gradient);
-        if (part % parts_in_scalar != parts_in_scalar - 1) continue;
-        total += sum_of_lanes<Scalar>(energy);
-        energy = Scalar(0);
-    }
-    return total + sum_of_lanes<Scalar>(energy);
+    return sum_of_parts<Scalar>(count, [&](int b, int first) { return add_gradient_of_part(batches[b], first, x, gradient); });
 }
 
 template <typename Scalar>

@@ -74,26 +74,15 @@ void TriangularSolve<Scalar>::apply(Scalar* rows)
                      static_cast<int>(place_.size()), rows, work_.data());
 }
 
-void solve_plainly(const CholeskyFactor& factor, const std::vector<int>& place, double* rows, std::vector<double>& work)
+Eigen::MatrixXd solve_plainly(const CholeskyFactor& factor, const Eigen::MatrixXd& b)
 {
-    const int columns = static_cast<int>(factor.order.size());
-    work.resize(3 * columns);
-    for (int k = 0; k < columns; ++k)
-        for (int axis = 0; axis < 3; ++axis) work[3 * k + axis] = rows[4 * place[factor.order[k]] + axis];
-    for (int column = 0; column < columns; ++column) {  // L y = b
-        const int first = factor.first[column], end = factor.first[column + 1];
-        for (int axis = 0; axis < 3; ++axis) work[3 * column + axis] /= factor.value[first];
-        for (int k = first + 1; k < end; ++k)
-            for (int axis = 0; axis < 3; ++axis) work[3 * factor.row[k] + axis] -= factor.value[k] * work[3 * column + axis];
-    }
-    for (int column = columns - 1; column >= 0; --column) {  // L^T x = y
-        const int first = factor.first[column], end = factor.first[column + 1];
-        for (int k = first + 1; k < end; ++k)
-            for (int axis = 0; axis < 3; ++axis) work[3 * column + axis] -= factor.value[k] * work[3 * factor.row[k] + axis];
-        for (int axis = 0; axis < 3; ++axis) work[3 * column + axis] /= factor.value[first];
-    }
-    for (int k = 0; k < columns; ++k)
-        for (int axis = 0; axis < 3; ++axis) rows[4 * place[factor.order[k]] + axis] = work[3 * k + axis];
+    const auto rows = static_cast<Eigen::Index>(factor.order.size()), entries = static_cast<Eigen::Index>(factor.value.size());
+    const Eigen::Map<const Eigen::SparseMatrix<double>> L(rows, rows, entries, factor.first.data(), factor.row.data(), factor.value.data());
+    Eigen::MatrixXd permuted = b(factor.order, Eigen::all), x(b.rows(), b.cols());
+    L.triangularView<Eigen::Lower>().solveInPlace(permuted);
+    L.transpose().triangularView<Eigen::Upper>().solveInPlace(permuted);
+    x(factor.order, Eigen::all) = permuted;
+    return x;
 }
 
 template class TriangularSolve<float>;
@@ -119,7 +108,11 @@ public:
         load(gradient_, gradient);
         return value;
     }
-    void precondition(Rows<double>& residual) override { solve_plainly(factor_, place_, residual.data(), work_); }
+    void precondition(Rows<double>& residual) override
+    {
+        store(residual, gradient_);
+        load(solve_plainly(factor_, gradient_), residual);
+    }
     double dot(const Rows<double>& a, const Rows<double>& b) const override
     {
         double sum = 0.0;
@@ -137,7 +130,6 @@ private:
     Energy energy_;
     CholeskyFactor factor_;
     Positions centres_, x_, gradient_;
-    std::vector<double> work_;
 };
 
 // The tets of one slab, sixteen side by side: one specialisation for each energy.
@@ -148,9 +140,8 @@ template <typename Scalar>
 struct PackedTets<Scalar, FleshEnergy> {
     explicit PackedTets(const FleshEnergy&) {}
 
-    void set_tet(int lane, const FleshTet& tet)
+    void set_tet(FleshBatch<Scalar>& batch, int lane, const FleshTet& tet)
     {
-        FleshBatch<Scalar>& batch = batches.back();
         for (int e = 0; e < 6; ++e) batch.w[e][lane] = Scalar(tet.w[e]);
         batch.kappa[lane] = Scalar(tet.kappa);
         batch.d[lane] = Scalar(tet.d);
@@ -169,9 +160,8 @@ template <typename Scalar>
 struct PackedTets<Scalar, ProjectiveEnergy> {
     explicit PackedTets(const ProjectiveEnergy& energy) : weights(energy.weights()) {}
 
-    void set_tet(int lane, const ProjectiveTet& tet)
+    void set_tet(ProjectiveBatch<Scalar>& batch, int lane, const ProjectiveTet& tet)
     {
-        ProjectiveBatch<Scalar>& batch = batches.back();
         for (int k = 0; k < 9; ++k) batch.inverse_edges[k][lane] = Scalar(tet.inverse_edges(k / 3, k % 3));
         batch.volume[lane] = Scalar(tet.volume);
         for (int e = 0; e < 6; ++e) batch.w[e][lane] = Scalar(tet.w[e]);
@@ -248,15 +238,8 @@ private:
     {
         for (int slab = 0; slab < slabs_.slabs(); ++slab) {
             PackedTets<Scalar, Energy>& packed = tets_.emplace_back(energy);
-            for (const std::vector<int>& members : slabs_.batches(slabs_.of_slab(slab))) {
-                auto& batch = packed.batches.emplace_back();
-                for (int lane = 0; lane < batch_size; ++lane) {
-                    const int tet = lane < static_cast<int>(members.size()) ? members[lane] : -1;
-                    const auto offset = slabs_.offset(slab, lane, tet);
-                    for (int i = 0; i < 4; ++i) batch.offset[i][lane] = offset[i];
-                    if (tet >= 0) packed.set_tet(lane, energy.tets()[tet]);
-                }
-            }
+            slabs_.fill(slab, slabs_.batches(slabs_.of_slab(slab)), packed.batches,
+                        [&](int b, int lane, int tet) { packed.set_tet(packed.batches[b], lane, energy.tets()[tet]); });
         }
         for (std::size_t i = 0; i < this->place_.size(); ++i) centres_[this->place_[i]][3] = Scalar(energy.hold()(i));
     }

@@ -60,7 +60,7 @@ private:
     Rows<Scalar> work_;
 };
 
-// The same with a loop per entry of L: the plain implementation, in double.
-void solve_plainly(const CholeskyFactor& factor, const std::vector<int>& place, double* rows, std::vector<double>& work);
+// The same for any number of right-hand sides: the plain implementation, by Eigen's loop per entry of L, in double.
+Eigen::MatrixXd solve_plainly(const CholeskyFactor& factor, const Eigen::MatrixXd& b);
 
 }  // namespace pbs

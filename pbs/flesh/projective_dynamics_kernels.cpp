@@ -30,14 +30,12 @@ template <typename Scalar>
 // F = edges * inverse_edges.
 template <typename Scalar>
 [[gnu::always_inline]] inline Matrix3<Lanes<Scalar>> deformation_gradient(const Matrix3<Lanes<Scalar>>& inverse,
-                                                                          const LaneVector<Scalar>& p21, const LaneVector<Scalar>& p31,
-                                                                          const LaneVector<Scalar>& p41)
+                                                                          const LaneMatrix<Scalar>& edges)
 {
     Matrix3<Lanes<Scalar>> f;
     for (int j = 0; j < 3; ++j) {
-        f.m[j] = p21.x * inverse.m[j] + (p31.x * inverse.m[3 + j] + p41.x * inverse.m[6 + j]);
-        f.m[3 + j] = p21.y * inverse.m[j] + (p31.y * inverse.m[3 + j] + p41.y * inverse.m[6 + j]);
-        f.m[6 + j] = p21.z * inverse.m[j] + (p31.z * inverse.m[3 + j] + p41.z * inverse.m[6 + j]);
+        const LaneVector<Scalar> column = combined(edges, inverse.m[j], inverse.m[3 + j], inverse.m[6 + j]);
+        f.m[j] = column.x, f.m[3 + j] = column.y, f.m[6 + j] = column.z;
     }
     return f;
 }
@@ -100,8 +98,8 @@ template <typename Scalar>
     Matrix3<Number> inverse;
     for (int k = 0; k < 9; ++k) inverse.m[k] = load(batch.inverse_edges[k] + first);
     const Number rest = load(batch.volume + first);
-    const Stress<Scalar> stress =
-        stress_of<Scalar>(deformation_gradient<Scalar>(inverse, p[1] - p[0], p[2] - p[0], p[3] - p[0]), strain, volume);
+    const LaneMatrix<Scalar> edges{{p[1] - p[0], p[2] - p[0], p[3] - p[0]}};
+    const Stress<Scalar> stress = stress_of<Scalar>(deformation_gradient<Scalar>(inverse, edges), strain, volume);
     refused = !stress.sound && rest > Scalar(0);
     for (int i = 0; i < 4; ++i) g[i] = gather(static_cast<const Scalar*>(gradient), batch.offset[i] + first);
     for (int k = 0; k < 3; ++k) {
@@ -128,21 +126,13 @@ template <typename Scalar>
 double add_gradient_of_projective_tets(const ProjectiveBatch<Scalar>* batches, int count, Scalar strain, Scalar volume, const Scalar* x,
                                        Scalar* gradient, int* refused, int* refused_count)
 {
-    constexpr int parts_in_scalar = 32;  // then on in double
-    constexpr int parts_of_batch = batch_size / lanes<Scalar>;
-    double total = 0.0;
-    Lanes<Scalar> energy = Scalar(0);
-    for (int part = 0; part < count * parts_of_batch; ++part) {
-        const int first = part % parts_of_batch * lanes<Scalar>;
+    return sum_of_parts<Scalar>(count, [&](int b, int first) {
         LaneMask<Scalar> in_part;
-        energy += add_gradient_of_part(batches[part / parts_of_batch], first, strain, volume, x, gradient, in_part);
+        const Lanes<Scalar> energy = add_gradient_of_part(batches[b], first, strain, volume, x, gradient, in_part);
         for (int lane = 0; any_of(in_part) && lane < lanes<Scalar>; ++lane)
-            if (in_part[lane]) refused[(*refused_count)++] = lanes<Scalar> * part + lane;
-        if (part % parts_in_scalar != parts_in_scalar - 1) continue;
-        total += sum_of_lanes<Scalar>(energy);
-        energy = Scalar(0);
-    }
-    return total + sum_of_lanes<Scalar>(energy);
+            if (in_part[lane]) refused[(*refused_count)++] = batch_size * b + first + lane;
+        return energy;
+    });
 }
 
 template double add_gradient_of_projective_tets(const ProjectiveBatch<float>*, int, float, float, const float*, float*, int*, int*);

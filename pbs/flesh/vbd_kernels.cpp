@@ -12,21 +12,6 @@ struct LaneBlock {
     Lanes<Scalar> h00, h10, h11, h20, h21, h22;
 };
 
-// to += factor * a in x, y and z.
-template <typename Scalar>
-[[gnu::always_inline]] inline void add_to(LaneVector<Scalar>& to, const Lanes<Scalar>& factor, const LaneVector<Scalar>& a)
-{
-    to.x += factor * a.x;
-    to.y += factor * a.y;
-    to.z += factor * a.z;
-}
-
-template <typename Scalar>
-[[gnu::always_inline]] inline LaneVector<Scalar> difference(const LaneVector<Scalar>& a, const LaneVector<Scalar>& b)
-{
-    return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-
 // vertex_block, line by line.
 template <typename Scalar>
 [[gnu::always_inline]] inline void add_incidence(const VertexIncidence<Scalar>& tet, int first, const Scalar* x,
@@ -35,13 +20,13 @@ template <typename Scalar>
     LaneVector<Scalar> to[3];
     for (int k = 0; k < 3; ++k) {
         to[k] = gather(x, tet.other[k] + first) - x_i;
-        add_to(block.g, Lanes<Scalar>(-load(tet.w[k] + first)), to[k]);
+        add(Lanes<Scalar>(-load(tet.w[k] + first)), to[k], block.g);
     }
-    const LaneVector<Scalar> n = cross(difference(to[1], to[0]), difference(to[2], to[0]));
+    const LaneVector<Scalar> n = cross(to[1] - to[0], to[2] - to[0]);
     const Lanes<Scalar> minus_beyond = dot(n, to[0]) + load(tet.d + first);
     const Lanes<Scalar> kappa = load(tet.kappa + first);
-    const LaneVector<Scalar> kappa_n{kappa * n.x, kappa * n.y, kappa * n.z};
-    add_to(block.g, Lanes<Scalar>(-minus_beyond), kappa_n);
+    const LaneVector<Scalar> kappa_n = times(kappa, n);
+    add(Lanes<Scalar>(-minus_beyond), kappa_n, block.g);
     block.h00 += kappa_n.x * n.x;
     block.h10 += kappa_n.y * n.x;
     block.h11 += kappa_n.y * n.y;
@@ -74,7 +59,7 @@ template <typename Scalar>
     const Vertices<Scalar> centre = gather(centres, batch.offset + first);
     const Lanes<Scalar> diagonal = load(batch.diagonal + first), zero = Scalar(0);
     LaneBlock<Scalar> block{{zero, zero, zero}, diagonal, zero, diagonal, zero, zero, diagonal};
-    add_to(block.g, centre.w, x_i - centre);
+    add(centre.w, x_i - centre, block.g);
     for (int k = 0; k < batch.count; ++k) add_incidence(incidences[batch.first + k], first, static_cast<const Scalar*>(x), x_i, block);
     Lanes<Scalar> factor = -omega;
     where(!(diagonal > Scalar(0)), factor) = Scalar(0);

@@ -100,8 +100,7 @@ PlainXpbd::PlainXpbd(const XpbdFlesh& flesh) : PlainXpbd(flesh, in_file_order(fl
 {
 }
 
-PlainXpbd::PlainXpbd(const XpbdFlesh& flesh, const std::vector<XpbdVisit>& visits)
-    : XpbdSystem(static_cast<int>(flesh.w.size())), flesh_(flesh), visits_(visits)
+PlainXpbd::PlainXpbd(const XpbdFlesh& flesh, const std::vector<XpbdVisit>& visits) : XpbdSystem(flesh.w), flesh_(flesh), visits_(visits)
 {
     for (const NeoHookeanTet& tet : flesh.tets) {
         Eigen::Matrix<double, 3, 4> g = vertex_gradients(tet, Eigen::Matrix3d::Identity());
@@ -110,13 +109,6 @@ PlainXpbd::PlainXpbd(const XpbdFlesh& flesh, const std::vector<XpbdVisit>& visit
         weighted_.push_back(g * w.asDiagonal() * g.transpose());
     }
     forget();
-}
-
-Rows<double> PlainXpbd::rows() const
-{
-    Rows<double> rows(rows_);
-    for (int i = 0; i < rows.size(); ++i) rows[i][3] = i < flesh_.w.size() ? flesh_.w(i) : 1.0;
-    return rows;
 }
 
 void PlainXpbd::forget()
@@ -191,14 +183,6 @@ public:
     {
     }
 
-    Rows<Scalar> rows() const override
-    {
-        Rows<Scalar> rows(this->rows_);
-        for (int i = 0; i < rows.size(); ++i) rows[i][3] = Scalar(1);
-        for (std::size_t i = 0; i < this->place_.size(); ++i) rows[this->place_[i]][3] = Scalar(w_(i));
-        return rows;
-    }
-
     void set_targets(const Positions& targets) override
     {
         this->origin_.setZero();
@@ -257,9 +241,8 @@ private:
     };
 
     PackedXpbd(TetSlabs slabs, const XpbdFlesh& flesh)
-        : XpbdSystem<Scalar>(slabs.order().new_of_old, slabs.rows()),
+        : XpbdSystem<Scalar>(slabs.order().new_of_old, slabs.rows(), flesh.w),
           slabs_(std::move(slabs)),
-          w_(flesh.w),
           alpha_(Scalar(flesh.material.alpha)),
           batches_(slabs_.slabs()),
           mode_places_(flesh.hold.modes().size())
@@ -272,27 +255,13 @@ private:
                          [&](int t) { return flesh.first_mode[t] < flesh.first_mode[t + 1]; });
             slab.hold_members = slabs_.batches(held);
             slab.tet_members = slabs_.batches(tets);
-            fill(s, slab.hold_members, slab.holds, [&](HoldBatch<Scalar>& batch, int b, int lane, int tet) {
+            slabs_.fill(s, slab.hold_members, slab.holds, [&](int b, int lane, int tet) {
                 for (int r = flesh.first_mode[tet]; r < flesh.first_mode[tet + 1]; ++r)
                     mode_places_[r] = {s, b, r - flesh.first_mode[tet], lane};
-                fill_hold(batch, lane, tet, flesh);
+                fill_hold(slab.holds[b], lane, tet, flesh);
             });
-            fill(s, slab.tet_members, slab.tets,
-                 [&](NeoHookeanBatch<Scalar>& batch, int, int lane, int tet) { fill_tet(batch, lane, tet, flesh); });
+            slabs_.fill(s, slab.tet_members, slab.tets, [&](int b, int lane, int tet) { fill_tet(slab.tets[b], lane, tet, flesh); });
         }
-    }
-
-    template <typename Batch, typename FillLane>
-    void fill(int slab, const std::vector<std::vector<int>>& members, std::vector<Batch>& batches, const FillLane& fill_lane) const
-    {
-        batches.resize(members.size());
-        for (std::size_t b = 0; b < batches.size(); ++b)
-            for (int lane = 0; lane < batch_size; ++lane) {
-                const int tet = lane < static_cast<int>(members[b].size()) ? members[b][lane] : -1;
-                const auto offset = slabs_.offset(slab, lane, tet);
-                for (int i = 0; i < 4; ++i) batches[b].offset[i][lane] = offset[i];
-                if (tet >= 0) fill_lane(batches[b], static_cast<int>(b), lane, tet);
-            }
     }
 
     static void fill_hold(HoldBatch<Scalar>& batch, int lane, int t, const XpbdFlesh& flesh)
@@ -324,7 +293,6 @@ private:
     }
 
     TetSlabs slabs_;
-    Eigen::VectorXd w_;
     Scalar alpha_;
     std::vector<Slab> batches_;
     std::vector<ModePlace> mode_places_;  // of each mode
@@ -332,17 +300,15 @@ private:
 
 }  // namespace
 
-template <>
-std::unique_ptr<XpbdSystem<float>> make_xpbd_system(const TetMesh& mesh, const XpbdFlesh& flesh, bool, int threads)
+template <typename Scalar>
+std::unique_ptr<XpbdSystem<Scalar>> make_xpbd_system(const TetMesh& mesh, const XpbdFlesh& flesh, bool packed, int threads)
 {
-    return std::make_unique<PackedXpbd<float>>(mesh, flesh, threads);
+    if constexpr (std::is_same_v<Scalar, double>)
+        if (!packed) return std::make_unique<PlainXpbd>(flesh);
+    return std::make_unique<PackedXpbd<Scalar>>(mesh, flesh, threads);
 }
 
-template <>
-std::unique_ptr<XpbdSystem<double>> make_xpbd_system(const TetMesh& mesh, const XpbdFlesh& flesh, bool packed, int threads)
-{
-    if (!packed) return std::make_unique<PlainXpbd>(flesh);
-    return std::make_unique<PackedXpbd<double>>(mesh, flesh, threads);
-}
+template std::unique_ptr<XpbdSystem<float>> make_xpbd_system(const TetMesh&, const XpbdFlesh&, bool, int);
+template std::unique_ptr<XpbdSystem<double>> make_xpbd_system(const TetMesh&, const XpbdFlesh&, bool, int);
 
 }  // namespace pbs

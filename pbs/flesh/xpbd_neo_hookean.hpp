@@ -59,7 +59,14 @@ struct XpbdVisit {
 template <typename Scalar>
 class XpbdSystem : public RowSystem<Scalar> {
 public:
-    Rows<Scalar> rows() const override = 0;                  // of positions and w; in places without a vertex w is 1
+    // Of positions and w; in places without a vertex w is 1.
+    Rows<Scalar> rows() const override
+    {
+        Rows<Scalar> rows(this->rows_);
+        for (int i = 0; i < rows.size(); ++i) rows[i][3] = Scalar(1);
+        for (std::size_t i = 0; i < this->place_.size(); ++i) rows[this->place_[i]][3] = Scalar(w_(static_cast<Eigen::Index>(i)));
+        return rows;
+    }
     virtual void set_targets(const Positions& targets) = 0;  // of the hold's modes [m]; packed: their mean becomes the origin of the rows
     virtual void forget() = 0;                               // sets all multipliers, and the forces that tets have applied, to zero
     // Visits every constraint once. with_residual: r is corrected; otherwise it is neglected, as published.
@@ -67,7 +74,10 @@ public:
     virtual std::vector<XpbdVisit> visits() const = 0;  // an order in which one after the other gives the same result
 
 protected:
-    using RowSystem<Scalar>::RowSystem;
+    XpbdSystem(std::vector<int> place, int rows, const Eigen::VectorXd& w) : RowSystem<Scalar>(std::move(place), rows), w_(w) {}
+    explicit XpbdSystem(const Eigen::VectorXd& w) : RowSystem<Scalar>(static_cast<int>(w.size())), w_(w) {}
+
+    Eigen::VectorXd w_;
 };
 
 // packed: false is plain code, which is in double and exists for Scalar double alone.
@@ -116,7 +126,6 @@ public:
     explicit PlainXpbd(const XpbdFlesh& flesh);
     PlainXpbd(const XpbdFlesh& flesh, const std::vector<XpbdVisit>& visits);  // in another order
 
-    Rows<double> rows() const override;
     void set_targets(const Positions& targets) override { targets_ = targets; }
     void forget() override;
     void iterate(Rows<double>& x, bool with_residual) override;

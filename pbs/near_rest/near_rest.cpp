@@ -19,28 +19,56 @@ namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
 
-std::array<Vec3, 4> gradients_of(const TetMesh& mesh, Eigen::Index tet)
+// Of the volume of a tet with these vertices.
+std::array<Vec3, 4> volume_gradients(const Positions& rest, const auto& vertex)
 {
-    const auto corner = [&](int c) -> Vec3 { return mesh.rest.row(mesh.tets(tet, c)); };
+    const auto corner = [&](int c) -> Vec3 { return rest.row(vertex[c]); };
     return gradient(VolumeConstraint<double>{}, corner(0), corner(1), corner(2), corner(3));
+}
+
+// The rows of the vertices that move, one below the other, and back: the unknowns.
+Eigen::VectorXd stacked(const Positions& at_vertices, const std::vector<int>& moving)
+{
+    const Positions rows = at_vertices(moving, Eigen::all);
+    return rows.reshaped<Eigen::RowMajor>();
+}
+
+Positions unstacked(const Eigen::VectorXd& stack, const std::vector<int>& moving, Eigen::Index vertices)
+{
+    Positions at_vertices = Positions::Zero(vertices, 3);
+    at_vertices(moving, Eigen::all) = stack.reshaped<Eigen::RowMajor>(static_cast<Eigen::Index>(moving.size()), 3);
+    return at_vertices;
+}
+
+std::vector<int> those_in(const std::vector<bool>& set)
+{
+    std::vector<int> vertices;
+    for (std::size_t v = 0; v < set.size(); ++v)
+        if (set[v]) vertices.push_back(static_cast<int>(v));
+    return vertices;
+}
+
+std::vector<bool> all_but(std::vector<bool> held)
+{
+    held.flip();
+    return held;
 }
 
 }  // namespace
 
-VolumeConstraints::VolumeConstraints(const TetMesh& mesh, const std::vector<bool>& held) : mesh_(mesh), place_(held.size(), -1)
+VolumeConstraints::VolumeConstraints(const TetMesh& mesh, const std::vector<bool>& held)
+    : mesh_(mesh), free_(those_in(all_but(held))), place_(held.size(), -1)
 {
-    int free = 0;
-    for (std::size_t v = 0; v < held.size(); ++v)
-        if (!held[v]) place_[v] = free++;
+    for (std::size_t i = 0; i < free_.size(); ++i) place_[free_[i]] = static_cast<int>(i);
     const Eigen::VectorXd volumes = tet_volumes(mesh.rest, mesh.tets);
     std::vector<Eigen::Triplet<double>> entries;
     for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t) {
-        const std::array<Vec3, 4> gradients = gradients_of(mesh, t);
+        const std::array<Vec3, 4> gradients = volume_gradients(mesh.rest, mesh.tets.row(t));
         for (int c = 0; c < 4; ++c)
             for (int axis = 0; axis < 3 && place_[mesh.tets(t, c)] >= 0; ++axis)
                 entries.emplace_back(t, 3 * place_[mesh.tets(t, c)] + axis, gradients[c](axis) / std::sqrt(volumes(t)));
     }
-    gradients_.resize(mesh.tets.rows(), 3 * free);
+    gradients_.resize(mesh.tets.rows(), 3 * static_cast<Eigen::Index>(free_.size()));
     gradients_.setFromTriplets(entries.begin(), entries.end());
 }
 
@@ -55,31 +83,19 @@ int VolumeConstraints::rank() const
     return static_cast<int>(qr.rank());
 }
 
-Positions VolumeConstraints::nearest(const Positions& motion) const
-{
-    // u - G^T y with G (u - G^T y) = 0.
-    const Sparse transposed = gradients_.transpose();
-    Eigen::LeastSquaresConjugateGradient<Sparse> least_squares;
-    least_squares.setTolerance(1e-13);
-    least_squares.setMaxIterations(20 * gradients_.cols());
-    least_squares.compute(transposed);
-    const Eigen::VectorXd u = free_of(motion);
-    return at_vertices(u - transposed * least_squares.solve(u));
-}
-
 Positions VolumeConstraints::equilibrium(const Positions& load_n, double shear_pa) const
 {
     const double penalty = 1e4;  // relative to the shear modulus: large enough to converge in a few rounds, small enough to keep digits
     const Sparse matrix = shear_stiffness() + penalty * Sparse(gradients_.transpose() * gradients_);
     const Eigen::SimplicialLDLT<Sparse> factor(matrix);
-    const Eigen::VectorXd load = free_of(load_n) / shear_pa;
+    const Eigen::VectorXd load = stacked(load_n, free_) / shear_pa;
     Eigen::VectorXd pressure = Eigen::VectorXd::Zero(gradients_.rows()), u = factor.solve(load);
     const double first = (gradients_ * u).norm();
     for (int round = 0; round < 20 && (gradients_ * u).norm() > 1e-9 * first; ++round) {
         pressure += penalty * (gradients_ * u);
         u = factor.solve(load - gradients_.transpose() * pressure);
     }
-    return at_vertices(u);
+    return unstacked(u, free_, load_n.rows());
 }
 
 Sparse VolumeConstraints::shear_stiffness() const
@@ -87,7 +103,7 @@ Sparse VolumeConstraints::shear_stiffness() const
     const Eigen::VectorXd volumes = tet_volumes(mesh_.rest, mesh_.tets);
     std::vector<Eigen::Triplet<double>> entries;
     for (Eigen::Index t = 0; t < mesh_.tets.rows(); ++t) {
-        const std::array<Vec3, 4> g = gradients_of(mesh_, t);  // of a shape function, times the volume
+        const std::array<Vec3, 4> g = volume_gradients(mesh_.rest, mesh_.tets.row(t));  // of a shape function, times the volume
         for (int a = 0; a < 4; ++a)
             for (int b = 0; b < 4; ++b) {
                 const int row = place_[mesh_.tets(t, a)], column = place_[mesh_.tets(t, b)];
@@ -100,22 +116,6 @@ Sparse VolumeConstraints::shear_stiffness() const
     Sparse stiffness(dofs(), dofs());
     stiffness.setFromTriplets(entries.begin(), entries.end());
     return stiffness;
-}
-
-Eigen::VectorXd VolumeConstraints::free_of(const Positions& at_vertices) const
-{
-    Eigen::VectorXd free(dofs());
-    for (std::size_t v = 0; v < place_.size(); ++v)
-        if (place_[v] >= 0) free.segment<3>(3 * place_[v]) = at_vertices.row(v).transpose();
-    return free;
-}
-
-Positions VolumeConstraints::at_vertices(const Eigen::VectorXd& free) const
-{
-    Positions positions = Positions::Zero(mesh_.rest.rows(), 3);
-    for (std::size_t v = 0; v < place_.size(); ++v)
-        if (place_[v] >= 0) positions.row(v) = free.segment<3>(3 * place_[v]).transpose();
-    return positions;
 }
 
 namespace {
@@ -132,20 +132,6 @@ struct LinearMap {
     Eigen::VectorXd operator*(const Eigen::VectorXd& x) const { return map(x); }
 };
 
-// The rows of the vertices that move, one below the other, and back: the unknowns.
-Eigen::VectorXd stacked(const Positions& displacement, const std::vector<int>& moving)
-{
-    const Positions rows = displacement(moving, Eigen::all);
-    return rows.reshaped<Eigen::RowMajor>();
-}
-
-Positions at_vertices(const Eigen::VectorXd& stack, const std::vector<int>& moving, Eigen::Index vertices)
-{
-    Positions displacement = Positions::Zero(vertices, 3);
-    displacement(moving, Eigen::all) = stack.reshaped<Eigen::RowMajor>(static_cast<Eigen::Index>(moving.size()), 3);
-    return displacement;
-}
-
 std::array<Vec3, 1> gradients_at(const Positions& rest, const Positions& bind_point, const BindConstraint<double>& bind)
 {
     return {gradient<double>(bind, rest.row(bind.vertex), bind_point.row(bind.vertex))};
@@ -158,8 +144,7 @@ std::array<Vec3, 2> gradients_at(const Positions& rest, const Positions&, const 
 
 std::array<Vec3, 4> gradients_at(const Positions& rest, const Positions&, const VolumeConstraint<double>& tet)
 {
-    const auto corner = [&](int c) -> Vec3 { return rest.row(tet.vertex[c]); };
-    return gradient<double>(tet, corner(0), corner(1), corner(2), corner(3));
+    return volume_gradients(rest, tet.vertex);
 }
 
 }  // namespace
@@ -208,16 +193,11 @@ void StepNearRest::add_gradients(const Constraint& constraint, const std::array<
     if (w_gradient2 > 0.0) projections_.push_back(projection);
 }
 
-void StepNearRest::forget_multipliers()
-{
-    for (Projection& projection : projections_) projection.multiplier = 0.0;
-}
-
 void StepNearRest::apply(Positions& displacement)
 {
     for (int iteration = 0; iteration < iterations_; ++iteration) {
-        if (iteration == 0 || forgets_) forget_multipliers();
         for (Projection& projection : projections_) {
+            if (iteration == 0 || forgets_) projection.multiplier = 0.0;
             double C = 0.0;
             for (int i = 0; i < projection.vertices; ++i) C += displacement.row(projection.vertex[i]).dot(projection.gradient[i]);
             const double change = -projection.share * (C + projection.compliance_per_dt2 * projection.multiplier) / projection.denominator;
@@ -231,13 +211,11 @@ void StepNearRest::apply(Positions& displacement)
 RestingState rest_of(StepNearRest& step, const std::vector<bool>& moves, const Vec3& acceleration_m_s2, const KrylovSpace& space)
 {
     const auto vertices = static_cast<Eigen::Index>(moves.size());
-    std::vector<int> moving;
-    for (std::size_t v = 0; v < moves.size(); ++v)
-        if (moves[v]) moving.push_back(static_cast<int>(v));
+    const std::vector<int> moving = those_in(moves);
     RestingState state;
     const auto S = [&](const Eigen::VectorXd& x) {
         ++state.steps;
-        Positions displacement = at_vertices(x, moving, vertices);
+        Positions displacement = unstacked(x, moving, vertices);
         step.apply(displacement);
         return stacked(displacement, moving);
     };
@@ -249,7 +227,7 @@ RestingState rest_of(StepNearRest& step, const std::vector<bool>& moves, const V
     double error = tolerance;
     Eigen::internal::gmres(identity_minus_S, right_hand_side, x, Eigen::IdentityPreconditioner(), iterations, Eigen::Index{space.vectors},
                            error);
-    state.displacement = at_vertices(x, moving, vertices);
+    state.displacement = unstacked(x, moving, vertices);
     state.residual = (x - S(x) - right_hand_side).norm() / right_hand_side.norm();
     state.converged = state.residual <= 10.0 * tolerance && softest * x.norm() <= right_hand_side.norm();
     return state;
@@ -265,9 +243,7 @@ RestingState settle(const TetMesh& mesh, const std::vector<bool>& held, const Pb
     StepNearRest step(mesh.rest, {}, options.iterations, 1.0);
     for (const auto& edge : constraints.stretch) step.add(edge, edge.stiffness, 0.0, constraints.inverse_mass);
     for (const auto& tet : constraints.volume) step.add(tet, tet.stiffness, 0.0, constraints.inverse_mass);
-    std::vector<bool> moves = held;
-    moves.flip();
-    return rest_of(step, moves, acceleration_m_s2, {.vectors = 800, .most_iterations = 1600});
+    return rest_of(step, all_but(held), acceleration_m_s2, {.vectors = 800, .most_iterations = 1600});
 }
 
 }  // namespace pbs

@@ -160,45 +160,60 @@ bool BatchScheduler::rests(const ConstraintGroup& group, int since) const
     return std::all_of(group.vertex.begin(), group.vertex.begin() + vertices_of_group_, [&](int v) { return last_batch_[v] < since; });
 }
 
+std::vector<SlabClusters> clusters_of_slabs(const std::vector<ConstraintGroup>& groups, const VertexOrder& order, int cluster_size)
+{
+    std::vector<int> first_vertex, sorted(groups.size());
+    for (const ConstraintGroup& group : groups) {
+        first_vertex.push_back(order.new_of_old[group.vertex[0]]);
+        for (int v = 1; v < vertices_of(group.kind); ++v)
+            first_vertex.back() = std::min(first_vertex.back(), order.new_of_old[group.vertex[v]]);
+    }
+    std::iota(sorted.begin(), sorted.end(), 0);
+    std::stable_sort(sorted.begin(), sorted.end(), [&](int a, int b) { return first_vertex[a] < first_vertex[b]; });
+    const std::vector<int> slab_of = order.slab_of_new(), place = projection_sequence(groups, static_cast<int>(slab_of.size()));
+    std::vector<std::vector<int>> slabs(order.slabs());
+    for (const int g : sorted) slabs[slab_of[first_vertex[g]]].push_back(g);
+    std::vector<SlabClusters> clusters(slabs.size());
+    for (std::size_t slab = 0; slab < slabs.size(); ++slab)
+        for (auto first = slabs[slab].begin(), end = slabs[slab].end(); first != end;) {
+            const auto last = end - first < 3 * cluster_size / 2 ? end : first + cluster_size;  // no small last one
+            std::sort(first, last, [&](int a, int b) { return place[a] < place[b]; });
+            clusters[slab].emplace_back(first, last);
+            first = last;
+        }
+    return clusters;
+}
+
 namespace {
 
 constexpr int tets_of_cluster = 4096;  // whose vertices stay in the cache from colour to colour
 constexpr int dummies_of_slab = 4 * batch_size;
 
+std::vector<std::array<int, 4>> corners_of(const Tets& tets)
+{
+    std::vector<std::array<int, 4>> corners;
+    for (const auto tet : tets.rowwise()) corners.push_back({tet(0), tet(1), tet(2), tet(3)});
+    return corners;
+}
+
 }  // namespace
 
 TetSlabs::TetSlabs(const Tets& tets, int vertices, int threads)
-    : tets_(tets),
+    : tets_(single_tets(corners_of(tets))),
       order_(order_vertices(tets, vertices, vertices_a_slab(vertices))),
       rows_((vertices + batch_size - 1) / batch_size * batch_size + order_.slabs() * dummies_of_slab),
       parallel_(order_.slabs() >= slabs_worth_threads ? threads : 1),
       of_slab_(order_.slabs())
 {
-    std::vector<std::array<int, 4>> corners;
-    std::vector<int> sorted(tets.rows()), first_vertex;
-    for (const auto tet : tets.rowwise()) {
-        corners.push_back({tet(0), tet(1), tet(2), tet(3)});
-        int lowest = order_.new_of_old[tet(0)];
-        for (const int v : corners.back()) lowest = std::min(lowest, order_.new_of_old[v]);
-        first_vertex.push_back(lowest);
-    }
-    std::iota(sorted.begin(), sorted.end(), 0);
-    std::stable_sort(sorted.begin(), sorted.end(), [&](int a, int b) { return first_vertex[a] < first_vertex[b]; });
-    const std::vector<int> slab_of = order_.slab_of_new();
-    for (const int t : sorted) of_slab_[slab_of[first_vertex[t]]].push_back(t);
-    const std::vector<int> place = projection_sequence(single_tets(corners), vertices);
-    for (std::vector<int>& slab : of_slab_)
-        for (auto first = slab.begin(); first != slab.end();) {
-            const auto last = slab.end() - first < 3 * tets_of_cluster / 2 ? slab.end() : first + tets_of_cluster;  // no small last one
-            std::sort(first, last, [&](int a, int b) { return place[a] < place[b]; });
-            first = last;
-        }
+    const std::vector<SlabClusters> clusters = clusters_of_slabs(tets_, order_, tets_of_cluster);
+    for (int slab = 0; slab < slabs(); ++slab)
+        for (const std::vector<int>& cluster : clusters[slab]) of_slab_[slab].insert(of_slab_[slab].end(), cluster.begin(), cluster.end());
 }
 
 std::vector<std::vector<int>> TetSlabs::batches(const std::vector<int>& tets) const
 {
     std::vector<ConstraintGroup> groups;
-    for (const int t : tets) groups.push_back({GroupKind::tet, {tets_(t, 0), tets_(t, 1), tets_(t, 2), tets_(t, 3)}, {}});
+    for (const int t : tets) groups.push_back(tets_[t]);
     std::vector<std::vector<int>> batches = BatchScheduler(static_cast<int>(order_.new_of_old.size())).schedule(groups);
     for (std::vector<int>& batch : batches)
         for (int& member : batch) member = tets[member];
@@ -209,7 +224,7 @@ std::array<std::uint32_t, 4> TetSlabs::offset(int slab, int lane, int tet) const
 {
     const int dummies = rows_ - (slabs() - slab) * dummies_of_slab;
     std::array<std::uint32_t, 4> offset;
-    for (int i = 0; i < 4; ++i) offset[i] = 4u * (tet >= 0 ? order_.new_of_old[tets_(tet, i)] : dummies + 4 * lane + i);
+    for (int i = 0; i < 4; ++i) offset[i] = 4u * (tet >= 0 ? order_.new_of_old[tets_[tet].vertex[i]] : dummies + 4 * lane + i);
     return offset;
 }
 

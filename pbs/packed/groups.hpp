@@ -49,6 +49,11 @@ std::vector<ConstraintGroup> grouped_tets(const std::vector<std::array<int, 4>>&
 // same colours share no vertex, so that their order among themselves changes nothing; it is the order given.
 std::vector<int> projection_sequence(const std::vector<ConstraintGroup>& groups, int vertices);
 
+// The groups of each slab (vertex_order.hpp), by indices: a group belongs to the slab of the first of its vertices in memory. Clusters of
+// about so many neighbours, which stay in a cache, follow each other, and each cluster goes by projection_sequence.
+using SlabClusters = std::vector<std::vector<int>>;
+std::vector<SlabClusters> clusters_of_slabs(const std::vector<ConstraintGroup>& groups, const VertexOrder& order, int cluster_size);
+
 // Groups of constraints in batches: no two of a batch share a vertex, and none shares one with the batch before (with the two before, where
 // that can be had), so that a kernel may load ahead and need not wait for its own stores.
 // Keeps its memory from one cluster to the next; a cluster leaves no trace for the next.
@@ -87,20 +92,35 @@ public:
     const VertexOrder& order() const { return order_; }
     int rows() const { return rows_; }  // of vertices in whole batches and, behind them, of the dummies of each slab
     int slabs() const { return order_.slabs(); }
-    // A tet belongs to the slab of the first of its vertices in memory. Within a slab, clusters of neighbours follow each other, and each
-    // cluster goes colour by colour (projection_sequence), so that batches fill.
-    const std::vector<int>& of_slab(int slab) const { return of_slab_[slab]; }
+    const std::vector<int>& of_slab(int slab) const { return of_slab_[slab]; }  // its tets, by clusters_of_slabs, so that batches fill
     std::vector<std::vector<int>> batches(const std::vector<int>& tets) const;  // the tets of each batch, by BatchScheduler
-    // 4 * row of the corners of a tet in this lane of a batch of this slab; tet -1: of the lane's dummies.
-    std::array<std::uint32_t, 4> offset(int slab, int lane, int tet) const;
+    // Sets 4 * row of the corners in each lane of these batches of a slab, those of dummies where there is no tet, and calls
+    // set_tet(batch, lane, tet), with the number of the batch, where there is one.
+    template <typename Batch, typename SetTet>
+    void fill(int slab, const std::vector<std::vector<int>>& members, std::vector<Batch>& batches, const SetTet& set_tet) const;
     void for_each(const std::function<void(int)>& task) const { parallel_.for_each_slab(slabs(), task); }
 
 private:
-    Tets tets_;
+    std::array<std::uint32_t, 4> offset(int slab, int lane, int tet) const;  // tet -1: of the lane's dummies
+
+    std::vector<ConstraintGroup> tets_;
     VertexOrder order_;
     int rows_;
     Parallel parallel_;
     std::vector<std::vector<int>> of_slab_;
 };
+
+template <typename Batch, typename SetTet>
+void TetSlabs::fill(int slab, const std::vector<std::vector<int>>& members, std::vector<Batch>& batches, const SetTet& set_tet) const
+{
+    batches.resize(members.size());
+    for (std::size_t b = 0; b < batches.size(); ++b)
+        for (int lane = 0; lane < batch_size; ++lane) {
+            const int tet = lane < static_cast<int>(members[b].size()) ? members[b][lane] : -1;
+            const auto corners = offset(slab, lane, tet);
+            for (int i = 0; i < 4; ++i) batches[b].offset[i][lane] = corners[i];
+            if (tet >= 0) set_tet(static_cast<int>(b), lane, tet);
+        }
+}
 
 }  // namespace pbs

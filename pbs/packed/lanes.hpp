@@ -194,6 +194,12 @@ template <typename Scalar>
 }
 
 template <typename Scalar>
+[[gnu::always_inline]] inline LaneVector<Scalar> operator-(const LaneVector<Scalar>& a, const LaneVector<Scalar>& b)
+{
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+
+template <typename Scalar>
 [[gnu::always_inline]] inline LaneVector<Scalar> operator+(const LaneVector<Scalar>& a, const LaneVector<Scalar>& b)
 {
     return {a.x + b.x, a.y + b.y, a.z + b.z};
@@ -211,13 +217,13 @@ template <typename Scalar>
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-// p += factor * g; w stays.
-template <typename Scalar>
-[[gnu::always_inline]] inline void add(const Lanes<Scalar>& factor, const LaneVector<Scalar>& g, Vertices<Scalar>& p)
+// to += factor * g for Vertices, whose w stays, or a LaneVector.
+template <typename Scalar, template <typename> typename To>
+[[gnu::always_inline]] inline void add(const Lanes<Scalar>& factor, const LaneVector<Scalar>& g, To<Scalar>& to)
 {
-    p.x += factor * g.x;
-    p.y += factor * g.y;
-    p.z += factor * g.z;
+    to.x += factor * g.x;
+    to.y += factor * g.y;
+    to.z += factor * g.z;
 }
 
 // Zero where the denominator is not above `least`.
@@ -236,6 +242,22 @@ template <typename Scalar>
     double total = 0.0;
     for (int lane = 0; lane < lanes<Scalar>; ++lane) total += double(lanes_to_add[lane]);
     return total;
+}
+
+// The sum of of_part(batch, first lane) over the parts of `count` batches, in registers and every 32 parts on in double.
+template <typename Scalar, typename OfPart>
+[[gnu::always_inline]] inline double sum_of_parts(int count, const OfPart& of_part)
+{
+    constexpr int parts_in_scalar = 32, parts_of_batch = batch_size / lanes<Scalar>;
+    double total = 0.0;
+    Lanes<Scalar> sum = Scalar(0);
+    for (int part = 0; part < count * parts_of_batch; ++part) {
+        sum += of_part(part / parts_of_batch, part % parts_of_batch * lanes<Scalar>);
+        if (part % parts_in_scalar != parts_in_scalar - 1) continue;
+        total += sum_of_lanes<Scalar>(sum);
+        sum = Scalar(0);
+    }
+    return total + sum_of_lanes<Scalar>(sum);
 }
 
 template <typename Scalar>

@@ -42,23 +42,18 @@ public:
 
 private:
     struct Place {};
+    static void give([[maybe_unused]] Place& place)
+    {
 #ifdef PBS_TELL_THREAD_SANITIZER
-    static void give(Place& place)
-    {
         __tsan_release(&place);
-    }
-    static void take(Place& place)
-    {
-        __tsan_acquire(&place);
-    }
-#else
-    static void give(Place&)
-    {
-    }
-    static void take(Place&)
-    {
-    }
 #endif
+    }
+    static void take([[maybe_unused]] Place& place)
+    {
+#ifdef PBS_TELL_THREAD_SANITIZER
+        __tsan_acquire(&place);
+#endif
+    }
 
     Place start_, end_;
 };

@@ -210,13 +210,6 @@ template PackedWeights<double> pack_weights(const Weights&);
 namespace {
 
 template <class Scalar>
-Vec3 middle_of(const Positions& rest)
-{
-    if (std::is_same_v<Scalar, double> || rest.rows() == 0) return Vec3::Zero();
-    return 0.5 * (rest.colwise().minCoeff() + rest.colwise().maxCoeff()).transpose();
-}
-
-template <class Scalar>
 BlendRows<Scalar> raw(const WeightRows<Scalar>& rows, const std::vector<int>& transform)
 {
     return {rows.rows(), rows.first.data(), transform.data(), rows.weight.data()};
@@ -249,9 +242,33 @@ void move_points(const PackedWeights<Scalar>& packed, const PaddedMatrix<Scalar>
 
 }  // namespace
 
+Vec3 middle_of_box(const Positions& points)
+{
+    if (points.rows() == 0) return Vec3::Zero();
+    return 0.5 * (points.colwise().minCoeff() + points.colwise().maxCoeff()).transpose();
+}
+
+Vec3 posed_origin(const Pose& pose, const Vec3& middle)
+{
+    return pose.empty() ? middle : pose[0] * middle;
+}
+
+template <class Scalar>
+void to_world(const std::vector<Scalar>& rows, const Vec3& origin, Positions& positions)
+{
+    using Rows = Eigen::Matrix<Scalar, Eigen::Dynamic, 3, Eigen::RowMajor>;
+    const Eigen::Index vertices = static_cast<Eigen::Index>(rows.size() / 3);
+    positions = Eigen::Map<const Rows>(rows.data(), vertices, 3).template cast<double>().rowwise() + origin.transpose();
+}
+
+template void to_world(const std::vector<float>&, const Vec3&, Positions&);
+template void to_world(const std::vector<double>&, const Vec3&, Positions&);
+
 template <class Scalar>
 BlendSkinning<Scalar>::BlendSkinning(const Positions& rest, const Weights& weights)
-    : packed_(pack_weights<Scalar>(weights)), middle_(middle_of<Scalar>(rest)), rest_(rest.size() + 1)
+    : packed_(pack_weights<Scalar>(weights)),
+      middle_(std::is_same_v<Scalar, double> ? Vec3(Vec3::Zero()) : middle_of_box(rest)),
+      rest_(rest.size() + 1)
 {
     Eigen::Map<Rows>(rest_.data(), rest.rows(), 3) = (rest.rowwise() - middle_.transpose()).template cast<Scalar>();
     matrices_.resize(packed_.bones + packed_.shared.rows());
@@ -311,10 +328,10 @@ void BlendSkinning<Scalar>::blend_in_world(const Pose& pose, Positions& posed, c
     if constexpr (std::is_same_v<Scalar, double>) {
         blend(Vec3(Vec3::Zero()), posed.data());
     } else {
-        const Vec3 origin = pose.empty() ? middle_ : pose[0] * middle_;
+        const Vec3 origin = posed_origin(pose, middle_);
         posed_.resize(rest_.size() - 1);
         blend(origin, posed_.data());
-        posed = Eigen::Map<const Rows>(posed_.data(), vertices(), 3).template cast<double>().rowwise() + origin.transpose();
+        to_world(posed_, origin, posed);
     }
 }
 

@@ -59,6 +59,18 @@ struct PackedWeights {
 template <class Scalar>
 PackedWeights<Scalar> pack_weights(const Weights& weights);
 
+// What the deformers in packed code share: origins near the body, so that float loses no digits, and the way back to the world.
+
+// The middle of the box around the points [m]; zero of no points.
+Vec3 middle_of_box(const Positions& points);
+
+// Where the first bone of a pose moves the middle of the rest shape: an origin near the posed body.
+Vec3 posed_origin(const Pose& pose, const Vec3& middle);
+
+// Rows x, y, z relative to the origin as positions in the world.
+template <class Scalar>
+void to_world(const std::vector<Scalar>& rows, const Vec3& origin, Positions& positions);
+
 // The blends for many poses of one body: what does not depend on the pose is packed once, and weights that several vertices
 // have (Eq. 2 knows few) are blended once a pose. A vertex of one bone or of such weights then costs one matrix times a point.
 //   BlendSkinning<float> skinning(rest, weights);

@@ -55,25 +55,6 @@ std::vector<Scalar> padded_rows(const Positions& points, const Vec3& origin, Sca
     return rows;
 }
 
-Vec3 middle_of_box(const Positions& points)
-{
-    if (points.rows() == 0) return Vec3::Zero();
-    return 0.5 * (points.colwise().minCoeff() + points.colwise().maxCoeff()).transpose();
-}
-
-Vec3 posed_origin(const Pose& pose, const Vec3& middle)
-{
-    return pose.empty() ? middle : pose[0] * middle;
-}
-
-template <class Scalar>
-void to_world(const std::vector<Scalar>& rows, const Vec3& origin, Positions& positions)
-{
-    using Rows = Eigen::Matrix<Scalar, Eigen::Dynamic, 3, Eigen::RowMajor>;
-    const Eigen::Index vertices = static_cast<Eigen::Index>(rows.size() / 3);
-    positions = Eigen::Map<const Rows>(rows.data(), vertices, 3).template cast<double>().rowwise() + origin.transpose();
-}
-
 template <class Scalar>
 RefusedRotations<Scalar> PackedRotations<Scalar>::none_yet()
 {
@@ -93,12 +74,10 @@ void PackedRotations<Scalar>::turn(const RefusedRotations<Scalar>& refused, cons
     }
 }
 
-#define PBS_PACKED_ROTATIONS(Scalar)                                                 \
-    template std::vector<Scalar> padded_rows(const Positions&, const Vec3&, Scalar); \
-    template void to_world(const std::vector<Scalar>&, const Vec3&, Positions&);     \
-    template class PackedRotations<Scalar>;
-PBS_PACKED_ROTATIONS(float)
-PBS_PACKED_ROTATIONS(double)
+template std::vector<float> padded_rows(const Positions&, const Vec3&, float);
+template std::vector<double> padded_rows(const Positions&, const Vec3&, double);
+template class PackedRotations<float>;
+template class PackedRotations<double>;
 
 template <class Scalar>
 PackedDeltaMush<Scalar>::PackedDeltaMush(const TetMesh& mesh, const DeltaMushOptions& options)

@@ -36,7 +36,6 @@ public:
     const Positions& smoothed_rest() const { return smoothed_rest_; }
     const Positions& detail() const { return delta_; }
     const Adjacency& neighbours() const { return neighbours_; }
-    const DeltaMushOptions& options() const { return options_; }
 
 private:
     Positions smoothed(Positions positions) const;
@@ -48,22 +47,12 @@ private:
     Positions delta_;  // the detail that smoothing removes [m], #V x 3
 };
 
-// The parts that the deformers in packed code share: rows of four numbers, the vertices whose rotation the formulae refuse, and the way
-// back to positions in the world.
-//
+// The parts that delta mush and direct delta mush share in packed code: rows of four numbers, and the vertices whose rotation the formulae
+// refuse.
+
 // Rows x, y, z, `fourth` of points relative to an origin.
 template <class Scalar>
 std::vector<Scalar> padded_rows(const Positions& points, const Vec3& origin, Scalar fourth = 0);
-
-// The middle of the box around the points [m]; zero of no points.
-Vec3 middle_of_box(const Positions& points);
-
-// Where the first bone of a pose moves the middle of the rest shape: an origin near the posed body.
-Vec3 posed_origin(const Pose& pose, const Vec3& middle);
-
-// Rows x, y, z relative to the origin as positions in the world.
-template <class Scalar>
-void to_world(const std::vector<Scalar>& rows, const Vec3& origin, Positions& positions);
 
 // Room for refused rotations of #V vertices.
 template <class Scalar>

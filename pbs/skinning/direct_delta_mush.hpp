@@ -54,7 +54,6 @@ public:
     const std::vector<Moments>& moments() const { return moments_; }  // #entries
     const Positions& centre() const { return centre_; }               // p_i [m], #V x 3
     const Positions& detail() const { return detail_; }               // u_i - p_i [m], #V x 3
-    const DirectDeltaMushOptions& options() const { return options_; }
 
 private:
     DirectDeltaMushOptions options_;

@@ -6,7 +6,6 @@
 #include <Eigen/SparseCholesky>
 
 #include <algorithm>
-#include <map>
 
 namespace pbs {
 namespace {
@@ -86,16 +85,21 @@ void append_vertex(Weights& weights, const std::vector<int>& bones)
 
 Weights paper_weights(const BoneBinding& binding, const Skeleton& skeleton)
 {
-    std::vector<std::vector<int>> at_head, at_tail;
+    BonesAtEnd at_head, at_tail;
     for (int j = 0; j < static_cast<int>(skeleton.bones.size()); ++j) {
         at_head.push_back(bones_meeting(skeleton, j, BoneEnd::head));
         at_tail.push_back(bones_meeting(skeleton, j, BoneEnd::tail));
     }
+    return weights_by_end(binding, at_head, at_tail);
+}
+
+Weights weights_by_end(const BoneBinding& binding, const BonesAtEnd& at_head, const BonesAtEnd& at_tail)
+{
     Weights weights{{0}, {}, {}};
     for (std::size_t i = 0; i < binding.bone.size(); ++i) {
         const int bone = binding.bone[i];
         const double t = binding.parameter(i);
-        // Eq. 2: w_j = 1 for 1/6 <= t <= 5/6, otherwise 1 / n over the bones that meet at the nearest end.
+        // Eq. 2: w_j = 1 for 1/6 <= t <= 5/6, otherwise 1 / n over the bones that meet at the nearest end, the head where t < 1/2.
         if (t < 1.0 / 6.0)
             append_vertex(weights, at_head[bone]);
         else if (t <= 5.0 / 6.0)
@@ -177,34 +181,34 @@ Laplacian held_laplacian(const TetMesh& mesh, const std::vector<bool>& known, co
     return laplacian;
 }
 
-Weights sparse(const Eigen::MatrixXd& weights)
+}  // namespace
+
+Weights sparse_weights(const Eigen::MatrixXd& dense, double negligible, const Weights& otherwise)
 {
-    Weights result;
-    result.first.push_back(0);
-    for (Eigen::Index v = 0; v < weights.rows(); ++v) {
-        const double sum = (weights.row(v).array() > negligible).select(weights.row(v), 0.0).sum();
-        for (int j = 0; j < weights.cols(); ++j) {
-            if (!(weights(v, j) > negligible)) continue;
+    Weights result{{0}, {}, {}};
+    for (Eigen::Index v = 0; v < dense.rows(); ++v) {
+        const double sum = (dense.row(v).array() > negligible).select(dense.row(v), 0.0).sum();
+        for (int j = 0; j < dense.cols(); ++j) {
+            if (!(dense(v, j) > negligible)) continue;
             result.bone.push_back(j);
-            result.weight.push_back(weights(v, j) / sum);
+            result.weight.push_back(dense(v, j) / sum);
         }
-        if (result.first.back() == static_cast<int>(result.bone.size())) {
-            result.bone.push_back(0);
-            result.weight.push_back(1.0);
+        for (int k = otherwise.first[v]; sum == 0.0 && k < otherwise.first[v + 1]; ++k) {
+            result.bone.push_back(otherwise.bone[k]);
+            result.weight.push_back(otherwise.weight[k]);
         }
         result.first.push_back(static_cast<int>(result.bone.size()));
     }
     return result;
 }
 
-}  // namespace
-
 Weights harmonic_extension(const TetMesh& mesh, const std::vector<bool>& known, const Eigen::MatrixXd& weights)
 {
     Eigen::MatrixXd right_hand_sides = Eigen::MatrixXd::Zero(weights.rows(), weights.cols());
     const Laplacian laplacian = held_laplacian(mesh, known, weights, right_hand_sides);
     const Eigen::SimplicialLDLT<Laplacian> factor(laplacian);
-    return sparse(factor.solve(right_hand_sides));
+    const BoneBinding of_first{std::vector<int>(known.size(), 0), {}, {}, {}};
+    return sparse_weights(factor.solve(right_hand_sides), negligible, rigid_weights(of_first));
 }
 
 Weights harmonic_weights(const TetMesh& mesh, const std::vector<int>& gripping_bone, int bones)
@@ -218,54 +222,23 @@ Weights harmonic_weights(const TetMesh& mesh, const std::vector<int>& gripping_b
     return harmonic_extension(mesh, gripped, weights);
 }
 
-namespace {
-
-constexpr double negligible_weight = 1e-6;
-
-using Row = std::map<int, double>;  // weights of a vertex by bone, in the order of the bones
-
-std::vector<Row> rows_of(const Weights& weights)
-{
-    std::vector<Row> rows(weights.vertices());
-    for (int v = 0; v < weights.vertices(); ++v)
-        for (int k = weights.first[v]; k < weights.first[v + 1]; ++k) rows[v][weights.bone[k]] += weights.weight[k];
-    return rows;
-}
-
-Weights weights_of(const std::vector<Row>& rows)
-{
-    Weights result{{0}, {}, {}};
-    for (const Row& row : rows) {
-        double sum = 0.0;
-        for (const auto& [bone, weight] : row)
-            if (weight > negligible_weight) sum += weight;
-        for (const auto& [bone, weight] : row) {
-            if (!(weight > negligible_weight)) continue;
-            result.bone.push_back(bone);
-            result.weight.push_back(weight / sum);
-        }
-        result.first.push_back(static_cast<int>(result.bone.size()));
-    }
-    return result;
-}
-
-}  // namespace
-
 Weights diffused_weights(const TetMesh& mesh, const Weights& weights, int steps)
 {
     const Adjacency neighbours = adjacency_of(mesh.tets, weights.vertices());
-    std::vector<Row> rows = rows_of(weights);
+    const int bones = weights.bone.empty() ? 0 : 1 + *std::ranges::max_element(weights.bone);
+    Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(weights.vertices(), bones);
+    for (int v = 0; v < weights.vertices(); ++v)
+        for (int k = weights.first[v]; k < weights.first[v + 1]; ++k) rows(v, weights.bone[k]) += weights.weight[k];
     for (int step = 0; step < steps; ++step) {
-        const std::vector<Row> last = rows;
+        const Eigen::MatrixXd last = rows;
         for (int v = 0; v < weights.vertices(); ++v) {
             const int first = neighbours.first[v], end = neighbours.first[v + 1];
             if (first == end) continue;
-            for (auto& [bone, weight] : rows[v]) weight *= 0.5;
-            for (int k = first; k < end; ++k)
-                for (const auto& [bone, weight] : last[neighbours.neighbour[k]]) rows[v][bone] += 0.5 * weight / (end - first);
+            rows.row(v) *= 0.5;
+            for (int k = first; k < end; ++k) rows.row(v) += 0.5 * last.row(neighbours.neighbour[k]) / (end - first);
         }
     }
-    return weights_of(rows);
+    return sparse_weights(rows, negligible, weights);
 }
 
 }  // namespace pbs

@@ -45,6 +45,14 @@ Weights rigid_weights(const BoneBinding& binding);                            //
 // The other reading of Eq. 2's n_joints: near either end, 1 / n over all bones that touch the bone at either end.
 Weights either_end_weights(const BoneBinding& binding, const Skeleton& skeleton);
 
+// The weights of Eq. 2 where these bones meet at the head and at the tail of each bone.
+using BonesAtEnd = std::vector<std::vector<int>>;  // of each bone
+Weights weights_by_end(const BoneBinding& binding, const BonesAtEnd& at_head, const BonesAtEnd& at_tail);
+
+// One row per vertex and one column per bone: what exceeds `negligible`, scaled to a sum of one. A vertex where nothing does has its
+// weights of `otherwise`.
+Weights sparse_weights(const Eigen::MatrixXd& dense, double negligible, const Weights& otherwise);
+
 // Smooth weights of the bones in the flesh: each bone's weight is harmonic between the vertices where it is known.
 
 // Weights are 1 where their bone grips the flesh and 0 where another does. They predict where the flesh moves with the bones, for example

@@ -41,7 +41,7 @@ public:
     const Positions& positions() const;  // after the last step, in rest pose before the first [m], #V x 3
 
 private:
-    class Implementation;
+    struct Implementation;
     std::unique_ptr<Implementation> implementation_;
 };
 

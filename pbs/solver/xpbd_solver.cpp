@@ -9,6 +9,7 @@
 #include "pbs/solver/particles.hpp"
 
 #include <algorithm>
+#include <array>
 #include <map>
 
 namespace pbs {
@@ -126,17 +127,10 @@ template <typename Scalar>
 BatchedConstraints<Scalar> make_batched_constraints(const XpbdConstraints& constraints, const Tets& tets, Order order)
 {
     ConstraintClassData<Scalar, 2> stretch;
-    for (const auto& [edge, compliance] : constraints.stretch) {
-        stretch.vertex.push_back(edge.vertex);
-        stretch.values.rest.push_back(Scalar(edge.rest_length));
-        stretch.values.stiffness.push_back(Scalar(1.0 / compliance));
-    }
+    for (const auto& [edge, compliance] : constraints.stretch) stretch.add(edge.vertex, Scalar(edge.rest_length), Scalar(1.0 / compliance));
     ConstraintClassData<Scalar, 4> volume;
-    for (const auto& [tet, compliance] : constraints.volume) {
-        volume.vertex.push_back(tet.vertex);
-        volume.values.rest.push_back(Scalar(6.0 * tet.rest_volume));
-        volume.values.stiffness.push_back(Scalar(1.0 / (36.0 * compliance)));
-    }
+    for (const auto& [tet, compliance] : constraints.volume)
+        volume.add(tet.vertex, Scalar(6.0 * tet.rest_volume), Scalar(1.0 / (36.0 * compliance)));
     return make_batched_constraints(stretch, volume, static_cast<int>(constraints.inverse_mass.size()), tets, order);
 }
 
@@ -145,27 +139,18 @@ template BatchedConstraints<double> make_batched_constraints(const XpbdConstrain
 
 namespace {
 
-// The change of lambda by Eq. 18 of Macklin 2016; zero if nothing can move.
-template <typename Scalar>
-Scalar multiplier_step(Scalar C, Scalar compliance_per_dt2, Scalar lambda, Scalar w_gradient2)
-{
-    const Scalar denominator = w_gradient2 + compliance_per_dt2;
-    return w_gradient2 > Scalar(0) ? (-C - compliance_per_dt2 * lambda) / denominator : Scalar(0);
-}
-
 // Order `plain`: one constraint after the other in the order given. The packed orders are tested against it.
 template <typename Scalar>
 class PlainXpbdProjection : public XpbdProjection {
 public:
     explicit PlainXpbdProjection(const XpbdConstraints& constraints)
-        : w_(constraints.inverse_mass.begin(), constraints.inverse_mass.end()), x_(w_.size()), q_(w_.size())
+        : w_(constraints.inverse_mass.begin(), constraints.inverse_mass.end()),
+          bind_(with_multipliers(constraints.bind)),
+          stretch_(with_multipliers(constraints.stretch)),
+          volume_(with_multipliers(constraints.volume)),
+          x_(w_.size()),
+          q_(w_.size())
     {
-        for (const auto& [bind, compliance] : constraints.bind)
-            bind_.push_back({{bind.vertex, Scalar(bind.rest_distance), Scalar(1)}, Scalar(compliance), Scalar(0)});
-        for (const auto& [edge, compliance] : constraints.stretch)
-            stretch_.push_back({{edge.vertex, Scalar(edge.rest_length), Scalar(1)}, Scalar(compliance), Scalar(0)});
-        for (const auto& [tet, compliance] : constraints.volume)
-            volume_.push_back({{tet.vertex, Scalar(tet.rest_volume), Scalar(1)}, Scalar(compliance), Scalar(0)});
     }
 
     void load(const Positions& p, const Positions& q, const Vec3& origin) override
@@ -174,12 +159,6 @@ public:
             x_[i] = (p.row(i).transpose() - origin).template cast<Scalar>();
             q_[i] = (q.row(i).transpose() - origin).template cast<Scalar>();
         }
-    }
-
-    void begin_substep(double dt_s) override
-    {
-        dt2_ = Scalar(dt_s * dt_s);
-        forget_multipliers();
     }
 
     void forget_multipliers() override
@@ -191,39 +170,26 @@ public:
 
     void project_bind_constraints() override
     {
-        for (auto& [constraint, compliance, lambda] : bind_) {
-            const int i = constraint.vertex;
-            const Point g = gradient(constraint, x_[i], q_[i]);
-            const Scalar step = multiplier_step(value(constraint, x_[i], q_[i]), compliance / dt2_, lambda, w_[i] * g.squaredNorm());
-            lambda += step;
-            x_[i] += w_[i] * step * g;
+        for (auto& bind : bind_) {
+            const int i = bind.constraint.vertex;
+            project(bind, value(bind.constraint, x_[i], q_[i]), std::array{gradient(bind.constraint, x_[i], q_[i])}, std::array{i});
         }
     }
 
     void project_stretch_constraints() override
     {
-        for (auto& [constraint, compliance, lambda] : stretch_) {
-            const auto [i, j] = constraint.vertex;
-            const auto [g1, g2] = gradient(constraint, x_[i], x_[j]);
-            const Scalar w_gradient2 = w_[i] * g1.squaredNorm() + w_[j] * g2.squaredNorm();
-            const Scalar step = multiplier_step(value(constraint, x_[i], x_[j]), compliance / dt2_, lambda, w_gradient2);
-            lambda += step;
-            x_[i] += w_[i] * step * g1;
-            x_[j] += w_[j] * step * g2;
+        for (auto& edge : stretch_) {
+            const auto [i, j] = edge.constraint.vertex;
+            project(edge, value(edge.constraint, x_[i], x_[j]), gradient(edge.constraint, x_[i], x_[j]), edge.constraint.vertex);
         }
     }
 
     void project_volume_constraints() override
     {
-        for (auto& [constraint, compliance, lambda] : volume_) {
-            const auto& v = constraint.vertex;
-            const auto g = gradient(constraint, x_[v[0]], x_[v[1]], x_[v[2]], x_[v[3]]);
-            Scalar w_gradient2 = Scalar(0);
-            for (int c = 0; c < 4; ++c) w_gradient2 += w_[v[c]] * g[c].squaredNorm();
-            const Scalar C = value(constraint, x_[v[0]], x_[v[1]], x_[v[2]], x_[v[3]]);
-            const Scalar step = multiplier_step(C, compliance / dt2_, lambda, w_gradient2);
-            lambda += step;
-            for (int c = 0; c < 4; ++c) x_[v[c]] += w_[v[c]] * step * g[c];
+        for (auto& tet : volume_) {
+            const auto [i, j, k, l] = tet.constraint.vertex;
+            const Scalar C = value(tet.constraint, x_[i], x_[j], x_[k], x_[l]);
+            project(tet, C, gradient(tet.constraint, x_[i], x_[j], x_[k], x_[l]), tet.constraint.vertex);
         }
     }
 
@@ -241,8 +207,30 @@ private:
         Scalar multiplier;  // lambda of this substep
     };
 
-    Scalar dt2_ = Scalar(0);  // the square of the substep [s^2]
-    std::vector<Scalar> w_;   // inverse masses [1/kg], #V
+    template <template <typename> typename Constraint>
+    static std::vector<Multiplied<Constraint<Scalar>>> with_multipliers(const std::vector<Compliant<Constraint<double>>>& constraints)
+    {
+        std::vector<Multiplied<Constraint<Scalar>>> multiplied;
+        for (const auto& [constraint, compliance] : constraints) {
+            const auto& [vertex, rest, stiffness] = constraint;
+            multiplied.push_back({{vertex, Scalar(rest), Scalar(1)}, Scalar(compliance), Scalar(0)});
+        }
+        return multiplied;
+    }
+
+    // Eq. 18 of Macklin 2016 for the value C and its gradients by these vertices; zero if nothing can move.
+    template <typename Constraint, std::size_t n>
+    void project(Multiplied<Constraint>& of, Scalar C, const std::array<Point, n>& gradient, const std::array<int, n>& vertex)
+    {
+        Scalar w_gradient2 = Scalar(0);
+        for (std::size_t i = 0; i < n; ++i) w_gradient2 += w_[vertex[i]] * gradient[i].squaredNorm();
+        const Scalar compliance_per_dt2 = of.compliance / Scalar(dt2_s2_), denominator = w_gradient2 + compliance_per_dt2;
+        const Scalar step = w_gradient2 > Scalar(0) ? (-C - compliance_per_dt2 * of.multiplier) / denominator : Scalar(0);
+        of.multiplier += step;
+        for (std::size_t i = 0; i < n; ++i) x_[vertex[i]] += w_[vertex[i]] * step * gradient[i];
+    }
+
+    std::vector<Scalar> w_;  // inverse masses [1/kg], #V
     std::vector<Multiplied<BindConstraint<Scalar>>> bind_;
     std::vector<Multiplied<StretchConstraint<Scalar>>> stretch_;
     std::vector<Multiplied<VolumeConstraint<Scalar>>> volume_;
@@ -264,11 +252,6 @@ public:
     }
 
     void load(const Positions& p, const Positions& q, const Vec3& origin) override { particles_.load(p, q, origin); }
-    void begin_substep(double dt_s) override
-    {
-        dt2_ = Scalar(dt_s * dt_s);
-        forget_multipliers();
-    }
     void forget_multipliers() override
     {
         for (Multipliers* multipliers : {&stretch_, &volume_})
@@ -316,7 +299,7 @@ private:
         parallel_.for_each_slab(program.slabs(), [&](int slab) {
             const std::vector<BatchRun>& runs = program.runs(slab);
             for (std::size_t r = 0; r < runs.size(); ++r)
-                project_compliant_batches(runs[r].kind, program.batches(runs[r]), runs[r].count, dt2_,
+                project_compliant_batches(runs[r].kind, program.batches(runs[r]), runs[r].count, Scalar(dt2_s2_),
                                           multipliers.lambdas[multipliers.first_of_run[slab][r]].of_lane, particles_.xyzw());
         });
     }
@@ -325,7 +308,6 @@ private:
     Parallel parallel_;
     BatchedParticles<Scalar> particles_;
     Multipliers stretch_, volume_;
-    Scalar dt2_ = Scalar(0);  // the square of the substep [s^2]
 };
 
 template <typename Scalar>

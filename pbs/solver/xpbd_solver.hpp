@@ -57,13 +57,21 @@ public:
 
     // p: positions, q: posed bind points [m], #V x 3; inside, positions are relative to origin [m].
     virtual void load(const Positions& p, const Positions& q, const Vec3& origin) = 0;
-    virtual void begin_substep(double dt_s) = 0;  // of this length; all multipliers become zero
+    // Of this length; all multipliers become zero.
+    void begin_substep(double dt_s)
+    {
+        dt2_s2_ = dt_s * dt_s;
+        forget_multipliers();
+    }
     virtual void forget_multipliers() = 0;        // they become zero
     virtual void project_bind_constraints() = 0;  // all of the class once
     virtual void project_stretch_constraints() = 0;
     virtual void project_volume_constraints() = 0;
     // Positions back in p [m], #V x 3; origin as it was given to load.
     virtual void store(const Vec3& origin, Positions& p) const = 0;
+
+protected:
+    double dt2_s2_ = 0.0;  // the square of the substep [s^2]
 };
 
 // The order and the precision that the options name. tets: those whose edges the order `grouped` may group.

@@ -89,7 +89,7 @@ const std::vector<std::string> headers_of_kernels = {"array",   "cmath",       "
                                                      "utility", "type_traits", "experimental/simd", "immintrin.h"};
 const std::vector<std::string> headers_of_registers = {"experimental/simd", "immintrin.h", "x86intrin.h", "arm_neon.h"};
 
-// Targets built for the machine, and the definition that records this. Those of the benchmark are not in the library.
+// Targets built for the machine, and the definition that records this.
 const std::vector<std::string> built_for_the_machine = {"target_compile_options(pbs_kernels ",
                                                         "target_compile_options(pbskin_native_plain ", "\"PBS_KERNEL_FLAGS="};
 

@@ -28,7 +28,6 @@ const std::map<std::string, std::string> rooms_of_small_files = {
     {"tests/support/", "one fixture a header"},
     {"tests/fuzz/", "one target a file"},
     {"tests/packaging/", "projects of other people, as small as they would be"},
-    {"tests/benchmark/", "programs that are run by hand"},
 };
 
 struct Function {

@@ -156,7 +156,6 @@ struct Poses {
         alignas(64) S p[vertices][3][lanes], q[vertices][3][lanes], k[pbs::stiffness_classes][lanes] = {};
         const auto& links = poses.links;
         const S* w = poses.w[0];
-        const auto at = [](int v) { return static_cast<std::uint32_t>(v); };
         for (int v = 0; v < vertices; ++v)
             for (int axis = 0; axis < 3; ++axis)
                 for (int pose = 0; pose < lanes; ++pose)
@@ -169,28 +168,23 @@ struct Poses {
             std::vector<pbs::PoseBind<S>> binds;
             for (std::size_t c = 0; c < links.size(); ++c) binds.push_back({links[c].rest[0], S(w[c] > 0)});
             pbs::project_pose_binds(binds.data(), binds.size(), links[0].k, q[0][0], p[0][0]);
-        } else if constexpr (corners == 2) {
-            std::vector<pbs::PoseEdge<S>> edges;
-            for (std::size_t c = 0; c < links.size(); ++c) {
-                const int i = links[c].vertex[0], j = links[c].vertex[1];
-                const S sum = w[i] + w[j];
-                edges.push_back({{at(i), at(j)},
-                                 of_class(c, c % 2 == 0 ? pbs::StiffnessOf::stretch : pbs::StiffnessOf::jiggling_stretch),
-                                 links[c].rest[0],
-                                 {w[i], w[j]},
-                                 sum > 0 ? 1 / sum : 0});
-            }
-            pbs::project_pose_edges(edges.data(), edges.size(), k[0], p[0][0]);
         } else {
-            std::vector<pbs::PoseTet<S>> tets;
+            using enum pbs::StiffnessOf;
+            std::vector<std::conditional_t<corners == 2, pbs::PoseEdge<S>, pbs::PoseTet<S>>> constraints(links.size());
             for (std::size_t c = 0; c < links.size(); ++c) {
-                const auto& v = links[c].vertex;
-                tets.push_back({{at(v[0]), at(v[1]), at(v[2]), at(v[3])},
-                                of_class(c, pbs::StiffnessOf::volume),
-                                S(6) * links[c].rest[0],
-                                {w[v[0]], w[v[1]], w[v[2]], w[v[3]]}});
+                constraints[c].stiffness = of_class(c, corners == 4 ? volume : c % 2 == 0 ? stretch : jiggling_stretch);
+                constraints[c].rest = (corners == 4 ? S(6) : S(1)) * links[c].rest[0];
+                S sum = 0;
+                for (int i = 0; i < corners; ++i) {
+                    constraints[c].vertex[i] = static_cast<std::uint32_t>(links[c].vertex[i]);
+                    sum += constraints[c].w[i] = w[links[c].vertex[i]];
+                }
+                if constexpr (corners == 2) constraints[c].one_over_w = sum > 0 ? 1 / sum : 0;
             }
-            pbs::project_pose_tets(tets.data(), tets.size(), k[0], p[0][0]);
+            if constexpr (corners == 2)
+                pbs::project_pose_edges(constraints.data(), constraints.size(), k[0], p[0][0]);
+            else
+                pbs::project_pose_tets(constraints.data(), constraints.size(), k[0], p[0][0]);
         }
         for (int v = 0; v < vertices; ++v)
             for (int pose = 0; pose < lanes; ++pose) poses.p[pose][v] = {p[v][0][pose], p[v][1][pose], p[v][2][pose]};

@@ -1,15 +1,16 @@
-// How far rounding may move the positions of a step of Algorithm 1, for tolerances. Each projection rounds the positions of its vertices
-// and a correction, in some ten or sixteen roundings (projection_rounding.hpp). n roundings of either sign add up to at most 6 sqrt n of
-// them, except in one of some 10,000 cases (N. Higham, T. Mary, A new approach to probabilistic rounding error analysis, SIAM J. Sci.
-// Comput. 41, 2019, Sec. 2). The projections that follow multiply them by a factor that random disturbances of the blend measure.
+// How far rounding may move the positions of a step of Algorithm 1 or of XPBD, for tolerances. Each projection rounds the positions of its
+// vertices and a correction, in some ten or sixteen roundings (projection_rounding.hpp). n roundings of either sign add up to at most 6
+// sqrt n of them, except in one of some 10,000 cases (N. Higham, T. Mary, A new approach to probabilistic rounding error analysis, SIAM J.
+// Sci. Comput. 41, 2019, Sec. 2). The projections that follow multiply them by a factor that random disturbances of the blend measure.
 #pragma once
 
 #include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/solver/constraint_set.hpp"
 #include "pbs/solver/pbs_solver.hpp"
-#include "tests/support/rounding_error.hpp"
+#include "pbs/solver/xpbd_solver.hpp"
 #include "tests/support/projection_rounding.hpp"
 #include "tests/support/random_points.hpp"
+#include "tests/support/rounding_error.hpp"
 #include "tests/support/two_bone_limb.hpp"
 
 #include <algorithm>
@@ -19,27 +20,46 @@
 
 namespace test_support {
 
+template <typename Options>
+using SolverOf = std::conditional_t<std::is_same_v<Options, pbs::PbsOptions>, pbs::PbsSolver, pbs::XpbdSolver>;
+
+struct Stepped {
+    pbs::StepSummary summary;
+    pbs::Positions positions;
+};
+
+// One step of PBS or XPBD, by the kind of the options.
+template <typename Options>
+Stepped stepped(const TwoBoneLimb& limb, const Options& options, const std::vector<bool>& held = {})
+{
+    SolverOf<Options> solver(limb.mesh, limb.binding.distance, {}, options, held);
+    const pbs::StepSummary summary = solver.advance(limb.lbs, limb.bind_points, 0.01);
+    return {summary, solver.positions()};
+}
+
+// The limb with other positions in place of the blend's.
+inline TwoBoneLimb blended_to(TwoBoneLimb limb, const pbs::Positions& lbs)
+{
+    limb.lbs = lbs;
+    return limb;
+}
+
 // The largest standard deviation of a coordinate after the step, over that of the coordinates of the blend, or one where the step damps
 // disturbances: the last roundings are not damped. Disturbances have the standard deviation size_m / sqrt 3. The largest of sixteen
 // normally distributed changes is less than their standard deviation with a probability of 0.683^16 = 0.2 %, in one coordinate, and there
 // are thousands. In double precision, where rounding is 1e-8 of a disturbance.
-template <typename Solver, typename Options>
+template <typename Options>
 double step_condition(const TwoBoneLimb& limb, Options options)
 {
     options.precision = pbs::Precision::f64;
     constexpr double size_m = 1e-8;
-    const auto stepped = [&](const pbs::Positions& lbs) -> pbs::Positions {
-        Solver solver(limb.mesh, limb.binding.distance, {}, options);
-        solver.advance(lbs, limb.bind_points, 0.01);
-        return solver.positions();
-    };
-    const pbs::Positions undisturbed = stepped(limb.lbs);
+    const pbs::Positions undisturbed = stepped(limb, options).positions;
     RandomPoints random(71);
     double largest_m = 0.0;
     for (int draw = 0; draw < 16; ++draw) {
         pbs::Positions moved = limb.lbs;
         for (Eigen::Index v = 0; v < moved.rows(); ++v) moved.row(v) += random.point(size_m).transpose();
-        largest_m = std::max(largest_m, (stepped(moved) - undisturbed).cwiseAbs().maxCoeff());
+        largest_m = std::max(largest_m, (stepped(blended_to(limb, moved), options).positions - undisturbed).cwiseAbs().maxCoeff());
     }
     return std::max(1.0, largest_m / (size_m / std::sqrt(3.0)));
 }
@@ -85,7 +105,19 @@ inline double added_rounding_m(const TwoBoneLimb& limb, const pbs::PbsOptions& o
 // In the precision of the options [m], for coordinates as large as those of the limb.
 inline double step_rounding_m(const TwoBoneLimb& limb, const pbs::PbsOptions& options)
 {
-    return 6.0 * added_rounding_m(limb, options) * step_condition<pbs::PbsSolver>(limb, options);
+    return 6.0 * added_rounding_m(limb, options) * step_condition(limb, options);
+}
+
+// The same of XPBD, between two evaluations. The roundings of a projection are at most those of a PBS projection of stiffness 1, because a
+// compliance makes the correction smaller, and as many again for the term of the multiplier, which balances C.
+inline double step_rounding_m(const TwoBoneLimb& limb, const pbs::XpbdOptions& options)
+{
+    pbs::PbsOptions rigid;
+    rigid.k_stretch = rigid.k_volume = rigid.k_bind = 1.0;
+    rigid.masses = pbs::Masses::lumped;
+    rigid.iterations = options.iterations * options.substeps;
+    rigid.precision = options.precision;
+    return 2.0 * 2.0 * 6.0 * added_rounding_m(limb, rigid) * step_condition(limb, options);
 }
 
 struct ResidualRounding {
@@ -103,8 +135,7 @@ inline ResidualRounding residual_rounding(const TwoBoneLimb& limb, pbs::PbsOptio
     options.record_iterations = true;
     const auto change_of = [&](double pbs::Residuals::*residual) {
         return value_rounding(limb.lbs, moved_m, [&](const pbs::Positions& lbs) {
-            pbs::PbsSolver solver(limb.mesh, limb.binding.distance, {}, options, held);
-            return solver.advance(lbs, limb.bind_points, 0.01).history.back().*residual;
+            return stepped(blended_to(limb, lbs), options, held).summary.history.back().*residual;
         });
     };
     const Eigen::VectorXd volumes = pbs::tet_volumes(limb.mesh.rest, limb.mesh.tets);

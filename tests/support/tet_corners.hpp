@@ -41,12 +41,10 @@ Corners<Scalar> projected(const pbs::VolumeConstraint<Scalar>& constraint, const
     return p;
 }
 
-// The corners as one vector of 12, and the reverse.
-inline Eigen::VectorXd stacked(const Corners<double>& p)
+// Points as one vector, and the corners of a tet from one of 12.
+Eigen::VectorXd stacked(const auto& points)
 {
-    Eigen::VectorXd x(12);
-    x << p[0], p[1], p[2], p[3];
-    return x;
+    return Eigen::VectorXd::Map(points.front().data(), 3 * static_cast<Eigen::Index>(points.size()));
 }
 inline Corners<double> unstacked(const Eigen::VectorXd& x)
 {

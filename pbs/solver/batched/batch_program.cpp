@@ -6,38 +6,13 @@
 
 #include <algorithm>
 #include <new>
-#include <numeric>
 
 namespace pbs {
 namespace {
 
-constexpr std::size_t groups_a_cluster = 8192;
+constexpr int groups_a_cluster = 8192;
 constexpr GroupKind kinds_in_order[] = {GroupKind::edge_tet,  GroupKind::edge_triangle, GroupKind::edge_wedge, GroupKind::edge,
                                         GroupKind::tet_fan_3, GroupKind::tet_fan_2,     GroupKind::tet};
-
-int first_vertex(const ConstraintGroup& group, const VertexOrder& order)
-{
-    int first = order.new_of_old[group.vertex[0]];
-    for (int v = 1; v < vertices_of(group.kind); ++v) first = std::min(first, order.new_of_old[group.vertex[v]]);
-    return first;
-}
-
-// Indices of groups.
-using Groups = std::vector<int>;
-
-// Groups of each slab by the first of their vertices.
-std::vector<Groups> by_slab(const std::vector<ConstraintGroup>& groups, const VertexOrder& order)
-{
-    std::vector<int> first(groups.size()), sorted(groups.size());
-    for (std::size_t g = 0; g < groups.size(); ++g) first[g] = first_vertex(groups[g], order);
-    std::iota(sorted.begin(), sorted.end(), 0);
-    std::stable_sort(sorted.begin(), sorted.end(), [&](int a, int b) { return first[a] < first[b]; });
-
-    const std::vector<int> slab_of = order.slab_of_new();
-    std::vector<Groups> slabs(order.slabs());
-    for (const int g : sorted) slabs[slab_of[first[g]]].push_back(g);
-    return slabs;
-}
 
 }  // namespace
 
@@ -47,24 +22,17 @@ BatchProgram<Scalar>::BatchProgram(const std::vector<ConstraintGroup>& groups, c
     : runs_(order.slabs()), groups_(groups.size())
 {
     BatchScheduler scheduler(static_cast<int>(order.new_of_old.size()));
-    const std::vector<int> place = projection_sequence(groups, static_cast<int>(order.new_of_old.size()));
-    std::vector<Groups> slabs = by_slab(groups, order);
+    const std::vector<SlabClusters> clusters = clusters_of_slabs(groups, order, groups_a_cluster);
     for (int slab = 0; slab < order.slabs(); ++slab)
-        for (std::size_t begin = 0; begin < slabs[slab].size();) {
-            const std::size_t left = slabs[slab].size() - begin;
-            const std::size_t size = left < 3 * groups_a_cluster / 2 ? left : groups_a_cluster;  // no small last one
-            const auto first = slabs[slab].begin() + static_cast<std::ptrdiff_t>(begin), last = first + static_cast<std::ptrdiff_t>(size);
-            std::sort(first, last, [&](int a, int b) { return place[a] < place[b]; });
+        for (const std::vector<int>& cluster : clusters[slab])
             for (const GroupKind kind : kinds_in_order) {
-                std::vector<ConstraintGroup> cluster;
-                for (auto g = first; g != last; ++g)
-                    if (groups[*g].kind == kind) cluster.push_back(groups[*g]);
+                std::vector<ConstraintGroup> of_cluster;
+                for (const int g : cluster)
+                    if (groups[g].kind == kind) of_cluster.push_back(groups[g]);
                 with_kind(kind, [&](auto of_kind) {
-                    append<of_kind()>(cluster, scheduler.schedule(cluster), values, order, slab, dummy_begin + slab * dummies_a_slab);
+                    append<of_kind()>(of_cluster, scheduler.schedule(of_cluster), values, order, slab, dummy_begin + slab * dummies_a_slab);
                 });
             }
-            begin += size;
-        }
     lines_.shrink_to_fit();
 }
 
@@ -149,10 +117,9 @@ BatchedConstraints<Scalar> make_batched_constraints(const ConstraintClassData<Sc
     BatchedConstraints<Scalar> batched{
         order_vertices(tets, vertices, vertices_a_slab(vertices)), (vertices + batch_size - 1) / batch_size * batch_size, {}, {}};
     const bool grouped = order == Order::grouped;
-    batched.stretch = {grouped ? grouped_edges(stretch.vertex, tets) : single_edges(stretch.vertex), stretch.values, batched.order,
+    batched.stretch = {grouped ? grouped_edges(stretch.vertex, tets) : single_edges(stretch.vertex), stretch, batched.order,
                        batched.dummy_begin};
-    batched.volume = {grouped ? grouped_tets(volume.vertex) : single_tets(volume.vertex), volume.values, batched.order,
-                      batched.dummy_begin};
+    batched.volume = {grouped ? grouped_tets(volume.vertex) : single_tets(volume.vertex), volume, batched.order, batched.dummy_begin};
     return batched;
 }
 
@@ -162,16 +129,10 @@ BatchedConstraints<Scalar> make_batched_constraints(const ConstraintSet<Scalar>&
     ConstraintClassData<Scalar, 2> stretch;
     for (const StretchConstraint<Scalar>& edge : constraints.stretch) {
         const Scalar w = constraints.inverse_mass[edge.vertex[0]] + constraints.inverse_mass[edge.vertex[1]];
-        stretch.vertex.push_back(edge.vertex);
-        stretch.values.rest.push_back(edge.rest_length);
-        stretch.values.stiffness.push_back(w > Scalar(0) ? edge.stiffness / w : Scalar(0));
+        stretch.add(edge.vertex, edge.rest_length, w > Scalar(0) ? edge.stiffness / w : Scalar(0));
     }
     ConstraintClassData<Scalar, 4> volume;
-    for (const VolumeConstraint<Scalar>& tet : constraints.volume) {
-        volume.vertex.push_back(tet.vertex);
-        volume.values.rest.push_back(Scalar(6) * tet.rest_volume);
-        volume.values.stiffness.push_back(tet.stiffness);
-    }
+    for (const VolumeConstraint<Scalar>& tet : constraints.volume) volume.add(tet.vertex, Scalar(6) * tet.rest_volume, tet.stiffness);
     return make_batched_constraints(stretch, volume, static_cast<int>(constraints.inverse_mass.size()), tets, order);
 }
 

@@ -20,7 +20,6 @@ struct BatchRun {
 // Data of a constraint, indexed by its position in its class.
 template <typename Scalar>
 struct ConstraintValues {
-    // The same values as in Batch, one per constraint.
     std::vector<Scalar> rest, stiffness;  // as Batch has them, one per constraint
 };
 
@@ -38,7 +37,6 @@ public:
 
     const std::vector<BatchRun>& runs(int slab) const { return runs_[slab]; }                  // all of a slab
     const void* batches(const BatchRun& run) const { return lines_.data() + run.first_line; }  // Batch<Scalar, run.kind>, run.count of them
-    std::size_t bytes() const { return lines_.size() * sizeof(CacheLine); }                    // of all batches
     int slabs() const { return static_cast<int>(runs_.size()); }                               // of the mesh
     int batches() const { return static_cast<int>(lanes_ / batch_size); }                      // of all slabs
 
@@ -101,9 +99,14 @@ struct BatchedConstraints {
 
 // The vertices of the constraints of a class and, as Batch has them, their values.
 template <typename Scalar, std::size_t vertices>
-struct ConstraintClassData {
+struct ConstraintClassData : ConstraintValues<Scalar> {
+    void add(const std::array<int, vertices>& of, Scalar rest, Scalar stiffness)
+    {
+        vertex.push_back(of);
+        this->rest.push_back(rest);
+        this->stiffness.push_back(stiffness);
+    }
     std::vector<std::array<int, vertices>> vertex;
-    ConstraintValues<Scalar> values;
 };
 
 // vertices: #V of the mesh. tets: those whose edges may be grouped, constrained or not. order: ordered or grouped.

@@ -55,6 +55,43 @@ template <typename Scalar>
     add(-k_s * p4.w, n4, p4);
 }
 
+// Eq. 18 of Macklin 2016 times k = dt^2 / alpha:  d lambda = (-k C - lambda) / (k sum w |g|^2 + 1).  k: zero where there is no constraint.
+// An edge without length has no gradient and stays. With p12 = l g1, both are divided by l at once.
+template <typename Scalar>
+[[gnu::always_inline]] inline void project_compliant_stretch(const Lanes<Scalar>& rest_length, const Lanes<Scalar>& k,
+                                                             Lanes<Scalar>& lambda, Vertices<Scalar>& p1, Vertices<Scalar>& p2)
+{
+    const LaneVector<Scalar> p12 = p1 - p2;
+    const Lanes<Scalar> l = length(p12);
+    const Lanes<Scalar> C = l - rest_length;
+    const Lanes<Scalar> step_l = quotient(Lanes<Scalar>(-k * C - lambda), Lanes<Scalar>((k * (p1.w + p2.w) + Scalar(1)) * l));
+    lambda += step_l * l;
+    add(Lanes<Scalar>(p1.w * step_l), p12, p1);
+    add(Lanes<Scalar>(-p2.w * step_l), p12, p2);
+}
+
+// The same with n = 6 g and 6 C. A tet without a gradient stays, and its multiplier too.
+template <typename Scalar>
+[[gnu::always_inline]] inline void project_compliant_volume(const Lanes<Scalar>& six_rest_volume, const Lanes<Scalar>& k,
+                                                            Lanes<Scalar>& lambda, Vertices<Scalar>& p1, Vertices<Scalar>& p2,
+                                                            Vertices<Scalar>& p3, Vertices<Scalar>& p4)
+{
+    const LaneVector<Scalar> p21 = p2 - p1, p31 = p3 - p1, p41 = p4 - p1;
+    const LaneVector<Scalar> n4 = cross(p21, p31);
+    const Lanes<Scalar> six_C = dot(n4, p41) - six_rest_volume;
+    const LaneVector<Scalar> n2 = cross(p31, p41);
+    const LaneVector<Scalar> n3 = cross(p41, p21);
+    const LaneVector<Scalar> minus_n1 = n2 + n3 + n4;
+    const Lanes<Scalar> w_n2 = p1.w * dot(minus_n1, minus_n1) + p2.w * dot(n2, n2) + p3.w * dot(n3, n3) + p4.w * dot(n4, n4);
+    Lanes<Scalar> step = (-k * six_C - lambda) / (k * w_n2 + Scalar(1));
+    where(!(w_n2 > Scalar(0)), step) = Scalar(0);
+    lambda += step;
+    add(Lanes<Scalar>(-step * p1.w), minus_n1, p1);
+    add(Lanes<Scalar>(step * p2.w), n2, p2);
+    add(Lanes<Scalar>(step * p3.w), n3, p3);
+    add(Lanes<Scalar>(step * p4.w), n4, p4);
+}
+
 namespace {
 
 // Part of a batch: as many groups as there are lanes.
@@ -87,6 +124,23 @@ struct Part {
                 project_stretch(rest, k, p[join[0]], p[join[1]]);
             else
                 project_volume(rest, k, p[join[0]], p[join[1]], p[join[2]], p[join[3]]);
+        }
+    }
+
+    // The same for XPBD. lambda: of the batch.
+    [[gnu::always_inline]] void project_compliant(const Lanes<Scalar>& dt2, Scalar* lambda, Vertices<Scalar> (&p)[Shape::vertices]) const
+    {
+#pragma GCC unroll 8
+        for (int c = 0; c < Shape::constraints; ++c) {
+            const Lanes<Scalar> rest = load(batch->rest[c] + first), k = dt2 * load(batch->stiffness[c] + first);
+            Scalar* of_lanes = lambda + c * batch_size + first;
+            Lanes<Scalar> multiplier = load(static_cast<const Scalar*>(of_lanes));
+            const auto& join = Shape::joins[c];
+            if constexpr (of_edges<kind>)
+                project_compliant_stretch(rest, k, multiplier, p[join[0]], p[join[1]]);
+            else
+                project_compliant_volume(rest, k, multiplier, p[join[0]], p[join[1]], p[join[2]], p[join[3]]);
+            store(multiplier, of_lanes);
         }
     }
 };
@@ -241,75 +295,17 @@ template void project_bind_batches(const BindBatch<double>*, int, double*);
 
 namespace {
 
-// Eq. 18 of Macklin 2016 times k = dt^2 / alpha:  d lambda = (-k C - lambda) / (k sum w |g|^2 + 1).  k: zero where there is no constraint.
-// An edge without length has no gradient and stays. With p12 = l g1, both are divided by l at once.
-template <typename Scalar>
-[[gnu::always_inline]] inline void project_compliant_stretch(const Lanes<Scalar>& rest_length, const Lanes<Scalar>& k,
-                                                             Lanes<Scalar>& lambda, Vertices<Scalar>& p1, Vertices<Scalar>& p2)
-{
-    const LaneVector<Scalar> p12 = p1 - p2;
-    const Lanes<Scalar> l = length(p12);
-    const Lanes<Scalar> C = l - rest_length;
-    const Lanes<Scalar> step_l = quotient(Lanes<Scalar>(-k * C - lambda), Lanes<Scalar>((k * (p1.w + p2.w) + Scalar(1)) * l));
-    lambda += step_l * l;
-    add(Lanes<Scalar>(p1.w * step_l), p12, p1);
-    add(Lanes<Scalar>(-p2.w * step_l), p12, p2);
-}
-
-// The same with n = 6 g and 6 C. A tet without a gradient stays, and its multiplier too.
-template <typename Scalar>
-[[gnu::always_inline]] inline void project_compliant_volume(const Lanes<Scalar>& six_rest_volume, const Lanes<Scalar>& k,
-                                                            Lanes<Scalar>& lambda, Vertices<Scalar>& p1, Vertices<Scalar>& p2,
-                                                            Vertices<Scalar>& p3, Vertices<Scalar>& p4)
-{
-    const LaneVector<Scalar> p21 = p2 - p1, p31 = p3 - p1, p41 = p4 - p1;
-    const LaneVector<Scalar> n4 = cross(p21, p31);
-    const Lanes<Scalar> six_C = dot(n4, p41) - six_rest_volume;
-    const LaneVector<Scalar> n2 = cross(p31, p41);
-    const LaneVector<Scalar> n3 = cross(p41, p21);
-    const LaneVector<Scalar> minus_n1 = n2 + n3 + n4;
-    const Lanes<Scalar> w_n2 = p1.w * dot(minus_n1, minus_n1) + p2.w * dot(n2, n2) + p3.w * dot(n3, n3) + p4.w * dot(n4, n4);
-    Lanes<Scalar> step = (-k * six_C - lambda) / (k * w_n2 + Scalar(1));
-    where(!(w_n2 > Scalar(0)), step) = Scalar(0);
-    lambda += step;
-    add(Lanes<Scalar>(-step * p1.w), minus_n1, p1);
-    add(Lanes<Scalar>(step * p2.w), n2, p2);
-    add(Lanes<Scalar>(step * p3.w), n3, p3);
-    add(Lanes<Scalar>(step * p4.w), n4, p4);
-}
-
-// As many groups of a batch as there are lanes, from lane `first` on. lambda: of the batch.
-template <typename Scalar, GroupKind kind>
-[[gnu::always_inline]] inline void project_part(const Batch<Scalar, kind>& batch, int first, const Lanes<Scalar>& dt2, Scalar* lambda,
-                                                Scalar* vertices)
-{
-    using Shape = GroupShape<kind>;
-    Vertices<Scalar> p[Shape::vertices];
-#pragma GCC unroll 8
-    for (int v = 0; v < Shape::vertices; ++v) p[v] = gather(static_cast<const Scalar*>(vertices), batch.offset[v] + first);
-#pragma GCC unroll 8
-    for (int c = 0; c < Shape::constraints; ++c) {
-        const Lanes<Scalar> rest = load(batch.rest[c] + first), k = dt2 * load(batch.stiffness[c] + first);
-        Scalar* of_lanes = lambda + c * batch_size + first;
-        Lanes<Scalar> multiplier = load(static_cast<const Scalar*>(of_lanes));
-        const auto& join = Shape::joins[c];
-        if constexpr (of_edges<kind>)
-            project_compliant_stretch(rest, k, multiplier, p[join[0]], p[join[1]]);
-        else
-            project_compliant_volume(rest, k, multiplier, p[join[0]], p[join[1]], p[join[2]], p[join[3]]);
-        multiplier.copy_to(of_lanes, std::experimental::vector_aligned);
-    }
-#pragma GCC unroll 8
-    for (int v = 0; v < Shape::vertices; ++v) scatter(p[v], vertices, batch.offset[v] + first);
-}
-
 template <typename Scalar, GroupKind kind>
 [[gnu::noinline]] void project_all(const Batch<Scalar, kind>* batches, int count, Scalar dt2, Scalar* multipliers, Scalar* vertices)
 {
-    constexpr int multipliers_of_batch = GroupShape<kind>::constraints * batch_size;
-    for (int b = 0; b < count; ++b)
-        for (int first = 0; first < batch_size; first += lanes<Scalar>)
-            project_part(batches[b], first, Lanes<Scalar>(dt2), multipliers + b * multipliers_of_batch, vertices);
+    using Shape = GroupShape<kind>;
+    for (int i = 0; i < count * Part<Scalar, kind>::a_batch; ++i) {
+        Vertices<Scalar> p[Shape::vertices];
+        const auto of = part(batches, i);
+        of.gather_from(vertices, p);
+        of.project_compliant(Lanes<Scalar>(dt2), multipliers + i / of.a_batch * Shape::constraints * batch_size, p);
+        of.scatter_to(vertices, p);
+    }
 }
 
 }  // namespace
@@ -337,11 +333,25 @@ template <typename Scalar>
 template <typename Scalar>
 [[gnu::always_inline]] inline void store(const Vertices<Scalar>& p, Scalar* poses, std::size_t i, int first)
 {
-    using std::experimental::vector_aligned;
     Scalar* xyz = poses + i * 3 * poses_a_block + first;
-    p.x.copy_to(xyz, vector_aligned);
-    p.y.copy_to(xyz + poses_a_block, vector_aligned);
-    p.z.copy_to(xyz + 2 * poses_a_block, vector_aligned);
+    pbs::store(p.x, xyz);
+    pbs::store(p.y, xyz + poses_a_block);
+    pbs::store(p.z, xyz + 2 * poses_a_block);
+}
+
+// project(constraint, k, p) for each constraint in all poses; p: its vertices.
+template <typename Scalar, typename Constraint, typename Project>
+[[gnu::always_inline]] inline void project_in_poses(const Constraint* constraints, std::size_t count, const Scalar* stiffness,
+                                                    Scalar* poses, const Project& project)
+{
+    constexpr int n = sizeof(Constraint::vertex) / sizeof(std::uint32_t);
+    for (const Constraint* of = constraints; of < constraints + count; ++of)
+        for (int first = 0; first < poses_a_block; first += lanes<Scalar>) {
+            Vertices<Scalar> p[n];
+            for (int i = 0; i < n; ++i) p[i] = vertex(static_cast<const Scalar*>(poses), of->vertex[i], first, of->w[i]);
+            project(*of, load(stiffness + poses_a_block * static_cast<int>(of->stiffness) + first), p);
+            for (int i = 0; i < n; ++i) store(p[i], poses, of->vertex[i], first);
+        }
 }
 
 }  // namespace
@@ -349,32 +359,17 @@ template <typename Scalar>
 template <typename Scalar>
 void project_pose_edges(const PoseEdge<Scalar>* edges, std::size_t count, const Scalar* stiffness, Scalar* poses)
 {
-    for (const PoseEdge<Scalar>* edge = edges; edge < edges + count; ++edge)
-        for (int first = 0; first < poses_a_block; first += lanes<Scalar>) {
-            const Lanes<Scalar> k = load(stiffness + poses_a_block * static_cast<int>(edge->stiffness) + first);
-            const auto [i, j] = edge->vertex;
-            Vertices<Scalar> p1 = vertex(poses, i, first, edge->w[0]), p2 = vertex(poses, j, first, edge->w[1]);
-            project_stretch<Scalar>(edge->rest_length, k * edge->one_over_w, p1, p2);
-            store(p1, poses, i, first);
-            store(p2, poses, j, first);
-        }
+    project_in_poses(edges, count, stiffness, poses, [](const PoseEdge<Scalar>& edge, const Lanes<Scalar>& k, auto& p) {
+        project_stretch<Scalar>(edge.rest, k * edge.one_over_w, p[0], p[1]);
+    });
 }
 
 template <typename Scalar>
 void project_pose_tets(const PoseTet<Scalar>* tets, std::size_t count, const Scalar* stiffness, Scalar* poses)
 {
-    for (const PoseTet<Scalar>* tet = tets; tet < tets + count; ++tet)
-        for (int first = 0; first < poses_a_block; first += lanes<Scalar>) {
-            const Lanes<Scalar> k = load(stiffness + poses_a_block * static_cast<int>(tet->stiffness) + first);
-            const auto [i, j, l, m] = tet->vertex;
-            Vertices<Scalar> p1 = vertex(poses, i, first, tet->w[0]), p2 = vertex(poses, j, first, tet->w[1]),
-                             p3 = vertex(poses, l, first, tet->w[2]), p4 = vertex(poses, m, first, tet->w[3]);
-            project_volume<Scalar>(tet->six_rest_volume, k, p1, p2, p3, p4);
-            store(p1, poses, i, first);
-            store(p2, poses, j, first);
-            store(p3, poses, l, first);
-            store(p4, poses, m, first);
-        }
+    project_in_poses(tets, count, stiffness, poses, [](const PoseTet<Scalar>& tet, const Lanes<Scalar>& k, auto& p) {
+        project_volume<Scalar>(tet.rest, k, p[0], p[1], p[2], p[3]);
+    });
 }
 
 template <typename Scalar>

@@ -49,23 +49,19 @@ inline constexpr int poses_a_block = 16;
 enum class StiffnessOf : std::uint32_t { stretch, jiggling_stretch, volume };
 inline constexpr int stiffness_classes = 3;  // values of StiffnessOf
 
-// A constraint shared by all poses, except for its stiffness.
-template <typename Scalar>
-struct PoseEdge {
-    std::uint32_t vertex[2];  // in the new order
+// A constraint of n vertices shared by all poses, except for its stiffness.
+template <typename Scalar, int n>
+struct PoseConstraint {
+    std::uint32_t vertex[n];  // in the new order
     StiffnessOf stiffness;    // of each pose
-    Scalar rest_length;       // [m]
-    Scalar w[2];              // inverse masses
-    Scalar one_over_w;        // 1 / (w1 + w2), zero where both are pinned
+    Scalar rest;              // rest length [m] of an edge, six times the rest volume [m^3] of a tet
+    Scalar w[n];              // inverse masses
 };
-
-// Likewise.
 template <typename Scalar>
-struct PoseTet {
-    std::uint32_t vertex[4];  // in the new order
-    StiffnessOf stiffness;    // of each pose
-    Scalar six_rest_volume;   // [m^3]
-    Scalar w[4];              // inverse masses
+using PoseTet = PoseConstraint<Scalar, 4>;
+template <typename Scalar>
+struct PoseEdge : PoseConstraint<Scalar, 2> {
+    Scalar one_over_w;  // 1 / (w1 + w2), zero where both are pinned
 };
 
 // The bind constraint of one vertex in all poses.

@@ -17,11 +17,8 @@ PoseProgram<Scalar> make_pose_program(const ConstraintSet<Scalar>& constraints, 
     batched.stretch.for_each_constraint([&](const auto& vertex, Scalar rest, Scalar one_over_w) {
         if constexpr (std::tuple_size_v<std::decay_t<decltype(vertex)>> == 2) {
             const auto [i, j] = vertex;
-            program.edges.push_back({{std::uint32_t(i), std::uint32_t(j)},
-                                     jiggles(i) && jiggles(j) ? StiffnessOf::jiggling_stretch : StiffnessOf::stretch,
-                                     rest,
-                                     {w(i), w(j)},
-                                     one_over_w});
+            const StiffnessOf stiffness = jiggles(i) && jiggles(j) ? StiffnessOf::jiggling_stretch : StiffnessOf::stretch;
+            program.edges.push_back({{{std::uint32_t(i), std::uint32_t(j)}, stiffness, rest, {w(i), w(j)}}, one_over_w});
         }
     });
     batched.volume.for_each_constraint([&](const auto& vertex, Scalar rest, Scalar) {

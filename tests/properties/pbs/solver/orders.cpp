@@ -39,8 +39,7 @@ pbs::Residuals residuals_after_24(const TwoBoneLimb& limb, Order order, Precisio
     options.order = order;
     options.precision = precision;
     options.record_iterations = true;
-    pbs::PbsSolver solver(limb.mesh, limb.binding.distance, {}, options);
-    return solver.advance(limb.lbs, limb.bind_points, 0.01).history.back();
+    return stepped(limb, options).summary.history.back();
 }
 
 struct Bias {

@@ -6,16 +6,13 @@
 #include "pbs/solver/xpbd_solver.hpp"
 
 #include "analysis/records/provenance.hpp"
+#include "tests/support/four_threads.hpp"
 #include "tests/support/two_bone_limb.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <set>
-
-#ifdef PBS_WITH_THREADS
-#include <tbb/global_control.h>
-#endif
 
 namespace {
 
@@ -24,11 +21,6 @@ using pbs::Order;
 using pbs::PbsOptions;
 using pbs::Precision;
 using pbs::Vec3;
-
-#ifdef PBS_WITH_THREADS
-// By default, oneTBB uses no more threads than the machine has cores.
-const tbb::global_control four_threads(tbb::global_control::max_allowed_parallelism, 4);
-#endif
 
 const TwoBoneLimb limb = two_bone_limb({550, 6, 6}, Vec3::UnitZ(), 60.0);  // 26,999 vertices
 const Order batched_orders[] = {Order::ordered, Order::grouped};

@@ -3,7 +3,7 @@
 #include "pbs/solver/pbs_solver.hpp"
 
 #include "tests/support/random_points.hpp"
-#include "tests/support/two_bone_limb.hpp"
+#include "tests/support/step_rounding.hpp"
 
 #include <gtest/gtest.h>
 
@@ -62,20 +62,13 @@ std::vector<Start> starts()
             {"ten times its size", scaled(10, 10, 10)}};
 }
 
-struct Result {
-    Outcome outcome;
-    Positions positions;
-};
-
-Result stepped(const Positions& start, Order order, Precision precision, double k_bind)
+Stepped stepped(const Positions& start, Order order, Precision precision, double k_bind)
 {
     PbsOptions options;
     options.order = order;
     options.precision = precision;
     options.k_bind = k_bind;
-    pbs::PbsSolver solver(limb.mesh, limb.binding.distance, {}, options);
-    const Outcome outcome = solver.advance(start, limb.bind_points, 0.01).outcome;
-    return {outcome, solver.positions()};
+    return test_support::stepped(blended_to(limb, start), options);
 }
 
 double farthest(const Positions& positions)
@@ -98,8 +91,8 @@ void for_each_start_and_order(Expect expect, const std::vector<Start>& from = st
 TEST(Starts, ComeBackWithinReachOfTheBones)
 {
     for_each_start_and_order([](const Positions& start, Order order, Precision precision) {
-        const Result result = stepped(start, order, precision, 1.0);
-        EXPECT_EQ(result.outcome, Outcome::finished);
+        const Stepped result = stepped(start, order, precision, 1.0);
+        EXPECT_EQ(result.summary.outcome, Outcome::finished);
         EXPECT_LT(farthest(result.positions), 1.5);
         EXPECT_GT(farthest(result.positions), 0.9);
     });
@@ -109,9 +102,9 @@ TEST(Starts, ComeBackWithinReachOfTheBones)
 TEST(Starts, WithoutBindAreFiniteWherePlainIs)
 {
     for_each_start_and_order([](const Positions& start, Order order, Precision precision) {
-        const Result result = stepped(start, order, precision, 0.0), plain = stepped(start, Order::plain, precision, 0.0);
-        EXPECT_EQ(result.outcome, plain.outcome);
-        EXPECT_EQ(result.outcome, Outcome::finished);
+        const Stepped result = stepped(start, order, precision, 0.0), plain = stepped(start, Order::plain, precision, 0.0);
+        EXPECT_EQ(result.summary.outcome, plain.summary.outcome);
+        EXPECT_EQ(result.summary.outcome, Outcome::finished);
         EXPECT_TRUE(result.positions.allFinite());
     });
 }
@@ -130,9 +123,11 @@ TEST(Starts, WhatIsNotFiniteIsAnOutcomeInEveryOrder)
     Positions not_a_number = limb.lbs, infinite = limb.lbs;
     not_a_number(100, 2) = std::numeric_limits<double>::quiet_NaN();
     infinite(100, 2) = std::numeric_limits<double>::infinity();
-    for_each_start_and_order([](const Positions& start, Order order,
-                                Precision precision) { EXPECT_EQ(stepped(start, order, precision, 1.0).outcome, Outcome::not_finite); },
-                             {{"not a number", not_a_number}, {"infinite", infinite}});
+    for_each_start_and_order(
+        [](const Positions& start, Order order, Precision precision) {
+            EXPECT_EQ(stepped(start, order, precision, 1.0).summary.outcome, Outcome::not_finite);
+        },
+        {{"not a number", not_a_number}, {"infinite", infinite}});
 }
 
 }  // namespace

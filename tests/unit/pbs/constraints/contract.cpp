@@ -22,6 +22,7 @@ using pbs::Vec3;
 using test_support::RandomPoints;
 using test_support::rounding_error;
 using test_support::RoundingBound;
+using test_support::stacked;
 using Points = std::vector<Vec3>;
 using Masses = std::vector<double>;  // inverse
 template <typename Scalar>
@@ -143,11 +144,6 @@ struct Bind {
 struct BindToPosition : Bind<double> {
     BindToPosition() { constraint.rest_distance = 0.0; }
 };
-
-Eigen::VectorXd stacked(const Points& p)
-{
-    return Eigen::VectorXd::Map(p.front().data(), 3 * Eigen::Index(p.size()));
-}
 
 Points unstacked(const Eigen::VectorXd& x)
 {

@@ -4,6 +4,7 @@
 #include "pbs/flesh/projective_dynamics.hpp"
 #include "pbs/flesh/vbd.hpp"
 #include "tests/support/flesh_rounding.hpp"
+#include "tests/support/four_threads.hpp"
 #include "tests/support/held_xpbd.hpp"
 #include "tests/support/rounding_error.hpp"
 
@@ -14,10 +15,6 @@
 #include <limits>
 #include <set>
 
-#ifdef PBS_WITH_THREADS
-#include <tbb/global_control.h>
-#endif
-
 namespace {
 
 using pbs::Positions;
@@ -26,10 +23,6 @@ using test_support::HeldBar;
 
 template <typename Scalar>
 constexpr double epsilon = std::numeric_limits<Scalar>::epsilon();
-
-#ifdef PBS_WITH_THREADS
-const tbb::global_control four_threads(tbb::global_control::max_allowed_parallelism, 4);  // also where there are fewer processors
-#endif
 
 // Energy, gradient and step of a system of flesh, with the vertices in the order of the mesh.
 struct Evaluated {

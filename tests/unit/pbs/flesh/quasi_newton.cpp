@@ -7,6 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+#include <numeric>
+
 namespace {
 
 using pbs::Positions;
@@ -56,14 +59,6 @@ TEST(QuasiNewton, HistorySavesIterations)
     EXPECT_LT(2 * iterations(5), iterations(0));
 }
 
-TEST(QuasiNewton, CollapsedToAPointRecovers)
-{
-    Positions x = Positions::Zero(bent.mesh.rest.rows(), 3);
-    const auto summary = minimise<double>({.iterations = 1000, .stop_gradient = 1e-8}, x);
-    EXPECT_TRUE(summary.converged);
-    EXPECT_TRUE(x.allFinite());
-}
-
 // At rest the initial guess is the minimum, and every step is rounding: there is nothing to lower its norm to a share of the first one.
 template <typename Scalar>
 void expect_converged_at_rest(bool packed)
@@ -109,6 +104,74 @@ TEST(HeldFlesh, RefusesSpringsThatAreAllOutside)
     pbs::BoneSprings springs = test_support::random_springs(5, 1.0);
     springs.points.rowwise() += Eigen::RowVector3d(0.0, 9.0, 0.0);
     EXPECT_THROW(pbs::HeldFlesh(bent.mesh, springs, 2, {}), pbs::InputError);
+}
+
+// The solve with the factor. Reference: the product of the matrix with the solution.
+
+Eigen::SparseMatrix<double> laplacian()
+{
+    return pbs::flesh_laplacian(bent.mesh, bar().material, bar().energy, 0.5);
+}
+
+std::vector<int> reversed_places()
+{
+    std::vector<int> place(bent.mesh.rest.rows());
+    std::iota(place.rbegin(), place.rend(), 0);
+    return place;
+}
+
+// The residual of a Cholesky solve is at most some 4 n eps |A| |x|, |A| its largest row sum (N. Higham, Accuracy and stability,
+// theorem 10.4).
+template <typename Scalar, typename Solve>
+void expect_solved(Solve solve)
+{
+    const Eigen::SparseMatrix<double> lower = laplacian(), H = lower.selfadjointView<Eigen::Lower>();
+    const std::vector<int> place = reversed_places();
+    const Positions b = test_support::jittered(bent.mesh.rest, 0.1);
+    pbs::Rows<Scalar> rows(static_cast<int>(place.size()));
+    Positions x;
+    pbs::load_rows(b, place, pbs::Vec3::Zero(), rows);
+    solve(pbs::cholesky_factor(lower), place, rows);
+    pbs::store_rows(rows, place, pbs::Vec3::Zero(), x);
+    const double norm = (H.cwiseAbs() * Eigen::VectorXd::Ones(H.cols())).maxCoeff();
+    EXPECT_LE((H * x - b).norm(), 4.0 * double(b.rows()) * std::numeric_limits<Scalar>::epsilon() * norm * x.norm());
+    EXPECT_GT(x.norm(), 1e-3 * b.norm());
+}
+
+template <typename Scalar>
+void expect_solved_by_supernodes()
+{
+    expect_solved<Scalar>(
+        [](const auto& factor, const auto& place, auto& rows) { pbs::TriangularSolve<Scalar>(factor, place).apply(rows.data()); });
+}
+
+TEST(TriangularSolve, SolvesTheSystemPlainlyAndBySupernodes)
+{
+    expect_solved<double>([](const auto& factor, const auto& place, auto& rows) {
+        Positions b;
+        pbs::store_rows(rows, place, pbs::Vec3::Zero(), b);
+        pbs::load_rows(pbs::solve_plainly(factor, b), place, pbs::Vec3::Zero(), rows);
+    });
+    expect_solved_by_supernodes<double>();
+    expect_solved_by_supernodes<float>();
+}
+
+TEST(Cholesky, AnIndefiniteMatrixHasNoFactor)
+{
+    Eigen::SparseMatrix<double> lower = laplacian();
+    lower.coeffRef(4, 4) = -1.0;
+    EXPECT_FALSE(pbs::cholesky_factor(lower).usable());
+}
+
+TEST(Cholesky, OneNumber)
+{
+    Eigen::SparseMatrix<double> lower(1, 1);
+    lower.insert(0, 0) = 4.0;
+    lower.makeCompressed();
+    pbs::Rows<double> rows(1);
+    rows[0][1] = 12.0;
+    pbs::TriangularSolve<double>(pbs::cholesky_factor(lower), {0}).apply(rows.data());
+    EXPECT_EQ(rows[0][1], 3.0);
 }
 
 }  // namespace

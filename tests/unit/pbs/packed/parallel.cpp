@@ -1,5 +1,6 @@
 // Reference: the definition. Every task runs once, and an exception of a task reaches the caller.
 #include "pbs/packed/parallel.hpp"
+#include "tests/support/four_threads.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,16 +9,7 @@
 #include <string>
 #include <vector>
 
-#ifdef PBS_WITH_THREADS
-#include <tbb/global_control.h>
-#endif
-
 namespace {
-
-#ifdef PBS_WITH_THREADS
-// By default, oneTBB uses no more threads than the machine has cores.
-const tbb::global_control four_threads(tbb::global_control::max_allowed_parallelism, 4);
-#endif
 
 class ParallelTasks : public testing::TestWithParam<int> {
 protected:

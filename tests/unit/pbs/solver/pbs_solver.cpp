@@ -23,21 +23,14 @@ using test_support::TwoBoneLimb;
 
 const TwoBoneLimb limb = test_support::two_bone_limb({16, 4, 4}, Vec3::UnitZ(), 60.0);
 
-struct Stepped {
-    StepSummary summary;
-    Positions positions;
-};
-
 // One step in double with changed options.
 template <typename Change>
-Stepped stepped(Change change)
+test_support::Stepped stepped(Change change)
 {
     PbsOptions options;
     options.precision = pbs::Precision::f64;
     change(options);
-    PbsSolver solver(limb.mesh, limb.binding.distance, {}, options);
-    const StepSummary summary = solver.advance(limb.lbs, limb.bind_points, 0.01);
-    return {summary, solver.positions()};
+    return test_support::stepped(limb, options);
 }
 
 // Volumes alone can all be satisfied (as in the rest pose), so their error has no floor and keeps falling with the iterations.

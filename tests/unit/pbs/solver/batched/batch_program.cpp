@@ -178,7 +178,7 @@ TYPED_TEST(BatchPrograms, SeveralClustersInASlab)
 TYPED_TEST(BatchPrograms, NoGroupsAreNoBatches)
 {
     const BatchProgram<TypeParam> program({}, {}, pbs::order_vertices(bar.tets, bar_vertices, 30), bar_vertices);
-    EXPECT_EQ(program.bytes(), 0u);
+    EXPECT_EQ(program.batches(), 0);
     EXPECT_EQ(program.fill(), 1.0);
     for (int slab = 0; slab < program.slabs(); ++slab) EXPECT_TRUE(program.runs(slab).empty());
 }

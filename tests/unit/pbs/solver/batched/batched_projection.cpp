@@ -50,6 +50,14 @@ Positions stored(const BatchedProjection<Scalar>& projection, const Vec3& origin
 }
 
 template <typename Scalar>
+std::vector<pbs::Vector3<Scalar>> points_of(const Positions& positions)
+{
+    std::vector<pbs::Vector3<Scalar>> points;
+    for (const auto& row : positions.rowwise()) points.push_back(row.transpose().template cast<Scalar>());
+    return points;
+}
+
+template <typename Scalar>
 void iterate(BatchedProjection<Scalar>& projection)
 {
     projection.project_bind_constraints();
@@ -87,13 +95,9 @@ TYPED_TEST(BatchedProjections, ResidualsAreThoseOfThePlainForm)
             for (Eigen::Index i = 0; i < p.rows(); ++i) p.row(i) += random.point(noise).transpose();
             auto projection = projection_of<TypeParam>(options_of(order));
             projection.load(p, limb.bind_points, Vec3::Zero());
-            std::vector<pbs::Vector3<TypeParam>> plain_p, plain_q;
-            for (Eigen::Index i = 0; i < p.rows(); ++i) {
-                plain_p.push_back(p.row(i).transpose().template cast<TypeParam>());
-                plain_q.push_back(limb.bind_points.row(i).transpose().template cast<TypeParam>());
-            }
             const auto constraints = pbs::make_constraint_set<TypeParam>(limb.mesh, limb.binding.distance, {}, options_of(order));
-            const pbs::Residuals expected = residuals_of(constraints, plain_p, plain_q), found = projection.residuals();
+            const pbs::Residuals expected = residuals_of(constraints, points_of<TypeParam>(p), points_of<TypeParam>(limb.bind_points)),
+                                 found = projection.residuals();
             EXPECT_GT(expected.volume_rms, 0.01);
             EXPECT_NEAR(found.stretch_rms, expected.stretch_rms, tolerance * (1.0 + expected.stretch_rms));
             EXPECT_NEAR(found.volume_rms, expected.volume_rms, tolerance * (1.0 + expected.volume_rms));
@@ -112,11 +116,7 @@ TYPED_TEST(BatchedProjections, RegionsAreThoseOfThePlainForm)
         auto projection = projection_of<TypeParam>(options);
         const auto constraints = pbs::make_constraint_set<TypeParam>(limb.mesh, limb.binding.distance, {}, options);
         ASSERT_GT(constraints.regions.size(), 5u);
-        std::vector<pbs::Vector3<TypeParam>> p, q;
-        for (Eigen::Index i = 0; i < limb.lbs.rows(); ++i) {
-            p.push_back(limb.lbs.row(i).transpose().template cast<TypeParam>());
-            q.push_back(limb.bind_points.row(i).transpose().template cast<TypeParam>());
-        }
+        std::vector<pbs::Vector3<TypeParam>> p = points_of<TypeParam>(limb.lbs), q = points_of<TypeParam>(limb.bind_points);
         projection.load(limb.lbs, limb.bind_points, Vec3::Zero());
         EXPECT_EQ(projection.residuals().volume_rms, residuals_of(constraints, p, q).volume_rms);
         EXPECT_GT(projection.residuals().volume_rms, 1e-3);

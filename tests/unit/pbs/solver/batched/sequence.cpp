@@ -1,9 +1,9 @@
 // The contract of the packed projections of Algorithm 1 and of XPBD. Reference: the plain projection of the same constraints in the
-// sequence of the program, since the kernels project in exactly that order. Tolerance: the rounding of the iterations (step_rounding.hpp,
-// xpbd_rounding.hpp). Another sequence exceeds it by far, which AnotherSequenceIsFarOff confirms.
+// sequence of the program, since the kernels project in exactly that order. Tolerance: the rounding of the iterations (step_rounding.hpp).
+// Another sequence exceeds it by far, which AnotherSequenceIsFarOff confirms.
 #include "pbs/solver/batched/batch_program.hpp"
 #include "pbs/solver/projection.hpp"
-#include "tests/support/xpbd_rounding.hpp"
+#include "tests/support/step_rounding.hpp"
 
 #include <gtest/gtest.h>
 
@@ -75,7 +75,7 @@ struct Xpbd {
         return make_xpbd_projection(constraints, limb.mesh.tets, options(order));
     }
     static void begin(pbs::XpbdProjection& projection) { projection.begin_substep(0.01); }
-    static double rounding_m(Order order, Part) { return xpbd_rounding_m(limb, options(order)); }
+    static double rounding_m(Order order, Part) { return step_rounding_m(limb, options(order)); }
 };
 
 template <typename Method>
