@@ -75,6 +75,7 @@ int parse_and_act(int argc, char** argv)
         return app.exit(error) == 0 ? exit_finished : exit_input;
     }
     start_log(common);
+    if (common.quiet) hide_progress();
     watch_interrupts();
     return action();
 }

@@ -26,32 +26,6 @@
 #include <vector>
 
 namespace experiments {
-
-// Frames that another program has written. They must have the vertices of the rest mesh, in the same order and in the same unit.
-//   const RestMesh rest(pbs::read_tet_mesh("rest.msh"));
-//   const pbs::Positions positions = rest.read_frame("frame_0001.vtu");
-class RestMesh {
-public:
-    explicit RestMesh(const pbs::MeshReading& reading);
-
-    // [m], #V x 3. InputError for another number of vertices, for other tets, and for positions in another unit. The order of the tets and
-    // of their corners may differ, for readers and exporters change it; the metrics take that of the rest mesh.
-    pbs::Positions read_frame(const std::string& path) const;
-
-    const pbs::TetMesh& mesh() const { return mesh_; }
-    const pbs::Edges& edges() const { return edges_; }
-
-private:
-    void require_same_tets(const std::string& path, const pbs::Tets& tets) const;
-    void require_same_units(const std::string& path, const pbs::Positions& positions) const;
-
-    pbs::TetMesh mesh_;
-    std::vector<int> file_vertex_;  // of the rest mesh's file, #V
-    int file_vertices_ = 0;
-    pbs::Edges edges_;
-    pbs::Tets corners_;  // each tet's in ascending order as the file numbers them, and the tets sorted
-};
-
 namespace {
 
 using Corners = std::array<int, 4>;
@@ -83,56 +57,73 @@ constexpr std::array units = {Unit{10.0, "millimetres against centimetres"}, Uni
 // The median edge of a body is never stretched or compressed by a factor of two, and hardly by exactly the factor of a unit.
 constexpr double nearness = 0.1, twofold = 2.0;
 
-}  // namespace
+// Frames that another program has written. They must have the vertices of the rest mesh, in the same order and in the same unit.
+//   const RestMesh rest(pbs::read_tet_mesh("rest.msh"));
+//   const pbs::Positions positions = rest.read_frame("frame_0001.vtu");
+class RestMesh {
+public:
+    explicit RestMesh(const pbs::MeshReading& reading)
+        : mesh_(reading.mesh),
+          file_vertex_(reading.file_vertex),
+          file_vertices_(reading.file_vertices),
+          edges_(pbs::edges_of(mesh_.tets)),
+          corners_(sorted_corners(mesh_.tets.unaryExpr([this](int vertex) { return file_vertex_[vertex]; })))
+    {
+    }
 
-RestMesh::RestMesh(const pbs::MeshReading& reading)
-    : mesh_(reading.mesh),
-      file_vertex_(reading.file_vertex),
-      file_vertices_(reading.file_vertices),
-      edges_(pbs::edges_of(mesh_.tets)),
-      corners_(sorted_corners(mesh_.tets.unaryExpr([this](int vertex) { return file_vertex_[vertex]; })))
-{
-}
+    // [m], #V x 3. InputError for another number of vertices, for other tets, and for positions in another unit. The order of the tets and
+    // of their corners may differ, for readers and exporters change it; the metrics take that of the rest mesh.
+    pbs::Positions read_frame(const std::string& path) const
+    {
+        const pbs::TetMesh frame = pbs::read_tet_frame(path);
+        if (frame.rest.rows() != file_vertices_)
+            throw pbs::InputError(
+                path, 0, "vertices", std::to_string(frame.rest.rows()),
+                fmt::format("expected the rest mesh's {}: exporters that join, split or leave out points change the number",
+                            file_vertices_));
+        require_same_tets(path, frame.tets);
+        const pbs::Positions positions = frame.rest(file_vertex_, Eigen::all);
+        require_same_units(path, positions);
+        return positions;
+    }
 
-pbs::Positions RestMesh::read_frame(const std::string& path) const
-{
-    const pbs::TetMesh frame = pbs::read_tet_frame(path);
-    if (frame.rest.rows() != file_vertices_)
-        throw pbs::InputError(
-            path, 0, "vertices", std::to_string(frame.rest.rows()),
-            fmt::format("expected the rest mesh's {}: exporters that join, split or leave out points change the number", file_vertices_));
-    require_same_tets(path, frame.tets);
-    const pbs::Positions positions = frame.rest(file_vertex_, Eigen::all);
-    require_same_units(path, positions);
-    return positions;
-}
+    const pbs::TetMesh& mesh() const { return mesh_; }
+    const pbs::Edges& edges() const { return edges_; }
 
-void RestMesh::require_same_tets(const std::string& path, const pbs::Tets& tets) const
-{
-    if (tets.rows() != corners_.rows())
-        throw pbs::InputError(path, 0, "tets", std::to_string(tets.rows()), fmt::format("expected the rest mesh's {}", corners_.rows()));
-    const pbs::Tets corners = sorted_corners(tets);
-    for (Eigen::Index t = 0; t < corners.rows(); ++t)
-        if (corners.row(t) != corners_.row(t))
-            throw pbs::InputError(path, 0, "tets", "",
-                                  fmt::format("expected the rest mesh's, on the same vertices; it has a tet on {} {} {} {}, and this frame "
-                                              "does not: was the order of the vertices kept on export?",
-                                              corners_(t, 0), corners_(t, 1), corners_(t, 2), corners_(t, 3)));
-}
+private:
+    void require_same_tets(const std::string& path, const pbs::Tets& tets) const
+    {
+        if (tets.rows() != corners_.rows())
+            throw pbs::InputError(path, 0, "tets", std::to_string(tets.rows()),
+                                  fmt::format("expected the rest mesh's {}", corners_.rows()));
+        const pbs::Tets corners = sorted_corners(tets);
+        for (Eigen::Index t = 0; t < corners.rows(); ++t)
+            if (corners.row(t) != corners_.row(t))
+                throw pbs::InputError(
+                    path, 0, "tets", "",
+                    fmt::format("expected the rest mesh's, on the same vertices; it has a tet on {} {} {} {}, and this frame "
+                                "does not: was the order of the vertices kept on export?",
+                                corners_(t, 0), corners_(t, 1), corners_(t, 2), corners_(t, 3)));
+    }
 
-void RestMesh::require_same_units(const std::string& path, const pbs::Positions& positions) const
-{
-    const double ratio = analysis::median_edge_ratio(mesh_.rest, edges_, positions);
-    if (ratio < twofold && ratio > 1.0 / twofold) return;
-    for (const Unit& unit : units)
-        for (const double factor : {unit.factor, 1.0 / unit.factor})
-            if (std::abs(ratio / factor - 1.0) <= nearness)
-                throw pbs::InputError(path, 0, "median edge", fmt::format("{:.4g} times the rest mesh's", ratio),
-                                      fmt::format("expected the rest mesh's unit; a factor of {:.5g}, as of {}{}", factor, unit.what,
-                                                  factor < 1.0 ? " (the other way round)" : ""));
-}
+    void require_same_units(const std::string& path, const pbs::Positions& positions) const
+    {
+        const double ratio = analysis::median_edge_ratio(mesh_.rest, edges_, positions);
+        if (ratio < twofold && ratio > 1.0 / twofold) return;
+        for (const Unit& unit : units)
+            for (const double factor : {unit.factor, 1.0 / unit.factor})
+                if (std::abs(ratio / factor - 1.0) <= nearness)
+                    throw pbs::InputError(path, 0, "median edge", fmt::format("{:.4g} times the rest mesh's", ratio),
+                                          fmt::format("expected the rest mesh's unit; a factor of {:.5g}, as of {}{}", factor, unit.what,
+                                                      factor < 1.0 ? " (the other way round)" : ""));
+    }
 
-namespace {
+    pbs::TetMesh mesh_;
+    std::vector<int> file_vertex_;  // of the rest mesh's file, #V
+    int file_vertices_ = 0;
+    pbs::Edges edges_;
+    pbs::Tets corners_;  // each tet's in ascending order as the file numbers them, and the tets sorted
+};
 
 struct MeasureArguments {
     std::string rest, csv;

@@ -14,13 +14,8 @@
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
-#include <spawn.h>
 #include <spdlog/spdlog.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <cerrno>
-#include <cstdio>
 #include <filesystem>
 
 namespace experiments {
@@ -55,17 +50,9 @@ int write_report_page(const std::string& folder, bool quiet)
                               "not found: the page is made by scripts that are installed with the program");
     std::vector<std::string> words = {python_that_draws(), "-B", page_maker().string(), folder};
     if (quiet) words.push_back("--quiet");
-    std::vector<char*> arguments;
-    for (std::string& word : words) arguments.push_back(word.data());
-    arguments.push_back(nullptr);
-    std::fflush(nullptr);
-    pid_t process = 0;
-    if (posix_spawnp(&process, arguments.front(), nullptr, nullptr, arguments.data(), environ) != 0)
-        throw pbs::InputError("", 0, "report", words.front(), "cannot be started");
-    int status = 0;
-    while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
-    }
-    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    const ProgramRun page = run_program(words, std::nullopt);
+    if (!page.started) throw pbs::InputError("", 0, "report", words.front(), "cannot be started");
+    return page.status >= 0 ? page.status : 128 - page.status;
 }
 
 // pbskin report DIR: writes the records and the figures drawn from them as one self-contained page, DIR/report.html.
@@ -79,8 +66,6 @@ void add_report_verb(CLI::App& app, CommonOptions& common, VerbAction& action)
 }
 
 namespace {
-
-namespace fs = std::filesystem;
 
 // Runs the scene that was just written. If it is refused, nothing of it is left behind.
 RunResult run_new_scene(const std::string& scene_file, const std::string& folder, bool folder_is_new, int threads,
@@ -112,7 +97,6 @@ void refuse_a_scene_of_the_user(const std::string& scene_file, const std::string
 
 int try_model(TrialOptions options, const CommonOptions& common)
 {
-    if (common.quiet) hide_progress();
     if (options.folder.empty()) options.folder = "results/" + fs::path(options.model).stem().string();
     const TrialScene made = trial_scene(options);
     std::error_code code;

@@ -203,8 +203,8 @@ DeformerKind dqs_kind()
 DeformerKind delta_mush_kind()
 {
     OptionFields<DeltaMushOptions> fields("delta_mush");
-    fields.add("iterations", &DeltaMushOptions::iterations, {.lowest = 0, .highest = 1e6, .meaning = "iterations of Laplacian smoothing"})
-        .add("step", &DeltaMushOptions::step, {.lowest = 0, .highest = 1, .meaning = "share of the way to the neighbours' mean in each"});
+    fields.add("iterations", &DeltaMushOptions::iterations, {.range = {0, 1e6}, .meaning = "iterations of Laplacian smoothing"})
+        .add("step", &DeltaMushOptions::step, {.range = {0, 1}, .meaning = "share of the way to the neighbours' mean in each"});
     return mush_kind<DeltaMushOptions, DeltaMushDeformer<double, pbs::DeltaMush>, PackedMushDeformer>(
         "delta_mush", "LBS, smoothed, to which the detail of the rest shape is added again (Mancewicz 2014): geometry alone", fields);
 }
@@ -215,17 +215,16 @@ DeformerKind direct_delta_mush_kind()
     OptionFields<Options> fields("direct_delta_mush");
     fields
         .add("iterations", &Options::iterations,
-             {.lowest = 0, .highest = 1e4, .meaning = "p, steps of Laplacian smoothing before the first pose; 0: LBS"})
+             {.range = {0, 1e4}, .meaning = "p, steps of Laplacian smoothing before the first pose; 0: LBS"})
         .add("lambda", &Options::lambda,
-             {.lowest = 0,
-              .highest = 1e4,
+             {.range = {0, 1e4},
               .meaning = "size of a step for the rotations and, with the share 1 - alpha, the translations; explicit: at most 1"})
         .add("kappa", &Options::kappa,
-             {.lowest = 0, .highest = 1e4, .meaning = "size of a step for the weights of the translations' share alpha; at most lambda"})
+             {.range = {0, 1e4}, .meaning = "size of a step for the weights of the translations' share alpha; at most lambda"})
         .add("alpha", &Options::alpha,
-             {.lowest = 0, .highest = 1, .meaning = "0: centres move as in delta mush; 1: they move by LBS with weights smoothed by kappa"})
+             {.range = {0, 1}, .meaning = "0: centres move as in delta mush; 1: they move by LBS with weights smoothed by kappa"})
         .add("negligible", &Options::negligible,
-             {.lowest = 0, .highest = 1e-3, .meaning = "smoothed weight below which a bone is dropped from a vertex"})
+             {.range = {0, 1e-3}, .meaning = "smoothed weight below which a bone is dropped from a vertex"})
         .add("smoothing", &Options::smoothing,
              {.meaning = "implicit: (1 + lambda L)^-p as in the paper; explicit: (1 - lambda L)^p as in delta mush"});
     return mush_kind<Options, DirectDeltaMushDeformer<pbs::DirectDeltaMush>, PackedDirectMushDeformer>(

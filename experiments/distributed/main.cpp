@@ -18,7 +18,7 @@
 #include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/process/machine.hpp"
 #include "experiments/process/terminal.hpp"
-#include "experiments/settings/option_fields.hpp"
+#include "experiments/settings/recorded_settings.hpp"
 #include "pbs/character/bodies.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/mesh_io.hpp"
@@ -178,28 +178,15 @@ analysis::Provenance provenance()
     return provenance;
 }
 
+RECORD_SETTINGS(BodyArguments, bar_tets, limb_vertices, mesh_file, held_below_m, pulled_above_m, traction_pa, twist_deg, bend_deg)
+RECORD_SETTINGS(reference_fem::LinearOptions, element_order, young_pa, poisson, density_kg_m3, gravity_m_s2, solver, formulation)
+RECORD_SETTINGS(reference_fem::IterativeOptions, tolerance, most_iterations)
+
 nlohmann::json to_json(const DistributedSettings& settings)
 {
-    const BodyArguments& body = settings.body;
-    const reference_fem::LinearOptions& elastic = settings.elastic;
-    return {{"body",
-             {{"bar_tets", body.bar_tets},
-              {"limb_vertices", body.limb_vertices},
-              {"mesh_file", body.mesh_file},
-              {"held_below_m", body.held_below_m},
-              {"pulled_above_m", body.pulled_above_m},
-              {"traction_pa", option_json(body.traction_pa)},
-              {"twist_deg", body.twist_deg},
-              {"bend_deg", body.bend_deg}}},
-            {"elastic",
-             {{"element_order", elastic.element_order},
-              {"young_pa", elastic.young_pa},
-              {"poisson", elastic.poisson},
-              {"density_kg_m3", elastic.density_kg_m3},
-              {"gravity_m_s2", option_json(elastic.gravity_m_s2)},
-              {"solver", name_of(elastic.solver)},
-              {"formulation", name_of(elastic.formulation)}}},
-            {"iterative", {{"tolerance", settings.iterative.tolerance}, {"most_iterations", settings.iterative.most_iterations}}},
+    return {{"body", to_json(settings.body)},
+            {"elastic", to_json(settings.elastic)},
+            {"iterative", to_json(settings.iterative)},
             {"serial", settings.serial}};
 }
 

@@ -3,7 +3,7 @@
 #include "analysis/records/report_table.hpp"
 #include "analysis/statistics/fits.hpp"
 #include "experiments/process/machine.hpp"
-#include "experiments/settings/option_fields.hpp"
+#include "experiments/settings/recorded_settings.hpp"
 #include "experiments/studies/timing/bench.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/mesh_io.hpp"
@@ -213,18 +213,7 @@ double bandwidth_at(const std::vector<MemoryBandwidth>& memory, double bytes)
     return std::lerp(low.gb_s, high.gb_s, std::log(bytes / low.bytes) / std::log(high.bytes / low.bytes));
 }
 
-json to_json(const BenchOptions& options)
-{
-    static const auto fields = OptionFields<BenchOptions>("bench")
-                                   .record("mesh", &BenchOptions::mesh)
-                                   .record("bars", &BenchOptions::bars)
-                                   .record("sizes", &BenchOptions::sizes)
-                                   .record("threads", &BenchOptions::threads)
-                                   .record("quick", &BenchOptions::quick)
-                                   .record("seconds", &BenchOptions::seconds)
-                                   .complete();
-    return fields.json(options);
-}
+RECORD_SETTINGS(BenchOptions, mesh, bars, sizes, threads, quick, seconds)
 
 json fit_scaling(const json& meshes)
 {

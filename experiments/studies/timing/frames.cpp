@@ -1,4 +1,4 @@
-#include "experiments/studies/timing/frames.hpp"
+#include "experiments/studies/timing/timing.hpp"
 
 #include "analysis/records/provenance.hpp"
 #include "analysis/records/record_files.hpp"
@@ -80,7 +80,7 @@ public:
         for (const auto& [sample, project] :
              {std::pair(volume_s, &loops_.volume), std::pair(stretch_s, &loops_.stretch), std::pair(bind_s, &loops_.bind)})
             seconds[sample] += cpu_seconds([project = project] {
-                for (int iteration = 0; iteration < timed_iterations; ++iteration) (*project)();
+                for (int iteration = 0; iteration < paper_iterations; ++iteration) (*project)();
             });
     }
 
@@ -117,7 +117,7 @@ std::vector<FrameTiming> time_frames(const pbs::Character& character, const pbs:
     std::vector<TimedVariant> turns;
     for (const auto& [order, precision] : variants) {
         pbs::PbsOptions options;
-        options.iterations = timed_iterations;
+        options.iterations = paper_iterations;
         options.order = order;
         options.precision = precision;
         options.gravity_m_s2 = {0.0, -9.81, 0.0};
@@ -317,7 +317,7 @@ std::string measure_frames(const TimedCase& of, const std::string& folder)
 
 RECORD_SETTINGS_AND(TimedCase,
                     .derived("refinements", [](const TimedCase& of) { return of.scene.character.refinements; })
-                        .constant("iterations", timed_iterations)
+                        .constant("iterations", paper_iterations)
                         .constant("frames_a_turn", usual_frames_per_turn)
                         .constant("round_s_a_vertex", round_s_per_vertex)
                         .constant("rounds", {fewest_rounds, most_rounds})

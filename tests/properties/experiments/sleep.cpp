@@ -1,6 +1,6 @@
 // Sleep on the human through a jump: the difference from the full solve stays small. Reference: the same deformer without sleep.
 #include "experiments/scene/scene.hpp"
-#include "experiments/studies/timing/features.hpp"
+#include "experiments/studies/timing/timing.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/topology.hpp"
 #include "pbs/solver/options.hpp"

@@ -1,5 +1,5 @@
 // The rows and the report by hand, the orders against random ones, and the tapered limb.
-#include "experiments/studies/timing/equal_quality.hpp"
+#include "experiments/studies/timing/timing.hpp"
 
 #include "analysis/statistics/statistics.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
