@@ -156,12 +156,6 @@ const Columns<analysis::MeasuredFrame> columns =
     Columns<analysis::MeasuredFrame>{{"frame", &analysis::MeasuredFrame::name, "", "name of the frame's file"}} +
     analysis::within(&analysis::MeasuredFrame::values, value_columns);
 
-void print_head()
-{
-    fmt::print("{:<32} {:>14} {:>14} {:>9} {:>10} {:>10} {:>12} {:>12}\n", "frame", "volume %", "volume abs %", "inverted", "j_min",
-               "j_max", "stretch rms", "edge strain");
-}
-
 void print_row(const analysis::MeasuredFrame& frame)
 {
     const analysis::FrameMetrics& m = frame.values.metrics;
@@ -181,18 +175,13 @@ bool report_broken(const std::vector<analysis::FrameBound>& bounds, const std::s
     return all_hold;
 }
 
-void require_usable(const MeasureArguments& arguments)
-{
-    std::for_each(arguments.bounds.begin(), arguments.bounds.end(), analysis::require_meaningful);
-    if (!arguments.csv.empty()) analysis::require_writable(arguments.csv);
-    require_writable(arguments.reports);
-}
-
 // A frame that cannot be read or does not fit is reported, and the others are measured.
 int measure(const MeasureArguments& arguments)
 {
     const pbs::Stopwatch stopwatch;
-    require_usable(arguments);
+    std::for_each(arguments.bounds.begin(), arguments.bounds.end(), analysis::require_meaningful);
+    if (!arguments.csv.empty()) analysis::require_writable(arguments.csv);
+    require_writable(arguments.reports);
     const std::vector<std::string> paths = frame_files(arguments.frames), names = frame_names(paths);
     const pbs::MeshReading reading = pbs::read_tet_mesh(arguments.rest);
     warn(pbs::remarks_on(arguments.rest, reading));
@@ -201,7 +190,9 @@ int measure(const MeasureArguments& arguments)
     std::vector<analysis::MeasuredFrame> frames;
     std::vector<analysis::RefusedFrame> refused;
     bool all_hold = true;
-    if (!arguments.quiet) print_head();
+    if (!arguments.quiet)
+        fmt::print("{:<32} {:>14} {:>14} {:>9} {:>10} {:>10} {:>12} {:>12}\n", "frame", "volume %", "volume abs %", "inverted", "j_min",
+                   "j_max", "stretch rms", "edge strain");
     for (std::size_t i = 0; i < paths.size(); ++i) {
         try {
             const pbs::Positions positions = rest.read_frame(paths[i]);

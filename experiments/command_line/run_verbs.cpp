@@ -58,18 +58,6 @@ void add_run_verb(CLI::App& app, CommonOptions& common, VerbAction& action)
 // pbskin reproduce [CLAIM or STUDY]... [-o DIR] [--quick, --full] [-j N] [--resume]
 //                  [--external FILE] [--only RUN]...: runs studies and computes verdicts.
 
-namespace {
-
-std::string meaning_of_full()
-{
-    std::vector<std::string> in_part;
-    for (const Study& study : studies())
-        if (study.sets.full == Extent::quick) in_part.push_back(study.name);
-    return fmt::format("the whole studies; without names, only a part of {}", fmt::join(in_part, ", "));
-}
-
-}  // namespace
-
 void add_reproduce_verb(CLI::App& app, CommonOptions& common, VerbAction& action)
 {
     CLI::App* verb = add_verb(app, common, "reproduce",
@@ -77,7 +65,11 @@ void add_reproduce_verb(CLI::App& app, CommonOptions& common, VerbAction& action
     auto arguments = std::make_shared<ReproduceArguments>();
     verb->add_option("names", arguments->names, "claims (C02) or studies (volume)");
     verb->add_option("-o,--output", arguments->folder, "folder of the records")->capture_default_str();
-    auto* full = verb->add_flag("--full", arguments->full, meaning_of_full());
+    std::vector<std::string> in_part;
+    for (const Study& study : studies())
+        if (study.sets.full == Extent::quick) in_part.push_back(study.name);
+    auto* full = verb->add_flag("--full", arguments->full,
+                                fmt::format("the whole studies; without names, only a part of {}", fmt::join(in_part, ", ")));
     auto quick = std::make_shared<bool>(false);
     verb->add_flag("--quick", *quick, "a part of each study that decides the same claims in minutes (default)")->excludes(full);
     verb->add_option("-j,--jobs", arguments->jobs, "number of runs in parallel")->check(CLI::Range(1, 256))->capture_default_str();

@@ -125,14 +125,6 @@ LoadedBody limb(const BodyArguments& arguments, const reference_fem::LinearOptio
     return body;
 }
 
-// pbs::InputError if the file cannot be read, or if not exactly one body is asked for.
-LoadedBody load_body(const BodyArguments& arguments, const reference_fem::LinearOptions& options)
-{
-    if ((arguments.bar_tets > 0) + (arguments.limb_vertices > 0) + !arguments.mesh_file.empty() != 1)
-        throw pbs::InputError("", 0, "body", "", "expected one of --bar, --limb and --mesh");
-    return arguments.limb_vertices > 0 ? limb(arguments, options) : held_at_the_end(arguments, options);
-}
-
 // Sends the body from rank 0 to all ranks, without its options.
 void broadcast(const reference_fem::MpiSession& session, LoadedBody& body)
 {
@@ -223,14 +215,6 @@ nlohmann::json to_json(const DistributedSettings& settings, const LoadedBody& bo
             {"provenance", provenance()}};
 }
 
-void write_nodes(const std::string& path, const reference_fem::ElasticSolution& solution)
-{
-    std::vector<DisplacedNode> nodes;
-    for (Eigen::Index n = 0; n < solution.nodes.rows(); ++n)
-        nodes.push_back({solution.nodes(n, 0), solution.nodes(n, 1), solution.displacement.row(n)});
-    table_of(node_columns, nodes).write(path);
-}
-
 struct Arguments : DistributedSettings {
     std::vector<double> gravity_m_s2 = {0, 0, 0}, traction_pa = {0, 0, 0};
     std::string solver = "cg_ml", folder;
@@ -278,8 +262,11 @@ LoadedBody same_body_everywhere(const reference_fem::MpiSession& session, const 
     LoadedBody body;
     std::string failure;
     if (session.rank() == 0) {
+        const BodyArguments& wanted = arguments.body;
         try {
-            body = load_body(arguments.body, arguments.elastic);
+            if ((wanted.bar_tets > 0) + (wanted.limb_vertices > 0) + !wanted.mesh_file.empty() != 1)
+                throw pbs::InputError("", 0, "body", "", "expected one of --bar, --limb and --mesh");
+            body = wanted.limb_vertices > 0 ? limb(wanted, arguments.elastic) : held_at_the_end(wanted, arguments.elastic);
         } catch (const pbs::InputError& error) {
             failure = error.what();
         }
@@ -299,7 +286,11 @@ void write(const Arguments& arguments, const LoadedBody& body, const reference_f
     if (arguments.folder.empty()) return;
     std::filesystem::create_directories(arguments.folder);
     analysis::write_text_atomically(arguments.folder + "/record.json", text);
-    if (arguments.nodes) write_nodes(arguments.folder + "/nodes.csv", solution);
+    if (!arguments.nodes) return;
+    std::vector<DisplacedNode> nodes;
+    for (Eigen::Index n = 0; n < solution.nodes.rows(); ++n)
+        nodes.push_back({solution.nodes(n, 0), solution.nodes(n, 1), solution.displacement.row(n)});
+    table_of(node_columns, nodes).write(arguments.folder + "/nodes.csv");
 }
 
 int solve_and_record(const reference_fem::MpiSession& session, Arguments& arguments)

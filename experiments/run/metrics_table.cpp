@@ -171,23 +171,6 @@ const std::map<std::string, Formula> formulae = {
       "one pass over the surface",
       {"S: volume inside the rendered surface, by the divergence theorem; S0: at rest"}}}};
 
-std::vector<MetricText> all_texts()
-{
-    std::vector<MetricText> texts;
-    for (const auto& column : all_columns)
-        if (const auto found = formulae.find(column.name); found != formulae.end()) {
-            const auto& [formula, source, cost, symbols] = found->second;
-            texts.push_back({column.name, column.unit, formula, column.meaning, source, cost, symbols});
-        }
-    return texts;
-}
-
-// Linear strain of a rigid rotation by theta: cos(theta) - 1 along the two axes across it.
-double fictitious_strain(double rotation_deg)
-{
-    return 1.0 - std::cos(rotation_deg * std::numbers::pi / 180.0);
-}
-
 }  // namespace
 
 MetricRow metric_row(const Scene& scene, const DeformerSpec& spec, int frame, double time_s, const FrameMeasurement& measured,
@@ -203,7 +186,8 @@ MetricRow metric_row(const Scene& scene, const DeformerSpec& spec, int frame, do
     row.time_s = time_s;
     row.measured = measured;
     row.step_ms = 1e3 * step.seconds;
-    if (traits.has_small_strain) row.fictitious_strain = fictitious_strain(measured.rotation_deg);
+    // Linear strain of a rigid rotation by theta: cos(theta) - 1 along the two axes across it.
+    if (traits.has_small_strain) row.fictitious_strain = 1.0 - std::cos(measured.rotation_deg * std::numbers::pi / 180.0);
     row.outcome = to_string(step.outcome);
     if (measured.reference_error && spec.name != scene.reference)  // the reference's own row has no difference that could be below
         row.error_below_reference_error = measured.error_below_reference_error();
@@ -229,8 +213,22 @@ analysis::Columns<MetricRow> metric_columns_of(const Scene& scene)
 
 const std::vector<MetricText>& metric_texts()
 {
-    static const std::vector<MetricText> texts = all_texts();
-    return texts;
+    static const std::vector<MetricText> all = [] {
+        std::vector<MetricText> texts;
+        for (const auto& column : all_columns)
+            if (const auto found = formulae.find(column.name); found != formulae.end()) {
+                const auto& [formula, source, cost, symbols] = found->second;
+                texts.push_back({column.name, column.unit, formula, column.meaning, source, cost, symbols});
+            }
+        return texts;
+    }();
+    return all;
+}
+
+const MetricText* find_metric(const std::string& name)
+{
+    const auto found = std::ranges::find(metric_texts(), name, &MetricText::name);
+    return found == metric_texts().end() ? nullptr : &*found;
 }
 
 }  // namespace experiments

@@ -40,13 +40,6 @@ std::pair<std::string, nlohmann::json> identity(const StudyRun& run)
     return {"scene", to_json(run.scene)};
 }
 
-std::string carry_out_scene(const StudyRun& run, const std::string& folder)
-{
-    const RunResult result = run_scene(run.scene, folder);
-    for (const auto& line : result.lines) spdlog::debug("{}", line);
-    return run.bad_frames_are_results ? result.breakdown : result.failure();
-}
-
 std::string carry_out_work(const StudyRun& run, const std::string& folder)
 {
     std::error_code error;
@@ -83,7 +76,10 @@ bool is_finished(const StudyRun& run, const std::string& folder)
 
 std::string carry_out(const StudyRun& run, const std::string& folder)
 {
-    return run.work ? carry_out_work(run, folder) : carry_out_scene(run, folder);
+    if (run.work) return carry_out_work(run, folder);
+    const RunResult result = run_scene(run.scene, folder);
+    for (const auto& line : result.lines) spdlog::debug("{}", line);
+    return run.bad_frames_are_results ? result.breakdown : result.failure();
 }
 
 std::string breakdown_on_record(const StudyRun& run, const std::string& folder)
@@ -129,7 +125,7 @@ const std::vector<analysis::Claim>& claims()
 
 const analysis::Claim& claim_named(const std::string& id)
 {
-    const auto found = std::find_if(claims().begin(), claims().end(), [&](const analysis::Claim& claim) { return claim.id == id; });
+    const auto found = std::ranges::find(claims(), id, &analysis::Claim::id);
     if (found == claims().end()) throw std::logic_error("no claim " + id);
     return *found;
 }

@@ -57,12 +57,6 @@ private:
     pbs::JsonFile file_;
 };
 
-void require_record(const fs::path& run_json)
-{
-    const nlohmann::json schema = pbs::JsonFile(run_json.string()).at("schema");
-    if (schema != run_schema) throw pbs::InputError(run_json.string(), 0, "schema", schema.dump(), fmt::format("expected {}", run_schema));
-}
-
 // The limb's bones lie along x.
 std::string name_of_sweep(const Scene& scene)
 {
@@ -76,13 +70,6 @@ analysis::CaseKey key_of(const Scene& scene)
     key.motion = scene.motion.clip.empty() ? name_of_sweep(scene) : fs::path(scene.motion.clip).stem().string();
     if (scene.character.vertices > 0) key.vertices = scene.character.vertices;
     return key;
-}
-
-// Body and motion of a run, as write_study_plan() writes them for scenes; empty if the plan has none.
-analysis::CaseKey place_of(const nlohmann::json& run, const std::string& file)
-{
-    if (!run.contains("of")) return {};
-    return analysis::case_key(run.at("of"), file);
 }
 
 void add_run(analysis::Records& records, const fs::path& folder, const std::string& name, const analysis::CaseKey& place, bool beside)
@@ -198,19 +185,22 @@ analysis::Records read_study_records(const std::string& folder, const std::strin
     for (const auto& run : plan.runs()) {
         const std::string name = plan.text(run, "name");
         const fs::path of_run = fs::path(folder) / name;
-        if (!fs::exists(of_run / "run.json")) {
+        const std::string record = (of_run / "run.json").string();
+        if (!fs::exists(record)) {
             records.missing_runs.push_back(name);
             continue;
         }
-        require_record(of_run / "run.json");
-        add_run(records, of_run, of_run.lexically_relative(root).string(), place_of(run, plan_file(folder)), plan.is_set(run, "beside"));
+        const nlohmann::json schema = pbs::JsonFile(record).at("schema");
+        if (schema != run_schema) throw pbs::InputError(record, 0, "schema", schema.dump(), fmt::format("expected {}", run_schema));
+        // Body and motion of the run, as write_study_plan() writes them for scenes; empty if the plan has none.
+        const auto place = run.contains("of") ? analysis::case_key(run.at("of"), plan_file(folder)) : analysis::CaseKey{};
+        add_run(records, of_run, of_run.lexically_relative(root).string(), place, plan.is_set(run, "beside"));
     }
     return records;
 }
 
 namespace {
 
-namespace fs = std::filesystem;
 using nlohmann::json;
 
 // "3 inverted, 1 not converged"

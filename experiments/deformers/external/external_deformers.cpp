@@ -275,14 +275,6 @@ private:
     void* deformer_ = nullptr;
 };
 
-// Files of the scene's folder by their absolute paths; other words stay.
-std::string word_of(const std::string& word, const fs::path& folder)
-{
-    std::error_code code;
-    const fs::path file = folder / word;
-    return !word.empty() && fs::is_regular_file(file, code) ? fs::absolute(file).string() : word;
-}
-
 // Returns an empty text for a word that is not a file.
 std::string hash_of(const std::string& word)
 {
@@ -294,7 +286,9 @@ std::string hash_of(const std::string& word)
 void find_files(const SceneValues& values, const std::string& table, ExternalOptions& options, DeformerSpec& spec)
 {
     const fs::path folder = fs::path(values.file()).parent_path();
-    for (std::string& word : options.command) word = word_of(word, folder);
+    std::error_code code;
+    for (std::string& word : options.command)  // files of the scene's folder by their absolute paths; other words stay
+        if (!word.empty() && fs::is_regular_file(folder / word, code)) word = fs::absolute(folder / word).string();
     options.scene = values.file();
     options.name = spec.name;
     if (options.command.empty() == options.library.empty()) values.refuse(table + ".command", "expected either a command or a library");

@@ -142,23 +142,6 @@ const OptionFields<FemOptions>& fem_fields()
     return fields;
 }
 
-namespace {
-
-// Loads deal.II and some 200 shared objects, when a scene first uses a reference.
-std::unique_ptr<Deformer> make_fem(const DeformerSpec& spec)
-{
-    const auto make = load_module_with_blas("pbskin_fem").function<decltype(pbskin_make_fem)>("pbskin_make_fem");
-    return std::unique_ptr<Deformer>(make(options_of<FemOptions>(spec)));
-}
-
-DeformerTraits fem_traits(const DeformerSpec& spec)
-{
-    const bool linear = options_of<FemOptions>(spec).model == reference_fem::Model::linear;
-    return {.has_small_strain = linear, .is_negative_control = linear, .solves_equations = true};
-}
-
-}  // namespace
-
 DeformerKind fem_kind()
 {
     DeformerKind kind =
@@ -168,8 +151,15 @@ DeformerKind fem_kind()
                       "stable), St Venant-Kirchhoff; in equilibrium or in time; a frame that is not reached is marked not_converged",
                       fem_fields(), check);
     kind.needs_list = true;
-    kind.make = make_fem;
-    kind.traits = fem_traits;
+    // Loads deal.II and some 200 shared objects, when a scene first uses a reference.
+    kind.make = [](const DeformerSpec& spec) {
+        const auto make = load_module_with_blas("pbskin_fem").function<decltype(pbskin_make_fem)>("pbskin_make_fem");
+        return std::unique_ptr<Deformer>(make(options_of<FemOptions>(spec)));
+    };
+    kind.traits = [](const DeformerSpec& spec) {
+        const bool linear = options_of<FemOptions>(spec).model == reference_fem::Model::linear;
+        return DeformerTraits{.has_small_strain = linear, .is_negative_control = linear, .solves_equations = true};
+    };
     return kind;
 }
 

@@ -288,14 +288,6 @@ namespace {
 constexpr double round_s_per_vertex = 24e-6;
 constexpr int fewest_rounds = 3, most_rounds = 61;
 
-// So many rounds that they take about `seconds` of one core, whatever else the machine does. A round is two frames of three variants, each
-// timed twice.
-Rounds rounds_for(int vertices, double seconds)
-{
-    const int rounds = std::clamp(static_cast<int>(seconds / (round_s_per_vertex * vertices)), fewest_rounds, most_rounds);
-    return {.seconds = 0.0, .fewest = rounds, .most = rounds};
-}
-
 }  // namespace
 
 std::string measure_frames(const TimedCase& of, const std::string& folder)
@@ -308,7 +300,10 @@ std::string measure_frames(const TimedCase& of, const std::string& folder)
     mesh.tets = static_cast<int>(character.mesh.tets.rows());
     mesh.cpu_model = analysis::collect_provenance(1).cpu_model;
     mesh.surface_vertices = character.surface ? static_cast<int>(character.surface->tet.size()) : 0;
-    const auto rows = timing_rows(mesh, time_frames(character, motion, of.k_jiggle, rounds_for(mesh.vertices, of.seconds)));
+    // So many rounds that they take about these seconds of one core, whatever else the machine does. A round is two frames of three
+    // variants, each timed twice.
+    const int rounds = std::clamp(static_cast<int>(of.seconds / (round_s_per_vertex * mesh.vertices)), fewest_rounds, most_rounds);
+    const auto rows = timing_rows(mesh, time_frames(character, motion, of.k_jiggle, {.seconds = 0.0, .fewest = rounds, .most = rounds}));
     table_of(timing_columns, rows).write(analysis::path_in(folder, "timing.csv"));
     const auto measured = timing_measurements(rows);
     if (!measured.empty()) analysis::measurement_table(measured).write(analysis::path_in(folder, "measurements.csv"));

@@ -112,13 +112,6 @@ std::optional<Baseline> baseline_of(const CheckArguments& arguments)
     return Baseline{analysis::parse_csv(::claims::check_baseline_csv, own), own};
 }
 
-std::string unit_of(const std::string& metric)
-{
-    for (const MetricText& text : metric_texts())
-        if (text.name == metric) return text.unit;
-    return "";
-}
-
 // A file in the folder of the user's bounds, or a built-in scene.
 std::string file_or_name(const CheckScene& check, const std::string& bounds)
 {
@@ -162,7 +155,10 @@ CheckSuite suite_of(const CheckScene& check, const CheckRules& rules, const Chec
     if (!failure.empty()) breakdowns.push_back(check.name + ": " + failure);
     const CsvTable metrics = analysis::read_csv((fs::path(folder) / "metrics.csv").string());
     for (const analysis::CheckBound& bound : rules.bounds)
-        if (bound.scene == check.name) suite.cases.push_back(judge_bound(bound, unit_of(bound.metric), metrics, rules.file));
+        if (bound.scene == check.name) {
+            const MetricText* metric = find_metric(bound.metric);
+            suite.cases.push_back(judge_bound(bound, metric ? metric->unit : "", metrics, rules.file));
+        }
 
     const auto [vertices, tets] = analysis::from_record((fs::path(folder) / "run.json").string(), [](const nlohmann::json& run) {
         return std::pair(run.at("character").at("vertices").get<int>(), run.at("character").at("tets").get<int>());
