@@ -133,13 +133,12 @@ int list(const std::vector<std::string>& asked)
 
 }  // namespace
 
-void add_list_verb(CLI::App& app, CommonOptions& common, VerbAction& action)
+void add_list_verb(CommandLine& line)
 {
-    CLI::App* verb = add_verb(app, common, "list", "lists the cases, scenes, deformers, studies, claims and metrics");
     auto asked = std::make_shared<std::vector<std::string>>();
+    CLI::App* verb = line.add("list", "lists the cases, scenes, deformers, studies, claims and metrics", [asked] { return list(*asked); });
     verb->add_option("kind", *asked, "which of them; by default all")
         ->check(CLI::IsMember({"cases", "scenes", "deformers", "studies", "claims", "metrics"}));
-    verb->callback([&action, asked] { action = [asked] { return list(*asked); }; });
 }
 
 // pbskin explain NAME: prints what a metric, claim, scene key, study, deformer or scene means.
@@ -265,12 +264,12 @@ int explain(const std::string& name)
 
 }  // namespace
 
-void add_explain_verb(CLI::App& app, CommonOptions& common, VerbAction& action)
+void add_explain_verb(CommandLine& line)
 {
-    CLI::App* verb = add_verb(app, common, "explain", "prints what a metric, claim, scene key, study, deformer or scene means");
     auto name = std::make_shared<std::string>();
+    CLI::App* verb =
+        line.add("explain", "prints what a metric, claim, scene key, study, deformer or scene means", [name] { return explain(*name); });
     verb->add_option("name", *name, "its name, e.g. volume_change_pct, C02, pbs.k_volume")->required();
-    verb->callback([&action, name] { action = [name] { return explain(*name); }; });
 }
 
 }  // namespace experiments

@@ -130,7 +130,6 @@ struct MeasureArguments {
     std::vector<std::string> frames;
     std::vector<analysis::FrameBound> bounds = analysis::known_frame_bounds();
     CheckReports reports;
-    bool quiet = false;
 };
 
 // The worst tet of a frame with inverted tets. The reader refuses frames that are not finite.
@@ -176,7 +175,7 @@ bool report_broken(const std::vector<analysis::FrameBound>& bounds, const std::s
 }
 
 // A frame that cannot be read or does not fit is reported, and the others are measured.
-int measure(const MeasureArguments& arguments)
+int measure(const MeasureArguments& arguments, bool quiet)
 {
     const pbs::Stopwatch stopwatch;
     std::for_each(arguments.bounds.begin(), arguments.bounds.end(), analysis::require_meaningful);
@@ -190,14 +189,14 @@ int measure(const MeasureArguments& arguments)
     std::vector<analysis::MeasuredFrame> frames;
     std::vector<analysis::RefusedFrame> refused;
     bool all_hold = true;
-    if (!arguments.quiet)
+    if (!quiet)
         fmt::print("{:<32} {:>14} {:>14} {:>9} {:>10} {:>10} {:>12} {:>12}\n", "frame", "volume %", "volume abs %", "inverted", "j_min",
                    "j_max", "stretch rms", "edge strain");
     for (std::size_t i = 0; i < paths.size(); ++i) {
         try {
             const pbs::Positions positions = rest.read_frame(paths[i]);
             frames.push_back({names[i], values_of(rest, mesh_metrics, positions)});
-            if (!arguments.quiet) print_row(frames.back());
+            if (!quiet) print_row(frames.back());
             if (frames.back().values.metrics.inverted_tets > 0)
                 fmt::print(stderr, "pbskin: {}: {}\n", paths[i], worst_of(mesh_metrics, positions));
             all_hold = report_broken(arguments.bounds, paths[i], frames.back()) && all_hold;
@@ -215,12 +214,12 @@ int measure(const MeasureArguments& arguments)
 
 }  // namespace
 
-void add_measure_verb(CLI::App& app, CommonOptions& common, VerbAction& action)
+void add_measure_verb(CommandLine& line)
 {
-    CLI::App* verb =
-        add_verb(app, common, "measure",
-                 "applies the metrics to frames of any program: a rest tet mesh and deformed frames; exit 1 if a bound does not hold");
     auto arguments = std::make_shared<MeasureArguments>();
+    CLI::App* verb = line.add(
+        "measure", "applies the metrics to frames of any program: a rest tet mesh and deformed frames; exit 1 if a bound does not hold",
+        [&common = line.common, arguments] { return measure(*arguments, common.quiet); });
     verb->add_option("rest", arguments->rest, "rest tet mesh: .msh .vtu .vtk .mesh .tobj .ele")->required();
     verb->add_option(
             "frames", arguments->frames,
@@ -231,12 +230,6 @@ void add_measure_verb(CLI::App& app, CommonOptions& common, VerbAction& action)
     for (analysis::FrameBound& bound : arguments->bounds) verb->add_option(bound.option, bound.value, bound.meaning);
     verb->add_option("--junit", arguments->reports.junit, "write a JUnit report with one test case per bound");
     verb->add_flag("--github", arguments->reports.github, "annotations for GitHub on stdout (the default where GITHUB_ACTIONS is true)");
-    verb->callback([&action, &common, arguments] {
-        action = [&common, arguments] {
-            arguments->quiet = common.quiet;
-            return measure(*arguments);
-        };
-    });
 }
 
 }  // namespace experiments

@@ -45,24 +45,26 @@ int run(const RunArguments& arguments, const CommonOptions& common)
 
 }  // namespace
 
-void add_run_verb(CLI::App& app, CommonOptions& common, VerbAction& action)
+void add_run_verb(CommandLine& line)
 {
-    CLI::App* verb = add_verb(app, common, "run", "runs one scene and writes frames and records");
     auto arguments = std::make_shared<RunArguments>();
+    CLI::App* verb = line.add("run", "runs one scene and writes frames and records",
+                              [&common = line.common, arguments] { return run(*arguments, common); });
     verb->add_option("scene", arguments->scene, "a scene file, or the name of a built-in scene")->required();
     verb->add_option("-o,--output", arguments->folder, "folder of the records; by default results/NAME");
     verb->add_option("--set", arguments->overrides, "key=value, e.g. pbs.iterations=96")->allow_extra_args(false);
-    verb->callback([&action, &common, arguments] { action = [&common, arguments] { return run(*arguments, common); }; });
 }
 
 // pbskin reproduce [CLAIM or STUDY]... [-o DIR] [--quick, --full] [-j N] [--resume]
 //                  [--external FILE] [--only RUN]...: runs studies and computes verdicts.
 
-void add_reproduce_verb(CLI::App& app, CommonOptions& common, VerbAction& action)
+void add_reproduce_verb(CommandLine& line)
 {
-    CLI::App* verb = add_verb(app, common, "reproduce",
-                              "runs studies, writes their records and computes verdicts; by default the studies of the quick set");
     auto arguments = std::make_shared<ReproduceArguments>();
+    auto quick = std::make_shared<bool>(false), judge = std::make_shared<bool>(false);
+    CLI::App* verb =
+        line.add("reproduce", "runs studies, writes their records and computes verdicts; by default the studies of the quick set",
+                 [arguments, judge] { return *judge ? judge_again(*arguments) : reproduce(*arguments); });
     verb->add_option("names", arguments->names, "claims (C02) or studies (volume)");
     verb->add_option("-o,--output", arguments->folder, "folder of the records")->capture_default_str();
     std::vector<std::string> in_part;
@@ -70,7 +72,6 @@ void add_reproduce_verb(CLI::App& app, CommonOptions& common, VerbAction& action
         if (study.sets.full == Extent::quick) in_part.push_back(study.name);
     auto* full = verb->add_flag("--full", arguments->full,
                                 fmt::format("the whole studies; without names, only a part of {}", fmt::join(in_part, ", ")));
-    auto quick = std::make_shared<bool>(false);
     verb->add_flag("--quick", *quick, "a part of each study that decides the same claims in minutes (default)")->excludes(full);
     verb->add_option("-j,--jobs", arguments->jobs, "number of runs in parallel")->check(CLI::Range(1, 256))->capture_default_str();
     auto* resume = verb->add_flag("--resume", arguments->resume, "keep the runs that are finished already");
@@ -84,14 +85,11 @@ void add_reproduce_verb(CLI::App& app, CommonOptions& common, VerbAction& action
                      ->type_name("RUN")
                      ->expected(1)
                      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    auto judge = std::make_shared<bool>(false);
     verb->add_flag("--judge", *judge, "run nothing and compute the verdicts from the records in the folder")
         ->excludes(full)
         ->excludes(resume)
         ->excludes(external)
         ->excludes(only);
-    verb->callback(
-        [&action, arguments, judge] { action = [arguments, judge] { return *judge ? judge_again(*arguments) : reproduce(*arguments); }; });
 }
 
 // pbskin check [-o DIR] [--junit FILE] [--baseline FILE]: checks volume preservation and other bounds in continuous integration.
@@ -118,14 +116,14 @@ int check(CheckArguments arguments, const CheckReports& reports, const CommonOpt
 
 }  // namespace
 
-void add_check_verb(CLI::App& app, CommonOptions& common, VerbAction& action)
+void add_check_verb(CommandLine& line)
 {
-    CLI::App* verb =
-        add_verb(app, common, "check",
-                 "checks in continuous integration: runs small real scenes and compares volume preservation and other values with "
-                 "bounds and a baseline; exit 1 if one does not hold");
     auto arguments = std::make_shared<CheckArguments>();
     auto reports = std::make_shared<CheckReports>();
+    CLI::App* verb = line.add("check",
+                              "checks in continuous integration: runs small real scenes and compares volume preservation and other "
+                              "values with bounds and a baseline; exit 1 if one does not hold",
+                              [&common = line.common, arguments, reports] { return check(*arguments, *reports, common); });
     verb->add_option("-o,--output", arguments->folder, "folder of the records")->capture_default_str();
     verb->add_option(
         "--bounds", arguments->bounds,
@@ -138,8 +136,6 @@ void add_check_verb(CLI::App& app, CommonOptions& common, VerbAction& action)
                    "exit 2 if the body of a scene is not installed, instead of leaving the scene out");
     verb->add_option("--junit", reports->junit, "write a JUnit report with one test case per bound");
     verb->add_flag("--github", reports->github, "annotations for GitHub on stdout (the default where GITHUB_ACTIONS is true)");
-    verb->callback(
-        [&action, &common, arguments, reports] { action = [&common, arguments, reports] { return check(*arguments, *reports, common); }; });
 }
 
 // pbskin bench [--mesh TETS] [--threads N] [--json]: times a step and every deformer, and compares them with plain loops in the same run.
@@ -165,8 +161,9 @@ std::string writable_record(const std::string& folder)
     return record;
 }
 
-int bench(BenchArguments arguments)
+int bench(BenchArguments arguments, int threads)
 {
+    arguments.options.threads = threads;
     for (const std::string& size : arguments.sizes) arguments.options.sizes.push_back(parse_size(size));
     std::sort(arguments.options.sizes.begin(), arguments.options.sizes.end());  // so that the peak of memory belongs to the latest
     const std::string file = writable_record(arguments.folder);
@@ -179,11 +176,14 @@ int bench(BenchArguments arguments)
 
 }  // namespace
 
-void add_bench_verb(CLI::App& app, CommonOptions& common, VerbAction& action)
+void add_bench_verb(CommandLine& line)
 {
-    CLI::App* verb =
-        add_verb(app, common, "bench", "times projections, steps, all deformers and FEM, as ratios to plain loops in the same run");
     auto arguments = std::make_shared<BenchArguments>();
+    CLI::App* verb =
+        line.add("bench", "times projections, steps, all deformers and FEM, as ratios to plain loops in the same run", [&line, arguments] {
+            const bool asked = line.app.get_subcommand("bench")->count("--threads") > 0;
+            return bench(*arguments, asked ? line.common.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency())));
+        });
     auto* mesh = verb->add_option("--mesh", arguments->options.mesh, "a tet mesh; by default bars of about 2,200 and 19,500 vertices");
     verb->add_option("--sizes", arguments->sizes, "bars with these numbers of tets, e.g. 1K,10K,100K,1M, and the growth of the cost")
         ->delimiter(',')
@@ -194,11 +194,6 @@ void add_bench_verb(CLI::App& app, CommonOptions& common, VerbAction& action)
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
     verb->add_flag("--quick", arguments->options.quick, "a few milliseconds, to test that it runs; the times are useless");
-    verb->callback([&action, &common, verb, arguments] {
-        const bool asked = verb->count("--threads") > 0;
-        arguments->options.threads = asked ? common.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-        action = [arguments] { return bench(*arguments); };
-    });
 }
 
 }  // namespace experiments

@@ -56,13 +56,12 @@ int write_report_page(const std::string& folder, bool quiet)
 }
 
 // pbskin report DIR: writes the records and the figures drawn from them as one self-contained page, DIR/report.html.
-void add_report_verb(CLI::App& app, CommonOptions& common, VerbAction& action)
+void add_report_verb(CommandLine& line)
 {
-    CLI::App* verb =
-        add_verb(app, common, "report", "writes records and drawn figures on one self-contained HTML page and states what is missing");
     auto folder = std::make_shared<std::string>();
+    CLI::App* verb = line.add("report", "writes records and drawn figures on one self-contained HTML page and states what is missing",
+                              [&common = line.common, folder] { return write_report_page(*folder, common.quiet); });
     verb->add_option("folder", *folder, "the folder that reproduce wrote; the page is report.html in it")->required();
-    verb->callback([&action, &common, folder] { action = [&common, folder] { return write_report_page(*folder, common.quiet); }; });
 }
 
 namespace {
@@ -122,10 +121,11 @@ int try_model(TrialOptions options, const CommonOptions& common)
 
 }  // namespace
 
-void add_try_verb(CLI::App& app, CommonOptions& common, VerbAction& action)
+void add_try_verb(CommandLine& line)
 {
-    CLI::App* verb = add_verb(app, common, "try", "runs a rigged model through its own motion and shows the result on a page");
     auto options = std::make_shared<TrialOptions>();
+    CLI::App* verb = line.add("try", "runs a rigged model through its own motion and shows the result on a page",
+                              [&common = line.common, options] { return try_model(*options, common); });
     verb->add_option("model", options->model, ".glb .gltf .fbx .dae .zae")->required();
     verb->add_option("--animation", options->animation,
                      "an animation of the model by name, or a clip (.bvh .gltf .glb .fbx); by default the model's first one");
@@ -140,7 +140,6 @@ void add_try_verb(CLI::App& app, CommonOptions& common, VerbAction& action)
     verb->add_flag("--allow-partial", options->allow_partial, "accepts a clip of which fewer than half of the moving joints match a bone");
     verb->add_flag_callback(
         "--no-reference", [options] { options->reference = false; }, "leaves out the finite elements, which take most of the time");
-    verb->callback([&action, &common, options] { action = [&common, options] { return try_model(*options, common); }; });
 }
 
 }  // namespace experiments

@@ -6,6 +6,7 @@
 #include "pbs/skinning/delta_mush.hpp"
 #include "pbs/skinning/direct_delta_mush.hpp"
 
+#include <array>
 #include <optional>
 #include <type_traits>
 
@@ -124,18 +125,28 @@ private:
 template <class Scalar>
 using PackedDirectMushDeformer = DirectDeltaMushDeformer<pbs::PackedDirectMush<Scalar>>;
 
+// The weights of DeformerSpec::weights, by the key `weights` of a deformer's table.
+constexpr std::array<pbs::WeightKind, 6> own_weights = {pbs::WeightKind::paper,    pbs::WeightKind::rigid,      pbs::WeightKind::smooth,
+                                                        pbs::WeightKind::diffused, pbs::WeightKind::either_end, pbs::WeightKind::artist};
+
 template <typename Options>
 OptionFields<Options>& add_weights_key(OptionFields<Options>& fields)
 {
+    std::vector<std::string> choices = {"scene"};
+    for (const pbs::WeightKind weights : own_weights) choices.push_back(pbs::name_of(weights));
     fields.key("weights", KeyType::text, "scene",
-               {.choices = own_weights_choices(), .meaning = "the weights that it blends with; scene: those of skinning.weights"});
+               {.choices = choices, .meaning = "the weights that it blends with; scene: those of skinning.weights"});
     return fields;
 }
 
+// Sets the weights and, unless they are the scene's, the variant: weights_smooth.
 template <typename Options>
 void read_weights(const SceneValues& values, const std::string& table, Options& /*options*/, DeformerSpec& spec)
 {
-    read_own_weights(values, table, spec);
+    const std::string weights = values.text(table + ".weights");
+    for (const pbs::WeightKind kind : own_weights)
+        if (weights == pbs::name_of(kind)) spec.weights = kind;
+    if (spec.weights) spec.variant = "weights_" + weights;
 }
 
 template <Blend blend>
@@ -182,7 +193,7 @@ DeformerKind mush_kind(const std::string& name, const std::string& meaning, Opti
 
 void check_direct_mush(const SceneValues& values, const std::string& table, DirectDeltaMushOptions& options, DeformerSpec& spec)
 {
-    read_own_weights(values, table, spec);
+    read_weights(values, table, options, spec);
     if (options.kappa > options.lambda) values.refuse(table + ".kappa", "expected at most lambda");
     if (options.smoothing == pbs::MushSmoothing::explicit_steps && options.lambda > 1.0)
         values.refuse(table + ".lambda", "expected at most 1 with explicit smoothing");

@@ -62,7 +62,7 @@ std::string SceneKey::rule() const
 
 const SceneKey* SceneSchema::find(const std::string& path) const
 {
-    const auto found = std::find_if(keys.begin(), keys.end(), [&](const SceneKey& key) { return key.path() == path; });
+    const auto found = std::ranges::find(keys, path, &SceneKey::path);
     return found == keys.end() ? nullptr : &*found;
 }
 

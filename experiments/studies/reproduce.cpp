@@ -175,8 +175,7 @@ StudyOutcome run_study(const PlannedStudy& planned, int jobs, double then_s)
         report_breakdown(result.name, result.breakdown, outcome);
         outcome.failed |= !result.finished;
         outcome.refused |= result.refused;
-        const auto run =
-            std::find_if(planned.to_do.begin(), planned.to_do.end(), [&](const StudyRun& of) { return of.name == result.name; });
+        const auto run = std::ranges::find(planned.to_do, result.name, &StudyRun::name);
         if (result.finished) outcome.costs.add(result.name, run->cost_s, result.cpu_s);
     }
     outcome.costs.complete(planned.folder, planned.plan);

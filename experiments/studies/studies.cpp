@@ -186,7 +186,7 @@ void StudyCosts::complete(const std::string& folder, const StudyPlan& plan)
     for (const StudyRun& run : plan.runs) {
         const auto recorded = recorded_cost(fs::path(folder) / run.name);
         if (!recorded) continue;
-        const auto row = std::find_if(runs_.begin(), runs_.end(), [&](const RunCost& cost) { return cost.run == run.name; });
+        const auto row = std::ranges::find(runs_, run.name, &RunCost::run);
         if (row == runs_.end() && !recorded->cpu_s) continue;
         ordered.push_back(row != runs_.end() ? *row : RunCost{run.name, run.cost_s, *recorded->cpu_s});
         ordered.back().wall_s = recorded->wall_s;
