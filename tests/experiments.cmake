@@ -22,7 +22,6 @@ pbs_tests(claims experiments FOLDERS experiments EXCEPT ${left_out}
 target_compile_definitions(test_claims_experiments PRIVATE ${claims_file})
 pbs_tests(unit experiments BLAS
     FOLDERS experiments/process experiments/scene experiments/run experiments/deformers experiments/trial
-        experiments/command_line
     FILES experiments/deformers/fem/fem_module
     EXCEPT experiments/deformers/fem ${left_out}
     ALONE experiments/run/frame_measurement experiments/run/reference_error_bar
@@ -36,7 +35,6 @@ pbs_tests(unit experiments_studies BLAS FOLDERS experiments/studies EXCEPT ${lef
 pbs_tests(properties experiments FOLDERS experiments LIBRARIES experiments)
 pbs_tests(regression experiments FOLDERS experiments LIBRARIES experiments)
 target_compile_definitions(test_regression_experiments PRIVATE PBS_KEPT_RECORDS="${PROJECT_SOURCE_DIR}/experiments/records/full")
-pbs_tests(robustness experiments FOLDERS experiments LIBRARIES experiments)
 pbs_tests(verification experiments BLAS FOLDERS experiments
     EXCEPT experiments/deformers/fem experiments/studies/verification/calculix experiments/verification_record
         experiments/studies/stability/broken_fem_starts ${left_out}

@@ -181,13 +181,13 @@ int fetch(const std::vector<std::string>& bodies)
 
 }  // namespace
 
-void add_fetch_verb(CLI::App& app, CommonOptions& common, VerbAction& action)
+void add_fetch_verb(CommandLine& line)
 {
-    CLI::App* verb = add_verb(app, common, "fetch",
-                              "brings the bodies that are no part of the project, by npm and apt; checks them and prints their licences");
     auto bodies = std::make_shared<std::vector<std::string>>();
+    CLI::App* verb =
+        line.add("fetch", "brings the bodies that are no part of the project, by npm and apt; checks them and prints their licences",
+                 [bodies] { return fetch(*bodies); });
     verb->add_option("bodies", *bodies, "which of them; by default all")->check(CLI::IsMember({"man", "lady", "frankie"}));
-    verb->callback([&action, bodies] { action = [bodies] { return fetch(*bodies); }; });
 }
 
 namespace {
@@ -224,10 +224,13 @@ int mesh(const MeshArguments& arguments)
 
 }  // namespace
 
-void add_mesh_verb(CLI::App& app, CommonOptions& common, VerbAction& action)
+void add_mesh_verb(CommandLine& line)
 {
-    CLI::App* verb = add_verb(app, common, "mesh", "turns a closed or nearly closed surface into tets and prints their quality");
     auto arguments = std::make_shared<MeshArguments>();
+    CLI::App* verb = line.add("mesh", "turns a closed or nearly closed surface into tets and prints their quality", [arguments] {
+        arguments->meshing.boundary_euler = arguments->boundary_euler;
+        return mesh(*arguments);
+    });
     verb->add_option("surface", arguments->surface, ".obj .ply .off .stl .gltf .glb .dae .zae .fbx, in metres")->required();
     verb->add_option("-o,--output", arguments->tets, ".msh .vtu .mesh")->required();
     verb->add_option("--vertices", arguments->meshing.vertices, "wanted number of vertices")
@@ -240,10 +243,6 @@ void add_mesh_verb(CLI::App& app, CommonOptions& common, VerbAction& action)
     verb->add_option("--wrap-offset", arguments->meshing.wrap_offset_m, "offset of the wrap [m]; 0: a third of alpha")
         ->check(CLI::NonNegativeNumber);
     verb->add_option("--scale", arguments->scale, "enlarges the surface, for files that state a wrong unit")->check(CLI::PositiveNumber);
-    verb->callback([&action, arguments] {
-        arguments->meshing.boundary_euler = arguments->boundary_euler;
-        action = [arguments] { return mesh(*arguments); };
-    });
 }
 
 }  // namespace experiments

@@ -105,11 +105,6 @@ Lines lines_of(const std::vector<Entry>& entries, Name name, Meaning meaning)
     return lines;
 }
 
-std::string question_of(const Study& study)
-{
-    return analysis::first_paragraph(*pages::by_name.at(study.name));
-}
-
 const std::map<std::string, std::function<Lines()>> kinds = {
     {"cases",
      [] {
@@ -118,7 +113,11 @@ const std::map<std::string, std::function<Lines()>> kinds = {
      }},
     {"scenes", [] { return lines_of(built_in_scenes(), &BuiltInScene::name, &BuiltInScene::meaning); }},
     {"deformers", [] { return lines_of(deformer_kinds(), &DeformerKind::name, &DeformerKind::meaning); }},
-    {"studies", [] { return lines_of(studies(), &Study::name, question_of); }},
+    {"studies",
+     [] {
+         return lines_of(studies(), &Study::name,
+                         [](const Study& study) { return analysis::first_paragraph(*pages::by_name.at(study.name)); });
+     }},
     {"claims", [] { return lines_of(claims(), &analysis::Claim::id, &analysis::Claim::statement); }},
     {"metrics", [] { return lines_of(metric_texts(), &MetricText::name, &MetricText::meaning); }}};
 
@@ -134,13 +133,12 @@ int list(const std::vector<std::string>& asked)
 
 }  // namespace
 
-void add_list_verb(CLI::App& app, CommonOptions& common, VerbAction& action)
+void add_list_verb(CommandLine& line)
 {
-    CLI::App* verb = add_verb(app, common, "list", "lists the cases, scenes, deformers, studies, claims and metrics");
     auto asked = std::make_shared<std::vector<std::string>>();
+    CLI::App* verb = line.add("list", "lists the cases, scenes, deformers, studies, claims and metrics", [asked] { return list(*asked); });
     verb->add_option("kind", *asked, "which of them; by default all")
         ->check(CLI::IsMember({"cases", "scenes", "deformers", "studies", "claims", "metrics"}));
-    verb->callback([&action, asked] { action = [asked] { return list(*asked); }; });
 }
 
 // pbskin explain NAME: prints what a metric, claim, scene key, study, deformer or scene means.
@@ -178,23 +176,16 @@ bool explain_key(const std::string& name)
 
 bool explain_metric(const std::string& name)
 {
-    for (const auto& text : metric_texts()) {
-        if (text.name != name) continue;
-        fmt::print("{} (metric)\n", text.name);
-        line("meaning", text.meaning);
-        line("formula", text.formula);
-        line("", fmt::format("{}", fmt::join(text.symbols, "\n")));
-        line("unit", text.unit);
-        line("source", text.source);
-        line("cost", text.cost);
-        return true;
-    }
-    return false;
-}
-
-bool is_metric(const std::string& name)
-{
-    return std::any_of(metric_texts().begin(), metric_texts().end(), [&](const MetricText& text) { return text.name == name; });
+    const MetricText* text = find_metric(name);
+    if (!text) return false;
+    fmt::print("{} (metric)\n", text->name);
+    line("meaning", text->meaning);
+    line("formula", text->formula);
+    line("", fmt::format("{}", fmt::join(text->symbols, "\n")));
+    line("unit", text->unit);
+    line("source", text->source);
+    line("cost", text->cost);
+    return true;
 }
 
 // A claim is found by its id, and by a quantity that decides it unless a metric has that name.
@@ -202,7 +193,7 @@ bool explain_claim(const std::string& name)
 {
     bool found = false;
     for (const auto& claim : claims()) {
-        const bool is_decided_by_it = std::count(claim.metrics.begin(), claim.metrics.end(), name) && !is_metric(name);
+        const bool is_decided_by_it = std::count(claim.metrics.begin(), claim.metrics.end(), name) && !find_metric(name);
         if (claim.id != name && !is_decided_by_it) continue;
         fmt::print("{}", page_of(claim.id));
         found = true;
@@ -224,23 +215,20 @@ std::string part_text(Extent extent)
 // The README of the study, and what it costs on this machine with the bodies that are installed.
 bool explain_study(const std::string& name)
 {
-    for (const auto& study : studies()) {
-        if (study.name != name) continue;
-        fmt::print("{}\nCost on this machine\n\n", page_of(name));
-        line("--quick", extent_text(study, false));
-        line("--full", extent_text(study, true));
-        line("part of", fmt::format("reproduce: {}\nreproduce --full: {}", part_text(study.sets.quick), part_text(study.sets.full)));
-        return true;
-    }
-    return false;
+    const auto study = std::ranges::find(studies(), name, &Study::name);
+    if (study == studies().end()) return false;
+    fmt::print("{}\nCost on this machine\n\n", page_of(name));
+    line("--quick", extent_text(*study, false));
+    line("--full", extent_text(*study, true));
+    line("part of", fmt::format("reproduce: {}\nreproduce --full: {}", part_text(study->sets.quick), part_text(study->sets.full)));
+    return true;
 }
 
 bool explain_deformer_or_scene(const std::string& name)
 {
-    for (const auto& kind : deformer_kinds()) {
-        if (kind.name != name) continue;
-        fmt::print("{} (deformer)\n", kind.name);
-        line("meaning", kind.meaning);
+    if (const DeformerKind* kind = find_deformer_kind(name)) {
+        fmt::print("{} (deformer)\n", kind->name);
+        line("meaning", kind->meaning);
         if (pages::by_name.contains(name)) fmt::print("\n{}\n", page_of(name));
         return true;
     }
@@ -276,12 +264,12 @@ int explain(const std::string& name)
 
 }  // namespace
 
-void add_explain_verb(CLI::App& app, CommonOptions& common, VerbAction& action)
+void add_explain_verb(CommandLine& line)
 {
-    CLI::App* verb = add_verb(app, common, "explain", "prints what a metric, claim, scene key, study, deformer or scene means");
     auto name = std::make_shared<std::string>();
+    CLI::App* verb =
+        line.add("explain", "prints what a metric, claim, scene key, study, deformer or scene means", [name] { return explain(*name); });
     verb->add_option("name", *name, "its name, e.g. volume_change_pct, C02, pbs.k_volume")->required();
-    verb->callback([&action, name] { action = [name] { return explain(*name); }; });
 }
 
 }  // namespace experiments

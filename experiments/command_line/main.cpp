@@ -17,9 +17,10 @@
 
 namespace experiments {
 
-CLI::App* add_verb(CLI::App& app, CommonOptions& common, const std::string& name, const std::string& meaning)
+CLI::App* CommandLine::add(const std::string& name, const std::string& meaning, const std::function<int()>& its_action)
 {
     CLI::App* verb = app.add_subcommand(name, meaning);
+    verb->callback([this, its_action] { action = its_action; });
     verb->add_flag("--quiet", common.quiet, "errors only");
     verb->add_flag("--verbose", common.verbose, "print more: the results of each run of a study");
     verb->add_option("--threads", common.threads,
@@ -61,11 +62,10 @@ int parse_and_act(int argc, char** argv)
     json->needs(app.set_version_flag("--version", [&] { return version_text(as_json); }));
     app.add_flag_callback("--describe", [&app] { throw CLI::CallForVersion(describe(app), 0); })->group("");
     app.require_subcommand(1);
-    CommonOptions common;
-    VerbAction action;
+    CommandLine line{app};
     for (const auto add : {add_list_verb, add_explain_verb, add_try_verb, add_run_verb, add_reproduce_verb, add_check_verb,
                            add_measure_verb, add_mesh_verb, add_bench_verb, add_fetch_verb, add_report_verb})
-        add(app, common, action);
+        add(line);
     app.failure_message([](const CLI::App*, const CLI::Error& error) {
         return std::string("pbskin: ") + error.what() + "; `pbskin --help` lists the verbs, `pbskin VERB --help` their options\n";
     });
@@ -74,9 +74,10 @@ int parse_and_act(int argc, char** argv)
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? exit_finished : exit_input;
     }
-    start_log(common);
+    start_log(line.common);
+    if (line.common.quiet) hide_progress();
     watch_interrupts();
-    return action();
+    return line.action();
 }
 
 int reported(const Failure& failure)

@@ -26,32 +26,6 @@
 #include <vector>
 
 namespace experiments {
-
-// Frames that another program has written. They must have the vertices of the rest mesh, in the same order and in the same unit.
-//   const RestMesh rest(pbs::read_tet_mesh("rest.msh"));
-//   const pbs::Positions positions = rest.read_frame("frame_0001.vtu");
-class RestMesh {
-public:
-    explicit RestMesh(const pbs::MeshReading& reading);
-
-    // [m], #V x 3. InputError for another number of vertices, for other tets, and for positions in another unit. The order of the tets and
-    // of their corners may differ, for readers and exporters change it; the metrics take that of the rest mesh.
-    pbs::Positions read_frame(const std::string& path) const;
-
-    const pbs::TetMesh& mesh() const { return mesh_; }
-    const pbs::Edges& edges() const { return edges_; }
-
-private:
-    void require_same_tets(const std::string& path, const pbs::Tets& tets) const;
-    void require_same_units(const std::string& path, const pbs::Positions& positions) const;
-
-    pbs::TetMesh mesh_;
-    std::vector<int> file_vertex_;  // of the rest mesh's file, #V
-    int file_vertices_ = 0;
-    pbs::Edges edges_;
-    pbs::Tets corners_;  // each tet's in ascending order as the file numbers them, and the tets sorted
-};
-
 namespace {
 
 using Corners = std::array<int, 4>;
@@ -83,63 +57,79 @@ constexpr std::array units = {Unit{10.0, "millimetres against centimetres"}, Uni
 // The median edge of a body is never stretched or compressed by a factor of two, and hardly by exactly the factor of a unit.
 constexpr double nearness = 0.1, twofold = 2.0;
 
-}  // namespace
+// Frames that another program has written. They must have the vertices of the rest mesh, in the same order and in the same unit.
+//   const RestMesh rest(pbs::read_tet_mesh("rest.msh"));
+//   const pbs::Positions positions = rest.read_frame("frame_0001.vtu");
+class RestMesh {
+public:
+    explicit RestMesh(const pbs::MeshReading& reading)
+        : mesh_(reading.mesh),
+          file_vertex_(reading.file_vertex),
+          file_vertices_(reading.file_vertices),
+          edges_(pbs::edges_of(mesh_.tets)),
+          corners_(sorted_corners(mesh_.tets.unaryExpr([this](int vertex) { return file_vertex_[vertex]; })))
+    {
+    }
 
-RestMesh::RestMesh(const pbs::MeshReading& reading)
-    : mesh_(reading.mesh),
-      file_vertex_(reading.file_vertex),
-      file_vertices_(reading.file_vertices),
-      edges_(pbs::edges_of(mesh_.tets)),
-      corners_(sorted_corners(mesh_.tets.unaryExpr([this](int vertex) { return file_vertex_[vertex]; })))
-{
-}
+    // [m], #V x 3. InputError for another number of vertices, for other tets, and for positions in another unit. The order of the tets and
+    // of their corners may differ, for readers and exporters change it; the metrics take that of the rest mesh.
+    pbs::Positions read_frame(const std::string& path) const
+    {
+        const pbs::TetMesh frame = pbs::read_tet_frame(path);
+        if (frame.rest.rows() != file_vertices_)
+            throw pbs::InputError(
+                path, 0, "vertices", std::to_string(frame.rest.rows()),
+                fmt::format("expected the rest mesh's {}: exporters that join, split or leave out points change the number",
+                            file_vertices_));
+        require_same_tets(path, frame.tets);
+        const pbs::Positions positions = frame.rest(file_vertex_, Eigen::all);
+        require_same_units(path, positions);
+        return positions;
+    }
 
-pbs::Positions RestMesh::read_frame(const std::string& path) const
-{
-    const pbs::TetMesh frame = pbs::read_tet_frame(path);
-    if (frame.rest.rows() != file_vertices_)
-        throw pbs::InputError(
-            path, 0, "vertices", std::to_string(frame.rest.rows()),
-            fmt::format("expected the rest mesh's {}: exporters that join, split or leave out points change the number", file_vertices_));
-    require_same_tets(path, frame.tets);
-    const pbs::Positions positions = frame.rest(file_vertex_, Eigen::all);
-    require_same_units(path, positions);
-    return positions;
-}
+    const pbs::TetMesh& mesh() const { return mesh_; }
+    const pbs::Edges& edges() const { return edges_; }
 
-void RestMesh::require_same_tets(const std::string& path, const pbs::Tets& tets) const
-{
-    if (tets.rows() != corners_.rows())
-        throw pbs::InputError(path, 0, "tets", std::to_string(tets.rows()), fmt::format("expected the rest mesh's {}", corners_.rows()));
-    const pbs::Tets corners = sorted_corners(tets);
-    for (Eigen::Index t = 0; t < corners.rows(); ++t)
-        if (corners.row(t) != corners_.row(t))
-            throw pbs::InputError(path, 0, "tets", "",
-                                  fmt::format("expected the rest mesh's, on the same vertices; it has a tet on {} {} {} {}, and this frame "
-                                              "does not: was the order of the vertices kept on export?",
-                                              corners_(t, 0), corners_(t, 1), corners_(t, 2), corners_(t, 3)));
-}
+private:
+    void require_same_tets(const std::string& path, const pbs::Tets& tets) const
+    {
+        if (tets.rows() != corners_.rows())
+            throw pbs::InputError(path, 0, "tets", std::to_string(tets.rows()),
+                                  fmt::format("expected the rest mesh's {}", corners_.rows()));
+        const pbs::Tets corners = sorted_corners(tets);
+        for (Eigen::Index t = 0; t < corners.rows(); ++t)
+            if (corners.row(t) != corners_.row(t))
+                throw pbs::InputError(
+                    path, 0, "tets", "",
+                    fmt::format("expected the rest mesh's, on the same vertices; it has a tet on {} {} {} {}, and this frame "
+                                "does not: was the order of the vertices kept on export?",
+                                corners_(t, 0), corners_(t, 1), corners_(t, 2), corners_(t, 3)));
+    }
 
-void RestMesh::require_same_units(const std::string& path, const pbs::Positions& positions) const
-{
-    const double ratio = analysis::median_edge_ratio(mesh_.rest, edges_, positions);
-    if (ratio < twofold && ratio > 1.0 / twofold) return;
-    for (const Unit& unit : units)
-        for (const double factor : {unit.factor, 1.0 / unit.factor})
-            if (std::abs(ratio / factor - 1.0) <= nearness)
-                throw pbs::InputError(path, 0, "median edge", fmt::format("{:.4g} times the rest mesh's", ratio),
-                                      fmt::format("expected the rest mesh's unit; a factor of {:.5g}, as of {}{}", factor, unit.what,
-                                                  factor < 1.0 ? " (the other way round)" : ""));
-}
+    void require_same_units(const std::string& path, const pbs::Positions& positions) const
+    {
+        const double ratio = analysis::median_edge_ratio(mesh_.rest, edges_, positions);
+        if (ratio < twofold && ratio > 1.0 / twofold) return;
+        for (const Unit& unit : units)
+            for (const double factor : {unit.factor, 1.0 / unit.factor})
+                if (std::abs(ratio / factor - 1.0) <= nearness)
+                    throw pbs::InputError(path, 0, "median edge", fmt::format("{:.4g} times the rest mesh's", ratio),
+                                          fmt::format("expected the rest mesh's unit; a factor of {:.5g}, as of {}{}", factor, unit.what,
+                                                      factor < 1.0 ? " (the other way round)" : ""));
+    }
 
-namespace {
+    pbs::TetMesh mesh_;
+    std::vector<int> file_vertex_;  // of the rest mesh's file, #V
+    int file_vertices_ = 0;
+    pbs::Edges edges_;
+    pbs::Tets corners_;  // each tet's in ascending order as the file numbers them, and the tets sorted
+};
 
 struct MeasureArguments {
     std::string rest, csv;
     std::vector<std::string> frames;
     std::vector<analysis::FrameBound> bounds = analysis::known_frame_bounds();
     CheckReports reports;
-    bool quiet = false;
 };
 
 // The worst tet of a frame with inverted tets. The reader refuses frames that are not finite.
@@ -165,12 +155,6 @@ const Columns<analysis::MeasuredFrame> columns =
     Columns<analysis::MeasuredFrame>{{"frame", &analysis::MeasuredFrame::name, "", "name of the frame's file"}} +
     analysis::within(&analysis::MeasuredFrame::values, value_columns);
 
-void print_head()
-{
-    fmt::print("{:<32} {:>14} {:>14} {:>9} {:>10} {:>10} {:>12} {:>12}\n", "frame", "volume %", "volume abs %", "inverted", "j_min",
-               "j_max", "stretch rms", "edge strain");
-}
-
 void print_row(const analysis::MeasuredFrame& frame)
 {
     const analysis::FrameMetrics& m = frame.values.metrics;
@@ -190,18 +174,13 @@ bool report_broken(const std::vector<analysis::FrameBound>& bounds, const std::s
     return all_hold;
 }
 
-void require_usable(const MeasureArguments& arguments)
+// A frame that cannot be read or does not fit is reported, and the others are measured.
+int measure(const MeasureArguments& arguments, bool quiet)
 {
+    const pbs::Stopwatch stopwatch;
     std::for_each(arguments.bounds.begin(), arguments.bounds.end(), analysis::require_meaningful);
     if (!arguments.csv.empty()) analysis::require_writable(arguments.csv);
     require_writable(arguments.reports);
-}
-
-// A frame that cannot be read or does not fit is reported, and the others are measured.
-int measure(const MeasureArguments& arguments)
-{
-    const pbs::Stopwatch stopwatch;
-    require_usable(arguments);
     const std::vector<std::string> paths = frame_files(arguments.frames), names = frame_names(paths);
     const pbs::MeshReading reading = pbs::read_tet_mesh(arguments.rest);
     warn(pbs::remarks_on(arguments.rest, reading));
@@ -210,12 +189,14 @@ int measure(const MeasureArguments& arguments)
     std::vector<analysis::MeasuredFrame> frames;
     std::vector<analysis::RefusedFrame> refused;
     bool all_hold = true;
-    if (!arguments.quiet) print_head();
+    if (!quiet)
+        fmt::print("{:<32} {:>14} {:>14} {:>9} {:>10} {:>10} {:>12} {:>12}\n", "frame", "volume %", "volume abs %", "inverted", "j_min",
+                   "j_max", "stretch rms", "edge strain");
     for (std::size_t i = 0; i < paths.size(); ++i) {
         try {
             const pbs::Positions positions = rest.read_frame(paths[i]);
             frames.push_back({names[i], values_of(rest, mesh_metrics, positions)});
-            if (!arguments.quiet) print_row(frames.back());
+            if (!quiet) print_row(frames.back());
             if (frames.back().values.metrics.inverted_tets > 0)
                 fmt::print(stderr, "pbskin: {}: {}\n", paths[i], worst_of(mesh_metrics, positions));
             all_hold = report_broken(arguments.bounds, paths[i], frames.back()) && all_hold;
@@ -233,12 +214,12 @@ int measure(const MeasureArguments& arguments)
 
 }  // namespace
 
-void add_measure_verb(CLI::App& app, CommonOptions& common, VerbAction& action)
+void add_measure_verb(CommandLine& line)
 {
-    CLI::App* verb =
-        add_verb(app, common, "measure",
-                 "applies the metrics to frames of any program: a rest tet mesh and deformed frames; exit 1 if a bound does not hold");
     auto arguments = std::make_shared<MeasureArguments>();
+    CLI::App* verb = line.add(
+        "measure", "applies the metrics to frames of any program: a rest tet mesh and deformed frames; exit 1 if a bound does not hold",
+        [&common = line.common, arguments] { return measure(*arguments, common.quiet); });
     verb->add_option("rest", arguments->rest, "rest tet mesh: .msh .vtu .vtk .mesh .tobj .ele")->required();
     verb->add_option(
             "frames", arguments->frames,
@@ -249,12 +230,6 @@ void add_measure_verb(CLI::App& app, CommonOptions& common, VerbAction& action)
     for (analysis::FrameBound& bound : arguments->bounds) verb->add_option(bound.option, bound.value, bound.meaning);
     verb->add_option("--junit", arguments->reports.junit, "write a JUnit report with one test case per bound");
     verb->add_flag("--github", arguments->reports.github, "annotations for GitHub on stdout (the default where GITHUB_ACTIONS is true)");
-    verb->callback([&action, &common, arguments] {
-        action = [&common, arguments] {
-            arguments->quiet = common.quiet;
-            return measure(*arguments);
-        };
-    });
 }
 
 }  // namespace experiments

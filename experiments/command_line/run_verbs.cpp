@@ -6,15 +6,20 @@
 #include "experiments/run/run.hpp"
 #include "experiments/studies/reproduce.hpp"
 #include "experiments/studies/study.hpp"
+#include "experiments/studies/timing/bench.hpp"
 #include "experiments/verdicts/check/check_run.hpp"
+#include "pbs/geometry/input_error.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace experiments {
@@ -27,7 +32,6 @@ struct RunArguments {
 
 int run(const RunArguments& arguments, const CommonOptions& common)
 {
-    if (common.quiet) hide_progress();
     Scene scene = read_scene(arguments.scene, arguments.overrides);
     const std::string folder = arguments.folder.empty() ? "results/" + scene.name : arguments.folder;
     for (DeformerSpec& spec : scene.deformers) spec.threads = common.threads;
@@ -41,40 +45,33 @@ int run(const RunArguments& arguments, const CommonOptions& common)
 
 }  // namespace
 
-void add_run_verb(CLI::App& app, CommonOptions& common, VerbAction& action)
+void add_run_verb(CommandLine& line)
 {
-    CLI::App* verb = add_verb(app, common, "run", "runs one scene and writes frames and records");
     auto arguments = std::make_shared<RunArguments>();
+    CLI::App* verb = line.add("run", "runs one scene and writes frames and records",
+                              [&common = line.common, arguments] { return run(*arguments, common); });
     verb->add_option("scene", arguments->scene, "a scene file, or the name of a built-in scene")->required();
     verb->add_option("-o,--output", arguments->folder, "folder of the records; by default results/NAME");
     verb->add_option("--set", arguments->overrides, "key=value, e.g. pbs.iterations=96")->allow_extra_args(false);
-    verb->callback([&action, &common, arguments] { action = [&common, arguments] { return run(*arguments, common); }; });
 }
 
 // pbskin reproduce [CLAIM or STUDY]... [-o DIR] [--quick, --full] [-j N] [--resume]
 //                  [--external FILE] [--only RUN]...: runs studies and computes verdicts.
 
-namespace {
-
-std::string meaning_of_full()
+void add_reproduce_verb(CommandLine& line)
 {
+    auto arguments = std::make_shared<ReproduceArguments>();
+    auto quick = std::make_shared<bool>(false), judge = std::make_shared<bool>(false);
+    CLI::App* verb =
+        line.add("reproduce", "runs studies, writes their records and computes verdicts; by default the studies of the quick set",
+                 [arguments, judge] { return *judge ? judge_again(*arguments) : reproduce(*arguments); });
+    verb->add_option("names", arguments->names, "claims (C02) or studies (volume)");
+    verb->add_option("-o,--output", arguments->folder, "folder of the records")->capture_default_str();
     std::vector<std::string> in_part;
     for (const Study& study : studies())
         if (study.sets.full == Extent::quick) in_part.push_back(study.name);
-    return fmt::format("the whole studies; without names, only a part of {}", fmt::join(in_part, ", "));
-}
-
-}  // namespace
-
-void add_reproduce_verb(CLI::App& app, CommonOptions& common, VerbAction& action)
-{
-    CLI::App* verb = add_verb(app, common, "reproduce",
-                              "runs studies, writes their records and computes verdicts; by default the studies of the quick set");
-    auto arguments = std::make_shared<ReproduceArguments>();
-    verb->add_option("names", arguments->names, "claims (C02) or studies (volume)");
-    verb->add_option("-o,--output", arguments->folder, "folder of the records")->capture_default_str();
-    auto* full = verb->add_flag("--full", arguments->full, meaning_of_full());
-    auto quick = std::make_shared<bool>(false);
+    auto* full = verb->add_flag("--full", arguments->full,
+                                fmt::format("the whole studies; without names, only a part of {}", fmt::join(in_part, ", ")));
     verb->add_flag("--quick", *quick, "a part of each study that decides the same claims in minutes (default)")->excludes(full);
     verb->add_option("-j,--jobs", arguments->jobs, "number of runs in parallel")->check(CLI::Range(1, 256))->capture_default_str();
     auto* resume = verb->add_flag("--resume", arguments->resume, "keep the runs that are finished already");
@@ -88,18 +85,11 @@ void add_reproduce_verb(CLI::App& app, CommonOptions& common, VerbAction& action
                      ->type_name("RUN")
                      ->expected(1)
                      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    auto judge = std::make_shared<bool>(false);
     verb->add_flag("--judge", *judge, "run nothing and compute the verdicts from the records in the folder")
         ->excludes(full)
         ->excludes(resume)
         ->excludes(external)
         ->excludes(only);
-    verb->callback([&action, &common, arguments, judge] {
-        action = [&common, arguments, judge] {
-            if (common.quiet) hide_progress();
-            return *judge ? judge_again(*arguments) : reproduce(*arguments);
-        };
-    });
 }
 
 // pbskin check [-o DIR] [--junit FILE] [--baseline FILE]: checks volume preservation and other bounds in continuous integration.
@@ -108,7 +98,6 @@ namespace {
 
 int check(CheckArguments arguments, const CheckReports& reports, const CommonOptions& common)
 {
-    if (common.quiet) hide_progress();
     arguments.threads = common.threads;
     std::error_code reported_by_the_run;
     if (!reports.junit.empty()) std::filesystem::create_directories(arguments.folder, reported_by_the_run);  // the report may go there
@@ -127,14 +116,14 @@ int check(CheckArguments arguments, const CheckReports& reports, const CommonOpt
 
 }  // namespace
 
-void add_check_verb(CLI::App& app, CommonOptions& common, VerbAction& action)
+void add_check_verb(CommandLine& line)
 {
-    CLI::App* verb =
-        add_verb(app, common, "check",
-                 "checks in continuous integration: runs small real scenes and compares volume preservation and other values with "
-                 "bounds and a baseline; exit 1 if one does not hold");
     auto arguments = std::make_shared<CheckArguments>();
     auto reports = std::make_shared<CheckReports>();
+    CLI::App* verb = line.add("check",
+                              "checks in continuous integration: runs small real scenes and compares volume preservation and other "
+                              "values with bounds and a baseline; exit 1 if one does not hold",
+                              [&common = line.common, arguments, reports] { return check(*arguments, *reports, common); });
     verb->add_option("-o,--output", arguments->folder, "folder of the records")->capture_default_str();
     verb->add_option(
         "--bounds", arguments->bounds,
@@ -147,8 +136,64 @@ void add_check_verb(CLI::App& app, CommonOptions& common, VerbAction& action)
                    "exit 2 if the body of a scene is not installed, instead of leaving the scene out");
     verb->add_option("--junit", reports->junit, "write a JUnit report with one test case per bound");
     verb->add_flag("--github", reports->github, "annotations for GitHub on stdout (the default where GITHUB_ACTIONS is true)");
-    verb->callback(
-        [&action, &common, arguments, reports] { action = [&common, arguments, reports] { return check(*arguments, *reports, common); }; });
+}
+
+// pbskin bench [--mesh TETS] [--threads N] [--json]: times a step and every deformer, and compares them with plain loops in the same run.
+
+namespace {
+
+struct BenchArguments {
+    BenchOptions options;
+    std::vector<std::string> sizes;
+    std::string folder;
+    bool json = false;
+};
+
+// The path of the record, checked before anything is measured. "": no record is asked for.
+std::string writable_record(const std::string& folder)
+{
+    if (folder.empty()) return "";
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error) throw pbs::InputError(folder, 0, "", "", "the output folder cannot be made: " + error.message());
+    const std::string record = (std::filesystem::path(folder) / "bench.json").string();
+    analysis::require_writable(record);
+    return record;
+}
+
+int bench(BenchArguments arguments, int threads)
+{
+    arguments.options.threads = threads;
+    for (const std::string& size : arguments.sizes) arguments.options.sizes.push_back(parse_size(size));
+    std::sort(arguments.options.sizes.begin(), arguments.options.sizes.end());  // so that the peak of memory belongs to the latest
+    const std::string file = writable_record(arguments.folder);
+    const nlohmann::json record = run_bench(arguments.options);
+    const std::string json = record.dump(2) + "\n";
+    if (!file.empty()) analysis::write_text_atomically(file, json);
+    fmt::print("{}", arguments.json ? json : bench_table(record));
+    return exit_finished;
+}
+
+}  // namespace
+
+void add_bench_verb(CommandLine& line)
+{
+    auto arguments = std::make_shared<BenchArguments>();
+    CLI::App* verb =
+        line.add("bench", "times projections, steps, all deformers and FEM, as ratios to plain loops in the same run", [&line, arguments] {
+            const bool asked = line.app.get_subcommand("bench")->count("--threads") > 0;
+            return bench(*arguments, asked ? line.common.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency())));
+        });
+    auto* mesh = verb->add_option("--mesh", arguments->options.mesh, "a tet mesh; by default bars of about 2,200 and 19,500 vertices");
+    verb->add_option("--sizes", arguments->sizes, "bars with these numbers of tets, e.g. 1K,10K,100K,1M, and the growth of the cost")
+        ->delimiter(',')
+        ->excludes(mesh);
+    verb->add_flag("--json", arguments->json, "the record, for programs");
+    verb->add_option("-o,--output", arguments->folder, "folder that bench.json is written to");
+    verb->add_option("--seconds", arguments->options.seconds, "approximate time of the rounds on each mesh")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    verb->add_flag("--quick", arguments->options.quick, "a few milliseconds, to test that it runs; the times are useless");
 }
 
 }  // namespace experiments

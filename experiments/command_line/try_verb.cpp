@@ -14,13 +14,8 @@
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
-#include <spawn.h>
 #include <spdlog/spdlog.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <cerrno>
-#include <cstdio>
 #include <filesystem>
 
 namespace experiments {
@@ -55,32 +50,21 @@ int write_report_page(const std::string& folder, bool quiet)
                               "not found: the page is made by scripts that are installed with the program");
     std::vector<std::string> words = {python_that_draws(), "-B", page_maker().string(), folder};
     if (quiet) words.push_back("--quiet");
-    std::vector<char*> arguments;
-    for (std::string& word : words) arguments.push_back(word.data());
-    arguments.push_back(nullptr);
-    std::fflush(nullptr);
-    pid_t process = 0;
-    if (posix_spawnp(&process, arguments.front(), nullptr, nullptr, arguments.data(), environ) != 0)
-        throw pbs::InputError("", 0, "report", words.front(), "cannot be started");
-    int status = 0;
-    while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
-    }
-    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    const ProgramRun page = run_program(words, std::nullopt);
+    if (!page.started) throw pbs::InputError("", 0, "report", words.front(), "cannot be started");
+    return page.status >= 0 ? page.status : 128 - page.status;
 }
 
 // pbskin report DIR: writes the records and the figures drawn from them as one self-contained page, DIR/report.html.
-void add_report_verb(CLI::App& app, CommonOptions& common, VerbAction& action)
+void add_report_verb(CommandLine& line)
 {
-    CLI::App* verb =
-        add_verb(app, common, "report", "writes records and drawn figures on one self-contained HTML page and states what is missing");
     auto folder = std::make_shared<std::string>();
+    CLI::App* verb = line.add("report", "writes records and drawn figures on one self-contained HTML page and states what is missing",
+                              [&common = line.common, folder] { return write_report_page(*folder, common.quiet); });
     verb->add_option("folder", *folder, "the folder that reproduce wrote; the page is report.html in it")->required();
-    verb->callback([&action, &common, folder] { action = [&common, folder] { return write_report_page(*folder, common.quiet); }; });
 }
 
 namespace {
-
-namespace fs = std::filesystem;
 
 // Runs the scene that was just written. If it is refused, nothing of it is left behind.
 RunResult run_new_scene(const std::string& scene_file, const std::string& folder, bool folder_is_new, int threads,
@@ -112,7 +96,6 @@ void refuse_a_scene_of_the_user(const std::string& scene_file, const std::string
 
 int try_model(TrialOptions options, const CommonOptions& common)
 {
-    if (common.quiet) hide_progress();
     if (options.folder.empty()) options.folder = "results/" + fs::path(options.model).stem().string();
     const TrialScene made = trial_scene(options);
     std::error_code code;
@@ -138,10 +121,11 @@ int try_model(TrialOptions options, const CommonOptions& common)
 
 }  // namespace
 
-void add_try_verb(CLI::App& app, CommonOptions& common, VerbAction& action)
+void add_try_verb(CommandLine& line)
 {
-    CLI::App* verb = add_verb(app, common, "try", "runs a rigged model through its own motion and shows the result on a page");
     auto options = std::make_shared<TrialOptions>();
+    CLI::App* verb = line.add("try", "runs a rigged model through its own motion and shows the result on a page",
+                              [&common = line.common, options] { return try_model(*options, common); });
     verb->add_option("model", options->model, ".glb .gltf .fbx .dae .zae")->required();
     verb->add_option("--animation", options->animation,
                      "an animation of the model by name, or a clip (.bvh .gltf .glb .fbx); by default the model's first one");
@@ -156,7 +140,6 @@ void add_try_verb(CLI::App& app, CommonOptions& common, VerbAction& action)
     verb->add_flag("--allow-partial", options->allow_partial, "accepts a clip of which fewer than half of the moving joints match a bone");
     verb->add_flag_callback(
         "--no-reference", [options] { options->reference = false; }, "leaves out the finite elements, which take most of the time");
-    verb->callback([&action, &common, options] { action = [&common, options] { return try_model(*options, common); }; });
 }
 
 }  // namespace experiments

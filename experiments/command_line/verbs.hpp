@@ -1,4 +1,4 @@
-// The verbs of `pbskin`. A verb adds its options and its action, which returns the exit status.
+// The verbs of `pbskin`. A verb adds its options and its action.
 #pragma once
 
 #include "experiments/process/terminal.hpp"
@@ -19,15 +19,18 @@ struct CommonOptions {
     int threads = 1;
 };
 
-using VerbAction = std::function<int()>;
+struct CommandLine {
+    CLI::App& app;
+    CommonOptions common = {};
+    std::function<int()> action = {};  // of the verb that is named; it returns the exit status
 
-// Each sets `action` when the command line names its verb.
-using AddVerb = void(CLI::App& app, CommonOptions& common, VerbAction& action);
+    // A subcommand with the options of all verbs: --quiet, --verbose, --threads.
+    CLI::App* add(const std::string& verb, const std::string& meaning, const std::function<int()>& its_action);
+};
+
+using AddVerb = void(CommandLine& line);
 AddVerb add_list_verb, add_explain_verb, add_try_verb, add_run_verb, add_reproduce_verb, add_check_verb, add_measure_verb, add_mesh_verb,
     add_bench_verb, add_fetch_verb, add_report_verb;
-
-// Adds a subcommand with the options of all verbs: --quiet, --verbose, --threads.
-CLI::App* add_verb(CLI::App& app, CommonOptions& common, const std::string& name, const std::string& meaning);
 
 // The command line and the scene keys as JSON (`pbskin --describe`), from which the manual pages, the manual of scenes and the shells'
 // completions are written. It has name, meaning, options, verbs with their options, and scene_keys. Hidden options are left out.

@@ -6,6 +6,7 @@
 #include "pbs/skinning/delta_mush.hpp"
 #include "pbs/skinning/direct_delta_mush.hpp"
 
+#include <array>
 #include <optional>
 #include <type_traits>
 
@@ -124,18 +125,28 @@ private:
 template <class Scalar>
 using PackedDirectMushDeformer = DirectDeltaMushDeformer<pbs::PackedDirectMush<Scalar>>;
 
+// The weights of DeformerSpec::weights, by the key `weights` of a deformer's table.
+constexpr std::array<pbs::WeightKind, 6> own_weights = {pbs::WeightKind::paper,    pbs::WeightKind::rigid,      pbs::WeightKind::smooth,
+                                                        pbs::WeightKind::diffused, pbs::WeightKind::either_end, pbs::WeightKind::artist};
+
 template <typename Options>
 OptionFields<Options>& add_weights_key(OptionFields<Options>& fields)
 {
+    std::vector<std::string> choices = {"scene"};
+    for (const pbs::WeightKind weights : own_weights) choices.push_back(pbs::name_of(weights));
     fields.key("weights", KeyType::text, "scene",
-               {.choices = own_weights_choices(), .meaning = "the weights that it blends with; scene: those of skinning.weights"});
+               {.choices = choices, .meaning = "the weights that it blends with; scene: those of skinning.weights"});
     return fields;
 }
 
+// Sets the weights and, unless they are the scene's, the variant: weights_smooth.
 template <typename Options>
 void read_weights(const SceneValues& values, const std::string& table, Options& /*options*/, DeformerSpec& spec)
 {
-    read_own_weights(values, table, spec);
+    const std::string weights = values.text(table + ".weights");
+    for (const pbs::WeightKind kind : own_weights)
+        if (weights == pbs::name_of(kind)) spec.weights = kind;
+    if (spec.weights) spec.variant = "weights_" + weights;
 }
 
 template <Blend blend>
@@ -182,7 +193,7 @@ DeformerKind mush_kind(const std::string& name, const std::string& meaning, Opti
 
 void check_direct_mush(const SceneValues& values, const std::string& table, DirectDeltaMushOptions& options, DeformerSpec& spec)
 {
-    read_own_weights(values, table, spec);
+    read_weights(values, table, options, spec);
     if (options.kappa > options.lambda) values.refuse(table + ".kappa", "expected at most lambda");
     if (options.smoothing == pbs::MushSmoothing::explicit_steps && options.lambda > 1.0)
         values.refuse(table + ".lambda", "expected at most 1 with explicit smoothing");
@@ -203,8 +214,8 @@ DeformerKind dqs_kind()
 DeformerKind delta_mush_kind()
 {
     OptionFields<DeltaMushOptions> fields("delta_mush");
-    fields.add("iterations", &DeltaMushOptions::iterations, {.lowest = 0, .highest = 1e6, .meaning = "iterations of Laplacian smoothing"})
-        .add("step", &DeltaMushOptions::step, {.lowest = 0, .highest = 1, .meaning = "share of the way to the neighbours' mean in each"});
+    fields.add("iterations", &DeltaMushOptions::iterations, {.range = {0, 1e6}, .meaning = "iterations of Laplacian smoothing"})
+        .add("step", &DeltaMushOptions::step, {.range = {0, 1}, .meaning = "share of the way to the neighbours' mean in each"});
     return mush_kind<DeltaMushOptions, DeltaMushDeformer<double, pbs::DeltaMush>, PackedMushDeformer>(
         "delta_mush", "LBS, smoothed, to which the detail of the rest shape is added again (Mancewicz 2014): geometry alone", fields);
 }
@@ -215,17 +226,16 @@ DeformerKind direct_delta_mush_kind()
     OptionFields<Options> fields("direct_delta_mush");
     fields
         .add("iterations", &Options::iterations,
-             {.lowest = 0, .highest = 1e4, .meaning = "p, steps of Laplacian smoothing before the first pose; 0: LBS"})
+             {.range = {0, 1e4}, .meaning = "p, steps of Laplacian smoothing before the first pose; 0: LBS"})
         .add("lambda", &Options::lambda,
-             {.lowest = 0,
-              .highest = 1e4,
+             {.range = {0, 1e4},
               .meaning = "size of a step for the rotations and, with the share 1 - alpha, the translations; explicit: at most 1"})
         .add("kappa", &Options::kappa,
-             {.lowest = 0, .highest = 1e4, .meaning = "size of a step for the weights of the translations' share alpha; at most lambda"})
+             {.range = {0, 1e4}, .meaning = "size of a step for the weights of the translations' share alpha; at most lambda"})
         .add("alpha", &Options::alpha,
-             {.lowest = 0, .highest = 1, .meaning = "0: centres move as in delta mush; 1: they move by LBS with weights smoothed by kappa"})
+             {.range = {0, 1}, .meaning = "0: centres move as in delta mush; 1: they move by LBS with weights smoothed by kappa"})
         .add("negligible", &Options::negligible,
-             {.lowest = 0, .highest = 1e-3, .meaning = "smoothed weight below which a bone is dropped from a vertex"})
+             {.range = {0, 1e-3}, .meaning = "smoothed weight below which a bone is dropped from a vertex"})
         .add("smoothing", &Options::smoothing,
              {.meaning = "implicit: (1 + lambda L)^-p as in the paper; explicit: (1 - lambda L)^p as in delta mush"});
     return mush_kind<Options, DirectDeltaMushDeformer<pbs::DirectDeltaMush>, PackedDirectMushDeformer>(

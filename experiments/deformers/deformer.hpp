@@ -96,7 +96,8 @@ struct DeformerSpec {
     std::string variant = "default";  // e.g. jiggle, labels_relative
     std::any options = {};            // the struct of options of the kind; empty: the kind has none
     int threads = 1;                  // that a step may use; results do not depend on their number
-    // Weights by this rule instead of the character's, for a deformer of any kind (registry.hpp). Null: the character's.
+    // Weights by this rule instead of the character's, for a deformer of any kind: LBS with Eq. 2's and with smooth weights on the same
+    // mesh. Null: the character's. InputError at reset where the character brings no such weights.
     std::optional<pbs::WeightKind> weights = {};
 };
 

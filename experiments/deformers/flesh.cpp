@@ -19,15 +19,9 @@
 
 namespace experiments {
 
-template <>
-inline constexpr NameTable<pbs::FleshStart, 2> option_names<pbs::FleshStart>{
-    {{pbs::FleshStart::smooth_dqs, "smooth_dqs"}, {pbs::FleshStart::lbs, "lbs"}}};
-template <>
-inline constexpr NameTable<pbs::Acceleration, 2> option_names<pbs::Acceleration>{
-    {{pbs::Acceleration::over_relaxation, "over_relaxation"}, {pbs::Acceleration::chebyshev, "chebyshev"}}};
-template <>
-inline constexpr NameTable<pbs::XpbdMultipliers, 3> option_names<pbs::XpbdMultipliers>{
-    {{pbs::XpbdMultipliers::kept, "kept"}, {pbs::XpbdMultipliers::of_step, "of_step"}, {pbs::XpbdMultipliers::reset, "reset"}}};
+NAMED_OPTIONS(pbs::FleshStart, smooth_dqs, lbs)
+NAMED_OPTIONS(pbs::Acceleration, over_relaxation, chebyshev)
+NAMED_OPTIONS(pbs::XpbdMultipliers, kept, of_step, reset)
 
 namespace {
 
@@ -43,15 +37,13 @@ template <typename Options>
 OptionFields<Options> flesh_fields(const std::string& kind)
 {
     return OptionFields<Options>(kind)
-        .add("iterations", &Options::iterations, {.lowest = 0, .highest = 1e6, .meaning = "iterations per frame"})
-        .add("poisson", &Options::poisson,
-             {.lowest = 0.0, .highest = 0.4999, .meaning = "Poisson's ratio of the flesh where strains are small"})
+        .add("iterations", &Options::iterations, {.range = {0, 1e6}, .meaning = "iterations per frame"})
+        .add("poisson", &Options::poisson, {.range = {0.0, 0.4999}, .meaning = "Poisson's ratio of the flesh where strains are small"})
         .add("core_radius", &Options::core_radius,
-             {.lowest = above_zero,
-              .highest = 1.0,
+             {.range = {above_zero, 1.0},
               .meaning = "radius of the capsules whose springs hold the flesh, a factor on the limb's radius, without a unit"})
         .add("spring_factor", &Options::spring_factor,
-             {.lowest = above_zero,
+             {.range = {above_zero},
               .meaning = "q, a factor without a unit: the springs have the density q E / r^2 on the axis of a capsule of radius r"})
         .add("start", &Options::start,
              {.meaning = "initial guess of each frame: dual quaternion skinning with weights that the springs determine, or LBS"})
@@ -264,14 +256,11 @@ DeformerKind quasi_newton_kind()
         "quasi_newton", "neo-Hookean flesh in equilibrium on linear tets, by L-BFGS with one prefactored Laplacian (Liu 2017)",
         flesh_fields<Options>("quasi_newton")
             .add("history", &Options::history,
-                 {.lowest = 0, .highest = 100, .meaning = "pairs of steps and changes of the gradient that L-BFGS keeps"})
+                 {.range = {0, 100}, .meaning = "pairs of steps and changes of the gradient that L-BFGS keeps"})
             .add("volume_share", &Options::volume_share,
-                 {.lowest = 0.0,
-                  .highest = 100.0,
-                  .meaning = "share of lambda in the first matrix; it changes the iterates, not the minimum"})
+                 {.range = {0.0, 100.0}, .meaning = "share of lambda in the first matrix; it changes the iterates, not the minimum"})
             .add("stop_gradient", &Options::stop_gradient,
-                 {.lowest = 0.0,
-                  .highest = 1.0,
+                 {.range = {0.0, 1.0},
                   .meaning = "stop where the preconditioned gradient is below this share of its first value; 0: never"}));
 }
 
@@ -283,11 +272,9 @@ DeformerKind vbd_kind()
             .add("acceleration", &VbdFlesh::acceleration,
                  {.meaning = "over-relaxation of each vertex, or Chebyshev's weights after each sweep, which may diverge"})
             .add("omega", &VbdFlesh::omega,
-                 {.lowest = above_zero,
-                  .highest = 1.999,
-                  .meaning = "each vertex moves by omega times the way to its minimum; 1 with chebyshev"})
+                 {.range = {above_zero, 1.999}, .meaning = "each vertex moves by omega times the way to its minimum; 1 with chebyshev"})
             .add("rho", &VbdFlesh::rho,
-                 {.lowest = 0.0, .highest = 0.9999, .meaning = "the spectral radius of a sweep that chebyshev assumes; unused otherwise"}));
+                 {.range = {0.0, 0.9999}, .meaning = "the spectral radius of a sweep that chebyshev assumes; unused otherwise"}));
 }
 
 DeformerKind xpbd_neo_hookean_kind()
@@ -299,10 +286,9 @@ DeformerKind xpbd_neo_hookean_kind()
         "(Macklin and Mueller 2021)",
         flesh_fields<Options>("xpbd_neo_hookean")
             .add("iterations_per_step", &Options::iterations_per_step,
-                 {.lowest = 1, .highest = 1e6, .meaning = "iterations of each step of implicit Euler"})
+                 {.range = {1, 1e6}, .meaning = "iterations of each step of implicit Euler"})
             .add("time_step", &Options::time_step,
-                 {.lowest = above_zero,
-                  .highest = 1e6,
+                 {.range = {above_zero, 1e6},
                   .meaning =
                       "time step over the time in which the stiffness of a vertex moves its mass; above 0.8 some poses end in "
                       "an oscillation, and far below it convergence is slow. With multipliers kept it changes the iterates, not the limit"})
@@ -321,7 +307,7 @@ DeformerKind projective_dynamics_kind()
         flesh_fields<Options>("projective_dynamics")
             .add("keeps_volume", &Options::keeps_volume, {.meaning = "false: without the projection of volumes, as in projective skinning"})
             .add("stop_step", &Options::stop_step,
-                 {.lowest = 0.0, .highest = 1.0, .meaning = "stop where a step is below this share of the first one; 0: never"}));
+                 {.range = {0.0, 1.0}, .meaning = "stop where a step is below this share of the first one; 0: never"}));
 }
 
 }  // namespace experiments

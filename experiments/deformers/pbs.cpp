@@ -75,10 +75,20 @@ private:
 class PbsDeformer : public ProjectingDeformer<pbs::PbsOptions, pbs::PbsSolver> {
 public:
     using ProjectingDeformer::ProjectingDeformer;
-    pbs::StepSummary advance(const pbs::Pose& pose, double dt_s) override;
+    pbs::StepSummary advance(const pbs::Pose& pose, double dt_s) override
+    {
+        if (next_ < foreseen_.size()) return advance_ahead(dt_s);
+        ahead_.reset();
+        return ProjectingDeformer::advance(pose, dt_s);
+    }
     // With several threads, on a mesh whose steps cannot be shared among them, frames are projected in parallel, sixteen per thread. The
     // results are equal to the bit to those of single frames.
-    void foresee(const std::vector<pbs::Pose>& poses) override;
+    void foresee(const std::vector<pbs::Pose>& poses) override
+    {
+        foreseen_ = works_ahead() ? poses : std::vector<pbs::Pose>{};
+        next_ = 0;
+        ahead_.reset();
+    }
     const pbs::Positions& positions() const override
     {
         return ahead_ ? ahead_->positions(done_ahead_ - 1) : ProjectingDeformer::positions();
@@ -86,8 +96,41 @@ public:
     bool has_memory() const override { return options_.jiggle || options_.lbs_entry == pbs::LbsEntry::increment; }
 
 private:
-    bool works_ahead() const;
-    pbs::StepSummary advance_ahead(double dt_s);
+    bool works_ahead() const
+    {
+        const bool another_reading = options_.class_order != pbs::ClassOrder::bind_stretch_volume ||
+                                     options_.lbs_entry != pbs::LbsEntry::start || options_.bind_on_bone != pbs::BindOnBone::pinned;
+        const bool other_constraints = options_.bind_to != pbs::BindTo::bone_distance || options_.volume_of != pbs::VolumeOf::tets ||
+                                       options_.k_stretch_length_m != 0.0;
+        const bool each_its_own = another_reading || other_constraints || options_.jiggle || options_.sleep ||
+                                  options_.stop_residual > 0.0 || options_.record_iterations;
+        return options_.threads > 1 && options_.order != pbs::Order::plain && !each_its_own &&
+               !pbs::shared_among_threads(static_cast<int>(character_->mesh.rest.rows()));
+    }
+    // Returns the next of the frames that are done, or else of a new lot.
+    pbs::StepSummary advance_ahead(double dt_s)
+    {
+        if (!ahead_ || done_ahead_ == static_cast<int>(steps_ahead_.size())) {
+            const pbs::Stopwatch stopwatch;
+            const std::size_t lot = std::min(static_cast<std::size_t>(options_.threads) * pbs::poses_at_once, foreseen_.size() - next_);
+            std::vector<pbs::Positions> lbs(lot), bind_points(lot);
+            for (std::size_t i = 0; i < lot; ++i) {
+                skinning_->linear(foreseen_[next_ + i], lbs[i]);
+                bind_points[i] = bind_points_of(options_, *character_, foreseen_[next_ + i], lbs[i]);
+            }
+            if (!ahead_ || lot != steps_ahead_.size())
+                ahead_ = std::make_unique<pbs::PosesSolver>(character_->mesh, character_->binding.distance, std::vector<bool>{},
+                                                            std::vector<pbs::PbsOptions>(lot, options_));
+            steps_ahead_ = ahead_->advance(lbs, bind_points, dt_s);
+            for (pbs::StepSummary& step : steps_ahead_) {
+                step.seconds = stopwatch.seconds() / double(lot);
+                step.work.vertex_visits += character_->mesh.rest.rows();
+            }
+            done_ahead_ = 0;
+        }
+        ++next_;
+        return steps_ahead_[done_ahead_++];
+    }
 
     std::vector<pbs::Pose> foreseen_;            // coming poses; empty: they are not known, or working ahead does not pay
     std::size_t next_ = 0;                       // the next one of them
@@ -95,57 +138,6 @@ private:
     std::vector<pbs::StepSummary> steps_ahead_;  // of these frames
     int done_ahead_ = 0;
 };
-
-bool PbsDeformer::works_ahead() const
-{
-    const bool another_reading = options_.class_order != pbs::ClassOrder::bind_stretch_volume ||
-                                 options_.lbs_entry != pbs::LbsEntry::start || options_.bind_on_bone != pbs::BindOnBone::pinned;
-    const bool other_constraints =
-        options_.bind_to != pbs::BindTo::bone_distance || options_.volume_of != pbs::VolumeOf::tets || options_.k_stretch_length_m != 0.0;
-    const bool each_its_own = another_reading || other_constraints || options_.jiggle || options_.sleep || options_.stop_residual > 0.0 ||
-                              options_.record_iterations;
-    return options_.threads > 1 && options_.order != pbs::Order::plain && !each_its_own &&
-           !pbs::shared_among_threads(static_cast<int>(character_->mesh.rest.rows()));
-}
-
-void PbsDeformer::foresee(const std::vector<pbs::Pose>& poses)
-{
-    foreseen_ = works_ahead() ? poses : std::vector<pbs::Pose>{};
-    next_ = 0;
-    ahead_.reset();
-}
-
-// Returns the next of the frames that are done, or else of a new lot.
-pbs::StepSummary PbsDeformer::advance_ahead(double dt_s)
-{
-    if (!ahead_ || done_ahead_ == static_cast<int>(steps_ahead_.size())) {
-        const pbs::Stopwatch stopwatch;
-        const std::size_t lot = std::min(static_cast<std::size_t>(options_.threads) * pbs::poses_at_once, foreseen_.size() - next_);
-        std::vector<pbs::Positions> lbs(lot), bind_points(lot);
-        for (std::size_t i = 0; i < lot; ++i) {
-            skinning_->linear(foreseen_[next_ + i], lbs[i]);
-            bind_points[i] = bind_points_of(options_, *character_, foreseen_[next_ + i], lbs[i]);
-        }
-        if (!ahead_ || lot != steps_ahead_.size())
-            ahead_ = std::make_unique<pbs::PosesSolver>(character_->mesh, character_->binding.distance, std::vector<bool>{},
-                                                        std::vector<pbs::PbsOptions>(lot, options_));
-        steps_ahead_ = ahead_->advance(lbs, bind_points, dt_s);
-        for (pbs::StepSummary& step : steps_ahead_) {
-            step.seconds = stopwatch.seconds() / double(lot);
-            step.work.vertex_visits += character_->mesh.rest.rows();
-        }
-        done_ahead_ = 0;
-    }
-    ++next_;
-    return steps_ahead_[done_ahead_++];
-}
-
-pbs::StepSummary PbsDeformer::advance(const pbs::Pose& pose, double dt_s)
-{
-    if (next_ < foreseen_.size()) return advance_ahead(dt_s);
-    ahead_.reset();
-    return ProjectingDeformer::advance(pose, dt_s);
-}
 
 using pbs::XpbdOptions;
 using XpbdDeformer = ProjectingDeformer<XpbdOptions, pbs::XpbdSolver>;
@@ -190,10 +182,10 @@ DeformerKind kind_of_xpbd(const std::string& name, const std::string& meaning, C
     const auto fields =
         OptionFields<XpbdOptions>("xpbd")
             .add("young_pa", &XpbdOptions::young_pa,
-                 {.unit = "Pa", .lowest = above_zero, .meaning = "Young's modulus of xpbd and xpbd_small_steps"})
+                 {.unit = "Pa", .range = {above_zero}, .meaning = "Young's modulus of xpbd and xpbd_small_steps"})
             .add("poisson", &XpbdOptions::poisson,
-                 {.lowest = 0.25, .highest = 0.499999, .meaning = "Poisson's ratio; springs alone have 1/4, volume constraints raise it"})
-            .add("density_kg_m3", &XpbdOptions::density_kg_m3, {.unit = "kg/m^3", .lowest = above_zero, .meaning = "density, lumped"})
+                 {.range = {0.25, 0.499999}, .meaning = "Poisson's ratio; springs alone have 1/4, volume constraints raise it"})
+            .add("density_kg_m3", &XpbdOptions::density_kg_m3, {.unit = "kg/m^3", .range = {above_zero}, .meaning = "density, lumped"})
             .add("order", &XpbdOptions::order,
                  {.meaning =
                       "order of projection within a class: plain is the order of the file; ordered and grouped are those of pbs, which "
@@ -253,25 +245,23 @@ DeformerKind pbs_author_kind()
     DeformerKind kind = kind_of<PbsAuthorDeformer>(
         "pbs_author", "PBS as in the code that the paper's first author published in 2018, which departs from the paper",
         OptionFields<Options>("pbs_author")
-            .add("iterations", &Options::iterations, {.lowest = 0, .highest = 1e6, .meaning = "iterations per frame"})
+            .add("iterations", &Options::iterations, {.range = {0, 1e6}, .meaning = "iterations per frame"})
             .add("time_step_s", &Options::time_step_s,
-                 {.unit = "s", .lowest = above_zero, .meaning = "h, whatever the time between two frames is; without gravity it cancels"})
+                 {.unit = "s", .range = {above_zero}, .meaning = "h, whatever the time between two frames is; without gravity it cancels"})
             .add("gravity_m_s2", &Options::gravity_m_s2,
                  {.unit = "m/s^2",
                   .meaning = "acceleration of every particle; the published code has (0, -9.81, 0) in its own unit of length"})
             .add("length_unit_m", &Options::length_unit_m,
                  {.unit = "m",
-                  .lowest = 1e-6,
-                  .highest = 1e6,
+                  .range = {1e-6, 1e6},
                   .meaning = "unit of length of the threshold 1e-6, below which the sum of a tet's squared volume gradients leaves it out"})
             .add("k_compression", &Options::k_compression,
-                 {.lowest = 0, .highest = 1, .meaning = "stiffness of edges and binds that are shorter than at rest"})
-            .add("k_stretch", &Options::k_stretch, {.lowest = 0, .highest = 1, .meaning = "stiffness of all other edges and binds"})
+                 {.range = {0, 1}, .meaning = "stiffness of edges and binds that are shorter than at rest"})
+            .add("k_stretch", &Options::k_stretch, {.range = {0, 1}, .meaning = "stiffness of all other edges and binds"})
             .add("k_volume_inverted", &Options::k_volume_inverted,
-                 {.lowest = 0, .highest = 6, .meaning = "stiffness of tets with negative volume; as k_volume"})
+                 {.range = {0, 6}, .meaning = "stiffness of tets with negative volume; as k_volume"})
             .add("k_volume", &Options::k_volume,
-                 {.lowest = 0,
-                  .highest = 6,
+                 {.range = {0, 6},
                   .meaning = "stiffness of all other tets; a projection removes k_volume / 6 of the error, since the gradients lack 1/6"}));
     kind.traits = [](const DeformerSpec& spec) {
         return DeformerTraits{.order = "first_fit", .iterations = options_of<Options>(spec).iterations};

@@ -8,20 +8,15 @@ using pbs::PbsOptions;
 
 void add_keys(OptionFields<PbsOptions>& fields)
 {
-    fields.add("iterations", &PbsOptions::iterations, {.lowest = 0, .highest = 1e6, .meaning = "N_iterations of Algorithm 1"})
+    fields.add("iterations", &PbsOptions::iterations, {.range = {0, 1e6}, .meaning = "N_iterations of Algorithm 1"})
         .add("k_stretch", &PbsOptions::k_stretch,
-             {.lowest = 0,
-              .highest = 1,
+             {.range = {0, 1},
               .is_stated = true,
               .meaning = "stiffness of Eq. 10; the paper leaves it unstated outside the jiggling zone; 0 leaves the class out"})
         .add("k_volume", &PbsOptions::k_volume,
-             {.lowest = 0,
-              .highest = 1,
-              .is_stated = true,
-              .meaning = "stiffness of Eq. 11; the paper leaves it unstated; 0 leaves the class out"})
+             {.range = {0, 1}, .is_stated = true, .meaning = "stiffness of Eq. 11; the paper leaves it unstated; 0 leaves the class out"})
         .add("k_bind", &PbsOptions::k_bind,
-             {.lowest = 0,
-              .highest = 1,
+             {.range = {0, 1},
               .is_stated = true,
               .meaning = "stiffness of the bind constraint (Sec. 3.6); the paper leaves it unstated; 0 leaves the class out"})
         .add("gravity_m_s2", &PbsOptions::gravity_m_s2,
@@ -37,15 +32,14 @@ void add_keys(OptionFields<PbsOptions>& fields)
         .add("masses", &PbsOptions::masses,
              {.meaning = "unit: m_i = 1 (the paper); lumped: a quarter of the rest volume of each tet at the vertex"})
         .add("stop_residual", &PbsOptions::stop_residual,
-             {.lowest = 0, .meaning = "the step ends when every residual is below this; 0: all iterations are done"})
+             {.range = {0}, .meaning = "the step ends when every residual is below this; 0: all iterations are done"})
         .add(
             "sleep", &PbsOptions::sleep,
             {.meaning = "constraints that LBS satisfies, and all around them, are left out for the frame; at its end they are checked, and "
                         "the frame is repeated with those that are not satisfied any more; only with the orders ordered and grouped"})
         .add(
             "sleep_tolerance", &PbsOptions::sleep_tolerance,
-            {.lowest = 0,
-             .highest = 1,
+            {.range = {0, 1},
              .meaning = "the error that a sleeping constraint may have: |l / l0 - 1|, |V / V0 - 1|, and for bind a share of the mean edge"})
         .add("record_iterations", &PbsOptions::record_iterations, {.meaning = "writes iterations.csv: residuals per frame and iteration"});
 }
@@ -69,13 +63,11 @@ void add_jiggle_keys(OptionFields<PbsOptions>& fields)
     };
     fields.in_table("jiggle")
         .add("k_stretch", KeyType::number, pbs::Jiggle{}.k_stretch,
-             {.lowest = 0,
-              .highest = 1,
-              .meaning = "stiffness of edges with both ends in the jiggling zone; without this table nothing jiggles"},
+             {.range = {0, 1}, .meaning = "stiffness of edges with both ends in the jiggling zone; without this table nothing jiggles"},
              read_k_stretch, write)
         .add("k_bind", KeyType::number, as_elsewhere,
-             {.lowest = -1, .highest = 1, .meaning = "stiffness of the bind constraints of the zone's vertices; -1: that of pbs.k_bind"},
-             read_k_bind, nullptr)
+             {.range = {-1, 1}, .meaning = "stiffness of the bind constraints of the zone's vertices; -1: that of pbs.k_bind"}, read_k_bind,
+             nullptr)
         .add("zone_mean", KeyType::text, name_of(pbs::ZoneMean::of_all),
              {.choices = names_of_options<pbs::ZoneMean>(),
               .meaning = "the jiggling zone has the vertices that are farther from their bone than the mean: of_all: over all vertices; "
@@ -116,11 +108,10 @@ void add_improvement_keys(OptionFields<PbsOptions>& fields)
              {.meaning = "whose volumes are constrained: tets: each tet's, as in the paper; regions: the sum over each region of the mesh; "
                          "tets_and_regions: both, in this order; only tets with sleep, and with a printed volume_form"})
         .add("region_tets", &PbsOptions::region_tets,
-             {.lowest = 1, .highest = 1e6, .meaning = "tets in a region of volume_of, about; regions grow over shared faces"})
+             {.range = {1, 1e6}, .meaning = "tets in a region of volume_of, about; regions grow over shared faces"})
         .add("k_stretch_length_m", &PbsOptions::k_stretch_length_m,
              {.unit = "m",
-              .lowest = 0,
-              .highest = 1e6,
+              .range = {0, 1e6},
               .meaning = "the edge length at which k_stretch holds; an edge of rest length l has k_e with k_e / (1 - k_e) = k / (1 - k) "
                          "(k_stretch_length_m / l)^2, so that the stiffness does not depend on the mesh; 0: k_stretch for every edge, as "
                          "in the paper"});

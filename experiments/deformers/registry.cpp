@@ -6,7 +6,6 @@
 #include "pbs/geometry/cost.hpp"
 
 #include <algorithm>
-#include <array>
 #include <stdexcept>
 
 namespace experiments {
@@ -40,9 +39,7 @@ const DeformerKind& kind_named(const std::string& name)
     return *kind;
 }
 
-constexpr std::array<pbs::WeightKind, 6> own_weights = {pbs::WeightKind::paper,    pbs::WeightKind::rigid,      pbs::WeightKind::smooth,
-                                                        pbs::WeightKind::diffused, pbs::WeightKind::either_end, pbs::WeightKind::artist};
-
+// A deformer on a character whose skinning weights follow another rule.
 class WeightedDeformer : public Deformer {
 public:
     WeightedDeformer(std::unique_ptr<Deformer> deformer, pbs::WeightKind weights) : deformer_(std::move(deformer)), weights_(weights) {}
@@ -80,9 +77,8 @@ void add_deformer_kind(DeformerKind kind)
 
 const DeformerKind* find_deformer_kind(const std::string& name)
 {
-    const auto& kinds = deformer_kinds();
-    const auto found = std::find_if(kinds.begin(), kinds.end(), [&](const DeformerKind& kind) { return kind.name == name; });
-    return found == kinds.end() ? nullptr : &*found;
+    const auto found = std::ranges::find(deformer_kinds(), name, &DeformerKind::name);
+    return found == deformer_kinds().end() ? nullptr : &*found;
 }
 
 DeformerSpec default_spec(const std::string& kind)
@@ -93,7 +89,7 @@ DeformerSpec default_spec(const std::string& kind)
 std::unique_ptr<Deformer> make_deformer(const DeformerSpec& spec)
 {
     std::unique_ptr<Deformer> deformer = kind_named(spec.kind).make(spec);
-    return spec.weights ? with_own_weights(std::move(deformer), *spec.weights) : std::move(deformer);
+    return spec.weights ? std::make_unique<WeightedDeformer>(std::move(deformer), *spec.weights) : std::move(deformer);
 }
 
 DeformerTraits traits_of(const DeformerSpec& spec)
@@ -123,26 +119,6 @@ pbs::StepSummary TimedDeformer::advance(const pbs::Pose& pose, double dt_s)
     if (!has_own_clock()) summary.seconds = stopwatch.seconds();
     if (!positions_.allFinite()) summary.outcome = pbs::Outcome::not_finite;
     return summary;
-}
-
-std::unique_ptr<Deformer> with_own_weights(std::unique_ptr<Deformer> deformer, pbs::WeightKind weights)
-{
-    return std::make_unique<WeightedDeformer>(std::move(deformer), weights);
-}
-
-std::vector<std::string> own_weights_choices()
-{
-    std::vector<std::string> choices = {"scene"};
-    for (const pbs::WeightKind weights : own_weights) choices.push_back(pbs::name_of(weights));
-    return choices;
-}
-
-void read_own_weights(const SceneValues& values, const std::string& table, DeformerSpec& spec)
-{
-    const std::string weights = values.text(table + ".weights");
-    for (const pbs::WeightKind kind : own_weights)
-        if (weights == pbs::name_of(kind)) spec.weights = kind;
-    if (spec.weights) spec.variant = "weights_" + weights;
 }
 
 void agree_on_code(const SceneValues& values, const std::string& table, pbs::Precision& precision, bool& packed)

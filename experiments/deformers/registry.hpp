@@ -72,15 +72,4 @@ std::unique_ptr<Deformer> make_deformer(const DeformerSpec& spec);
 DeformerTraits traits_of(const DeformerSpec& spec);
 nlohmann::json to_json(const DeformerSpec& spec);  // name, label, kind, variant and options, for records
 
-// The deformer on a character whose skinning weights follow another rule, for comparisons such as LBS with Eq. 2's and with smooth weights
-// on the same mesh. make_deformer applies it wherever DeformerSpec::weights is set; scenes set that by the key `weights` of a deformer's
-// table. InputError at reset where the character brings no such weights.
-std::unique_ptr<Deformer> with_own_weights(std::unique_ptr<Deformer> deformer, pbs::WeightKind weights);
-
-// The values of the key `weights` of a deformer's table: scene (the default), paper, rigid, smooth, diffused, either_end or artist.
-std::vector<std::string> own_weights_choices();
-
-// Sets the weights and, unless they are the scene's, the variant: weights_smooth.
-void read_own_weights(const SceneValues& values, const std::string& table, DeformerSpec& spec);
-
 }  // namespace experiments

@@ -18,7 +18,7 @@
 #include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/process/machine.hpp"
 #include "experiments/process/terminal.hpp"
-#include "experiments/settings/option_fields.hpp"
+#include "experiments/settings/recorded_settings.hpp"
 #include "pbs/character/bodies.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/mesh_io.hpp"
@@ -125,14 +125,6 @@ LoadedBody limb(const BodyArguments& arguments, const reference_fem::LinearOptio
     return body;
 }
 
-// pbs::InputError if the file cannot be read, or if not exactly one body is asked for.
-LoadedBody load_body(const BodyArguments& arguments, const reference_fem::LinearOptions& options)
-{
-    if ((arguments.bar_tets > 0) + (arguments.limb_vertices > 0) + !arguments.mesh_file.empty() != 1)
-        throw pbs::InputError("", 0, "body", "", "expected one of --bar, --limb and --mesh");
-    return arguments.limb_vertices > 0 ? limb(arguments, options) : held_at_the_end(arguments, options);
-}
-
 // Sends the body from rank 0 to all ranks, without its options.
 void broadcast(const reference_fem::MpiSession& session, LoadedBody& body)
 {
@@ -178,28 +170,15 @@ analysis::Provenance provenance()
     return provenance;
 }
 
+RECORD_SETTINGS(BodyArguments, bar_tets, limb_vertices, mesh_file, held_below_m, pulled_above_m, traction_pa, twist_deg, bend_deg)
+RECORD_SETTINGS(reference_fem::LinearOptions, element_order, young_pa, poisson, density_kg_m3, gravity_m_s2, solver, formulation)
+RECORD_SETTINGS(reference_fem::IterativeOptions, tolerance, most_iterations)
+
 nlohmann::json to_json(const DistributedSettings& settings)
 {
-    const BodyArguments& body = settings.body;
-    const reference_fem::LinearOptions& elastic = settings.elastic;
-    return {{"body",
-             {{"bar_tets", body.bar_tets},
-              {"limb_vertices", body.limb_vertices},
-              {"mesh_file", body.mesh_file},
-              {"held_below_m", body.held_below_m},
-              {"pulled_above_m", body.pulled_above_m},
-              {"traction_pa", option_json(body.traction_pa)},
-              {"twist_deg", body.twist_deg},
-              {"bend_deg", body.bend_deg}}},
-            {"elastic",
-             {{"element_order", elastic.element_order},
-              {"young_pa", elastic.young_pa},
-              {"poisson", elastic.poisson},
-              {"density_kg_m3", elastic.density_kg_m3},
-              {"gravity_m_s2", option_json(elastic.gravity_m_s2)},
-              {"solver", name_of(elastic.solver)},
-              {"formulation", name_of(elastic.formulation)}}},
-            {"iterative", {{"tolerance", settings.iterative.tolerance}, {"most_iterations", settings.iterative.most_iterations}}},
+    return {{"body", to_json(settings.body)},
+            {"elastic", to_json(settings.elastic)},
+            {"iterative", to_json(settings.iterative)},
             {"serial", settings.serial}};
 }
 
@@ -234,14 +213,6 @@ nlohmann::json to_json(const DistributedSettings& settings, const LoadedBody& bo
             {"tip_displacement_m", option_json(tip_displacement(body.mesh, solution))},
             {"largest_displacement_m", solution.displacement.rowwise().norm().maxCoeff()},
             {"provenance", provenance()}};
-}
-
-void write_nodes(const std::string& path, const reference_fem::ElasticSolution& solution)
-{
-    std::vector<DisplacedNode> nodes;
-    for (Eigen::Index n = 0; n < solution.nodes.rows(); ++n)
-        nodes.push_back({solution.nodes(n, 0), solution.nodes(n, 1), solution.displacement.row(n)});
-    table_of(node_columns, nodes).write(path);
 }
 
 struct Arguments : DistributedSettings {
@@ -291,8 +262,11 @@ LoadedBody same_body_everywhere(const reference_fem::MpiSession& session, const 
     LoadedBody body;
     std::string failure;
     if (session.rank() == 0) {
+        const BodyArguments& wanted = arguments.body;
         try {
-            body = load_body(arguments.body, arguments.elastic);
+            if ((wanted.bar_tets > 0) + (wanted.limb_vertices > 0) + !wanted.mesh_file.empty() != 1)
+                throw pbs::InputError("", 0, "body", "", "expected one of --bar, --limb and --mesh");
+            body = wanted.limb_vertices > 0 ? limb(wanted, arguments.elastic) : held_at_the_end(wanted, arguments.elastic);
         } catch (const pbs::InputError& error) {
             failure = error.what();
         }
@@ -312,7 +286,11 @@ void write(const Arguments& arguments, const LoadedBody& body, const reference_f
     if (arguments.folder.empty()) return;
     std::filesystem::create_directories(arguments.folder);
     analysis::write_text_atomically(arguments.folder + "/record.json", text);
-    if (arguments.nodes) write_nodes(arguments.folder + "/nodes.csv", solution);
+    if (!arguments.nodes) return;
+    std::vector<DisplacedNode> nodes;
+    for (Eigen::Index n = 0; n < solution.nodes.rows(); ++n)
+        nodes.push_back({solution.nodes(n, 0), solution.nodes(n, 1), solution.displacement.row(n)});
+    table_of(node_columns, nodes).write(arguments.folder + "/nodes.csv");
 }
 
 int solve_and_record(const reference_fem::MpiSession& session, Arguments& arguments)

@@ -111,6 +111,15 @@ void wait_for_text(const std::vector<int>& pipes)
     poll(polled.data(), polled.size(), moment_ms);
 }
 
+// Waits for the end of a process, signals or not.
+int status_of(pid_t process)
+{
+    int status = 0;
+    while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
+    }
+    return status;
+}
+
 ProcessEnd result_or_failure(const std::function<nlohmann::json()>& work)
 {
     nlohmann::json end;
@@ -132,26 +141,6 @@ nlohmann::json result_in(const std::string& text)
     throw std::runtime_error(end.value("failure", ""));
 }
 
-}  // namespace
-
-nlohmann::json in_own_process(const std::function<nlohmann::json()>& work)
-{
-    ForkedProcess process = start_process([&] { return result_or_failure(work); });
-    for (listen(process); process.from >= 0; listen(process)) {
-        pass_on_interruption(process);
-        wait_for_text({process.from});
-    }
-    int status = 0;
-    while (waitpid(process.id, &status, 0) < 0 && errno == EINTR) {
-    }
-    stop_if_interrupted();
-    if (WIFSIGNALED(status))
-        throw pbs::InputError("", 0, "process", "signal " + std::to_string(WTERMSIG(status)), "expected to end by itself");
-    return result_in(process.text);
-}
-
-namespace {
-
 std::string end_of(const std::string& text)
 {
     constexpr std::size_t most = 400;
@@ -161,22 +150,39 @@ std::string end_of(const std::string& text)
 
 }  // namespace
 
-ProgramRun run_program(const std::vector<std::string>& program_and_arguments, const std::string& folder)
+nlohmann::json in_own_process(const std::function<nlohmann::json()>& work)
+{
+    ForkedProcess process = start_process([&] { return result_or_failure(work); });
+    for (listen(process); process.from >= 0; listen(process)) {
+        pass_on_interruption(process);
+        wait_for_text({process.from});
+    }
+    const int status = status_of(process.id);
+    stop_if_interrupted();
+    if (WIFSIGNALED(status))
+        throw pbs::InputError("", 0, "process", "signal " + std::to_string(WTERMSIG(status)), "expected to end by itself");
+    return result_in(process.text);
+}
+
+ProgramRun run_program(const std::vector<std::string>& program_and_arguments, const std::optional<std::string>& folder)
 {
     std::vector<std::string> words = program_and_arguments;
     std::vector<char*> arguments;
     for (std::string& word : words) arguments.push_back(word.data());
     arguments.push_back(nullptr);
 
-    const std::string output = (std::filesystem::path(folder) / "output.txt").string();
+    const std::string output = folder ? (std::filesystem::path(*folder) / "output.txt").string() : "";
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, output.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
-    posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
-    posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
+    if (folder) {
+        posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+        posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, output.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+        posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
+        posix_spawn_file_actions_addchdir_np(&actions, folder->c_str());
+    }
     pid_t child = 0;
     ProgramRun run;
+    std::fflush(nullptr);
     const int failure = posix_spawnp(&child, arguments.front(), &actions, nullptr, arguments.data(), environ);
     posix_spawn_file_actions_destroy(&actions);
     run.started = failure == 0;
@@ -184,10 +190,9 @@ ProgramRun run_program(const std::vector<std::string>& program_and_arguments, co
         run.last_words = std::strerror(failure);
         return run;
     }
-    int status = 0;
-    while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-    }
-    if (WIFEXITED(status)) run.status = WEXITSTATUS(status);
+    const int status = status_of(child);
+    run.status = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+    if (!folder) return run;
     run.last_words = end_of(analysis::read_text(output));
     std::filesystem::remove(output);
     return run;

@@ -4,6 +4,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,14 +20,15 @@ nlohmann::json in_own_process(const std::function<nlohmann::json()>& work);
 //   const ProgramRun packed = run_program({"npm", "pack", "name@1.0.0"}, folder);
 struct ProgramRun {
     bool started = false;
-    int status = -1;         // its exit status; -1: it ended by a signal or did not start
+    int status = -1;         // its exit status; minus the number of the signal that ended it; -1: it did not start
     std::string last_words;  // the end of its output; the reason if it did not start
 
     bool succeeded() const { return started && status == 0; }
 };
 
-// The program runs in `folder`, which must exist. Its output is in a file there while it runs.
-ProgramRun run_program(const std::vector<std::string>& program_and_arguments, const std::string& folder);
+// The program runs in `folder`, which must exist. Its output is in a file there while it runs. Without a folder, it runs in the current one
+// and writes where this process does.
+ProgramRun run_program(const std::vector<std::string>& program_and_arguments, const std::optional<std::string>& folder);
 
 // Returns why the program, a path or a name on the PATH, cannot be started, or an empty text if it can. Relative paths and relative entries
 // of the PATH count as missing, for run_program changes to its folder before it seeks the program.

@@ -144,19 +144,6 @@ pbs::Vec3 posed_normal(const LimbStation& station, const pbs::Pose& pose)
     return sum.norm() > 0.0 ? pbs::Vec3(sum.normalized()) : pbs::Vec3(pose[station.carriers.front()].linear() * station.normal);
 }
 
-namespace {
-
-// The largest rotation [deg] of a bone relative to the root's.
-double largest_rotation_deg(const pbs::Pose& pose)
-{
-    const Eigen::Quaterniond root(pose.front().linear());
-    double largest = 0.0;
-    for (const auto& bone : pose) largest = std::max(largest, root.angularDistance(Eigen::Quaterniond(bone.linear())));
-    return largest * 180.0 / std::numbers::pi;
-}
-
-}  // namespace
-
 analysis::ErrorDomain error_domain(const pbs::Character& character, const std::vector<bool>& prescribed)
 {
     analysis::ErrorDomain domain{character.mesh.rest, character.mesh.tets, prescribed, {}, character.binding.distance};
@@ -197,7 +184,10 @@ FrameMeasurement FrameMeasurer::measure(const pbs::Positions& positions, const F
     measured.bind_rms_m =
         analysis::bind_rms(positions, pbs::posed_bind_points(character_.binding, *context.pose), character_.binding.distance);
     measured.angle_deg = context.angle_deg;
-    measured.rotation_deg = largest_rotation_deg(*context.pose);
+    const Eigen::Quaterniond root(context.pose->front().linear());
+    double rotation_rad = 0.0;
+    for (const auto& bone : *context.pose) rotation_rad = std::max(rotation_rad, root.angularDistance(Eigen::Quaterniond(bone.linear())));
+    measured.rotation_deg = rotation_rad * 180.0 / std::numbers::pi;
     if (error_metrics_ && context.reference) {
         measured.errors = difference(positions, *context.reference);
         measured.errors_on_whole_body = error_metrics_->measure(positions, *context.reference);

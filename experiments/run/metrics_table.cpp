@@ -1,6 +1,8 @@
 #include "experiments/run/metrics_table.hpp"
 
+#include "analysis/records/toml_keys.hpp"
 #include "experiments/deformers/registry.hpp"
+#include "generated/metrics_texts.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -101,93 +103,6 @@ const Rows all_columns =
          {"wakings", &MetricRow::wakings, "", "how often the step was repeated because some of them were needed"}}
         .in_group(with_sleep);
 
-const std::string volume = "V: signed volume of all tets; V0: at rest", tet_volume = "V_t: signed volume of tet t; V0_t: at rest";
-const std::string of_all = "V0: volume of all tets at rest", ratio = "J_t = V_t / V0_t: volume of tet t over its volume at rest";
-const std::string positions = "x_i: position of vertex i; xref_i: in the reference", masses = "m_i: rest volume lumped to vertex i";
-const std::string free_vertices = "i: vertices that nothing prescribes, outside the overlap (masked_share_pct)",
-                  blended = "i: vertices that Eq. 2 blends between bones, outside the overlap (masked_share_pct)";
-
-struct Formula {
-    std::string formula, source, cost;
-    std::vector<std::string> symbols = {};
-};
-
-const std::map<std::string, Formula> formulae = {
-    {"volume_change_pct", {"100 (V - V0) / V0", "Sec. 4", "one pass over the tets", {volume}}},
-    {"volume_abs_change_pct", {"100 sum_t |V_t - V0_t| / V0", "Sec. 4, the other reading", "with volume_change_pct", {tet_volume, of_all}}},
-    {"inverted_tets", {"number of tets t with V_t <= 0", "", "with volume_change_pct", {tet_volume}}},
-    {"mean_abs_j_minus_1", {"sum_t V0_t |J_t - 1| / V0", "", "with volume_change_pct", {ratio, of_all}}},
-    {"j_min", {"min_t J_t", "", "with volume_change_pct", {ratio}}},
-    {"stretch_rms", {"rms_e(l_e / l0_e - 1)", "Eq. 10", "one pass over the edges", {"l_e: length of edge e; l0_e: at rest"}}},
-    {"bind_rms_m",
-     {"rms_i(|x_i - q_i| - d_i)",
-      "Sec. 3.6",
-      "one pass over the vertices",
-      {"x_i: position of vertex i", "q_i: where it projects on its bone at rest, carried along by the bone",
-       "d_i: distance of the two at rest"}}},
-    {"step_ms", {"wall time of the frame's step", "Table 1", ""}},
-    {"error_l2_pct",
-     {"100 sqrt(sum_i m_i |x_i - xref_i|^2 / sum_i m_i) / D",
-      "",
-      "one pass over the vertices",
-      {positions, masses, free_vertices, "D: diagonal of the bounding box at rest"}}},
-    {"error_joint_pct",
-     {"100 sqrt(sum_i m_i |x_i - xref_i|^2 / sum_i m_i) / (sum_i m_i d_i / sum_i m_i)",
-      "",
-      "with error_l2_pct",
-      {positions, masses, blended, "d_i: distance of vertex i to its bone at rest"}}},
-    {"error_linf_m", {"max_i |x_i - xref_i|", "", "with error_l2_pct", {positions, free_vertices}}},
-    {"error_whole_l2_pct", {"as error_l2_pct, over all vertices that nothing prescribes", "", "with error_l2_pct"}},
-    {"error_whole_joint_pct", {"as error_joint_pct, over all vertices that Eq. 2 blends", "", "with error_l2_pct"}},
-    {"masked_share_pct",
-     {"100 sum_i m_i / sum_j m_j",
-      "",
-      "a point location per vertex of the skin",
-      {masses,
-       "i: skin vertices inside another part of the body or at an inverted tet, vertices within one limb radius of them, and those of "
-       "inverted "
-       "tets",
-       "j: all vertices"}}},
-    {"reference_error_l2_pct",
-     {"bound of reference.error_bar in the norm of error_l2_pct: grid convergence index with two solutions, Richardson's estimate with "
-      "four",
-      "P. J. Roache 1994, I. B. Celik et al. 2008, L. Eca, M. Hoekstra 2014",
-      "the reference solved once or three times more; seconds in run.json"}},
-    {"reference_error_joint_pct", {"the same bound in the norm of error_joint_pct", "", "with reference_error_l2_pct"}},
-    {"reference_error_linf_m", {"the same bound in the norm of error_linf_m", "", "with reference_error_l2_pct"}},
-    {"error_below_reference_error", {"error_joint_pct <= reference_error_joint_pct (l2 where nothing is blended)", "", ""}},
-    {"rotation_deg", {"largest angle between a bone's rotation and the root's", "", ""}},
-    {"fictitious_strain", {"1 - cos(rotation_deg)", "", ""}},
-    {"outcome", {"finished, not_finite or not_converged", "", ""}},
-    {"angle_deg", {"angle_deg i / (frames - 1)", "", "", {"i: the frame; angle_deg, frames: of the scene's [motion]"}}},
-    {"min_section_pct",
-     {"100 min_s A_s / A0_s",
-      "Fig. 3, 8",
-      "plane cuts of the limbs' tets",
-      {"A_s: area of the cross-section at station s of a limb; A0_s: at rest"}}},
-    {"surface_volume_change_pct",
-     {"100 (S - S0) / S0",
-      "Sec. 1",
-      "one pass over the surface",
-      {"S: volume inside the rendered surface, by the divergence theorem; S0: at rest"}}}};
-
-std::vector<MetricText> all_texts()
-{
-    std::vector<MetricText> texts;
-    for (const auto& column : all_columns)
-        if (const auto found = formulae.find(column.name); found != formulae.end()) {
-            const auto& [formula, source, cost, symbols] = found->second;
-            texts.push_back({column.name, column.unit, formula, column.meaning, source, cost, symbols});
-        }
-    return texts;
-}
-
-// Linear strain of a rigid rotation by theta: cos(theta) - 1 along the two axes across it.
-double fictitious_strain(double rotation_deg)
-{
-    return 1.0 - std::cos(rotation_deg * std::numbers::pi / 180.0);
-}
-
 }  // namespace
 
 MetricRow metric_row(const Scene& scene, const DeformerSpec& spec, int frame, double time_s, const FrameMeasurement& measured,
@@ -203,7 +118,8 @@ MetricRow metric_row(const Scene& scene, const DeformerSpec& spec, int frame, do
     row.time_s = time_s;
     row.measured = measured;
     row.step_ms = 1e3 * step.seconds;
-    if (traits.has_small_strain) row.fictitious_strain = fictitious_strain(measured.rotation_deg);
+    // Linear strain of a rigid rotation by theta: cos(theta) - 1 along the two axes across it.
+    if (traits.has_small_strain) row.fictitious_strain = 1.0 - std::cos(measured.rotation_deg * std::numbers::pi / 180.0);
     row.outcome = to_string(step.outcome);
     if (measured.reference_error && spec.name != scene.reference)  // the reference's own row has no difference that could be below
         row.error_below_reference_error = measured.error_below_reference_error();
@@ -229,8 +145,37 @@ analysis::Columns<MetricRow> metric_columns_of(const Scene& scene)
 
 const std::vector<MetricText>& metric_texts()
 {
-    static const std::vector<MetricText> texts = all_texts();
-    return texts;
+    static const std::vector<MetricText> all = [] {
+        const std::string file = "experiments/run/metrics.toml";
+        const toml::table document = analysis::parse_toml_document(::metrics::metrics_toml, file, {"metric"});
+        std::map<std::string, MetricText> formulae;
+        for (const toml::table* table : analysis::toml_tables(document, "metric", file)) {
+            MetricText text;
+            analysis::TomlKeys keys(*table, file, "metric");
+            keys.required("name", text.name);
+            keys.required("formula", text.formula);
+            keys.optional("source", text.source);
+            keys.optional("cost", text.cost);
+            keys.optional("symbols", text.symbols);
+            keys.require_nothing_unknown();
+            formulae[text.name] = text;
+        }
+        std::vector<MetricText> texts;
+        for (const auto& column : all_columns)
+            if (const auto found = formulae.find(column.name); found != formulae.end()) {
+                texts.push_back(found->second);
+                texts.back().unit = column.unit;
+                texts.back().meaning = column.meaning;
+            }
+        return texts;
+    }();
+    return all;
+}
+
+const MetricText* find_metric(const std::string& name)
+{
+    const auto found = std::ranges::find(metric_texts(), name, &MetricText::name);
+    return found == metric_texts().end() ? nullptr : &*found;
 }
 
 }  // namespace experiments

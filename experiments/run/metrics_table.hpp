@@ -38,5 +38,6 @@ struct MetricText {
     std::vector<std::string> symbols;  // of the formula, each as "name: meaning"
 };
 const std::vector<MetricText>& metric_texts();
+const MetricText* find_metric(const std::string& name);  // null: no metric has this name
 
 }  // namespace experiments

@@ -20,7 +20,6 @@
 
 #include <algorithm>
 #include <ctime>
-#include <iterator>
 #include <limits>
 #include <memory>
 #include <set>
@@ -97,26 +96,15 @@ OutputSpec measured_output(const Scene& scene)
     return output;
 }
 
-// The rendered surface is needed if it is measured or written.
-pbs::CharacterSource needed_character(const Scene& scene)
-{
-    pbs::CharacterSource source = scene.character;
-    source.surface = scene.output.surface || scene.output.frames_every > 0 || !scene.output.frames.empty();
-    return source;
-}
-
-// "folder/hero.glb: two joints ..." -> "hero.glb: two joints ...": records name files without folders of the machine.
-std::string without_folder(const std::string& remark)
-{
-    const std::size_t end = remark.find(": ");
-    return end == std::string::npos ? remark : pbs::file_name(remark.substr(0, end)) + remark.substr(end);
-}
-
-// Warnings of a run reach the terminal at once and run.json at its end.
+// Warnings of a run reach the terminal at once and run.json at its end. Records name files without folders of the machine:
+// "folder/hero.glb: two joints ..." -> "hero.glb: two joints ...".
 void add_warnings(const std::vector<std::string>& remarks, std::vector<std::string>& warnings)
 {
     warn(remarks);
-    std::transform(remarks.begin(), remarks.end(), std::back_inserter(warnings), without_folder);
+    for (const std::string& remark : remarks) {
+        const std::size_t end = remark.find(": ");
+        warnings.push_back(end == std::string::npos ? remark : pbs::file_name(remark.substr(0, end)) + remark.substr(end));
+    }
 }
 
 std::vector<std::string> printed(const std::vector<std::string>& remarks)
@@ -126,10 +114,13 @@ std::vector<std::string> printed(const std::vector<std::string>& remarks)
     return warnings;
 }
 
+// The rendered surface is needed if it is measured or written.
 pbs::Character character_with_warnings(const Scene& scene, std::vector<std::string>& warnings)
 {
+    pbs::CharacterSource source = scene.character;
+    source.surface = scene.output.surface || scene.output.frames_every > 0 || !scene.output.frames.empty();
     std::vector<std::string> remarks;
-    pbs::Character character = pbs::make_character(needed_character(scene), remarks);
+    pbs::Character character = pbs::make_character(source, remarks);
     add_warnings(remarks, warnings);
     return character;
 }
@@ -149,13 +140,6 @@ CaseMotion read_motion(const Scene& scene, pbs::Character& character, std::vecto
     return motion;
 }
 
-nlohmann::json motion_record(const CaseMotion& motion)
-{
-    nlohmann::json record = {{"largest_rotation_deg", motion.largest_rotation_deg}};
-    if (motion.clip_joints > 0) record.update({{"clip_joints", motion.clip_joints}, {"matched_joints", motion.matched_joints}});
-    return record;
-}
-
 class SceneRun {
 public:
     SceneRun(const Scene& scene, const std::string& folder, const std::vector<std::string>& warnings)
@@ -169,7 +153,9 @@ public:
               cost_.time("metrics_set_up", [&] { return FrameMeasurer(character_, measured_output(scene), prescribed_by_any(runners_)); })),
           folder_((refuse_frames_beyond(motion_, scene), scene), character_, folder)
     {
-        warn_of_open_surface();
+        if (scene.output.surface && character_.surface && !measurer_.measures_surface_volume())
+            add_warnings({scene.file + ": surface_volume_change_pct is empty: the rendered surface is open or encloses no volume"},
+                         warnings_);
         if (scene.error_bar != ErrorBar::none)
             cost_.time("error_bar_set_up", [&] { error_bar_.emplace(scene.error_bar, runners_.front().spec, character_); });
     }
@@ -188,7 +174,9 @@ public:
 private:
     void play()
     {
-        announce_poses();
+        std::vector<pbs::Pose> frames;
+        for (std::size_t step = 0; step < motion_.steps.size(); step += motion_.steps_per_frame) frames.push_back(motion_.steps[step]);
+        for (Runner& runner : runners_) runner.deformer->foresee(runner.deformer->has_memory() ? motion_.steps : frames);
         Progress progress(scene_.name, static_cast<int>(motion_.steps.size()));
         for (std::size_t step = 0; step < motion_.steps.size(); ++step) {
             stop_if_interrupted();
@@ -203,13 +191,6 @@ private:
             if (is_frame) record_frame(static_cast<int>(step / motion_.steps_per_frame), step);
             progress.advance_to(static_cast<int>(step) + 1);
         }
-    }
-
-    void announce_poses()
-    {
-        std::vector<pbs::Pose> frames;
-        for (std::size_t step = 0; step < motion_.steps.size(); step += motion_.steps_per_frame) frames.push_back(motion_.steps[step]);
-        for (Runner& runner : runners_) runner.deformer->foresee(runner.deformer->has_memory() ? motion_.steps : frames);
     }
 
     void record_frame(int frame, std::size_t step)
@@ -235,13 +216,6 @@ private:
         ++frames_;
     }
 
-    void warn_of_open_surface()
-    {
-        if (scene_.output.surface && character_.surface && !measurer_.measures_surface_volume())
-            add_warnings({scene_.file + ": surface_volume_change_pct is empty: the rendered surface is open or encloses no volume"},
-                         warnings_);
-    }
-
     // Blending that inverts tets in the first frame, before anything has moved far, points to a rest pose that is not the model's.
     void warn_of_inverted_start()
     {
@@ -254,15 +228,16 @@ private:
                              warnings_);
     }
 
-    void record_deformer(Runner& runner, int frame, double time_s, const FrameContext& context)
+    void record_deformer(Runner& runner, int frame, double time_s, FrameContext context)
     {
         const pbs::Positions& positions = runner.deformer->positions();
         const pbs::StepSummary& step = runner.steps.summary();
-        const FrameMeasurement measured = cost_.time("metrics", [&] { return measurer_.measure(positions, context_for(runner, context)); });
+        // A reference that did not reach its pose is in another one, so that it has no error.
+        if (runner.traits.solves_equations && step.outcome == pbs::Outcome::not_converged) context.reference = nullptr;
+        const FrameMeasurement measured = cost_.time("metrics", [&] { return measurer_.measure(positions, context); });
         cost_.time("records", [&] {
             folder_.add_frame(runner.spec, frame, time_s, measured, step);
-            folder_.add_state(runner.spec, positions);
-            folder_.add_regions(runner.spec.label, positions);
+            folder_.add_positions(runner.spec.label, positions);
         });
         runner.lowest_change_pct = std::min(runner.lowest_change_pct, measured.metrics.volume_change_pct);
         runner.highest_change_pct = std::max(runner.highest_change_pct, measured.metrics.volume_change_pct);
@@ -315,28 +290,15 @@ private:
         }
     }
 
-    // A reference that did not reach its pose is in another one, so that it has no error.
-    static FrameContext context_for(const Runner& runner, FrameContext context)
-    {
-        if (runner.traits.solves_equations && runner.steps.summary().outcome == pbs::Outcome::not_converged) context.reference = nullptr;
-        return context;
-    }
-
-    // "3 of 31 frames of nh_p1", one for each deformer with a bad frame.
-    std::vector<std::string> counts_of_bad_frames() const
-    {
-        std::vector<std::string> counts;
-        for (const std::string& label : bad_labels_)
-            counts.push_back(fmt::format("{} of {} frames of {}", broken_frames_.at(label).size(), frames_, label));
-        return counts;
-    }
-
     RunResult finish()
     {
         std::map<std::string, nlohmann::json> records;
         for (const Runner& runner : runners_)
             if (const auto record = runner.deformer->record(); !record.is_null()) records[runner.spec.label] = record;
-        if (!bad_frame_.empty()) bad_frame_ += fmt::format("; {} broke down", fmt::join(counts_of_bad_frames(), ", "));
+        std::vector<std::string> bad_frames;  // "3 of 31 frames of nh_p1"
+        for (const std::string& label : bad_labels_)
+            bad_frames.push_back(fmt::format("{} of {} frames of {}", broken_frames_.at(label).size(), frames_, label));
+        if (!bad_frame_.empty()) bad_frame_ += fmt::format("; {} broke down", fmt::join(bad_frames, ", "));
         nlohmann::json outcome = {{"finished", true}, {"frames", frames_}, {"breakdowns", breakdowns_}, {"not_converged", not_converged_}};
         outcome["broken_frames"] = broken_frames_;
         outcome["breakdown"] = breakdown_;
@@ -347,7 +309,9 @@ private:
         }
         if (error_bar_) outcome["frames_below_reference_error"] = frames_below_reference_error_;
         outcome["warnings"] = warnings_;
-        outcome["motion"] = motion_record(motion_case_);
+        outcome["motion"] = {{"largest_rotation_deg", motion_case_.largest_rotation_deg}};
+        if (motion_case_.clip_joints > 0)
+            outcome["motion"].update({{"clip_joints", motion_case_.clip_joints}, {"matched_joints", motion_case_.matched_joints}});
         outcome.update(run_end(stopwatch_.seconds()));
         folder_.finish(character_, records, outcome, cost_, error_bar_ ? error_bar_->method() : nlohmann::json());
 

@@ -37,13 +37,6 @@ const analysis::Columns<IterationRow> iteration_columns =
                                     {"iteration", &IterationRow::iteration, "", "number of the iteration in the frame's step, from 1"}} +
     analysis::within(&IterationRow::residuals, residual_columns);
 
-int most_threads(const Scene& scene)
-{
-    int threads = 1;
-    for (const DeformerSpec& spec : scene.deformers) threads = std::max(threads, spec.threads);
-    return threads;
-}
-
 std::string frame_file(const std::string& name, int frame, const char* ending)
 {
     return fmt::format("{}_{:06d}{}", name, frame, ending);
@@ -143,11 +136,6 @@ void RunFolder::write_frame(const DeformerSpec& spec, int frame, double time_s, 
     collections_[name].emplace_back(time_s, frame_file(name, frame, ".vtu"));
 }
 
-void RunFolder::write_pose(int frame, double time_s, const pbs::Skeleton& skeleton, const pbs::Pose& pose)
-{
-    add_bones(bones_, frame, time_s, skeleton, pose);
-}
-
 void RunFolder::write_artist_skin(int frame, double time_s, const pbs::Character& character, const MotionSpec& motion)
 {
     if (!motion.of_model || !character.artist || !character.artist->model->animation) return;
@@ -156,11 +144,6 @@ void RunFolder::write_artist_skin(int frame, double time_s, const pbs::Character
     const std::string file = frame_file("artist", frame, ".vtp");
     pbs::write_vtp((fs::path(folder_) / "skin" / file).string(), points, model.body.triangles);
     artist_frames_.emplace_back(time_s, file);
-}
-
-void RunFolder::add_state(const DeformerSpec& spec, const pbs::Positions& positions)
-{
-    hashes_[spec.label].add(positions);
 }
 
 void RunFolder::write_tables()
@@ -192,7 +175,7 @@ void RunFolder::finish(const pbs::Character& character, const std::map<std::stri
         write_tables();
         if (!bones_.empty()) write_what_frames_depend_on(character);
     });
-    analysis::Provenance provenance = run_provenance(most_threads(scene_));
+    analysis::Provenance provenance = run_provenance(std::ranges::max(scene_.deformers, {}, &DeformerSpec::threads).threads);
     provenance.input_hashes = pbs::hashes_by_name(character.inputs);
 
     nlohmann::json run = {{"schema", run_schema}, {"scene", to_json(scene_)}, {"provenance", provenance}, {"outcome", outcome}};

@@ -211,12 +211,19 @@ public:
     void add_frame(const DeformerSpec& spec, int frame, double time_s, const FrameMeasurement& measured, const pbs::StepSummary& step);
     void write_frame(const DeformerSpec& spec, int frame, double time_s, const pbs::Character& character, const pbs::Positions& positions,
                      const Eigen::VectorXd& volume_ratios, const std::vector<bool>& prescribed);
-    void write_pose(int frame, double time_s, const pbs::Skeleton& skeleton, const pbs::Pose& pose);  // for a frame that is written
+    // For a frame that is written.
+    void write_pose(int frame, double time_s, const pbs::Skeleton& skeleton, const pbs::Pose& pose)
+    {
+        add_bones(bones_, frame, time_s, skeleton, pose);
+    }
     // skin/artist_000123.vtp: the model's surface by the skinning formula of its file; nothing without an animation of a model.
     void write_artist_skin(int frame, double time_s, const pbs::Character& character, const MotionSpec& motion);
-    void add_state(const DeformerSpec& spec, const pbs::Positions& positions);  // into the deformer's state hash
-
-    void add_regions(const std::string& label, const pbs::Positions& positions) { regions_.add(label, positions); }
+    // Into the deformer's state hash and the changes of its regions.
+    void add_positions(const std::string& label, const pbs::Positions& positions)
+    {
+        hashes_[label].add(positions);
+        regions_.add(label, positions);
+    }
 
     void write_tables();  // all CSV files of the frames so far, and the collections; of an interrupted run, these are all records
 

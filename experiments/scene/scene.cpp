@@ -121,9 +121,8 @@ std::vector<DeformerSpec> read_deformers(const SceneValues& values)
     const std::vector<DeformerSpec> listed = listed_deformers(values);
     std::vector<DeformerSpec> used;
     for (const std::string& name : values.texts("deformers.use")) {
-        const auto same = [&](const DeformerSpec& spec) { return spec.name == name; };
-        if (std::any_of(used.begin(), used.end(), same)) values.refuse("deformers.use", "names " + name + " twice");
-        const auto of_list = std::find_if(listed.begin(), listed.end(), same);
+        if (std::ranges::count(used, name, &DeformerSpec::name) > 0) values.refuse("deformers.use", "names " + name + " twice");
+        const auto of_list = std::ranges::find(listed, name, &DeformerSpec::name);
         const DeformerKind* kind = find_deformer_kind(name);
         if (of_list != listed.end())
             used.push_back(*of_list);
@@ -139,7 +138,7 @@ std::vector<DeformerSpec> read_deformers(const SceneValues& values)
 std::string read_reference(const SceneValues& values, const std::vector<DeformerSpec>& deformers)
 {
     const std::string name = values.text("reference.name");
-    const bool used = std::any_of(deformers.begin(), deformers.end(), [&](const DeformerSpec& spec) { return spec.name == name; });
+    const bool used = std::ranges::count(deformers, name, &DeformerSpec::name) > 0;
     if (!name.empty() && !used) values.refuse("reference.name", "expected a deformer that the scene uses");
     return name;
 }
@@ -167,8 +166,7 @@ ErrorBar read_error_bar(const SceneValues& values, const std::string& reference,
 {
     const ErrorBar error_bar = option_of<ErrorBar>(values.text("reference.error_bar"));
     if (error_bar == ErrorBar::none) return error_bar;
-    const auto reference_spec =
-        std::find_if(deformers.begin(), deformers.end(), [&](const DeformerSpec& spec) { return spec.name == reference; });
+    const auto reference_spec = std::ranges::find(deformers, reference, &DeformerSpec::name);
     const FemOptions* fem = reference_spec == deformers.end() ? nullptr : options_if<FemOptions>(*reference_spec);
     if (!fem)
         values.refuse("reference.error_bar", "expected none if the reference is not a [[fem]] table, for it has no elements to refine");
@@ -204,8 +202,7 @@ std::vector<DeformerSpec> listed_deformers(const SceneValues& values)
             const DeformerSpec spec = read_spec(values, kind, table, name);
             const bool is_own_name = kind.needs_list && name == kind.name;
             if (!is_own_name && find_deformer_kind(name)) values.refuse(table + ".name", "is the name of another deformer");
-            for (const DeformerSpec& earlier : listed)
-                if (earlier.name == name) values.refuse(table + ".name", "is used twice");
+            if (std::ranges::count(listed, name, &DeformerSpec::name) > 0) values.refuse(table + ".name", "is used twice");
             listed.push_back(spec);
         }
     return listed;
@@ -247,10 +244,8 @@ const std::vector<BuiltInScene>& built_in_scenes()
 
 Scene read_scene(const std::string& file_or_name, const std::vector<std::string>& overrides)
 {
-    const auto& built_in = built_in_scenes();
-    const auto found =
-        std::find_if(built_in.begin(), built_in.end(), [&](const BuiltInScene& scene) { return scene.name == file_or_name; });
-    const bool from_file = found == built_in.end();
+    const auto found = std::ranges::find(built_in_scenes(), file_or_name, &BuiltInScene::name);
+    const bool from_file = found == built_in_scenes().end();
     const std::string file = from_file ? file_or_name : file_or_name + ".toml";
     const std::string folder = from_file ? fs::path(file).parent_path().string() : "";
     const SceneValues values(from_file ? read_scene_text(file) : found->text, file, overrides, scene_schema());
@@ -277,13 +272,6 @@ namespace {
 constexpr double still_deg = 0.1;       // no one sees less
 constexpr double still_share = 1e-3;    // over the size of the body, likewise
 constexpr double rigid_stretch = 1e-3;  // rounding of exporters
-
-std::string bone_names(const pbs::Skeleton& skeleton)
-{
-    std::vector<std::string> names;
-    for (const auto& bone : skeleton.bones) names.push_back(bone.name);
-    return fmt::format("{}", fmt::join(names, ", "));
-}
 
 pbs::ClipSampling clip_sampling(const MotionSpec& spec)
 {
@@ -332,7 +320,10 @@ pbs::Motion make_motion(const MotionSpec& spec, const pbs::Skeleton& skeleton, c
 {
     if (spec.clip.empty()) {
         const int joint = pbs::find_bone(skeleton, spec.joint);
-        if (joint < 0) throw pbs::InputError(scene_file, 0, "motion.joint", spec.joint, "expected one of " + bone_names(skeleton));
+        std::vector<std::string> names;
+        for (const auto& bone : skeleton.bones) names.push_back(bone.name);
+        if (joint < 0)
+            throw pbs::InputError(scene_file, 0, "motion.joint", spec.joint, fmt::format("expected one of {}", fmt::join(names, ", ")));
         return pbs::joint_sweep(skeleton, joint, spec.axis.normalized(), spec.angle_deg, spec.frames, spec.time_step_s);
     }
     return pbs::retarget(pbs::read_clip(spec.clip), skeleton, clip_sampling(spec));

@@ -47,9 +47,7 @@ struct OutputSpec {
 // on the same tets; refined: the same order on tets that are refined once; both: both element orders on both meshes.
 enum class ErrorBar { none, orders, refined, both };
 
-template <>
-inline constexpr NameTable<ErrorBar, 4> option_names<ErrorBar>{
-    {{ErrorBar::none, "none"}, {ErrorBar::orders, "orders"}, {ErrorBar::refined, "refined"}, {ErrorBar::both, "both"}}};
+NAMED_OPTIONS(ErrorBar, none, orders, refined, both)
 
 struct Scene {
     std::string name, file;

@@ -28,22 +28,19 @@ const OptionFields<pbs::CharacterSource>& character_fields()
                 {.meaning = "rigged model, relative to the scene: .glb .gltf .fbx .dae .zae; its surface is meshed, and its joints are the "
                             "skeleton"})
             .add("scale", &Source::model_scale,
-                 {.lowest = 1e-6, .highest = 1e6, .meaning = "factor by which a model is enlarged, for files that state a wrong unit"})
+                 {.range = {1e-6, 1e6}, .meaning = "factor by which a model is enlarged, for files that state a wrong unit"})
             .add("mesh", &Source::mesh_file, {.meaning = "tet mesh file, relative to the scene: .msh .vtu .vtk .mesh .ele"})
             .add("skeleton", &Source::skeleton_file,
                  {.meaning = "skeleton file, relative to the scene: .toml with [[joint]] tables, or the joints of a clip or a rig "
                              "(.bvh .gltf .glb .fbx .dae); with a model, only for one without joints: such a file, or human, the skeleton "
                              "of that body"})
-            .add("skeleton_scale", &Source::skeleton_scale,
-                 {.unit = "m",
-                  .lowest = above_zero,
-                  .highest = 1e6,
-                  .meaning = "metres per unit of the skeleton file; for CMU's clips 0.0254 / 0.45"})
+            .add(
+                "skeleton_scale", &Source::skeleton_scale,
+                {.unit = "m", .range = {above_zero, 1e6}, .meaning = "metres per unit of the skeleton file; for CMU's clips 0.0254 / 0.45"})
             .add("vertices", &Source::vertices,
-                 {.lowest = 0, .highest = 1e7, .meaning = "wanted number of vertices of a named body or a model; 0: its own default"})
+                 {.range = {0, 1e7}, .meaning = "wanted number of vertices of a named body or a model; 0: its own default"})
             .add("refine", &Source::refinements,
-                 {.lowest = 0,
-                  .highest = 2,
+                 {.range = {0, 2},
                   .meaning = "number of times that every tet is cut into eight (8 or 64 times as many tets); the sizes of the bones stay, "
                              "and the metrics are those of the finer mesh"});
     return fields;
@@ -57,11 +54,9 @@ const OptionFields<MotionSpec>& motion_fields()
             .add("axis", &MotionSpec::axis, {.meaning = "axis of a sweep in rest world axes"})
             .add("angle_deg", &MotionSpec::angle_deg,
                  {.unit = "deg",
-                  .lowest = -7200,
-                  .highest = 7200,
+                  .range = {-7200, 7200},
                   .meaning = "angle of a sweep's last frame; frame i has angle_deg * i / (frames - 1)"})
-            .add("frames", &MotionSpec::frames,
-                 {.lowest = 2, .highest = 1e6, .meaning = "number of frames of a sweep, including the rest pose"})
+            .add("frames", &MotionSpec::frames, {.range = {2, 1e6}, .meaning = "number of frames of a sweep, including the rest pose"})
             .add("clip", &MotionSpec::clip,
                  {.meaning = "motion capture clip: relative to the scene, or by name from Debian's assimp-testmodels (01_01.bvh)"})
             .add("animation", &MotionSpec::animation,
@@ -69,17 +64,11 @@ const OptionFields<MotionSpec>& motion_fields()
             .add("allow_partial", &MotionSpec::allow_partial,
                  {.meaning = "accepts a clip of which fewer than half of the moving joints match a bone"})
             .add("start_s", &MotionSpec::start_s,
-                 {.unit = "s",
-                  .lowest = 0,
-                  .highest = 1e6,
-                  .meaning = "start of the motion in the clip, without the T-pose of its first frame"})
+                 {.unit = "s", .range = {0, 1e6}, .meaning = "start of the motion in the clip, without the T-pose of its first frame"})
             .add("duration_s", &MotionSpec::duration_s,
-                 {.unit = "s", .lowest = 0, .highest = 1e6, .meaning = "duration of the motion; 0: to the end of the clip"})
+                 {.unit = "s", .range = {0, 1e6}, .meaning = "duration of the motion; 0: to the end of the clip"})
             .add("rate_hz", &MotionSpec::rate_hz,
-                 {.unit = "1/s",
-                  .lowest = 1e-3,
-                  .highest = 1e5,
-                  .meaning = "frames per second; a frame is a whole number of steps pbs.time_step_s"});
+                 {.unit = "1/s", .range = {1e-3, 1e5}, .meaning = "frames per second; a frame is a whole number of steps pbs.time_step_s"});
     return fields;
 }
 
@@ -87,9 +76,8 @@ const OptionFields<OutputSpec>& output_fields()
 {
     static const OptionFields<OutputSpec> fields =
         OptionFields<OutputSpec>("output")
-            .add("frames_every", &OutputSpec::frames_every,
-                 {.lowest = 0, .highest = 1e9, .meaning = "write every n-th frame as VTU; 0: none"})
-            .add("frames", &OutputSpec::frames, {.lowest = 0, .highest = 1e9, .meaning = "further frames to write, by number"})
+            .add("frames_every", &OutputSpec::frames_every, {.range = {0, 1e9}, .meaning = "write every n-th frame as VTU; 0: none"})
+            .add("frames", &OutputSpec::frames, {.range = {0, 1e9}, .meaning = "further frames to write, by number"})
             .key("frame_names", texts, nlohmann::json::array(), {.meaning = "titles of `frames`, in the same order"})
             .add("glb", &OutputSpec::glb,
                  {.meaning = "also writes the surface of each deformer over the written frames as frames/LABEL.glb, which Blender opens; "
@@ -103,17 +91,14 @@ SceneSchema scene_schema(const std::vector<DeformerKind>& kinds)
 {
     SceneSchema schema;
     const auto append = [&](const std::vector<SceneKey>& keys) { schema.keys.insert(schema.keys.end(), keys.begin(), keys.end()); };
-    append(Keys("")
-               .key("schema", integer, nullptr, {.lowest = 1, .highest = 1, .is_stated = true, .meaning = "version of this format"})
-               .keys());
+    append(Keys("").key("schema", integer, nullptr, {.range = {1, 1}, .is_stated = true, .meaning = "version of this format"}).keys());
     append(character_fields().keys());
     append(motion_fields().keys());
     append(
         Keys("pbs")
             .key("time_step_s", number, MotionSpec{}.time_step_s,
                  {.unit = "s",
-                  .lowest = 1e-9,
-                  .highest = 1e3,
+                  .range = {1e-9, 1e3},
                   .meaning = "time step of Algorithm 1; by default the longest one of at most 10 ms that divides a frame of a clip or an "
                              "animation"})
             .keys());

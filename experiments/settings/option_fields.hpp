@@ -1,7 +1,7 @@
 // The fields of a struct of options. Each is declared once, with its key in a scene, its default, range, unit and meaning, and its name in
 // a record.
 //   static const auto fields = OptionFields<pbs::XpbdOptions>("xpbd")
-//                                  .add("young_pa", &pbs::XpbdOptions::young_pa, {.unit = "Pa", .lowest = above_zero, .meaning = "..."})
+//                                  .add("young_pa", &pbs::XpbdOptions::young_pa, {.unit = "Pa", .range = {above_zero}, .meaning = "..."})
 //                                  .record("substeps", &pbs::XpbdOptions::substeps);
 //   fields.keys()               the keys, for a schema; the defaults are those of pbs::XpbdOptions{}
 //   fields.read(values, "xpbd") the options as a scene states them
@@ -112,7 +112,7 @@ Value read_option(const SceneValues& values, const std::string& path)
 
 struct FieldText {
     std::string unit = {};
-    double lowest = -infinite, highest = infinite;
+    Range range = {};                       // of a number, or of each in a list
     std::vector<std::string> choices = {};  // of a text; those of an enumeration are its names
     bool is_stated = false;                 // every scene must state it, for there is no default
     std::string meaning = {};
@@ -242,8 +242,7 @@ private:
                 .type = type,
                 .default_json = text.is_stated ? "" : default_text(default_value),
                 .unit = text.unit,
-                .lowest = text.lowest,
-                .highest = text.highest,
+                .range = text.range,
                 .choices = text.choices,
                 .meaning = text.meaning,
                 .in_list = in_list_};

@@ -1,8 +1,10 @@
 // The names of an option's values in scenes, records and keys: one table per enumeration, in the folder of the option.
-//   template <>
-//   inline constexpr NameTable<Colour, 2> option_names<Colour>{{{Colour::red, "red"}, {Colour::blue, "blue"}}};
-//   name_of(Colour::red)   "red"
+//   NAMED_OPTIONS(Colour, red, blue)   // in the namespace experiments: each value by its own name
+//   name_of(Colour::red)               "red"
+// A table with other names is a specialisation of option_names.
 #pragma once
+
+#include <nlohmann/json.hpp>
 
 #include <array>
 #include <string>
@@ -16,6 +18,14 @@ using NameTable = std::array<std::pair<Enum, const char*>, count>;
 
 template <typename Enum>
 inline constexpr NameTable<Enum, 0> option_names;  // to be specialised
+
+#define NAMED_OPTION(value) std::pair(value, #value),
+#define NAMED_OPTIONS(Enum, ...)                                                                 \
+    template <>                                                                                  \
+    inline constexpr auto option_names<Enum> = [] {                                              \
+        using enum Enum;                                                                         \
+        return std::array{NLOHMANN_JSON_EXPAND(NLOHMANN_JSON_PASTE(NAMED_OPTION, __VA_ARGS__))}; \
+    }();
 
 // The same table as a member, for analysis::EnumNames.
 template <typename Enum>

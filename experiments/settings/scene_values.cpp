@@ -50,6 +50,7 @@ std::string SceneKey::rule() const
     static constexpr const char* names[] = {"a text",        "a number",          "an integer",      "true or false",
                                             "three numbers", "a list of numbers", "a list of texts", "a list of integers"};
     std::string words = fmt::format("expected {}", names[static_cast<int>(type)]);
+    const auto& [lowest, highest] = range;
     if (lowest == above_zero)
         words += highest < infinite ? fmt::format(" > 0 and <= {:.10g}", highest) : " > 0";
     else if (lowest > -infinite && highest < infinite)
@@ -61,7 +62,7 @@ std::string SceneKey::rule() const
 
 const SceneKey* SceneSchema::find(const std::string& path) const
 {
-    const auto found = std::find_if(keys.begin(), keys.end(), [&](const SceneKey& key) { return key.path() == path; });
+    const auto found = std::ranges::find(keys, path, &SceneKey::path);
     return found == keys.end() ? nullptr : &*found;
 }
 
@@ -115,7 +116,7 @@ bool is_number(const json& value, const SceneKey& key)
 {
     if (!value.is_number()) return false;
     const double number = value.get<double>();
-    return std::isfinite(number) && number >= key.lowest && number <= key.highest;
+    return std::isfinite(number) && number >= key.range.lowest && number <= key.range.highest;
 }
 
 bool is_list(const json& value, std::size_t size, auto&& each)

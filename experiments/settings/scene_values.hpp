@@ -2,7 +2,6 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
-#include <nlohmann/json_fwd.hpp>
 
 #include <limits>
 #include <map>
@@ -21,14 +20,17 @@ inline constexpr double above_zero = std::numeric_limits<double>::min();  // as 
 // A default value as a scene writes it, e.g. [0.0, 0.0].
 std::string default_text(const nlohmann::json& value);
 
+struct Range {
+    double lowest = -infinite, highest = infinite;
+};
+
 struct SceneKey {
     std::string table;  // "pbs", "motion", ...; "" for the top level; a table within a table has defaults only if the scene has it
     std::string name;
     KeyType type = KeyType::number;
     std::string default_json = {};  // JSON text; "": there is no default
     std::string unit = {};
-    double lowest = -infinite;
-    double highest = infinite;
+    Range range = {};                       // of a number, or of each in a list
     std::vector<std::string> choices = {};  // of a text
     std::string meaning = {};
     bool in_list = false;  // the table is an array of tables: [[fem]]
@@ -62,11 +64,9 @@ public:
     const nlohmann::json& value(const std::string& path) const;
     double number(const std::string& path) const { return value(path).get<double>(); }
     int integer(const std::string& path) const { return static_cast<int>(value(path).get<double>()); }
-    bool boolean(const std::string& path) const { return value(path).get<bool>(); }
     std::string text(const std::string& path) const { return value(path).get<std::string>(); }
     std::vector<double> numbers(const std::string& path) const { return value(path).get<std::vector<double>>(); }
     std::vector<std::string> texts(const std::string& path) const { return value(path).get<std::vector<std::string>>(); }
-    std::vector<int> integers(const std::string& path) const { return value(path).get<std::vector<int>>(); }
 
     bool given(const std::string& path) const { return values_.count(path) && !values_.at(path).is_default; }
     bool has_table(const std::string& table) const;  // fem.0 is the first table of a list

@@ -141,20 +141,6 @@ void report_breakdown(const std::string& name, const std::string& breakdown, Stu
     outcome.broke_down = true;
 }
 
-// The breakdown of a kept run has the same effect as that of a new run.
-void report_kept_breakdowns(const PlannedStudy& planned, StudyOutcome& outcome)
-{
-    for (const StudyRun& run : planned.kept)
-        report_breakdown(run.name, breakdown_on_record(run, (fs::path(planned.folder) / run.name).string()), outcome);
-}
-
-// Records of an earlier revision or of other settings must not remain next to those of the runs to do.
-void remove_old_records(const PlannedStudy& planned)
-{
-    for (const auto& runs : {planned.to_do, planned.absent})
-        for (const StudyRun& run : runs) analysis::remove_record(fs::path(planned.folder) / run.name / "run.json");
-}
-
 void report_runs(const PlannedStudy& planned)
 {
     spdlog::info("{} runs to do, {} kept", planned.to_do.size(), planned.kept.size());
@@ -172,7 +158,9 @@ StudyOutcome run_study(const PlannedStudy& planned, int jobs, double then_s)
     fs::create_directories(planned.folder, error);
     if (error) throw pbs::InputError(planned.folder, 0, "", "", "the output folder cannot be made: " + error.message());
     analysis::remove_abandoned_files(planned.folder);
-    remove_old_records(planned);
+    // Records of an earlier revision or of other settings must not remain next to those of the runs to do.
+    for (const auto& runs : {planned.to_do, planned.absent})
+        for (const StudyRun& run : runs) analysis::remove_record(fs::path(planned.folder) / run.name / "run.json");
     write_study_plan(planned.folder, planned.plan);
     std::vector<PooledWork> work;
     for (const StudyRun& run : planned.to_do)
@@ -180,14 +168,14 @@ StudyOutcome run_study(const PlannedStudy& planned, int jobs, double then_s)
             {run.name, run.cost_s, [&run, folder = (fs::path(planned.folder) / run.name).string()] { return carry_out(run, folder); }});
     report_runs(planned);
     StudyOutcome outcome{.costs = StudyCosts(planned.folder)};
-    report_kept_breakdowns(planned, outcome);
+    for (const StudyRun& run : planned.kept)  // a kept breakdown has the same effect as that of a new run
+        report_breakdown(run.name, breakdown_on_record(run, (fs::path(planned.folder) / run.name).string()), outcome);
     for (const PooledResult& result : run_in_pool(work, planned.study->alone ? 1 : jobs, then_s)) {
         if (!result.finished) spdlog::error("pbskin: {}: {}", result.name, result.failure);
         report_breakdown(result.name, result.breakdown, outcome);
         outcome.failed |= !result.finished;
         outcome.refused |= result.refused;
-        const auto run =
-            std::find_if(planned.to_do.begin(), planned.to_do.end(), [&](const StudyRun& of) { return of.name == result.name; });
+        const auto run = std::ranges::find(planned.to_do, result.name, &StudyRun::name);
         if (result.finished) outcome.costs.add(result.name, run->cost_s, result.cpu_s);
     }
     outcome.costs.complete(planned.folder, planned.plan);

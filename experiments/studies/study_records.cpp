@@ -24,43 +24,19 @@ std::string plan_file(const std::string& folder)
     return (fs::path(folder) / "plan.json").string();
 }
 
-// The content of plan.json, checked, for the file may have been changed.
-class KeptPlan {
-public:
-    explicit KeptPlan(const std::string& folder) : file_(plan_file(folder)) {}
-
-    const nlohmann::json& runs() const { return list("runs"); }
-    const nlohmann::json& left_out() const { return list("left_out"); }
-
-    std::string text(const nlohmann::json& part, const std::string& key) const
-    {
-        const nlohmann::json& value = file_.at(part, key);
-        if (!value.is_string()) file_.refuse(key, "expected a text");
-        return value;
-    }
-
-    bool is_set(const nlohmann::json& part, const std::string& key) const
-    {
-        if (!part.contains(key)) return false;
-        if (!part.at(key).is_boolean()) file_.refuse(key, "expected true or false");
-        return part.at(key);
-    }
-
-private:
-    const nlohmann::json& list(const std::string& key) const
-    {
-        const nlohmann::json& value = file_.at(key);
-        if (!value.is_array()) file_.refuse(key, "expected a list, as reproduce writes it");
-        return value;
-    }
-
-    pbs::JsonFile file_;
-};
-
-void require_record(const fs::path& run_json)
+// The entries of plan.json are checked, for the file may have been changed.
+const nlohmann::json& list_in(const pbs::JsonFile& plan, const std::string& key)
 {
-    const nlohmann::json schema = pbs::JsonFile(run_json.string()).at("schema");
-    if (schema != run_schema) throw pbs::InputError(run_json.string(), 0, "schema", schema.dump(), fmt::format("expected {}", run_schema));
+    const nlohmann::json& value = plan.at(key);
+    if (!value.is_array()) plan.refuse(key, "expected a list, as reproduce writes it");
+    return value;
+}
+
+std::string text_in(const pbs::JsonFile& plan, const nlohmann::json& part, const std::string& key)
+{
+    const nlohmann::json& value = plan.at(part, key);
+    if (!value.is_string()) plan.refuse(key, "expected a text");
+    return value;
 }
 
 // The limb's bones lie along x.
@@ -76,13 +52,6 @@ analysis::CaseKey key_of(const Scene& scene)
     key.motion = scene.motion.clip.empty() ? name_of_sweep(scene) : fs::path(scene.motion.clip).stem().string();
     if (scene.character.vertices > 0) key.vertices = scene.character.vertices;
     return key;
-}
-
-// Body and motion of a run, as write_study_plan() writes them for scenes; empty if the plan has none.
-analysis::CaseKey place_of(const nlohmann::json& run, const std::string& file)
-{
-    if (!run.contains("of")) return {};
-    return analysis::case_key(run.at("of"), file);
 }
 
 void add_run(analysis::Records& records, const fs::path& folder, const std::string& name, const analysis::CaseKey& place, bool beside)
@@ -175,9 +144,9 @@ bool has_study_plan(const std::string& folder)
 FinishedRuns finished_runs(const std::string& folder)
 {
     FinishedRuns finished{.folder = folder};
-    const KeptPlan plan(folder);
-    for (const auto& run : plan.runs()) {
-        const std::string name = plan.text(run, "name");
+    const pbs::JsonFile plan(plan_file(folder));
+    for (const auto& run : list_in(plan, "runs")) {
+        const std::string name = text_in(plan, run, "name");
         const fs::path of_run = fs::path(folder) / name;
         if (fs::exists(of_run / "run.json"))
             finished.folders.push_back(of_run.string());
@@ -190,27 +159,33 @@ FinishedRuns finished_runs(const std::string& folder)
 analysis::Records read_study_records(const std::string& folder, const std::string& root)
 {
     analysis::Records records;
-    const KeptPlan plan(folder);
-    for (const auto& out : plan.left_out()) records.left_out.push_back({plan.text(out, "scene"), plan.text(out, "reason")});
-    for (const auto& run : plan.runs())
-        if (run.contains("scene")) records.planned_scenes.push_back(plan.text(run, "scene"));
+    const pbs::JsonFile plan(plan_file(folder));
+    for (const auto& out : list_in(plan, "left_out"))
+        records.left_out.push_back({text_in(plan, out, "scene"), text_in(plan, out, "reason")});
+    for (const auto& run : list_in(plan, "runs"))
+        if (run.contains("scene")) records.planned_scenes.push_back(text_in(plan, run, "scene"));
     for (const auto& out : records.left_out) records.planned_scenes.push_back(out.scene);
-    for (const auto& run : plan.runs()) {
-        const std::string name = plan.text(run, "name");
+    for (const auto& run : list_in(plan, "runs")) {
+        const std::string name = text_in(plan, run, "name");
         const fs::path of_run = fs::path(folder) / name;
-        if (!fs::exists(of_run / "run.json")) {
+        const std::string record = (of_run / "run.json").string();
+        if (!fs::exists(record)) {
             records.missing_runs.push_back(name);
             continue;
         }
-        require_record(of_run / "run.json");
-        add_run(records, of_run, of_run.lexically_relative(root).string(), place_of(run, plan_file(folder)), plan.is_set(run, "beside"));
+        const nlohmann::json schema = pbs::JsonFile(record).at("schema");
+        if (schema != run_schema) throw pbs::InputError(record, 0, "schema", schema.dump(), fmt::format("expected {}", run_schema));
+        // Body and motion of the run, as write_study_plan() writes them for scenes; empty if the plan has none.
+        const auto place = run.contains("of") ? analysis::case_key(run.at("of"), plan_file(folder)) : analysis::CaseKey{};
+        const nlohmann::json beside = run.value("beside", nlohmann::json(false));
+        if (!beside.is_boolean()) plan.refuse("beside", "expected true or false");
+        add_run(records, of_run, of_run.lexically_relative(root).string(), place, beside);
     }
     return records;
 }
 
 namespace {
 
-namespace fs = std::filesystem;
 using nlohmann::json;
 
 // "3 inverted, 1 not converged"

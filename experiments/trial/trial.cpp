@@ -107,10 +107,11 @@ std::string motion(const TrialOptions& options, std::vector<std::string>& remark
 {
     const auto model = pbs::read_model(options.model, "", options.scale);
     const auto& animations = model->rig.animations;
-    const auto named = std::find_if(animations.begin(), animations.end(),
-                                    [&](const pbs::RigAnimation& animation) { return animation.name == options.animation; });
-    if (named != animations.end())
-        return fmt::format("animation = {}\n", quoted(named->name)) + sampled(named->end_s - named->start_s, options.frames);
+    const auto motion_of = [&](const pbs::RigAnimation& animation) {
+        return fmt::format("animation = {}\n", quoted(animation.name)) + sampled(animation.end_s - animation.start_s, options.frames);
+    };
+    const auto named = std::ranges::find(animations, options.animation, &pbs::RigAnimation::name);
+    if (named != animations.end()) return motion_of(*named);
     if (!options.animation.empty()) return clip_motion(options, clip_file(options, model->rig), model->body.skeleton);
     if (animations.empty()) {
         if (model->body.skeleton.bones.empty())
@@ -124,8 +125,7 @@ std::string motion(const TrialOptions& options, std::vector<std::string>& remark
         remarks.push_back(fmt::format("{}: it has {} animations; {} is taken (--animation NAME takes another one): {}", options.model,
                                       animations.size(), animations.front().name, names));
     }
-    const pbs::RigAnimation& first = animations.front();
-    return fmt::format("animation = {}\n", quoted(first.name)) + sampled(first.end_s - first.start_s, options.frames);
+    return motion_of(animations.front());
 }
 
 // The settings of the built-in scenes.

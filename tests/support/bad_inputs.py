@@ -37,7 +37,8 @@ def secret(path):
 JOINT = '[[joint]]\nname = "j%d"\nparent = ""\nhead_m = [%d, 0, 0]\ntail_m = [%d, 0, 0]\n'
 SPECIAL = {"thousands_of_joints": "".join(JOINT % (i, i, i + 1) for i in range(2500)).encode(),
            "noise": sound_files.NOISE, "sparse": sparse, "secret": secret, "folder": os.mkdir, "pipe": os.mkfifo,
-           "locked": lambda path: path.mkdir(mode=0o555), "loop": lambda path: path.symlink_to(path.name),
+           "locked": lambda path: path.mkdir(mode=0o555), "closed": lambda path: path.mkdir(mode=0),
+           "loop": lambda path: path.symlink_to(path.name),
            "link_to_nothing": lambda path: path.symlink_to("nowhere"), "endless": lambda path: path.symlink_to("/dev/zero"),
            "null": lambda path: path.symlink_to("/dev/null")}
 

@@ -9,6 +9,8 @@ import rig_files
 
 NOISE = bytes((i * i * 7919 + i * 31) % 256 for i in range(4000))
 SCENE = foreign_arm.SCENE.replace("arm.msh", "arm.vtu")
+LIMB_SCENE = ('schema = 1\n[character]\nbody = "limb"\n[motion]\njoint = "forearm"\n'
+              "[pbs]\nk_stretch = 0.2\nk_volume = 1.0\nk_bind = 1.0\ngravity_m_s2 = [0.0, 0.0, 0.0]\n")
 CLIP_SCENE = SCENE.replace('joint = "elbow"\naxis = [0.0, 0.0, 1.0]\nangle_deg = 120.0\nframes = 5\n', 'clip = "good.bvh"\n')
 CORNERS, FACES = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
 GOLDEN = (1 + 5**0.5) / 2
@@ -89,7 +91,7 @@ SOUND = {
     "longer.vtu": (mesh_texts.vtu, dict(zip(("points", "cells"), foreign_arm.mesh((5, 2, 2))))),
     "bvh": (bvh, {}), "clip.bvh": (bvh, {"frames": "3", "motion": 3 * ROW}),
     "plan": (lambda **plan: json.dumps(plan), PLAN),
-    **text("skeleton", foreign_arm.SKELETON), **text("weights", WEIGHTS), **text("scene", SCENE),
+    **text("skeleton", foreign_arm.SKELETON), **text("weights", WEIGHTS), **text("scene", SCENE), **text("limb scene", LIMB_SCENE),
     **text("fbx", b"Kaydara FBX Binary  \x00\x1a\x00\xe8\x1c\x00\x00"), **text("measurements", MEASUREMENTS), **text("run", RUN),
     **text("node", "4 3 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n"), **text("ele", "1 4 0\n1 1 2 3 4\n"),
 }

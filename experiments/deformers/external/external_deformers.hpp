@@ -28,20 +28,10 @@ struct ExternalOptions {
 // does not end with status 0, or writes files of another size.
 std::unique_ptr<Deformer> make_program_deformer(const ExternalOptions& options);
 
-// An InputError if the library cannot be loaded, lacks a function, was compiled for another version of pbskin_deformer.h, or reports a
-// failure.
-std::unique_ptr<Deformer> make_library_deformer(const ExternalOptions& options);
-
 // Loads the library into this process, where it stays. Returns why it cannot be used, or an empty text if it can.
 std::string why_library_not_usable(const std::string& library);
 
 // The files through which pbskin and an external program exchange data. README.md of this folder specifies them.
-
-// The weights as a dense array by rows, #V x #bones.
-std::vector<double> dense_weights(const pbs::Weights& weights, std::size_t bones);
-
-// The upper three rows of each bone's transform, #bones x 3 x 4.
-std::vector<double> transform_rows(const pbs::Pose& pose);
 
 // character.json, rest.f64, tets.i32, weights.f64 and poses.f64. Numbers are little-endian, arrays by rows.
 void write_exchange(const std::string& folder, const pbs::Character& character, const std::vector<pbs::Pose>& poses, double time_step_s);

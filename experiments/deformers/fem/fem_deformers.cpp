@@ -11,18 +11,22 @@
 
 namespace experiments {
 
+reference_fem::LinearOptions linear_options(const FemOptions& options)
+{
+    return {.element_order = options.element_order,
+            .young_pa = options.young_pa,
+            .poisson = options.poisson,
+            .density_kg_m3 = options.density_kg_m3,
+            .gravity_m_s2 = options.gravity_m_s2,
+            .solver = options.solver,
+            .formulation = options.formulation};
+}
+
 void LinearFemDeformer::reset(const pbs::Character& character)
 {
     character_ = &character;
     bones_ = bone_attachment(character, options_);
-    const reference_fem::LinearOptions linear{.element_order = options_.element_order,
-                                              .young_pa = options_.young_pa,
-                                              .poisson = options_.poisson,
-                                              .density_kg_m3 = options_.density_kg_m3,
-                                              .gravity_m_s2 = options_.gravity_m_s2,
-                                              .solver = options_.solver,
-                                              .formulation = options_.formulation};
-    elasticity_ = std::make_unique<reference_fem::LinearElasticity>(character.mesh, linear, bones_.attachment);
+    elasticity_ = std::make_unique<reference_fem::LinearElasticity>(character.mesh, linear_options(options_), bones_.attachment);
     frames_not_finite_ = most_iterations_ = 0;
     largest_residual_ = 0.0;
     start(elasticity_->setup().spring_tet, elasticity_->prescribed_vertices());

@@ -13,6 +13,9 @@
 
 namespace experiments {
 
+// The options of the linear solver.
+reference_fem::LinearOptions linear_options(const FemOptions& options);
+
 // The kind of the attachment and those parameters that it has.
 nlohmann::json attachment_json(const FemOptions& options);
 

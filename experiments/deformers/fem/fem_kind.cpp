@@ -15,19 +15,16 @@ OptionFields<FemOptions> declared_fields()
              {.meaning =
                   "constitutive model; linear strain is fictitious by 1 - cos of the rotation and st_venant_kirchhoff gives way under "
                   "compression: both are negative controls at large rotations"})
-        .add("element_order", &FemOptions::element_order, {.lowest = 1, .highest = 2, .meaning = "polynomial order of the simplices"})
+        .add("element_order", &FemOptions::element_order, {.range = {1, 2}, .meaning = "polynomial order of the simplices"})
         .add("formulation", &FemOptions::formulation,
              {.meaning =
                   "how volume enters: displacement; mean_dilatation (one volume constraint per tet), which equals displacement on order 1; "
                   "taylor_hood (order 2 with a continuous pressure, the most accurate near nu = 1/2; for the linear model, quasi-static)"})
         .add("young_pa", &FemOptions::young_pa,
-             {.unit = "Pa",
-              .lowest = above_zero,
-              .highest = 1e15,
-              .meaning = "Young's modulus; cancels where displacements alone drive the body"})
-        .add("poisson", &FemOptions::poisson, {.lowest = 0, .highest = 0.4999999, .meaning = "Poisson's ratio"})
+             {.unit = "Pa", .range = {above_zero, 1e15}, .meaning = "Young's modulus; cancels where displacements alone drive the body"})
+        .add("poisson", &FemOptions::poisson, {.range = {0, 0.4999999}, .meaning = "Poisson's ratio"})
         .add("density_kg_m3", &FemOptions::density_kg_m3,
-             {.unit = "kg/m^3", .lowest = 0, .highest = 1e6, .meaning = "density, for gravity and dynamics"})
+             {.unit = "kg/m^3", .range = {0, 1e6}, .meaning = "density, for gravity and dynamics"})
         .add("gravity_m_s2", &FemOptions::gravity_m_s2, {.unit = "m/s^2", .meaning = "gravity on the reference"})
         .add("dynamics", &FemOptions::dynamics,
              {.meaning = "time integration: quasi_static (equilibrium in every frame), newmark (average acceleration), generalized_alpha"});
@@ -42,8 +39,7 @@ OptionFields<FemOptions> declared_fields()
     };
     fields.add("rayleigh", KeyType::numbers, {FemOptions{}.rayleigh_mass_1_s, FemOptions{}.rayleigh_stiffness_s},
                {.unit = "1/s, s",
-                .lowest = 0,
-                .highest = 1e6,
+                .range = {0, 1e6},
                 .meaning = "Rayleigh damping [mass, stiffness]: C = mass M + stiffness K(rest); without dynamics, zero"},
                read_rayleigh, write_rayleigh);
     fields.add(
@@ -54,16 +50,14 @@ OptionFields<FemOptions> declared_fields()
     // The value 0 of the next two stands for the attachment's own, which records state.
     fields.add(
         "core_radius", &FemOptions::core_radius,
-        {.lowest = 0,
-         .highest = 1,
+        {.range = {0, 1},
          .meaning =
              "attachments smooth, embedded and nodes: radius of the bone's capsule, a factor on the local limb radius, without a unit; 0: "
              "0.7 with attachment smooth, otherwise 0.35. Both are choices of this project. The study ensemble compares "
              "smooth springs with 0.7 and 0.5"});
     fields.add(
         "spring_factor", &FemOptions::spring_factor,
-        {.lowest = 0,
-         .highest = 1e9,
+        {.range = {0, 1e9},
          .meaning =
              "attachments smooth, embedded and bind: q, a factor without a unit: the density of the springs is q E / r^2 [N/m^4], r the "
              "capsule's radius (smooth: the density on the axis) or the local limb radius (bind); 0: 10 with attachment smooth, otherwise "
@@ -79,13 +73,11 @@ OptionFields<FemOptions> declared_fields()
         .add(
             "attachment_ends", &FemOptions::attachment_ends,
             {.unit = "r",
-             .lowest = 0.01,
-             .highest = 100,
+             .range = {0.01, 100},
              .meaning = "attachment smooth: the length, in radii of the capsule, over which the density rises from 0 at each end of it; at "
                         "most half of the capsule's length. The default is a choice of this project"})
         .add("attachment_samples", &FemOptions::attachment_samples,
-             {.lowest = 1,
-              .highest = 4,
+             {.range = {1, 4},
               .meaning = "attachments smooth and embedded: multiplies the 40 stations along a bone, the 8 rings of sample points across it "
                          "and the 24 points of a ring"});
     fields
@@ -94,8 +86,7 @@ OptionFields<FemOptions> declared_fields()
             {.meaning = "cholmod; umfpack, for comparison, with the linear model; cg_ml: conjugate gradients with algebraic multigrid, for "
                         "linear models whose factor does not fit in memory"})
         .add("most_newton_steps", &FemOptions::most_newton_steps,
-             {.lowest = 0,
-              .highest = 1e9,
+             {.range = {0, 1e9},
               .meaning =
                   "nonlinear model, dynamics quasi_static: no further solve on the way to a stage of a pose begins after this number of "
                   "Newton steps, and the pose is not reached; the linear elements of nested_start have four times as many; 0: no limit"})
@@ -151,23 +142,6 @@ const OptionFields<FemOptions>& fem_fields()
     return fields;
 }
 
-namespace {
-
-// Loads deal.II and some 200 shared objects, when a scene first uses a reference.
-std::unique_ptr<Deformer> make_fem(const DeformerSpec& spec)
-{
-    const auto make = load_module_with_blas("pbskin_fem").function<decltype(pbskin_make_fem)>("pbskin_make_fem");
-    return std::unique_ptr<Deformer>(make(options_of<FemOptions>(spec)));
-}
-
-DeformerTraits fem_traits(const DeformerSpec& spec)
-{
-    const bool linear = options_of<FemOptions>(spec).model == reference_fem::Model::linear;
-    return {.has_small_strain = linear, .is_negative_control = linear, .solves_equations = true};
-}
-
-}  // namespace
-
 DeformerKind fem_kind()
 {
     DeformerKind kind =
@@ -177,8 +151,15 @@ DeformerKind fem_kind()
                       "stable), St Venant-Kirchhoff; in equilibrium or in time; a frame that is not reached is marked not_converged",
                       fem_fields(), check);
     kind.needs_list = true;
-    kind.make = make_fem;
-    kind.traits = fem_traits;
+    // Loads deal.II and some 200 shared objects, when a scene first uses a reference.
+    kind.make = [](const DeformerSpec& spec) {
+        const auto make = load_module_with_blas("pbskin_fem").function<decltype(pbskin_make_fem)>("pbskin_make_fem");
+        return std::unique_ptr<Deformer>(make(options_of<FemOptions>(spec)));
+    };
+    kind.traits = [](const DeformerSpec& spec) {
+        const bool linear = options_of<FemOptions>(spec).model == reference_fem::Model::linear;
+        return DeformerTraits{.has_small_strain = linear, .is_negative_control = linear, .solves_equations = true};
+    };
     return kind;
 }
 

@@ -50,36 +50,12 @@ struct FemOptions {
 };
 
 // The names of the values of the reference's options in scenes and records.
-template <>
-inline constexpr NameTable<reference_fem::Model, 5> option_names<reference_fem::Model>{
-    {{reference_fem::Model::linear, "linear"},
-     {reference_fem::Model::corotational, "corotational"},
-     {reference_fem::Model::stable_neo_hookean, "stable_neo_hookean"},
-     {reference_fem::Model::neo_hookean, "neo_hookean"},
-     {reference_fem::Model::st_venant_kirchhoff, "st_venant_kirchhoff"}}};
-template <>
-inline constexpr NameTable<reference_fem::Formulation, 3> option_names<reference_fem::Formulation>{
-    {{reference_fem::Formulation::displacement, "displacement"},
-     {reference_fem::Formulation::mean_dilatation, "mean_dilatation"},
-     {reference_fem::Formulation::taylor_hood, "taylor_hood"}}};
-template <>
-inline constexpr NameTable<reference_fem::Dynamics, 3> option_names<reference_fem::Dynamics>{
-    {{reference_fem::Dynamics::quasi_static, "quasi_static"},
-     {reference_fem::Dynamics::newmark, "newmark"},
-     {reference_fem::Dynamics::generalized_alpha, "generalized_alpha"}}};
-template <>
-inline constexpr NameTable<FemAttachment, 4> option_names<FemAttachment>{{{FemAttachment::smooth, "smooth"},
-                                                                          {FemAttachment::embedded, "embedded"},
-                                                                          {FemAttachment::nodes, "nodes"},
-                                                                          {FemAttachment::bind, "bind"}}};
-template <>
-inline constexpr NameTable<pbs::AttachmentKernel, 2> option_names<pbs::AttachmentKernel>{
-    {{pbs::AttachmentKernel::biweight, "biweight"}, {pbs::AttachmentKernel::wendland, "wendland"}}};
-template <>
-inline constexpr NameTable<reference_fem::LinearSolver, 3> option_names<reference_fem::LinearSolver>{
-    {{reference_fem::LinearSolver::cholmod, "cholmod"},
-     {reference_fem::LinearSolver::umfpack, "umfpack"},
-     {reference_fem::LinearSolver::cg_ml, "cg_ml"}}};
+NAMED_OPTIONS(reference_fem::Model, linear, corotational, stable_neo_hookean, neo_hookean, st_venant_kirchhoff)
+NAMED_OPTIONS(reference_fem::Formulation, displacement, mean_dilatation, taylor_hood)
+NAMED_OPTIONS(reference_fem::Dynamics, quasi_static, newmark, generalized_alpha)
+NAMED_OPTIONS(FemAttachment, smooth, embedded, nodes, bind)
+NAMED_OPTIONS(pbs::AttachmentKernel, biweight, wendland)
+NAMED_OPTIONS(reference_fem::LinearSolver, cholmod, umfpack, cg_ml)
 
 // The options of the finite element reference in scenes and records: their keys, and how they are read.
 const OptionFields<FemOptions>& fem_fields();

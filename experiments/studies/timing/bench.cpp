@@ -3,7 +3,7 @@
 #include "analysis/records/report_table.hpp"
 #include "analysis/statistics/fits.hpp"
 #include "experiments/process/machine.hpp"
-#include "experiments/settings/option_fields.hpp"
+#include "experiments/settings/recorded_settings.hpp"
 #include "experiments/studies/timing/bench.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/mesh_io.hpp"
@@ -53,29 +53,26 @@ double best_rate(double seconds, const Work& work)
     return best;
 }
 
-// From one half of the working set to the other.
-double copy_gb_s(std::vector<float>& numbers, double seconds)
-{
-    const std::size_t half = numbers.size() / 2;
-    return 1e-9 * best_rate(seconds, [&](std::size_t repeats) {
-               for (std::size_t repeat = 0; repeat < repeats; ++repeat) {
-                   std::memcpy(&numbers[0], &numbers[half], half * sizeof(float));
-                   asm volatile("" ::: "memory");  // so that no repetition is left out
-               }
-               return 2.0 * double(repeats) * double(half) * sizeof(float);
-           });
-}
-
-double update_gb_s(std::vector<float>& numbers, double seconds)
+// Bytes that a core reads and writes: from one half of the working set to the other, or in place, whichever is faster.
+double gb_s(std::vector<float>& numbers, double seconds)
 {
     volatile float one = 1.0f;  // unknown to the compiler
-    return 1e-9 * best_rate(seconds, [&](std::size_t repeats) {
-               for (std::size_t repeat = 0; repeat < repeats; ++repeat) {
-                   const float factor = one;
-                   for (float& number : numbers) number *= factor;
-               }
-               return 2.0 * double(repeats) * double(numbers.size()) * sizeof(float);
-           });
+    const std::size_t half = numbers.size() / 2;
+    const auto rate = [&](std::size_t count, const auto& once) {
+        return 1e-9 * best_rate(seconds, [&](std::size_t repeats) {
+                   for (std::size_t repeat = 0; repeat < repeats; ++repeat) once();
+                   return 2.0 * double(repeats) * double(count) * sizeof(float);
+               });
+    };
+    const double copied = rate(half, [&] {
+        std::memcpy(&numbers[0], &numbers[half], half * sizeof(float));
+        asm volatile("" ::: "memory");  // so that no repetition is left out
+    });
+    const double updated = rate(numbers.size(), [&] {
+        const float factor = one;
+        for (float& number : numbers) number *= factor;
+    });
+    return std::max(copied, updated);
 }
 
 using BodyMaker = std::function<BenchBody()>;
@@ -198,7 +195,7 @@ std::vector<MemoryBandwidth> measure_bandwidth(double seconds, double largest_by
     std::vector<MemoryBandwidth> memory;
     for (double bytes = smallest_bytes; bytes < 1.5 * largest_bytes; bytes *= 2.0) {
         std::vector<float> numbers(static_cast<std::size_t>(bytes / sizeof(float)), 1.0f);
-        memory.push_back({bytes, std::max(copy_gb_s(numbers, seconds), update_gb_s(numbers, seconds))});
+        memory.push_back({bytes, gb_s(numbers, seconds)});
     }
     return memory;
 }
@@ -213,18 +210,7 @@ double bandwidth_at(const std::vector<MemoryBandwidth>& memory, double bytes)
     return std::lerp(low.gb_s, high.gb_s, std::log(bytes / low.bytes) / std::log(high.bytes / low.bytes));
 }
 
-json to_json(const BenchOptions& options)
-{
-    static const auto fields = OptionFields<BenchOptions>("bench")
-                                   .record("mesh", &BenchOptions::mesh)
-                                   .record("bars", &BenchOptions::bars)
-                                   .record("sizes", &BenchOptions::sizes)
-                                   .record("threads", &BenchOptions::threads)
-                                   .record("quick", &BenchOptions::quick)
-                                   .record("seconds", &BenchOptions::seconds)
-                                   .complete();
-    return fields.json(options);
-}
+RECORD_SETTINGS(BenchOptions, mesh, bars, sizes, threads, quick, seconds)
 
 json fit_scaling(const json& meshes)
 {

@@ -1,4 +1,4 @@
-#include "experiments/studies/timing/equal_quality.hpp"
+#include "experiments/studies/timing/timing.hpp"
 
 #include "analysis/records/record_files.hpp"
 #include "experiments/deformers/deformer_options.hpp"

@@ -1,4 +1,4 @@
-#include "experiments/studies/timing/features.hpp"
+#include "experiments/studies/timing/timing.hpp"
 
 #include "analysis/metrics/frame_metrics.hpp"
 #include "analysis/records/record_files.hpp"

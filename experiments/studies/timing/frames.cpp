@@ -1,4 +1,4 @@
-#include "experiments/studies/timing/frames.hpp"
+#include "experiments/studies/timing/timing.hpp"
 
 #include "analysis/records/provenance.hpp"
 #include "analysis/records/record_files.hpp"
@@ -80,7 +80,7 @@ public:
         for (const auto& [sample, project] :
              {std::pair(volume_s, &loops_.volume), std::pair(stretch_s, &loops_.stretch), std::pair(bind_s, &loops_.bind)})
             seconds[sample] += cpu_seconds([project = project] {
-                for (int iteration = 0; iteration < timed_iterations; ++iteration) (*project)();
+                for (int iteration = 0; iteration < paper_iterations; ++iteration) (*project)();
             });
     }
 
@@ -117,7 +117,7 @@ std::vector<FrameTiming> time_frames(const pbs::Character& character, const pbs:
     std::vector<TimedVariant> turns;
     for (const auto& [order, precision] : variants) {
         pbs::PbsOptions options;
-        options.iterations = timed_iterations;
+        options.iterations = paper_iterations;
         options.order = order;
         options.precision = precision;
         options.gravity_m_s2 = {0.0, -9.81, 0.0};
@@ -288,14 +288,6 @@ namespace {
 constexpr double round_s_per_vertex = 24e-6;
 constexpr int fewest_rounds = 3, most_rounds = 61;
 
-// So many rounds that they take about `seconds` of one core, whatever else the machine does. A round is two frames of three variants, each
-// timed twice.
-Rounds rounds_for(int vertices, double seconds)
-{
-    const int rounds = std::clamp(static_cast<int>(seconds / (round_s_per_vertex * vertices)), fewest_rounds, most_rounds);
-    return {.seconds = 0.0, .fewest = rounds, .most = rounds};
-}
-
 }  // namespace
 
 std::string measure_frames(const TimedCase& of, const std::string& folder)
@@ -308,7 +300,10 @@ std::string measure_frames(const TimedCase& of, const std::string& folder)
     mesh.tets = static_cast<int>(character.mesh.tets.rows());
     mesh.cpu_model = analysis::collect_provenance(1).cpu_model;
     mesh.surface_vertices = character.surface ? static_cast<int>(character.surface->tet.size()) : 0;
-    const auto rows = timing_rows(mesh, time_frames(character, motion, of.k_jiggle, rounds_for(mesh.vertices, of.seconds)));
+    // So many rounds that they take about these seconds of one core, whatever else the machine does. A round is two frames of three
+    // variants, each timed twice.
+    const int rounds = std::clamp(static_cast<int>(of.seconds / (round_s_per_vertex * mesh.vertices)), fewest_rounds, most_rounds);
+    const auto rows = timing_rows(mesh, time_frames(character, motion, of.k_jiggle, {.seconds = 0.0, .fewest = rounds, .most = rounds}));
     table_of(timing_columns, rows).write(analysis::path_in(folder, "timing.csv"));
     const auto measured = timing_measurements(rows);
     if (!measured.empty()) analysis::measurement_table(measured).write(analysis::path_in(folder, "measurements.csv"));
@@ -317,7 +312,7 @@ std::string measure_frames(const TimedCase& of, const std::string& folder)
 
 RECORD_SETTINGS_AND(TimedCase,
                     .derived("refinements", [](const TimedCase& of) { return of.scene.character.refinements; })
-                        .constant("iterations", timed_iterations)
+                        .constant("iterations", paper_iterations)
                         .constant("frames_a_turn", usual_frames_per_turn)
                         .constant("round_s_a_vertex", round_s_per_vertex)
                         .constant("rounds", {fewest_rounds, most_rounds})

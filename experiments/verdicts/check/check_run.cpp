@@ -112,13 +112,6 @@ std::optional<Baseline> baseline_of(const CheckArguments& arguments)
     return Baseline{analysis::parse_csv(::claims::check_baseline_csv, own), own};
 }
 
-std::string unit_of(const std::string& metric)
-{
-    for (const MetricText& text : metric_texts())
-        if (text.name == metric) return text.unit;
-    return "";
-}
-
 // A file in the folder of the user's bounds, or a built-in scene.
 std::string file_or_name(const CheckScene& check, const std::string& bounds)
 {
@@ -148,50 +141,37 @@ CheckSuite suite_left_out(const CheckScene& check, const CheckRules& rules)
     return suite;
 }
 
-class SceneCheck {
-public:
-    SceneCheck(const CheckArguments& arguments, const CheckRules& rules, const std::optional<Baseline>& baseline, CsvTable& measured)
-        : arguments_(arguments), rules_(rules), baseline_(baseline), measured_(measured)
-    {
-    }
+// Runs the scene and checks it. Adds its values to `measured`, and a breakdown to the result.
+CheckSuite suite_of(const CheckScene& check, const CheckRules& rules, const CheckArguments& arguments,
+                    const std::optional<Baseline>& baseline, CsvTable& measured, std::vector<std::string>& breakdowns)
+{
+    const std::string folder = (fs::path(arguments.folder) / check.name).string();
+    const RunResult result = run_scene(scene_of(check, rules, arguments), folder);
+    CheckSuite suite{check.name, result.seconds, {}, {}};
+    const std::string& failure = result.failure();
+    suite.cases.push_back({check.name, "runs", failure.empty() ? CheckState::held : CheckState::broke_down,
+                           failure.empty() ? fmt::format("{} frames", result.frames) : failure, std::nullopt, std::nullopt, rules.file,
+                           check.line, result.seconds});
+    if (!failure.empty()) breakdowns.push_back(check.name + ": " + failure);
+    const CsvTable metrics = analysis::read_csv((fs::path(folder) / "metrics.csv").string());
+    for (const analysis::CheckBound& bound : rules.bounds)
+        if (bound.scene == check.name) {
+            const MetricText* metric = find_metric(bound.metric);
+            suite.cases.push_back(judge_bound(bound, metric ? metric->unit : "", metrics, rules.file));
+        }
 
-    CheckSuite suite(const CheckScene& check, std::vector<std::string>& breakdowns)
-    {
-        const std::string folder = (fs::path(arguments_.folder) / check.name).string();
-        const RunResult result = run_scene(scene_of(check, rules_, arguments_), folder);
-        CheckSuite suite{check.name, result.seconds, {}, {}};
-        const std::string& failure = result.failure();
-        suite.cases.push_back({check.name, "runs", failure.empty() ? CheckState::held : CheckState::broke_down,
-                               failure.empty() ? fmt::format("{} frames", result.frames) : failure, std::nullopt, std::nullopt, rules_.file,
-                               check.line, result.seconds});
-        if (!failure.empty()) breakdowns.push_back(check.name + ": " + failure);
-        const CsvTable metrics = analysis::read_csv((fs::path(folder) / "metrics.csv").string());
-        for (const analysis::CheckBound& bound : rules_.bounds)
-            if (bound.scene == check.name) suite.cases.push_back(judge_bound(bound, unit_of(bound.metric), metrics, rules_.file));
-        add_baseline_cases(suite, metrics, folder);
-        return suite;
-    }
-
-private:
-    void add_baseline_cases(CheckSuite& suite, const CsvTable& metrics, const std::string& folder)
-    {
-        const auto [vertices, tets] = analysis::from_record((fs::path(folder) / "run.json").string(), [](const nlohmann::json& run) {
-            return std::pair(run.at("character").at("vertices").get<int>(), run.at("character").at("tets").get<int>());
-        });
-        CsvTable now = analysis::baseline_columns(rules_);
-        analysis::add_baseline_rows(now, suite.name, metrics, vertices, tets);
-        measured_.append(now);
-        if (baseline_)
-            for (CheckCase& check : analysis::compare_with_baseline(rules_, suite.name, now, baseline_->table, baseline_->file))
-                suite.cases.push_back(std::move(check));
-        suite.properties = analysis::step_times(suite.name, now, baseline_ ? &baseline_->table : nullptr);
-    }
-
-    const CheckArguments& arguments_;
-    const CheckRules& rules_;
-    const std::optional<Baseline>& baseline_;
-    CsvTable& measured_;
-};
+    const auto [vertices, tets] = analysis::from_record((fs::path(folder) / "run.json").string(), [](const nlohmann::json& run) {
+        return std::pair(run.at("character").at("vertices").get<int>(), run.at("character").at("tets").get<int>());
+    });
+    CsvTable now = analysis::baseline_columns(rules);
+    analysis::add_baseline_rows(now, suite.name, metrics, vertices, tets);
+    measured.append(now);
+    if (baseline)
+        for (CheckCase& of_baseline : analysis::compare_with_baseline(rules, suite.name, now, baseline->table, baseline->file))
+            suite.cases.push_back(std::move(of_baseline));
+    suite.properties = analysis::step_times(suite.name, now, baseline ? &baseline->table : nullptr);
+    return suite;
+}
 
 nlohmann::json to_json(const CheckCase& check)
 {
@@ -239,10 +219,10 @@ CheckResult run_check(const CheckArguments& arguments)
     require_scenes(rules, arguments.require_all);
 
     CsvTable measured = analysis::baseline_columns(rules);
-    SceneCheck scenes(arguments, rules, baseline, measured);
     CheckResult result;
     for (const CheckScene& check : rules.scenes)
-        result.suites.push_back(is_left_out(check) ? suite_left_out(check, rules) : scenes.suite(check, result.breakdowns));
+        result.suites.push_back(is_left_out(check) ? suite_left_out(check, rules)
+                                                   : suite_of(check, rules, arguments, baseline, measured, result.breakdowns));
     if (baseline)
         for (const CheckCase& gone : scenes_gone(rules, baseline->table, baseline->file))
             result.suites.push_back({gone.suite, 0.0, {}, {gone}});

@@ -2,7 +2,7 @@
 // values are altered, the verdicts change. Reference: Euler's formula, sums and quotients of Table 1, derivatives of Eq. 11; times and
 // frames that are made up.
 #include "experiments/studies/setup/body_setup.hpp"
-#include "experiments/studies/timing/frames.hpp"
+#include "experiments/studies/timing/timing.hpp"
 #include "tests/support/study_claims.hpp"
 
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 // no bit, and sleep on the human through a jump changes the pose by less than its tolerance.
 #include "experiments/deformers/registry.hpp"
 #include "experiments/scene/scene.hpp"
-#include "experiments/studies/timing/features.hpp"
+#include "experiments/studies/timing/timing.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/topology.hpp"
 #include "pbs/solver/options.hpp"

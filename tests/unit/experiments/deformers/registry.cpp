@@ -115,9 +115,9 @@ std::string other_value(const SceneKey& key)
     if (!key.choices.empty()) return '"' + key.choices[key.choices.front() == now ? 1 : 0] + '"';
     if (key.type == KeyType::boolean) return now.get<bool>() ? "false" : "true";
     if (key.type == KeyType::vec3) return "[1.0, 2.0, 3.0]";
-    const double number = now.get<double>(), lowest = std::isfinite(key.lowest) ? key.lowest : 0.0;
+    const double number = now.get<double>(), lowest = std::isfinite(key.range.lowest) ? key.range.lowest : 0.0;
     const double halfway = (number == lowest ? number + 1.0 : 0.5 * (number + lowest));
-    const double other = halfway <= key.highest ? halfway : 0.5 * (key.highest + lowest);
+    const double other = halfway <= key.range.highest ? halfway : 0.5 * (key.range.highest + lowest);
     return key.type == KeyType::integer ? std::to_string(static_cast<int>(std::floor(other))) : nlohmann::json(other).dump();
 }
 
@@ -127,8 +127,9 @@ std::vector<std::string> refused_values(const SceneKey& key)
     if (key.type == KeyType::text) return {"\"no_such_choice\"", "1"};
     std::vector<std::string> refused = {"\"a text\"", "[]"};
     if (key.type == KeyType::integer) refused.push_back("1.5");
-    if (std::isfinite(key.lowest)) refused.push_back(key.lowest == above_zero ? "0" : std::to_string(static_cast<int>(key.lowest) - 1));
-    if (std::isfinite(key.highest)) refused.push_back(nlohmann::json(key.highest * 1.5 + 1.0).dump());
+    const auto& [lowest, highest] = key.range;
+    if (std::isfinite(lowest)) refused.push_back(lowest == above_zero ? "0" : std::to_string(static_cast<int>(lowest) - 1));
+    if (std::isfinite(highest)) refused.push_back(nlohmann::json(highest * 1.5 + 1.0).dump());
     return refused;
 }
 
@@ -190,8 +191,7 @@ private:
 
 namespace experiments {
 
-template <>
-inline constexpr NameTable<Direction, 2> option_names<Direction>{{{Direction::up, "up"}, {Direction::down, "down"}}};
+NAMED_OPTIONS(Direction, up, down)
 
 }  // namespace experiments
 
@@ -203,8 +203,8 @@ void register_lift()
     DeformerKind kind =
         kind_of<Lift>("lift", "the rest shape, lifted",
                       OptionFields<LiftOptions>("lift")
-                          .add("height_m", &LiftOptions::height_m, {.unit = "m", .lowest = 0, .highest = 10, .meaning = "by how much"})
-                          .add("steps", &LiftOptions::steps, {.lowest = 1, .meaning = "how often"})
+                          .add("height_m", &LiftOptions::height_m, {.unit = "m", .range = {0, 10}, .meaning = "by how much"})
+                          .add("steps", &LiftOptions::steps, {.range = {1}, .meaning = "how often"})
                           .add("direction", &LiftOptions::direction, {.meaning = "up or down"})
                           .record("seen", &LiftOptions::seen));
     kind.traits = [](const DeformerSpec& spec) { return DeformerTraits{.iterations = options_of<LiftOptions>(spec).steps}; };

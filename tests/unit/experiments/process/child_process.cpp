@@ -20,21 +20,13 @@
 
 namespace {
 
-using experiments::in_own_process;
+using namespace experiments;
 
-TEST(OwnProcess, TellsItsResult)
+TEST(OwnProcess, TellsItsResultHoweverLongAndLeavesNothingBehind)
 {
     EXPECT_EQ(in_own_process([] { return nlohmann::json{{"frames", 3}}; }).at("frames"), 3);
-}
-
-TEST(OwnProcess, TellsMoreThanAPipeHolds)
-{
-    const std::string text(300'000, 'x');
-    EXPECT_EQ(in_own_process([&] { return nlohmann::json(text); }).get<std::string>(), text);
-}
-
-TEST(OwnProcess, LeavesNothingBehind)
-{
+    const std::string more_than_a_pipe_holds(300'000, 'x');
+    EXPECT_EQ(in_own_process([&] { return nlohmann::json(more_than_a_pipe_holds); }).get<std::string>(), more_than_a_pipe_holds);
     int mine = 1;
     in_own_process([&] { return nlohmann::json(++mine); });
     EXPECT_EQ(mine, 1);
@@ -61,25 +53,16 @@ TEST(OwnProcess, AFailureIsToldWithItsWordsAndItsKind)
     EXPECT_THROW(in_own_process([]() -> nlohmann::json { throw std::string("not an exception"); }), std::runtime_error);
 }
 
-TEST(OwnProcess, WordsThatAreNotUtf8ArriveAllTheSame)
+TEST(OwnProcess, WordsThatAreNotUtf8ArriveAndADeathIsAnError)
 {
     EXPECT_EQ(in_own_process([] { return nlohmann::json("li\xffmb"); }), "li\xef\xbf\xbdmb");
     EXPECT_EQ(words_of<pbs::InputError>([]() -> nlohmann::json { throw pbs::InputError("li\xffmb", 0, "", "", "cannot be read"); }),
               "li\xef\xbf\xbdmb: cannot be read");
-}
-
-TEST(OwnProcess, ADeathIsAnError)
-{
-    EXPECT_THROW(in_own_process([]() -> nlohmann::json {
-                     std::raise(SIGKILL);
-                     return {};
-                 }),
-                 pbs::InputError);
+    EXPECT_EQ(words_of<pbs::InputError>([] { return nlohmann::json(std::raise(SIGKILL)); }),
+              "process = signal 9: expected to end by itself");
 }
 
 // Whether a program can be started is known before it is. Reference: execvp of POSIX, which seeks names without a slash on the PATH.
-
-using namespace experiments;
 
 TEST(ProgramRun, KnowsWhetherAProgramCanBeStarted)
 {
@@ -123,9 +106,6 @@ TEST(ProgramRun, DoesNotFindProgramsFromTheCurrentFolder)
 }
 
 // Work in several processes at once: results are returned, and a worker's failure or death does not affect the others.
-
-using experiments::PooledWork;
-using experiments::run_in_pool;
 
 TEST(WorkerPool, FinishesEverythingInTheOrderAsked)
 {
@@ -178,12 +158,13 @@ TEST(WorkerPool, EachEndIsReported)
 }
 
 // Texts that exceed the capacity of a pipe, from both workers at once.
-TEST(WorkerPool, WordsOfAnyLengthArrive)
+TEST(WorkerPool, WordsOfAnyLengthArriveAndNoneOfNoWork)
 {
     const std::string words(300'000, 'x');
     const auto results = run_in_pool({{"one", 1.0, [&] { return words; }}, {"other", 1.0, [&] { return words + "y"; }}}, 2);
     EXPECT_EQ(results[0].breakdown, words);
     EXPECT_EQ(results[1].breakdown, words + "y");
+    EXPECT_TRUE(run_in_pool({}, 4).empty()) << "no work is no result";
 }
 
 // The process that owns the pool is killed. Its worker, which reports its number and would sleep for a minute, ends too.
@@ -210,11 +191,6 @@ TEST(WorkerPool, WorkersEndWithTheirParent)
     EXPECT_EQ(poll(&end, 1, 10'000), 1) << "the worker goes on";  // the pipe ends with the last process that could write
     if (!end.revents) kill(worker, SIGKILL);
     close(ends[0]);
-}
-
-TEST(WorkerPool, NoWorkIsNoResult)
-{
-    EXPECT_TRUE(run_in_pool({}, 4).empty());
 }
 
 }  // namespace

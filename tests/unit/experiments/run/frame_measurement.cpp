@@ -190,53 +190,58 @@ TEST(LimbStations, AJointFoldedBackStillHasANormal)
 
 using namespace experiments;
 
-pbs::Positions four_points()
+// The record is read back with the same words. A step before the frame's own is named.
+TEST(BrokenFrame, NamesTheFirstVertexThatIsNotFiniteOrElseTheWorstTet)
 {
-    return pbs::Positions::Random(4, 3);
-}
-
-Eigen::VectorXd ratios(std::initializer_list<double> values)
-{
-    return Eigen::Map<const Eigen::VectorXd>(values.begin(), static_cast<Eigen::Index>(values.size()));
-}
-
-TEST(BrokenFrame, NamesTheFirstVertexThatIsNotFinite)
-{
-    pbs::Positions points = four_points();
-    points(3, 0) = std::numeric_limits<double>::infinity();
-    points(2, 1) = std::numeric_limits<double>::quiet_NaN();
-    const BrokenFrame broken = broken_frame(5, pbs::Outcome::not_finite, points, ratios({std::nan("")}));
-    EXPECT_EQ(text_of(broken), "not finite in frame 5: first at vertex 2, 2 not finite");
-    EXPECT_EQ(nlohmann::json(broken),
-              (nlohmann::json{{"frame", 5}, {"what", "not_finite"}, {"first_vertex", 2}, {"vertices_not_finite", 2}}));
-}
-
-TEST(BrokenFrame, NamesTheWorstTet)
-{
-    const BrokenFrame broken = broken_frame(7, pbs::Outcome::finished, four_points(), ratios({1.0, 0.0, -0.25, 0.5}));
-    EXPECT_EQ(text_of(broken), "inverted in frame 7: worst tet 2 of volume ratio -0.25, 2 inverted");
-    EXPECT_EQ(nlohmann::json(broken),
-              (nlohmann::json{{"frame", 7}, {"what", "inverted"}, {"worst_tet", 2}, {"volume_ratio", -0.25}, {"inverted_tets", 2}}));
-}
-
-TEST(BrokenFrame, AStepThatDidNotConvergeNamesTheWorstTetWithoutAnyInverted)
-{
-    const BrokenFrame broken = broken_frame(0, pbs::Outcome::not_converged, four_points(), ratios({1.0, 0.9}));
-    EXPECT_EQ(text_of(broken), "not converged in frame 0: worst tet 1 of volume ratio 0.9, 0 inverted");
-}
-
-TEST(BrokenFrame, AStepBeforeTheFramesOwnIsNamed)
-{
-    BrokenFrame broken = broken_frame(2, pbs::Outcome::not_finite, four_points(), ratios({1.0, 0.9}));
-    broken.step = 7;
-    EXPECT_EQ(text_of(broken), "not finite in frame 2 (in step 7, before it): worst tet 1 of volume ratio 0.9, 0 inverted");
-    EXPECT_EQ(nlohmann::json(broken).at("step"), 7);
-    EXPECT_EQ(text_of(nlohmann::json(broken).get<BrokenFrame>()), text_of(broken));
-}
-
-TEST(BrokenFrame, WithoutTetsThereIsNone)
-{
-    EXPECT_EQ(broken_frame(0, pbs::Outcome::not_converged, pbs::Positions(0, 3), Eigen::VectorXd()).tet, -1);
+    const pbs::Positions finite = pbs::Positions::Random(4, 3);
+    pbs::Positions two_not_finite = finite;
+    two_not_finite(3, 0) = std::numeric_limits<double>::infinity();
+    two_not_finite(2, 1) = std::numeric_limits<double>::quiet_NaN();
+    const struct {
+        int frame;
+        pbs::Outcome outcome;
+        pbs::Positions positions;
+        std::vector<double> ratios;
+        int step;
+        std::string text;
+        nlohmann::json record;
+    } rows[] = {{5,
+                 pbs::Outcome::not_finite,
+                 two_not_finite,
+                 {std::nan("")},
+                 -1,
+                 "not finite in frame 5: first at vertex 2, 2 not finite",
+                 {{"frame", 5}, {"what", "not_finite"}, {"first_vertex", 2}, {"vertices_not_finite", 2}}},
+                {7,
+                 pbs::Outcome::finished,
+                 finite,
+                 {1.0, 0.0, -0.25, 0.5},
+                 -1,
+                 "inverted in frame 7: worst tet 2 of volume ratio -0.25, 2 inverted",
+                 {{"frame", 7}, {"what", "inverted"}, {"worst_tet", 2}, {"volume_ratio", -0.25}, {"inverted_tets", 2}}},
+                {0,
+                 pbs::Outcome::not_converged,
+                 finite,
+                 {1.0, 0.9},
+                 -1,
+                 "not converged in frame 0: worst tet 1 of volume ratio 0.9, 0 inverted",
+                 {{"frame", 0}, {"what", "not_converged"}, {"worst_tet", 1}, {"volume_ratio", 0.9}, {"inverted_tets", 0}}},
+                {2,
+                 pbs::Outcome::not_finite,
+                 finite,
+                 {1.0, 0.9},
+                 7,
+                 "not finite in frame 2 (in step 7, before it): worst tet 1 of volume ratio 0.9, 0 inverted",
+                 {{"frame", 2}, {"what", "not_finite"}, {"step", 7}, {"worst_tet", 1}, {"volume_ratio", 0.9}, {"inverted_tets", 0}}}};
+    for (const auto& [frame, outcome, positions, ratios, step, text, record] : rows) {
+        BrokenFrame broken = broken_frame(frame, outcome, positions, Eigen::VectorXd::Map(ratios.data(), std::ssize(ratios)));
+        broken.step = step;
+        EXPECT_EQ(text_of(broken), text);
+        EXPECT_EQ(nlohmann::json(broken), record);
+        EXPECT_EQ(text_of(record.get<BrokenFrame>()), text);
+    }
+    EXPECT_EQ(broken_frame(0, pbs::Outcome::not_converged, pbs::Positions(0, 3), Eigen::VectorXd()).tet, -1)
+        << "without tets there is none";
 }
 
 }  // namespace

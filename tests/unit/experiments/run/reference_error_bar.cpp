@@ -15,28 +15,20 @@
 
 namespace {
 
-using experiments::ErrorBar;
-using experiments::FrameMeasurer;
-using experiments::ReferenceErrorBar;
+using namespace experiments;
 
-// The reference that ReferenceErrorBar refines, with another deformer's positions.
-template <const char* Kind>
-std::unique_ptr<experiments::Deformer> make_stand_in(const experiments::DeformerSpec&)
-{
-    return experiments::make_deformer(experiments::default_spec(Kind));
-}
-
-constexpr char lbs[] = "lbs", pbs_name[] = "pbs";
-
-experiments::DeformerSpec spec_of(const std::string& kind, int element_order = 2)
+// The reference that ReferenceErrorBar refines, with the positions of another deformer: lbs or pbs.
+DeformerSpec spec_of(const std::string& kind, int element_order = 2)
 {
     static const bool registered = [] {
-        experiments::add_deformer_kind({.name = "stand_in_lbs", .meaning = "LBS", .make = make_stand_in<lbs>});
-        experiments::add_deformer_kind({.name = "stand_in_pbs", .meaning = "PBS", .make = make_stand_in<pbs_name>});
+        for (const char* name : {"lbs", "pbs"})
+            add_deformer_kind({.name = std::string("stand_in_") + name, .meaning = name, .make = [name](const DeformerSpec&) {
+                                   return make_deformer(default_spec(name));
+                               }});
         return true;
     }();
     EXPECT_TRUE(registered);
-    experiments::FemOptions options{.attachment = experiments::FemAttachment::embedded};  // whose order is 1
+    FemOptions options{.attachment = FemAttachment::embedded};  // whose order is 1
     options.element_order = element_order;
     return {.name = kind, .kind = "stand_in_" + kind, .label = kind, .options = options};
 }
@@ -48,7 +40,7 @@ pbs::Pose bent(const pbs::Character& character)
 
 pbs::Positions solved(const std::string& kind, const pbs::Character& character)
 {
-    const auto deformer = experiments::make_deformer(spec_of(kind));
+    const auto deformer = make_deformer(spec_of(kind));
     deformer->reset(character);
     deformer->advance(bent(character), 0.01);
     return deformer->positions();
@@ -112,7 +104,7 @@ TEST_F(ErrorBarOfPbs, OfSolutionsThatShowNoCredibleOrderHasTheLargerFactor)
 
 // Moves the rest shape along x by an error that depends on the elements: 16 mm and 4 mm for linear ones on the limb's tets and on the
 // refined ones, 1 mm and 0 for quadratic ones.
-class KnownError : public experiments::Deformer {
+class KnownError : public Deformer {
 public:
     explicit KnownError(int element_order) : element_order_(element_order) {}
     void reset(const pbs::Character& character) override
@@ -129,19 +121,16 @@ private:
     pbs::Positions positions_;
 };
 
-std::unique_ptr<experiments::Deformer> make_known_error(const experiments::DeformerSpec& spec)
-{
-    return std::make_unique<KnownError>(experiments::options_of<experiments::FemOptions>(spec).element_order);
-}
-
 // By hand: order 2, credible with the smooth attachment. The finest is 1.25 x 1 mm / 3 from the limit, and the reference is 1 mm or 16 mm
 // farther away.
 TEST_F(ErrorBarOfALimb, OfFourSolutionsTakesTheOrderOfTheLinearOnesAndTheDifferenceOfTheQuadraticOnes)
 {
-    experiments::add_deformer_kind({.name = "known_error", .meaning = "rest and an error", .make = make_known_error});
+    add_deformer_kind({.name = "known_error", .meaning = "rest and an error", .make = [](const DeformerSpec& spec) {
+                           return std::make_unique<KnownError>(options_of<FemOptions>(spec).element_order);
+                       }});
     for (const int element_order : {1, 2}) {
-        const experiments::FemOptions options{.element_order = element_order, .attachment = experiments::FemAttachment::smooth};
-        const experiments::DeformerSpec spec{.name = "known", .kind = "known_error", .label = "known", .options = options};
+        const FemOptions options{.element_order = element_order, .attachment = FemAttachment::smooth};
+        const DeformerSpec spec{.name = "known", .kind = "known_error", .label = "known", .options = options};
         KnownError reference(element_order);
         reference.reset(limb);
         ReferenceErrorBar bar(ErrorBar::both, spec, limb);

@@ -8,6 +8,7 @@
 #include "pbs/solver/options.hpp"
 #include "tests/support/bar_character.hpp"
 #include "tests/support/gltf_document.hpp"
+#include "tests/support/refusal.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/unit/pbs/character/expect_input_error.hpp"
 
@@ -53,12 +54,14 @@ TEST(Scene, EveryBuiltInSceneReads)
 
 TEST(Scene, ReferencesKeepTheirOwnOptions)
 {
-    const Scene scene = read_scene("limb_twist", {"fem.1.poisson=0.3"});
+    const Scene scene = read_scene("limb_twist", {"fem.1.poisson=0.3", "fem.young_pa=2e4"});
     ASSERT_EQ(scene.deformers[3].name, "fem_p1");
     EXPECT_EQ(options_of<FemOptions>(scene.deformers[3]).element_order, 1);
     EXPECT_EQ(options_of<FemOptions>(scene.deformers[4]).element_order, 2);
     EXPECT_DOUBLE_EQ(options_of<FemOptions>(scene.deformers[3]).poisson, 0.45);
     EXPECT_DOUBLE_EQ(options_of<FemOptions>(scene.deformers[4]).poisson, 0.3);
+    EXPECT_DOUBLE_EQ(options_of<FemOptions>(scene.deformers[3]).young_pa, 2e4)
+        << "a key of a list without an index is that of its first table";
 }
 
 TEST(Scene, OverridesWinOverTheFile)
@@ -91,6 +94,25 @@ TEST(Scene, PathsAreRelativeToTheFile)
     EXPECT_EQ(scene.character.mesh_file, folder / "meshes/arm.msh");
     EXPECT_EQ(scene.character.skeleton_file, "/rigs/arm.skeleton.toml");
     EXPECT_EQ(scene.character.weights_file, folder / "weights.csv");
+}
+
+// Rules that a TOML file of bad inputs (tests/support/bad_scenes.toml) cannot break.
+TEST(Scene, NamesThatAreNotUtf8AndKeysWithASpaceAreRefused)
+{
+    const test_support::ScratchFolder folder;
+    const auto refusal = [&](const std::string& file, const std::vector<std::string>& overrides) {
+        return test_support::refusal_of([&] { read_scene(folder.file(file, smallest + "[[fem]]\n"), overrides); });
+    };
+    EXPECT_EQ(refusal("limb.toml", {"character.mesh=li\xffmb.msh"}), "--set: character.mesh = li\xffmb.msh: expected UTF-8");
+    EXPECT_EQ(refusal("li\xffmb.toml", {}), folder / "li\xffmb.toml: expected a file's name in UTF-8: it names the scene in all records");
+    EXPECT_TRUE(refusal("limb.toml", {"fem. 0.poisson=0.3"}).starts_with("--set: fem. 0.poisson = 0.3: unknown key"));
+}
+
+TEST(Scene, WithoutATimeStepItDividesAFrameOfTheClip)
+{
+    const test_support::ScratchFolder folder;
+    const std::string clip = "schema = 1\n[character]\nbody = \"human\"\n[motion]\nclip = \"01_01.bvh\"\nrate_hz = 30.0\n";
+    EXPECT_DOUBLE_EQ(read_scene(folder.file("clip.toml", clip + stated), {}).motion.time_step_s, 1.0 / 120.0);
 }
 
 TEST(Scene, ReadsRefinementAndErrorBar)
@@ -195,16 +217,6 @@ TEST_F(MotionCase, AClipWhoseJointsAllMatch)
     EXPECT_EQ(motion.partial_match, "");
     EXPECT_TRUE(motion.remarks.empty());
     EXPECT_NEAR(motion.largest_rotation_deg, 120.0, 1e-3);  // the forearm follows both joints; BVH's numbers are single precision
-}
-
-TEST_F(MotionCase, AClipThatMatchesInPartNamesTheOthers)
-{
-    const MotionSpec walk = clip({"upper", "forearm", "hand"});
-    const CaseMotion motion = made(walk);
-    EXPECT_EQ(motion.clip_joints, 3);
-    EXPECT_EQ(motion.matched_joints, 2);
-    EXPECT_EQ(motion.partial_match, walk.clip + ": 2 of 3 moving joints of the clip match a bone; without a bone: hand");
-    EXPECT_TRUE(motion.remarks.empty());  // the run remarks on it, unless the body is made for other clips too
 }
 
 TEST_F(MotionCase, AClipThatMatchesLessThanHalfIsRefusedUnlessItIsAllowed)

@@ -13,9 +13,7 @@
 #include "experiments/studies/stiffness/stiffness_ratios.hpp"
 #include "experiments/studies/study.hpp"
 #include "experiments/studies/timing/bench.hpp"
-#include "experiments/studies/timing/equal_quality.hpp"
-#include "experiments/studies/timing/features.hpp"
-#include "experiments/studies/timing/frames.hpp"
+#include "experiments/studies/timing/timing.hpp"
 #include "experiments/studies/work_precision/measured_points.hpp"
 #include "pbs/author/author_solver.hpp"
 #include "pbs/skinning/delta_mush.hpp"
@@ -118,51 +116,26 @@ TEST(RecordedSettings, OfConvergence)
     EXPECT_GE(expect_each_change_repeats(of), 15);
 }
 
-TEST(RecordedSettings, OfArtefacts)
+TEST(RecordedSettings, OfTheOtherStudies)
 {
-    const ArtefactCase of{.scene = limb(), .poses = {{18, "bend_90_deg"}}, .joint = "upper|forearm", .vertices = {1200}};
-    EXPECT_GE(expect_each_change_repeats(of), 10);
-}
-
-TEST(RecordedSettings, OfJiggle)
-{
+    const ArtefactCase artefacts{.scene = limb(), .poses = {{18, "bend_90_deg"}}, .joint = "upper|forearm", .vertices = {1200}};
+    EXPECT_GE(expect_each_change_repeats(artefacts), 10);
     EXPECT_GE(expect_each_change_repeats(JoltCase{limb(), {}, {{}}, false}), 12);
     EXPECT_GE(expect_each_change_repeats(WalkCase{limb(), {0.1}, 100}), 5);
-}
-
-TEST(RecordedSettings, OfStability)
-{
     StabilityCell cell;
     cell.spec = default_spec("pbs");
     EXPECT_GE(expect_each_change_repeats(cell), 28);
-}
-
-TEST(RecordedSettings, OfStiffness)
-{
     EXPECT_GE(expect_each_change_repeats(StiffnessSweep{.body = "limb"}), 6);
-    const StiffnessSetting of;
-    test_support::for_each_change(
-        of, [&](const StiffnessSetting& changed, const std::string& what) { EXPECT_NE(to_json(changed), to_json(of)) << what; });
-}
-
-TEST(RecordedSettings, OfFit)
-{
+    const StiffnessSetting stiffness;
+    test_support::for_each_change(stiffness, [&](const StiffnessSetting& changed, const std::string& what) {
+        EXPECT_NE(to_json(changed), to_json(stiffness)) << what;
+    });
     EXPECT_GE(expect_each_change_repeats(SagCase{}), 7);
-}
-
-TEST(RecordedSettings, OfBodySetup)
-{
-    const BodySetup of{"ring", 0, {"pbs.k_volume=0.5"}};
-    EXPECT_GE(expect_each_change_repeats(of), 4);
-}
-
-TEST(RecordedSettings, OfTimedStudies)
-{
+    EXPECT_GE(expect_each_change_repeats(BodySetup{"ring", 0, {"pbs.k_volume=0.5"}}), 4);
     EXPECT_GE(expect_each_change_repeats(BenchOptions{.mesh = "bar.msh", .sizes = {1000}}), 7);
     EXPECT_GE(expect_each_change_repeats(TimedCase{.name = "man_1654", .scene = limb(), .model = "Man"}), 6);
-    EXPECT_GE(expect_each_change_repeats(
-                  FeaturesCase{.name = "limb", .scene = "limb_bend", .cut = {"motion.frames=11"}, .features = {{"sleep"}}}),
-              8);
+    const FeaturesCase features{.name = "limb", .scene = "limb_bend", .cut = {"motion.frames=11"}, .features = {{"sleep"}}};
+    EXPECT_GE(expect_each_change_repeats(features), 8);
 }
 
 TEST(RecordedSettings, OfATimedCaseHasTheRefinementsOfItsMesh)

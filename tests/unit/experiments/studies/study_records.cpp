@@ -1,9 +1,10 @@
-// Reference: the plan and the files on disk. A verdict is based only on runs that ended.
+// Reference: the plan and the files on disk. A verdict is based only on runs that ended. tests/support/bad_cases.toml has plans and records
+// that somebody else has changed.
 
 #include "analysis/records/record_files.hpp"
 #include "analysis/verdicts/measurement.hpp"
 #include "experiments/studies/reproduce.hpp"
-#include "pbs/geometry/input_error.hpp"
+#include "tests/support/refusal.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 #include <gtest/gtest.h>
@@ -90,45 +91,7 @@ TEST(StudyRecords, ARecordIsOfTheBodyAndMotionThatThePlanGives)
     EXPECT_EQ(records.cases[0].place.motion, "01_03");
 }
 
-TEST(StudyRecords, WhatSomebodyElseMadeOfThemIsRefusedByFileAndField)
-{
-    const ScratchFolder root;
-    const std::string study = root / "momentum", plan = study + "/plan.json", run = study + "/limb/run.json";
-    write_study_plan(study, plan_of({"limb"}));
-    finish(study, "limb", 1.0);
-    const auto message_with = [&](const std::string& file, const std::string& text) -> std::string {
-        const std::string whole = analysis::read_text(file);
-        analysis::write_text_atomically(file, text);
-        std::string message = "accepted";
-        try {
-            read_study_records(study, root.path().string());
-        } catch (const pbs::InputError& error) {
-            message = error.what();
-        }
-        analysis::write_text_atomically(file, whole);
-        return message;
-    };
-    EXPECT_EQ(message_with(plan, "{\n\"runs\": ["), plan + ":2: no JSON, or cut short, at byte 12");
-    EXPECT_EQ(message_with(plan, "{\"runs\": []}"), plan + ": left_out: missing");
-    EXPECT_EQ(message_with(plan, "[]"), plan + ": left_out: missing");
-    EXPECT_EQ(message_with(plan, R"({"runs": 3, "left_out": []})"), plan + ": runs: expected a list, as reproduce writes it");
-    EXPECT_EQ(message_with(plan, R"({"runs": [{}], "left_out": []})"), plan + ": name: missing");
-    EXPECT_EQ(message_with(plan, R"({"runs": [{"name": 3}], "left_out": []})"), plan + ": name: expected a text");
-    EXPECT_EQ(message_with(plan, R"({"runs": [{"name": "limb", "scene": "limb", "of": {"body": 3}}], "left_out": []})"),
-              plan + ": of.body = 3: expected a text");
-    EXPECT_EQ(message_with(run, "{}"), run + ": schema: missing");
-    EXPECT_EQ(message_with(run, "{\"schema\": 3"), run + ":1: no JSON, or cut short, at byte 13");
-    EXPECT_EQ(message_with(run, "{\"schema\": 3}"), "accepted");
-    EXPECT_EQ(message_with(run, "{\"schema\": 1}"), run + ": schema = 1: expected 3");
-}
-
-}  // namespace
-
 // Reference: the contents written to run.json.
-
-namespace {
-
-using experiments::marked_frames;
 
 class MarkedFrames : public testing::Test {
 protected:
@@ -137,14 +100,6 @@ protected:
         std::filesystem::create_directories(scratch / "limb_bend");
         scratch.file("limb_bend/run.json", run_json);
         return marked_frames({scratch / "limb_bend"});
-    }
-    std::string refusal_of(const std::string& run_json)
-    {
-        try {
-            return "accepted: " + marks_of(run_json);
-        } catch (const pbs::InputError& error) {
-            return error.what();
-        }
     }
 
     test_support::ScratchFolder scratch;
@@ -184,7 +139,7 @@ TEST_F(MarkedFrames, WhatSomebodyElseMadeOfARecordIsRefusedWithItsFile)
          {"", "{\"outcome\": ", "[]", R"({"outcome": 3})", R"({"outcome": {"frames_with_overlap": 4}})",
           R"({"outcome": {"frames_with_overlap": "four", "frames": 31}})", R"({"outcome": {"broken_frames": {"pbs": []}, "frames": 31}})",
           R"({"outcome": {"broken_frames": {"pbs": [{"frame": "two"}]}, "frames": 31}})"})
-        EXPECT_EQ(refusal_of(text), refusal) << text;
+        EXPECT_EQ(test_support::refusal_of([&] { marks_of(text); }), refusal) << text;
 }
 
 }  // namespace

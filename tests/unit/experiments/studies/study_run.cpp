@@ -96,17 +96,6 @@ TEST_F(StudyRunTest, AFrameThatWasNotReachedIsABreakdownWhereTheSceneWasExpected
     EXPECT_EQ(breakdown_on_record(run, folder), "");
 }
 
-TEST_F(StudyRunTest, ARecordThatCannotBeRemovedIsNamed)
-{
-    fs::create_directories(fs::path(folder) / "run.json" / "kept");
-    try {
-        carry_out(counting_run(3, write_a_record), folder);
-        FAIL() << "accepted";
-    } catch (const pbs::InputError& error) {
-        EXPECT_EQ(error.what(), folder + "/run.json: an earlier run's record cannot be removed: Directory not empty");
-    }
-}
-
 TEST_F(StudyRunTest, WorkThatFailsLeavesNoRecordOfAnEarlierRun)
 {
     carry_out(counting_run(3, write_a_record), folder);

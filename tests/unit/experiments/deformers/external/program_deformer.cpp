@@ -1,5 +1,7 @@
 // A deformer that is a program: when it is called, with what, and what is made of its files. Reference: the specification in
 // experiments/deformers/external/README.md. The programs are shell scripts that copy files made here.
+// robustness/experiments/own_deformer.py compares the contents of the files with pbskin's own LBS, and has each way in which a program can
+// fail.
 
 #include "experiments/deformers/external/external_deformers.hpp"
 #include "tests/support/bar_character.hpp"
@@ -8,25 +10,11 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
-
-// The files between pbskin and a program. Reference: the table of files in experiments/deformers/external/README.md, read here byte by
-// byte.
+#include <cmath>
 
 namespace {
 
 using namespace experiments;
-
-template <typename Number>
-std::vector<Number> numbers_of(const std::string& file)
-{
-    std::ifstream stream(file, std::ios::binary);
-    const std::string bytes((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
-    std::vector<Number> numbers(bytes.size() / sizeof(Number));
-    EXPECT_EQ(bytes.size(), numbers.size() * sizeof(Number)) << file;
-    std::memcpy(numbers.data(), bytes.data(), bytes.size());
-    return numbers;
-}
 
 std::string bytes_of(const std::vector<double>& numbers)
 {
@@ -35,19 +23,13 @@ std::string bytes_of(const std::vector<double>& numbers)
 
 class ExchangeFolder : public testing::Test {
 protected:
-    ExchangeFolder() : character(test_support::bar_character({4, 1, 1})), poses(3, pbs::Pose(2, Eigen::Isometry3d::Identity()))
-    {
-        poses[2][1] = Eigen::Translation3d(1.0, 2.0, 3.0) * Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitY());
-        write_exchange(folder.path().string(), character, poses, 0.02);
-    }
-
-    pbs::Character character;
-    std::vector<pbs::Pose> poses;
+    const pbs::Character character = test_support::bar_character({4, 1, 1});
     test_support::ScratchFolder folder;
 };
 
 TEST_F(ExchangeFolder, DescribesTheCharacter)
 {
+    write_exchange(folder.path().string(), character, {3, pbs::Pose(2, Eigen::Isometry3d::Identity())}, 0.02);
     nlohmann::json facts;
     std::ifstream(folder / "character.json") >> facts;
     const nlohmann::json bones = {{{"name", "upper"}, {"parent", -1}, {"head_m", {-1.0, 0.0, 0.0}}, {"tail_m", {0.0, 0.0, 0.0}}},
@@ -56,42 +38,6 @@ TEST_F(ExchangeFolder, DescribesTheCharacter)
                                      {"poses", 3},    {"time_step_s", 0.02}, {"tets", character.mesh.tets.rows()},
                                      {"bones", bones}};
     EXPECT_EQ(facts, expected);
-}
-
-TEST_F(ExchangeFolder, HoldsTheTetsByRows)
-{
-    const auto rest = numbers_of<double>(folder / "rest.f64");
-    const auto tets = numbers_of<std::int32_t>(folder / "tets.i32");
-    ASSERT_EQ(rest.size(), character.mesh.rest.size());
-    ASSERT_EQ(tets.size(), character.mesh.tets.size());
-    for (Eigen::Index v = 0; v < character.mesh.rest.rows(); ++v)
-        for (int axis = 0; axis < 3; ++axis) EXPECT_EQ(rest[3 * v + axis], character.mesh.rest(v, axis));
-    for (Eigen::Index t = 0; t < character.mesh.tets.rows(); ++t)
-        for (int corner = 0; corner < 4; ++corner) EXPECT_EQ(tets[4 * t + corner], character.mesh.tets(t, corner));
-}
-
-// A row of weights sums to one up to the rounding of the two weights and of their sum.
-TEST_F(ExchangeFolder, HoldsAWeightForEachVertexAndBone)
-{
-    const auto weights = numbers_of<double>(folder / "weights.f64");
-    ASSERT_EQ(weights.size(), 2 * static_cast<std::size_t>(character.weights.vertices()));
-    for (int v = 0; v < character.weights.vertices(); ++v) {
-        EXPECT_NEAR(weights[2 * v] + weights[2 * v + 1], 1.0, 3 * std::numeric_limits<double>::epsilon());
-        for (int e = character.weights.first[v]; e < character.weights.first[v + 1]; ++e)
-            EXPECT_EQ(weights[2 * v + character.weights.bone[e]], character.weights.weight[e]);
-    }
-}
-
-TEST_F(ExchangeFolder, HoldsTheUpperThreeRowsOfEachTransform)
-{
-    const auto numbers = numbers_of<double>(folder / "poses.f64");
-    ASSERT_EQ(numbers.size(), 3u * 2 * 12);
-    const std::vector<double> still = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}, first(numbers.begin(), numbers.begin() + 12);
-    EXPECT_EQ(first, still);
-    const double *moved = numbers.data() + (2 * 2 + 1) * 12, half = 0.5;
-    for (const auto& [at, expected] :
-         {std::pair{3, 1.0}, {7, 2.0}, {11, 3.0}, {0, std::cos(half)}, {2, std::sin(half)}, {8, -std::sin(half)}})
-        EXPECT_NEAR(moved[at], expected, 4 * std::numeric_limits<double>::epsilon()) << at;
 }
 
 TEST_F(ExchangeFolder, ReadsWhatTheProgramWrote)
@@ -216,43 +162,6 @@ TEST_F(ProgramDeformer, TakesItsOwnTimesOrSharesTheProgramsTime)
     EXPECT_GE(share, 0.02);
     EXPECT_EQ(shared->advance(poses[1], 0.01).seconds, share);
     EXPECT_EQ(shared->record().at("own_times"), false);
-}
-
-TEST_F(ProgramDeformer, PositionsThatAreNotFiniteAreABreakdown)
-{
-    const double nan = std::nan("");
-    write_answer(3);
-    const auto mine = deformer(answers +
-                               "; dd if=$0/nan of=$1/positions.f64 bs=8 count=1 "
-                               "conv=notrunc 2> /dev/null");
-    folder.file("nan", std::string(reinterpret_cast<const char*>(&nan), 8));
-    EXPECT_EQ(mine->advance(poses[0], 0.01).outcome, pbs::Outcome::not_finite);
-    EXPECT_EQ(mine->advance(poses[1], 0.01).outcome, pbs::Outcome::finished);
-}
-
-TEST_F(ProgramDeformer, NamesTheSceneTheDeformerTheCommandAndTheRule)
-{
-    write_answer(2);
-    const std::string begins = "scene.toml: mine.command = /bin/sh -c ";
-    for (const auto& [script, rule] : {std::pair{"exit 3", "ended with status 3: expected status 0"},
-                                       {"echo one; echo two >&2; exit 1", "ended with status 1: expected status 0; its last line: two"},
-                                       {"kill -9 $$", "ended by a signal: expected status 0"},
-                                       {"true", "positions.f64: missing: expected the program to write it"},
-                                       {"cp $0/answer $1/positions.f64", "expected 1440: 3 poses x 20 vertices x 3 numbers of 8 bytes"}})
-        expect_input_error([&] { deformer(script)->advance(poses[0], 0.01); }, begins, rule);
-}
-
-TEST_F(ProgramDeformer, AProgramThatCannotBeStartedIsNamedWithTheReason)
-{
-    const auto start = [&](const std::string& program) {
-        const auto made = make_program_deformer({.command = {program}, .scene = "scene.toml", .name = "mine"});
-        made->reset(character);
-        made->advance(poses[0], 0.01);
-    };
-    expect_input_error([&] { start("/nowhere/mine"); },
-                       "scene.toml: mine.command = /nowhere/mine: ", "cannot be started: No such file or directory");
-    const std::string text = folder.file("text", "#!/bin/sh\n");
-    expect_input_error([&] { start(text); }, "scene.toml: mine.command = " + text, "cannot be started: Permission denied");
 }
 
 }  // namespace

@@ -292,13 +292,7 @@ TEST(LinearFemDeformer, BarHasTheConditionNumberThatOthersRelyOn)
 {
     const auto character = bar_character({12, 3, 3});
     const FemOptions options{.element_order = 2};
-    const auto spectrum = spectrum_of(character.mesh,
-                                      {.element_order = options.element_order,
-                                       .young_pa = options.young_pa,
-                                       .poisson = options.poisson,
-                                       .density_kg_m3 = options.density_kg_m3,
-                                       .formulation = options.formulation},
-                                      bone_attachment(character, options).attachment);
+    const auto spectrum = spectrum_of(character.mesh, linear_options(options), bone_attachment(character, options).attachment);
     EXPECT_LT(spectrum.condition(), quadratic_bar_condition);
 }
 

@@ -1,10 +1,9 @@
 // Reference: the registry, whose kinds and keys are counted here once more, and a deformer whose time is given.
 #include "experiments/studies/timing/bench.hpp"
 
-#include "experiments/deformers/deformer_options.hpp"
+#include "experiments/deformers/deformer_kind.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/process/machine.hpp"
-#include "experiments/settings/scene_values.hpp"
 #include "tests/support/structured_bar.hpp"
 
 #include <gtest/gtest.h>
@@ -80,13 +79,13 @@ INSTANTIATE_TEST_SUITE_P(
                     SettingsOfKinds{{"pbs_author"}, {{"", "f64"}}}, SettingsOfKinds{{"xpbd_small_steps"}, {{"", "f64"}}, false}));
 
 struct GivenOptions {
-    std::string precision = "f64";
+    pbs::Precision precision = pbs::Precision::f64;
 };
 
 // A deformer that works for 2 ms in f64 and 1 ms in f32.
 class GivenTime : public Deformer {
 public:
-    explicit GivenTime(double seconds) : seconds_(seconds) {}
+    explicit GivenTime(const GivenOptions& options) : seconds_(options.precision == pbs::Precision::f32 ? 1e-3 : 2e-3) {}
     void reset(const pbs::Character& character) override { positions_ = character.mesh.rest; }
     pbs::StepSummary advance(const pbs::Pose&, double) override
     {
@@ -102,29 +101,12 @@ private:
     pbs::Positions positions_;
 };
 
-DeformerKind given_kind()
-{
-    return {.name = "given_time",
-            .meaning = "works for a given time",
-            .make = [](const DeformerSpec& spec) -> std::unique_ptr<Deformer> {
-                return std::make_unique<GivenTime>(options_of<GivenOptions>(spec).precision == "f32" ? 1e-3 : 2e-3);
-            },
-            .options = GivenOptions{},
-            .keys = {{.table = "given_time",
-                      .name = "precision",
-                      .type = KeyType::text,
-                      .default_json = "\"f64\"",
-                      .choices = {"f32", "f64"},
-                      .meaning = "floating point"}},
-            .read = [](const SceneValues& values, const std::string& table,
-                       DeformerSpec& spec) { options_of<GivenOptions>(spec).precision = values.text(table + ".precision"); },
-            .traits = [](const DeformerSpec& spec) -> DeformerTraits { return {.precision = options_of<GivenOptions>(spec).precision}; }};
-}
-
 // Every registered kind has a row, also one that is registered later, except those that only a scene's tables define.
 TEST(DeformerTimings, TakeUpWhatIsRegistered)
 {
-    add_deformer_kind(given_kind());
+    add_deformer_kind(kind_of<GivenTime>(
+        "given_time", "works for a given time",
+        OptionFields<GivenOptions>("given_time").add("precision", &GivenOptions::precision, {.meaning = "floating point"})));
     const nlohmann::json timings = time_deformers(bar(), two_rounds);
     std::set<std::string> timed;
     std::vector<nlohmann::json> given;

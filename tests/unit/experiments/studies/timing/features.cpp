@@ -1,5 +1,5 @@
 // Features as pairs of scenes, and the arithmetic of their costs.
-#include "experiments/studies/timing/features.hpp"
+#include "experiments/studies/timing/timing.hpp"
 
 #include "tests/support/rounding_error.hpp"
 

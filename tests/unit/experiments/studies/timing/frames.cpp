@@ -1,6 +1,6 @@
 // Expected values follow from made-up timings and from Table 1 as the paper prints it; all of them are single quotients. Times themselves
 // are not compared, since others use the machine too.
-#include "experiments/studies/timing/frames.hpp"
+#include "experiments/studies/timing/timing.hpp"
 
 #include "pbs/skinning/pose.hpp"
 #include "tests/support/bar_character.hpp"

@@ -33,11 +33,7 @@ AttachedRounding attached_rounding(const FemOptions& options, const pbs::Pose& p
 {
     const pbs::TetMesh& mesh = coarse_bar.mesh;
     const BoneAttachment bones = bone_attachment(coarse_bar, options);
-    const reference_fem::LinearOptions linear{.element_order = options.element_order,
-                                              .young_pa = options.young_pa,
-                                              .poisson = options.poisson,
-                                              .density_kg_m3 = options.density_kg_m3,
-                                              .gravity_m_s2 = options.gravity_m_s2};
+    const reference_fem::LinearOptions linear = linear_options(options);
     reference_fem::LinearElasticity elasticity(mesh, linear, bones.attachment);
     const reference_fem::Targets held = targets(bones, mesh.rest, pose);
     EXPECT_TRUE(elasticity.solve(held.springs, held.vertices).finite);
