@@ -9,6 +9,11 @@
 #include <utility>
 #include <vector>
 
+namespace analysis {
+template <typename Enum>
+struct EnumNames;  // records/tables.hpp
+}  // namespace analysis
+
 namespace experiments {
 
 template <typename Enum, std::size_t count>
@@ -17,7 +22,7 @@ using NameTable = std::array<std::pair<Enum, const char*>, count>;
 template <typename Enum>
 inline constexpr NameTable<Enum, 0> option_names;  // to be specialised
 
-// The same table as a member, for analysis::EnumNames.
+// The same table as a member.
 template <typename Enum>
 struct OptionNames {
     static constexpr const auto& table = option_names<Enum>;
@@ -48,3 +53,8 @@ std::vector<std::string> names_of_options()
 }
 
 }  // namespace experiments
+
+// Records name the values alike.
+template <typename Enum>
+requires(!experiments::option_names<Enum>.empty()) struct analysis::EnumNames<Enum> : experiments::OptionNames<Enum> {
+};
