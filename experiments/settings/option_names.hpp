@@ -11,6 +11,11 @@
 #include <utility>
 #include <vector>
 
+namespace analysis {
+template <typename Enum>
+struct EnumNames;  // records/tables.hpp
+}  // namespace analysis
+
 namespace experiments {
 
 template <typename Enum, std::size_t count>
@@ -27,7 +32,7 @@ inline constexpr NameTable<Enum, 0> option_names;  // to be specialised
         return std::array{NLOHMANN_JSON_EXPAND(NLOHMANN_JSON_PASTE(NAMED_OPTION, __VA_ARGS__))}; \
     }();
 
-// The same table as a member, for analysis::EnumNames.
+// The same table as a member.
 template <typename Enum>
 struct OptionNames {
     static constexpr const auto& table = option_names<Enum>;
@@ -58,3 +63,8 @@ std::vector<std::string> names_of_options()
 }
 
 }  // namespace experiments
+
+// Records name the values alike.
+template <typename Enum>
+requires(!experiments::option_names<Enum>.empty()) struct analysis::EnumNames<Enum> : experiments::OptionNames<Enum> {
+};

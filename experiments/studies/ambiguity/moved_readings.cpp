@@ -1,19 +1,18 @@
-#include "experiments/studies/ambiguity/moved_readings.hpp"
+#include "experiments/studies/ambiguity/readings.hpp"
 
 #include "analysis/metrics/frame_metrics.hpp"
-#include "analysis/records/record_files.hpp"
 #include "analysis/statistics/statistics.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/process/terminal.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 #include "experiments/studies/shared/timed_rounds.hpp"
+#include "pbs/character/bodies.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 namespace experiments {
 
@@ -59,20 +58,25 @@ JudgedValue of_case(const analysis::Claim& claim, const analysis::CaseRecord& re
             judgement.extent};
 }
 
-// Claims of the volume study whose extent on this scene differs, by metric.
+// The claims of the volume study, each with its metrics.
+std::vector<std::pair<analysis::Claim, std::string>> volume_metrics()
+{
+    std::vector<std::pair<analysis::Claim, std::string>> metrics;
+    for (const analysis::Claim& claim : claims())
+        if (claim.study == "volume")
+            for (const std::string& metric : claim.metrics) metrics.emplace_back(claim, metric);
+    return metrics;
+}
+
+// The claims whose extent on this scene differs, by metric.
 std::string changed_verdicts(const ReadMotion& a, const ReadMotion& b)
 {
+    const std::vector<JudgedValue> before = judged(a), after = judged(b);
     std::vector<std::string> changes;
-    for (const analysis::Claim& claim : claims()) {
-        if (claim.study != "volume") continue;
-        const bool of_lbs = claim.deformer == "lbs";
-        for (const std::string& metric : claim.metrics) {
-            const analysis::Extent before = analysis::judge_case(claim, of_lbs ? a.lbs : a.pbs, metric).extent,
-                                   after = analysis::judge_case(claim, of_lbs ? b.lbs : b.pbs, metric).extent;
-            if (before != after)
-                changes.push_back(fmt::format("{} by {}: {} -> {}", claim.id, metric, analysis::name_of(before), analysis::name_of(after)));
-        }
-    }
+    for (std::size_t i = 0; i < before.size(); ++i)
+        if (before[i].extent != after[i].extent)
+            changes.push_back(fmt::format("{} by {}: {} -> {}", before[i].claim, volume_metrics()[i].second,
+                                          analysis::name_of(before[i].extent), analysis::name_of(after[i].extent)));
     return changes.empty() ? "no" : fmt::format("{}", fmt::join(changes, "; "));
 }
 
@@ -118,11 +122,8 @@ ReadMotion move(const pbs::Character& character, const Scene& scene)
 std::vector<JudgedValue> judged(const ReadMotion& moved)
 {
     std::vector<JudgedValue> values;
-    for (const analysis::Claim& claim : claims()) {
-        if (claim.study != "volume") continue;
-        for (const std::string& metric : claim.metrics)
-            values.push_back(of_case(claim, claim.deformer == "lbs" ? moved.lbs : moved.pbs, metric));
-    }
+    for (const auto& [claim, metric] : volume_metrics())
+        values.push_back(of_case(claim, claim.deformer == "lbs" ? moved.lbs : moved.pbs, metric));
     return values;
 }
 
@@ -150,50 +151,6 @@ std::vector<VolumeChange> volume_changes(const std::string& scene, const Reading
     add("distance_of_b_from_a_rms_m", 0.0, distance_m(a, b, {}));
     add("distance_of_zone_by_jiggle_rms_m", distance_m(a, resting, zone), distance_m(b, resting, zone));
     return rows;
-}
-
-std::string record_volume(const StudyCase& of, const std::vector<Reading>& readings, const std::string& folder)
-{
-    const auto claims = of.value<std::vector<std::string>>("claims");
-    const auto body = of.value<std::string>("body");
-    const Scene scene = of.scene();
-    const pbs::Character character = pbs::make_character(scene.character);
-    const std::vector<bool> zone = pbs::jiggle_zone(character.binding);
-    struct Baseline {
-        Reading reading;
-        ReadMotion moved;
-    };
-    std::map<std::string, Baseline> baselines;
-    std::vector<VolumeChange> volumes;
-    std::vector<ClaimChange> changes;
-    std::string breakdown;
-    for (const Reading& reading : readings) {
-        if (reading.jiggles() && scene.motion.clip.empty()) {
-            if (reading.place.empty()) continue;
-            for (const std::string& claim : claims)
-                changes.push_back(untouched_claim(body, claim, reading, "a sweep has no speed of its own"));
-            continue;
-        }
-        Scene read = of.scene(reading.overrides);
-        read.name = of.name;
-        ReadMotion b = move(reweighted(character, read), read);
-        if (!b.finite) breakdown += reading.name + " is not finite. ";
-        if (reading.place.empty()) {
-            baselines.emplace(reading.name, Baseline{reading, std::move(b)});
-            continue;
-        }
-        const Baseline& a = baselines.at(reading.baseline);
-        std::ranges::copy(volume_changes(of.name, reading, a.moved, b, baselines.at(own_reading).moved, zone), std::back_inserter(volumes));
-        for (const std::string& claim : claims)
-            if (const std::string reason = untouched_because(claim, reading, a.reading); !reason.empty())
-                changes.push_back(untouched_claim(body, claim, reading, reason));
-            else
-                std::ranges::copy(claim_changes(body, claim, reading, {judged(a.moved), !a.moved.finite}, {judged(b), !b.finite}),
-                                  std::back_inserter(changes));
-    }
-    table_of(volume_change_columns, volumes).write(analysis::path_in(folder, "figures.csv"));
-    table_of(used_columns(claim_change_columns(), changes), changes).write(analysis::path_in(folder, "ambiguity.csv"));
-    return breakdown;
 }
 
 namespace {

@@ -1,25 +1,232 @@
 // The readings of the paper (cases.toml): how much each changes the values that claims are judged by, and whether it turns a verdict round.
-// A reading differs from the scene in one place, as keys of the scene. Every value is measured by its claim's own study (Study::read), with
-// two exceptions: C01 and C02 take steps of the scene without the study's further deformers, and C10 takes a frame's processor time, where
-// its study takes wall time.
-//
-//   limb_twist, limb_bend       C01, C02: the scenes' sweeps, each step by itself
-//   human                       C01, C02: the clip 01_01, five frames per second, each step by itself
-//   human_moving                C01, C02: what remembers the last step, every step of six seconds of the clip (--full: of all of it)
-//   BODY_joint_twist, _bend     C04, C05: sections of the limb's joint, of the human's elbow
-//   BODY_starts                 C03, C12: iterations from four initial guesses, on the limb bent by 90 degrees and in the human's crouch
-//   BODY_step                   C07, C09, C10: momentum of projections there, a jolt, and the time per frame in turns (the human's: --full)
-//
-// Writes DIR/ambiguity/RUN/ambiguity.csv and, for the first four, figures.csv (volume, jiggling, distance); and both for all of them.
+// A reading differs from the scene in one place, as keys of the scene. README.md describes the runs and records. Every value is measured by
+// its claim's own study (Study::read), with two exceptions: C01 and C02 take steps of the scene without the study's further deformers, and
+// C10 takes a frame's processor time, where its study takes wall time.
 #include "analysis/records/record_files.hpp"
+#include "experiments/deformers/registry.hpp"
 #include "experiments/settings/option_fields.hpp"
-#include "experiments/studies/ambiguity/moved_readings.hpp"
+#include "experiments/studies/ambiguity/readings.hpp"
+#include "experiments/studies/shared/posed_character.hpp"
+#include "pbs/character/bodies.hpp"
+#include "pbs/character/body_cache.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <map>
 
 namespace experiments {
+
+std::vector<Reading> readings_of(const StudyCase& of, const std::string& which)
+{
+    const nlohmann::json document = cases_document("ambiguity");
+    std::vector<Reading> readings;
+    const auto add = [&](const std::string& place, const std::string& name, const std::string& baseline, const Overrides& overrides) {
+        const Scene scene = of.scene(overrides);
+        nlohmann::json settings = to_json(spec_of(scene, "pbs")).at("options");
+        settings["weights"] = scene.resolved.at("skinning").at("weights");
+        settings["time_step_s"] = scene.motion.time_step_s;
+        readings.push_back({place, name, baseline, overrides, settings});
+    };
+    for (const nlohmann::json& place : document.at("place")) {
+        if (which != "all" && (which == "of_motion") != place.value("motion", false)) continue;
+        const std::string baseline = place.value("baseline", own_reading);
+        const auto& baselines = document.at("baseline");
+        const auto named = std::ranges::find_if(baselines, [&](const nlohmann::json& one) { return one.at("name") == baseline; });
+        const Overrides common = named->at("overrides");
+        if (std::ranges::find(readings, baseline, &Reading::name) == readings.end()) add("", baseline, baseline, common);
+        for (const Overrides reading : place.at("readings")) {
+            Overrides overrides = common;
+            overrides.insert(overrides.end(), reading.begin() + 1, reading.end());
+            add(place.at("name"), reading.front(), baseline, overrides);
+        }
+    }
+    return readings;
+}
+
+std::string untouched_because(const std::string& claim, const Reading& reading, const Reading& baseline)
+{
+    const std::vector<std::string> differing = differing_paths(reading.settings, baseline.settings);
+    if (differing.empty()) return "the scene is so by itself";
+    const nlohmann::json document = cases_document("ambiguity");
+    for (const nlohmann::json& rule : document.at("untouched")) {
+        const auto has = [&](const char* key, const std::string& name) {
+            return std::ranges::count(rule.value(key, std::vector<std::string>{}), name) > 0;
+        };
+        if (!has("claims", claim)) continue;
+        if (has("unless", reading.name)) return "";
+        const bool by_jiggle = rule.value("jiggling", false) && reading.jiggles();
+        const bool has_no_effect =
+            rule.contains("settings") && std::ranges::all_of(differing, [&](const std::string& name) { return has("settings", name); });
+        const bool lacks_the_cause =
+            rule.contains("only") && std::ranges::none_of(differing, [&](const std::string& name) { return has("only", name); });
+        if (by_jiggle || has_no_effect || lacks_the_cause) return rule.at("reason");
+    }
+    return "";
+}
+
+const analysis::Columns<ClaimChange>& claim_change_columns()
+{
+    using Changes = analysis::Columns<ClaimChange>;
+    static const Changes columns = [] {
+        analysis::Columns<analysis::CaseKey> of_case = analysis::case_key_columns();
+        auto& body = *std::ranges::find(of_case, "body", &analysis::Column<analysis::CaseKey>::name);
+        body = {"case_body", &analysis::CaseKey::body, "", "body of the value's case, or its scene"};
+        body.group = body.name;
+        return Changes{{"body", &ClaimChange::body, "", "name of the body"},
+                       {"place", &ClaimChange::place, "", "place of the paper that can be read in two ways"},
+                       {"reading_a", &ClaimChange::reading_a, "", "the baseline"},
+                       {"reading_b", &ClaimChange::reading_b, "", "the other reading"},
+                       {"claim", &ClaimChange::claim, "", "id of the claim"},
+                       {"quantity", &ClaimChange::quantity, "", "quantity that the claim is judged by"}} +
+               within(&ClaimChange::of, of_case) +
+               Changes{{"unit", &ClaimChange::unit, "", "unit of a, b and change"},
+                       {"bound", &ClaimChange::bound, "", "the claim's bound, in words"},
+                       {"a", &ClaimChange::a, "", "value by reading A"},
+                       {"b", &ClaimChange::b, "", "value by reading B"},
+                       {"change", &ClaimChange::change, "", "b less a"},
+                       {"b_over_a", &ClaimChange::b_over_a, "", "b over a"},
+                       {"holds_a", &ClaimChange::holds_a, "", "extent to which a lies within the bound: whole, part, none"},
+                       {"holds_b", &ClaimChange::holds_b, "", "extent to which b lies within the bound"},
+                       {"verdict_flips", &ClaimChange::verdict_flips, "", "yes, no, not_touched or no_value"},
+                       {"reason", &ClaimChange::reason, "", "why there is no value, or why it is only a limit, in words"}};
+    }();
+    return columns;
+}
+
+namespace {
+
+const JudgedValue* find(const JudgedReading& of, const JudgedValue& wanted)
+{
+    const auto found = std::ranges::find_if(of.values, [&](const JudgedValue& one) {
+        return one.claim == wanted.claim && one.quantity == wanted.quantity && one.of == wanted.of;
+    });
+    return found == of.values.end() ? nullptr : &*found;
+}
+
+std::string why(const JudgedValue* a, const JudgedValue* b, bool b_broke_down)
+{
+    if (b_broke_down) return "B breaks down";
+    if (!a || !b) return std::string(a ? "B" : "A") + " has no such value";
+    const auto limit = [](const char* which, const JudgedValue& of) {
+        return of.limit == analysis::Limit::none ? "" : std::string(which) + ": " + analysis::recorded_name(of.limit);
+    };
+    const std::string of_a = limit("A", *a), of_b = limit("B", *b);
+    return of_a + (of_a.empty() || of_b.empty() ? "" : "; ") + of_b;
+}
+
+std::string flips(const JudgedValue* a, const JudgedValue* b, bool b_broke_down)
+{
+    if (a && !b && b_broke_down) return a->extent == analysis::Extent::none ? "no" : "yes";
+    if (!a || !b) return "no_value";
+    return a->extent == b->extent ? "no" : "yes";
+}
+
+// Either may be null, but not both.
+ClaimChange compared(ClaimChange row, const JudgedValue* a, const JudgedValue* b, bool b_broke_down)
+{
+    const JudgedValue& one = a ? *a : *b;
+    row.quantity = one.quantity, row.of = one.of, row.unit = one.unit, row.bound = one.bound;
+    if (a) row.a = a->value, row.holds_a = analysis::name_of(a->extent);
+    if (b) row.b = b->value, row.holds_b = analysis::name_of(b->extent);
+    if (a && b) row.change = b->value - a->value;
+    if (a && b && a->value != 0.0) row.b_over_a = b->value / a->value;
+    row.verdict_flips = flips(a, b, b_broke_down);
+    row.reason = why(a, b, b_broke_down);
+    return row;
+}
+
+ClaimChange without_value(ClaimChange row, const std::string& verdict_flips, const std::string& reason, const std::string& quantity = "")
+{
+    row.quantity = quantity, row.verdict_flips = verdict_flips, row.reason = reason;
+    return row;
+}
+
+ClaimChange row_of(const std::string& body, const std::string& claim, const Reading& reading)
+{
+    return {body, reading.place, reading.baseline, reading.name, claim};
+}
+
+}  // namespace
+
+std::vector<ClaimChange> claim_changes(const std::string& body, const std::string& claim, const Reading& reading, const JudgedReading& a,
+                                       const JudgedReading& b)
+{
+    const ClaimChange row = row_of(body, claim, reading);
+    std::vector<ClaimChange> changes;
+    for (const JudgedValue& of_a : a.values)
+        if (of_a.claim == claim) changes.push_back(compared(row, &of_a, find(b, of_a), b.broke_down));
+    for (const JudgedValue& of_b : b.values)
+        if (of_b.claim == claim && !find(a, of_b)) changes.push_back(compared(row, nullptr, &of_b, b.broke_down));
+    for (const ReadingValues::LeftOut& one : b.left_out)
+        if (one.claim == claim) changes.push_back(without_value(row, "no_value", one.reason, one.quantity));
+    if (changes.empty()) changes.push_back(without_value(row, "no_value", b.broke_down ? "B breaks down" : "neither reading has a value"));
+    return changes;
+}
+
+ClaimChange untouched_claim(const std::string& body, const std::string& claim, const Reading& reading, const std::string& reason)
+{
+    return without_value(row_of(body, claim, reading), "not_touched", reason);
+}
+
+void ReadingComparison::measure(const std::vector<std::string>& claims, const Measure& measure)
+{
+    struct Pair {
+        const Reading &reading, &baseline;
+        std::string claim, untouched_because;
+    };
+    std::vector<Pair> pairs;
+    std::vector<Reading> measured;
+    for (const Reading& reading : readings) {
+        if (reading.place.empty()) continue;
+        const Reading& baseline = *std::ranges::find(readings, reading.baseline, &Reading::name);
+        const bool is_left_out = reading.jiggles() && !without_jiggle.empty();
+        for (const std::string& claim : claims) {
+            pairs.push_back({reading, baseline, claim, is_left_out ? without_jiggle : untouched_because(claim, reading, baseline)});
+            if (!pairs.back().untouched_because.empty()) continue;
+            for (const Reading* one : {&baseline, &reading})
+                if (std::ranges::find(measured, one->name, &Reading::name) == measured.end()) measured.push_back(*one);
+        }
+    }
+    const std::vector<JudgedReading> values = measure(measured);
+    std::map<std::string, const JudgedReading*> by_name;
+    for (std::size_t i = 0; i < measured.size(); ++i) {
+        by_name[measured[i].name] = &values.at(i);
+        if (values[i].broke_down) breakdown += fmt::format("{} ({}). ", measured[i].name, fmt::join(claims, ", "));
+    }
+    for (const auto& [reading, baseline, claim, reason] : pairs)
+        if (reason.empty())
+            std::ranges::copy(claim_changes(body, claim, reading, *by_name.at(baseline.name), *by_name.at(reading.name)),
+                              std::back_inserter(changes));
+        else
+            changes.push_back(untouched_claim(body, claim, reading, reason));
+}
+
+std::string digest_of(const std::vector<analysis::Claim>& claims)
+{
+    nlohmann::json all = nlohmann::json::array();
+    for (const analysis::Claim& claim : claims) {
+        all.push_back({claim.id, static_cast<int>(claim.rule), claim.metrics, claim.deformer, claim.iterations, claim.low, claim.high,
+                       claim.share, claim.part, claim.level});
+        for (const analysis::QuantityBound& bound : claim.bounds) all.push_back({bound.quantity, bound.low, bound.high});
+    }
+    return pbs::content_hash(all.dump());
+}
+
+std::vector<JudgedValue> judged(const std::vector<analysis::Measurement>& measured)
+{
+    std::vector<JudgedValue> values;
+    for (const analysis::Measurement& one : measured) {
+        const analysis::Claim& claim = claim_named(one.claim);
+        if (!analysis::is_judged(claim, one)) continue;
+        values.push_back({one.claim, one.quantity, one.of, one.unit, analysis::bound_text(analysis::bound_of(claim, one.quantity)),
+                          one.value, analysis::extent_of(claim, one), one.limit});
+    }
+    return values;
+}
+
 namespace {
 
 // The values by each reading, measured by the study of the claims, which has `read`, or as above.
@@ -33,19 +240,45 @@ std::vector<JudgedReading> values_of(const Study& study, const StudyCase& of, co
     return all;
 }
 
-// Claims of one study are measured together.
-std::string record_claims(const StudyCase& of, const std::vector<Reading>& readings, const std::string& folder)
+// Moves the body of a case by each reading in turn, and writes figures.csv.
+std::string measure_volume(const StudyCase& of, ReadingComparison& comparison, const std::string& folder)
 {
-    ReadingComparison comparison(of.value<std::string>("body"), readings);
+    const Scene scene = of.scene();
+    const pbs::Character character = pbs::make_character(scene.character);
+    const std::vector<bool> zone = pbs::jiggle_zone(character.binding);
+    if (scene.motion.clip.empty()) comparison.without_jiggle = "a sweep has no speed of its own";
+    std::map<std::string, ReadMotion> moved;
+    std::vector<VolumeChange> volumes;
+    std::string breakdown;
+    for (const Reading& reading : comparison.readings) {
+        if (reading.jiggles() && !comparison.without_jiggle.empty()) continue;
+        Scene read = of.scene(reading.overrides);
+        read.name = of.name;
+        const ReadMotion& b = moved.emplace(reading.name, move(reweighted(character, read), read)).first->second;
+        if (!b.finite) breakdown += reading.name + " is not finite. ";
+        if (!reading.place.empty())
+            std::ranges::copy(volume_changes(of.name, reading, moved.at(reading.baseline), b, moved.at(own_reading), zone),
+                              std::back_inserter(volumes));
+    }
+    comparison.measure(of.value<std::vector<std::string>>("claims"), [&](const std::vector<Reading>& readings) {
+        std::vector<JudgedReading> all;
+        for (const Reading& reading : readings) all.push_back({judged(moved.at(reading.name)), !moved.at(reading.name).finite});
+        return all;
+    });
+    table_of(volume_change_columns, volumes).write(analysis::path_in(folder, "figures.csv"));
+    return breakdown;
+}
+
+// Claims of one study are measured together.
+std::string measure_claims(const StudyCase& of, ReadingComparison& comparison)
+{
     const auto claims = of.value<std::vector<std::string>>("claims");
     for (const Study& study : studies()) {
         std::vector<std::string> own;
         std::ranges::copy_if(claims, std::back_inserter(own), [&](const std::string& id) { return claim_named(id).study == study.name; });
         if (!own.empty()) comparison.measure(own, [&](const std::vector<Reading>& touching) { return values_of(study, of, touching); });
     }
-    table_of(used_columns(claim_change_columns(), comparison.changes()), comparison.changes())
-        .write(analysis::path_in(folder, "ambiguity.csv"));
-    return comparison.breakdown();
+    return comparison.breakdown;
 }
 
 // A run repeats when its case, a reading or a bound of its claims changes.
@@ -62,11 +295,17 @@ nlohmann::json settings_of(const StudyCase& of, const std::vector<Reading>& read
 StudyPlan plan(bool full)
 {
     return plan_of_cases("ambiguity", full, [](const StudyCase& of, StudyPlan& plan) {
-        const bool of_volume = of.has("readings");
+        const bool is_moved = of.has("readings");
         const std::vector<Reading> readings = readings_of(of, of.value<std::string>("readings", "all"));
         StudyRun run{.name = of.name, .cost_s = of.cost_s};
         run.settings = settings_of(of, readings);
-        run.work = [=](const std::string& folder) { return (of_volume ? record_volume : record_claims)(of, readings, folder); };
+        run.work = [=](const std::string& folder) {
+            ReadingComparison comparison{of.value<std::string>("body"), readings};
+            const std::string breakdown = is_moved ? measure_volume(of, comparison, folder) : measure_claims(of, comparison);
+            table_of(used_columns(claim_change_columns(), comparison.changes), comparison.changes)
+                .write(analysis::path_in(folder, "ambiguity.csv"));
+            return breakdown;
+        };
         plan.runs.push_back(run);
     });
 }

@@ -15,7 +15,6 @@
 #include <numbers>
 #include <optional>
 #include <set>
-#include <tuple>
 #include <utility>
 
 namespace experiments {
@@ -233,17 +232,12 @@ SectionExtremesOverRest extremes_of(const JointProfile& profile)
 {
     SectionExtremesOverRest extremes;
     if (profile.empty()) return extremes;
-    const auto range = [&](double JointSection::*size) {
-        const auto [least, most] =
-            std::minmax_element(profile.begin(), profile.end(), [&](const auto& a, const auto& b) { return a.*size < b.*size; });
-        return std::pair{(*least).*size, (*most).*size};
-    };
-    extremes.smallest_radius = range(&JointSection::smallest_radius).first;
-    const auto widest =
-        std::max_element(profile.begin(), profile.end(), [](const auto& a, const auto& b) { return a.largest_radius < b.largest_radius; });
-    extremes.largest_radius = widest->largest_radius;
-    extremes.limb_share_of_widest = widest->limb_share;
-    std::tie(extremes.smallest_area, extremes.largest_area) = range(&JointSection::area);
+    const JointSection widest = std::ranges::max(profile, {}, &JointSection::largest_radius);
+    extremes.smallest_radius = std::ranges::min(profile, {}, &JointSection::smallest_radius).smallest_radius;
+    extremes.largest_radius = widest.largest_radius;
+    extremes.limb_share_of_widest = widest.limb_share;
+    extremes.smallest_area = std::ranges::min(profile, {}, &JointSection::area).area;
+    extremes.largest_area = std::ranges::max(profile, {}, &JointSection::area).area;
     return extremes;
 }
 

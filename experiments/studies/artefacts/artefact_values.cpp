@@ -39,19 +39,9 @@ std::vector<double> sizes(const std::vector<ArtefactSample>& samples, Extreme ex
     return sizes;
 }
 
-double least(const std::vector<double>& values)
-{
-    return *std::min_element(values.begin(), values.end());
-}
-
-double most(const std::vector<double>& values)
-{
-    return *std::max_element(values.begin(), values.end());
-}
-
 bool is_wide(const std::vector<ArtefactSample>& samples)
 {
-    return !samples.empty() && most(sizes(samples, &SectionExtremesOverRest::largest_radius)) > widest_over_rest;
+    return !samples.empty() && std::ranges::max(sizes(samples, &SectionExtremesOverRest::largest_radius)) > widest_over_rest;
 }
 
 // "pbs 7.56 times as wide as at rest, 34 % of that outline the limb's own skin"
@@ -61,21 +51,21 @@ std::string remark_on_width(const std::vector<ArtefactSample>& samples, std::siz
     for (const std::string group : {"pbs", "lbs", "dqs", "reference"}) {
         const std::vector<ArtefactSample> own = chosen(samples, group, pose, joint);
         if (!is_wide(own)) continue;
-        const SectionExtremesOverRest widest = std::max_element(own.begin(), own.end(), [](const auto& a, const auto& b) {
-                                                   return a.extremes.largest_radius < b.extremes.largest_radius;
-                                               })->extremes;
+        const auto radius = [](const ArtefactSample& sample) { return sample.extremes.largest_radius; };
+        const SectionExtremesOverRest widest = std::ranges::max(own, {}, radius).extremes;
         remarks.push_back(fmt::format("{} {:.3g} times as wide as at rest, {:.0f} % of that outline the limb's own skin", group,
                                       widest.largest_radius, 100.0 * widest.limb_share_of_widest));
     }
     return fmt::format("{}", fmt::join(remarks, "; "));
 }
 
-analysis::CaseKey key_of(const ArtefactCase& of, const ArtefactBody& body, std::size_t pose, std::size_t joint, const std::string& group)
+analysis::CaseKey key_of(const ArtefactCase& of, const ArtefactBody& body, std::size_t pose, const std::string& joint,
+                         const std::string& deformer)
 {
     analysis::CaseKey key = of.poses[pose].key;
     key.body = body.posed.character().name;
-    key.joint = body.joints[joint].name;
-    key.deformer = group;
+    key.joint = joint;
+    key.deformer = deformer;
     return key;
 }
 
@@ -98,9 +88,9 @@ std::vector<analysis::Measurement> candy_wrapper_values(const ArtefactCase& of, 
                   {"smallest_section_area_over_rest", &SectionExtremesOverRest::smallest_area}}) {
                 const std::vector<double> values = sizes(chosen(samples, group, pose, joint), extreme);
                 if (values.empty()) continue;
-                analysis::CaseKey key = key_of(of, body, pose, joint, group);
+                analysis::CaseKey key = key_of(of, body, pose, body.joints[joint].name, group);
                 if (group == "reference") key.reference = reference;
-                measurements.push_back({"C04", quantity, key, values.front(), least(values), most(values), "1"});
+                measurements.push_back({"C04", quantity, key, values.front(), std::ranges::min(values), std::ranges::max(values), "1"});
             }
     return measurements;
 }
@@ -119,10 +109,11 @@ std::vector<analysis::Measurement> bulge_values(const ArtefactCase& of, const Ar
                 const std::vector<ArtefactSample> own = chosen(samples, group, pose, joint);
                 if (own.empty()) continue;
                 const std::vector<double> values = sizes(own, extreme);
-                analysis::CaseKey key = key_of(of, body, pose, joint, group);
+                analysis::CaseKey key = key_of(of, body, pose, body.joints[joint].name, group);
                 key.reference = reference_name;
-                measurements.push_back({"C05", quantity, key, values.front() / reference.front(), least(values) / most(reference),
-                                        most(values) / least(reference), "1"});
+                measurements.push_back({"C05", quantity, key, values.front() / reference.front(),
+                                        std::ranges::min(values) / std::ranges::max(reference),
+                                        std::ranges::max(values) / std::ranges::min(reference), "1"});
             }
         }
     }
@@ -230,16 +221,17 @@ const Columns<SmoothnessRow> smoothness_columns =
 
 namespace {
 
-const Columns<Reached> paper_columns = {{"iterations_paper", &Reached::iterations, "", "iterations to tolerance with Eq. 2"},
-                                        {"reached_paper", &Reached::within, "", "they reached it"}};
-const Columns<Reached> rigid_columns = {{"iterations_rigid", &Reached::iterations, "", "iterations to tolerance with rigid weights"},
-                                        {"reached_rigid", &Reached::within, "", "they reached it"}};
+Columns<Reached> reached_columns(const std::string& name, const std::string& weights)
+{
+    return {{"iterations_" + name, &Reached::iterations, "", "iterations to tolerance with " + weights},
+            {"reached_" + name, &Reached::within, "", "they reached it"}};
+}
 
 }  // namespace
 
 const Columns<WeightIterations> weight_iteration_columns = within(&WeightIterations::place, artefact_place_columns) +
-                                                           within(&WeightIterations::paper, paper_columns) +
-                                                           within(&WeightIterations::rigid, rigid_columns);
+                                                           within(&WeightIterations::paper, reached_columns("paper", "Eq. 2")) +
+                                                           within(&WeightIterations::rigid, reached_columns("rigid", "rigid weights"));
 
 namespace {
 
@@ -276,12 +268,12 @@ public:
             for (std::size_t joint = 0; joint < twin.paper.joints.size(); ++joint) {
                 const analysis::Smoothness smooth = measure(twin.paper, spec, paper[pose], pose, joint, "paper"),
                                            rough = measure(twin.rigid, spec, rigid[pose], pose, joint, "rigid");
-                const analysis::CaseKey at = key_of(twin, pose, twin.paper.joints[joint].name, spec.kind);
+                const analysis::CaseKey at = key_of(of_, twin.paper, pose, twin.paper.joints[joint].name, spec.kind);
                 add("strain_jump_over_rigid_weights", at, smooth.strain_jump_rms, rough.strain_jump_rms);
                 add("curvature_over_rigid_weights", at, smooth.bending_rms_rad, rough.bending_rms_rad);
             }
             if (options_if<pbs::PbsOptions>(spec))
-                add("volume_abs_change_over_rigid_weights", key_of(twin, pose, of_.joint, "pbs"),
+                add("volume_abs_change_over_rigid_weights", key_of(of_, twin.paper, pose, of_.joint, "pbs"),
                     volume_change_pct(twin.paper, paper[pose]), volume_change_pct(twin.rigid, rigid[pose]));
         }
     }
@@ -317,16 +309,6 @@ public:
     }
 
 private:
-    static std::string body_name(const Twin& twin) { return twin.paper.posed.character().name; }
-    analysis::CaseKey key_of(const Twin& twin, std::size_t pose, const std::string& joint, const std::string& deformer) const
-    {
-        analysis::CaseKey key = of_.poses[pose].key;
-        key.body = body_name(twin);
-        key.joint = joint;
-        key.deformer = deformer;
-        return key;
-    }
-
     void add(const std::string& quantity, const analysis::CaseKey& at, double paper, double rigid)
     {
         ratios_[{quantity, at}].values.push_back(rigid > rounding ? paper / rigid : analysis::not_known);
@@ -336,7 +318,7 @@ private:
     void add_iterations(const Twin& twin, std::size_t pose, const Reached& paper, const Reached& rigid)
     {
         result_.iterations.push_back({place_of(of_, twin.paper, pose), paper, rigid});
-        Ratios& ratios = ratios_[{"iterations_over_rigid_weights", key_of(twin, pose, of_.joint, "pbs")}];
+        Ratios& ratios = ratios_[{"iterations_over_rigid_weights", key_of(of_, twin.paper, pose, of_.joint, "pbs")}];
         const bool some = paper.within || rigid.within;
         if (ratios.values.empty() && some && paper.within != rigid.within)
             ratios.limit = paper.within ? analysis::Limit::at_most : analysis::Limit::at_least;

@@ -1,18 +1,9 @@
 // Do the artefacts of blending occur, and how smooth is the skin? Measured are cross-sections of a limb along a joint that is twisted (C04,
 // the candy wrapper of LBS) or bent (C05, the bulge of DQS), the weights of Eq. 2 against rigid ones (C06), and the number of
-// self-intersections of the skin.
+// self-intersections of the skin, which the paper states that it does not handle. README.md describes the runs and records.
 //
-//   limb_twist     30 ... 180 deg    o=======o~~~~~~~o      every deformer, and neo-Hookean finite elements:
-//   limb_bend      30 ... 150 deg    o=======o              linear elements, in the first poses also quadratic ones
-//   BODY_twist_*   45, 90 deg about the bone: elbow, mid-forearm, knee; the tail of frankie, whose knee lies in the belly
-//   BODY_bend_*    45, 90 deg in the direction in which the joint bends
-//   BODY_crouch    frame 164 of CMU's clip 01_01, all joints of the left side
-//
-// The quick form has the limb, the human, and the elbow of the others. Quadratic elements have Poisson's ratios 0.45 and 0.49; with --full
-// the human has them too.
-//
-// Writes DIR/artefacts/CASE/{profiles,sections,intersections,smoothness,iterations,measurements}.csv. The paper states that it does not
-// handle self-intersections; they are counted. sections.csv states where C04 and C05 have a value, and why they have none elsewhere.
+//   limb_twist     30 ... 180 deg    o=======o~~~~~~~o
+//   limb_bend      30 ... 150 deg    o=======o
 #include "analysis/records/record_files.hpp"
 #include "experiments/studies/artefacts/artefact_values.hpp"
 #include "experiments/studies/shared/posed_character.hpp"

@@ -111,88 +111,65 @@ Point difference_quotient(const Tet& tet, Corners p, int corner)
     return gradient;
 }
 
-// Tets with edges of about 1 m, at about 1 m from the origin, with 1.3 times their rest volume.
-struct RandomTets {
-    explicit RandomTets(unsigned seed) : random(seed) {}
-
-    std::pair<Tet, Corners> next()
-    {
-        std::normal_distribution<double> normal;
-        Corners p;
-        do {
-            const Point middle(normal(random), normal(random), normal(random));
-            for (Point& corner : p) corner = middle + Point(normal(random), normal(random), normal(random));
-            if (value_at(Tet{}, p) < 0.0) std::swap(p[2], p[3]);
-        } while (value_at(Tet{}, p) < 0.05);  // rounding of a sliver would be taken for an error
-        return {Tet{{0, 1, 2, 3}, value_at(Tet{}, p) / 1.3, 1.0}, p};
-    }
-
-    std::mt19937 random;
-};
+// A tet with edges of about 1 m, at about 1 m from the origin, with 1.3 times its rest volume.
+std::pair<Tet, Corners> random_tet(std::mt19937& random)
+{
+    std::normal_distribution<double> normal;
+    Corners p;
+    do {
+        const Point middle(normal(random), normal(random), normal(random));
+        for (Point& corner : p) corner = middle + Point(normal(random), normal(random), normal(random));
+        if (value_at(Tet{}, p) < 0.0) std::swap(p[2], p[3]);
+    } while (value_at(Tet{}, p) < 0.05);  // rounding of a sliver would be taken for an error
+    return {Tet{{0, 1, 2, 3}, value_at(Tet{}, p) / 1.3, 1.0}, p};
+}
 
 // Eq. 11-16 in double: about ten roundings of products of about 10 m^3, over a step of 1e-2 m and a gradient of about 0.1 m^2.
 constexpr double rounding = 1e-10;
 
-template <typename Gradient>
-analysis::PrintedValue gradient_value(const analysis::CaseKey& of, int corner, int tets, unsigned seed, Gradient gradient)
+// Of so many random tets.
+template <typename Error>
+double largest_error(int tets, unsigned seed, const Error& error)
 {
-    RandomTets random(seed);
+    std::mt19937 random(seed);
     double largest = 0.0;
     for (int i = 0; i < tets; ++i) {
-        const auto [tet, p] = random.next();
-        const Point quotient = difference_quotient(tet, p, corner);
-        largest = std::max(largest, (gradient(tet, p)[corner] - quotient).norm() / quotient.norm());
+        const auto [tet, p] = random_tet(random);
+        largest = std::max(largest, error(tet, p));
     }
-    return {"C15", "gradient_error", of, largest, 0.0, rounding};
-}
-
-template <typename Projection>
-analysis::PrintedValue correction_value(const analysis::CaseKey& of, int tets, unsigned seed, Projection project)
-{
-    RandomTets random(seed);
-    double largest = 0.0;
-    for (int i = 0; i < tets; ++i) {
-        auto [tet, p] = random.next();
-        const double before = value_at(tet, p);
-        project(tet, p);
-        largest = std::max(largest, std::abs(value_at(tet, p) / before));
-    }
-    return {"C15", "constraint_after_over_before", of, largest, 0.0, 1.0};
-}
-
-template <pbs::Printed form>
-auto printed_gradient()
-{
-    return [](const Tet& tet, const Corners& p) { return pbs::gradient_printed<form>(tet, p[0], p[1], p[2], p[3]); };
-}
-
-template <pbs::Printed form>
-auto printed_projection()
-{
-    return [](const Tet& tet, Corners& p) { pbs::project_printed<form>(tet, p[0], p[1], p[2], p[3]); };
+    return largest;
 }
 
 }  // namespace
 
-std::vector<analysis::PrintedValue> equation_values(int tets, unsigned seed)
+std::vector<PrintedValue> equation_values(int tets, unsigned seed)
 {
     using pbs::Printed;
     const std::array<std::string, 4> equations = {"15-16", "12", "13", "14"};
-    const auto gradient = [&](int corner, const std::string& reading) {
-        return analysis::CaseKey{.equation = equations[corner], .gradient_of = "p" + std::to_string(corner + 1), .reading = reading};
+    std::vector<PrintedValue> values;
+    const auto add_gradient = [&](int corner, const std::string& reading, auto gradient) {
+        const double largest = largest_error(tets, seed, [&](const Tet& tet, const Corners& p) {
+            const Point quotient = difference_quotient(tet, p, corner);
+            return (gradient(tet, p[0], p[1], p[2], p[3])[corner] - quotient).norm() / quotient.norm();
+        });
+        const analysis::CaseKey of = {.equation = equations[corner], .gradient_of = "p" + std::to_string(corner + 1), .reading = reading};
+        values.push_back({"C15", "gradient_error", of, largest, 0.0, rounding});
     };
-    std::vector<analysis::PrintedValue> values;
     for (int corner = 0; corner < 4; ++corner)
-        values.push_back(gradient_value(gradient(corner, "as_printed"), corner, tets, seed, printed_gradient<Printed::labels_absolute>()));
+        add_gradient(corner, "as_printed", [](const auto&... of) { return pbs::gradient_printed<Printed::labels_absolute>(of...); });
     for (int corner = 1; corner < 4; ++corner)
-        values.push_back(
-            gradient_value(gradient(corner, "relative_to_p1"), corner, tets, seed, printed_gradient<Printed::labels_relative>()));
-    const auto correction = [&](const std::string& equation, const std::string& reading, auto project) {
-        values.push_back(correction_value({.equation = equation, .reading = reading}, tets, seed, project));
+        add_gradient(corner, "relative_to_p1", [](const auto&... of) { return pbs::gradient_printed<Printed::labels_relative>(of...); });
+    const auto add_correction = [&](const std::string& equation, const std::string& reading, auto project) {
+        const double largest = largest_error(tets, seed, [&](const Tet& tet, Corners p) {
+            const double before = value_at(tet, p);
+            project(tet, p[0], p[1], p[2], p[3]);
+            return std::abs(value_at(tet, p) / before);
+        });
+        values.push_back({"C15", "constraint_after_over_before", {.equation = equation, .reading = reading}, largest, 0.0, 1.0});
     };
-    correction("17-20", "derived_gradients", printed_projection<Printed::sign>());
-    correction("12-20", "as_printed", printed_projection<Printed::as_printed>());
-    correction("8", "derived_gradients", [](const Tet& tet, Corners& p) { pbs::project(tet, 1.0, 1.0, 1.0, 1.0, p[0], p[1], p[2], p[3]); });
+    add_correction("17-20", "derived_gradients", [](auto&... of) { pbs::project_printed<Printed::sign>(of...); });
+    add_correction("12-20", "as_printed", [](auto&... of) { pbs::project_printed<Printed::as_printed>(of...); });
+    add_correction("8", "derived_gradients", [](const Tet& tet, auto&... p) { pbs::project(tet, 1.0, 1.0, 1.0, 1.0, p...); });
     values.back().claim = "control_of_C15";
     return values;
 }

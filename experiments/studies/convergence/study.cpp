@@ -1,29 +1,228 @@
 // C03, C12: how fast the solver converges, from which initial guess, and towards what. Every run iterates the paper's constraints far past
-// its 24 iterations from four initial guesses (convergence/convergence_case.hpp) and measures residuals, volume and the error to the
-// reference (shared/posed_reference.hpp).
-//
-//   limb_twist, limb_bend   90 and 170 deg, 60 and 90 deg; three orders, two precisions, other tessellations of the same size
-//   human, ...              poses of the clip 01_01, every real body that is installed, at the sizes of Table 1
-//   ladder_twist, _bend     the limb from 500 vertices to 8,000 in three orders (--full: to 100,000 in one), with the reference up to
-//                           2,500 vertices. rates.csv states which meshes have no reference
+// its 24 iterations from four initial guesses and measures residuals, volume and the error to the reference (shared/posed_reference.hpp).
+// README.md describes the runs and records.
 //
 // The reference of a pose takes minutes, so the quick form has it only at twist 90, bend 60, in the human's crouch and on the ladder. It
 // has no solution on finer tets there, and therefore no bound.
-//
-// Writes DIR/convergence/RUN/residuals.csv, rates.csv, towards.csv, measurements.csv.
 #include "analysis/records/record_files.hpp"
 #include "analysis/records/report_table.hpp"
 #include "analysis/verdicts/measurement.hpp"
 #include "experiments/deformers/deformer_options.hpp"
+#include "experiments/process/terminal.hpp"
+#include "experiments/scene/scene.hpp"
+#include "experiments/settings/recorded_settings.hpp"
 #include "experiments/studies/convergence/convergence_case.hpp"
+#include "experiments/studies/shared/posed_character.hpp"
 #include "experiments/studies/shared/posed_reference.hpp"
 #include "experiments/studies/study.hpp"
+#include "pbs/skinning/blend.hpp"
+#include "pbs/solver/options.hpp"
+#include "pbs/solver/pbs_solver.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 namespace experiments {
+namespace {
+
+pbs::Positions blended(const pbs::Character& character, const pbs::Weights& weights, const pbs::Pose& pose)
+{
+    pbs::Positions positions;
+    pbs::linear_blend_skinning(character.mesh.rest, weights, pose, positions);
+    return positions;
+}
+
+// The solver advanced from step to step, each step from the result of the last one.
+class WarmStarted {
+public:
+    WarmStarted(const pbs::Character& character, const pbs::Motion& motion, const pbs::PbsOptions& options)
+        : character_(character),
+          motion_(motion),
+          solver_(character.mesh, character.binding.distance, {}, options),
+          positions_(blended(character, character.weights, motion.steps.front()))
+    {
+    }
+
+    const pbs::Positions& before(std::size_t step)
+    {
+        for (; next_ < step; ++next_) {
+            stop_if_interrupted();
+            solver_.advance(positions_, pbs::posed_bind_points(character_.binding, motion_.steps[next_]), motion_.time_step_s);
+            positions_ = solver_.positions();
+        }
+        return positions_;
+    }
+
+private:
+    const pbs::Character& character_;
+    const pbs::Motion& motion_;
+    pbs::PbsSolver solver_;
+    pbs::Positions positions_;
+    std::size_t next_ = 0;
+};
+
+}  // namespace
+
+const char* name_of(SolverStart start)
+{
+    static constexpr const char* names[] = {"lbs", "previous_frame", "rest_pose", "rigid_bind"};
+    return names[static_cast<int>(start)];
+}
+
+std::vector<FrameStarts> starts_of(const pbs::Character& character, const pbs::Motion& motion, const std::vector<int>& frames,
+                                   const pbs::PbsOptions& options)
+{
+    const pbs::Weights rigid = pbs::rigid_weights(character.binding);
+    WarmStarted warm(character, motion, options);
+    std::vector<FrameStarts> all;
+    for (const int frame : frames) {
+        const std::size_t step = static_cast<std::size_t>(frame) * motion.steps_per_frame;
+        const pbs::Pose& pose = motion.steps.at(step);
+        const pbs::Positions lbs = blended(character, character.weights, pose);
+        all.push_back({bind_points_of(options, character, pose, lbs),
+                       {lbs, warm.before(step), character.mesh.rest, blended(character, rigid, pose)}});
+    }
+    return all;
+}
+
+namespace {
+
+std::vector<int> frame_numbers(const std::vector<NamedFrame>& frames)
+{
+    std::vector<int> numbers;
+    for (const NamedFrame& frame : frames) numbers.push_back(frame.frame);
+    return numbers;
+}
+
+Scene at_size(Scene scene, int vertices)
+{
+    scene.character.vertices = vertices;
+    return scene;
+}
+
+// One mesh of the body.
+class Mesh {
+public:
+    Mesh(const ConvergenceCase& of, const Scene& scene, bool own)
+        : of_(of),
+          own_(own),
+          settings_(own || scene.character.vertices <= of.every_setting_to ? of.settings.size() : 1),
+          posed_(scene, frame_numbers(of.frames)),
+          motion_(make_motion(scene.motion, posed_.character().skeleton, scene.file))
+    {
+        for (std::size_t frame = 0; frame < of.frames.size(); ++frame) references_.push_back(reference_in(frame));
+    }
+
+    void add_to(ConvergenceResult& result) const
+    {
+        for (std::size_t frame = 0; frame < references_.size(); ++frame)
+            if (!references_[frame].why.empty())
+                result.breakdown +=
+                    fmt::format("{} in {}: not reached, {}. ", of_.reference.label, of_.frames[frame].name, references_[frame].why);
+        for (const double k_stretch : of_.k_stretch) {
+            pbs::PbsOptions options = options_of<pbs::PbsOptions>(spec_of(of_.scene, "pbs"));
+            options.k_stretch = k_stretch;
+            const std::vector<FrameStarts> starts = starts_of(posed_.character(), motion_, frame_numbers(of_.frames), options);
+            for (std::size_t setting = 0; setting < settings_; ++setting)
+                for (std::size_t frame = 0; frame < starts.size(); ++frame)
+                    add(follow(starts[frame], frame, of_.settings[setting], options), result);
+        }
+    }
+
+private:
+    struct FrameReference {
+        std::string name;      // or why there is none
+        std::string why = {};  // if it was not reached: its worst tet
+        std::optional<PosedReference> solved = {};
+    };
+
+    FrameReference reference_in(std::size_t frame) const
+    {
+        const pbs::Character& character = posed_.character();
+        if (!of_.frames[frame].compared) return {"none"};
+        if (!own_ && !of_.ladder) return {"own_mesh_alone"};
+        if (character.mesh.rest.rows() > of_.reference_to) return {fmt::format("left_out_above_{}_vertices", of_.reference_to)};
+        PosedReference reference(character, of_.reference, posed_.pose(frame), of_.scene.motion.time_step_s, of_.refines_reference);
+        if (!reference.is_reached()) return {.name = of_.reference.label + "_was_not_reached", .why = reference.why_not_reached()};
+        return {.name = of_.reference.label, .solved = std::move(reference)};
+    }
+
+    static ReferenceQuality quality_of(const PosedReference& reference)
+    {
+        ReferenceQuality quality{.masked_share_pct = reference.masked_share_pct()};
+        if (!reference.order()) return quality;
+        quality.observed_order = reference.order()->observed;
+        quality.order_is_reliable = reference.order()->reliable;
+        quality.bound_pct = reference.bound().joint_pct;
+        return quality;
+    }
+
+    static void add(ConvergencePaths paths, ConvergenceResult& result)
+    {
+        for (std::size_t start = 0; start < paths.paths.size(); ++start)
+            if (!paths.paths[start].finite)
+                result.breakdown += fmt::format("{} from {} is not finite. ", paths.of.pose, name_of(static_cast<SolverStart>(start)));
+        result.all.push_back(std::move(paths));
+    }
+
+    ConvergencePaths follow(const FrameStarts& starts, std::size_t frame, const ProjectionSetting& setting, pbs::PbsOptions options) const
+    {
+        options.order = setting.order;
+        options.precision = setting.precision;
+        const pbs::Character& character = posed_.character();
+        const FrameReference& reference = references_[frame];
+        const IterationMetrics iteration_metrics(character, starts.bind_points, reference.solved ? &*reference.solved : nullptr);
+        ConvergencePaths paths{
+            .of = {of_.scene.character.body, of_.frames[frame].name, int(character.mesh.rest.rows()), int(character.mesh.tets.rows()), own_,
+                   name_of(options.order), name_of(options.precision), options.k_stretch},
+            .key = of_.frames[frame].key,
+            .character = !of_.scene.motion.clip.empty(),
+            .twist = of_.frames[frame].twist,
+            .reference = reference.name};
+        if (reference.solved) paths.quality = quality_of(*reference.solved);
+        paths.paths = iterate(character, options, starts.bind_points, {starts.shapes.begin(), starts.shapes.end()}, of_.most_iterations,
+                              iteration_metrics);
+        for (const IterationPath& path : paths.paths)
+            paths.limit_from_lbs_pct.push_back(joint_pct(path.last, {paths.paths.front().last, paths.paths.front().finite}));
+        return paths;
+    }
+
+    double joint_pct(const pbs::Positions& shape, const Shape& other) const
+    {
+        return posed_.distance({shape, shape.allFinite()}, other).joint_pct;
+    }
+
+    const ConvergenceCase& of_;
+    bool own_;
+    std::size_t settings_;  // the number of the case's settings that are run
+    PosedCharacter posed_;
+    pbs::Motion motion_;
+    std::vector<FrameReference> references_;  // one per frame
+};
+
+}  // namespace
+
+RECORD_SETTINGS(NamedFrame, frame, name, key, twist, compared)
+RECORD_SETTINGS(ProjectionSetting, order, precision)
+RECORD_SETTINGS_AND(ConvergenceCase,
+                    .derived("looks", [](const ConvergenceCase& of) -> nlohmann::json { return looked_at(of.most_iterations); })
+                        .constant("residual_tolerance", residual_tolerance)
+                        .constant("satisfied_residual", satisfied_residual)
+                        .constant("volume_tolerance_pct", volume_tolerance_pct),
+                    scene, frames, k_stretch, settings, other_vertices, every_setting_to, ladder, most_iterations, reference,
+                    refines_reference, reference_to)
+
+ConvergenceResult measure_convergence(const ConvergenceCase& of)
+{
+    ConvergenceResult result;
+    result.ladder = of.ladder;
+    Mesh(of, of.scene, true).add_to(result);
+    for (const int vertices : of.other_vertices) Mesh(of, at_size(of.scene, vertices), false).add_to(result);
+    return result;
+}
+
 namespace {
 
 std::string measure_and_record(const ConvergenceCase& of, const std::string& folder)

@@ -1,23 +1,353 @@
 // Which deformer is closer to elastic flesh, whatever reference of a family is taken, and is the error of PBS that of its solver, of its
-// model or of the reference's discretisation (ensemble/ensemble.hpp)?
-//
-//   limb_twist_90, limb_bend_60 (--full: also twist 150, bend 90)    o=======o~~~~~~~o
-//   --full: human crouch, standing, in the air, landing              CMU's clip 01_01
+// model or of the reference's discretisation (ensemble.hpp)? README.md describes the poses and records.
 //
 //   pbskin reproduce ensemble            20 minutes on one core
 //   pbskin reproduce ensemble --full     four hours
-//
-// Writes DIR/ensemble/CASE/{members,errors,pairs,parts,attachments}.csv and, over all cases, pairs.csv, members.csv.
-#include "experiments/studies/ensemble/ensemble.hpp"
-
+#include "analysis/metrics/frame_metrics.hpp"
 #include "analysis/records/record_files.hpp"
 #include "analysis/records/report_table.hpp"
+#include "experiments/deformers/deformer_options.hpp"
+#include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/deformers/registry.hpp"
+#include "experiments/settings/recorded_settings.hpp"
+#include "experiments/studies/ensemble/ensemble.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 #include "experiments/studies/shared/posed_reference.hpp"
 #include "experiments/studies/study.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
 namespace experiments {
+
+using analysis::CaseKey;
+using analysis::Columns;
+using analysis::within;
+
+const Columns<MemberRow> member_columns =
+    within(&MemberRow::of, pose_columns()) + within(&MemberRow::member, family_member_columns()) +
+    Columns<MemberRow>{
+        {"outcome", &MemberRow::outcome, "", "reached; inverted: det F <= 0 somewhere in each solution; not_converged"},
+        {"element_order", &MemberRow::element_order, "", "of the finest solution with det F > 0, which is the reference"},
+        {"refinements", &MemberRow::refinements, "", "how often its tets are cut into eight"},
+        {"error_bound_pct", &MemberRow::error_bound_pct, "%", "bound of its distance from the limit, at the joints outside the mask"},
+        {"error_bound_l2_pct", &MemberRow::error_bound_l2_pct, "%", "bound of its distance from the limit, outside the mask"},
+        {"observed_order", &MemberRow::observed_order, "", "of convergence of linear elements, with the finest solution as the limit"},
+        {"reliable", &MemberRow::reliable, "", "the observed order is credible, and the safety factor 1.25 instead of 3"},
+        {"masked_share_pct", &MemberRow::masked_share_pct, "%", "share of the volume that is left out because the body overlaps itself"},
+        {"volume_change_pct", &MemberRow::volume_change_pct, "%", "of the reference"},
+        {"lowest_det_f", &MemberRow::lowest_det_f, "", "of the finest solution, at the quadrature points of its elements"},
+        {"inverted", &MemberRow::inverted_tets, "", "the body's tets that it inverts by their vertices alone; they are left out"},
+        {"j_min", &MemberRow::j_min, "", "the smallest volume ratio of such a tet"},
+        {"worst_tet", &MemberRow::worst_tet, "", "that tet"},
+        {"newton_steps", &MemberRow::newton_steps, "", "of the finest solution, from the one with fewer nodes"},
+        {"projected", &MemberRow::projected, "",
+         "those with a projected Hessian, as it was not positive definite or the step before met negative curvature"},
+        {"solve_s", &MemberRow::solve_s, "s", "wall time of all solutions"}};
+
+const Columns<ErrorRow> error_columns =
+    within(&ErrorRow::of, pose_columns()) +
+    Columns<ErrorRow>{{"member", &ErrorRow::member, "", "name of the member"},
+                      {"deformer", &ErrorRow::deformer, "", "name of the deformer"},
+                      {"error_joint_pct", &ErrorRow::error_joint_pct, "%", "error over the blended vertices outside the mask"},
+                      {"error_l2_pct", &ErrorRow::error_l2_pct, "%", "error over all vertices outside the mask"},
+                      {"whole_joint_pct", &ErrorRow::whole_joint_pct, "%", "error over all blended vertices"},
+                      {"volume_change_pct", &ErrorRow::volume_change_pct, "%", "signed change of the volume"}};
+
+const Columns<PairRow> pair_columns =
+    within(&PairRow::of, pose_columns()) +
+    Columns<PairRow>{
+        {"first", &PairRow::first, "", "name of a deformer"},
+        {"second", &PairRow::second, "", "name of the other one"},
+        {"difference_pct", &PairRow::difference_pct, "%", "error of the second minus that of the first, against the first member reached"},
+        {"largest_difference_pct", &PairRow::largest_difference_pct, "%", "the largest difference of any member, without its sign"},
+        {"members", &PairRow::members, "", "number of members"},
+        {"not_reached", &PairRow::not_reached, "", "members that were not reached, which decide nothing"},
+        {"first_is_closer", &PairRow::first_is_closer, "", "members for which the first is closer by more than their own error allows"},
+        {"second_is_closer", &PairRow::second_is_closer, "", "members for which the second is"},
+        {"decision", &PairRow::decision, "", "decided, reference_error (a member does not decide or was not reached) or models_disagree"}};
+
+const Columns<PartsRow> part_columns =
+    within(&PartsRow::of, pose_columns()) +
+    Columns<PartsRow>{
+        {"k_stretch", &PartsRow::k_stretch, "", "stiffness of the stretch constraints"},
+        {"iterations", &PartsRow::iterations, "", "iterations of PBS"},
+        {"error_joint_pct", &PartsRow::error_joint_pct, "%", "distance of PBS from the reference, at the joints outside the mask"},
+        {"solver_pct", &PartsRow::solver_pct, "%", "distance of PBS from its own converged shape"},
+        {"model_pct", &PartsRow::model_pct, "%", "distance of PBS's converged shape from the reference"},
+        {"discretisation_pct", &PartsRow::discretisation_pct, "%",
+         "bound of the reference's distance from its limit on ever finer tets; nan: a nested solution is missing"},
+        {"not_converged_pct", &PartsRow::not_converged_pct, "%",
+         "distance of PBS's converged shape from that after half of the iterations"},
+        {"pbs_refinement_pct", &PartsRow::pbs_refinement_pct, "%", "distance of PBS's converged shape from that on refined tets"},
+        {"error_l2_pct", &PartsRow::error_l2_pct, "%", "distance of PBS from the reference, over all vertices outside the mask"},
+        {"error_linf_m", &PartsRow::error_linf_m, "m", "largest distance of a vertex of PBS from the reference outside the mask"},
+        {"whole_joint_pct", &PartsRow::whole_joint_pct, "%", "distance of PBS from the reference at the joints of the whole body"},
+        {"masked_share_pct", &PartsRow::masked_share_pct, "%",
+         "share of the volume that is left out because the reference overlaps itself"},
+        {"observed_order", &PartsRow::observed_order, "", "of convergence of the reference's linear elements; empty: not known"},
+        {"order_is_reliable", &PartsRow::order_is_reliable, "",
+         "the order is credible, and the bound has the safety factor 1.25 instead of 3"}};
+
+const Columns<AttachmentRow> attachment_columns =
+    within(&AttachmentRow::of, pose_columns()) +
+    Columns<AttachmentRow>{
+        {"reference", &AttachmentRow::reference, "", "label of the flesh; the reference's own comes first"},
+        {"model", &AttachmentRow::model, "", "its law"},
+        {"attachment", &AttachmentRow::attachment, "", "how it is held by the bones"},
+        {"spring_factor", &AttachmentRow::spring_factor, "",
+         "q of its springs or of the bind constraint; empty: prescribed nodes have none"},
+        {"core_radius", &AttachmentRow::core_radius, "",
+         "radius of the bones' capsules over the limb's; empty: the bind constraint has none"},
+        {"difference_pct", &AttachmentRow::difference_pct, "%", "its distance from the reference, at the joints outside the mask"},
+        {"k_stretch", &AttachmentRow::k_stretch, "", "stiffness of the stretch constraints of PBS"},
+        {"model_pct", &AttachmentRow::model_pct, "%", "distance of PBS's converged shape from this flesh"},
+        {"finished", &AttachmentRow::finished, "", "the flesh reached its pose"}};
+
+RECORD_SETTINGS(EnsembleCase, of, scene, frame, flesh, members, deformers, pbs, other_flesh, k_stretch, iterations, converged_iterations)
+
+std::vector<DeformerSpec> other_attachments(const DeformerSpec& reference)
+{
+    FemOptions flesh = options_of<FemOptions>(reference);
+    flesh.element_order = 2;
+    flesh.nested_start = true;
+    flesh.attachment = FemAttachment::smooth;
+    FemOptions stiffer = flesh, thinner = flesh, embedded = flesh, bind = flesh;
+    stiffer.spring_factor = 100.0;
+    thinner.core_radius = 0.5;
+    embedded.attachment = FemAttachment::embedded;
+    embedded.spring_factor = embedded.core_radius = 0.0;  // the attachment's own
+    bind.attachment = FemAttachment::bind;
+    bind.spring_factor = bind.core_radius = 0.0;
+    FemOptions linear = flesh, linear_embedded = embedded;
+    for (FemOptions* small_strain : {&linear, &linear_embedded}) {
+        small_strain->model = reference_fem::Model::linear;
+        small_strain->nested_start = false;
+        small_strain->most_newton_steps = 0;
+    }
+    std::vector<DeformerSpec> others;
+    const std::pair<const char*, FemOptions> all[] = {{"smooth_q_100", stiffer}, {"smooth_core_0.5", thinner},
+                                                      {"embedded", embedded},    {"bind", bind},
+                                                      {"linear_smooth", linear}, {"linear_embedded", linear_embedded}};
+    for (const auto& [label, options] : all) {
+        others.push_back(reference);
+        others.back().name = others.back().label = label;
+        others.back().options = options;
+    }
+    return others;
+}
+
+namespace {
+
+struct DeformedShape {
+    std::string deformer;
+    pbs::Positions positions;  // [m], #V x 3
+};
+
+MemberRow member_row(const EnsembleCase& of, const EnsembleMember& member, const PosedReference& reference,
+                     const analysis::MeshMetrics& metrics)
+{
+    MemberRow row;
+    row.of = of.of;
+    row.member = member;
+    const NestedSolution& finest = reference.solutions().front();
+    row.outcome = reference.is_reached() ? "reached" : finest.finished ? "inverted" : "not_converged";
+    row.masked_share_pct = reference.masked_share_pct();
+    row.lowest_det_f = finest.lowest_det_f;
+    row.inverted_tets = finest.inverted_tets;
+    row.j_min = finest.j_min;
+    row.worst_tet = finest.worst_tet;
+    row.newton_steps = finest.newton_steps;
+    row.projected = finest.projected;
+    for (const NestedSolution& solution : reference.solutions()) row.solve_s += solution.seconds;
+    if (!reference.is_reached()) return row;
+    row.element_order = reference.reference().element_order;
+    row.refinements = reference.reference().refinements;
+    row.volume_change_pct = metrics.measure(reference.reference().positions).volume_change_pct;
+    if (!reference.order()) return row;
+    row.error_bound_pct = reference.bound().joint_pct;
+    row.error_bound_l2_pct = reference.bound().l2_pct;
+    row.observed_order = reference.order()->observed;
+    row.reliable = reference.order()->reliable;
+    return row;
+}
+
+// A pair of shapes, with the order that each reference of the family gives it.
+struct OrderedPair {
+    const DeformedShape &first, &second;
+    PairRow row;
+    std::vector<analysis::PairOrder> orders = {};
+};
+
+std::vector<OrderedPair> all_pairs(const CaseKey& of, const std::vector<DeformedShape>& shapes)
+{
+    std::vector<OrderedPair> pairs;
+    for (std::size_t a = 0; a < shapes.size(); ++a)
+        for (std::size_t b = a + 1; b < shapes.size(); ++b)
+            pairs.push_back({shapes[a], shapes[b], {.of = of, .first = shapes[a].deformer, .second = shapes[b].deformer}});
+    return pairs;
+}
+
+void add_order(OrderedPair& pair, const PosedReference& reference)
+{
+    ++pair.row.members;
+    if (!reference.is_reached()) {
+        ++pair.row.not_reached;
+        pair.orders.push_back(analysis::PairOrder::undecided);
+        return;
+    }
+    const pbs::Positions &a = pair.first.positions, &b = pair.second.positions;
+    const double first_pct = reference.error_of(a).joint_pct, second_pct = reference.error_of(b).joint_pct;
+    if (!pair.row.difference_pct) pair.row.difference_pct = second_pct - first_pct;
+    pair.row.largest_difference_pct = std::max(pair.row.largest_difference_pct, std::abs(second_pct - first_pct));
+    pair.orders.push_back(analysis::order_of({first_pct, second_pct, reference.distance(a, b).joint_pct, reference.bound().joint_pct}));
+}
+
+PairRow decided(const OrderedPair& pair)
+{
+    PairRow row = pair.row;
+    row.first_is_closer = static_cast<int>(std::ranges::count(pair.orders, analysis::PairOrder::first_is_closer));
+    row.second_is_closer = static_cast<int>(std::ranges::count(pair.orders, analysis::PairOrder::second_is_closer));
+    row.decision = analysis::decide(pair.orders);
+    return row;
+}
+
+Scene refined(Scene scene)
+{
+    ++scene.character.refinements;
+    return scene;
+}
+
+pbs::PbsOptions in_double(const DeformerSpec& spec, double k_stretch, int iterations)
+{
+    pbs::PbsOptions options = options_of<pbs::PbsOptions>(spec);
+    options.precision = pbs::Precision::f64;
+    options.k_stretch = k_stretch;
+    options.iterations = iterations;
+    options.jiggle.reset();
+    return options;
+}
+
+// The parts of PBS's error relative to one reference.
+class Splitting {
+public:
+    Splitting(const EnsembleCase& of, const PosedCharacter& base, const PosedReference& reference)
+        : of_(of),
+          base_(base),
+          reference_(reference),
+          fine_(refined(of.scene), {of.frame}),
+          reference_shape_{reference.reference().positions, true}
+    {
+    }
+
+    void add_to(EnsembleRecords& records) const
+    {
+        std::vector<Shape> others;
+        for (const DeformerSpec& other : of_.other_flesh) others.push_back(base_.shapes(other).front());
+        for (const double k_stretch : of_.k_stretch) {
+            const pbs::PbsOptions whole = in_double(of_.pbs, k_stretch, of_.converged_iterations);
+            std::vector<pbs::PbsOptions> all = {whole, in_double(of_.pbs, k_stretch, of_.converged_iterations / 2)};
+            for (const int iterations : of_.iterations) all.push_back(in_double(of_.pbs, k_stretch, iterations));
+            const std::vector<Shapes> shapes = base_.shapes(all);
+            const Shape &converged = shapes[0].front(), &half_way = shapes[1].front(), on_fine = fine_.shapes({whole}).front().front();
+            for (std::size_t n = 2; n < shapes.size(); ++n) {
+                PartsRow row = parts_of(shapes[n].front(), converged);
+                row.k_stretch = k_stretch;
+                row.iterations = all[n].iterations;
+                row.not_converged_pct = distance(converged, half_way).joint_pct;
+                row.pbs_refinement_pct = distance(converged, on_fine).joint_pct;
+                records.parts.push_back(row);
+            }
+            records.attachments.push_back(attachment(k_stretch, converged, of_.flesh, reference_shape_));
+            for (std::size_t other = 0; other < others.size(); ++other)
+                records.attachments.push_back(attachment(k_stretch, converged, of_.other_flesh[other], others[other]));
+        }
+    }
+
+private:
+    PartsRow parts_of(const Shape& shape, const Shape& converged) const
+    {
+        const analysis::ErrorNorms total = distance(shape, reference_shape_);
+        PartsRow row{.of = of_.of};
+        row.error_joint_pct = total.joint_pct;
+        row.solver_pct = distance(shape, converged).joint_pct;
+        row.model_pct = distance(converged, reference_shape_).joint_pct;
+        row.discretisation_pct = reference_.bound().joint_pct;
+        row.error_l2_pct = total.l2_pct;
+        row.error_linf_m = total.linf_m;
+        row.whole_joint_pct = base_.distance(shape, reference_shape_).joint_pct;
+        row.masked_share_pct = reference_.masked_share_pct();
+        if (!reference_.order()) return row;
+        row.observed_order = reference_.order()->observed;
+        row.order_is_reliable = reference_.order()->reliable;
+        return row;
+    }
+
+    AttachmentRow attachment(double k_stretch, const Shape& converged, const DeformerSpec& flesh, const Shape& shape) const
+    {
+        const auto& fem = options_of<FemOptions>(flesh);
+        AttachmentRow row{of_.of, flesh.label, name_of(fem.model), name_of(fem.attachment)};
+        if (fem.has_spring_factor()) row.spring_factor = fem.used_spring_factor();
+        if (fem.has_capsules()) row.core_radius = fem.used_core_radius();
+        row.difference_pct = distance(shape, reference_shape_).joint_pct;
+        row.k_stretch = k_stretch;
+        row.model_pct = distance(converged, shape).joint_pct;
+        row.finished = shape.finished;
+        return row;
+    }
+
+    // Outside the mask. Not a number where one of them did not finish.
+    analysis::ErrorNorms distance(const Shape& one, const Shape& other) const
+    {
+        constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+        if (!one.finished || !other.finished) return {nothing, nothing, nothing};
+        const Eigen::Index vertices = base_.character().mesh.rest.rows();
+        return reference_.distance(one.positions.topRows(vertices), other.positions.topRows(vertices));
+    }
+
+    const EnsembleCase& of_;
+    const PosedCharacter& base_;
+    const PosedReference& reference_;
+    PosedCharacter fine_;
+    Shape reference_shape_;
+};
+
+}  // namespace
+
+EnsembleRecords measure_ensemble(const EnsembleCase& of)
+{
+    const PosedCharacter body(of.scene, {of.frame});
+    const pbs::TetMesh& mesh = body.character().mesh;
+    const analysis::MeshMetrics metrics(mesh.rest, mesh.tets);
+    EnsembleRecords records;
+    std::vector<DeformedShape> shapes;
+    for (const DeformerSpec& spec : of.deformers) {
+        const Shape shape = body.shapes(spec).front();
+        if (shape.finished)
+            shapes.push_back({spec.label, shape.positions});
+        else
+            records.breakdown += spec.label + " did not finish. ";
+    }
+    std::vector<OrderedPair> pairs = all_pairs(of.of, shapes);
+    for (const EnsembleMember& member : of.members) {
+        const PosedReference reference(body.character(), flesh_of(of.flesh, member), body.pose(0), of.scene.motion.time_step_s);
+        records.members.push_back(member_row(of, member, reference, metrics));
+        for (OrderedPair& pair : pairs) add_order(pair, reference);
+        if (!reference.is_reached()) continue;
+        for (const DeformedShape& shape : shapes) {
+            const analysis::ErrorNorms error = reference.error_of(shape.positions);
+            records.errors.push_back({of.of, member.name, shape.deformer, error.joint_pct, error.l2_pct,
+                                      reference.error_on_whole_body(shape.positions).joint_pct,
+                                      metrics.measure(shape.positions).volume_change_pct});
+        }
+        if (records.members.size() == 1 && !of.k_stretch.empty()) Splitting(of, body, reference).add_to(records);
+    }
+    for (const OrderedPair& pair : pairs) records.pairs.push_back(decided(pair));
+    return records;
+}
+
 namespace {
 
 std::string measure_and_record(const EnsembleCase& of, const std::string& folder)

@@ -25,8 +25,6 @@ struct Cantilever {
 };
 Cantilever make_cantilever(const pbs::TetMesh& bar);
 
-double mean_sag_m(const Cantilever& cantilever, const pbs::Positions& displacement);  // of the tip, downwards
-
 // Linear statics under gravity along -z: displacement [m], #V x 3, for young_pa, density_kg_m3 and 1 m/s^2.
 struct ElasticSag {
     pbs::Positions displacement;
@@ -52,14 +50,16 @@ struct SagCase {
 };
 nlohmann::json to_json(const SagCase& of);
 
+inline constexpr double sag_time_step_s = 0.01, sag_density_kg_m3 = 1000.0, sag_poisson = 0.45;
+
 // The bar and the solver's settings.
 struct BarSetting {
     int vertices = 0;
     double mean_edge_m = 0.0, k_stretch = 0.0, k_volume = 0.0;
     int iterations = 0;
-    double time_step_s = 0.0;
+    double time_step_s = sag_time_step_s;
     std::string masses = "lumped";
-    double density_kg_m3 = 0.0, poisson = 0.0;  // of the elastic body
+    double density_kg_m3 = sag_density_kg_m3, poisson = sag_poisson;  // of the elastic body
 };
 
 struct SagRow {
@@ -73,8 +73,6 @@ struct SagRow {
     double residual = 0.0;
     int solver_steps = 0;
 };
-extern const analysis::Columns<SagRow> sag_columns;
-
-std::string record_sags(const SagCase& of, const std::string& folder);  // sag.csv
+extern const analysis::Columns<SagRow> sag_columns;  // sag.csv
 
 }  // namespace experiments

@@ -87,13 +87,6 @@ Cantilever make_cantilever(const pbs::TetMesh& bar)
     return cantilever;
 }
 
-double mean_sag_m(const Cantilever& cantilever, const pbs::Positions& displacement)
-{
-    double sum = 0.0;
-    for (const int v : cantilever.tip) sum -= displacement(v, 2);
-    return sum / static_cast<double>(cantilever.tip.size());
-}
-
 ElasticSag elastic_sag(const Cantilever& cantilever, FemOptions options)
 {
     options.attachment = FemAttachment::nodes;
@@ -168,8 +161,6 @@ const analysis::Columns<SagRow> sag_columns =
 
 namespace {
 
-constexpr double sag_time_step_s = 0.01, density_kg_m3 = 1000.0, elastic_poisson = 0.45;
-
 struct Rig {
     Cantilever cantilever;
     ElasticSag elastic;  // of 1 Pa under 1 m/s^2
@@ -179,23 +170,11 @@ Rig make_rig(int vertices)
 {
     FemOptions options;  // linear, P2
     options.young_pa = 1.0;
-    options.poisson = elastic_poisson;
-    options.density_kg_m3 = density_kg_m3;
+    options.poisson = sag_poisson;
+    options.density_kg_m3 = sag_density_kg_m3;
     Cantilever cantilever = make_cantilever(pbs::make_character({.body = "bar", .vertices = vertices}).mesh);
     ElasticSag elastic = elastic_sag(cantilever, options);
     return {std::move(cantilever), std::move(elastic)};
-}
-
-BarSetting setting_of(const Rig& rig, double k_stretch, double k_volume, int iterations)
-{
-    return {.vertices = static_cast<int>(rig.cantilever.body.mesh.rest.rows()),
-            .mean_edge_m = rig.cantilever.mean_edge_m,
-            .k_stretch = k_stretch,
-            .k_volume = k_volume,
-            .iterations = iterations,
-            .time_step_s = sag_time_step_s,
-            .density_kg_m3 = density_kg_m3,
-            .poisson = elastic_poisson};
 }
 
 pbs::PbsOptions pbs_options(const BarSetting& setting)
@@ -207,6 +186,14 @@ pbs::PbsOptions pbs_options(const BarSetting& setting)
     options.iterations = setting.iterations;
     options.masses = option_of<pbs::Masses>(setting.masses);
     return options;
+}
+
+// Of the tip, downwards.
+double mean_sag_m(const Cantilever& cantilever, const pbs::Positions& displacement)
+{
+    double sum = 0.0;
+    for (const int v : cantilever.tip) sum -= displacement(v, 2);
+    return sum / static_cast<double>(cantilever.tip.size());
 }
 
 SagRow sag_row(const Rig& rig, const BarSetting& setting)
@@ -234,21 +221,22 @@ SagRow sag_row(const Rig& rig, const BarSetting& setting)
 }  // namespace
 
 RECORD_SETTINGS_AND(SagCase,
-                    .constant("time_step_s", sag_time_step_s).constant("density_kg_m3", density_kg_m3).constant("poisson", elastic_poisson),
+                    .constant("time_step_s", sag_time_step_s).constant("density_kg_m3", sag_density_kg_m3).constant("poisson", sag_poisson),
                     vertices, k_stretch, k_volume, iterations)
+
+namespace {
 
 std::string record_sags(const SagCase& of, const std::string& folder)
 {
     const Rig rig = make_rig(of.vertices);
+    const auto vertices = static_cast<int>(rig.cantilever.body.mesh.rest.rows());
     std::vector<SagRow> rows;
     for (const double k_stretch : of.k_stretch)
         for (const double k_volume : of.k_volume)
-            for (const int n : of.iterations) rows.push_back(sag_row(rig, setting_of(rig, k_stretch, k_volume, n)));
+            for (const int n : of.iterations) rows.push_back(sag_row(rig, {vertices, rig.cantilever.mean_edge_m, k_stretch, k_volume, n}));
     table_of(sag_columns, rows).write(analysis::path_in(folder, "sag.csv"));
     return "";
 }
-
-namespace {
 
 StudyPlan plan(bool full)
 {

@@ -12,11 +12,6 @@
 #include <algorithm>
 #include <cmath>
 
-// Records name masses as settings do.
-template <>
-struct analysis::EnumNames<pbs::Masses> : experiments::OptionNames<pbs::Masses> {
-};
-
 namespace experiments {
 
 using analysis::Columns;

@@ -60,8 +60,4 @@ std::vector<analysis::Measurement> setup_measurements(const analysis::CaseKey& o
 // The values of a body that did not run with any of further_keys(): the number of keys is unknown, and no frame is sound.
 std::vector<analysis::Measurement> not_set_up(const analysis::CaseKey& of);
 
-// Runs the body in `folder`/run and writes measurements.csv, changed_keys.csv and trials.csv. The run has its own cache of meshes, which
-// is removed afterwards; PBSKIN_CACHE of this process is set to it. Returns the failure of the last trial, if any.
-std::string set_up_and_record(const SetupCase& of, const std::string& folder);
-
 }  // namespace experiments

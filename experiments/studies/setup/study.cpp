@@ -28,6 +28,7 @@ namespace experiments {
 namespace {
 
 namespace fs = std::filesystem;
+using analysis::Measurement;
 
 std::vector<std::string> shared_overrides(double rate_hz)
 {
@@ -63,7 +64,7 @@ analysis::CaseKey key_of(const BodySetup& setup, const nlohmann::json& run)
     return key;
 }
 
-std::vector<analysis::Measurement> measured_in(const fs::path& run_folder, const BodySetup& setup, const std::vector<std::string>& changed)
+std::vector<Measurement> measured_in(const fs::path& run_folder, const BodySetup& setup, const std::vector<std::string>& changed)
 {
     const analysis::CsvTable metrics = analysis::read_csv((run_folder / "metrics.csv").string());
     return analysis::from_record((run_folder / "run.json").string(),
@@ -139,8 +140,8 @@ std::vector<TriedSetup> tried_setups(const BodySetup& setup, const Trial& trial)
     return tried;
 }
 
-std::vector<analysis::Measurement> setup_measurements(const analysis::CaseKey& of, const analysis::CsvTable& metrics,
-                                                      const nlohmann::json& run, const std::vector<std::string>& changed)
+std::vector<Measurement> setup_measurements(const analysis::CaseKey& of, const analysis::CsvTable& metrics, const nlohmann::json& run,
+                                            const std::vector<std::string>& changed)
 {
     const std::vector<double> change_pct = metrics.numbers("volume_change_pct"), inverted = metrics.numbers("inverted_tets");
     std::vector<bool> good;
@@ -162,12 +163,16 @@ std::vector<analysis::Measurement> setup_measurements(const analysis::CaseKey& o
             {"C17", "set_up_s", of, set_up_s, set_up_s, set_up_s, "s"}};
 }
 
-std::vector<analysis::Measurement> not_set_up(const analysis::CaseKey& of)
+std::vector<Measurement> not_set_up(const analysis::CaseKey& of)
 {
     const double none = analysis::not_known;
     return {{"C17", "keys_changed", of, none, none, none, "1"}, {"C17", "share_of_sound_frames", of, 0.0, 0.0, 0.0, "1"}};
 }
 
+namespace {
+
+// Runs the body in `folder`/run and writes measurements.csv, changed_keys.csv and trials.csv. The run has its own cache of meshes, which
+// is removed afterwards; PBSKIN_CACHE of this process is set to it. Returns the failure of the last trial, if any.
 std::string set_up_and_record(const SetupCase& of, const std::string& folder)
 {
     const auto& [setup, rate_hz] = of;
@@ -191,20 +196,14 @@ std::string set_up_and_record(const SetupCase& of, const std::string& folder)
     return tried.back().failure;
 }
 
-namespace {
-
 // A measured value with its interval, for the terminal.
-struct ValueRow {
-    std::string of, quantity;
-    double value = 0.0, low = 0.0, high = 0.0;
-    std::string unit;
-};
-const analysis::Columns<ValueRow> value_columns = {{"of", &ValueRow::of, "", "body, motion and size"},
-                                                   {"quantity", &ValueRow::quantity, "", "what was measured"},
-                                                   {"value", &ValueRow::value, "", "its value"},
-                                                   {"low", &ValueRow::low, "", "lower end of its interval"},
-                                                   {"high", &ValueRow::high, "", "upper end of its interval"},
-                                                   {"unit", &ValueRow::unit, "", "1: none"}};
+const analysis::Columns<Measurement> value_columns = {
+    {"of", [](const Measurement& one) { return text_of(one.of); }, "", "body, motion and size"},
+    {"quantity", &Measurement::quantity, "", "what was measured"},
+    {"value", &Measurement::value, "", "its value"},
+    {"low", &Measurement::low, "", "lower end of its interval"},
+    {"high", &Measurement::high, "", "upper end of its interval"},
+    {"unit", &Measurement::unit, "", "1: none"}};
 
 StudyPlan plan(bool full)
 {
@@ -216,21 +215,19 @@ StudyPlan plan(bool full)
 
 StudyConclusion conclude(const FinishedRuns& finished)
 {
-    std::vector<ValueRow> rows;
-    std::vector<analysis::Measurement> all;
+    std::vector<Measurement> all;
     for (const std::string& file : finished.files("measurements.csv")) {
-        std::vector<analysis::Measurement> own = analysis::measurements(file);
-        std::ranges::sort(own, {}, &analysis::Measurement::quantity);
-        for (const auto& one : own) rows.push_back({text_of(one.of), one.quantity, one.value, one.low, one.high, one.unit});
+        std::vector<Measurement> own = analysis::measurements(file);
+        std::ranges::sort(own, {}, &Measurement::quantity);
         all.insert(all.end(), own.begin(), own.end());
     }
     finished.write("setup.csv", analysis::measurement_table(all));
-    const std::string text = text_table(table_of(value_columns, rows), {{"body", "of"},
-                                                                        {"quantity", "quantity"},
-                                                                        {"value", "value", "{:.4g}", 1.0, "none"},
-                                                                        {"low", "low", "{:.4g}"},
-                                                                        {"high", "high", "{:.4g}"},
-                                                                        {"unit", "unit"}});
+    const std::string text = text_table(table_of(value_columns, all), {{"body", "of"},
+                                                                       {"quantity", "quantity"},
+                                                                       {"value", "value", "{:.4g}", 1.0, "none"},
+                                                                       {"low", "low", "{:.4g}"},
+                                                                       {"high", "high", "{:.4g}"},
+                                                                       {"unit", "unit"}});
     return {text, !finished.none()};
 }
 

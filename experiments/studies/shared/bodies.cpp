@@ -1,39 +1,11 @@
 #include "experiments/studies/shared/bodies.hpp"
 
-#include "pbs/character/bodies.hpp"
-#include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/geometry/topology.hpp"
 
 #include <algorithm>
 
 namespace experiments {
-
-std::vector<std::string> installed_bodies(std::vector<analysis::LeftOut>& left_out)
-{
-    std::vector<std::string> installed;
-    for (const pbs::NamedBody& body : pbs::named_bodies()) {
-        if (!body.is_character) continue;
-        try {
-            pbs::require_body(body.name);
-            installed.push_back(body.name);
-        } catch (const pbs::InputError& error) {
-            left_out.push_back({body.name, error.what()});
-        }
-    }
-    return installed;
-}
-
-void for_each_installed_body(std::vector<analysis::LeftOut>& left_out, const std::function<void(const std::string& body)>& plan)
-{
-    for (const std::string& body : installed_bodies(left_out)) {
-        try {
-            plan(body);
-        } catch (const pbs::InputError& error) {
-            left_out.push_back({body, error.what()});
-        }
-    }
-}
 
 namespace {
 
@@ -87,11 +59,6 @@ LoadedBody hanging_bar(const pbs::TetMesh& bar)
     body.zone = opposite(body.held);
     body.direction = -pbs::Vec3::UnitZ();
     return body;
-}
-
-LoadedBody hanging_bar(int vertices)
-{
-    return hanging_bar(pbs::make_character({.body = "bar", .vertices = vertices}).mesh);
 }
 
 double mean_displacement_m(const LoadedBody& body, const pbs::Positions& displacement)

@@ -1,22 +1,13 @@
-// The real bodies that claims about characters are measured on.
-//   for_each_installed_body(plan.left_out, [&](const std::string& body) { plan.runs.push_back(run_of(body)); });
+// Bodies that hang under gravity, and the bodies of the paper's Table 1.
 #pragma once
 
-#include "analysis/verdicts/case_record.hpp"
 #include "pbs/character/character.hpp"
 
 #include <array>
-#include <functional>
 #include <string>
 #include <vector>
 
 namespace experiments {
-
-// Those of human, man, lady and frankie whose files are installed. The others are added to `left_out` with what they need.
-std::vector<std::string> installed_bodies(std::vector<analysis::LeftOut>& left_out);
-
-// Calls `plan` for each of them. A body that `plan` refuses by InputError, for example because a clip is missing, is left out too.
-void for_each_installed_body(std::vector<analysis::LeftOut>& left_out, const std::function<void(const std::string& body)>& plan);
 
 // A body that hangs under gravity from a part of it. Stiffnesses are measured on it, and give k a unit.
 //   const LoadedBody body = jiggling_flesh(character, RestOfBody::held);
@@ -46,7 +37,6 @@ struct LoadedBody {
 
 LoadedBody jiggling_flesh(const pbs::Character& character, RestOfBody rest);
 LoadedBody hanging_bar(const pbs::TetMesh& bar);  // tets that lie entirely in the first tenth are held
-LoadedBody hanging_bar(int vertices);
 
 // Mean over the zone, weighted by mass, along gravity [m].
 double mean_displacement_m(const LoadedBody& body, const pbs::Positions& displacement);

@@ -18,11 +18,7 @@
 
 namespace experiments {
 
-inline constexpr int crouch_frame = 164;  // of CMU's clip 01_01 (100 Hz)
-
-// The name of a pose's run, and of its diagram in the tables: limb_twist_90, human_crouch.
-
-// body_motion_angle if the pose is an angle, otherwise body_pose.
+// The name of a pose's run, and of its diagram in the tables: limb_twist_90 if the pose is an angle, otherwise human_crouch.
 std::string case_name(const analysis::CaseKey& of);
 
 // Columns that the tables of several studies share.

@@ -145,12 +145,6 @@ void PosedReference::observe_order_without_finest(double formal_order)
         bound_.*norm = to_quadratic.*norm + order_->bound(between.*norm);
 }
 
-pbs::Positions PosedReference::limit() const
-{
-    if (order_ && !solutions_.front().finished) throw std::bad_optional_access();
-    return analysis::extrapolated(solutions_[0].positions, solutions_[1].positions, order_.value().order + 1.0);
-}
-
 analysis::ErrorNorms PosedReference::error_on_whole_body(const pbs::Positions& positions) const
 {
     return error_metrics_.measure(positions, reference().positions);

@@ -76,9 +76,6 @@ public:
     const std::optional<analysis::NestedOrder>& order() const { return order_; }
     // Bounds the distance of the reference from the limit, outside the masked part. The bound is NaN where there is no order.
     analysis::ErrorNorms bound() const { return bound_; }
-    // Richardson's extrapolation of the quadratic solutions. Their order is taken as one more than that of the linear ones; where they
-    // converge more slowly, the limit is farther away in the same direction. std::bad_optional_access where a solution did not finish.
-    pbs::Positions limit() const;
 
 private:
     struct Level {

@@ -1,14 +1,14 @@
-#include "experiments/studies/stability/cell_run.hpp"
+#include "experiments/studies/stability/stability_cells.hpp"
 
 #include "experiments/deformers/registry.hpp"
 #include "experiments/process/machine.hpp"
 #include "experiments/process/terminal.hpp"
 #include "experiments/scene/scene.hpp"
+#include "experiments/studies/shared/iteration_path.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/skinning/blend.hpp"
 #include "pbs/solver/particles.hpp"
 #include "pbs/solver/pbs_solver.hpp"
-#include "pbs/solver/projection.hpp"
 #include "pbs/solver/xpbd_solver.hpp"
 
 #include <Eigen/Geometry>
@@ -159,41 +159,41 @@ private:
 
 // Algorithm 1 with particles of unequal masses, which the paper's m_i = 1 excludes: seeded masses from 1 to `ratio` with logarithms that
 // are uniformly distributed over the vertices.
-template <typename Scalar>
 class UnequalMasses : public DrivenBody {
 public:
     UnequalMasses(const pbs::Character& character, const std::vector<bool>& jiggle_zone, const pbs::PbsOptions& options, double ratio)
-        : options_(options), particles_(character.mesh.rest, jiggle_zone, options)
+        : iterations_(options.iterations), particles_(character.mesh.rest, jiggle_zone, options)
     {
-        auto constraints = pbs::make_constraint_set<Scalar>(character.mesh, character.binding.distance, jiggle_zone, options);
-        std::mt19937 engine(stability_seed);
-        std::uniform_real_distribution<double> share(0.0, 1.0);
-        for (Scalar& inverse_mass : constraints.inverse_mass) inverse_mass = static_cast<Scalar>(std::pow(ratio, -share(engine)));
-        projection_ = pbs::make_projection<Scalar>(std::move(constraints), character.mesh.tets, options);
+        const auto loops_in = [&](auto scalar) {
+            using Scalar = decltype(scalar);
+            auto constraints = pbs::make_constraint_set<Scalar>(character.mesh, character.binding.distance, jiggle_zone, options);
+            std::mt19937 engine(stability_seed);
+            std::uniform_real_distribution<double> share(0.0, 1.0);
+            for (Scalar& inverse_mass : constraints.inverse_mass) inverse_mass = static_cast<Scalar>(std::pow(ratio, -share(engine)));
+            return step_loops(constraints, character.mesh.tets, options, {particles_.predicted(), bind_points_});
+        };
+        loops_ = options.precision == pbs::Precision::f32 ? loops_in(float()) : loops_in(double());
     }
     pbs::StepSummary advance(const Drive& drive, double dt_s) override
     {
         particles_.predict(drive.blended, dt_s);
-        const pbs::Vec3 origin = pbs::local_origin<Scalar>(particles_.predicted());
-        projection_->load(particles_.predicted(), drive.bind_points, origin);
-        for (int iteration = 0; iteration < options_.iterations; ++iteration) {
-            projection_->project_bind_constraints();
-            projection_->project_stretch_constraints();
-            projection_->project_volume_constraints();
-        }
-        projection_->store(origin, particles_.predicted());
+        bind_points_ = drive.bind_points;
+        loops_.load();
+        for (int iteration = 0; iteration < iterations_; ++iteration) loops_.iterate();
+        particles_.predicted() = loops_.store();
         particles_.update(dt_s);
         pbs::StepSummary summary;
-        summary.iterations = options_.iterations;
+        summary.iterations = iterations_;
         if (!particles_.positions().allFinite()) summary.outcome = pbs::Outcome::not_finite;
         return summary;
     }
     const pbs::Positions& positions() const override { return particles_.positions(); }
 
 private:
-    pbs::PbsOptions options_;
+    int iterations_;
     pbs::Particles particles_;
-    std::unique_ptr<pbs::Projection<Scalar>> projection_;
+    pbs::Positions bind_points_;  // [m], #V x 3
+    StepLoops loops_;
 };
 
 // The deformers of the registry. They take only the pose and, where the initial state is broken, its shape.
@@ -228,9 +228,7 @@ std::unique_ptr<DrivenBody> make_pbs(const StabilityCell& cell, const pbs::Chara
     std::vector<bool> zone = zone_of(character, options.jiggle.has_value());
     const pbs::TetMesh& mesh = character.mesh;
     const Eigen::VectorXd& distance = character.binding.distance;
-    if (cell.mass_ratio > 1.0 && options.precision == pbs::Precision::f32)
-        return std::make_unique<UnequalMasses<float>>(character, zone, options, cell.mass_ratio);
-    if (cell.mass_ratio > 1.0) return std::make_unique<UnequalMasses<double>>(character, zone, options, cell.mass_ratio);
+    if (cell.mass_ratio > 1.0) return std::make_unique<UnequalMasses>(character, zone, options, cell.mass_ratio);
     const std::vector<bool> held = cell.held_end ? end_of(character) : std::vector<bool>{};
     for (std::size_t i = 0; i < std::min(held.size(), zone.size()); ++i) zone[i] = zone[i] && !held[i];  // a held vertex does not jiggle
     return std::make_unique<Solved<pbs::PbsSolver>>(mesh, distance, zone, options, held);

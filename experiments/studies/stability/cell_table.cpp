@@ -1,7 +1,14 @@
-#include "experiments/studies/stability/cell_table.hpp"
+#include "experiments/studies/stability/stability_cells.hpp"
 
+#include "analysis/metrics/error_norms.hpp"
+#include "analysis/metrics/stability_outcome.hpp"
 #include "analysis/statistics/statistics.hpp"
 #include "analysis/verdicts/measurement.hpp"
+#include "experiments/deformers/registry.hpp"
+#include "experiments/process/machine.hpp"
+#include "experiments/process/terminal.hpp"
+#include "experiments/run/frame_measurement.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/solver/options.hpp"
 
 #include <fmt/format.h>
@@ -79,54 +86,72 @@ std::string yes_or_no(bool value)
     return value ? "yes" : "no";
 }
 
+struct KeyedOutcome {
+    std::string key, outcome;
+};
+
+// The number of rows with each outcome, one line per key in the order of their first rows, as aligned columns.
+std::string count_table(const std::string& heading, const std::vector<KeyedOutcome>& rows, const std::vector<std::string>& outcomes,
+                        int width)
+{
+    std::vector<std::string> keys;
+    std::map<std::string, std::map<std::string, int>> counts;
+    for (const auto& [key, outcome] : rows) {
+        if (!counts.contains(key)) keys.push_back(key);
+        ++counts[key][outcome];
+    }
+    std::string text = heading;
+    for (const std::string& outcome : outcomes) text += fmt::format(" {:>{}}", outcome, width);
+    for (const std::string& key : keys) {
+        text += "\n" + key;
+        for (const std::string& outcome : outcomes) text += fmt::format(" {:>{}}", counts[key][outcome], width);
+    }
+    return text + "\n";
+}
+
 }  // namespace
 
-const analysis::Columns<CellRow> cell_columns = {
-    {"body", &CellRow::body, "", "name of the body"},
-    {"model", &CellRow::model, "", "method: pbs, pbs_jiggle, xpbd, ..."},
-    {"factor", &CellRow::factor, "", "what is varied"},
-    {"value", &CellRow::value, "", "its value, in the unit of the next column"},
-    {"unit", &CellRow::unit, "", "unit of the value; empty: none"},
-    {"named", &CellRow::named, "", "value of a factor without numbers: flattened"},
-    {"second_factor", &CellRow::second_factor, "", "what else a map varies; empty elsewhere"},
-    {"second_value", &CellRow::second_value, "", "its value"},
-    {"second_unit", &CellRow::second_unit, "", "unit of that value"},
-    {"precision", &CellRow::precision, "", "f32 or f64"},
-    {"time_step_s", &CellRow::time_step_s, "s", "time step"},
-    {"steps", &CellRow::steps, "", "steps that were run"},
-    {"outcome", &CellRow::outcome, "", "converged, bounded, inverted, diverged or not_finite; criteria.md defines them"},
-    {"recovery_steps", &CellRow::recovery_steps, "", "still steps until the body was at rest; empty: it was not"},
-    {"recovery_s", &CellRow::recovery_s, "s", "the same as time"},
-    {"iterations_until_reached", &CellRow::iterations_until_reached, "",
-     "from a broken initial state: iterations until the pose was reached"},
-    {"undisturbed_at_rest", &CellRow::undisturbed_at_rest, "", "yes: the same body comes to rest if nothing disturbs it"},
-    {"largest_reach_diagonals", &CellRow::largest_reach_diagonals, "diagonals", "largest distance of a vertex from its place on the bones"},
-    {"last_reach_diagonals", &CellRow::last_reach_diagonals, "diagonals", "the same in the last step; empty where it is not finite"},
-    {"last_motion_diagonals", &CellRow::last_motion_diagonals, "diagonals", "how far a vertex moved in the last step"},
-    {"last_from_undisturbed_diagonals", &CellRow::last_from_undisturbed_diagonals, "diagonals",
-     "distance from the undisturbed body in the last step"},
-    {"most_inverted_tets", &CellRow::most_inverted_tets, "", "largest number of inverted tets in a step"},
-    {"last_inverted_tets", &CellRow::last_inverted_tets, "", "inverted tets in the last step"},
-    {"steps_not_reached", &CellRow::steps_not_reached, "", "steps whose solver did not converge"},
-    {"as_published", &CellRow::as_published, "", "yes: the method of the paper with settings that it allows, which C08 is judged by"},
-    {"cpu_s", &CellRow::cpu_s, "s", "processor time"}};
+using Cells = analysis::Columns<StabilityCell>;
+const analysis::Columns<CellRow> cell_columns =
+    within(&CellRow::of, Cells{{"body", &StabilityCell::body, "", "name of the body"},
+                               {"model", &StabilityCell::model, "", "method: pbs, pbs_jiggle, xpbd, ..."},
+                               {"factor", &StabilityCell::factor, "", "what is varied"},
+                               {"value", &StabilityCell::value, "", "its value, in the unit of the next column"},
+                               {"unit", &StabilityCell::unit, "", "unit of the value; empty: none"},
+                               {"named", &StabilityCell::named, "", "value of a factor without numbers: flattened"},
+                               {"second_factor", &StabilityCell::second_factor, "", "what else a map varies; empty elsewhere"}}) +
+    analysis::Columns<CellRow>{{"second_value", &CellRow::second_value, "", "its value"}} +
+    within(&CellRow::of, Cells{{"second_unit", &StabilityCell::second_unit, "", "unit of that value"}}) +
+    analysis::Columns<CellRow>{{"precision", &CellRow::precision, "", "f32 or f64"}} +
+    within(&CellRow::of, Cells{{"time_step_s", &StabilityCell::time_step_s, "s", "time step"}}) +
+    analysis::Columns<CellRow>{
+        {"steps", &CellRow::steps, "", "steps that were run"},
+        {"outcome", &CellRow::outcome, "", "converged, bounded, inverted, diverged or not_finite; criteria.md defines them"},
+        {"recovery_steps", &CellRow::recovery_steps, "", "still steps until the body was at rest; empty: it was not"},
+        {"recovery_s", &CellRow::recovery_s, "s", "the same as time"},
+        {"iterations_until_reached", &CellRow::iterations_until_reached, "",
+         "from a broken initial state: iterations until the pose was reached"},
+        {"undisturbed_at_rest", &CellRow::undisturbed_at_rest, "", "yes: the same body comes to rest if nothing disturbs it"},
+        {"largest_reach_diagonals", &CellRow::largest_reach_diagonals, "diagonals",
+         "largest distance of a vertex from its place on the bones"},
+        {"last_reach_diagonals", &CellRow::last_reach_diagonals, "diagonals", "the same in the last step; empty where it is not finite"},
+        {"last_motion_diagonals", &CellRow::last_motion_diagonals, "diagonals", "how far a vertex moved in the last step"},
+        {"last_from_undisturbed_diagonals", &CellRow::last_from_undisturbed_diagonals, "diagonals",
+         "distance from the undisturbed body in the last step"},
+        {"most_inverted_tets", &CellRow::most_inverted_tets, "", "largest number of inverted tets in a step"},
+        {"last_inverted_tets", &CellRow::last_inverted_tets, "", "inverted tets in the last step"},
+        {"steps_not_reached", &CellRow::steps_not_reached, "", "steps whose solver did not converge"},
+        {"as_published", &CellRow::as_published, "", "yes: the method of the paper with settings that it allows, which C08 is judged by"},
+        {"cpu_s", &CellRow::cpu_s, "s", "processor time"}};
 
 CellRow cell_row(const MeasuredCell& measured)
 {
     const auto& [cell, result] = measured;
     const auto& last = result.steps.back();
     CellRow row;
-    row.body = cell.body;
-    row.model = cell.model;
-    row.factor = cell.factor;
-    row.value = cell.value;
-    row.unit = cell.unit;
-    row.named = cell.named;
-    row.second_factor = cell.second_factor;
+    row.of = cell;
     if (!cell.second_factor.empty()) row.second_value = cell.second_value;
-    row.second_unit = cell.second_unit;
     row.precision = precision_of(cell);
-    row.time_step_s = cell.time_step_s;
     row.steps = static_cast<int>(result.steps.size());
     row.outcome = name_of(result.stability.outcome);
     row.recovery_steps = result.stability.recovery_steps;
@@ -168,21 +193,16 @@ CsvTable stability_measurements(const std::vector<MeasuredCell>& cells)
 
 std::string outcome_table(const std::vector<CellRow>& cells, bool by_factor)
 {
-    std::vector<std::string> order;
-    std::map<std::string, std::map<std::string, int>> counts;
-    for (const CellRow& cell : cells) {
-        std::string key = fmt::format("{:<7} {:<31}", cell.body, cell.model);
-        if (by_factor) key += fmt::format(" {:<24}", cell.factor + (cell.second_factor.empty() ? "" : " x " + cell.second_factor));
-        if (!counts.count(key)) order.push_back(key);
-        ++counts[key][cell.outcome];
+    std::vector<KeyedOutcome> keyed;
+    for (const CellRow& row : cells) {
+        const StabilityCell& cell = row.of;
+        keyed.push_back({fmt::format("{:<7} {:<31}", cell.body, cell.model), row.outcome});
+        if (by_factor)
+            keyed.back().key += fmt::format(" {:<24}", cell.factor + (cell.second_factor.empty() ? "" : " x " + cell.second_factor));
     }
-    std::string text = fmt::format("{:<7} {:<31}{}", "body", "model", by_factor ? fmt::format(" {:<24}", "factor") : "");
-    for (const StabilityOutcome outcome : outcomes) text += fmt::format(" {:>10}", name_of(outcome));
-    for (const std::string& key : order) {
-        text += "\n" + key;
-        for (const StabilityOutcome outcome : outcomes) text += fmt::format(" {:>10}", counts[key][name_of(outcome)]);
-    }
-    return text + "\n";
+    std::vector<std::string> names;
+    for (const StabilityOutcome outcome : outcomes) names.push_back(name_of(outcome));
+    return count_table(fmt::format("{:<7} {:<31}{}", "body", "model", by_factor ? fmt::format(" {:<24}", "factor") : ""), keyed, names, 10);
 }
 
 std::string blind_spots(const std::vector<CellRow>& cells)
@@ -191,8 +211,8 @@ std::string blind_spots(const std::vector<CellRow>& cells)
     std::string missing;
     for (const CellRow& cell : cells) {
         ++counts[cell.outcome];
-        if (cell.named == "sign" && cell.outcome != "diverged" && cell.outcome != "not_finite")
-            missing += fmt::format("the sign as printed does not run away: {}, {}\n", cell.model, cell.precision);
+        if (cell.of.named == "sign" && cell.outcome != "diverged" && cell.outcome != "not_finite")
+            missing += fmt::format("the sign as printed does not run away: {}, {}\n", cell.of.model, cell.precision);
     }
     for (const StabilityOutcome outcome : outcomes)
         if (counts[name_of(outcome)] == 0) missing += fmt::format("no cell is {}\n", name_of(outcome));
@@ -206,8 +226,156 @@ CsvTable map_csv(const std::vector<CellRow>& cells, const std::string& factor, c
                              "last_inverted_tets", "recovery_steps"})
         columns.push_back(cell_columns.named(name));
     std::vector<CellRow> map = cells;
-    std::erase_if(map, [&](const CellRow& cell) { return cell.factor != factor || cell.second_factor != second_factor; });
+    std::erase_if(map, [&](const CellRow& cell) { return cell.of.factor != factor || cell.of.second_factor != second_factor; });
     return table_of(columns, map);
+}
+
+namespace {
+
+// The result of so many iterations from the broken shape of the cell, or from the deformer's own initial guess [m], #V x 3.
+pbs::Positions result_of(StabilityCell cell, int iterations, bool is_broken)
+{
+    stop_if_interrupted();
+    if (!is_broken) cell.disturbance.start = Start::none;
+    cell.disturbance.stays = true;
+    StabilityBody body(cell);
+    const std::unique_ptr<Deformer> deformer = make_deformer(with_option(cell.spec, "iterations", iterations));
+    deformer->reset(body.character());
+    const Drive drive = body.drive(0);
+    if (is_broken) deformer->start_from(drive.blended);
+    deformer->advance(drive.pose, cell.time_step_s);
+    return deformer->positions();
+}
+
+std::optional<double> joint_pct(const StabilityCell& cell, const pbs::Positions& one, const pbs::Positions& other)
+{
+    if (!one.allFinite() || !other.allFinite()) return std::nullopt;
+    return analysis::ErrorMetrics(error_domain(stability_character(cell), {})).measure(one, other).joint_pct;
+}
+
+int inverted(const StabilityCell& cell, const pbs::Positions& positions)
+{
+    return static_cast<int>((pbs::tet_volumes(positions, stability_character(cell).mesh.tets).array() <= 0.0).count());
+}
+
+bool is_far(const StabilityCell& cell, const pbs::Positions& one, const pbs::Positions& other)
+{
+    const pbs::Positions& rest = stability_character(cell).mesh.rest;
+    const double diagonal_m = (rest.colwise().maxCoeff() - rest.colwise().minCoeff()).norm();
+    return (one - other).rowwise().norm().maxCoeff() > analysis::StabilityBounds{}.farthest * diagonal_m;
+}
+
+// The least number of iterations from which on all distances are within the bound. pct: by increasing number of iterations.
+std::optional<int> first_to_stay(const std::map<int, std::optional<double>>& pct)
+{
+    std::optional<int> first;
+    for (const auto& [iterations, distance] : pct)
+        if (!distance || *distance > reached_within_pct)
+            first.reset();
+        else if (!first)
+            first = iterations;
+    return first;
+}
+
+std::string pose_of(const Disturbance& disturbance)
+{
+    return fmt::format("{}_{:g}", disturbance.axis == pbs::Vec3::UnitX() ? "twist" : "bend", disturbance.angle_deg);
+}
+
+StartRow row_of(const StabilityCell& cell)
+{
+    StartRow row;
+    row.body = cell.body;
+    row.model = cell.model;
+    row.precision = precision_of(cell);
+    row.pose = pose_of(cell.disturbance);
+    row.start = name_of(cell.disturbance.start);
+    row.setting = cell.second_factor;
+    if (!row.setting.empty()) row.setting_value = cell.second_value;
+    return row;
+}
+
+}  // namespace
+
+const analysis::Columns<StartRow> start_columns = {
+    {"body", &StartRow::body, "", "name of the body"},
+    {"model", &StartRow::model, "", "deformer"},
+    {"precision", &StartRow::precision, "", "f32 or f64"},
+    {"pose", &StartRow::pose, "", "bend_90 or twist_90: the pose whose shape is sought"},
+    {"start", &StartRow::start, "", "flattened, mirrored, random or point: the initial shape"},
+    {"setting", &StartRow::setting, "", "the option that is changed; empty: all have their defaults"},
+    {"setting_value", &StartRow::setting_value, "", "its value"},
+    {"outcome", &StartRow::outcome, "", "reached, not_reached, diverged, not_finite or not_applicable; criteria.md defines them"},
+    {"iterations_until_reached", &StartRow::iterations_until_reached, "",
+     "the first tried number of iterations from which on all end within the bound; the tried numbers are powers of two"},
+    {"most_iterations", &StartRow::most_iterations, "", "the largest number of iterations that was tried"},
+    {"from_own_result_pct", &StartRow::from_own_result_pct, "%",
+     "distance at the joints from the deformer's own result after these iterations; empty: not finite"},
+    {"own_change_pct", &StartRow::own_change_pct, "%",
+     "how far the own result moves at the joints in the second half of its iterations; empty: not finite"},
+    {"inverted_tets", &StartRow::inverted_tets, "", "inverted tets after these iterations"},
+    {"own_inverted_tets", &StartRow::own_inverted_tets, "", "inverted tets in the own result"},
+    {"reason", &StartRow::reason, "", "why a broken start is not applicable"},
+    {"cpu_s", &StartRow::cpu_s, "s", "processor time"}};
+
+StartRow run_broken_start(const StabilityCell& cell, int most_iterations)
+{
+    const double start_s = process_cpu_s();
+    StartRow row = row_of(cell);
+    row.most_iterations = most_iterations;
+    const pbs::Positions own = result_of(cell, most_iterations, false), half = result_of(cell, most_iterations / 2, false);
+    row.own_change_pct = joint_pct(cell, half, own);
+    std::map<int, std::optional<double>> pct;
+    pbs::Positions last;
+    bool is_finite = own.allFinite();
+    for (int iterations = 1; iterations <= most_iterations; iterations *= 2) {
+        last = result_of(cell, iterations, true);
+        is_finite = is_finite && last.allFinite();
+        pct[iterations] = row.from_own_result_pct = joint_pct(cell, last, own);
+    }
+    if (is_finite) {
+        row.iterations_until_reached = first_to_stay(pct);
+        row.inverted_tets = inverted(cell, last);
+        row.own_inverted_tets = inverted(cell, own);
+    }
+    if (!is_finite)
+        row.outcome = StartOutcome::not_finite;
+    else if (is_far(cell, last, own))
+        row.outcome = StartOutcome::diverged;
+    else if (row.iterations_until_reached && *row.own_change_pct <= reached_within_pct)
+        row.outcome = StartOutcome::reached;
+    row.cpu_s = process_cpu_s() - start_s;
+    return row;
+}
+
+std::string start_table(const std::vector<StartRow>& rows)
+{
+    const auto key_of = [](const std::string& body, const std::string& model, const std::string& pose, const std::string& setting) {
+        return fmt::format("{:<7} {:<20} {:<9} {:<25}", body, model, pose, setting);
+    };
+    std::vector<KeyedOutcome> keyed;
+    for (const StartRow& row : rows) {
+        const std::string setting = row.setting.empty() ? "" : fmt::format("{} {:g}", row.setting, row.setting_value.value_or(0.0));
+        keyed.push_back({key_of(row.body, row.model, row.pose, setting), name_of(row.outcome)});
+    }
+    return count_table(key_of("body", "model", "pose", "setting"), keyed, names_of_options<StartOutcome>(), 14);
+}
+
+std::string start_criteria_text(int most_iterations)
+{
+    return fmt::format(
+        "\n## Broken initial shapes of the deformers that minimise an energy\n\n"
+        "A deformer begins at a broken shape and runs 1, 2, 4, ... up to {} iterations. Its own result is that of {} iterations from its\n"
+        "normal initial guess. Distances are root mean squares over the vertices at the joints, over their mean distance to the bones.\n"
+        "The first that applies:\n\n"
+        "| outcome | when |\n|---|---|\n"
+        "| not_finite | a position of a result is not finite |\n"
+        "| diverged | after the most iterations a vertex is farther than {:g} D from its place in the own result |\n"
+        "| reached | after the most iterations the distance from the own result is at most {:g} %, and the own result moved by no more "
+        "in the second half of its iterations |\n"
+        "| not_reached | none of these: another equilibrium, too few iterations, or an own result that has not settled |\n"
+        "| not_applicable | the method has no initial shape; `reason` states why |\n",
+        most_iterations, most_iterations, analysis::StabilityBounds{}.farthest, reached_within_pct);
 }
 
 }  // namespace experiments

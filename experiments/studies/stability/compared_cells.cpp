@@ -2,7 +2,6 @@
 // shapes.
 #include "experiments/deformers/registry.hpp"
 #include "experiments/deformers/fem/fem_options.hpp"
-#include "experiments/studies/stability/cell_table.hpp"
 #include "experiments/studies/stability/stability_cells.hpp"
 #include "pbs/author/author_solver.hpp"
 #include "pbs/solver/options.hpp"
@@ -145,6 +144,24 @@ StabilityCell posed(const std::string& kind, bool is_twisted)
     return cell;
 }
 
+// A deformer that is compared with PBS.
+struct ComparedKind {
+    const char* kind;
+    bool minimises;                                // an energy, from an initial guess
+    const char* without_start;                     // why it has no broken start, otherwise
+    std::vector<const Sweep*> beyond_limits = {};  // settings up to and beyond those for which it is known to converge
+};
+
+const ComparedKind compared_kinds[] = {
+    {"quasi_newton", true, ""},
+    {"vbd", true, "", {&chebyshev_radii, &relaxations}},
+    {"xpbd_neo_hookean", true, "", {&step_shares}},
+    {"projective_dynamics", true, ""},
+    {"delta_mush", false, "a function of the pose alone"},
+    {"direct_delta_mush", false, "a function of the pose alone"},
+    {"pbs_author", false,
+     "each frame begins at the shape of LBS; only the displacement of the last frame is kept, which teleports make extreme"}};
+
 }  // namespace of_others
 
 }  // namespace
@@ -186,26 +203,11 @@ std::vector<StabilityCell> fem_dynamic_cells(bool full)
     return cells;
 }
 
-const std::vector<ComparedKind>& compared_kinds()
-{
-    using namespace of_others;
-    static const std::vector<ComparedKind> kinds = {
-        {"quasi_newton", true, ""},
-        {"vbd", true, "", {&chebyshev_radii, &relaxations}},
-        {"xpbd_neo_hookean", true, "", {&step_shares}},
-        {"projective_dynamics", true, ""},
-        {"delta_mush", false, "a function of the pose alone"},
-        {"direct_delta_mush", false, "a function of the pose alone"},
-        {"pbs_author", false,
-         "each frame begins at the shape of LBS; only the displacement of the last frame is kept, which teleports make extreme"}};
-    return kinds;
-}
-
 std::vector<StabilityCell> other_cells(bool full)
 {
     using namespace of_others;
     std::vector<StabilityCell> cells;
-    for (const ComparedKind& compared : compared_kinds()) {
+    for (const ComparedKind& compared : compared_kinds) {
         const StabilityCell from = base(compared.kind);
         for (const Sweep* sweep : {&no_time_step, &twists, &jumps, &teleports, &slivers, &needles})
             append(cells, cells_of(*sweep, from, full));
@@ -221,7 +223,7 @@ std::vector<StabilityCell> start_cells(bool full)
 {
     using namespace of_others;
     std::vector<StabilityCell> cells;
-    for (const ComparedKind& compared : compared_kinds()) {
+    for (const ComparedKind& compared : compared_kinds) {
         if (!compared.minimises) continue;
         for (const bool is_twisted : {false, true}) append(cells, cells_of(starts, posed(compared.kind, is_twisted), full));
         const StabilityCell twisted = posed(compared.kind, true);
@@ -234,7 +236,7 @@ std::vector<StabilityCell> start_cells(bool full)
 std::vector<StartRow> starts_not_applicable()
 {
     std::vector<StartRow> rows;
-    for (const ComparedKind& compared : compared_kinds()) {
+    for (const auto& compared : of_others::compared_kinds) {
         if (compared.minimises) continue;
         StartRow row;
         row.body = "limb";

@@ -1,12 +1,20 @@
-// The cells of the map of stability, by method. full: more values of each factor, and more steps.
+// The cells of the map of stability, by method, how each is run, and the outcomes as records. full: more values of each factor, and more
+// steps.
 #pragma once
 
+#include "analysis/metrics/stability_outcome.hpp"
+#include "analysis/records/tables.hpp"
 #include "experiments/deformers/deformer.hpp"
+#include "experiments/scene/scene.hpp"
 #include "experiments/settings/option_names.hpp"
+#include "pbs/character/character.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
+#include "pbs/solver/step_summary.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,18 +39,14 @@ struct Disturbance {
 enum class Defect { none, slivers, needles };
 
 template <>
-struct OptionNames<Start> {
-    static constexpr std::array<std::pair<Start, const char*>, 5> table{{{Start::none, "none"},
-                                                                         {Start::flattened, "flattened"},
-                                                                         {Start::mirrored, "mirrored"},
-                                                                         {Start::random, "random"},
-                                                                         {Start::point, "point"}}};
-};
+inline constexpr NameTable<Start, 5> option_names<Start>{{{Start::none, "none"},
+                                                          {Start::flattened, "flattened"},
+                                                          {Start::mirrored, "mirrored"},
+                                                          {Start::random, "random"},
+                                                          {Start::point, "point"}}};
 template <>
-struct OptionNames<Defect> {
-    static constexpr std::array<std::pair<Defect, const char*>, 3> table{
-        {{Defect::none, "none"}, {Defect::slivers, "slivers"}, {Defect::needles, "needles"}}};
-};
+inline constexpr NameTable<Defect, 3> option_names<Defect>{
+    {{Defect::none, "none"}, {Defect::slivers, "slivers"}, {Defect::needles, "needles"}}};
 
 inline constexpr double g_m_s2 = 9.81;  // one g
 
@@ -108,20 +112,170 @@ std::vector<StabilityCell> fem_static_cells(bool full);   // linear, corotationa
 std::vector<StabilityCell> fem_dynamic_cells(bool full);  // corotational, stable neo-Hookean; in time
 std::vector<StabilityCell> other_cells(bool full);        // the other deformers, on the limb
 
-// A deformer that is compared with PBS.
-struct ComparedKind {
-    const char* kind;
-    bool minimises;                                // an energy, from an initial guess: cell_table.hpp
-    const char* without_start;                     // why it has no broken start, otherwise
-    std::vector<const Sweep*> beyond_limits = {};  // settings up to and beyond those for which it is known to converge
-};
-const std::vector<ComparedKind>& compared_kinds();
-
 // A deformer's settings, changed as a scene would change them, for deformers whose struct of options only their own file knows.
 //   cell.spec = with_option(cell.spec, "poisson", 0.499);
 bool has_option(const std::string& kind, const std::string& key);  // of the kind's own table
 
 // All other options keep their values. InputError for a value out of its range.
 DeformerSpec with_option(const DeformerSpec& spec, const std::string& key, const nlohmann::json& value);
+
+// The body of a cell and its motion: the pose, the blended shape and the bind points of each step.
+//   StabilityBody body(cell);
+//   for (int step = 0; step < body.steps(); ++step) driven->advance(body.drive(step), cell.time_step_s);
+// A drive is the input of every method in a step.
+struct Drive {
+    const pbs::Pose& pose;
+    const pbs::Positions& blended;      // LBS, or the broken initial shape [m], #V x 3
+    const pbs::Positions& bind_points;  // posed q_i [m], #V x 3
+};
+
+// The scene of the cells of `body`: a limb, or a character that lands from a jump.
+Scene stability_scene(const std::string& body);
+
+// Characters are cached, so that all cells have the same tets.
+const pbs::Character& stability_character(const StabilityCell& cell);
+
+class StabilityBody {
+public:
+    explicit StabilityBody(const StabilityCell& cell);
+
+    const pbs::Character& character() const { return character_; }
+    int disturbed_steps() const { return static_cast<int>(way_.size()); }
+    int steps() const { return disturbed_steps() + still_steps_; }
+    Drive drive(int step);  // valid until the next call
+    double diagonal_m() const { return diagonal_m_; }
+
+private:
+    const pbs::Character& character_;
+    std::vector<pbs::Pose> way_;
+    Start start_;
+    int still_steps_, posed_ = -1;
+    double diagonal_m_;
+    pbs::Positions blended_, bind_points_;
+};
+
+// A body under one of the methods, driven step by step. All cells use this interface, whatever their method.
+//   const auto driven = make_driven_body(cell, character);
+//   const pbs::StepSummary step = driven->advance(drive, dt);
+class DrivenBody {
+public:
+    virtual ~DrivenBody() = default;
+    virtual pbs::StepSummary advance(const Drive& drive, double dt_s) = 0;
+    virtual const pbs::Positions& positions() const = 0;  // [m], #V x 3
+};
+
+std::unique_ptr<DrivenBody> make_driven_body(const StabilityCell& cell, const pbs::Character& character);
+
+struct CellResult {
+    analysis::StabilityResult stability;
+    std::vector<analysis::StabilityStep> steps;
+    bool has_undisturbed = false;  // the same body comes to rest when it begins in the last pose
+    int steps_not_reached = 0;
+    // From a broken initial state: the method's iterations up to and including the first step that was reached. For Newton's method this is
+    // the number until the residual was within tolerance, including a first solve that failed. PBS and XPBD always do all their iterations.
+    std::optional<int> iterations_until_reached;
+    double cpu_s = 0.0;
+};
+// Runs a cell twice, disturbed and undisturbed, and determines its outcome.
+CellResult run_cell(const StabilityCell& cell);
+std::string endings_text();  // when a run ends early, as Markdown
+
+// A good mesh made bad on purpose: some vertices are moved so that a tet at each becomes thin, without inverting any tet.
+//   const pbs::TetMesh spoilt = distorted(mesh, Defect::slivers, 1e-4);
+// slivers: a vertex keeps the share `thinness` of its height over the opposite face of one tet. needles: it keeps that share of the length
+// of one edge. A seeded twentieth of the vertices is moved, no two of the same tet. Vertices that would invert a tet are skipped.
+pbs::TetMesh distorted(const pbs::TetMesh& mesh, Defect defect, double thinness);
+
+struct MeasuredCell {
+    StabilityCell cell;
+    CellResult result;
+};
+
+// A row of cells.csv: a cell and its outcome.
+struct CellRow {
+    StabilityCell of;
+    std::optional<double> second_value;
+    std::string precision;
+    int steps = 0;
+    std::string outcome;
+    std::optional<int> recovery_steps;
+    std::optional<double> recovery_s;
+    std::optional<int> iterations_until_reached;
+    std::string undisturbed_at_rest;
+    double largest_reach_diagonals = 0.0;
+    std::optional<double> last_reach_diagonals, last_motion_diagonals, last_from_undisturbed_diagonals;
+    int most_inverted_tets = 0;
+    std::optional<int> last_inverted_tets;
+    int steps_not_reached = 0;
+    std::string as_published;
+    double cpu_s = 0.0;
+};
+extern const analysis::Columns<CellRow> cell_columns;
+CellRow cell_row(const MeasuredCell& measured);
+
+// The shares of the cells as published by body, jiggle, factor and precision, each with the number of its cells; one row per quantity. The
+// share of diverged cells has no interval: one cell refutes "unconditionally", and all cells are no sample. The shares of inverted cells,
+// of cells in motion (bounded or inverted, and moving until the end) and of cells at rest have the 95 % interval of Clopper and Pearson,
+// as if the cells were drawn at random from the settings between them.
+analysis::CsvTable stability_measurements(const std::vector<MeasuredCell>& cells);
+
+// The number of cells with each outcome, by body and model and on request by factor, as aligned columns.
+std::string outcome_table(const std::vector<CellRow>& cells, bool by_factor);
+
+// The text states why the map is unreliable: an outcome that occurs in no cell, or a cell in which the printed sign does not
+// diverge. Empty where there is no such defect.
+std::string blind_spots(const std::vector<CellRow>& cells);
+
+// The cells of a map, one row each, with both values and the outcome.
+analysis::CsvTable map_csv(const std::vector<CellRow>& cells, const std::string& factor, const std::string& second_factor);
+
+// Does a deformer that minimises an energy find its own result again from a broken initial shape, and after how many iterations?
+//   for (const StabilityCell& cell : start_cells(full)) rows.push_back(run_broken_start(cell, most_iterations));
+// The deformer runs from the broken shape with 1, 2, 4, ... iterations, up to the most, and once with the most from its own initial guess.
+// The result of the latter is its own result. These runs differ from a scene only in the initial shape and in the number of iterations.
+// The outcomes in cells.csv cannot show this: there a deformer without memory forgets a broken shape after one step.
+
+// The distance from the deformer's own result below which it counts as reached: root mean square over the vertices at the joints, over
+// their mean distance to the bones.
+inline constexpr double reached_within_pct = 1.0;
+
+// diverged: a vertex is farther than a diagonal of the body from its place in the own result (StabilityBounds::farthest).
+enum class StartOutcome { reached, not_reached, diverged, not_finite, not_applicable };
+template <>
+inline constexpr NameTable<StartOutcome, 5> option_names<StartOutcome>{{{StartOutcome::reached, "reached"},
+                                                                        {StartOutcome::not_reached, "not_reached"},
+                                                                        {StartOutcome::diverged, "diverged"},
+                                                                        {StartOutcome::not_finite, "not_finite"},
+                                                                        {StartOutcome::not_applicable, "not_applicable"}}};
+
+// A row of starts.csv.
+struct StartRow {
+    std::string body, model, precision;
+    std::string pose;                     // bend_90, twist_90
+    std::string start;                    // flattened, mirrored, random, point
+    std::string setting;                  // the option that the row changes; empty: all have their defaults
+    std::optional<double> setting_value;  // its value
+    StartOutcome outcome = StartOutcome::not_reached;
+    std::optional<int> iterations_until_reached;  // the first number of iterations from which on all are within the distance
+    int most_iterations = 0;
+    std::optional<double> from_own_result_pct;  // after the most iterations; empty: not finite
+    std::optional<double> own_change_pct;       // of the own result in the second half of the iterations; empty: not finite
+    std::optional<int> inverted_tets, own_inverted_tets;
+    std::string reason;  // why a start is not applicable
+    double cpu_s = 0.0;
+};
+extern const analysis::Columns<StartRow> start_columns;
+
+// The broken starts of every deformer that minimises an energy: bent and twisted, with default settings, near incompressibility, and with
+// settings beyond those for which the methods are known to converge.
+std::vector<StabilityCell> start_cells(bool full);
+
+StartRow run_broken_start(const StabilityCell& cell, int most_iterations);
+
+// The other deformers of the map, with the reason why they have no broken start.
+std::vector<StartRow> starts_not_applicable();
+
+std::string start_table(const std::vector<StartRow>& rows);  // counts by model and setting, as aligned columns
+std::string start_criteria_text(int most_iterations);        // the definitions in words, as Markdown
 
 }  // namespace experiments

@@ -1,29 +1,16 @@
 // C08: is the method unconditionally stable, large time steps included? Each cell of the map disturbs a body, then holds it still, and has
-// one of five outcomes by the same bounds for every method (analysis/metrics/stability_outcome.hpp).
+// one of five outcomes by the same bounds for every method (analysis/metrics/stability_outcome.hpp). README.md describes the runs, the
+// records, and why the study itself may fail.
 //
-//   pbs, pbs_jiggle   a limb of 400 vertices, bent by 90 degrees in ten steps; one factor at a time to its extremes, in f32 and f64.
-//                     Without jiggle the time step has no effect; those cells have the model pbs_no_memory and are not judged. A broken
-//                     or moved initial state has no effect after one step, so that only this step can fail
-//   pbs_maps          time step x k_stretch; iterations x twist
-//   pbs_human, ...    characters landing from a jump
-//   controls          Eq. 12-20 as printed, and teleports beyond the range of the numbers: here instability must be seen
-//   xpbd              the same limb with a material, also in small steps
-//   other_deformers   the same limb with the methods that minimise the energy of flesh, with both delta mushes and with pbs_author
-//   broken_starts     these methods from broken initial shapes: whether each finds its own result again (cell_table.hpp)
-//   fem_static        linear, corotational and stable neo-Hookean in equilibrium
-//   fem_in_time       the last two by generalised-alpha
-// The finite elements in equilibrium take a broken initial state as the initial guess of Newton's method in the last pose, without a load
-// path. The finite elements in time have no such cells. The linear elements need no initial guess and are a control.
+// Without jiggle the time step has no effect; those cells have the model pbs_no_memory and are not judged. A broken or moved initial state
+// has no effect after one step, so that only this step can fail. The finite elements in equilibrium take a broken initial state as the
+// initial guess of Newton's method in the last pose, without a load path. The finite elements in time have no such cells.
 //
 // The verdict follows from the share of diverged cells among the cells as published, without an interval: one diverged cell refutes
-// "unconditionally".
-// The bind constraint bounds a body that has lost its shape, so the shares of inverted and of moving bodies are reported as well.
-// Writes DIR/stability/RUN/cells.csv and measurements.csv, and cells.csv, the maps, starts.csv, outcomes.md and criteria.md. The study
-// fails where an outcome occurs in no cell, or where the printed sign does not diverge: then the map could not tell stable from unstable.
+// "unconditionally". The bind constraint bounds a body that has lost its shape, so the shares of inverted and of moving bodies are
+// reported as well.
 #include "analysis/records/record_files.hpp"
 #include "experiments/settings/recorded_settings.hpp"
-#include "experiments/studies/stability/cell_run.hpp"
-#include "experiments/studies/stability/cell_table.hpp"
 #include "experiments/studies/stability/stability_cells.hpp"
 #include "experiments/studies/study.hpp"
 

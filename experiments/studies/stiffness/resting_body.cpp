@@ -190,7 +190,7 @@ constexpr double softer_pa = 3.0e4, stiffer_pa = 3.0e5;  // as stiff as few and 
 
 std::vector<LoadedBody> bodies_of(const std::string& body, int vertices)
 {
-    if (body == "bar") return {hanging_bar(vertices > 0 ? vertices : 1000)};
+    if (body == "bar") return {hanging_bar(pbs::make_character({.body = body, .vertices = vertices > 0 ? vertices : 1000}).mesh)};
     const pbs::Character character = pbs::make_character({.body = body, .vertices = vertices, .surface = false});
     return {jiggling_flesh(character, RestOfBody::projected), jiggling_flesh(character, RestOfBody::held)};
 }

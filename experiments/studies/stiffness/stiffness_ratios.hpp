@@ -25,13 +25,11 @@ namespace experiments {
 // substeps of one iteration as there are iterations. xpbd_forgetting resets its multipliers in every iteration: a control that has to fail.
 enum class Method { pbs, exponent, xpbd, xpbd_small_steps, xpbd_forgetting };
 template <>
-struct OptionNames<Method> {
-    static constexpr std::array<std::pair<Method, const char*>, 5> table{{{Method::pbs, "pbs"},
-                                                                          {Method::exponent, "exponent"},
-                                                                          {Method::xpbd, "xpbd"},
-                                                                          {Method::xpbd_small_steps, "xpbd_small_steps"},
-                                                                          {Method::xpbd_forgetting, "xpbd_forgetting"}}};
-};
+inline constexpr NameTable<Method, 5> option_names<Method>{{{Method::pbs, "pbs"},
+                                                            {Method::exponent, "exponent"},
+                                                            {Method::xpbd, "xpbd"},
+                                                            {Method::xpbd_small_steps, "xpbd_small_steps"},
+                                                            {Method::xpbd_forgetting, "xpbd_forgetting"}}};
 inline bool is_xpbd(Method method)
 {
     return method != Method::pbs && method != Method::exponent;
@@ -79,26 +77,11 @@ extern const analysis::Columns<StiffnessRow> stiffness_columns;
 StiffnessRow linear_stiffness(const LoadedBody& body, const StiffnessSetting& setting);
 StiffnessRow stepped_stiffness(const LoadedBody& body, const StiffnessSetting& setting);
 
-}  // namespace experiments
-
-template <>
-struct analysis::EnumNames<experiments::Method> : experiments::OptionNames<experiments::Method> {
-};
-
-namespace experiments {
-
 // time_step: halved. resolution: the number of vertices, whose meshes are never exactly twice each other.
 enum class Varied { iterations, time_step, resolution };
 template <>
 inline constexpr NameTable<Varied, 3> option_names<Varied>{
     {{Varied::iterations, "iterations"}, {Varied::time_step, "time_step"}, {Varied::resolution, "resolution"}}};
-
-struct VariedText {
-    const char* doubled;   // "half the time step"
-    const char* quantity;  // in measurements.csv
-    double first, last;    // settings next to the paper's: iterations, 1 / time step [1/s], vertices
-};
-const VariedText& text_of(Varied varied);
 
 // The ratio of stiffnesses for one doubling, (K2 / K1)^(log 2 / log(x2 / x1)), from the first to the last of the settings next to the
 // paper's (12 to 48 iterations, 20 to 5 ms; all resolutions). low and high are the least and the largest ratio of every single doubling
@@ -117,14 +100,6 @@ struct StiffnessExponent {
 };
 const analysis::Columns<StiffnessExponent>& exponent_columns();
 std::vector<StiffnessExponent> stiffness_exponents(const std::vector<StiffnessRow>& rows, Varied varied);
-
-}  // namespace experiments
-
-template <>
-struct analysis::EnumNames<experiments::Varied> : experiments::OptionNames<experiments::Varied> {
-};
-
-namespace experiments {
 
 // The report of the stiffness study for the terminal: the ratios of PBS at k_stretch 0.2, of the same with the exponent, and of XPBD at
 // 30 kPa; and how many values of the control stay within the bounds that the claim sets for PBS. XPBD's stiffness is a material's, so its

@@ -1,19 +1,242 @@
 // C11: what the stiffness k in [0, 1] amounts to, as force over displacement of flesh that hangs under gravity, against iterations, time
-// step and resolution. PBS, PBS with Mueller's exponent and XPBD run. XPBD has the stiffness of a material, and is the control.
-//
-//   bar   cantilever             limb, human, ...   the jiggling zone on what the solver moves, and with the rest of the body held
-//
-// On the limb XPBD also runs with its multipliers reset in every iteration: a control that has to fail, and no part of the claim. The claim
-// is judged by the zone on what the solver moves, as the paper runs it; bars and zones on what is held are for comparison ("flesh held").
-// Writes DIR/stiffness/{iterations,time_step,resolution}_BODY/stiffness.csv and measurements.csv; DIR/stiffness/stiffness.csv
-// and exponents.csv.
+// step and resolution. PBS, PBS with Mueller's exponent and XPBD run. XPBD has the stiffness of a material, and is the control. On the limb
+// XPBD also runs with its multipliers reset in every iteration: a control that has to fail, and no part of the claim. README.md describes
+// the runs and records.
+#include "analysis/records/report_table.hpp"
 #include "analysis/records/tables.hpp"
+#include "analysis/statistics/fits.hpp"
+#include "analysis/verdicts/measurement.hpp"
 #include "experiments/studies/stiffness/stiffness_ratios.hpp"
 #include "experiments/studies/study.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <map>
+#include <optional>
 
 namespace experiments {
+
+const analysis::Columns<StiffnessExponent>& exponent_columns()
+{
+    using Row = StiffnessExponent;
+    static const analysis::Columns<Row> columns =
+        analysis::Columns<Row>{{"varied", &Row::varied, "", "iterations, time_step or resolution"}} +
+        within(&Row::of, analysis::case_key_columns()) +
+        analysis::Columns<Row>{{"first", &Row::first, "", "first value of what is varied; time steps in ms"},
+                               {"last", &Row::last, "", "its last value"},
+                               {"points", &Row::points, "", "settings that the line is fitted to"},
+                               {"left_out", &Row::left_out, "", "settings that did not converge, or hang upwards"},
+                               {"exponent", &Row::exponent, "", "slope of log stiffness over the log of vertices, iterations or 1 / step"},
+                               {"exponent_low", &Row::low, "", "lower end of its 95 % interval"},
+                               {"exponent_high", &Row::high, "", "upper end of its 95 % interval"}};
+    return columns;
+}
+
+namespace {
+
+struct VariedText {
+    const char* doubled;   // "half the time step"
+    const char* quantity;  // in measurements.csv
+    double first, last;    // settings next to the paper's: iterations, 1 / time step [1/s], vertices
+};
+
+const VariedText& text_of(Varied varied)
+{
+    static constexpr VariedText texts[] = {{"twice the iterations", "stiffness_ratio_at_twice_iterations", 12.0, 48.0},
+                                           {"half the time step", "stiffness_ratio_at_half_time_step", 1.0 / 0.02, 1.0 / 0.005},
+                                           {"twice the vertices", "stiffness_ratio_at_twice_resolution", 0.0, 1e9}};
+    return texts[static_cast<int>(varied)];
+}
+
+struct Point {
+    double x = 0.0, stiffness = 0.0;
+};
+
+struct Case {
+    std::map<std::string, std::vector<Point>> series;  // by order and mesh; file order on the wanted meshes comes first
+    int left_out = 0;
+};
+
+double x_of(const StiffnessRow& row, Varied varied)
+{
+    if (varied == Varied::resolution) return row.vertices;
+    return varied == Varied::iterations ? row.setting.iterations : 1.0 / row.setting.time_step_s();
+}
+
+const char* deformer_of(Method method)
+{
+    static constexpr const char* names[] = {"pbs", "pbs_exponent", "xpbd", "xpbd_small_steps", "xpbd_forgetting_multipliers"};
+    return names[static_cast<int>(method)];
+}
+
+// Everything that is not varied, except for a repetition in another order or on the second series of meshes.
+analysis::CaseKey key_of(const StiffnessRow& row, Varied varied)
+{
+    const StiffnessSetting& setting = row.setting;
+    analysis::CaseKey key = {.body = row.body, .deformer = deformer_of(setting.method), .load = row.load};
+    if (is_xpbd(setting.method))
+        key.young_pa = setting.young_pa;
+    else
+        key.k_stretch = setting.k_stretch;
+    if (varied != Varied::iterations) key.iterations = setting.iterations;
+    if (varied != Varied::time_step) key.time_step_s = setting.time_step_s();
+    if (varied != Varied::resolution) key.vertices = row.vertices;
+    if (row.by == "stepped") key.ladder = row.by;
+    return key;
+}
+
+std::map<analysis::CaseKey, Case> cases_of(const std::vector<StiffnessRow>& rows, Varied varied)
+{
+    std::map<analysis::CaseKey, Case> cases;
+    for (const StiffnessRow& row : rows) {
+        Case& found = cases[key_of(row, varied)];
+        const bool usable = row.converged && std::isfinite(row.stiffness_n_m) && row.stiffness_n_m > 0.0;
+        found.left_out += !usable;
+        if (usable) found.series[fmt::format("{} {}", row.setting.order_seed, row.mesh)].push_back({x_of(row, varied), row.stiffness_n_m});
+    }
+    for (auto& [of, found] : cases)
+        for (auto& [key, points] : found.series) std::ranges::sort(points, {}, &Point::x);
+    return cases;
+}
+
+double for_one_doubling(const Point& once, const Point& more)
+{
+    return std::pow(more.stiffness / once.stiffness, std::log(2.0) / std::log(more.x / once.x));
+}
+
+// The settings between which the ratio is taken.
+analysis::CaseKey over_range(analysis::CaseKey key, Varied varied, double first, double last)
+{
+    if (varied == Varied::iterations)
+        key.iterations = first, key.iterations_to = last;
+    else if (varied == Varied::time_step)
+        key.time_step_s = 1.0 / first, key.time_step_to_s = 1.0 / last;
+    else
+        key.vertices = first, key.vertices_to = last;
+    return key;
+}
+
+std::optional<analysis::Measurement> ratio_of(const analysis::CaseKey& of, const Case& measured, Varied varied)
+{
+    constexpr double rounding = 1e-9;
+    const VariedText& text = text_of(varied);
+    std::optional<analysis::Measurement> result;
+    for (const auto& [key, all] : measured.series) {
+        std::vector<Point> points;
+        std::ranges::copy_if(all, std::back_inserter(points), [&](const Point& point) {
+            return point.x >= text.first * (1.0 - rounding) && point.x <= text.last * (1.0 + rounding);
+        });
+        if (points.size() < 2) continue;
+        const double overall = for_one_doubling(points.front(), points.back());
+        if (!result)
+            result = {"C11", text.quantity, over_range(of, varied, points.front().x, points.back().x), overall, overall, overall, "1"};
+        for (std::size_t i = 1; i < points.size(); ++i) {
+            const double single = for_one_doubling(points[i - 1], points[i]);
+            result->low = std::min(result->low, single);
+            result->high = std::max(result->high, single);
+        }
+    }
+    return result;
+}
+
+}  // namespace
+
+std::vector<analysis::Measurement> stiffness_ratios(const std::vector<StiffnessRow>& rows, Varied varied)
+{
+    std::vector<analysis::Measurement> measured;
+    for (const auto& [of, found] : cases_of(rows, varied))
+        if (const auto ratio = ratio_of(of, found, varied)) measured.push_back(*ratio);
+    return measured;
+}
+
+std::vector<StiffnessExponent> stiffness_exponents(const std::vector<StiffnessRow>& rows, Varied varied)
+{
+    const auto shown = [varied](double x) { return varied == Varied::time_step ? 1e3 / x : x; };  // a time step [ms]
+    std::vector<StiffnessExponent> exponents;
+    for (const auto& [of, found] : cases_of(rows, varied)) {
+        if (found.series.empty() || found.series.begin()->second.size() < 2) continue;
+        std::vector<double> x, stiffness;
+        for (const Point& point : found.series.begin()->second) x.push_back(point.x), stiffness.push_back(point.stiffness);
+        const analysis::Interval slope = analysis::observed_order(x, stiffness).slope;
+        exponents.push_back(
+            {varied, of, shown(x.front()), shown(x.back()), slope.n, found.left_out, slope.estimate, slope.low, slope.high});
+    }
+    return exponents;
+}
+
+namespace {
+
+using Ratio = analysis::Measurement;
+
+analysis::CsvTable ratio_table(Varied varied, const std::vector<Ratio>& ratios)
+{
+    const analysis::Columns<Ratio> columns = {
+        {"at", [varied](const Ratio&) { return std::string(text_of(varied).doubled); }, "", "what is doubled"},
+        {"body", [](const Ratio& ratio) { return ratio.of.body + ", " + ratio.of.load; }, "", "body and load"},
+        {"deformer", [](const Ratio& ratio) { return ratio.of.deformer; }, "", "the solver"},
+        {"ratio", &Ratio::value, "", "of the stiffnesses, for one doubling"},
+        {"least", &Ratio::low, "", "the least of every single doubling"},
+        {"largest", &Ratio::high, "", "the largest of every single doubling"}};
+    return table_of(columns, ratios);
+}
+
+template <typename Wanted>
+std::vector<Ratio> ratios_where(const SweptRows& sweep, const Wanted& wanted)
+{
+    std::vector<StiffnessRow> rows;
+    std::ranges::copy_if(sweep.second, std::back_inserter(rows), wanted);
+    return stiffness_ratios(rows, sweep.first);
+}
+
+// By the linear map: PBS at k_stretch 0.2, the same with the exponent, and the softer XPBD.
+bool is_in_short(const StiffnessRow& row)
+{
+    if (row.by != "linear") return false;
+    if (row.setting.method == Method::xpbd) return row.setting.young_pa == 3.0e4;
+    return !is_xpbd(row.setting.method) && row.setting.k_stretch == 0.2;
+}
+
+std::vector<Ratio> control_ratios(const SweptRows& sweep, bool forgets_multipliers)
+{
+    return ratios_where(sweep, [&](const StiffnessRow& row) {
+        return is_xpbd(row.setting.method) && (row.setting.method == Method::xpbd_forgetting) == forgets_multipliers;
+    });
+}
+
+}  // namespace
+
+std::string stiffness_text(const std::vector<SweptRows>& sweeps)
+{
+    analysis::CsvTable lines{{}};
+    for (const SweptRows& sweep : sweeps) lines.append(ratio_table(sweep.first, ratios_where(sweep, is_in_short)));
+    return "ratio of stiffnesses for one doubling: PBS at k_stretch 0.2, the same with the exponent, XPBD at 30 kPa\n" +
+           text_table(lines, {{"at", "at"},
+                              {"body", "body"},
+                              {"deformer", "deformer"},
+                              {"ratio", "ratio", "{:.3g}"},
+                              {"least", "least", "{:.3g}"},
+                              {"largest", "largest", "{:.3g}"}});
+}
+
+std::string control_text(const std::vector<SweptRows>& sweeps, const analysis::Claim& claim)
+{
+    std::string text;
+    for (const bool forgets : {false, true})
+        for (const SweptRows& sweep : sweeps) {
+            const auto measured = control_ratios(sweep, forgets);
+            if (measured.empty()) continue;
+            text += fmt::format(
+                "the control, XPBD{}, at {}: {} of {} values lie within {}\n", forgets ? " without its multipliers" : "",
+                text_of(sweep.first).doubled,
+                std::ranges::count(measured, analysis::Extent::whole, [&](const Ratio& one) { return analysis::extent_of(claim, one); }),
+                measured.size(), analysis::bound_text(analysis::bound_of(claim, measured.front().quantity)));
+        }
+    return text;
+}
+
 namespace {
 
 StudyPlan plan(bool full)

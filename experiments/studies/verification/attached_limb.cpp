@@ -3,15 +3,21 @@
 //   the bones hold it. A fit of Poisson's ratio to the reference's own shape finds the ratio that the shape was made with. A further frame
 //   of the linear reference costs one re-solve.
 
+#include "analysis/metrics/error_norms.hpp"
+#include "analysis/statistics/grid_convergence.hpp"
 #include "analysis/statistics/minimise.hpp"
 #include "experiments/deformers/fem/fem_deformers.hpp"
 #include "experiments/studies/verification/problem.hpp"
 #include "pbs/character/bone_capsules.hpp"
 #include "pbs/geometry/cost.hpp"
+#include "pbs/skinning/blend.hpp"
+#include "pbs/solver/pbs_solver.hpp"
 #include "reference_fem/assembly.hpp"
 #include "reference_fem/newton/newton.hpp"
 #include "reference_fem/potentials/potentials.hpp"
 #include "reference_fem/verification/problems.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -146,7 +152,128 @@ VerificationRows attached_limb_rows(const Effort& effort)
             kept_factor(effort.limb(0, 0))};
 }
 
-using namespace reference_fem;
+// The split of an error into solver, model and discretisation, on a coarse limb whose forearm is twisted: properties of its parts that do
+// not depend on the flesh; and, for information, the effect of the attachment and of the bones' thickness.
+namespace {
+
+constexpr double twist_deg = 40.0;
+
+std::vector<int> blended_vertices(const pbs::Character& character)
+{
+    std::vector<int> vertices;
+    for (std::size_t i = 0; i < character.blended.size(); ++i)
+        if (character.blended[i]) vertices.push_back(static_cast<int>(i));
+    return vertices;
+}
+
+class TwistedLimb {
+public:
+    explicit TwistedLimb(pbs::Character limb)
+        : limb_(std::move(limb)),
+          pose_(twisted(limb_, twist_deg)),
+          norms_({limb_.mesh.rest, limb_.mesh.tets, {}, blended_vertices(limb_), limb_.binding.distance})
+    {
+    }
+
+    pbs::Positions flesh(const FemOptions& options) const { return shape(limb_, options, pose_); }
+
+    pbs::Positions skinned(int iterations) const
+    {
+        pbs::PbsOptions options;
+        options.iterations = iterations;
+        options.precision = pbs::Precision::f64;
+        pbs::PbsSolver solver(limb_.mesh, limb_.binding.distance, {}, options);
+        pbs::Positions blended;
+        pbs::linear_blend_skinning(limb_.mesh.rest, limb_.weights, pose_, blended);
+        solver.advance(blended, pbs::posed_bind_points(limb_.binding, pose_), 0.01);
+        return solver.positions();
+    }
+
+    double distance_pct(const pbs::Positions& one, const pbs::Positions& other) const
+    {
+        return norms_.measure(one.topRows(limb_.mesh.rest.rows()), other.topRows(limb_.mesh.rest.rows())).joint_pct;
+    }
+
+    VerificationRow row(const RowQuantity& quantity, const std::string& unit, double value) const
+    {
+        return {.problem = "error_split",
+                .quantity = quantity,
+                .elements = elements_of(1),
+                .material = material_of("neo_hookean", 0.45),
+                .mesh = fmt::format("limb, {} vertices, twist of {:.0f} degrees", limb_.mesh.rest.rows(), twist_deg),
+                .dofs = static_cast<int>(3 * limb_.mesh.rest.rows()),
+                .value = value,
+                .unit = unit};
+    }
+
+private:
+    pbs::Character limb_;
+    pbs::Pose pose_;
+    analysis::ErrorMetrics norms_;
+};
+
+// In a norm, the whole lies between the difference and the sum of its two parts.
+VerificationRow whole_and_parts(const TwistedLimb& limb, const pbs::Positions& flesh, int iterations)
+{
+    const pbs::Positions converged = limb.skinned(4000), stopped = limb.skinned(iterations);
+    const double solver = limb.distance_pct(stopped, converged), model = limb.distance_pct(converged, flesh);
+    VerificationRow row =
+        limb.row({"error_over_parts", fmt::format("error after {} iterations over the sum of its solver and model parts", iterations),
+                  fmt::format("iterations_{}", iterations)},
+                 "1", limb.distance_pct(stopped, flesh) / (solver + model));
+    row.reference = 1.0;
+    row.low = std::abs(solver - model) / (solver + model) - 1e-12;
+    row.high = 1.0 + 1e-12;
+    row.source = row.bound_from = "closed form: triangle inequality of a norm; 1 where the parts point the same way";
+    return row;
+}
+
+// The theoretical order that an error bar presumes with the smooth attachment (experiments/run/reference_error_bar.hpp).
+constexpr double order_of_smooth_springs = 2.0;
+
+// Compares the bound from P1 on two meshes with a solution of higher order on the finer one.
+VerificationRow bound_covers(const TwistedLimb& limb, const TwistedLimb& refined, const pbs::Positions& flesh)
+{
+    FemOptions quadratic = limb_flesh;
+    quadratic.element_order = 2;
+    const double bound = analysis::two_fields(limb.distance_pct(refined.flesh(limb_flesh), flesh), 2.0, order_of_smooth_springs).bounds[1];
+    VerificationRow row = limb.row({"distance_over_bound", "distance from refined P2 flesh over the bound from two meshes of P1"}, "1",
+                                   limb.distance_pct(refined.flesh(quadratic), flesh) / bound);
+    row.low = 0.0;
+    row.high = 1.0;
+    row.source = row.bound_from = "P. J. Roache, Journal of Fluids Engineering 116, 1994: the index bounds the distance from the limit";
+    return row;
+}
+
+VerificationRow variant(const TwistedLimb& limb, const pbs::Positions& flesh, const FemOptions& options, const std::string& key)
+{
+    VerificationRow row = limb.row({"distance_of_variant", "distance from flesh held by smooth springs, q 10, core 0.7: " + key, key},
+                                   "% of the bone distance", limb.distance_pct(limb.flesh(options), flesh));
+    row.source = "none: the effect of a choice, for information";
+    return row;
+}
+
+}  // namespace
+
+VerificationRows error_split_rows(const Effort& effort)
+{
+    if (!effort.limb) return {};
+    const TwistedLimb limb(effort.limb(coarse, 0)), refined(effort.limb(coarse, 1));
+    const pbs::Positions flesh = limb.flesh(limb_flesh);
+    FemOptions stiffer = limb_flesh, thinner = limb_flesh, embedded = limb_flesh, bind = limb_flesh;
+    stiffer.spring_factor = 100.0;
+    thinner.core_radius = 0.5;
+    embedded.attachment = FemAttachment::embedded;
+    bind.attachment = FemAttachment::bind;
+    return {whole_and_parts(limb, flesh, 1),
+            whole_and_parts(limb, flesh, 24),
+            bound_covers(limb, refined, flesh),
+            variant(limb, flesh, stiffer, "spring_factor_100"),
+            variant(limb, flesh, thinner, "core_radius_0.5"),
+            variant(limb, flesh, embedded, "embedded_bones"),
+            variant(limb, flesh, bind, "bind_constraint_of_the_paper")};
+}
+
 using pbs::Positions;
 using pbs::Vec3;
 

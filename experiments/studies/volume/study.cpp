@@ -2,17 +2,10 @@
 //
 //   limb_twist   0 - 180 deg    o=======o~~~~~~~o)  the forearm turns about its own axis
 //   limb_bend    0 - 150 deg    o=======o           the forearm turns about z, also with Eq. 12-20 as printed
-//   human_01_01  the whole clip                     MakeHuman's body, repeated jumps; LBS and PBS also at half and twice its vertices
-//   human_01_03  ten seconds                        walking; with --full
-//   man_01_01, lady_01_01, frankie_01_01            the first clip, bodies as large as those of Table 1, where installed
-//   lady_01_03                                      walking, climbing, hanging from a bar, swinging
+//   BODY_CLIP                                       CMU's clips on the installed bodies
 //
-// Clips run at five frames per second, with --full at twenty-five. On the limb and the human, PBS runs with 1 to 384 iterations and linear
-// FEM with elements of order 1 and 2 on the same tets; on all bodies PBS also has the jiggling zone. The reference is neo-Hookean flesh of
-// order 1, and with --full of order 2 on the twisted limb. With --full the limb and, at one frame per second, the human also have flesh of
-// order 2 with Poisson's ratios 0.45 and 0.49, and the other bodies have a reference at five frames per second. In addition to the scene's
-// own order of projection PBS has each other order and precision, so that the report can say whether the verdict depends on it. Each run
-// writes regions.csv; the study sums them up in regions.csv and regions.txt.
+// README.md describes the runs, deformers and records. Besides the scene's own order of projection PBS has each other order and precision,
+// so that the report can say whether the verdict depends on it.
 #include "analysis/records/report_table.hpp"
 #include "experiments/deformers/deformer_options.hpp"
 #include "experiments/run/run_folder.hpp"
@@ -28,24 +21,11 @@
 namespace experiments {
 namespace {
 
-// The bones and joints at which a body loses its volume, from the regions.csv of runs.
-struct RunRegions {
-    std::string run;  // its name in reports
-    std::vector<RegionChange> regions;
-};
-
+// The change of a bone or joint of a body, from the regions.csv of a run.
 struct RegionOfRun {
-    std::string run;
+    std::string run;  // its name in reports
     RegionChange region;
 };
-
-// The regions of one deformer and kind, the greatest loss first.
-std::vector<RegionChange> by_loss(std::vector<RegionChange> regions, const std::string& deformer, const std::string& kind)
-{
-    std::erase_if(regions, [&](const RegionChange& region) { return region.deformer != deformer || region.kind != kind; });
-    std::stable_sort(regions.begin(), regions.end(), [](const auto& a, const auto& b) { return a.change_pct < b.change_pct; });
-    return regions;
-}
 
 struct LossRow {
     std::string run, deformer, kind;
@@ -59,44 +39,37 @@ const analysis::Columns<LossRow> loss_columns = {
     {"change_pct", &LossRow::change_pct, "%", "sum over the regions, mean over the frames"},
     {"greatest", &LossRow::greatest, "", "the regions that lose most, and what they lose of the body and of themselves"}};
 
-LossRow loss_row(const RunRegions& run, const std::string& deformer, const std::string& kind, int most)
+// The sum over all regions of a kind, and the regions with the greatest losses, in shares of the body's volume and of their own.
+LossRow loss_row(const std::vector<RegionOfRun>& all, const std::string& run, const std::string& deformer, const std::string& kind)
 {
-    LossRow row{run.run, deformer, kind};
-    for (const RegionChange& region : by_loss(run.regions, deformer, kind)) {
-        row.change_pct += region.change_pct;
-        if (most-- <= 0) continue;
-        row.greatest += row.greatest.empty() ? "" : ", ";
-        row.greatest += fmt::format("{} {:.2f} ({:.1f})", region.bones.text(), region.change_pct, region.own_change_pct);
+    constexpr int most = 3;
+    std::vector<RegionChange> regions;
+    for (const auto& [of, region] : all)
+        if (of == run && region.deformer == deformer && region.kind == kind) regions.push_back(region);
+    std::ranges::stable_sort(regions, {}, &RegionChange::change_pct);
+    LossRow row{run, deformer, kind};
+    for (std::size_t i = 0; i < regions.size(); ++i) {
+        row.change_pct += regions[i].change_pct;
+        if (i >= most) continue;
+        row.greatest += fmt::format("{}{} {:.2f} ({:.1f})", i > 0 ? ", " : "", regions[i].bones.text(), regions[i].change_pct,
+                                    regions[i].own_change_pct);
     }
     return row;
 }
 
-// A row for each run, for LBS and PBS, and for each kind of region: the sum over all regions, and the `most` regions with the greatest
-// losses, in shares of the body's volume and of their own.
-std::string region_text(const std::vector<RunRegions>& runs, int most = 3)
+// A row for each run, for LBS and PBS, and for each kind of region.
+std::string region_text(const std::vector<RegionOfRun>& all, const std::vector<std::string>& runs)
 {
     std::vector<LossRow> rows;
-    for (const RunRegions& run : runs)
+    for (const std::string& run : runs)
         for (const char* deformer : {"lbs", "pbs"})
             for (const char* kind : {"bone", "joint"})
-                if (const LossRow row = loss_row(run, deformer, kind, most); !row.greatest.empty()) rows.push_back(row);
+                if (const LossRow row = loss_row(all, run, deformer, kind); !row.greatest.empty()) rows.push_back(row);
     return text_table(table_of(loss_columns, rows), {{"mean over frames", "run"},
                                                      {"", "deformer"},
                                                      {"by", "kind"},
                                                      {"all [%]", "change_pct", "{:.2f}"},
                                                      {"greatest losses [% of the body] (of the region itself)", "greatest"}});
-}
-
-// All rows of all runs, with a column `run` in front.
-analysis::CsvTable region_csv(const std::vector<RunRegions>& runs)
-{
-    static const analysis::Columns<RegionOfRun> columns =
-        analysis::Columns<RegionOfRun>{{"run", &RegionOfRun::run, "", "name of the run"}} +
-        analysis::within(&RegionOfRun::region, region_columns);
-    std::vector<RegionOfRun> all;
-    for (const RunRegions& run : runs)
-        for (const RegionChange& region : run.regions) all.push_back({run.run, region});
-    return table_of(columns, all);
 }
 
 void add_iterations(std::vector<DeformerSpec>& deformers, const DeformerSpec& pbs)
@@ -164,11 +137,17 @@ StudyPlan plan(bool full)
 
 StudyConclusion conclude(const FinishedRuns& finished)
 {
-    std::vector<RunRegions> runs;
-    for (const std::string& file : finished.files("regions.csv"))
-        runs.push_back({std::filesystem::path(file).parent_path().filename().string(), rows_of(region_columns, analysis::read_csv(file))});
-    const std::string text = region_text(runs);
-    finished.write("regions.csv", region_csv(runs));
+    static const analysis::Columns<RegionOfRun> columns =
+        analysis::Columns<RegionOfRun>{{"run", &RegionOfRun::run, "", "name of the run"}} +
+        analysis::within(&RegionOfRun::region, region_columns);
+    std::vector<RegionOfRun> all;
+    std::vector<std::string> runs;
+    for (const std::string& file : finished.files("regions.csv")) {
+        runs.push_back(std::filesystem::path(file).parent_path().filename().string());
+        for (const RegionChange& region : rows_of(region_columns, analysis::read_csv(file))) all.push_back({runs.back(), region});
+    }
+    const std::string text = region_text(all, runs);
+    finished.write("regions.csv", columns, all);
     finished.write("regions.txt", text);
     return {text, !finished.none()};
 }

@@ -245,25 +245,21 @@ class SettingList {
 public:
     SettingList(const Scene& scene, const SettingRange& range) : scene_(scene), range_(range) {}
 
-    // All settings at all rungs of the case's own mesh, and the default setting at some rungs of the other meshes.
-    void add(const ComparedDeformer& entry)
+    // All settings at all rungs of the case's own mesh, and the default setting at some rungs of the other meshes. A change to PBS is
+    // measured on the case's own mesh alone.
+    void add(const ComparedDeformer& entry, bool is_change)
     {
-        const std::vector<SettingChange> grid = grid_in_range(entry);
+        const std::size_t first = settings.size();
+        std::vector<SettingChange> grid = grid_of(entry);
+        if (range_.in_short) grid.resize(std::min(grid.size(), grid_in_short));
         for (const KeyValues& code : codes_of(entry)) {
             for (const SettingChange& change : grid)
                 add_ladder(entry, range_.in_short ? entry.few_iterations : entry.iterations, {{}, change, code}, 0);
+            if (is_change) continue;
             for (const std::vector<int>* sizes : {&range_.other_vertices, &range_.without_fem})
                 for (const int vertices : *sizes) add_ladder(entry, entry.few_iterations, {{}, grid.front(), code}, vertices);
         }
-    }
-
-    // A change to PBS, on the case's own mesh in its packed code alone.
-    void add_change(const ComparedDeformer& entry)
-    {
-        const std::size_t first = settings.size();
-        for (const SettingChange& change : grid_in_range(entry))
-            add_ladder(entry, range_.in_short ? entry.few_iterations : entry.iterations, {{}, change, codes_of(entry).front()}, 0);
-        for (std::size_t i = first; i < settings.size(); ++i) settings[i].change = &entry;
+        for (std::size_t i = first; is_change && i < settings.size(); ++i) settings[i].change = &entry;
     }
 
     void add_fem()
@@ -287,13 +283,6 @@ public:
     std::vector<Setting> settings;
 
 private:
-    std::vector<SettingChange> grid_in_range(const ComparedDeformer& entry) const
-    {
-        std::vector<SettingChange> grid = grid_of(entry);
-        if (range_.in_short) grid.resize(std::min(grid.size(), grid_in_short));
-        return grid;
-    }
-
     void add_ladder(const ComparedDeformer& entry, const std::vector<int>& iterations, SettingChoice choice, int vertices)
     {
         std::vector<std::optional<int>> rungs(iterations.begin(), iterations.end());
@@ -384,10 +373,10 @@ std::vector<Setting> settings_of(const Scene& scene, const SettingRange& range)
 {
     SettingList list(scene, range);
     for (const ComparedDeformer& entry : compared_deformers())
-        if (is_available(entry)) list.add(entry);
+        if (is_available(entry)) list.add(entry, false);
     list.add_fem();
     if (range.changes)
-        for (const ComparedDeformer& entry : changes_to_pbs()) list.add_change(entry);
+        for (const ComparedDeformer& entry : changes_to_pbs()) list.add(entry, true);
     return list.settings;
 }
 

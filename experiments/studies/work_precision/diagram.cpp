@@ -20,54 +20,38 @@ using analysis::within;
 
 constexpr double least_error_pct = 1e-9;  // an error of zero has no logarithm
 
-// A rung with the rows of its settings in each training pose that has it.
-struct Rung {
-    std::vector<SettingKey> settings;                         // in the order of the records: the default one first
-    std::vector<std::vector<const PointRow*>> training = {};  // [training pose][setting]; null: no row
-};
-
 const PointRow* row_of(const CaseRows& rows, const SettingKey& key)
 {
     const auto found = std::ranges::find(rows, key, &PointRow::key);
     return found == rows.end() ? nullptr : &*found;
 }
 
-Rung rung_with(const SettingKey& rung, const std::vector<SettingKey>& settings, const std::vector<CaseRows>& cases)
-{
-    Rung found{settings};
-    for (const CaseRows& rows : cases) {
-        if (rows.empty() || rows.front().half != Half::training) continue;
-        if (std::ranges::none_of(rows, [&](const PointRow& row) { return rung_of(row.key) == rung; })) continue;
-        std::vector<const PointRow*>& of_pose = found.training.emplace_back();
-        for (const SettingKey& key : settings) of_pose.push_back(row_of(rows, key));
-    }
-    return found;
-}
-
 // The geometric mean over the training poses; nothing without an answer in each of them.
-std::optional<double> training_error_pct(const Rung& rung, std::size_t setting)
+std::optional<double> training_error_pct(const std::vector<const CaseRows*>& training, const SettingKey& setting)
 {
     double sum = 0.0;
-    for (const auto& of_pose : rung.training) {
-        const PointRow* row = of_pose[setting];
+    for (const CaseRows* pose : training) {
+        const PointRow* row = row_of(*pose, setting);
         if (!row || !row->error || !row->ms_median) return std::nullopt;
         sum += std::log(std::max(row->error->joint_pct, least_error_pct));
     }
-    if (rung.training.empty()) return std::nullopt;
-    return std::exp(sum / double(rung.training.size()));
+    if (training.empty()) return std::nullopt;
+    return std::exp(sum / double(training.size()));
 }
 
-std::optional<ChosenSetting> choose(Comparison comparison, const Rung& rung)
+// settings: of one rung in the order of the records, the default one first. training: the training poses that have this rung.
+std::optional<ChosenSetting> choose(Comparison comparison, const std::vector<SettingKey>& settings,
+                                    const std::vector<const CaseRows*>& training)
 {
-    ChosenSetting chosen{comparison, rung.settings.front(), static_cast<int>(rung.settings.size())};
-    if (rung.settings.size() == 1 || rung.training.empty()) return chosen;
-    for (std::size_t i = 0; i < rung.settings.size(); ++i) {
-        const std::optional<double> error_pct = training_error_pct(rung, i);
+    ChosenSetting chosen{comparison, settings.front(), static_cast<int>(settings.size())};
+    if (settings.size() == 1 || training.empty()) return chosen;
+    for (const SettingKey& setting : settings) {
+        const std::optional<double> error_pct = training_error_pct(training, setting);
         if (!error_pct || (chosen.training_error_pct && *error_pct >= *chosen.training_error_pct)) continue;
         chosen.training_error_pct = error_pct;
-        chosen.key = rung.settings[i];
+        chosen.key = setting;
     }
-    chosen.training_poses = static_cast<int>(rung.training.size());
+    chosen.training_poses = static_cast<int>(training.size());
     return chosen.training_error_pct ? std::optional(chosen) : std::nullopt;
 }
 
@@ -116,8 +100,14 @@ std::vector<ChosenSetting> choose_settings(const std::vector<CaseRows>& cases)
                 if (found == rungs.end()) found = rungs.insert(rungs.end(), {rung, {}});
                 if (std::ranges::find(found->second, row.key) == found->second.end()) found->second.push_back(row.key);
             }
-        for (const auto& [rung, settings] : rungs)
-            if (const auto choice = choose(comparison, rung_with(rung, settings, cases))) chosen.push_back(*choice);
+        for (const auto& [rung, settings] : rungs) {
+            std::vector<const CaseRows*> training;
+            for (const CaseRows& rows : cases)
+                if (!rows.empty() && rows.front().half == Half::training &&
+                    std::ranges::any_of(rows, [&](const PointRow& row) { return rung_of(row.key) == rung; }))
+                    training.push_back(&rows);
+            if (const auto choice = choose(comparison, settings, training)) chosen.push_back(*choice);
+        }
     }
     return chosen;
 }

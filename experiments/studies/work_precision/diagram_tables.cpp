@@ -1,4 +1,4 @@
-#include "experiments/studies/work_precision/diagram_tables.hpp"
+#include "experiments/studies/work_precision/diagram.hpp"
 
 #include "experiments/studies/shared/posed_character.hpp"
 
@@ -11,6 +11,9 @@ namespace {
 
 using analysis::Columns;
 using analysis::within;
+
+constexpr int ranks_of_a_pose = 3;
+constexpr double budgets_ms[] = {0.1, 1.0, 3.0, 10.0, 100.0}, profile_tolerances_pct[] = {10.0, 5.0, 2.0};
 
 const char* const comparison_meaning = "packed_f32 or plain_f64";
 const char* const decision_meaning = "decided, reference_error (a reference does not decide) or models_disagree";
@@ -274,21 +277,42 @@ std::vector<const PointRow*> points_of(const CaseRows& rows, const std::string& 
     return points;
 }
 
-// Returns the omissions of one deformer in one case. `points` are its points that take part in the comparison.
-std::vector<Omission> omissions_in(const std::vector<const PointRow*>& points, const PointRow* reference, const Omission& blank)
+// The deformers of any case, in the order of the records.
+std::vector<std::string> deformers_of(const std::vector<CaseRows>& cases)
 {
+    std::vector<std::string> deformers;
+    for (const CaseRows& rows : cases)
+        for (const PointRow& row : rows)
+            if (!row.is_of_reference() && std::ranges::find(deformers, row.key.deformer) == deformers.end())
+                deformers.push_back(row.key.deformer);
+    return deformers;
+}
+
+// The omissions in some of the cases, added up by deformer and reason, under the name of the case or of the mean.
+std::vector<Omission> omissions_in(const std::vector<const CaseRows*>& some, Comparison comparison, const std::string& name,
+                                   const std::vector<CaseRows>& all)
+{
+    const BestCodes best = best_codes(all);
+    const std::vector<std::string> deformers = deformers_of(all);
     std::vector<Omission> omissions;
-    for (const PointRow* row : points) {
-        const std::string why = why_missing(*row, reference && reference->outcome == "reference");
-        if (why.empty()) continue;
-        auto found = std::ranges::find(omissions, why, &Omission::why);
+    const auto add = [&](const std::string& deformer, const std::string& why, int missing, const std::string& reason) {
+        auto found = std::ranges::find_if(omissions, [&](const Omission& one) { return one.deformer == deformer && one.why == why; });
         if (found == omissions.end()) {
-            found = omissions.insert(omissions.end(), blank);
-            found->why = why;
-            found->reason = why == "no_reference" && reference ? reference->reason : row->reason;
+            found = omissions.insert(omissions.end(), {comparison, name, deformer, why, 0, 0, reason});
+            for (const CaseRows* rows : some) found->points += static_cast<int>(points_of(*rows, deformer, comparison, best).size());
         }
-        ++found->missing;
-        found->points = static_cast<int>(points.size());
+        found->missing += missing;
+    };
+    for (const CaseRows* rows : some) {
+        const PointRow* reference = reference_in(*rows);
+        for (const std::string& deformer : deformers) {
+            const std::vector<const PointRow*> points = points_of(*rows, deformer, comparison, best);
+            const bool is_run = std::ranges::any_of(*rows, [&](const PointRow& row) { return row.key.deformer == deformer; });
+            if (points.empty()) add(deformer, is_run ? "no_such_code" : "not_run", 0, "");
+            for (const PointRow* row : points)
+                if (const std::string why = why_missing(*row, reference && reference->outcome == "reference"); !why.empty())
+                    add(deformer, why, 1, why == "no_reference" && reference ? reference->reason : row->reason);
+        }
     }
     return omissions;
 }
@@ -306,62 +330,24 @@ const analysis::Columns<Omission> omission_columns = {
 
 std::vector<Omission> omissions_of(const std::vector<CaseRows>& cases)
 {
-    const BestCodes best = best_codes(cases);
-    std::vector<std::string> deformers;  // of any case, in the order of the records
-    for (const CaseRows& rows : cases)
-        for (const PointRow& row : rows)
-            if (!row.is_of_reference() && std::ranges::find(deformers, row.key.deformer) == deformers.end())
-                deformers.push_back(row.key.deformer);
     std::vector<Omission> omissions;
     for (const Comparison comparison : comparisons)
-        for (const CaseRows& rows : cases) {
-            if (rows.empty()) continue;
-            const PointRow* reference = reference_in(rows);
-            for (const std::string& deformer : deformers) {
-                const std::vector<const PointRow*> points = points_of(rows, deformer, comparison, best);
-                Omission blank{comparison, case_name(rows.front().of), deformer};
-                if (points.empty()) {
-                    const bool is_run = std::ranges::any_of(rows, [&](const PointRow& row) { return row.key.deformer == deformer; });
-                    blank.why = is_run ? "no_such_code" : "not_run";
-                    omissions.push_back(blank);
-                    continue;
-                }
-                for (const Omission& omission : omissions_in(points, reference, blank)) omissions.push_back(omission);
-            }
-        }
+        for (const CaseRows& rows : cases)
+            if (!rows.empty())
+                std::ranges::move(omissions_in({&rows}, comparison, case_name(rows.front().of), cases), std::back_inserter(omissions));
     return omissions;
 }
 
 std::vector<Omission> omissions_of_means(const std::vector<CaseRows>& cases, const std::vector<Diagram>& diagrams)
 {
-    const BestCodes best = best_codes(cases);
-    const std::vector<Omission> of_cases = omissions_of(cases);
-    std::vector<Omission> all;
+    std::vector<Omission> omissions;
     for (const Diagram& mean : diagrams) {
-        const auto is_of_mean = [&](const std::string& of) { return std::ranges::find(mean.cases, of) != mean.cases.end(); };
-        const auto points_in_all = [&](const std::string& deformer) {
-            std::size_t points = 0;
-            for (const CaseRows& rows : cases)
-                if (!rows.empty() && is_of_mean(case_name(rows.front().of)))
-                    points += points_of(rows, deformer, mean.comparison, best).size();
-            return static_cast<int>(points);
-        };
-        std::vector<Omission> of_mean;
-        for (const Omission& one : of_cases) {
-            if (one.comparison != mean.comparison || !is_of_mean(one.of)) continue;
-            const auto same = std::ranges::find_if(
-                of_mean, [&](const Omission& other) { return other.deformer == one.deformer && other.why == one.why; });
-            if (same != of_mean.end()) {
-                same->missing += one.missing;
-                continue;
-            }
-            of_mean.push_back(one);
-            of_mean.back().of = mean.key;
-            of_mean.back().points = points_in_all(one.deformer);
-        }
-        all.insert(all.end(), of_mean.begin(), of_mean.end());
+        std::vector<const CaseRows*> poses;
+        for (const CaseRows& rows : cases)
+            if (!rows.empty() && std::ranges::find(mean.cases, case_name(rows.front().of)) != mean.cases.end()) poses.push_back(&rows);
+        std::ranges::move(omissions_in(poses, mean.comparison, mean.key, cases), std::back_inserter(omissions));
     }
-    return all;
+    return omissions;
 }
 
 }  // namespace experiments

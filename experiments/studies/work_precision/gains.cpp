@@ -23,6 +23,7 @@ using Curve = std::vector<PointRow>;                             // one setting 
 using CurveKey = std::tuple<CaseKey, std::string, std::string>;  // pose, change, setting
 
 constexpr double not_known = std::numeric_limits<double>::infinity();
+constexpr int fewest_poses = 4;
 
 // A row without a time is one whose frames are not finite: it takes longer than any budget.
 double ms_of(const PointRow& point)

@@ -8,7 +8,7 @@
 // on which it was chosen. How much the reference's own error may change a gain: analysis/verdicts/pair_order.hpp.
 #pragma once
 
-#include "experiments/studies/work_precision/point_row.hpp"
+#include "experiments/studies/work_precision/measured_points.hpp"
 
 #include <optional>
 #include <string>
@@ -38,14 +38,18 @@ extern const analysis::Columns<EqualTimeRow> equal_time_columns;
 // points: of all poses, in which at least one setting of every change is finite. A change without a value at the budget has no row.
 std::vector<EqualTimeRow> at_equal_time(const std::vector<PointRow>& points);
 
-inline constexpr int fewest_poses = 4;  // with fewer ones the interval of the bootstrap is not reliable
-
 enum class GainDecision {
     decided,          // the interval over the poses excludes zero, and the reference's own error cannot reverse the mean
-    few_poses,        // fewer than fewest_poses
+    few_poses,        // fewer than four, with which the interval of the bootstrap is not reliable
     poses_disagree,   // the interval over the poses includes zero
     reference_error,  // the mean is within the reference's own error, or that is not known
 };
+
+template <>
+inline constexpr NameTable<GainDecision, 4> option_names<GainDecision>{{{GainDecision::decided, "decided"},
+                                                                        {GainDecision::few_poses, "few_poses"},
+                                                                        {GainDecision::poses_disagree, "poses_disagree"},
+                                                                        {GainDecision::reference_error, "reference_error"}}};
 
 // The mean over the poses of the difference between two errors: that of `than` less that of `change`.
 struct GainRow {
@@ -79,12 +83,3 @@ extern const analysis::Columns<CurveRow> curve_columns;
 std::vector<CurveRow> mean_curves(const std::vector<PointRow>& points, const std::vector<EqualTimeRow>& rows);
 
 }  // namespace experiments
-
-template <>
-struct analysis::EnumNames<experiments::GainDecision> {
-    static constexpr std::array<std::pair<experiments::GainDecision, const char*>, 4> table{
-        {{experiments::GainDecision::decided, "decided"},
-         {experiments::GainDecision::few_poses, "few_poses"},
-         {experiments::GainDecision::poses_disagree, "poses_disagree"},
-         {experiments::GainDecision::reference_error, "reference_error"}}};
-};

@@ -5,7 +5,6 @@
 #include "experiments/process/terminal.hpp"
 #include "experiments/scene/scene.hpp"
 #include "experiments/settings/recorded_settings.hpp"
-#include "experiments/studies/work_precision/posed_deformer.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/topology.hpp"
 #include "pbs/solver/constraint_set.hpp"
@@ -30,6 +29,14 @@ RECORD_SETTINGS_AND(WorkPrecisionCase,
 
 namespace {
 
+// A setting's shape in the case's pose.
+struct ReachedPoint {
+    const Setting* setting = nullptr;
+    const BodyMesh* mesh = nullptr;
+    Shape shape;             // on its own mesh
+    pbs::Positions on_base;  // on the case's own vertices
+};
+
 PointRow row_on(const Setting& setting, const BodyMesh& mesh)
 {
     PointRow row{.key = key_of(setting)};
@@ -39,25 +46,7 @@ PointRow row_on(const Setting& setting, const BodyMesh& mesh)
     return row;
 }
 
-}  // namespace
-
-FrameTime frame_time(std::vector<double> samples)
-{
-    FrameTime time;
-    time.failed_rounds = static_cast<int>(std::erase_if(samples, [](double ms) { return std::isnan(ms); }));
-    if (!samples.empty()) time.ms = spread_of(samples);
-    return time;
-}
-
-void add_time(PointRow& row, const FrameTime& time)
-{
-    row.failed_rounds = time.failed_rounds;
-    if (!time.ms) return;
-    row.rounds = time.ms->rounds;
-    row.ms_median = time.ms->median;
-    if (time.ms->rounds >= fewest_for_quartiles) row.ms_q1 = time.ms->lower, row.ms_q3 = time.ms->upper;
-}
-
+// States the reference, and whether the error, if there is one, is below its bound.
 void add_reference(PointRow& row, const PosedReference& reference)
 {
     row.masked_share_pct = reference.masked_share_pct();
@@ -80,6 +69,8 @@ PointRow row_without_answer(const Setting& setting, const BodyMesh& mesh, const 
     return row;
 }
 
+// The rows of points.csv: of a setting that reached the pose, of one without an answer (outcome is over_time_limit or not_applicable), and
+// of the reference itself (outcome is reference, or not_reached).
 PointRow point_row(const ReachedPoint& point)
 {
     PointRow row = row_on(*point.setting, *point.mesh);
@@ -103,8 +94,6 @@ PointRow reference_row(const pbs::TetMesh& mesh, const PosedReference& reference
     add_reference(row, reference);
     return row;
 }
-
-namespace {
 
 // The bound of the error of a reference's own solution with quadratic elements on the case's own tets: its distance from the finest
 // solution and the bound of that one. Nothing where there is no bound.
@@ -218,8 +207,8 @@ public:
             }
             reach(setting);
         }
-        const std::vector<FrameTime> times = time_all();
-        for (std::size_t i = 0; i < points_.size(); ++i) add_row(points_[i], deformers_[i], times[i]);
+        const std::vector<std::vector<double>> samples_ms = time_all();
+        for (std::size_t i = 0; i < points_.size(); ++i) add_row(points_[i], deformers_[i], samples_ms[i]);
         add_row_of_case(reference_row(base_->mesh, references_->first()));
         measured_.members = references_->member_rows();
         return measured_;
@@ -274,13 +263,13 @@ private:
     // A program computes its turns ahead, so that other deformers do not disturb them. take_turns adds one that warms up.
     Rounds rounds_of_own_clock() const { return {.seconds = 0.0, .fewest = of_.rounds.fewest, .most = of_.rounds.fewest}; }
 
-    // The times of those that reached the pose. The nonlinear laws take turns among themselves, and so do the others.
-    std::vector<FrameTime> time_all()
+    // The times of the rounds [ms] of those that reached the pose. The nonlinear laws take turns among themselves, and so do the others.
+    std::vector<std::vector<double>> time_all()
     {
-        std::vector<FrameTime> times(points_.size());
+        std::vector<std::vector<double>> times(points_.size());
         for (std::size_t i = 0; i < points_.size(); ++i)
             if (points_[i].shape.finished && deformers_[i].has_own_clock())
-                times[i] = frame_time(take_turns({[this, i] { return deformers_[i].turn(); }}, rounds_of_own_clock())[0][0]);
+                times[i] = take_turns({[this, i] { return deformers_[i].turn(); }}, rounds_of_own_clock())[0][0];
         for (const bool newton : {false, true}) {
             std::vector<std::size_t> which;
             std::vector<TimedVariant> turns;
@@ -293,17 +282,17 @@ private:
                 });
             }
             const auto samples = take_turns(turns, newton ? of_.newton_rounds : of_.rounds);
-            for (std::size_t k = 0; k < which.size(); ++k) times[which[k]] = frame_time(samples[k][0]);
+            for (std::size_t k = 0; k < which.size(); ++k) times[which[k]] = samples[k][0];
         }
         return times;
     }
 
-    void add_row(const ReachedPoint& point, const PosedDeformer& deformer, const FrameTime& time)
+    void add_row(const ReachedPoint& point, const PosedDeformer& deformer, const std::vector<double>& samples_ms)
     {
         PointRow row = point_row(point);
-        add_time(row, time);
+        add_time(row, samples_ms);
         if (!row.is_external) row.work = deformer.work();  // such a deformer counts nothing
-        if (time.ms) row.clock = deformer.clock();
+        if (row.ms_median) row.clock = deformer.clock();
         if (point.shape.finished) references_->add_errors(row, point.on_base);
         const ReachedPoint* limit = limit_of_deformers();
         if (point.shape.finished && point.setting->on_own_mesh() && limit)
@@ -381,6 +370,17 @@ private:
 };
 
 }  // namespace
+
+void add_time(PointRow& row, std::vector<double> samples)
+{
+    constexpr int fewest_for_quartiles = 3;  // rounds
+    row.failed_rounds = static_cast<int>(std::erase_if(samples, [](double ms) { return std::isnan(ms); }));
+    if (samples.empty()) return;
+    const Spread ms = spread_of(samples);
+    row.rounds = ms.rounds;
+    row.ms_median = ms.median;
+    if (ms.rounds >= fewest_for_quartiles) row.ms_q1 = ms.lower, row.ms_q3 = ms.upper;
+}
 
 double neutral_length(double k, const std::vector<double>& edge_lengths_m)
 {

@@ -1,22 +1,14 @@
 // Error against run time: which deformer is nearest to the reference for the time that a frame may take, and which single change improves
-// PBS most in equal time.
-//
-//   limb twist  90 and 150 deg                      o=======o~~~~~~~o)   (settings are chosen on the first of each pair,
-//   limb bend   60 deg (--full: and 90)             o=======o             and shown on the second)
-//   human       crouch (--full: standing, crouch, in the air, landing and the poses at 1/5 to 4/5 of 01_01; crouch and in the air also on
-//               tets cut into eight; and the crouch of every other installed body)
+// PBS most in equal time. README.md describes the poses, the rules of the comparison and the records.
 //
 //   pbskin reproduce work_precision                          minutes
 //   pbskin reproduce work_precision --full                   two and a half hours
 //   pbskin reproduce work_precision --external mine.toml     with deformers of your own
-//
-// Writes DIR/work_precision/CASE/{points,members,changes}.csv and, over all cases, points.csv, settings.csv, fronts.csv, crossings.csv,
-// best_within.csv, data_profiles.csv, omissions.csv; of the changes to PBS equal_time.csv, gains.csv and curves.csv.
 #include "experiments/studies/study.hpp"
 
 #include "analysis/records/record_files.hpp"
 #include "analysis/records/report_table.hpp"
-#include "experiments/studies/work_precision/diagram_tables.hpp"
+#include "experiments/studies/work_precision/diagram.hpp"
 #include "experiments/studies/work_precision/gains.hpp"
 #include "experiments/studies/work_precision/measured_points.hpp"
 

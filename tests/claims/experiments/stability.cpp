@@ -2,7 +2,6 @@
 
 #include "analysis/verdicts/measurement.hpp"
 #include "experiments/deformers/registry.hpp"
-#include "experiments/studies/stability/cell_table.hpp"
 #include "experiments/studies/stability/stability_cells.hpp"
 #include "pbs/solver/options.hpp"
 #include "tests/support/broken_solver.hpp"

@@ -56,9 +56,12 @@ protected:
     pbs::Pose pose;
 };
 
-TEST_F(JointSectionsOfLimb, AreWholeAtRest)
+TEST_F(JointSectionsOfLimb, AreWholeAtRestAndHaveNoSizeWhereTheSkinIsGone)
 {
-    const auto profile = sections.measure(limb.mesh.rest, pbs::Pose(2, Eigen::Isometry3d::Identity()));
+    const pbs::Pose still(2, Eigen::Isometry3d::Identity());
+    const pbs::Positions away = limb.mesh.rest.rowwise() + Eigen::RowVector3d(10.0, 0.0, 0.0);
+    for (const auto& section : sections.measure(away, still)) EXPECT_EQ(section.area, 0.0);
+    const auto profile = sections.measure(limb.mesh.rest, still);
     const double whole = rounding(limb.mesh.rest, 0, 1.15);
     ASSERT_EQ(profile.size(), 21u);
     for (const auto& section : profile) {
@@ -71,21 +74,13 @@ TEST_F(JointSectionsOfLimb, AreWholeAtRest)
 
 TEST_F(JointSectionsOfLimb, AreaOfTheCandyWrapperIsTheSquaredCosineOfHalfTheTwist)
 {
-    for (const double angle_deg : {30.0, 90.0, 150.0}) {
+    for (const double angle_deg : {30.0, 90.0, 150.0, 180.0}) {  // half a turn leaves nothing
         const double half = 0.5 * angle_deg * std::numbers::pi / 180.0;
         const pbs::Positions twisted = lbs(pbs::Vec3::UnitX(), angle_deg);
         const auto extremes = extremes_of(sections.measure(twisted, pose));
         EXPECT_NEAR(extremes.smallest_area, std::cos(half) * std::cos(half), rounding(twisted, 2, 1.15)) << angle_deg;
         EXPECT_LE(extremes.smallest_radius, std::cos(half) + rounding(twisted, 2, 1.15)) << angle_deg;
     }
-}
-
-TEST_F(JointSectionsOfLimb, HalfATurnLeavesNothing)
-{
-    const pbs::Positions twisted = lbs(pbs::Vec3::UnitX(), 180.0);
-    const auto extremes = extremes_of(sections.measure(twisted, pose));
-    EXPECT_LE(extremes.smallest_area, rounding(twisted, 2, 1.15));
-    EXPECT_LE(extremes.smallest_radius, rounding(twisted, 2, 1.15));
 }
 
 TEST_F(JointSectionsOfLimb, MoveWithTheWholeBody)
@@ -112,13 +107,6 @@ TEST_F(JointSectionsOfLimb, BendIsTheAngleBetweenTheBonesAndTwistIsNone)
     EXPECT_NEAR(sections.bend_deg(pose), 0.0, rounding_deg);
 }
 
-TEST_F(JointSectionsOfLimb, SkinThatIsGoneHasNoSize)
-{
-    const pbs::Positions away = limb.mesh.rest.rowwise() + Eigen::RowVector3d(10.0, 0.0, 0.0);
-    const auto profile = sections.measure(away, pbs::Pose(2, Eigen::Isometry3d::Identity()));
-    for (const auto& section : profile) EXPECT_EQ(section.area, 0.0);
-}
-
 // Reference: the built-in limb's skeleton, (-1,0,0) -> 0 -> (1,0,0), and a bent one drawn by hand; for joints by hand, the limb with
 // Frankie's names and, where he is installed, his skin. The limb's bones lie along an axis and are a metre long, so that nothing of them is
 // rounded; nor is a vector along an axis when it is divided by its length.
@@ -126,7 +114,7 @@ TEST_F(JointSectionsOfLimb, SkinThatIsGoneHasNoSize)
 using pbs::Vec3;
 using test_support::on_skin_m;
 
-TEST(LimbJoints, LimbHasOneInItsMiddle)
+TEST(LimbJoints, LimbHasOneInItsMiddleThatIsNearAThirdOfEachBone)
 {
     const pbs::Character limb = pbs::make_character({.body = "limb", .vertices = 600});
     const auto joints = experiments::limb_joints(limb);
@@ -137,33 +125,22 @@ TEST(LimbJoints, LimbHasOneInItsMiddle)
     EXPECT_NEAR(joints[0].radius_m, 0.15, on_skin_m);  // the vertices of the caps have the same distance from the bones' ends
     EXPECT_EQ(experiments::twist_axis(limb.skeleton, joints[0]), Vec3(Vec3::UnitX()));
     EXPECT_EQ(experiments::hinge_axis(limb.skeleton, joints[0]), Vec3(Vec3::UnitZ()));
-}
-
-TEST(LimbJoints, HingeBendsOnTheWayThatTheJointIsBent)
-{
-    pbs::Skeleton skeleton;
-    skeleton.bones = {{"upper", -1, {-1, 0, 0}, {0, 0, 0}}, {"forearm", 0, {0, 0, 0}, {1, 0.2, 0}}};
-    const experiments::LimbJoint joint{"upper|forearm", 0, 1, Vec3::Zero(), 0.1, 0.5, 0.5};
-    EXPECT_EQ(experiments::hinge_axis(skeleton, joint), Vec3(Vec3::UnitZ()));
-    skeleton.bones[1].tail.y() = -0.2;
-    EXPECT_EQ(experiments::hinge_axis(skeleton, joint), Vec3(-Vec3::UnitZ()));
-}
-
-TEST(LimbJoints, HingeOfAStraightLimbAlongZIsStillAcrossIt)
-{
-    pbs::Skeleton skeleton;
-    skeleton.bones = {{"upper", -1, {0, 0, -1}, {0, 0, 0}}, {"forearm", 0, {0, 0, 0}, {0, 0, 1}}};
-    const Vec3 axis = experiments::hinge_axis(skeleton, {"upper|forearm", 0, 1, Vec3::Zero(), 0.1, 0.5, 0.5});
-    EXPECT_EQ(axis.norm(), 1.0);
-    EXPECT_EQ(axis.z(), 0.0);
-}
-
-TEST(LimbJoints, NearIsWithinAThirdOfEachBone)
-{
-    const pbs::Character limb = pbs::make_character({.body = "limb", .vertices = 600});
-    const auto near = experiments::near_joint(limb, experiments::limb_joints(limb)[0]);
+    const auto near = experiments::near_joint(limb, joints[0]);
     for (Eigen::Index v = 0; v < limb.mesh.rest.rows(); ++v)
         EXPECT_EQ(near[v], std::abs(limb.mesh.rest(v, 0)) <= 1.0 / 3.0) << limb.mesh.rest.row(v);
+}
+
+TEST(LimbJoints, HingeBendsOnTheWayThatTheJointIsBentAndIsAcrossAStraightLimb)
+{
+    const auto hinge = [](const Vec3& head, const Vec3& tail) {
+        const pbs::Skeleton skeleton{{{"upper", -1, head, {0, 0, 0}}, {"forearm", 0, {0, 0, 0}, tail}}};
+        return experiments::hinge_axis(skeleton, {"upper|forearm", 0, 1, Vec3::Zero(), 0.1, 0.5, 0.5});
+    };
+    EXPECT_EQ(hinge({-1, 0, 0}, {1, 0.2, 0}), Vec3(Vec3::UnitZ()));
+    EXPECT_EQ(hinge({-1, 0, 0}, {1, -0.2, 0}), Vec3(-Vec3::UnitZ()));
+    const Vec3 along_z = hinge({0, 0, -1}, {0, 0, 1});
+    EXPECT_EQ(along_z.norm(), 1.0);
+    EXPECT_EQ(along_z.z(), 0.0);
 }
 
 pbs::Character limb_as_frankie(const std::string& parent, const std::string& child)
@@ -190,23 +167,12 @@ TEST(JointsByHand, HaveTheirOwnReachAndTheRadiusOfTheirSection)
     EXPECT_EQ(joints[0].reach_child_m, 0.5);
 }
 
-TEST(JointsByHand, OneWithoutSectionOrWithoutItsBonesIsNone)
+TEST(JointsByHand, OneWithoutSectionBonesOrFleshIsLeftOutWithItsReason)
 {
     EXPECT_TRUE(experiments::limb_joints(limb_as_frankie("thigh.L", "shin.L")).empty());
     EXPECT_TRUE(experiments::limb_joints(limb_as_frankie("upper", "forearm")).empty());
-}
-
-TEST(JointsByHand, OneOutsideTheSkinIsNone)
-{
     pbs::Character limb = limb_as_frankie("tail_1", "tail_2");
-    ASSERT_EQ(experiments::limb_joints(limb).size(), 1u);
-    limb.mesh.rest.col(0).array() += 10.0;
-    EXPECT_TRUE(experiments::limb_joints(limb).empty());
-}
-
-TEST(JointsByHand, WhatIsLeftOutHasItsReason)
-{
-    pbs::Character limb = limb_as_frankie("tail_1", "tail_2");
+    EXPECT_EQ(experiments::limb_joints(limb).size(), 1u);
     const auto why = [&](const std::string& child) {
         for (const auto& joint : experiments::joints_by_hand("frankie"))
             if (joint.child == child) return experiments::why_left_out(limb, joint);
@@ -218,6 +184,7 @@ TEST(JointsByHand, WhatIsLeftOutHasItsReason)
     EXPECT_EQ(why("shin.L"), "leg_drawn_into_the_belly");
     limb.mesh.rest.col(0).array() += 10.0;
     EXPECT_EQ(why("tail_2"), "no_flesh_round_the_joint");
+    EXPECT_TRUE(experiments::limb_joints(limb).empty());
 }
 
 TEST(JointsByHand, OtherBodiesFollowTheRule)

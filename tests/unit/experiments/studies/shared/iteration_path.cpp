@@ -159,18 +159,14 @@ TEST(ReachedResidual, IsTheIterationFromWhichOnItStaysWithinFivePerCentOfTheFloo
     }
 }
 
-TEST(FloorOf, LeavesOutWhatBrokeDown)
+TEST(FloorOf, LeavesOutWhatBrokeDownAndVolumeIsWithinThePapersHalfPerCent)
 {
+    EXPECT_EQ(reached_volume(path_by(50, [](int n) { return n < 7 ? 0.51 : 0.5; })).iterations, 7);
+    EXPECT_FALSE(reached_volume(path_by(50, [](int) { return 0.51; })).within);
     IterationPath broken = path_by(3, [](int) { return 0.1; });
     broken.finite = false;
     EXPECT_EQ(floor_of({broken, path_by(3, [](int) { return 0.4; })}), 0.4);
     EXPECT_TRUE(std::isnan(floor_of({broken})));
-}
-
-TEST(ReachedVolume, IsThePapersHalfPerCent)
-{
-    EXPECT_EQ(reached_volume(path_by(50, [](int n) { return n < 7 ? 0.51 : 0.5; })).iterations, 7);
-    EXPECT_FALSE(reached_volume(path_by(50, [](int) { return 0.51; })).within);
 }
 
 // The rounding error of the slope of log(above rate^n) against n = 1, 2, ..., iterations. The numbers 1 + above rate^n are rounded once,
@@ -197,28 +193,21 @@ TEST(RateOf, IsThatOfTheFormula)
     EXPECT_EQ(*rate.stalls_at, 29);
 }
 
+// Of rounding there is no rate.
 TEST(RateOf, OfAResidualThatStillFallsIsTakenFromTheFloorOfOthers)
 {
+    EXPECT_TRUE(std::isnan(rate_of(path_by(100, [](int n) { return n % 2 == 0 ? 3e-7 : 6e-7; }), 3e-7).rate.estimate));
     const Rate rate = rate_of(path_to_floor(400, 1.0, 10.0, 0.995), 1.0);
     EXPECT_FALSE(rate.stalls_at.has_value());
     EXPECT_NEAR(rate.rate.estimate, 0.995, 0.995 * log_rate_error(400, 10.0, 0.995) + test_support::rounding_error(2, 0.995));
 }
 
-TEST(RateOf, RoundingHasNone)
-{
-    EXPECT_TRUE(std::isnan(rate_of(path_by(100, [](int n) { return n % 2 == 0 ? 3e-7 : 6e-7; }), 3e-7).rate.estimate));
-}
-
-TEST(LookAt, IsTheLastOneNotAfterIt)
+TEST(LookAt, IsTheLastOneNotAfterItAndTheNearestToTheReferenceNeedNotBeTheLast)
 {
     IterationPath path = path_by(10, [](int n) { return 1.0 + n; });
     path.looks.erase(path.looks.begin() + 5);
     EXPECT_EQ(look_at(path, 5).iteration, 4);
     EXPECT_EQ(look_at(path, 100).iteration, 10);
-}
-
-TEST(NearestToReference, NeedNotBeTheLast)
-{
     EXPECT_EQ(nearest_to_reference(path_by(100, [](int n) { return 1.0 + std::abs(n - 13); })).iteration, 13);
 }
 
@@ -246,59 +235,49 @@ std::vector<int> numbers_of(const std::vector<Constraint>& constraints, Rest Con
     return numbers;
 }
 
+struct Numbers {
+    std::vector<int> edges, tets;
+    bool operator==(const Numbers&) const = default;
+};
+
 template <typename Scalar>
-std::vector<int> edge_numbers(const pbs::ConstraintSet<Scalar>& constraints)
+Numbers numbers_in(const pbs::ConstraintSet<Scalar>& constraints)
 {
-    return numbers_of(constraints.stretch, &pbs::StretchConstraint<Scalar>::rest_length);
+    return {numbers_of(constraints.stretch, &pbs::StretchConstraint<Scalar>::rest_length),
+            numbers_of(constraints.volume, &pbs::VolumeConstraint<Scalar>::rest_volume)};
 }
 
 template <typename Scalar>
-std::vector<int> tet_numbers(const pbs::ConstraintSet<Scalar>& constraints)
+Numbers randomly_numbered(int edges, int tets, unsigned seed)
 {
-    return numbers_of(constraints.volume, &pbs::VolumeConstraint<Scalar>::rest_volume);
+    auto constraints = numbered<Scalar>(edges, tets);
+    experiments::in_random_sequence(constraints, seed);
+    return numbers_in(constraints);
 }
 
 TEST(ConstraintSequence, SpreadTakesEightPartsInTurn)
 {
-    auto constraints = numbered<double>(20, 4);
+    auto constraints = numbered<double>(20, 4), none = numbered<double>(0, 0);
     experiments::in_spread_sequence(constraints);  // parts of three
-    EXPECT_EQ(edge_numbers(constraints), (std::vector<int>{0, 3, 6, 9, 12, 15, 18, 1, 4, 7, 10, 13, 16, 19, 2, 5, 8, 11, 14, 17}));
-    EXPECT_EQ(tet_numbers(constraints), (std::vector<int>{0, 1, 2, 3}));
+    EXPECT_EQ(numbers_in(constraints).edges, (std::vector<int>{0, 3, 6, 9, 12, 15, 18, 1, 4, 7, 10, 13, 16, 19, 2, 5, 8, 11, 14, 17}));
+    EXPECT_EQ(numbers_in(constraints).tets, (std::vector<int>{0, 1, 2, 3}));
+    experiments::in_spread_sequence(none);
+    EXPECT_EQ(numbers_in(none), Numbers());
 }
 
-TEST(ConstraintSequence, RandomIsAPermutation)
+TEST(ConstraintSequence, RandomIsAPermutationThatDependsOnTheSeedAlone)
 {
-    auto constraints = numbered<double>(1000, 500);
-    experiments::in_random_sequence(constraints, 1);
-    std::vector<int> edges = edge_numbers(constraints), tets = tet_numbers(constraints);
-    EXPECT_FALSE(std::is_sorted(edges.begin(), edges.end()));
-    std::sort(edges.begin(), edges.end());
-    std::sort(tets.begin(), tets.end());
-    EXPECT_EQ(edges, edge_numbers(numbered<double>(1000, 500)));
-    EXPECT_EQ(tets, tet_numbers(numbered<double>(1000, 500)));
-}
-
-TEST(ConstraintSequence, RandomDependsOnTheSeedAlone)
-{
-    auto one = numbered<double>(100, 100), other = one, another_seed = one;
-    auto in_float = numbered<float>(100, 100);
-    experiments::in_random_sequence(one, 7);
-    experiments::in_random_sequence(other, 7);
-    experiments::in_random_sequence(another_seed, 8);
-    experiments::in_random_sequence(in_float, 7);
-    EXPECT_EQ(edge_numbers(one), edge_numbers(other));
-    EXPECT_EQ(edge_numbers(one), edge_numbers(in_float));
-    EXPECT_EQ(tet_numbers(one), tet_numbers(in_float));
-    EXPECT_NE(edge_numbers(one), edge_numbers(another_seed));
-}
-
-TEST(ConstraintSequence, NoConstraints)
-{
-    auto constraints = numbered<double>(0, 0);
-    experiments::in_spread_sequence(constraints);
-    experiments::in_random_sequence(constraints, 1);
-    EXPECT_TRUE(constraints.stretch.empty());
-    EXPECT_TRUE(constraints.volume.empty());
+    const Numbers random = randomly_numbered<double>(1000, 500, 7);
+    Numbers sorted = random;
+    for (std::vector<int>* numbers : {&sorted.edges, &sorted.tets}) {
+        EXPECT_FALSE(std::ranges::is_sorted(*numbers));
+        std::ranges::sort(*numbers);
+    }
+    EXPECT_EQ(sorted, numbers_in(numbered<double>(1000, 500)));
+    EXPECT_EQ(randomly_numbered<double>(1000, 500, 7), random);
+    EXPECT_EQ(randomly_numbered<float>(1000, 500, 7), random);
+    EXPECT_NE(randomly_numbered<double>(1000, 500, 8).edges, random.edges);
+    EXPECT_EQ(randomly_numbered<double>(0, 0, 7), Numbers());
 }
 
 }  // namespace

@@ -78,28 +78,23 @@ TEST(StiffnessRatios, LeavesOutWhatDidNotConvergeOrHangsUpwards)
     EXPECT_TRUE(stiffness_exponents(rows, Varied::iterations).empty());
 }
 
-TEST(StiffnessRatios, HalvesTheTimeStep)
+TEST(StiffnessRatios, OfHalfTheTimeStepAndOfMeshesThatAreNotQuiteTwiceEachOther)
 {
-    std::vector<StiffnessRow> rows;
+    std::vector<StiffnessRow> steps, meshes;
     for (const double step_ms : {20.0, 10.0, 5.0}) {
-        rows.push_back(row(24, 1.0 / (step_ms * step_ms)));
-        rows.back().setting.time_step_ms = step_ms;
+        steps.push_back(row(24, 1.0 / (step_ms * step_ms)));
+        steps.back().setting.time_step_ms = step_ms;
     }
-    const auto ratio = stiffness_ratios(rows, Varied::time_step).at(0);
+    const auto ratio = stiffness_ratios(steps, Varied::time_step).at(0);
     EXPECT_EQ(ratio.quantity, "stiffness_ratio_at_half_time_step");
     EXPECT_NEAR(ratio.value, 4.0, doubling_error(4.0, 2 * 2 + 1, 2 * 2 + 1));  // squares and quotients, quotients of milliseconds
     EXPECT_EQ(text_of(ratio.of), "limb, pbs, vertices 600, k_stretch 0.2, iterations 24, time_step 0.02 to 0.005 s, load zone");
-}
-
-TEST(StiffnessRatios, OfMeshesThatAreNotQuiteTwiceEachOther)
-{
-    std::vector<StiffnessRow> rows;
     for (const int vertices : {310, 590, 1205}) {
-        rows.push_back(row(24, 1.0 / vertices));
-        rows.back().vertices = vertices;
+        meshes.push_back(row(24, 1.0 / vertices));
+        meshes.back().vertices = vertices;
     }
-    const auto ratio = stiffness_ratios(rows, Varied::resolution).at(0);
-    for (const double value : {ratio.low, ratio.high}) EXPECT_NEAR(value, 0.5, doubling_error(0.5, 2 + 1, 1));
+    const auto of_meshes = stiffness_ratios(meshes, Varied::resolution).at(0);
+    for (const double value : {of_meshes.low, of_meshes.high}) EXPECT_NEAR(value, 0.5, doubling_error(0.5, 2 + 1, 1));
 }
 
 // All four run at the same settings, and none is mistaken for another.
@@ -126,11 +121,13 @@ TEST(StiffnessRatios, TellTheMethodsApart)
     EXPECT_EQ(text.find("xpbd_small_steps"), std::string::npos) << text;
 }
 
-// One stiffness grows by 4 per doubling, against bounds of 0.9 to 1.1; another one does not change.
-TEST(StiffnessReport, SaysWhetherTheControlIsOne)
+// One stiffness grows by 4 per doubling, against bounds of 0.9 to 1.1; another one does not change. Forgotten multipliers have a line and a
+// deformer of their own: their values count neither for the control nor for any claim.
+TEST(StiffnessReport, SaysWhetherTheControlIsOneAndTellsForgottenMultipliersApart)
 {
-    std::vector<StiffnessRow> rows = squares();
+    std::vector<StiffnessRow> rows = squares(), forgetting = rows;
     for (StiffnessRow& row : rows) row.setting.method = Method::xpbd;
+    for (StiffnessRow& row : forgetting) row.setting.method = Method::xpbd_forgetting;
     for (StiffnessRow steady : squares()) {
         steady.setting.method = Method::xpbd;
         steady.body = "human";
@@ -139,41 +136,16 @@ TEST(StiffnessReport, SaysWhetherTheControlIsOne)
         steady.setting.method = Method::pbs;
         rows.push_back(steady);  // is not a control
     }
-    analysis::Claim claim;
-    claim.low = 0.9;
-    claim.high = 1.1;
-    const std::string text = control_text({{Varied::iterations, rows}}, claim);
-    EXPECT_EQ(text, "the control, XPBD, at twice the iterations: 1 of 2 values lie within 0.9 to 1.1\n");
-    claim.high = 5.0;
-    EXPECT_NE(control_text({{Varied::iterations, rows}}, claim).find("2 of 2 values"), std::string::npos);
-}
-
-// It has a line and a deformer of its own: its values count neither for the control nor for any claim.
-TEST(StiffnessReport, TellsForgottenMultipliersApart)
-{
-    std::vector<StiffnessRow> rows = squares();
-    for (StiffnessRow& row : rows) row.setting.method = Method::xpbd_forgetting;
-    analysis::Claim claim;
-    claim.low = 0.9;
-    claim.high = 1.1;
-    EXPECT_EQ(control_text({{Varied::iterations, rows}}, claim)
-                  .find("the control, XPBD without its multipliers, at twice the iterations: 0 of 1 values"),
-              0u);
-    EXPECT_EQ(stiffness_ratios(rows, Varied::iterations).at(0).of.deformer, "xpbd_forgetting_multipliers");
-}
-
-TEST(StiffnessRow, ReadsBackWhatWasWritten)
-{
-    std::vector<StiffnessRow> rows = squares();
-    rows[0].mesh = "tenth_finer";
-    rows[1].setting.method = Method::xpbd_small_steps;
-    rows[1].setting.time_step_ms = 1.25;
-    const auto read = rows_of(stiffness_columns, table_of(stiffness_columns, rows));
-    ASSERT_EQ(read.size(), rows.size());
-    EXPECT_EQ(read[0].mesh, rows[0].mesh);
-    EXPECT_EQ(read[1].setting.method, Method::xpbd_small_steps);
-    EXPECT_EQ(read[1].setting.time_step_ms, 1.25);
-    EXPECT_EQ(read[2].stiffness_n_m, rows[2].stiffness_n_m);
+    const auto text = [](const std::vector<StiffnessRow>& rows, double high) {
+        analysis::Claim claim;
+        claim.low = 0.9;
+        claim.high = high;
+        return control_text({{Varied::iterations, rows}}, claim);
+    };
+    EXPECT_EQ(text(rows, 1.1), "the control, XPBD, at twice the iterations: 1 of 2 values lie within 0.9 to 1.1\n");
+    EXPECT_NE(text(rows, 5.0).find("2 of 2 values"), std::string::npos);
+    EXPECT_EQ(text(forgetting, 1.1).find("the control, XPBD without its multipliers, at twice the iterations: 0 of 1 values"), 0u);
+    EXPECT_EQ(stiffness_ratios(forgetting, Varied::iterations).at(0).of.deformer, "xpbd_forgetting_multipliers");
 }
 
 }  // namespace

@@ -75,10 +75,13 @@ TEST(ChosenSettings, HaveAnAnswerInEachTrainingPose)
     EXPECT_TRUE(choose_settings({one, none}).empty());
 }
 
+// Iterations are no setting.
 TEST(ChosenSettings, OfARungThatNoTrainingPoseHasAreTheDefault)
 {
-    SettingKey coarse = packed_pbs;
+    SettingKey coarse = packed_pbs, more = packed_pbs;
     coarse.wanted_vertices = 600;
+    more.iterations = 96;
+    EXPECT_EQ(choose_settings({hand_case({.pose = "one"}, {{packed_pbs, 1.0, 10.0}, {more, 4.0, 5.0}}, Half::training)}).size(), 2u);
     const CaseRows training = hand_case({.pose = "one"}, {{packed_pbs, 1.0, 10.0}, {tuned(packed_pbs, "a"), 1.0, 5.0}}, Half::training);
     const CaseRows shown = hand_case({.pose = "two"}, {{coarse, 1.0, 10.0}, {tuned(coarse, "a"), 1.0, 1.0}});
     const std::vector<ChosenSetting> chosen = choose_settings({training, shown});
@@ -86,14 +89,6 @@ TEST(ChosenSettings, OfARungThatNoTrainingPoseHasAreTheDefault)
     EXPECT_EQ(chosen[0].key, tuned(packed_pbs, "a"));
     EXPECT_EQ(chosen[1].key, coarse);
     EXPECT_EQ(chosen[1].training_poses, 0);
-}
-
-TEST(ChosenSettings, IterationsAreNoSetting)
-{
-    SettingKey more = packed_pbs;
-    more.iterations = 96;
-    const CaseRows training = hand_case({.pose = "one"}, {{packed_pbs, 1.0, 10.0}, {more, 4.0, 5.0}}, Half::training);
-    EXPECT_EQ(choose_settings({training}).size(), 2u);
 }
 
 TEST(Comparisons, HaveTheBestCodeOfEachDeformerOrItsPlainOne)
@@ -159,6 +154,10 @@ const Diagram& of_key(const std::vector<Diagram>& diagrams, const std::string& k
 
 TEST(Diagram, HoldsThePointsWithTimeAndErrorAndTheReferenceBeside)
 {
+    std::vector<HandPoint> unreached = seven_points(30.0);
+    for (HandPoint& row : unreached) row.error_pct.reset();
+    unreached.back().outcome = "not_reached";
+    EXPECT_TRUE(hand_diagrams({hand_case(bent_limb, unreached)}).front().points.empty());
     const Diagram read = test_support::diagram_of_seven(30.0);
     EXPECT_EQ(read.key, "limb_bend_90");
     EXPECT_EQ(read.points.size(), 7u);
@@ -238,15 +237,6 @@ TEST(Diagram, AMeanThrowsNoBodyOfManyPosesTogetherWithOthersOfOne)
     const Diagram &human = of_key(diagrams, "human_mean_of_3_poses"), &crouch = of_key(diagrams, "crouch_mean_of_3_bodies");
     EXPECT_NEAR(human.points[2].error_pct, 30.0, mean_error(3, 30.0));
     EXPECT_NEAR(crouch.points[2].error_pct, 50.0, mean_error(3, 50.0));
-}
-
-TEST(Diagram, WithoutAReferenceHasNoPoints)
-{
-    std::vector<HandPoint> unreached = seven_points(30.0);
-    for (HandPoint& row : unreached) row.error_pct.reset();
-    unreached.back().outcome = "not_reached";
-    const Diagram empty = hand_diagrams({hand_case(bent_limb, unreached)}).front();
-    EXPECT_TRUE(empty.points.empty());
 }
 
 // PBS has an error of 20 %; the reference's own error is at most 6 %.

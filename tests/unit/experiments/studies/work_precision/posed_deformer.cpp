@@ -1,9 +1,8 @@
 // A deformer of the user's own in a pose of a case. Reference: the shapes and times that its program writes.
-#include "experiments/studies/work_precision/posed_deformer.hpp"
+#include "experiments/studies/work_precision/measured_points.hpp"
 
 #include "experiments/deformers/external/external_deformers.hpp"
 #include "experiments/scene/scene.hpp"
-#include "experiments/studies/work_precision/measured_points.hpp"
 #include "pbs/geometry/files.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/unit/pbs/character/expect_input_error.hpp"
@@ -138,16 +137,11 @@ TEST_F(OwnDeformer, ThatIsNotFiniteBreaksDown)
     EXPECT_FALSE(mine.clock);
 }
 
-TEST_F(OwnDeformer, ThatFailsEndsTheRun)
-{
-    expect_input_error([&] { points_of("exit 3"); }, "mine.toml: mine.command = /bin/sh", "ended with status 3: expected status 0");
-}
-
-// A scene without [[fem]] has no reference, which is an error as soon as it is solved.
+// A failure ends the run. A scene without [[fem]] has no reference, which is an error as soon as it is solved.
 TEST_F(OwnDeformer, IsCalledBeforeTheReferenceIsSolved)
 {
     of.scene.deformers.clear();
-    expect_input_error([&] { points_of("exit 3"); }, "mine.toml: mine.command = /bin/sh", "ended with status 3");
+    expect_input_error([&] { points_of("exit 3"); }, "mine.toml: mine.command = /bin/sh", "ended with status 3: expected status 0");
     write_answers(false, true);
     expect_input_error([&] { points_of(copies_answers); }, "", "fem");
 }

@@ -1,6 +1,13 @@
-// Reference: the description in claim_changes.hpp, and how each claim's values are measured; the values are invented.
+// Reference: the description in readings.hpp, and how each claim's values are measured, with invented values; for scenes that move, the
+// solver, LBS and the metrics, called directly, and the claims' own rules.
 
-#include "experiments/studies/ambiguity/claim_changes.hpp"
+#include "experiments/studies/ambiguity/readings.hpp"
+
+#include "analysis/metrics/frame_metrics.hpp"
+#include "experiments/studies/shared/posed_character.hpp"
+#include "pbs/skinning/blend.hpp"
+#include "pbs/solver/pbs_solver.hpp"
+#include "tests/support/limb_character.hpp"
 
 #include <gtest/gtest.h>
 
@@ -26,17 +33,6 @@ JudgedValue value(double value, Extent extent, analysis::Limit limit = analysis:
 std::vector<ClaimChange> compared(const JudgedReading& a, const JudgedReading& b)
 {
     return experiments::claim_changes("limb", "C09", reading, a, b);
-}
-
-TEST(ClaimChanges, HoldBothValuesAndFlipWhereTheBoundJudgesThemOtherwise)
-{
-    const auto table = compared({{value(0.5, Extent::whole)}}, {{value(1.25, Extent::none, analysis::Limit::at_least)}});
-    ASSERT_EQ(table.size(), 1u);
-    EXPECT_EQ(table.at(0).place, "Eq. 2");
-    EXPECT_EQ(table.at(0).change, 0.75);
-    EXPECT_EQ(table.at(0).b_over_a, 2.5);
-    EXPECT_EQ(table.at(0).holds_a, "whole");
-    EXPECT_EQ(table.at(0).holds_b, "none");
 }
 
 // A value that B lacks because it breaks down does not hold.
@@ -87,20 +83,18 @@ TEST(ClaimChanges, OfAQuantityThatIsLeftOutHaveARowWithTheReason)
     EXPECT_FALSE(table.at(1).b.has_value());
 }
 
-TEST(ClaimChanges, OfAReadingThatCannotTouchTheClaimSayWhy)
+TEST(ClaimChanges, HoldBothValuesOfEachCase)
 {
-    const ClaimChange row = experiments::untouched_claim("limb", "C10", reading, "another factor is no more work");
-    EXPECT_EQ(row.verdict_flips, "not_touched");
-    EXPECT_EQ(row.reason, "another factor is no more work");
-}
-
-TEST(ClaimChanges, KeepCasesOfOneQuantityApart)
-{
-    JudgedValue a = value(0.5, Extent::whole), other = value(0.7, Extent::whole);
-    other.of = {.body = "human"};
-    const auto table = compared({{a, other}}, {{other, a}});
+    const JudgedValue limb_a = value(0.5, Extent::whole), limb_b = value(1.25, Extent::none);
+    JudgedValue human = value(0.7, Extent::whole);
+    human.of = {.body = "human"};
+    const auto table = compared({{limb_a, human}}, {{human, limb_b}});
     ASSERT_EQ(table.size(), 2u);
-    EXPECT_EQ(table.at(0).change, 0.0);
+    EXPECT_EQ(table.at(0).place, "Eq. 2");
+    EXPECT_EQ(table.at(0).change, 0.75);
+    EXPECT_EQ(table.at(0).b_over_a, 2.5);
+    EXPECT_EQ(table.at(0).holds_a, "whole");
+    EXPECT_EQ(table.at(0).holds_b, "none");
     EXPECT_EQ(table.at(1).change, 0.0);
 }
 
@@ -127,8 +121,9 @@ TEST(JudgedValue, KeepsABoundApartFromWhatItIsOf)
     EXPECT_EQ(values[0].limit, analysis::Limit::at_least);
 }
 
-TEST(JudgedValue, LeavesOutWhatIsNotMeasured)
+TEST(JudgedValue, LeavesOutWhatIsNotMeasuredAndRefusesAnUnknownClaim)
 {
+    EXPECT_THROW(experiments::claim_named("C99"), std::logic_error);
     const auto left_out = experiments::all_but("C12", {}, "why");
     ASSERT_EQ(left_out.size(), 1u);
     EXPECT_EQ(left_out[0].quantity, "iterations_to_tolerance");
@@ -154,11 +149,6 @@ TEST(DigestOfClaims, IsAnotherWithAnotherBoundAndTheSameWithOtherWords)
     EXPECT_NE(experiments::digest_of({claim, experiments::claim_named("C10")}), digest);
 }
 
-TEST(JudgedValue, OfAnUnknownClaimIsRefused)
-{
-    EXPECT_THROW(experiments::claim_named("C99"), std::logic_error);
-}
-
 // Reference: an invented measurement that counts its calls.
 
 std::vector<Reading> readings()
@@ -172,7 +162,7 @@ std::vector<Reading> readings()
 
 TEST(ReadingComparison, MeasuresWhatTouchesTheClaimAndItsBaselineOnce)
 {
-    experiments::ReadingComparison comparison("limb", readings());
+    experiments::ReadingComparison comparison{"limb", readings()};
     std::vector<std::string> measured;
     comparison.measure({"C10"}, [&](const std::vector<Reading>& touching) {
         std::vector<JudgedReading> values;
@@ -184,20 +174,21 @@ TEST(ReadingComparison, MeasuresWhatTouchesTheClaimAndItsBaselineOnce)
         return values;
     });
     EXPECT_EQ(measured, (std::vector<std::string>{"own", "lumped"}));
-    ASSERT_EQ(comparison.changes().size(), 2u);
-    EXPECT_EQ(comparison.changes()[0].b_over_a, 1.5);
-    EXPECT_EQ(comparison.changes()[1].verdict_flips, "not_touched");
-    EXPECT_TRUE(comparison.breakdown().empty());
+    ASSERT_EQ(comparison.changes.size(), 2u);
+    EXPECT_EQ(comparison.changes[0].b_over_a, 1.5);
+    EXPECT_EQ(comparison.changes[1].verdict_flips, "not_touched");
+    EXPECT_EQ(comparison.changes[1].reason, "another factor is no more work");
+    EXPECT_TRUE(comparison.breakdown.empty());
 }
 
 TEST(ReadingComparison, SaysWhichReadingBreaksDown)
 {
-    experiments::ReadingComparison comparison("limb", readings());
+    experiments::ReadingComparison comparison{"limb", readings()};
     comparison.measure({"C10"}, [](const std::vector<Reading>& touching) {
         return std::vector<JudgedReading>(touching.size(), JudgedReading{{}, true});
     });
-    EXPECT_NE(comparison.breakdown().find("lumped (C10)"), std::string::npos);
-    EXPECT_EQ(comparison.changes().at(0).reason, "B breaks down");
+    EXPECT_NE(comparison.breakdown.find("lumped (C10)"), std::string::npos);
+    EXPECT_EQ(comparison.changes.at(0).reason, "B breaks down");
 }
 
 // A reading belongs to a place and differs from its baseline, which comes before it.
@@ -267,6 +258,157 @@ TEST(Untouched, IsAClaimWhoseValuesAReadingCannotChange)
         for (const std::string& claim : touched) EXPECT_EQ(reason(claim), "") << name << " " << claim;
         for (const std::string& claim : untouched) EXPECT_NE(reason(claim), "") << name << " " << claim;
         EXPECT_EQ(untouched_because("C02", reading, reading), "the scene is so by itself");
+    }
+}
+
+using experiments::Overrides;
+using experiments::ReadMotion;
+using experiments::VolumeChange;
+
+const test_support::TwoBoneLimb bar = test_support::two_bone_limb({16, 4, 4}, pbs::Vec3::UnitZ(), 60.0);
+const pbs::Character character = test_support::character_of(bar);
+
+ReadMotion bending(const pbs::Character& character, const Overrides& overrides, int frames = 4)
+{
+    Overrides all = {"motion.angle_deg=60", "motion.frames=" + std::to_string(frames), "motion.axis=[0,0,1]", "pbs.k_stretch=0.2"};
+    all.insert(all.end(), overrides.begin(), overrides.end());
+    return experiments::move(character, experiments::read_scene("limb_bend", all));
+}
+
+TEST(ReadMotion, OfTheScenesOwnReadingIsTheSolvers)
+{
+    const ReadMotion moved = bending(character, {});
+    ASSERT_EQ(moved.shapes.size(), 4u);
+    const pbs::Pose pose = pbs::joint_sweep(bar.skeleton, 1, pbs::Vec3::UnitZ(), 60.0, 4, 0.01).steps[2];
+    pbs::Positions lbs;
+    pbs::BlendSkinning<double>(bar.mesh.rest, bar.weights).linear(pose, lbs);
+    pbs::PbsSolver solver(bar.mesh, bar.binding.distance, {}, {});
+    solver.advance(lbs, pbs::posed_bind_points(bar.binding, pose), 0.01);
+    EXPECT_EQ(moved.shapes[2], solver.positions());
+    const analysis::MeshMetrics mesh_metrics(bar.mesh.rest, bar.mesh.tets);
+    EXPECT_EQ(moved.pbs.volume_change_pct[2], mesh_metrics.measure(solver.positions()).volume_change_pct);
+    EXPECT_EQ(moved.lbs.volume_change_pct[2], mesh_metrics.measure(lbs).volume_change_pct);
+    EXPECT_EQ(moved.pbs.angle_deg, (std::vector<double>{0.0, 20.0, 40.0, 60.0}));
+    EXPECT_TRUE(moved.finite);
+}
+
+TEST(ReadMotion, ByIncrementDependsOnThePathAndByStartDoesNot)
+{
+    const Overrides increment = {"pbs.variant.lbs_entry=increment"};
+    EXPECT_EQ(bending(character, {}).shapes.back(), bending(character, {}, 2).shapes.back());
+    EXPECT_NE(bending(character, increment).shapes.back(), bending(character, increment, 2).shapes.back());
+}
+
+// The bones touch only in the middle, so near the outer ends either_end blends where nearest_end does not.
+TEST(ReadMotion, EitherEndMovesWhatEqTwoLeavesToOneBone)
+{
+    const pbs::Character other = experiments::reweighted(character, experiments::read_scene("limb_bend", {"skinning.weights=either_end"}));
+    const ReadMotion nearest = bending(character, {}), either = bending(other, {});
+    EXPECT_EQ(nearest.lbs.volume_change_pct[0], either.lbs.volume_change_pct[0]);  // at rest
+    EXPECT_NE(nearest.lbs.volume_change_pct[3], either.lbs.volume_change_pct[3]);
+    EXPECT_EQ(experiments::reweighted(character, experiments::read_scene("limb_bend", {})).weights.weight, character.weights.weight);
+}
+
+TEST(ReadMotion, BindPointsAndTheZoneAreThoseOfTheOptions)
+{
+    EXPECT_NE(bending(character, {"pbs.variant.bind_point=reprojected"}).shapes[3], bending(character, {}).shapes[3]);
+    const Overrides falling = {"pbs.jiggle.zone_mean=of_bone", "pbs.gravity_m_s2=[0,-9.81,0]"};
+    const ReadMotion moved = bending(character, falling, 2);
+    pbs::PbsOptions options;
+    options.jiggle = pbs::Jiggle{};
+    options.gravity_m_s2 = {0.0, -9.81, 0.0};
+    pbs::PbsSolver solver(bar.mesh, bar.binding.distance, pbs::jiggle_zone_by_bone(bar.binding), options);
+    solver.advance(bar.mesh.rest, bar.binding.rest_point, 0.01);
+    EXPECT_EQ(moved.shapes.at(0), solver.positions());
+}
+
+// The definitions of the values of volume.
+
+// A clip of 100 frames with one vertex at x [m].
+ReadMotion motion_of(double change_pct, double x)
+{
+    ReadMotion moved;
+    for (auto* record : {&moved.pbs, &moved.lbs}) {
+        record->scene = "walk";
+        for (int frame = 0; frame < 100; ++frame) {
+            record->frame.push_back(frame);
+            record->time_s.push_back(0.2 * frame);
+            record->volume_change_pct.push_back(change_pct);
+            record->volume_abs_change_pct.push_back(2.0 * std::abs(change_pct));
+            record->inverted_tets.push_back(0.0);
+        }
+    }
+    moved.pbs.deformer = "pbs";
+    moved.pbs.iterations = 24;
+    moved.lbs.deformer = "lbs";
+    for (int frame = 0; frame < 100; ++frame) moved.shapes.push_back((pbs::Positions(1, 3) << x, 0, 0).finished());
+    return moved;
+}
+
+std::vector<VolumeChange> compared(const ReadMotion& a, const ReadMotion& b)
+{
+    return experiments::volume_changes("walk", Reading{.place = "Eq. 2", .name = "B", .baseline = "A"}, a, b, a, {});
+}
+
+const VolumeChange& change_of(const std::vector<VolumeChange>& rows, const std::string& name)
+{
+    const auto found = std::ranges::find(rows, name, &VolumeChange::quantity);
+    if (found == rows.end()) throw std::runtime_error("no " + name);
+    return *found;
+}
+
+TEST(VolumeChanges, HaveTheValuesOfBothAndTheirChange)
+{
+    const auto rows = compared(motion_of(-0.25, 0.0), motion_of(-0.75, 0.5));
+    EXPECT_EQ(change_of(rows, "mean_volume_change_pct").a, -0.25);
+    EXPECT_EQ(change_of(rows, "mean_volume_change_pct").b, -0.75);
+    EXPECT_EQ(change_of(rows, "mean_volume_change_pct").change, -0.5);
+    EXPECT_EQ(change_of(rows, "mean_volume_abs_change_pct").b, 1.5);
+    EXPECT_EQ(change_of(rows, "share_of_frames_within_printed").a, 1.0);
+    EXPECT_EQ(change_of(rows, "share_of_frames_within_printed").b, 0.0);
+    EXPECT_EQ(change_of(rows, "distance_of_b_from_a_rms_m").b, 0.5);
+}
+
+TEST(VolumeChanges, StateWhereAVerdictChangesAndWhereNot)
+{
+    const auto verdict = [](double a, double b) { return compared(motion_of(a, 0.0), motion_of(b, 0.0)).front().verdict_changed; };
+    EXPECT_EQ(verdict(-0.25, -0.75).substr(0, 41), "C02 by volume_change_pct: whole -> none; ");
+    EXPECT_EQ(verdict(-0.1, -0.2), "no");
+    EXPECT_EQ(verdict(-11.0, -14.0).substr(0, 22), "C01 by volume_loss_pct");
+}
+
+TEST(JudgedValue, OfVolumeIsTheMeanOfC01AndTheShareOfC02)
+{
+    const auto values = judged(motion_of(-14.0, 0.0));
+    ASSERT_EQ(values.size(), 4u);
+    EXPECT_EQ(values[0].quantity, "mean_volume_loss_pct");
+    EXPECT_EQ(values[0].value, 14.0);
+    EXPECT_EQ(values[0].extent, Extent::whole);
+    EXPECT_EQ(values[2].quantity, "share_of_frames_by_volume_change_pct");
+    EXPECT_EQ(values[2].value, 0.0);
+    EXPECT_EQ(judged(motion_of(-0.25, 0.0))[2].value, 1.0);
+    EXPECT_EQ(judged(motion_of(-0.25, 0.0))[2].extent, Extent::whole);
+    for (const auto& value : judged(motion_of(std::numeric_limits<double>::quiet_NaN(), 0.0))) EXPECT_EQ(value.extent, Extent::none);
+}
+
+// Gravity acts only on integrated particles. If all are integrated, a huge weight leaves nothing finite; if none is, it has no effect.
+TEST(FrameTimes, OfReadingsAreOneTimeEachAndStateABreakdown)
+{
+    const experiments::StudyCase of("ambiguity",
+                                    {{"name", "limb"},
+                                     {"quick_s", 1.0},
+                                     {"scene", "limb_bend"},
+                                     {"overrides", {"character.vertices=400", "pbs.gravity_m_s2=[0,-1e308,0]"}},
+                                     {"timing_s", 0.05}},
+                                    false);
+    const auto all = experiments::values_of_frames(of, {{}, {"pbs.time_step_s=0.0025"}, {"pbs.variant.lbs_entry=increment"}});
+    ASSERT_EQ(all.size(), 3u);
+    for (const experiments::JudgedReading& read : all) {
+        ASSERT_EQ(read.values.size(), 1u);
+        EXPECT_EQ(read.values[0].quantity, "processor_time_of_a_frame_ms");
+        EXPECT_EQ(read.values[0].unit, "ms");
+        EXPECT_GT(read.values[0].value, 0.0);
+        EXPECT_EQ(read.broke_down, &read == &all[2]);
     }
 }
 

@@ -1,14 +1,15 @@
 // The readings of the paper, and the changes that each of them makes in the judged values of each claim: the values of A and B, and whether
 // the claim's bound judges them otherwise.
-//   ReadingComparison comparison("limb", readings_of(of, "all"));
+//   ReadingComparison comparison{"limb", readings_of(of, "all")};
 //   comparison.measure({"C03", "C12"}, [&](const auto& touching) { return values_of(of, touching); });
-//   table_of(used_columns(claim_change_columns(), changes), changes).write("ambiguity.csv");
+//   table_of(used_columns(claim_change_columns(), comparison.changes), comparison.changes).write("ambiguity.csv");
 #pragma once
 
 #include "analysis/records/tables.hpp"
 #include "analysis/verdicts/measurement.hpp"
 #include "analysis/verdicts/verdict.hpp"
 #include "experiments/studies/study.hpp"
+#include "pbs/character/character.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -84,23 +85,46 @@ ClaimChange untouched_claim(const std::string& body, const std::string& claim, c
 
 // Readings and their baselines, claim by claim. Only readings that can touch one of the claims are measured, and their baselines before
 // them.
-class ReadingComparison {
-public:
+struct ReadingComparison {
     using Measure = std::function<std::vector<JudgedReading>(const std::vector<Reading>&)>;  // one per reading
 
-    ReadingComparison(const std::string& body, const std::vector<Reading>& readings) : body_(body), readings_(readings) {}
+    std::string body;
+    std::vector<Reading> readings;
+    std::string without_jiggle = {};  // why readings that jiggle cannot touch any claim; empty: they can
+    std::vector<ClaimChange> changes = {};
+    std::string breakdown = {};  // of readings, if any
 
     void measure(const std::vector<std::string>& claims, const Measure& measure);
-
-    const std::vector<ClaimChange>& changes() const { return changes_; }
-    const std::string& breakdown() const { return breakdown_; }  // of readings, if any
-
-private:
-    const Reading& baseline_of(const Reading& reading) const;
-
-    std::string body_, breakdown_;
-    std::vector<Reading> readings_;
-    std::vector<ClaimChange> changes_;
 };
+
+// What is measured here of a scene that moves by each reading: its volume (C01, C02), and the time of a frame (C10).
+//   const ReadMotion moved = move(character, scene);
+//   volume_changes("limb_bend", reading, a, b, a, {});
+
+// A character that PBS moves through the motion of a scene.
+struct ReadMotion {
+    analysis::CaseRecord pbs, lbs;       // volume, from which a verdict is computed
+    std::vector<pbs::Positions> shapes;  // of PBS, one per frame [m], #V x 3
+    bool finite = true;
+};
+ReadMotion move(const pbs::Character& character, const Scene& scene);
+
+// C01: the mean of its metrics over the frames; C02: the share of frames within; both judged as analysis::judge_case does.
+std::vector<JudgedValue> judged(const ReadMotion& moved);
+
+// A row of figures.csv.
+struct VolumeChange {
+    std::string scene, place, reading_a, reading_b, quantity;
+    double a = 0.0, b = 0.0, change = 0.0;
+    std::string verdict_changed;  // no, or the claims with their extents before and after
+};
+extern const analysis::Columns<VolumeChange> volume_change_columns;
+
+// a: moved by the reading's baseline; resting: by the scene's own reading, from which jiggling is measured; zone: #V
+std::vector<VolumeChange> volume_changes(const std::string& scene, const Reading& reading, const ReadMotion& a, const ReadMotion& b,
+                                         const ReadMotion& resting, const std::vector<bool>& zone);
+
+// C10: processor time per frame, including LBS, of all readings in turns, in the order and precision that are judged (plain, f64).
+std::vector<JudgedReading> values_of_frames(const StudyCase& of, const std::vector<Overrides>& readings);
 
 }  // namespace experiments
