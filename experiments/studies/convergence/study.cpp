@@ -4,7 +4,7 @@
 //
 //   limb_twist, limb_bend   90 and 170 deg, 60 and 90 deg; three orders, two precisions, other tessellations of the same size
 //   human, ...              poses of the clip 01_01, every real body that is installed, at the sizes of Table 1
-//   ladder_twist, _bend     the limb from 500 vertices to 8,000 in three orders (--full: to 100,000 in one), with the reference up to
+//   ladder_twist, _bend     the limb from 500 vertices to 4,000 in three orders (--full: to 100,000 in one), with the reference up to
 //                           2,500 vertices. rates.csv states which meshes have no reference
 //
 // The reference of a pose takes minutes, so the quick form has it only at twist 90, bend 60, in the human's crouch and on the ladder. It
