@@ -2,7 +2,6 @@
 
 #include "pbs/character/clip.hpp"
 #include "pbs/character/named_bodies.hpp"
-#include "pbs/character/retarget.hpp"
 #include "tests/support/rounding_error.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/unit/pbs/character/expect_input_error.hpp"

@@ -7,7 +7,7 @@
 #include "experiments/studies/shared/posed_character.hpp"
 #include "pbs/skinning/blend.hpp"
 #include "pbs/solver/pbs_solver.hpp"
-#include "tests/support/limb_character.hpp"
+#include "tests/support/bar_character.hpp"
 
 #include <gtest/gtest.h>
 

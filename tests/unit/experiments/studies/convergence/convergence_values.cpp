@@ -4,7 +4,7 @@
 #include "experiments/deformers/deformer_options.hpp"
 #include "pbs/solver/pbs_solver.hpp"
 #include "tests/support/iteration_paths.hpp"
-#include "tests/support/limb_character.hpp"
+#include "tests/support/bar_character.hpp"
 
 #include <gtest/gtest.h>
 
