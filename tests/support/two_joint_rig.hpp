@@ -42,7 +42,7 @@ inline pbs::Rig two_joint_rig()
     mesh.skin = {.first = {0, 1, 3, 4, 6}, .bone = {0, 0, 1, 1, 0, 1}, .weight = {1.0, 0.5, 0.5, 1.0, 0.25, 0.75}};
     rig.meshes = {mesh};
     const pbs::KeyTrack turn{.times_s = {0.0, 1.0}, .values = {{0, 0, 0, 1}, {0, 0, 1, 0}}};
-    rig.animations = {{"Bend", 0.0, 1.0, {{.node = 1, .rotation = turn}}}};
+    rig.animations = {{"Bend", 0.0, 1.0, {{1, {}, turn, {}}}}};
     return rig;
 }
 

@@ -145,7 +145,7 @@ using test_support::torus;
 // Coarse wraps make these tests quick.
 pbs::SurfaceMeshing quick(double alpha, double offset, int vertices)
 {
-    return {.vertices = vertices, .wrap_alpha_m = alpha, .wrap_offset_m = offset};
+    return {.vertices = vertices, .wrap_alpha_m = alpha, .wrap_offset_m = offset, .inside = {}};
 }
 
 void expect_refused(const pbs::SurfaceMesh& surface, const pbs::SurfaceMeshing& options, const std::string& begins,

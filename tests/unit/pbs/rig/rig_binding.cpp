@@ -132,7 +132,7 @@ Rig with_scaled_root(const Vec3& first)
 {
     Rig rig = test_support::two_joint_rig();
     const KeyTrack track{.times_s = {0.0, 1.0}, .values = {{first.x(), first.y(), first.z(), 0}, {9, 9, 9, 0}}};
-    rig.animations = {{"Grow", 0.0, 1.0, {{.node = 0, .scale = track}}}};
+    rig.animations = {{"Grow", 0.0, 1.0, {{0, {}, {}, track}}}};
     return rig;
 }
 
