@@ -72,7 +72,8 @@ std::vector<double> dense_weights(const pbs::Weights& weights, std::size_t bones
     return rows;
 }
 
-// The upper three rows of each bone's transform, #bones x 3 x 4.
+}  // namespace
+
 std::vector<double> transform_rows(const pbs::Pose& pose)
 {
     std::vector<double> numbers;
@@ -80,8 +81,6 @@ std::vector<double> transform_rows(const pbs::Pose& pose)
         for (const auto& row : bone.affine().rowwise()) numbers.insert(numbers.end(), row.begin(), row.end());
     return numbers;
 }
-
-}  // namespace
 
 void write_exchange(const std::string& folder, const pbs::Character& character, const std::vector<pbs::Pose>& poses, double time_step_s)
 {

@@ -35,6 +35,7 @@ std::string why_library_not_usable(const std::string& library);
 
 // character.json, rest.f64, tets.i32, weights.f64 and poses.f64. Numbers are little-endian, arrays by rows.
 void write_exchange(const std::string& folder, const pbs::Character& character, const std::vector<pbs::Pose>& poses, double time_step_s);
+std::vector<double> transform_rows(const pbs::Pose& pose);  // the upper three rows of each bone's transform, #bones x 3 x 4
 
 // positions.f64 of so many poses, and seconds.f64 if the program wrote it. An InputError, which names the file without its folder, if
 // positions.f64 is missing, a file has another size, or a time is negative or not finite. Positions may be not finite.

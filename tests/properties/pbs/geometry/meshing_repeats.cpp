@@ -24,7 +24,7 @@ TEST(Meshing, OfTheBuiltInBodiesRepeatsToTheBit)
 TEST(Meshing, OfASurfaceRepeatsToTheBit)
 {
     const pbs::SurfaceMesh sphere = test_support::icosphere(1.0, 2);
-    const pbs::SurfaceMeshing options{.vertices = 250, .wrap_alpha_m = 0.2, .wrap_offset_m = 0.02};
+    const pbs::SurfaceMeshing options{.vertices = 250, .wrap_alpha_m = 0.2, .wrap_offset_m = 0.02, .inside = {}};
     const pbs::TetMesh first = pbs::mesh_surface(sphere, options);
     pbs::mesh_limb(300);
     expect_same(pbs::mesh_surface(sphere, options), first);
@@ -36,7 +36,7 @@ TEST(Meshing, OfASurfaceRepeatsToTheBit)
 TEST(Meshing, OfASurfaceHasNoUnit)
 {
     const pbs::SurfaceMesh sphere = test_support::icosphere(1.0, 2);
-    const pbs::SurfaceMeshing options{.vertices = 250, .wrap_alpha_m = 0.25, .wrap_offset_m = 0.03125};
+    const pbs::SurfaceMeshing options{.vertices = 250, .wrap_alpha_m = 0.25, .wrap_offset_m = 0.03125, .inside = {}};
     const pbs::TetMesh metre = pbs::mesh_surface(sphere, options);
     const double of_chain_m = test_support::rounding_error(100.0 * options.vertices, 1.0 + options.wrap_offset_m);
     for (const double scale : {0.0009765625, 1024.0}) {
