@@ -40,6 +40,12 @@ inline pbs::Positions jittered(pbs::Positions positions, double size, unsigned s
     return positions;
 }
 
+inline pbs::Positions mirrored(pbs::Positions positions, int axis = 2)
+{
+    positions.col(axis) *= -1.0;
+    return positions;
+}
+
 // The bar of two bones, bent by 70 degrees about this joint, with the energy of its flesh (nu = 0.45).
 struct HeldBar {
     explicit HeldBar(const std::array<int, 3>& cells, const pbs::Vec3& joint = pbs::Vec3::Zero())

@@ -13,16 +13,10 @@ namespace {
 
 using pbs::Positions;
 
-const test_support::TwoBoneLimb bent = test_support::two_bone_limb({8, 2, 2}, pbs::Vec3::UnitZ(), 70.0);
-const pbs::BoneHold hold(bent.mesh, test_support::random_springs(60, 0.3), 2);
-
-Positions centres_of(const pbs::Pose& pose)
-{
-    Positions centres;
-    hold.centres(pose, centres);
-    return centres;
-}
-const Positions centres = centres_of(bent.pose);
+const test_support::HeldBar held({8, 2, 2});
+const test_support::TwoBoneLimb& bent = held.bent;
+const pbs::BoneHold& hold = held.hold;
+const Positions& centres = held.centres;
 
 Eigen::VectorXd flat(const Positions& positions)
 {

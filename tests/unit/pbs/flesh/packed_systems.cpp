@@ -330,26 +330,22 @@ TYPED_TEST(PackedSystem, NeitherThreadsNorRepetitionChangeABit)
     this->template expect_same_bits<double>(system);
 }
 
-const HeldBar& bar()
-{
-    static const HeldBar held({10, 3, 3});
-    return held;
-}
+const HeldBar bent_bar({10, 3, 3});
 
 // Inverted and crushed tets, and tets of many times their volume: what the formulae refuse goes to the plain code.
 TEST(PackedProjective, EqualsPlainInAnyState)
 {
-    const Positions &lbs = bar().bent.lbs, &rest = bar().bent.mesh.rest;
+    const Positions &lbs = bent_bar.bent.lbs, &rest = bent_bar.bent.mesh.rest;
     Positions flat = lbs;
     flat.col(2) *= 1e-3;
-    const int tets = static_cast<int>(bar().bent.mesh.tets.rows());
+    const int tets = static_cast<int>(bent_bar.bent.mesh.tets.rows());
     struct Case {
         const char* name;
         Positions x;
         int fewest_refused, most_refused;
     };
     for (const bool keeps_volume : {true, false}) {
-        const ProjectiveEvaluation flesh(bar(), keeps_volume);
+        const ProjectiveEvaluation flesh(bent_bar, keeps_volume);
         for (const auto& [name, x, fewest, most] :
              {Case{"lbs", lbs, 0, 0}, Case{"jittered", test_support::jittered(lbs, 0.01), 0, 0}, Case{"rest", rest, 0, 0},
               Case{"torn", test_support::jittered(lbs, 0.2), 1, tets}, Case{"flat", flat, 0, tets},
@@ -393,16 +389,14 @@ TEST(PackedProjective, NotFiniteIsAnOutcome)
 
 TEST(PackedVertexSweep, EqualsPlainFromLbsAndOnInvertedTets)
 {
-    const VertexSweeps sweeps(bar());
-    Positions mirrored = bar().bent.lbs;
-    mirrored.col(2) *= -1.0;
-    for (const Positions& x : {bar().bent.lbs, mirrored}) sweeps.expect_equal_to_plain<double>(x);
+    const VertexSweeps sweeps(bent_bar);
+    for (const Positions& x : {bent_bar.bent.lbs, test_support::mirrored(bent_bar.bent.lbs)}) sweeps.expect_equal_to_plain<double>(x);
 }
 
 // The position of the vertex is exact in float; packed code subtracts its origin and adds it.
 TEST(PackedVertexSweep, AVertexWithoutTetsStays)
 {
-    test_support::TwoBoneLimb limb = bar().bent;
+    test_support::TwoBoneLimb limb = bent_bar.bent;
     const Eigen::Index last = limb.mesh.rest.rows();
     limb.mesh.rest.conservativeResize(last + 1, 3);
     limb.mesh.rest.row(last) << 0.5, 2.0, -1.0;

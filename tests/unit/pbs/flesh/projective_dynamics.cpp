@@ -25,11 +25,7 @@ using pbs::ProjectiveOptions;
 using pbs::ProjectiveSummary;
 using pbs::Vec3;
 
-const test_support::HeldBar& held()
-{
-    static const test_support::HeldBar bar({8, 2, 2});
-    return bar;
-}
+const test_support::HeldBar held({8, 2, 2});
 
 struct Material {
     double poisson = 0.45;
@@ -38,7 +34,7 @@ struct Material {
 
 ProjectiveEnergy energy_of(const Material& material)
 {
-    return {held().bent.mesh, pbs::projective_weights(material.poisson, material.keeps_volume), held().hold};
+    return {held.bent.mesh, pbs::projective_weights(material.poisson, material.keeps_volume), held.hold};
 }
 
 // In plain code.
@@ -46,27 +42,21 @@ ProjectiveDynamics<double> solver_of(const Material& material, ProjectiveOptions
 {
     options.packed = false;
     const pbs::HeldFlesh flesh(
-        held().bent.mesh, held().springs, 2,
+        held.bent.mesh, held.springs, 2,
         {.poisson = material.poisson, .volume_share = pbs::volume_share_of_projective(material.poisson, material.keeps_volume)});
-    return {held().bent.mesh, energy_of(material), flesh.factor(), options};
-}
-
-Positions mirrored(Positions positions)
-{
-    positions.col(2) *= -1.0;
-    return positions;
+    return {held.bent.mesh, energy_of(material), flesh.factor(), options};
 }
 
 // Each step minimises E over the shapes and then over the positions: it cannot grow, but for the rounding of its terms, which add up to the
 // sum of the springs' parts of either sign.
 TEST(ProjectiveDynamics, TheEnergyDecreasesInEachIteration)
 {
-    const double magnitude = held().hold.stiffness().sum() * 4.0;  // [m^3]: a_i |x_i - c_i|^2 of a body of 2 m
+    const double magnitude = held.hold.stiffness().sum() * 4.0;  // [m^3]: a_i |x_i - c_i|^2 of a body of 2 m
     for (const double poisson : {0.0, 0.3, 0.45})
-        for (const Positions& start : {held().bent.lbs, held().bent.mesh.rest, mirrored(held().bent.lbs)}) {
+        for (const Positions& start : {held.bent.lbs, held.bent.mesh.rest, test_support::mirrored(held.bent.lbs)}) {
             ProjectiveDynamics<double> solver = solver_of({.poisson = poisson}, {.iterations = 40});
             Positions x = start;
-            const ProjectiveSummary summary = solver.minimise(held().centres, x);
+            const ProjectiveSummary summary = solver.minimise(held.centres, x);
             ASSERT_EQ(summary.energies.size(), 40u);
             for (std::size_t i = 1; i < summary.energies.size(); ++i)
                 EXPECT_LE(summary.energies[i], summary.energies[i - 1] + test_support::rounding_error(100, magnitude)) << i;
@@ -81,18 +71,18 @@ TEST(ProjectiveDynamics, ItsGradientIsThatOfItsEnergy)
     for (const double poisson : {0.0, 0.45}) {
         const ProjectiveEnergy energy = energy_of({.poisson = poisson});
         ProjectiveDynamics<double> solver = solver_of({.poisson = poisson}, {.iterations = 30});
-        Positions x = held().bent.lbs;
+        Positions x = held.bent.lbs;
         for (int time = 0; time < 2; ++time) {
             Positions gradient, unused, direction(x.rows(), 3);
             for (auto row : direction.rowwise()) row = random.point(1.0).transpose();
-            energy.value_and_gradient(x, held().centres, gradient);
+            energy.value_and_gradient(x, held.centres, gradient);
             const auto value = [&](const Eigen::VectorXd& at) {
-                return energy.value_and_gradient(Eigen::Map<const Positions>(at.data(), x.rows(), 3), held().centres, unused);
+                return energy.value_and_gradient(Eigen::Map<const Positions>(at.data(), x.rows(), 3), held.centres, unused);
             };
             test_support::expect_slope_by_eps_sweep(value, Eigen::Map<const Eigen::VectorXd>(x.data(), x.size()),
                                                     Eigen::Map<const Eigen::VectorXd>(direction.data(), x.size()),
                                                     gradient.cwiseProduct(direction).sum(), 0.02);
-            solver.minimise(held().centres, x);
+            solver.minimise(held.centres, x);
         }
     }
 }
@@ -100,7 +90,7 @@ TEST(ProjectiveDynamics, ItsGradientIsThatOfItsEnergy)
 // Forces of linear elasticity over Young's modulus [m^2], and of the springs.
 Positions linear_forces(const Positions& displacement, double poisson)
 {
-    const pbs::TetMesh& mesh = held().bent.mesh;
+    const pbs::TetMesh& mesh = held.bent.mesh;
     const double mu = 0.5 / (1.0 + poisson), lambda = poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson));
     Positions forces = Positions::Zero(mesh.rest.rows(), 3);
     for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t) {
@@ -123,13 +113,13 @@ Positions linear_forces(const Positions& displacement, double poisson)
 double difference_to_linear(const Material& material, double eps)
 {
     test_support::RandomPoints random(72);
-    Positions displacement(held().bent.mesh.rest.rows(), 3), gradient, at_rest;
+    Positions displacement(held.bent.mesh.rest.rows(), 3), gradient, at_rest;
     for (auto row : displacement.rowwise()) row = 0.1 * random.point(1.0).transpose();  // edges are 0.1 m
-    pbs::BoneSprings weak = held().springs;
+    pbs::BoneSprings weak = held.springs;
     weak.stiffness *= 1e-12;
-    const pbs::BoneHold none(held().bent.mesh, weak, 2);
-    const ProjectiveEnergy energy(held().bent.mesh, pbs::projective_weights(material.poisson, material.keeps_volume), none);
-    const Positions moved = held().bent.mesh.rest + eps * displacement;
+    const pbs::BoneHold none(held.bent.mesh, weak, 2);
+    const ProjectiveEnergy energy(held.bent.mesh, pbs::projective_weights(material.poisson, material.keeps_volume), none);
+    const Positions moved = held.bent.mesh.rest + eps * displacement;
     energy.value_and_gradient(moved, moved, gradient);
     const Positions linear = linear_forces(displacement, material.poisson);
     return (gradient / eps - linear).norm() / linear.norm();
@@ -150,13 +140,13 @@ TEST(ProjectiveDynamics, IsLinearElasticityForSmallStrains)
 
 TEST(ProjectiveDynamics, RestsWhereItsBonesRest)
 {
-    Positions centres, x = held().bent.mesh.rest;
-    held().hold.centres(pbs::Pose(2, Eigen::Isometry3d::Identity()), centres);
+    Positions centres, x = held.bent.mesh.rest;
+    held.hold.centres(pbs::Pose(2, Eigen::Isometry3d::Identity()), centres);
     ProjectiveDynamics<double> solver = solver_of({}, {.iterations = 5, .stop_step = 1e-3});
     const ProjectiveSummary summary = solver.minimise(centres, x);
     EXPECT_TRUE(summary.converged) << "a step of rounding is no step";
     EXPECT_EQ(summary.iterations, 1);
-    EXPECT_LT((x - held().bent.mesh.rest).cwiseAbs().maxCoeff(), 1e-12);
+    EXPECT_LT((x - held.bent.mesh.rest).cwiseAbs().maxCoeff(), 1e-12);
     EXPECT_LT(summary.steps.front(), 1e-12);
 }
 
@@ -164,11 +154,9 @@ TEST(ProjectiveDynamics, VolumesAreCloserToRestWithTheirTerm)
 {
     const auto volume_change = [](bool keeps_volume) {
         ProjectiveDynamics<double> solver = solver_of({.keeps_volume = keeps_volume}, {.iterations = 100});
-        Positions x = held().bent.lbs;
-        solver.minimise(held().centres, x);
-        return (pbs::tet_volumes(x, held().bent.mesh.tets) - pbs::tet_volumes(held().bent.mesh.rest, held().bent.mesh.tets))
-            .cwiseAbs()
-            .sum();
+        Positions x = held.bent.lbs;
+        solver.minimise(held.centres, x);
+        return (pbs::tet_volumes(x, held.bent.mesh.tets) - pbs::tet_volumes(held.bent.mesh.rest, held.bent.mesh.tets)).cwiseAbs().sum();
     };
     EXPECT_LT(volume_change(true), 0.5 * volume_change(false));
 }
@@ -177,9 +165,9 @@ TEST(ProjectiveDynamics, BadInputIsRefused)
 {
     EXPECT_THROW(pbs::projective_weights(0.5, true), pbs::InputError);
     EXPECT_THROW(pbs::projective_weights(-0.1, true), pbs::InputError);
-    pbs::TetMesh inverted = held().bent.mesh;
+    pbs::TetMesh inverted = held.bent.mesh;
     std::swap(inverted.tets(4, 0), inverted.tets(4, 1));
-    EXPECT_THROW(ProjectiveEnergy(inverted, pbs::projective_weights(0.3, true), held().hold), pbs::InputError);
+    EXPECT_THROW(ProjectiveEnergy(inverted, pbs::projective_weights(0.3, true), held.hold), pbs::InputError);
 }
 
 // Reference: the definition of the global step, evaluated with the deformation gradients of a displacement. The energy itself is tested in
@@ -204,7 +192,7 @@ double quadratic_form(const pbs::ProjectiveEnergy& energy, const Positions& d)
 // the form is below ten times the form for displacements of independent vertices.
 TEST(ProjectiveEnergy, TheLaplacianOfItsShareIsTheMatrixOfTheGlobalStep)
 {
-    const pbs::TetMesh& mesh = held().bent.mesh;
+    const pbs::TetMesh& mesh = held.bent.mesh;
     const Positions d = test_support::jittered(Positions::Zero(mesh.rest.rows(), 3), 1.0);
     for (const double poisson : {0.0, 0.3, 0.45})
         for (const bool keeps_volume : {true, false}) {
@@ -212,7 +200,7 @@ TEST(ProjectiveEnergy, TheLaplacianOfItsShareIsTheMatrixOfTheGlobalStep)
             const ProjectiveEnergy energy = energy_of({poisson, keeps_volume});
             const double share = pbs::volume_share_of_projective(poisson, keeps_volume);
             const Eigen::SparseMatrix<double> lower =
-                pbs::flesh_laplacian(mesh, material, pbs::FleshEnergy(mesh, material, held().hold), share);
+                pbs::flesh_laplacian(mesh, material, pbs::FleshEnergy(mesh, material, held.hold), share);
             const double form = (d.transpose() * (lower.selfadjointView<Eigen::Lower>() * d)).trace(), expected = quadratic_form(energy, d);
             EXPECT_NEAR(form, expected, (10.0 * 1e-9 + test_support::rounding_error(100, 10.0)) * expected) << poisson << keeps_volume;
         }

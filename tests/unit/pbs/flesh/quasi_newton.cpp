@@ -14,32 +14,28 @@ namespace {
 
 using pbs::Positions;
 
-const test_support::HeldBar& bar()
-{
-    static const test_support::HeldBar held({12, 3, 3});
-    return held;
-}
-const test_support::TwoBoneLimb& bent = bar().bent;
-const Positions& centres = bar().centres;
+const test_support::HeldBar bar({12, 3, 3});
+const test_support::TwoBoneLimb& bent = bar.bent;
+const Positions& centres = bar.centres;
 const pbs::HeldFlesh& flesh()
 {
-    static const pbs::HeldFlesh held(bent.mesh, bar().springs, 2, {});
+    static const pbs::HeldFlesh held(bent.mesh, bar.springs, 2, {});
     return held;
 }
 
 template <typename Scalar>
 pbs::QuasiNewtonSummary minimise(const pbs::QuasiNewtonOptions& options, Positions& x)
 {
-    return pbs::QuasiNewton<Scalar>(bent.mesh, bar().energy, flesh().factor(), options).minimise(centres, x);
+    return pbs::QuasiNewton<Scalar>(bent.mesh, bar.energy, flesh().factor(), options).minimise(centres, x);
 }
 
 TEST(QuasiNewton, EveryIterationLowersTheEnergy)
 {
-    double last = bar().energy.value(bent.lbs, centres);
+    double last = bar.energy.value(bent.lbs, centres);
     for (const int iterations : {1, 2, 3, 5, 8, 13, 21}) {
         Positions x = bent.lbs;
         const auto summary = minimise<double>({.iterations = iterations, .packed = false}, x);
-        const double energy = bar().energy.value(x, centres);
+        const double energy = bar.energy.value(x, centres);
         EXPECT_LT(energy, last) << iterations;
         EXPECT_NEAR(energy, summary.energy, 1e-12 * energy);
         EXPECT_EQ(summary.iterations, iterations);
@@ -64,8 +60,8 @@ template <typename Scalar>
 void expect_converged_at_rest(bool packed)
 {
     Positions rest_centres, x = bent.mesh.rest;
-    bar().hold.centres(pbs::Pose(2, Eigen::Isometry3d::Identity()), rest_centres);
-    pbs::QuasiNewton<Scalar> solver(bent.mesh, bar().energy, flesh().factor(), {.stop_gradient = 1e-3, .packed = packed});
+    bar.hold.centres(pbs::Pose(2, Eigen::Isometry3d::Identity()), rest_centres);
+    pbs::QuasiNewton<Scalar> solver(bent.mesh, bar.energy, flesh().factor(), {.stop_gradient = 1e-3, .packed = packed});
     const auto summary = solver.minimise(rest_centres, x);
     EXPECT_TRUE(summary.converged);
     EXPECT_EQ(summary.iterations, 0);
@@ -110,7 +106,7 @@ TEST(HeldFlesh, RefusesSpringsThatAreAllOutside)
 
 Eigen::SparseMatrix<double> laplacian()
 {
-    return pbs::flesh_laplacian(bent.mesh, bar().material, bar().energy, 0.5);
+    return pbs::flesh_laplacian(bent.mesh, bar.material, bar.energy, 0.5);
 }
 
 std::vector<int> reversed_places()

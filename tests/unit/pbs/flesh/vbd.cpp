@@ -24,18 +24,13 @@ const pbs::FleshEnergy& energy = bar.energy;
 const Positions& centres = bar.centres;
 constexpr int tets = 6 * 12 * 3 * 3;
 
-Positions mirrored()
-{
-    Positions x = bent.lbs;
-    x.col(1) *= -1.0;
-    return x;
-}
+const Positions mirrored = test_support::mirrored(bent.lbs, 1);
 
 class VertexBlockOf : public testing::TestWithParam<double> {
 protected:
     const pbs::FleshEnergy energy{bent.mesh, pbs::flesh_material(GetParam()), hold};
     const std::vector<pbs::VertexStar> stars = pbs::vertex_stars(energy);
-    const std::vector<Positions> shapes = {bent.lbs, test_support::jittered(bent.lbs, 0.1), mirrored()};
+    const std::vector<Positions> shapes = {bent.lbs, test_support::jittered(bent.lbs, 0.1), mirrored};
 
     // The largest term of a gradient: a pressure of kappa (|6 V| + d) on the largest face, or a spring or edge of 2 m.
     double largest_term() const
@@ -165,7 +160,7 @@ Positions swept(double omega, Positions x)
 // g . H^-1 g, which is positive for 0 < omega < 2. An energy has some 40 roundings per tet of positive terms.
 TEST(VertexBlockDescent, NoSweepIncreasesTheEnergy)
 {
-    for (const Positions& start : {bent.lbs, mirrored(), test_support::jittered(bent.lbs, 0.2), collapsed})
+    for (const Positions& start : {bent.lbs, mirrored, test_support::jittered(bent.lbs, 0.2), collapsed})
         for (const double omega : {0.1, 1.0, 1.5, 1.85, 1.99}) {
             Positions x = start;
             double last = energy.value(x, centres);

@@ -16,20 +16,13 @@ using pbs::Positions;
 using pbs::XpbdMultipliers;
 using test_support::HeldXpbd;
 
-const HeldXpbd& bar()
-{
-    static const HeldXpbd held({8, 2, 2});
-    return held;
-}
-const Positions& lbs()
-{
-    return bar().bent.lbs;
-}
+const HeldXpbd bent_bar({8, 2, 2});
+const Positions& lbs = bent_bar.bent.lbs;
 
-double gradient_after(const pbs::XpbdNeoHookeanOptions& options, Positions x = lbs())
+double gradient_after(const pbs::XpbdNeoHookeanOptions& options, Positions x = lbs)
 {
-    bar().minimise<double>(options, x);
-    return bar().gradient(x).norm() / bar().gradient(lbs()).norm();
+    bent_bar.minimise<double>(options, x);
+    return bent_bar.gradient(x).norm() / bent_bar.gradient(lbs).norm();
 }
 
 // Multipliers that begin at zero in each iteration, or that are kept within a step only and without the residual, end elsewhere.
@@ -47,43 +40,43 @@ TEST(XpbdNeoHookean, OnlyKeptMultipliersEndWhereTheGradientVanishes)
 TEST(XpbdNeoHookean, TheFixedPointOfAStepIsImplicitEuler)
 {
     pbs::XpbdNeoHookeanOptions options{.iterations = 300, .iterations_per_step = 300, .packed = false};
-    Positions x = lbs();
-    EXPECT_EQ(bar().minimise<double>(options, x).steps, 1);
-    const double first = bar().gradient(lbs()).norm();
-    EXPECT_LT(bar().gradient_with_inertia(x, lbs()).norm(), 1e-10 * first);
-    EXPECT_GT(bar().gradient(x).norm(), 1e-2 * first);
+    Positions x = lbs;
+    EXPECT_EQ(bent_bar.minimise<double>(options, x).steps, 1);
+    const double first = bent_bar.gradient(lbs).norm();
+    EXPECT_LT(bent_bar.gradient_with_inertia(x, lbs).norm(), 1e-10 * first);
+    EXPECT_GT(bent_bar.gradient(x).norm(), 1e-2 * first);
 
     options.multipliers = XpbdMultipliers::of_step;
-    Positions published = lbs();
-    bar().minimise<double>(options, published);
-    EXPECT_GT(bar().gradient_with_inertia(published, lbs()).norm(), 1e-3 * first);
+    Positions published = lbs;
+    bent_bar.minimise<double>(options, published);
+    EXPECT_GT(bent_bar.gradient_with_inertia(published, lbs).norm(), 1e-3 * first);
 }
 
 // Two points with small gradients are at most the sum of these, over the lowest stiffness, from each other. Half of that stiffness leaves
 // room for its change between the points.
 TEST(XpbdNeoHookean, TheLimitDoesNotDependOnIterationsPerStepTimeStepOrMomentum)
 {
-    const double first = bar().gradient(lbs()).norm();
-    Positions expected = lbs();
-    bar().minimise<double>({.iterations = 800, .packed = false}, expected);
-    const double lowest = test_support::stiffnesses(bar().energy, bar().centres, expected)(0);
+    const double first = bent_bar.gradient(lbs).norm();
+    Positions expected = lbs;
+    bent_bar.minimise<double>({.iterations = 800, .packed = false}, expected);
+    const double lowest = test_support::stiffnesses(bent_bar.energy, bent_bar.centres, expected)(0);
     const auto expect_the_limit = [&](const HeldXpbd& held, const pbs::XpbdNeoHookeanOptions& options) {
-        Positions x = lbs();
+        Positions x = lbs;
         held.minimise<double>(options, x);
-        const double remaining = bar().gradient(x).norm() + bar().gradient(expected).norm();
+        const double remaining = bent_bar.gradient(x).norm() + bent_bar.gradient(expected).norm();
         EXPECT_LT(remaining, 1e-6 * first);
         EXPECT_LT((x - expected).norm(), remaining / (0.5 * lowest));
     };
     for (const int per_step : {2, 5})
-        expect_the_limit(bar(), {.iterations = 500 * per_step, .iterations_per_step = per_step, .packed = false});
+        expect_the_limit(bent_bar, {.iterations = 500 * per_step, .iterations_per_step = per_step, .packed = false});
     expect_the_limit(HeldXpbd({8, 2, 2}, 0.5), {.iterations = 1200, .packed = false});
-    expect_the_limit(bar(), {.iterations = 600, .momentum = false, .packed = false});
+    expect_the_limit(bent_bar, {.iterations = 600, .momentum = false, .packed = false});
 }
 
 TEST(XpbdNeoHookean, TheLastStepMayBeShort)
 {
-    Positions x = lbs();
-    const auto summary = bar().minimise<double>({.iterations = 7, .iterations_per_step = 3, .packed = false}, x);
+    Positions x = lbs;
+    const auto summary = bent_bar.minimise<double>({.iterations = 7, .iterations_per_step = 3, .packed = false}, x);
     EXPECT_EQ(summary.iterations, 7);
     EXPECT_EQ(summary.steps, 3);
 }
