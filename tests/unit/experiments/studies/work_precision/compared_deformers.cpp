@@ -209,16 +209,6 @@ TEST_F(ExternalEntries, AreTheTablesInTheirOrder)
     EXPECT_TRUE(options_of<ExternalOptions>(read[1]).has_memory);
 }
 
-TEST_F(ExternalEntries, ChangeWithTheirPrograms)
-{
-    const auto hash = [&](const std::string& content) {
-        folder.file("mine.sh", content);
-        return options_of<ExternalOptions>(entries(entry_table("mine"))[0]).file_hashes.at(1);
-    };
-    EXPECT_EQ(hash("exit 0"), hash("exit 0"));
-    EXPECT_NE(hash("exit 0"), hash("exit 1"));
-}
-
 // Files are recorded by their place in the command, and other words in full.
 TEST_F(ExternalEntries, ChangeWithEachFileAndWord)
 {
