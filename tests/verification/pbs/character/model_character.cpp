@@ -62,7 +62,7 @@ test_support::GltfDocument ellipsoid_document(int balls, bool with_skin)
 Character made_from(const test_support::ScratchFolder& folder, const test_support::GltfDocument& gltf, std::vector<std::string>& remarks)
 {
     const std::string path = folder.file("hero.gltf", gltf.text());
-    return make_model_character({.file = path, .vertices = 150}, remarks);
+    return make_model_character({.file = path, .animation = {}, .vertices = 150}, remarks);
 }
 
 // Tets are cached in a folder of the test.
