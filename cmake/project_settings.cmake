@@ -31,6 +31,12 @@ target_compile_features(pbs_settings INTERFACE cxx_std_20)
 target_compile_options(pbs_settings INTERFACE "$<INSTALL_INTERFACE:SHELL:-include pbs/geometry/installed_eigen.hpp>")
 target_link_libraries(pbs_settings INTERFACE Eigen3::Eigen)
 
+# calls_libraries(TARGET): its sources spend their time in libraries, so that -O3 costs more in the compiler than it saves at run time. The
+# level of a precompiled header is that of all its sources: GCC 12 ignores theirs. GCC takes Eigen's dynamic matrices for uninitialized.
+function(calls_libraries target)
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1> $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
+endfunction()
+
 # unity_build(TARGET [ALONE SOURCE...]): compiles the sources eight at once, so that their anonymous namespaces are one. A source with a
 # name that another one has too is compiled alone. The presets dev and package compile each source alone, which detects a missing include.
 # GCC 12 warns of its own headers where it inlines more.

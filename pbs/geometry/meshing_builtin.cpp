@@ -5,33 +5,22 @@
 #include "pbs/geometry/meshing_attempts.hpp"
 #include "pbs/geometry/meshing_cgal.hpp"
 
-#include <CGAL/Labeled_mesh_domain_3.h>
-#include <CGAL/Mesh_complex_3_in_triangulation_3.h>
-#include <CGAL/Mesh_criteria_3.h>
-#include <CGAL/Mesh_triangulation_3.h>
-#include <CGAL/Polygon_mesh_processing/triangulate_faces.h>
-#include <CGAL/Polyhedral_mesh_domain_with_features_3.h>
-#include <CGAL/boost/graph/generators.h>
+#include <CGAL/Intersections_3/Iso_cuboid_3_Line_3.h>
+#include <CGAL/Intersections_3/Iso_cuboid_3_Ray_3.h>
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
-#include <utility>
+#include <optional>
+#include <variant>
+#include <vector>
 
 namespace pbs {
 namespace {
 
-namespace parameters = CGAL::parameters;
-using Point = Kernel::Point_3;
-
 constexpr double half_length = 1.0;  // [m]
 constexpr double radius = 0.15;      // [m], half the bar's width
-constexpr double sliver_bound_deg = 0.0;
-
-void require_vertices(int vertices, int least)
-{
-    if (vertices < least) throw InputError("", 0, "vertices", std::to_string(vertices), "expected at least " + std::to_string(least));
-}
 
 // Signed distance to the capsule round the segment (-1,0,0) -> (1,0,0).
 double capsule_distance(const Point& p)
@@ -40,85 +29,83 @@ double capsule_distance(const Point& p)
     return std::sqrt(along * along + p.y() * p.y() + p.z() * p.z()) - radius;
 }
 
-// CGAL starts the refinement from a dozen random points; where two fall close together a short edge stays, whatever the cell size. Here
-// it starts from the poles and three rings of three.
-struct CapsuleDomain : CGAL::Labeled_mesh_domain_3<Kernel> {
-    using Base = CGAL::Labeled_mesh_domain_3<Kernel>;
+class Capsule : public MeshedBody {
+public:
+    CGAL::Bbox_3 box() const override { return box_.bbox(); }
+    bool contains(const Point& p) const override { return capsule_distance(p) < 0.0; }
 
-    CapsuleDomain()
-        : Base(create_implicit_mesh_domain(capsule_distance, Kernel::Sphere_3(Point(0, 0, 0), 4.0),  // centre, squared radius
-                                           parameters::relative_error_bound = 1e-9))
+    std::optional<SkinPoint> crossing(const Line& line) const override
     {
+        if (const auto* segment = std::get_if<Kernel::Segment_3>(&line)) return crossing(*segment);
+        const auto clipped = [this](const auto& whole) -> std::optional<SkinPoint> {
+            const auto part = CGAL::intersection(whole, box_);
+            const auto* segment = part ? boost::get<Kernel::Segment_3>(&*part) : nullptr;
+            return segment ? crossing(*segment) : std::nullopt;
+        };
+        return std::visit(clipped, line);
     }
 
-    struct InitialPoints {
-        const CapsuleDomain& domain;
+    // CGAL would begin with a dozen random points; where two fall close together a short edge stays, whatever the cell size. Here these are
+    // the poles and three rings of three.
+    std::vector<SkinPoint> initial_points() const override
+    {
+        std::vector<SkinPoint> points = {{Point(-half_length - radius, 0, 0), 1}, {Point(half_length + radius, 0, 0), 1}};
+        for (int ring = -1; ring <= 1; ++ring)
+            for (int k = 0; k < 3; ++k) {
+                const double angle = std::numbers::pi / 3.0 * (2 * k + ring);
+                points.emplace_back(Point(0.7 * half_length * ring, radius * std::cos(angle), radius * std::sin(angle)), 1);
+            }
+        return points;
+    }
 
-        template <typename Output>
-        Output operator()(Output output, int = 0) const
-        {
-            const Index skin = domain.index_from_surface_patch_index({0, 1});
-            const auto add = [&](double x, double y, double z) { *output++ = std::pair(Point(x, y, z), skin); };
-            add(-half_length - radius, 0.0, 0.0);
-            add(half_length + radius, 0.0, 0.0);
-            for (int ring = -1; ring <= 1; ++ring)
-                for (int k = 0; k < 3; ++k) {
-                    const double angle = std::numbers::pi / 3.0 * (2 * k + ring);
-                    add(0.7 * half_length * ring, radius * std::cos(angle), radius * std::sin(angle));
-                }
-            return output;
+private:
+    // By bisection.
+    std::optional<SkinPoint> crossing(const Kernel::Segment_3& segment) const
+    {
+        Point p = segment.source(), q = segment.target();
+        const bool begins_inside = contains(p);
+        if (contains(q) == begins_inside) return std::nullopt;
+        Point middle = CGAL::midpoint(p, q);
+        while (CGAL::squared_distance(p, q) >= squared_error_) {
+            (contains(middle) == begins_inside ? p : q) = middle;
+            middle = CGAL::midpoint(p, q);
         }
-    };
-    InitialPoints construct_initial_points_object() const { return {*this}; }
+        return SkinPoint(middle, 1);
+    }
+
+    Kernel::Iso_cuboid_3 box_{Kernel::Sphere_3(Point(0, 0, 0), 4.0).bbox()};  // centre, squared radius
+    double squared_error_ = CGAL::squared_distance(box_.min(), box_.max()) * 1e-9 * 1e-9 / 4;
 };
 
-TetMesh capsule_at(double size)
+std::unique_ptr<MeshedBody> make_bar()
 {
-    using Triangulation = CGAL::Mesh_triangulation_3<CapsuleDomain>::type;
-    using Complex = CGAL::Mesh_complex_3_in_triangulation_3<Triangulation>;
-    using Criteria = CGAL::Mesh_criteria_3<Triangulation>;
-
-    const CapsuleDomain domain;
-    const Criteria criteria(parameters::facet_angle = 25, parameters::facet_size = size, parameters::facet_distance = 0.1 * size,
-                            parameters::cell_radius_edge_ratio = 2, parameters::cell_size = size);
-    Complex complex = refine_mesh<Complex>(domain, criteria);
-    optimise_mesh(complex, domain, sliver_bound_deg);
-    return tet_mesh_of(complex);
+    const double x = half_length, r = radius;
+    const std::vector<Point> corners = {{-x, -r, -r}, {x, -r, -r}, {x, r, -r}, {-x, r, -r}, {-x, r, r}, {-x, -r, r}, {x, -r, r}, {x, r, r}};
+    const std::vector<PatchTriangle> triangles = {{6, 4, 5, 1}, {2, 0, 3, 2}, {7, 1, 2, 3}, {6, 0, 1, 4}, {5, 3, 0, 5}, {4, 2, 3, 6},
+                                                  {4, 6, 7, 1}, {0, 2, 1, 2}, {1, 7, 6, 3}, {0, 6, 5, 4}, {3, 5, 4, 5}, {2, 4, 7, 6}};
+    return make_enclosed_body(corners, triangles);
 }
 
-TetMesh bar_at(double size)
+// vertices: see mesh_limb. least: below, cells as large as the body is thick, and no vertex inside.
+TetMesh mesh_builtin(MeshedBody& body, int vertices, int least)
 {
-    using Domain = CGAL::Polyhedral_mesh_domain_with_features_3<Kernel>;
-    using Triangulation = CGAL::Mesh_triangulation_3<Domain>::type;
-    using Complex = CGAL::Mesh_complex_3_in_triangulation_3<Triangulation, Domain::Corner_index, Domain::Curve_index>;
-    using Criteria = CGAL::Mesh_criteria_3<Triangulation>;
-
-    Domain::Polyhedron box;
-    const double x = half_length, r = radius;
-    CGAL::make_hexahedron(Point(-x, -r, -r), Point(x, -r, -r), Point(x, r, -r), Point(-x, r, -r), Point(-x, r, r), Point(-x, -r, r),
-                          Point(x, -r, r), Point(x, r, r), box);
-    CGAL::Polygon_mesh_processing::triangulate_faces(box);
-    Domain domain(box);
-    domain.detect_features();
-    const Criteria criteria(parameters::edge_size = size, parameters::facet_angle = 25, parameters::facet_size = size,
-                            parameters::facet_distance = 0.1 * size, parameters::cell_radius_edge_ratio = 2, parameters::cell_size = size);
-    Complex complex = refine_mesh<Complex>(domain, criteria);
-    optimise_mesh(complex, domain, sliver_bound_deg);
-    return tet_mesh_of(complex);
+    if (vertices < least) throw InputError("", 0, "vertices", std::to_string(vertices), "expected at least " + std::to_string(least));
+    return mesh_at_vertex_count(vertices, 0.78 * std::pow(vertices, -0.36), [&](double size) {
+        return mesh_body(body, {.facet_size = size, .cell_size = size, .facet_distance = 0.1 * size, .sliver_bound_deg = 0.0});
+    });
 }
 
 }  // namespace
 
 TetMesh mesh_limb(int vertices)
 {
-    require_vertices(vertices, 300);  // below, cells as large as the limb is thick, and no vertex inside
-    return mesh_at_vertex_count(vertices, 0.78 * std::pow(vertices, -0.36), capsule_at);
+    Capsule capsule;
+    return mesh_builtin(capsule, vertices, 300);
 }
 
 TetMesh mesh_bar(int vertices)
 {
-    require_vertices(vertices, 150);
-    return mesh_at_vertex_count(vertices, 0.78 * std::pow(vertices, -0.36), bar_at);
+    return mesh_builtin(*make_bar(), vertices, 150);
 }
 
 }  // namespace pbs

@@ -10,9 +10,6 @@
 #include <CGAL/AABB_face_graph_triangle_primitive.h>
 #include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_tree.h>
-#include <CGAL/Mesh_complex_3_in_triangulation_3.h>
-#include <CGAL/Mesh_criteria_3.h>
-#include <CGAL/Mesh_triangulation_3.h>
 #include <CGAL/Polygon_mesh_processing/compute_normal.h>
 #include <CGAL/Polygon_mesh_processing/measure.h>
 #include <CGAL/Polyhedral_mesh_domain_3.h>
@@ -26,15 +23,15 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
+#include <set>
 #include <utility>
 
 namespace pbs {
 namespace {
 
-namespace parameters = CGAL::parameters;
 namespace pmp = CGAL::Polygon_mesh_processing;
-using Point = Kernel::Point_3;
 using Surface = CGAL::Surface_mesh<Point>;
 using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, CGAL::AABB_face_graph_triangle_primitive<Surface>>>;
 
@@ -48,62 +45,76 @@ std::vector<std::vector<Surface::Vertex_index>> vertices_of_parts(const Surface&
     return parts;
 }
 
-// CGAL starts the refinement from random points; where two fall close together a short edge stays, whatever the cell size. Here it starts
-// from vertices of the surface as far from each other as can be. A part on which there are none would be lost.
-class Domain : public CGAL::Polyhedral_mesh_domain_3<Surface, Kernel> {
+// What a closed surface encloses. Its property "f:patch_id" numbers the patches.
+class EnclosedBody : public MeshedBody {
 public:
-    explicit Domain(const Surface& surface)
-        : CGAL::Polyhedral_mesh_domain_3<Surface, Kernel>(surface), surface_(surface), parts_(vertices_of_parts(surface))
+    explicit EnclosedBody(Surface surface)
+        : surface_(std::move(surface)),
+          patches_(get(CGAL::face_patch_id_t<int>(), surface_)),
+          domain_(surface_),
+          parts_(vertices_of_parts(surface_))
     {
     }
 
-    struct InitialPoints {
-        const Domain& domain;
+    CGAL::Bbox_3 box() const override { return domain_.bbox(); }
+    bool contains(const Point& p) const override { return domain_.is_in_domain_object()(p).has_value(); }
 
-        template <typename Output>
-        Output operator()(Output output, int = 0) const
-        {
-            for (const auto& part : domain.parts_) output = add(part, output);
-            return output;
-        }
+    std::optional<SkinPoint> crossing(const Line& line) const override
+    {
+        const auto crossing = [this](const auto& query) { return domain_.construct_intersection_object()(query); };
+        const auto [point, patch, dimension] = std::visit(crossing, line);
+        return dimension == 0 ? std::nullopt : std::optional(SkinPoint(point, patch));
+    }
 
-        template <typename Output>
-        Output add(const std::vector<Surface::Vertex_index>& part, Output output) const
-        {
-            const Surface& surface = domain.surface_;
+    // Where two patches meet.
+    std::vector<Edge> edges() const override
+    {
+        std::map<std::pair<Surface::Vertex_index, Surface::Vertex_index>, std::set<int>> patches_at;
+        for (const auto along : surface_.halfedges())
+            patches_at[std::minmax(surface_.source(along), surface_.target(along))].insert(patches_[surface_.face(along)]);
+        std::vector<Edge> edges;
+        for (const auto& [ends, patches] : patches_at)
+            if (patches.size() == 2) edges.push_back({{surface_.point(ends.first), surface_.point(ends.second)}, patches});
+        return edges;
+    }
+
+    // CGAL would begin with random points; where two fall close together a short edge stays, whatever the cell size. Here these are
+    // vertices of the surface as far from each other as can be. A part on which there are none would be lost.
+    std::vector<SkinPoint> initial_points() const override
+    {
+        std::vector<SkinPoint> points;
+        for (const auto& part : parts_) {
             std::vector<double> distance(part.size(), std::numeric_limits<double>::infinity());
             std::size_t next = 0;
-            for (int i = 0; i < domain.initial_points_ && distance[next] > 0.0; ++i) {
-                const Point& point = surface.point(part[next]);
-                const auto face = surface.face(surface.halfedge(part[next]));
-                *output++ = std::pair(point, domain.index_from_surface_patch_index(domain.make_surface_index({face, &surface})));
+            for (int i = 0; i < points_a_part_ && distance[next] > 0.0; ++i) {
+                const Point& point = surface_.point(part[next]);
+                points.emplace_back(point, patches_[surface_.face(surface_.halfedge(part[next]))]);
                 for (std::size_t v = 0; v < part.size(); ++v)
-                    distance[v] = std::min(distance[v], CGAL::squared_distance(surface.point(part[v]), point));
+                    distance[v] = std::min(distance[v], CGAL::squared_distance(surface_.point(part[v]), point));
                 next = static_cast<std::size_t>(std::max_element(distance.begin(), distance.end()) - distance.begin());
             }
-            return output;
         }
-    };
-    InitialPoints construct_initial_points_object() const { return {*this}; }
-
-    // False once there are as many as the surface has vertices.
-    bool double_initial_points()
-    {
-        initial_points_ *= 2;
-        return initial_points_ <= static_cast<int>(surface_.number_of_vertices());
+        return points;
     }
 
+    // False once there are as many as the surface has vertices.
+    bool double_initial_points() override
+    {
+        points_a_part_ *= 2;
+        return points_a_part_ <= static_cast<int>(surface_.number_of_vertices());
+    }
+
+protected:
+    Surface surface_;
+
 private:
-    const Surface& surface_;
+    Surface::Property_map<Surface::Face_index, int> patches_;
+    CGAL::Polyhedral_mesh_domain_3<Surface, Kernel, CGAL::Default, int> domain_;
     std::vector<std::vector<Surface::Vertex_index>> parts_;
-    int initial_points_ = 12;  // on each part
+    int points_a_part_ = 12;
 };
 
-using Triangulation = CGAL::Mesh_triangulation_3<Domain>::type;
-using Complex = CGAL::Mesh_complex_3_in_triangulation_3<Triangulation>;
-using Criteria = CGAL::Mesh_criteria_3<Triangulation>;
-
-constexpr double facet_angle_deg = 25.0, radius_edge_ratio = 2.5, sliver_bound_deg = 12.0;
+constexpr double radius_edge_ratio = 2.5, good_dihedral_deg = 12.0;
 
 // Relative to the diagonal of the body, at size 1: the value that gives a standing human 2,000 vertices.
 constexpr double smallest_cell = 0.0042, largest_cell = 0.021, facet_distance = 0.0032;
@@ -164,66 +175,49 @@ std::vector<double> local_thickness(const Surface& surface, const Tree& tree, do
 }
 
 // A wrapped body, ready to be meshed at any cell size.
-class Body {
+class WrappedBody : public EnclosedBody {
 public:
-    Body(const SurfaceMesh& surface, double alpha, double offset)
-        : diagonal_(diagonal_of(surface.points)),
-          wrapped_(wrap(surface, alpha, offset)),
-          domain_(wrapped_),
-          tree_(faces(wrapped_).begin(), faces(wrapped_).end(), wrapped_)
+    WrappedBody(const SurfaceMesh& surface, double alpha, double offset)
+        : EnclosedBody(wrap(surface, alpha, offset)),
+          diagonal_(diagonal_of(surface.points)),
+          tree_(faces(surface_).begin(), faces(surface_).end(), surface_)
     {
         tree_.accelerate_distance_queries();
-        thickness_ = local_thickness(wrapped_, tree_, diagonal_);
+        thickness_ = local_thickness(surface_, tree_, diagonal_);
     }
 
-    double volume() const { return CGAL::to_double(pmp::volume(wrapped_)); }
+    double volume() const { return CGAL::to_double(pmp::volume(surface_)); }
     int euler() const
     {
-        return static_cast<int>(wrapped_.number_of_vertices()) - static_cast<int>(wrapped_.number_of_edges()) +
-               static_cast<int>(wrapped_.number_of_faces());
+        return static_cast<int>(surface_.number_of_vertices()) - static_cast<int>(surface_.number_of_edges()) +
+               static_cast<int>(surface_.number_of_faces());
     }
-    bool contains(const Vec3& p) const { return domain_.is_in_domain_object()(Point(p(0), p(1), p(2))).has_value(); }
 
-    // size 1: cells as above; distance 1: facets as near to the wrap as above.
-    Complex refined(double size, double distance)
+    double relative_size(const Point& p) const override
     {
-        const Sizing skin{*this, size}, flesh{*this, inside_to_skin * size};
-        const Criteria criteria(parameters::facet_angle = facet_angle_deg, parameters::facet_size = skin,
-                                parameters::facet_distance = facet_distance * diagonal_ * distance * size,
-                                parameters::facet_topology = CGAL::FACET_VERTICES_ON_SAME_SURFACE_PATCH,
-                                parameters::cell_radius_edge_ratio = radius_edge_ratio, parameters::cell_size = flesh);
-        Complex complex = refine_mesh<Complex>(domain_, criteria, parameters::manifold());
-        while (complex.number_of_facets_in_complex() == 0 && domain_.double_initial_points())  // a body far longer than it is thick
-            complex = refine_mesh<Complex>(domain_, criteria, parameters::manifold());
-        return complex;
+        const double thickness = thickness_[tree_.closest_point_and_primitive(p).second.idx()];
+        return std::clamp(thickness / cells_across, smallest_cell * diagonal_, largest_cell * diagonal_);
     }
 
-    void optimise(Complex& complex) const { optimise_mesh(complex, domain_, sliver_bound_deg); }
+    // size 1: cells as above; distance 1: facets as near to the wrap as above. sliver_bound_deg: see MeshCriteria.
+    MeshCriteria criteria(double size, double distance, std::optional<double> sliver_bound_deg = {}) const
+    {
+        return {.facet_size = size,
+                .cell_size = inside_to_skin * size,
+                .facet_distance = facet_distance * diagonal_ * distance * size,
+                .radius_edge_ratio = radius_edge_ratio,
+                .is_manifold = true,
+                .sliver_bound_deg = sliver_bound_deg};
+    }
 
 private:
-    struct Sizing {
-        using FT = Kernel::FT;
-        using Point_3 = Point;
-        using Index = Domain::Index;
-        const Body& body;
-        double size;
-
-        FT operator()(const Point& p, int, const Index&) const
-        {
-            const double thickness = body.thickness_[body.tree_.closest_point_and_primitive(p).second.idx()];
-            return size * std::clamp(thickness / cells_across, smallest_cell * body.diagonal_, largest_cell * body.diagonal_);
-        }
-    };
-
     double diagonal_;
-    Surface wrapped_;
-    Domain domain_;
     Tree tree_;
     std::vector<double> thickness_;
 };
 
 // An open sheet is wrapped on both sides: its wrap holds far less, or far more, than the surface seems to enclose.
-void check_closed(const SurfaceMesh& surface, const Body& body)
+void check_closed(const SurfaceMesh& surface, const WrappedBody& body)
 {
     const double ratio = body.volume() / std::abs(fan_volume(surface.points, surface.triangles));
     if (!(ratio > 0.5 && ratio < 2.0))
@@ -232,22 +226,22 @@ void check_closed(const SurfaceMesh& surface, const Body& body)
 }
 
 // A defect of the wrap remains at every cell size.
-void check_wrap(const Body& body, const SurfaceMeshing& options)
+void check_wrap(const WrappedBody& body, const SurfaceMeshing& options)
 {
     if (options.boundary_euler && body.euler() != *options.boundary_euler)
         throw InputError("", 0, "Euler number of the wrapped surface", std::to_string(body.euler()),
                          "expected " + std::to_string(*options.boundary_euler) + ": another wrap_alpha_m, or ask for this number");
     for (std::size_t i = 0; i < options.inside.size(); ++i)
-        if (!body.contains(options.inside[i]))
+        if (!body.contains(Point(options.inside[i](0), options.inside[i](1), options.inside[i](2))))
             throw InputError("", 0, "point " + std::to_string(i) + " asked inside", "", "expected inside the surface");
 }
 
 // The cell size that refines to the wanted number of vertices; optimising hardly changes it.
-double size_of(Body& body, int vertices, double distance)
+double size_of(WrappedBody& body, int vertices, double distance)
 {
     double nearest_size = 1.0, nearest_miss = std::numeric_limits<double>::infinity();
     mesh_at_vertex_count(vertices, 1.0, [&](double size) {
-        TetMesh mesh = tet_mesh_of(body.refined(size, distance));
+        TetMesh mesh = mesh_body(body, body.criteria(size, distance));
         const double miss = std::abs(static_cast<double>(mesh.rest.rows()) - vertices);
         if (miss < nearest_miss) {
             nearest_miss = miss;
@@ -256,13 +250,6 @@ double size_of(Body& body, int vertices, double distance)
         return mesh;
     });
     return nearest_size;
-}
-
-TetMesh optimised(Body& body, double size, double distance)
-{
-    Complex complex = body.refined(size, distance);
-    body.optimise(complex);
-    return tet_mesh_of(complex);
 }
 
 // The first thing wrong with the mesh, which perturbing and exuding may have undone; empty when it is boundary-manifold, in one piece, of
@@ -294,12 +281,13 @@ std::string breach_of(const TetMesh& mesh, const SurfaceMeshing& options)
 std::optional<TetMesh> mesh_wrapped(const SurfaceMesh& surface, double alpha, double offset, bool may_thicken,
                                     const SurfaceMeshing& options, std::string& breach)
 {
-    Body body(surface, alpha, offset);
+    WrappedBody body(surface, alpha, offset);
     if (options.is_closed) check_closed(surface, body);
     check_wrap(body, options);
     int not_manifold = 0;
     for (const double distance : {1.0, 0.8, 1.25, 0.65, 1.5, 0.5}) {
-        TetMesh mesh = optimised(body, size_of(body, options.vertices, distance), distance);
+        const double size = size_of(body, options.vertices, distance);
+        TetMesh mesh = mesh_body(body, body.criteria(size, distance, good_dihedral_deg));
         breach = breach_of(mesh, options);
         if (breach.empty()) return mesh;
         not_manifold += breach == boundary_not_manifold;
@@ -331,6 +319,16 @@ double sheet_offset_m(const SurfaceMesh& surface)
     const double diagonal = diagonal_of(surface.points);
     const bool has_volume = std::abs(fan_volume(surface.points, surface.triangles)) > flat_surface * diagonal * diagonal * diagonal;
     return has_volume ? 0.0 : diagonal * sheet_thickness / 2.0;
+}
+
+std::unique_ptr<MeshedBody> make_enclosed_body(const std::vector<Point>& points, const std::vector<PatchTriangle>& triangles)
+{
+    Surface surface;
+    auto patches = get(CGAL::face_patch_id_t<int>(), surface);
+    for (const Point& point : points) surface.add_vertex(point);
+    for (const auto& [a, b, c, patch] : triangles)
+        patches[surface.add_face(Surface::Vertex_index(a), Surface::Vertex_index(b), Surface::Vertex_index(c))] = patch;
+    return std::make_unique<EnclosedBody>(std::move(surface));
 }
 
 TetMesh mesh_surface(const SurfaceMesh& surface, const SurfaceMeshing& options)

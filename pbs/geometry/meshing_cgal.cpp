@@ -1,0 +1,120 @@
+#include "pbs/geometry/meshing_cgal.hpp"
+
+#include <CGAL/Mesh_complex_3_in_triangulation_3.h>
+#include <CGAL/Mesh_criteria_3.h>
+#include <CGAL/Mesh_domain_with_polyline_features_3.h>
+#include <CGAL/Mesh_triangulation_3.h>
+#include <CGAL/Random.h>
+#include <CGAL/make_mesh_3.h>
+
+#include <boost/optional.hpp>
+
+#include <algorithm>
+#include <tuple>
+#include <unordered_map>
+
+namespace pbs {
+namespace {
+
+namespace parameters = CGAL::parameters;
+
+// A body as CGAL's concept MeshDomain_3.
+struct AskedBody {
+    using R = Kernel;
+    using Point_3 = Point;
+    using Index = int;
+    using Subdomain_index = int;
+    using Subdomain = boost::optional<int>;
+    using Surface_patch_index = int;
+    using Intersection = std::tuple<Point, Index, int>;  // and its dimension, 0 where there is none
+    using Construct_intersection = AskedBody;
+
+    explicit AskedBody(const MeshedBody* asked) : body(asked) {}
+
+    CGAL::Bbox_3 bbox() const { return body->box(); }
+    auto construct_initial_points_object() const
+    {
+        return [this](auto output, int = 0) {
+            const auto points = body->initial_points();
+            return std::copy(points.begin(), points.end(), output);
+        };
+    }
+    auto is_in_domain_object() const
+    {
+        return [this](const Point& p) { return body->contains(p) ? Subdomain(1) : Subdomain(); };
+    }
+    const AskedBody& construct_intersection_object() const { return *this; }
+    Intersection operator()(const MeshedBody::Line& line) const
+    {
+        const auto crossing = body->crossing(line);
+        return crossing ? Intersection(crossing->first, crossing->second, 2) : Intersection();
+    }
+
+    const MeshedBody* body;
+};
+
+using Domain = CGAL::Mesh_domain_with_polyline_features_3<AskedBody>;
+using Triangulation = CGAL::Mesh_triangulation_3<Domain>::type;
+using Complex = CGAL::Mesh_complex_3_in_triangulation_3<Triangulation, Domain::Corner_index, Domain::Curve_index>;
+using Criteria = CGAL::Mesh_criteria_3<Triangulation>;
+
+// Refines and no more. make_mesh_3 would limit the optimisers to the seconds that the refinement took; called by themselves they end by
+// themselves, and the same way each time.
+Complex refined(const Domain& domain, const MeshCriteria& wanted)
+{
+    const auto sized = [&domain](double size) {
+        return [&domain, size](const Point& p, int, const Domain::Index&) { return size * domain.body->relative_size(p); };
+    };
+    const Criteria criteria(
+        parameters::edge_size = sized(wanted.facet_size), parameters::facet_angle = 25, parameters::facet_size = sized(wanted.facet_size),
+        parameters::facet_distance = wanted.facet_distance,
+        parameters::facet_topology = wanted.is_manifold ? CGAL::FACET_VERTICES_ON_SAME_SURFACE_PATCH : CGAL::FACET_VERTICES_ON_SURFACE,
+        parameters::cell_radius_edge_ratio = wanted.radius_edge_ratio, parameters::cell_size = sized(wanted.cell_size));
+    CGAL::get_default_random() = CGAL::Random(0);  // CGAL seeds it with the clock; a fixed seed makes meshing repeat to the bit
+    // CGAL prints a warning when no refinement can begin. Such an empty complex is refined again from other points.
+    const auto previous = CGAL::set_warning_handler([](const char*, const char*, const char*, int, const char*) {});
+    const std::shared_ptr<void> quiet(nullptr, [previous](void*) { CGAL::set_warning_handler(previous); });
+    return CGAL::make_mesh_3<Complex>(domain, criteria, parameters::no_perturb(), parameters::no_exude(),
+                                      wanted.is_manifold ? parameters::manifold() : parameters::non_manifold(),
+                                      domain.maximal_curve_index() > 0 ? parameters::features() : parameters::no_features());
+}
+
+// Vertices are numbered as the cells first name them; cells come in the order of the triangulation's container.
+TetMesh tet_mesh_of(const Complex& complex)
+{
+    TetMesh mesh;
+    mesh.tets.resize(static_cast<Eigen::Index>(complex.number_of_cells_in_complex()), 4);
+    std::unordered_map<const void*, int> index_of;
+    std::vector<Vec3> points;
+    Eigen::Index t = 0;
+    for (auto cell = complex.cells_in_complex_begin(); cell != complex.cells_in_complex_end(); ++cell, ++t)
+        for (int corner = 0; corner < 4; ++corner) {
+            const auto vertex = cell->vertex(corner);
+            const auto [entry, is_new] = index_of.emplace(&*vertex, static_cast<int>(points.size()));
+            if (is_new) points.emplace_back(vertex->point().x(), vertex->point().y(), vertex->point().z());
+            mesh.tets(t, corner) = entry->second;
+        }
+    mesh.rest.resize(static_cast<Eigen::Index>(points.size()), 3);
+    for (std::size_t i = 0; i < points.size(); ++i) mesh.rest.row(static_cast<Eigen::Index>(i)) = points[i].transpose();
+    return mesh;
+}
+
+}  // namespace
+
+TetMesh mesh_body(MeshedBody& body, const MeshCriteria& criteria)
+{
+    const MeshedBody* asked = &body;
+    Domain domain(asked);
+    const std::vector<MeshedBody::Edge> edges = body.edges();
+    domain.add_features_and_incidences(edges.begin(), edges.end(), CGAL::First_of_pair_property_map<MeshedBody::Edge>(),
+                                       CGAL::Second_of_pair_property_map<MeshedBody::Edge>());
+    Complex complex = refined(domain, criteria);
+    while (complex.number_of_facets_in_complex() == 0 && body.double_initial_points()) complex = refined(domain, criteria);
+    if (criteria.sliver_bound_deg) {
+        CGAL::perturb_mesh_3(complex, domain, parameters::sliver_bound = *criteria.sliver_bound_deg);
+        CGAL::exude_mesh_3(complex, parameters::sliver_bound = *criteria.sliver_bound_deg);
+    }
+    return tet_mesh_of(complex);
+}
+
+}  // namespace pbs
