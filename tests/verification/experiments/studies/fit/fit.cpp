@@ -1,4 +1,4 @@
-// Reference: the finite elements themselves. The fit must find the modulus of a body that is an elastic bar, and leave a misfit for one
+// Reference: the finite elements themselves. The fit must find the modulus of a body that is an elastic sagging_bar, and leave a misfit for one
 // that is not. The sag is compared with Timoshenko's beam.
 #include "experiments/studies/fit/fit.hpp"
 
@@ -13,9 +13,9 @@ namespace {
 using namespace experiments;
 using pbs::Positions;
 
-const pbs::TetMesh bar = test_support::structured_bar({-1, -0.1, -0.1}, {1, 0.1, 0.1}, {20, 2, 2});
+const pbs::TetMesh sagging_bar = test_support::structured_bar({-1, -0.1, -0.1}, {1, 0.1, 0.1}, {20, 2, 2});
 
-const Cantilever cantilever = make_cantilever(bar);
+const Cantilever cantilever = make_cantilever(sagging_bar);
 
 FemOptions options_of(double young_pa)
 {
@@ -27,8 +27,8 @@ FemOptions options_of(double young_pa)
 
 TEST(Cantilever, HoldsTheFirstTenthAndHasATip)
 {
-    for (Eigen::Index v = 0; v < bar.rest.rows(); ++v) EXPECT_EQ(cantilever.body.held[v], bar.rest(v, 0) < -0.8 + 1e-9) << bar.rest.row(v);
-    for (const int v : cantilever.tip) EXPECT_GE(bar.rest(v, 0), 0.8);
+    for (Eigen::Index v = 0; v < sagging_bar.rest.rows(); ++v) EXPECT_EQ(cantilever.body.held[v], sagging_bar.rest(v, 0) < -0.8 + 1e-9) << sagging_bar.rest.row(v);
+    for (const int v : cantilever.tip) EXPECT_GE(sagging_bar.rest(v, 0), 0.8);
     std::size_t free = 0;
     for (const auto& fifth : cantilever.fifths) free += fifth.size();
     EXPECT_EQ(free, 18u * 9u);
@@ -43,15 +43,15 @@ TEST(ElasticSag, IsThatOfTimoshenkosBeam)
     const double nu = 0.45, length = 1.8, side = 0.2, inertia = std::pow(side, 4) / 12.0, weight = 1000.0 * side * side;
     const double k = 10.0 * (1.0 + nu) / (12.0 + 11.0 * nu), shear_pa = 1e5 / (2.0 * (1.0 + nu));
     double tip = 0.0, count = 0.0;
-    for (Eigen::Index v = 0; v < bar.rest.rows(); ++v)
-        if (bar.rest(v, 0) > 1.0 - 1e-9) tip -= sag.displacement(v, 2), ++count;
+    for (Eigen::Index v = 0; v < sagging_bar.rest.rows(); ++v)
+        if (sagging_bar.rest(v, 0) > 1.0 - 1e-9) tip -= sag.displacement(v, 2), ++count;
     const double expected =
         weight * std::pow(length, 4) / (8.0 * 1e5 * inertia) + weight * length * length / (2.0 * k * shear_pa * side * side);
     EXPECT_LT(tip / count, 1.01 * expected);
     EXPECT_GT(tip / count, 0.92 * expected);
 }
 
-// Each of the five estimates, of which each fits a fifth of the bar, lies in a bracket of 1e-5 of the interval from E / 5 to 5 E. The half
+// Each of the five estimates, of which each fits a fifth of the sagging_bar, lies in a bracket of 1e-5 of the interval from E / 5 to 5 E. The half
 // width of their 95 % interval is t s / sqrt 5, with t = 2.776 and a standard deviation s of at most the bracket's width times sqrt(5 / 4).
 TEST(YoungFit, FindsTheModulusOfAnElasticBar)
 {
@@ -65,18 +65,18 @@ TEST(YoungFit, FindsTheModulusOfAnElasticBar)
     EXPECT_LT(fit.young_pa.high - fit.young_pa.low, 2.0 * 2.776 / 2.0 * bracket * 3.7e4);
 }
 
-// This shape bends in another way: no modulus removes the misfit, and the fifths of the bar disagree.
+// This shape bends in another way: no modulus removes the misfit, and the fifths of the sagging_bar disagree.
 TEST(YoungFit, AnotherShapeLeavesAMisfitAndWhatIsNotFiniteHasNone)
 {
     const ElasticSag reference = elastic_sag(cantilever, options_of(1.0));
-    Positions shape = Positions::Zero(bar.rest.rows(), 3);
-    shape.col(2) = -(bar.rest.col(0).array() + 1.0).pow(6) * 1e-3;
+    Positions shape = Positions::Zero(sagging_bar.rest.rows(), 3);
+    shape.col(2) = -(sagging_bar.rest.col(0).array() + 1.0).pow(6) * 1e-3;
     const YoungFit fit = fit_young(cantilever, reference, shape, 1.0);
     EXPECT_GT(fit.minimum.value, 20.0);
     EXPECT_GT(fit.young_pa.high - fit.young_pa.low, 0.2 * fit.young_pa.estimate);
 
     Positions broken = reference.displacement;
-    broken(bar.rest.rows() - 1, 2) = std::nan("");
+    broken(sagging_bar.rest.rows() - 1, 2) = std::nan("");
     EXPECT_TRUE(std::isnan(fit_young(cantilever, reference, broken, 1.0).young_pa.estimate));
     EXPECT_EQ(fit_young(cantilever, reference, -reference.displacement, 1.0).minimum.outcome, analysis::MinimumOutcome::not_finite);
 }
