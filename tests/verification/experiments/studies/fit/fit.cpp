@@ -1,4 +1,4 @@
-// Reference: the finite elements themselves. The fit must find the modulus of a body that is an elastic sagging_bar, and leave a misfit for one
+// Reference: the finite elements themselves. The fit must find the modulus of a body that is an elastic bar, and leave a misfit for one
 // that is not. The sag is compared with Timoshenko's beam.
 #include "experiments/studies/fit/fit.hpp"
 
@@ -27,7 +27,8 @@ FemOptions options_of(double young_pa)
 
 TEST(Cantilever, HoldsTheFirstTenthAndHasATip)
 {
-    for (Eigen::Index v = 0; v < sagging_bar.rest.rows(); ++v) EXPECT_EQ(cantilever.body.held[v], sagging_bar.rest(v, 0) < -0.8 + 1e-9) << sagging_bar.rest.row(v);
+    for (Eigen::Index v = 0; v < sagging_bar.rest.rows(); ++v)
+        EXPECT_EQ(cantilever.body.held[v], sagging_bar.rest(v, 0) < -0.8 + 1e-9) << sagging_bar.rest.row(v);
     for (const int v : cantilever.tip) EXPECT_GE(sagging_bar.rest(v, 0), 0.8);
     std::size_t free = 0;
     for (const auto& fifth : cantilever.fifths) free += fifth.size();
@@ -51,7 +52,7 @@ TEST(ElasticSag, IsThatOfTimoshenkosBeam)
     EXPECT_GT(tip / count, 0.92 * expected);
 }
 
-// Each of the five estimates, of which each fits a fifth of the sagging_bar, lies in a bracket of 1e-5 of the interval from E / 5 to 5 E. The half
+// Each of the five estimates, of which each fits a fifth of the bar, lies in a bracket of 1e-5 of the interval from E / 5 to 5 E. The half
 // width of their 95 % interval is t s / sqrt 5, with t = 2.776 and a standard deviation s of at most the bracket's width times sqrt(5 / 4).
 TEST(YoungFit, FindsTheModulusOfAnElasticBar)
 {
@@ -65,7 +66,7 @@ TEST(YoungFit, FindsTheModulusOfAnElasticBar)
     EXPECT_LT(fit.young_pa.high - fit.young_pa.low, 2.0 * 2.776 / 2.0 * bracket * 3.7e4);
 }
 
-// This shape bends in another way: no modulus removes the misfit, and the fifths of the sagging_bar disagree.
+// This shape bends in another way: no modulus removes the misfit, and the fifths of the bar disagree.
 TEST(YoungFit, AnotherShapeLeavesAMisfitAndWhatIsNotFiniteHasNone)
 {
     const ElasticSag reference = elastic_sag(cantilever, options_of(1.0));
