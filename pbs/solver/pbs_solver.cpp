@@ -23,11 +23,11 @@ struct PbsSolver::Implementation {
 
 PbsSolver::PbsSolver(const TetMesh& mesh, const Eigen::VectorXd& bind_distance, const std::vector<bool>& jiggle_zone,
                      const PbsOptions& options, const std::vector<bool>& held)
+    : implementation_(
+          options.precision == Precision::f32
+              ? std::make_unique<Implementation>(Implementation{Algorithm1<float>(mesh, bind_distance, jiggle_zone, options, held)})
+              : std::make_unique<Implementation>(Implementation{Algorithm1<double>(mesh, bind_distance, jiggle_zone, options, held)}))
 {
-    implementation_ =
-        options.precision == Precision::f32
-            ? std::make_unique<Implementation>(Implementation{Algorithm1<float>(mesh, bind_distance, jiggle_zone, options, held)})
-            : std::make_unique<Implementation>(Implementation{Algorithm1<double>(mesh, bind_distance, jiggle_zone, options, held)});
 }
 
 PbsSolver::~PbsSolver() = default;
