@@ -128,15 +128,15 @@ std::string exceeded(const std::string& what, int value, int most, const std::st
 const std::vector<Budget>& budgets()
 {
     static const std::vector<Budget> all = {
-        {.what = "pbs", .folders = {"pbs/"}, .endings = cpp, .most_lines = 22'600, .least_mean = 120, .small_files = 4},
+        {.what = "pbs", .folders = {"pbs/"}, .endings = cpp, .most_lines = 21'500, .least_mean = 120, .small_files = 4},
         {.what = "reference_fem", .folders = {"reference_fem/"}, .endings = cpp, .most_lines = 9'300, .least_mean = 120},
         {.what = "analysis", .folders = {"analysis/"}, .endings = cpp, .most_lines = 6'300, .least_mean = 120},
-        {.what = "experiments", .folders = {"experiments/"}, .endings = cpp, .most_lines = 27'350, .least_mean = 120, .small_files = 7},
+        {.what = "experiments", .folders = {"experiments/"}, .endings = cpp, .most_lines = 26'000, .least_mean = 120, .small_files = 7},
         {.what = "production C++",
          .folders = {"pbs/", "reference_fem/", "analysis/", "experiments/"},
          .endings = cpp,
-         .most_lines = 65'500},
-        {.what = "tests in C++", .folders = {"tests/"}, .endings = cpp, .most_lines = 45'200, .least_mean = 120, .small_files = 11},
+         .most_lines = 63'200},
+        {.what = "tests in C++", .folders = {"tests/"}, .endings = cpp, .most_lines = 41'000, .least_mean = 120, .small_files = 11},
         {.what = "tests in Python and JavaScript", .folders = {"tests/"}, .endings = scripts, .most_lines = 10'500},
         {.what = "paper_figures", .folders = {"paper_figures/"}, .endings = scripts, .most_lines = 7'900},
         {.what = "kept records", .folders = {"experiments/records/full/"}, .most_files = 150},
