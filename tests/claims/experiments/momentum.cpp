@@ -32,10 +32,10 @@ TEST(MomentumVerdict, HoldsWhereMassesAreKnownAndNotByEquationsForOneMass)
 TEST(MomentumVerdict, TurnsWithItsFigures)
 {
     analysis::Records records = records_of_limb();
-    for (auto& measured : records.measurements) measured.value = measured.low = measured.high = 1e-9;
-    EXPECT_EQ(judge(claim("C07"), records).kind, VerdictKind::reproduced);
-    for (auto& measured : records.measurements) measured.value = measured.low = measured.high = 0.1;
-    EXPECT_EQ(judge(claim("C07"), records).kind, VerdictKind::not_reproduced);
+    for (const auto& [drift, kind] : {std::pair(1e-9, VerdictKind::reproduced), {0.1, VerdictKind::not_reproduced}}) {
+        for (auto& measured : records.measurements) measured.value = measured.low = measured.high = drift;
+        EXPECT_EQ(judge(claim("C07"), records).kind, kind) << drift;
+    }
 }
 
 // C07 from correct and broken projections. Reference:
