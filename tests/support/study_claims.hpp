@@ -1,7 +1,7 @@
 // The project's own claims, and the values that a study's own runs measure for them.
 //   const analysis::Records records = test_support::records_of(experiments::audit_study().plan(false));
 //   judge(test_support::claim("C13"), records)
-//   verdict_from("C09", jiggle_values("limb", measured)).kind
+//   verdict_on("C09", jiggle_values("limb", measured))
 #pragma once
 
 #include "analysis/records/record_files.hpp"
@@ -11,7 +11,10 @@
 #include "experiments/studies/study.hpp"
 #include "tests/support/scratch_folder.hpp"
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
+#include <set>
 
 namespace test_support {
 
@@ -25,6 +28,30 @@ inline analysis::Claim claim(const std::string& id)
 inline analysis::Verdict verdict_from(const std::string& id, const std::vector<analysis::Measurement>& measured)
 {
     return judge(claim(id), {.measurements = measured});
+}
+
+// Its kind.
+inline analysis::VerdictKind verdict_on(const std::string& id, const std::vector<analysis::Measurement>& measured)
+{
+    return verdict_from(id, measured).kind;
+}
+
+inline std::vector<analysis::Measurement> joined(const std::vector<std::vector<analysis::Measurement>>& lists)
+{
+    std::vector<analysis::Measurement> all;
+    for (const auto& list : lists) all.insert(all.end(), list.begin(), list.end());
+    return all;
+}
+
+// Every quantity on which the claim is judged is written, and none that it does not know.
+inline void expect_quantities_of(const std::string& id, const std::vector<analysis::Measurement>& measured)
+{
+    const analysis::Claim of = claim(id);
+    std::set<std::string> known(of.metrics.begin(), of.metrics.end()), written;
+    for (const analysis::Measurement& measurement : measured) written.insert(measurement.quantity);
+    for (const std::string& quantity : known) EXPECT_TRUE(written.contains(quantity)) << quantity;
+    known.insert(of.reported.begin(), of.reported.end());
+    for (const std::string& quantity : written) EXPECT_TRUE(known.contains(quantity)) << quantity;
 }
 
 // Carries out the first `runs` runs of the plan, like `pbskin reproduce`.

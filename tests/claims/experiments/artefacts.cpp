@@ -9,8 +9,6 @@
 
 #include <gtest/gtest.h>
 
-#include <set>
-
 namespace {
 
 using analysis::Measurement;
@@ -18,33 +16,14 @@ using analysis::VerdictKind;
 using experiments::ArtefactBody;
 using experiments::ArtefactCase;
 using experiments::ArtefactSample;
+using test_support::expect_quantities_of;
 using test_support::sample;
-
-VerdictKind verdict(const std::string& id, const std::vector<Measurement>& measured)
-{
-    return test_support::verdict_from(id, measured).kind;
-}
-
-void expect_the_claims_quantities(const std::string& id, const std::vector<Measurement>& measured)
-{
-    const analysis::Claim claim = test_support::claim(id);
-    std::set<std::string> known(claim.metrics.begin(), claim.metrics.end()), written;
-    for (const Measurement& measurement : measured) written.insert(measurement.quantity);
-    for (const std::string& quantity : known) EXPECT_TRUE(written.contains(quantity)) << quantity;
-    known.insert(claim.reported.begin(), claim.reported.end());
-    for (const std::string& quantity : written) EXPECT_TRUE(known.contains(quantity)) << quantity;
-}
+using test_support::verdict_on;
 
 class ArtefactsVerdict : public testing::Test {
 protected:
-    std::vector<Measurement> thin(const std::vector<ArtefactSample>& samples) const
-    {
-        return experiments::candy_wrapper_values(twisted, body, samples);
-    }
-    std::vector<Measurement> wide(const std::vector<ArtefactSample>& samples) const
-    {
-        return experiments::bulge_values(bent, body, samples);
-    }
+    std::vector<Measurement> thin(const std::vector<ArtefactSample>& samples) const { return candy_wrapper_values(twisted, body, samples); }
+    std::vector<Measurement> wide(const std::vector<ArtefactSample>& samples) const { return bulge_values(bent, body, samples); }
 
     ArtefactCase twisted = test_support::small_limb(ArtefactCase::Claim::candy_wrapper);
     ArtefactCase bent = test_support::small_limb(ArtefactCase::Claim::bulge);
@@ -56,25 +35,25 @@ TEST_F(ArtefactsVerdict, AThinSectionIsACandyWrapperAndAWideOneABulge)
 {
     std::vector<ArtefactSample> samples = {sample("pbs", 0, 0.97), sample("pbs", 1, 0.98), sample("lbs", 0, 0.0), sample("dqs", 0, 1.0),
                                            sample("reference", 0, 1.0, 1)};
-    expect_the_claims_quantities("C04", thin(samples));
-    EXPECT_EQ(verdict("C04", thin(samples)), VerdictKind::reproduced);
+    expect_quantities_of("C04", thin(samples));
+    EXPECT_EQ(verdict_on("C04", thin(samples)), VerdictKind::reproduced);
     samples.push_back(sample("pbs", 1, 0.5));  // in another order
-    EXPECT_EQ(verdict("C04", thin(samples)), VerdictKind::reproduced_only_for);
+    EXPECT_EQ(verdict_on("C04", thin(samples)), VerdictKind::reproduced_only_for);
     samples[0] = sample("pbs", 0, 0.3);
-    EXPECT_EQ(verdict("C04", thin(samples)), VerdictKind::not_reproduced);
-    EXPECT_EQ(verdict("C04", thin({sample("lbs", 0, 0.1)})), VerdictKind::not_computable) << "there is no value of PBS";
+    EXPECT_EQ(verdict_on("C04", thin(samples)), VerdictKind::not_reproduced);
+    EXPECT_EQ(verdict_on("C04", thin({sample("lbs", 0, 0.1)})), VerdictKind::not_computable) << "there is no value of PBS";
 
     samples = {sample("pbs", 0, 1.01), sample("pbs", 1, 1.02),         sample("dqs", 0, 2.0),
                sample("lbs", 0, 1.0),  sample("reference", 0, 1.0, 1), sample("reference", 1, 1.0, 1)};
-    expect_the_claims_quantities("C05", wide(samples));
-    EXPECT_EQ(verdict("C05", wide(samples)), VerdictKind::reproduced);
+    expect_quantities_of("C05", wide(samples));
+    EXPECT_EQ(verdict_on("C05", wide(samples)), VerdictKind::reproduced);
     samples[1] = sample("pbs", 1, 1.2);
-    EXPECT_EQ(verdict("C05", wide(samples)), VerdictKind::reproduced_only_for);
+    EXPECT_EQ(verdict_on("C05", wide(samples)), VerdictKind::reproduced_only_for);
     samples[0] = sample("pbs", 0, 1.2);
-    EXPECT_EQ(verdict("C05", wide(samples)), VerdictKind::not_reproduced);
-    EXPECT_EQ(verdict("C05", wide({sample("pbs", 0, 1.0)})), VerdictKind::not_computable) << "there is no reference";
+    EXPECT_EQ(verdict_on("C05", wide(samples)), VerdictKind::not_reproduced);
+    EXPECT_EQ(verdict_on("C05", wide({sample("pbs", 0, 1.0)})), VerdictKind::not_computable) << "there is no reference";
     for (const double wide_over_rest : {2.9, 3.1, 8.0})  // only pbs itself assigns the limb to another part
-        EXPECT_EQ(verdict("C05", wide({sample("pbs", 0, wide_over_rest), sample("reference", 0, 1.0, 1)})), VerdictKind::not_reproduced)
+        EXPECT_EQ(verdict_on("C05", wide({sample("pbs", 0, wide_over_rest), sample("reference", 0, 1.0, 1)})), VerdictKind::not_reproduced)
             << wide_over_rest;
 }
 
@@ -82,9 +61,9 @@ TEST_F(ArtefactsVerdict, AThinSectionIsACandyWrapperAndAWideOneABulge)
 TEST_F(ArtefactsVerdict, QuadraticElementsAreTheReference)
 {
     std::vector<ArtefactSample> samples = {sample("pbs", 0, 1.0), sample("reference", 0, 1.0, 1)};
-    EXPECT_EQ(verdict("C05", wide(samples)), VerdictKind::reproduced);
+    EXPECT_EQ(verdict_on("C05", wide(samples)), VerdictKind::reproduced);
     samples.push_back(sample("reference", 0, 0.8, 2));
-    EXPECT_EQ(verdict("C05", wide(samples)), VerdictKind::not_reproduced);
+    EXPECT_EQ(verdict_on("C05", wide(samples)), VerdictKind::not_reproduced);
     EXPECT_DOUBLE_EQ(wide(samples)[0].value, 1.25);
 }
 
@@ -92,7 +71,7 @@ TEST_F(ArtefactsVerdict, ARatioAboveOneIsNotSmoother)
 {
     bent.poses = {{2, "bend_60_deg"}};
     std::vector<Measurement> measured = experiments::compare_weights(bent).measurements;
-    expect_the_claims_quantities("C06", measured);
+    expect_quantities_of("C06", measured);
     const auto put = [&](const std::string& quantity, const analysis::CaseKey& of, double ratio) {
         for (Measurement& measurement : measured)
             if (measurement.quantity == quantity && analysis::matches(measurement.of, of))
@@ -100,9 +79,9 @@ TEST_F(ArtefactsVerdict, ARatioAboveOneIsNotSmoother)
     };
     put("strain_jump_over_rigid_weights", {}, 0.5);
     put("curvature_over_rigid_weights", {}, 9.0);  // reported only
-    EXPECT_EQ(verdict("C06", measured), VerdictKind::reproduced);
+    EXPECT_EQ(verdict_on("C06", measured), VerdictKind::reproduced);
     put("strain_jump_over_rigid_weights", {.deformer = "pbs"}, 1.1);
-    EXPECT_EQ(verdict("C06", measured), VerdictKind::not_reproduced);
+    EXPECT_EQ(verdict_on("C06", measured), VerdictKind::not_reproduced);
 }
 
 // C04 from a twisted limb, with the correct solver and with broken ones. Reference:
@@ -116,23 +95,12 @@ TEST_F(ArtefactsVerdict, ARatioAboveOneIsNotSmoother)
 using test_support::Broken;
 using test_support::values_of;
 
-experiments::ArtefactCase twist(Broken how, const std::string& angle_deg)
-{
-    experiments::ArtefactCase of;
-    of.scene = broken(experiments::read_scene("limb_twist", {"character.vertices=400", "motion.angle_deg=" + angle_deg, "motion.frames=2",
-                                                             R"(deformers.use=["lbs", "pbs"])", R"(reference.name="")"}),
-                      how);
-    of.claim = experiments::ArtefactCase::Claim::candy_wrapper;
-    of.poses = {{1, "twist_" + angle_deg + "_deg"}};
-    return of;
-}
-
 // Without other orders and meshes, which only affect the interval.
 std::vector<Measurement> twisted(Broken how, const std::string& angle_deg = "170")
 {
-    const experiments::ArtefactCase of = twist(how, angle_deg);
-    const experiments::ArtefactBody body(of);
-    std::vector<experiments::ArtefactSample> samples;
+    const ArtefactCase of = test_support::twisted_limb(400, angle_deg, how);
+    const ArtefactBody body(of);
+    std::vector<ArtefactSample> samples;
     for (const experiments::DeformerSpec& spec : of.scene.deformers) {
         const experiments::Shape shape = body.posed.shapes(spec).at(0);
         samples.push_back({spec.kind, 0, 0, extremes_of(body.sections.at(0).measure(shape.positions, body.posed.pose(0)))});
@@ -140,33 +108,25 @@ std::vector<Measurement> twisted(Broken how, const std::string& angle_deg = "170
     return candy_wrapper_values(of, body, samples);
 }
 
-VerdictKind verdict(const std::vector<Measurement>& measured)
-{
-    return verdict("C04", measured);
-}
-
 double smallest(const std::vector<Measurement>& measured, const std::string& what, const std::string& deformer = "pbs")
 {
-    for (const Measurement& measurement : measured)
-        if (measurement.quantity == "smallest_section_" + what && measurement.of.deformer == deformer) return measurement.value;
-    ADD_FAILURE() << what;
-    return 0.0;
+    return values_of(measured, "smallest_section_" + what, {.deformer = deformer}).at(0).value;
 }
 
 TEST(BrokenArtefacts, AsItIsThereIsNoCandyWrapper)
 {
     const auto measured = twisted(Broken::nothing);
-    EXPECT_EQ(verdict(measured), VerdictKind::reproduced);
+    EXPECT_EQ(verdict_on("C04", measured), VerdictKind::reproduced);
     EXPECT_LT(smallest(measured, "radius_over_rest", "lbs"), 0.5);  // there is an artefact to remove
 }
 
 TEST(BrokenArtefacts, NothingProjectedIsLbs)
 {
     const auto measured = twisted(Broken::nothing_projected);
-    EXPECT_EQ(verdict(measured), VerdictKind::not_reproduced);
+    EXPECT_EQ(verdict_on("C04", measured), VerdictKind::not_reproduced);
     // The solver rounds the positions of LBS to float.
-    const experiments::ArtefactCase of = twist(Broken::nothing_projected, "170");
-    const experiments::ArtefactBody body(of);
+    const ArtefactCase of = test_support::twisted_limb(400, "170");
+    const ArtefactBody body(of);
     const pbs::Positions lbs = body.posed.shapes(spec_of(of.scene, "lbs")).at(0).positions;
     for (const auto& [what, size] : {std::pair{"radius_over_rest", &experiments::SectionExtremesOverRest::smallest_radius},
                                      {"area_over_rest", &experiments::SectionExtremesOverRest::smallest_area}}) {
@@ -183,15 +143,15 @@ TEST(BrokenArtefacts, WithoutBindSectionsAreNarrower)
     const auto sound = twisted(Broken::nothing), measured = twisted(Broken::bind_dropped);
     EXPECT_LT(smallest(measured, "radius_over_rest"), smallest(sound, "radius_over_rest"));
     EXPECT_LT(smallest(measured, "area_over_rest"), smallest(sound, "area_over_rest"));
-    EXPECT_NE(verdict(measured), VerdictKind::reproduced);
+    EXPECT_NE(verdict_on("C04", measured), VerdictKind::reproduced);
 }
 
 TEST(BrokenArtefacts, TheSignTurnedRoundMakesThemNarrower)
 {
     const auto sound = twisted(Broken::nothing_in_plain_order), measured = twisted(Broken::volume_sign);
     EXPECT_LT(smallest(measured, "radius_over_rest"), smallest(sound, "radius_over_rest"));
-    EXPECT_EQ(verdict(sound), VerdictKind::reproduced);
-    EXPECT_NE(verdict(measured), VerdictKind::reproduced);
+    EXPECT_EQ(verdict_on("C04", sound), VerdictKind::reproduced);
+    EXPECT_NE(verdict_on("C04", measured), VerdictKind::reproduced);
 }
 
 // Only without bind constraints, the candy wrapper returns: narrower than half of what remains without any other class.
@@ -200,7 +160,7 @@ TEST(BrokenArtefacts, WithoutVolumeOrStretchTheBindConstraintsStillHold)
     const auto sound = twisted(Broken::nothing);
     const double without_bind = smallest(twisted(Broken::bind_dropped), "radius_over_rest");
     for (const Broken how : {Broken::volume_dropped, Broken::stretch_dropped}) {
-        EXPECT_EQ(verdict(twisted(how, "90")), VerdictKind::reproduced) << name_of(how);
+        EXPECT_EQ(verdict_on("C04", twisted(how, "90")), VerdictKind::reproduced) << name_of(how);
         const double radius = smallest(twisted(how), "radius_over_rest");
         EXPECT_LT(radius, smallest(sound, "radius_over_rest")) << name_of(how);
         EXPECT_GT(radius, 0.5) << name_of(how);  // half way from LBS

@@ -25,7 +25,7 @@ using test_support::Broken;
 using test_support::claim;
 using test_support::path_by;
 using test_support::values_of;
-using test_support::verdict_from;
+using test_support::verdict_on;
 
 // The volume converges after one iteration from LBS and after two from all other initial guesses, so only the residual decides.
 ConvergencePaths by_residual(const std::vector<double>& rates)
@@ -75,7 +75,7 @@ TEST(ConvergenceVerdict, FollowsFromThePaths)
         {"26 iterations in another order", "C12", {in_24, in_26}, reproduced_only_for},
         {"neither tolerance is reached", "C12", {altered(by_residual({0.999, 0.5, 0.5, 0.5}), never_from_lbs)}, not_reproduced}};
     for (const auto& [name, id, paths, kind] : cases)
-        EXPECT_EQ(verdict_from(id, experiments::convergence_values({paths, false, ""})).kind, kind) << name;
+        EXPECT_EQ(verdict_on(id, experiments::convergence_values({paths, false, ""})), kind) << name;
 }
 
 // C03 and C12 from a limb bent by 15 degrees, at which the correct solver restores the volume from every initial guess, iterated by the
@@ -113,9 +113,9 @@ const experiments::IterationPath& path(Broken how, SolverStart start)
     return bend(how).all.front().paths[static_cast<int>(start)];
 }
 
-VerdictKind verdict_of_c03(const std::vector<Measurement>& measured)
+VerdictKind verdict_of_c03(Broken how)
 {
-    return verdict_from("C03", measured).kind;
+    return verdict_on("C03", measured(how));
 }
 
 // The limb is reported with C12; here it is judged like the value of a character.
@@ -141,14 +141,14 @@ TEST(BrokenConvergence, AsItIsEveryStartArrivesByVolume)
     EXPECT_EQ(share_without_arrival(Broken::nothing), 0.0);
     EXPECT_EQ(twenty_four_suffice(Broken::nothing), analysis::Extent::whole);
     EXPECT_GT(from_rest_over_lbs_by_volume(Broken::nothing), 1.05);
-    EXPECT_EQ(verdict_of_c03(measured(Broken::nothing)), VerdictKind::reproduced);
+    EXPECT_EQ(verdict_of_c03(Broken::nothing), VerdictKind::reproduced);
 }
 
 TEST(BrokenConvergence, TheSignTurnedRoundArrivesFromNowhere)
 {
     EXPECT_EQ(share_without_arrival(Broken::volume_sign), 1.0);
     EXPECT_EQ(twenty_four_suffice(Broken::volume_sign), analysis::Extent::none);
-    EXPECT_NE(verdict_of_c03(measured(Broken::volume_sign)), VerdictKind::reproduced);
+    EXPECT_NE(verdict_of_c03(Broken::volume_sign), VerdictKind::reproduced);
     const double sound = experiments::floor_of(bend(Broken::nothing).all.front().paths),
                  turned = experiments::floor_of(bend(Broken::volume_sign).all.front().paths);
     EXPECT_FALSE(turned <= 10.0 * sound) << turned << " " << sound;  // not a number if nothing stayed finite
@@ -181,7 +181,7 @@ TEST(BrokenConvergence, WithoutBindTheRestPoseStaysAndIsThereAtOnce)
     EXPECT_GT(rest.looks.back().bind_rms_m, 0.99 * rest.looks.front().bind_rms_m);
     EXPECT_LT(path(Broken::nothing, SolverStart::rest_pose).looks.back().bind_rms_m, 0.1 * rest.looks.front().bind_rms_m);
     EXPECT_LE(from_rest_over_lbs_by_volume(Broken::bind_dropped), 1.0);
-    EXPECT_NE(verdict_of_c03(measured(Broken::bind_dropped)), VerdictKind::reproduced);
+    EXPECT_NE(verdict_of_c03(Broken::bind_dropped), VerdictKind::reproduced);
 }
 
 TEST(BrokenConvergence, WithoutStretchEdgesAreFartherFromTheirLengths)
@@ -202,7 +202,7 @@ TEST(BrokenConvergence, WithNothingProjectedEveryStartStays)
     }
     EXPECT_LE(from_rest_over_lbs_by_volume(Broken::nothing_projected), 1.0);
     EXPECT_EQ(twenty_four_suffice(Broken::nothing_projected), analysis::Extent::none);
-    EXPECT_NE(verdict_of_c03(measured(Broken::nothing_projected)), VerdictKind::reproduced);
+    EXPECT_NE(verdict_of_c03(Broken::nothing_projected), VerdictKind::reproduced);
 }
 
 }  // namespace

@@ -32,10 +32,10 @@ TEST(MomentumVerdict, HoldsWhereMassesAreKnownAndNotByEquationsForOneMass)
 TEST(MomentumVerdict, TurnsWithItsFigures)
 {
     analysis::Records records = records_of_limb();
-    for (auto& measured : records.measurements) measured.value = measured.low = measured.high = 1e-9;
-    EXPECT_EQ(judge(claim("C07"), records).kind, VerdictKind::reproduced);
-    for (auto& measured : records.measurements) measured.value = measured.low = measured.high = 0.1;
-    EXPECT_EQ(judge(claim("C07"), records).kind, VerdictKind::not_reproduced);
+    for (const auto& [drift, kind] : {std::pair(1e-9, VerdictKind::reproduced), {0.1, VerdictKind::not_reproduced}}) {
+        for (auto& measured : records.measurements) measured.value = measured.low = measured.high = drift;
+        EXPECT_EQ(judge(claim("C07"), records).kind, kind) << drift;
+    }
 }
 
 // C07 from correct and broken projections. Reference:
@@ -50,6 +50,7 @@ using experiments::ProjectedClass;
 using pbs::Masses;
 using test_support::broken;
 using test_support::Broken;
+using test_support::verdict_on;
 
 pbs::PbsOptions in_double()
 {
@@ -89,11 +90,6 @@ std::vector<Measurement> drifts(const pbs::PbsOptions& options)
     return measured;
 }
 
-VerdictKind verdict(const std::vector<Measurement>& measured)
-{
-    return test_support::verdict_from("C07", measured).kind;
-}
-
 // A pass conserves angular momentum only to first order, so the verdict is based on single projections.
 std::vector<Measurement> single(const std::vector<Measurement>& measured, const std::string& of)
 {
@@ -111,7 +107,7 @@ double drift(const std::vector<Measurement>& measured, const std::string& quanti
 TEST(BrokenMomentum, TheSignTurnedRoundConservesAsWell)
 {
     const auto sound = drifts(in_double()), turned = drifts(broken(in_double(), Broken::volume_sign));
-    EXPECT_EQ(verdict(turned), verdict(sound));
+    EXPECT_EQ(verdict_on("C07", turned), verdict_on("C07", sound));
     // the sign is reversed
     EXPECT_NE(drift(turned, "angular_drift_of_a_pass", "volume"), drift(sound, "angular_drift_of_a_pass", "volume"));
     const auto rounding = rounding_of(ProjectedClass::volume);  // corrections of the other sign are as large
@@ -134,16 +130,16 @@ TEST(BrokenMomentum, GradientsUnderTheWrongParticlesLoseAngularMomentum)
     EXPECT_LT(drift(wrong, "linear_drift_of_a_pass", "stretch"), of_stretch.of_a_pass);
     for (const char* quantity : {"angular_drift", "angular_drift_of_a_pass"})
         EXPECT_GT(drift(wrong, quantity, "volume"), 0.01) << quantity;  // no rounding
-    EXPECT_EQ(verdict(single(drifts(in_double()), "")), VerdictKind::reproduced);
-    EXPECT_EQ(verdict(single(wrong, "")), VerdictKind::reproduced_only_for);
-    EXPECT_EQ(verdict(single(wrong, "volume")), VerdictKind::not_reproduced);
+    EXPECT_EQ(verdict_on("C07", single(drifts(in_double()), "")), VerdictKind::reproduced);
+    EXPECT_EQ(verdict_on("C07", single(wrong, "")), VerdictKind::reproduced_only_for);
+    EXPECT_EQ(verdict_on("C07", single(wrong, "volume")), VerdictKind::not_reproduced);
 }
 
 TEST(BrokenMomentum, AClassThatIsNotProjectedIsNotConserved)
 {
     const auto dropped = drifts(broken(in_double(), Broken::volume_dropped));
-    EXPECT_EQ(verdict(single(dropped, "")), VerdictKind::reproduced_only_for);
-    EXPECT_EQ(verdict(single(drifts(broken(in_double(), Broken::nothing_projected)), "")), VerdictKind::not_reproduced);
+    EXPECT_EQ(verdict_on("C07", single(dropped, "")), VerdictKind::reproduced_only_for);
+    EXPECT_EQ(verdict_on("C07", single(drifts(broken(in_double(), Broken::nothing_projected)), "")), VerdictKind::not_reproduced);
 }
 
 }  // namespace

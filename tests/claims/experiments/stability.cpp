@@ -34,7 +34,7 @@ VerdictKind verdict_on(const std::vector<MeasuredCell>& cells)
     const test_support::ScratchFolder folder;
     const std::string file = folder / "measurements.csv";
     stability_measurements(cells).write(file);
-    return test_support::verdict_from("C08", analysis::measurements(file)).kind;
+    return test_support::verdict_on("C08", analysis::measurements(file));
 }
 
 const std::vector<MeasuredCell> stable = {cell_of("time_step", StabilityOutcome::converged),
@@ -59,11 +59,11 @@ TEST(StabilityVerdict, TurnsWithTheCellsThatRunAway)
     EXPECT_EQ(verdict_on(not_claimed), VerdictKind::reproduced) << "the paper does not claim it";
 }
 
-std::vector<experiments::CellRow> rows_of_cells(const std::vector<MeasuredCell>& cells)
+std::string blind_spots_of(const std::vector<MeasuredCell>& cells)
 {
-    std::vector<experiments::CellRow> rows;
-    for (const MeasuredCell& cell : cells) rows.push_back(experiments::cell_row(cell));
-    return rows;
+    std::vector<CellRow> rows;
+    for (const MeasuredCell& cell : cells) rows.push_back(cell_row(cell));
+    return blind_spots(rows);
 }
 
 // A map in which the printed sign looks stable, or in which an outcome never occurs, is meaningless: the study fails.
@@ -75,12 +75,12 @@ TEST(StabilityVerdict, AMapThatCannotTellIsRefused)
         cells.push_back(cell_of("time_step", outcome));
     cells.push_back(cell_of("printed_form", StabilityOutcome::diverged, false));
     cells.back().cell.named = "sign";
-    EXPECT_EQ(blind_spots(rows_of_cells(cells)), "");
+    EXPECT_EQ(blind_spots_of(cells), "");
     cells.back().result.stability.outcome = StabilityOutcome::converged;
-    EXPECT_NE(blind_spots(rows_of_cells(cells)), "");
+    EXPECT_NE(blind_spots_of(cells), "");
     cells.back().result.stability.outcome = StabilityOutcome::not_finite;
     cells.erase(cells.begin() + 1);
-    EXPECT_EQ(blind_spots(rows_of_cells(cells)), "no cell is bounded\n");
+    EXPECT_EQ(blind_spots_of(cells), "no cell is bounded\n");
 }
 
 // The quantities of a sweep have the order of claims.toml.
@@ -90,11 +90,9 @@ TEST(StabilityVerdict, SharesAreOfTheCellsOfTheirSweep)
     ASSERT_EQ(shares.rows(), 8);
     EXPECT_EQ(analysis::text_of(rows_of(analysis::case_key_columns(), shares).front()), "limb, pbs, f32, factor time_step");
     EXPECT_EQ(shares.integer(0, "n"), 2);
-    EXPECT_EQ(shares.number(0, "value"), 0.5);  // one of two
-    EXPECT_EQ(shares.number(1, "value"), 0.5);  // the inverted one
-    EXPECT_EQ(shares.number(2, "value"), 0.0);
-    EXPECT_EQ(shares.number(3, "value"), 0.0);
-    EXPECT_EQ(shares.number(4, "value"), 0.0);  // share for k_stretch
+    // One of two cells diverges and the other one is inverted; the fifth row is the first one for k_stretch.
+    const double values[] = {0.5, 0.5, 0.0, 0.0, 0.0};
+    for (int row = 0; row < 5; ++row) EXPECT_EQ(shares.number(row, "value"), values[row]) << row;
 }
 
 // Theory: none of n is at most 1 - 0.025^(1 / n), all of n at least that.

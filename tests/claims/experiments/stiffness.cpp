@@ -14,6 +14,7 @@ namespace {
 
 using analysis::VerdictKind;
 using namespace experiments;
+using test_support::joined;
 
 // K = iterations^p, dt^-q, vertices^r, once per method.
 std::vector<analysis::Measurement> measured(Method method, double p, double q, double r, const std::string& body = "limb",
@@ -40,10 +41,8 @@ std::vector<analysis::Measurement> measured(Method method, double p, double q, d
         other.stiffness_n_m = std::pow(factor, r);
         resolutions.push_back(other);
     }
-    std::vector<analysis::Measurement> all = stiffness_ratios(iterations, Varied::iterations);
-    for (const auto& more : {stiffness_ratios(time_steps, Varied::time_step), stiffness_ratios(resolutions, Varied::resolution)})
-        all.insert(all.end(), more.begin(), more.end());
-    return all;
+    return joined({stiffness_ratios(iterations, Varied::iterations), stiffness_ratios(time_steps, Varied::time_step),
+                   stiffness_ratios(resolutions, Varied::resolution)});
 }
 
 analysis::Verdict verdict(const std::vector<analysis::Measurement>& measurements)
@@ -56,9 +55,8 @@ TEST(StiffnessVerdict, TurnsWithTheFigures)
     EXPECT_EQ(verdict(measured(Method::pbs, 0.0, 0.0, 0.0)).kind, VerdictKind::reproduced);
     EXPECT_EQ(verdict(measured(Method::pbs, 1.0, 2.0, -0.7)).kind, VerdictKind::not_reproduced);
     EXPECT_EQ(verdict(measured(Method::pbs, 0.0, 2.0, 0.0)).kind, VerdictKind::not_reproduced);  // each quantity needs a value that holds
-    auto two_bodies = measured(Method::pbs, 0.0, 0.0, 0.0);
-    for (const auto& other : measured(Method::pbs, 1.0, 2.0, -0.7, "human")) two_bodies.push_back(other);
-    EXPECT_EQ(verdict(two_bodies).kind, VerdictKind::reproduced_only_for);
+    EXPECT_EQ(verdict(joined({measured(Method::pbs, 0.0, 0.0, 0.0), measured(Method::pbs, 1.0, 2.0, -0.7, "human")})).kind,
+              VerdictKind::reproduced_only_for);
     EXPECT_EQ(verdict(measured(Method::xpbd, 0.0, 0.0, 0.0)).kind, VerdictKind::not_computable) << "the claim is on PBS";
 }
 
@@ -66,9 +64,8 @@ TEST(StiffnessVerdict, TurnsWithTheFigures)
 TEST(StiffnessVerdict, FleshHeldIsAControl)
 {
     for (const char* load : {"zone_on_held", "cantilever"}) {
-        auto both = measured(Method::pbs, 0.0, 0.0, 0.0);
-        for (const auto& held : measured(Method::pbs, 1.0, 2.0, -0.7, "bar", load)) both.push_back(held);
-        const analysis::Verdict judged = verdict(both);
+        const analysis::Verdict judged =
+            verdict(joined({measured(Method::pbs, 0.0, 0.0, 0.0), measured(Method::pbs, 1.0, 2.0, -0.7, "bar", load)}));
         EXPECT_EQ(judged.kind, VerdictKind::reproduced);
         ASSERT_EQ(judged.controls.size(), 3u);
         for (const auto& held : judged.controls) EXPECT_EQ(held.of.load, load);
@@ -77,9 +74,7 @@ TEST(StiffnessVerdict, FleshHeldIsAControl)
 
 TEST(StiffnessVerdict, IsOfThePaperAlone)
 {
-    auto both = measured(Method::pbs, 1.0, 2.0, -0.7);
-    for (const auto& control : measured(Method::xpbd, 0.0, 0.0, 0.0)) both.push_back(control);
-    const analysis::Verdict judged = verdict(both);
+    const analysis::Verdict judged = verdict(joined({measured(Method::pbs, 1.0, 2.0, -0.7), measured(Method::xpbd, 0.0, 0.0, 0.0)}));
     EXPECT_EQ(judged.kind, VerdictKind::not_reproduced);
     EXPECT_EQ(judged.measurements.size(), 3u);
     EXPECT_EQ(judged.controls.size(), 3u);

@@ -14,7 +14,8 @@ namespace {
 using analysis::VerdictKind;
 using namespace experiments;
 using test_support::claim;
-using test_support::verdict_from;
+using test_support::joined;
+using test_support::verdict_on;
 
 const analysis::Records& print()
 {
@@ -61,10 +62,9 @@ std::vector<TimingRow> timed(const std::string& body, const std::string& model, 
 
 VerdictKind of_timing(const std::vector<std::vector<TimingRow>>& meshes)
 {
-    std::vector<analysis::Measurement> all;
-    for (const auto& rows : meshes)
-        for (const auto& measurement : timing_measurements(rows)) all.push_back(measurement);
-    return verdict_from("C10", all).kind;
+    std::vector<std::vector<analysis::Measurement>> all;
+    for (const auto& rows : meshes) all.push_back(timing_measurements(rows));
+    return verdict_on("C10", joined(all));
 }
 
 TEST(TimingVerdict, TurnsWithTheTimesOfTableOnesSizes)
@@ -90,9 +90,7 @@ std::vector<analysis::Measurement> body(const std::string& name, int every, cons
 
 VerdictKind of_setup(const std::vector<std::vector<analysis::Measurement>>& bodies)
 {
-    std::vector<analysis::Measurement> all;
-    for (const auto& measured : bodies) all.insert(all.end(), measured.begin(), measured.end());
-    return verdict_from("C17", all).kind;
+    return verdict_on("C17", joined(bodies));
 }
 
 TEST(SetupVerdict, TurnsWithBodiesThatTurnInsideOutOrNeverRun)
@@ -107,7 +105,6 @@ TEST(SetupVerdict, TurnsWithBodiesThatTurnInsideOutOrNeverRun)
 // The keys that a body has changed if it runs with only those of `trial`, as the study finds them.
 std::vector<std::string> changed_for(std::size_t trial)
 {
-    using namespace experiments;
     const auto tried = tried_setups(
         {"ring"}, [&](const BodySetup& setup) { return std::string(setup.further == further_keys().at(trial) ? "" : "not finite"); });
     return keys_changed(shared_scene(5.0).resolved, scene_of(tried.back().setup, 5.0).resolved);

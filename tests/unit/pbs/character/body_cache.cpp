@@ -15,6 +15,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -69,37 +70,33 @@ TEST_F(BodyCache, AnotherKeyIsAnotherMesh)
     EXPECT_EQ(made, 3);
 }
 
-TEST_F(BodyCache, AFileWithOneByteChangedIsMadeAnew)
+TEST_F(BodyCache, AFileThatIsNotTheMeshIsMadeAnew)
 {
+    const auto flip_a_bit = [](const std::string& file) {
+        std::string bytes = read_text_file(file);
+        bytes[bytes.size() / 2] ^= 1;
+        std::ofstream(file, std::ios::binary) << bytes;
+    };
+    const auto write_another_mesh = [](const std::string& file) {
+        TetMesh other = two_tets();
+        other.rest(4, 2) -= 1e-9;
+        write_tet_mesh(file, other);
+    };
+    const std::vector<std::pair<const char*, std::function<void(const std::string&)>>> damages = {
+        {"one byte changed", flip_a_bit},
+        {"a whole file of another mesh", write_another_mesh},
+        {"truncated", [](const std::string& file) { fs::resize_file(file, fs::file_size(file) / 2); }},
+        {"empty", [](const std::string& file) { fs::resize_file(file, 0); }}};
     get();
-    std::string bytes = read_text_file(stored().string());
-    bytes[bytes.size() / 2] ^= 1;
-    std::ofstream(stored(), std::ios::binary) << bytes;
-    EXPECT_EQ(content_hash(get()), content_hash(two_tets()));
-    EXPECT_EQ(made, 2);
-    get();
-    EXPECT_EQ(made, 2) << "the new file is whole";
-}
-
-TEST_F(BodyCache, AWholeFileOfAnotherMeshIsNotTrusted)
-{
-    get();
-    TetMesh other = two_tets();
-    other.rest(4, 2) -= 1e-9;
-    write_tet_mesh(stored().string(), other);
-    EXPECT_EQ(content_hash(get()), content_hash(two_tets()));
-    EXPECT_EQ(made, 2);
-}
-
-TEST_F(BodyCache, ATruncatedAndAnEmptyFileAreMadeAnew)
-{
-    get();
-    fs::resize_file(stored(), fs::file_size(stored()) / 2);
-    get();
-    EXPECT_EQ(made, 2);
-    fs::resize_file(stored(), 0);
-    get();
-    EXPECT_EQ(made, 3);
+    for (const auto& [name, damage] : damages) {
+        SCOPED_TRACE(name);
+        const int before = made;
+        damage(stored().string());
+        EXPECT_EQ(content_hash(get()), content_hash(two_tets()));
+        EXPECT_EQ(made, before + 1);
+        get();
+        EXPECT_EQ(made, before + 1) << "the new file is whole";
+    }
 }
 
 TEST_F(BodyCache, WhatAKilledMakerLeftIsRemovedAndWhatALivingOneMakesIsNot)

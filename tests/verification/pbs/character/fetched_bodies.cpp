@@ -24,7 +24,7 @@ struct Expected {
 
 class FetchedBody : public testing::TestWithParam<Expected> {};
 
-TEST_P(FetchedBody, IsABallOfGoodTetsAsLargeAsInTable1)
+TEST_P(FetchedBody, IsABallOfGoodTetsAsLargeAsInTable1WithTheHumansBonesByName)
 {
     if (!body_is_installed(GetParam().body)) GTEST_SKIP() << "pbskin fetch " << GetParam().body;
     const Character body = make_character({.body = GetParam().body});
@@ -34,12 +34,7 @@ TEST_P(FetchedBody, IsABallOfGoodTetsAsLargeAsInTable1)
     const double height_m = body.mesh.rest.col(1).maxCoeff() - body.mesh.rest.col(1).minCoeff();
     EXPECT_GT(height_m, GetParam().lowest_height_m);
     EXPECT_LT(height_m, GetParam().highest_height_m);
-}
 
-TEST_P(FetchedBody, HasTheHumansBonesByName)
-{
-    if (!body_is_installed(GetParam().body)) GTEST_SKIP() << "pbskin fetch " << GetParam().body;
-    const Character body = make_character({.body = GetParam().body});
     EXPECT_EQ(body.skeleton.bones.size(), GetParam().bones);
     for (const Bone& bone : human_skeleton().bones) EXPECT_GE(find_bone(body.skeleton, bone.name), 0) << bone.name;
     for (const Bone& bone : body.skeleton.bones)

@@ -69,9 +69,9 @@ TEST_F(ExchangeFolder, RefusesFilesOfAnotherSizeAndTimesThatAreNone)
     }
 }
 
-class ProgramDeformer : public testing::Test {
+class ProgramDeformer : public ExchangeFolder {
 protected:
-    ProgramDeformer() : character(test_support::bar_character({4, 1, 1}))
+    ProgramDeformer()
     {
         for (int i = 0; i < 3; ++i) poses.push_back(pbs::Pose(2, Eigen::Isometry3d(Eigen::Translation3d(0.25 * i, 0.0, 0.0))));
     }
@@ -100,9 +100,7 @@ protected:
         folder.file("answer", bytes);
     }
 
-    pbs::Character character;
     std::vector<pbs::Pose> poses;
-    test_support::ScratchFolder folder;
 };
 
 const std::string answers = "echo run >> $0/calls; cp $0/answer $1/positions.f64";
