@@ -89,9 +89,7 @@ TEST(ErrorNorms, PrescribedVerticesAreLeftOut)
     domain.prescribed.assign(domain.rest.rows(), false);
     domain.prescribed[4] = true;
     const ErrorNorms error = ErrorMetrics(domain).measure(moved, domain.rest);
-    EXPECT_EQ(error.linf_m, 0.0);
-    EXPECT_EQ(error.l2_pct, 0.0);
-    EXPECT_EQ(error.joint_pct, 0.0);
+    for (const double each : {error.linf_m, error.l2_pct, error.joint_pct}) EXPECT_EQ(each, 0.0);
 }
 
 TEST(ErrorNorms, NothingToMeasureAndABrokenFrameAreNaN)

@@ -31,26 +31,7 @@ protected:
     const fs::path folder = scratch.path();
 };
 
-TEST_F(AtomicFile, WritesAndReplacesAlsoUnderANameOfTheGreatestLength)
-{
-    for (const fs::path& path : {folder / "run.json", folder / std::string(255, 'x')})
-        for (const std::string& text : {std::string("a\0b\n", 4), std::string()}) {
-            write_text_atomically(path, text);
-            EXPECT_EQ(read_text(path), text);
-        }
-    EXPECT_EQ(files(), 2);
-}
-
-TEST_F(AtomicFile, GivesUsualPermissions)
-{
-    const mode_t before = umask(022);
-    write_text_atomically(folder / "run.json", "{}");
-    umask(before);
-    struct stat status;
-    ASSERT_EQ(stat((folder / "run.json").c_str(), &status), 0);
-    EXPECT_EQ(status.st_mode & 0777, 0644u);
-}
-
+// Whole files, names and permissions: tests/unit/pbs/geometry/files.cpp.
 TEST_F(AtomicFile, ReadOnlyFolderIsRefused)
 {
     fs::permissions(folder, fs::perms::owner_read | fs::perms::owner_exec | fs::perms::others_read | fs::perms::others_exec);
@@ -151,10 +132,8 @@ TEST_F(AtomicFile, AKilledWriterLeavesTheOldFileAndWhatIsRemoved)
 
 TEST_F(AtomicFile, ReadingWhatIsNotThereIsRefused)
 {
-    EXPECT_THROW(read_text(folder / "missing"), pbs::InputError);
-    EXPECT_THROW(read_text(folder), pbs::InputError);
     ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
-    EXPECT_THROW(read_text(folder / "pipe"), pbs::InputError);
+    for (const fs::path& path : {folder / "missing", folder, folder / "pipe"}) EXPECT_THROW(read_text(path), pbs::InputError) << path;
 }
 
 // Reference: the files created by the test. Since root may do everything that modes forbid, a folder takes the place of a file to be

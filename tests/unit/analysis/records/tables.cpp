@@ -25,11 +25,6 @@ using analysis::parse_csv;
 
 using test_support::refusal_of;
 
-std::string message_of(const std::string& text)
-{
-    return refusal_of([&] { parse_csv(text, "m.csv"); });
-}
-
 double round_trip(double value)
 {
     CsvTable table{{"x"}};
@@ -55,11 +50,9 @@ TEST(CsvTable, NumbersRoundTripToTheBit)
 
 TEST(CsvTable, NumbersAreTheShortestText)
 {
-    EXPECT_EQ(analysis::number_text(0.1), "0.1");
-    EXPECT_EQ(analysis::number_text(-0.25), "-0.25");
-    EXPECT_EQ(analysis::number_text(std::nan("")), "nan");
-    EXPECT_EQ(analysis::number_text(-std::nan("")), "nan");
-    EXPECT_EQ(analysis::number_text(-INFINITY), "-inf");
+    const double nan = std::nan("");
+    for (const auto& [number, text] : {std::pair(0.1, "0.1"), {-0.25, "-0.25"}, {nan, "nan"}, {-nan, "nan"}, {-INFINITY, "-inf"}})
+        EXPECT_EQ(analysis::number_text(number), text);
 }
 
 TEST(CsvTable, QuotedFieldsRoundTrip)
@@ -107,17 +100,19 @@ TEST(CsvTable, WrongValuesAreNamedWithFileLineColumn)
 
 TEST(CsvTable, BrokenFilesAreRefusedWithFileLineColumn)
 {
-    EXPECT_EQ(message_of(""), "m.csv: the file is empty: expected a line of column names");
-    EXPECT_EQ(message_of("a,b\n1,2\n3,4"), "m.csv:3:2: the file ends within a line: cut off?");
-    EXPECT_EQ(message_of("a,b\n1,2\n3\n"), "m.csv:3:1: 1 fields: expected 2 as in the first line");
-    EXPECT_EQ(message_of("a,b\n1,2,3\n"), "m.csv:2:3: 3 fields: expected 2 as in the first line");
-    EXPECT_EQ(message_of("a,b\n\n"), "m.csv:2:1: 1 fields: expected 2 as in the first line");
-    EXPECT_EQ(message_of("a,a\n"), "m.csv:1:2: column = a: expected each column once");
-    EXPECT_EQ(message_of("a,b\n1,\"2\n3,4\n"), "m.csv:2:2: a quote is never closed");
-    EXPECT_EQ(message_of("a,b\n1,2\"\n"), "m.csv:2:2: unexpected quote or zero byte within a field");
-    EXPECT_EQ(message_of("a,b\n1,\"2\"x\n"), "m.csv:2:2: unexpected text after a field");
-    EXPECT_EQ(message_of(std::string("a,b\n1,\0\n", 8)), "m.csv:2:2: unexpected quote or zero byte within a field");
-    EXPECT_EQ(message_of("a,b\r1,2\r"), "m.csv:1:2: unexpected text after a field");
+    const std::vector<std::pair<std::string, const char*>> broken = {
+        {"", "m.csv: the file is empty: expected a line of column names"},
+        {"a,b\n1,2\n3,4", "m.csv:3:2: the file ends within a line: cut off?"},
+        {"a,b\n1,2\n3\n", "m.csv:3:1: 1 fields: expected 2 as in the first line"},
+        {"a,b\n1,2,3\n", "m.csv:2:3: 3 fields: expected 2 as in the first line"},
+        {"a,b\n\n", "m.csv:2:1: 1 fields: expected 2 as in the first line"},
+        {"a,a\n", "m.csv:1:2: column = a: expected each column once"},
+        {"a,b\n1,\"2\n3,4\n", "m.csv:2:2: a quote is never closed"},
+        {"a,b\n1,2\"\n", "m.csv:2:2: unexpected quote or zero byte within a field"},
+        {"a,b\n1,\"2\"x\n", "m.csv:2:2: unexpected text after a field"},
+        {std::string("a,b\n1,\0\n", 8), "m.csv:2:2: unexpected quote or zero byte within a field"},
+        {"a,b\r1,2\r", "m.csv:1:2: unexpected text after a field"}};
+    for (const auto& [text, message] : broken) EXPECT_EQ(refusal_of([&] { parse_csv(text, "m.csv"); }), message);
 }
 
 TEST(CsvTable, AppendsTheRowsOfOthersUnderOneHeadAndGoesThroughAFile)

@@ -16,21 +16,13 @@ namespace {
 // First-fit colouring over all kinds of constraints together.
 
 // Two tets that share the face 1, 2, 3.
-const pbs::TetMesh two_tets = [] {
-    pbs::TetMesh mesh;
-    mesh.rest.resize(5, 3);
-    mesh.rest << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1;
-    mesh.tets.resize(2, 4);
-    mesh.tets << 0, 1, 2, 3, 4, 2, 1, 3;
-    return mesh;
-}();
+const pbs::TetMesh two_tets{pbs::Positions{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}}, pbs::Tets{{0, 1, 2, 3}, {4, 2, 1, 3}}};
 const pbs::Skeleton one_bone = {{{"bone", -1, {0, 0, -1}, {0, 0, 2}}}};
 
 TEST(AuthorGroups, EdgesAreListedAsTheyFirstAppear)
 {
-    pbs::Edges expected(9, 2);
-    expected << 0, 1, 0, 2, 0, 3, 1, 2, 1, 3, 2, 3, 2, 4, 1, 4, 3, 4;
-    EXPECT_EQ(pbs::edges_by_appearance(two_tets.tets), expected);
+    EXPECT_EQ(pbs::edges_by_appearance(two_tets.tets),
+              (pbs::Edges{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}, {2, 4}, {1, 4}, {3, 4}}));
 }
 
 // The vertices of each constraint, by tets, vertices and edges.
@@ -200,24 +192,20 @@ TEST(AuthorSolver, CountsMotionTwice)
     }
 }
 
-TEST(AuthorSolver, GravityMovesEveryParticleByGHSquared)
+TEST(AuthorSolver, GravityMovesEveryParticleByGHSquaredAndTheTimeStepCancelsWithoutIt)
 {
     AuthorSolver solver = solver_with({.iterations = 0, .gravity_m_s2 = {0.0, -9.81, 0.0}});
     solver.advance(moved(Vec3::Zero()));
     EXPECT_LT(largest(solver.positions() - rest_moved({0.0, -0.0981, 0.0})), rounding_error(20, 1.0));
-}
-
-TEST(AuthorSolver, TheTimeStepCancelsWithoutGravity)
-{
     AuthorSolver one = solver_with({.time_step_s = 0.125}), other = solver_with({.time_step_s = 0.5});  // powers of two are exact
-    for (AuthorSolver* solver : {&one, &other}) {
-        solver->advance(body.pose);
-        solver->advance(moved({0.0, 0.5, 0.0}));
+    for (AuthorSolver* each : {&one, &other}) {
+        each->advance(body.pose);
+        each->advance(moved({0.0, 0.5, 0.0}));
     }
     EXPECT_EQ(one.positions(), other.positions());
 }
 
-TEST(AuthorSolver, DoesNotStepAPoseThatEqualsTheLastOne)
+TEST(AuthorSolver, DoesNotStepAPoseThatEqualsTheLastOneAndReportsOneThatIsNotFinite)
 {
     AuthorSolver solver = solver_with({});
     solver.advance(body.pose);
@@ -226,6 +214,7 @@ TEST(AuthorSolver, DoesNotStepAPoseThatEqualsTheLastOne)
     EXPECT_EQ(solver.positions(), before);
     EXPECT_EQ(solver.advance(moved(Vec3::Zero())).iterations, 12);
     EXPECT_NE(solver.positions(), before);
+    EXPECT_EQ(solver.advance(moved({std::numeric_limits<double>::quiet_NaN(), 0.0, 0.0})).outcome, pbs::Outcome::not_finite);
 }
 
 // The threshold for a unit of 100 m is 100 m^4. No tet of the limb, 2 m long, has faces of 1 m^2, so that its squared gradients add up to
@@ -239,13 +228,6 @@ TEST(AuthorSolver, TheUnitOfLengthDecidesWhichTetsAreLeftOut)
     };
     EXPECT_EQ(bent_with(100.0, 1.0), bent_with(100.0, 0.0));
     EXPECT_NE(bent_with(0.01, 1.0), bent_with(0.01, 0.0));
-}
-
-TEST(AuthorSolver, ReportsPositionsThatAreNotFinite)
-{
-    AuthorSolver solver = solver_with({});
-    const double nothing = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_EQ(solver.advance(moved({nothing, 0.0, 0.0})).outcome, pbs::Outcome::not_finite);
 }
 
 TEST(AuthorSolver, RefusesOptionsOutOfRangeAndOtherBindings)

@@ -163,8 +163,7 @@ TEST(ProjectiveDynamics, VolumesAreCloserToRestWithTheirTerm)
 
 TEST(ProjectiveDynamics, BadInputIsRefused)
 {
-    EXPECT_THROW(pbs::projective_weights(0.5, true), pbs::InputError);
-    EXPECT_THROW(pbs::projective_weights(-0.1, true), pbs::InputError);
+    for (const double poisson : {0.5, -0.1}) EXPECT_THROW(pbs::projective_weights(poisson, true), pbs::InputError) << poisson;
     pbs::TetMesh inverted = held.bent.mesh;
     std::swap(inverted.tets(4, 0), inverted.tets(4, 1));
     EXPECT_THROW(ProjectiveEnergy(inverted, pbs::projective_weights(0.3, true), held.hold), pbs::InputError);
@@ -260,9 +259,8 @@ TEST(VolumeProjection, NoOtherNumbersOfProductOneAreNearer)
 TEST(VolumeProjection, KnownCases)
 {
     const double rounding = test_support::rounding_error(20, 1.0);
-    EXPECT_LT((nearest_unit_product({1, 1, 1}) - Vec3(1, 1, 1)).norm(), rounding);
-    EXPECT_LT((nearest_unit_product({0, 0, 0}) - Vec3(1, 1, 1)).norm(), rounding);              // symmetric, volume zero
-    EXPECT_LT((nearest_unit_product({0.5, 0.5, 0.5}) - Vec3(1, 1, 1)).norm(), rounding);        // symmetric, volume too small
+    for (const double size : {1.0, 0.0, 0.5})  // symmetric; volume zero, too small
+        EXPECT_LT((nearest_unit_product({size, size, size}) - Vec3(1, 1, 1)).norm(), rounding) << size;
     EXPECT_LT((nearest_unit_product({1.1, 1.1, 1.1}) - Vec3(1, 1, 1)).norm(), 10 * rounding);   // symmetric, volume too large
     EXPECT_LT((nearest_unit_product({2, 1, 0.5}) - Vec3(2, 1, 0.5)).norm(), 10 * rounding);     // of product one already
     EXPECT_LT(std::abs(nearest_unit_product({1, 1, -1}).prod() - 1.0), 10 * rounding);          // a reflection

@@ -4,6 +4,7 @@
 #include "pbs/flesh/held_flesh.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "tests/support/held_bar.hpp"
+#include "tests/support/weight_sums.hpp"
 
 #include <gtest/gtest.h>
 
@@ -78,14 +79,10 @@ TEST(HeldFlesh, SmoothWeightsAddUpToOneAndFollowTheSprings)
 {
     const pbs::Weights weights = flesh().smooth_weights(bent.weights);
     ASSERT_EQ(weights.vertices(), bent.mesh.rest.rows());
+    for (const double weight : weights.weight) EXPECT_GE(weight, 0.0);
     for (int i = 0; i < weights.vertices(); ++i) {
-        double sum = 0.0, of_first = 0.0;
-        for (int k = weights.first[i]; k < weights.first[i + 1]; ++k) {
-            EXPECT_GE(weights.weight[k], 0.0);
-            sum += weights.weight[k];
-            if (weights.bone[k] == 0) of_first += weights.weight[k];
-        }
-        EXPECT_NEAR(sum, 1.0, 1e-14);
+        const double of_first = test_support::weight_in(weights, i, 0);
+        EXPECT_NEAR(test_support::sum_of_weights(weights, i), 1.0, 1e-14);
         if (bent.mesh.rest(i, 0) < -0.6) {
             EXPECT_GT(of_first, 0.9);
         }
@@ -152,15 +149,11 @@ TEST(TriangularSolve, SolvesTheSystemPlainlyAndBySupernodes)
     expect_solved_by_supernodes<float>();
 }
 
-TEST(Cholesky, AnIndefiniteMatrixHasNoFactor)
+TEST(Cholesky, OfOneNumberAndAnIndefiniteMatrixHasNone)
 {
-    Eigen::SparseMatrix<double> lower = laplacian();
-    lower.coeffRef(4, 4) = -1.0;
-    EXPECT_FALSE(pbs::cholesky_factor(lower).usable());
-}
-
-TEST(Cholesky, OneNumber)
-{
+    Eigen::SparseMatrix<double> indefinite = laplacian();
+    indefinite.coeffRef(4, 4) = -1.0;
+    EXPECT_FALSE(pbs::cholesky_factor(indefinite).usable());
     Eigen::SparseMatrix<double> lower(1, 1);
     lower.insert(0, 0) = 4.0;
     lower.makeCompressed();

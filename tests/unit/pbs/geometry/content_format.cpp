@@ -62,7 +62,7 @@ TEST_F(ContentFormat, IsThatOfTheFirstBytesWhateverTheName)
     EXPECT_EQ(content("# by hand\nMeshVersionFormatted 2\n"), ".mesh");
 }
 
-TEST_F(ContentFormat, OfOtherContentIsThatOfTheName)
+TEST_F(ContentFormat, OfOtherContentIsThatOfTheNameWhichElseGetsItsExtension)
 {
     for (const char* text : {"", "ISO-10303-21;", "solid rock\n", "plywood\n", "SCOFFS\n", "v\n", "# only a comment\n"}) {
         const std::string path = folder.file("A.STL", text);
@@ -72,10 +72,6 @@ TEST_F(ContentFormat, OfOtherContentIsThatOfTheName)
     }
     EXPECT_EQ(pbs::content_extension(folder / "none.ply"), "");
     EXPECT_EQ(pbs::format_extension(folder / "none.ply"), ".ply");
-}
-
-TEST_F(ContentFormat, GivesANameWithItsExtension)
-{
     const std::string path = folder.file("a.obj", ply);
     EXPECT_EQ(pbs::path_by_content(path), path + ".ply");
 }
@@ -174,7 +170,7 @@ public:
 private:
     std::string before_;
 };
-TEST_F(NamedLink, IsTheFileUnderTheOtherNameAndLeavesNothing)
+TEST_F(NamedLink, IsTheFileUnderTheOtherNameAndLeavesNothingOrTheFileItself)
 {
     const ScratchFolder folder, temporary;
     const std::string file = folder.file("a.txt", "text");
@@ -188,12 +184,8 @@ TEST_F(NamedLink, IsTheFileUnderTheOtherNameAndLeavesNothing)
     }
     EXPECT_TRUE(fs::is_empty(temporary.path()));
     EXPECT_TRUE(fs::exists(file));
-}
-
-TEST_F(NamedLink, IsTheFileItselfIfItHasTheExtension)
-{
-    const std::string file = folder.file("A.MESH", "text");
-    EXPECT_EQ(pbs::NamedLink(file, ".mesh").path(), file);
+    const std::string named = folder.file("A.MESH", "text");
+    EXPECT_EQ(pbs::NamedLink(named, ".mesh").path(), named);
 }
 
 TEST_F(NamedLink, AsksForAnotherNameWhereNoLinkCanBeMade)

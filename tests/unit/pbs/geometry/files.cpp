@@ -19,24 +19,14 @@ using ReadTextFile = test_support::FolderTest;
 using WriteAtomically = test_support::FolderTest;
 using AtomicFile = test_support::FolderTest;
 using namespace pbs;
-TEST_F(ReadTextFile, IsWholeAndToTheByte)
+TEST_F(ReadTextFile, IsWholeToTheByteAndWaitsForNoPipeOrDevice)
 {
-    const std::string bytes("a\r\n\0b\n", 6);
+    const std::string bytes("a\r\n\0b\n", 6), none = folder / "none";
     EXPECT_EQ(read_text_file(folder.file("bytes", bytes)), bytes);
-}
-
-TEST_F(ReadTextFile, RefusesWhatCannotBeOpened)
-{
-    const std::string none = (folder.path() / "none").string();
     expect_input_error([&] { read_text_file(none); }, none + ": ", "cannot be opened: No such file or directory");
-    expect_input_error([&] { read_text_file(folder.path().string()); }, folder.path().string(), "cannot be opened: expected a file");
-}
-
-TEST_F(ReadTextFile, WaitsForNoPipeAndReadsNoDevice)
-{
     ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
-    for (const std::string& endless : {folder / "pipe", std::string("/dev/zero")})
-        expect_input_error([&] { read_text_file(endless); }, endless + ": ", "cannot be opened: expected a file");
+    for (const std::string& other : {folder.path().string(), folder / "pipe", std::string("/dev/zero")})
+        expect_input_error([&] { read_text_file(other); }, other + ": ", "cannot be opened: expected a file");
 }
 
 TEST_F(ReadTextFile, RefusesTooLargeAFileByItsSize)
@@ -117,13 +107,16 @@ long files_in(const fs::path& folder)
     return std::distance(fs::directory_iterator(folder), fs::directory_iterator());
 }
 
-TEST_F(WriteAtomically, WritesAndReplaces)
+TEST_F(WriteAtomically, WritesAndReplacesAlsoUnderANameOfTheGreatestLength)
 {
-    const std::string path = folder / "limb.vtu", bytes("a\0b\n", 4);
-    write_atomically(path, "old");
-    write_atomically(path, bytes);
-    EXPECT_EQ(read_text_file(path), bytes);
-    EXPECT_EQ(files_in(folder.path()), 1);
+    const std::string bytes("a\0b\n", 4);
+    for (const std::string& path : {folder / "limb.vtu", folder / std::string(255, 'x')}) {
+        for (const std::string& text : {std::string("old"), bytes, std::string()}) {
+            write_atomically(path, text);
+            EXPECT_EQ(read_text_file(path), text);
+        }
+    }
+    EXPECT_EQ(files_in(folder.path()), 2);
 }
 
 TEST_F(AtomicFile, IsThereOnceItIsFinished)
@@ -158,15 +151,6 @@ TEST_F(WriteAtomically, GivesTheUsualPermissions)
     struct stat status = {};
     ASSERT_EQ(stat((folder / "limb.vtu").c_str(), &status), 0);
     EXPECT_EQ(status.st_mode & 0777, 0640u);
-}
-
-TEST_F(WriteAtomically, ANameOfTheGreatestLengthIsWritten)
-{
-    std::string name = ".vtu";
-    name.insert(0, 251, 'x');
-    const std::string path = folder / name;
-    write_atomically(path, "whole");
-    EXPECT_EQ(read_text_file(path), "whole");
 }
 
 // Anyone who can write to the folder could create a link with the name of the temporary file, if that name were predictable.

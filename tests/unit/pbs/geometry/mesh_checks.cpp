@@ -37,14 +37,10 @@ void expect_refused(const pbs::TetMesh& mesh, const std::string& words)
     expect_input_error([&] { pbs::check_rest("m.vtu", mesh); }, "m.vtu: ", words);
 }
 
-TEST(RestMesh, ASoundOneIsAccepted)
+TEST(RestMesh, ASoundOneIsAcceptedAndAnInvertedTetTurnedAndCounted)
 {
     EXPECT_EQ(pbs::check_rest("m.vtu", unit_tet()).flipped_tets, 0);
     EXPECT_EQ(pbs::check_rest("m.vtu", test_support::structured_bar({-1, -1, -1}, {1, 1, 1}, {2, 2, 2})).flipped_tets, 0);
-}
-
-TEST(RestMesh, AnInvertedTetIsTurnedAndCounted)
-{
     pbs::TetMesh mesh = unit_tet();
     mesh.tets << 0, 1, 3, 2;
     const pbs::MeshReading reading = pbs::check_rest("m.vtu", mesh);
@@ -52,19 +48,11 @@ TEST(RestMesh, AnInvertedTetIsTurnedAndCounted)
     EXPECT_EQ(reading.mesh.tets, unit_tet().tets);
 }
 
-TEST(RestMesh, AnySizeIsAccepted)  // flatness has no unit
+TEST(RestMesh, AnySizeIsAcceptedAndAFlatTetRefusedAtAnySize)  // flatness has no unit
 {
     for (const double scale : {1e-6, 1.0, 1e6}) {
         pbs::TetMesh mesh = unit_tet();
-        mesh.rest *= scale;
-        EXPECT_NO_THROW(pbs::check_rest("m.vtu", mesh)) << scale;
-    }
-}
-
-TEST(RestMesh, AFlatTetIsRefusedAtAnySize)
-{
-    for (const double scale : {1e-6, 1.0, 1e6}) {
-        pbs::TetMesh mesh = unit_tet();
+        EXPECT_NO_THROW(pbs::check_rest("m.vtu", {scale * mesh.rest, mesh.tets})) << scale;
         mesh.rest.row(3) << 0.3, 0.3, 1e-12;
         mesh.rest *= scale;
         expect_refused(mesh, "tet 0 = (0, 1, 2, 3): expected a volume");
@@ -132,11 +120,7 @@ TEST(Frame, CoordinatesWhoseVolumesOverflowAreRefused)
         frame.rest(1, 2) = 1e9;
         EXPECT_NO_THROW(pbs::check_frame("m.vtu", frame));
     }
-}
-
-TEST(Frame, AsksForIndicesAndPlacesAlone)
-{
-    EXPECT_NO_THROW(pbs::check_frame("m.vtu", with(unit_tet(), {{0.2, 0.2, 0.5}}, {0, 1, 2, 2})));
+    EXPECT_NO_THROW(pbs::check_frame("m.vtu", with(unit_tet(), {{0.2, 0.2, 0.5}}, {0, 1, 2, 2}))) << "indices and places alone are checked";
 }
 
 // Reference: two or three tets, of which each vertex and each face is counted by hand.
@@ -152,14 +136,15 @@ void expect_the_same_tets(const pbs::MeshReading& repair, const pbs::TetMesh& me
         }
 }
 
-TEST(MeshRepair, ASoundMeshStaysAsItIs)
+TEST(MeshRepair, ASoundMeshStaysAsItIsAndTetsThatShareAFaceStayTogether)
 {
-    const pbs::TetMesh bar = test_support::structured_bar({0, 0, 0}, {2, 1, 1}, {3, 2, 2});
-    const pbs::MeshReading repair = pbs::repaired(bar);
-    EXPECT_EQ(repair.mesh.rest, bar.rest);
-    EXPECT_EQ(repair.mesh.tets, bar.tets);
-    EXPECT_TRUE(repair.unused_vertices.empty());
-    EXPECT_TRUE(repair.split_vertices.empty());
+    for (const pbs::TetMesh& mesh : {test_support::structured_bar({0, 0, 0}, {2, 1, 1}, {3, 2, 2}), touching_in_a_face}) {
+        const pbs::MeshReading repair = pbs::repaired(mesh);
+        EXPECT_EQ(repair.mesh.rest, mesh.rest);
+        EXPECT_EQ(repair.mesh.tets, mesh.tets);
+        EXPECT_TRUE(repair.unused_vertices.empty());
+        EXPECT_TRUE(repair.split_vertices.empty());
+    }
 }
 
 TEST(MeshRepair, UnusedVerticesAreLeftOut)
@@ -190,13 +175,6 @@ TEST(MeshRepair, TetsThatTouchInAVertexOrAnEdgeGetVerticesOfTheirOwn)
         EXPECT_EQ(twice.mesh.tets, repair.mesh.tets);
         EXPECT_TRUE(twice.split_vertices.empty() && twice.unused_vertices.empty());
     }
-}
-
-TEST(MeshRepair, TetsThatShareAFaceStayTogether)
-{
-    const pbs::MeshReading repair = pbs::repaired(touching_in_a_face);
-    EXPECT_TRUE(repair.split_vertices.empty());
-    EXPECT_EQ(repair.mesh.tets, touching_in_a_face.tets);
 }
 
 TEST(NonManifoldEdge, IsFoundWhereTwoTetsTouchInItAlone)

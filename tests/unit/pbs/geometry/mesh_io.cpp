@@ -76,9 +76,8 @@ TEST(TetGen, ReadsZeroAndOneBasedFilesWithComments)
     }
 }
 
-TEST(Frames, MayBeInvertedAndFlat)
+TEST_F(Writing, FramesMayBeInvertedAndFlat)
 {
-    const ScratchFolder folder;
     pbs::TetMesh bar = awkward_bar();
     bar.rest.col(2) *= 0.0;
     pbs::write_tet_mesh(folder / "flat.vtu", bar);
@@ -93,13 +92,9 @@ TEST_F(Writing, IntoAMissingFolderIsRefusedAndNamesTheFile)
     EXPECT_THROW(pbs::write_pvd("/no/such/folder/a.pvd", {}), pbs::InputError);
 }
 
-TEST_F(Writing, UnknownExtensionsAreRefused)
+TEST_F(Writing, UnknownExtensionsAndFieldsOfTheWrongLengthAreRefusedByName)
 {
     EXPECT_THROW(pbs::write_tet_mesh("bar.stl", awkward_bar()), pbs::InputError);
-}
-
-TEST_F(Writing, FieldsOfTheWrongLengthAreRefusedByName)
-{
     const pbs::TetMesh bar = awkward_bar();
     pbs::FrameFields fields;
     fields.cell_scalars["volume_ratio"] = Eigen::VectorXd::Ones(3);
@@ -107,14 +102,10 @@ TEST_F(Writing, FieldsOfTheWrongLengthAreRefusedByName)
     EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
-TEST_F(Writing, TheSameFrameGivesTheSameBytes)
+TEST_F(Writing, TheSameFrameGivesTheSameBytesAndPvdListsFramesInOrderWithAllDigits)
 {
     for (const char* name : {"a.vtu", "b.vtu"}) pbs::write_vtu(folder / name, awkward_bar().rest, awkward_bar().tets, {});
     EXPECT_EQ(pbs::read_text_file(folder / "a.vtu"), pbs::read_text_file(folder / "b.vtu"));
-}
-
-TEST_F(Writing, PvdListsFramesInOrderWithAllDigits)
-{
     pbs::write_pvd(folder / "pbs.pvd", {{0.0, "frames/pbs_000000.vtu"}, {1.0 / 3.0, "frames/pbs_000001.vtu"}});
     const std::string text = pbs::read_text_file(folder / "pbs.pvd");
     EXPECT_NE(text.find("timestep=\"0.33333333333333331\" part=\"0\" file=\"frames/pbs_000001.vtu\""), std::string::npos) << text;
@@ -210,16 +201,11 @@ TEST_F(ReadTetMesh, OfAMillimetreOrAHundredMetresNeedsNoRemarkAboutItsSize)
 
 // Reference: HOBAK's format by hand: lines "v x y z" and "t a b c d", vertices counted from 0.
 
-const std::string unit_points = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
-TEST_F(Tobj, HasVerticesAndTets)
+TEST_F(Tobj, HasVerticesAndTetsAndMayHaveCommentsTrianglesWindowsLineEndsAndExponents)
 {
-    const pbs::MeshReading reading = pbs::read_tet_mesh(folder.file("a.tobj", unit_points + "t 0 1 2 3\n"));
+    const pbs::MeshReading reading = pbs::read_tet_mesh(folder.file("a.tobj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nt 0 1 2 3\n"));
     EXPECT_EQ(reading.mesh.rest, test_support::unit_tet().rest);
     EXPECT_EQ(reading.mesh.tets, test_support::unit_tet().tets);
-}
-
-TEST_F(Tobj, MayHaveCommentsTrianglesWindowsLineEndsAndExponents)
-{
     const std::string text = "# a tet\r\nv 0 0 0\r\nv 1e0 0 0\r\n\r\nv 0 1 0\r\nt 0 1 2 3\r\nf 1 2 3\r\nv 0 0 1\r\n";
     EXPECT_EQ(pbs::read_tet_mesh(folder.file("a.TOBJ", text)).mesh.rest, test_support::unit_tet().rest);
 }

@@ -41,17 +41,13 @@ TEST(Count, IsReachedInAFewTriesWhateverThePower)
         }
 }
 
-TEST(Count, TheNearestIsKeptWhereNoSizeReachesIt)
+TEST(Count, TheNearestIsKeptWhereNoSizeReachesItAndASizeThatFailsIsStepped)
 {
     const pbs::TetMesh mesh = pbs::mesh_at_vertex_count(500, 1.0, [](double size) { return with_vertices(size < 0.5 ? 900 : 400); });
     EXPECT_EQ(mesh.rest.rows(), 400);
-}
-
-TEST(Count, ASizeThatFailsIsStepped)
-{
-    const pbs::TetMesh mesh =
+    const pbs::TetMesh stepped =
         pbs::mesh_at_vertex_count(500, 1.0, [](double size) { return size > 0.7 ? pbs::TetMesh() : with_vertices(500); });
-    EXPECT_EQ(mesh.rest.rows(), 500);
+    EXPECT_EQ(stepped.rest.rows(), 500);
     EXPECT_EQ(pbs::mesh_at_vertex_count(500, 1.0, [](double) { return pbs::TetMesh(); }).tets.rows(), 0);
 }
 
@@ -74,13 +70,9 @@ double depth(const pbs::Vec3& p)
     return radius - (p - pbs::Vec3(std::clamp(p(0), -1.0, 1.0), 0, 0)).norm();
 }
 
-TEST(Limb, IsSoundAtTheWantedSize)
+TEST(Limb, IsSoundAtTheWantedSizeAndHasTheDefaultsSize)
 {
     for (const int vertices : {300, 500, 1000}) expect_sound(pbs::mesh_limb(vertices), vertices);
-}
-
-TEST(Limb, HasTheDefaultsSize)
-{
     const pbs::Quality quality = pbs::quality_of(pbs::mesh_limb(1775));
     EXPECT_NEAR(quality.vertices, 1775, 0.05 * 1775);
     EXPECT_NEAR(quality.tets, 7600, 0.05 * 7600);

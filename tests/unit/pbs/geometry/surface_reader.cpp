@@ -156,22 +156,14 @@ void expect_two_triangles(const std::string& path, const pbs::Vec3& shift_m, dou
     }
 }
 
-TEST_F(SurfaceFormats, ColladaIsInMetres)
+TEST_F(SurfaceFormats, ColladaAndFbxAreInMetresAndTheTransformsOfNodesApplied)
 {
     expect_two_triangles(folder.file("arm.dae", test_support::collada_arm()), {0, 0, 0}, 0.01);
-}
-
-TEST_F(SurfaceFormats, FbxIsInMetres)
-{
     expect_two_triangles(folder.file("arm.fbx", test_support::fbx_arm()), {0, 0, 0}, 0.01);
     std::string metres = test_support::fbx_arm();
     const std::string stated = "\"Number\", \"\",1\n}";
     metres.replace(metres.find(stated), stated.size(), "\"Number\", \"\",100\n}");
     expect_two_triangles(folder.file("metres.fbx", metres), {0, 0, 0}, 1.0);
-}
-
-TEST_F(SurfaceFormats, TheTransformsOfNodesAreApplied)
-{
     std::string text = test_support::fbx_arm();
     const std::string body = "\"Model::body\", \"Mesh\" {\nVersion: 232\n";
     text.replace(text.find(body), body.size(),

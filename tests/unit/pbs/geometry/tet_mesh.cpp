@@ -20,16 +20,12 @@ namespace {
 
 const pbs::Vec3 origin(0, 0, 0), x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
 
-TEST(TetVolume, OfTheUnitCornerAndOfMirroredFlatAndCollapsedTets)
+TEST(TetVolume, OfTheUnitCornerAndOfMirroredFlatAndCollapsedTetsScalesWithTheCube)
 {
     EXPECT_DOUBLE_EQ(pbs::tet_volume(origin, x, y, z), 1.0 / 6.0);
     EXPECT_DOUBLE_EQ(pbs::tet_volume(origin, y, x, z), -1.0 / 6.0);
     EXPECT_EQ(pbs::tet_volume(origin, x, y, x + y), 0.0);
     EXPECT_EQ(pbs::tet_volume(x, x, x, x), 0.0);
-}
-
-TEST(TetVolume, ScalesWithTheCube)
-{
     for (const double size : {1e-6, 1e-3, 1e3, 1e6})
         EXPECT_NEAR(pbs::tet_volume(origin, size * x, size * y, size * z) * 6.0 / (size * size * size), 1.0,
                     test_support::rounding_error(8, 1.0));
@@ -161,31 +157,19 @@ TEST(Refinement, CutsTheOctahedronAlongItsShortestDiagonal)
     }
 }
 
-TEST(Refinement, AnInvertedTetStaysInverted)
+TEST(Refinement, AnInvertedTetStaysInvertedAndAnUnusedVertexIsKept)
 {
     TetMesh mesh = one_tet();
     mesh.tets << 1, 0, 2, 3;
-    const TetMesh fine = pbs::refine(mesh).mesh;
-    EXPECT_LT(pbs::tet_volumes(fine.rest, fine.tets).maxCoeff(), 0.0);
-}
-
-TEST(Refinement, AnUnusedVertexIsKept)
-{
-    TetMesh mesh = one_tet();
     mesh.rest.conservativeResize(5, 3);
     mesh.rest.row(4) << 7, 8, 9;
     const TetMesh fine = pbs::refine(mesh).mesh;
+    EXPECT_LT(pbs::tet_volumes(fine.rest, fine.tets).maxCoeff(), 0.0);
     EXPECT_EQ(fine.rest.rows(), 11);
     EXPECT_EQ(fine.rest.row(4), mesh.rest.row(4));
     EXPECT_EQ(pbs::topology_of(fine.tets, fine.rest.rows()).unused_vertices, 1);
-}
-
-TEST(Refinement, OfNothingIsNothing)
-{
-    const Refinement fine = pbs::refine({pbs::Positions(0, 3), pbs::Tets(0, 4)});
-    EXPECT_EQ(fine.mesh.rest.rows(), 0);
-    EXPECT_EQ(fine.mesh.tets.rows(), 0);
-    EXPECT_EQ(fine.parents.rows(), 0);
+    const Refinement nothing = pbs::refine({pbs::Positions(0, 3), pbs::Tets(0, 4)});
+    EXPECT_EQ(nothing.mesh.rest.rows() + nothing.mesh.tets.rows() + nothing.parents.rows(), 0);
 }
 
 TEST(Prolongated, CarriesAnAffineFieldExactly)
@@ -267,14 +251,10 @@ TEST(PointLocation, PointsFarOutsideOrNotANumberAreInNoTet)
     EXPECT_EQ(where.locate({0, -1e9, 0}).tet, -1);
     EXPECT_EQ(where.locate({0, 0, 0.1501}).tet, -1);
     EXPECT_EQ(where.locate(Vec3::Constant(std::nan(""))).tet, -1);
-}
-
-TEST(PointLocation, OneTetAlone)
-{
     const pbs::TetMesh tet = test_support::unit_tet();
-    const PointLocation where(tet);
-    EXPECT_EQ(where.locate({0.2, 0.2, 0.2}).tet, 0);
-    EXPECT_EQ(where.locate({0.4, 0.4, 0.4}).tet, -1);
+    const PointLocation in_one_tet(tet);
+    EXPECT_EQ(in_one_tet.locate({0.2, 0.2, 0.2}).tet, 0);
+    EXPECT_EQ(in_one_tet.locate({0.4, 0.4, 0.4}).tet, -1);
 }
 
 // Reference: the definition of a division: every tet in one region, each region connected over faces, sizes between half of the wanted size
@@ -309,16 +289,12 @@ TEST(TetRegions, DivideTheMeshIntoConnectedRegionsOfAboutTheWantedSize)
     }
 }
 
-TEST(TetRegions, OneTetOrAllOfThem)
+TEST(TetRegions, OneTetOrAllOfThemAndAPartOfItsOwn)
 {
     const std::vector<int> single = pbs::tet_regions(divided_bar.tets, 1), whole = pbs::tet_regions(divided_bar.tets, 1000000);
     EXPECT_EQ(regions_in(single), divided_bar.tets.rows());
     EXPECT_EQ(regions_in(whole), 1);
     EXPECT_TRUE(pbs::tet_regions(pbs::Tets(0, 4), 8).empty());
-}
-
-TEST(TetRegions, APartOfItsOwnIsARegionOfItsOwn)
-{
     EXPECT_EQ(pbs::tet_regions(pbs::Tets{{0, 1, 2, 3}, {4, 5, 6, 7}}, 100), (std::vector<int>{0, 1}));
     EXPECT_EQ(pbs::tet_regions(pbs::Tets{{0, 1, 2, 3}, {3, 5, 6, 7}}, 100), (std::vector<int>{0, 1}))
         << "a shared vertex is no shared face";

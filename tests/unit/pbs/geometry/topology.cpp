@@ -10,6 +10,8 @@
 
 #include <cmath>
 #include <numbers>
+#include <numeric>
+#include <optional>
 #include <random>
 
 namespace {
@@ -85,28 +87,21 @@ TEST(Topology, OfBodiesThatAreCountedByHand)
     }
 }
 
-TEST(Topology, CubesThatShareAnEdgeAreNotManifold)
+// Where cubes share a vertex alone, every edge is in two triangles; only the fans show the defect.
+TEST(Topology, CubesThatShareAnEdgeOrAVertexAndThreeTetsOnOneFaceAreNotManifold)
 {
-    const pbs::TetMesh pinched = carved_box({2, 2, 1}, [](int i, int j, int) { return i == j; });
-    const Topology topology = pbs::topology_of(pinched.tets, pinched.rest.rows());
-    EXPECT_FALSE(topology.boundary_manifold);
-    EXPECT_EQ(topology.components, 2);
-}
-
-TEST(Topology, CubesThatShareAVertexAreNotManifold)
-{
-    const pbs::TetMesh pinched = carved_box({2, 2, 2}, [](int i, int j, int k) { return i == j && j == k; });
-    const Topology topology = pbs::topology_of(pinched.tets, pinched.rest.rows());
-    EXPECT_FALSE(topology.boundary_manifold);  // every edge is in two triangles; only the fans show the defect
-    EXPECT_EQ(topology.boundary_components, 2);
-}
-
-TEST(Topology, OfThreeTetsOnOneFaceIsNotManifoldAndOfNothingCountsUnusedVertices)
-{
+    const pbs::TetMesh on_an_edge = carved_box({2, 2, 1}, [](int i, int j, int) { return i == j; });
+    const pbs::TetMesh on_a_vertex = carved_box({2, 2, 2}, [](int i, int j, int k) { return i == j && j == k; });
+    const Topology of_edge = pbs::topology_of(on_an_edge.tets, on_an_edge.rest.rows());
+    const Topology of_vertex = pbs::topology_of(on_a_vertex.tets, on_a_vertex.rest.rows());
+    EXPECT_FALSE(of_edge.boundary_manifold);
+    EXPECT_EQ(of_edge.components, 2);
+    EXPECT_FALSE(of_vertex.boundary_manifold);
+    EXPECT_EQ(of_vertex.boundary_components, 2);
     EXPECT_FALSE(pbs::topology_of(Tets{{0, 1, 2, 3}, {0, 2, 1, 4}, {0, 1, 2, 5}}, 6).boundary_manifold);
-    const Topology topology = pbs::topology_of(Tets(0, 4), 5);
-    EXPECT_EQ(topology.components, 0);
-    EXPECT_EQ(topology.unused_vertices, 5);
+    const Topology nothing = pbs::topology_of(Tets(0, 4), 5);
+    EXPECT_EQ(nothing.components, 0);
+    EXPECT_EQ(nothing.unused_vertices, 5);
 }
 
 // Faces of a tet on these corners, outward if it is positively oriented.
@@ -122,43 +117,33 @@ Triangles together(const Triangles& one, const Triangles& other)
     return all;
 }
 
-TEST(ClosedTriangles, OfATetAreWatertight)
+TEST(ClosedTriangles, AreWatertightOrOpenAtTheirFirstEdge)
 {
     const Triangles tet = faces_of(0, 1, 2, 3);
-    EXPECT_TRUE(pbs::is_closed(tet));
-    EXPECT_TRUE(pbs::is_watertight(tet));
-    EXPECT_FALSE(pbs::open_edge(tet));
-}
-
-TEST(ClosedTriangles, OfTetsThatTouchInAnEdgeAreClosedButNotWatertight)
-{
-    const Triangles two = together(faces_of(0, 1, 2, 3), faces_of(0, 1, 4, 5));
-    EXPECT_TRUE(pbs::is_closed(two));
-    EXPECT_FALSE(pbs::is_watertight(two));
-}
-
-TEST(ClosedTriangles, WithAHoleAFinOrATurnedTriangleAreOpenAtTheirFirstEdge)
-{
-    const Triangles tet = faces_of(0, 1, 2, 3);
-    const Triangles fin = together(tet, Triangles{{0, 1, 4}});
     Triangles turned = tet;
     turned.row(0) = turned.row(0).reverse().eval();
-    for (const auto& [triangles, edge] : {std::pair(Triangles(tet.topRows(3)), pbs::DirectedEdge(0, 1)),
-                                          {fin, pbs::DirectedEdge(0, 1)},
-                                          {turned, pbs::DirectedEdge(1, 2)}}) {
-        EXPECT_FALSE(pbs::is_closed(triangles));
-        EXPECT_FALSE(pbs::is_watertight(triangles));
+    struct Case {
+        const char* name;
+        Triangles triangles;
+        bool closed, watertight;
+        std::optional<std::pair<int, int>> open_edge;
+    };
+    for (const auto& [name, triangles, closed, watertight, edge] :
+         {Case{"a tet", tet, true, true, {}}, Case{"tets that touch in an edge", together(tet, faces_of(0, 1, 4, 5)), true, false, {}},
+          Case{"a hole", tet.topRows(3), false, false, {{0, 1}}},
+          Case{"a fin", together(tet, Triangles{{0, 1, 4}}), false, false, {{0, 1}}},
+          Case{"a turned triangle", turned, false, false, {{1, 2}}}, Case{"none", Triangles(0, 3), false, false, {}}}) {
+        SCOPED_TRACE(name);
+        EXPECT_EQ(pbs::is_closed(triangles), closed);
+        EXPECT_EQ(pbs::is_watertight(triangles), watertight);
         const auto open = pbs::open_edge(triangles);
+        if (!edge && closed == watertight) {
+            EXPECT_FALSE(open);
+        }
+        if (!edge) continue;
         ASSERT_TRUE(open);
-        EXPECT_EQ(std::minmax(open->first, open->second), std::minmax(edge.first, edge.second));
+        EXPECT_EQ(std::minmax(open->first, open->second), std::minmax(edge->first, edge->second));
     }
-}
-
-TEST(ClosedTriangles, NoneEncloseNothing)
-{
-    EXPECT_FALSE(pbs::is_closed(Triangles(0, 3)));
-    EXPECT_FALSE(pbs::is_watertight(Triangles(0, 3)));
-    EXPECT_FALSE(pbs::open_edge(Triangles(0, 3)));
 }
 
 // Reference: the definition, on bars and tets that are counted by hand.
@@ -194,11 +179,9 @@ TEST(Parts, DoNotDependOnTheOrderOfTets)
 {
     const pbs::TetMesh bars = two_bars();
     std::vector<int> order(12);
-    for (int t = 0; t < 12; ++t) order[std::size_t(t)] = t;
+    std::iota(order.begin(), order.end(), 0);
     std::shuffle(order.begin(), order.end(), std::mt19937(1));
-    pbs::Tets shuffled(12, 4);
-    for (int t = 0; t < 12; ++t) shuffled.row(t) = bars.tets.row(order[std::size_t(t)]);
-    const std::vector<int> parts = pbs::parts_of(shuffled);
+    const std::vector<int> parts = pbs::parts_of(bars.tets(order, Eigen::all));
     for (std::size_t a = 0; a < 12; ++a)
         for (std::size_t b = 0; b < 12; ++b) EXPECT_EQ(parts[a] == parts[b], order[a] % 2 == order[b] % 2);
 }
@@ -211,11 +194,6 @@ TEST(KeptTets, HaveTheVerticesThatTheyUseInTheirOrder)
     const pbs::TetMesh right = pbs::kept_tets(bars, kept);
     EXPECT_EQ(right.rest, pbs::Positions(bars.rest.bottomRows(8)));
     EXPECT_EQ(right.tets, test_support::structured_bar({0, 0, 0}, {1, 1, 1}, {1, 1, 1}).tets);
-}
-
-TEST(KeptTets, AllAndNone)
-{
-    const pbs::TetMesh bars = two_bars();
     EXPECT_EQ(pbs::kept_tets(bars, std::vector<bool>(12, true)).tets, bars.tets);
     const pbs::TetMesh none = pbs::kept_tets(bars, std::vector<bool>(12, false));
     EXPECT_EQ(none.tets.rows(), 0);
@@ -230,27 +208,18 @@ constexpr double degree = 180.0 / std::numbers::pi;
 // of comparison go through seven roundings: a root and a quotient in the cosine, the angle, the conversion and pi.
 constexpr double of_angles_deg = test_support::rounding_error(5 + 7, 90.0);
 
-TEST(DihedralAngles, OfARegularTetAreAcosOfAThird)
+TEST(DihedralAngles, OfARegularTetAreAcosOfAThirdAndOfTheUnitCornerRightOnTheAxes)
 {
     for (const double angle_deg : pbs::dihedral_angles_deg({1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}))
         EXPECT_NEAR(angle_deg, std::acos(1.0 / 3.0) * degree, of_angles_deg);
-}
-
-TEST(DihedralAngles, OfTheUnitCornerAreRightOnTheAxes)
-{
     const auto angles_deg = pbs::dihedral_angles_deg({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1});
-    for (int e = 0; e < 3; ++e) EXPECT_NEAR(angles_deg[e], 90.0, of_angles_deg);
-    for (int e = 3; e < 6; ++e) EXPECT_NEAR(angles_deg[e], std::acos(1.0 / std::sqrt(3.0)) * degree, of_angles_deg);
+    for (int e = 0; e < 6; ++e) EXPECT_NEAR(angles_deg[e], e < 3 ? 90.0 : std::acos(1.0 / std::sqrt(3.0)) * degree, of_angles_deg);
 }
 
-TEST(DihedralAngles, OfAFlatTetAreZeroOr180)
+TEST(DihedralAngles, OfAFlatTetAreZeroOr180AndOfACollapsedOneZero)
 {
     for (const double angle_deg : pbs::dihedral_angles_deg({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}))
         EXPECT_TRUE(angle_deg == 0.0 || angle_deg == 180.0) << angle_deg;
-}
-
-TEST(DihedralAngles, OfACollapsedTetAreFinite)
-{
     for (const double angle_deg : pbs::dihedral_angles_deg({1, 2, 3}, {1, 2, 3}, {1, 2, 3}, {1, 2, 3})) EXPECT_EQ(angle_deg, 0.0);
 }
 

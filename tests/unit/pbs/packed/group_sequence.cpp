@@ -162,43 +162,33 @@ TEST(BatchSchedule, OfFewGroupsHasThisManyBatches)
     EXPECT_EQ(expect_sound(2, pbs::single_edges({{0, 1}, {1, 0}})).size(), 3u) << "two groups on the same vertices";
 }
 
-// Groups without common vertices fill every lane.
+// Groups without common vertices fill every lane. A chain in two colours has first every other edge, then those between, and each half has
+// 200 edges in 13 batches.
 TEST(BatchSchedule, DisjointGroupsFillAllLanes)
 {
-    std::vector<std::array<int, 2>> edges;
-    for (int e = 0; e < 100; ++e) edges.push_back({2 * e, 2 * e + 1});
-    const Batches batches = expect_sound(200, pbs::single_edges(edges));
+    std::vector<std::array<int, 2>> disjoint, by_colours;
+    for (int e = 0; e < 100; ++e) disjoint.push_back({2 * e, 2 * e + 1});
+    const Batches batches = expect_sound(200, pbs::single_edges(disjoint));
     ASSERT_EQ(batches.size(), 7u);
     for (std::size_t b = 0; b + 1 < batches.size(); ++b) EXPECT_EQ(batches[b].size(), 16u);
-}
-
-// One group per batch, with an empty batch between two: the only possible schedule.
-TEST(BatchSchedule, AllGroupsShareOneVertex)
-{
-    std::vector<std::array<int, 2>> edges;
-    for (int i = 1; i <= 40; ++i) edges.push_back({0, i});
-    const Batches batches = expect_sound(41, pbs::single_edges(edges));
-    ASSERT_EQ(batches.size(), 79u);
-    for (std::size_t b = 0; b < batches.size(); ++b) EXPECT_EQ(batches[b].size(), b % 2 == 0 ? 1u : 0u);
-}
-
-// Each edge waits for the one before, and pauses for one batch: the only possible schedule that keeps the order.
-TEST(BatchSchedule, AChainOfEdgesKeepsItsOrder)
-{
-    std::vector<std::array<int, 2>> edges;
-    for (int i = 0; i < 40; ++i) edges.push_back({i, i + 1});
-    const Batches batches = expect_sound(41, pbs::single_edges(edges));
-    ASSERT_EQ(batches.size(), 79u);
-    for (std::size_t b = 0; b < batches.size(); ++b) EXPECT_EQ(batches[b], b % 2 == 0 ? std::vector<int>{int(b) / 2} : std::vector<int>{});
-}
-
-// The chain in two colours: first every other edge, then those between. Each half has 200 edges in 13 batches.
-TEST(BatchSchedule, AChainOfEdgesByColours)
-{
-    std::vector<std::array<int, 2>> edges;
     for (const int colour : {0, 1})
-        for (int i = colour; i < 400; i += 2) edges.push_back({i, i + 1});
-    EXPECT_LE(expect_sound(401, pbs::single_edges(edges)).size(), 2u * 13);
+        for (int i = colour; i < 400; i += 2) by_colours.push_back({i, i + 1});
+    EXPECT_LE(expect_sound(401, pbs::single_edges(by_colours)).size(), 2u * 13);
+}
+
+// One group per batch, with an empty batch between two: the only possible schedule. Each edge of a chain waits for the one before, and
+// pauses for one batch, which alone keeps the order.
+TEST(BatchSchedule, AllGroupsShareOneVertexOrAreAChain)
+{
+    std::vector<std::array<int, 2>> star, chain;
+    for (int i = 0; i < 40; ++i) star.push_back({0, i + 1}), chain.push_back({i, i + 1});
+    const Batches of_star = expect_sound(41, pbs::single_edges(star)), of_chain = expect_sound(41, pbs::single_edges(chain));
+    ASSERT_EQ(of_star.size(), 79u);
+    ASSERT_EQ(of_chain.size(), 79u);
+    for (std::size_t b = 0; b < 79; ++b) {
+        EXPECT_EQ(of_star[b].size(), b % 2 == 0 ? 1u : 0u);
+        EXPECT_EQ(of_chain[b], b % 2 == 0 ? std::vector<int>{int(b) / 2} : std::vector<int>{});
+    }
 }
 
 // Thirty edges without neighbours come before a chain in the order given, and fill its lanes nevertheless.

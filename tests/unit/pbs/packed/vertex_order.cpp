@@ -95,6 +95,10 @@ TEST(VertexOrder, IsSoundForSlabsOfManySizes)
             expect_sound(tets, vertices, vertices_a_slab);
         }
     EXPECT_EQ(expect_sound(tet_ring(1, false), 4, 1024).slabs(), 1);
+    EXPECT_LE(expect_sound(tet_ring(300, true), 302, 16).slabs(), 2) << "all vertices around one";
+    const VertexOrder empty = order_vertices(Tets(0, 4), 0, 1);
+    EXPECT_EQ(empty.slabs(), 1);
+    EXPECT_TRUE(empty.old_of_new.empty() && empty.slab_of_new().empty());
 }
 
 TEST(VertexOrder, SlabsAreAsManyAsTheSizeAsksFor)
@@ -114,20 +118,6 @@ TEST(VertexOrder, NeighboursAreNearInMemoryHoweverTheMeshIsNumbered)
     for (const auto& edge : rows_of(pbs::edges_of(tets)))
         bandwidth = std::max(bandwidth, std::abs(order.new_of_old[edge[0]] - order.new_of_old[edge[1]]));
     EXPECT_LE(bandwidth, 4 * 16);  // two levels, each with hardly more than the 16 vertices of a section
-}
-
-TEST(VertexOrder, AllVerticesRoundOneAreOneOrTwoSlabs)
-{
-    const Tets ring = tet_ring(300, true);
-    EXPECT_LE(expect_sound(ring, 302, 16).slabs(), 2);
-}
-
-TEST(VertexOrder, EmptyMesh)
-{
-    const VertexOrder order = order_vertices(Tets(0, 4), 0, 1);
-    EXPECT_EQ(order.slabs(), 1);
-    EXPECT_TRUE(order.old_of_new.empty());
-    EXPECT_TRUE(order.slab_of_new().empty());
 }
 
 // Reference: the definition of a colouring, checked tet by tet.
@@ -162,17 +152,13 @@ TEST(VertexColours, NoTwoVerticesOfATetHaveOneColour)
 }
 
 // A vertex has at most 14 neighbours in Kuhn's split.
-TEST(VertexColours, AreAtMostOneMoreThanTheLargestNumberOfNeighbours)
+TEST(VertexColours, AreAtMostOneMoreThanTheLargestNumberOfNeighboursAndFourOfOneTet)
 {
     const pbs::TetMesh bar = test_support::structured_bar({-1, -1, -1}, {1, 1, 1}, {6, 6, 6});
     EXPECT_LE(pbs::vertex_colours(bar.tets, static_cast<int>(bar.rest.rows())).size(), 15u);
-}
-
-TEST(VertexColours, OfOneTetAreFourAndAVertexWithoutTetsHasTheFirst)
-{
     const auto colours = pbs::vertex_colours(test_support::tet_ring(1, false), 5);
     EXPECT_EQ(colours.size(), 4u);
-    EXPECT_EQ(colour_of_vertex(colours, 5)[4], 0);
+    EXPECT_EQ(colour_of_vertex(colours, 5)[4], 0) << "a vertex without tets has the first";
     EXPECT_TRUE(pbs::vertex_colours(pbs::Tets(0, 4), 0).empty());
 }
 

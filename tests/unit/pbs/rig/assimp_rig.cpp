@@ -71,26 +71,18 @@ void expect_bent_arm(const Rig& rig)
 
 TEST(AssimpRig, AnArmAsColladaAndFbx)
 {
-    expect_bent_arm(rig_in("arm.dae", test_support::collada_arm()));
+    const Rig collada = rig_in("arm.dae", test_support::collada_arm());
+    expect_bent_arm(collada);
+    EXPECT_FALSE(collada.nodes[std::size_t(node_named(collada, "elbow"))].rest.matrix) << "an animation replaces the matrix of its node";
+    EXPECT_TRUE(collada.nodes[std::size_t(node_named(collada, "root"))].rest.matrix);
     expect_bent_arm(rig_in("arm.dae", test_support::collada_arm(2)));  // the bind shape matrix moves the points first
     const Rig rig = rig_in("arm.fbx", test_support::fbx_arm());
     EXPECT_EQ(rig.unit_m, 0.01);
     expect_bent_arm(rig);
-}
-
-TEST(AssimpRig, TheUnitOfFbxIsStatedInCentimetres)
-{
     std::string text = test_support::fbx_arm();
     const std::string stated = "\"Number\", \"\",1\n}";
     text.replace(text.find(stated), stated.size(), "\"Number\", \"\",2.54\n}");
     EXPECT_NEAR(rig_in("arm.fbx", text).unit_m, 0.0254, 1e-9);
-}
-
-TEST(AssimpRig, AnAnimationReplacesTheMatrixOfItsNode)
-{
-    const Rig rig = rig_in("arm.dae", test_support::collada_arm());
-    EXPECT_FALSE(rig.nodes[std::size_t(node_named(rig, "elbow"))].rest.matrix);
-    EXPECT_TRUE(rig.nodes[std::size_t(node_named(rig, "root"))].rest.matrix);
 }
 
 TEST(AssimpRig, CurvesOfFbxThatAreNotLinearAreARemark)
@@ -162,6 +154,10 @@ TEST(ColladaWeights, OfZeroOrMoreAndThoseThatNoPointUsesAreAccepted)
         expect_accepted(arm_with_weights("1 0.5 0.25 " + std::string(weight)));
     std::string text = arm_with_weights("1 0.5 0.25 -0.75");
     expect_accepted(text.replace(text.find("url=\"#skin\""), 11, "url=\"#none\""));  // the controller is not part of the scene
+    // What is no XML or no archive is left to the reader.
+    for (const std::string& other : {std::string("<COLLADA><library_controllers>"), arm_with("1 2 1 2</vcount>", "1 2 99 2</vcount>"),
+                                     std::string("PK\x03\x04 nothing")})
+        expect_accepted(other);
 }
 
 TEST(ColladaWeights, TheirPlaceFollowsTheAccessor)
@@ -187,13 +183,6 @@ TEST(ColladaWeights, OfAnArchiveAreChecked)
     zipCloseFileInZip(archive);
     zipClose(archive, nullptr);
     expect_input_error([&] { pbs::check_collada_weights(path); }, path + ": controller skin, weight of point 3 = -0.75: ", "");
-}
-
-TEST(ColladaWeights, WhatIsNoXmlOrNoArchiveIsLeftToTheReader)
-{
-    expect_accepted("<COLLADA><library_controllers>");
-    expect_accepted(arm_with("1 2 1 2</vcount>", "1 2 99 2</vcount>"));
-    expect_accepted("PK\x03\x04 nothing");
 }
 
 // Reference: the flags of keys as the format stores them: 2 constant, 4 linear, 8 cubic; Blender's linear keys have the flags 24836.
@@ -227,22 +216,16 @@ void expect_count(const std::string& bytes, int curves, int not_linear)
     EXPECT_EQ(count.not_linear, not_linear);
 }
 
-TEST(FbxCurves, OfATextFileAreCounted)
+TEST(FbxCurves, OfATextOrBinaryFileAreCounted)
 {
     expect_count(text_of("24836") + text_of("4") + text_of("2") + text_of("4,264,4"), 4, 2);
-}
-
-TEST(FbxCurves, OfABinaryFileAreCounted)
-{
     for (const bool is_packed : {false, true})
         expect_count("Kaydara FBX Binary" + binary_of({24836}, is_packed) + binary_of({4, 8}, is_packed) + binary_of({2}, is_packed), 3, 2);
 }
 
 TEST(FbxCurves, ThatAreDamagedAreNotCounted)
 {
-    expect_count("", 0, 0);
-    expect_count("KeyAttrFlags", 0, 0);
-    expect_count("KeyAttrFlags: *1 { a: 4", 0, 0);
+    for (const char* bytes : {"", "KeyAttrFlags", "KeyAttrFlags: *1 { a: 4"}) expect_count(bytes, 0, 0);
     const std::string whole = binary_of({4, 8}, true);
     for (std::size_t length = 0; length < whole.size(); ++length) expect_count(whole.substr(0, length), 0, 0);
     expect_count("KeyAttrFlagsi" + word(0xffffffffu) + word(0) + word(4) + word(4), 0, 0);

@@ -45,25 +45,17 @@ TEST(RigBinding, RestPointsAreThoseOfTheMeshInMetres)
     EXPECT_TRUE(binding.remarks.empty());
 }
 
-TEST(RigBinding, TheBindPoseCountsWhereTheFileRestsInAnother)
+TEST(RigBinding, TheBindPoseCountsAndIsAttachedWhereTheRootJointRests)
 {
-    Rig rig = two_joint_rig();
-    rig.nodes[1].rest.rotation = Eigen::Quaterniond(0, 0, 0, 1);  // the elbow rests half round
-    expect_rest_points(bind_rig(rig, nullptr, 1.0), 0, rig.meshes[0].points);
-}
-
-TEST(RigBinding, TheBindPoseIsAttachedWhereTheRootJointRests)
-{
-    Rig rig = two_joint_rig();
-    rig.nodes[0].rest.translation = Vec3(1, 0, 7);
-    expect_rest_points(bind_rig(rig, nullptr, 1.0), 0, moved(rig.meshes[0].points, 0, 0, 7));
-}
-
-TEST(RigBinding, IdentitiesAsInverseBindMatricesMeanPointsInTheJointsFrames)
-{
-    Rig rig = two_joint_rig();
-    for (SkinJoint& joint : rig.meshes[0].joints) joint.inverse_bind.setIdentity();
-    expect_rest_points(bind_rig(rig, nullptr, 1.0), 0, moved(rig.meshes[0].points, 1, 0, 0));  // all frames are where the root joint is
+    Rig half_round = two_joint_rig(), elsewhere = half_round, identities = half_round;
+    const Positions points = half_round.meshes[0].points;
+    half_round.nodes[1].rest.rotation = Eigen::Quaterniond(0, 0, 0, 1);  // the elbow rests half round
+    expect_rest_points(bind_rig(half_round, nullptr, 1.0), 0, points);
+    elsewhere.nodes[0].rest.translation = Vec3(1, 0, 7);
+    expect_rest_points(bind_rig(elsewhere, nullptr, 1.0), 0, moved(points, 0, 0, 7));
+    // Identities as inverse bind matrices mean points in the joints' frames, all of which are where the root joint is.
+    for (SkinJoint& joint : identities.meshes[0].joints) joint.inverse_bind.setIdentity();
+    expect_rest_points(bind_rig(identities, nullptr, 1.0), 0, moved(points, 1, 0, 0));
 }
 
 TEST(RigBinding, TheLargestMeshComesFirstAndDeterminesTheBindPose)
@@ -100,30 +92,22 @@ TEST(RigBinding, AMeshWithoutASkinHangsOnTheJointAboveIt)
     expect_rest_points(binding, 1, moved(rig.meshes[1].points, 1, 3, 0));
 }
 
-TEST(RigBinding, AMeshThatNoJointMovesIsLeftOutWithARemark)
+TEST(RigBinding, AMeshThatNoJointMovesIsLeftOutUnlessThereIsNoJointOrNoOtherMesh)
 {
-    Rig rig = two_joint_rig();
+    Rig rig = two_joint_rig(), without_joints = rig, floor_alone = rig;
     rig.meshes.push_back(small_mesh("floor", 2, {}));
-    const RigBinding binding = bind_rig(rig, nullptr, 1.0);
-    EXPECT_EQ(binding.meshes.size(), 1u);
-    EXPECT_EQ(binding.remarks, std::vector<std::string>{"mesh floor is moved by no joint; it is left out"});
-}
+    const RigBinding left_out = bind_rig(rig, nullptr, 1.0);
+    EXPECT_EQ(left_out.meshes.size(), 1u);
+    EXPECT_EQ(left_out.remarks, std::vector<std::string>{"mesh floor is moved by no joint; it is left out"});
 
-TEST(RigBinding, OfAFileWithoutAnyJointKeepsItsMeshesAtRest)
-{
-    Rig rig = two_joint_rig();
-    rig.animations.clear();
-    rig.meshes = {small_mesh("statue", 1, {})};
-    const RigBinding binding = bind_rig(rig, nullptr, 1.0);
-    ASSERT_EQ(binding.meshes.size(), 1u);
-    expect_rest_points(binding, 0, moved(rig.meshes[0].points, 1, 2, 0));
-}
+    without_joints.animations.clear();
+    without_joints.meshes = {small_mesh("statue", 1, {})};
+    const RigBinding at_rest = bind_rig(without_joints, nullptr, 1.0);
+    ASSERT_EQ(at_rest.meshes.size(), 1u);
+    expect_rest_points(at_rest, 0, moved(without_joints.meshes[0].points, 1, 2, 0));
 
-TEST(RigBinding, WhereNoJointMovesAnyMeshTheRigIsRefused)
-{
-    Rig rig = two_joint_rig();  // its animation moves a node, but no mesh
-    rig.meshes = {small_mesh("floor", 2, {})};
-    expect_input_error([&] { bind_rig(rig, nullptr, 1.0); }, "arm.gltf: meshes: ", "expected a mesh that a joint moves");
+    floor_alone.meshes = {small_mesh("floor", 2, {})};  // the animation moves a node, but no mesh
+    expect_input_error([&] { bind_rig(floor_alone, nullptr, 1.0); }, "arm.gltf: meshes: ", "expected a mesh that a joint moves");
 }
 
 // Reference: the size of a body whose animation scales its root joint is that of the first frame.
@@ -136,35 +120,24 @@ Rig with_scaled_root(const Vec3& first)
     return rig;
 }
 
+// A mirrored root has the size of its magnitude. The scale is a cubic root of a determinant: some 20 roundings of numbers of at most 12.
 TEST(ScaledAnimation, TheFirstFrameDeterminesTheSize)
 {
-    const Rig rig = with_scaled_root({3, 3, 3});
-    const RigBinding binding = bind_rig(rig, &rig.animations[0], 1.0);
-    const Positions expected = 3.0 * rig.meshes[0].points;
-    // The scale is a cubic root of a determinant: some 20 roundings of numbers of at most 12.
-    EXPECT_LE((rest_points(binding.meshes[0], binding) - expected).cwiseAbs().maxCoeff(), test_support::rounding_error(64, 12.0));
-    EXPECT_EQ(binding.metres_per_unit, 1.0);
+    for (const auto& [scale, size] : {std::pair(Vec3(3, 3, 3), 3.0), {Vec3(-2, 2, 2), 2.0}}) {
+        const Rig rig = with_scaled_root(scale);
+        const RigBinding binding = bind_rig(rig, &rig.animations[0], 1.0);
+        EXPECT_LE((rest_points(binding.meshes[0], binding) - size * rig.meshes[0].points).cwiseAbs().maxCoeff(),
+                  test_support::rounding_error(64, 4.0 * size));
+        EXPECT_EQ(binding.metres_per_unit, 1.0);
+    }
 }
 
-TEST(ScaledAnimation, AThousandthIsTakenForRounding)
+TEST(ScaledAnimation, AThousandthIsTakenForRoundingAndZeroRefusedByTheNameOfTheJoint)
 {
-    const Rig rig = with_scaled_root({1.0005, 1.0005, 1.0005});
+    const Rig rig = with_scaled_root({1.0005, 1.0005, 1.0005}), flat = with_scaled_root({0, 1, 1});
     const RigBinding binding = bind_rig(rig, &rig.animations[0], 1.0);
     EXPECT_EQ(rest_points(binding.meshes[0], binding), bind_rig(rig, nullptr, 1.0).meshes[0].points);
-}
-
-TEST(ScaledAnimation, AScaleOfZeroIsRefusedByTheNameOfTheJoint)
-{
-    const Rig rig = with_scaled_root({0, 1, 1});
-    expect_input_error([&] { bind_rig(rig, &rig.animations[0], 1.0); }, "arm.gltf: scale of root = 0: ", "not zero");
-}
-
-TEST(ScaledAnimation, AMirroredRootHasTheSizeOfItsMagnitude)
-{
-    const Rig rig = with_scaled_root({-2, 2, 2});
-    const RigBinding binding = bind_rig(rig, &rig.animations[0], 1.0);
-    EXPECT_LE((rest_points(binding.meshes[0], binding) - 2.0 * rig.meshes[0].points).cwiseAbs().maxCoeff(),
-              test_support::rounding_error(64, 8.0));
+    expect_input_error([&] { bind_rig(flat, &flat.animations[0], 1.0); }, "arm.gltf: scale of root = 0: ", "not zero");
 }
 
 // Reference: an elbow that turns half round within 1 s at a constant rate. Angles are in error by some hundred roundings.

@@ -15,14 +15,9 @@ using namespace pbs;
 
 const double pose_rounding = test_support::rounding_error(64, 8.0);
 
-KeyTrack track_with(Interpolation interpolation, const std::vector<double>& times_s, const std::vector<Eigen::Vector4d>& values)
-{
-    return {interpolation, times_s, values};
-}
-
 TEST(KeyTracks, LinearVectorsLieBetweenTheirKeys)
 {
-    const KeyTrack track = track_with(Interpolation::linear, {1.0, 3.0}, {{0, 2, 4, 0}, {4, 2, 0, 0}});
+    const KeyTrack track{Interpolation::linear, {1.0, 3.0}, {{0, 2, 4, 0}, {4, 2, 0, 0}}};
     EXPECT_EQ(vector_at(track, 1.5), Vec3(1, 2, 3));
     EXPECT_EQ(vector_at(track, 3.0), Vec3(4, 2, 0));
 }
@@ -30,12 +25,12 @@ TEST(KeyTracks, LinearVectorsLieBetweenTheirKeys)
 TEST(KeyTracks, BeforeTheFirstAndAfterTheLastKeyTheValueIsThatKeys)
 {
     for (const Interpolation kind : {Interpolation::step, Interpolation::linear}) {
-        const KeyTrack track = track_with(kind, {1.0, 3.0}, {{1, 0, 0, 0}, {2, 0, 0, 0}});
+        const KeyTrack track{kind, {1.0, 3.0}, {{1, 0, 0, 0}, {2, 0, 0, 0}}};
         EXPECT_EQ(vector_at(track, -5.0).x(), 1.0);
         EXPECT_EQ(vector_at(track, 9.0).x(), 2.0);
     }
     const Eigen::Vector4d tangent(7, 0, 0, 0), one(1, 0, 0, 0), two(2, 0, 0, 0);
-    const KeyTrack spline = track_with(Interpolation::cubic_spline, {1.0, 3.0}, {tangent, one, tangent, tangent, two, tangent});
+    const KeyTrack spline{Interpolation::cubic_spline, {1.0, 3.0}, {tangent, one, tangent, tangent, two, tangent}};
     EXPECT_EQ(vector_at(spline, 0.0).x(), 1.0);
     EXPECT_EQ(vector_at(spline, 3.0).x(), 2.0);
     EXPECT_EQ(vector_at(spline, 4.0).x(), 2.0);
@@ -46,7 +41,7 @@ TEST(KeyTracks, StepsSingleKeysAndJumps)
     const auto track = [](Interpolation kind, const std::vector<double>& times_s, const std::vector<double>& x) {
         std::vector<Eigen::Vector4d> values;
         for (const double value : x) values.emplace_back(value, 0, 0, 0);
-        return track_with(kind, times_s, values);
+        return KeyTrack{kind, times_s, values};
     };
     const KeyTrack step = track(Interpolation::step, {0.0, 1.0, 2.0}, {1, 2, 3});
     const KeyTrack single = track(Interpolation::linear, {0.5}, {4});
@@ -67,7 +62,7 @@ TEST(KeyTracks, StepsSingleKeysAndJumps)
 TEST(KeyTracks, ACubicSplineAtItsMiddle)
 {
     const Eigen::Vector4d p0(1, 0, 2, 0), p1(3, 1, 6, 0), m0(4, 0, 1, 0), m1(2, 8, 1, 0), other(9, 9, 9, 0);
-    const KeyTrack track = track_with(Interpolation::cubic_spline, {0.0, 2.0}, {other, p0, m0, m1, p1, other});
+    const KeyTrack track{Interpolation::cubic_spline, {0.0, 2.0}, {other, p0, m0, m1, p1, other}};
     EXPECT_EQ(vector_at(track, 1.0), Vec3(2.0 + 2.0 * 2.0 / 8.0, 0.5 - 2.0 * 8.0 / 8.0, 4.0));
 }
 
@@ -76,7 +71,7 @@ TEST(KeyTracks, ACubicSplineReproducesACubicPolynomial)
 {
     const auto value = [](double t) { return t * t * t - 2.0 * t * t + 0.5 * t + 1.0; };
     const auto slope = [](double t) { return 3.0 * t * t - 4.0 * t + 0.5; };
-    KeyTrack track = track_with(Interpolation::cubic_spline, {0.25, 1.0, 2.0}, {});
+    KeyTrack track{Interpolation::cubic_spline, {0.25, 1.0, 2.0}, {}};
     for (const double t : track.times_s)
         for (const double number : {slope(t), value(t), slope(t)}) track.values.emplace_back(number, 0, 0, 0);
     for (const double t : {0.25, 0.3, 0.7, 1.0, 1.1, 1.9, 2.0}) EXPECT_NEAR(vector_at(track, t).x(), value(t), pose_rounding) << t;
@@ -86,7 +81,7 @@ TEST(KeyTracks, RotationsTurnAtAConstantRateTheShorterWay)
 {
     for (const double sign : {1.0, -1.0}) {  // q and -q are one rotation
         const Eigen::Quaterniond end(Eigen::AngleAxisd(M_PI / 2.0, Vec3::UnitX()));
-        const KeyTrack track = track_with(Interpolation::linear, {0.0, 1.0}, {{0, 0, 0, 1}, sign * end.coeffs()});
+        const KeyTrack track{Interpolation::linear, {0.0, 1.0}, {{0, 0, 0, 1}, sign * end.coeffs()}};
         const Eigen::Quaterniond third = rotation_at(track, 1.0 / 3.0);
         const Eigen::Quaterniond expected(Eigen::AngleAxisd(M_PI / 6.0, Vec3::UnitX()));
         EXPECT_NEAR(std::abs(third.dot(expected)), 1.0, pose_rounding);
@@ -96,9 +91,9 @@ TEST(KeyTracks, RotationsTurnAtAConstantRateTheShorterWay)
 
 TEST(KeyTracks, RotationsHaveUnitLength)
 {
-    EXPECT_EQ(rotation_at(track_with(Interpolation::step, {0.0}, {{0, 0, 3, 4}}), 0.0).coeffs(), Eigen::Vector4d(0, 0, 0.6, 0.8));
+    EXPECT_EQ(rotation_at({Interpolation::step, {0.0}, {{0, 0, 3, 4}}}, 0.0).coeffs(), Eigen::Vector4d(0, 0, 0.6, 0.8));
     const Eigen::Vector4d still = Eigen::Vector4d::Zero();
-    const KeyTrack track = track_with(Interpolation::cubic_spline, {0.0, 1.0}, {still, {0, 0, 0, 1}, still, still, {0, 0, 1, 0}, still});
+    const KeyTrack track{Interpolation::cubic_spline, {0.0, 1.0}, {still, {0, 0, 0, 1}, still, still, {0, 0, 1, 0}, still}};
     const Eigen::Quaterniond middle = rotation_at(track, 0.5);  // (0, 0, 1, 1) / 2 before it is normalised
     EXPECT_NEAR(middle.z(), std::sqrt(0.5), pose_rounding);
     EXPECT_NEAR(middle.w(), std::sqrt(0.5), pose_rounding);
@@ -143,15 +138,18 @@ TEST(RigidPose, OfTheRestPoseIsTheIdentity)
         EXPECT_LE((bone.matrix() - Eigen::Matrix4d::Identity()).cwiseAbs().maxCoeff(), rigid_rounding);
 }
 
-TEST(RigidPose, CarriesRestPointsToTheirPlacesInMetres)
+TEST(RigidPose, CarriesRestPointsAndTheArtistsToTheirPlacesInMetres)
 {
     const PosedBody half_round = posed_body(1.0, Vec3::Ones(), 0.5);
     const Pose pose = rigid_pose(half_round.body, half_round.nodes);
     EXPECT_LE((pose[0] * Vec3(0.5, 2, 0) - Vec3(0.5, 2, 0)).norm(), rigid_rounding);
     EXPECT_LE((pose[1] * Vec3(0.5, 2, 0) - Vec3(0.5, 0, 0)).norm(), rigid_rounding);  // about (0.5, 1, 0)
+    const Positions expected{{1, 0, 0}, {1, 2, 0}, {1, 0, 0}, {0.5, 2, 0}};
+    const Positions points = artist_points(half_round.body, half_round.nodes);
+    EXPECT_LE((points - 0.5 * expected).cwiseAbs().maxCoeff(), rigid_rounding);
 }
 
-TEST(RigidPose, LeavesOutScaleAndReportsIt)
+TEST(RigidPose, LeavesOutScaleWhichTheArtistsPointsKeepAndReportsIt)
 {
     double stretch = 0.0;
     const PosedBody scaled = posed_body(0.0, Vec3(1, 1.5, 1));
@@ -159,6 +157,8 @@ TEST(RigidPose, LeavesOutScaleAndReportsIt)
     EXPECT_NEAR(stretch, 0.5, rigid_rounding);
     EXPECT_LE((pose[0].linear() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff(), rigid_rounding);
     EXPECT_LE((pose[1] * Vec3(1, 2, 0) - Vec3(1, 3, 0)).norm(), rigid_rounding) << "the head follows the joint";
+    const Positions expected = scaled.rig.meshes[0].points * Vec3(1, 1.5, 1).asDiagonal();
+    EXPECT_LE((artist_points(scaled.body, scaled.nodes) - expected).cwiseAbs().maxCoeff(), rigid_rounding);
 }
 
 TEST(RigidPose, OfAMirroredBoneIsARotation)
@@ -166,23 +166,6 @@ TEST(RigidPose, OfAMirroredBoneIsARotation)
     const PosedBody mirrored = posed_body(0.0, Vec3(-1, 1, 1));
     for (const Eigen::Isometry3d& bone : rigid_pose(mirrored.body, mirrored.nodes))
         EXPECT_NEAR(bone.linear().determinant(), 1.0, rigid_rounding);
-}
-
-TEST(ArtistPoints, AreTheFormatsFormulaInMetres)
-{
-    const PosedBody half_round = posed_body(1.0, Vec3::Ones(), 0.5);
-    Positions expected(4, 3);
-    expected << 1, 0, 0, 1, 2, 0, 1, 0, 0, 0.5, 2, 0;
-    const Positions points = artist_points(half_round.body, half_round.nodes);
-    EXPECT_LE((points - 0.5 * expected).cwiseAbs().maxCoeff(), rigid_rounding);
-}
-
-TEST(ArtistPoints, KeepTheScaleThatABoneLoses)
-{
-    const PosedBody scaled = posed_body(0.0, Vec3(1, 1.5, 1));
-    Positions expected = scaled.rig.meshes[0].points;
-    expected.col(1) *= 1.5;
-    EXPECT_LE((artist_points(scaled.body, scaled.nodes) - expected).cwiseAbs().maxCoeff(), rigid_rounding);
 }
 
 // Reference: poses of nodes and skinned points, computed by hand. Tolerances: at most 64 roundings of numbers of at most 8.
@@ -241,30 +224,21 @@ TEST(SkinnedPoints, OfTwoJointsByHand)
     expect_points(posed(rig, 1.0), half);
 }
 
-TEST(SkinnedPoints, IgnoreWhereTheNodeOfASkinnedMeshIs)  // glTF 2.0, Sec. 3.7.3.3
+TEST(SkinnedPoints, FollowTheirNodeOnlyWithoutASkinAndAreMirroredByANegativeScale)
 {
-    Rig rig = two_joint_rig();
-    rig.nodes[2].rest.translation = Vec3(5, 5, 5);
-    expect_points(posed(rig, 0.5), posed(two_joint_rig(), 0.5));
-}
+    Rig elsewhere = two_joint_rig(), mirrored = elsewhere, without_skin = elsewhere;
+    elsewhere.nodes[2].rest.translation = Vec3(5, 5, 5);  // that of the skinned mesh: glTF 2.0, Sec. 3.7.3.3
+    expect_points(posed(elsewhere, 0.5), posed(two_joint_rig(), 0.5));
 
-TEST(SkinnedPoints, OfANegativeScaleAreMirrored)
-{
-    Rig rig = two_joint_rig();
-    rig.nodes[0].rest.scale = Vec3(-1, 1, 1);  // about the root joint at x = 1
-    Positions mirrored = rig.meshes[0].points;
-    mirrored.col(0) = 2.0 - mirrored.col(0).array();
-    expect_points(skinned_points(rig.meshes[0], node_transforms(rig, nullptr, 0.0)), mirrored);
-}
+    mirrored.nodes[0].rest.scale = Vec3(-1, 1, 1);  // about the root joint at x = 1
+    Positions expected = mirrored.meshes[0].points;
+    expected.col(0) = 2.0 - expected.col(0).array();
+    expect_points(skinned_points(mirrored.meshes[0], node_transforms(mirrored, nullptr, 0.0)), expected);
 
-TEST(SkinnedPoints, WithoutASkinFollowTheirNode)
-{
-    Rig rig = two_joint_rig();
-    rig.meshes[0].joints.clear();
-    rig.meshes[0].node = 1;
-    Positions expected = rig.meshes[0].points;
-    expected.rowwise() += Eigen::RowVector3d(1, 2, 0);
-    expect_points(skinned_points(rig.meshes[0], node_transforms(rig, nullptr, 0.0)), expected);
+    without_skin.meshes[0].joints.clear();
+    without_skin.meshes[0].node = 1;
+    expected = without_skin.meshes[0].points.rowwise() + Eigen::RowVector3d(1, 2, 0);
+    expect_points(skinned_points(without_skin.meshes[0], node_transforms(without_skin, nullptr, 0.0)), expected);
 }
 
 // A rigid motion of the root moves all points in the same way, whatever their weights.

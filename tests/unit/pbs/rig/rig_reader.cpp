@@ -94,12 +94,6 @@ TEST(CheckedRig, HasNoNumberThatIsNotFiniteOrHuge)
     }
 }
 
-TEST_F(RigReader, TheNameOfAGltfDoesNotMatter)
-{
-    for (const char* name : {"arm.glb", "arm.fbx", "arm"})
-        EXPECT_EQ(read_rig(folder.file(name, "\n " + two_joint_document().text())).meshes.at(0).joints.size(), 2u) << name;
-}
-
 TEST_F(RigReader, AFileWithoutASkinIsRecognised)
 {
     GltfDocument gltf = two_joint_document();
@@ -120,16 +114,14 @@ TEST_F(RigReader, WhatIsNoRigIsRefusedByName)
         EXPECT_FALSE(is_rig_file(path)) << text;
         expect_input_error([&] { read_rig(path); }, path + ": no rig: ", "expected glTF 2.0 (.glb, .gltf), FBX (.fbx) or COLLADA");
     }
-}
-
-TEST_F(RigReader, WhatCannotBeReadIsNoRig)
-{
     for (const std::string& path : {folder / "none.glb", folder.file("empty.glb", ""), folder.path().string()})
         EXPECT_FALSE(is_rig_file(path)) << path;
 }
 
-TEST_F(RigReader, RemarksReachTheCaller)
+TEST_F(RigReader, TheNameOfAGltfDoesNotMatterAndRemarksReachTheCaller)
 {
+    for (const char* name : {"arm.glb", "arm.fbx", "arm"})
+        EXPECT_EQ(read_rig(folder.file(name, "\n " + two_joint_document().text())).meshes.at(0).joints.size(), 2u) << name;
     GltfDocument gltf = two_joint_document();
     gltf.json["meshes"][0]["primitives"][0]["targets"] = {{{"POSITION", 0}}};
     EXPECT_EQ(read_rig(folder.file("a.gltf", gltf.text())).remarks.size(), 1u);
@@ -178,18 +170,11 @@ TEST(SkinWeights, APointWithoutAnyFollowsTheFirstJointWithARemark)
     }
 }
 
-TEST(SkinWeights, AMeshWithoutAnyIsRefused)
+TEST(SkinWeights, ThatAreNegativeNotFiniteOrNoneAreRefused)
 {
-    std::vector<std::string> remarks;
-    expect_input_error(
-        [&] {
-            weights_of_one_point({{1, 0.0}}, remarks);
-        },
-        "a.glb: mesh arm, weights = 0: ", "expected a point with a weight");
-}
-
-TEST(SkinWeights, ThatAreNegativeOrNotFiniteAreRefusedByPoint)
-{
+    std::vector<std::string> none;
+    const std::vector<JointShare> zero = {{1, 0.0}};
+    expect_input_error([&] { weights_of_one_point(zero, none); }, "a.glb: mesh arm, weights = 0: ", "expected a point with a weight");
     constexpr double infinity = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
     for (const auto& [weight, text] : {std::pair(-0.5, "-0.5"), std::pair(nan, "nan"), std::pair(infinity, "inf")}) {
         SkinWeights skin;

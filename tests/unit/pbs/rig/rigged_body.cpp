@@ -73,23 +73,18 @@ TEST(RiggedBody, TheParentOfABoneIsTheNextBoneAbove)
     EXPECT_EQ(body.containers, std::vector<std::string>{"between"});
 }
 
-TEST(RiggedBody, TwoJointsOfOneNameGetNumbersAndARemark)
+TEST(RiggedBody, TwoJointsOfOneNameGetNumbersAndARemarkAndAFileWithoutJointsHasNoBones)
 {
-    Rig rig = two_joint_rig();
+    Rig rig = two_joint_rig(), without_joints = rig;
     rig.nodes[1].name = "root";
     const RiggedBody body = make_rigged_body(rig, nullptr, 1.0);
     EXPECT_EQ(body.skeleton.bones[1].name, "root 2");
     EXPECT_EQ(body.remarks, std::vector<std::string>{"two joints are named root; one is called root 2"});
-}
-
-TEST(RiggedBody, OfAFileWithoutJointsAndAnimationsHasNoBones)
-{
-    Rig rig = two_joint_rig();
-    rig.animations.clear();
-    rig.meshes[0].joints.clear();
-    const RiggedBody body = make_rigged_body(rig, nullptr, 1.0);
-    EXPECT_TRUE(body.skeleton.bones.empty());
-    EXPECT_EQ(body.surface, rig.meshes[0].points);
+    without_joints.animations.clear();
+    without_joints.meshes[0].joints.clear();
+    const RiggedBody statue = make_rigged_body(without_joints, nullptr, 1.0);
+    EXPECT_TRUE(statue.skeleton.bones.empty());
+    EXPECT_EQ(statue.surface, without_joints.meshes[0].points);
 }
 
 TEST(RiggedBody, AClosedSurfaceInsideOutIsTurnedWithARemark)

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <tuple>
 
 namespace {
 
@@ -146,15 +147,11 @@ TYPED_TEST(Blend, MovesAVertexOfOneBoneWithTheBone)
     if (!std::is_same_v<TypeParam, Plain>) EXPECT_EQ(linear.row(0), dual.row(0)) << "packed code moves it by one matrix in both";
 }
 
-TYPED_TEST(Blend, OfNoVerticesIsEmpty)
+TYPED_TEST(Blend, OfNoVerticesIsEmptyAndABrokenPoseIsAnOutcomeNotAnError)
 {
     const Weights none{{0}, {}, {}};
     EXPECT_EQ(this->linear(Positions(0, 3), none, two_bones()).rows(), 0);
     EXPECT_EQ(this->dual_quaternion(Positions(0, 3), none, {}).rows(), 0);
-}
-
-TYPED_TEST(Blend, ABrokenPoseIsAnOutcomeNotAnError)
-{
     Pose pose = two_bones();
     pose[0].linear()(0, 0) = std::numeric_limits<double>::quiet_NaN();
     EXPECT_FALSE(this->linear(four_points, four_vertices, pose).row(1).allFinite());
@@ -170,18 +167,12 @@ const Weights five_vertices = {{0, 1, 3, 5, 6, 8}, {2, 0, 1, 0, 1, 2, 0, 1}, {1.
 
 using Kind = pbs::VertexStretch::Kind;
 
-void expect_stretch(const pbs::VertexStretch& stretch, Kind kind, int first, int last)
+std::vector<std::tuple<Kind, int, int>> stretches_of(const Weights& weights)
 {
-    EXPECT_EQ(stretch.kind, kind);
-    EXPECT_EQ(stretch.first, first);
-    EXPECT_EQ(stretch.last, last);
-}
-
-void append_rigid(Weights& weights, int bone)
-{
-    weights.bone.push_back(bone);
-    weights.weight.push_back(1.0);
-    weights.first.push_back(static_cast<int>(weights.bone.size()));
+    std::vector<std::tuple<Kind, int, int>> stretches;
+    for (const pbs::VertexStretch& stretch : pbs::pack_weights<double>(weights).stretches)
+        stretches.emplace_back(stretch.kind, stretch.first, stretch.last);
+    return stretches;
 }
 
 TEST(PackedWeights, OneBoneOrASharedRowIsAMatrixAndARowOfOneVertexItsOwn)
@@ -195,24 +186,17 @@ TEST(PackedWeights, OneBoneOrASharedRowIsAMatrixAndARowOfOneVertexItsOwn)
     EXPECT_EQ(packed.own.weight, (std::vector<float>{0.25F, 0.75F}));
 }
 
+// Many vertices of one matrix are a stretch of their own.
 TEST(PackedWeights, StretchesCoverTheVerticesInOrder)
 {
-    const auto stretches = pbs::pack_weights<double>(five_vertices).stretches;
-    ASSERT_EQ(stretches.size(), 3U);
-    expect_stretch(stretches[0], Kind::matrix_each, 0, 2);
-    expect_stretch(stretches[1], Kind::own_rows, 2, 3);
-    expect_stretch(stretches[2], Kind::matrix_each, 3, 5);
-}
-
-TEST(PackedWeights, ManyVerticesOfOneMatrixAreAStretchOfTheirOwn)
-{
-    Weights weights = {{0}, {}, {}};
-    for (int vertex = 0; vertex < 300; ++vertex) append_rigid(weights, vertex < 100 ? vertex % 2 : vertex < 200 ? 2 : 3);
-    const auto stretches = pbs::pack_weights<double>(weights).stretches;
-    ASSERT_EQ(stretches.size(), 3U);
-    expect_stretch(stretches[0], Kind::matrix_each, 0, 100);
-    expect_stretch(stretches[1], Kind::one_matrix, 100, 200);
-    expect_stretch(stretches[2], Kind::one_matrix, 200, 300);
+    using Stretches = std::vector<std::tuple<Kind, int, int>>;
+    EXPECT_EQ(stretches_of(five_vertices), (Stretches{{Kind::matrix_each, 0, 2}, {Kind::own_rows, 2, 3}, {Kind::matrix_each, 3, 5}}));
+    Weights rigid = {{0}, {}, std::vector<double>(300, 1.0)};
+    for (int vertex = 0; vertex < 300; ++vertex) {
+        rigid.bone.push_back(vertex < 100 ? vertex % 2 : vertex < 200 ? 2 : 3);
+        rigid.first.push_back(vertex + 1);
+    }
+    EXPECT_EQ(stretches_of(rigid), (Stretches{{Kind::matrix_each, 0, 100}, {Kind::one_matrix, 100, 200}, {Kind::one_matrix, 200, 300}}));
 }
 
 TEST(PackedWeights, TheHeaviestBoneIsThePivotAndEachPairStandsOnce)
@@ -221,24 +205,16 @@ TEST(PackedWeights, TheHeaviestBoneIsThePivotAndEachPairStandsOnce)
     EXPECT_EQ(bones, (std::vector<pbs::TurnedBone>{{0, 0}, {1, 0}, {0, 1}, {1, 1}}));  // the first of equal weights; then vertex 2's
 }
 
-TEST(PackedWeights, WeightsOfZeroAreLeftOut)
+TEST(PackedWeights, WeightsOfZeroAreLeftOutAndRowsInAnotherOrderAreOthers)
 {
     const PackedWeights<double> packed = pbs::pack_weights<double>({{0, 3, 5}, {0, 1, 2, 1, 4}, {0.0, 0.5, 0.5, 0.0, 1.0}});
     EXPECT_EQ(packed.own.bone, (std::vector<int>{1, 2}));
     EXPECT_EQ(packed.matrix[1], 4);  // one bone remains, so it moves the vertex rigidly
-}
-
-TEST(PackedWeights, RowsInAnotherOrderAreOthers)  // sums in another order are rounded differently
-{
+    // Rows in another order are others: sums in another order are rounded differently.
     EXPECT_EQ(pbs::pack_weights<double>({{0, 2, 4}, {0, 1, 1, 0}, {0.5, 0.5, 0.5, 0.5}}).own.rows(), 2);
-}
-
-TEST(PackedWeights, NoVertices)
-{
-    const PackedWeights<float> packed = pbs::pack_weights<float>({{0}, {}, {}});
-    EXPECT_EQ(packed.bones, 0);
-    EXPECT_TRUE(packed.matrix.empty());
-    EXPECT_TRUE(packed.stretches.empty());
+    const PackedWeights<float> none = pbs::pack_weights<float>({{0}, {}, {}});
+    EXPECT_EQ(none.bones, 0);
+    EXPECT_TRUE(none.matrix.empty() && none.stretches.empty());
 }
 
 // Reference: the plain blend, a rigid transform, and the caller's memory. Tolerances: the roundings of a blend.

@@ -5,6 +5,7 @@
 #include "tests/support/rounding_error.hpp"
 #include "tests/support/structured_bar.hpp"
 #include "tests/support/two_bone_limb.hpp"
+#include "tests/support/weight_sums.hpp"
 
 #include <gtest/gtest.h>
 
@@ -137,16 +138,13 @@ TEST(PaperWeights, SumToOne)
 {
     for (double x = -0.5; x < 2.5; x += 0.01) {
         const pbs::Weights weights = pbs::paper_weights(bind_one({x, 0.02, 0.01}, palm()), palm());
-        double sum = 0.0;
-        for (const double weight : weights.weight) sum += weight;
-        EXPECT_NEAR(sum, 1.0, test_support::mean_error(weights.weight.size(), 1.0));
+        EXPECT_NEAR(test_support::sum_of_weights(weights, 0), 1.0, test_support::mean_error(weights.weight.size(), 1.0));
     }
 }
 
 TEST(RigidWeights, AreTheNearestBoneAlone)
 {
-    pbs::Positions rest(2, 3);
-    rest << 0.95, 0, 0, 1.9, 0, 0;
+    const pbs::Positions rest{{0.95, 0, 0}, {1.9, 0, 0}};
     const pbs::Weights weights = pbs::rigid_weights(pbs::bind_to_nearest_bone(rest, palm()));
     EXPECT_EQ(weights.vertices(), 2);
     EXPECT_EQ(weights.bone, (std::vector{0, 2}));
@@ -157,8 +155,7 @@ TEST(RigidWeights, AreTheNearestBoneAlone)
 TEST(EitherEndWeights, AreOfAllBonesThatTouchTheBone)
 {
     const pbs::Skeleton row = {{{"a", -1, {-3, 0, 0}, {0, 0, 0}}, {"b", 0, {0, 0, 0}, {3, 0, 0}}, {"c", 1, {3, 0, 0}, {6, 0, 0}}}};
-    pbs::Positions rest(3, 3);
-    rest << 2.9, 0.1, 0, 1.5, 0.1, 0, -2.9, 0.1, 0;
+    const pbs::Positions rest{{2.9, 0.1, 0}, {1.5, 0.1, 0}, {-2.9, 0.1, 0}};
     const pbs::Weights weights = pbs::either_end_weights(pbs::bind_to_nearest_bone(rest, row), row);
     EXPECT_EQ(weights.first, (std::vector{0, 3, 4, 6}));
     EXPECT_EQ(weights.bone, (std::vector{1, 0, 2, 1, 0, 1}));
@@ -197,11 +194,8 @@ TEST(HarmonicWeights, AreLinearBetweenGrippedCrossSections)
         EXPECT_NEAR(weights(v, 1), expected, of_regularity);
         EXPECT_NEAR(weights(v, 0) + weights(v, 1), 1.0, test_support::mean_error(2, 1.0));
     }
-}
-
-TEST(HarmonicWeights, APartThatNothingGripsGoesWithTheFirstBone)
-{
-    EXPECT_EQ(dense(harmonic_weights(bar, std::vector<int>(bar.rest.rows(), -1), 2), 2).col(0).minCoeff(), 1.0);
+    const Eigen::MatrixXd ungripped = dense(harmonic_weights(bar, std::vector<int>(bar.rest.rows(), -1), 2), 2);
+    EXPECT_EQ(ungripped.col(0).minCoeff(), 1.0) << "a part that nothing grips goes with the first bone";
 }
 
 // Reference: functions that are linear in the place are harmonic, and linear elements represent them exactly. The term 1e-9 that keeps the
@@ -282,32 +276,21 @@ double largest_jump(const pbs::Weights& weights)
     return largest;
 }
 
-TEST(DiffusedWeights, AreNotNegativeAndAddUpToOne)
+TEST(DiffusedWeights, ArePositiveAndAddUpToOneAndWithoutStepsAreTheGivenOnes)
 {
     for (const int steps : {0, 1, 8, 100}) {
         const pbs::Weights weights = diffused_weights(straight.mesh, straight.weights, steps);
         ASSERT_EQ(weights.vertices(), straight.mesh.rest.rows());
-        for (int v = 0; v < weights.vertices(); ++v) {
-            double sum = 0.0;
-            for (int k = weights.first[v]; k < weights.first[v + 1]; ++k) {
-                EXPECT_GT(weights.weight[k], 0.0);
-                sum += weights.weight[k];
-            }
-            EXPECT_NEAR(sum, 1.0, test_support::mean_error(3, 1.0));
-        }
+        for (const double weight : weights.weight) EXPECT_GT(weight, 0.0);
+        for (int v = 0; v < weights.vertices(); ++v)
+            EXPECT_NEAR(test_support::sum_of_weights(weights, v), 1.0, test_support::mean_error(3, 1.0));
     }
-}
-
-TEST(DiffusedWeights, WithoutStepsAreTheGivenOnes)
-{
     EXPECT_EQ(dense(diffused_weights(straight.mesh, straight.weights, 0), 2), dense(straight.weights, 2));
 }
 
 TEST(DiffusedWeights, OneStepGoesHalfWayToTheMeanOfTheNeighbours)
 {
-    pbs::TetMesh tet;
-    tet.rest = (pbs::Positions(5, 3) << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 2, 2, 2).finished();
-    tet.tets = (pbs::Tets(1, 4) << 0, 1, 2, 3).finished();
+    const pbs::TetMesh tet{pbs::Positions{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {2, 2, 2}}, pbs::Tets{{0, 1, 2, 3}}};
     const pbs::Weights given = {{0, 1, 2, 3, 4, 5}, {0, 1, 1, 1, 0}, {1.0, 1.0, 1.0, 1.0, 1.0}};
     const Eigen::VectorXd first = dense(diffused_weights(tet, given, 1), 2).col(0);
     EXPECT_NEAR(first(0), 0.5, test_support::rounding_error(6, 1.0));

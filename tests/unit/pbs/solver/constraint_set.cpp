@@ -94,15 +94,6 @@ TEST(ConstraintSet, MuellersExponentLeavesTheSameWhateverTheIterations)
     EXPECT_EQ(softer.volume.front().stiffness, 1.0);
 }
 
-TEST(ConstraintSet, BindToTheBlendedPositionHasNoDistance)
-{
-    const auto bind = constraints_of(with([](PbsOptions& o) {
-                          o.bind_to = pbs::BindTo::blended_position, o.bind_on_bone = pbs::BindOnBone::unbound;
-                      })).bind;
-    ASSERT_EQ(bind.size(), 11u) << "a vertex on its bone is recognised by its distance from the bone";
-    for (const auto& constraint : bind) EXPECT_EQ(constraint.rest_distance, 0.0);
-}
-
 TEST(ConstraintSet, RegionsTakeThePlaceOfTetsOrFollowThem)
 {
     PbsOptions options;
@@ -228,6 +219,7 @@ TEST(ConstraintSet, RefusesWrongSizesAndBadTets)
     for (const pbs::TetMesh& bad : {outside, mirrored, flat}) EXPECT_THROW(constraints_of({}, {}, bad), pbs::InputError);
 }
 
+// It is recognised by its distance from the bone, also where the bind to the blended position has no distance.
 TEST(ConstraintSet, AVertexOnItsBoneIsPinnedOrUnbound)
 {
     ASSERT_EQ(distance(0), 0.0);  // alone
@@ -237,6 +229,10 @@ TEST(ConstraintSet, AVertexOnItsBoneIsPinnedOrUnbound)
     const auto unbound = constraints_of(options).bind;
     ASSERT_EQ(unbound.size(), 11u);
     for (const auto& bind : unbound) EXPECT_NE(bind.vertex, 0);
+    options.bind_to = pbs::BindTo::blended_position;
+    const auto to_position = constraints_of(options).bind;
+    ASSERT_EQ(to_position.size(), 11u);
+    for (const auto& bind : to_position) EXPECT_EQ(bind.rest_distance, 0.0);
 }
 
 TEST(ConstraintSet, BindInTheJigglingZoneMayHaveAStiffnessOfItsOwn)
