@@ -83,6 +83,14 @@ void remove_record(const fs::path& file)
     require(error, file, "an earlier run's record cannot be removed: ");
 }
 
+bool make_output_folder(const fs::path& folder)
+{
+    std::error_code error;
+    const bool is_new = fs::create_directories(folder, error);
+    require(error, folder, "the output folder cannot be made: ");
+    return is_new;
+}
+
 std::string path_in(const std::string& folder, const std::string& name)
 {
     return (fs::path(folder) / name).string();

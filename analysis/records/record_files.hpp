@@ -42,6 +42,9 @@ std::string read_text(const std::string& path);
 // Removes a file of an earlier run, so that it does not remain next to the files of the next one; a missing file is no error.
 void remove_record(const std::filesystem::path& file);
 
+// Makes the folder of records with those above it. Returns whether it is new.
+bool make_output_folder(const std::filesystem::path& folder);
+
 // The path of a file in a folder.
 std::string path_in(const std::string& folder, const std::string& name);
 

@@ -17,6 +17,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -30,7 +31,7 @@ namespace {
 
 using Corners = std::array<int, 4>;
 
-pbs::Tets sorted_corners(const pbs::Tets& tets)
+std::vector<Corners> sorted_corners(const pbs::Tets& tets)
 {
     std::vector<Corners> all;
     for (Eigen::Index t = 0; t < tets.rows(); ++t) {
@@ -39,9 +40,7 @@ pbs::Tets sorted_corners(const pbs::Tets& tets)
         all.push_back(corners);
     }
     std::sort(all.begin(), all.end());
-    pbs::Tets sorted(tets.rows(), 4);
-    for (Eigen::Index t = 0; t < tets.rows(); ++t) sorted.row(t) << all[t][0], all[t][1], all[t][2], all[t][3];
-    return sorted;
+    return all;
 }
 
 // The ratio of a length in one unit to the same length in another. The inverse ratio is tested too.
@@ -93,17 +92,15 @@ public:
 private:
     void require_same_tets(const std::string& path, const pbs::Tets& tets) const
     {
-        if (tets.rows() != corners_.rows())
-            throw pbs::InputError(path, 0, "tets", std::to_string(tets.rows()),
-                                  fmt::format("expected the rest mesh's {}", corners_.rows()));
-        const pbs::Tets corners = sorted_corners(tets);
-        for (Eigen::Index t = 0; t < corners.rows(); ++t)
-            if (corners.row(t) != corners_.row(t))
-                throw pbs::InputError(
-                    path, 0, "tets", "",
-                    fmt::format("expected the rest mesh's, on the same vertices; it has a tet on {} {} {} {}, and this frame "
-                                "does not: was the order of the vertices kept on export?",
-                                corners_(t, 0), corners_(t, 1), corners_(t, 2), corners_(t, 3)));
+        const std::vector<Corners> corners = sorted_corners(tets);
+        if (corners.size() != corners_.size())
+            throw pbs::InputError(path, 0, "tets", std::to_string(corners.size()),
+                                  fmt::format("expected the rest mesh's {}", corners_.size()));
+        if (const auto other = std::ranges::mismatch(corners_, corners).in1; other != corners_.end())
+            throw pbs::InputError(path, 0, "tets", "",
+                                  fmt::format("expected the rest mesh's, on the same vertices; it has a tet on {}, and this frame "
+                                              "does not: was the order of the vertices kept on export?",
+                                              fmt::join(*other, " ")));
     }
 
     void require_same_units(const std::string& path, const pbs::Positions& positions) const
@@ -122,7 +119,7 @@ private:
     std::vector<int> file_vertex_;  // of the rest mesh's file, #V
     int file_vertices_ = 0;
     pbs::Edges edges_;
-    pbs::Tets corners_;  // each tet's in ascending order as the file numbers them, and the tets sorted
+    std::vector<Corners> corners_;  // each tet's in ascending order as the file numbers them, and the tets sorted
 };
 
 struct MeasureArguments {

@@ -153,9 +153,7 @@ struct BenchArguments {
 std::string writable_record(const std::string& folder)
 {
     if (folder.empty()) return "";
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (error) throw pbs::InputError(folder, 0, "", "", "the output folder cannot be made: " + error.message());
+    analysis::make_output_folder(folder);
     const std::string record = (std::filesystem::path(folder) / "bench.json").string();
     analysis::require_writable(record);
     return record;

@@ -98,9 +98,7 @@ int try_model(TrialOptions options, const CommonOptions& common)
 {
     if (options.folder.empty()) options.folder = "results/" + fs::path(options.model).stem().string();
     const TrialScene made = trial_scene(options);
-    std::error_code code;
-    const bool is_new = fs::create_directories(options.folder, code);
-    if (code) throw pbs::InputError(options.folder, 0, "", "", "the output folder cannot be made: " + code.message());
+    const bool is_new = analysis::make_output_folder(options.folder);
     const std::string scene_file = (fs::path(options.folder) / "scene.toml").string();
     refuse_a_scene_of_the_user(scene_file, made.text);
     analysis::write_text_atomically(scene_file, made.text);

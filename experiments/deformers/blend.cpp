@@ -20,9 +20,7 @@ enum class Blend { linear, dual_quaternion };
 
 pbs::StepSummary visited(Eigen::Index vertices)
 {
-    pbs::StepSummary summary;
-    summary.work.vertex_visits = vertices;
-    return summary;
+    return {.work = {.vertex_visits = vertices}};
 }
 
 // Plain<...> for the options' plain code, Packed<double> or Packed<float> otherwise.

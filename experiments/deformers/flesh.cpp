@@ -170,11 +170,9 @@ private:
     pbs::StepSummary minimise(const pbs::Pose& /*pose*/, pbs::Positions& x) override
     {
         const pbs::VertexBlockSummary descent = solve(centres(), x);
-        pbs::StepSummary summary;
-        summary.iterations = descent.iterations;
-        summary.work = {.vertex_visits = (1 + descent.iterations) * x.rows(),  // blended once, then moved
-                        .tet_visits = 4 * descent.iterations * tets()};        // once for each of its vertices
-        return summary;
+        return {.iterations = descent.iterations,
+                .work = {.vertex_visits = (1 + descent.iterations) * x.rows(),  // blended once, then moved
+                         .tet_visits = 4 * descent.iterations * tets()}};       // once for each of its vertices
     }
 };
 
@@ -203,12 +201,11 @@ private:
     {
         constraints_->hold.targets(pose, targets_);
         const pbs::XpbdNeoHookeanSummary done = solve(targets_, x);
-        pbs::StepSummary summary;
-        summary.iterations = done.iterations;
         const auto modes = static_cast<std::int64_t>(targets_.rows());
-        summary.work = {
-            .vertex_visits = x.rows(), .tet_visits = done.iterations * tets(), .projections = done.iterations * (2 * tets() + 3 * modes)};
-        return summary;
+        return {.iterations = done.iterations,
+                .work = {.vertex_visits = x.rows(),
+                         .tet_visits = done.iterations * tets(),
+                         .projections = done.iterations * (2 * tets() + 3 * modes)}};
     }
 
     std::optional<pbs::XpbdFlesh> constraints_;

@@ -162,32 +162,22 @@ pbs::Vec3 tip_displacement(const pbs::TetMesh& mesh, const reference_fem::Elasti
     return sum / vertices;
 }
 
-// One thread per rank, and the BLAS of the direct solvers.
-analysis::Provenance provenance()
-{
-    analysis::Provenance provenance = analysis::collect_provenance(1);
-    provenance.blas = blas_in_use();
-    return provenance;
-}
-
 RECORD_SETTINGS(BodyArguments, bar_tets, limb_vertices, mesh_file, held_below_m, pulled_above_m, traction_pa, twist_deg, bend_deg)
 RECORD_SETTINGS(reference_fem::LinearOptions, element_order, young_pa, poisson, density_kg_m3, gravity_m_s2, solver, formulation)
 RECORD_SETTINGS(reference_fem::IterativeOptions, tolerance, most_iterations)
 
-nlohmann::json to_json(const DistributedSettings& settings)
-{
-    return {{"body", to_json(settings.body)},
-            {"elastic", to_json(settings.elastic)},
-            {"iterative", to_json(settings.iterative)},
-            {"serial", settings.serial}};
-}
-
 nlohmann::json to_json(const DistributedSettings& settings, const LoadedBody& body, const reference_fem::ElasticSolution& solution)
 {
     const reference_fem::ElasticSummary& summary = solution.summary;
+    analysis::Provenance provenance = analysis::collect_provenance(1);  // one thread per rank
+    provenance.blas = blas_in_use();                                    // of the direct solvers
     return {{"schema", 3},
             {"body", body.name},
-            {"settings", to_json(settings)},
+            {"settings",
+             {{"body", to_json(settings.body)},
+              {"elastic", to_json(settings.elastic)},
+              {"iterative", to_json(settings.iterative)},
+              {"serial", settings.serial}}},
             {"attachment", body.held_by ? attachment_json(*body.held_by) : nlohmann::json()},
             {"springs", body.problem.attachment.spring_points.rows()},
             {"solver", summary.solver},
@@ -212,7 +202,7 @@ nlohmann::json to_json(const DistributedSettings& settings, const LoadedBody& bo
             {"compliance_j", summary.compliance_j},
             {"tip_displacement_m", option_json(tip_displacement(body.mesh, solution))},
             {"largest_displacement_m", solution.displacement.rowwise().norm().maxCoeff()},
-            {"provenance", provenance()}};
+            {"provenance", provenance}};
 }
 
 struct Arguments : DistributedSettings {
@@ -249,11 +239,6 @@ void add_options(CLI::App& app, Arguments& arguments)
         ->capture_default_str();
     app.add_option("-o,--output", arguments.folder, "folder for record.json; default: none");
     app.add_flag("--nodes", arguments.nodes, "also write nodes.csv into the folder");
-}
-
-pbs::Vec3 vector(const std::vector<double>& components)
-{
-    return {components[0], components[1], components[2]};
 }
 
 // Rank 0 builds the body. An error in the input is thrown on every rank.
@@ -295,8 +280,8 @@ void write(const Arguments& arguments, const LoadedBody& body, const reference_f
 
 int solve_and_record(const reference_fem::MpiSession& session, Arguments& arguments)
 {
-    arguments.body.traction_pa = vector(arguments.traction_pa);
-    arguments.elastic.gravity_m_s2 = vector(arguments.gravity_m_s2);
+    arguments.body.traction_pa = pbs::Vec3(arguments.traction_pa.data());
+    arguments.elastic.gravity_m_s2 = pbs::Vec3(arguments.gravity_m_s2.data());
     arguments.elastic.solver = option_of<reference_fem::LinearSolver>(arguments.solver);
     const bool distributed = arguments.solver == "cg_ml" && !arguments.serial;
     if (!distributed && session.ranks() > 1)
@@ -327,7 +312,6 @@ int parse_and_act(const reference_fem::MpiSession& session, int argc, char** arg
 }
 
 }  // namespace
-
 }  // namespace experiments
 
 int main(int argc, char** argv)

@@ -21,6 +21,17 @@
 namespace experiments {
 namespace {
 
+volatile std::sig_atomic_t signalled = 0;
+
+void on_signal(int)
+{
+    signalled = 1;
+}
+
+bool progress_is_hidden = false;
+constexpr int bar_width = 30;
+constexpr double redraw_s = 0.1;
+
 // Messages of libraries may have several paragraphs.
 std::string on_one_line(const std::string& text)
 {
@@ -55,17 +66,6 @@ Failure caught_failure()
         return {"an exception without a message", exit_internal};
     }
 }
-
-namespace {
-
-volatile std::sig_atomic_t signalled = 0;
-
-void on_signal(int)
-{
-    signalled = 1;
-}
-
-}  // namespace
 
 void watch_interrupts()
 {
@@ -105,26 +105,18 @@ bool terminal_has_colours()
     return forced ? std::strcmp(forced, "0") != 0 : isatty(STDOUT_FILENO) != 0;
 }
 
-namespace {
-
-bool hidden = false;
-constexpr int bar_width = 30;
-constexpr double redraw_s = 0.1;
-
-}  // namespace
-
 void hide_progress()
 {
-    hidden = true;
+    progress_is_hidden = true;
 }
 
 void show_progress()
 {
-    hidden = false;
+    progress_is_hidden = false;
 }
 
 Progress::Progress(std::string label, int total)
-    : label_(std::move(label)), total_(total), shown_(!hidden && isatty(STDERR_FILENO) && total > 0)
+    : label_(std::move(label)), total_(total), shown_(!progress_is_hidden && isatty(STDERR_FILENO) && total > 0)
 {
 }
 

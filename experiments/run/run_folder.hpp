@@ -169,18 +169,13 @@ public:
     analysis::CsvTable table() const { return table_of(region_columns, changes()); }
 
 private:
-    struct Sums {
-        double rest = 0.0, change = 0.0, abs_change = 0.0, lowest = 0.0, highest = 0.0;  // [% of the body]
-    };
     struct Kind {
         BodyRegions regions;
         analysis::RegionMetrics region_metrics;
     };
 
     std::vector<Kind> kinds_;
-    std::vector<std::string> labels_;  // in order of first appearance
-    std::map<std::string, int> frames_;
-    std::map<std::string, std::vector<std::vector<Sums>>> sums_;  // label -> kind -> region
+    std::vector<std::vector<RegionChange>> sums_;  // of each deformer's frames, in order of first appearance: by kind and region
 };
 
 // The record of a rigged model for run.json and try.json: the parts that the run uses and the parts that it leaves out.

@@ -221,38 +221,40 @@ RegionRecord::RegionRecord(const pbs::Character& character)
 void RegionRecord::add(const std::string& label, const pbs::Positions& positions)
 {
     if (!positions.allFinite()) return;
-    const bool is_first = frames_[label]++ == 0;
+    auto sums = std::ranges::find_if(sums_, [&](const auto& of_one) { return of_one.front().deformer == label; });
+    const bool is_first = sums == sums_.end();
     if (is_first) {
-        labels_.push_back(label);
-        for (const Kind& kind : kinds_) sums_[label].emplace_back(kind.regions.bones.size());
+        sums = sums_.emplace(sums_.end());
+        for (const Kind& kind : kinds_)
+            for (const RegionBones& bones : kind.regions.bones) sums->push_back({label, kind.regions.kind, bones});
     }
-    for (std::size_t k = 0; k < kinds_.size(); ++k) {
-        const auto changes = kinds_[k].region_metrics.measure(positions);
+    auto first = sums->begin();  // region of the kind
+    for (const Kind& kind : kinds_) {
+        const auto changes = kind.region_metrics.measure(positions);
         for (std::size_t r = 0; r < changes.size(); ++r) {
-            const double to_pct = 100.0 / kinds_[k].region_metrics.rest_volume_m3(), change_pct = to_pct * changes[r].change_m3;
-            Sums& sums = sums_[label][k][r];
-            sums.rest = to_pct * changes[r].rest_m3;
-            sums.change += change_pct;
-            sums.abs_change += to_pct * changes[r].abs_change_m3;
-            sums.lowest = is_first ? change_pct : std::min(sums.lowest, change_pct);
-            sums.highest = is_first ? change_pct : std::max(sums.highest, change_pct);
+            const double to_pct = 100.0 / kind.region_metrics.rest_volume_m3(), change_pct = to_pct * changes[r].change_m3;
+            RegionChange& sum = first[r];
+            sum.rest_share_pct = to_pct * changes[r].rest_m3;
+            sum.change_pct += change_pct;
+            sum.abs_change_pct += to_pct * changes[r].abs_change_m3;
+            sum.lowest_pct = is_first ? change_pct : std::min(sum.lowest_pct, change_pct);
+            sum.highest_pct = is_first ? change_pct : std::max(sum.highest_pct, change_pct);
+            ++sum.frames;
         }
+        first += kind.regions.bones.size();
     }
 }
 
 std::vector<RegionChange> RegionRecord::changes() const
 {
     std::vector<RegionChange> changes;
-    for (const std::string& label : labels_)
-        for (std::size_t k = 0; k < kinds_.size(); ++k) {
-            const BodyRegions& regions = kinds_[k].regions;
-            for (std::size_t r = 0; r < regions.bones.size(); ++r) {
-                const Sums& sums = sums_.at(label)[k][r];
-                if (sums.rest == 0.0) continue;  // a bone that carries no tet
-                const int frames = frames_.at(label);
-                changes.push_back({label, regions.kind, regions.bones[r], sums.rest, sums.change / frames, sums.abs_change / frames,
-                                   sums.lowest, sums.highest, 100.0 * sums.change / frames / sums.rest, frames});
-            }
+    for (const auto& sums : sums_)
+        for (RegionChange change : sums) {
+            if (change.rest_share_pct == 0.0) continue;  // a bone that carries no tet
+            change.own_change_pct = 100.0 * change.change_pct / change.frames / change.rest_share_pct;
+            change.change_pct /= change.frames;
+            change.abs_change_pct /= change.frames;
+            changes.push_back(change);
         }
     return changes;
 }

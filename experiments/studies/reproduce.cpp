@@ -154,9 +154,7 @@ void report_runs(const PlannedStudy& planned)
 // then_s: expected wall time of the studies after this one [s].
 StudyOutcome run_study(const PlannedStudy& planned, int jobs, double then_s)
 {
-    std::error_code error;
-    fs::create_directories(planned.folder, error);
-    if (error) throw pbs::InputError(planned.folder, 0, "", "", "the output folder cannot be made: " + error.message());
+    analysis::make_output_folder(planned.folder);
     analysis::remove_abandoned_files(planned.folder);
     // Records of an earlier revision or of other settings must not remain next to those of the runs to do.
     for (const auto& runs : {planned.to_do, planned.absent})

@@ -42,9 +42,7 @@ std::pair<std::string, nlohmann::json> identity(const StudyRun& run)
 
 std::string carry_out_work(const StudyRun& run, const std::string& folder)
 {
-    std::error_code error;
-    fs::create_directories(folder, error);
-    if (error) throw pbs::InputError(folder, 0, "", "", "the output folder cannot be made: " + error.message());
+    analysis::make_output_folder(folder);
     const fs::path record = fs::path(folder) / "run.json";
     analysis::remove_record(record);
     const pbs::Stopwatch stopwatch;
