@@ -11,12 +11,17 @@ constexpr double meeting_distance_per_diagonal = 0.02;
 
 double bounding_diagonal(const Skeleton& skeleton)
 {
-    Vec3 lower = skeleton.bones.front().head, upper = lower;
-    for (const Bone& bone : skeleton.bones) {
-        lower = lower.cwiseMin(bone.head).cwiseMin(bone.tail);
-        upper = upper.cwiseMax(bone.head).cwiseMax(bone.tail);
-    }
-    return (upper - lower).norm();
+    Eigen::AlignedBox3d box;
+    for (const Bone& bone : skeleton.bones) box.extend(bone.head).extend(bone.tail);
+    return box.diagonal().norm();
+}
+
+void check_sweep(const Skeleton& skeleton, int joint, const Vec3& axis, int frames)
+{
+    if (joint < 0 || joint >= static_cast<int>(skeleton.bones.size()))
+        throw InputError("joint sweep", 0, "joint", std::to_string(joint), "expected a bone of the skeleton");
+    if (!(axis.stableNorm() > 0.0) || !axis.allFinite()) throw InputError("joint sweep", 0, "axis", "", "expected a direction, not zero");
+    if (frames < 1) throw InputError("joint sweep", 0, "frames", std::to_string(frames), "expected at least 1");
 }
 
 }  // namespace
@@ -44,18 +49,6 @@ std::vector<int> bones_meeting(const Skeleton& skeleton, int bone, BoneEnd end)
     }
     return meeting;
 }
-
-namespace {
-
-void check_sweep(const Skeleton& skeleton, int joint, const Vec3& axis, int frames)
-{
-    if (joint < 0 || joint >= static_cast<int>(skeleton.bones.size()))
-        throw InputError("joint sweep", 0, "joint", std::to_string(joint), "expected a bone of the skeleton");
-    if (!(axis.stableNorm() > 0.0) || !axis.allFinite()) throw InputError("joint sweep", 0, "axis", "", "expected a direction, not zero");
-    if (frames < 1) throw InputError("joint sweep", 0, "frames", std::to_string(frames), "expected at least 1");
-}
-
-}  // namespace
 
 Pose pose_from_joints(const Skeleton& skeleton, const std::vector<Eigen::Quaterniond>& local_rotations, const Vec3& root_translation)
 {

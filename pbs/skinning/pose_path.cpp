@@ -14,6 +14,9 @@ Eigen::Isometry3d parent_of(const Bone& bone, const Pose& pose)
     return bone.parent < 0 ? Eigen::Isometry3d::Identity() : pose[bone.parent];
 }
 
+constexpr double most_steps_per_frame = 1e5;
+constexpr double rounding = 1e-6;  // of a step or frame: times given in decimal are not refused for their last digit
+
 }  // namespace
 
 PosePath::PosePath(const Skeleton& skeleton, const Pose& from, const Pose& to)
@@ -72,13 +75,6 @@ Positions RootFrame::to_root(const Positions& points) const
 {
     return (points.rowwise() - root_.translation().transpose()) * root_.linear();
 }
-
-namespace {
-
-constexpr double most_steps_per_frame = 1e5;
-constexpr double rounding = 1e-6;  // of a step or frame: times given in decimal are not refused for their last digit
-
-}  // namespace
 
 int steps_per_frame(const MotionSampling& sampling)
 {
