@@ -5,7 +5,6 @@
 
 #include "pbs/rig/rig_pose.hpp"
 #include "pbs/skinning/pose.hpp"
-#include "pbs/skinning/pose_path.hpp"
 
 namespace pbs {
 
@@ -43,7 +42,7 @@ struct RigMotion {
     double stretch = 0.0;  // the largest relative change of a length in a bone's transform, which is left out
 };
 
-// sampling.start_s is after the first key of the animation. InputErrors are those of pose_path.hpp.
+// sampling.start_s is after the first key of the animation. InputErrors are those of pose.hpp.
 RigMotion rig_motion(const Rig& rig, const RiggedBody& body, const RigAnimation& animation, const MotionSampling& sampling);
 
 // The artist's surface at a frame of that motion [m], #P x 3.
