@@ -61,12 +61,9 @@ Weights without_zeros(const Weights& weights)
 {
     Weights kept{{0}, {}, {}};
     for (int vertex = 0; vertex < weights.vertices(); ++vertex) {
-        for (int entry = weights.first[vertex]; entry < weights.first[vertex + 1]; ++entry) {
-            if (weights.weight[entry] == 0.0) continue;
-            kept.bone.push_back(weights.bone[entry]);
-            kept.weight.push_back(weights.weight[entry]);
-        }
-        kept.first.push_back(static_cast<int>(kept.bone.size()));
+        for (int entry = weights.first[vertex]; entry < weights.first[vertex + 1]; ++entry)
+            if (weights.weight[entry] != 0.0) kept.add(weights.bone[entry], weights.weight[entry]);
+        kept.end_vertex();
     }
     return kept;
 }

@@ -28,11 +28,8 @@ Projection project_on_bone(const Vec3& vertex, const Bone& bone)
 
 void append_vertex(Weights& weights, const std::vector<int>& bones)
 {
-    for (const int bone : bones) {
-        weights.bone.push_back(bone);
-        weights.weight.push_back(1.0 / bones.size());
-    }
-    weights.first.push_back(static_cast<int>(weights.bone.size()));
+    for (const int bone : bones) weights.add(bone, 1.0 / bones.size());
+    weights.end_vertex();
 }
 
 constexpr double negligible = 1e-6;
@@ -167,16 +164,10 @@ Weights sparse_weights(const Eigen::MatrixXd& dense, double negligible, const We
     Weights result{{0}, {}, {}};
     for (Eigen::Index v = 0; v < dense.rows(); ++v) {
         const double sum = (dense.row(v).array() > negligible).select(dense.row(v), 0.0).sum();
-        for (int j = 0; j < dense.cols(); ++j) {
-            if (!(dense(v, j) > negligible)) continue;
-            result.bone.push_back(j);
-            result.weight.push_back(dense(v, j) / sum);
-        }
-        for (int k = otherwise.first[v]; sum == 0.0 && k < otherwise.first[v + 1]; ++k) {
-            result.bone.push_back(otherwise.bone[k]);
-            result.weight.push_back(otherwise.weight[k]);
-        }
-        result.first.push_back(static_cast<int>(result.bone.size()));
+        for (int j = 0; j < dense.cols(); ++j)
+            if (dense(v, j) > negligible) result.add(j, dense(v, j) / sum);
+        for (int k = otherwise.first[v]; sum == 0.0 && k < otherwise.first[v + 1]; ++k) result.add(otherwise.bone[k], otherwise.weight[k]);
+        result.end_vertex();
     }
     return result;
 }
