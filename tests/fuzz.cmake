@@ -52,10 +52,10 @@ fuzz_target(fuzz/mesh.cpp pbs_mesh_io
 fuzz_target(fuzz/skeleton.cpp pbs_character
     pbs/character/skeleton_file.cpp pbs/character/folded_skeleton.cpp pbs/geometry/files.cpp pbs/geometry/input_error.cpp)
 fuzz_target(fuzz/clip.cpp pbs_character
-    pbs/character/clip.cpp pbs/character/retarget.cpp pbs/skinning/pose_path.cpp pbs/skinning/pose.cpp pbs/geometry/input_error.cpp)
+    pbs/character/clip.cpp pbs/character/retarget.cpp pbs/skinning/pose.cpp pbs/geometry/input_error.cpp)
 fuzz_target(fuzz/rig.cpp pbs_rig
     pbs/rig/rigged_body.cpp pbs/rig/gltf_rig.cpp pbs/rig/gltf_model.cpp pbs/rig/rig_pose.cpp
-    pbs/rig/rig_reader.cpp pbs/skinning/pose_path.cpp pbs/skinning/pose.cpp
+    pbs/rig/rig_reader.cpp pbs/skinning/pose.cpp
     pbs/geometry/content_format.cpp pbs/geometry/files.cpp pbs/geometry/input_error.cpp)
 fuzz_target(fuzz/texts.cpp experiments
     analysis/records/tables.cpp analysis/records/record_files.cpp
@@ -68,7 +68,7 @@ fuzz_target(fuzz/files.cpp pbs_character
     pbs/geometry/input_error.cpp)
 fuzz_target(fuzz/assimp.cpp pbs_rig
     pbs/rig/assimp_rig.cpp pbs/rig/rigged_body.cpp pbs/rig/collada_and_fbx.cpp pbs/rig/rig_pose.cpp
-    pbs/rig/rig_reader.cpp pbs/skinning/pose_path.cpp pbs/skinning/pose.cpp pbs/geometry/content_format.cpp
+    pbs/rig/rig_reader.cpp pbs/skinning/pose.cpp pbs/geometry/content_format.cpp
     pbs/geometry/files.cpp pbs/geometry/input_error.cpp)
 fuzz_libraries(assimp assimp::assimp pugixml::pugixml ${MINIZIP_LIBRARY} ZLIB::ZLIB)
 fuzz_target(fuzz/content.cpp pbs_mesh_io

@@ -6,7 +6,7 @@
 #include "experiments/process/machine.hpp"
 #include "pbs/character/bone_capsules.hpp"
 #include "pbs/flesh/flesh_energy.hpp"
-#include "pbs/flesh/held_flesh.hpp"
+#include "pbs/flesh/flesh_system.hpp"
 #include "pbs/flesh/projective_dynamics.hpp"
 #include "pbs/flesh/quasi_newton.hpp"
 #include "pbs/flesh/vbd.hpp"

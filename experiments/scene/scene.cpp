@@ -12,7 +12,7 @@
 #include "pbs/geometry/files.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/rig/rig_reader.hpp"
-#include "pbs/skinning/pose_path.hpp"
+#include "pbs/skinning/pose.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -8,7 +8,6 @@
 #include "pbs/character/bodies.hpp"
 #include "pbs/character/clip.hpp"
 #include "pbs/skinning/pose.hpp"
-#include "pbs/skinning/pose_path.hpp"
 
 #include <nlohmann/json.hpp>
 

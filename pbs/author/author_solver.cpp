@@ -46,6 +46,26 @@ bool is_same_pose(const Pose& one, const Pose& other)
                       [](const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) { return a.matrix() == b.matrix(); });
 }
 
+// First-fit colouring.
+struct FirstFit {
+    std::size_t vertices;
+    std::vector<AuthorGroup> groups = {};
+    std::vector<std::vector<bool>> has_vertex = {};  // #groups x #V
+
+    // The group that these vertices join, which is a new one if they need another.
+    template <std::size_t size>
+    AuthorGroup& of(const std::array<int, size>& constrained)
+    {
+        const auto is_free = [&](const std::vector<bool>& has) {
+            return std::none_of(constrained.begin(), constrained.end(), [&](int vertex) { return has[vertex]; });
+        };
+        const std::size_t group = std::find_if(has_vertex.begin(), has_vertex.end(), is_free) - has_vertex.begin();
+        if (group == groups.size()) groups.emplace_back(), has_vertex.emplace_back(vertices, false);
+        for (const int vertex : constrained) has_vertex[group][vertex] = true;
+        return groups[group];
+    }
+};
+
 }  // namespace
 
 AuthorSolver::AuthorSolver(const TetMesh& mesh, const Skeleton& skeleton, const BoneBinding& binding, const AuthorOptions& options)
@@ -140,30 +160,6 @@ Weights author_weights(const BoneBinding& binding, const Skeleton& skeleton)
     }
     return weights_by_end(binding, at_head, at_tail);
 }
-
-namespace {
-
-// First-fit colouring.
-struct FirstFit {
-    std::size_t vertices;
-    std::vector<AuthorGroup> groups = {};
-    std::vector<std::vector<bool>> has_vertex = {};  // #groups x #V
-
-    // The group that these vertices join, which is a new one if they need another.
-    template <std::size_t size>
-    AuthorGroup& of(const std::array<int, size>& constrained)
-    {
-        const auto is_free = [&](const std::vector<bool>& has) {
-            return std::none_of(constrained.begin(), constrained.end(), [&](int vertex) { return has[vertex]; });
-        };
-        const std::size_t group = std::find_if(has_vertex.begin(), has_vertex.end(), is_free) - has_vertex.begin();
-        if (group == groups.size()) groups.emplace_back(), has_vertex.emplace_back(vertices, false);
-        for (const int vertex : constrained) has_vertex[group][vertex] = true;
-        return groups[group];
-    }
-};
-
-}  // namespace
 
 Edges edges_by_appearance(const Tets& tets)
 {

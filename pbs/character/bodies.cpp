@@ -55,19 +55,13 @@ void add(const std::vector<std::pair<std::string, std::string>>& hashed, Charact
     character.inputs.insert(character.inputs.end(), hashed.begin(), hashed.end());
 }
 
-Skeleton skeleton_of_clip(const CharacterSource& source, Character& character)
+// The joints of a rig that has a mesh, where containers are none and leaves are; otherwise those of a clip.
+Skeleton skeleton_of_rig_or_clip(const CharacterSource& source, bool is_rig, Character& character)
 {
-    const InputFile file(source.skeleton_file);
-    Skeleton skeleton = skeleton_from_clip(read_clip(source.skeleton_file), source.skeleton_scale);
-    add(file.hashed(), character);
-    return skeleton;
-}
-
-// The joints of a rig that has a mesh: containers are none, and leaves are.
-Skeleton skeleton_of_rig(const CharacterSource& source, Character& character)
-{
-    const InputFile file(source.skeleton_file);
-    Skeleton skeleton = read_model(source.skeleton_file, "", source.skeleton_scale)->body.skeleton;
+    const std::string& path = source.skeleton_file;
+    const InputFile file(path);
+    Skeleton skeleton =
+        is_rig ? read_model(path, "", source.skeleton_scale)->body.skeleton : skeleton_from_clip(read_clip(path), source.skeleton_scale);
     add(file.hashed(), character);
     return skeleton;
 }
@@ -75,7 +69,7 @@ Skeleton skeleton_of_rig(const CharacterSource& source, Character& character)
 // And its hash into the character's inputs.
 Skeleton read_skeleton_of(const CharacterSource& source, Character& character)
 {
-    if (is_rig_file(source.skeleton_file) && rig_has_skin(source.skeleton_file)) return skeleton_of_rig(source, character);
+    if (is_rig_file(source.skeleton_file) && rig_has_skin(source.skeleton_file)) return skeleton_of_rig_or_clip(source, true, character);
     const std::string format = format_extension(source.skeleton_file);
     if (format == ".dae" || format == ".zae")
         throw InputError(
@@ -83,7 +77,7 @@ Skeleton read_skeleton_of(const CharacterSource& source, Character& character)
             "expected a skin, which states the joints: a COLLADA file without one is no skeleton; others are .bvh, .gltf, .glb, "
             ".fbx and skeletons in TOML");
     for (const char* clip : {".bvh", ".gltf", ".glb", ".fbx"})
-        if (format == clip) return skeleton_of_clip(source, character);
+        if (format == clip) return skeleton_of_rig_or_clip(source, false, character);
     const std::string text = read_text_file(source.skeleton_file, most_settings_bytes);
     Skeleton skeleton = parse_skeleton(text, source.skeleton_file);
     for (Bone& bone : skeleton.bones) {

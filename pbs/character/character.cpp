@@ -17,11 +17,8 @@ Weights mean_of_parents(Weights weights, const Edges& parents)
         for (const int parent : parents.row(e))
             for (int entry = weights.first[parent]; entry < weights.first[parent + 1]; ++entry)
                 mean[weights.bone[entry]] += 0.5 * weights.weight[entry];
-        for (const auto& [bone, weight] : mean) {
-            weights.bone.push_back(bone);
-            weights.weight.push_back(weight);
-        }
-        weights.first.push_back(static_cast<int>(weights.bone.size()));
+        for (const auto& [bone, weight] : mean) weights.add(bone, weight);
+        weights.end_vertex();
     }
     return weights;
 }

@@ -4,6 +4,12 @@
 #include "pbs/character/skeleton_file.hpp"
 #include "pbs/geometry/input_error.hpp"
 
+#define PBS_REFUSE(refusal, ...) \
+    __VA_ARGS__                  \
+    {                            \
+        refusal;                 \
+    }
+
 namespace pbs {
 namespace {
 
@@ -21,44 +27,13 @@ constexpr const char* left_out = "left out of this build (PBS_WITH_RIG_IMPORT is
 
 }  // namespace
 
-Clip read_clip(const std::string& path)
-{
-    refuse_file(path, "clips");
-}
-
-Skeleton parse_skeleton(const std::string&, const std::string& name)
-{
-    refuse_file(name, "skeleton files");
-}
-
-Skeleton read_skeleton(const std::string& path)
-{
-    refuse_file(path, "skeleton files");
-}
-
-Skeleton human_skeleton()
-{
-    refuse_body("human");
-}
-
-std::vector<std::string> human_files(const std::string& name)
-{
-    refuse_body(name);
-}
-
-Character make_human(const std::string& name, int, bool)
-{
-    refuse_body(name);
-}
-
-std::vector<std::string> figure_files(const std::string& name)
-{
-    refuse_body(name);
-}
-
-Character make_figure(const std::string& name, int, bool)
-{
-    refuse_body(name);
-}
+PBS_REFUSE(refuse_file(path, "clips"), Clip read_clip(const std::string& path))
+PBS_REFUSE(refuse_file(name, "skeleton files"), Skeleton parse_skeleton(const std::string&, const std::string& name))
+PBS_REFUSE(refuse_file(path, "skeleton files"), Skeleton read_skeleton(const std::string& path))
+PBS_REFUSE(refuse_body("human"), Skeleton human_skeleton())
+PBS_REFUSE(refuse_body(name), std::vector<std::string> human_files(const std::string& name))
+PBS_REFUSE(refuse_body(name), Character make_human(const std::string& name, int, bool))
+PBS_REFUSE(refuse_body(name), std::vector<std::string> figure_files(const std::string& name))
+PBS_REFUSE(refuse_body(name), Character make_figure(const std::string& name, int, bool))
 
 }  // namespace pbs

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "pbs/skinning/pose.hpp"
-#include "pbs/skinning/pose_path.hpp"
 
 #include <string>
 #include <vector>

@@ -209,12 +209,9 @@ Weights parse_weights(const std::string& text, const std::string& name, const Sk
     for (const int number : file_vertex) {
         const auto vertex = static_cast<std::size_t>(number);
         check_sum(entries[vertex], vertex, line[vertex], name);
-        for (const Entry& entry : entries[vertex]) {
-            if (entry.weight == 0.0) continue;
-            weights.bone.push_back(entry.bone);
-            weights.weight.push_back(entry.weight);
-        }
-        weights.first.push_back(static_cast<int>(weights.bone.size()));
+        for (const Entry& entry : entries[vertex])
+            if (entry.weight != 0.0) weights.add(entry.bone, entry.weight);
+        weights.end_vertex();
     }
     return weights;
 }

@@ -18,6 +18,18 @@ Positions posed_sums(const std::vector<BoneShare>& shares, const Pose& pose, Eig
     return sums;
 }
 
+constexpr double least_eigenvalue = 1e-12;  // over the largest one
+
+// sum_s k_s beta_s beta_s^T of a tet. The rows add up to sum_s k_s beta_s, since barycentric coordinates add up to 1.
+Eigen::Matrix4d stiffness_matrix(const BoneHold& hold, int tet, const Eigen::Vector4d& row_sums)
+{
+    Eigen::Matrix4d matrix = Eigen::Matrix4d::Zero();
+    for (int i = 0, edge = 0; i < 4; ++i)
+        for (int j = i + 1; j < 4; ++j) matrix(i, j) = matrix(j, i) = -hold.edge_stiffness()(tet, edge++);
+    matrix.diagonal() = row_sums - matrix.rowwise().sum();
+    return matrix;
+}
+
 }  // namespace
 
 BoneHold::BoneHold(const TetMesh& mesh, const BoneSprings& springs, int bones)
@@ -79,22 +91,6 @@ double BoneHold::constant(const Pose& pose, const Positions& centres) const
     for (Eigen::Index i = 0; i < centres.rows(); ++i) constant -= stiffness_(i) / 2.0 * centres.row(i).squaredNorm();
     return constant;
 }
-
-namespace {
-
-constexpr double least_eigenvalue = 1e-12;  // over the largest one
-
-// sum_s k_s beta_s beta_s^T of a tet. The rows add up to sum_s k_s beta_s, since barycentric coordinates add up to 1.
-Eigen::Matrix4d stiffness_matrix(const BoneHold& hold, int tet, const Eigen::Vector4d& row_sums)
-{
-    Eigen::Matrix4d matrix = Eigen::Matrix4d::Zero();
-    for (int i = 0, edge = 0; i < 4; ++i)
-        for (int j = i + 1; j < 4; ++j) matrix(i, j) = matrix(j, i) = -hold.edge_stiffness()(tet, edge++);
-    matrix.diagonal() = row_sums - matrix.rowwise().sum();
-    return matrix;
-}
-
-}  // namespace
 
 HoldModes::HoldModes(const BoneHold& hold)
 {

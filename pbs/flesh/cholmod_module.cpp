@@ -1,6 +1,6 @@
 // The module pbskin_cholmod: analysis and factorisation of a sparse matrix. The simplicial method calls no BLAS, so that the factor is the
 // same for each of its kernels and each number of its threads.
-#include "pbs/flesh/held_flesh.hpp"
+#include "pbs/flesh/flesh_system.hpp"
 
 #include <cholmod.h>
 

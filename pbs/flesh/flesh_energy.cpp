@@ -12,17 +12,6 @@
 namespace pbs {
 namespace {
 
-// Gradients of the barycentric coordinates [1/m], one per column.
-Eigen::Matrix<double, 3, 4> barycentric_gradients(const TetMesh& mesh, Eigen::Index tet)
-{
-    Eigen::Matrix3d edges;
-    for (int k = 0; k < 3; ++k) edges.row(k) = mesh.rest.row(mesh.tets(tet, k + 1)) - mesh.rest.row(mesh.tets(tet, 0));
-    Eigen::Matrix<double, 3, 4> gradients;
-    gradients.rightCols<3>() = edges.inverse();
-    gradients.col(0) = -gradients.rightCols<3>().rowwise().sum();
-    return gradients;
-}
-
 Eigen::VectorXd positive_volumes(const TetMesh& mesh)
 {
     const Eigen::VectorXd volumes = tet_volumes(mesh.rest, mesh.tets);

@@ -6,28 +6,16 @@
 #include "pbs/geometry/module.hpp"
 #include "pbs/packed/groups.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
 #include <numeric>
 #include <string>
 #include <type_traits>
 #include <utility>
 
 namespace pbs {
-
-// Measured at rest, where all steps are rounding: 0.4 roundings of a bar of 208 vertices in every arithmetic.
-template <typename Scalar>
-double FleshSystem<Scalar>::smallest_step(const Rows<Scalar>& x, double share, double first) const
-{
-    constexpr double roundings = 4.0;
-    return std::max(share * first, roundings * std::numeric_limits<Scalar>::epsilon() * std::sqrt(dot(x, x)));
-}
-
-template double FleshSystem<float>::smallest_step(const Rows<float>&, double, double) const;
-template double FleshSystem<double>::smallest_step(const Rows<double>&, double, double) const;
-
 namespace {
+
+// The function of the module pbskin_cholmod: fills in the factor, or leaves it empty if the matrix is not positive definite.
+using FactorFunction = void(const Eigen::SparseMatrix<double>& lower, CholeskyFactor& factor);
 
 // How many columns from `column` on have the same rows below the last of them.
 int width_of_supernode(const CholeskyFactor& factor, int column)
@@ -44,55 +32,6 @@ int width_of_supernode(const CholeskyFactor& factor, int column)
     }
     return width;
 }
-
-}  // namespace
-
-template <typename Scalar>
-TriangularSolve<Scalar>::TriangularSolve(const CholeskyFactor& factor, const std::vector<int>& place)
-{
-    const int columns = static_cast<int>(factor.order.size());
-    for (const int row : factor.order) place_.push_back(4u * place[row]);
-    for (int column = 0; column < columns;) {
-        const int width = width_of_supernode(factor, column);
-        const int last = column + width - 1;
-        Supernode node{column, width, factor.first[last + 1] - factor.first[last] - 1, below_.size(), values_.size()};
-        const auto entry = [&](int row_in_column, int c) { return factor.value[factor.first[column + c] + row_in_column - c]; };
-        for (int row = 0; row < width; ++row) {
-            for (int c = 0; c < row; ++c) values_.push_back(Scalar(entry(row, c)));
-            values_.push_back(Scalar(1.0 / entry(row, row)));
-        }
-        for (int k = 0; k < node.rows_below; ++k) {
-            below_.push_back(4u * factor.row[factor.first[last] + 1 + k]);
-            for (int c = 0; c < width; ++c) values_.push_back(Scalar(entry(width + k, c)));
-        }
-        supernodes_.push_back(node);
-        column += width;
-    }
-    work_ = Rows<Scalar>(static_cast<int>(factor.order.size()));
-}
-
-template <typename Scalar>
-void TriangularSolve<Scalar>::apply(Scalar* rows)
-{
-    solve_supernodes(supernodes_.data(), static_cast<int>(supernodes_.size()), below_.data(), values_.data(), place_.data(),
-                     static_cast<int>(place_.size()), rows, work_.data());
-}
-
-Eigen::MatrixXd solve_plainly(const CholeskyFactor& factor, const Eigen::MatrixXd& b)
-{
-    const auto rows = static_cast<Eigen::Index>(factor.order.size()), entries = static_cast<Eigen::Index>(factor.value.size());
-    const Eigen::Map<const Eigen::SparseMatrix<double>> L(rows, rows, entries, factor.first.data(), factor.row.data(), factor.value.data());
-    Eigen::MatrixXd permuted = b(factor.order, Eigen::all), x(b.rows(), b.cols());
-    L.triangularView<Eigen::Lower>().solveInPlace(permuted);
-    L.transpose().triangularView<Eigen::Upper>().solveInPlace(permuted);
-    x(factor.order, Eigen::all) = permuted;
-    return x;
-}
-
-template class TriangularSolve<float>;
-template class TriangularSolve<double>;
-
-namespace {
 
 // The plain implementation: the energy in file order and a loop per entry of the factor, in double. Energy: FleshEnergy or
 // ProjectiveEnergy.
@@ -209,9 +148,19 @@ struct PackedTets<Scalar, ProjectiveEnergy> {
 template <typename Scalar, typename Energy>
 class PackedSystem : public FleshSystem<Scalar> {
 public:
-    PackedSystem(const TetMesh& mesh, const Energy& energy, const CholeskyFactor& factor, int threads)
-        : PackedSystem(TetSlabs(mesh.tets, static_cast<int>(mesh.rest.rows()), threads), energy, factor)
+    PackedSystem(TetSlabs slabs, const Energy& energy, const CholeskyFactor& factor)
+        : FleshSystem<Scalar>(slabs.order().new_of_old, slabs.rows()),
+          slabs_(std::move(slabs)),
+          slab_energy_(slabs_.slabs()),
+          centres_(slabs_.rows()),
+          solve_(factor, this->place_)
     {
+        for (int slab = 0; slab < slabs_.slabs(); ++slab) {
+            PackedTets<Scalar, Energy>& packed = tets_.emplace_back(energy);
+            slabs_.fill(slab, slabs_.batches(slabs_.of_slab(slab)), packed.batches,
+                        [&](int b, int lane, int tet) { packed.set_tet(packed.batches[b], lane, energy.tets()[tet]); });
+        }
+        for (std::size_t i = 0; i < this->place_.size(); ++i) centres_[this->place_[i]][3] = Scalar(energy.hold()(i));
     }
 
     void set_centres(const Positions& centres) override { this->origin_ = load_held_centres(centres, this->place_, centres_); }
@@ -233,21 +182,6 @@ public:
     }
 
 private:
-    PackedSystem(TetSlabs slabs, const Energy& energy, const CholeskyFactor& factor)
-        : FleshSystem<Scalar>(slabs.order().new_of_old, slabs.rows()),
-          slabs_(std::move(slabs)),
-          slab_energy_(slabs_.slabs()),
-          centres_(slabs_.rows()),
-          solve_(factor, this->place_)
-    {
-        for (int slab = 0; slab < slabs_.slabs(); ++slab) {
-            PackedTets<Scalar, Energy>& packed = tets_.emplace_back(energy);
-            slabs_.fill(slab, slabs_.batches(slabs_.of_slab(slab)), packed.batches,
-                        [&](int b, int lane, int tet) { packed.set_tet(packed.batches[b], lane, energy.tets()[tet]); });
-        }
-        for (std::size_t i = 0; i < this->place_.size(); ++i) centres_[this->place_[i]][3] = Scalar(energy.hold()(i));
-    }
-
     TetSlabs slabs_;
     std::vector<PackedTets<Scalar, Energy>> tets_;  // of each slab
     std::vector<double> slab_energy_;
@@ -257,13 +191,83 @@ private:
 
 }  // namespace
 
+HeldFlesh::HeldFlesh(const TetMesh& mesh, const BoneSprings& springs, int bones, const HeldFleshOptions& options)
+    : hold_(mesh, springs, bones), energy_(mesh, flesh_material(options.poisson), hold_)
+{
+    if (!(hold_.stiffness().sum() > 0.0))
+        throw InputError("flesh", 0, "springs", std::to_string(springs.points.rows()), "expected one that lies inside the tets");
+    factor_ = cholesky_factor(flesh_laplacian(mesh, flesh_material(options.poisson), energy_, options.volume_share));
+    if (!factor_.usable())
+        throw InputError("flesh", 0, "Laplacian", std::to_string(mesh.rest.rows()) + " vertices",
+                         "expected tets whose Laplacian is positive definite in double; are some of them flat?");
+}
+
+Weights HeldFlesh::smooth_weights(const Weights& otherwise) const
+{
+    constexpr double negligible = 1e-3;
+    return sparse_weights(solve_plainly(factor_, hold_.stiffness_of_bones()), negligible, otherwise);
+}
+
+CholeskyFactor cholesky_factor(const Eigen::SparseMatrix<double>& lower)
+{
+    CholeskyFactor factor;
+    load_module("pbskin_cholmod").function<FactorFunction>("pbskin_cholmod_factor")(lower, factor);
+    return factor;
+}
+
+template <typename Scalar>
+TriangularSolve<Scalar>::TriangularSolve(const CholeskyFactor& factor, const std::vector<int>& place)
+{
+    const int columns = static_cast<int>(factor.order.size());
+    for (const int row : factor.order) place_.push_back(4u * place[row]);
+    for (int column = 0; column < columns;) {
+        const int width = width_of_supernode(factor, column);
+        const int last = column + width - 1;
+        Supernode node{column, width, factor.first[last + 1] - factor.first[last] - 1, below_.size(), values_.size()};
+        const auto entry = [&](int row_in_column, int c) { return factor.value[factor.first[column + c] + row_in_column - c]; };
+        for (int row = 0; row < width; ++row) {
+            for (int c = 0; c < row; ++c) values_.push_back(Scalar(entry(row, c)));
+            values_.push_back(Scalar(1.0 / entry(row, row)));
+        }
+        for (int k = 0; k < node.rows_below; ++k) {
+            below_.push_back(4u * factor.row[factor.first[last] + 1 + k]);
+            for (int c = 0; c < width; ++c) values_.push_back(Scalar(entry(width + k, c)));
+        }
+        supernodes_.push_back(node);
+        column += width;
+    }
+    work_ = Rows<Scalar>(static_cast<int>(factor.order.size()));
+}
+
+template <typename Scalar>
+void TriangularSolve<Scalar>::apply(Scalar* rows)
+{
+    solve_supernodes(supernodes_.data(), static_cast<int>(supernodes_.size()), below_.data(), values_.data(), place_.data(),
+                     static_cast<int>(place_.size()), rows, work_.data());
+}
+
+Eigen::MatrixXd solve_plainly(const CholeskyFactor& factor, const Eigen::MatrixXd& b)
+{
+    const auto rows = static_cast<Eigen::Index>(factor.order.size()), entries = static_cast<Eigen::Index>(factor.value.size());
+    const Eigen::Map<const Eigen::SparseMatrix<double>> L(rows, rows, entries, factor.first.data(), factor.row.data(), factor.value.data());
+    Eigen::MatrixXd permuted = b(factor.order, Eigen::all), x(b.rows(), b.cols());
+    L.triangularView<Eigen::Lower>().solveInPlace(permuted);
+    L.transpose().triangularView<Eigen::Upper>().solveInPlace(permuted);
+    x(factor.order, Eigen::all) = permuted;
+    return x;
+}
+
+template class TriangularSolve<float>;
+template class TriangularSolve<double>;
+
 template <typename Scalar, typename Energy>
 std::unique_ptr<FleshSystem<Scalar>> make_flesh_system(const TetMesh& mesh, const Energy& energy, const CholeskyFactor& factor, bool packed,
                                                        int threads)
 {
     if constexpr (std::is_same_v<Scalar, double>)
         if (!packed) return std::make_unique<PlainSystem<Energy>>(energy, factor);
-    return std::make_unique<PackedSystem<Scalar, Energy>>(mesh, energy, factor, threads);
+    TetSlabs slabs(mesh.tets, static_cast<int>(mesh.rest.rows()), threads);
+    return std::make_unique<PackedSystem<Scalar, Energy>>(std::move(slabs), energy, factor);
 }
 
 template std::unique_ptr<FleshSystem<float>> make_flesh_system(const TetMesh&, const FleshEnergy&, const CholeskyFactor&, bool, int);

@@ -94,6 +94,126 @@ double inner(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b)
     return a.cwiseProduct(b).sum();
 }
 
+// Sixteen tets that share no vertex side by side, in the order of memory of the solvers of Algorithm 1. In each slab of the mesh, first the
+// springs and then the tets are visited. Threads share the slabs; their number changes no bit.
+template <typename Scalar>
+class PackedXpbd : public XpbdSystem<Scalar> {
+public:
+    PackedXpbd(TetSlabs slabs, const XpbdFlesh& flesh)
+        : XpbdSystem<Scalar>(slabs.order().new_of_old, slabs.rows(), flesh.w),
+          slabs_(std::move(slabs)),
+          alpha_(Scalar(flesh.material.alpha)),
+          batches_(slabs_.slabs()),
+          mode_places_(flesh.hold.modes().size())
+    {
+        for (int s = 0; s < slabs_.slabs(); ++s) {
+            Slab& slab = batches_[s];
+            const std::vector<int>& tets = slabs_.of_slab(s);
+            std::vector<int> held;
+            std::copy_if(tets.begin(), tets.end(), std::back_inserter(held),
+                         [&](int t) { return flesh.first_mode[t] < flesh.first_mode[t + 1]; });
+            slab.hold_members = slabs_.batches(held);
+            slab.tet_members = slabs_.batches(tets);
+            slabs_.fill(s, slab.hold_members, slab.holds, [&](int b, int lane, int tet) {
+                for (int r = flesh.first_mode[tet]; r < flesh.first_mode[tet + 1]; ++r)
+                    mode_places_[r] = {s, b, r - flesh.first_mode[tet], lane};
+                fill_hold(slab.holds[b], lane, tet, flesh);
+            });
+            slabs_.fill(s, slab.tet_members, slab.tets, [&](int b, int lane, int tet) { fill_tet(slab.tets[b], lane, tet, flesh); });
+        }
+    }
+
+    void set_targets(const Positions& targets) override
+    {
+        this->origin_.setZero();
+        if (targets.rows() > 0) this->origin_ = targets.colwise().mean();
+        for (Slab& slab : batches_)
+            for (HoldBatch<Scalar>& batch : slab.holds) std::fill_n(&batch.target[0][0][0], 4 * 3 * batch_size, Scalar(0));
+        for (std::size_t r = 0; r < mode_places_.size(); ++r) {
+            const auto& [slab, b, mode, lane] = mode_places_[r];
+            HoldBatch<Scalar>& batch = batches_[slab].holds[b];
+            double sum = 0.0;  // v^T (x - origin) = d - (sum of v) origin
+            for (int i = 0; i < 4; ++i) sum += double(batch.v[mode][i][lane]);
+            for (int axis = 0; axis < 3; ++axis)
+                batch.target[mode][axis][lane] = Scalar(targets(static_cast<Eigen::Index>(r), axis) - sum * this->origin_(axis));
+        }
+    }
+
+    void forget() override
+    {
+        for (Slab& slab : batches_) {
+            for (HoldBatch<Scalar>& batch : slab.holds) std::fill_n(&batch.multiplier[0][0][0], 4 * 3 * batch_size, Scalar(0));
+            for (NeoHookeanBatch<Scalar>& batch : slab.tets) {
+                std::fill_n(&batch.multiplier[0][0], 2 * batch_size, Scalar(0));
+                std::fill_n(&batch.applied[0][0], 9 * batch_size, Scalar(0));
+            }
+        }
+    }
+
+    void iterate(Rows<Scalar>& x, bool with_residual) override
+    {
+        slabs_.for_each([&](int s) {
+            Slab& slab = batches_[s];
+            visit_holds(slab.holds.data(), static_cast<int>(slab.holds.size()), x.data());
+            visit_tets(slab.tets.data(), static_cast<int>(slab.tets.size()), alpha_, with_residual, x.data());
+        });
+    }
+
+    std::vector<XpbdVisit> visits() const override
+    {
+        std::vector<XpbdVisit> visits;
+        for (const int parity : {0, 1})
+            for (std::size_t s = parity; s < batches_.size(); s += 2)
+                for (const bool is_hold : {true, false})
+                    for (const std::vector<int>& batch : is_hold ? batches_[s].hold_members : batches_[s].tet_members)
+                        for (const int tet : batch) visits.push_back({is_hold, tet});
+        return visits;
+    }
+
+private:
+    struct Slab {
+        std::vector<std::vector<int>> hold_members, tet_members;  // tets of each batch
+        std::vector<HoldBatch<Scalar>> holds;
+        std::vector<NeoHookeanBatch<Scalar>> tets;
+    };
+    struct ModePlace {
+        int slab, batch, mode, lane;
+    };
+
+    static void fill_hold(HoldBatch<Scalar>& batch, int lane, int t, const XpbdFlesh& flesh)
+    {
+        for (int r = flesh.first_mode[t]; r < flesh.first_mode[t + 1]; ++r) {
+            const HoldMode& mode = flesh.hold.modes()[r];
+            const int place = r - flesh.first_mode[t];
+            double w_gradient2 = 0.0;
+            for (int i = 0; i < 4; ++i) {
+                batch.v[place][i][lane] = Scalar(mode.v(i));
+                w_gradient2 += flesh.w(flesh.tets[t].vertex[i]) * mode.v(i) * mode.v(i);
+            }
+            batch.stiffness[place][lane] = Scalar(mode.stiffness);
+            batch.share[place][lane] = Scalar(1.0 / (1.0 + mode.stiffness * w_gradient2));
+        }
+    }
+
+    static void fill_tet(NeoHookeanBatch<Scalar>& batch, int lane, int t, const XpbdFlesh& flesh)
+    {
+        const NeoHookeanTet& tet = flesh.tets[t];
+        const Eigen::Matrix<double, 3, 4> g = vertex_gradients(tet, Eigen::Matrix3d::Identity());
+        Eigen::Matrix3d S = Eigen::Matrix3d::Zero();
+        for (int i = 0; i < 4; ++i) S += flesh.w(tet.vertex[i]) * g.col(i) * g.col(i).transpose();
+        for (int k = 0; k < 9; ++k) batch.rest_inverse[k][lane] = Scalar(tet.rest_inverse(k / 3, k % 3));
+        const double entries[6] = {S(0, 0), S(1, 1), S(2, 2), S(1, 2), S(0, 2), S(0, 1)};
+        for (int k = 0; k < 6; ++k) batch.weighted[k][lane] = Scalar(entries[k]);
+        batch.hydrostatic[lane] = Scalar(flesh.material.lambda * tet.volume);
+        batch.deviatoric[lane] = Scalar(flesh.material.mu * tet.volume);
+    }
+
+    TetSlabs slabs_;
+    Scalar alpha_;
+    std::vector<Slab> batches_;
+    std::vector<ModePlace> mode_places_;  // of each mode
+};
+
 }  // namespace
 
 PlainXpbd::PlainXpbd(const XpbdFlesh& flesh) : PlainXpbd(flesh, in_file_order(flesh))
@@ -171,141 +291,12 @@ void PlainXpbd::visit_tet(int t, Rows<double>& x, bool with_residual)
     for (int i = 0; i < 4; ++i) Vec3::Map(x[tet.vertex[i]]) += flesh_.w(tet.vertex[i]) * force.col(i);
 }
 
-namespace {
-
-// Sixteen tets that share no vertex side by side, in the order of memory of the solvers of Algorithm 1. In each slab of the mesh, first the
-// springs and then the tets are visited. Threads share the slabs; their number changes no bit.
-template <typename Scalar>
-class PackedXpbd : public XpbdSystem<Scalar> {
-public:
-    PackedXpbd(const TetMesh& mesh, const XpbdFlesh& flesh, int threads)
-        : PackedXpbd(TetSlabs(mesh.tets, static_cast<int>(mesh.rest.rows()), threads), flesh)
-    {
-    }
-
-    void set_targets(const Positions& targets) override
-    {
-        this->origin_.setZero();
-        if (targets.rows() > 0) this->origin_ = targets.colwise().mean();
-        for (Slab& slab : batches_)
-            for (HoldBatch<Scalar>& batch : slab.holds) std::fill_n(&batch.target[0][0][0], 4 * 3 * batch_size, Scalar(0));
-        for (std::size_t r = 0; r < mode_places_.size(); ++r) {
-            const auto& [slab, b, mode, lane] = mode_places_[r];
-            HoldBatch<Scalar>& batch = batches_[slab].holds[b];
-            double sum = 0.0;  // v^T (x - origin) = d - (sum of v) origin
-            for (int i = 0; i < 4; ++i) sum += double(batch.v[mode][i][lane]);
-            for (int axis = 0; axis < 3; ++axis)
-                batch.target[mode][axis][lane] = Scalar(targets(static_cast<Eigen::Index>(r), axis) - sum * this->origin_(axis));
-        }
-    }
-
-    void forget() override
-    {
-        for (Slab& slab : batches_) {
-            for (HoldBatch<Scalar>& batch : slab.holds) std::fill_n(&batch.multiplier[0][0][0], 4 * 3 * batch_size, Scalar(0));
-            for (NeoHookeanBatch<Scalar>& batch : slab.tets) {
-                std::fill_n(&batch.multiplier[0][0], 2 * batch_size, Scalar(0));
-                std::fill_n(&batch.applied[0][0], 9 * batch_size, Scalar(0));
-            }
-        }
-    }
-
-    void iterate(Rows<Scalar>& x, bool with_residual) override
-    {
-        slabs_.for_each([&](int s) {
-            Slab& slab = batches_[s];
-            visit_holds(slab.holds.data(), static_cast<int>(slab.holds.size()), x.data());
-            visit_tets(slab.tets.data(), static_cast<int>(slab.tets.size()), alpha_, with_residual, x.data());
-        });
-    }
-
-    std::vector<XpbdVisit> visits() const override
-    {
-        std::vector<XpbdVisit> visits;
-        for (const int parity : {0, 1})
-            for (std::size_t s = parity; s < batches_.size(); s += 2)
-                for (const bool is_hold : {true, false})
-                    for (const std::vector<int>& batch : is_hold ? batches_[s].hold_members : batches_[s].tet_members)
-                        for (const int tet : batch) visits.push_back({is_hold, tet});
-        return visits;
-    }
-
-private:
-    struct Slab {
-        std::vector<std::vector<int>> hold_members, tet_members;  // tets of each batch
-        std::vector<HoldBatch<Scalar>> holds;
-        std::vector<NeoHookeanBatch<Scalar>> tets;
-    };
-    struct ModePlace {
-        int slab, batch, mode, lane;
-    };
-
-    PackedXpbd(TetSlabs slabs, const XpbdFlesh& flesh)
-        : XpbdSystem<Scalar>(slabs.order().new_of_old, slabs.rows(), flesh.w),
-          slabs_(std::move(slabs)),
-          alpha_(Scalar(flesh.material.alpha)),
-          batches_(slabs_.slabs()),
-          mode_places_(flesh.hold.modes().size())
-    {
-        for (int s = 0; s < slabs_.slabs(); ++s) {
-            Slab& slab = batches_[s];
-            const std::vector<int>& tets = slabs_.of_slab(s);
-            std::vector<int> held;
-            std::copy_if(tets.begin(), tets.end(), std::back_inserter(held),
-                         [&](int t) { return flesh.first_mode[t] < flesh.first_mode[t + 1]; });
-            slab.hold_members = slabs_.batches(held);
-            slab.tet_members = slabs_.batches(tets);
-            slabs_.fill(s, slab.hold_members, slab.holds, [&](int b, int lane, int tet) {
-                for (int r = flesh.first_mode[tet]; r < flesh.first_mode[tet + 1]; ++r)
-                    mode_places_[r] = {s, b, r - flesh.first_mode[tet], lane};
-                fill_hold(slab.holds[b], lane, tet, flesh);
-            });
-            slabs_.fill(s, slab.tet_members, slab.tets, [&](int b, int lane, int tet) { fill_tet(slab.tets[b], lane, tet, flesh); });
-        }
-    }
-
-    static void fill_hold(HoldBatch<Scalar>& batch, int lane, int t, const XpbdFlesh& flesh)
-    {
-        for (int r = flesh.first_mode[t]; r < flesh.first_mode[t + 1]; ++r) {
-            const HoldMode& mode = flesh.hold.modes()[r];
-            const int place = r - flesh.first_mode[t];
-            double w_gradient2 = 0.0;
-            for (int i = 0; i < 4; ++i) {
-                batch.v[place][i][lane] = Scalar(mode.v(i));
-                w_gradient2 += flesh.w(flesh.tets[t].vertex[i]) * mode.v(i) * mode.v(i);
-            }
-            batch.stiffness[place][lane] = Scalar(mode.stiffness);
-            batch.share[place][lane] = Scalar(1.0 / (1.0 + mode.stiffness * w_gradient2));
-        }
-    }
-
-    static void fill_tet(NeoHookeanBatch<Scalar>& batch, int lane, int t, const XpbdFlesh& flesh)
-    {
-        const NeoHookeanTet& tet = flesh.tets[t];
-        const Eigen::Matrix<double, 3, 4> g = vertex_gradients(tet, Eigen::Matrix3d::Identity());
-        Eigen::Matrix3d S = Eigen::Matrix3d::Zero();
-        for (int i = 0; i < 4; ++i) S += flesh.w(tet.vertex[i]) * g.col(i) * g.col(i).transpose();
-        for (int k = 0; k < 9; ++k) batch.rest_inverse[k][lane] = Scalar(tet.rest_inverse(k / 3, k % 3));
-        const double entries[6] = {S(0, 0), S(1, 1), S(2, 2), S(1, 2), S(0, 2), S(0, 1)};
-        for (int k = 0; k < 6; ++k) batch.weighted[k][lane] = Scalar(entries[k]);
-        batch.hydrostatic[lane] = Scalar(flesh.material.lambda * tet.volume);
-        batch.deviatoric[lane] = Scalar(flesh.material.mu * tet.volume);
-    }
-
-    TetSlabs slabs_;
-    Scalar alpha_;
-    std::vector<Slab> batches_;
-    std::vector<ModePlace> mode_places_;  // of each mode
-};
-
-}  // namespace
-
 template <typename Scalar>
 std::unique_ptr<XpbdSystem<Scalar>> make_xpbd_system(const TetMesh& mesh, const XpbdFlesh& flesh, bool packed, int threads)
 {
     if constexpr (std::is_same_v<Scalar, double>)
         if (!packed) return std::make_unique<PlainXpbd>(flesh);
-    return std::make_unique<PackedXpbd<Scalar>>(mesh, flesh, threads);
+    return std::make_unique<PackedXpbd<Scalar>>(TetSlabs(mesh.tets, static_cast<int>(mesh.rest.rows()), threads), flesh);
 }
 
 template std::unique_ptr<XpbdSystem<float>> make_xpbd_system(const TetMesh&, const XpbdFlesh&, bool, int);

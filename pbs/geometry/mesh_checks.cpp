@@ -194,12 +194,7 @@ std::vector<std::vector<int>> tets_of_vertices(const TetMesh& mesh)
 // The group of each of a vertex's tets: those that are joined by faces at that vertex.
 std::vector<int> groups_at(int vertex, const std::vector<int>& around, const Tets& tets)
 {
-    std::vector<int> group(around.size());
-    std::iota(group.begin(), group.end(), 0);
-    const auto root_of = [&](int member) {
-        while (group[member] != member) member = group[member] = group[group[member]];
-        return member;
-    };
+    Classes joined(around.size());
     std::map<std::array<int, 2>, int> tet_at;  // by the other two vertices of a face
     for (int member = 0; member < static_cast<int>(around.size()); ++member) {
         std::vector<int> others;
@@ -208,10 +203,11 @@ std::vector<int> groups_at(int vertex, const std::vector<int>& around, const Tet
         std::sort(others.begin(), others.end());
         for (const auto& face : {std::array{others[0], others[1]}, std::array{others[0], others[2]}, std::array{others[1], others[2]}}) {
             const auto [other, added] = tet_at.emplace(face, member);
-            if (!added) group[root_of(member)] = root_of(other->second);
+            if (!added) joined.unite(member, other->second);
         }
     }
-    for (int member = 0; member < static_cast<int>(around.size()); ++member) group[member] = root_of(member);
+    std::vector<int> group;
+    for (int member = 0; member < static_cast<int>(around.size()); ++member) group.push_back(joined.find(member));
     return group;
 }
 

@@ -29,34 +29,25 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_3;
 using Surface = CGAL::Surface_mesh<Point>;
 
-struct Soup {
-    std::vector<Point> points;
-    std::vector<std::array<std::size_t, 3>> triangles;
-};
-
-Soup soup_of(const Positions& positions, const Triangles& triangles)
+Point point_of(const Positions& positions, int v)
 {
-    Soup soup;
-    for (Eigen::Index i = 0; i < positions.rows(); ++i) soup.points.emplace_back(positions(i, 0), positions(i, 1), positions(i, 2));
-    for (Eigen::Index f = 0; f < triangles.rows(); ++f)
-        soup.triangles.push_back({static_cast<std::size_t>(triangles(f, 0)), static_cast<std::size_t>(triangles(f, 1)),
-                                  static_cast<std::size_t>(triangles(f, 2))});
-    return soup;
+    return {positions(v, 0), positions(v, 1), positions(v, 2)};
 }
 
 // Where the triangles are not manifold, the vertices concerned are duplicated.
 Surface surface_of(const Positions& positions, const Triangles& triangles)
 {
-    Soup soup = soup_of(positions, triangles);
-    if (!pmp::is_polygon_soup_a_polygon_mesh(soup.triangles)) pmp::orient_polygon_soup(soup.points, soup.triangles);
+    std::vector<Point> points;
+    std::vector<std::array<std::size_t, 3>> corners;
+    for (int i = 0; i < positions.rows(); ++i) points.push_back(point_of(positions, i));
+    for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
+        const auto vertex = [&](int corner) { return static_cast<std::size_t>(triangles(f, corner)); };
+        corners.push_back({vertex(0), vertex(1), vertex(2)});
+    }
+    if (!pmp::is_polygon_soup_a_polygon_mesh(corners)) pmp::orient_polygon_soup(points, corners);
     Surface surface;
-    pmp::polygon_soup_to_polygon_mesh(soup.points, soup.triangles, surface);
+    pmp::polygon_soup_to_polygon_mesh(points, corners, surface);
     return surface;
-}
-
-Point point_of(const Positions& positions, int v)
-{
-    return {positions(v, 0), positions(v, 1), positions(v, 2)};
 }
 
 Positions closed_line(const std::vector<Point>& points)

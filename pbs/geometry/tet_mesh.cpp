@@ -2,6 +2,7 @@
 
 #include "pbs/geometry/topology.hpp"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 
 #include <algorithm>
@@ -139,6 +140,17 @@ Eigen::VectorXd tet_volumes(const Positions& positions, const Tets& tets)
     return volumes;
 }
 
+Eigen::Matrix<double, 3, 4> barycentric_gradients(const TetMesh& mesh, Eigen::Index tet, double* volume_m3)
+{
+    Eigen::Matrix3d edges;
+    for (int k = 0; k < 3; ++k) edges.row(k) = mesh.rest.row(mesh.tets(tet, k + 1)) - mesh.rest.row(mesh.tets(tet, 0));
+    if (volume_m3) *volume_m3 = edges.determinant() / 6.0;
+    Eigen::Matrix<double, 3, 4> gradients;
+    gradients.rightCols<3>() = edges.inverse();
+    gradients.col(0) = -gradients.rightCols<3>().rowwise().sum();
+    return gradients;
+}
+
 Eigen::VectorXd lumped_volumes(const Positions& rest, const Tets& tets)
 {
     const Eigen::VectorXd volumes = tet_volumes(rest, tets);
@@ -210,14 +222,10 @@ PointLocation::Cell PointLocation::cell_of(const Vec3& point) const
 template <typename Visit>
 void PointLocation::for_each_cell_of_tet(Eigen::Index tet, Visit visit) const
 {
-    Vec3 low = mesh_.rest.row(mesh_.tets(tet, 0)), high = low;
-    for (int corner = 1; corner < 4; ++corner) {
-        const Vec3 point = mesh_.rest.row(mesh_.tets(tet, corner));
-        low = low.cwiseMin(point);
-        high = high.cwiseMax(point);
-    }
-    const Vec3 margin = on_face * (high - low);  // so that a point taken for on the face is looked for here
-    const Cell first = cell_of(low - margin), last = cell_of(high + margin);
+    Eigen::AlignedBox3d box;
+    for (const int vertex : mesh_.tets.row(tet)) box.extend(Vec3(mesh_.rest.row(vertex)));
+    const Vec3 margin = on_face * box.sizes();  // so that a point taken for on the face is looked for here
+    const Cell first = cell_of(box.min() - margin), last = cell_of(box.max() + margin);
     for (int k = first(2); k <= last(2); ++k)
         for (int j = first(1); j <= last(1); ++j)
             for (int i = first(0); i <= last(0); ++i) visit(index_of({i, j, k}));

@@ -28,28 +28,6 @@ struct BoundaryEdge {
     std::array<int, 2> corner;  // 3 * triangle + corner, of the first and the second vertex
 };
 
-// Union-find with path halving.
-class Classes {
-public:
-    explicit Classes(std::size_t members) : parent_(members) { std::iota(parent_.begin(), parent_.end(), 0); }
-
-    int find(int member)
-    {
-        while (parent_[member] != member) member = parent_[member] = parent_[parent_[member]];
-        return member;
-    }
-    void unite(int first, int second) { parent_[find(first)] = find(second); }
-    int count()
-    {
-        int roots = 0;
-        for (int member = 0; member < static_cast<int>(parent_.size()); ++member) roots += find(member) == member;
-        return roots;
-    }
-
-private:
-    std::vector<int> parent_;
-};
-
 // Calls body(first, last) for each run of entries with the same key.
 template <typename Entry, typename Key, typename Body>
 void for_each_run(const std::vector<Entry>& entries, Key key, Body body)

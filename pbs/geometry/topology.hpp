@@ -5,6 +5,7 @@
 #include "pbs/geometry/tet_mesh.hpp"
 
 #include <array>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
@@ -73,5 +74,27 @@ struct Quality {
 // Indices of tets are in range (unchecked).
 Quality quality_of(const TetMesh& mesh);
 std::string describe(const Quality& quality);  // three lines for the terminal, with units
+
+// Numbers from 0, united into classes: union-find with path halving.
+class Classes {
+public:
+    explicit Classes(std::size_t members) : parent_(members) { std::iota(parent_.begin(), parent_.end(), 0); }
+
+    int find(int member)
+    {
+        while (parent_[member] != member) member = parent_[member] = parent_[parent_[member]];
+        return member;
+    }
+    void unite(int first, int second) { parent_[find(first)] = find(second); }
+    int count()
+    {
+        int roots = 0;
+        for (int member = 0; member < static_cast<int>(parent_.size()); ++member) roots += find(member) == member;
+        return roots;
+    }
+
+private:
+    std::vector<int> parent_;
+};
 
 }  // namespace pbs

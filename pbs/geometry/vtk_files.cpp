@@ -140,11 +140,13 @@ void require_length(const std::string& path, const std::string& field, Eigen::In
         throw InputError(path, 0, field, std::to_string(length), "expected " + std::to_string(expected) + " entries, one each");
 }
 
-vtkSmartPointer<vtkDoubleArray> vectors_of(const std::string& name, const Positions& values)
+// A tuple for each row: Positions or a vector.
+template <typename Values>
+vtkSmartPointer<vtkDoubleArray> array_of(const std::string& name, const Values& values)
 {
     auto array = vtkSmartPointer<vtkDoubleArray>::New();
     array->SetName(name.c_str());
-    array->SetNumberOfComponents(3);
+    array->SetNumberOfComponents(Values::ColsAtCompileTime);
     array->SetNumberOfTuples(values.rows());
     std::copy(values.data(), values.data() + values.size(), array->GetPointer(0));
     return array;
@@ -154,7 +156,7 @@ vtkSmartPointer<vtkPoints> points_of(const Positions& positions)
 {
     auto points = vtkSmartPointer<vtkPoints>::New();
     points->SetDataTypeToDouble();
-    points->SetData(vectors_of("points", positions));
+    points->SetData(array_of("points", positions));
     return points;
 }
 
@@ -173,7 +175,7 @@ void add_fields(const std::string& path, const FrameFields& fields, vtkUnstructu
 {
     for (const auto& [name, values] : fields.point_vectors) {
         require_length(path, name, values.rows(), grid.GetNumberOfPoints());
-        grid.GetPointData()->AddArray(vectors_of(name, values));
+        grid.GetPointData()->AddArray(array_of(name, values));
     }
     for (const auto& [name, flags] : fields.point_flags) {
         require_length(path, name, static_cast<Eigen::Index>(flags.size()), grid.GetNumberOfPoints());
@@ -185,11 +187,7 @@ void add_fields(const std::string& path, const FrameFields& fields, vtkUnstructu
     }
     for (const auto& [name, values] : fields.cell_scalars) {
         require_length(path, name, values.size(), grid.GetNumberOfCells());
-        vtkNew<vtkDoubleArray> array;
-        array->SetName(name.c_str());
-        array->SetNumberOfTuples(values.size());
-        std::copy(values.data(), values.data() + values.size(), array->GetPointer(0));
-        grid.GetCellData()->AddArray(array);
+        grid.GetCellData()->AddArray(array_of(name, values));
     }
 }
 

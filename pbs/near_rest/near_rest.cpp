@@ -54,6 +54,33 @@ std::vector<bool> all_but(std::vector<bool> held)
     return held;
 }
 
+constexpr double tolerance = 1e-8;
+constexpr double softest = 1e-9;  // where a step draws back less than this share of a displacement, nothing holds the body
+
+// A linear map in place of a matrix, with the two operations that GMRES uses.
+struct LinearMap {
+    Eigen::Index size;
+    std::function<Eigen::VectorXd(const Eigen::VectorXd&)> map;
+
+    Eigen::Index rows() const { return size; }
+    Eigen::VectorXd operator*(const Eigen::VectorXd& x) const { return map(x); }
+};
+
+std::array<Vec3, 1> gradients_at(const Positions& rest, const Positions& bind_point, const BindConstraint<double>& bind)
+{
+    return {gradient<double>(bind, rest.row(bind.vertex), bind_point.row(bind.vertex))};
+}
+
+std::array<Vec3, 2> gradients_at(const Positions& rest, const Positions&, const StretchConstraint<double>& edge)
+{
+    return gradient<double>(edge, rest.row(edge.vertex[0]), rest.row(edge.vertex[1]));
+}
+
+std::array<Vec3, 4> gradients_at(const Positions& rest, const Positions&, const VolumeConstraint<double>& tet)
+{
+    return volume_gradients(rest, tet.vertex);
+}
+
 }  // namespace
 
 VolumeConstraints::VolumeConstraints(const TetMesh& mesh, const std::vector<bool>& held)
@@ -117,37 +144,6 @@ Sparse VolumeConstraints::shear_stiffness() const
     stiffness.setFromTriplets(entries.begin(), entries.end());
     return stiffness;
 }
-
-namespace {
-
-constexpr double tolerance = 1e-8;
-constexpr double softest = 1e-9;  // where a step draws back less than this share of a displacement, nothing holds the body
-
-// A linear map in place of a matrix, with the two operations that GMRES uses.
-struct LinearMap {
-    Eigen::Index size;
-    std::function<Eigen::VectorXd(const Eigen::VectorXd&)> map;
-
-    Eigen::Index rows() const { return size; }
-    Eigen::VectorXd operator*(const Eigen::VectorXd& x) const { return map(x); }
-};
-
-std::array<Vec3, 1> gradients_at(const Positions& rest, const Positions& bind_point, const BindConstraint<double>& bind)
-{
-    return {gradient<double>(bind, rest.row(bind.vertex), bind_point.row(bind.vertex))};
-}
-
-std::array<Vec3, 2> gradients_at(const Positions& rest, const Positions&, const StretchConstraint<double>& edge)
-{
-    return gradient<double>(edge, rest.row(edge.vertex[0]), rest.row(edge.vertex[1]));
-}
-
-std::array<Vec3, 4> gradients_at(const Positions& rest, const Positions&, const VolumeConstraint<double>& tet)
-{
-    return volume_gradients(rest, tet.vertex);
-}
-
-}  // namespace
 
 StepNearRest::StepNearRest(const Positions& rest, const Positions& bind_point, int iterations, double step_s, bool forgets_multipliers)
     : rest_(rest), bind_point_(bind_point), iterations_(iterations), step_s_(step_s), forgets_(forgets_multipliers)

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <type_traits>
+#include <utility>
 
 namespace pbs {
 
@@ -16,45 +17,35 @@ inline constexpr int batch_size = 16;
 // edge.
 enum class GroupKind { edge, edge_wedge, edge_triangle, edge_tet, tet, tet_fan_2, tet_fan_3 };
 
-// The vertices of a group that each of its constraints joins.
+// Of each constraint of a group, the vertices within the group that it joins.
 template <GroupKind kind>
-struct GroupShape;
+inline constexpr std::array<std::array<int, 0>, 0> joins_of = {};
+template <>
+inline constexpr std::array<std::array<int, 2>, 1> joins_of<GroupKind::edge>{{{0, 1}}};
+template <>
+inline constexpr std::array<std::array<int, 2>, 2> joins_of<GroupKind::edge_wedge>{{{0, 1}, {1, 2}}};
+template <>
+inline constexpr std::array<std::array<int, 2>, 3> joins_of<GroupKind::edge_triangle>{{{0, 1}, {1, 2}, {2, 0}}};
+template <>  // opposite edges one after the other
+inline constexpr std::array<std::array<int, 2>, 6> joins_of<GroupKind::edge_tet>{{{0, 1}, {2, 3}, {0, 2}, {1, 3}, {0, 3}, {1, 2}}};
+template <>
+inline constexpr std::array<std::array<int, 4>, 1> joins_of<GroupKind::tet>{{{0, 1, 2, 3}}};
+template <>  // round the edge 0, 1
+inline constexpr std::array<std::array<int, 4>, 2> joins_of<GroupKind::tet_fan_2>{{{0, 1, 2, 3}, {0, 1, 3, 4}}};
+template <>
+inline constexpr std::array<std::array<int, 4>, 3> joins_of<GroupKind::tet_fan_3>{{{0, 1, 2, 3}, {0, 1, 3, 4}, {0, 1, 4, 5}}};
 
-// vertices and constraints: how many; joins: of each constraint, its vertices within the group.
-template <>
-struct GroupShape<GroupKind::edge> {
-    static constexpr int vertices = 2, constraints = 1;
-    static constexpr std::array<std::array<int, 2>, 1> joins{{{0, 1}}};
-};
-template <>
-struct GroupShape<GroupKind::edge_wedge> {
-    static constexpr int vertices = 3, constraints = 2;
-    static constexpr std::array<std::array<int, 2>, 2> joins{{{0, 1}, {1, 2}}};
-};
-template <>
-struct GroupShape<GroupKind::edge_triangle> {
-    static constexpr int vertices = 3, constraints = 3;
-    static constexpr std::array<std::array<int, 2>, 3> joins{{{0, 1}, {1, 2}, {2, 0}}};
-};
-template <>
-struct GroupShape<GroupKind::edge_tet> {  // opposite edges one after the other
-    static constexpr int vertices = 4, constraints = 6;
-    static constexpr std::array<std::array<int, 2>, 6> joins{{{0, 1}, {2, 3}, {0, 2}, {1, 3}, {0, 3}, {1, 2}}};
-};
-template <>
-struct GroupShape<GroupKind::tet> {
-    static constexpr int vertices = 4, constraints = 1;
-    static constexpr std::array<std::array<int, 4>, 1> joins{{{0, 1, 2, 3}}};
-};
-template <>
-struct GroupShape<GroupKind::tet_fan_2> {  // round the edge 0, 1
-    static constexpr int vertices = 5, constraints = 2;
-    static constexpr std::array<std::array<int, 4>, 2> joins{{{0, 1, 2, 3}, {0, 1, 3, 4}}};
-};
-template <>
-struct GroupShape<GroupKind::tet_fan_3> {
-    static constexpr int vertices = 6, constraints = 3;
-    static constexpr std::array<std::array<int, 4>, 3> joins{{{0, 1, 2, 3}, {0, 1, 3, 4}, {0, 1, 4, 5}}};
+// vertices and constraints: how many.
+template <GroupKind kind>
+struct GroupShape {
+    static constexpr auto joins = joins_of<kind>;
+    static constexpr int constraints = static_cast<int>(joins.size());
+    static constexpr int vertices = [] {
+        int last = 0;
+        for (const auto& join : joins)
+            for (const int vertex : join) last = vertex > last ? vertex : last;
+        return last + 1;
+    }();
 };
 
 // True for stretch constraints, false for volume constraints.
@@ -78,27 +69,13 @@ struct alignas(64) BindBatch {
     Scalar stiffness[batch_size];                        // zero where the vertex is pinned or has no bind constraint
 };
 
-// Calls f with a std::integral_constant of the kind.
-template <typename F>
+// Calls f with a std::integral_constant of the kind, which is `first` or a later one.
+template <typename F, GroupKind first = GroupKind::edge>
 constexpr decltype(auto) with_kind(GroupKind kind, F&& f)
 {
-    switch (kind) {
-        case GroupKind::edge:
-            return f(std::integral_constant<GroupKind, GroupKind::edge>());
-        case GroupKind::edge_wedge:
-            return f(std::integral_constant<GroupKind, GroupKind::edge_wedge>());
-        case GroupKind::edge_triangle:
-            return f(std::integral_constant<GroupKind, GroupKind::edge_triangle>());
-        case GroupKind::edge_tet:
-            return f(std::integral_constant<GroupKind, GroupKind::edge_tet>());
-        case GroupKind::tet:
-            return f(std::integral_constant<GroupKind, GroupKind::tet>());
-        case GroupKind::tet_fan_2:
-            return f(std::integral_constant<GroupKind, GroupKind::tet_fan_2>());
-        case GroupKind::tet_fan_3:
-            break;
-    }
-    return f(std::integral_constant<GroupKind, GroupKind::tet_fan_3>());
+    if constexpr (first != GroupKind::tet_fan_3)
+        if (kind != first) return with_kind<F, static_cast<GroupKind>(static_cast<int>(first) + 1)>(kind, std::forward<F>(f));
+    return f(std::integral_constant<GroupKind, first>());
 }
 
 }  // namespace pbs

@@ -49,6 +49,16 @@ private:
     std::vector<int> taken_by_;  // of each colour, the last group next to which it was found
 };
 
+constexpr int tets_of_cluster = 4096;  // whose vertices stay in the cache from colour to colour
+constexpr int dummies_of_slab = 4 * batch_size;
+
+std::vector<std::array<int, 4>> corners_of(const Tets& tets)
+{
+    std::vector<std::array<int, 4>> corners;
+    for (const auto tet : tets.rowwise()) corners.push_back({tet(0), tet(1), tet(2), tet(3)});
+    return corners;
+}
+
 }  // namespace
 
 std::vector<int> projection_sequence(const std::vector<ConstraintGroup>& groups, int vertices)
@@ -183,20 +193,6 @@ std::vector<SlabClusters> clusters_of_slabs(const std::vector<ConstraintGroup>& 
         }
     return clusters;
 }
-
-namespace {
-
-constexpr int tets_of_cluster = 4096;  // whose vertices stay in the cache from colour to colour
-constexpr int dummies_of_slab = 4 * batch_size;
-
-std::vector<std::array<int, 4>> corners_of(const Tets& tets)
-{
-    std::vector<std::array<int, 4>> corners;
-    for (const auto tet : tets.rowwise()) corners.push_back({tet(0), tet(1), tet(2), tet(3)});
-    return corners;
-}
-
-}  // namespace
 
 TetSlabs::TetSlabs(const Tets& tets, int vertices, int threads)
     : tets_(single_tets(corners_of(tets))),

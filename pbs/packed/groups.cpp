@@ -118,17 +118,6 @@ private:
     std::vector<bool> free_;
 };
 
-}  // namespace
-
-std::vector<ConstraintGroup> grouped_edges(const std::vector<std::array<int, 2>>& edges, const Tets& mesh_tets)
-{
-    return EdgeGrouping(edges, mesh_tets).groups;
-}
-
-// Tets in fans round an edge, the largest first; of several, the fan whose members have the fewest free neighbours.
-
-namespace {
-
 using Tet = std::array<int, 4>;
 
 // Neighbour of each tet across the face opposite to each of its corners; -1 on the boundary, #T x 4.
@@ -263,6 +252,13 @@ private:
 };
 
 }  // namespace
+
+std::vector<ConstraintGroup> grouped_edges(const std::vector<std::array<int, 2>>& edges, const Tets& mesh_tets)
+{
+    return EdgeGrouping(edges, mesh_tets).groups;
+}
+
+// Tets in fans round an edge, the largest first; of several, the fan whose members have the fewest free neighbours.
 
 std::vector<ConstraintGroup> grouped_tets(const std::vector<std::array<int, 4>>& tets)
 {

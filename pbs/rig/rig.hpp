@@ -1,6 +1,6 @@
 // A rig as its file defines it (glTF 2.0, FBX, COLLADA): a tree of nodes, meshes with skin weights and inverse bind matrices, animations.
 //   const Rig rig = read_rig("hero.glb");                       // rig_reader.hpp
-//   const auto nodes = node_transforms(rig, nullptr, 0.0);      // rig_pose.hpp
+//   const auto nodes = node_transforms(rig, nullptr, 0.0);      // rigged_body.hpp
 #pragma once
 
 #include "pbs/skinning/weights.hpp"

@@ -1,4 +1,4 @@
-#include "pbs/rig/rig_pose.hpp"
+#include "pbs/rig/rigged_body.hpp"
 
 #include "pbs/geometry/input_error.hpp"
 

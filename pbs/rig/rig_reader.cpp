@@ -158,17 +158,13 @@ Weights SkinWeights::normalised(const std::string& file, const std::string& mesh
         }
         if (!(sum > 0.0)) {
             ++without_weight;
-            skin.bone.push_back(0);
-            skin.weight.push_back(1.0);
+            skin.add(0, 1.0);
         } else {
             other_sums += std::abs(sum - 1.0) > sum_tolerance;
-            for (const JointShare& share : points_[p]) {
-                if (share.weight == 0.0) continue;
-                skin.bone.push_back(share.joint);
-                skin.weight.push_back(share.weight / sum);
-            }
+            for (const JointShare& share : points_[p])
+                if (share.weight != 0.0) skin.add(share.joint, share.weight / sum);
         }
-        skin.first.push_back(static_cast<int>(skin.bone.size()));
+        skin.end_vertex();
     }
     if (without_weight > 0 && without_weight == static_cast<int>(points_.size()))
         throw InputError(file, 0, "mesh " + mesh + ", weights", "0", "expected a point with a weight: the mesh has a skin");

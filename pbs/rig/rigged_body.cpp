@@ -1,7 +1,6 @@
 #include "pbs/rig/rigged_body.hpp"
 
 #include "pbs/geometry/tet_mesh.hpp"
-#include "pbs/rig/rig_pose.hpp"
 
 #include <Eigen/SVD>
 

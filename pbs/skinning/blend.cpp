@@ -47,30 +47,6 @@ DualQuaternion blend(const std::vector<DualQuaternion>& bones, const Weights& we
     return sum;
 }
 
-}  // namespace
-
-void linear_blend_skinning(const Positions& rest, const Weights& weights, const Pose& pose, Positions& posed)
-{
-    posed.resize(rest.rows(), 3);
-    for (int i = 0; i < rest.rows(); ++i) {
-        const Vec3 vertex = rest.row(i);
-        Vec3 sum = Vec3::Zero();
-        for (int entry = weights.first[i]; entry < weights.first[i + 1]; ++entry)
-            sum += weights.weight[entry] * (pose[weights.bone[entry]] * vertex);  // Eq. 1
-        posed.row(i) = sum;
-    }
-}
-
-void dual_quaternion_skinning(const Positions& rest, const Weights& weights, const Pose& pose, Positions& posed)
-{
-    std::vector<DualQuaternion> bones;
-    for (const Eigen::Isometry3d& transform : pose) bones.push_back(dual_quaternion_of(transform));
-    posed.resize(rest.rows(), 3);
-    for (int i = 0; i < rest.rows(); ++i) posed.row(i) = transform_point(blend(bones, weights, i), rest.row(i));
-}
-
-namespace {
-
 std::span<const int> bones_of(const Weights& weights, int vertex)
 {
     return {weights.bone.data() + weights.first[vertex], weights.bone.data() + weights.first[vertex + 1]};
@@ -85,12 +61,9 @@ Weights without_zeros(const Weights& weights)
 {
     Weights kept{{0}, {}, {}};
     for (int vertex = 0; vertex < weights.vertices(); ++vertex) {
-        for (int entry = weights.first[vertex]; entry < weights.first[vertex + 1]; ++entry) {
-            if (weights.weight[entry] == 0.0) continue;
-            kept.bone.push_back(weights.bone[entry]);
-            kept.weight.push_back(weights.weight[entry]);
-        }
-        kept.first.push_back(static_cast<int>(kept.bone.size()));
+        for (int entry = weights.first[vertex]; entry < weights.first[vertex + 1]; ++entry)
+            if (weights.weight[entry] != 0.0) kept.add(weights.bone[entry], weights.weight[entry]);
+        kept.end_vertex();
     }
     return kept;
 }
@@ -185,30 +158,6 @@ void cut_into_stretches(PackedWeights<Scalar>& packed)
     }
 }
 
-}  // namespace
-
-template <class Scalar>
-PackedWeights<Scalar> pack_weights(const Weights& all_weights)
-{
-    const Weights weights = without_zeros(all_weights);
-    PackedWeights<Scalar> packed;
-    packed.bones = weights.bone.empty() ? 0 : 1 + *std::ranges::max_element(weights.bone);
-    packed.matrix.assign(weights.vertices(), -1);
-    for (int vertex = 0; vertex < weights.vertices(); ++vertex)
-        if (is_rigid(weights, vertex)) packed.matrix[vertex] = weights.bone[weights.first[vertex]];
-    RowWriter<Scalar> writer(weights, packed);
-    share_rows(weights, writer, packed);
-    for (int vertex = 0; vertex < weights.vertices(); ++vertex)
-        if (packed.matrix[vertex] < 0) writer.append(packed.own, vertex);
-    cut_into_stretches(packed);
-    return packed;
-}
-
-template PackedWeights<float> pack_weights(const Weights&);
-template PackedWeights<double> pack_weights(const Weights&);
-
-namespace {
-
 template <class Scalar>
 BlendRows<Scalar> raw(const WeightRows<Scalar>& rows, const std::vector<int>& transform)
 {
@@ -241,6 +190,46 @@ void move_points(const PackedWeights<Scalar>& packed, const PaddedMatrix<Scalar>
 }
 
 }  // namespace
+
+void linear_blend_skinning(const Positions& rest, const Weights& weights, const Pose& pose, Positions& posed)
+{
+    posed.resize(rest.rows(), 3);
+    for (int i = 0; i < rest.rows(); ++i) {
+        const Vec3 vertex = rest.row(i);
+        Vec3 sum = Vec3::Zero();
+        for (int entry = weights.first[i]; entry < weights.first[i + 1]; ++entry)
+            sum += weights.weight[entry] * (pose[weights.bone[entry]] * vertex);  // Eq. 1
+        posed.row(i) = sum;
+    }
+}
+
+void dual_quaternion_skinning(const Positions& rest, const Weights& weights, const Pose& pose, Positions& posed)
+{
+    std::vector<DualQuaternion> bones;
+    for (const Eigen::Isometry3d& transform : pose) bones.push_back(dual_quaternion_of(transform));
+    posed.resize(rest.rows(), 3);
+    for (int i = 0; i < rest.rows(); ++i) posed.row(i) = transform_point(blend(bones, weights, i), rest.row(i));
+}
+
+template <class Scalar>
+PackedWeights<Scalar> pack_weights(const Weights& all_weights)
+{
+    const Weights weights = without_zeros(all_weights);
+    PackedWeights<Scalar> packed;
+    packed.bones = weights.bone.empty() ? 0 : 1 + *std::ranges::max_element(weights.bone);
+    packed.matrix.assign(weights.vertices(), -1);
+    for (int vertex = 0; vertex < weights.vertices(); ++vertex)
+        if (is_rigid(weights, vertex)) packed.matrix[vertex] = weights.bone[weights.first[vertex]];
+    RowWriter<Scalar> writer(weights, packed);
+    share_rows(weights, writer, packed);
+    for (int vertex = 0; vertex < weights.vertices(); ++vertex)
+        if (packed.matrix[vertex] < 0) writer.append(packed.own, vertex);
+    cut_into_stretches(packed);
+    return packed;
+}
+
+template PackedWeights<float> pack_weights(const Weights&);
+template PackedWeights<double> pack_weights(const Weights&);
 
 Vec3 middle_of_box(const Positions& points)
 {

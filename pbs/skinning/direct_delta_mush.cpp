@@ -134,6 +134,21 @@ DirectDeltaMush::Moments centred(const RawMoments& raw, double scale, const Vec3
     return result;
 }
 
+template <class Scalar>
+BoneMoments<Scalar> packed(const DirectDeltaMush::Moments& of, double alpha)
+{
+    BoneMoments<Scalar> result = {};
+    int entry = 0;
+    for (int a = 0; a < 3; ++a) {
+        result.first[a] = static_cast<Scalar>(of.first(a));
+        result.share[a] = static_cast<Scalar>((1.0 - alpha) * of.first(a));
+        for (int b = a; b < 3; ++b) result.second[entry++] = static_cast<Scalar>(of.second(a, b));
+    }
+    result.weight = static_cast<Scalar>(of.weight);
+    result.bone = of.bone;
+    return result;
+}
+
 }  // namespace
 
 DirectDeltaMush::DirectDeltaMush(const TetMesh& mesh, const Weights& weights, const DirectDeltaMushOptions& options) : options_(options)
@@ -177,25 +192,6 @@ void DirectDeltaMush::apply(const Pose& pose, Positions& posed) const
         posed.row(v) = (q + nearest_rotation(covariance) * detail_.row(v).transpose()).transpose();
     }
 }
-
-namespace {
-
-template <class Scalar>
-BoneMoments<Scalar> packed(const DirectDeltaMush::Moments& of, double alpha)
-{
-    BoneMoments<Scalar> result = {};
-    int entry = 0;
-    for (int a = 0; a < 3; ++a) {
-        result.first[a] = static_cast<Scalar>(of.first(a));
-        result.share[a] = static_cast<Scalar>((1.0 - alpha) * of.first(a));
-        for (int b = a; b < 3; ++b) result.second[entry++] = static_cast<Scalar>(of.second(a, b));
-    }
-    result.weight = static_cast<Scalar>(of.weight);
-    result.bone = of.bone;
-    return result;
-}
-
-}  // namespace
 
 template <class Scalar>
 PackedDirectMush<Scalar>::PackedDirectMush(const TetMesh& mesh, const Weights& weights, const DirectDeltaMushOptions& options)

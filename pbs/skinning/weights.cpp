@@ -26,6 +26,46 @@ Projection project_on_bone(const Vec3& vertex, const Bone& bone)
     return {parameter, point, (vertex - point).norm()};
 }
 
+void append_vertex(Weights& weights, const std::vector<int>& bones)
+{
+    for (const int bone : bones) weights.add(bone, 1.0 / bones.size());
+    weights.end_vertex();
+}
+
+constexpr double negligible = 1e-6;
+constexpr double regular = 1e-9;  // keeps the system of a part that nothing grips from being singular; its weights become 0
+
+using Laplacian = Eigen::SparseMatrix<double>;
+
+// The rows of known vertices are those of the identity; their couplings go to the right-hand side.
+Laplacian held_laplacian(const TetMesh& mesh, const std::vector<bool>& known, const Eigen::MatrixXd& weights,
+                         Eigen::MatrixXd& right_hand_sides)
+{
+    std::vector<Eigen::Triplet<double>> entries;
+    for (std::size_t v = 0; v < known.size(); ++v) {
+        if (!known[v]) continue;
+        entries.emplace_back(v, v, 1.0);
+        right_hand_sides.row(static_cast<Eigen::Index>(v)) = weights.row(static_cast<Eigen::Index>(v));
+    }
+    for (Eigen::Index tet = 0; tet < mesh.tets.rows(); ++tet) {
+        double volume_m3 = 0.0;
+        const Eigen::Matrix<double, 3, 4> gradients = barycentric_gradients(mesh, tet, &volume_m3);
+        for (int a = 0; a < 4; ++a)
+            for (int b = 0; b < 4; ++b) {
+                const int row = mesh.tets(tet, a), column = mesh.tets(tet, b);
+                if (known[row]) continue;
+                const double entry = volume_m3 * gradients.col(a).dot(gradients.col(b));
+                if (known[column])
+                    right_hand_sides.row(row) -= entry * weights.row(column);
+                else
+                    entries.emplace_back(row, column, row == column ? (1.0 + regular) * entry : entry);
+            }
+    }
+    Laplacian laplacian(mesh.rest.rows(), mesh.rest.rows());
+    laplacian.setFromTriplets(entries.begin(), entries.end());
+    return laplacian;
+}
+
 }  // namespace
 
 BoneBinding bind_to_nearest_bone(const Positions& rest, const Skeleton& skeleton)
@@ -69,19 +109,6 @@ Positions reprojected_bind_points(const BoneBinding& binding, const Skeleton& sk
     }
     return points;
 }
-
-namespace {
-
-void append_vertex(Weights& weights, const std::vector<int>& bones)
-{
-    for (const int bone : bones) {
-        weights.bone.push_back(bone);
-        weights.weight.push_back(1.0 / bones.size());
-    }
-    weights.first.push_back(static_cast<int>(weights.bone.size()));
-}
-
-}  // namespace
 
 Weights paper_weights(const BoneBinding& binding, const Skeleton& skeleton)
 {
@@ -132,72 +159,15 @@ Weights rigid_weights(const BoneBinding& binding)
     return weights;
 }
 
-namespace {
-
-constexpr double negligible = 1e-6;
-constexpr double regular = 1e-9;  // keeps the system of a part that nothing grips from being singular; its weights become 0
-
-using Laplacian = Eigen::SparseMatrix<double>;
-using Gradients = Eigen::Matrix<double, 3, 4>;
-
-// Gradients of the four barycentric coordinates [1/m], one per column, and the tet's volume [m^3].
-Gradients barycentric_gradients(const TetMesh& mesh, Eigen::Index tet, double& volume_m3)
-{
-    Eigen::Matrix3d edges;
-    for (int k = 0; k < 3; ++k) edges.row(k) = mesh.rest.row(mesh.tets(tet, k + 1)) - mesh.rest.row(mesh.tets(tet, 0));
-    volume_m3 = edges.determinant() / 6.0;
-    Gradients gradients;
-    gradients.rightCols<3>() = edges.inverse();
-    gradients.col(0) = -gradients.rightCols<3>().rowwise().sum();
-    return gradients;
-}
-
-// The rows of known vertices are those of the identity; their couplings go to the right-hand side.
-Laplacian held_laplacian(const TetMesh& mesh, const std::vector<bool>& known, const Eigen::MatrixXd& weights,
-                         Eigen::MatrixXd& right_hand_sides)
-{
-    std::vector<Eigen::Triplet<double>> entries;
-    for (std::size_t v = 0; v < known.size(); ++v) {
-        if (!known[v]) continue;
-        entries.emplace_back(v, v, 1.0);
-        right_hand_sides.row(static_cast<Eigen::Index>(v)) = weights.row(static_cast<Eigen::Index>(v));
-    }
-    for (Eigen::Index tet = 0; tet < mesh.tets.rows(); ++tet) {
-        double volume_m3 = 0.0;
-        const Gradients gradients = barycentric_gradients(mesh, tet, volume_m3);
-        for (int a = 0; a < 4; ++a)
-            for (int b = 0; b < 4; ++b) {
-                const int row = mesh.tets(tet, a), column = mesh.tets(tet, b);
-                if (known[row]) continue;
-                const double entry = volume_m3 * gradients.col(a).dot(gradients.col(b));
-                if (known[column])
-                    right_hand_sides.row(row) -= entry * weights.row(column);
-                else
-                    entries.emplace_back(row, column, row == column ? (1.0 + regular) * entry : entry);
-            }
-    }
-    Laplacian laplacian(mesh.rest.rows(), mesh.rest.rows());
-    laplacian.setFromTriplets(entries.begin(), entries.end());
-    return laplacian;
-}
-
-}  // namespace
-
 Weights sparse_weights(const Eigen::MatrixXd& dense, double negligible, const Weights& otherwise)
 {
     Weights result{{0}, {}, {}};
     for (Eigen::Index v = 0; v < dense.rows(); ++v) {
         const double sum = (dense.row(v).array() > negligible).select(dense.row(v), 0.0).sum();
-        for (int j = 0; j < dense.cols(); ++j) {
-            if (!(dense(v, j) > negligible)) continue;
-            result.bone.push_back(j);
-            result.weight.push_back(dense(v, j) / sum);
-        }
-        for (int k = otherwise.first[v]; sum == 0.0 && k < otherwise.first[v + 1]; ++k) {
-            result.bone.push_back(otherwise.bone[k]);
-            result.weight.push_back(otherwise.weight[k]);
-        }
-        result.first.push_back(static_cast<int>(result.bone.size()));
+        for (int j = 0; j < dense.cols(); ++j)
+            if (dense(v, j) > negligible) result.add(j, dense(v, j) / sum);
+        for (int k = otherwise.first[v]; sum == 0.0 && k < otherwise.first[v + 1]; ++k) result.add(otherwise.bone[k], otherwise.weight[k]);
+        result.end_vertex();
     }
     return result;
 }

@@ -36,6 +36,9 @@ struct Weights {
 
     int vertices() const { return static_cast<int>(first.size()) - 1; }               // #V; -1 of default-made weights
     bool blended(int vertex) const { return first[vertex + 1] - first[vertex] > 1; }  // between two bones or more
+    // Appends an entry to the vertex behind the last one, and ends that vertex.
+    void add(int of_bone, double of_weight) { bone.push_back(of_bone), weight.push_back(of_weight); }
+    void end_vertex() { first.push_back(static_cast<int>(bone.size())); }
 };
 
 // `binding` must belong to this skeleton (unchecked); it determines #V and the order of the vertices.

@@ -44,26 +44,6 @@ void check_volume_of(const PbsOptions& options)
         throw InputError("pbs", 0, "volume_of", of, "expected tets with a volume_form other than derived");
 }
 
-}  // namespace
-
-void check_options(const PbsOptions& options)
-{
-    require(options.iterations >= 0, "iterations", options.iterations, "expected 0 or more");
-    check_stiffness("k_stretch", options.k_stretch);
-    check_stiffness("k_volume", options.k_volume);
-    check_stiffness("k_bind", options.k_bind);
-    if (options.jiggle) check_stiffness("jiggle.k_stretch", options.jiggle->k_stretch);
-    if (options.jiggle && options.jiggle->k_bind) check_stiffness("jiggle.k_bind", *options.jiggle->k_bind);
-    require(options.stop_residual >= 0.0, "stop_residual", options.stop_residual, "expected 0 or more");
-    require(options.threads >= 1, "threads", options.threads, "expected 1 or more");
-    require(options.sleep_tolerance >= 0.0, "sleep_tolerance", options.sleep_tolerance, "expected 0 or more");
-    require(options.k_stretch_length_m >= 0.0 && std::isfinite(options.k_stretch_length_m), "k_stretch_length_m",
-            options.k_stretch_length_m, "expected 0 or more, finite");
-    check_volume_of(options);
-}
-
-namespace {
-
 void check_mesh(const TetMesh& mesh, const Eigen::VectorXd& bind_distance, const std::vector<bool>& jiggle_zone,
                 const std::vector<bool>& held)
 {
@@ -166,6 +146,22 @@ std::vector<Scalar> inverse_masses(const TetMesh& mesh, Masses masses, const std
 }
 
 }  // namespace
+
+void check_options(const PbsOptions& options)
+{
+    require(options.iterations >= 0, "iterations", options.iterations, "expected 0 or more");
+    check_stiffness("k_stretch", options.k_stretch);
+    check_stiffness("k_volume", options.k_volume);
+    check_stiffness("k_bind", options.k_bind);
+    if (options.jiggle) check_stiffness("jiggle.k_stretch", options.jiggle->k_stretch);
+    if (options.jiggle && options.jiggle->k_bind) check_stiffness("jiggle.k_bind", *options.jiggle->k_bind);
+    require(options.stop_residual >= 0.0, "stop_residual", options.stop_residual, "expected 0 or more");
+    require(options.threads >= 1, "threads", options.threads, "expected 1 or more");
+    require(options.sleep_tolerance >= 0.0, "sleep_tolerance", options.sleep_tolerance, "expected 0 or more");
+    require(options.k_stretch_length_m >= 0.0 && std::isfinite(options.k_stretch_length_m), "k_stretch_length_m",
+            options.k_stretch_length_m, "expected 0 or more, finite");
+    check_volume_of(options);
+}
 
 template <typename Scalar>
 ConstraintSet<Scalar> make_constraint_set(const TetMesh& mesh, const Eigen::VectorXd& bind_distance, const std::vector<bool>& jiggle_zone,

@@ -65,21 +65,11 @@ std::array<void (Projection<Scalar>::*)(), 3> classes_in(ClassOrder order)
     const auto bind = &Projection<Scalar>::project_bind_constraints;
     const auto stretch = &Projection<Scalar>::project_stretch_constraints;
     const auto volume = &Projection<Scalar>::project_volume_constraints;
-    switch (order) {
-        case ClassOrder::bind_volume_stretch:
-            return {bind, volume, stretch};
-        case ClassOrder::stretch_bind_volume:
-            return {stretch, bind, volume};
-        case ClassOrder::stretch_volume_bind:
-            return {stretch, volume, bind};
-        case ClassOrder::volume_bind_stretch:
-            return {volume, bind, stretch};
-        case ClassOrder::volume_stretch_bind:
-            return {volume, stretch, bind};
-        case ClassOrder::bind_stretch_volume:
-            break;
-    }
-    return {bind, stretch, volume};
+    // In the order of ClassOrder.
+    const std::array<void (Projection<Scalar>::*)(), 3> in_order[] = {{bind, stretch, volume}, {bind, volume, stretch},
+                                                                      {stretch, bind, volume}, {stretch, volume, bind},
+                                                                      {volume, bind, stretch}, {volume, stretch, bind}};
+    return in_order[static_cast<int>(order)];
 }
 
 // Any projection with its classes in another order: lines 11, 12 and 13 of Algorithm 1, whose names the three calls have, then project the

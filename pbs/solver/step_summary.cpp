@@ -9,15 +9,8 @@ namespace pbs {
 
 const char* to_string(Outcome outcome)
 {
-    switch (outcome) {
-        case Outcome::finished:
-            return "finished";
-        case Outcome::not_finite:
-            return "not_finite";
-        case Outcome::not_converged:
-            return "not_converged";
-    }
-    return "unknown";
+    constexpr const char* names[] = {"finished", "not_finite", "not_converged"};  // in the order of Outcome
+    return names[static_cast<int>(outcome)];
 }
 
 namespace {
@@ -32,6 +25,11 @@ double rms(const Constraints& constraints, Error error)
         sum += e * e;
     }
     return constraints.empty() ? 0.0 : std::sqrt(sum / constraints.size());
+}
+
+int severity(Outcome outcome)
+{
+    return outcome == Outcome::finished ? 0 : outcome == Outcome::not_converged ? 1 : 2;
 }
 
 }  // namespace
@@ -66,15 +64,6 @@ double largest(const Residuals& residuals)
 
 template Residuals residuals_of(const ConstraintSet<float>&, const std::vector<Vector3<float>>&, const std::vector<Vector3<float>>&);
 template Residuals residuals_of(const ConstraintSet<double>&, const std::vector<Vector3<double>>&, const std::vector<Vector3<double>>&);
-
-namespace {
-
-int severity(Outcome outcome)
-{
-    return outcome == Outcome::finished ? 0 : outcome == Outcome::not_converged ? 1 : 2;
-}
-
-}  // namespace
 
 void FrameStep::add(StepSummary summary, std::size_t step)
 {

@@ -96,49 +96,6 @@ std::map<std::pair<int, int>, double> edge_volumes(const Tets& tets, const Eigen
     return volumes;
 }
 
-}  // namespace
-
-XpbdConstraints make_xpbd_constraints(const TetMesh& mesh, const Eigen::VectorXd& bind_distance, const XpbdOptions& options,
-                                      const std::vector<bool>& held)
-{
-    if (!(options.poisson >= 0.25 && options.poisson < 0.5))
-        throw InputError("xpbd", 0, "poisson", std::to_string(options.poisson), "expected 1/4 <= poisson < 1/2");
-    const double mu = options.young_pa / (2.0 * (1.0 + options.poisson));
-    const double missing_bulk = options.young_pa / (3.0 * (1.0 - 2.0 * options.poisson)) - 5.0 / 3.0 * mu;
-    const Eigen::VectorXd volumes = tet_volumes(mesh.rest, mesh.tets), lumped = lumped_volumes(mesh.rest, mesh.tets);
-
-    XpbdConstraints constraints;
-    for (Eigen::Index i = 0; i < lumped.size(); ++i) {
-        const bool is_held = !held.empty() && held[i];
-        constraints.inverse_mass.push_back(is_held || !(lumped(i) > 0.0) ? 0.0 : 1.0 / (options.density_kg_m3 * lumped(i)));
-    }
-    for (Eigen::Index i = 0; i < bind_distance.size(); ++i) constraints.bind.push_back({{static_cast<int>(i), bind_distance(i), 1.0}});
-    for (const auto& [edge, volume] : edge_volumes(mesh.tets, volumes)) {
-        const double length = (mesh.rest.row(edge.first) - mesh.rest.row(edge.second)).norm();
-        constraints.stretch.push_back({{{edge.first, edge.second}, length, 1.0}, length * length / (15.0 * mu * volume)});
-    }
-    for (Eigen::Index t = 0; t < mesh.tets.rows() && missing_bulk > 0.0; ++t)
-        constraints.volume.push_back(
-            {{{mesh.tets(t, 0), mesh.tets(t, 1), mesh.tets(t, 2), mesh.tets(t, 3)}, volumes(t), 1.0}, volumes(t) / missing_bulk});
-    return constraints;
-}
-
-template <typename Scalar>
-BatchedConstraints<Scalar> make_batched_constraints(const XpbdConstraints& constraints, const Tets& tets, Order order)
-{
-    ConstraintClassData<Scalar, 2> stretch;
-    for (const auto& [edge, compliance] : constraints.stretch) stretch.add(edge.vertex, Scalar(edge.rest_length), Scalar(1.0 / compliance));
-    ConstraintClassData<Scalar, 4> volume;
-    for (const auto& [tet, compliance] : constraints.volume)
-        volume.add(tet.vertex, Scalar(6.0 * tet.rest_volume), Scalar(1.0 / (36.0 * compliance)));
-    return make_batched_constraints(stretch, volume, static_cast<int>(constraints.inverse_mass.size()), tets, order);
-}
-
-template BatchedConstraints<float> make_batched_constraints(const XpbdConstraints&, const Tets&, Order);
-template BatchedConstraints<double> make_batched_constraints(const XpbdConstraints&, const Tets&, Order);
-
-namespace {
-
 // Order `plain`: one constraint after the other in the order given. The packed orders are tested against it.
 template <typename Scalar>
 class PlainXpbdProjection : public XpbdProjection {
@@ -318,6 +275,45 @@ std::unique_ptr<XpbdProjection> in_precision(const XpbdConstraints& constraints,
 }
 
 }  // namespace
+
+XpbdConstraints make_xpbd_constraints(const TetMesh& mesh, const Eigen::VectorXd& bind_distance, const XpbdOptions& options,
+                                      const std::vector<bool>& held)
+{
+    if (!(options.poisson >= 0.25 && options.poisson < 0.5))
+        throw InputError("xpbd", 0, "poisson", std::to_string(options.poisson), "expected 1/4 <= poisson < 1/2");
+    const double mu = options.young_pa / (2.0 * (1.0 + options.poisson));
+    const double missing_bulk = options.young_pa / (3.0 * (1.0 - 2.0 * options.poisson)) - 5.0 / 3.0 * mu;
+    const Eigen::VectorXd volumes = tet_volumes(mesh.rest, mesh.tets), lumped = lumped_volumes(mesh.rest, mesh.tets);
+
+    XpbdConstraints constraints;
+    for (Eigen::Index i = 0; i < lumped.size(); ++i) {
+        const bool is_held = !held.empty() && held[i];
+        constraints.inverse_mass.push_back(is_held || !(lumped(i) > 0.0) ? 0.0 : 1.0 / (options.density_kg_m3 * lumped(i)));
+    }
+    for (Eigen::Index i = 0; i < bind_distance.size(); ++i) constraints.bind.push_back({{static_cast<int>(i), bind_distance(i), 1.0}});
+    for (const auto& [edge, volume] : edge_volumes(mesh.tets, volumes)) {
+        const double length = (mesh.rest.row(edge.first) - mesh.rest.row(edge.second)).norm();
+        constraints.stretch.push_back({{{edge.first, edge.second}, length, 1.0}, length * length / (15.0 * mu * volume)});
+    }
+    for (Eigen::Index t = 0; t < mesh.tets.rows() && missing_bulk > 0.0; ++t)
+        constraints.volume.push_back(
+            {{{mesh.tets(t, 0), mesh.tets(t, 1), mesh.tets(t, 2), mesh.tets(t, 3)}, volumes(t), 1.0}, volumes(t) / missing_bulk});
+    return constraints;
+}
+
+template <typename Scalar>
+BatchedConstraints<Scalar> make_batched_constraints(const XpbdConstraints& constraints, const Tets& tets, Order order)
+{
+    ConstraintClassData<Scalar, 2> stretch;
+    for (const auto& [edge, compliance] : constraints.stretch) stretch.add(edge.vertex, Scalar(edge.rest_length), Scalar(1.0 / compliance));
+    ConstraintClassData<Scalar, 4> volume;
+    for (const auto& [tet, compliance] : constraints.volume)
+        volume.add(tet.vertex, Scalar(6.0 * tet.rest_volume), Scalar(1.0 / (36.0 * compliance)));
+    return make_batched_constraints(stretch, volume, static_cast<int>(constraints.inverse_mass.size()), tets, order);
+}
+
+template BatchedConstraints<float> make_batched_constraints(const XpbdConstraints&, const Tets&, Order);
+template BatchedConstraints<double> make_batched_constraints(const XpbdConstraints&, const Tets&, Order);
 
 std::unique_ptr<XpbdProjection> make_xpbd_projection(const XpbdConstraints& constraints, const Tets& tets, const XpbdOptions& options)
 {

@@ -3,7 +3,7 @@
 
 #include "experiments/deformers/deformer.hpp"
 #include "experiments/deformers/fem/bone_attachment.hpp"
-#include "pbs/skinning/pose_path.hpp"
+#include "pbs/skinning/pose.hpp"
 #include "reference_fem/elastic_body.hpp"
 #include "reference_fem/linear_elasticity.hpp"
 

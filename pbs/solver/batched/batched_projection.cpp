@@ -68,6 +68,19 @@ double length(Scalar x, Scalar y, Scalar z)
     return std::sqrt(double(x * x + y * y + z * z));
 }
 
+double position_bytes(const ProjectionLayout& layout)
+{
+    return (layout.poses == 1 ? 4.0 : 3.0) * layout.scalar_bytes;
+}
+
+// The constraints' own data, shared by all poses.
+double data_bytes(const ProjectionLayout& layout, const BodySize& size)
+{
+    const auto bytes = [&](double indices, double scalars) { return 4.0 * indices + scalars * layout.scalar_bytes; };
+    if (layout.poses == 1) return size.edges * bytes(2, 2) + size.tets * bytes(4, 2) + size.vertices * bytes(0, 2);
+    return size.edges * bytes(3, 4) + size.tets * bytes(5, 5) + size.vertices * bytes(0, 2);
+}
+
 }  // namespace
 
 template <typename Scalar>
@@ -211,23 +224,6 @@ double BatchedProjection<Scalar>::sleeping_share() const
 
 template class BatchedProjection<float>;
 template class BatchedProjection<double>;
-
-namespace {
-
-double position_bytes(const ProjectionLayout& layout)
-{
-    return (layout.poses == 1 ? 4.0 : 3.0) * layout.scalar_bytes;
-}
-
-// The constraints' own data, shared by all poses.
-double data_bytes(const ProjectionLayout& layout, const BodySize& size)
-{
-    const auto bytes = [&](double indices, double scalars) { return 4.0 * indices + scalars * layout.scalar_bytes; };
-    if (layout.poses == 1) return size.edges * bytes(2, 2) + size.tets * bytes(4, 2) + size.vertices * bytes(0, 2);
-    return size.edges * bytes(3, 4) + size.tets * bytes(5, 5) + size.vertices * bytes(0, 2);
-}
-
-}  // namespace
 
 double bytes_per_iteration(const ProjectionLayout& layout, const BodySize& size)
 {

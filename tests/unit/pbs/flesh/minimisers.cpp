@@ -1,6 +1,6 @@
 // The contract of the methods that minimise an energy of elastic flesh: vertex block descent, L-BFGS, XPBD with neo-Hookean constraints and
 // projective dynamics. References: the necessary conditions of a minimum, computed by the plain energy, and rigid motions.
-#include "pbs/flesh/held_flesh.hpp"
+#include "pbs/flesh/flesh_system.hpp"
 #include "pbs/flesh/projective_dynamics.hpp"
 #include "pbs/flesh/quasi_newton.hpp"
 #include "pbs/flesh/vbd.hpp"

@@ -1,6 +1,6 @@
 // Reference: the energy's own value (descent, gradient), and linear elasticity where strains are small.
 #include "pbs/flesh/flesh_energy.hpp"
-#include "pbs/flesh/held_flesh.hpp"
+#include "pbs/flesh/flesh_system.hpp"
 #include "pbs/flesh/projective_dynamics.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/nearest_rotation.hpp"

@@ -1,7 +1,7 @@
 // Reference: the necessary conditions of a minimum, computed by the plain energy, and the decrease that the line search requires.
 #include "pbs/flesh/quasi_newton.hpp"
 
-#include "pbs/flesh/held_flesh.hpp"
+#include "pbs/flesh/flesh_system.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "tests/support/held_bar.hpp"
 #include "tests/support/weight_sums.hpp"

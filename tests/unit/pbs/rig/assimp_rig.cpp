@@ -2,7 +2,7 @@
 // most 64 roundings of numbers of at most 8 of the files' units.
 
 #include "pbs/rig/assimp_rig.hpp"
-#include "pbs/rig/rig_pose.hpp"
+#include "pbs/rig/rigged_body.hpp"
 #include "tests/support/arm_in_formats.hpp"
 #include "tests/support/rounding_error.hpp"
 #include "tests/support/scratch_folder.hpp"

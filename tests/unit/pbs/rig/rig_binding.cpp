@@ -1,6 +1,5 @@
 // Reference: bind poses of one or two joints, computed by hand. Tolerances: at most 64 roundings of numbers of at most 8.
 
-#include "pbs/rig/rig_pose.hpp"
 #include "pbs/rig/rigged_body.hpp"
 #include "tests/support/rounding_error.hpp"
 #include "tests/support/two_joint_rig.hpp"

@@ -1,7 +1,6 @@
 // Reference: the interpolations of glTF 2.0, Appendix C, and skinned points, computed by hand. Tolerances: at most 64 roundings of numbers
 // of at most 8.
 
-#include "pbs/rig/rig_pose.hpp"
 #include "pbs/rig/rigged_body.hpp"
 #include "tests/support/rounding_error.hpp"
 #include "tests/support/two_joint_rig.hpp"

@@ -1,7 +1,6 @@
 // Reference: the bones, weights and poses of a rig of two joints, by hand. Tolerances: at most 64 roundings of numbers of at most 8; a
 // rotation from a singular value decomposition is in error by some hundred of them.
 
-#include "pbs/rig/rig_pose.hpp"
 #include "pbs/rig/rigged_body.hpp"
 #include "tests/support/rounding_error.hpp"
 #include "tests/support/two_joint_rig.hpp"

@@ -1,7 +1,7 @@
 // Reference: rigid kinematics. A joint is connected if parent and child move it to the same place; slerp rotates at a constant rate.
 // Tolerances: the rounding of motions. A path takes three per joint: that of the pose, its inverse relative to the parent, and slerp.
 
-#include "pbs/skinning/pose_path.hpp"
+#include "pbs/skinning/pose.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/rounding_error.hpp"
 
