@@ -318,16 +318,12 @@ void add_neither(std::vector<analysis::Measurement>& to, const ConvergenceResult
     }
 }
 
-bool on_one_ladder(const PathCase& a, const PathCase& b)
-{
-    return std::tie(a.pose, a.k_stretch, a.order, a.precision) == std::tie(b.pose, b.k_stretch, b.order, b.precision);
-}
-
 // iterations ~ vertices^exponent, over the sizes that reach the tolerance, by order.
 void add_exponents(std::vector<analysis::Measurement>& to, const ConvergenceResult& result)
 {
     for (const ConvergencePaths& first : result.all) {
-        const auto same = [&](const ConvergencePaths& other) { return on_one_ladder(first.of, other.of); };
+        const auto ladder_of = [](const PathCase& of) { return std::tie(of.pose, of.k_stretch, of.order, of.precision); };
+        const auto same = [&](const ConvergencePaths& other) { return ladder_of(other.of) == ladder_of(first.of); };
         if (&*std::find_if(result.all.begin(), result.all.end(), same) != &first) continue;
         for (const Tolerance& tolerance : tolerances) {
             std::vector<double> vertices, iterations;

@@ -3,7 +3,6 @@
 #include "analysis/records/record_files.hpp"
 #include "analysis/statistics/statistics.hpp"
 #include "experiments/deformers/deformer_options.hpp"
-#include "experiments/scene/scene.hpp"
 #include "experiments/settings/recorded_settings.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 
@@ -17,6 +16,7 @@ namespace experiments {
 using analysis::Columns;
 using analysis::DampedOscillation;
 using analysis::Interval;
+using analysis::Measurement;
 using analysis::within;
 
 namespace {
@@ -68,31 +68,24 @@ const Columns<SeriesRow> walk_series_columns = {
     {"lag_rms_m", &SeriesRow::excursion_m, "m", "root mean square distance of the zone from the shape without jiggle"},
     {"speed_rms_m_s", &SeriesRow::speed_rms_m_s, "m/s", "root mean square speed of the zone's vertices"}};
 
-namespace {
-
-const Columns<pbs::BoneInZone> bone_columns = {
-    {"bone", &pbs::BoneInZone::name, "", "name of a bone"},
-    {"share_of_zone", &pbs::BoneInZone::share_of_zone, "", "share of the zone that is bound to it"},
-    {"share_of_bone", &pbs::BoneInZone::share_of_bone, "", "share of the bone's vertices in the zone"}};
-
-const Columns<WalkResponse> lag_columns = {
-    {"moving_lag_rms_mm", &WalkResponse::moving_lag_mm, "mm", "root mean square lag over the motion"},
-    {"most_lag_rms_mm", &WalkResponse::most_lag_mm, "mm", "largest lag of a step of the motion"},
-    {"last_speed_share", &WalkResponse::last_speed_share, "", "speed of the last tenth of the still steps over the motion's mean"},
-    {"finished", &WalkResponse::finished, "", "all positions are finite"}};
-
-}  // namespace
-
 const Columns<ZoneRow> zone_columns =
     Columns<ZoneRow>{{"share_of_vertices", &ZoneRow::share_of_vertices, "", "share of the body's vertices in the jiggling zone"},
                      {"share_on_skin", &ZoneRow::share_on_skin, "", "share of the zone's vertices on the skin"},
                      {"pieces", &ZoneRow::pieces, "", "number of connected pieces of the zone"},
                      {"largest_piece", &ZoneRow::largest_piece, "", "vertices of the largest piece"}} +
-    within(&ZoneRow::bone, bone_columns);
+    within(&ZoneRow::bone,
+           Columns<pbs::BoneInZone>{{"bone", &pbs::BoneInZone::name, "", "name of a bone"},
+                                    {"share_of_zone", &pbs::BoneInZone::share_of_zone, "", "share of the zone that is bound to it"},
+                                    {"share_of_bone", &pbs::BoneInZone::share_of_bone, "", "share of the bone's vertices in the zone"}});
 
 const Columns<WalkRow> walk_columns =
     Columns<WalkRow>{{"k_stretch", &WalkRow::k_stretch, "", "stiffness of the stretch constraints in the zone"}} +
-    within(&WalkRow::response, lag_columns);
+    within(&WalkRow::response,
+           Columns<WalkResponse>{{"moving_lag_rms_mm", &WalkResponse::moving_lag_mm, "mm", "root mean square lag over the motion"},
+                                 {"most_lag_rms_mm", &WalkResponse::most_lag_mm, "mm", "largest lag of a step of the motion"},
+                                 {"last_speed_share", &WalkResponse::last_speed_share, "",
+                                  "speed of the last tenth of the still steps over the motion's mean"},
+                                 {"finished", &WalkResponse::finished, "", "all positions are finite"}});
 
 namespace {
 
@@ -216,9 +209,6 @@ std::string record_walk(const WalkCase& of, const std::string& folder)
 namespace {
 
 constexpr int least_for_correlation = 4;
-
-using analysis::Interval;
-using analysis::Measurement;
 
 Measurement measurement(const std::string& quantity, const analysis::CaseKey& of, const Interval& value, const std::string& unit)
 {

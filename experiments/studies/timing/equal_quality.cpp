@@ -70,18 +70,6 @@ pbs::Tets grid_tets(const pbs::Positions& points)
     return tets;
 }
 
-}  // namespace
-
-pbs::Character tapered_limb()
-{
-    const pbs::Vec3 end(half_length, 0.0, 0.0), middle = pbs::Vec3::Zero();
-    pbs::TetMesh mesh{grid_points(), {}};
-    mesh.tets = grid_tets(mesh.rest);
-    return skinned_along(tapered_name, std::move(mesh), {{{"upper", -1, -end, middle}, {"forearm", 0, middle, end}}});
-}
-
-namespace {
-
 // One order that is measured, and the loops of its timing.
 struct Contender {
     MeasuredOrder measured;
@@ -132,6 +120,14 @@ void append(const EqualQualityCase& of, const pbs::Character& character, pbs::Pb
 }
 
 }  // namespace
+
+pbs::Character tapered_limb()
+{
+    const pbs::Vec3 end(half_length, 0.0, 0.0), middle = pbs::Vec3::Zero();
+    pbs::TetMesh mesh{grid_points(), {}};
+    mesh.tets = grid_tets(mesh.rest);
+    return skinned_along(tapered_name, std::move(mesh), {{{"upper", -1, -end, middle}, {"forearm", 0, middle, end}}});
+}
 
 RECORD_SETTINGS(EqualQualityCase, of, scene, frame, random, most_iterations, rounds)
 

@@ -1,11 +1,8 @@
 #include "experiments/studies/work_precision/compared_deformers.hpp"
 
 #include "experiments/deformers/deformer_options.hpp"
-#include "experiments/deformers/external/external_deformers.hpp"
-#include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/process/child_process.hpp"
-#include "experiments/scene/scene.hpp"
 #include "experiments/settings/recorded_settings.hpp"
 #include "experiments/settings/scene_values.hpp"
 #include "experiments/studies/shared/posed_reference.hpp"
@@ -77,13 +74,6 @@ bool exist(const KeyValues& keys)
 std::string assigned(const std::string& key, double value)
 {
     return fmt::format("{}={:.17g}", key, value);
-}
-
-SceneValues values_with(const ComparedDeformer& entry, const Scene& scene, const KeyValues& keys)
-{
-    std::string text = text_of_scene(scene);
-    if (!entry.weights.empty()) text += fmt::format("\n[[{}]]\nname = \"{}\"\nweights = \"{}\"\n", entry.kind, entry.name, entry.weights);
-    return SceneValues(text, scene.file, keys, scene_schema());
 }
 
 // The names of the reference's row and of the front of all deformers are taken too.
@@ -161,7 +151,9 @@ DeformerSpec spec_with(const ComparedDeformer& entry, const Scene& scene, const 
     if (choice.iterations) keys.push_back(fmt::format("{}={}", entry.iterations_key, *choice.iterations));
     if (!entry.young_key.empty()) keys.push_back(assigned(entry.young_key, choice.change.young_factor * flesh.young_pa));
     if (!entry.poisson_key.empty()) keys.push_back(assigned(entry.poisson_key, flesh.poisson));
-    const SceneValues values = values_with(entry, scene, keys);
+    std::string text = text_of_scene(scene);
+    if (!entry.weights.empty()) text += fmt::format("\n[[{}]]\nname = \"{}\"\nweights = \"{}\"\n", entry.kind, entry.name, entry.weights);
+    const SceneValues values(text, scene.file, keys, scene_schema());
     DeformerSpec spec = default_spec(entry.kind);
     spec.name = spec.label = entry.name;
     const std::string table = entry.weights.empty() ? entry.kind : fmt::format("{}.{}", entry.kind, values.tables(entry.kind) - 1);

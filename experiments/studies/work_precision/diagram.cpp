@@ -8,8 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string>
-#include <vector>
 
 namespace experiments {
 
@@ -226,7 +224,6 @@ const analysis::Columns<DiagramPoint>& measures()
 
 const analysis::Columns<DiagramPoint>& diagram_point_columns()
 {
-    using analysis::Columns;
     static const Columns<DiagramPoint> columns =
         within(&DiagramPoint::key, point_key_columns()) +
         Columns<DiagramPoint>{{"ms_median", &DiagramPoint::ms, "ms", "median of the processor time per frame"}};

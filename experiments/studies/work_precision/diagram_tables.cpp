@@ -71,22 +71,6 @@ const Columns<CrossingRow> crossing_columns =
         {"decision", &CrossingRow::decision, "", std::string("the worst from that time on: ") + decision_meaning},
         {"reason", &CrossingRow::reason, "", "why it is not decided, for readers"}};
 
-}  // namespace
-
-const Columns<BudgetRow> budget_columns =
-    Columns<BudgetRow>{{"comparison", &BudgetRow::comparison, "", comparison_meaning},
-                       {"case", &BudgetRow::diagram, "", "name of the case's run, or of the mean over several"},
-                       {"budget_ms", &BudgetRow::budget_ms, "ms", "time per frame"},
-                       {"rank", &BudgetRow::rank, "", "1: the group that is nearest to the reference within the budget"},
-                       {"group", &BudgetRow::group, "", "key of a group of deformers"}} +
-    within(&BudgetRow::point, diagram_point_columns() + Columns<DiagramPoint>{measures().front()}) +
-    Columns<BudgetRow>{
-        {"decision", &BudgetRow::decision, "", std::string("whether it is nearer than every group of a later rank: ") + decision_meaning},
-        {"undecided_against", &BudgetRow::undecided_against, "", "keys of the groups against which it is undecided"},
-        {"reason", &BudgetRow::reason, "", "why it is not decided, for readers"}};
-
-namespace {
-
 std::optional<double> known(double value)
 {
     return std::isfinite(value) ? std::optional(value) : std::nullopt;
@@ -140,6 +124,18 @@ void add_crossing(std::vector<CrossingRow>& rows, const Diagram& diagram, const 
 }
 
 }  // namespace
+
+const Columns<BudgetRow> budget_columns =
+    Columns<BudgetRow>{{"comparison", &BudgetRow::comparison, "", comparison_meaning},
+                       {"case", &BudgetRow::diagram, "", "name of the case's run, or of the mean over several"},
+                       {"budget_ms", &BudgetRow::budget_ms, "ms", "time per frame"},
+                       {"rank", &BudgetRow::rank, "", "1: the group that is nearest to the reference within the budget"},
+                       {"group", &BudgetRow::group, "", "key of a group of deformers"}} +
+    within(&BudgetRow::point, diagram_point_columns() + Columns<DiagramPoint>{measures().front()}) +
+    Columns<BudgetRow>{
+        {"decision", &BudgetRow::decision, "", std::string("whether it is nearer than every group of a later rank: ") + decision_meaning},
+        {"undecided_against", &BudgetRow::undecided_against, "", "keys of the groups against which it is undecided"},
+        {"reason", &BudgetRow::reason, "", "why it is not decided, for readers"}};
 
 analysis::CsvTable fronts_table(const std::vector<Diagram>& diagrams)
 {
