@@ -20,7 +20,6 @@
 
 namespace experiments {
 
-using analysis::CaseKey;
 using analysis::Columns;
 using analysis::within;
 

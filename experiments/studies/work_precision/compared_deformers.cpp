@@ -105,6 +105,83 @@ void check_external(const SceneValues& values, const std::string& table, const D
     values.refuse(table + (is_command ? ".command" : ".library"), (is_command ? "cannot be started: " : "") + why_not);
 }
 
+constexpr std::size_t grid_in_short = 3;
+
+// Finite elements with the reference's material and attachment.
+DeformerSpec fem_spec(const Scene& scene, reference_fem::Model model, int element_order)
+{
+    DeformerSpec spec = reference_flesh(scene);
+    spec.name = spec.label = fmt::format("{}_p{}", name_of(model), element_order);
+    auto& options = options_of<FemOptions>(spec);
+    options.model = model;
+    options.element_order = element_order;
+    options.nested_start = element_order == 2 && model != reference_fem::Model::linear;
+    return spec;
+}
+
+class SettingList {
+public:
+    SettingList(const Scene& scene, const SettingRange& range) : scene_(scene), range_(range) {}
+
+    // All settings at all rungs of the case's own mesh, and the default setting at some rungs of the other meshes. A change to PBS is
+    // measured on the case's own mesh alone.
+    void add(const ComparedDeformer& entry, bool is_change)
+    {
+        const std::size_t first = settings.size();
+        std::vector<SettingChange> grid = grid_of(entry);
+        if (range_.in_short) grid.resize(std::min(grid.size(), grid_in_short));
+        for (const KeyValues& code : codes_of(entry)) {
+            for (const SettingChange& change : grid)
+                add_ladder(entry, range_.in_short ? entry.few_iterations : entry.iterations, {{}, change, code}, 0);
+            if (is_change) continue;
+            for (const std::vector<int>* sizes : {&range_.other_vertices, &range_.without_fem})
+                for (const int vertices : *sizes) add_ladder(entry, entry.few_iterations, {{}, grid.front(), code}, vertices);
+        }
+        for (std::size_t i = first; is_change && i < settings.size(); ++i) settings[i].change = &entry;
+    }
+
+    void add_fem()
+    {
+        using reference_fem::Model;
+        for (const Model model : {Model::linear, Model::corotational, Model::neo_hookean})
+            for (const int element_order : {1, 2})
+                if (element_order == 1 || (range_.quadratic && model != Model::corotational)) add_fem(model, element_order, 0);
+        add_fem(Model::stable_neo_hookean, 1, 0);  // the limit of the deformers that minimise an energy
+        for (const int vertices : range_.other_vertices)
+            for (const Model model : {Model::linear, Model::neo_hookean})
+                for (const int element_order : {1, 2})
+                    if (element_order == 1 || (range_.quadratic && model == Model::neo_hookean && vertices <= range_.quadratic_up_to))
+                        add_fem(model, element_order, vertices);
+        if (!range_.refined) return;
+        Setting setting{"fem_neo_hookean", fem_spec(scene_, Model::neo_hookean, 1)};
+        setting.refined = options_of<FemOptions>(setting.spec).nested_start = true;
+        settings.push_back(setting);
+    }
+
+    std::vector<Setting> settings;
+
+private:
+    void add_ladder(const ComparedDeformer& entry, const std::vector<int>& iterations, SettingChoice choice, int vertices)
+    {
+        std::vector<std::optional<int>> rungs(iterations.begin(), iterations.end());
+        if (rungs.empty()) rungs.emplace_back();
+        for (const std::optional<int> rung : rungs) {
+            choice.iterations = rung;
+            settings.push_back({entry.name, spec_with(entry, scene_, choice), rung, name_of(choice.change), vertices});
+        }
+    }
+
+    void add_fem(reference_fem::Model model, int element_order, int vertices)
+    {
+        Setting setting{"fem_" + name_of(model), fem_spec(scene_, model, element_order)};
+        setting.vertices = vertices;
+        settings.push_back(setting);
+    }
+
+    const Scene& scene_;
+    const SettingRange& range_;
+};
+
 }  // namespace
 
 const std::vector<ComparedDeformer>& compared_deformers()
@@ -216,87 +293,6 @@ std::vector<DeformerSpec> external_entries(const std::string& file)
     for (std::size_t i = 0; i < entries.size(); ++i) check_external(values, own + "." + std::to_string(i), entries[i]);
     return entries;
 }
-
-namespace {
-
-constexpr std::size_t grid_in_short = 3;
-
-// Finite elements with the reference's material and attachment.
-DeformerSpec fem_spec(const Scene& scene, reference_fem::Model model, int element_order)
-{
-    DeformerSpec spec = reference_flesh(scene);
-    spec.name = spec.label = fmt::format("{}_p{}", name_of(model), element_order);
-    auto& options = options_of<FemOptions>(spec);
-    options.model = model;
-    options.element_order = element_order;
-    options.nested_start = element_order == 2 && model != reference_fem::Model::linear;
-    return spec;
-}
-
-class SettingList {
-public:
-    SettingList(const Scene& scene, const SettingRange& range) : scene_(scene), range_(range) {}
-
-    // All settings at all rungs of the case's own mesh, and the default setting at some rungs of the other meshes. A change to PBS is
-    // measured on the case's own mesh alone.
-    void add(const ComparedDeformer& entry, bool is_change)
-    {
-        const std::size_t first = settings.size();
-        std::vector<SettingChange> grid = grid_of(entry);
-        if (range_.in_short) grid.resize(std::min(grid.size(), grid_in_short));
-        for (const KeyValues& code : codes_of(entry)) {
-            for (const SettingChange& change : grid)
-                add_ladder(entry, range_.in_short ? entry.few_iterations : entry.iterations, {{}, change, code}, 0);
-            if (is_change) continue;
-            for (const std::vector<int>* sizes : {&range_.other_vertices, &range_.without_fem})
-                for (const int vertices : *sizes) add_ladder(entry, entry.few_iterations, {{}, grid.front(), code}, vertices);
-        }
-        for (std::size_t i = first; is_change && i < settings.size(); ++i) settings[i].change = &entry;
-    }
-
-    void add_fem()
-    {
-        using reference_fem::Model;
-        for (const Model model : {Model::linear, Model::corotational, Model::neo_hookean})
-            for (const int element_order : {1, 2})
-                if (element_order == 1 || (range_.quadratic && model != Model::corotational)) add_fem(model, element_order, 0);
-        add_fem(Model::stable_neo_hookean, 1, 0);  // the limit of the deformers that minimise an energy
-        for (const int vertices : range_.other_vertices)
-            for (const Model model : {Model::linear, Model::neo_hookean})
-                for (const int element_order : {1, 2})
-                    if (element_order == 1 || (range_.quadratic && model == Model::neo_hookean && vertices <= range_.quadratic_up_to))
-                        add_fem(model, element_order, vertices);
-        if (!range_.refined) return;
-        Setting setting{"fem_neo_hookean", fem_spec(scene_, Model::neo_hookean, 1)};
-        setting.refined = options_of<FemOptions>(setting.spec).nested_start = true;
-        settings.push_back(setting);
-    }
-
-    std::vector<Setting> settings;
-
-private:
-    void add_ladder(const ComparedDeformer& entry, const std::vector<int>& iterations, SettingChoice choice, int vertices)
-    {
-        std::vector<std::optional<int>> rungs(iterations.begin(), iterations.end());
-        if (rungs.empty()) rungs.emplace_back();
-        for (const std::optional<int> rung : rungs) {
-            choice.iterations = rung;
-            settings.push_back({entry.name, spec_with(entry, scene_, choice), rung, name_of(choice.change), vertices});
-        }
-    }
-
-    void add_fem(reference_fem::Model model, int element_order, int vertices)
-    {
-        Setting setting{"fem_" + name_of(model), fem_spec(scene_, model, element_order)};
-        setting.vertices = vertices;
-        settings.push_back(setting);
-    }
-
-    const Scene& scene_;
-    const SettingRange& range_;
-};
-
-}  // namespace
 
 SettingKey key_of(const Setting& setting)
 {
