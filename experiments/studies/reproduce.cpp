@@ -4,7 +4,6 @@
 #include "analysis/verdicts/verdict.hpp"
 #include "experiments/process/child_process.hpp"
 #include "experiments/process/terminal.hpp"
-#include "experiments/studies/study.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 #include <fmt/format.h>
@@ -15,8 +14,6 @@
 #include <filesystem>
 #include <numeric>
 #include <set>
-#include <string>
-#include <vector>
 
 namespace experiments {
 namespace {

@@ -98,13 +98,6 @@ std::vector<std::string> FinishedRuns::files(const std::string& file) const
     return paths;
 }
 
-analysis::CsvTable FinishedRuns::gathered(const std::string& file) const
-{
-    analysis::CsvTable all{{}};
-    for (const std::string& path : files(file)) all.append(analysis::read_csv(path));
-    return all;
-}
-
 void FinishedRuns::write(const std::string& file, const std::string& text) const
 {
     analysis::write_text_atomically((fs::path(folder) / file).string(), text);

@@ -24,8 +24,6 @@ struct FinishedRuns {
     bool none() const { return folders.empty(); }
 
     std::vector<std::string> files(const std::string& file) const;  // its path in every run that wrote it
-    // The tables `file` of all runs that wrote it, one below the other. InputError if their columns differ.
-    analysis::CsvTable gathered(const std::string& file) const;
     // The rows of `file` of all runs that wrote it. InputError as rows_of.
     template <typename Row>
     std::vector<Row> rows(const analysis::Columns<Row>& columns, const std::string& file) const

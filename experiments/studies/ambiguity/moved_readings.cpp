@@ -101,60 +101,6 @@ double distance_m(const ReadMotion& a, const ReadMotion& b, const std::vector<bo
     return std::sqrt(sum / double(count));
 }
 
-}  // namespace
-
-ReadMotion move(const pbs::Character& character, const Scene& scene)
-{
-    const pbs::Motion motion = make_motion(scene.motion, character.skeleton, scene.file);
-    const analysis::MeshMetrics mesh_metrics(character.mesh.rest, character.mesh.tets);
-    const DeformerSpec& pbs = spec_of(scene, "pbs");
-    ReadMotion moved;
-    moved.shapes = shapes_in_motion(character, motion, pbs);
-    moved.pbs = record_of(scene, motion, mesh_metrics, moved.shapes);
-    moved.pbs.deformer = "pbs";
-    moved.pbs.iterations = *traits_of(pbs).iterations;
-    moved.lbs = record_of(scene, motion, mesh_metrics, shapes_in_motion(character, motion, default_spec("lbs")));
-    moved.lbs.deformer = "lbs";
-    moved.finite = std::ranges::all_of(moved.shapes, [](const pbs::Positions& shape) { return shape.allFinite(); });
-    return moved;
-}
-
-std::vector<JudgedValue> judged(const ReadMotion& moved)
-{
-    std::vector<JudgedValue> values;
-    for (const auto& [claim, metric] : volume_metrics())
-        values.push_back(of_case(claim, claim.deformer == "lbs" ? moved.lbs : moved.pbs, metric));
-    return values;
-}
-
-std::vector<VolumeChange> volume_changes(const std::string& scene, const Reading& reading, const ReadMotion& a, const ReadMotion& b,
-                                         const ReadMotion& resting, const std::vector<bool>& zone)
-{
-    using analysis::mean;
-    const std::string verdict = changed_verdicts(a, b);
-    std::vector<VolumeChange> rows;
-    const auto add = [&](const std::string& quantity, double of_a, double of_b) {
-        rows.push_back({scene, reading.place, reading.baseline, reading.name, quantity, of_a, of_b, of_b - of_a, verdict});
-    };
-    add("mean_volume_change_pct", mean(a.pbs.volume_change_pct), mean(b.pbs.volume_change_pct));
-    add("mean_volume_abs_change_pct", mean(a.pbs.volume_abs_change_pct), mean(b.pbs.volume_abs_change_pct));
-    add("mean_volume_change_of_lbs_pct", mean(a.lbs.volume_change_pct), mean(b.lbs.volume_change_pct));
-    add("share_of_frames_within_printed", share_within(a.pbs.volume_change_pct), share_within(b.pbs.volume_change_pct));
-    add("mean_inverted_tets", mean(a.pbs.inverted_tets), mean(b.pbs.inverted_tets));
-    for (std::size_t frame = 0; frame < a.pbs.angle_deg.size(); ++frame) {
-        const double angle = a.pbs.angle_deg[frame];
-        if (std::abs(angle - 90.0) >= 1e-6 && std::abs(angle - 170.0) >= 1e-6) continue;
-        add(fmt::format("volume_change_at_{:.0f}_deg_pct", angle), a.pbs.volume_change_pct[frame], b.pbs.volume_change_pct[frame]);
-        add(fmt::format("volume_abs_change_at_{:.0f}_deg_pct", angle), a.pbs.volume_abs_change_pct[frame],
-            b.pbs.volume_abs_change_pct[frame]);
-    }
-    add("distance_of_b_from_a_rms_m", 0.0, distance_m(a, b, {}));
-    add("distance_of_zone_by_jiggle_rms_m", distance_m(a, resting, zone), distance_m(b, resting, zone));
-    return rows;
-}
-
-namespace {
-
 // One reading's way through the motion, one frame per turn, in the order and precision that are judged.
 class TimedReading {
 public:
@@ -210,6 +156,56 @@ JudgedValue of_frame(const std::string& body, int vertices, double ms)
 }
 
 }  // namespace
+
+ReadMotion move(const pbs::Character& character, const Scene& scene)
+{
+    const pbs::Motion motion = make_motion(scene.motion, character.skeleton, scene.file);
+    const analysis::MeshMetrics mesh_metrics(character.mesh.rest, character.mesh.tets);
+    const DeformerSpec& pbs = spec_of(scene, "pbs");
+    ReadMotion moved;
+    moved.shapes = shapes_in_motion(character, motion, pbs);
+    moved.pbs = record_of(scene, motion, mesh_metrics, moved.shapes);
+    moved.pbs.deformer = "pbs";
+    moved.pbs.iterations = *traits_of(pbs).iterations;
+    moved.lbs = record_of(scene, motion, mesh_metrics, shapes_in_motion(character, motion, default_spec("lbs")));
+    moved.lbs.deformer = "lbs";
+    moved.finite = std::ranges::all_of(moved.shapes, [](const pbs::Positions& shape) { return shape.allFinite(); });
+    return moved;
+}
+
+std::vector<JudgedValue> judged(const ReadMotion& moved)
+{
+    std::vector<JudgedValue> values;
+    for (const auto& [claim, metric] : volume_metrics())
+        values.push_back(of_case(claim, claim.deformer == "lbs" ? moved.lbs : moved.pbs, metric));
+    return values;
+}
+
+std::vector<VolumeChange> volume_changes(const std::string& scene, const Reading& reading, const ReadMotion& a, const ReadMotion& b,
+                                         const ReadMotion& resting, const std::vector<bool>& zone)
+{
+    using analysis::mean;
+    const std::string verdict = changed_verdicts(a, b);
+    std::vector<VolumeChange> rows;
+    const auto add = [&](const std::string& quantity, double of_a, double of_b) {
+        rows.push_back({scene, reading.place, reading.baseline, reading.name, quantity, of_a, of_b, of_b - of_a, verdict});
+    };
+    add("mean_volume_change_pct", mean(a.pbs.volume_change_pct), mean(b.pbs.volume_change_pct));
+    add("mean_volume_abs_change_pct", mean(a.pbs.volume_abs_change_pct), mean(b.pbs.volume_abs_change_pct));
+    add("mean_volume_change_of_lbs_pct", mean(a.lbs.volume_change_pct), mean(b.lbs.volume_change_pct));
+    add("share_of_frames_within_printed", share_within(a.pbs.volume_change_pct), share_within(b.pbs.volume_change_pct));
+    add("mean_inverted_tets", mean(a.pbs.inverted_tets), mean(b.pbs.inverted_tets));
+    for (std::size_t frame = 0; frame < a.pbs.angle_deg.size(); ++frame) {
+        const double angle = a.pbs.angle_deg[frame];
+        if (std::abs(angle - 90.0) >= 1e-6 && std::abs(angle - 170.0) >= 1e-6) continue;
+        add(fmt::format("volume_change_at_{:.0f}_deg_pct", angle), a.pbs.volume_change_pct[frame], b.pbs.volume_change_pct[frame]);
+        add(fmt::format("volume_abs_change_at_{:.0f}_deg_pct", angle), a.pbs.volume_abs_change_pct[frame],
+            b.pbs.volume_abs_change_pct[frame]);
+    }
+    add("distance_of_b_from_a_rms_m", 0.0, distance_m(a, b, {}));
+    add("distance_of_zone_by_jiggle_rms_m", distance_m(a, resting, zone), distance_m(b, resting, zone));
+    return rows;
+}
 
 std::vector<JudgedReading> values_of_frames(const StudyCase& of, const std::vector<Overrides>& readings)
 {

@@ -149,86 +149,6 @@ ClaimChange row_of(const std::string& body, const std::string& claim, const Read
     return {body, reading.place, reading.baseline, reading.name, claim};
 }
 
-}  // namespace
-
-std::vector<ClaimChange> claim_changes(const std::string& body, const std::string& claim, const Reading& reading, const JudgedReading& a,
-                                       const JudgedReading& b)
-{
-    const ClaimChange row = row_of(body, claim, reading);
-    std::vector<ClaimChange> changes;
-    for (const JudgedValue& of_a : a.values)
-        if (of_a.claim == claim) changes.push_back(compared(row, &of_a, find(b, of_a), b.broke_down));
-    for (const JudgedValue& of_b : b.values)
-        if (of_b.claim == claim && !find(a, of_b)) changes.push_back(compared(row, nullptr, &of_b, b.broke_down));
-    for (const ReadingValues::LeftOut& one : b.left_out)
-        if (one.claim == claim) changes.push_back(without_value(row, "no_value", one.reason, one.quantity));
-    if (changes.empty()) changes.push_back(without_value(row, "no_value", b.broke_down ? "B breaks down" : "neither reading has a value"));
-    return changes;
-}
-
-ClaimChange untouched_claim(const std::string& body, const std::string& claim, const Reading& reading, const std::string& reason)
-{
-    return without_value(row_of(body, claim, reading), "not_touched", reason);
-}
-
-void ReadingComparison::measure(const std::vector<std::string>& claims, const Measure& measure)
-{
-    struct Pair {
-        const Reading &reading, &baseline;
-        std::string claim, untouched_because;
-    };
-    std::vector<Pair> pairs;
-    std::vector<Reading> measured;
-    for (const Reading& reading : readings) {
-        if (reading.place.empty()) continue;
-        const Reading& baseline = *std::ranges::find(readings, reading.baseline, &Reading::name);
-        const bool is_left_out = reading.jiggles() && !without_jiggle.empty();
-        for (const std::string& claim : claims) {
-            pairs.push_back({reading, baseline, claim, is_left_out ? without_jiggle : untouched_because(claim, reading, baseline)});
-            if (!pairs.back().untouched_because.empty()) continue;
-            for (const Reading* one : {&baseline, &reading})
-                if (std::ranges::find(measured, one->name, &Reading::name) == measured.end()) measured.push_back(*one);
-        }
-    }
-    const std::vector<JudgedReading> values = measure(measured);
-    std::map<std::string, const JudgedReading*> by_name;
-    for (std::size_t i = 0; i < measured.size(); ++i) {
-        by_name[measured[i].name] = &values.at(i);
-        if (values[i].broke_down) breakdown += fmt::format("{} ({}). ", measured[i].name, fmt::join(claims, ", "));
-    }
-    for (const auto& [reading, baseline, claim, reason] : pairs)
-        if (reason.empty())
-            std::ranges::copy(claim_changes(body, claim, reading, *by_name.at(baseline.name), *by_name.at(reading.name)),
-                              std::back_inserter(changes));
-        else
-            changes.push_back(untouched_claim(body, claim, reading, reason));
-}
-
-std::string digest_of(const std::vector<analysis::Claim>& claims)
-{
-    nlohmann::json all = nlohmann::json::array();
-    for (const analysis::Claim& claim : claims) {
-        all.push_back({claim.id, static_cast<int>(claim.rule), claim.metrics, claim.deformer, claim.iterations, claim.low, claim.high,
-                       claim.share, claim.part, claim.level});
-        for (const analysis::QuantityBound& bound : claim.bounds) all.push_back({bound.quantity, bound.low, bound.high});
-    }
-    return pbs::content_hash(all.dump());
-}
-
-std::vector<JudgedValue> judged(const std::vector<analysis::Measurement>& measured)
-{
-    std::vector<JudgedValue> values;
-    for (const analysis::Measurement& one : measured) {
-        const analysis::Claim& claim = claim_named(one.claim);
-        if (!analysis::is_judged(claim, one)) continue;
-        values.push_back({one.claim, one.quantity, one.of, one.unit, analysis::bound_text(analysis::bound_of(claim, one.quantity)),
-                          one.value, analysis::extent_of(claim, one), one.limit});
-    }
-    return values;
-}
-
-namespace {
-
 // The values by each reading, measured by the study of the claims, which has `read`, or as above.
 std::vector<JudgedReading> values_of(const Study& study, const StudyCase& of, const std::vector<Reading>& readings)
 {
@@ -328,6 +248,82 @@ StudyConclusion conclude(const FinishedRuns& finished)
 }
 
 }  // namespace
+
+std::vector<ClaimChange> claim_changes(const std::string& body, const std::string& claim, const Reading& reading, const JudgedReading& a,
+                                       const JudgedReading& b)
+{
+    const ClaimChange row = row_of(body, claim, reading);
+    std::vector<ClaimChange> changes;
+    for (const JudgedValue& of_a : a.values)
+        if (of_a.claim == claim) changes.push_back(compared(row, &of_a, find(b, of_a), b.broke_down));
+    for (const JudgedValue& of_b : b.values)
+        if (of_b.claim == claim && !find(a, of_b)) changes.push_back(compared(row, nullptr, &of_b, b.broke_down));
+    for (const ReadingValues::LeftOut& one : b.left_out)
+        if (one.claim == claim) changes.push_back(without_value(row, "no_value", one.reason, one.quantity));
+    if (changes.empty()) changes.push_back(without_value(row, "no_value", b.broke_down ? "B breaks down" : "neither reading has a value"));
+    return changes;
+}
+
+ClaimChange untouched_claim(const std::string& body, const std::string& claim, const Reading& reading, const std::string& reason)
+{
+    return without_value(row_of(body, claim, reading), "not_touched", reason);
+}
+
+void ReadingComparison::measure(const std::vector<std::string>& claims, const Measure& measure)
+{
+    struct Pair {
+        const Reading &reading, &baseline;
+        std::string claim, untouched_because;
+    };
+    std::vector<Pair> pairs;
+    std::vector<Reading> measured;
+    for (const Reading& reading : readings) {
+        if (reading.place.empty()) continue;
+        const Reading& baseline = *std::ranges::find(readings, reading.baseline, &Reading::name);
+        const bool is_left_out = reading.jiggles() && !without_jiggle.empty();
+        for (const std::string& claim : claims) {
+            pairs.push_back({reading, baseline, claim, is_left_out ? without_jiggle : untouched_because(claim, reading, baseline)});
+            if (!pairs.back().untouched_because.empty()) continue;
+            for (const Reading* one : {&baseline, &reading})
+                if (std::ranges::find(measured, one->name, &Reading::name) == measured.end()) measured.push_back(*one);
+        }
+    }
+    const std::vector<JudgedReading> values = measure(measured);
+    std::map<std::string, const JudgedReading*> by_name;
+    for (std::size_t i = 0; i < measured.size(); ++i) {
+        by_name[measured[i].name] = &values.at(i);
+        if (values[i].broke_down) breakdown += fmt::format("{} ({}). ", measured[i].name, fmt::join(claims, ", "));
+    }
+    for (const auto& [reading, baseline, claim, reason] : pairs)
+        if (reason.empty())
+            std::ranges::copy(claim_changes(body, claim, reading, *by_name.at(baseline.name), *by_name.at(reading.name)),
+                              std::back_inserter(changes));
+        else
+            changes.push_back(untouched_claim(body, claim, reading, reason));
+}
+
+std::string digest_of(const std::vector<analysis::Claim>& claims)
+{
+    nlohmann::json all = nlohmann::json::array();
+    for (const analysis::Claim& claim : claims) {
+        all.push_back({claim.id, static_cast<int>(claim.rule), claim.metrics, claim.deformer, claim.iterations, claim.low, claim.high,
+                       claim.share, claim.part, claim.level});
+        for (const analysis::QuantityBound& bound : claim.bounds) all.push_back({bound.quantity, bound.low, bound.high});
+    }
+    return pbs::content_hash(all.dump());
+}
+
+std::vector<JudgedValue> judged(const std::vector<analysis::Measurement>& measured)
+{
+    std::vector<JudgedValue> values;
+    for (const analysis::Measurement& one : measured) {
+        const analysis::Claim& claim = claim_named(one.claim);
+        if (!analysis::is_judged(claim, one)) continue;
+        values.push_back({one.claim, one.quantity, one.of, one.unit, analysis::bound_text(analysis::bound_of(claim, one.quantity)),
+                          one.value, analysis::extent_of(claim, one), one.limit});
+    }
+    return values;
+}
 
 Study ambiguity_study()
 {

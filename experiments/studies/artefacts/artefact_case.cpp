@@ -1,10 +1,8 @@
 #include "experiments/studies/artefacts/artefact_case.hpp"
 
-#include "analysis/metrics/cross_section.hpp"
 #include "experiments/deformers/deformer_options.hpp"
 #include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/run/frame_measurement.hpp"
-#include "pbs/geometry/meshing.hpp"
 #include "pbs/geometry/topology.hpp"
 
 #include <fmt/format.h>
@@ -22,21 +20,18 @@ namespace experiments {
 using analysis::Columns;
 using analysis::within;
 
-namespace {
-
-const Columns<JointSection> joint_section_columns = {
-    {"offset_m", &JointSection::offset_m, "m", "distance of the cross-section from the joint along the bones; negative: on the parent"},
-    {"area_over_rest", &JointSection::area, "", "area of the cross-section over that at rest"},
-    {"smallest_radius_over_rest", &JointSection::smallest_radius, "", "smallest radius of its outline over that at rest"},
-    {"largest_radius_over_rest", &JointSection::largest_radius, "", "largest radius of its outline over that at rest"},
-    {"outlines", &JointSection::outlines, "", "number of closed outlines in the plane"},
-    {"limb_share", &JointSection::limb_share, "", "share of the outline that belongs to the limb itself"}};
-
-}  // namespace
-
 const Columns<ProfileRow> profile_columns =
     within(&ProfileRow::place, artefact_place_columns) + Columns<ProfileRow>{{"joint", &ProfileRow::joint, "", "name of the joint"}} +
-    within(&ProfileRow::deformer, artefact_deformer_columns) + within(&ProfileRow::section, joint_section_columns);
+    within(&ProfileRow::deformer, artefact_deformer_columns) +
+    within(&ProfileRow::section,
+           Columns<JointSection>{
+               {"offset_m", &JointSection::offset_m, "m",
+                "distance of the cross-section from the joint along the bones; negative: on the parent"},
+               {"area_over_rest", &JointSection::area, "", "area of the cross-section over that at rest"},
+               {"smallest_radius_over_rest", &JointSection::smallest_radius, "", "smallest radius of its outline over that at rest"},
+               {"largest_radius_over_rest", &JointSection::largest_radius, "", "largest radius of its outline over that at rest"},
+               {"outlines", &JointSection::outlines, "", "number of closed outlines in the plane"},
+               {"limb_share", &JointSection::limb_share, "", "share of the outline that belongs to the limb itself"}});
 
 const Columns<IntersectionRow> intersection_columns =
     within(&IntersectionRow::place, artefact_place_columns) + within(&IntersectionRow::deformer, artefact_deformer_columns) +

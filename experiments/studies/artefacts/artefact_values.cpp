@@ -1,6 +1,5 @@
 #include "experiments/studies/artefacts/artefact_values.hpp"
 
-#include "analysis/metrics/error_norms.hpp"
 #include "analysis/metrics/frame_metrics.hpp"
 #include "analysis/statistics/statistics.hpp"
 #include "experiments/deformers/deformer_options.hpp"
@@ -16,6 +15,10 @@
 
 namespace experiments {
 namespace {
+
+using analysis::Columns;
+using analysis::Smoothness;
+using analysis::within;
 
 using Extreme = double SectionExtremesOverRest::*;
 
@@ -73,6 +76,20 @@ std::string reference_name(const std::vector<ArtefactSample>& samples, std::size
 {
     const std::vector<ArtefactSample> reference = chosen(samples, "reference", pose, joint);
     return reference.empty() ? "" : fmt::format("nh_p{}", reference.front().element_order);
+}
+
+nlohmann::json joints_by_hand_of(const ArtefactCase& of)
+{
+    nlohmann::json joints = nlohmann::json::object();
+    for (const JointByHand& joint : joints_by_hand(of.scene.character.body))
+        joints[name_of(joint)] = {joint.reach_parent, joint.reach_child, joint.no_section};
+    return joints;
+}
+
+Columns<Reached> reached_columns(const std::string& name, const std::string& weights)
+{
+    return {{"iterations_" + name, &Reached::iterations, "", "iterations to tolerance with " + weights},
+            {"reached_" + name, &Reached::within, "", "they reached it"}};
 }
 
 }  // namespace
@@ -148,18 +165,6 @@ std::vector<JudgedSection> section_outcomes(const ArtefactCase& of, const Artefa
     return sections;
 }
 
-namespace {
-
-nlohmann::json joints_by_hand_of(const ArtefactCase& of)
-{
-    nlohmann::json joints = nlohmann::json::object();
-    for (const JointByHand& joint : joints_by_hand(of.scene.character.body))
-        joints[name_of(joint)] = {joint.reach_parent, joint.reach_child, joint.no_section};
-    return joints;
-}
-
-}  // namespace
-
 RECORD_SETTINGS(ArtefactPose, frame, name, key)
 
 RECORD_SETTINGS_AND(ArtefactCase,
@@ -198,36 +203,19 @@ std::vector<SectionRow> section_rows(const ArtefactCase& of, const ArtefactBody&
     return rows;
 }
 
-using analysis::Columns;
-using analysis::Smoothness;
-using analysis::within;
-
-namespace {
-
-const Columns<Smoothness> at_joint_columns = {
-    {"strain_jump_rms", &Smoothness::strain_jump_rms, "", "root mean square jump of strain between neighbouring tets at the joint"},
-    {"bending_rms_rad", &Smoothness::bending_rms_rad, "rad", "root mean square bending of the skin at the joint"}};
-
-}  // namespace
-
 const Columns<SmoothnessRow> smoothness_columns =
     Columns<SmoothnessRow>{{"body", &SmoothnessRow::body, "", "name of the body"},
                            {"vertices", &SmoothnessRow::vertices, "", "vertices of its mesh"},
                            {"weights", &SmoothnessRow::weights, "", "paper: Eq. 2; rigid: every vertex on its nearest bone alone"},
                            {"pose", &SmoothnessRow::pose, "", "name of the pose"},
                            {"joint", &SmoothnessRow::joint, "", "name of the joint"}} +
-    within(&SmoothnessRow::deformer, artefact_deformer_columns) + within(&SmoothnessRow::smoothness, at_joint_columns) +
+    within(&SmoothnessRow::deformer, artefact_deformer_columns) +
+    within(
+        &SmoothnessRow::smoothness,
+        Columns<Smoothness>{
+            {"strain_jump_rms", &Smoothness::strain_jump_rms, "", "root mean square jump of strain between neighbouring tets at the joint"},
+            {"bending_rms_rad", &Smoothness::bending_rms_rad, "rad", "root mean square bending of the skin at the joint"}}) +
     Columns<SmoothnessRow>{{"volume_abs_change_pct", &SmoothnessRow::volume_abs_change_pct, "%", "sum of the tets' absolute changes"}};
-
-namespace {
-
-Columns<Reached> reached_columns(const std::string& name, const std::string& weights)
-{
-    return {{"iterations_" + name, &Reached::iterations, "", "iterations to tolerance with " + weights},
-            {"reached_" + name, &Reached::within, "", "they reached it"}};
-}
-
-}  // namespace
 
 const Columns<WeightIterations> weight_iteration_columns = within(&WeightIterations::place, artefact_place_columns) +
                                                            within(&WeightIterations::paper, reached_columns("paper", "Eq. 2")) +

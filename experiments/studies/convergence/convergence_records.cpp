@@ -109,78 +109,6 @@ const Columns<ReferenceQuality> quality_columns = {
     {"order_is_reliable", &ReferenceQuality::order_is_reliable, "", "the order is credible, and the safety factor 1.25 instead of 3"},
     {"reference_bound_pct", &ReferenceQuality::bound_pct, "%", "bound of the reference's own error at the joints outside the mask"}};
 
-}  // namespace
-
-const Columns<LookRow> residual_columns = within(&LookRow::of, case_columns) + within(&LookRow::look, residual_look_columns);
-const Columns<LookRow> towards_columns = within(&LookRow::of, case_columns) + within(&LookRow::look, error_look_columns);
-
-using Rates = Columns<RateRow>;
-using Looks = Columns<Look>;
-const Columns<RateRow> rate_columns =
-    within(&RateRow::of, case_columns) +
-    Rates{{"iterations", &RateRow::iterations, "", "iterations that were done"},
-          {"outcome", &RateRow::outcome, "", "finished or not_finite"},
-          {"floor", &RateRow::floor, "", "lowest combined residual that any initial guess leads to"}} +
-    within(&RateRow::first, Looks{{"start_residual", &Look::combined, "", "combined residual of the initial guess"}}) +
-    within(&RateRow::paper, Looks{{"residual_24", &Look::combined, "", "combined residual after 24 iterations"}}) +
-    within(&RateRow::last, Looks{{"last_residual", &Look::combined, "", "combined residual after the last iteration"}}) +
-    Rates{{"last_half_change_pct", &RateRow::last_half_change_pct, "%", "change of the residual over the second half of the iterations"}} +
-    within(&RateRow::rate, fitted_rate) +
-    within(&RateRow::residual,
-           Columns<Reached>{{"iterations_to_residual", &Reached::iterations, "", "iterations to the residual's tolerance"},
-                            {"residual_reached", &Reached::within, "", "they reached it"}}) +
-    within(&RateRow::volume,
-           Columns<Reached>{{"iterations_to_volume", &Reached::iterations, "", "iterations to the paper's 0.5 % of volume"},
-                            {"volume_reached", &Reached::within, "", "they reached it"}}) +
-    Rates{{"iteration_cpu_ms", &RateRow::iteration_cpu_ms, "ms", "mean processor time per iteration"},
-          {"cpu_ms_to_residual", &RateRow::cpu_ms_to_residual, "ms", "processor time to the residual's tolerance; empty: not reached"},
-          {"cpu_ms_to_volume", &RateRow::cpu_ms_to_volume, "ms", "processor time to the volume's tolerance; empty: not reached"}} +
-    within(&RateRow::paper, Looks{{"volume_change_24_pct", &Look::volume_change_pct, "%", "volume change after 24 iterations"},
-                                  {"volume_abs_change_24_pct", &Look::volume_abs_change_pct, "%",
-                                   "sum of the tets' absolute changes after 24 iterations"}}) +
-    within(&RateRow::last, Looks{{"last_volume_change_pct", &Look::volume_change_pct, "%", "volume change at the end"},
-                                 {"last_volume_abs_change_pct", &Look::volume_abs_change_pct, "%", "sum of the tets' changes at the end"},
-                                 {"last_inverted_tets", &Look::inverted_tets, "", "inverted tets at the end"}}) +
-    Rates{{"reference", &RateRow::reference, "", "name of the reference, or why there is none"}} +
-    within(&RateRow::first, Looks{{"start_error_pct", &Look::error_joint_pct, "%", "error of the initial guess outside the mask"}}) +
-    within(&RateRow::paper, Looks{{"error_24_pct", &Look::error_joint_pct, "%", "error after 24 iterations"}}) +
-    within(&RateRow::nearest, Looks{{"least_error_pct", &Look::error_joint_pct, "%", "least error on the way"},
-                                    {"least_error_iteration", &Look::iteration, "", "iteration of the least error"}}) +
-    within(&RateRow::last, Looks{{"last_error_pct", &Look::error_joint_pct, "%", "error at the end"}}) +
-    within(&RateRow::paper,
-           Looks{{"whole_error_24_pct", &Look::whole_joint_pct, "%", "error after 24 iterations with the masked joints"}}) +
-    within(&RateRow::quality, quality_columns) +
-    Rates{{"limit_from_lbs_pct", &RateRow::limit_from_lbs_pct, "%", "distance of the last shape from the one that LBS leads to"}};
-
-std::vector<LookRow> look_rows(const ConvergenceResult& result)
-{
-    std::vector<LookRow> rows;
-    for (const ConvergencePaths& paths : result.all) {
-        if (!paths.of.own_mesh && !result.ladder) continue;  // of other tessellations only the rates are recorded
-        for (std::size_t start = 0; start < paths.paths.size(); ++start)
-            for (const Look& look : thinned(paths.paths[start])) rows.push_back({case_of(paths.of, start), look});
-    }
-    return rows;
-}
-
-std::vector<RateRow> rate_rows(const ConvergenceResult& result)
-{
-    std::vector<RateRow> rows;
-    for (const ConvergencePaths& paths : result.all) {
-        const double floor = floor_of(paths.paths);
-        for (std::size_t start = 0; start < paths.paths.size(); ++start) rows.push_back(rate_row(paths, start, floor));
-    }
-    return rows;
-}
-
-std::vector<LookRow> towards_rows(std::vector<LookRow> looks)
-{
-    std::erase_if(looks, [](const LookRow& row) { return std::isnan(row.look.error_joint_pct); });
-    return looks;
-}
-
-namespace {
-
 // A value of one setting, and what it bounds where a tolerance was not reached.
 struct PathValue {
     double value = 0.0;
@@ -318,16 +246,12 @@ void add_neither(std::vector<analysis::Measurement>& to, const ConvergenceResult
     }
 }
 
-bool on_one_ladder(const PathCase& a, const PathCase& b)
-{
-    return std::tie(a.pose, a.k_stretch, a.order, a.precision) == std::tie(b.pose, b.k_stretch, b.order, b.precision);
-}
-
 // iterations ~ vertices^exponent, over the sizes that reach the tolerance, by order.
 void add_exponents(std::vector<analysis::Measurement>& to, const ConvergenceResult& result)
 {
     for (const ConvergencePaths& first : result.all) {
-        const auto same = [&](const ConvergencePaths& other) { return on_one_ladder(first.of, other.of); };
+        const auto ladder_of = [](const PathCase& of) { return std::tie(of.pose, of.k_stretch, of.order, of.precision); };
+        const auto same = [&](const ConvergencePaths& other) { return ladder_of(other.of) == ladder_of(first.of); };
         if (&*std::find_if(result.all.begin(), result.all.end(), same) != &first) continue;
         for (const Tolerance& tolerance : tolerances) {
             std::vector<double> vertices, iterations;
@@ -349,6 +273,74 @@ void add_exponents(std::vector<analysis::Measurement>& to, const ConvergenceResu
 }
 
 }  // namespace
+
+const Columns<LookRow> residual_columns = within(&LookRow::of, case_columns) + within(&LookRow::look, residual_look_columns);
+const Columns<LookRow> towards_columns = within(&LookRow::of, case_columns) + within(&LookRow::look, error_look_columns);
+
+using Rates = Columns<RateRow>;
+using Looks = Columns<Look>;
+const Columns<RateRow> rate_columns =
+    within(&RateRow::of, case_columns) +
+    Rates{{"iterations", &RateRow::iterations, "", "iterations that were done"},
+          {"outcome", &RateRow::outcome, "", "finished or not_finite"},
+          {"floor", &RateRow::floor, "", "lowest combined residual that any initial guess leads to"}} +
+    within(&RateRow::first, Looks{{"start_residual", &Look::combined, "", "combined residual of the initial guess"}}) +
+    within(&RateRow::paper, Looks{{"residual_24", &Look::combined, "", "combined residual after 24 iterations"}}) +
+    within(&RateRow::last, Looks{{"last_residual", &Look::combined, "", "combined residual after the last iteration"}}) +
+    Rates{{"last_half_change_pct", &RateRow::last_half_change_pct, "%", "change of the residual over the second half of the iterations"}} +
+    within(&RateRow::rate, fitted_rate) +
+    within(&RateRow::residual,
+           Columns<Reached>{{"iterations_to_residual", &Reached::iterations, "", "iterations to the residual's tolerance"},
+                            {"residual_reached", &Reached::within, "", "they reached it"}}) +
+    within(&RateRow::volume,
+           Columns<Reached>{{"iterations_to_volume", &Reached::iterations, "", "iterations to the paper's 0.5 % of volume"},
+                            {"volume_reached", &Reached::within, "", "they reached it"}}) +
+    Rates{{"iteration_cpu_ms", &RateRow::iteration_cpu_ms, "ms", "mean processor time per iteration"},
+          {"cpu_ms_to_residual", &RateRow::cpu_ms_to_residual, "ms", "processor time to the residual's tolerance; empty: not reached"},
+          {"cpu_ms_to_volume", &RateRow::cpu_ms_to_volume, "ms", "processor time to the volume's tolerance; empty: not reached"}} +
+    within(&RateRow::paper, Looks{{"volume_change_24_pct", &Look::volume_change_pct, "%", "volume change after 24 iterations"},
+                                  {"volume_abs_change_24_pct", &Look::volume_abs_change_pct, "%",
+                                   "sum of the tets' absolute changes after 24 iterations"}}) +
+    within(&RateRow::last, Looks{{"last_volume_change_pct", &Look::volume_change_pct, "%", "volume change at the end"},
+                                 {"last_volume_abs_change_pct", &Look::volume_abs_change_pct, "%", "sum of the tets' changes at the end"},
+                                 {"last_inverted_tets", &Look::inverted_tets, "", "inverted tets at the end"}}) +
+    Rates{{"reference", &RateRow::reference, "", "name of the reference, or why there is none"}} +
+    within(&RateRow::first, Looks{{"start_error_pct", &Look::error_joint_pct, "%", "error of the initial guess outside the mask"}}) +
+    within(&RateRow::paper, Looks{{"error_24_pct", &Look::error_joint_pct, "%", "error after 24 iterations"}}) +
+    within(&RateRow::nearest, Looks{{"least_error_pct", &Look::error_joint_pct, "%", "least error on the way"},
+                                    {"least_error_iteration", &Look::iteration, "", "iteration of the least error"}}) +
+    within(&RateRow::last, Looks{{"last_error_pct", &Look::error_joint_pct, "%", "error at the end"}}) +
+    within(&RateRow::paper,
+           Looks{{"whole_error_24_pct", &Look::whole_joint_pct, "%", "error after 24 iterations with the masked joints"}}) +
+    within(&RateRow::quality, quality_columns) +
+    Rates{{"limit_from_lbs_pct", &RateRow::limit_from_lbs_pct, "%", "distance of the last shape from the one that LBS leads to"}};
+
+std::vector<LookRow> look_rows(const ConvergenceResult& result)
+{
+    std::vector<LookRow> rows;
+    for (const ConvergencePaths& paths : result.all) {
+        if (!paths.of.own_mesh && !result.ladder) continue;  // of other tessellations only the rates are recorded
+        for (std::size_t start = 0; start < paths.paths.size(); ++start)
+            for (const Look& look : thinned(paths.paths[start])) rows.push_back({case_of(paths.of, start), look});
+    }
+    return rows;
+}
+
+std::vector<RateRow> rate_rows(const ConvergenceResult& result)
+{
+    std::vector<RateRow> rows;
+    for (const ConvergencePaths& paths : result.all) {
+        const double floor = floor_of(paths.paths);
+        for (std::size_t start = 0; start < paths.paths.size(); ++start) rows.push_back(rate_row(paths, start, floor));
+    }
+    return rows;
+}
+
+std::vector<LookRow> towards_rows(std::vector<LookRow> looks)
+{
+    std::erase_if(looks, [](const LookRow& row) { return std::isnan(row.look.error_joint_pct); });
+    return looks;
+}
 
 std::vector<analysis::Measurement> convergence_values(const ConvergenceResult& result)
 {

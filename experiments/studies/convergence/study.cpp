@@ -15,7 +15,7 @@
 #include "experiments/studies/shared/posed_character.hpp"
 #include "experiments/studies/shared/posed_reference.hpp"
 #include "experiments/studies/study.hpp"
-#include "pbs/skinning/blend.hpp"
+#include "pbs/character/skinning_weights.hpp"
 #include "pbs/solver/options.hpp"
 #include "pbs/solver/pbs_solver.hpp"
 
@@ -27,13 +27,6 @@
 namespace experiments {
 namespace {
 
-pbs::Positions blended(const pbs::Character& character, const pbs::Weights& weights, const pbs::Pose& pose)
-{
-    pbs::Positions positions;
-    pbs::linear_blend_skinning(character.mesh.rest, weights, pose, positions);
-    return positions;
-}
-
 // The solver advanced from step to step, each step from the result of the last one.
 class WarmStarted {
 public:
@@ -41,7 +34,7 @@ public:
         : character_(character),
           motion_(motion),
           solver_(character.mesh, character.binding.distance, {}, options),
-          positions_(blended(character, character.weights, motion.steps.front()))
+          positions_(blended(character, motion.steps.front()))
     {
     }
 
@@ -62,32 +55,6 @@ private:
     pbs::Positions positions_;
     std::size_t next_ = 0;
 };
-
-}  // namespace
-
-const char* name_of(SolverStart start)
-{
-    static constexpr const char* names[] = {"lbs", "previous_frame", "rest_pose", "rigid_bind"};
-    return names[static_cast<int>(start)];
-}
-
-std::vector<FrameStarts> starts_of(const pbs::Character& character, const pbs::Motion& motion, const std::vector<int>& frames,
-                                   const pbs::PbsOptions& options)
-{
-    const pbs::Weights rigid = pbs::rigid_weights(character.binding);
-    WarmStarted warm(character, motion, options);
-    std::vector<FrameStarts> all;
-    for (const int frame : frames) {
-        const std::size_t step = static_cast<std::size_t>(frame) * motion.steps_per_frame;
-        const pbs::Pose& pose = motion.steps.at(step);
-        const pbs::Positions lbs = blended(character, character.weights, pose);
-        all.push_back({bind_points_of(options, character, pose, lbs),
-                       {lbs, warm.before(step), character.mesh.rest, blended(character, rigid, pose)}});
-    }
-    return all;
-}
-
-namespace {
 
 std::vector<int> frame_numbers(const std::vector<NamedFrame>& frames)
 {
@@ -184,14 +151,10 @@ private:
         if (reference.solved) paths.quality = quality_of(*reference.solved);
         paths.paths = iterate(character, options, starts.bind_points, {starts.shapes.begin(), starts.shapes.end()}, of_.most_iterations,
                               iteration_metrics);
+        const Shape from_lbs{paths.paths.front().last, paths.paths.front().finite};
         for (const IterationPath& path : paths.paths)
-            paths.limit_from_lbs_pct.push_back(joint_pct(path.last, {paths.paths.front().last, paths.paths.front().finite}));
+            paths.limit_from_lbs_pct.push_back(posed_.distance({path.last, path.finite}, from_lbs).joint_pct);
         return paths;
-    }
-
-    double joint_pct(const pbs::Positions& shape, const Shape& other) const
-    {
-        return posed_.distance({shape, shape.allFinite()}, other).joint_pct;
     }
 
     const ConvergenceCase& of_;
@@ -201,29 +164,6 @@ private:
     pbs::Motion motion_;
     std::vector<FrameReference> references_;  // one per frame
 };
-
-}  // namespace
-
-RECORD_SETTINGS(NamedFrame, frame, name, key, twist, compared)
-RECORD_SETTINGS(ProjectionSetting, order, precision)
-RECORD_SETTINGS_AND(ConvergenceCase,
-                    .derived("looks", [](const ConvergenceCase& of) -> nlohmann::json { return looked_at(of.most_iterations); })
-                        .constant("residual_tolerance", residual_tolerance)
-                        .constant("satisfied_residual", satisfied_residual)
-                        .constant("volume_tolerance_pct", volume_tolerance_pct),
-                    scene, frames, k_stretch, settings, other_vertices, every_setting_to, ladder, most_iterations, reference,
-                    refines_reference, reference_to)
-
-ConvergenceResult measure_convergence(const ConvergenceCase& of)
-{
-    ConvergenceResult result;
-    result.ladder = of.ladder;
-    Mesh(of, of.scene, true).add_to(result);
-    for (const int vertices : of.other_vertices) Mesh(of, at_size(of.scene, vertices), false).add_to(result);
-    return result;
-}
-
-namespace {
 
 std::string measure_and_record(const ConvergenceCase& of, const std::string& folder)
 {
@@ -315,6 +255,46 @@ std::vector<ReadingValues> read_paths(const StudyCase& of, const std::vector<Ove
 }
 
 }  // namespace
+
+const char* name_of(SolverStart start)
+{
+    static constexpr const char* names[] = {"lbs", "previous_frame", "rest_pose", "rigid_bind"};
+    return names[static_cast<int>(start)];
+}
+
+std::vector<FrameStarts> starts_of(const pbs::Character& character, const pbs::Motion& motion, const std::vector<int>& frames,
+                                   const pbs::PbsOptions& options)
+{
+    const pbs::Character rigid = pbs::with_weights(pbs::WeightKind::rigid, character);
+    WarmStarted warm(character, motion, options);
+    std::vector<FrameStarts> all;
+    for (const int frame : frames) {
+        const std::size_t step = static_cast<std::size_t>(frame) * motion.steps_per_frame;
+        const pbs::Pose& pose = motion.steps.at(step);
+        const pbs::Positions lbs = blended(character, pose);
+        all.push_back({bind_points_of(options, character, pose, lbs), {lbs, warm.before(step), character.mesh.rest, blended(rigid, pose)}});
+    }
+    return all;
+}
+
+RECORD_SETTINGS(NamedFrame, frame, name, key, twist, compared)
+RECORD_SETTINGS(ProjectionSetting, order, precision)
+RECORD_SETTINGS_AND(ConvergenceCase,
+                    .derived("looks", [](const ConvergenceCase& of) -> nlohmann::json { return looked_at(of.most_iterations); })
+                        .constant("residual_tolerance", residual_tolerance)
+                        .constant("satisfied_residual", satisfied_residual)
+                        .constant("volume_tolerance_pct", volume_tolerance_pct),
+                    scene, frames, k_stretch, settings, other_vertices, every_setting_to, ladder, most_iterations, reference,
+                    refines_reference, reference_to)
+
+ConvergenceResult measure_convergence(const ConvergenceCase& of)
+{
+    ConvergenceResult result;
+    result.ladder = of.ladder;
+    Mesh(of, of.scene, true).add_to(result);
+    for (const int vertices : of.other_vertices) Mesh(of, at_size(of.scene, vertices), false).add_to(result);
+    return result;
+}
 
 Study convergence_study()
 {

@@ -15,14 +15,11 @@
 #include "experiments/studies/shared/posed_reference.hpp"
 #include "experiments/studies/study.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <limits>
 
 namespace experiments {
 
-using analysis::CaseKey;
 using analysis::Columns;
 using analysis::within;
 
@@ -181,15 +178,6 @@ struct OrderedPair {
     std::vector<analysis::PairOrder> orders = {};
 };
 
-std::vector<OrderedPair> all_pairs(const CaseKey& of, const std::vector<DeformedShape>& shapes)
-{
-    std::vector<OrderedPair> pairs;
-    for (std::size_t a = 0; a < shapes.size(); ++a)
-        for (std::size_t b = a + 1; b < shapes.size(); ++b)
-            pairs.push_back({shapes[a], shapes[b], {.of = of, .first = shapes[a].deformer, .second = shapes[b].deformer}});
-    return pairs;
-}
-
 void add_order(OrderedPair& pair, const PosedReference& reference)
 {
     ++pair.row.members;
@@ -314,42 +302,6 @@ private:
     Shape reference_shape_;
 };
 
-}  // namespace
-
-EnsembleRecords measure_ensemble(const EnsembleCase& of)
-{
-    const PosedCharacter body(of.scene, {of.frame});
-    const pbs::TetMesh& mesh = body.character().mesh;
-    const analysis::MeshMetrics metrics(mesh.rest, mesh.tets);
-    EnsembleRecords records;
-    std::vector<DeformedShape> shapes;
-    for (const DeformerSpec& spec : of.deformers) {
-        const Shape shape = body.shapes(spec).front();
-        if (shape.finished)
-            shapes.push_back({spec.label, shape.positions});
-        else
-            records.breakdown += spec.label + " did not finish. ";
-    }
-    std::vector<OrderedPair> pairs = all_pairs(of.of, shapes);
-    for (const EnsembleMember& member : of.members) {
-        const PosedReference reference(body.character(), flesh_of(of.flesh, member), body.pose(0), of.scene.motion.time_step_s);
-        records.members.push_back(member_row(of, member, reference, metrics));
-        for (OrderedPair& pair : pairs) add_order(pair, reference);
-        if (!reference.is_reached()) continue;
-        for (const DeformedShape& shape : shapes) {
-            const analysis::ErrorNorms error = reference.error_of(shape.positions);
-            records.errors.push_back({of.of, member.name, shape.deformer, error.joint_pct, error.l2_pct,
-                                      reference.error_on_whole_body(shape.positions).joint_pct,
-                                      metrics.measure(shape.positions).volume_change_pct});
-        }
-        if (records.members.size() == 1 && !of.k_stretch.empty()) Splitting(of, body, reference).add_to(records);
-    }
-    for (const OrderedPair& pair : pairs) records.pairs.push_back(decided(pair));
-    return records;
-}
-
-namespace {
-
 std::string measure_and_record(const EnsembleCase& of, const std::string& folder)
 {
     const EnsembleRecords records = measure_ensemble(of);
@@ -405,6 +357,41 @@ StudyConclusion conclude(const FinishedRuns& finished)
 }
 
 }  // namespace
+
+EnsembleRecords measure_ensemble(const EnsembleCase& of)
+{
+    const PosedCharacter body(of.scene, {of.frame});
+    const pbs::TetMesh& mesh = body.character().mesh;
+    const analysis::MeshMetrics metrics(mesh.rest, mesh.tets);
+    EnsembleRecords records;
+    std::vector<DeformedShape> shapes;
+    for (const DeformerSpec& spec : of.deformers) {
+        const Shape shape = body.shapes(spec).front();
+        if (shape.finished)
+            shapes.push_back({spec.label, shape.positions});
+        else
+            records.breakdown += spec.label + " did not finish. ";
+    }
+    std::vector<OrderedPair> pairs;
+    for (std::size_t a = 0; a < shapes.size(); ++a)
+        for (std::size_t b = a + 1; b < shapes.size(); ++b)
+            pairs.push_back({shapes[a], shapes[b], {.of = of.of, .first = shapes[a].deformer, .second = shapes[b].deformer}});
+    for (const EnsembleMember& member : of.members) {
+        const PosedReference reference(body.character(), flesh_of(of.flesh, member), body.pose(0), of.scene.motion.time_step_s);
+        records.members.push_back(member_row(of, member, reference, metrics));
+        for (OrderedPair& pair : pairs) add_order(pair, reference);
+        if (!reference.is_reached()) continue;
+        for (const DeformedShape& shape : shapes) {
+            const analysis::ErrorNorms error = reference.error_of(shape.positions);
+            records.errors.push_back({of.of, member.name, shape.deformer, error.joint_pct, error.l2_pct,
+                                      reference.error_on_whole_body(shape.positions).joint_pct,
+                                      metrics.measure(shape.positions).volume_change_pct});
+        }
+        if (records.members.size() == 1 && !of.k_stretch.empty()) Splitting(of, body, reference).add_to(records);
+    }
+    for (const OrderedPair& pair : pairs) records.pairs.push_back(decided(pair));
+    return records;
+}
 
 Study ensemble_study()
 {

@@ -18,8 +18,6 @@
 #include "pbs/geometry/topology.hpp"
 #include "pbs/near_rest/near_rest.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -129,22 +127,17 @@ YoungFit fit_young(const Cantilever& cantilever, const ElasticSag& elastic, cons
     return {fit.interval, fit.all};
 }
 
-namespace {
-
-const analysis::Columns<BarSetting> bar_columns = {{"vertices", &BarSetting::vertices, "", "number of vertices"},
-                                                   {"mean_edge_m", &BarSetting::mean_edge_m, "m", "mean length of the edges"},
-                                                   {"k_stretch", &BarSetting::k_stretch, "", "stiffness of the stretch constraints"},
-                                                   {"k_volume", &BarSetting::k_volume, "", "stiffness of the volume constraints"},
-                                                   {"iterations", &BarSetting::iterations, "", "iterations per step"},
-                                                   {"time_step_s", &BarSetting::time_step_s, "s", "time step"},
-                                                   {"masses", &BarSetting::masses, "", "masses of PBS"},
-                                                   {"density_kg_m3", &BarSetting::density_kg_m3, "kg/m^3", "density of the elastic body"},
-                                                   {"poisson", &BarSetting::poisson, "", "Poisson's ratio of the elastic body"}};
-
-}  // namespace
-
 const analysis::Columns<SagRow> sag_columns =
-    within(&SagRow::setting, bar_columns) +
+    within(&SagRow::setting,
+           analysis::Columns<BarSetting>{{"vertices", &BarSetting::vertices, "", "number of vertices"},
+                                         {"mean_edge_m", &BarSetting::mean_edge_m, "m", "mean length of the edges"},
+                                         {"k_stretch", &BarSetting::k_stretch, "", "stiffness of the stretch constraints"},
+                                         {"k_volume", &BarSetting::k_volume, "", "stiffness of the volume constraints"},
+                                         {"iterations", &BarSetting::iterations, "", "iterations per step"},
+                                         {"time_step_s", &BarSetting::time_step_s, "s", "time step"},
+                                         {"masses", &BarSetting::masses, "", "masses of PBS"},
+                                         {"density_kg_m3", &BarSetting::density_kg_m3, "kg/m^3", "density of the elastic body"},
+                                         {"poisson", &BarSetting::poisson, "", "Poisson's ratio of the elastic body"}}) +
     analysis::Columns<SagRow>{
         {"young_pa", &SagRow::young_pa, "Pa", "Young's modulus of the elastic bar that sags as PBS does"},
         {"young_low_pa", &SagRow::young_low_pa, "Pa", "lower end of its interval"},
@@ -158,6 +151,10 @@ const analysis::Columns<SagRow> sag_columns =
         {"settled", &SagRow::settled, "", "a state of rest was found"},
         {"residual", &SagRow::residual, "", "what is left of the equation of rest"},
         {"solver_steps", &SagRow::solver_steps, "", "applications of the linear map"}};
+
+RECORD_SETTINGS_AND(SagCase,
+                    .constant("time_step_s", sag_time_step_s).constant("density_kg_m3", sag_density_kg_m3).constant("poisson", sag_poisson),
+                    vertices, k_stretch, k_volume, iterations)
 
 namespace {
 
@@ -217,14 +214,6 @@ SagRow sag_row(const Rig& rig, const BarSetting& setting)
             .residual = state.residual,
             .solver_steps = state.steps};
 }
-
-}  // namespace
-
-RECORD_SETTINGS_AND(SagCase,
-                    .constant("time_step_s", sag_time_step_s).constant("density_kg_m3", sag_density_kg_m3).constant("poisson", sag_poisson),
-                    vertices, k_stretch, k_volume, iterations)
-
-namespace {
 
 std::string record_sags(const SagCase& of, const std::string& folder)
 {

@@ -3,7 +3,6 @@
 #include "analysis/records/record_files.hpp"
 #include "analysis/statistics/statistics.hpp"
 #include "experiments/deformers/deformer_options.hpp"
-#include "experiments/scene/scene.hpp"
 #include "experiments/settings/recorded_settings.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 
@@ -17,6 +16,7 @@ namespace experiments {
 using analysis::Columns;
 using analysis::DampedOscillation;
 using analysis::Interval;
+using analysis::Measurement;
 using analysis::within;
 
 namespace {
@@ -68,31 +68,24 @@ const Columns<SeriesRow> walk_series_columns = {
     {"lag_rms_m", &SeriesRow::excursion_m, "m", "root mean square distance of the zone from the shape without jiggle"},
     {"speed_rms_m_s", &SeriesRow::speed_rms_m_s, "m/s", "root mean square speed of the zone's vertices"}};
 
-namespace {
-
-const Columns<pbs::BoneInZone> bone_columns = {
-    {"bone", &pbs::BoneInZone::name, "", "name of a bone"},
-    {"share_of_zone", &pbs::BoneInZone::share_of_zone, "", "share of the zone that is bound to it"},
-    {"share_of_bone", &pbs::BoneInZone::share_of_bone, "", "share of the bone's vertices in the zone"}};
-
-const Columns<WalkResponse> lag_columns = {
-    {"moving_lag_rms_mm", &WalkResponse::moving_lag_mm, "mm", "root mean square lag over the motion"},
-    {"most_lag_rms_mm", &WalkResponse::most_lag_mm, "mm", "largest lag of a step of the motion"},
-    {"last_speed_share", &WalkResponse::last_speed_share, "", "speed of the last tenth of the still steps over the motion's mean"},
-    {"finished", &WalkResponse::finished, "", "all positions are finite"}};
-
-}  // namespace
-
 const Columns<ZoneRow> zone_columns =
     Columns<ZoneRow>{{"share_of_vertices", &ZoneRow::share_of_vertices, "", "share of the body's vertices in the jiggling zone"},
                      {"share_on_skin", &ZoneRow::share_on_skin, "", "share of the zone's vertices on the skin"},
                      {"pieces", &ZoneRow::pieces, "", "number of connected pieces of the zone"},
                      {"largest_piece", &ZoneRow::largest_piece, "", "vertices of the largest piece"}} +
-    within(&ZoneRow::bone, bone_columns);
+    within(&ZoneRow::bone,
+           Columns<pbs::BoneInZone>{{"bone", &pbs::BoneInZone::name, "", "name of a bone"},
+                                    {"share_of_zone", &pbs::BoneInZone::share_of_zone, "", "share of the zone that is bound to it"},
+                                    {"share_of_bone", &pbs::BoneInZone::share_of_bone, "", "share of the bone's vertices in the zone"}});
 
 const Columns<WalkRow> walk_columns =
     Columns<WalkRow>{{"k_stretch", &WalkRow::k_stretch, "", "stiffness of the stretch constraints in the zone"}} +
-    within(&WalkRow::response, lag_columns);
+    within(&WalkRow::response,
+           Columns<WalkResponse>{{"moving_lag_rms_mm", &WalkResponse::moving_lag_mm, "mm", "root mean square lag over the motion"},
+                                 {"most_lag_rms_mm", &WalkResponse::most_lag_mm, "mm", "largest lag of a step of the motion"},
+                                 {"last_speed_share", &WalkResponse::last_speed_share, "",
+                                  "speed of the last tenth of the still steps over the motion's mean"},
+                                 {"finished", &WalkResponse::finished, "", "all positions are finite"}});
 
 namespace {
 
@@ -155,70 +148,7 @@ void add_reference(const JoltCase& of, const pbs::Character& character, const st
         {"C09", "damping_ratio_of_reference", at, swing.damping_ratio.estimate, swing.damping_ratio.low, swing.damping_ratio.high, "1"});
 }
 
-}  // namespace
-
-RECORD_SETTINGS(Jolt, direction, length_m, time_step_s, still_steps, steps)
-
-RECORD_SETTINGS_AND(JoltCase,
-                    .constant("reference", {{"deformer", "neo-Hookean, linear elements, generalised alpha"},
-                                            {"first_young_pa", first_young_pa},
-                                            {"steps_a_period", reference_steps_a_period},
-                                            {"periods", reference_periods}}),
-                    scene, jolt, settings, with_reference)
-
-RECORD_SETTINGS_AND(WalkCase, .constant("setting", to_json(JiggleSetting{})), scene, k_stretch, still_steps)
-
-std::string record_jolts(const JoltCase& of, const std::string& folder)
-{
-    const pbs::Character character = pbs::make_character(of.scene.character);
-    const pbs::ZoneContents zone = zone_contents(character);
-    JoltRecords records;
-    std::vector<MeasuredJiggle> measured;
-    std::string breakdown;
-    for (const JiggleSetting& setting : of.settings) {
-        const DeformerSpec spec = jiggling(spec_of(of.scene, "pbs"), setting);
-        measured.push_back({setting, jolt_response(character, spec, zone.pieces.front(), jolt_at(of, setting))});
-        const JoltResponse& response = measured.back().response;
-        if (!response.finished) breakdown += text_of(setting) + ". ";
-        records.responses.push_back(response_row(setting, analysis::not_known, setting.time_step_s, response));
-        add_series(records.series, text_of(setting), setting.time_step_s, response.excursion_m, response.speed_rms_m_s);
-    }
-    if (of.with_reference)
-        for (const MeasuredJiggle& one : measured) add_reference(of, character, zone.pieces.front(), one, records);
-    else
-        records.measurements = jiggle_values(character.name, measured);
-    table_of(zone_columns, zone_rows(zone)).write(analysis::path_in(folder, "zone.csv"));
-    table_of(response_columns, records.responses).write(analysis::path_in(folder, "responses.csv"));
-    table_of(jolt_series_columns, records.series).write(analysis::path_in(folder, "series.csv"));
-    analysis::measurement_table(records.measurements).write(analysis::path_in(folder, "measurements.csv"));
-    return breakdown;
-}
-
-std::string record_walk(const WalkCase& of, const std::string& folder)
-{
-    const pbs::Character character = pbs::make_character(of.scene.character);
-    const pbs::Motion motion = make_motion(of.scene.motion, character.skeleton, of.scene.file);
-    std::vector<WalkRow> walk;
-    std::vector<SeriesRow> series;
-    std::string breakdown;
-    for (const double k : of.k_stretch) {
-        const DeformerSpec spec = jiggling(spec_of(of.scene, "pbs"), {.k_stretch = k});
-        const WalkResponse response = walk_response(character, motion, spec, pbs::jiggle_zone(character.binding), of.still_steps);
-        if (!response.finished) breakdown += fmt::format("k_stretch {}. ", k);
-        walk.push_back({k, response});
-        add_series(series, fmt::format("k_stretch {}", k), motion.time_step_s, response.lag_rms_m, response.speed_rms_m_s);
-    }
-    table_of(walk_columns, walk).write(analysis::path_in(folder, "walk.csv"));
-    table_of(walk_series_columns, series).write(analysis::path_in(folder, "series.csv"));
-    return breakdown;
-}
-
-namespace {
-
 constexpr int least_for_correlation = 4;
-
-using analysis::Interval;
-using analysis::Measurement;
 
 Measurement measurement(const std::string& quantity, const analysis::CaseKey& of, const Interval& value, const std::string& unit)
 {
@@ -341,6 +271,62 @@ void add_half_step(std::vector<Measurement>& measurements, const std::string& bo
 }
 
 }  // namespace
+
+RECORD_SETTINGS(Jolt, direction, length_m, time_step_s, still_steps, steps)
+
+RECORD_SETTINGS_AND(JoltCase,
+                    .constant("reference", {{"deformer", "neo-Hookean, linear elements, generalised alpha"},
+                                            {"first_young_pa", first_young_pa},
+                                            {"steps_a_period", reference_steps_a_period},
+                                            {"periods", reference_periods}}),
+                    scene, jolt, settings, with_reference)
+
+RECORD_SETTINGS_AND(WalkCase, .constant("setting", to_json(JiggleSetting{})), scene, k_stretch, still_steps)
+
+std::string record_jolts(const JoltCase& of, const std::string& folder)
+{
+    const pbs::Character character = pbs::make_character(of.scene.character);
+    const pbs::ZoneContents zone = zone_contents(character);
+    JoltRecords records;
+    std::vector<MeasuredJiggle> measured;
+    std::string breakdown;
+    for (const JiggleSetting& setting : of.settings) {
+        const DeformerSpec spec = jiggling(spec_of(of.scene, "pbs"), setting);
+        measured.push_back({setting, jolt_response(character, spec, zone.pieces.front(), jolt_at(of, setting))});
+        const JoltResponse& response = measured.back().response;
+        if (!response.finished) breakdown += text_of(setting) + ". ";
+        records.responses.push_back(response_row(setting, analysis::not_known, setting.time_step_s, response));
+        add_series(records.series, text_of(setting), setting.time_step_s, response.excursion_m, response.speed_rms_m_s);
+    }
+    if (of.with_reference)
+        for (const MeasuredJiggle& one : measured) add_reference(of, character, zone.pieces.front(), one, records);
+    else
+        records.measurements = jiggle_values(character.name, measured);
+    table_of(zone_columns, zone_rows(zone)).write(analysis::path_in(folder, "zone.csv"));
+    table_of(response_columns, records.responses).write(analysis::path_in(folder, "responses.csv"));
+    table_of(jolt_series_columns, records.series).write(analysis::path_in(folder, "series.csv"));
+    analysis::measurement_table(records.measurements).write(analysis::path_in(folder, "measurements.csv"));
+    return breakdown;
+}
+
+std::string record_walk(const WalkCase& of, const std::string& folder)
+{
+    const pbs::Character character = pbs::make_character(of.scene.character);
+    const pbs::Motion motion = make_motion(of.scene.motion, character.skeleton, of.scene.file);
+    std::vector<WalkRow> walk;
+    std::vector<SeriesRow> series;
+    std::string breakdown;
+    for (const double k : of.k_stretch) {
+        const DeformerSpec spec = jiggling(spec_of(of.scene, "pbs"), {.k_stretch = k});
+        const WalkResponse response = walk_response(character, motion, spec, pbs::jiggle_zone(character.binding), of.still_steps);
+        if (!response.finished) breakdown += fmt::format("k_stretch {}. ", k);
+        walk.push_back({k, response});
+        add_series(series, fmt::format("k_stretch {}", k), motion.time_step_s, response.lag_rms_m, response.speed_rms_m_s);
+    }
+    table_of(walk_columns, walk).write(analysis::path_in(folder, "walk.csv"));
+    table_of(walk_series_columns, series).write(analysis::path_in(folder, "series.csv"));
+    return breakdown;
+}
 
 std::vector<Measurement> jiggle_values(const std::string& body, const std::vector<MeasuredJiggle>& measured)
 {

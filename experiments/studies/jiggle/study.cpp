@@ -24,13 +24,6 @@
 namespace experiments {
 namespace {
 
-pbs::Pose moved_by(std::size_t bones, const pbs::Vec3& translation)
-{
-    pbs::Pose pose(bones, Eigen::Isometry3d::Identity());
-    for (auto& bone : pose) bone.translation() = translation;
-    return pose;
-}
-
 double largest(std::vector<double>::const_iterator first, std::vector<double>::const_iterator last)
 {
     double most = 0.0;
@@ -71,8 +64,9 @@ JoltResponse jolt_response(const pbs::Character& character, const DeformerSpec& 
 {
     const std::unique_ptr<Deformer> deformer = make_deformer(spec);
     deformer->reset(character);
-    const pbs::Pose still = moved_by(character.skeleton.bones.size(), pbs::Vec3::Zero()),
-                    moved = moved_by(character.skeleton.bones.size(), jolt.length_m * jolt.direction);
+    const std::size_t bones = character.skeleton.bones.size();
+    const pbs::Vec3 way_m = jolt.length_m * jolt.direction;
+    const pbs::Pose still(bones, Eigen::Isometry3d::Identity()), moved(bones, Eigen::Isometry3d(Eigen::Translation3d(way_m)));
     const Eigen::Index vertices = character.mesh.rest.rows();
     JoltResponse response;
     const auto advance = [&](const pbs::Pose& pose) {
@@ -147,7 +141,7 @@ void sum_up(WalkResponse& response, std::size_t moving, int still_steps)
     response.most_lag_mm = 1e3 * *std::max_element(lag.begin(), end);
     const double in_motion = mean_of(speed.begin(), speed.begin() + static_cast<std::ptrdiff_t>(moving));
     const double at_last = mean_of(speed.end() - std::max(still_steps / 10, 1), speed.end());
-    response.last_speed_share = in_motion > 0.0 ? at_last / in_motion : 0.0;
+    response.last_speed_share = ratio(at_last, in_motion);
 }
 
 }  // namespace

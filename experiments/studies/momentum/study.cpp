@@ -128,26 +128,6 @@ MomentumDrift one_pass(const pbs::Character& character, const pbs::Pose& pose, c
     return {sum.linear.norm() / sum.linear_sum, sum.angular.norm() / sum.angular_sum};
 }
 
-}  // namespace
-
-MomentumDrift drift_of_projections(const pbs::Character& character, const pbs::Pose& pose, const pbs::PbsOptions& options,
-                                   ProjectedClass projected, pbs::Masses counted)
-{
-    const Eigen::VectorXd mass = masses_of(character, counted);
-    return options.precision == pbs::Precision::f32 ? single_projections<float>(character, pose, options, projected, mass)
-                                                    : single_projections<double>(character, pose, options, projected, mass);
-}
-
-MomentumDrift drift_of_a_pass(const pbs::Character& character, const pbs::Pose& pose, const pbs::PbsOptions& options,
-                              ProjectedClass projected, pbs::Masses counted)
-{
-    const Eigen::VectorXd mass = masses_of(character, counted);
-    return options.precision == pbs::Precision::f32 ? one_pass<float>(character, pose, options, projected, mass)
-                                                    : one_pass<double>(character, pose, options, projected, mass);
-}
-
-namespace {
-
 struct Setting {
     std::string name;
     pbs::Masses known, counted;  // the masses that the projection uses, and those of the momentum
@@ -232,6 +212,22 @@ std::vector<ReadingValues> read_drifts(const StudyCase& of, const std::vector<Ov
 }
 
 }  // namespace
+
+MomentumDrift drift_of_projections(const pbs::Character& character, const pbs::Pose& pose, const pbs::PbsOptions& options,
+                                   ProjectedClass projected, pbs::Masses counted)
+{
+    const Eigen::VectorXd mass = masses_of(character, counted);
+    return options.precision == pbs::Precision::f32 ? single_projections<float>(character, pose, options, projected, mass)
+                                                    : single_projections<double>(character, pose, options, projected, mass);
+}
+
+MomentumDrift drift_of_a_pass(const pbs::Character& character, const pbs::Pose& pose, const pbs::PbsOptions& options,
+                              ProjectedClass projected, pbs::Masses counted)
+{
+    const Eigen::VectorXd mass = masses_of(character, counted);
+    return options.precision == pbs::Precision::f32 ? one_pass<float>(character, pose, options, projected, mass)
+                                                    : one_pass<double>(character, pose, options, projected, mass);
+}
 
 Study momentum_study()
 {

@@ -57,26 +57,14 @@ analysis::CaseKey key_of(const BodySetup& setup)
     return {.body = setup.body, .motion = "01_01", .deformer = "pbs"};
 }
 
-analysis::CaseKey key_of(const BodySetup& setup, const nlohmann::json& run)
-{
-    analysis::CaseKey key = key_of(setup);
-    key.vertices = run.at("character").at("vertices").get<double>();
-    return key;
-}
-
 std::vector<Measurement> measured_in(const fs::path& run_folder, const BodySetup& setup, const std::vector<std::string>& changed)
 {
     const analysis::CsvTable metrics = analysis::read_csv((run_folder / "metrics.csv").string());
-    return analysis::from_record((run_folder / "run.json").string(),
-                                 [&](const nlohmann::json& run) { return setup_measurements(key_of(setup, run), metrics, run, changed); });
-}
-
-void write_trials(const std::vector<TriedSetup>& tried, const std::string& path)
-{
-    std::vector<TrialRow> trials;
-    for (std::size_t i = 0; i < tried.size(); ++i)
-        trials.push_back({int(i), fmt::format("{}", fmt::join(tried[i].setup.further, " ")), tried[i].failure});
-    table_of(trial_columns, trials).write(path);
+    return analysis::from_record((run_folder / "run.json").string(), [&](const nlohmann::json& run) {
+        analysis::CaseKey key = key_of(setup);
+        key.vertices = run.at("character").at("vertices").get<double>();
+        return setup_measurements(key, metrics, run, changed);
+    });
 }
 
 }  // namespace
@@ -192,7 +180,10 @@ std::string set_up_and_record(const SetupCase& of, const std::string& folder)
     const std::vector<std::string> changed = keys_changed(shared_scene(rate_hz).resolved, scene_of(last, rate_hz).resolved);
     analysis::measurement_table(runs ? measured_in(run_folder, last, changed) : not_set_up(key_of(setup))).write(path("measurements.csv"));
     table_of(key_columns, changed).write(path("changed_keys.csv"));
-    write_trials(tried, path("trials.csv"));
+    std::vector<TrialRow> trials;
+    for (std::size_t i = 0; i < tried.size(); ++i)
+        trials.push_back({int(i), fmt::format("{}", fmt::join(tried[i].setup.further, " ")), tried[i].failure});
+    table_of(trial_columns, trials).write(path("trials.csv"));
     return tried.back().failure;
 }
 

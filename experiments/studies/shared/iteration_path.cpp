@@ -1,13 +1,11 @@
 #include "experiments/studies/shared/iteration_path.hpp"
 
 #include "analysis/statistics/fits.hpp"
-#include "analysis/statistics/statistics.hpp"
 #include "experiments/process/machine.hpp"
 #include "experiments/process/terminal.hpp"
 #include "experiments/studies/shared/posed_reference.hpp"
 #include "pbs/solver/batched/batched_projection.hpp"
 #include "pbs/solver/particles.hpp"
-#include "pbs/solver/projection.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -39,6 +37,24 @@ Reached reached(const IterationPath& path, double Look::*value, double bound)
     Reached result{path.looks.back().iteration, false};
     for (auto look = path.looks.rbegin(); look != path.looks.rend() && (*look).*value <= bound; ++look) result = {look->iteration, true};
     return result;
+}
+
+template <typename Constraint>
+std::vector<Constraint> spread(const std::vector<Constraint>& constraints)
+{
+    constexpr std::size_t parts = 8;
+    std::vector<Constraint> result;
+    const std::size_t length = (constraints.size() + parts - 1) / parts;
+    for (std::size_t i = 0; i < length; ++i)
+        for (std::size_t k = i; k < constraints.size(); k += length) result.push_back(constraints[k]);
+    return result;
+}
+
+// Fisher and Yates. std::shuffle may draw its numbers differently in another standard library.
+template <typename Constraint>
+void shuffle(std::vector<Constraint>& constraints, std::mt19937_64& engine)
+{
+    for (std::size_t left = constraints.size(); left > 1; --left) std::swap(constraints[left - 1], constraints[engine() % left]);
 }
 
 }  // namespace
@@ -192,38 +208,14 @@ Rate rate_of(const IterationPath& path, double floor)
 
 const Look& look_at(const IterationPath& path, int iteration)
 {
-    const auto after = std::upper_bound(path.looks.begin(), path.looks.end(), iteration,
-                                        [](int wanted, const Look& look) { return wanted < look.iteration; });
+    const auto after = std::ranges::upper_bound(path.looks, iteration, {}, &Look::iteration);
     return after == path.looks.begin() ? path.looks.front() : *std::prev(after);
 }
 
 const Look& nearest_to_reference(const IterationPath& path)
 {
-    return *std::min_element(path.looks.begin(), path.looks.end(),
-                             [](const Look& a, const Look& b) { return a.error_joint_pct < b.error_joint_pct; });
+    return *std::ranges::min_element(path.looks, {}, &Look::error_joint_pct);
 }
-
-namespace {
-
-template <typename Constraint>
-std::vector<Constraint> spread(const std::vector<Constraint>& constraints)
-{
-    constexpr std::size_t parts = 8;
-    std::vector<Constraint> result;
-    const std::size_t length = (constraints.size() + parts - 1) / parts;
-    for (std::size_t i = 0; i < length; ++i)
-        for (std::size_t k = i; k < constraints.size(); k += length) result.push_back(constraints[k]);
-    return result;
-}
-
-// Fisher and Yates. std::shuffle may draw its numbers differently in another standard library.
-template <typename Constraint>
-void shuffle(std::vector<Constraint>& constraints, std::mt19937_64& engine)
-{
-    for (std::size_t left = constraints.size(); left > 1; --left) std::swap(constraints[left - 1], constraints[engine() % left]);
-}
-
-}  // namespace
 
 template <typename Scalar>
 void in_spread_sequence(pbs::ConstraintSet<Scalar>& constraints)

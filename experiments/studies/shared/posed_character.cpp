@@ -2,7 +2,6 @@
 
 #include "experiments/process/terminal.hpp"
 #include "experiments/run/frame_measurement.hpp"
-#include "experiments/scene/scene.hpp"
 #include "pbs/character/skinning_weights.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/tet_mesh.hpp"

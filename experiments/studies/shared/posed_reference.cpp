@@ -1,12 +1,10 @@
 #include "experiments/studies/shared/posed_reference.hpp"
 
-#include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/process/terminal.hpp"
 #include "experiments/run/frame_measurement.hpp"
 #include "experiments/run/reference_error_bar.hpp"
 #include "experiments/settings/recorded_settings.hpp"
-#include "pbs/character/character.hpp"
 #include "pbs/character/overlap_and_jiggle.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
@@ -128,21 +126,19 @@ void PosedReference::add(const TriedSolution& of, const Level& level)
 void PosedReference::observe_order(double formal_order)
 {
     if (!std::all_of(solutions_.begin() + 1, solutions_.end(), [](const NestedSolution& solution) { return solution.finished; })) return;
-    if (!solutions_.front().finished) return observe_order_without_finest(formal_order);
-    const auto from_finest = [&](std::size_t i) { return distance(solutions_[i].positions, solutions_.front().positions); };
-    const analysis::ErrorNorms quadratic = from_finest(1), linear_refined = from_finest(2), linear = from_finest(3);
-    order_ = analysis::nested_order({linear.joint_pct, linear_refined.joint_pct, quadratic.joint_pct}, formal_order);
+    constexpr std::size_t finest = 0, quadratic = 1, linear_refined = 2, linear = 3;
+    const auto between = [&](std::size_t one, std::size_t other) {
+        return distance(solutions_[one].positions, solutions_[other].positions);
+    };
+    const bool has_finest = solutions_[finest].finished;
+    const std::size_t best = has_finest ? finest : quadratic;
+    const double linear_pct = between(linear, best).joint_pct, refined_pct = between(linear_refined, best).joint_pct;
+    order_ = has_finest ? analysis::nested_order({linear_pct, refined_pct, between(quadratic, finest).joint_pct}, formal_order)
+                        : analysis::order_without_finest(linear_pct, refined_pct, formal_order);
+    const analysis::ErrorNorms to_best = between(has_finest ? *which_ : linear_refined, best),
+                               bounded = has_finest ? between(quadratic, finest) : between(linear, linear_refined);
     for (const auto norm : {&analysis::ErrorNorms::l2_pct, &analysis::ErrorNorms::joint_pct, &analysis::ErrorNorms::linf_m})
-        bound_.*norm = from_finest(*which_).*norm + order_->bound(quadratic.*norm);
-}
-
-void PosedReference::observe_order_without_finest(double formal_order)
-{
-    const pbs::Positions &quadratic = solutions_[1].positions, &linear_refined = solutions_[2].positions, &linear = solutions_[3].positions;
-    const analysis::ErrorNorms between = distance(linear, linear_refined), to_quadratic = distance(linear_refined, quadratic);
-    order_ = analysis::order_without_finest(distance(linear, quadratic).joint_pct, to_quadratic.joint_pct, formal_order);
-    for (const auto norm : {&analysis::ErrorNorms::l2_pct, &analysis::ErrorNorms::joint_pct, &analysis::ErrorNorms::linf_m})
-        bound_.*norm = to_quadratic.*norm + order_->bound(between.*norm);
+        bound_.*norm = to_best.*norm + order_->bound(bounded.*norm);
 }
 
 analysis::ErrorNorms PosedReference::error_on_whole_body(const pbs::Positions& positions) const

@@ -85,7 +85,6 @@ private:
     void solve(const DeformerSpec& spec, const pbs::Pose& pose, double time_step_s, const std::vector<Level>& levels);
     void add(const TriedSolution& of, const Level& level);
     void observe_order(double formal_order);
-    void observe_order_without_finest(double formal_order);
 
     const pbs::Character& character_;
     std::string label_;

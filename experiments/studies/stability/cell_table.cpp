@@ -277,19 +277,15 @@ std::optional<int> first_to_stay(const std::map<int, std::optional<double>>& pct
     return first;
 }
 
-std::string pose_of(const Disturbance& disturbance)
-{
-    return fmt::format("{}_{:g}", disturbance.axis == pbs::Vec3::UnitX() ? "twist" : "bend", disturbance.angle_deg);
-}
-
 StartRow row_of(const StabilityCell& cell)
 {
     StartRow row;
     row.body = cell.body;
     row.model = cell.model;
     row.precision = precision_of(cell);
-    row.pose = pose_of(cell.disturbance);
-    row.start = name_of(cell.disturbance.start);
+    const Disturbance& disturbance = cell.disturbance;
+    row.pose = fmt::format("{}_{:g}", disturbance.axis == pbs::Vec3::UnitX() ? "twist" : "bend", disturbance.angle_deg);
+    row.start = name_of(disturbance.start);
     row.setting = cell.second_factor;
     if (!row.setting.empty()) row.setting_value = cell.second_value;
     return row;

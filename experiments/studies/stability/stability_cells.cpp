@@ -2,7 +2,6 @@
 
 #include "experiments/deformers/deformer_options.hpp"
 #include "experiments/deformers/registry.hpp"
-#include "experiments/scene/scene.hpp"
 #include "experiments/settings/recorded_settings.hpp"
 #include "experiments/settings/scene_values.hpp"
 
@@ -62,9 +61,8 @@ void jump(StabilityCell& cell, double angle_deg)
 
 void start(StabilityCell& cell, double value)
 {
-    static const char* const names[] = {"as_posed", "flattened", "mirrored", "random", "point"};
     cell.disturbance.start = static_cast<Start>(std::lround(value));
-    cell.named = names[std::lround(value)];
+    cell.named = name_of(cell.disturbance.start);
 }
 
 template <Defect defect>
@@ -160,11 +158,6 @@ void set_k_stretch(StabilityCell& cell, double k)
     if (pbs_of(cell).jiggle) pbs_of(cell).jiggle->k_stretch = k;
 }
 
-void set_mass_ratio(StabilityCell& cell, double ratio)
-{
-    cell.mass_ratio = ratio;
-}
-
 const Sweep k_stretches{"k_stretch", "1", {0.0, 0.2, 0.6, 1.0}, {0.01, 0.1, 0.4, 0.8, 0.9}, set_k_stretch};
 const Sweep k_volumes{
     "k_volume", "1", {0.0, 0.5, 1.0}, {0.1, 0.25, 0.75}, [](StabilityCell& cell, double k) { pbs_of(cell).k_volume = k; }};
@@ -178,7 +171,8 @@ const Sweep clip_time_steps{
 const Sweep gravities{"gravity", "g", {1.0, 100.0, 1e4}, {10.0, 1e3}, [](StabilityCell& cell, double count) {
                           pbs_of(cell).gravity_m_s2.y() = -g_m_s2 * count;
                       }};
-const Sweep mass_ratios{"mass_ratio", "1", {1e2, 1e8}, {1e4, 1e6}, set_mass_ratio, false};
+const Sweep mass_ratios{"mass_ratio", "1", {1e2, 1e8}, {1e4, 1e6}, [](StabilityCell& cell, double ratio) { cell.mass_ratio = ratio; },
+                        false};
 const Sweep held_ends{"held_end", "1", {1.0}, {}, [](StabilityCell& cell, double) { cell.held_end = true; }, false};
 const Sweep orders{"order", "", {1.0, 2.0}, {}, [](StabilityCell& cell, double value) {
                        pbs_of(cell).order = value == 1.0 ? pbs::Order::plain : pbs::Order::grouped;

@@ -142,33 +142,6 @@ std::optional<analysis::Measurement> ratio_of(const analysis::CaseKey& of, const
     return result;
 }
 
-}  // namespace
-
-std::vector<analysis::Measurement> stiffness_ratios(const std::vector<StiffnessRow>& rows, Varied varied)
-{
-    std::vector<analysis::Measurement> measured;
-    for (const auto& [of, found] : cases_of(rows, varied))
-        if (const auto ratio = ratio_of(of, found, varied)) measured.push_back(*ratio);
-    return measured;
-}
-
-std::vector<StiffnessExponent> stiffness_exponents(const std::vector<StiffnessRow>& rows, Varied varied)
-{
-    const auto shown = [varied](double x) { return varied == Varied::time_step ? 1e3 / x : x; };  // a time step [ms]
-    std::vector<StiffnessExponent> exponents;
-    for (const auto& [of, found] : cases_of(rows, varied)) {
-        if (found.series.empty() || found.series.begin()->second.size() < 2) continue;
-        std::vector<double> x, stiffness;
-        for (const Point& point : found.series.begin()->second) x.push_back(point.x), stiffness.push_back(point.stiffness);
-        const analysis::Interval slope = analysis::observed_order(x, stiffness).slope;
-        exponents.push_back(
-            {varied, of, shown(x.front()), shown(x.back()), slope.n, found.left_out, slope.estimate, slope.low, slope.high});
-    }
-    return exponents;
-}
-
-namespace {
-
 using Ratio = analysis::Measurement;
 
 analysis::CsvTable ratio_table(Varied varied, const std::vector<Ratio>& ratios)
@@ -198,46 +171,6 @@ bool is_in_short(const StiffnessRow& row)
     if (row.setting.method == Method::xpbd) return row.setting.young_pa == 3.0e4;
     return !is_xpbd(row.setting.method) && row.setting.k_stretch == 0.2;
 }
-
-std::vector<Ratio> control_ratios(const SweptRows& sweep, bool forgets_multipliers)
-{
-    return ratios_where(sweep, [&](const StiffnessRow& row) {
-        return is_xpbd(row.setting.method) && (row.setting.method == Method::xpbd_forgetting) == forgets_multipliers;
-    });
-}
-
-}  // namespace
-
-std::string stiffness_text(const std::vector<SweptRows>& sweeps)
-{
-    analysis::CsvTable lines{{}};
-    for (const SweptRows& sweep : sweeps) lines.append(ratio_table(sweep.first, ratios_where(sweep, is_in_short)));
-    return "ratio of stiffnesses for one doubling: PBS at k_stretch 0.2, the same with the exponent, XPBD at 30 kPa\n" +
-           text_table(lines, {{"at", "at"},
-                              {"body", "body"},
-                              {"deformer", "deformer"},
-                              {"ratio", "ratio", "{:.3g}"},
-                              {"least", "least", "{:.3g}"},
-                              {"largest", "largest", "{:.3g}"}});
-}
-
-std::string control_text(const std::vector<SweptRows>& sweeps, const analysis::Claim& claim)
-{
-    std::string text;
-    for (const bool forgets : {false, true})
-        for (const SweptRows& sweep : sweeps) {
-            const auto measured = control_ratios(sweep, forgets);
-            if (measured.empty()) continue;
-            text += fmt::format(
-                "the control, XPBD{}, at {}: {} of {} values lie within {}\n", forgets ? " without its multipliers" : "",
-                text_of(sweep.first).doubled,
-                std::ranges::count(measured, analysis::Extent::whole, [&](const Ratio& one) { return analysis::extent_of(claim, one); }),
-                measured.size(), analysis::bound_text(analysis::bound_of(claim, measured.front().quantity)));
-        }
-    return text;
-}
-
-namespace {
 
 StudyPlan plan(bool full)
 {
@@ -271,6 +204,60 @@ StudyConclusion conclude(const FinishedRuns& finished)
 }
 
 }  // namespace
+
+std::vector<analysis::Measurement> stiffness_ratios(const std::vector<StiffnessRow>& rows, Varied varied)
+{
+    std::vector<analysis::Measurement> measured;
+    for (const auto& [of, found] : cases_of(rows, varied))
+        if (const auto ratio = ratio_of(of, found, varied)) measured.push_back(*ratio);
+    return measured;
+}
+
+std::vector<StiffnessExponent> stiffness_exponents(const std::vector<StiffnessRow>& rows, Varied varied)
+{
+    const auto shown = [varied](double x) { return varied == Varied::time_step ? 1e3 / x : x; };  // a time step [ms]
+    std::vector<StiffnessExponent> exponents;
+    for (const auto& [of, found] : cases_of(rows, varied)) {
+        if (found.series.empty() || found.series.begin()->second.size() < 2) continue;
+        std::vector<double> x, stiffness;
+        for (const Point& point : found.series.begin()->second) x.push_back(point.x), stiffness.push_back(point.stiffness);
+        const analysis::Interval slope = analysis::observed_order(x, stiffness).slope;
+        exponents.push_back(
+            {varied, of, shown(x.front()), shown(x.back()), slope.n, found.left_out, slope.estimate, slope.low, slope.high});
+    }
+    return exponents;
+}
+
+std::string stiffness_text(const std::vector<SweptRows>& sweeps)
+{
+    analysis::CsvTable lines{{}};
+    for (const SweptRows& sweep : sweeps) lines.append(ratio_table(sweep.first, ratios_where(sweep, is_in_short)));
+    return "ratio of stiffnesses for one doubling: PBS at k_stretch 0.2, the same with the exponent, XPBD at 30 kPa\n" +
+           text_table(lines, {{"at", "at"},
+                              {"body", "body"},
+                              {"deformer", "deformer"},
+                              {"ratio", "ratio", "{:.3g}"},
+                              {"least", "least", "{:.3g}"},
+                              {"largest", "largest", "{:.3g}"}});
+}
+
+std::string control_text(const std::vector<SweptRows>& sweeps, const analysis::Claim& claim)
+{
+    std::string text;
+    for (const bool forgets : {false, true})
+        for (const SweptRows& sweep : sweeps) {
+            const auto measured = ratios_where(sweep, [&](const StiffnessRow& row) {
+                return is_xpbd(row.setting.method) && (row.setting.method == Method::xpbd_forgetting) == forgets;
+            });
+            if (measured.empty()) continue;
+            text += fmt::format(
+                "the control, XPBD{}, at {}: {} of {} values lie within {}\n", forgets ? " without its multipliers" : "",
+                text_of(sweep.first).doubled,
+                std::ranges::count(measured, analysis::Extent::whole, [&](const Ratio& one) { return analysis::extent_of(claim, one); }),
+                measured.size(), analysis::bound_text(analysis::bound_of(claim, measured.front().quantity)));
+        }
+    return text;
+}
 
 Study stiffness_study()
 {

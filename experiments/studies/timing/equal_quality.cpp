@@ -70,18 +70,6 @@ pbs::Tets grid_tets(const pbs::Positions& points)
     return tets;
 }
 
-}  // namespace
-
-pbs::Character tapered_limb()
-{
-    const pbs::Vec3 end(half_length, 0.0, 0.0), middle = pbs::Vec3::Zero();
-    pbs::TetMesh mesh{grid_points(), {}};
-    mesh.tets = grid_tets(mesh.rest);
-    return skinned_along(tapered_name, std::move(mesh), {{{"upper", -1, -end, middle}, {"forearm", 0, middle, end}}});
-}
-
-namespace {
-
 // One order that is measured, and the loops of its timing.
 struct Contender {
     MeasuredOrder measured;
@@ -131,37 +119,6 @@ void append(const EqualQualityCase& of, const pbs::Character& character, pbs::Pb
     }
 }
 
-}  // namespace
-
-RECORD_SETTINGS(EqualQualityCase, of, scene, frame, random, most_iterations, rounds)
-
-std::vector<MeasuredOrder> measure_orders(const EqualQualityCase& of)
-{
-    const pbs::Character character = of.of.body == tapered_name ? tapered_limb() : pbs::make_character(of.scene.character);
-    const pbs::Motion motion = make_motion(of.scene.motion, character.skeleton, of.scene.file);
-    const pbs::Pose& pose = motion.steps.at(static_cast<std::size_t>(of.frame) * motion.steps_per_frame);
-    const pbs::Positions lbs = blended(character, pose), bind_points = pbs::posed_bind_points(character.binding, pose);
-    pbs::PbsOptions options = options_of<pbs::PbsOptions>(spec_of(of.scene, "pbs"));
-    options.jiggle.reset();
-    options.sleep = false;
-    options.threads = 1;
-    std::vector<Contender> contenders;
-    append<float>(of, character, options, {lbs, bind_points}, contenders);
-    append<double>(of, character, options, {lbs, bind_points}, contenders);
-
-    std::vector<TimedVariant> turns;
-    for (const Contender& contender : contenders) turns.push_back([&contender] { return contender.turn(); });
-    const std::vector<Samples> samples = take_turns(turns, of.rounds);
-    std::vector<MeasuredOrder> measured;
-    for (std::size_t i = 0; i < contenders.size(); ++i) {
-        measured.push_back(std::move(contenders[i].measured));
-        measured.back().ms_iteration = spread_of(samples[i][0]);
-    }
-    return measured;
-}
-
-namespace {
-
 using analysis::CaseKey;
 using analysis::Columns;
 using analysis::within;
@@ -203,6 +160,41 @@ Columns<OrderRow> look_columns(Look OrderRow::*look, const std::string& name, co
 const char* const sequence_meaning = "of the constraints: file, spread, random_SEED";
 
 }  // namespace
+
+pbs::Character tapered_limb()
+{
+    const pbs::Vec3 end(half_length, 0.0, 0.0), middle = pbs::Vec3::Zero();
+    pbs::TetMesh mesh{grid_points(), {}};
+    mesh.tets = grid_tets(mesh.rest);
+    return skinned_along(tapered_name, std::move(mesh), {{{"upper", -1, -end, middle}, {"forearm", 0, middle, end}}});
+}
+
+RECORD_SETTINGS(EqualQualityCase, of, scene, frame, random, most_iterations, rounds)
+
+std::vector<MeasuredOrder> measure_orders(const EqualQualityCase& of)
+{
+    const pbs::Character character = of.of.body == tapered_name ? tapered_limb() : pbs::make_character(of.scene.character);
+    const pbs::Motion motion = make_motion(of.scene.motion, character.skeleton, of.scene.file);
+    const pbs::Pose& pose = motion.steps.at(static_cast<std::size_t>(of.frame) * motion.steps_per_frame);
+    const pbs::Positions lbs = blended(character, pose), bind_points = pbs::posed_bind_points(character.binding, pose);
+    pbs::PbsOptions options = options_of<pbs::PbsOptions>(spec_of(of.scene, "pbs"));
+    options.jiggle.reset();
+    options.sleep = false;
+    options.threads = 1;
+    std::vector<Contender> contenders;
+    append<float>(of, character, options, {lbs, bind_points}, contenders);
+    append<double>(of, character, options, {lbs, bind_points}, contenders);
+
+    std::vector<TimedVariant> turns;
+    for (const Contender& contender : contenders) turns.push_back([&contender] { return contender.turn(); });
+    const std::vector<Samples> samples = take_turns(turns, of.rounds);
+    std::vector<MeasuredOrder> measured;
+    for (std::size_t i = 0; i < contenders.size(); ++i) {
+        measured.push_back(std::move(contenders[i].measured));
+        measured.back().ms_iteration = spread_of(samples[i][0]);
+    }
+    return measured;
+}
 
 const Columns<OrderRow> order_columns =
     within(&OrderRow::of, order_key_columns) + Columns<OrderRow>{{"sequence", &OrderRow::sequence, "", sequence_meaning}} +

@@ -91,6 +91,27 @@ double start_of(const nlohmann::json& seconds)
     return sum;
 }
 
+// Gives stderr a terminal of its own, so that the bar is drawn and nobody sees it.
+void draw_progress_unseen()
+{
+    const int master = posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK);
+    if (master < 0 || grantpt(master) != 0 || unlockpt(master) != 0) throw std::runtime_error("no terminal to draw a bar on");
+    const int slave = open(ptsname(master), O_RDWR | O_NOCTTY | O_NONBLOCK);
+    if (slave < 0 || dup2(slave, STDERR_FILENO) < 0) throw std::runtime_error("no terminal to draw a bar on");
+    show_progress();
+}
+
+std::optional<ResultChange> change_by(const Feature& feature, const FeaturesCase& of)
+{
+    if (!feature.changes_result) return std::nullopt;
+    const Scene without = scene_of(of.scene, of.cut, feature.without), with = scene_of(of.scene, of.cut, feature.with);
+    const nlohmann::json change = in_own_process([&] {
+        const ResultChange found = change_between(without, with);
+        return nlohmann::json{found.distance_m, found.volume_difference_pct};
+    });
+    return ResultChange{change.at(0), change.at(1)};
+}
+
 }  // namespace
 
 using Rows = Columns<FeatureRow>;
@@ -166,31 +187,6 @@ ResultChange change_between(const Scene& without, const Scene& with)
     }
     return change;
 }
-
-namespace {
-
-// Gives stderr a terminal of its own, so that the bar is drawn and nobody sees it.
-void draw_progress_unseen()
-{
-    const int master = posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK);
-    if (master < 0 || grantpt(master) != 0 || unlockpt(master) != 0) throw std::runtime_error("no terminal to draw a bar on");
-    const int slave = open(ptsname(master), O_RDWR | O_NOCTTY | O_NONBLOCK);
-    if (slave < 0 || dup2(slave, STDERR_FILENO) < 0) throw std::runtime_error("no terminal to draw a bar on");
-    show_progress();
-}
-
-std::optional<ResultChange> change_by(const Feature& feature, const FeaturesCase& of)
-{
-    if (!feature.changes_result) return std::nullopt;
-    const Scene without = scene_of(of.scene, of.cut, feature.without), with = scene_of(of.scene, of.cut, feature.with);
-    const nlohmann::json change = in_own_process([&] {
-        const ResultChange found = change_between(without, with);
-        return nlohmann::json{found.distance_m, found.volume_difference_pct};
-    });
-    return ResultChange{change.at(0), change.at(1)};
-}
-
-}  // namespace
 
 // Returns the first breakdown. A bad frame is no failure here, since no reference has to reach a bend of 150 degrees.
 std::string measure_features(const FeaturesCase& of, const std::string& folder)

@@ -109,45 +109,12 @@ constexpr RecordedPart recorded_parts[] = {
     {total_s, &FrameTiming::total_ms, "total_ms", "the whole frame, processor time", true},
     {total_wall_s, &FrameTiming::total_wall_ms, "total_wall_ms", "the whole frame, wall time"}};
 
-}  // namespace
-
-std::vector<FrameTiming> time_frames(const pbs::Character& character, const pbs::Motion& motion, double k_jiggle, const Rounds& rounds,
-                                     int frames_per_turn)
-{
-    std::vector<TimedVariant> turns;
-    for (const auto& [order, precision] : variants) {
-        pbs::PbsOptions options;
-        options.iterations = paper_iterations;
-        options.order = order;
-        options.precision = precision;
-        options.gravity_m_s2 = {0.0, -9.81, 0.0};
-        options.jiggle = pbs::Jiggle{k_jiggle};
-        turns.push_back(
-            [frames = std::make_shared<VariantFrames>(character, options), &motion, frames_per_turn, next = std::size_t(0)]() mutable {
-                std::vector<double> seconds(frame_parts, 0.0);
-                for (int frame = 0; frame < frames_per_turn; ++frame)
-                    frames->add_frame(motion.steps[next++ % motion.steps.size()], seconds);
-                for (double& sum : seconds) sum /= frames_per_turn;
-                return seconds;
-            });
-    }
-    std::vector<FrameTiming> timings;
-    for (const Samples& seconds : take_turns(turns, rounds)) {
-        const auto& [order, precision] = variants[timings.size()];
-        FrameTiming& timing = timings.emplace_back(FrameTiming{name_of(order), name_of(precision)});
-        const auto ms = [&](FramePart of) { return scaled(spread_of(seconds[of]), 1e3); };
-        for (const RecordedPart& part : recorded_parts) timing.*part.ms = ms(part.sample);
-        if (character.surface) timing.surface_ms = ms(surface_s), timing.drawn_wall_ms = ms(drawn_wall_s);
-    }
-    return timings;
-}
-
-namespace {
-
 using analysis::Columns;
 using analysis::within;
 
 constexpr double steps_in_1_s = 100.0;
+constexpr double round_s_per_vertex = 24e-6;
+constexpr int fewest_rounds = 3, most_rounds = 61;
 
 using Frame = Columns<FrameTiming>;
 Frame frame_columns()
@@ -181,6 +148,37 @@ analysis::Measurement frame_rate(const TimingRow& row, const std::string& quanti
 }
 
 }  // namespace
+
+std::vector<FrameTiming> time_frames(const pbs::Character& character, const pbs::Motion& motion, double k_jiggle, const Rounds& rounds,
+                                     int frames_per_turn)
+{
+    std::vector<TimedVariant> turns;
+    for (const auto& [order, precision] : variants) {
+        pbs::PbsOptions options;
+        options.iterations = paper_iterations;
+        options.order = order;
+        options.precision = precision;
+        options.gravity_m_s2 = {0.0, -9.81, 0.0};
+        options.jiggle = pbs::Jiggle{k_jiggle};
+        turns.push_back(
+            [frames = std::make_shared<VariantFrames>(character, options), &motion, frames_per_turn, next = std::size_t(0)]() mutable {
+                std::vector<double> seconds(frame_parts, 0.0);
+                for (int frame = 0; frame < frames_per_turn; ++frame)
+                    frames->add_frame(motion.steps[next++ % motion.steps.size()], seconds);
+                for (double& sum : seconds) sum /= frames_per_turn;
+                return seconds;
+            });
+    }
+    std::vector<FrameTiming> timings;
+    for (const Samples& seconds : take_turns(turns, rounds)) {
+        const auto& [order, precision] = variants[timings.size()];
+        FrameTiming& timing = timings.emplace_back(FrameTiming{name_of(order), name_of(precision)});
+        const auto ms = [&](FramePart of) { return scaled(spread_of(seconds[of]), 1e3); };
+        for (const RecordedPart& part : recorded_parts) timing.*part.ms = ms(part.sample);
+        if (character.surface) timing.surface_ms = ms(surface_s), timing.drawn_wall_ms = ms(drawn_wall_s);
+    }
+    return timings;
+}
 
 const TableOneRow* table_1_row(const std::string& model)
 {
@@ -282,13 +280,6 @@ std::string timing_text(const std::vector<TimingRow>& rows)
         "Per frame, on one core:\n{}30 frames per second up to:\n{}", frames,
         text_table(table_of(real_time_columns, ends), analysis::report_columns("variant precision vertices:.3g is_beyond exponent:.2f")));
 }
-
-namespace {
-
-constexpr double round_s_per_vertex = 24e-6;
-constexpr int fewest_rounds = 3, most_rounds = 61;
-
-}  // namespace
 
 std::string measure_frames(const TimedCase& of, const std::string& folder)
 {

@@ -1,11 +1,8 @@
 #include "experiments/studies/work_precision/compared_deformers.hpp"
 
 #include "experiments/deformers/deformer_options.hpp"
-#include "experiments/deformers/external/external_deformers.hpp"
-#include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/process/child_process.hpp"
-#include "experiments/scene/scene.hpp"
 #include "experiments/settings/recorded_settings.hpp"
 #include "experiments/settings/scene_values.hpp"
 #include "experiments/studies/shared/posed_reference.hpp"
@@ -79,13 +76,6 @@ std::string assigned(const std::string& key, double value)
     return fmt::format("{}={:.17g}", key, value);
 }
 
-SceneValues values_with(const ComparedDeformer& entry, const Scene& scene, const KeyValues& keys)
-{
-    std::string text = text_of_scene(scene);
-    if (!entry.weights.empty()) text += fmt::format("\n[[{}]]\nname = \"{}\"\nweights = \"{}\"\n", entry.kind, entry.name, entry.weights);
-    return SceneValues(text, scene.file, keys, scene_schema());
-}
-
 // The names of the reference's row and of the front of all deformers are taken too.
 bool is_taken(const std::string& name)
 {
@@ -114,118 +104,6 @@ void check_external(const SceneValues& values, const std::string& table, const D
     if (why_not.empty()) return;
     values.refuse(table + (is_command ? ".command" : ".library"), (is_command ? "cannot be started: " : "") + why_not);
 }
-
-}  // namespace
-
-const std::vector<ComparedDeformer>& compared_deformers()
-{
-    static const std::vector<ComparedDeformer> entries = entries_of("deformer", {});
-    return entries;
-}
-
-// In the packed code of PBS.
-const std::vector<ComparedDeformer>& changes_to_pbs()
-{
-    static const std::vector<ComparedDeformer> entries =
-        entries_of("change", {.kind = "pbs", .iterations_key = "pbs.iterations", .codes = {{"pbs.order=ordered", "pbs.precision=f32"}}});
-    return entries;
-}
-
-bool is_available(const ComparedDeformer& entry)
-{
-    KeyValues keys = entry.fixed;
-    if (!entry.iterations_key.empty()) keys.push_back(entry.iterations_key);
-    return find_deformer_kind(entry.kind) && exist(keys);
-}
-
-std::vector<SettingChange> grid_of(const ComparedDeformer& entry)
-{
-    std::vector<SettingChange> grid = entry.grid;
-    std::erase_if(grid, [](const SettingChange& change) { return !exist(change.keys); });
-    return grid;
-}
-
-std::vector<KeyValues> codes_of(const ComparedDeformer& entry)
-{
-    std::vector<KeyValues> codes = entry.codes;
-    std::erase_if(codes, [](const KeyValues& code) { return !exist(code); });
-    return codes.empty() ? std::vector<KeyValues>{{}} : codes;
-}
-
-DeformerSpec spec_with(const ComparedDeformer& entry, const Scene& scene, const SettingChoice& choice)
-{
-    const DeformerSpec reference = reference_flesh(scene);
-    const auto& flesh = options_of<FemOptions>(reference);
-    KeyValues keys = entry.fixed;
-    for (const KeyValues& more : {choice.code, choice.change.keys}) keys.insert(keys.end(), more.begin(), more.end());
-    if (choice.iterations) keys.push_back(fmt::format("{}={}", entry.iterations_key, *choice.iterations));
-    if (!entry.young_key.empty()) keys.push_back(assigned(entry.young_key, choice.change.young_factor * flesh.young_pa));
-    if (!entry.poisson_key.empty()) keys.push_back(assigned(entry.poisson_key, flesh.poisson));
-    const SceneValues values = values_with(entry, scene, keys);
-    DeformerSpec spec = default_spec(entry.kind);
-    spec.name = spec.label = entry.name;
-    const std::string table = entry.weights.empty() ? entry.kind : fmt::format("{}.{}", entry.kind, values.tables(entry.kind) - 1);
-    const DeformerKind& kind = *find_deformer_kind(entry.kind);
-    if (kind.read) kind.read(values, table, spec);
-    spec.threads = 1;
-    return spec;
-}
-
-std::string name_of(const SettingChange& change)
-{
-    std::string name;
-    const auto add = [&](const std::string& part) { name += (name.empty() ? "" : "+") + part; };
-    for (std::string key : change.keys) {
-        const std::size_t equals = key.find('='), dot = key.rfind('.', equals);
-        key[equals] = '_';
-        add(key.substr(dot + 1));
-    }
-    if (change.young_factor != 1.0) add(fmt::format("stiffness_factor_{:g}", change.young_factor));
-    return name;
-}
-
-const std::vector<DeformerGroup>& deformer_groups()
-{
-    static const std::vector<DeformerGroup> groups = [] {
-        std::vector<DeformerGroup> all;
-        for (const ComparedDeformer& entry : compared_deformers()) {
-            const std::string& key = entry.group.empty() ? entry.name : entry.group;
-            auto found = std::ranges::find(all, key, &DeformerGroup::key);
-            if (found == all.end()) found = all.insert(all.end(), DeformerGroup{key, {}});
-            found->deformers.push_back(entry.name);
-        }
-        all.push_back({"linear_fem", {"fem_linear"}});
-        all.push_back({"nonlinear_fem", {"fem_corotational", "fem_neo_hookean", "fem_stable_neo_hookean"}});
-        return all;
-    }();
-    return groups;
-}
-
-std::vector<DeformerGroup> groups_with(const std::vector<std::string>& external)
-{
-    std::vector<DeformerGroup> all = deformer_groups();
-    for (const std::string& name : external) all.push_back({name, {name}, true});
-    return all;
-}
-
-std::vector<DeformerSpec> external_entries(const std::string& file)
-{
-    std::error_code code;
-    if (!std::filesystem::is_regular_file(file, code))
-        throw pbs::InputError(file, 0, "", "", "cannot be read: expected a file with schema = 1 and [[external]] tables");
-    const std::string own = external_kind().name;
-    const SceneValues values(pbs::read_text_file(file), file, {}, scene_schema());
-    for (const SceneKey& key : scene_schema().keys) {
-        const std::string table = key.in_list ? key.table + ".0" : key.table;
-        if (key.table != own && values.has_table(table)) values.refuse(table, "expected only [[" + own + "]] tables");
-    }
-    const std::vector<DeformerSpec> entries = listed_deformers(values);
-    if (entries.empty()) throw pbs::InputError(file, 0, own, "", "missing: expected at least one [[" + own + "]] table");
-    for (std::size_t i = 0; i < entries.size(); ++i) check_external(values, own + "." + std::to_string(i), entries[i]);
-    return entries;
-}
-
-namespace {
 
 constexpr std::size_t grid_in_short = 3;
 
@@ -305,6 +183,116 @@ private:
 };
 
 }  // namespace
+
+const std::vector<ComparedDeformer>& compared_deformers()
+{
+    static const std::vector<ComparedDeformer> entries = entries_of("deformer", {});
+    return entries;
+}
+
+// In the packed code of PBS.
+const std::vector<ComparedDeformer>& changes_to_pbs()
+{
+    static const std::vector<ComparedDeformer> entries =
+        entries_of("change", {.kind = "pbs", .iterations_key = "pbs.iterations", .codes = {{"pbs.order=ordered", "pbs.precision=f32"}}});
+    return entries;
+}
+
+bool is_available(const ComparedDeformer& entry)
+{
+    KeyValues keys = entry.fixed;
+    if (!entry.iterations_key.empty()) keys.push_back(entry.iterations_key);
+    return find_deformer_kind(entry.kind) && exist(keys);
+}
+
+std::vector<SettingChange> grid_of(const ComparedDeformer& entry)
+{
+    std::vector<SettingChange> grid = entry.grid;
+    std::erase_if(grid, [](const SettingChange& change) { return !exist(change.keys); });
+    return grid;
+}
+
+std::vector<KeyValues> codes_of(const ComparedDeformer& entry)
+{
+    std::vector<KeyValues> codes = entry.codes;
+    std::erase_if(codes, [](const KeyValues& code) { return !exist(code); });
+    return codes.empty() ? std::vector<KeyValues>{{}} : codes;
+}
+
+DeformerSpec spec_with(const ComparedDeformer& entry, const Scene& scene, const SettingChoice& choice)
+{
+    const DeformerSpec reference = reference_flesh(scene);
+    const auto& flesh = options_of<FemOptions>(reference);
+    KeyValues keys = entry.fixed;
+    for (const KeyValues& more : {choice.code, choice.change.keys}) keys.insert(keys.end(), more.begin(), more.end());
+    if (choice.iterations) keys.push_back(fmt::format("{}={}", entry.iterations_key, *choice.iterations));
+    if (!entry.young_key.empty()) keys.push_back(assigned(entry.young_key, choice.change.young_factor * flesh.young_pa));
+    if (!entry.poisson_key.empty()) keys.push_back(assigned(entry.poisson_key, flesh.poisson));
+    std::string text = text_of_scene(scene);
+    if (!entry.weights.empty()) text += fmt::format("\n[[{}]]\nname = \"{}\"\nweights = \"{}\"\n", entry.kind, entry.name, entry.weights);
+    const SceneValues values(text, scene.file, keys, scene_schema());
+    DeformerSpec spec = default_spec(entry.kind);
+    spec.name = spec.label = entry.name;
+    const std::string table = entry.weights.empty() ? entry.kind : fmt::format("{}.{}", entry.kind, values.tables(entry.kind) - 1);
+    const DeformerKind& kind = *find_deformer_kind(entry.kind);
+    if (kind.read) kind.read(values, table, spec);
+    spec.threads = 1;
+    return spec;
+}
+
+std::string name_of(const SettingChange& change)
+{
+    std::string name;
+    const auto add = [&](const std::string& part) { name += (name.empty() ? "" : "+") + part; };
+    for (std::string key : change.keys) {
+        const std::size_t equals = key.find('='), dot = key.rfind('.', equals);
+        key[equals] = '_';
+        add(key.substr(dot + 1));
+    }
+    if (change.young_factor != 1.0) add(fmt::format("stiffness_factor_{:g}", change.young_factor));
+    return name;
+}
+
+const std::vector<DeformerGroup>& deformer_groups()
+{
+    static const std::vector<DeformerGroup> groups = [] {
+        std::vector<DeformerGroup> all;
+        for (const ComparedDeformer& entry : compared_deformers()) {
+            const std::string& key = entry.group.empty() ? entry.name : entry.group;
+            auto found = std::ranges::find(all, key, &DeformerGroup::key);
+            if (found == all.end()) found = all.insert(all.end(), DeformerGroup{key, {}});
+            found->deformers.push_back(entry.name);
+        }
+        all.push_back({"linear_fem", {"fem_linear"}});
+        all.push_back({"nonlinear_fem", {"fem_corotational", "fem_neo_hookean", "fem_stable_neo_hookean"}});
+        return all;
+    }();
+    return groups;
+}
+
+std::vector<DeformerGroup> groups_with(const std::vector<std::string>& external)
+{
+    std::vector<DeformerGroup> all = deformer_groups();
+    for (const std::string& name : external) all.push_back({name, {name}, true});
+    return all;
+}
+
+std::vector<DeformerSpec> external_entries(const std::string& file)
+{
+    std::error_code code;
+    if (!std::filesystem::is_regular_file(file, code))
+        throw pbs::InputError(file, 0, "", "", "cannot be read: expected a file with schema = 1 and [[external]] tables");
+    const std::string own = external_kind().name;
+    const SceneValues values(pbs::read_text_file(file), file, {}, scene_schema());
+    for (const SceneKey& key : scene_schema().keys) {
+        const std::string table = key.in_list ? key.table + ".0" : key.table;
+        if (key.table != own && values.has_table(table)) values.refuse(table, "expected only [[" + own + "]] tables");
+    }
+    const std::vector<DeformerSpec> entries = listed_deformers(values);
+    if (entries.empty()) throw pbs::InputError(file, 0, own, "", "missing: expected at least one [[" + own + "]] table");
+    for (std::size_t i = 0; i < entries.size(); ++i) check_external(values, own + "." + std::to_string(i), entries[i]);
+    return entries;
+}
 
 SettingKey key_of(const Setting& setting)
 {

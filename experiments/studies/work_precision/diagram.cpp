@@ -8,8 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string>
-#include <vector>
 
 namespace experiments {
 
@@ -54,65 +52,6 @@ std::optional<ChosenSetting> choose(Comparison comparison, const std::vector<Set
     chosen.training_poses = static_cast<int>(training.size());
     return chosen.training_error_pct ? std::optional(chosen) : std::nullopt;
 }
-
-}  // namespace
-
-const Columns<ChosenSetting> chosen_columns =
-    Columns<ChosenSetting>{{"comparison", &ChosenSetting::comparison, "", "packed_f32 or plain_f64"}} +
-    within(&ChosenSetting::key, point_key_columns()) +
-    Columns<ChosenSetting>{
-        {"tried", &ChosenSetting::tried, "", "number of settings tried at this rung"},
-        {"training_poses", &ChosenSetting::training_poses, "", "poses on which it was chosen; 0: there was no choice"},
-        {"training_error_joint_pct", &ChosenSetting::training_error_pct, "%", "its geometric mean error over these poses"}};
-
-int code_rank(const SettingKey& key)
-{
-    return (key.precision == "f32" ? 2 : 0) + (key.packed ? 1 : 0);
-}
-
-BestCodes best_codes(const std::vector<CaseRows>& cases)
-{
-    BestCodes best;
-    for (const CaseRows& rows : cases)
-        for (const PointRow& row : rows)
-            if (!row.is_of_reference()) best[row.key.deformer] = std::max(best[row.key.deformer], code_rank(row.key));
-    return best;
-}
-
-bool takes_part(Comparison comparison, const SettingKey& key, const BestCodes& best)
-{
-    if (comparison == Comparison::plain_f64) return key.is_plain();
-    const auto found = best.find(key.deformer);
-    return found == best.end() || code_rank(key) == found->second;
-}
-
-std::vector<ChosenSetting> choose_settings(const std::vector<CaseRows>& cases)
-{
-    const BestCodes best = best_codes(cases);
-    std::vector<ChosenSetting> chosen;
-    for (const Comparison comparison : comparisons) {
-        std::vector<std::pair<SettingKey, std::vector<SettingKey>>> rungs;  // in the order of the records
-        for (const CaseRows& rows : cases)
-            for (const PointRow& row : rows) {
-                if (row.is_of_reference() || !takes_part(comparison, row.key, best)) continue;
-                const SettingKey rung = rung_of(row.key);
-                auto found = std::ranges::find(rungs, rung, [](const auto& one) { return one.first; });
-                if (found == rungs.end()) found = rungs.insert(rungs.end(), {rung, {}});
-                if (std::ranges::find(found->second, row.key) == found->second.end()) found->second.push_back(row.key);
-            }
-        for (const auto& [rung, settings] : rungs) {
-            std::vector<const CaseRows*> training;
-            for (const CaseRows& rows : cases)
-                if (!rows.empty() && rows.front().half == Half::training &&
-                    std::ranges::any_of(rows, [&](const PointRow& row) { return rung_of(row.key) == rung; }))
-                    training.push_back(&rows);
-            if (const auto choice = choose(comparison, settings, training)) chosen.push_back(*choice);
-        }
-    }
-    return chosen;
-}
-
-namespace {
 
 // A mean is known where all of its values are.
 void add(std::optional<double>& sum, const std::optional<double>& more, double share)
@@ -214,6 +153,61 @@ void add_to(std::vector<Family>& families, const std::string& name, const Diagra
 
 }  // namespace
 
+const Columns<ChosenSetting> chosen_columns =
+    Columns<ChosenSetting>{{"comparison", &ChosenSetting::comparison, "", "packed_f32 or plain_f64"}} +
+    within(&ChosenSetting::key, point_key_columns()) +
+    Columns<ChosenSetting>{
+        {"tried", &ChosenSetting::tried, "", "number of settings tried at this rung"},
+        {"training_poses", &ChosenSetting::training_poses, "", "poses on which it was chosen; 0: there was no choice"},
+        {"training_error_joint_pct", &ChosenSetting::training_error_pct, "%", "its geometric mean error over these poses"}};
+
+int code_rank(const SettingKey& key)
+{
+    return (key.precision == "f32" ? 2 : 0) + (key.packed ? 1 : 0);
+}
+
+BestCodes best_codes(const std::vector<CaseRows>& cases)
+{
+    BestCodes best;
+    for (const CaseRows& rows : cases)
+        for (const PointRow& row : rows)
+            if (!row.is_of_reference()) best[row.key.deformer] = std::max(best[row.key.deformer], code_rank(row.key));
+    return best;
+}
+
+bool takes_part(Comparison comparison, const SettingKey& key, const BestCodes& best)
+{
+    if (comparison == Comparison::plain_f64) return key.is_plain();
+    const auto found = best.find(key.deformer);
+    return found == best.end() || code_rank(key) == found->second;
+}
+
+std::vector<ChosenSetting> choose_settings(const std::vector<CaseRows>& cases)
+{
+    const BestCodes best = best_codes(cases);
+    std::vector<ChosenSetting> chosen;
+    for (const Comparison comparison : comparisons) {
+        std::vector<std::pair<SettingKey, std::vector<SettingKey>>> rungs;  // in the order of the records
+        for (const CaseRows& rows : cases)
+            for (const PointRow& row : rows) {
+                if (row.is_of_reference() || !takes_part(comparison, row.key, best)) continue;
+                const SettingKey rung = rung_of(row.key);
+                auto found = std::ranges::find(rungs, rung, [](const auto& one) { return one.first; });
+                if (found == rungs.end()) found = rungs.insert(rungs.end(), {rung, {}});
+                if (std::ranges::find(found->second, row.key) == found->second.end()) found->second.push_back(row.key);
+            }
+        for (const auto& [rung, settings] : rungs) {
+            std::vector<const CaseRows*> training;
+            for (const CaseRows& rows : cases)
+                if (!rows.empty() && rows.front().half == Half::training &&
+                    std::ranges::any_of(rows, [&](const PointRow& row) { return rung_of(row.key) == rung; }))
+                    training.push_back(&rows);
+            if (const auto choice = choose(comparison, settings, training)) chosen.push_back(*choice);
+        }
+    }
+    return chosen;
+}
+
 const analysis::Columns<DiagramPoint>& measures()
 {
     static const analysis::Columns<DiagramPoint> columns = {
@@ -226,7 +220,6 @@ const analysis::Columns<DiagramPoint>& measures()
 
 const analysis::Columns<DiagramPoint>& diagram_point_columns()
 {
-    using analysis::Columns;
     static const Columns<DiagramPoint> columns =
         within(&DiagramPoint::key, point_key_columns()) +
         Columns<DiagramPoint>{{"ms_median", &DiagramPoint::ms, "ms", "median of the processor time per frame"}};

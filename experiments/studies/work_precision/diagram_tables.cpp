@@ -71,22 +71,6 @@ const Columns<CrossingRow> crossing_columns =
         {"decision", &CrossingRow::decision, "", std::string("the worst from that time on: ") + decision_meaning},
         {"reason", &CrossingRow::reason, "", "why it is not decided, for readers"}};
 
-}  // namespace
-
-const Columns<BudgetRow> budget_columns =
-    Columns<BudgetRow>{{"comparison", &BudgetRow::comparison, "", comparison_meaning},
-                       {"case", &BudgetRow::diagram, "", "name of the case's run, or of the mean over several"},
-                       {"budget_ms", &BudgetRow::budget_ms, "ms", "time per frame"},
-                       {"rank", &BudgetRow::rank, "", "1: the group that is nearest to the reference within the budget"},
-                       {"group", &BudgetRow::group, "", "key of a group of deformers"}} +
-    within(&BudgetRow::point, diagram_point_columns() + Columns<DiagramPoint>{measures().front()}) +
-    Columns<BudgetRow>{
-        {"decision", &BudgetRow::decision, "", std::string("whether it is nearer than every group of a later rank: ") + decision_meaning},
-        {"undecided_against", &BudgetRow::undecided_against, "", "keys of the groups against which it is undecided"},
-        {"reason", &BudgetRow::reason, "", "why it is not decided, for readers"}};
-
-namespace {
-
 std::optional<double> known(double value)
 {
     return std::isfinite(value) ? std::optional(value) : std::nullopt;
@@ -140,6 +124,18 @@ void add_crossing(std::vector<CrossingRow>& rows, const Diagram& diagram, const 
 }
 
 }  // namespace
+
+const Columns<BudgetRow> budget_columns =
+    Columns<BudgetRow>{{"comparison", &BudgetRow::comparison, "", comparison_meaning},
+                       {"case", &BudgetRow::diagram, "", "name of the case's run, or of the mean over several"},
+                       {"budget_ms", &BudgetRow::budget_ms, "ms", "time per frame"},
+                       {"rank", &BudgetRow::rank, "", "1: the group that is nearest to the reference within the budget"},
+                       {"group", &BudgetRow::group, "", "key of a group of deformers"}} +
+    within(&BudgetRow::point, diagram_point_columns() + Columns<DiagramPoint>{measures().front()}) +
+    Columns<BudgetRow>{
+        {"decision", &BudgetRow::decision, "", std::string("whether it is nearer than every group of a later rank: ") + decision_meaning},
+        {"undecided_against", &BudgetRow::undecided_against, "", "keys of the groups against which it is undecided"},
+        {"reason", &BudgetRow::reason, "", "why it is not decided, for readers"}};
 
 analysis::CsvTable fronts_table(const std::vector<Diagram>& diagrams)
 {
@@ -226,34 +222,6 @@ void add_steps(std::vector<ProfileStep>& steps, const std::vector<const Diagram*
     }
 }
 
-}  // namespace
-
-const analysis::Columns<ProfileStep> data_profile_columns = {
-    {"comparison", &ProfileStep::comparison, "", "packed_f32 or plain_f64"},
-    {"tolerance_pct", &ProfileStep::tolerance_pct, "%", "largest error at the joints of a pose that counts as solved"},
-    {"group", &ProfileStep::group, "", "key of a group of deformers"},
-    {"ms", &ProfileStep::ms, "ms", "time per frame at which `solved` or `certain` increases"},
-    {"solved", &ProfileStep::solved, "", "number of poses that are solved"},
-    {"certain", &ProfileStep::certain, "",
-     "number of those with an error that is within the tolerance after the bound on the reference's own error is added"},
-    {"poses", &ProfileStep::poses, "", "number of evaluated poses"},
-    {"share_pct", &ProfileStep::share_pct, "%", "share of the poses that are solved"}};
-
-std::vector<ProfileStep> data_profiles(const std::vector<Diagram>& diagrams)
-{
-    std::vector<ProfileStep> steps;
-    for (const Comparison comparison : comparisons) {
-        std::vector<const Diagram*> poses;
-        for (const Diagram& diagram : diagrams)
-            if (diagram.comparison == comparison && is_pose(diagram) && diagram.half == Half::evaluation) poses.push_back(&diagram);
-        for (const double tolerance_pct : profile_tolerances_pct)
-            for (const DeformerGroup& group : groups_of(diagrams)) add_steps(steps, poses, group, tolerance_pct);
-    }
-    return steps;
-}
-
-namespace {
-
 std::string why_missing(const PointRow& row, bool has_reference)
 {
     if (row.outcome != "finished") return row.outcome;
@@ -318,6 +286,30 @@ std::vector<Omission> omissions_in(const std::vector<const CaseRows*>& some, Com
 }
 
 }  // namespace
+
+const analysis::Columns<ProfileStep> data_profile_columns = {
+    {"comparison", &ProfileStep::comparison, "", "packed_f32 or plain_f64"},
+    {"tolerance_pct", &ProfileStep::tolerance_pct, "%", "largest error at the joints of a pose that counts as solved"},
+    {"group", &ProfileStep::group, "", "key of a group of deformers"},
+    {"ms", &ProfileStep::ms, "ms", "time per frame at which `solved` or `certain` increases"},
+    {"solved", &ProfileStep::solved, "", "number of poses that are solved"},
+    {"certain", &ProfileStep::certain, "",
+     "number of those with an error that is within the tolerance after the bound on the reference's own error is added"},
+    {"poses", &ProfileStep::poses, "", "number of evaluated poses"},
+    {"share_pct", &ProfileStep::share_pct, "%", "share of the poses that are solved"}};
+
+std::vector<ProfileStep> data_profiles(const std::vector<Diagram>& diagrams)
+{
+    std::vector<ProfileStep> steps;
+    for (const Comparison comparison : comparisons) {
+        std::vector<const Diagram*> poses;
+        for (const Diagram& diagram : diagrams)
+            if (diagram.comparison == comparison && is_pose(diagram) && diagram.half == Half::evaluation) poses.push_back(&diagram);
+        for (const double tolerance_pct : profile_tolerances_pct)
+            for (const DeformerGroup& group : groups_of(diagrams)) add_steps(steps, poses, group, tolerance_pct);
+    }
+    return steps;
+}
 
 const analysis::Columns<Omission> omission_columns = {
     {"comparison", &Omission::comparison, "", "packed_f32 or plain_f64"},

@@ -81,25 +81,6 @@ std::string chosen_setting(const Reached& reached, const CaseKey& pose)
     return best;
 }
 
-}  // namespace
-
-const Columns<EqualTimeRow> equal_time_columns =
-    Columns<EqualTimeRow>{{"group", &EqualTimeRow::group, "", "the poses on which settings are chosen: all, or those of a body"}} +
-    within(&EqualTimeRow::of, pose_columns()) +
-    Columns<EqualTimeRow>{
-        {"budget_iterations", &EqualTimeRow::budget_iterations, "", "iterations of the baseline whose time is the budget"},
-        {"budget_ms", &EqualTimeRow::budget_ms, "ms", "that time"},
-        {"change", &EqualTimeRow::change, "", "name of the change"},
-        {"setting", &EqualTimeRow::setting, "", "of its parameter, chosen on the other poses"},
-        {"iterations", &EqualTimeRow::iterations, "", "of the change that fit into the budget, interpolated"},
-        {"baseline_error_pct", &EqualTimeRow::baseline_error_pct, "%", "error of the baseline at the joints"},
-        {"error_pct", &EqualTimeRow::error_pct, "%", "error of the change at the joints"},
-        {"from_pbs_pct", &EqualTimeRow::distance_pct, "%", "distance of the two shapes at the joints"},
-        {"reference_error_pct", &EqualTimeRow::reference_error_pct, "%", "bound on the reference's own error at the joints"},
-        {"volume_change_pct", &EqualTimeRow::volume_change_pct, "%", "signed change of the volume of the change's shape"}};
-
-namespace {
-
 // The poses of a group: their curves but the baseline's, and the baseline after each budget's iterations.
 std::vector<EqualTimeRow> rows_of_group(const std::string& group, const std::map<CurveKey, Curve>& curves,
                                         const std::vector<PointRow>& points)
@@ -128,6 +109,21 @@ std::vector<EqualTimeRow> rows_of_group(const std::string& group, const std::map
 }
 
 }  // namespace
+
+const Columns<EqualTimeRow> equal_time_columns =
+    Columns<EqualTimeRow>{{"group", &EqualTimeRow::group, "", "the poses on which settings are chosen: all, or those of a body"}} +
+    within(&EqualTimeRow::of, pose_columns()) +
+    Columns<EqualTimeRow>{
+        {"budget_iterations", &EqualTimeRow::budget_iterations, "", "iterations of the baseline whose time is the budget"},
+        {"budget_ms", &EqualTimeRow::budget_ms, "ms", "that time"},
+        {"change", &EqualTimeRow::change, "", "name of the change"},
+        {"setting", &EqualTimeRow::setting, "", "of its parameter, chosen on the other poses"},
+        {"iterations", &EqualTimeRow::iterations, "", "of the change that fit into the budget, interpolated"},
+        {"baseline_error_pct", &EqualTimeRow::baseline_error_pct, "%", "error of the baseline at the joints"},
+        {"error_pct", &EqualTimeRow::error_pct, "%", "error of the change at the joints"},
+        {"from_pbs_pct", &EqualTimeRow::distance_pct, "%", "distance of the two shapes at the joints"},
+        {"reference_error_pct", &EqualTimeRow::reference_error_pct, "%", "bound on the reference's own error at the joints"},
+        {"volume_change_pct", &EqualTimeRow::volume_change_pct, "%", "signed change of the volume of the change's shape"}};
 
 std::vector<EqualTimeRow> at_equal_time(const std::vector<PointRow>& points)
 {
@@ -219,6 +215,22 @@ GainRow over_other(const std::string& change, const ByPose& rows, const std::str
     return gain;
 }
 
+// by change, at one budget
+std::vector<GainRow> gains_at(const std::map<std::string, ByPose>& changes)
+{
+    std::vector<GainRow> gains;
+    for (const auto& [change, by_pose] : changes) gains.push_back(over_baseline(change, by_pose));
+    std::ranges::stable_sort(gains, std::greater(), &GainRow::gain_pct);
+    const int most = gains.empty() ? 0 : std::ranges::max(gains, {}, &GainRow::poses).poses;
+    std::vector<std::string> ranked;  // those with a value in every pose
+    for (const GainRow& gain : gains)
+        if (gain.change != control && gain.poses == most) ranked.push_back(gain.change);
+    if (ranked.size() < 2) return gains;
+    for (const std::string& than : {ranked[1], control})
+        if (changes.contains(than)) gains.push_back(over_other(ranked[0], changes.at(ranked[0]), than, changes.at(than)));
+    return gains;
+}
+
 }  // namespace
 
 const analysis::Columns<GainRow> gain_columns = {
@@ -238,26 +250,6 @@ const analysis::Columns<GainRow> gain_columns = {
     {"settings", &GainRow::settings, "", "settings that were chosen on the other poses, joined by +"},
     {"iterations", &GainRow::iterations, "", "mean number of iterations within the budget"},
     {"volume_abs_pct", &GainRow::volume_abs_pct, "%", "mean of the absolute change of the volume"}};
-
-namespace {
-
-// by change, at one budget
-std::vector<GainRow> gains_at(const std::map<std::string, ByPose>& changes)
-{
-    std::vector<GainRow> gains;
-    for (const auto& [change, by_pose] : changes) gains.push_back(over_baseline(change, by_pose));
-    std::ranges::stable_sort(gains, std::greater(), &GainRow::gain_pct);
-    const int most = gains.empty() ? 0 : std::ranges::max(gains, {}, &GainRow::poses).poses;
-    std::vector<std::string> ranked;  // those with a value in every pose
-    for (const GainRow& gain : gains)
-        if (gain.change != control && gain.poses == most) ranked.push_back(gain.change);
-    if (ranked.size() < 2) return gains;
-    for (const std::string& than : {ranked[1], control})
-        if (changes.contains(than)) gains.push_back(over_other(ranked[0], changes.at(ranked[0]), than, changes.at(than)));
-    return gains;
-}
-
-}  // namespace
 
 std::vector<GainRow> gains_of(const std::vector<EqualTimeRow>& rows)
 {

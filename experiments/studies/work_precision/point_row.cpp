@@ -141,40 +141,35 @@ Points distance_columns()
     return columns;
 }
 
-Points own_columns()
-{
-    return Points{{"vertices", &PointRow::vertices, "", "vertices of the mesh that it is solved on"},
-                  {"tets", &PointRow::tets, "", "tets of that mesh"},
-                  {"outcome", &PointRow::outcome, "",
-                   "finished, not_converged, not_finite, over_time_limit or not_applicable; reference, or not_reached"},
-                  {"reach_ms", &PointRow::reach_ms, "ms", "wall time from rest to the pose; of the reference: that of all its solutions"},
-                  {"rounds", &PointRow::rounds, "", "number of timed frames"},
-                  {"failed_rounds", &PointRow::failed_rounds, "", "frames that did not reach their pose and are left out"},
-                  {"ms_median", &PointRow::ms_median, "ms",
-                   "median of the processor time per frame, with the transfer from another mesh to the case's own"},
-                  {"ms_q1", &PointRow::ms_q1, "ms", "its lower quartile"},
-                  {"ms_q3", &PointRow::ms_q3, "ms", "its upper quartile"}};
-}
+const Points own_columns = {
+    {"vertices", &PointRow::vertices, "", "vertices of the mesh that it is solved on"},
+    {"tets", &PointRow::tets, "", "tets of that mesh"},
+    {"outcome", &PointRow::outcome, "",
+     "finished, not_converged, not_finite, over_time_limit or not_applicable; reference, or not_reached"},
+    {"reach_ms", &PointRow::reach_ms, "ms", "wall time from rest to the pose; of the reference: that of all its solutions"},
+    {"rounds", &PointRow::rounds, "", "number of timed frames"},
+    {"failed_rounds", &PointRow::failed_rounds, "", "frames that did not reach their pose and are left out"},
+    {"ms_median", &PointRow::ms_median, "ms",
+     "median of the processor time per frame, with the transfer from another mesh to the case's own"},
+    {"ms_q1", &PointRow::ms_q1, "ms", "its lower quartile"},
+    {"ms_q3", &PointRow::ms_q3, "ms", "its upper quartile"}};
 
-Points reference_columns()
-{
-    return Points{
-        {"reference", &PointRow::reference, "", "name of the reference; empty where none was reached"},
-        {"reference_error_joint_pct", &PointRow::reference_error_joint_pct, "%", "bound of the reference's own error at the joints"},
-        {"reference_error_l2_pct", &PointRow::reference_error_l2_pct, "%", "bound of the reference's own error over all vertices"},
-        {"reference_order", &PointRow::reference_order, "", "order of convergence that is observed"},
-        {"reference_order_is_reliable", &PointRow::reference_order_is_reliable, "",
-         "that order is credible, and the bound has the safety factor 1.25 instead of 3"},
-        {"below_reference_error", &PointRow::below_reference_error, "", "the error is not above the reference's own bound"},
-        {"error_whole_joint_pct", &PointRow::error_whole_joint_pct, "%", "error over the blended vertices, those that overlap included"},
-        {"masked_share_pct", &PointRow::masked_share_pct, "%",
-         "share of the volume that the other errors leave out because the reference overlaps itself there"},
-        {"solver_pct", &PointRow::solver_pct, "%", "PBS: distance from its own converged shape, at the joints"},
-        {"model_pct", &PointRow::model_pct, "%", "PBS: distance of its converged shape from the reference, at the joints"},
-        {"discretisation_pct", &PointRow::discretisation_pct, "%", "PBS: bound of the reference's distance from its limit"},
-        {"not_converged_pct", &PointRow::not_converged_pct, "%",
-         "PBS: distance of its converged shape from that after half of the iterations"}};
-}
+const Points reference_columns = {
+    {"reference", &PointRow::reference, "", "name of the reference; empty where none was reached"},
+    {"reference_error_joint_pct", &PointRow::reference_error_joint_pct, "%", "bound of the reference's own error at the joints"},
+    {"reference_error_l2_pct", &PointRow::reference_error_l2_pct, "%", "bound of the reference's own error over all vertices"},
+    {"reference_order", &PointRow::reference_order, "", "order of convergence that is observed"},
+    {"reference_order_is_reliable", &PointRow::reference_order_is_reliable, "",
+     "that order is credible, and the bound has the safety factor 1.25 instead of 3"},
+    {"below_reference_error", &PointRow::below_reference_error, "", "the error is not above the reference's own bound"},
+    {"error_whole_joint_pct", &PointRow::error_whole_joint_pct, "%", "error over the blended vertices, those that overlap included"},
+    {"masked_share_pct", &PointRow::masked_share_pct, "%",
+     "share of the volume that the other errors leave out because the reference overlaps itself there"},
+    {"solver_pct", &PointRow::solver_pct, "%", "PBS: distance from its own converged shape, at the joints"},
+    {"model_pct", &PointRow::model_pct, "%", "PBS: distance of its converged shape from the reference, at the joints"},
+    {"discretisation_pct", &PointRow::discretisation_pct, "%", "PBS: bound of the reference's distance from its limit"},
+    {"not_converged_pct", &PointRow::not_converged_pct, "%",
+     "PBS: distance of its converged shape from that after half of the iterations"}};
 
 // Later columns, in one group: older records do not have them.
 Points columns_of_comparison()
@@ -189,21 +184,17 @@ Points columns_of_comparison()
 }
 
 // These columns are written only if a deformer of the user's own takes part.
-Points columns_of_external()
-{
-    return Points{
-        {"external", &PointRow::is_external, "", "a deformer of the user's own"},
-        {"clock", &PointRow::clock, "",
-         "clock of the times: processor (of this process), own (as an external program states them) or wall (of that program, divided "
-         "by the number of its poses)"}}
-        .in_group("external");
-}
+const Points columns_of_external = Points{
+    {"external", &PointRow::is_external, "", "a deformer of the user's own"},
+    {"clock", &PointRow::clock, "",
+     "clock of the times: processor (of this process), own (as an external program states them) or wall (of that program, divided "
+     "by the number of its poses)"}}.in_group("external");
 
 }  // namespace
 
-const Points point_columns = within(&PointRow::of, pose_columns()) + within(&PointRow::key, point_key_columns()) + own_columns() +
-                             within(&PointRow::error, error_columns) + within(&PointRow::metrics, volume_columns()) + reference_columns() +
-                             columns_of_comparison() + columns_of_external();
+const Points point_columns = within(&PointRow::of, pose_columns()) + within(&PointRow::key, point_key_columns()) + own_columns +
+                             within(&PointRow::error, error_columns) + within(&PointRow::metrics, volume_columns()) + reference_columns +
+                             columns_of_comparison() + columns_of_external;
 
 const Points change_columns =
     within(&PointRow::of, pose_columns()) +
