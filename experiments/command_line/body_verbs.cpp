@@ -179,19 +179,6 @@ int fetch(const std::vector<std::string>& bodies)
     return exit_finished;
 }
 
-}  // namespace
-
-void add_fetch_verb(CommandLine& line)
-{
-    auto bodies = std::make_shared<std::vector<std::string>>();
-    CLI::App* verb =
-        line.add("fetch", "brings the bodies that are no part of the project, by npm and apt; checks them and prints their licences",
-                 [bodies] { return fetch(*bodies); });
-    verb->add_option("bodies", *bodies, "which of them; by default all")->check(CLI::IsMember({"man", "lady", "frankie"}));
-}
-
-namespace {
-
 struct MeshArguments {
     std::string surface, tets;
     pbs::SurfaceMeshing meshing;
@@ -223,6 +210,15 @@ int mesh(const MeshArguments& arguments)
 }
 
 }  // namespace
+
+void add_fetch_verb(CommandLine& line)
+{
+    auto bodies = std::make_shared<std::vector<std::string>>();
+    CLI::App* verb =
+        line.add("fetch", "brings the bodies that are no part of the project, by npm and apt; checks them and prints their licences",
+                 [bodies] { return fetch(*bodies); });
+    verb->add_option("bodies", *bodies, "which of them; by default all")->check(CLI::IsMember({"man", "lady", "frankie"}));
+}
 
 void add_mesh_verb(CommandLine& line)
 {

@@ -74,26 +74,6 @@ json describe_scene_keys()
     return keys;
 }
 
-}  // namespace
-
-std::string describe(const CLI::App& app)
-{
-    json verbs = json::array();
-    for (const CLI::App* verb : app.get_subcommands(std::function<bool(const CLI::App*)>{}))
-        if (!verb->get_group().empty())
-            verbs.push_back({{"name", verb->get_name()}, {"meaning", verb->get_description()}, {"options", describe_options(*verb)}});
-    const json all = {{"name", app.get_name()},
-                      {"meaning", app.get_description()},
-                      {"options", describe_options(app)},
-                      {"verbs", verbs},
-                      {"scene_keys", describe_scene_keys()}};
-    return all.dump(1);
-}
-
-// pbskin list [cases, scenes, deformers, studies, claims, metrics]: lists what the program knows.
-
-namespace {
-
 using Lines = std::vector<std::pair<std::string, std::string>>;  // name, meaning
 
 // One line per entry, by two of its members.
@@ -130,20 +110,6 @@ int list(const std::vector<std::string>& asked)
     }
     return exit_finished;
 }
-
-}  // namespace
-
-void add_list_verb(CommandLine& line)
-{
-    auto asked = std::make_shared<std::vector<std::string>>();
-    CLI::App* verb = line.add("list", "lists the cases, scenes, deformers, studies, claims and metrics", [asked] { return list(*asked); });
-    verb->add_option("kind", *asked, "which of them; by default all")
-        ->check(CLI::IsMember({"cases", "scenes", "deformers", "studies", "claims", "metrics"}));
-}
-
-// pbskin explain NAME: prints what a metric, claim, scene key, study, deformer or scene means.
-
-namespace {
 
 // The README.md of a study or a deformer, or the page of a claim.
 std::string page_of(const std::string& name)
@@ -263,6 +229,32 @@ int explain(const std::string& name)
 }
 
 }  // namespace
+
+std::string describe(const CLI::App& app)
+{
+    json verbs = json::array();
+    for (const CLI::App* verb : app.get_subcommands(std::function<bool(const CLI::App*)>{}))
+        if (!verb->get_group().empty())
+            verbs.push_back({{"name", verb->get_name()}, {"meaning", verb->get_description()}, {"options", describe_options(*verb)}});
+    const json all = {{"name", app.get_name()},
+                      {"meaning", app.get_description()},
+                      {"options", describe_options(app)},
+                      {"verbs", verbs},
+                      {"scene_keys", describe_scene_keys()}};
+    return all.dump(1);
+}
+
+// pbskin list [cases, scenes, deformers, studies, claims, metrics]: lists what the program knows.
+
+void add_list_verb(CommandLine& line)
+{
+    auto asked = std::make_shared<std::vector<std::string>>();
+    CLI::App* verb = line.add("list", "lists the cases, scenes, deformers, studies, claims and metrics", [asked] { return list(*asked); });
+    verb->add_option("kind", *asked, "which of them; by default all")
+        ->check(CLI::IsMember({"cases", "scenes", "deformers", "studies", "claims", "metrics"}));
+}
+
+// pbskin explain NAME: prints what a metric, claim, scene key, study, deformer or scene means.
 
 void add_explain_verb(CommandLine& line)
 {

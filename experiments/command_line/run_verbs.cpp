@@ -43,6 +43,54 @@ int run(const RunArguments& arguments, const CommonOptions& common)
     return result.failure().empty() ? exit_finished : exit_breakdown;
 }
 
+int check(CheckArguments arguments, const CheckReports& reports, const CommonOptions& common)
+{
+    arguments.threads = common.threads;
+    std::error_code reported_by_the_run;
+    if (!reports.junit.empty()) std::filesystem::create_directories(arguments.folder, reported_by_the_run);  // the report may go there
+    require_writable(reports);
+    if (!arguments.write_baseline.empty()) analysis::require_writable(arguments.write_baseline);
+    const CheckResult result = run_check(arguments);
+    if (!common.quiet) fmt::print("{}", analysis::check_table(result.suites));
+    report_failures(result.suites);
+    write_reports(reports, result.suites);
+    const int held = count(result.suites, analysis::CheckState::held), failed = count(result.suites, analysis::CheckState::failed);
+    spdlog::info("{} hold, {} fail, {} left out; records in {}", held, failed, count(result.suites, analysis::CheckState::left_out),
+                 arguments.folder);
+    if (!result.breakdowns.empty()) return exit_breakdown;
+    return failed > 0 ? exit_bound : exit_finished;
+}
+
+struct BenchArguments {
+    BenchOptions options;
+    std::vector<std::string> sizes;
+    std::string folder;
+    bool json = false;
+};
+
+// The path of the record, checked before anything is measured. "": no record is asked for.
+std::string writable_record(const std::string& folder)
+{
+    if (folder.empty()) return "";
+    analysis::make_output_folder(folder);
+    const std::string record = (std::filesystem::path(folder) / "bench.json").string();
+    analysis::require_writable(record);
+    return record;
+}
+
+int bench(BenchArguments arguments, int threads)
+{
+    arguments.options.threads = threads;
+    for (const std::string& size : arguments.sizes) arguments.options.sizes.push_back(parse_size(size));
+    std::sort(arguments.options.sizes.begin(), arguments.options.sizes.end());  // so that the peak of memory belongs to the latest
+    const std::string file = writable_record(arguments.folder);
+    const nlohmann::json record = run_bench(arguments.options);
+    const std::string json = record.dump(2) + "\n";
+    if (!file.empty()) analysis::write_text_atomically(file, json);
+    fmt::print("{}", arguments.json ? json : bench_table(record));
+    return exit_finished;
+}
+
 }  // namespace
 
 void add_run_verb(CommandLine& line)
@@ -94,28 +142,6 @@ void add_reproduce_verb(CommandLine& line)
 
 // pbskin check [-o DIR] [--junit FILE] [--baseline FILE]: checks volume preservation and other bounds in continuous integration.
 
-namespace {
-
-int check(CheckArguments arguments, const CheckReports& reports, const CommonOptions& common)
-{
-    arguments.threads = common.threads;
-    std::error_code reported_by_the_run;
-    if (!reports.junit.empty()) std::filesystem::create_directories(arguments.folder, reported_by_the_run);  // the report may go there
-    require_writable(reports);
-    if (!arguments.write_baseline.empty()) analysis::require_writable(arguments.write_baseline);
-    const CheckResult result = run_check(arguments);
-    if (!common.quiet) fmt::print("{}", analysis::check_table(result.suites));
-    report_failures(result.suites);
-    write_reports(reports, result.suites);
-    const int held = count(result.suites, analysis::CheckState::held), failed = count(result.suites, analysis::CheckState::failed);
-    spdlog::info("{} hold, {} fail, {} left out; records in {}", held, failed, count(result.suites, analysis::CheckState::left_out),
-                 arguments.folder);
-    if (!result.breakdowns.empty()) return exit_breakdown;
-    return failed > 0 ? exit_bound : exit_finished;
-}
-
-}  // namespace
-
 void add_check_verb(CommandLine& line)
 {
     auto arguments = std::make_shared<CheckArguments>();
@@ -139,40 +165,6 @@ void add_check_verb(CommandLine& line)
 }
 
 // pbskin bench [--mesh TETS] [--threads N] [--json]: times a step and every deformer, and compares them with plain loops in the same run.
-
-namespace {
-
-struct BenchArguments {
-    BenchOptions options;
-    std::vector<std::string> sizes;
-    std::string folder;
-    bool json = false;
-};
-
-// The path of the record, checked before anything is measured. "": no record is asked for.
-std::string writable_record(const std::string& folder)
-{
-    if (folder.empty()) return "";
-    analysis::make_output_folder(folder);
-    const std::string record = (std::filesystem::path(folder) / "bench.json").string();
-    analysis::require_writable(record);
-    return record;
-}
-
-int bench(BenchArguments arguments, int threads)
-{
-    arguments.options.threads = threads;
-    for (const std::string& size : arguments.sizes) arguments.options.sizes.push_back(parse_size(size));
-    std::sort(arguments.options.sizes.begin(), arguments.options.sizes.end());  // so that the peak of memory belongs to the latest
-    const std::string file = writable_record(arguments.folder);
-    const nlohmann::json record = run_bench(arguments.options);
-    const std::string json = record.dump(2) + "\n";
-    if (!file.empty()) analysis::write_text_atomically(file, json);
-    fmt::print("{}", arguments.json ? json : bench_table(record));
-    return exit_finished;
-}
-
-}  // namespace
 
 void add_bench_verb(CommandLine& line)
 {

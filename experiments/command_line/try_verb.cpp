@@ -39,33 +39,6 @@ std::string python_that_draws()
                           "no python3 that can import numpy and matplotlib: install python3-numpy and python3-matplotlib");
 }
 
-}  // namespace
-
-int write_report_page(const std::string& folder, bool quiet)
-{
-    if (!fs::is_directory(folder))
-        throw pbs::InputError(folder, 0, "", "", "no such folder: expected one that `pbskin try`, `run` or `reproduce` wrote");
-    if (!fs::is_regular_file(page_maker()))
-        throw pbs::InputError(page_maker().string(), 0, "", "",
-                              "not found: the page is made by scripts that are installed with the program");
-    std::vector<std::string> words = {python_that_draws(), "-B", page_maker().string(), folder};
-    if (quiet) words.push_back("--quiet");
-    const ProgramRun page = run_program(words, std::nullopt);
-    if (!page.started) throw pbs::InputError("", 0, "report", words.front(), "cannot be started");
-    return page.status >= 0 ? page.status : 128 - page.status;
-}
-
-// pbskin report DIR: writes the records and the figures drawn from them as one self-contained page, DIR/report.html.
-void add_report_verb(CommandLine& line)
-{
-    auto folder = std::make_shared<std::string>();
-    CLI::App* verb = line.add("report", "writes records and drawn figures on one self-contained HTML page and states what is missing",
-                              [&common = line.common, folder] { return write_report_page(*folder, common.quiet); });
-    verb->add_option("folder", *folder, "the folder that reproduce wrote; the page is report.html in it")->required();
-}
-
-namespace {
-
 // Runs the scene that was just written. If it is refused, nothing of it is left behind.
 RunResult run_new_scene(const std::string& scene_file, const std::string& folder, bool folder_is_new, int threads,
                         const std::vector<std::string>& warnings)
@@ -118,6 +91,29 @@ int try_model(TrialOptions options, const CommonOptions& common)
 }
 
 }  // namespace
+
+int write_report_page(const std::string& folder, bool quiet)
+{
+    if (!fs::is_directory(folder))
+        throw pbs::InputError(folder, 0, "", "", "no such folder: expected one that `pbskin try`, `run` or `reproduce` wrote");
+    if (!fs::is_regular_file(page_maker()))
+        throw pbs::InputError(page_maker().string(), 0, "", "",
+                              "not found: the page is made by scripts that are installed with the program");
+    std::vector<std::string> words = {python_that_draws(), "-B", page_maker().string(), folder};
+    if (quiet) words.push_back("--quiet");
+    const ProgramRun page = run_program(words, std::nullopt);
+    if (!page.started) throw pbs::InputError("", 0, "report", words.front(), "cannot be started");
+    return page.status >= 0 ? page.status : 128 - page.status;
+}
+
+// pbskin report DIR: writes the records and the figures drawn from them as one self-contained page, DIR/report.html.
+void add_report_verb(CommandLine& line)
+{
+    auto folder = std::make_shared<std::string>();
+    CLI::App* verb = line.add("report", "writes records and drawn figures on one self-contained HTML page and states what is missing",
+                              [&common = line.common, folder] { return write_report_page(*folder, common.quiet); });
+    verb->add_option("folder", *folder, "the folder that reproduce wrote; the page is report.html in it")->required();
+}
 
 void add_try_verb(CommandLine& line)
 {

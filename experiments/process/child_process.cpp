@@ -148,6 +148,59 @@ std::string end_of(const std::string& text)
     return text.substr(end > most ? end - most : 0, std::min(end, most));
 }
 
+struct Worker {
+    std::size_t work = 0;
+    ForkedProcess process;
+};
+
+ProcessEnd act_as_worker(const PooledWork& work)
+{
+    hide_progress();
+    try {
+        const std::string breakdown = work.action();
+        return {breakdown, breakdown.empty() ? exit_finished : exit_breakdown};
+    } catch (...) {
+        const Failure failure = caught_failure();
+        return {failure.message(), failure.status};
+    }
+}
+
+double seconds_of(const timeval& time)
+{
+    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+}
+
+PooledResult outcome_of(const PooledWork& work, ForkedProcess& process, int status)
+{
+    listen(process);
+    if (process.from >= 0) close(process.from);  // a process that it started may still hold the other end
+    const int exit = WIFEXITED(status) ? WEXITSTATUS(status) : exit_internal;
+    const bool finished = exit == exit_finished || exit == exit_breakdown;
+    PooledResult result{work.name, finished, exit == exit_breakdown ? process.text : "", finished ? "" : process.text};
+    result.refused = exit == exit_input;
+    if (WIFSIGNALED(status)) result.failure = fmt::format("ended by signal {}", WTERMSIG(status));
+    if (exit == exit_interrupted) result.failure = "interrupted";
+    return result;
+}
+
+// Returns the process that ended. Each wait is short, for a signal that arrives just before a wait without end would only be noticed when a
+// worker ends.
+pid_t wait_for_any(std::map<pid_t, Worker>& workers, int& status, rusage& usage)
+{
+    for (;;) {
+        std::vector<int> pipes;
+        for (auto& [id, worker] : workers) {
+            pass_on_interruption(worker.process);
+            listen(worker.process);
+            pipes.push_back(worker.process.from);
+        }
+        const pid_t ended = wait4(-1, &status, WNOHANG, &usage);
+        if (ended > 0) return ended;
+        if (ended < 0 && errno != EINTR) throw std::runtime_error("the workers are gone");
+        wait_for_text(pipes);
+    }
+}
+
 }  // namespace
 
 nlohmann::json in_own_process(const std::function<nlohmann::json()>& work)
@@ -218,63 +271,6 @@ std::string why_not_startable(const std::string& program)
     }
     return why;
 }
-
-namespace {
-
-struct Worker {
-    std::size_t work = 0;
-    ForkedProcess process;
-};
-
-ProcessEnd act_as_worker(const PooledWork& work)
-{
-    hide_progress();
-    try {
-        const std::string breakdown = work.action();
-        return {breakdown, breakdown.empty() ? exit_finished : exit_breakdown};
-    } catch (...) {
-        const Failure failure = caught_failure();
-        return {failure.message(), failure.status};
-    }
-}
-
-double seconds_of(const timeval& time)
-{
-    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
-}
-
-PooledResult outcome_of(const PooledWork& work, ForkedProcess& process, int status)
-{
-    listen(process);
-    if (process.from >= 0) close(process.from);  // a process that it started may still hold the other end
-    const int exit = WIFEXITED(status) ? WEXITSTATUS(status) : exit_internal;
-    const bool finished = exit == exit_finished || exit == exit_breakdown;
-    PooledResult result{work.name, finished, exit == exit_breakdown ? process.text : "", finished ? "" : process.text};
-    result.refused = exit == exit_input;
-    if (WIFSIGNALED(status)) result.failure = fmt::format("ended by signal {}", WTERMSIG(status));
-    if (exit == exit_interrupted) result.failure = "interrupted";
-    return result;
-}
-
-// Returns the process that ended. Each wait is short, for a signal that arrives just before a wait without end would only be noticed when a
-// worker ends.
-pid_t wait_for_any(std::map<pid_t, Worker>& workers, int& status, rusage& usage)
-{
-    for (;;) {
-        std::vector<int> pipes;
-        for (auto& [id, worker] : workers) {
-            pass_on_interruption(worker.process);
-            listen(worker.process);
-            pipes.push_back(worker.process.from);
-        }
-        const pid_t ended = wait4(-1, &status, WNOHANG, &usage);
-        if (ended > 0) return ended;
-        if (ended < 0 && errno != EINTR) throw std::runtime_error("the workers are gone");
-        wait_for_text(pipes);
-    }
-}
-
-}  // namespace
 
 std::vector<PooledResult> run_in_pool(const std::vector<PooledWork>& work, int jobs, double then_s)
 {

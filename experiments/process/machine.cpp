@@ -31,25 +31,6 @@ double status_bytes(const std::string& field)
     return 0.0;
 }
 
-}  // namespace
-
-PeakMemory peak_memory_of(const std::function<void()>& work)
-{
-    malloc_trim(0);                               // memory that earlier work has freed does not count
-    std::ofstream("/proc/self/clear_refs") << 5;  // resets the peak (proc(5))
-    PeakMemory memory{status_bytes("VmRSS"), 0.0};
-    work();
-    memory.peak_bytes = peak_memory_bytes();
-    return memory;
-}
-
-double peak_memory_bytes()
-{
-    return status_bytes("VmHWM");
-}
-
-namespace {
-
 // The columns of a line "cpu" (proc(5)). The guests' times, which follow, are contained in user and nice.
 enum Column { user, nice, system, idle, iowait, irq, softirq, steal, columns };
 
@@ -58,44 +39,6 @@ std::optional<ProcessorTicks> ticks_now()
     std::ifstream file("/proc/stat");
     return processor_ticks({std::istreambuf_iterator<char>(file), {}});
 }
-
-}  // namespace
-
-std::optional<ProcessorTicks> processor_ticks(const std::string& proc_stat)
-{
-    std::vector<double> ticks;
-    int processors = 0;
-    std::istringstream text(proc_stat);
-    for (std::string line; std::getline(text, line);) {
-        std::istringstream words(line);
-        std::string name;
-        words >> name;
-        if (name == "cpu") ticks.assign(std::istream_iterator<double>(words), {});
-        if (name.size() > 3 && name.rfind("cpu", 0) == 0 && std::isdigit(static_cast<unsigned char>(name[3]))) ++processors;
-    }
-    if (ticks.size() <= idle || processors == 0) return std::nullopt;
-    ticks.resize(columns, 0.0);
-    return ProcessorTicks{ticks[user] + ticks[nice] + ticks[system] + ticks[irq] + ticks[softirq] + ticks[steal],
-                          ticks[idle] + ticks[iowait], processors};
-}
-
-std::optional<double> busy_processors(const ProcessorTicks& before, const ProcessorTicks& after)
-{
-    const double busy = after.busy - before.busy, all = busy + after.idle - before.idle;
-    if (!(all > 0.0)) return std::nullopt;
-    return after.processors * busy / all;
-}
-
-std::optional<double> busy_processors(double seconds)
-{
-    const std::optional<ProcessorTicks> before = ticks_now();
-    std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
-    const std::optional<ProcessorTicks> after = ticks_now();
-    if (!before || !after) return std::nullopt;
-    return busy_processors(*before, *after);
-}
-
-namespace {
 
 constexpr const char* library_file = "libblas.so.3";
 constexpr const char* core_type_variable = "OPENBLAS_CORETYPE";
@@ -141,6 +84,55 @@ bool user_selects()
 std::atomic<bool> selected_here = false;
 
 }  // namespace
+
+PeakMemory peak_memory_of(const std::function<void()>& work)
+{
+    malloc_trim(0);                               // memory that earlier work has freed does not count
+    std::ofstream("/proc/self/clear_refs") << 5;  // resets the peak (proc(5))
+    PeakMemory memory{status_bytes("VmRSS"), 0.0};
+    work();
+    memory.peak_bytes = peak_memory_bytes();
+    return memory;
+}
+
+double peak_memory_bytes()
+{
+    return status_bytes("VmHWM");
+}
+
+std::optional<ProcessorTicks> processor_ticks(const std::string& proc_stat)
+{
+    std::vector<double> ticks;
+    int processors = 0;
+    std::istringstream text(proc_stat);
+    for (std::string line; std::getline(text, line);) {
+        std::istringstream words(line);
+        std::string name;
+        words >> name;
+        if (name == "cpu") ticks.assign(std::istream_iterator<double>(words), {});
+        if (name.size() > 3 && name.rfind("cpu", 0) == 0 && std::isdigit(static_cast<unsigned char>(name[3]))) ++processors;
+    }
+    if (ticks.size() <= idle || processors == 0) return std::nullopt;
+    ticks.resize(columns, 0.0);
+    return ProcessorTicks{ticks[user] + ticks[nice] + ticks[system] + ticks[irq] + ticks[softirq] + ticks[steal],
+                          ticks[idle] + ticks[iowait], processors};
+}
+
+std::optional<double> busy_processors(const ProcessorTicks& before, const ProcessorTicks& after)
+{
+    const double busy = after.busy - before.busy, all = busy + after.idle - before.idle;
+    if (!(all > 0.0)) return std::nullopt;
+    return after.processors * busy / all;
+}
+
+std::optional<double> busy_processors(double seconds)
+{
+    const std::optional<ProcessorTicks> before = ticks_now();
+    std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+    const std::optional<ProcessorTicks> after = ticks_now();
+    if (!before || !after) return std::nullopt;
+    return busy_processors(*before, *after);
+}
 
 Processor this_processor()
 {

@@ -105,6 +105,24 @@ LimbStation station_at(const pbs::Character& character, std::string name, const 
     return {std::move(name), point, normal.normalized(), std::move(carriers), std::move(tets)};
 }
 
+void find_vertices(BrokenFrame& broken, const pbs::Positions& positions)
+{
+    for (Eigen::Index v = 0; v < positions.rows(); ++v) {
+        if (positions.row(v).allFinite()) continue;
+        if (broken.vertex < 0) broken.vertex = static_cast<int>(v);
+        ++broken.vertices;
+    }
+}
+
+void find_tet(BrokenFrame& broken, const Eigen::VectorXd& volume_ratios)
+{
+    if (volume_ratios.size() == 0) return;
+    Eigen::Index tet = 0;
+    broken.volume_ratio = volume_ratios.minCoeff(&tet);
+    broken.tet = static_cast<int>(tet);
+    broken.inverted_tets = static_cast<int>((volume_ratios.array() <= 0.0).count());
+}
+
 }  // namespace
 
 std::vector<LimbStation> limb_stations(const pbs::Character& character)
@@ -218,28 +236,6 @@ double FrameMeasurer::min_section_pct(const pbs::Positions& positions, const pbs
         sections_[i].posed = {posed_point(stations_[i], pose), posed_normal(stations_[i], pose)};
     return 100.0 * analysis::section_extremes(character_.mesh.rest, positions, character_.mesh.tets, sections_).smallest_ratio;
 }
-
-namespace {
-
-void find_vertices(BrokenFrame& broken, const pbs::Positions& positions)
-{
-    for (Eigen::Index v = 0; v < positions.rows(); ++v) {
-        if (positions.row(v).allFinite()) continue;
-        if (broken.vertex < 0) broken.vertex = static_cast<int>(v);
-        ++broken.vertices;
-    }
-}
-
-void find_tet(BrokenFrame& broken, const Eigen::VectorXd& volume_ratios)
-{
-    if (volume_ratios.size() == 0) return;
-    Eigen::Index tet = 0;
-    broken.volume_ratio = volume_ratios.minCoeff(&tet);
-    broken.tet = static_cast<int>(tet);
-    broken.inverted_tets = static_cast<int>((volume_ratios.array() <= 0.0).count());
-}
-
-}  // namespace
 
 BrokenFrame broken_frame(int frame, pbs::Outcome outcome, const pbs::Positions& positions, const Eigen::VectorXd& volume_ratios)
 {

@@ -19,24 +19,6 @@ using analysis::within;
 
 const char *const with_reference = "reference", *const with_error_bar = "error_bar", *const with_sleep = "sleep";
 
-}  // namespace
-
-const Columns<FrameMetrics>& frame_metric_columns()
-{
-    static const Columns<FrameMetrics> columns = {
-        {"volume_change_pct", &FrameMetrics::volume_change_pct, "%",
-         "signed change of the whole volume; the paper's E = V0 - V' has the opposite sign"},
-        {"volume_abs_change_pct", &FrameMetrics::volume_abs_change_pct, "%",
-         "sum of the absolute changes of all tets, so that gains do not hide losses"},
-        {"inverted_tets", &FrameMetrics::inverted_tets, "", "number of inverted or flattened tets"},
-        {"mean_abs_j_minus_1", &FrameMetrics::mean_abs_j_minus_1, "", "mean relative change of volume, weighted by rest volume"},
-        {"j_min", &FrameMetrics::j_min, "", "smallest volume of a tet over its volume at rest; negative if the tet is inverted"},
-        {"stretch_rms", &FrameMetrics::stretch_rms, "", "residual of the stretch constraints"}};
-    return columns;
-}
-
-namespace {
-
 const Columns<ErrorNorms> error_columns = {
     {"error_l2_pct", &ErrorNorms::l2_pct, "%", "distance to the reference over free vertices"},
     {"error_joint_pct", &ErrorNorms::joint_pct, "%",
@@ -104,6 +86,20 @@ const Rows all_columns =
         .in_group(with_sleep);
 
 }  // namespace
+
+const Columns<FrameMetrics>& frame_metric_columns()
+{
+    static const Columns<FrameMetrics> columns = {
+        {"volume_change_pct", &FrameMetrics::volume_change_pct, "%",
+         "signed change of the whole volume; the paper's E = V0 - V' has the opposite sign"},
+        {"volume_abs_change_pct", &FrameMetrics::volume_abs_change_pct, "%",
+         "sum of the absolute changes of all tets, so that gains do not hide losses"},
+        {"inverted_tets", &FrameMetrics::inverted_tets, "", "number of inverted or flattened tets"},
+        {"mean_abs_j_minus_1", &FrameMetrics::mean_abs_j_minus_1, "", "mean relative change of volume, weighted by rest volume"},
+        {"j_min", &FrameMetrics::j_min, "", "smallest volume of a tet over its volume at rest; negative if the tet is inverted"},
+        {"stretch_rms", &FrameMetrics::stretch_rms, "", "residual of the stretch constraints"}};
+    return columns;
+}
 
 MetricRow metric_row(const Scene& scene, const DeformerSpec& spec, int frame, double time_s, const FrameMeasurement& measured,
                      const pbs::StepSummary& step)

@@ -45,6 +45,46 @@ std::string parent_of(const pbs::Skeleton& skeleton, const pbs::Bone& bone)
     return bone.parent < 0 ? "" : skeleton.bones[bone.parent].name;
 }
 
+int loaded_shared_objects()
+{
+    int count = 0;
+    const auto add = [](dl_phdr_info* info, std::size_t, void* counter) {
+        if (info->dlpi_name && *info->dlpi_name) ++*static_cast<int*>(counter);  // the program itself has no name
+        return 0;
+    };
+    dl_iterate_phdr(add, &count);
+    return count;
+}
+
+const analysis::Columns<RegionBones> region_bone_columns = {
+    {"bone", &RegionBones::bone, "", "name of the bone, or of the joint's first bone"},
+    {"second_bone", &RegionBones::second_bone, "", "name of the joint's second bone; empty where the region belongs to one bone"}};
+
+constexpr double nearest_bonus = 1e-6;  // decides for a corner's nearest bone if weights are equal
+
+// Weight of each bone over the four corners of a tet, #bones, and whether one of them is blended.
+struct TetWeights {
+    std::vector<double> of_bone;
+    bool blended = false;
+};
+
+TetWeights weights_of_tet(const pbs::Character& character, const pbs::Weights& weights, Eigen::Index tet)
+{
+    TetWeights sum{std::vector<double>(character.skeleton.bones.size(), 0.0)};
+    for (const int vertex : character.mesh.tets.row(tet)) {
+        sum.blended = sum.blended || weights.blended(vertex);
+        sum.of_bone[character.binding.bone[vertex]] += nearest_bonus;
+        for (int entry = weights.first[vertex]; entry < weights.first[vertex + 1]; ++entry)
+            sum.of_bone[weights.bone[entry]] += weights.weight[entry];
+    }
+    return sum;
+}
+
+int heaviest(const std::vector<double>& weights)
+{
+    return static_cast<int>(std::max_element(weights.begin(), weights.end()) - weights.begin());
+}
+
 }  // namespace
 
 std::vector<BonePlace> bones_at_rest(const pbs::Skeleton& skeleton)
@@ -72,21 +112,6 @@ std::vector<BoundVertex> bound_vertices(const pbs::Character& character)
                             bool(character.blended[v]), jiggles[v]});
     return vertices;
 }
-
-namespace {
-
-int loaded_shared_objects()
-{
-    int count = 0;
-    const auto add = [](dl_phdr_info* info, std::size_t, void* counter) {
-        if (info->dlpi_name && *info->dlpi_name) ++*static_cast<int*>(counter);  // the program itself has no name
-        return 0;
-    };
-    dl_iterate_phdr(add, &count);
-    return count;
-}
-
-}  // namespace
 
 double CostRecord::seconds(const std::string& part) const
 {
@@ -129,14 +154,6 @@ void DistanceRecord::add(int frame, double time_s, const std::string& label, con
     before_.emplace_back(label, points);
 }
 
-namespace {
-
-const analysis::Columns<RegionBones> region_bone_columns = {
-    {"bone", &RegionBones::bone, "", "name of the bone, or of the joint's first bone"},
-    {"second_bone", &RegionBones::second_bone, "", "name of the joint's second bone; empty where the region belongs to one bone"}};
-
-}  // namespace
-
 using Changes = analysis::Columns<RegionChange>;
 const Changes region_columns =
     Changes{{"deformer", &RegionChange::deformer, "", "label of the deformer"},
@@ -151,35 +168,6 @@ const Changes region_columns =
         {"highest_pct", &RegionChange::highest_pct, "%", "highest change_pct of a frame"},
         {"own_change_pct", &RegionChange::own_change_pct, "%", "mean change of volume over the frames, of the region's own rest volume"},
         {"frames", &RegionChange::frames, "", "number of frames whose positions are finite"}};
-
-namespace {
-
-constexpr double nearest_bonus = 1e-6;  // decides for a corner's nearest bone if weights are equal
-
-// Weight of each bone over the four corners of a tet, #bones, and whether one of them is blended.
-struct TetWeights {
-    std::vector<double> of_bone;
-    bool blended = false;
-};
-
-TetWeights weights_of_tet(const pbs::Character& character, const pbs::Weights& weights, Eigen::Index tet)
-{
-    TetWeights sum{std::vector<double>(character.skeleton.bones.size(), 0.0)};
-    for (const int vertex : character.mesh.tets.row(tet)) {
-        sum.blended = sum.blended || weights.blended(vertex);
-        sum.of_bone[character.binding.bone[vertex]] += nearest_bonus;
-        for (int entry = weights.first[vertex]; entry < weights.first[vertex + 1]; ++entry)
-            sum.of_bone[weights.bone[entry]] += weights.weight[entry];
-    }
-    return sum;
-}
-
-int heaviest(const std::vector<double>& weights)
-{
-    return static_cast<int>(std::max_element(weights.begin(), weights.end()) - weights.begin());
-}
-
-}  // namespace
 
 BodyRegions regions_by_bone(const pbs::Character& character)
 {

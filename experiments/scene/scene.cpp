@@ -189,6 +189,51 @@ std::string read_scene_text(const std::string& path)
     return pbs::read_text_file(path, pbs::most_settings_bytes);
 }
 
+constexpr double still_deg = 0.1;       // no one sees less
+constexpr double still_share = 1e-3;    // over the size of the body, likewise
+constexpr double rigid_stretch = 1e-3;  // rounding of exporters
+
+pbs::ClipSampling clip_sampling(const MotionSpec& spec)
+{
+    pbs::ClipSampling sampling;
+    static_cast<pbs::MotionSampling&>(sampling) = sampling_of(spec);
+    return sampling;
+}
+
+std::string share_of(const pbs::ClipMatch& match)
+{
+    return fmt::format("{} of {} moving joints", match.matched, match.moving);
+}
+
+CaseMotion motion_of_clip(const MotionSpec& spec, const pbs::Character& character)
+{
+    const pbs::Clip clip = pbs::read_clip(spec.clip);
+    const pbs::ClipMatch match = accepted_match(spec, clip, character.skeleton);
+    CaseMotion made;
+    made.motion = pbs::retarget(clip, character.skeleton, clip_sampling(spec));
+    made.clip_joints = match.moving;
+    made.matched_joints = match.matched;
+    if (match.matched < match.moving)
+        made.partial_match =
+            fmt::format("{}: {} of the clip match a bone; without a bone: {}", spec.clip, share_of(match), pbs::name_list(match.unmatched));
+    return made;
+}
+
+CaseMotion motion_of_model(const MotionSpec& spec, const pbs::Character& character, const std::string& scene_file)
+{
+    const pbs::RiggedModel& model = *character.artist->model;
+    if (!model.animation)
+        throw pbs::InputError(scene_file, 0, "motion.animation", spec.animation, "the model has no animation: expected a joint or a clip");
+    pbs::RigMotion rig = pbs::rig_motion(model.rig, model.body, *model.animation, sampling_of(spec));
+    CaseMotion made;
+    made.motion = std::move(rig.motion);
+    if (rig.stretch > rigid_stretch)
+        made.remarks.push_back(
+            fmt::format("{}: the animation {} scales or shears bones by up to {:.1f} %; the deformers move bones rigidly", model.rig.file,
+                        model.animation->name, 100.0 * rig.stretch));
+    return made;
+}
+
 }  // namespace
 
 std::vector<DeformerSpec> listed_deformers(const SceneValues& values)
@@ -266,55 +311,6 @@ Scene read_scene(const std::string& file_or_name, const std::vector<std::string>
     scene.resolved["pbs"]["time_step_s"] = scene.motion.time_step_s;
     return scene;
 }
-
-namespace {
-
-constexpr double still_deg = 0.1;       // no one sees less
-constexpr double still_share = 1e-3;    // over the size of the body, likewise
-constexpr double rigid_stretch = 1e-3;  // rounding of exporters
-
-pbs::ClipSampling clip_sampling(const MotionSpec& spec)
-{
-    pbs::ClipSampling sampling;
-    static_cast<pbs::MotionSampling&>(sampling) = sampling_of(spec);
-    return sampling;
-}
-
-std::string share_of(const pbs::ClipMatch& match)
-{
-    return fmt::format("{} of {} moving joints", match.matched, match.moving);
-}
-
-CaseMotion motion_of_clip(const MotionSpec& spec, const pbs::Character& character)
-{
-    const pbs::Clip clip = pbs::read_clip(spec.clip);
-    const pbs::ClipMatch match = accepted_match(spec, clip, character.skeleton);
-    CaseMotion made;
-    made.motion = pbs::retarget(clip, character.skeleton, clip_sampling(spec));
-    made.clip_joints = match.moving;
-    made.matched_joints = match.matched;
-    if (match.matched < match.moving)
-        made.partial_match =
-            fmt::format("{}: {} of the clip match a bone; without a bone: {}", spec.clip, share_of(match), pbs::name_list(match.unmatched));
-    return made;
-}
-
-CaseMotion motion_of_model(const MotionSpec& spec, const pbs::Character& character, const std::string& scene_file)
-{
-    const pbs::RiggedModel& model = *character.artist->model;
-    if (!model.animation)
-        throw pbs::InputError(scene_file, 0, "motion.animation", spec.animation, "the model has no animation: expected a joint or a clip");
-    pbs::RigMotion rig = pbs::rig_motion(model.rig, model.body, *model.animation, sampling_of(spec));
-    CaseMotion made;
-    made.motion = std::move(rig.motion);
-    if (rig.stretch > rigid_stretch)
-        made.remarks.push_back(
-            fmt::format("{}: the animation {} scales or shears bones by up to {:.1f} %; the deformers move bones rigidly", model.rig.file,
-                        model.animation->name, 100.0 * rig.stretch));
-    return made;
-}
-
-}  // namespace
 
 pbs::Motion make_motion(const MotionSpec& spec, const pbs::Skeleton& skeleton, const std::string& scene_file)
 {

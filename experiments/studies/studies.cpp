@@ -57,6 +57,32 @@ std::string carry_out_work(const StudyRun& run, const std::string& folder)
     return breakdown;
 }
 
+struct RecordedCost {
+    std::optional<double> cpu_s;  // of its process with all threads; records of some versions lack it
+    std::optional<double> wall_s;
+};
+
+std::optional<double> number_at(const nlohmann::json& run, const char* pointer)
+{
+    const nlohmann::json::json_pointer place(pointer);
+    return run.contains(place) && run.at(place).is_number() ? std::optional(run.at(place).get<double>()) : std::nullopt;
+}
+
+const analysis::Columns<RunCost> cost_columns =
+    analysis::Columns<RunCost>{{"run", &RunCost::run, "", "name of the run"},
+                               {"expected_cpu_s", &RunCost::expected_s, "s", "processor time that the plan expects"},
+                               {"cpu_s", &RunCost::cpu_s, "s", "processor time that it took"}} +
+    analysis::Columns<RunCost>{{"wall_s", &RunCost::wall_s, "s", "wall time that it took"}}.in_group("wall");
+
+// Nothing if the run did not finish.
+std::optional<RecordedCost> recorded_cost(const fs::path& folder)
+{
+    if (!fs::exists(folder / "run.json")) return std::nullopt;
+    const auto run = nlohmann::json::parse(analysis::read_text((folder / "run.json").string()), nullptr, false);
+    const char* cpu_s = run.contains("cost") ? "/cost/cpu_seconds/total" : "/outcome/cpu_seconds";
+    return RecordedCost{number_at(run, cpu_s), number_at(run, "/outcome/wall_s")};
+}
+
 }  // namespace
 
 bool is_finished(const StudyRun& run, const std::string& folder)
@@ -128,36 +154,6 @@ std::vector<ReadingValues::LeftOut> all_but(const std::string& claim, const std:
         if (std::find(measured.begin(), measured.end(), quantity) == measured.end()) left_out.push_back({claim, quantity, reason});
     return left_out;
 }
-
-namespace {
-
-struct RecordedCost {
-    std::optional<double> cpu_s;  // of its process with all threads; records of some versions lack it
-    std::optional<double> wall_s;
-};
-
-std::optional<double> number_at(const nlohmann::json& run, const char* pointer)
-{
-    const nlohmann::json::json_pointer place(pointer);
-    return run.contains(place) && run.at(place).is_number() ? std::optional(run.at(place).get<double>()) : std::nullopt;
-}
-
-const analysis::Columns<RunCost> cost_columns =
-    analysis::Columns<RunCost>{{"run", &RunCost::run, "", "name of the run"},
-                               {"expected_cpu_s", &RunCost::expected_s, "s", "processor time that the plan expects"},
-                               {"cpu_s", &RunCost::cpu_s, "s", "processor time that it took"}} +
-    analysis::Columns<RunCost>{{"wall_s", &RunCost::wall_s, "s", "wall time that it took"}}.in_group("wall");
-
-// Nothing if the run did not finish.
-std::optional<RecordedCost> recorded_cost(const fs::path& folder)
-{
-    if (!fs::exists(folder / "run.json")) return std::nullopt;
-    const auto run = nlohmann::json::parse(analysis::read_text((folder / "run.json").string()), nullptr, false);
-    const char* cpu_s = run.contains("cost") ? "/cost/cpu_seconds/total" : "/outcome/cpu_seconds";
-    return RecordedCost{number_at(run, cpu_s), number_at(run, "/outcome/wall_s")};
-}
-
-}  // namespace
 
 StudyCosts::StudyCosts(const std::string& folder) : file_((fs::path(folder) / "costs.csv").string())
 {

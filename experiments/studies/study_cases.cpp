@@ -52,6 +52,31 @@ void add_differences(const nlohmann::json& a, const nlohmann::json& b, const std
                         differing);
 }
 
+// The column "jiggling" of Table 1 is k_stretch in the zone. Outside the zone k_stretch is 1.
+void add_pbs(Scene& scene, const nlohmann::json& other)
+{
+    DeformerSpec spec = *find_deformer_with<pbs::PbsOptions>(scene);
+    spec.label = other.at("label");
+    spec.variant = other.at("variant");
+    auto& options = options_of<pbs::PbsOptions>(spec);
+    options.k_stretch = other.value("k_stretch", options.k_stretch);
+    if (other.contains("k_in_zone")) options.jiggle = pbs::Jiggle{other.at("k_in_zone").get<double>()};
+    if (other.contains("lbs_entry")) options.lbs_entry = option_of<pbs::LbsEntry>(other.at("lbs_entry").get<std::string>());
+    scene.deformers.push_back(spec);
+}
+
+StudyPlan plan(bool full)
+{
+    return plan_of_cases("frames", full, [](const StudyCase& of, StudyPlan& plan) {
+        StudyRun run{.name = of.name, .cost_s = of.cost_s};
+        run.scene = of.scene({"output.frames=[]", "output.frame_names=[]", "output.frames_every=1"});
+        run.scene.name = of.name;
+        run.bad_frames_are_results = !run.scene.reference.empty();  // the sweeps go beyond the last pose that flesh reaches
+        for (const nlohmann::json& other : of.value<nlohmann::json>("pbs", nlohmann::json::array())) add_pbs(run.scene, other);
+        plan.runs.push_back(run);
+    });
+}
+
 }  // namespace
 
 nlohmann::json cases_document(const std::string& study)
@@ -160,34 +185,6 @@ StudyPlan plan_of_cases(const std::string& study, bool full, const std::function
 
 // The study `frames`: the frames that figures and the report's viewer show (frames/cases.toml). No claim is judged by them. It writes
 // DIR/frames/RUN/frames/*.vtu and .vtp, and in DIR/frames/RUN the records of a scene.
-namespace {
-
-// The column "jiggling" of Table 1 is k_stretch in the zone. Outside the zone k_stretch is 1.
-void add_pbs(Scene& scene, const nlohmann::json& other)
-{
-    DeformerSpec spec = *find_deformer_with<pbs::PbsOptions>(scene);
-    spec.label = other.at("label");
-    spec.variant = other.at("variant");
-    auto& options = options_of<pbs::PbsOptions>(spec);
-    options.k_stretch = other.value("k_stretch", options.k_stretch);
-    if (other.contains("k_in_zone")) options.jiggle = pbs::Jiggle{other.at("k_in_zone").get<double>()};
-    if (other.contains("lbs_entry")) options.lbs_entry = option_of<pbs::LbsEntry>(other.at("lbs_entry").get<std::string>());
-    scene.deformers.push_back(spec);
-}
-
-StudyPlan plan(bool full)
-{
-    return plan_of_cases("frames", full, [](const StudyCase& of, StudyPlan& plan) {
-        StudyRun run{.name = of.name, .cost_s = of.cost_s};
-        run.scene = of.scene({"output.frames=[]", "output.frame_names=[]", "output.frames_every=1"});
-        run.scene.name = of.name;
-        run.bad_frames_are_results = !run.scene.reference.empty();  // the sweeps go beyond the last pose that flesh reaches
-        for (const nlohmann::json& other : of.value<nlohmann::json>("pbs", nlohmann::json::array())) add_pbs(run.scene, other);
-        plan.runs.push_back(run);
-    });
-}
-
-}  // namespace
 
 Study frames_study()
 {

@@ -145,38 +145,6 @@ element_order = 1
 name = "nh_p1"
 )";
 
-}  // namespace
-
-TrialScene trial_scene(const TrialOptions& options)
-{
-    if (options.frames < 2) throw pbs::InputError("", 0, "--frames", std::to_string(options.frames), "expected at least 2");
-    if (!(options.scale >= lowest_scale && options.scale <= highest_scale))
-        throw pbs::InputError("", 0, "--scale", fmt::format("{}", options.scale), "expected a number from 1e-6 to 1e6");
-    const bool has_skeleton_file = !options.skeleton.empty() && options.skeleton != "human";
-    if (has_skeleton_file && !fs::exists(options.skeleton)) throw pbs::InputError(options.skeleton, 0, "", "", "no such file");
-    TrialScene made;
-    const std::string moved = motion(options, made.remarks);
-    std::string character = fmt::format("model = {}\n", quoted(from_folder(options.model, options.folder)));
-    if (options.scale != 1.0) character += fmt::format("scale = {}\n", nlohmann::json(options.scale).dump());
-    if (options.vertices > 0) character += fmt::format("vertices = {}\n", options.vertices);
-    if (!options.skeleton.empty())
-        character += fmt::format("skeleton = {}\n", quoted(has_skeleton_file ? from_folder(options.skeleton, options.folder) : "human"));
-    const bool has_artist = options.skeleton.empty();
-    made.text =
-        fmt::format("# {} through its motion. Change this file and run it: pbskin run {} -o DIR\nschema = 1\n[character]\n{}[motion]\n{}",
-                    quoted(options.model), quoted((fs::path(options.folder) / "scene.toml").string()), character, moved);
-    made.text += pbs_table;
-    if (has_artist)
-        made.text += "[[lbs]]\nname = \"lbs_paper\"               # linear blend skinning with the weights of Eq. 2\nweights = \"paper\"\n";
-    if (options.reference) made.text += reference_tables;
-    made.text += fmt::format("[deformers]\nuse = [\"lbs\", \"dqs\", {}\"delta_mush\", \"pbs\"{}]\n", has_artist ? "\"lbs_paper\", " : "",
-                             options.reference ? ", \"nh_p1\"" : "");
-    made.text += "[output]\nframes_every = 1\nglb = true                       # also the moving surface of each deformer\n";
-    return made;
-}
-
-namespace {
-
 using analysis::CsvTable;
 
 // The number of a cell; nothing for an empty cell and for one that is not finite, as of a frame that broke down.
@@ -269,6 +237,34 @@ nlohmann::json joint_facts(const CsvTable& regions)
 }
 
 }  // namespace
+
+TrialScene trial_scene(const TrialOptions& options)
+{
+    if (options.frames < 2) throw pbs::InputError("", 0, "--frames", std::to_string(options.frames), "expected at least 2");
+    if (!(options.scale >= lowest_scale && options.scale <= highest_scale))
+        throw pbs::InputError("", 0, "--scale", fmt::format("{}", options.scale), "expected a number from 1e-6 to 1e6");
+    const bool has_skeleton_file = !options.skeleton.empty() && options.skeleton != "human";
+    if (has_skeleton_file && !fs::exists(options.skeleton)) throw pbs::InputError(options.skeleton, 0, "", "", "no such file");
+    TrialScene made;
+    const std::string moved = motion(options, made.remarks);
+    std::string character = fmt::format("model = {}\n", quoted(from_folder(options.model, options.folder)));
+    if (options.scale != 1.0) character += fmt::format("scale = {}\n", nlohmann::json(options.scale).dump());
+    if (options.vertices > 0) character += fmt::format("vertices = {}\n", options.vertices);
+    if (!options.skeleton.empty())
+        character += fmt::format("skeleton = {}\n", quoted(has_skeleton_file ? from_folder(options.skeleton, options.folder) : "human"));
+    const bool has_artist = options.skeleton.empty();
+    made.text =
+        fmt::format("# {} through its motion. Change this file and run it: pbskin run {} -o DIR\nschema = 1\n[character]\n{}[motion]\n{}",
+                    quoted(options.model), quoted((fs::path(options.folder) / "scene.toml").string()), character, moved);
+    made.text += pbs_table;
+    if (has_artist)
+        made.text += "[[lbs]]\nname = \"lbs_paper\"               # linear blend skinning with the weights of Eq. 2\nweights = \"paper\"\n";
+    if (options.reference) made.text += reference_tables;
+    made.text += fmt::format("[deformers]\nuse = [\"lbs\", \"dqs\", {}\"delta_mush\", \"pbs\"{}]\n", has_artist ? "\"lbs_paper\", " : "",
+                             options.reference ? ", \"nh_p1\"" : "");
+    made.text += "[output]\nframes_every = 1\nglb = true                       # also the moving surface of each deformer\n";
+    return made;
+}
 
 nlohmann::json trial_facts(const std::string& folder)
 {

@@ -72,50 +72,6 @@ std::vector<double> dense_weights(const pbs::Weights& weights, std::size_t bones
     return rows;
 }
 
-}  // namespace
-
-std::vector<double> transform_rows(const pbs::Pose& pose)
-{
-    std::vector<double> numbers;
-    for (const Eigen::Isometry3d& bone : pose)
-        for (const auto& row : bone.affine().rowwise()) numbers.insert(numbers.end(), row.begin(), row.end());
-    return numbers;
-}
-
-void write_exchange(const std::string& folder, const pbs::Character& character, const std::vector<pbs::Pose>& poses, double time_step_s)
-{
-    const pbs::TetMesh& mesh = character.mesh;
-    write_numbers(folder + "/rest.f64", mesh.rest.data(), static_cast<std::size_t>(mesh.rest.size()));
-    write_numbers(folder + "/tets.i32", mesh.tets.data(), static_cast<std::size_t>(mesh.tets.size()));
-    const std::vector<double> weights = dense_weights(character.weights, character.skeleton.bones.size());
-    std::vector<double> transforms;
-    for (const pbs::Pose& pose : poses) {
-        const std::vector<double> rows = transform_rows(pose);
-        transforms.insert(transforms.end(), rows.begin(), rows.end());
-    }
-    write_numbers(folder + "/weights.f64", weights.data(), weights.size());
-    write_numbers(folder + "/poses.f64", transforms.data(), transforms.size());
-    pbs::write_atomically(folder + "/character.json", analysis::record_text(character_json(character, poses.size(), time_step_s)));
-}
-
-ExchangedPositions read_exchange(const std::string& folder, Eigen::Index vertices, std::size_t poses)
-{
-    const std::size_t per_pose = static_cast<std::size_t>(3 * vertices);
-    const std::vector<double> numbers =
-        read_numbers(folder, "positions.f64", poses * per_pose, fmt::format("{} poses x {} vertices x 3", poses, vertices));
-    ExchangedPositions read;
-    for (std::size_t pose = 0; pose < poses; ++pose)
-        read.positions.emplace_back(Eigen::Map<const pbs::Positions>(numbers.data() + pose * per_pose, vertices, 3));
-    if (!fs::exists(folder + "/seconds.f64")) return read;
-    read.seconds = read_numbers(folder, "seconds.f64", poses, fmt::format("{} poses x 1", poses));
-    for (const double seconds : *read.seconds)
-        if (!(seconds >= 0.0 && std::isfinite(seconds)))
-            throw pbs::InputError("seconds.f64", 0, "time", fmt::format("{}", seconds), "expected a finite time of at least 0 s");
-    return read;
-}
-
-namespace {
-
 bool same(const pbs::Pose& a, const pbs::Pose& b)
 {
     return std::equal(a.begin(), a.end(), b.begin(), b.end(),
@@ -312,6 +268,46 @@ nlohmann::json external_json(const DeformerSpec& spec)
 }
 
 }  // namespace
+
+std::vector<double> transform_rows(const pbs::Pose& pose)
+{
+    std::vector<double> numbers;
+    for (const Eigen::Isometry3d& bone : pose)
+        for (const auto& row : bone.affine().rowwise()) numbers.insert(numbers.end(), row.begin(), row.end());
+    return numbers;
+}
+
+void write_exchange(const std::string& folder, const pbs::Character& character, const std::vector<pbs::Pose>& poses, double time_step_s)
+{
+    const pbs::TetMesh& mesh = character.mesh;
+    write_numbers(folder + "/rest.f64", mesh.rest.data(), static_cast<std::size_t>(mesh.rest.size()));
+    write_numbers(folder + "/tets.i32", mesh.tets.data(), static_cast<std::size_t>(mesh.tets.size()));
+    const std::vector<double> weights = dense_weights(character.weights, character.skeleton.bones.size());
+    std::vector<double> transforms;
+    for (const pbs::Pose& pose : poses) {
+        const std::vector<double> rows = transform_rows(pose);
+        transforms.insert(transforms.end(), rows.begin(), rows.end());
+    }
+    write_numbers(folder + "/weights.f64", weights.data(), weights.size());
+    write_numbers(folder + "/poses.f64", transforms.data(), transforms.size());
+    pbs::write_atomically(folder + "/character.json", analysis::record_text(character_json(character, poses.size(), time_step_s)));
+}
+
+ExchangedPositions read_exchange(const std::string& folder, Eigen::Index vertices, std::size_t poses)
+{
+    const std::size_t per_pose = static_cast<std::size_t>(3 * vertices);
+    const std::vector<double> numbers =
+        read_numbers(folder, "positions.f64", poses * per_pose, fmt::format("{} poses x {} vertices x 3", poses, vertices));
+    ExchangedPositions read;
+    for (std::size_t pose = 0; pose < poses; ++pose)
+        read.positions.emplace_back(Eigen::Map<const pbs::Positions>(numbers.data() + pose * per_pose, vertices, 3));
+    if (!fs::exists(folder + "/seconds.f64")) return read;
+    read.seconds = read_numbers(folder, "seconds.f64", poses, fmt::format("{} poses x 1", poses));
+    for (const double seconds : *read.seconds)
+        if (!(seconds >= 0.0 && std::isfinite(seconds)))
+            throw pbs::InputError("seconds.f64", 0, "time", fmt::format("{}", seconds), "expected a finite time of at least 0 s");
+    return read;
+}
 
 std::unique_ptr<Deformer> make_program_deformer(const ExternalOptions& options)
 {

@@ -147,44 +147,6 @@ private:
     ArtefactRecords records_;
 };
 
-}  // namespace
-
-std::vector<DeformerSpec> other_orders(const DeformerSpec& pbs)
-{
-    std::vector<DeformerSpec> others;
-    const auto& own = options_of<pbs::PbsOptions>(pbs);
-    for (const pbs::Precision precision : {pbs::Precision::f32, pbs::Precision::f64})
-        for (const pbs::Order order : {pbs::Order::ordered, pbs::Order::grouped, pbs::Order::plain}) {
-            if (order == own.order && precision == own.precision) continue;
-            others.push_back(pbs);
-            options_of<pbs::PbsOptions>(others.back()).order = order;
-            options_of<pbs::PbsOptions>(others.back()).precision = precision;
-        }
-    return others;
-}
-
-ArtefactBody::ArtefactBody(const ArtefactCase& of, int vertices) : posed(with_vertices(of.scene, vertices), frames_of(of))
-{
-    for (const LimbJoint& joint : limb_joints(posed.character()))
-        if (of.joint.empty() || of.joint == joint.name) joints.push_back(joint);
-    for (const LimbJoint& joint : joints) sections.emplace_back(posed.character(), joint);
-}
-
-ArtefactRecords find_artefacts(const ArtefactCase& of, const ArtefactBody& body)
-{
-    Search search(of);
-    for (const DeformerSpec& spec : of.scene.deformers) search.look_at(body, spec, true);
-    for (const DeformerSpec& spec : other_orders(spec_of(of.scene, "pbs"))) search.look_at(body, spec, false);
-    for (const int vertices : of.vertices) {
-        const ArtefactBody other(of, vertices);
-        for (const DeformerSpec& spec : of.scene.deformers)
-            if (is_on_other_meshes(spec)) search.look_at(other, spec, false);
-    }
-    return std::move(search).records();
-}
-
-namespace {
-
 constexpr double reach_radii = 2.0, fan_radii = 3.0;
 constexpr int stations_per_radius = 5;
 
@@ -221,7 +183,91 @@ double share(double now, double rest)
     return rest > 0.0 ? now / rest : 1.0;
 }
 
+constexpr double cosine_of_60_deg = 0.5;
+constexpr double straight_rad = 0.02;  // two bones at a smaller angle define no plane
+
+pbs::Vec3 along(const pbs::Bone& bone)
+{
+    return bone.tail - bone.head;
+}
+
+// A foot does not continue the shin: planes across the ankle cut it lengthwise.
+bool passes_through(const pbs::Bone& parent, const pbs::Bone& child)
+{
+    return along(parent).normalized().dot(along(child).normalized()) > cosine_of_60_deg;
+}
+
+double limb_radius(const pbs::Character& character, int parent, int child)
+{
+    const std::vector<bool> skin = pbs::boundary_vertices(character.mesh.tets, character.mesh.rest.rows());
+    double sum_m = 0.0;
+    int count = 0;
+    for (std::size_t v = 0; v < character.binding.bone.size(); ++v) {
+        if (!skin[v] || (character.binding.bone[v] != parent && character.binding.bone[v] != child)) continue;
+        sum_m += character.binding.distance(v);
+        ++count;
+    }
+    return sum_m / count;
+}
+
+// The radius of the circle that has the area of the limb's section across the joint; zero where the plane misses the skin.
+double section_radius(const pbs::Character& character, const pbs::Bone& parent, const pbs::Bone& child)
+{
+    const pbs::Vec3 normal = along(parent).normalized() + along(child).normalized();
+    const auto sections = pbs::section_outlines(character.mesh.rest, pbs::boundary_of(character.mesh.tets), {{child.head, normal}});
+    const pbs::Positions* own = analysis::enclosing_outline(sections.front(), {child.head, normal});
+    return own ? std::sqrt(analysis::outline_size(*own).area_m2 / std::numbers::pi) : 0.0;
+}
+
+std::optional<LimbJoint> found(const pbs::Character& character, const JointByHand& named)
+{
+    if (!why_left_out(character, named).empty()) return {};
+    const int parent = pbs::find_bone(character.skeleton, named.parent), child = pbs::find_bone(character.skeleton, named.child);
+    const pbs::Bone &before = character.skeleton.bones[parent], &after = character.skeleton.bones[child];
+    return LimbJoint{name_of(named),
+                     parent,
+                     child,
+                     after.head,
+                     section_radius(character, before, after),
+                     named.reach_parent * along(before).norm(),
+                     named.reach_child * along(after).norm()};
+}
+
 }  // namespace
+
+std::vector<DeformerSpec> other_orders(const DeformerSpec& pbs)
+{
+    std::vector<DeformerSpec> others;
+    const auto& own = options_of<pbs::PbsOptions>(pbs);
+    for (const pbs::Precision precision : {pbs::Precision::f32, pbs::Precision::f64})
+        for (const pbs::Order order : {pbs::Order::ordered, pbs::Order::grouped, pbs::Order::plain}) {
+            if (order == own.order && precision == own.precision) continue;
+            others.push_back(pbs);
+            options_of<pbs::PbsOptions>(others.back()).order = order;
+            options_of<pbs::PbsOptions>(others.back()).precision = precision;
+        }
+    return others;
+}
+
+ArtefactBody::ArtefactBody(const ArtefactCase& of, int vertices) : posed(with_vertices(of.scene, vertices), frames_of(of))
+{
+    for (const LimbJoint& joint : limb_joints(posed.character()))
+        if (of.joint.empty() || of.joint == joint.name) joints.push_back(joint);
+    for (const LimbJoint& joint : joints) sections.emplace_back(posed.character(), joint);
+}
+
+ArtefactRecords find_artefacts(const ArtefactCase& of, const ArtefactBody& body)
+{
+    Search search(of);
+    for (const DeformerSpec& spec : of.scene.deformers) search.look_at(body, spec, true);
+    for (const DeformerSpec& spec : other_orders(spec_of(of.scene, "pbs"))) search.look_at(body, spec, false);
+    for (const int vertices : of.vertices) {
+        const ArtefactBody other(of, vertices);
+        for (const DeformerSpec& spec : of.scene.deformers)
+            if (is_on_other_meshes(spec)) search.look_at(other, spec, false);
+    }
+    return std::move(search).records();
+}
 
 SectionExtremesOverRest extremes_of(const JointProfile& profile)
 {
@@ -296,60 +342,6 @@ JointProfile JointSections::measure(const pbs::Positions& positions, const pbs::
     }
     return profile;
 }
-
-namespace {
-
-constexpr double cosine_of_60_deg = 0.5;
-constexpr double straight_rad = 0.02;  // two bones at a smaller angle define no plane
-
-pbs::Vec3 along(const pbs::Bone& bone)
-{
-    return bone.tail - bone.head;
-}
-
-// A foot does not continue the shin: planes across the ankle cut it lengthwise.
-bool passes_through(const pbs::Bone& parent, const pbs::Bone& child)
-{
-    return along(parent).normalized().dot(along(child).normalized()) > cosine_of_60_deg;
-}
-
-double limb_radius(const pbs::Character& character, int parent, int child)
-{
-    const std::vector<bool> skin = pbs::boundary_vertices(character.mesh.tets, character.mesh.rest.rows());
-    double sum_m = 0.0;
-    int count = 0;
-    for (std::size_t v = 0; v < character.binding.bone.size(); ++v) {
-        if (!skin[v] || (character.binding.bone[v] != parent && character.binding.bone[v] != child)) continue;
-        sum_m += character.binding.distance(v);
-        ++count;
-    }
-    return sum_m / count;
-}
-
-// The radius of the circle that has the area of the limb's section across the joint; zero where the plane misses the skin.
-double section_radius(const pbs::Character& character, const pbs::Bone& parent, const pbs::Bone& child)
-{
-    const pbs::Vec3 normal = along(parent).normalized() + along(child).normalized();
-    const auto sections = pbs::section_outlines(character.mesh.rest, pbs::boundary_of(character.mesh.tets), {{child.head, normal}});
-    const pbs::Positions* own = analysis::enclosing_outline(sections.front(), {child.head, normal});
-    return own ? std::sqrt(analysis::outline_size(*own).area_m2 / std::numbers::pi) : 0.0;
-}
-
-std::optional<LimbJoint> found(const pbs::Character& character, const JointByHand& named)
-{
-    if (!why_left_out(character, named).empty()) return {};
-    const int parent = pbs::find_bone(character.skeleton, named.parent), child = pbs::find_bone(character.skeleton, named.child);
-    const pbs::Bone &before = character.skeleton.bones[parent], &after = character.skeleton.bones[child];
-    return LimbJoint{name_of(named),
-                     parent,
-                     child,
-                     after.head,
-                     section_radius(character, before, after),
-                     named.reach_parent * along(before).norm(),
-                     named.reach_child * along(after).norm()};
-}
-
-}  // namespace
 
 std::string name_of(const JointByHand& joint)
 {

@@ -45,50 +45,6 @@ const Columns<JoltResponse> jolt_columns =
                           {"speed_growth", &JoltResponse::speed_growth, "", "largest speed after the first tenth over that within it"},
                           {"finished", &JoltResponse::finished, "", "all positions are finite"}};
 
-}  // namespace
-
-const Columns<ResponseRow> response_columns =
-    Columns<ResponseRow>{{"deformer", &ResponseRow::deformer, "", "pbs, or nh_p1: finite elements in time that swing as fast"}} +
-    within(&ResponseRow::setting, stiffness_columns) +
-    Columns<ResponseRow>{{"time_step_ms", &ResponseRow::time_step_ms, "ms", "time step"}} + within(&ResponseRow::setting, solver_columns) +
-    Columns<ResponseRow>{{"young_pa", &ResponseRow::young_pa, "Pa", "Young's modulus of the reference; nan for pbs"},
-                         {"outcome", &ResponseRow::outcome, "", "what the fit of a damped oscillation found"}} +
-    within(&ResponseRow::response, jolt_columns);
-
-const Columns<SeriesRow> jolt_series_columns = {
-    {"of", &SeriesRow::of, "", "the setting in words"},
-    {"time_s", &SeriesRow::time_s, "s", "time since the jolt"},
-    {"excursion_m", &SeriesRow::excursion_m, "m",
-     "mean displacement of the piece along the jolt, from where it lay, moved with the skeleton"},
-    {"speed_rms_m_s", &SeriesRow::speed_rms_m_s, "m/s", "root mean square speed of the body's vertices"}};
-
-const Columns<SeriesRow> walk_series_columns = {
-    {"of", &SeriesRow::of, "", "the setting in words"},
-    {"time_s", &SeriesRow::time_s, "s", "time since the motion began"},
-    {"lag_rms_m", &SeriesRow::excursion_m, "m", "root mean square distance of the zone from the shape without jiggle"},
-    {"speed_rms_m_s", &SeriesRow::speed_rms_m_s, "m/s", "root mean square speed of the zone's vertices"}};
-
-const Columns<ZoneRow> zone_columns =
-    Columns<ZoneRow>{{"share_of_vertices", &ZoneRow::share_of_vertices, "", "share of the body's vertices in the jiggling zone"},
-                     {"share_on_skin", &ZoneRow::share_on_skin, "", "share of the zone's vertices on the skin"},
-                     {"pieces", &ZoneRow::pieces, "", "number of connected pieces of the zone"},
-                     {"largest_piece", &ZoneRow::largest_piece, "", "vertices of the largest piece"}} +
-    within(&ZoneRow::bone,
-           Columns<pbs::BoneInZone>{{"bone", &pbs::BoneInZone::name, "", "name of a bone"},
-                                    {"share_of_zone", &pbs::BoneInZone::share_of_zone, "", "share of the zone that is bound to it"},
-                                    {"share_of_bone", &pbs::BoneInZone::share_of_bone, "", "share of the bone's vertices in the zone"}});
-
-const Columns<WalkRow> walk_columns =
-    Columns<WalkRow>{{"k_stretch", &WalkRow::k_stretch, "", "stiffness of the stretch constraints in the zone"}} +
-    within(&WalkRow::response,
-           Columns<WalkResponse>{{"moving_lag_rms_mm", &WalkResponse::moving_lag_mm, "mm", "root mean square lag over the motion"},
-                                 {"most_lag_rms_mm", &WalkResponse::most_lag_mm, "mm", "largest lag of a step of the motion"},
-                                 {"last_speed_share", &WalkResponse::last_speed_share, "",
-                                  "speed of the last tenth of the still steps over the motion's mean"},
-                                 {"finished", &WalkResponse::finished, "", "all positions are finite"}});
-
-namespace {
-
 constexpr double first_young_pa = 1e5;  // of the reference, before its frequency is matched
 
 ResponseRow response_row(const JiggleSetting& setting, double young_pa, double time_step_s, const JoltResponse& response)
@@ -271,6 +227,46 @@ void add_half_step(std::vector<Measurement>& measurements, const std::string& bo
 }
 
 }  // namespace
+
+const Columns<ResponseRow> response_columns =
+    Columns<ResponseRow>{{"deformer", &ResponseRow::deformer, "", "pbs, or nh_p1: finite elements in time that swing as fast"}} +
+    within(&ResponseRow::setting, stiffness_columns) +
+    Columns<ResponseRow>{{"time_step_ms", &ResponseRow::time_step_ms, "ms", "time step"}} + within(&ResponseRow::setting, solver_columns) +
+    Columns<ResponseRow>{{"young_pa", &ResponseRow::young_pa, "Pa", "Young's modulus of the reference; nan for pbs"},
+                         {"outcome", &ResponseRow::outcome, "", "what the fit of a damped oscillation found"}} +
+    within(&ResponseRow::response, jolt_columns);
+
+const Columns<SeriesRow> jolt_series_columns = {
+    {"of", &SeriesRow::of, "", "the setting in words"},
+    {"time_s", &SeriesRow::time_s, "s", "time since the jolt"},
+    {"excursion_m", &SeriesRow::excursion_m, "m",
+     "mean displacement of the piece along the jolt, from where it lay, moved with the skeleton"},
+    {"speed_rms_m_s", &SeriesRow::speed_rms_m_s, "m/s", "root mean square speed of the body's vertices"}};
+
+const Columns<SeriesRow> walk_series_columns = {
+    {"of", &SeriesRow::of, "", "the setting in words"},
+    {"time_s", &SeriesRow::time_s, "s", "time since the motion began"},
+    {"lag_rms_m", &SeriesRow::excursion_m, "m", "root mean square distance of the zone from the shape without jiggle"},
+    {"speed_rms_m_s", &SeriesRow::speed_rms_m_s, "m/s", "root mean square speed of the zone's vertices"}};
+
+const Columns<ZoneRow> zone_columns =
+    Columns<ZoneRow>{{"share_of_vertices", &ZoneRow::share_of_vertices, "", "share of the body's vertices in the jiggling zone"},
+                     {"share_on_skin", &ZoneRow::share_on_skin, "", "share of the zone's vertices on the skin"},
+                     {"pieces", &ZoneRow::pieces, "", "number of connected pieces of the zone"},
+                     {"largest_piece", &ZoneRow::largest_piece, "", "vertices of the largest piece"}} +
+    within(&ZoneRow::bone,
+           Columns<pbs::BoneInZone>{{"bone", &pbs::BoneInZone::name, "", "name of a bone"},
+                                    {"share_of_zone", &pbs::BoneInZone::share_of_zone, "", "share of the zone that is bound to it"},
+                                    {"share_of_bone", &pbs::BoneInZone::share_of_bone, "", "share of the bone's vertices in the zone"}});
+
+const Columns<WalkRow> walk_columns =
+    Columns<WalkRow>{{"k_stretch", &WalkRow::k_stretch, "", "stiffness of the stretch constraints in the zone"}} +
+    within(&WalkRow::response,
+           Columns<WalkResponse>{{"moving_lag_rms_mm", &WalkResponse::moving_lag_mm, "mm", "root mean square lag over the motion"},
+                                 {"most_lag_rms_mm", &WalkResponse::most_lag_mm, "mm", "largest lag of a step of the motion"},
+                                 {"last_speed_share", &WalkResponse::last_speed_share, "",
+                                  "speed of the last tenth of the still steps over the motion's mean"},
+                                 {"finished", &WalkResponse::finished, "", "all positions are finite"}});
 
 RECORD_SETTINGS(Jolt, direction, length_m, time_step_s, still_steps, steps)
 

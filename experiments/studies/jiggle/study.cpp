@@ -58,63 +58,6 @@ JoltResponse at_frequency(const pbs::Character& character, const DeformerSpec& f
     return jolt_response(character, fem, probe, jolt);
 }
 
-}  // namespace
-
-JoltResponse jolt_response(const pbs::Character& character, const DeformerSpec& spec, const std::vector<int>& probe, const Jolt& jolt)
-{
-    const std::unique_ptr<Deformer> deformer = make_deformer(spec);
-    deformer->reset(character);
-    const std::size_t bones = character.skeleton.bones.size();
-    const pbs::Vec3 way_m = jolt.length_m * jolt.direction;
-    const pbs::Pose still(bones, Eigen::Isometry3d::Identity()), moved(bones, Eigen::Isometry3d(Eigen::Translation3d(way_m)));
-    const Eigen::Index vertices = character.mesh.rest.rows();
-    JoltResponse response;
-    const auto advance = [&](const pbs::Pose& pose) {
-        stop_if_interrupted();
-        response.finished = response.finished && deformer->advance(pose, jolt.time_step_s).outcome == pbs::Outcome::finished;
-    };
-    for (int step = 0; step < jolt.still_steps; ++step) advance(still);
-    const pbs::Positions lay = deformer->positions().topRows(vertices);
-    for (int step = 0; step < jolt.steps && response.finished; ++step) {
-        const pbs::Positions before = deformer->positions().topRows(vertices);
-        advance(moved);
-        const pbs::Positions now = deformer->positions().topRows(vertices);
-        double excursion_m = 0.0;
-        for (const int v : probe) excursion_m += (now.row(v) - lay.row(v)).dot(jolt.direction) - jolt.length_m;
-        response.excursion_m.push_back(excursion_m / static_cast<double>(probe.size()));
-        response.speed_rms_m_s.push_back((now - before).norm() / std::sqrt(double(vertices)) / jolt.time_step_s);
-    }
-    sum_up(response, jolt);
-    return response;
-}
-
-std::optional<JiggleReference> match_reference(const pbs::Character& character, const DeformerSpec& fem, const std::vector<int>& probe,
-                                               const Jolt& jolt, double frequency_hz)
-{
-    const JoltResponse first = at_frequency(character, fem, probe, jolt, frequency_hz);
-    if (!first.finished || !first.swing.found()) return std::nullopt;
-    DeformerSpec matching = fem;
-    double& young_pa = options_of<FemOptions>(matching).young_pa;
-    young_pa *= std::pow(frequency_hz / first.swing.frequency_hz.estimate, 2);
-    JiggleReference matched{young_pa, 1.0 / (reference_steps_a_period * frequency_hz),
-                            at_frequency(character, matching, probe, jolt, frequency_hz)};
-    if (!matched.response.finished || !matched.response.swing.found()) return std::nullopt;
-    return matched;
-}
-
-DeformerSpec dynamic_reference(double young_pa)
-{
-    DeformerSpec spec = default_spec("fem");
-    auto& options = options_of<FemOptions>(spec);
-    options.model = reference_fem::Model::neo_hookean;
-    options.element_order = 1;
-    options.dynamics = reference_fem::Dynamics::generalized_alpha;
-    options.young_pa = young_pa;
-    return spec;
-}
-
-namespace {
-
 double rms_over(const std::vector<bool>& zone, const pbs::Positions& difference)
 {
     double sum = 0.0, count = 0.0;
@@ -143,83 +86,6 @@ void sum_up(WalkResponse& response, std::size_t moving, int still_steps)
     const double at_last = mean_of(speed.end() - std::max(still_steps / 10, 1), speed.end());
     response.last_speed_share = ratio(at_last, in_motion);
 }
-
-}  // namespace
-
-WalkResponse walk_response(const pbs::Character& character, const pbs::Motion& motion, const DeformerSpec& spec,
-                           const std::vector<bool>& zone, int still_steps)
-{
-    DeformerSpec without = spec;
-    options_of<pbs::PbsOptions>(without).jiggle.reset();
-    const std::unique_ptr<Deformer> jiggling = make_deformer(spec), stiff = make_deformer(without);
-    jiggling->reset(character);
-    stiff->reset(character);
-    std::vector<pbs::Pose> poses = motion.steps;
-    poses.insert(poses.end(), still_steps, motion.steps.back());
-    WalkResponse response;
-    pbs::Positions before = character.mesh.rest;
-    for (const pbs::Pose& pose : poses) {
-        stop_if_interrupted();
-        response.finished = jiggling->advance(pose, motion.time_step_s).outcome == pbs::Outcome::finished;
-        if (!response.finished) break;
-        stiff->advance(pose, motion.time_step_s);
-        response.lag_rms_m.push_back(rms_over(zone, jiggling->positions() - stiff->positions()));
-        const bool first = response.lag_rms_m.size() == 1;
-        response.speed_rms_m_s.push_back(first ? 0.0 : rms_over(zone, jiggling->positions() - before) / motion.time_step_s);
-        before = jiggling->positions();
-    }
-    sum_up(response, motion.steps.size(), still_steps);
-    return response;
-}
-
-std::vector<JiggleSetting> jiggle_settings()
-{
-    std::vector<JiggleSetting> settings = {{}};
-    for (const double k : {0.05, 0.2, 0.35, 0.5, 0.7, 0.9, 1.0}) settings.push_back({.k_stretch = k});
-    for (const double dt_s : {0.0025, 0.005, 0.02, 0.04}) settings.push_back({.time_step_s = dt_s});
-    for (const int iterations : {6, 12, 48, 96}) settings.push_back({.iterations = iterations});
-    settings.push_back({.k_bind = 0.0});
-    settings.push_back({.masses = pbs::Masses::lumped});
-    return settings;
-}
-
-bool is_of_the_paper(const JiggleSetting& setting)
-{
-    return setting.k_bind == JiggleSetting{}.k_bind && setting.masses == JiggleSetting{}.masses;
-}
-
-DeformerSpec jiggling(DeformerSpec pbs, const JiggleSetting& setting)
-{
-    auto& options = options_of<pbs::PbsOptions>(pbs);
-    options.k_stretch = 1.0;
-    options.jiggle = pbs::Jiggle{.k_stretch = setting.k_stretch, .k_bind = setting.k_bind};
-    options.iterations = setting.iterations;
-    options.masses = setting.masses;
-    return pbs;
-}
-
-analysis::CaseKey key_of(const std::string& body, const JiggleSetting& setting)
-{
-    analysis::CaseKey key = {.body = body,
-                             .k_stretch = setting.k_stretch,
-                             .masses = name_of(setting.masses),
-                             .iterations = setting.iterations,
-                             .time_step_s = setting.time_step_s};
-    if (setting.k_bind < 1.0) key.k_bind = setting.k_bind;
-    return key;
-}
-
-std::string text_of(const JiggleSetting& setting)
-{
-    const std::string bind = setting.k_bind < 1.0 ? fmt::format(", k_bind {}", setting.k_bind) : "";
-    return fmt::format("k_stretch {}, {} ms, {} iterations, {} masses", setting.k_stretch, 1e3 * setting.time_step_s, setting.iterations,
-                       name_of(setting.masses)) +
-           bind;
-}
-
-RECORD_SETTINGS(JiggleSetting, k_stretch, time_step_s, iterations, k_bind, masses)
-
-namespace {
 
 JoltCase jolt_case(const StudyCase& of)
 {
@@ -321,6 +187,132 @@ StudyConclusion conclude(const FinishedRuns& finished)
 }
 
 }  // namespace
+
+JoltResponse jolt_response(const pbs::Character& character, const DeformerSpec& spec, const std::vector<int>& probe, const Jolt& jolt)
+{
+    const std::unique_ptr<Deformer> deformer = make_deformer(spec);
+    deformer->reset(character);
+    const std::size_t bones = character.skeleton.bones.size();
+    const pbs::Vec3 way_m = jolt.length_m * jolt.direction;
+    const pbs::Pose still(bones, Eigen::Isometry3d::Identity()), moved(bones, Eigen::Isometry3d(Eigen::Translation3d(way_m)));
+    const Eigen::Index vertices = character.mesh.rest.rows();
+    JoltResponse response;
+    const auto advance = [&](const pbs::Pose& pose) {
+        stop_if_interrupted();
+        response.finished = response.finished && deformer->advance(pose, jolt.time_step_s).outcome == pbs::Outcome::finished;
+    };
+    for (int step = 0; step < jolt.still_steps; ++step) advance(still);
+    const pbs::Positions lay = deformer->positions().topRows(vertices);
+    for (int step = 0; step < jolt.steps && response.finished; ++step) {
+        const pbs::Positions before = deformer->positions().topRows(vertices);
+        advance(moved);
+        const pbs::Positions now = deformer->positions().topRows(vertices);
+        double excursion_m = 0.0;
+        for (const int v : probe) excursion_m += (now.row(v) - lay.row(v)).dot(jolt.direction) - jolt.length_m;
+        response.excursion_m.push_back(excursion_m / static_cast<double>(probe.size()));
+        response.speed_rms_m_s.push_back((now - before).norm() / std::sqrt(double(vertices)) / jolt.time_step_s);
+    }
+    sum_up(response, jolt);
+    return response;
+}
+
+std::optional<JiggleReference> match_reference(const pbs::Character& character, const DeformerSpec& fem, const std::vector<int>& probe,
+                                               const Jolt& jolt, double frequency_hz)
+{
+    const JoltResponse first = at_frequency(character, fem, probe, jolt, frequency_hz);
+    if (!first.finished || !first.swing.found()) return std::nullopt;
+    DeformerSpec matching = fem;
+    double& young_pa = options_of<FemOptions>(matching).young_pa;
+    young_pa *= std::pow(frequency_hz / first.swing.frequency_hz.estimate, 2);
+    JiggleReference matched{young_pa, 1.0 / (reference_steps_a_period * frequency_hz),
+                            at_frequency(character, matching, probe, jolt, frequency_hz)};
+    if (!matched.response.finished || !matched.response.swing.found()) return std::nullopt;
+    return matched;
+}
+
+DeformerSpec dynamic_reference(double young_pa)
+{
+    DeformerSpec spec = default_spec("fem");
+    auto& options = options_of<FemOptions>(spec);
+    options.model = reference_fem::Model::neo_hookean;
+    options.element_order = 1;
+    options.dynamics = reference_fem::Dynamics::generalized_alpha;
+    options.young_pa = young_pa;
+    return spec;
+}
+
+WalkResponse walk_response(const pbs::Character& character, const pbs::Motion& motion, const DeformerSpec& spec,
+                           const std::vector<bool>& zone, int still_steps)
+{
+    DeformerSpec without = spec;
+    options_of<pbs::PbsOptions>(without).jiggle.reset();
+    const std::unique_ptr<Deformer> jiggling = make_deformer(spec), stiff = make_deformer(without);
+    jiggling->reset(character);
+    stiff->reset(character);
+    std::vector<pbs::Pose> poses = motion.steps;
+    poses.insert(poses.end(), still_steps, motion.steps.back());
+    WalkResponse response;
+    pbs::Positions before = character.mesh.rest;
+    for (const pbs::Pose& pose : poses) {
+        stop_if_interrupted();
+        response.finished = jiggling->advance(pose, motion.time_step_s).outcome == pbs::Outcome::finished;
+        if (!response.finished) break;
+        stiff->advance(pose, motion.time_step_s);
+        response.lag_rms_m.push_back(rms_over(zone, jiggling->positions() - stiff->positions()));
+        const bool first = response.lag_rms_m.size() == 1;
+        response.speed_rms_m_s.push_back(first ? 0.0 : rms_over(zone, jiggling->positions() - before) / motion.time_step_s);
+        before = jiggling->positions();
+    }
+    sum_up(response, motion.steps.size(), still_steps);
+    return response;
+}
+
+std::vector<JiggleSetting> jiggle_settings()
+{
+    std::vector<JiggleSetting> settings = {{}};
+    for (const double k : {0.05, 0.2, 0.35, 0.5, 0.7, 0.9, 1.0}) settings.push_back({.k_stretch = k});
+    for (const double dt_s : {0.0025, 0.005, 0.02, 0.04}) settings.push_back({.time_step_s = dt_s});
+    for (const int iterations : {6, 12, 48, 96}) settings.push_back({.iterations = iterations});
+    settings.push_back({.k_bind = 0.0});
+    settings.push_back({.masses = pbs::Masses::lumped});
+    return settings;
+}
+
+bool is_of_the_paper(const JiggleSetting& setting)
+{
+    return setting.k_bind == JiggleSetting{}.k_bind && setting.masses == JiggleSetting{}.masses;
+}
+
+DeformerSpec jiggling(DeformerSpec pbs, const JiggleSetting& setting)
+{
+    auto& options = options_of<pbs::PbsOptions>(pbs);
+    options.k_stretch = 1.0;
+    options.jiggle = pbs::Jiggle{.k_stretch = setting.k_stretch, .k_bind = setting.k_bind};
+    options.iterations = setting.iterations;
+    options.masses = setting.masses;
+    return pbs;
+}
+
+analysis::CaseKey key_of(const std::string& body, const JiggleSetting& setting)
+{
+    analysis::CaseKey key = {.body = body,
+                             .k_stretch = setting.k_stretch,
+                             .masses = name_of(setting.masses),
+                             .iterations = setting.iterations,
+                             .time_step_s = setting.time_step_s};
+    if (setting.k_bind < 1.0) key.k_bind = setting.k_bind;
+    return key;
+}
+
+std::string text_of(const JiggleSetting& setting)
+{
+    const std::string bind = setting.k_bind < 1.0 ? fmt::format(", k_bind {}", setting.k_bind) : "";
+    return fmt::format("k_stretch {}, {} ms, {} iterations, {} masses", setting.k_stretch, 1e3 * setting.time_step_s, setting.iterations,
+                       name_of(setting.masses)) +
+           bind;
+}
+
+RECORD_SETTINGS(JiggleSetting, k_stretch, time_step_s, iterations, k_bind, masses)
 
 Study jiggle_study()
 {

@@ -86,48 +86,6 @@ pbs::Positions started(Start start, const pbs::Positions& blended)
     return blended;
 }
 
-}  // namespace
-
-Scene stability_scene(const std::string& body)
-{
-    if (body == "limb") return read_scene("limb_bend", {"character.vertices=" + std::to_string(limb_vertices)});
-    return read_scene("human_01_01", {"character.body=" + body, "motion.start_s=6.72", "motion.duration_s=0.36"});
-}
-
-const pbs::Character& stability_character(const StabilityCell& cell)
-{
-    static std::map<std::string, pbs::Character> kept;
-    const std::string key = cell.body + std::to_string(static_cast<int>(cell.defect)) + std::to_string(std::log10(cell.thinness));
-    if (const auto found = kept.find(key); found != kept.end()) return found->second;
-    pbs::Character character = pbs::make_character(stability_scene(cell.body).character);
-    if (cell.defect != Defect::none) character = spoilt(std::move(character), cell.defect, cell.thinness);
-    return kept.emplace(key, std::move(character)).first->second;
-}
-
-StabilityBody::StabilityBody(const StabilityCell& cell)
-    : character_(stability_character(cell)),
-      way_(way_of(cell, character_.skeleton)),
-      start_(cell.disturbance.start),
-      still_steps_(cell.still_steps),
-      diagonal_m_((character_.mesh.rest.colwise().maxCoeff() - character_.mesh.rest.colwise().minCoeff()).norm())
-{
-}
-
-Drive StabilityBody::drive(int step)
-{
-    const int posed = std::min(step, disturbed_steps() - 1);
-    const pbs::Pose& pose = way_[posed];
-    if (posed != posed_ || step <= 1) {
-        pbs::linear_blend_skinning(character_.mesh.rest, character_.weights, pose, blended_);
-        bind_points_ = pbs::posed_bind_points(character_.binding, pose);
-    }
-    if (step == 0) blended_ = started(start_, blended_);
-    posed_ = posed;
-    return {pose, blended_, bind_points_};
-}
-
-namespace {
-
 std::vector<bool> zone_of(const pbs::Character& character, bool jiggles)
 {
     return jiggles ? pbs::jiggle_zone(character.binding) : std::vector<bool>{};
@@ -234,19 +192,6 @@ std::unique_ptr<DrivenBody> make_pbs(const StabilityCell& cell, const pbs::Chara
     return std::make_unique<Solved<pbs::PbsSolver>>(mesh, distance, zone, options, held);
 }
 
-}  // namespace
-
-std::unique_ptr<DrivenBody> make_driven_body(const StabilityCell& cell, const pbs::Character& character)
-{
-    if (options_if<pbs::PbsOptions>(cell.spec)) return make_pbs(cell, character);
-    if (const auto* xpbd = options_if<pbs::XpbdOptions>(cell.spec))
-        return std::make_unique<Solved<pbs::XpbdSolver>>(character.mesh, character.binding.distance, zone_of(character, xpbd->jiggle),
-                                                         *xpbd);
-    return std::make_unique<Posed>(cell, character);
-}
-
-namespace {
-
 constexpr int settled_for_good = 50;  // steps at rest after which a run ends early
 constexpr int given_up_after = 2;     // consecutive steps that were not reached, after which a run ends early
 
@@ -313,35 +258,6 @@ const std::optional<pbs::Positions>& undisturbed_of(const StabilityCell& cell)
     return found != kept.end() ? found->second : kept.emplace(key, undisturbed_state(cell)).first->second;
 }
 
-}  // namespace
-
-std::string endings_text()
-{
-    return fmt::format(
-        "\nA run ends early when it is not finite, when the last {} steps all fulfil the bounds of `converged`, or when {} consecutive "
-        "steps "
-        "were\nnot reached (each further attempt would be expensive).\n",
-        settled_for_good, given_up_after);
-}
-
-CellResult run_cell(const StabilityCell& cell)
-{
-    const double start_s = process_cpu_s();
-    const std::optional<pbs::Positions>& undisturbed = undisturbed_of(cell);
-    CellResult result;
-    Course course = follow(cell, undisturbed ? &*undisturbed : nullptr);
-    result.stability = analysis::outcome_of(course.steps, course.disturbed_steps);
-    if (cell.disturbance.start != Start::none) result.iterations_until_reached = iterations_until_reached(course);
-    result.steps_not_reached =
-        static_cast<int>(std::count_if(course.steps.begin(), course.steps.end(), [](const auto& s) { return !s.solved; }));
-    result.steps = std::move(course.steps);
-    result.has_undisturbed = undisturbed.has_value();
-    result.cpu_s = process_cpu_s() - start_s;
-    return result;
-}
-
-namespace {
-
 constexpr double share_of_vertices = 0.05;
 
 std::vector<std::vector<int>> tets_around(const pbs::TetMesh& mesh)
@@ -374,6 +290,78 @@ bool all_upright(const pbs::TetMesh& mesh, const std::vector<int>& tets)
 }
 
 }  // namespace
+
+Scene stability_scene(const std::string& body)
+{
+    if (body == "limb") return read_scene("limb_bend", {"character.vertices=" + std::to_string(limb_vertices)});
+    return read_scene("human_01_01", {"character.body=" + body, "motion.start_s=6.72", "motion.duration_s=0.36"});
+}
+
+const pbs::Character& stability_character(const StabilityCell& cell)
+{
+    static std::map<std::string, pbs::Character> kept;
+    const std::string key = cell.body + std::to_string(static_cast<int>(cell.defect)) + std::to_string(std::log10(cell.thinness));
+    if (const auto found = kept.find(key); found != kept.end()) return found->second;
+    pbs::Character character = pbs::make_character(stability_scene(cell.body).character);
+    if (cell.defect != Defect::none) character = spoilt(std::move(character), cell.defect, cell.thinness);
+    return kept.emplace(key, std::move(character)).first->second;
+}
+
+StabilityBody::StabilityBody(const StabilityCell& cell)
+    : character_(stability_character(cell)),
+      way_(way_of(cell, character_.skeleton)),
+      start_(cell.disturbance.start),
+      still_steps_(cell.still_steps),
+      diagonal_m_((character_.mesh.rest.colwise().maxCoeff() - character_.mesh.rest.colwise().minCoeff()).norm())
+{
+}
+
+Drive StabilityBody::drive(int step)
+{
+    const int posed = std::min(step, disturbed_steps() - 1);
+    const pbs::Pose& pose = way_[posed];
+    if (posed != posed_ || step <= 1) {
+        pbs::linear_blend_skinning(character_.mesh.rest, character_.weights, pose, blended_);
+        bind_points_ = pbs::posed_bind_points(character_.binding, pose);
+    }
+    if (step == 0) blended_ = started(start_, blended_);
+    posed_ = posed;
+    return {pose, blended_, bind_points_};
+}
+
+std::unique_ptr<DrivenBody> make_driven_body(const StabilityCell& cell, const pbs::Character& character)
+{
+    if (options_if<pbs::PbsOptions>(cell.spec)) return make_pbs(cell, character);
+    if (const auto* xpbd = options_if<pbs::XpbdOptions>(cell.spec))
+        return std::make_unique<Solved<pbs::XpbdSolver>>(character.mesh, character.binding.distance, zone_of(character, xpbd->jiggle),
+                                                         *xpbd);
+    return std::make_unique<Posed>(cell, character);
+}
+
+std::string endings_text()
+{
+    return fmt::format(
+        "\nA run ends early when it is not finite, when the last {} steps all fulfil the bounds of `converged`, or when {} consecutive "
+        "steps "
+        "were\nnot reached (each further attempt would be expensive).\n",
+        settled_for_good, given_up_after);
+}
+
+CellResult run_cell(const StabilityCell& cell)
+{
+    const double start_s = process_cpu_s();
+    const std::optional<pbs::Positions>& undisturbed = undisturbed_of(cell);
+    CellResult result;
+    Course course = follow(cell, undisturbed ? &*undisturbed : nullptr);
+    result.stability = analysis::outcome_of(course.steps, course.disturbed_steps);
+    if (cell.disturbance.start != Start::none) result.iterations_until_reached = iterations_until_reached(course);
+    result.steps_not_reached =
+        static_cast<int>(std::count_if(course.steps.begin(), course.steps.end(), [](const auto& s) { return !s.solved; }));
+    result.steps = std::move(course.steps);
+    result.has_undisturbed = undisturbed.has_value();
+    result.cpu_s = process_cpu_s() - start_s;
+    return result;
+}
 
 pbs::TetMesh distorted(const pbs::TetMesh& mesh, Defect defect, double thinness)
 {

@@ -109,6 +109,65 @@ std::string count_table(const std::string& heading, const std::vector<KeyedOutco
     return text + "\n";
 }
 
+// The result of so many iterations from the broken shape of the cell, or from the deformer's own initial guess [m], #V x 3.
+pbs::Positions result_of(StabilityCell cell, int iterations, bool is_broken)
+{
+    stop_if_interrupted();
+    if (!is_broken) cell.disturbance.start = Start::none;
+    cell.disturbance.stays = true;
+    StabilityBody body(cell);
+    const std::unique_ptr<Deformer> deformer = make_deformer(with_option(cell.spec, "iterations", iterations));
+    deformer->reset(body.character());
+    const Drive drive = body.drive(0);
+    if (is_broken) deformer->start_from(drive.blended);
+    deformer->advance(drive.pose, cell.time_step_s);
+    return deformer->positions();
+}
+
+std::optional<double> joint_pct(const StabilityCell& cell, const pbs::Positions& one, const pbs::Positions& other)
+{
+    if (!one.allFinite() || !other.allFinite()) return std::nullopt;
+    return analysis::ErrorMetrics(error_domain(stability_character(cell), {})).measure(one, other).joint_pct;
+}
+
+int inverted(const StabilityCell& cell, const pbs::Positions& positions)
+{
+    return static_cast<int>((pbs::tet_volumes(positions, stability_character(cell).mesh.tets).array() <= 0.0).count());
+}
+
+bool is_far(const StabilityCell& cell, const pbs::Positions& one, const pbs::Positions& other)
+{
+    const pbs::Positions& rest = stability_character(cell).mesh.rest;
+    const double diagonal_m = (rest.colwise().maxCoeff() - rest.colwise().minCoeff()).norm();
+    return (one - other).rowwise().norm().maxCoeff() > analysis::StabilityBounds{}.farthest * diagonal_m;
+}
+
+// The least number of iterations from which on all distances are within the bound. pct: by increasing number of iterations.
+std::optional<int> first_to_stay(const std::map<int, std::optional<double>>& pct)
+{
+    std::optional<int> first;
+    for (const auto& [iterations, distance] : pct)
+        if (!distance || *distance > reached_within_pct)
+            first.reset();
+        else if (!first)
+            first = iterations;
+    return first;
+}
+
+StartRow row_of(const StabilityCell& cell)
+{
+    StartRow row;
+    row.body = cell.body;
+    row.model = cell.model;
+    row.precision = precision_of(cell);
+    const Disturbance& disturbance = cell.disturbance;
+    row.pose = fmt::format("{}_{:g}", disturbance.axis == pbs::Vec3::UnitX() ? "twist" : "bend", disturbance.angle_deg);
+    row.start = name_of(disturbance.start);
+    row.setting = cell.second_factor;
+    if (!row.setting.empty()) row.setting_value = cell.second_value;
+    return row;
+}
+
 }  // namespace
 
 using Cells = analysis::Columns<StabilityCell>;
@@ -229,69 +288,6 @@ CsvTable map_csv(const std::vector<CellRow>& cells, const std::string& factor, c
     std::erase_if(map, [&](const CellRow& cell) { return cell.of.factor != factor || cell.of.second_factor != second_factor; });
     return table_of(columns, map);
 }
-
-namespace {
-
-// The result of so many iterations from the broken shape of the cell, or from the deformer's own initial guess [m], #V x 3.
-pbs::Positions result_of(StabilityCell cell, int iterations, bool is_broken)
-{
-    stop_if_interrupted();
-    if (!is_broken) cell.disturbance.start = Start::none;
-    cell.disturbance.stays = true;
-    StabilityBody body(cell);
-    const std::unique_ptr<Deformer> deformer = make_deformer(with_option(cell.spec, "iterations", iterations));
-    deformer->reset(body.character());
-    const Drive drive = body.drive(0);
-    if (is_broken) deformer->start_from(drive.blended);
-    deformer->advance(drive.pose, cell.time_step_s);
-    return deformer->positions();
-}
-
-std::optional<double> joint_pct(const StabilityCell& cell, const pbs::Positions& one, const pbs::Positions& other)
-{
-    if (!one.allFinite() || !other.allFinite()) return std::nullopt;
-    return analysis::ErrorMetrics(error_domain(stability_character(cell), {})).measure(one, other).joint_pct;
-}
-
-int inverted(const StabilityCell& cell, const pbs::Positions& positions)
-{
-    return static_cast<int>((pbs::tet_volumes(positions, stability_character(cell).mesh.tets).array() <= 0.0).count());
-}
-
-bool is_far(const StabilityCell& cell, const pbs::Positions& one, const pbs::Positions& other)
-{
-    const pbs::Positions& rest = stability_character(cell).mesh.rest;
-    const double diagonal_m = (rest.colwise().maxCoeff() - rest.colwise().minCoeff()).norm();
-    return (one - other).rowwise().norm().maxCoeff() > analysis::StabilityBounds{}.farthest * diagonal_m;
-}
-
-// The least number of iterations from which on all distances are within the bound. pct: by increasing number of iterations.
-std::optional<int> first_to_stay(const std::map<int, std::optional<double>>& pct)
-{
-    std::optional<int> first;
-    for (const auto& [iterations, distance] : pct)
-        if (!distance || *distance > reached_within_pct)
-            first.reset();
-        else if (!first)
-            first = iterations;
-    return first;
-}
-
-StartRow row_of(const StabilityCell& cell)
-{
-    StartRow row;
-    row.body = cell.body;
-    row.model = cell.model;
-    row.precision = precision_of(cell);
-    const Disturbance& disturbance = cell.disturbance;
-    row.pose = fmt::format("{}_{:g}", disturbance.axis == pbs::Vec3::UnitX() ? "twist" : "bend", disturbance.angle_deg);
-    row.start = name_of(disturbance.start);
-    row.setting = cell.second_factor;
-    if (!row.setting.empty()) row.setting_value = cell.second_value;
-    return row;
-}
-
-}  // namespace
 
 const analysis::Columns<StartRow> start_columns = {
     {"body", &StartRow::body, "", "name of the body"},

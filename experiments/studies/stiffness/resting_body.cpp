@@ -137,55 +137,6 @@ StiffnessRow row_of(const LoadedBody& body, const StiffnessSetting& setting, con
             .steps = still.steps};
 }
 
-}  // namespace
-
-RECORD_SETTINGS(StiffnessSetting, method, k_stretch, young_pa, iterations, time_step_ms, order_seed)
-
-pbs::RestingState rest_near_rest(const LoadedBody& body, const StiffnessSetting& setting)
-{
-    const bool small_steps = setting.method == Method::xpbd_small_steps;
-    const double step_s = small_steps ? setting.time_step_s() / setting.iterations : setting.time_step_s();
-    pbs::StepNearRest step(body.mesh.rest, body.bind_point, small_steps ? 1 : setting.iterations, step_s,
-                           setting.method == Method::xpbd_forgetting);
-    if (is_xpbd(setting.method))
-        add_xpbd(body, setting, step);
-    else
-        add_pbs(body, setting, step);
-    pbs::RestingState rest = pbs::rest_of(step, body.zone, body.direction);
-    for (std::size_t v = 0; v < body.zone.size(); ++v)
-        if (body.zone[v]) rest.displacement.row(static_cast<Eigen::Index>(v)) += step_s * step_s * body.direction.transpose();
-    step.apply(rest.displacement);
-    ++rest.steps;
-    return rest;
-}
-
-SteppedBody step_until_still(const LoadedBody& body, const StiffnessSetting& setting, double gravity_m_s2, int most_steps)
-{
-    const pbs::Vec3 gravity = gravity_m_s2 * body.direction;
-    if (is_xpbd(setting.method)) {
-        pbs::XpbdOptions options = xpbd_options(setting);
-        options.gravity_m_s2 = gravity;
-        pbs::XpbdSolver solver(body.mesh, body.bind_distance, body.zone, options, body.held);
-        return step(solver, body, setting.time_step_s(), most_steps);
-    }
-    pbs::PbsOptions options = pbs_options(body, setting);
-    options.gravity_m_s2 = gravity;
-    pbs::PbsSolver solver(body.mesh, bind_distance_of(body), body.zone, options, body.held);
-    return step(solver, body, setting.time_step_s(), most_steps);
-}
-
-StiffnessRow linear_stiffness(const LoadedBody& body, const StiffnessSetting& setting)
-{
-    return row_of(body, setting, "linear", rest_near_rest(body, setting), 1.0);
-}
-
-StiffnessRow stepped_stiffness(const LoadedBody& body, const StiffnessSetting& setting)
-{
-    return row_of(body, setting, "stepped", step_until_still(body, setting, still_gravity_m_s2), still_gravity_m_s2);
-}
-
-namespace {
-
 constexpr double softer_pa = 3.0e4, stiffer_pa = 3.0e5;  // as stiff as few and as many iterations of PBS on the limb
 
 std::vector<LoadedBody> bodies_of(const std::string& body, int vertices)
@@ -275,6 +226,51 @@ std::vector<Size> sizes_of(const StiffnessSweep& sweep)
 }
 
 }  // namespace
+
+RECORD_SETTINGS(StiffnessSetting, method, k_stretch, young_pa, iterations, time_step_ms, order_seed)
+
+pbs::RestingState rest_near_rest(const LoadedBody& body, const StiffnessSetting& setting)
+{
+    const bool small_steps = setting.method == Method::xpbd_small_steps;
+    const double step_s = small_steps ? setting.time_step_s() / setting.iterations : setting.time_step_s();
+    pbs::StepNearRest step(body.mesh.rest, body.bind_point, small_steps ? 1 : setting.iterations, step_s,
+                           setting.method == Method::xpbd_forgetting);
+    if (is_xpbd(setting.method))
+        add_xpbd(body, setting, step);
+    else
+        add_pbs(body, setting, step);
+    pbs::RestingState rest = pbs::rest_of(step, body.zone, body.direction);
+    for (std::size_t v = 0; v < body.zone.size(); ++v)
+        if (body.zone[v]) rest.displacement.row(static_cast<Eigen::Index>(v)) += step_s * step_s * body.direction.transpose();
+    step.apply(rest.displacement);
+    ++rest.steps;
+    return rest;
+}
+
+SteppedBody step_until_still(const LoadedBody& body, const StiffnessSetting& setting, double gravity_m_s2, int most_steps)
+{
+    const pbs::Vec3 gravity = gravity_m_s2 * body.direction;
+    if (is_xpbd(setting.method)) {
+        pbs::XpbdOptions options = xpbd_options(setting);
+        options.gravity_m_s2 = gravity;
+        pbs::XpbdSolver solver(body.mesh, body.bind_distance, body.zone, options, body.held);
+        return step(solver, body, setting.time_step_s(), most_steps);
+    }
+    pbs::PbsOptions options = pbs_options(body, setting);
+    options.gravity_m_s2 = gravity;
+    pbs::PbsSolver solver(body.mesh, bind_distance_of(body), body.zone, options, body.held);
+    return step(solver, body, setting.time_step_s(), most_steps);
+}
+
+StiffnessRow linear_stiffness(const LoadedBody& body, const StiffnessSetting& setting)
+{
+    return row_of(body, setting, "linear", rest_near_rest(body, setting), 1.0);
+}
+
+StiffnessRow stepped_stiffness(const LoadedBody& body, const StiffnessSetting& setting)
+{
+    return row_of(body, setting, "stepped", step_until_still(body, setting, still_gravity_m_s2), still_gravity_m_s2);
+}
 
 RECORD_SETTINGS_AND(StiffnessSweep,
                     .derived("settings", [](const StiffnessSweep& of) { return option_json(settings_of(of)); })

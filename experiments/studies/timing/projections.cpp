@@ -66,48 +66,6 @@ pbs::Positions twisted(const pbs::Positions& rest, const Axis& axis)
     return positions;
 }
 
-}  // namespace
-
-pbs::Character skinned_along(const std::string& name, pbs::TetMesh mesh, pbs::Skeleton skeleton)
-{
-    pbs::Character character;
-    character.name = name;
-    character.skeleton = std::move(skeleton);
-    character.binding = pbs::bind_to_nearest_bone(mesh.rest, character.skeleton);
-    character.weights = pbs::paper_weights(character.binding, character.skeleton);
-    for (int i = 0; i < character.weights.vertices(); ++i) character.blended.push_back(character.weights.blended(i));
-    character.mesh = std::move(mesh);
-    return character;
-}
-
-BenchBody make_bench_body(const std::string& name, pbs::TetMesh mesh)
-{
-    const Axis axis = longest_axis(mesh.rest);
-    const pbs::Vec3 middle = (axis.begin + axis.end) / 2.0;
-    BenchBody body{skinned_along(name, std::move(mesh), {{{"upper", -1, axis.begin, middle}, {"forearm", 0, middle, axis.end}}})};
-    const pbs::Positions& rest = body.mesh().rest;
-    body.twisted = twisted(rest, axis);
-    body.bind_points = body.character.binding.rest_point;
-    for (Eigen::Index i = 0; i < rest.rows(); ++i) body.held.push_back(axis.share(rest.row(i).transpose()) < held_bar_share);
-    body.pose = pbs::joint_sweep(body.character.skeleton, 1, (axis.end - axis.begin).normalized(), angle_deg, 2, 0.01).steps[1];
-    body.edges = static_cast<int>(pbs::edges_of(body.mesh().tets).rows());
-    return body;
-}
-
-BenchBody bench_bar(int vertices)
-{
-    return make_bench_body("bar", pbs::make_character({.body = "bar", .vertices = vertices}).mesh);
-}
-
-BenchBody bench_bar_of_tets(int tets)
-{
-    if (tets <= most_meshed_tets) return bench_bar(vertices_for_tets(tets));
-    const pbs::TetMesh coarse = pbs::make_character({.body = "bar", .vertices = vertices_for_tets(tets / 8)}).mesh;
-    return make_bench_body("bar", pbs::refine(coarse).mesh);
-}
-
-namespace {
-
 template <typename Scalar>
 std::vector<pbs::Vector3<Scalar>> points_of(const pbs::Positions& positions)
 {
@@ -169,64 +127,6 @@ void append(const BenchBody& body, const std::vector<int>& threads, std::vector<
                             loops_of_poses(constraints, tets, pbs::PbsOptions(), start, count)});
     }
 }
-
-}  // namespace
-
-template <typename Scalar>
-StepLoops loops_of_poses(const pbs::ConstraintSet<Scalar>& constraints, const pbs::Tets& tets, const pbs::PbsOptions& options,
-                         const StepStart& start, int threads)
-{
-    using Block = pbs::PoseBlock<Scalar>;
-    struct State {
-        pbs::ConstraintSet<Scalar> constraints;
-        pbs::PoseProgram<Scalar> program;
-        pbs::Parallel parallel;
-        std::vector<Block> blocks = {};
-        pbs::Vec3 origin = pbs::Vec3::Zero();
-        pbs::Positions posed = {};
-    };
-    const auto state = std::make_shared<State>(
-        State{constraints, pbs::make_pose_program(constraints, tets, {}, pbs::Order::ordered), pbs::Parallel(threads)});
-    state->blocks.assign(pose_blocks(threads), Block(state->program, std::vector<pbs::PbsOptions>(pbs::poses_a_block, options)));
-    const auto on_all = [state](const auto& work) {
-        return [state, work] {
-            state->parallel.for_each(static_cast<int>(state->blocks.size()), [&](int block) { work(state->blocks[block]); });
-        };
-    };
-    const auto store = [state, start]() -> const pbs::Positions& {
-        state->posed.resize(start.guess.rows(), 3);
-        for (const Block& block : state->blocks)
-            for (int lane = 0; lane < pbs::poses_a_block; ++lane) block.store(lane, state->origin, state->posed);
-        return state->posed;
-    };
-    const auto load_block = on_all([state, start](Block& block) {
-        for (int lane = 0; lane < pbs::poses_a_block; ++lane) block.load(lane, start.guess, start.bind_points, state->origin);
-    });
-    return {[state, start, load_block] {
-                if (start.has_local_origin) state->origin = pbs::local_origin<Scalar>(start.guess);
-                load_block();
-            },
-            on_all([](Block& block) { block.project_bind_constraints(); }),
-            on_all([](Block& block) { block.project_stretch_constraints(); }),
-            on_all([](Block& block) { block.project_volume_constraints(); }),
-            store,
-            [state, store, start] {
-                return pbs::residuals_of(state->constraints, points_of<Scalar>(store()), points_of<Scalar>(start.bind_points));
-            }};
-}
-
-template StepLoops loops_of_poses(const pbs::ConstraintSet<float>&, const pbs::Tets&, const pbs::PbsOptions&, const StepStart&, int);
-template StepLoops loops_of_poses(const pbs::ConstraintSet<double>&, const pbs::Tets&, const pbs::PbsOptions&, const StepStart&, int);
-
-std::vector<ProjectionVariant> projection_variants(const BenchBody& body, const std::vector<int>& threads)
-{
-    std::vector<ProjectionVariant> variants;
-    append<float>(body, threads, variants);
-    append<double>(body, threads, variants);
-    return variants;
-}
-
-namespace {
 
 // The values of one timed step [s], in this order.
 enum Sample { stretch_laps_s, volume_laps_s, bind_laps_s, step_s, step_wall_s, transfer_s, samples };
@@ -312,6 +212,98 @@ double combined(const pbs::Residuals& residuals, double mean_distance_m)
 }
 
 }  // namespace
+
+pbs::Character skinned_along(const std::string& name, pbs::TetMesh mesh, pbs::Skeleton skeleton)
+{
+    pbs::Character character;
+    character.name = name;
+    character.skeleton = std::move(skeleton);
+    character.binding = pbs::bind_to_nearest_bone(mesh.rest, character.skeleton);
+    character.weights = pbs::paper_weights(character.binding, character.skeleton);
+    for (int i = 0; i < character.weights.vertices(); ++i) character.blended.push_back(character.weights.blended(i));
+    character.mesh = std::move(mesh);
+    return character;
+}
+
+BenchBody make_bench_body(const std::string& name, pbs::TetMesh mesh)
+{
+    const Axis axis = longest_axis(mesh.rest);
+    const pbs::Vec3 middle = (axis.begin + axis.end) / 2.0;
+    BenchBody body{skinned_along(name, std::move(mesh), {{{"upper", -1, axis.begin, middle}, {"forearm", 0, middle, axis.end}}})};
+    const pbs::Positions& rest = body.mesh().rest;
+    body.twisted = twisted(rest, axis);
+    body.bind_points = body.character.binding.rest_point;
+    for (Eigen::Index i = 0; i < rest.rows(); ++i) body.held.push_back(axis.share(rest.row(i).transpose()) < held_bar_share);
+    body.pose = pbs::joint_sweep(body.character.skeleton, 1, (axis.end - axis.begin).normalized(), angle_deg, 2, 0.01).steps[1];
+    body.edges = static_cast<int>(pbs::edges_of(body.mesh().tets).rows());
+    return body;
+}
+
+BenchBody bench_bar(int vertices)
+{
+    return make_bench_body("bar", pbs::make_character({.body = "bar", .vertices = vertices}).mesh);
+}
+
+BenchBody bench_bar_of_tets(int tets)
+{
+    if (tets <= most_meshed_tets) return bench_bar(vertices_for_tets(tets));
+    const pbs::TetMesh coarse = pbs::make_character({.body = "bar", .vertices = vertices_for_tets(tets / 8)}).mesh;
+    return make_bench_body("bar", pbs::refine(coarse).mesh);
+}
+
+template <typename Scalar>
+StepLoops loops_of_poses(const pbs::ConstraintSet<Scalar>& constraints, const pbs::Tets& tets, const pbs::PbsOptions& options,
+                         const StepStart& start, int threads)
+{
+    using Block = pbs::PoseBlock<Scalar>;
+    struct State {
+        pbs::ConstraintSet<Scalar> constraints;
+        pbs::PoseProgram<Scalar> program;
+        pbs::Parallel parallel;
+        std::vector<Block> blocks = {};
+        pbs::Vec3 origin = pbs::Vec3::Zero();
+        pbs::Positions posed = {};
+    };
+    const auto state = std::make_shared<State>(
+        State{constraints, pbs::make_pose_program(constraints, tets, {}, pbs::Order::ordered), pbs::Parallel(threads)});
+    state->blocks.assign(pose_blocks(threads), Block(state->program, std::vector<pbs::PbsOptions>(pbs::poses_a_block, options)));
+    const auto on_all = [state](const auto& work) {
+        return [state, work] {
+            state->parallel.for_each(static_cast<int>(state->blocks.size()), [&](int block) { work(state->blocks[block]); });
+        };
+    };
+    const auto store = [state, start]() -> const pbs::Positions& {
+        state->posed.resize(start.guess.rows(), 3);
+        for (const Block& block : state->blocks)
+            for (int lane = 0; lane < pbs::poses_a_block; ++lane) block.store(lane, state->origin, state->posed);
+        return state->posed;
+    };
+    const auto load_block = on_all([state, start](Block& block) {
+        for (int lane = 0; lane < pbs::poses_a_block; ++lane) block.load(lane, start.guess, start.bind_points, state->origin);
+    });
+    return {[state, start, load_block] {
+                if (start.has_local_origin) state->origin = pbs::local_origin<Scalar>(start.guess);
+                load_block();
+            },
+            on_all([](Block& block) { block.project_bind_constraints(); }),
+            on_all([](Block& block) { block.project_stretch_constraints(); }),
+            on_all([](Block& block) { block.project_volume_constraints(); }),
+            store,
+            [state, store, start] {
+                return pbs::residuals_of(state->constraints, points_of<Scalar>(store()), points_of<Scalar>(start.bind_points));
+            }};
+}
+
+template StepLoops loops_of_poses(const pbs::ConstraintSet<float>&, const pbs::Tets&, const pbs::PbsOptions&, const StepStart&, int);
+template StepLoops loops_of_poses(const pbs::ConstraintSet<double>&, const pbs::Tets&, const pbs::PbsOptions&, const StepStart&, int);
+
+std::vector<ProjectionVariant> projection_variants(const BenchBody& body, const std::vector<int>& threads)
+{
+    std::vector<ProjectionVariant> variants;
+    append<float>(body, threads, variants);
+    append<double>(body, threads, variants);
+    return variants;
+}
 
 AnswerRatio answer_ratio(const pbs::Residuals& own, const pbs::Residuals& plain, double mean_distance_m)
 {

@@ -138,24 +138,6 @@ VerificationRow kept_factor(const pbs::Character& limb)
     return row;
 }
 
-}  // namespace
-
-VerificationRows attached_limb_rows(const Effort& effort)
-{
-    if (!effort.limb) return {};
-    const pbs::Character limb = effort.limb(coarse, 0);
-    return {young_cancels(limb),
-            rigid_motion(limb, FemAttachment::smooth, "smooth"),
-            rigid_motion(limb, FemAttachment::embedded, "embedded"),
-            rigid_motion(limb, FemAttachment::bind, "bind"),
-            found_poisson(effort, limb),
-            kept_factor(effort.limb(0, 0))};
-}
-
-// The split of an error into solver, model and discretisation, on a coarse limb whose forearm is twisted: properties of its parts that do
-// not depend on the flesh; and, for information, the effect of the attachment and of the bones' thickness.
-namespace {
-
 constexpr double twist_deg = 40.0;
 
 std::vector<int> blended_vertices(const pbs::Character& character)
@@ -253,32 +235,6 @@ VerificationRow variant(const TwistedLimb& limb, const pbs::Positions& flesh, co
     return row;
 }
 
-}  // namespace
-
-VerificationRows error_split_rows(const Effort& effort)
-{
-    if (!effort.limb) return {};
-    const TwistedLimb limb(effort.limb(coarse, 0)), refined(effort.limb(coarse, 1));
-    const pbs::Positions flesh = limb.flesh(limb_flesh);
-    FemOptions stiffer = limb_flesh, thinner = limb_flesh, embedded = limb_flesh, bind = limb_flesh;
-    stiffer.spring_factor = 100.0;
-    thinner.core_radius = 0.5;
-    embedded.attachment = FemAttachment::embedded;
-    bind.attachment = FemAttachment::bind;
-    return {whole_and_parts(limb, flesh, 1),
-            whole_and_parts(limb, flesh, 24),
-            bound_covers(limb, refined, flesh),
-            variant(limb, flesh, stiffer, "spring_factor_100"),
-            variant(limb, flesh, thinner, "core_radius_0.5"),
-            variant(limb, flesh, embedded, "embedded_bones"),
-            variant(limb, flesh, bind, "bind_constraint_of_the_paper")};
-}
-
-using pbs::Positions;
-using pbs::Vec3;
-
-namespace {
-
 constexpr double spring_factor = 100.0, amplitude = 0.1;
 const pbs::BoneCapsule capsule{{0.1, 0.5, 0.5}, {0.9, 0.5, 0.5}, 0.35, ""};
 const Vec3 phase(0.3, 1.1, -0.4);
@@ -358,6 +314,43 @@ Prescribed prescribed_on_surface(const SimplexSpace& space)
 }
 
 }  // namespace
+
+VerificationRows attached_limb_rows(const Effort& effort)
+{
+    if (!effort.limb) return {};
+    const pbs::Character limb = effort.limb(coarse, 0);
+    return {young_cancels(limb),
+            rigid_motion(limb, FemAttachment::smooth, "smooth"),
+            rigid_motion(limb, FemAttachment::embedded, "embedded"),
+            rigid_motion(limb, FemAttachment::bind, "bind"),
+            found_poisson(effort, limb),
+            kept_factor(effort.limb(0, 0))};
+}
+
+// The split of an error into solver, model and discretisation, on a coarse limb whose forearm is twisted: properties of its parts that do
+// not depend on the flesh; and, for information, the effect of the attachment and of the bones' thickness.
+
+VerificationRows error_split_rows(const Effort& effort)
+{
+    if (!effort.limb) return {};
+    const TwistedLimb limb(effort.limb(coarse, 0)), refined(effort.limb(coarse, 1));
+    const pbs::Positions flesh = limb.flesh(limb_flesh);
+    FemOptions stiffer = limb_flesh, thinner = limb_flesh, embedded = limb_flesh, bind = limb_flesh;
+    stiffer.spring_factor = 100.0;
+    thinner.core_radius = 0.5;
+    embedded.attachment = FemAttachment::embedded;
+    bind.attachment = FemAttachment::bind;
+    return {whole_and_parts(limb, flesh, 1),
+            whole_and_parts(limb, flesh, 24),
+            bound_covers(limb, refined, flesh),
+            variant(limb, flesh, stiffer, "spring_factor_100"),
+            variant(limb, flesh, thinner, "core_radius_0.5"),
+            variant(limb, flesh, embedded, "embedded_bones"),
+            variant(limb, flesh, bind, "bind_constraint_of_the_paper")};
+}
+
+using pbs::Positions;
+using pbs::Vec3;
 
 AttachedSolution solve_manufactured(const pbs::TetMesh& mesh, int element_order, const ManufacturedSprings& of,
                                     const ElasticMaterial& material)

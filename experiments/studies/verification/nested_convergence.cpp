@@ -127,6 +127,24 @@ VerificationRow least_squares_row(const Effort& effort)
     return row;
 }
 
+constexpr double published_order = 1.786170, published_index_pct = 0.103083, published_factor = 1.25;
+
+VerificationRow row_of(const RowQuantity& quantity, const std::string& unit, double value, double reference, double half_a_digit)
+{
+    return {.problem = "grid_convergence",
+            .quantity = quantity,
+            .elements = {.formulation = "two_grids"},
+            .material = {"none"},
+            .mesh = "ratio 2",
+            .value = value,
+            .reference = reference,
+            .unit = unit,
+            .source = "NPARC Alliance CFD Verification and Validation, Examining spatial (grid) convergence",
+            .low = reference - half_a_digit,
+            .high = reference + half_a_digit,
+            .bound_from = "half of the last printed digit"};
+}
+
 }  // namespace
 
 VerificationRows nested_convergence_rows(const Effort& effort)
@@ -151,27 +169,6 @@ VerificationRows nested_convergence_rows(const Effort& effort)
 // The grid convergence index of an error bar from two solutions, against a published example: pressure recovery on three grids (NPARC
 // Alliance CFD Verification and Validation, tutorial "Examining spatial (grid) convergence", after P. J. Roache 1994). The example observes
 // its order on the third grid, and its safety factor is 1.25; with two grids the order is presumed and the factor is 3.
-namespace {
-
-constexpr double published_order = 1.786170, published_index_pct = 0.103083, published_factor = 1.25;
-
-VerificationRow row_of(const RowQuantity& quantity, const std::string& unit, double value, double reference, double half_a_digit)
-{
-    return {.problem = "grid_convergence",
-            .quantity = quantity,
-            .elements = {.formulation = "two_grids"},
-            .material = {"none"},
-            .mesh = "ratio 2",
-            .value = value,
-            .reference = reference,
-            .unit = unit,
-            .source = "NPARC Alliance CFD Verification and Validation, Examining spatial (grid) convergence",
-            .low = reference - half_a_digit,
-            .high = reference + half_a_digit,
-            .bound_from = "half of the last printed digit"};
-}
-
-}  // namespace
 
 VerificationRows grid_convergence_rows(const Effort&)
 {

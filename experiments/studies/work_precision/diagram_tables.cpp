@@ -123,73 +123,6 @@ void add_crossing(std::vector<CrossingRow>& rows, const Diagram& diagram, const 
     row.reason = decision->reason;
 }
 
-}  // namespace
-
-const Columns<BudgetRow> budget_columns =
-    Columns<BudgetRow>{{"comparison", &BudgetRow::comparison, "", comparison_meaning},
-                       {"case", &BudgetRow::diagram, "", "name of the case's run, or of the mean over several"},
-                       {"budget_ms", &BudgetRow::budget_ms, "ms", "time per frame"},
-                       {"rank", &BudgetRow::rank, "", "1: the group that is nearest to the reference within the budget"},
-                       {"group", &BudgetRow::group, "", "key of a group of deformers"}} +
-    within(&BudgetRow::point, diagram_point_columns() + Columns<DiagramPoint>{measures().front()}) +
-    Columns<BudgetRow>{
-        {"decision", &BudgetRow::decision, "", std::string("whether it is nearer than every group of a later rank: ") + decision_meaning},
-        {"undecided_against", &BudgetRow::undecided_against, "", "keys of the groups against which it is undecided"},
-        {"reason", &BudgetRow::reason, "", "why it is not decided, for readers"}};
-
-analysis::CsvTable fronts_table(const std::vector<Diagram>& diagrams)
-{
-    std::vector<FrontRow> rows;
-    for (const Diagram& diagram : diagrams)
-        for (const std::string& measure : measures().names()) {
-            add_front(rows, diagram, measure, all_name, all_deformers(diagram));
-            for (const std::string& deformer : all_deformers(diagram)) add_front(rows, diagram, measure, deformer, {deformer});
-        }
-    return table_of(front_columns, rows);
-}
-
-analysis::CsvTable crossings_table(const std::vector<Diagram>& diagrams)
-{
-    std::vector<CrossingRow> rows;
-    for (const Diagram& diagram : diagrams)
-        for (const DeformerGroup& one : diagram.groups)
-            for (const DeformerGroup& other : diagram.groups)
-                if (&one != &other) add_crossing(rows, diagram, one, other);
-    return table_of(crossing_columns, rows);
-}
-
-std::vector<BudgetRow> best_within(const Diagram& diagram, double budget_ms)
-{
-    std::vector<BudgetRow> rows;
-    for (const DeformerGroup& group : diagram.groups)
-        if (const DiagramPoint* point = best_of(diagram, group, budget_ms))
-            rows.push_back({diagram.comparison, diagram.key, budget_ms, 0, group.key, *point});
-    std::ranges::stable_sort(rows, {}, [](const BudgetRow& row) { return row.point.error_pct; });
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        rows[i].rank = static_cast<int>(i + 1);
-        for (std::size_t later = i + 1; later < rows.size(); ++later) {
-            const Decision decision = decision_on(diagram, rows[i].point, rows[later].point);
-            if (decision.decision != analysis::PairDecision::decided) rows[i].undecided_against.push_back(rows[later].group);
-            if (rows[i].decision && decision.decision <= *rows[i].decision) continue;
-            rows[i].decision = decision.decision;
-            rows[i].reason = decision.reason;
-        }
-    }
-    return rows;
-}
-
-std::vector<BudgetRow> best_within(const std::vector<Diagram>& diagrams)
-{
-    std::vector<BudgetRow> rows;
-    for (const Diagram& diagram : diagrams)
-        for (const double budget_ms : budgets_ms)
-            for (BudgetRow& row : best_within(diagram, budget_ms))
-                if (diagram.poses > 1 || row.rank <= ranks_of_a_pose) rows.push_back(std::move(row));
-    return rows;
-}
-
-namespace {
-
 // The least time of a point of the group with an error of at most the tolerance. Nothing: the pose is not solved.
 std::optional<double> time_to_solve(const Diagram& diagram, const DeformerGroup& group, double tolerance_pct)
 {
@@ -286,6 +219,69 @@ std::vector<Omission> omissions_in(const std::vector<const CaseRows*>& some, Com
 }
 
 }  // namespace
+
+const Columns<BudgetRow> budget_columns =
+    Columns<BudgetRow>{{"comparison", &BudgetRow::comparison, "", comparison_meaning},
+                       {"case", &BudgetRow::diagram, "", "name of the case's run, or of the mean over several"},
+                       {"budget_ms", &BudgetRow::budget_ms, "ms", "time per frame"},
+                       {"rank", &BudgetRow::rank, "", "1: the group that is nearest to the reference within the budget"},
+                       {"group", &BudgetRow::group, "", "key of a group of deformers"}} +
+    within(&BudgetRow::point, diagram_point_columns() + Columns<DiagramPoint>{measures().front()}) +
+    Columns<BudgetRow>{
+        {"decision", &BudgetRow::decision, "", std::string("whether it is nearer than every group of a later rank: ") + decision_meaning},
+        {"undecided_against", &BudgetRow::undecided_against, "", "keys of the groups against which it is undecided"},
+        {"reason", &BudgetRow::reason, "", "why it is not decided, for readers"}};
+
+analysis::CsvTable fronts_table(const std::vector<Diagram>& diagrams)
+{
+    std::vector<FrontRow> rows;
+    for (const Diagram& diagram : diagrams)
+        for (const std::string& measure : measures().names()) {
+            add_front(rows, diagram, measure, all_name, all_deformers(diagram));
+            for (const std::string& deformer : all_deformers(diagram)) add_front(rows, diagram, measure, deformer, {deformer});
+        }
+    return table_of(front_columns, rows);
+}
+
+analysis::CsvTable crossings_table(const std::vector<Diagram>& diagrams)
+{
+    std::vector<CrossingRow> rows;
+    for (const Diagram& diagram : diagrams)
+        for (const DeformerGroup& one : diagram.groups)
+            for (const DeformerGroup& other : diagram.groups)
+                if (&one != &other) add_crossing(rows, diagram, one, other);
+    return table_of(crossing_columns, rows);
+}
+
+std::vector<BudgetRow> best_within(const Diagram& diagram, double budget_ms)
+{
+    std::vector<BudgetRow> rows;
+    for (const DeformerGroup& group : diagram.groups)
+        if (const DiagramPoint* point = best_of(diagram, group, budget_ms))
+            rows.push_back({diagram.comparison, diagram.key, budget_ms, 0, group.key, *point});
+    std::ranges::stable_sort(rows, {}, [](const BudgetRow& row) { return row.point.error_pct; });
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        rows[i].rank = static_cast<int>(i + 1);
+        for (std::size_t later = i + 1; later < rows.size(); ++later) {
+            const Decision decision = decision_on(diagram, rows[i].point, rows[later].point);
+            if (decision.decision != analysis::PairDecision::decided) rows[i].undecided_against.push_back(rows[later].group);
+            if (rows[i].decision && decision.decision <= *rows[i].decision) continue;
+            rows[i].decision = decision.decision;
+            rows[i].reason = decision.reason;
+        }
+    }
+    return rows;
+}
+
+std::vector<BudgetRow> best_within(const std::vector<Diagram>& diagrams)
+{
+    std::vector<BudgetRow> rows;
+    for (const Diagram& diagram : diagrams)
+        for (const double budget_ms : budgets_ms)
+            for (BudgetRow& row : best_within(diagram, budget_ms))
+                if (diagram.poses > 1 || row.rank <= ranks_of_a_pose) rows.push_back(std::move(row));
+    return rows;
+}
 
 const analysis::Columns<ProfileStep> data_profile_columns = {
     {"comparison", &ProfileStep::comparison, "", "packed_f32 or plain_f64"},

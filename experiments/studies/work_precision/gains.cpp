@@ -108,38 +108,6 @@ std::vector<EqualTimeRow> rows_of_group(const std::string& group, const std::map
     return rows;
 }
 
-}  // namespace
-
-const Columns<EqualTimeRow> equal_time_columns =
-    Columns<EqualTimeRow>{{"group", &EqualTimeRow::group, "", "the poses on which settings are chosen: all, or those of a body"}} +
-    within(&EqualTimeRow::of, pose_columns()) +
-    Columns<EqualTimeRow>{
-        {"budget_iterations", &EqualTimeRow::budget_iterations, "", "iterations of the baseline whose time is the budget"},
-        {"budget_ms", &EqualTimeRow::budget_ms, "ms", "that time"},
-        {"change", &EqualTimeRow::change, "", "name of the change"},
-        {"setting", &EqualTimeRow::setting, "", "of its parameter, chosen on the other poses"},
-        {"iterations", &EqualTimeRow::iterations, "", "of the change that fit into the budget, interpolated"},
-        {"baseline_error_pct", &EqualTimeRow::baseline_error_pct, "%", "error of the baseline at the joints"},
-        {"error_pct", &EqualTimeRow::error_pct, "%", "error of the change at the joints"},
-        {"from_pbs_pct", &EqualTimeRow::distance_pct, "%", "distance of the two shapes at the joints"},
-        {"reference_error_pct", &EqualTimeRow::reference_error_pct, "%", "bound on the reference's own error at the joints"},
-        {"volume_change_pct", &EqualTimeRow::volume_change_pct, "%", "signed change of the volume of the change's shape"}};
-
-std::vector<EqualTimeRow> at_equal_time(const std::vector<PointRow>& points)
-{
-    std::vector<std::string> groups = {all_poses};
-    std::set<std::string> bodies;
-    for (const PointRow& point : points) bodies.insert(point.of.body);
-    if (bodies.size() > 1) groups.insert(groups.end(), bodies.begin(), bodies.end());
-    const std::map<CurveKey, Curve> curves = curves_of(points);
-    std::vector<EqualTimeRow> rows;
-    for (const std::string& group : groups)
-        for (EqualTimeRow& row : rows_of_group(group, curves, points)) rows.push_back(std::move(row));
-    return rows;
-}
-
-namespace {
-
 // One pose of a comparison.
 struct ComparedPose {
     double error = 0.0, than_error = 0.0;
@@ -231,7 +199,51 @@ std::vector<GainRow> gains_at(const std::map<std::string, ByPose>& changes)
     return gains;
 }
 
+using BodyAndChange = std::pair<std::string, std::string>;
+
+std::map<BodyAndChange, std::string> usual_settings(const std::vector<EqualTimeRow>& rows)
+{
+    const bool has_bodies = std::ranges::any_of(rows, [](const EqualTimeRow& row) { return row.group != all_poses; });
+    std::map<BodyAndChange, std::map<std::string, int>> times;
+    std::map<BodyAndChange, std::string> usual;
+    for (const EqualTimeRow& row : rows) {
+        usual[{row.of.body, baseline}] = "";
+        if (row.budget_iterations == 96 && (row.group == all_poses) != has_bodies) ++times[{row.of.body, row.change}][row.setting];
+    }
+    for (const auto& [key, settings] : times)
+        usual[key] = std::ranges::max_element(settings, {}, [](const auto& setting) { return setting.second; })->first;
+    return usual;
+}
+
 }  // namespace
+
+const Columns<EqualTimeRow> equal_time_columns =
+    Columns<EqualTimeRow>{{"group", &EqualTimeRow::group, "", "the poses on which settings are chosen: all, or those of a body"}} +
+    within(&EqualTimeRow::of, pose_columns()) +
+    Columns<EqualTimeRow>{
+        {"budget_iterations", &EqualTimeRow::budget_iterations, "", "iterations of the baseline whose time is the budget"},
+        {"budget_ms", &EqualTimeRow::budget_ms, "ms", "that time"},
+        {"change", &EqualTimeRow::change, "", "name of the change"},
+        {"setting", &EqualTimeRow::setting, "", "of its parameter, chosen on the other poses"},
+        {"iterations", &EqualTimeRow::iterations, "", "of the change that fit into the budget, interpolated"},
+        {"baseline_error_pct", &EqualTimeRow::baseline_error_pct, "%", "error of the baseline at the joints"},
+        {"error_pct", &EqualTimeRow::error_pct, "%", "error of the change at the joints"},
+        {"from_pbs_pct", &EqualTimeRow::distance_pct, "%", "distance of the two shapes at the joints"},
+        {"reference_error_pct", &EqualTimeRow::reference_error_pct, "%", "bound on the reference's own error at the joints"},
+        {"volume_change_pct", &EqualTimeRow::volume_change_pct, "%", "signed change of the volume of the change's shape"}};
+
+std::vector<EqualTimeRow> at_equal_time(const std::vector<PointRow>& points)
+{
+    std::vector<std::string> groups = {all_poses};
+    std::set<std::string> bodies;
+    for (const PointRow& point : points) bodies.insert(point.of.body);
+    if (bodies.size() > 1) groups.insert(groups.end(), bodies.begin(), bodies.end());
+    const std::map<CurveKey, Curve> curves = curves_of(points);
+    std::vector<EqualTimeRow> rows;
+    for (const std::string& group : groups)
+        for (EqualTimeRow& row : rows_of_group(group, curves, points)) rows.push_back(std::move(row));
+    return rows;
+}
 
 const analysis::Columns<GainRow> gain_columns = {
     {"group", &GainRow::group, "", "the poses: all, or those of a body"},
@@ -279,26 +291,6 @@ const Columns<CurveRow> curve_columns = {
     {"poses", &CurveRow::poses, "", "number of poses in the mean"},
     {"mean_ms", &CurveRow::ms, "ms", "mean of the median times per frame"},
     {"error_joint_pct", &CurveRow::error_pct, "%", "mean error at the joints outside the overlap"}};
-
-namespace {
-
-using BodyAndChange = std::pair<std::string, std::string>;
-
-std::map<BodyAndChange, std::string> usual_settings(const std::vector<EqualTimeRow>& rows)
-{
-    const bool has_bodies = std::ranges::any_of(rows, [](const EqualTimeRow& row) { return row.group != all_poses; });
-    std::map<BodyAndChange, std::map<std::string, int>> times;
-    std::map<BodyAndChange, std::string> usual;
-    for (const EqualTimeRow& row : rows) {
-        usual[{row.of.body, baseline}] = "";
-        if (row.budget_iterations == 96 && (row.group == all_poses) != has_bodies) ++times[{row.of.body, row.change}][row.setting];
-    }
-    for (const auto& [key, settings] : times)
-        usual[key] = std::ranges::max_element(settings, {}, [](const auto& setting) { return setting.second; })->first;
-    return usual;
-}
-
-}  // namespace
 
 std::vector<CurveRow> mean_curves(const std::vector<PointRow>& points, const std::vector<EqualTimeRow>& rows)
 {

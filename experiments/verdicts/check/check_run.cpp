@@ -48,36 +48,6 @@ void add_to_summary(const std::string& text)
     if (!(file << text << std::flush)) throw pbs::InputError(summary, 0, "GITHUB_STEP_SUMMARY", "", "cannot be written");
 }
 
-}  // namespace
-
-void report_failures(const std::vector<analysis::CheckSuite>& suites)
-{
-    for (const analysis::CheckSuite& suite : suites)
-        for (const analysis::CheckCase& check : suite.cases) {
-            const std::string line = fmt::format("pbskin: {}{}: {}: {}", place_of(check), suite.name, check.name, check.message);
-            if (check.state == analysis::CheckState::left_out)
-                spdlog::warn("{}", line);
-            else if (check.state != analysis::CheckState::held)
-                spdlog::error("{}", line);
-        }
-}
-
-void require_writable(const CheckReports& reports)
-{
-    if (!reports.junit.empty()) analysis::require_writable(reports.junit);
-    if (is_for_github(reports)) add_to_summary("");
-}
-
-void write_reports(const CheckReports& reports, const std::vector<analysis::CheckSuite>& suites)
-{
-    if (!reports.junit.empty()) analysis::write_text_atomically(reports.junit, analysis::junit_report(suites));
-    if (!is_for_github(reports)) return;
-    fmt::print("{}", analysis::github_annotations(suites));
-    add_to_summary(analysis::github_summary(suites));
-}
-
-namespace {
-
 namespace fs = std::filesystem;
 using analysis::CheckCase;
 using analysis::CheckRules;
@@ -210,6 +180,32 @@ void require_scenes(const CheckRules& rules, bool require_all)
 }
 
 }  // namespace
+
+void report_failures(const std::vector<analysis::CheckSuite>& suites)
+{
+    for (const analysis::CheckSuite& suite : suites)
+        for (const analysis::CheckCase& check : suite.cases) {
+            const std::string line = fmt::format("pbskin: {}{}: {}: {}", place_of(check), suite.name, check.name, check.message);
+            if (check.state == analysis::CheckState::left_out)
+                spdlog::warn("{}", line);
+            else if (check.state != analysis::CheckState::held)
+                spdlog::error("{}", line);
+        }
+}
+
+void require_writable(const CheckReports& reports)
+{
+    if (!reports.junit.empty()) analysis::require_writable(reports.junit);
+    if (is_for_github(reports)) add_to_summary("");
+}
+
+void write_reports(const CheckReports& reports, const std::vector<analysis::CheckSuite>& suites)
+{
+    if (!reports.junit.empty()) analysis::write_text_atomically(reports.junit, analysis::junit_report(suites));
+    if (!is_for_github(reports)) return;
+    fmt::print("{}", analysis::github_annotations(suites));
+    add_to_summary(analysis::github_summary(suites));
+}
 
 CheckResult run_check(const CheckArguments& arguments)
 {
