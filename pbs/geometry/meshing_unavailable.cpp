@@ -3,55 +3,25 @@
 
 #include "pbs/geometry/input_error.hpp"
 
+#define PBS_REFUSE(what, ...)                                                                                   \
+    __VA_ARGS__                                                                                                 \
+    {                                                                                                           \
+        throw InputError("", 0, what, "", "this build meshes no bodies: configure it with -DPBS_WITH_CGAL=ON"); \
+    }
+
 namespace pbs {
-namespace {
 
-[[noreturn]] void refuse(const char* what)
-{
-    throw InputError("", 0, what, "", "this build meshes no bodies: configure it with -DPBS_WITH_CGAL=ON");
-}
-
-}  // namespace
-
-TetMesh mesh_limb(int)
-{
-    refuse("limb");
-}
-TetMesh mesh_bar(int)
-{
-    refuse("bar");
-}
-TetMesh mesh_surface(const SurfaceMesh&, const SurfaceMeshing&)
-{
-    refuse("surface");
-}
-double sheet_offset_m(const SurfaceMesh&)
-{
-    refuse("surface");
-}
-bool self_intersects(const Positions&, const Triangles&)
-{
-    refuse("self-intersection");
-}
-std::vector<std::array<int, 2>> self_intersections(const Positions&, const Triangles&)
-{
-    refuse("self-intersection");
-}
-int count_self_intersections(const Positions&, const Triangles&)
-{
-    refuse("self-intersection");
-}
-std::vector<std::vector<Positions>> section_outlines(const Positions&, const Triangles&, const std::vector<CuttingPlane>&)
-{
-    refuse("cross-sections");
-}
-std::vector<bool> points_inside(const Positions&, const Triangles&, const std::vector<Vec3>&)
-{
-    refuse("points inside");
-}
-std::vector<int> vertices_inside_other_tets(const Positions&, const Tets&, const std::vector<int>&)
-{
-    refuse("vertices inside other tets");
-}
+PBS_REFUSE("limb", TetMesh mesh_limb(int))
+PBS_REFUSE("bar", TetMesh mesh_bar(int))
+PBS_REFUSE("surface", TetMesh mesh_surface(const SurfaceMesh&, const SurfaceMeshing&))
+PBS_REFUSE("surface", double sheet_offset_m(const SurfaceMesh&))
+PBS_REFUSE("self-intersection", bool self_intersects(const Positions&, const Triangles&))
+PBS_REFUSE("self-intersection", std::vector<std::array<int, 2>> self_intersections(const Positions&, const Triangles&))
+PBS_REFUSE("self-intersection", int count_self_intersections(const Positions&, const Triangles&))
+PBS_REFUSE("cross-sections",
+           std::vector<std::vector<Positions>> section_outlines(const Positions&, const Triangles&, const std::vector<CuttingPlane>&))
+PBS_REFUSE("points inside", std::vector<bool> points_inside(const Positions&, const Triangles&, const std::vector<Vec3>&))
+PBS_REFUSE("vertices inside other tets",
+           std::vector<int> vertices_inside_other_tets(const Positions&, const Tets&, const std::vector<int>&))
 
 }  // namespace pbs
