@@ -14,67 +14,46 @@
 
 namespace pbs {
 
-// Reports to the thread sanitizer what threads hand to each other through oneTBB, since it cannot see into a library built without it.
-//   HandOver call;                   // what the caller wrote before ...
-//   { HandOver::Task task(call); }   // ... each task may read; what the tasks wrote, the caller may read when `call` has ended
-// It still finds two tasks that touch the same place. In every other build these are nothing.
-
-// One call that hands tasks to other threads, and takes them back when it ends.
-class HandOver {
-public:
-    HandOver() { give(start_); }
-    ~HandOver() { take(end_); }
-    HandOver(const HandOver&) = delete;
-    HandOver& operator=(const HandOver&) = delete;
-
-    // One of its tasks, on whichever thread.
-    class Task {
-    public:
-        // After this the task may read what the caller wrote.
-        explicit Task(HandOver& call) : call_(call) { take(call_.start_); }
-        ~Task() { give(call_.end_); }
-        Task(const Task&) = delete;
-        Task& operator=(const Task&) = delete;
-
-    private:
-        HandOver& call_;
-    };
-
-private:
-    struct Place {};
-    static void give([[maybe_unused]] Place& place)
-    {
-#ifdef PBS_TELL_THREAD_SANITIZER
-        __tsan_release(&place);
-#endif
-    }
-    static void take([[maybe_unused]] Place& place)
-    {
-#ifdef PBS_TELL_THREAD_SANITIZER
-        __tsan_acquire(&place);
-#endif
-    }
-
-    Place start_, end_;
-};
-
 #ifdef PBS_WITH_THREADS
+namespace {
+
+// Report to the thread sanitizer what threads hand to each other through oneTBB, since it cannot see into a library built without it. It
+// still finds two tasks that touch the same place. In every other build they are nothing.
+void give([[maybe_unused]] void* place)
+{
+#ifdef PBS_TELL_THREAD_SANITIZER
+    __tsan_release(place);
+#endif
+}
+
+void take([[maybe_unused]] void* place)
+{
+#ifdef PBS_TELL_THREAD_SANITIZER
+    __tsan_acquire(place);
+#endif
+}
+
+}  // namespace
+
 class Parallel::Arena {
 public:
     explicit Arena(int threads) : arena_(std::min(threads, allowed())) {}
 
     void for_each(int count, const std::function<void(int)>& task)
     {
-        HandOver call;
+        char start = 0, end = 0;  // places that the caller and the tasks hand to each other
+        give(&start);
         arena_.execute([&] {
             tbb::parallel_for(
                 tbb::blocked_range<int>(0, count, 1),
                 [&](const auto& range) {
-                    const HandOver::Task handed(call);
+                    take(&start);
                     for (int i = range.begin(); i < range.end(); ++i) task(i);
+                    give(&end);
                 },
                 tbb::simple_partitioner());
         });
+        take(&end);
     }
 
 private:

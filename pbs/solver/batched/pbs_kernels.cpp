@@ -176,6 +176,50 @@ template <typename Scalar, GroupKind kind>
     }
 }
 
+template <typename Scalar, GroupKind kind>
+[[gnu::noinline]] void project_all(const Batch<Scalar, kind>* batches, int count, Scalar dt2, Scalar* multipliers, Scalar* vertices)
+{
+    using Shape = GroupShape<kind>;
+    for (int i = 0; i < count * Part<Scalar, kind>::a_batch; ++i) {
+        Vertices<Scalar> p[Shape::vertices];
+        const auto of = part(batches, i);
+        of.gather_from(vertices, p);
+        of.project_compliant(Lanes<Scalar>(dt2), multipliers + i / of.a_batch * Shape::constraints * batch_size, p);
+        of.scatter_to(vertices, p);
+    }
+}
+
+template <typename Scalar>
+[[gnu::always_inline]] inline Vertices<Scalar> vertex(const Scalar* poses, std::size_t i, int first, Scalar w)
+{
+    const Scalar* xyz = poses + i * 3 * poses_a_block + first;
+    return {load(xyz), load(xyz + poses_a_block), load(xyz + 2 * poses_a_block), w};
+}
+
+template <typename Scalar>
+[[gnu::always_inline]] inline void store(const Vertices<Scalar>& p, Scalar* poses, std::size_t i, int first)
+{
+    Scalar* xyz = poses + i * 3 * poses_a_block + first;
+    pbs::store(p.x, xyz);
+    pbs::store(p.y, xyz + poses_a_block);
+    pbs::store(p.z, xyz + 2 * poses_a_block);
+}
+
+// project(constraint, k, p) for each constraint in all poses; p: its vertices.
+template <typename Scalar, typename Constraint, typename Project>
+[[gnu::always_inline]] inline void project_in_poses(const Constraint* constraints, std::size_t count, const Scalar* stiffness,
+                                                    Scalar* poses, const Project& project)
+{
+    constexpr int n = sizeof(Constraint::vertex) / sizeof(std::uint32_t);
+    for (const Constraint* of = constraints; of < constraints + count; ++of)
+        for (int first = 0; first < poses_a_block; first += lanes<Scalar>) {
+            Vertices<Scalar> p[n];
+            for (int i = 0; i < n; ++i) p[i] = vertex(static_cast<const Scalar*>(poses), of->vertex[i], first, of->w[i]);
+            project(*of, load(stiffness + poses_a_block * static_cast<int>(of->stiffness) + first), p);
+            for (int i = 0; i < n; ++i) store(p[i], poses, of->vertex[i], first);
+        }
+}
+
 }  // namespace
 
 template <typename Scalar>
@@ -293,23 +337,6 @@ template void largest_errors(GroupKind, const void*, int, const double*, double*
 template void project_bind_batches(const BindBatch<float>*, int, float*);
 template void project_bind_batches(const BindBatch<double>*, int, double*);
 
-namespace {
-
-template <typename Scalar, GroupKind kind>
-[[gnu::noinline]] void project_all(const Batch<Scalar, kind>* batches, int count, Scalar dt2, Scalar* multipliers, Scalar* vertices)
-{
-    using Shape = GroupShape<kind>;
-    for (int i = 0; i < count * Part<Scalar, kind>::a_batch; ++i) {
-        Vertices<Scalar> p[Shape::vertices];
-        const auto of = part(batches, i);
-        of.gather_from(vertices, p);
-        of.project_compliant(Lanes<Scalar>(dt2), multipliers + i / of.a_batch * Shape::constraints * batch_size, p);
-        of.scatter_to(vertices, p);
-    }
-}
-
-}  // namespace
-
 template <typename Scalar>
 void project_compliant_batches(GroupKind kind, const void* batches, int count, Scalar dt2, Scalar* multipliers, Scalar* vertices)
 {
@@ -320,41 +347,6 @@ void project_compliant_batches(GroupKind kind, const void* batches, int count, S
 
 template void project_compliant_batches(GroupKind, const void*, int, float, float*, float*);
 template void project_compliant_batches(GroupKind, const void*, int, double, double*, double*);
-
-namespace {
-
-template <typename Scalar>
-[[gnu::always_inline]] inline Vertices<Scalar> vertex(const Scalar* poses, std::size_t i, int first, Scalar w)
-{
-    const Scalar* xyz = poses + i * 3 * poses_a_block + first;
-    return {load(xyz), load(xyz + poses_a_block), load(xyz + 2 * poses_a_block), w};
-}
-
-template <typename Scalar>
-[[gnu::always_inline]] inline void store(const Vertices<Scalar>& p, Scalar* poses, std::size_t i, int first)
-{
-    Scalar* xyz = poses + i * 3 * poses_a_block + first;
-    pbs::store(p.x, xyz);
-    pbs::store(p.y, xyz + poses_a_block);
-    pbs::store(p.z, xyz + 2 * poses_a_block);
-}
-
-// project(constraint, k, p) for each constraint in all poses; p: its vertices.
-template <typename Scalar, typename Constraint, typename Project>
-[[gnu::always_inline]] inline void project_in_poses(const Constraint* constraints, std::size_t count, const Scalar* stiffness,
-                                                    Scalar* poses, const Project& project)
-{
-    constexpr int n = sizeof(Constraint::vertex) / sizeof(std::uint32_t);
-    for (const Constraint* of = constraints; of < constraints + count; ++of)
-        for (int first = 0; first < poses_a_block; first += lanes<Scalar>) {
-            Vertices<Scalar> p[n];
-            for (int i = 0; i < n; ++i) p[i] = vertex(static_cast<const Scalar*>(poses), of->vertex[i], first, of->w[i]);
-            project(*of, load(stiffness + poses_a_block * static_cast<int>(of->stiffness) + first), p);
-            for (int i = 0; i < n; ++i) store(p[i], poses, of->vertex[i], first);
-        }
-}
-
-}  // namespace
 
 template <typename Scalar>
 void project_pose_edges(const PoseEdge<Scalar>* edges, std::size_t count, const Scalar* stiffness, Scalar* poses)
