@@ -11,26 +11,22 @@
 
 namespace {
 
+using namespace test_support;
 using analysis::VerdictKind;
-using test_support::claim;
 
 const analysis::Records& records_of_limb()
 {
-    static const analysis::Records records = test_support::records_of(experiments::momentum_study().plan(false));
+    static const analysis::Records records = records_of(experiments::momentum_study().plan(false));
     return records;
 }
 
-TEST(MomentumVerdict, HoldsWhereMassesAreKnownAndNotByEquationsForOneMass)
+TEST(MomentumVerdict, HoldsWhereMassesAreKnownAndTurnsWithItsFigures)
 {
     const analysis::Verdict verdict = judge(claim("C07"), records_of_limb());
     EXPECT_EQ(verdict.kind, VerdictKind::reproduced_only_for);
     ASSERT_EQ(verdict.subjects.size(), 3u);
     EXPECT_EQ(verdict.subjects[2].name, "unequal_by_eq_8_9");
     for (const auto& subject : verdict.subjects) EXPECT_EQ(subject.extent == analysis::Extent::none, subject.name == "unequal_by_eq_8_9");
-}
-
-TEST(MomentumVerdict, TurnsWithItsFigures)
-{
     analysis::Records records = records_of_limb();
     for (const auto& [drift, kind] : {std::pair(1e-9, VerdictKind::reproduced), {0.1, VerdictKind::not_reproduced}}) {
         for (auto& measured : records.measurements) measured.value = measured.low = measured.high = drift;
@@ -48,9 +44,6 @@ using analysis::Measurement;
 using experiments::MomentumDrift;
 using experiments::ProjectedClass;
 using pbs::Masses;
-using test_support::broken;
-using test_support::Broken;
-using test_support::verdict_on;
 
 pbs::PbsOptions in_double()
 {
@@ -60,21 +53,21 @@ pbs::PbsOptions in_double()
     return options;
 }
 
-const test_support::TwoBoneLimb& limb()
+const TwoBoneLimb& limb()
 {
-    static const test_support::TwoBoneLimb limb = test_support::two_bone_limb({16, 4, 4}, pbs::Vec3::UnitZ(), 60.0);
+    static const TwoBoneLimb limb = two_bone_limb({16, 4, 4}, pbs::Vec3::UnitZ(), 60.0);
     return limb;
 }
 
-test_support::DriftRounding rounding_of(ProjectedClass projected)
+DriftRounding rounding_of(ProjectedClass projected)
 {
-    return test_support::drift_rounding(test_support::character_of(limb()), limb().pose, in_double(), projected);
+    return drift_rounding(character_of(limb()), limb().pose, in_double(), projected);
 }
 
 // Single projections and a pass, with equal masses, as in the study.
 std::vector<Measurement> drifts(const pbs::PbsOptions& options)
 {
-    const pbs::Character character = test_support::character_of(limb());
+    const pbs::Character character = character_of(limb());
     std::vector<Measurement> measured;
     const auto add = [&](const char* direction, const char* quantity, const char* of, double drift) {
         const analysis::CaseKey key = {.body = "limb", .masses = "equal", .constraint = of};
@@ -101,7 +94,7 @@ std::vector<Measurement> single(const std::vector<Measurement>& measured, const 
 
 double drift(const std::vector<Measurement>& measured, const std::string& quantity, const std::string& of)
 {
-    return test_support::values_of(measured, quantity, {.constraint = of}).at(0).value;
+    return values_of(measured, quantity, {.constraint = of}).at(0).value;
 }
 
 TEST(BrokenMomentum, TheSignTurnedRoundConservesAsWell)

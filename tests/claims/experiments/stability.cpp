@@ -186,23 +186,14 @@ bool ran_away(const CellResult& result)
     return result.stability.outcome == StabilityOutcome::diverged || result.stability.outcome == StabilityOutcome::not_finite;
 }
 
-TEST(BrokenStability, TheSignTurnedRoundRunsAway)
+TEST(BrokenStability, TheSignTurnedRoundAndNothingProjectedRunAwayAndOneClassLessTakesNoBoundAway)
 {
-    for (const Broken sound : {Broken::nothing, Broken::nothing_in_plain_order})
-        EXPECT_EQ(verdict(true, sound), VerdictKind::reproduced) << name_of(sound);
-    EXPECT_EQ(verdict(true, Broken::volume_sign), VerdictKind::not_reproduced);
-}
-
-TEST(BrokenStability, OneClassLessTakesNoBoundAway)
-{
-    for (const Broken how : {Broken::bind_dropped, Broken::stretch_dropped, Broken::volume_dropped})
+    for (const Broken how :
+         {Broken::nothing, Broken::nothing_in_plain_order, Broken::bind_dropped, Broken::stretch_dropped, Broken::volume_dropped})
         EXPECT_EQ(verdict(true, how), VerdictKind::reproduced) << name_of(how);
-}
-
-TEST(BrokenStability, WithNothingProjectedFleshFallsAndWhatHasNoWeightStays)
-{
-    EXPECT_EQ(verdict(true, Broken::nothing_projected), VerdictKind::not_reproduced);
-    EXPECT_EQ(verdict(false, Broken::nothing_projected), VerdictKind::reproduced);
+    for (const Broken how : {Broken::volume_sign, Broken::nothing_projected})
+        EXPECT_EQ(verdict(true, how), VerdictKind::not_reproduced) << name_of(how);
+    EXPECT_EQ(verdict(false, Broken::nothing_projected), VerdictKind::reproduced) << "what has no weight stays";
 }
 
 TEST(BrokenStability, ForgottenMultipliersRunAwayNowhereAndAreNoPartOfTheClaim)

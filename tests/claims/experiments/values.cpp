@@ -23,16 +23,12 @@ const analysis::Records& print()
     return records;
 }
 
-TEST(AuditVerdict, ThePaperContradictsItself)
-{
-    for (const char* id : {"C13", "C14", "C15"}) EXPECT_EQ(judge(claim(id), print()).kind, VerdictKind::inconsistent_in_print) << id;
-}
-
-TEST(AuditVerdict, APrintThatIsMendedIsConsistent)
+TEST(AuditVerdict, ThePaperContradictsItselfAndAPrintThatIsMendedIsConsistent)
 {
     analysis::Records mended = print();
     for (auto& value : mended.printed) value.printed = value.least;
     for (const char* id : {"C13", "C14", "C15"}) {
+        EXPECT_EQ(judge(claim(id), print()).kind, VerdictKind::inconsistent_in_print) << id;
         EXPECT_EQ(judge(claim(id), mended).kind, VerdictKind::reproduced) << id;
         analysis::Records one_wrong = mended;
         const auto first = std::find_if(one_wrong.printed.begin(), one_wrong.printed.end(), [&](auto& value) { return value.claim == id; });

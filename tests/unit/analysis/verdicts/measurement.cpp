@@ -75,7 +75,7 @@ TEST(Measurement, HoldsWholeInPartOrNotWhereAQuantityMayHaveABoundOfItsOwn)
     EXPECT_EQ(bound_text({"", 0.9, 1.1}), "0.9 to 1.1");
 }
 
-TEST(Measurement, AlteredRecordsFlipTheVerdict)
+TEST(Measurement, AlteredRecordsFlipTheVerdictAndWithoutAPlannedRunNothingIsJudged)
 {
     Records records;
     records.measurements = {drift("limb", 1e-6), drift("human", 1e-5), {"C99", "linear_drift", {.body = "another"}, 9.0, 9.0, 9.0, "1"}};
@@ -97,6 +97,9 @@ TEST(Measurement, AlteredRecordsFlipTheVerdict)
     EXPECT_EQ(judge(drift_claim(), records).kind, VerdictKind::not_computable);
     records.left_out = {{"human", "not installed"}};
     EXPECT_EQ(judge(drift_claim(), records).kind, VerdictKind::cannot_be_tested_here);
+    const Verdict without_a_run = judge(drift_claim(), {.measurements = {drift("limb", 1e-6)}, .missing_runs = {"human"}});
+    EXPECT_EQ(without_a_run.kind, VerdictKind::not_computable);
+    EXPECT_EQ(without_a_run.missing, std::vector<std::string>{"human"});
 }
 
 TEST(Measurement, AVerdictCountsValuesBySubject)
@@ -179,13 +182,6 @@ TEST(Measurement, AClaimOfSeveralQuantitiesAsksForAllOfThem)
     EXPECT_EQ(judge(drift_claim(), records).kind, VerdictKind::not_reproduced);
     records.measurements[3].value = records.measurements[3].low = records.measurements[3].high = 1e-6;
     EXPECT_EQ(judge(drift_claim(), records).kind, VerdictKind::reproduced_only_for);
-}
-
-TEST(Measurement, WithoutAPlannedRunNothingIsJudged)
-{
-    const Verdict verdict = judge(drift_claim(), {.measurements = {drift("limb", 1e-6)}, .missing_runs = {"human"}});
-    EXPECT_EQ(verdict.kind, VerdictKind::not_computable);
-    EXPECT_EQ(verdict.missing, std::vector<std::string>{"human"});
 }
 
 }  // namespace

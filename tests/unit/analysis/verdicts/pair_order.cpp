@@ -12,11 +12,7 @@
 
 namespace {
 
-using analysis::decide;
-using analysis::order_of;
-using analysis::PairDecision;
-using analysis::PairOrder;
-using analysis::shift_of_difference;
+using namespace analysis;
 using Point = Eigen::Matrix<double, 6, 1>;
 
 Point random_point(std::mt19937& generator)

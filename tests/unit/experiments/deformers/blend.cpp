@@ -44,17 +44,13 @@ TEST(OwnWeights, AreThoseOfACharacterThatHasThemItself)
     }
 }
 
-TEST(OwnWeights, AreOnRecord)
+TEST(OwnWeights, AreOnRecordAndRefusedWhereTheCharacterDoesNotBringThem)
 {
     DeformerSpec spec = default_spec("delta_mush");
     EXPECT_FALSE(to_json(spec).contains("weights"));
     spec.weights = pbs::WeightKind::smooth;
     EXPECT_EQ(to_json(spec)["weights"], "smooth");
-}
-
-TEST(OwnWeights, OnesThatTheCharacterDoesNotBringAreRefused)
-{
-    DeformerSpec spec = default_spec("lbs");
+    spec = default_spec("lbs");
     spec.weights = pbs::WeightKind::artist;
     EXPECT_THROW(make_deformer(spec)->reset(thin_bar), pbs::InputError);
 }
@@ -127,7 +123,7 @@ Scene scene_of_blends(const std::vector<std::string>& overrides = {})
     return read_scene(folder.file("blends.toml", blended_scene), overrides);
 }
 
-TEST(OwnWeights, AreReadFromScenes)
+TEST(OwnWeights, AreReadFromScenesWhichRefuseStepsThatContradictEachOther)
 {
     const Scene scene = scene_of_blends();
     ASSERT_EQ(scene.deformers.size(), 5u);
@@ -143,10 +139,6 @@ TEST(OwnWeights, AreReadFromScenes)
     EXPECT_EQ(direct.iterations, 3);
     EXPECT_EQ(direct.kappa, 0.25);
     EXPECT_EQ(direct.smoothing, pbs::MushSmoothing::explicit_steps);
-}
-
-TEST(DirectDeltaMushInScenes, RefusesStepsThatContradictEachOther)
-{
     EXPECT_THROW(scene_of_blends({"direct_delta_mush.kappa=2"}), pbs::InputError);
     EXPECT_THROW(scene_of_blends({"direct_delta_mush.lambda=1.5"}), pbs::InputError);
     EXPECT_NO_THROW(scene_of_blends({"direct_delta_mush.lambda=1.5", "direct_delta_mush.smoothing=implicit"}));

@@ -71,9 +71,13 @@ protected:
 };
 INSTANTIATE_TEST_SUITE_P(Kind, EveryDeformer, testing::ValuesIn(kinds_without_tables()), [](const auto& one) { return one.param; });
 
-TEST_P(EveryDeformer, StaysAtRestInTheRestPose)
+TEST_P(EveryDeformer, StaysAtRestInTheRestPoseAndStatesFactsOnlyIfItHasFiniteElements)
 {
-    EXPECT_EQ(at_rest(spec)->positions(), rest);
+    const auto deformer = at_rest(spec);
+    EXPECT_EQ(deformer->positions(), rest);
+    EXPECT_EQ(deformer->facts(), nullptr);
+    EXPECT_TRUE(prescribed_vertices(*deformer).empty());
+    EXPECT_EQ(&last_state(*deformer), &deformer->positions());
     EXPECT_LT(largest_distance(after(spec, {sweep().steps.front()}), rest), rounding_m);
 }
 
@@ -98,14 +102,6 @@ TEST_P(EveryDeformer, RepeatsToTheBitAndWhateverTheThreads)
     EXPECT_EQ(again->positions(), rest) << "reset";
     spec.threads = 3;
     EXPECT_EQ(after(spec, sweep().steps), once);
-}
-
-TEST_P(EveryDeformer, StatesFactsOnlyIfItHasFiniteElements)
-{
-    const auto deformer = at_rest(spec);
-    EXPECT_EQ(deformer->facts(), nullptr);
-    EXPECT_TRUE(prescribed_vertices(*deformer).empty());
-    EXPECT_EQ(&last_state(*deformer), &deformer->positions());
 }
 
 // Another value of the key: within its range, or another choice.
@@ -251,7 +247,7 @@ TEST_F(AddedDeformer, ReadsItsOwnKeys)
     EXPECT_EQ(find_deformer_with<LiftOptions>(scene())->name, "lift");
 }
 
-TEST_F(AddedDeformer, DocumentsItsKeysWithTheDefaultsOfItsOptions)
+TEST_F(AddedDeformer, DocumentsItsKeysAndRefusesOthersAndValuesOutOfRange)
 {
     const SceneSchema schema = scene_schema();
     ASSERT_TRUE(schema.find("lift.height_m"));
@@ -260,13 +256,8 @@ TEST_F(AddedDeformer, DocumentsItsKeysWithTheDefaultsOfItsOptions)
     EXPECT_EQ(schema.find("lift.direction")->default_json, "\"up\"");
     EXPECT_EQ(schema.find("lift.direction")->rule(), "expected one of up, down");
     EXPECT_FALSE(schema.find("lift.seen"));  // only in the records
-}
-
-TEST_F(AddedDeformer, RefusesValuesOutOfRangeAndUnknownKeys)
-{
-    EXPECT_THROW(scene({"lift.height_m=11"}), pbs::InputError);
-    EXPECT_THROW(scene({"lift.direction=left"}), pbs::InputError);
-    EXPECT_THROW(scene({"lift.hight_m=1"}), pbs::InputError);
+    for (const char* refused : {"lift.height_m=11", "lift.direction=left", "lift.hight_m=1"})
+        EXPECT_THROW(scene({refused}), pbs::InputError) << refused;
 }
 
 TEST_F(AddedDeformer, RunsAndIsOnRecord)

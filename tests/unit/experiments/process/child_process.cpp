@@ -43,7 +43,7 @@ std::string words_of(const std::function<nlohmann::json()>& work)
     return "accepted";
 }
 
-TEST(OwnProcess, AFailureIsToldWithItsWordsAndItsKind)
+TEST(OwnProcess, AFailureOrADeathIsToldWithItsWordsAndItsKind)
 {
     EXPECT_EQ(words_of<pbs::InputError>([]() -> nlohmann::json { throw pbs::InputError("a.bvh", 0, "", "", "no such clip"); }),
               "a.bvh: no such clip");
@@ -51,10 +51,7 @@ TEST(OwnProcess, AFailureIsToldWithItsWordsAndItsKind)
     EXPECT_EQ(words_of<std::runtime_error>(internal), "no such row");
     EXPECT_THROW(words_of<pbs::InputError>(internal), std::runtime_error);
     EXPECT_THROW(in_own_process([]() -> nlohmann::json { throw std::string("not an exception"); }), std::runtime_error);
-}
-
-TEST(OwnProcess, WordsThatAreNotUtf8ArriveAndADeathIsAnError)
-{
+    // Words that are not UTF-8 arrive.
     EXPECT_EQ(in_own_process([] { return nlohmann::json("li\xffmb"); }), "li\xef\xbf\xbdmb");
     EXPECT_EQ(words_of<pbs::InputError>([]() -> nlohmann::json { throw pbs::InputError("li\xffmb", 0, "", "", "cannot be read"); }),
               "li\xef\xbf\xbdmb: cannot be read");

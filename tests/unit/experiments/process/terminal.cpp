@@ -72,7 +72,7 @@ private:
     int kept_ = -1;
 };
 
-TEST_F(Terminal, AFileHasNoColoursUnlessTheyAreAskedForAndNoColorIsStronger)
+TEST_F(Terminal, AFileHasNoColoursUnlessTheyAreAskedForAndItsWidthIsThatOfColumnsElseAHundred)
 {
     EXPECT_FALSE(terminal_has_colours());
     setenv("CLICOLOR_FORCE", "1", 1);
@@ -81,11 +81,7 @@ TEST_F(Terminal, AFileHasNoColoursUnlessTheyAreAskedForAndNoColorIsStronger)
     EXPECT_FALSE(terminal_has_colours());
     setenv("CLICOLOR_FORCE", "1", 1);
     setenv("NO_COLOR", "1", 1);
-    EXPECT_FALSE(terminal_has_colours());
-}
-
-TEST_F(Terminal, WidthIsThatOfColumnsElseAHundred)
-{
+    EXPECT_FALSE(terminal_has_colours()) << "NO_COLOR is stronger";
     EXPECT_EQ(terminal_width(), 100u);
     setenv("COLUMNS", "72", 1);
     EXPECT_EQ(terminal_width(), 72u);

@@ -15,8 +15,7 @@
 
 namespace {
 
-using experiments::FrameContext;
-using experiments::FrameMeasurer;
+using namespace experiments;
 
 pbs::Character small_limb(int vertices = 400)
 {
@@ -31,7 +30,7 @@ pbs::Pose rest_pose(const pbs::Character& character)
 // The limb in its rest pose.
 class LimbMeasurement : public testing::Test {
 protected:
-    experiments::FrameMeasurement measured(const pbs::Positions& positions, const experiments::OutputSpec& output = {}) const
+    FrameMeasurement measured(const pbs::Positions& positions, const OutputSpec& output = {}) const
     {
         return FrameMeasurer(limb, output, {}).measure(positions, context);
     }
@@ -70,7 +69,7 @@ TEST(FrameMeasurement, LeavesOutTheOverlapOfTheReferenceButForTheErrorOnTheWhole
     const pbs::Character bar = test_support::bar_character({24, 2, 2});
     const pbs::Pose pose = rest_pose(bar);
     const pbs::Positions reference = test_support::wound(bar.mesh.rest);
-    experiments::OutputSpec output;
+    OutputSpec output;
     output.sections = output.surface = false;
     FrameMeasurer measurer(bar, output, {});
     const double share_pct = measurer.leave_out_overlap(reference);
@@ -92,7 +91,7 @@ TEST(FrameMeasurement, LeavesOutTheOverlapOfTheReferenceButForTheErrorOnTheWhole
 
 TEST_F(LimbMeasurement, LeavesOutWhatIsNotAsked)
 {
-    experiments::OutputSpec output;
+    OutputSpec output;
     output.errors = output.sections = output.surface = false;
     context.reference = &limb.mesh.rest;
     const auto of = measured(limb.mesh.rest, output);
@@ -124,7 +123,7 @@ TEST_F(LimbMeasurement, ABrokenFrameIsMeasuredNotRefused)
 // The error at the joints decides; if nothing is blended, the whole body decides, since there is no value for the joints.
 TEST(FrameMeasurement, AnErrorNotAboveTheReferencesOwnIsMarked)
 {
-    experiments::FrameMeasurement measured;
+    FrameMeasurement measured;
     measured.errors = analysis::ErrorNorms{0.1, 2.0, 0.01};
     EXPECT_FALSE(measured.error_below_reference_error());  // there is no error bar
     measured.reference_error = analysis::ErrorNorms{0.5, 1.0, 0.5};
@@ -140,55 +139,43 @@ TEST(FrameMeasurement, AnErrorNotAboveTheReferencesOwnIsMarked)
 // The places at which limbs are cut. Reference: the built-in limb's geometry, a capsule of radius 0.15 m around (-1,0,0) -> 0 -> (1,0,0).
 // Tolerances: the rounding of a motion, and of the mean of two directions, which counts as another.
 
-TEST(LimbStations, StandAlongBothBonesAndAcrossTheJoint)
+// The polygon inscribed in the circle of radius r has at least half the area of the circle, and at most all of it.
+TEST(LimbStations, StandAlongBothBonesAndAcrossTheJointAndCutTheWholeLimb)
 {
-    const auto stations = experiments::limb_stations(small_limb(600));
+    const pbs::Character limb = small_limb(600);
+    const auto stations = limb_stations(limb);
     ASSERT_EQ(stations.size(), 11u);
+    const double circle = std::numbers::pi * 0.15 * 0.15;
     int joints = 0;
     for (const auto& station : stations) {
         EXPECT_EQ(station.point.tail<2>().norm(), 0.0);
         EXPECT_EQ(station.normal, pbs::Vec3::UnitX());
         joints += station.carriers.size() == 2;
-    }
-    EXPECT_EQ(joints, 1);
-}
-
-// The polygon inscribed in the circle of radius r has at least half the area of the circle, and at most all of it.
-TEST(LimbStations, CutTheWholeLimb)
-{
-    const pbs::Character limb = small_limb(600);
-    const double circle = std::numbers::pi * 0.15 * 0.15;
-    for (const auto& station : experiments::limb_stations(limb)) {
         const double area = analysis::cross_section_area(limb.mesh.rest, limb.mesh.tets, station.tets, {station.point, station.normal});
         EXPECT_GT(area, 0.8 * circle) << station.name;
         EXPECT_LT(area, 1.01 * circle) << station.name;
     }
-}
-
-TEST(LimbStations, MoveWithTheirBones)
-{
-    const pbs::Character limb = small_limb(600);
-    const auto motion = pbs::joint_sweep(limb.skeleton, 1, pbs::Vec3::UnitZ(), 90.0, 2, 0.01);
-    for (const auto& station : experiments::limb_stations(limb)) {
-        const pbs::Vec3 normal = experiments::posed_normal(station, motion.steps[1]);
-        pbs::Vec3 expected = station.carriers.front() == 1 ? pbs::Vec3::UnitY() : pbs::Vec3::UnitX();
-        if (station.carriers.size() == 2) expected = pbs::Vec3(1, 1, 0).normalized();
-        EXPECT_LE((normal - expected).norm(), test_support::motion_error(2, 1.0)) << station.name;
-    }
+    EXPECT_EQ(joints, 1);
 }
 
 // Opposite directions have no mean, so the direction of the first bone is used.
-TEST(LimbStations, AJointFoldedBackStillHasANormal)
+TEST(LimbStations, MoveWithTheirBonesAndHaveANormalAtAJointFoldedBack)
 {
     const pbs::Character limb = small_limb(600);
-    const auto motion = pbs::joint_sweep(limb.skeleton, 1, pbs::Vec3::UnitZ(), 180.0, 2, 0.01);
-    for (const auto& station : experiments::limb_stations(limb))
-        EXPECT_NEAR(experiments::posed_normal(station, motion.steps[1]).norm(), 1.0, test_support::motion_error(2, 1.0));
+    const auto posed = [&](double angle_deg) {
+        return pbs::joint_sweep(limb.skeleton, 1, pbs::Vec3::UnitZ(), angle_deg, 2, 0.01).steps[1];
+    };
+    const pbs::Pose bent = posed(90.0), folded = posed(180.0);
+    for (const auto& station : limb_stations(limb)) {
+        const pbs::Vec3 normal = posed_normal(station, bent);
+        pbs::Vec3 expected = station.carriers.front() == 1 ? pbs::Vec3::UnitY() : pbs::Vec3::UnitX();
+        if (station.carriers.size() == 2) expected = pbs::Vec3(1, 1, 0).normalized();
+        EXPECT_LE((normal - expected).norm(), test_support::motion_error(2, 1.0)) << station.name;
+        EXPECT_NEAR(posed_normal(station, folded).norm(), 1.0, test_support::motion_error(2, 1.0)) << station.name;
+    }
 }
 
 // Reference: the vertices and tets that were broken.
-
-using namespace experiments;
 
 // The record is read back with the same words. A step before the frame's own is named.
 TEST(BrokenFrame, NamesTheFirstVertexThatIsNotFiniteOrElseTheWorstTet)

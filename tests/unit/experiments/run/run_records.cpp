@@ -34,7 +34,7 @@ pbs::Skeleton arm()
     return {{{"upper", -1, pbs::Vec3(-1.0, 0.0, 0.0), pbs::Vec3::Zero()}, {"forearm", 0, pbs::Vec3::Zero(), pbs::Vec3(1.0, 0.0, 0.0)}}};
 }
 
-TEST(BoneRecord, ABoneStandsWhereThePosePutsIt)
+TEST(BoneRecord, ABoneStandsWhereItsSkeletonAndThePosePutIt)
 {
     std::vector<PosedBone> bones;
     add_bones(bones, 0, 0.0, {}, {});
@@ -48,12 +48,7 @@ TEST(BoneRecord, ABoneStandsWhereThePosePutsIt)
     EXPECT_EQ(bones[1].frame, 7);
     EXPECT_LE((bones[1].place.tail - pbs::Vec3::UnitY()).norm(), test_support::motion_error(1, 1.0));
     EXPECT_EQ(bones[0].place.head, pbs::Vec3(-1.0, 0.0, 0.0));
-}
-
-TEST(BoneRecord, AtRestABoneStandsWhereItsSkeletonHasIt)
-{
-    const analysis::CsvTable bones = table_of(bone_columns, bones_at_rest(arm()));
-    EXPECT_EQ(bones.text(),
+    EXPECT_EQ(table_of(bone_columns, bones_at_rest(arm())).text(),
               "bone,parent,head_x_m,head_y_m,head_z_m,tail_x_m,tail_y_m,tail_z_m\n"
               "upper,,-1,0,0,0,0,0\n"
               "forearm,upper,0,0,0,1,0,0\n");
@@ -136,7 +131,7 @@ pbs::Positions two_points(double x_m)
     return points;
 }
 
-TEST(DistanceRecord, EachPairOfAFrameOnce)
+TEST(DistanceRecord, EachPairOfAFrameOnceAndNoneOfTwoFrames)
 {
     DistanceRecord record;
     record.add(0, 0.0, "lbs", "mesh", two_points(0.0));
@@ -151,18 +146,13 @@ TEST(DistanceRecord, EachPairOfAFrameOnce)
     EXPECT_NEAR(table.number(2, "largest_mm"), 3.0, rounding_mm);
     EXPECT_NEAR(table.number(2, "rms_mm"), 3.0 / std::sqrt(2.0), rounding_mm);
     EXPECT_EQ(table.integer(2, "points"), 2);
-}
 
-TEST(DistanceRecord, FramesAreNotComparedWithEachOther)
-{
-    DistanceRecord record;
-    record.add(0, 0.0, "pbs", "mesh", two_points(0.0));
     record.add(10, 0.1, "lbs", "mesh", two_points(1.0));
-    EXPECT_EQ(record.table().rows(), 0);
+    EXPECT_EQ(record.table().rows(), 3);
     record.add(10, 0.1, "pbs", "mesh", two_points(1.0));
-    ASSERT_EQ(record.table().rows(), 1);
-    EXPECT_EQ(record.table().integer(0, "frame"), 10);
-    EXPECT_EQ(record.table().number(0, "largest_mm"), 0.0);
+    ASSERT_EQ(record.table().rows(), 4);
+    EXPECT_EQ(record.table().integer(3, "frame"), 10);
+    EXPECT_EQ(record.table().number(3, "largest_mm"), 0.0);
 }
 
 // Reference: geometry of a bar with two bones along x: tets belong to the nearest bone, blended ones around the middle; the shares of a
@@ -181,27 +171,18 @@ double middle(Eigen::Index tet)
     return x;
 }
 
-TEST(BodyRegions, ATetLiesWithItsNearestBone)
+TEST(BodyRegions, ATetLiesWithItsNearestBoneAndAJointHasTheBlendedTetsAlone)
 {
-    const BodyRegions regions = regions_by_bone(character_of(bent()));
-    EXPECT_EQ(regions.bones, (std::vector<RegionBones>{{"upper"}, {"forearm"}}));
-    for (Eigen::Index tet = 0; tet < bent().mesh.tets.rows(); ++tet)
-        if (std::abs(middle(tet)) > 0.1) {
-            EXPECT_EQ(regions.of_tet[tet], middle(tet) > 0.0 ? 1 : 0) << middle(tet);
-        }
-}
-
-TEST(BodyRegions, AJointHasTheBlendedTetsAlone)
-{
-    const BodyRegions regions = regions_by_joint(character_of(bent()));
-    ASSERT_EQ(regions.bones, (std::vector<RegionBones>{{"upper", "forearm"}}));
+    const BodyRegions by_bone = regions_by_bone(character_of(bent())), by_joint = regions_by_joint(character_of(bent()));
+    EXPECT_EQ(by_bone.bones, (std::vector<RegionBones>{{"upper"}, {"forearm"}}));
+    ASSERT_EQ(by_joint.bones, (std::vector<RegionBones>{{"upper", "forearm"}}));
     for (Eigen::Index tet = 0; tet < bent().mesh.tets.rows(); ++tet) {
-        const double longest_cell = 2.0 / 24.0;  // Eq. 2 blends within a sixth of the bone's length from the joint
-        if (std::abs(middle(tet)) < 1.0 / 6.0 - longest_cell) {
-            EXPECT_EQ(regions.of_tet[tet], 0);
+        const double x = middle(tet), longest_cell = 2.0 / 24.0;
+        if (std::abs(x) > 0.1) {
+            EXPECT_EQ(by_bone.of_tet[tet], x > 0.0 ? 1 : 0) << x;
         }
-        if (std::abs(middle(tet)) > 1.0 / 6.0 + longest_cell) {
-            EXPECT_EQ(regions.of_tet[tet], -1);
+        if (std::abs(std::abs(x) - 1.0 / 6.0) > longest_cell) {  // Eq. 2 blends within a sixth of the bone's length from the joint
+            EXPECT_EQ(by_joint.of_tet[tet], std::abs(x) < 1.0 / 6.0 ? 0 : -1) << x;
         }
     }
 }
@@ -353,6 +334,13 @@ TEST_F(ModelRecord, HoldsWhatWasTakenAndWhatWasLeftOut)
                                      {"extent_m", 2.0},
                                      {"weights_transferred_pct", 100.0}};
     EXPECT_EQ(record(), expected);
+
+    model->animation = nullptr;
+    model->body.skeleton.bones.clear();
+    const nlohmann::json bare = record();
+    EXPECT_TRUE(bare.at("animation").is_null());
+    EXPECT_FALSE(bare.contains("weights_transferred_pct"));
+    EXPECT_EQ(bare.at("joints"), nlohmann::json::array());
 }
 
 // At the first point the lesser weights are 0.75 (hips), at the other one 0.25 (knee) and 0.5 (toe).
@@ -362,16 +350,6 @@ TEST_F(ModelRecord, CountsTheWeightThatTheTetsCarry)
     EXPECT_EQ(record().at("weights_transferred_pct"), 75.0);
     model->body.skin = weights_of({{{2, 1.0}}, {{0, 1.0}}});
     EXPECT_EQ(record().at("weights_transferred_pct"), 0.0);
-}
-
-TEST_F(ModelRecord, AModelWithoutAnimationAndJointsHasNeither)
-{
-    model->animation = nullptr;
-    model->body.skeleton.bones.clear();
-    const nlohmann::json found = record();
-    EXPECT_TRUE(found.at("animation").is_null());
-    EXPECT_FALSE(found.contains("weights_transferred_pct"));
-    EXPECT_EQ(found.at("joints"), nlohmann::json::array());
 }
 
 // surface_rest.vtp and embedding.csv. Reference: an affine map preserves barycentric coordinates, inside a tet and outside.
@@ -385,7 +363,7 @@ pbs::EmbeddedSurface triangle(const pbs::TetMesh& mesh)
     return pbs::embed(points, triangles, mesh);
 }
 
-TEST(SurfaceRecord, ItsSharesCarryThePointsAlong)
+TEST(SurfaceRecord, ItsSharesCarryThePointsAlongAndBothFilesStandInTheFolder)
 {
     const pbs::TetMesh mesh = test_support::unit_tet();
     const pbs::EmbeddedSurface surface = triangle(mesh);
@@ -408,13 +386,9 @@ TEST(SurfaceRecord, ItsSharesCarryThePointsAlong)
         EXPECT_LT((sum - (2.0 * carried.row(point) + shift)).norm(), rounding);
     }
     EXPECT_LT(table.number(2, "barycentric_0"), 0.0);
-}
 
-TEST(SurfaceRecord, BothFilesStandInTheFolder)
-{
     const analysis::ScratchFolder folder;
-    const pbs::TetMesh mesh = test_support::unit_tet();
-    write_surface(triangle(mesh), mesh, folder.path());
+    write_surface(surface, mesh, folder.path());
     EXPECT_GT(std::filesystem::file_size(folder / "surface_rest.vtp"), 0U);
     EXPECT_EQ(analysis::read_csv(folder / "embedding.csv").rows(), 3);
 }

@@ -16,10 +16,7 @@
 
 namespace {
 
-using experiments::FemOptions;
-using experiments::options_of;
-using experiments::read_scene;
-using experiments::Scene;
+using namespace experiments;
 
 const std::string motion = "[motion]\njoint = \"forearm\"\nangle_deg = 90\n";
 // these keys have no default
@@ -31,7 +28,7 @@ void expect_defaults(const std::string& deformers)
 {
     const test_support::ScratchFolder folder;
     const auto read = read_scene(folder.file("scene.toml", smallest + deformers), {}).deformers.at(0);
-    experiments::DeformerSpec untouched = read;
+    DeformerSpec untouched = read;
     untouched.options = Options{};  // `stated` has the same values where the scene has no default
     EXPECT_EQ(to_json(read), to_json(untouched));
 }
@@ -44,7 +41,7 @@ TEST(Scene, DefaultsAreThoseOfTheOptions)
 
 TEST(Scene, EveryBuiltInSceneReads)
 {
-    for (const auto& scene : experiments::built_in_scenes()) {
+    for (const auto& scene : built_in_scenes()) {
         const Scene read = read_scene(scene.name, {});
         EXPECT_EQ(read.name, scene.name);
         EXPECT_FALSE(read.reference.empty());
@@ -64,17 +61,13 @@ TEST(Scene, ReferencesKeepTheirOwnOptions)
         << "a key of a list without an index is that of its first table";
 }
 
-TEST(Scene, OverridesWinOverTheFile)
+TEST(Scene, OverridesWinOverTheFileAndABareWordIsAText)
 {
     const Scene scene =
         read_scene("limb_twist", {"pbs.iterations=96", "pbs.k_stretch=0.05", "deformers.use=[\"pbs\"]", "reference.name=\"\""});
     EXPECT_EQ(scene.deformers.size(), 1u);
     EXPECT_EQ(options_of<pbs::PbsOptions>(scene.deformers[0]).iterations, 96);
     EXPECT_DOUBLE_EQ(options_of<pbs::PbsOptions>(scene.deformers[0]).k_stretch, 0.05);
-}
-
-TEST(Scene, ABareWordIsAText)
-{
     EXPECT_EQ(options_of<pbs::PbsOptions>(read_scene("limb_twist", {"pbs.precision=f64"}).deformers[2]).precision, pbs::Precision::f64);
 }
 
@@ -118,15 +111,15 @@ TEST(Scene, WithoutATimeStepItDividesAFrameOfTheClip)
 TEST(Scene, ReadsRefinementAndErrorBar)
 {
     EXPECT_EQ(read_scene("limb_twist", {}).character.refinements, 0);
-    EXPECT_EQ(read_scene("limb_twist", {}).error_bar, experiments::ErrorBar::none);
+    EXPECT_EQ(read_scene("limb_twist", {}).error_bar, ErrorBar::none);
     const Scene scene = read_scene("limb_twist", {"character.refine=2", "reference.error_bar=both"});
     EXPECT_EQ(scene.character.refinements, 2);
-    EXPECT_EQ(scene.error_bar, experiments::ErrorBar::both);
+    EXPECT_EQ(scene.error_bar, ErrorBar::both);
 }
 
 TEST(Scene, OutputNamesFrames)
 {
-    experiments::OutputSpec output;
+    OutputSpec output;
     output.frames_every = 0;
     output.frames = {7};
     EXPECT_FALSE(output.writes(0));
@@ -138,15 +131,13 @@ TEST(Scene, OutputNamesFrames)
 
 TEST(Scene, EveryKeyIsDocumented)
 {
-    for (const auto& key : experiments::scene_schema().keys) {
+    for (const auto& key : scene_schema().keys) {
         EXPECT_FALSE(key.meaning.empty()) << key.path();
         EXPECT_FALSE(key.rule().empty()) << key.path();
     }
 }
 
 // The motion of a scene with its remarks. Reference: clips and a model written here, whose joints and angles are known.
-
-using namespace experiments;
 
 // A BVH chain of these joints; each turns by 30 degrees per frame about z, in three frames after a first one at rest.
 std::string chain(const std::vector<std::string>& names)
@@ -183,7 +174,7 @@ protected:
     test_support::ScratchFolder folder;
 };
 
-TEST_F(MotionCase, ASweepTurnsItsJoint)
+TEST_F(MotionCase, ASweepTurnsItsJointAndOneInWhichNothingTurnsIsRemarkedOn)
 {
     MotionSpec sweep;
     sweep.joint = "forearm";
@@ -193,20 +184,14 @@ TEST_F(MotionCase, ASweepTurnsItsJoint)
     EXPECT_NEAR(motion.largest_rotation_deg, 60.0, 1e-10);
     EXPECT_EQ(motion.motion.frames(), 3);
     EXPECT_TRUE(motion.remarks.empty());
-    sweep.joint = "tail";
-    expect_input_error([&] { made(sweep); }, "scene.toml: motion.joint = tail: ", "expected one of upper, forearm");
-}
-
-TEST_F(MotionCase, AMotionInWhichNothingTurnsIsRemarkedOn)
-{
-    MotionSpec sweep;
-    sweep.joint = "forearm";
     sweep.angle_deg = 0.05;
     sweep.frames = 2;  // about the axis of the bone
     EXPECT_EQ(made(sweep).remarks,
               std::vector<std::string>{"scene.toml: no joint moves: the bones turn by at most 0.05 degrees and move by at most 0 m"});
     sweep.angle_deg = 0.2;
     EXPECT_TRUE(made(sweep).remarks.empty());
+    sweep.joint = "tail";
+    expect_input_error([&] { made(sweep); }, "scene.toml: motion.joint = tail: ", "expected one of upper, forearm");
 }
 
 TEST_F(MotionCase, AClipWhoseJointsAllMatch)
@@ -235,7 +220,7 @@ TEST_F(MotionCase, AClipThatMatchesLessThanHalfIsRefusedUnlessItIsAllowed)
     EXPECT_EQ(made(clip({"upper", "forearm", "a", "b"})).matched_joints, 2);  // one half is enough
 }
 
-TEST_F(MotionCase, AnAnimationOfTheModel)
+TEST_F(MotionCase, AnAnimationOfTheModelAndARefusalOfAModelWithoutOne)
 {
     const auto model = pbs::read_model(test_support::write_rigged_gltf(folder, "arm.gltf", {"Bend"}), "Bend", 1.0);
     character.artist = pbs::ArtistSkin{{}, model};
@@ -247,14 +232,9 @@ TEST_F(MotionCase, AnAnimationOfTheModel)
     EXPECT_EQ(motion.motion.frames(), 21);
     EXPECT_EQ(motion.clip_joints, 0);
     EXPECT_TRUE(motion.remarks.empty());
-}
 
-TEST_F(MotionCase, AModelWithoutAnimationIsRefused)
-{
-    const auto model = pbs::read_model(test_support::write_rigged_gltf(folder, "arm.gltf", {}), "", 1.0);
-    character.artist = pbs::ArtistSkin{{}, model};
-    MotionSpec spec;
-    spec.of_model = true;
+    const auto bare = pbs::read_model(test_support::write_rigged_gltf(folder, "bare.gltf", {}), "", 1.0);
+    character.artist = pbs::ArtistSkin{{}, bare};
     expect_input_error([&] { made(spec); }, "scene.toml: motion.animation: ", "the model has no animation: expected a joint or a clip");
 }
 

@@ -105,7 +105,7 @@ protected:
     test_support::ScratchFolder scratch;
 };
 
-TEST_F(MarkedFrames, EachDeformersFirstBrokenFrameIsNamed)
+TEST_F(MarkedFrames, AreBrokenOnesOverlapsAndErrorsBelowTheReferences)
 {
     EXPECT_EQ(marks_of(R"({"outcome": {"frames": 31, "broken_frames": {
                   "pbs": [{"frame": 2, "what": "not_finite", "step": 7, "first_vertex": 17, "vertices_not_finite": 120}],
@@ -115,18 +115,11 @@ TEST_F(MarkedFrames, EachDeformersFirstBrokenFrameIsNamed)
               "812 of volume ratio -0.04, 3 inverted\n"
               "     limb_bend: pbs broke down in 1 of 31 frames (1 not finite), the first not finite in frame 2 (in step 7, before it): "
               "first at vertex 17, 120 not finite\n");
-}
-
-TEST_F(MarkedFrames, OverlapsAndErrorsBelowTheReferences)
-{
     EXPECT_EQ(marks_of(R"({"outcome": {"frames": 31, "frames_with_overlap": 4, "largest_masked_share_pct": 6.25,
                                        "frames_below_reference_error": {"pbs": 2}}})"),
               "     limb_bend: the reference overlaps itself in 4 of 31 frames; errors leave out up to 6.2 % of the volume\n"
               "     limb_bend: the error of pbs at the joints is not above the reference's own in 2 of 31 frames\n");
-}
-
-TEST_F(MarkedFrames, WorkAndSoundRunsHaveNone)
-{
+    // Work and sound runs have none.
     EXPECT_EQ(marks_of(R"({"outcome": {"finished": true, "breakdown": ""}})"), "");
     EXPECT_EQ(marks_of(R"({"outcome": {"frames": 31, "broken_frames": {}, "frames_with_overlap": 0}})"), "");
 }

@@ -125,7 +125,7 @@ TEST(StudyCosts, SideBySideButNeverShorterThanTheLongestRun)
     EXPECT_EQ(expected_cost(alone, {run_of(10), run_of(20), run_of(30)}, 2).wall_s, 60.0);
 }
 
-TEST(StudyCosts, StayOverResumedRuns)
+TEST(StudyCosts, StayOverResumedRunsAlsoWithoutWallTime)
 {
     const ScratchFolder folder;
     StudyCosts first(folder.path().string());
@@ -136,11 +136,7 @@ TEST(StudyCosts, StayOverResumedRuns)
     resumed.add("human", 30.0, 28.0);  // done again
     EXPECT_EQ(resumed.expected_s(), 40.0);
     EXPECT_EQ(resumed.cpu_s(), 40.0);
-}
 
-TEST(StudyCosts, RecordsWithoutWallTimeAreRead)
-{
-    const ScratchFolder folder;
     analysis::write_text_atomically(folder / "costs.csv", "run,expected_cpu_s,cpu_s\nlimb,10,12\n");
     const StudyCosts costs(folder.path().string());
     EXPECT_EQ(costs.cpu_s(), 12.0);
@@ -167,18 +163,14 @@ std::string completed(const std::vector<std::pair<std::string, std::string>>& re
 
 // The process was killed before it wrote the table, so the record of each run supplies its cost; "lost" is from an earlier run, and did not
 // end again.
-TEST(StudyCosts, AreCompletedFromTheRunsThatEndedInTheOrderOfThePlan)
+// Records of another version, or a file that is not a record: their cost is unknown, which is not an error.
+TEST(StudyCosts, AreCompletedFromTheRunsThatEndedAndTellTheirCostInTheOrderOfThePlan)
 {
     EXPECT_EQ(completed({{"scene", R"({"cost": {"cpu_seconds": {"total": 3.5}}, "outcome": {}})"},
                          {"lost", ""},
                          {"work", R"({"outcome": {"wall_s": 9.0, "cpu_seconds": 8.0}})"}},
                         {{"work", 2.0, 8.5}, {"lost", 2.0, 100.0}}),
               "run,expected_cpu_s,cpu_s,wall_s\nscene,2,3.5,\nwork,2,8.5,9\n");
-}
-
-// Records of another version, or a file that is not a record: their cost is unknown, which is not an error.
-TEST(StudyCosts, RunsThatDoNotTellTheirCostAreLeftOutButForWhatTheParentSaw)
-{
     EXPECT_EQ(completed({{"seen", R"({"outcome": {"wall_s": 9.0}})"},
                          {"bare", R"({"cost": {}, "outcome": {"cpu_seconds": 8.0}})"},
                          {"words", R"({"outcome": {"cpu_seconds": "8"}})"},

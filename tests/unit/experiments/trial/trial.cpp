@@ -59,12 +59,18 @@ TEST_F(TrialSceneTest, IsASceneOfTheModelAndItsFirstAnimation)
     EXPECT_TRUE(trial_scene(options).remarks.empty());
 }
 
-TEST_F(TrialSceneTest, AShortMotionHasNoMoreFramesThanThirtyPerSecond)
+TEST_F(TrialSceneTest, AShortMotionHasNoMoreFramesThanThirtyPerSecondAndOptionsReachTheScene)
 {
     TrialOptions options = options_for(test_support::write_rigged_gltf(folder, "arm.gltf", {"Bend"}, 0.5f));
     EXPECT_EQ(read(options).motion.rate_hz, 30.0);
     options.frames = 2;
-    EXPECT_EQ(read(options).motion.rate_hz, 2.0);
+    options.scale = 0.01;
+    options.reference = false;
+    const Scene scene = read(options);
+    EXPECT_EQ(scene.motion.rate_hz, 2.0);
+    EXPECT_EQ(scene.character.model_scale, 0.01);
+    EXPECT_TRUE(scene.reference.empty());
+    EXPECT_EQ(scene.deformers.size(), 5u);
 }
 
 TEST_F(TrialSceneTest, FindsAnInstalledClipByItsName)
@@ -88,17 +94,6 @@ TEST_F(TrialSceneTest, BendsAModelWithoutAnimation)
     EXPECT_NEAR(scene.motion.axis.dot((elbow.tail - elbow.head).normalized()), 0.0, 4 * std::numeric_limits<double>::epsilon());
     EXPECT_NEAR(scene.motion.axis.norm(), 1.0, 4 * std::numeric_limits<double>::epsilon());
     EXPECT_NE(trial_scene(options).remarks.at(0).find("the joint elbow is bent by 60 degrees"), std::string::npos);
-}
-
-TEST_F(TrialSceneTest, OptionsReachTheScene)
-{
-    TrialOptions options = options_for(test_support::write_rigged_gltf(folder, "arm.gltf", {"Bend"}));
-    options.scale = 0.01;
-    options.reference = false;
-    const Scene scene = read(options);
-    EXPECT_EQ(scene.character.model_scale, 0.01);
-    EXPECT_TRUE(scene.reference.empty());
-    EXPECT_EQ(scene.deformers.size(), 5u);
 }
 
 TEST_F(TrialSceneTest, NamesOfAnyCharactersAreKept)
@@ -145,7 +140,7 @@ protected:
     test_support::ScratchFolder folder;
 };
 
-TEST_F(TrialSummary, TakesTheFactsFromTheRecords)
+TEST_F(TrialSummary, TakesTheFactsFromTheRecordsAndSaysThemInOneSentence)
 {
     const nlohmann::json found = facts();
     EXPECT_EQ(found.at("model"), (nlohmann::json{{"file", "hero.glb"}}));
@@ -155,34 +150,22 @@ TEST_F(TrialSummary, TakesTheFactsFromTheRecords)
     EXPECT_EQ(found.at("volume").at("lbs"), (nlohmann::json{{"lowest_pct", -4.0}, {"highest_pct", 1.5}, {"most_inverted_tets", 3}}));
     EXPECT_EQ(found.at("volume").at("pbs"), (nlohmann::json{{"lowest_pct", -0.5}, {"highest_pct", 0.25}, {"most_inverted_tets", 1}}));
     EXPECT_EQ(found.at("frame_ms"), (nlohmann::json{{"lbs", 0.25}, {"pbs", 2.0}}));
-}
-
-// The two joints where lbs loses most: -1.5 and -0.5 % of the body's volume, of parts with 30 and 10 % of it.
-TEST_F(TrialSummary, JoinsTheTwoWorstJoints)
-{
-    const nlohmann::json joints = facts().at("joints");
+    // The two joints where lbs loses most: -1.5 and -0.5 % of the body's volume, of parts with 30 and 10 % of it.
+    const nlohmann::json& joints = found.at("joints");
     EXPECT_EQ(joints.at("names"), (nlohmann::json{"chest - arm", "hips - knee"}));
     EXPECT_EQ(joints.at("lbs_pct"), 100.0 * -2.0 / 40.0);
     EXPECT_EQ(joints.at("pbs_pct"), 0.0);
-}
-
-TEST_F(TrialSummary, CountsTheFramesThatCanBeCompared)
-{
-    EXPECT_EQ(facts().at("nearer"), (nlohmann::json{{"frames", 1}, {"of", 2}}));
-    folder.file("metrics.csv", metrics_header + "lbs,0,0,0,1,\npbs,0,0,0,1,\n");
-    EXPECT_TRUE(facts().at("nearer").is_null());
-}
-
-TEST_F(TrialSummary, SaysItInOneSentence)
-{
     EXPECT_EQ(
-        trial_sentence(facts()),
+        trial_sentence(found),
         "PBS changes the volume by -0.5 to +0.3 %, LBS by -4.0 to +1.5 %; at the joints chest - arm and hips - knee by +0.0 % instead of "
         "-5.0 % on average; it is closer to the finite elements in 1 of 2 frames; a frame takes 2 ms.");
 }
 
-TEST_F(TrialSummary, LeavesOutWhatTheRecordsDoNotHold)
+TEST_F(TrialSummary, CountsTheFramesThatCanBeComparedAndLeavesOutWhatTheRecordsDoNotHold)
 {
+    EXPECT_EQ(facts().at("nearer"), (nlohmann::json{{"frames", 1}, {"of", 2}}));
+    folder.file("metrics.csv", metrics_header + "lbs,0,0,0,1,\npbs,0,0,0,1,\n");
+    EXPECT_TRUE(facts().at("nearer").is_null());
     folder.file("metrics.csv", "deformer,frame,volume_change_pct,inverted_tets,step_ms\nlbs,0,-0.001,0,1\npbs,0,0.001,0,0.5\n");
     folder.file("regions.csv", regions_header);
     EXPECT_EQ(trial_sentence(facts()), "PBS changes the volume by +0.0 to +0.0 %, LBS by +0.0 to +0.0 %; a frame takes 0.5 ms.");

@@ -111,7 +111,7 @@ int calls(const test_support::ScratchFolder& folder)
     return static_cast<int>(std::count(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>(), '\n'));
 }
 
-TEST_F(ProgramDeformer, IsCalledOnceForAllForeseenPoses)
+TEST_F(ProgramDeformer, IsCalledOnceForAllForeseenPosesAndIsAtRestAfterAReset)
 {
     write_answer(3);
     const auto mine = deformer(answers);
@@ -121,6 +121,10 @@ TEST_F(ProgramDeformer, IsCalledOnceForAllForeseenPoses)
         EXPECT_EQ(mine->positions(), expected) << pose;
     }
     EXPECT_EQ(calls(folder), 1);
+    mine->reset(character);
+    EXPECT_EQ(mine->positions(), character.mesh.rest);
+    EXPECT_FALSE(mine->has_memory());
+    EXPECT_TRUE(deformer(answers, true)->has_memory());
 }
 
 TEST_F(ProgramDeformer, IsCalledAgainForAPoseThatWasNotForeseen)
@@ -132,18 +136,6 @@ TEST_F(ProgramDeformer, IsCalledAgainForAPoseThatWasNotForeseen)
     int bytes = 0;
     std::ifstream(folder / "bytes") >> bytes;
     EXPECT_EQ(bytes, 2 * 12 * 8);
-}
-
-TEST_F(ProgramDeformer, IsAtRestAfterAReset)
-{
-    write_answer(3);
-    const auto mine = deformer(answers);
-    mine->advance(poses[0], 0.01);
-    mine->advance(poses[1], 0.01);
-    mine->reset(character);
-    EXPECT_EQ(mine->positions(), character.mesh.rest);
-    EXPECT_FALSE(mine->has_memory());
-    EXPECT_TRUE(deformer(answers, true)->has_memory());
 }
 
 TEST_F(ProgramDeformer, TakesItsOwnTimesOrSharesTheProgramsTime)

@@ -13,9 +13,8 @@
 
 namespace {
 
+using namespace experiments;
 using analysis::Measurement;
-using experiments::Overrides;
-using experiments::ReadingValues;
 
 const nlohmann::json bent_limb = {{"name", "limb_bend"},  {"quick_s", 1.0},
                                   {"scene", "limb_bend"}, {"body", "limb"},
@@ -25,8 +24,7 @@ const nlohmann::json bent_limb = {{"name", "limb_bend"},  {"quick_s", 1.0},
 
 std::vector<ReadingValues> read(const std::string& study, const std::vector<Overrides>& readings, const nlohmann::json& of = bent_limb)
 {
-    return std::ranges::find(experiments::studies(), study, &experiments::Study::name)
-        ->read(experiments::StudyCase("ambiguity", of, false), readings);
+    return std::ranges::find(studies(), study, &Study::name)->read(StudyCase("ambiguity", of, false), readings);
 }
 
 const Measurement& value(const ReadingValues& read, const std::string& quantity)
@@ -57,43 +55,32 @@ TEST(ReadingValues, OfStartsNameTheCaseAlike)
 TEST(ReadingValues, OfProjectionsAreTheMomentumStudysDrifts)
 {
     const auto all = read("momentum", {{}, {"pbs.masses=lumped"}});
-    const experiments::Scene scene = experiments::read_scene("limb_bend", {"character.vertices=400"});
-    const experiments::PosedCharacter posed(scene, {18});
-    const auto drift = experiments::drift_of_projections(posed.character(), posed.pose(0),
-                                                         experiments::options_of<pbs::PbsOptions>(experiments::spec_of(scene, "pbs")),
-                                                         experiments::ProjectedClass::stretch, pbs::Masses::unit);
+    const Scene scene = read_scene("limb_bend", {"character.vertices=400"});
+    const PosedCharacter posed(scene, {18});
+    const auto drift = drift_of_projections(posed.character(), posed.pose(0), options_of<pbs::PbsOptions>(spec_of(scene, "pbs")),
+                                            ProjectedClass::stretch, pbs::Masses::unit);
     EXPECT_EQ(value(all[0], "linear_drift").value, drift.linear);
     EXPECT_EQ(value(all[0], "angular_drift").value, drift.angular);
     EXPECT_NE(value(all[1], "linear_drift_of_a_pass").value, value(all[0], "linear_drift_of_a_pass").value);
     // The projection takes these masses into account.
-    EXPECT_EQ(analysis::extent_of(experiments::claim_named("C07"), value(all[1], "linear_drift_of_a_pass")), analysis::Extent::whole);
+    EXPECT_EQ(analysis::extent_of(claim_named("C07"), value(all[1], "linear_drift_of_a_pass")), analysis::Extent::whole);
 }
 
-// In Algorithm 1 the next position depends on the last two alone, whatever the step, so half the step swings twice as fast, exactly.
-TEST(ReadingValues, OfJoltsHaveTheSameDampingInSubstepsThatAreTheSameSteps)
+// In Algorithm 1 the next position depends on the last two alone, whatever the step, so half the step swings twice as fast, exactly. In the
+// last reading LBS moves the flesh by the jolt beforehand, and a body that moves as a whole violates no constraint.
+TEST(ReadingValues, OfJoltsHaveTheSameDampingInSubstepsAndNoSwingWhereTheFleshIsCarriedAlong)
 {
-    const auto all = read("jiggle", {{}, {"pbs.time_step_s=0.005"}});
+    const auto all = read("jiggle", {{}, {"pbs.time_step_s=0.005"}, {"pbs.variant.lbs_entry=increment"}});
     EXPECT_EQ(value(all[0], "frequency_ratio_at_half_time_step").value, 2.0);
     // The series is the same one with twice the samples. The fit uses those until 2 % of the largest excursion remain, so that the later
     // ones change the value at rest, and by it the ratio, by less than 2 %. Frequencies or decays by another step's time would double or
     // halve it.
     const double ratio = value(all[0], "damping_ratio").value;
     EXPECT_NEAR(value(all[1], "damping_ratio").value, ratio, 0.02 * ratio);
-}
-
-// LBS moves the flesh by the jolt beforehand, and a body that moves as a whole violates no constraint.
-TEST(ReadingValues, OfAJoltThatCarriesTheFleshAlongHaveNoSwing)
-{
-    const auto all = read("jiggle", {{}, {"pbs.variant.lbs_entry=increment"}});
     EXPECT_EQ(number_of(all[0], "damping_ratio"), 4);  // one per setting
-    EXPECT_EQ(number_of(all[1], "damping_ratio"), 0);
-    EXPECT_FALSE(all[1].broke_down);
-}
+    EXPECT_EQ(number_of(all[2], "damping_ratio"), 0);
+    EXPECT_FALSE(all[2].broke_down);
 
-// C09's bounds on these quantities are for the study's 16 settings.
-TEST(ReadingValues, OfJoltsLeaveOutWhatIsOfAllSettingsOfTheStudy)
-{
-    const auto all = read("jiggle", {{}});
     std::vector<std::string> left_out;
     for (const auto& one : all[0].left_out) {
         left_out.push_back(one.quantity);
@@ -103,8 +90,8 @@ TEST(ReadingValues, OfJoltsLeaveOutWhatIsOfAllSettingsOfTheStudy)
     }
     EXPECT_EQ(left_out, (std::vector<std::string>{"share_of_settings_that_swing", "rank_correlation_of_frequency_and_k_stretch",
                                                   "frequency_ratio_over_k_stretch"}));
-    EXPECT_EQ(number_of(all[0], "frequency_ratio_at_half_time_step"), 1);
-    EXPECT_EQ(number_of(all[0], "frequency_ratio_at_twice_iterations"), 1);
+    for (const char* quantity : {"frequency_ratio_at_half_time_step", "frequency_ratio_at_twice_iterations"})
+        EXPECT_EQ(number_of(all[0], quantity), 1) << quantity;
 }
 
 // C04 has two values per pose and joint, the smallest radius and the smallest area, and a shape that is not finite has none.

@@ -17,11 +17,8 @@
 
 namespace {
 
+using namespace experiments;
 using analysis::Extent;
-using experiments::ClaimChange;
-using experiments::JudgedReading;
-using experiments::JudgedValue;
-using experiments::Reading;
 
 const Reading reading = {.place = "Eq. 2", .name = "B", .baseline = "A"};
 
@@ -32,7 +29,7 @@ JudgedValue value(double value, Extent extent, analysis::Limit limit = analysis:
 
 std::vector<ClaimChange> compared(const JudgedReading& a, const JudgedReading& b)
 {
-    return experiments::claim_changes("limb", "C09", reading, a, b);
+    return claim_changes("limb", "C09", reading, a, b);
 }
 
 // A value that B lacks because it breaks down does not hold.
@@ -100,9 +97,8 @@ TEST(ClaimChanges, HoldBothValuesOfEachCase)
 
 // Reference: claims.toml and the rules of analysis::judge_case.
 
-using experiments::judged;
-
-TEST(JudgedValue, IsOfWhatAClaimIsJudgedByAlone)
+// A value of A and one of B belong together whether or not a tolerance was reached.
+TEST(JudgedValue, IsOfWhatAClaimIsJudgedByAloneWithItsBoundApart)
 {
     const auto values = judged({{"C09", "damping_ratio", {.body = "limb"}, 0.5, 0.5, 0.5, "1"},
                                 {"C09", "frequency_hz", {.body = "limb"}, 14.0, 14.0, 14.0, "Hz"}});
@@ -110,34 +106,30 @@ TEST(JudgedValue, IsOfWhatAClaimIsJudgedByAlone)
     EXPECT_EQ(values[0].quantity, "damping_ratio");
     EXPECT_EQ(values[0].extent, Extent::whole);
     EXPECT_EQ(judged({{"C09", "damping_ratio", {.body = "limb"}, 2.0, 2.0, 2.0, "1"}})[0].extent, Extent::none);
-}
 
-// A value of A and one of B belong together whether or not a tolerance was reached.
-TEST(JudgedValue, KeepsABoundApartFromWhatItIsOf)
-{
     const analysis::CaseKey of = {.body = "limb", .initial_guess = "rest_pose"};
-    const auto values = judged({{"C03", "iterations_over_lbs_guess", of, 30.0, 30.0, 30.0, "1", "", analysis::Limit::at_least}});
-    EXPECT_EQ(values[0].of, of);
-    EXPECT_EQ(values[0].limit, analysis::Limit::at_least);
+    const auto bounded = judged({{"C03", "iterations_over_lbs_guess", of, 30.0, 30.0, 30.0, "1", "", analysis::Limit::at_least}});
+    EXPECT_EQ(bounded[0].of, of);
+    EXPECT_EQ(bounded[0].limit, analysis::Limit::at_least);
 }
 
 TEST(JudgedValue, LeavesOutWhatIsNotMeasuredAndRefusesAnUnknownClaim)
 {
-    EXPECT_THROW(experiments::claim_named("C99"), std::logic_error);
-    const auto left_out = experiments::all_but("C12", {}, "why");
+    EXPECT_THROW(claim_named("C99"), std::logic_error);
+    const auto left_out = all_but("C12", {}, "why");
     ASSERT_EQ(left_out.size(), 1u);
     EXPECT_EQ(left_out[0].quantity, "iterations_to_tolerance");
-    EXPECT_TRUE(experiments::all_but("C12", {"iterations_to_tolerance"}, "why").empty());
+    EXPECT_TRUE(all_but("C12", {"iterations_to_tolerance"}, "why").empty());
 }
 
 TEST(DigestOfClaims, IsAnotherWithAnotherBoundAndTheSameWithOtherWords)
 {
-    const analysis::Claim claim = experiments::claim_named("C09");
-    const std::string digest = experiments::digest_of({claim});
+    const analysis::Claim claim = claim_named("C09");
+    const std::string digest = digest_of({claim});
     const auto changed = [&](const auto& change) {
         analysis::Claim other = claim;
         change(other);
-        return experiments::digest_of({other});
+        return digest_of({other});
     };
     EXPECT_NE(changed([](auto& c) { c.bounds.at(0).low -= 1e-3; }), digest);
     EXPECT_NE(changed([](auto& c) { c.bounds.pop_back(); }), digest);
@@ -146,7 +138,7 @@ TEST(DigestOfClaims, IsAnotherWithAnotherBoundAndTheSameWithOtherWords)
     EXPECT_NE(changed([](auto& c) { c.share = 0.9; }), digest);
     EXPECT_NE(changed([](auto& c) { c.metrics.pop_back(); }), digest);
     EXPECT_EQ(changed([](auto& c) { c.statement += "!"; }), digest);
-    EXPECT_NE(experiments::digest_of({claim, experiments::claim_named("C10")}), digest);
+    EXPECT_NE(digest_of({claim, claim_named("C10")}), digest);
 }
 
 // Reference: an invented measurement that counts its calls.
@@ -162,7 +154,7 @@ std::vector<Reading> readings()
 
 TEST(ReadingComparison, MeasuresWhatTouchesTheClaimAndItsBaselineOnce)
 {
-    experiments::ReadingComparison comparison{"limb", readings()};
+    ReadingComparison comparison{"limb", readings()};
     std::vector<std::string> measured;
     comparison.measure({"C10"}, [&](const std::vector<Reading>& touching) {
         std::vector<JudgedReading> values;
@@ -183,7 +175,7 @@ TEST(ReadingComparison, MeasuresWhatTouchesTheClaimAndItsBaselineOnce)
 
 TEST(ReadingComparison, SaysWhichReadingBreaksDown)
 {
-    experiments::ReadingComparison comparison{"limb", readings()};
+    ReadingComparison comparison{"limb", readings()};
     comparison.measure({"C10"}, [](const std::vector<Reading>& touching) {
         return std::vector<JudgedReading>(touching.size(), JudgedReading{{}, true});
     });
@@ -192,8 +184,6 @@ TEST(ReadingComparison, SaysWhichReadingBreaksDown)
 }
 
 // A reading belongs to a place and differs from its baseline, which comes before it.
-
-using experiments::StudyCase;
 
 const StudyCase limb("ambiguity",
                      {{"name", "limb"}, {"quick_s", 1.0}, {"scene", "limb_bend"}, {"overrides", {"pbs.gravity_m_s2=[0,-9.81,0]"}}}, false);
@@ -205,7 +195,7 @@ const Reading& named(const std::vector<Reading>& all, const std::string& name)
     return *found;
 }
 
-TEST(Readings, DifferFromTheirBaselineWhichComesBefore)
+TEST(Readings, DifferFromTheirBaselineWhichComesBeforeAndThoseOfAStepRememberNothing)
 {
     for (const char* which : {"all", "of_a_step", "of_motion"}) {
         SCOPED_TRACE(which);
@@ -220,10 +210,6 @@ TEST(Readings, DifferFromTheirBaselineWhichComesBefore)
         }
     }
     EXPECT_EQ(readings_of(limb, "all").size() + 1, readings_of(limb, "of_a_step").size() + readings_of(limb, "of_motion").size());
-}
-
-TEST(Readings, OfAStepRememberNothing)
-{
     for (const Reading& reading : readings_of(limb, "of_a_step")) {
         EXPECT_FALSE(reading.jiggles()) << reading.name;
         EXPECT_EQ(reading.settings.at("lbs_entry"), "start") << reading.name;
@@ -261,10 +247,6 @@ TEST(Untouched, IsAClaimWhoseValuesAReadingCannotChange)
     }
 }
 
-using experiments::Overrides;
-using experiments::ReadMotion;
-using experiments::VolumeChange;
-
 const test_support::TwoBoneLimb bar = test_support::two_bone_limb({16, 4, 4}, pbs::Vec3::UnitZ(), 60.0);
 const pbs::Character character = test_support::character_of(bar);
 
@@ -272,7 +254,7 @@ ReadMotion bending(const pbs::Character& character, const Overrides& overrides, 
 {
     Overrides all = {"motion.angle_deg=60", "motion.frames=" + std::to_string(frames), "motion.axis=[0,0,1]", "pbs.k_stretch=0.2"};
     all.insert(all.end(), overrides.begin(), overrides.end());
-    return experiments::move(character, experiments::read_scene("limb_bend", all));
+    return move(character, read_scene("limb_bend", all));
 }
 
 TEST(ReadMotion, OfTheScenesOwnReadingIsTheSolvers)
@@ -302,11 +284,11 @@ TEST(ReadMotion, ByIncrementDependsOnThePathAndByStartDoesNot)
 // The bones touch only in the middle, so near the outer ends either_end blends where nearest_end does not.
 TEST(ReadMotion, EitherEndMovesWhatEqTwoLeavesToOneBone)
 {
-    const pbs::Character other = experiments::reweighted(character, experiments::read_scene("limb_bend", {"skinning.weights=either_end"}));
+    const pbs::Character other = reweighted(character, read_scene("limb_bend", {"skinning.weights=either_end"}));
     const ReadMotion nearest = bending(character, {}), either = bending(other, {});
     EXPECT_EQ(nearest.lbs.volume_change_pct[0], either.lbs.volume_change_pct[0]);  // at rest
     EXPECT_NE(nearest.lbs.volume_change_pct[3], either.lbs.volume_change_pct[3]);
-    EXPECT_EQ(experiments::reweighted(character, experiments::read_scene("limb_bend", {})).weights.weight, character.weights.weight);
+    EXPECT_EQ(reweighted(character, read_scene("limb_bend", {})).weights.weight, character.weights.weight);
 }
 
 TEST(ReadMotion, BindPointsAndTheZoneAreThoseOfTheOptions)
@@ -347,7 +329,7 @@ ReadMotion motion_of(double change_pct, double x)
 
 std::vector<VolumeChange> compared(const ReadMotion& a, const ReadMotion& b)
 {
-    return experiments::volume_changes("walk", Reading{.place = "Eq. 2", .name = "B", .baseline = "A"}, a, b, a, {});
+    return volume_changes("walk", Reading{.place = "Eq. 2", .name = "B", .baseline = "A"}, a, b, a, {});
 }
 
 const VolumeChange& change_of(const std::vector<VolumeChange>& rows, const std::string& name)
@@ -357,7 +339,7 @@ const VolumeChange& change_of(const std::vector<VolumeChange>& rows, const std::
     return *found;
 }
 
-TEST(VolumeChanges, HaveTheValuesOfBothAndTheirChange)
+TEST(VolumeChanges, HaveTheValuesOfBothTheirChangeAndWhereAVerdictChanges)
 {
     const auto rows = compared(motion_of(-0.25, 0.0), motion_of(-0.75, 0.5));
     EXPECT_EQ(change_of(rows, "mean_volume_change_pct").a, -0.25);
@@ -367,10 +349,6 @@ TEST(VolumeChanges, HaveTheValuesOfBothAndTheirChange)
     EXPECT_EQ(change_of(rows, "share_of_frames_within_printed").a, 1.0);
     EXPECT_EQ(change_of(rows, "share_of_frames_within_printed").b, 0.0);
     EXPECT_EQ(change_of(rows, "distance_of_b_from_a_rms_m").b, 0.5);
-}
-
-TEST(VolumeChanges, StateWhereAVerdictChangesAndWhereNot)
-{
     const auto verdict = [](double a, double b) { return compared(motion_of(a, 0.0), motion_of(b, 0.0)).front().verdict_changed; };
     EXPECT_EQ(verdict(-0.25, -0.75).substr(0, 41), "C02 by volume_change_pct: whole -> none; ");
     EXPECT_EQ(verdict(-0.1, -0.2), "no");
@@ -394,16 +372,16 @@ TEST(JudgedValue, OfVolumeIsTheMeanOfC01AndTheShareOfC02)
 // Gravity acts only on integrated particles. If all are integrated, a huge weight leaves nothing finite; if none is, it has no effect.
 TEST(FrameTimes, OfReadingsAreOneTimeEachAndStateABreakdown)
 {
-    const experiments::StudyCase of("ambiguity",
-                                    {{"name", "limb"},
-                                     {"quick_s", 1.0},
-                                     {"scene", "limb_bend"},
-                                     {"overrides", {"character.vertices=400", "pbs.gravity_m_s2=[0,-1e308,0]"}},
-                                     {"timing_s", 0.05}},
-                                    false);
-    const auto all = experiments::values_of_frames(of, {{}, {"pbs.time_step_s=0.0025"}, {"pbs.variant.lbs_entry=increment"}});
+    const StudyCase of("ambiguity",
+                       {{"name", "limb"},
+                        {"quick_s", 1.0},
+                        {"scene", "limb_bend"},
+                        {"overrides", {"character.vertices=400", "pbs.gravity_m_s2=[0,-1e308,0]"}},
+                        {"timing_s", 0.05}},
+                       false);
+    const auto all = values_of_frames(of, {{}, {"pbs.time_step_s=0.0025"}, {"pbs.variant.lbs_entry=increment"}});
     ASSERT_EQ(all.size(), 3u);
-    for (const experiments::JudgedReading& read : all) {
+    for (const JudgedReading& read : all) {
         ASSERT_EQ(read.values.size(), 1u);
         EXPECT_EQ(read.values[0].quantity, "processor_time_of_a_frame_ms");
         EXPECT_EQ(read.values[0].unit, "ms");

@@ -13,10 +13,7 @@
 
 namespace {
 
-using experiments::ArtefactBody;
-using experiments::ArtefactCase;
-using experiments::ArtefactSample;
-using experiments::SectionOutcome;
+using namespace experiments;
 using test_support::sample;
 
 std::vector<analysis::Measurement> of_quantity(const std::vector<analysis::Measurement>& measurements, const std::string& quantity,
@@ -32,10 +29,10 @@ class BulgeFigures : public testing::Test {
 protected:
     std::vector<analysis::Measurement> measurements(const std::string& deformer = "pbs") const
     {
-        return of_quantity(experiments::bulge_values(of, body, samples), "largest_section_area_over_reference", deformer);
+        return of_quantity(bulge_values(of, body, samples), "largest_section_area_over_reference", deformer);
     }
-    SectionOutcome outcome(std::size_t pose) const { return experiments::section_outcomes(of, body, samples)[pose].outcome; }
-    std::string remark(std::size_t pose) const { return experiments::section_outcomes(of, body, samples)[pose].remark; }
+    SectionOutcome outcome(std::size_t pose) const { return section_outcomes(of, body, samples)[pose].outcome; }
+    std::string remark(std::size_t pose) const { return section_outcomes(of, body, samples)[pose].remark; }
 
     ArtefactCase of = test_support::small_limb(ArtefactCase::Claim::bulge);
     ArtefactBody body{of};
@@ -116,14 +113,14 @@ TEST_F(BulgeFigures, WhatIsWideUnderPbsOrABlendAloneIsJudgedWithARemark)
     EXPECT_EQ(remark(0),
               "pbs 3.1 times as wide as at rest, 25 % of that outline the limb's own skin; "
               "dqs 8 times as wide as at rest, 100 % of that outline the limb's own skin");
-    EXPECT_EQ(section_rows(of, body, experiments::section_outcomes(of, body, samples)).at(0).remark, remark(0));
+    EXPECT_EQ(section_rows(of, body, section_outcomes(of, body, samples)).at(0).remark, remark(0));
 }
 
 TEST_F(BulgeFigures, TableHasALineASectionWithItsOutcome)
 {
     samples = {sample("pbs", 0, 1.0), sample("reference", 0, 1.0, 2), sample("pbs", 1, 1.0)};
     std::vector<std::string> outcomes;
-    for (const auto& row : section_rows(of, body, experiments::section_outcomes(of, body, samples)))
+    for (const auto& row : section_rows(of, body, section_outcomes(of, body, samples)))
         outcomes.push_back(row.reference + " " + row.outcome);
     EXPECT_EQ(outcomes, (std::vector<std::string>{"nh_p2 measured", " reference_not_reached", " bent_by_more_than_110_deg"}));
 }
@@ -132,16 +129,16 @@ TEST(SectionTable, SaysWhyAJointHasNoSection)
 {
     if (!pbs::body_is_installed("frankie")) GTEST_SKIP() << "pbskin fetch frankie";
     ArtefactCase of;
-    of.scene = experiments::read_scene("limb_bend", {"character.body=frankie", "motion.joint=shin.L", "motion.frames=2"});
+    of.scene = read_scene("limb_bend", {"character.body=frankie", "motion.joint=shin.L", "motion.frames=2"});
     of.poses = {{1, "bend_90_deg"}};
     const ArtefactBody body(of);
-    const auto rows = section_rows(of, body, experiments::section_outcomes(of, body, {}));
+    const auto rows = section_rows(of, body, section_outcomes(of, body, {}));
     ASSERT_EQ(rows.size(), body.joints.size() + 1);
     EXPECT_EQ(rows.back().joint, "thigh.L|shin.L");
     EXPECT_EQ(rows.back().outcome, "leg_drawn_into_the_belly");
     of.joint = "tail_1|tail_2";
     const ArtefactBody tail(of);
-    EXPECT_EQ(section_rows(of, tail, experiments::section_outcomes(of, tail, {})).size(), 1u);
+    EXPECT_EQ(section_rows(of, tail, section_outcomes(of, tail, {})).size(), 1u);
 }
 
 TEST(CandyWrapperFigures, TakeTheThinnestOfAllAndDoWithoutTheReference)
@@ -150,7 +147,7 @@ TEST(CandyWrapperFigures, TakeTheThinnestOfAllAndDoWithoutTheReference)
     const ArtefactBody body(of);
     const std::vector<ArtefactSample> samples = {sample("pbs", 0, 0.95), sample("pbs", 0, 0.85), sample("lbs", 0, 0.1),
                                                  sample("pbs", 2, 0.9)};
-    const auto measurements = experiments::candy_wrapper_values(of, body, samples);
+    const auto measurements = candy_wrapper_values(of, body, samples);
     const auto own = of_quantity(measurements, "smallest_section_radius_over_rest", "pbs");
     ASSERT_EQ(own.size(), 2u);
     EXPECT_DOUBLE_EQ(own[0].value, 0.95);
@@ -158,7 +155,7 @@ TEST(CandyWrapperFigures, TakeTheThinnestOfAllAndDoWithoutTheReference)
     EXPECT_EQ(text_of(own[0].of), "limb, bend, upper|forearm, 30 deg, pbs");
     EXPECT_EQ(of_quantity(measurements, "smallest_section_area_over_rest", "lbs").size(), 1u);
     EXPECT_TRUE(of_quantity(measurements, "smallest_section_area_over_rest", "reference").empty());
-    const auto outcomes = experiments::section_outcomes(of, body, samples);
+    const auto outcomes = section_outcomes(of, body, samples);
     EXPECT_EQ(outcomes[1].outcome, SectionOutcome::pbs_did_not_finish);
     EXPECT_EQ(outcomes[2].outcome, SectionOutcome::measured);  // bent, which has no effect here
 }
@@ -167,11 +164,11 @@ TEST(CandyWrapperFigures, TakeTheThinnestOfAllAndDoWithoutTheReference)
 TEST(ArtefactBreakdown, NamesThePoseTheMeshAndTheWorstTet)
 {
     ArtefactCase of;
-    of.scene = experiments::read_scene("limb_bend", {"character.vertices=400", "motion.frames=2", "pbs.iterations=2",
-                                                     "pbs.stop_residual=1e-12", R"(deformers.use=["pbs"])", R"(reference.name="")"});
+    of.scene = read_scene("limb_bend", {"character.vertices=400", "motion.frames=2", "pbs.iterations=2", "pbs.stop_residual=1e-12",
+                                        R"(deformers.use=["pbs"])", R"(reference.name="")"});
     of.poses.push_back({1, "bend_150_deg", {.motion = "bend", .angle_deg = 150.0}});
     const ArtefactBody body(of);
-    const std::string breakdown = experiments::find_artefacts(of, body).breakdown;
+    const std::string breakdown = find_artefacts(of, body).breakdown;
     const std::string place =
         "pbs did not reach bend_150_deg on " + std::to_string(body.posed.character().mesh.rest.rows()) + " vertices: ";
     EXPECT_TRUE(breakdown.starts_with(place + "worst tet ")) << breakdown;
@@ -182,13 +179,11 @@ TEST(ArtefactBreakdown, NamesThePoseTheMeshAndTheWorstTet)
 // The weights of Eq. 2 compared with rigid ones on a small limb. Reference: the records whose ratios are the values; with rigid weights one
 // layer of tets takes all of a twist; without a pose there is no roughness; weights do not change the limit of the solver.
 
-using experiments::WeightsComparison;
-
-WeightsComparison compared(const std::vector<experiments::ArtefactPose>& poses)
+WeightsComparison compared(const std::vector<ArtefactPose>& poses)
 {
-    auto of = test_support::small_limb(experiments::ArtefactCase::Claim::bulge);
+    auto of = test_support::small_limb(ArtefactCase::Claim::bulge);
     of.poses = poses;
-    return experiments::compare_weights(of);
+    return compare_weights(of);
 }
 
 const analysis::Measurement* measurement(const WeightsComparison& comparison, const std::string& quantity,
@@ -201,7 +196,7 @@ const analysis::Measurement* measurement(const WeightsComparison& comparison, co
 
 double strain_jump(const WeightsComparison& comparison, const std::string& weights, const std::string& deformer)
 {
-    for (const experiments::SmoothnessRow& row : comparison.smoothness)
+    for (const SmoothnessRow& row : comparison.smoothness)
         if (row.weights == weights && row.deformer.deformer == deformer) return row.smoothness.strain_jump_rms;
     return -1.0;
 }
@@ -222,21 +217,21 @@ TEST(WeightsComparison, FiguresAreTheRatiosOfTheRecords)
 // On tets that are smaller than the region blended by Eq. 2.
 TEST(WeightsComparison, RigidBlendingShearsOneLayerInATwistWhatEquation2SpreadsOverMany)
 {
-    auto of = test_support::small_limb(experiments::ArtefactCase::Claim::candy_wrapper);
+    auto of = test_support::small_limb(ArtefactCase::Claim::candy_wrapper);
     of.scene.character.vertices = 1200;
     of.scene.motion.axis = pbs::Vec3::UnitX();
     of.poses = {{3, "twist_90_deg"}};
-    const WeightsComparison twisted = experiments::compare_weights(of);
+    const WeightsComparison twisted = compare_weights(of);
     EXPECT_LT(measurement(twisted, "strain_jump_over_rigid_weights", "lbs")->value, 0.8);
 }
 
 // The blend by Eq. 2 is closer to a crease than two rigid halves that penetrate each other.
 TEST(WeightsComparison, IterationsAreTheRatioOfTheirRecordAndRigidHalvesTakeMore)
 {
-    auto of = test_support::small_limb(experiments::ArtefactCase::Claim::bulge);
+    auto of = test_support::small_limb(ArtefactCase::Claim::bulge);
     of.scene.character.vertices = 1200;
     of.poses = {{3, "bend_90_deg"}};
-    const WeightsComparison bent = experiments::compare_weights(of);
+    const WeightsComparison bent = compare_weights(of);
     ASSERT_EQ(bent.iterations.size(), 1u);
     const auto* ratio = measurement(bent, "iterations_over_rigid_weights");
     ASSERT_TRUE(bent.iterations[0].paper.within);

@@ -159,7 +159,8 @@ TEST(Starts, AreWhatTheyAreCalled)
     EXPECT_NE(shape(frame, SolverStart::lbs), shape(frame, SolverStart::rigid_bind));
 }
 
-TEST(Starts, ThePreviousFrameIsWhatTheSolverMadeOfTheOneBefore)
+// The first frame has none before it.
+TEST(Starts, ThePreviousFrameIsWhatTheSolverMadeOfTheOneBeforeWithSeveralStepsAFrameToo)
 {
     pbs::PbsSolver solver(limb.mesh, limb.binding.distance, {}, {});
     pbs::Positions positions = limb.mesh.rest;
@@ -169,11 +170,6 @@ TEST(Starts, ThePreviousFrameIsWhatTheSolverMadeOfTheOneBefore)
     }
     EXPECT_EQ(shape(experiments::starts_of(character, bending, {3}, {}).front(), SolverStart::previous_frame), positions);
     EXPECT_EQ(shape(experiments::starts_of(character, bending, {1, 3}, {}).back(), SolverStart::previous_frame), positions);
-}
-
-// The first frame has none before it.
-TEST(Starts, FollowTheStepsOfAMotionWithSeveralAFrame)
-{
     const FrameStarts frame = experiments::starts_of(character, bending, {0}, {}).front();
     EXPECT_EQ(shape(frame, SolverStart::previous_frame), shape(frame, SolverStart::lbs));
     pbs::Motion slower = bending;

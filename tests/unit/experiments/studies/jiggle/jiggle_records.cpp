@@ -128,13 +128,10 @@ TEST(JiggleFigures, CorrelationIsOfRanksAndTakesTheLeastWithoutOne)
     // The sum of squared differences of ranks is 20: 1 - 6 * 20 / (5 * 24).
     EXPECT_NEAR(of_quantity(measured, correlation)[0].value, 0.0, correlation_error(5));
     EXPECT_LT(of_quantity(measured, correlation)[0].low, 0.0);
-}
 
-// For any number of settings, rounding must neither move the correlation of a perfect order out of [-1, 1] nor the value out of its
-// interval.
-TEST(JiggleFigures, CorrelationOfAPerfectOrderIsOneAndInItsInterval)
-{
-    std::vector<MeasuredJiggle> measured;
+    // For any number of settings, rounding must neither move the correlation of a perfect order out of [-1, 1] nor the value out of its
+    // interval.
+    measured.clear();
     for (int n = 1; n <= 12; ++n) {
         measured.push_back(swinging({.k_stretch = 0.07 * n}, 1.0 + 0.1 * n));
         for (const auto& measurement : of_quantity(measured, correlation)) {

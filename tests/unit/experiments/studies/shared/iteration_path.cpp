@@ -15,9 +15,7 @@
 
 namespace {
 
-using experiments::IterationMetrics;
-using experiments::IterationPath;
-using experiments::Look;
+using namespace experiments;
 using pbs::Order;
 using pbs::Precision;
 
@@ -27,27 +25,17 @@ const pbs::Character character = test_support::character_of(limb);
 IterationPath path_of(const pbs::PbsOptions& options, const pbs::Positions& start, int most)
 {
     const IterationMetrics iteration_metrics(character, limb.bind_points);
-    return experiments::iterate(character, options, limb.bind_points, {start}, most, iteration_metrics).front();
+    return iterate(character, options, limb.bind_points, {start}, most, iteration_metrics).front();
 }
 
 class IterationPathOf : public testing::TestWithParam<std::pair<Order, Precision>> {};
-
-TEST_P(IterationPathOf, LeadsWhereTheSolverGoesToTheBit)
-{
-    pbs::PbsOptions options;
-    std::tie(options.order, options.precision) = GetParam();
-    options.iterations = 24;
-    pbs::PbsSolver solver(limb.mesh, limb.binding.distance, {}, options);
-    solver.advance(limb.lbs, limb.bind_points, 0.01);
-    EXPECT_EQ(path_of(options, limb.lbs, 24).last, solver.positions());
-}
 
 // The root mean square of residuals differs by no more than the residuals: by eight roundings of a length and of a distance in the solver's
 // scalar, over their lengths at rest, and of sixteen of a volume, of products of at most five times its size; no length and no volume
 // doubles. The solver's positions are relative to an origin, to which a coordinate of a metre is added in double: over a cell's width of
 // 0.075 m these are 2 sqrt 3 / 0.075 roundings of a length and three times as many of a volume. A sum goes through as many roundings as
 // there are terms.
-TEST_P(IterationPathOf, HasTheResidualsOfTheSolverMeasuredOnItsPositions)
+TEST_P(IterationPathOf, LeadsWhereTheSolverGoesToTheBitAndHasItsResiduals)
 {
     pbs::PbsOptions options;
     std::tie(options.order, options.precision) = GetParam();
@@ -56,6 +44,7 @@ TEST_P(IterationPathOf, HasTheResidualsOfTheSolverMeasuredOnItsPositions)
     pbs::PbsSolver solver(limb.mesh, limb.binding.distance, {}, options);
     const auto history = solver.advance(limb.lbs, limb.bind_points, 0.01).history;
     const IterationPath path = path_of(options, limb.lbs, 24);
+    EXPECT_EQ(path.last, solver.positions());
     ASSERT_EQ(path.looks.size(), 25u);
     using test_support::rounding_error;
     const double of_scalar = options.precision == Precision::f32 ? 0x1p29 : 1.0;  // unit roundoff over that of double
@@ -102,14 +91,14 @@ TEST(IterationMetrics, OfAUniformlyScaledBody)
 
 TEST(LookedAt, EveryIterationOfThePaperThenTwoPerCent)
 {
-    const std::vector<int> looks = experiments::looked_at(1000);
+    const std::vector<int> looks = looked_at(1000);
     for (int n = 0; n <= 64; ++n) EXPECT_EQ(looks[n], n);
     EXPECT_EQ(looks.back(), 1000);
     for (std::size_t i = 1; i < looks.size(); ++i) {
         EXPECT_GT(looks[i], looks[i - 1]);
         EXPECT_LE(looks[i], std::max(looks[i - 1] + 1.0, std::ceil(1.02 * looks[i - 1])));
     }
-    EXPECT_EQ(experiments::looked_at(0), std::vector<int>{0});
+    EXPECT_EQ(looked_at(0), std::vector<int>{0});
 }
 
 TEST(Iterate, EndsWherePositionsCeaseToBeFinite)
@@ -124,13 +113,12 @@ TEST(Iterate, EndsWherePositionsCeaseToBeFinite)
 TEST(Iterate, OneStartDoesNotRememberAnother)
 {
     const IterationMetrics iteration_metrics(character, limb.bind_points);
-    const auto both = experiments::iterate(character, {}, limb.bind_points, {limb.mesh.rest, limb.lbs}, 10, iteration_metrics);
+    const auto both = iterate(character, {}, limb.bind_points, {limb.mesh.rest, limb.lbs}, 10, iteration_metrics);
     EXPECT_EQ(both[1].last, path_of({}, limb.lbs, 10).last);
 }
 
 // Reference: paths defined by formulas, whose rates and floors are known.
 
-using namespace experiments;
 using test_support::path_by;
 using test_support::path_to_floor;
 
@@ -251,17 +239,17 @@ template <typename Scalar>
 Numbers randomly_numbered(int edges, int tets, unsigned seed)
 {
     auto constraints = numbered<Scalar>(edges, tets);
-    experiments::in_random_sequence(constraints, seed);
+    in_random_sequence(constraints, seed);
     return numbers_in(constraints);
 }
 
 TEST(ConstraintSequence, SpreadTakesEightPartsInTurn)
 {
     auto constraints = numbered<double>(20, 4), none = numbered<double>(0, 0);
-    experiments::in_spread_sequence(constraints);  // parts of three
+    in_spread_sequence(constraints);  // parts of three
     EXPECT_EQ(numbers_in(constraints).edges, (std::vector<int>{0, 3, 6, 9, 12, 15, 18, 1, 4, 7, 10, 13, 16, 19, 2, 5, 8, 11, 14, 17}));
     EXPECT_EQ(numbers_in(constraints).tets, (std::vector<int>{0, 1, 2, 3}));
-    experiments::in_spread_sequence(none);
+    in_spread_sequence(none);
     EXPECT_EQ(numbers_in(none), Numbers());
 }
 

@@ -10,7 +10,7 @@ namespace {
 using experiments::spread_of;
 using experiments::take_turns;
 
-TEST(TimedRounds, VariantsTakeTurnsAndTheFirstRoundIsNotKept)
+TEST(TimedRounds, VariantsTakeTurnsNoMoreThanTheMostAndTheFirstRoundIsNotKept)
 {
     std::string order;
     double a = 0.0, b = 100.0;
@@ -24,12 +24,8 @@ TEST(TimedRounds, VariantsTakeTurnsAndTheFirstRoundIsNotKept)
     EXPECT_EQ(samples[0][0], (std::vector<double>{2.0, 3.0, 4.0}));
     EXPECT_EQ(samples[1][0], (std::vector<double>{102.0, 103.0, 104.0}));
     EXPECT_EQ(samples[1][1], (std::vector<double>{-102.0, -103.0, -104.0}));
-}
-
-TEST(TimedRounds, NoMoreThanTheMost)
-{
-    const auto samples = take_turns({[] { return std::vector<double>{1.0}; }}, {.seconds = 60.0, .fewest = 1, .most = 4});
-    EXPECT_EQ(samples[0][0].size(), 4u);
+    const auto most = take_turns({[] { return std::vector<double>{1.0}; }}, {.seconds = 60.0, .fewest = 1, .most = 4});
+    EXPECT_EQ(most[0][0].size(), 4u);
 }
 
 TEST(TimedRounds, MedianAndQuartiles)

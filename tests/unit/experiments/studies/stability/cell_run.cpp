@@ -35,12 +35,16 @@ StabilityOutcome outcome(const StabilityCell& cell)
     return run_cell(cell).stability.outcome;
 }
 
-TEST(CellRun, SoundSolverConverges)
+TEST(CellRun, SoundSolverConvergesAndABrokenStartTellsTheIterationsUntilItWasReached)
 {
     const CellResult result = run_cell(pbs_cell());
     EXPECT_EQ(result.stability.outcome, StabilityOutcome::converged);
     EXPECT_TRUE(result.has_undisturbed);
     EXPECT_EQ(result.steps_not_reached, 0);
+    EXPECT_FALSE(result.iterations_until_reached);
+    StabilityCell mirrored = pbs_cell();
+    mirrored.disturbance.start = Start::mirrored;
+    EXPECT_EQ(run_cell(mirrored).iterations_until_reached, pbs_of(mirrored).iterations);
 }
 
 TEST(CellRun, SignOfTheVolumeGradientAsPrintedDivergesAndWithoutVolumeConstraintsTetsStayInverted)
@@ -141,17 +145,7 @@ TEST(CellRun, WithJiggleTheTimeStepEntersBesideGravityAlone)
     EXPECT_NE(slow.back().motion, light.back().motion);
 }
 
-TEST(CellRun, ABrokenStartTellsTheIterationsUntilItWasReached)
-{
-    StabilityCell cell = pbs_cell();
-    EXPECT_FALSE(run_cell(cell).iterations_until_reached);
-    cell.disturbance.start = Start::mirrored;
-    EXPECT_EQ(run_cell(cell).iterations_until_reached, pbs_of(cell).iterations);
-}
-
 // Reference: the heights and lengths of the tets themselves.
-
-using experiments::Defect;
 
 const pbs::TetMesh mesh = test_support::two_bone_limb({16, 4, 4}, pbs::Vec3::UnitZ(), 0.0).mesh;
 
@@ -163,7 +157,7 @@ TEST(DistortedMesh, TheThinnestTetKeepsTheWantedShareOfItsVolume)
 {
     for (const Defect defect : {Defect::slivers, Defect::needles})
         for (const double thinness : {1e-1, 1e-3, 1e-6}) {
-            const pbs::TetMesh spoilt = experiments::distorted(mesh, defect, thinness);
+            const pbs::TetMesh spoilt = distorted(mesh, defect, thinness);
             const Eigen::ArrayXd volumes = pbs::tet_volumes(spoilt.rest, spoilt.tets), at_rest = pbs::tet_volumes(mesh.rest, mesh.tets);
             EXPECT_NEAR((volumes / at_rest).minCoeff(), thinness,
                         test_support::rounding_error(6 * std::sqrt(3.0), 1.0) * std::sqrt(2.0) / 0.075 +
@@ -172,9 +166,9 @@ TEST(DistortedMesh, TheThinnestTetKeepsTheWantedShareOfItsVolume)
             const auto moved = ((spoilt.rest - mesh.rest).rowwise().norm().array() > 0.0).count();
             EXPECT_GT(moved, 0);
             EXPECT_LE(moved, static_cast<Eigen::Index>(0.05 * static_cast<double>(mesh.rest.rows())));
-            EXPECT_EQ(experiments::distorted(mesh, defect, thinness).rest, spoilt.rest) << "it is the same every time";
+            EXPECT_EQ(distorted(mesh, defect, thinness).rest, spoilt.rest) << "it is the same every time";
         }
-    EXPECT_EQ(experiments::distorted(mesh, Defect::none, 1e-3).rest, mesh.rest);
+    EXPECT_EQ(distorted(mesh, Defect::none, 1e-3).rest, mesh.rest);
 }
 
 }  // namespace

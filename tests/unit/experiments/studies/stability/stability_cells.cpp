@@ -35,17 +35,13 @@ Sweep mass_ratio(bool as_published)
     return {"mass_ratio", "1", {10.0, 100.0}, {}, [](StabilityCell& cell, double ratio) { cell.mass_ratio = ratio; }, as_published};
 }
 
-TEST(CellSweep, HasItsValuesInOrder)
+TEST(CellSweep, HasItsValuesInOrderAndAMapIsAsPublishedWhereAllOfItIs)
 {
     const auto quick = cells_of(iterations(true), pbs_cell(), false), full = cells_of(iterations(true), pbs_cell(), true);
     ASSERT_EQ(quick.size(), 2u);
     ASSERT_EQ(full.size(), 3u);
     EXPECT_EQ(options_of<pbs::PbsOptions>(full[1].spec).iterations, 4);
     EXPECT_EQ(full[1].value, 4.0);
-}
-
-TEST(CellSweep, AMapIsAsPublishedWhereAllOfItIs)
-{
     for (const bool base : {false, true})
         for (const bool rows : {false, true})
             for (const bool columns : {false, true}) {

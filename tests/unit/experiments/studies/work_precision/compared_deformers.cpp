@@ -273,16 +273,12 @@ INSTANTIATE_TEST_SUITE_P(
         RefusedEntry{entry_table("mine", "library = \"libmine.so\""), ":4: external.0.library = libmine.so", "cannot be loaded: "},
         RefusedEntry{entry_table("mine", ""), ": external.0.command", "expected either a command or a library"}));
 
-TEST_F(ExternalEntries, NeedAFile)
+TEST_F(ExternalEntries, NeedAFileAndNamesOfTheirOwn)
 {
     expect_input_error([&] { external_entries(folder / "none.toml"); }, folder / "none.toml" + ": cannot be read", "[[external]]");
     expect_input_error([&] { external_entries(folder.path().string()); }, folder.path().string(), "cannot be read");
     expect_input_error([&] { external_entries(folder.file("mine.toml", entry_table("mine"))); }, folder / "mine.toml: schema",
                        "write schema = 1");
-}
-
-TEST_F(ExternalEntries, HaveNamesOfTheirOwn)
-{
     for (const ComparedDeformer& one : compared_deformers()) expect_refused(entry_table(one.name), ":3: external.0.name = " + one.name, "");
     for (const DeformerGroup& group : deformer_groups()) expect_refused(entry_table(group.key), ":3: external.0.name", "");
 }

@@ -17,16 +17,8 @@
 
 namespace {
 
+using namespace test_support;
 using namespace experiments;
-using test_support::bent_limb;
-using test_support::hand_case;
-using test_support::hand_diagrams;
-using test_support::hand_reference;
-using test_support::HandPoint;
-using test_support::in_f64;
-using test_support::mean_error;
-using test_support::pbs_24;
-using test_support::seven_points;
 
 const SettingKey packed_pbs = {.deformer = "pbs", .iterations = 24, .precision = "f32", .packed = true};
 
@@ -62,7 +54,7 @@ TEST(ChosenSettings, HaveTheLeastGeometricMeanOverTheTrainingPoses)
     EXPECT_EQ(chosen[0].tried, 2);
     EXPECT_EQ(chosen[0].training_poses, 2);
     // Two logarithms, their sum, its half and the exponential, each in error by a rounding of at most log(32).
-    EXPECT_NEAR(chosen[0].training_error_pct.value(), 16.0, 16.0 * test_support::rounding_error(5, std::log(40.0)));
+    EXPECT_NEAR(chosen[0].training_error_pct.value(), 16.0, 16.0 * rounding_error(5, std::log(40.0)));
 }
 
 TEST(ChosenSettings, HaveAnAnswerInEachTrainingPose)
@@ -103,7 +95,7 @@ TEST(Comparisons, HaveTheBestCodeOfEachDeformerOrItsPlainOne)
                                                                    {xpbd, 0.1, 9.0},
                                                                    {packed_lbs, 0.1, 9.0},
                                                                    {scalar_f32, 1.0, 2.0},
-                                                                   test_support::hand_reference()})});
+                                                                   hand_reference()})});
     EXPECT_EQ(best, (BestCodes{{"pbs", 3}, {"vbd", 2}, {"lbs", 1}, {"xpbd", 0}}));
     const std::vector<SettingKey> all = {plain, packed_pbs, packed_f64, xpbd, packed_lbs, scalar_f32};
     const auto those_in = [&](Comparison comparison) {
@@ -158,7 +150,7 @@ TEST(Diagram, HoldsThePointsWithTimeAndErrorAndTheReferenceBeside)
     for (HandPoint& row : unreached) row.error_pct.reset();
     unreached.back().outcome = "not_reached";
     EXPECT_TRUE(hand_diagrams({hand_case(bent_limb, unreached)}).front().points.empty());
-    const Diagram read = test_support::diagram_of_seven(30.0);
+    const Diagram read = diagram_of_seven(30.0);
     EXPECT_EQ(read.key, "limb_bend_90");
     EXPECT_EQ(read.points.size(), 7u);
     EXPECT_TRUE(read.has_reference);

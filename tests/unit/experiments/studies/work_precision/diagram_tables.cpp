@@ -9,16 +9,9 @@
 
 namespace {
 
+using namespace test_support;
 using namespace experiments;
 using analysis::CsvTable;
-using test_support::bent_limb;
-using test_support::diagram_of_seven;
-using test_support::hand_case;
-using test_support::hand_diagrams;
-using test_support::hand_reference;
-using test_support::HandPoint;
-using test_support::in_f64;
-using test_support::pbs_24;
 
 // Of the front of all points by the error.
 std::vector<std::string> of_front(const CsvTable& fronts, const std::string& column)
