@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <concepts>
 #include <functional>
-#include <iterator>
 #include <optional>
 #include <sstream>
 #include <stdexcept>

@@ -3,7 +3,7 @@
 
 #include "experiments/deformers/deformer.hpp"
 #include "experiments/settings/option_names.hpp"
-#include "pbs/geometry/precision.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/skinning/direct_delta_mush.hpp"
 #include "pbs/solver/options.hpp"
 

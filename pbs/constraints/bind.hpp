@@ -5,7 +5,7 @@
 // A vertex on the bone (d = 0) is drawn to its material point by the same formula: k = 1 puts it there.
 #pragma once
 
-#include "pbs/constraints/vector3.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 
 #include <Eigen/Geometry>
 

@@ -8,7 +8,6 @@
 // p: positions [m], w: inverse masses in any common unit, each one entry per vertex of the region.
 #pragma once
 
-#include "pbs/constraints/vector3.hpp"
 #include "pbs/constraints/volume.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 

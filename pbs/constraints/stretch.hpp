@@ -2,7 +2,7 @@
 //   project(StretchConstraint<double>{{0, 1}, rest_length, 0.2}, 1.0, 1.0, p1, p2);
 #pragma once
 
-#include "pbs/constraints/vector3.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 
 #include <Eigen/Geometry>
 

@@ -3,7 +3,7 @@
 // The volume is signed: an inverted tet is in error by more than its rest volume and is pushed back through flat.
 #pragma once
 
-#include "pbs/constraints/vector3.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 
 #include <Eigen/Geometry>
 

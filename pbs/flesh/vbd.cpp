@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <string>
 #include <type_traits>
-#include <utility>
 
 namespace pbs {
 namespace {

@@ -7,6 +7,13 @@
 
 namespace pbs {
 
+// The floating point of methods that compute in float or in double.
+enum class Precision { f32, f64 };
+
+// A position or a gradient of a constraint, 3 x 1.
+template <typename Scalar>
+using Vector3 = Eigen::Matrix<Scalar, 3, 1>;
+
 // The array types every module shares. Row-major, so that one row is one point, edge or tet in memory.
 using Vec3 = Eigen::Vector3d;                                                 // a point or vector [m], 3 x 1
 using Positions = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;  // points [m], #V x 3

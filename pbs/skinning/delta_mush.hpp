@@ -7,7 +7,6 @@
 // weights. DeltaMush is plain code in double; PackedDeltaMush computes the same in packed float.
 #pragma once
 
-#include "pbs/geometry/precision.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/geometry/topology.hpp"
 #include "pbs/skinning/blend.hpp"

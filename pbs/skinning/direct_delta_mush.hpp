@@ -14,7 +14,6 @@
 // unit weights, as in delta_mush.hpp; entries of a weight below `negligible` are dropped, and the others are scaled to a sum of one.
 #pragma once
 
-#include "pbs/geometry/precision.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/skinning/delta_mush.hpp"
 #include "pbs/skinning/weights.hpp"

@@ -5,7 +5,6 @@
 #include "pbs/solver/step_summary.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace pbs {

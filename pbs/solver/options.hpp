@@ -1,7 +1,6 @@
 // Options of a position based skinning step. Stiffnesses are dimensionless, in [0, 1]; zero leaves the class out.
 #pragma once
 
-#include "pbs/geometry/precision.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 
 #include <optional>
