@@ -37,6 +37,7 @@ TEST(Scene, DefaultsAreThoseOfTheOptions)
 {
     expect_defaults<pbs::PbsOptions>("[deformers]\nuse = [\"pbs\"]\n");
     expect_defaults<FemOptions>("[deformers]\nuse = [\"fem\"]\n[[fem]]\n");
+    EXPECT_EQ(experiments::scene_schema().find("motion.rate_hz")->default_json, "100.0");
 }
 
 TEST(Scene, EveryBuiltInSceneReads)

@@ -13,7 +13,12 @@ namespace {
 using pbs::Positions;
 using pbs::Vec3;
 
-const test_support::TwoBoneLimb bent = test_support::two_bone_limb({12, 3, 3}, Vec3::UnitZ(), 70.0);
+// Moved as a whole: at the origin the translation of every bone would be zero.
+const test_support::TwoBoneLimb bent = [] {
+    test_support::TwoBoneLimb limb = test_support::two_bone_limb({12, 3, 3}, Vec3::UnitZ(), 70.0);
+    for (Eigen::Isometry3d& bone : limb.pose) bone.pretranslate(Vec3(0.1, -0.2, 0.05));
+    return limb;
+}();
 
 double one_by_one(const pbs::BoneSprings& springs, const Positions& x)
 {
