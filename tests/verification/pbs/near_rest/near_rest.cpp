@@ -11,7 +11,6 @@
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace {
