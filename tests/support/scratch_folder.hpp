@@ -4,6 +4,8 @@
 
 #include "analysis/records/record_files.hpp"
 
+#include <gtest/gtest.h>
+
 #include <fstream>
 
 namespace test_support {
@@ -16,6 +18,14 @@ public:
         std::ofstream(path() / name, std::ios::binary) << text;
         return *this / name;
     }
+};
+
+// A test with a temporary folder of its own. Suites of such tests get their names by aliases:
+//   using WriteAtomically = test_support::FolderTest;
+//   TEST_F(WriteAtomically, WritesAndReplaces) { write_atomically(folder / "limb.vtu", "new"); }
+class FolderTest : public testing::Test {
+protected:
+    const ScratchFolder folder;
 };
 
 }  // namespace test_support

@@ -2,7 +2,7 @@
 // JSON 3.1, the rig's vertex lists, int16 targets), laid out by hand.
 #include "pbs/character/named_bodies.hpp"
 
-#include "tests/support/folder_test.hpp"
+#include "tests/support/scratch_folder.hpp"
 #include "tests/support/rounding_error.hpp"
 #include "tests/unit/pbs/character/expect_input_error.hpp"
 

@@ -13,7 +13,11 @@
 #include <string>
 
 #ifdef __x86_64__
-#include "tests/support/other_processor.hpp"
+#include <cpuid.h>
+#include <sys/syscall.h>
+#include <ucontext.h>
+
+#include <csignal>
 #endif
 
 namespace {
@@ -120,13 +124,70 @@ TEST_F(SelectBlasKernels, OnThisProcessorNoInstructionIsLeftUnused)
 }
 
 #ifdef __x86_64__
+// Simulates another processor model for this process. The instruction CPUID is made to fault (Linux, arch_prctl(2), ARCH_SET_CPUID), and a
+// handler answers in its place with the family and model changed and everything else unchanged.
+class OtherProcessor {
+public:
+    // family and model as in /proc/cpuinfo, both below 256. There may be one object at a time; it acts on the thread that makes it and on
+    // threads which that thread starts.
+    OtherProcessor(unsigned family, unsigned model)
+    {
+        const unsigned base_family = family < 15 ? family : 15;
+        signature_ = (family - base_family) << 20 | base_family << 8 | (model >> 4) << 16 | (model & 15) << 4;
+        struct sigaction action = {};
+        action.sa_sigaction = answer;
+        action.sa_flags = SA_SIGINFO | SA_NODEFER;
+        sigaction(SIGSEGV, &action, &before_);
+        works_ = fault(true);
+    }
+    ~OtherProcessor()
+    {
+        fault(false);
+        sigaction(SIGSEGV, &before_, nullptr);
+    }
+    OtherProcessor(const OtherProcessor&) = delete;
+    OtherProcessor& operator=(const OtherProcessor&) = delete;
+
+    bool works() const { return works_; }  // false if this processor or kernel cannot make CPUID fault
+
+private:
+    static constexpr int set_cpuid = 0x1012;  // ARCH_SET_CPUID of <asm/prctl.h>
+
+    static bool fault(bool wanted) { return syscall(SYS_arch_prctl, set_cpuid, wanted ? 0ul : 1ul) == 0; }
+
+    static void answer(int, siginfo_t*, void* context)
+    {
+        greg_t* registers = static_cast<ucontext_t*>(context)->uc_mcontext.gregs;
+        const auto* instruction = reinterpret_cast<const unsigned char*>(registers[REG_RIP]);
+        if (instruction[0] != 0x0f || instruction[1] != 0xa2) {  // a fault of another kind, which occurs again without this handler
+            signal(SIGSEGV, SIG_DFL);
+            return;
+        }
+        unsigned a = 0, b = 0, c = 0, d = 0;
+        const unsigned leaf = static_cast<unsigned>(registers[REG_RAX]);
+        fault(false);
+        __cpuid_count(leaf, static_cast<unsigned>(registers[REG_RCX]), a, b, c, d);
+        fault(true);
+        if (leaf == 1) a = (a & ~0x0fff0ff0u) | signature_;
+        registers[REG_RAX] = a;
+        registers[REG_RBX] = b;
+        registers[REG_RCX] = c;
+        registers[REG_RDX] = d;
+        registers[REG_RIP] += 2;
+    }
+
+    static inline unsigned signature_ = 0;
+    struct sigaction before_ = {};
+    bool works_ = false;
+};
+
 // Model 255 of Intel's family 6 does not exist. This processor pretends to be one, with its own instructions.
 TEST_F(SelectBlasKernels, OnAModelThatOpenBlasDoesNotKnowTheInstructionsDecide)
 {
     if (!is_own_process()) return;
     const std::string expected = better_core_type("Prescott", this_processor());
     if (expected.empty() || this_processor().is_zen) GTEST_SKIP() << "not an Intel processor with AVX2";
-    const test_support::OtherProcessor unknown(6, 255);
+    const OtherProcessor unknown(6, 255);
     if (!unknown.works()) GTEST_SKIP() << "CPUID cannot be made to fault here";
     select_blas_kernels();
     auto blas = loaded_blas();
@@ -138,7 +199,7 @@ TEST_F(SelectBlasKernels, OnAModelThatOpenBlasDoesNotKnowTheInstructionsDecide)
 TEST_F(SelectBlasKernels, AnOpenBlasThatIsLoadedAlreadyIsLeftAsItIs)
 {
     if (!is_own_process()) return;
-    const test_support::OtherProcessor unknown(6, 255);
+    const OtherProcessor unknown(6, 255);
     auto before = loaded_blas();
     if (before.empty()) GTEST_SKIP() << "libblas.so.3 is not OpenBLAS";
     select_blas_kernels();

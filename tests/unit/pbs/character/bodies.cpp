@@ -4,7 +4,7 @@
 #include "pbs/character/body_cache.hpp"
 #include "pbs/geometry/mesh_io.hpp"
 #include "tests/support/arm_in_formats.hpp"
-#include "tests/support/folder_test.hpp"
+#include "tests/support/scratch_folder.hpp"
 #include "tests/support/mesher_error.hpp"
 #include "tests/support/rounding_error.hpp"
 #include "tests/support/structured_bar.hpp"

@@ -3,7 +3,7 @@
 #include "pbs/character/body_cache.hpp"
 #include "pbs/geometry/files.hpp"
 #include "pbs/geometry/mesh_io.hpp"
-#include "tests/support/folder_test.hpp"
+#include "tests/support/scratch_folder.hpp"
 #include "tests/unit/pbs/character/expect_input_error.hpp"
 
 #include <gtest/gtest.h>

@@ -2,7 +2,6 @@
 
 #include "pbs/character/named_bodies.hpp"
 #include "tests/support/closed_surfaces.hpp"
-#include "tests/support/folder_test.hpp"
 #include "tests/support/rounding_error.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/unit/pbs/character/expect_input_error.hpp"

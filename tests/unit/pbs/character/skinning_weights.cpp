@@ -3,7 +3,7 @@
 #include "pbs/character/skinning_weights.hpp"
 #include "pbs/geometry/topology.hpp"
 #include "tests/support/bar_character.hpp"
-#include "tests/support/folder_test.hpp"
+#include "tests/support/scratch_folder.hpp"
 #include "tests/support/structured_bar.hpp"
 #include "tests/support/weight_sums.hpp"
 #include "tests/unit/pbs/character/expect_input_error.hpp"

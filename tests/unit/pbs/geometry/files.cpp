@@ -2,7 +2,7 @@
 
 #include "pbs/geometry/files.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "tests/support/folder_test.hpp"
+#include "tests/support/scratch_folder.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/unit/pbs/character/expect_input_error.hpp"
 

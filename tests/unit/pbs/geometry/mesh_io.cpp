@@ -2,7 +2,7 @@
 
 #include "pbs/geometry/files.hpp"
 #include "pbs/geometry/mesh_io.hpp"
-#include "tests/support/folder_test.hpp"
+#include "tests/support/scratch_folder.hpp"
 #include "tests/support/structured_bar.hpp"
 #include "tests/unit/pbs/character/expect_input_error.hpp"
 

@@ -3,7 +3,6 @@
 #include "pbs/geometry/mesh_io.hpp"
 #include "tests/support/arm_in_formats.hpp"
 #include "tests/support/closed_surfaces.hpp"
-#include "tests/support/folder_test.hpp"
 #include "tests/support/rounding_error.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/unit/pbs/character/expect_input_error.hpp"

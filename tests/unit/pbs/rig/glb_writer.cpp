@@ -4,7 +4,7 @@
 #include "pbs/geometry/files.hpp"
 #include "pbs/rig/gltf_rig.hpp"
 #include "pbs/rig/tiny_gltf.hpp"
-#include "tests/support/folder_test.hpp"
+#include "tests/support/scratch_folder.hpp"
 #include "tests/unit/pbs/character/expect_input_error.hpp"
 
 #include <nlohmann/json.hpp>

@@ -2,7 +2,7 @@
 
 #include "pbs/rig/rig_reader.hpp"
 #include "tests/support/arm_in_formats.hpp"
-#include "tests/support/folder_test.hpp"
+#include "tests/support/scratch_folder.hpp"
 #include "tests/support/gltf_document.hpp"
 #include "tests/support/two_joint_rig.hpp"
 #include "tests/unit/pbs/character/expect_input_error.hpp"

@@ -1,7 +1,7 @@
 // Reference: another program. Gmsh and VTK's Python write files that this code reads, and read files that it writes, to the bit.
 #include "pbs/geometry/mesh_io.hpp"
 
-#include "tests/support/folder_test.hpp"
+#include "tests/support/scratch_folder.hpp"
 #include "tests/support/rounding_error.hpp"
 #include "tests/support/structured_bar.hpp"
 
