@@ -13,7 +13,6 @@
 
 namespace {
 
-using namespace test_support;
 using namespace experiments;
 using analysis::StabilityOutcome;
 using analysis::VerdictKind;
@@ -32,10 +31,10 @@ MeasuredCell cell_of(const std::string& factor, StabilityOutcome outcome, bool a
 
 VerdictKind verdict_on(const std::vector<MeasuredCell>& cells)
 {
-    const ScratchFolder folder;
+    const test_support::ScratchFolder folder;
     const std::string file = folder / "measurements.csv";
     stability_measurements(cells).write(file);
-    return verdict_on("C08", analysis::measurements(file));
+    return test_support::verdict_on("C08", analysis::measurements(file));
 }
 
 const std::vector<MeasuredCell> stable = {cell_of("time_step", StabilityOutcome::converged),
@@ -104,7 +103,7 @@ TEST(StabilityVerdict, ReportedSharesHaveAnIntervalAndTheJudgedOneHasNone)
     EXPECT_EQ(shares.text_at(5, "quantity"), "share_of_cells_inverted");  // none of one
     // The probability 1 - p = 0.025 comes from logarithms of magnitude 9 at most, of ten roundings
     // (tests/unit/analysis/statistics/statistics.cpp).
-    EXPECT_NEAR(shares.number(5, "high"), 0.975, rounding_error(10, 9.0 / 0.025));
+    EXPECT_NEAR(shares.number(5, "high"), 0.975, test_support::rounding_error(10, 9.0 / 0.025));
     EXPECT_EQ(shares.number(5, "low"), 0.0);
 }
 
@@ -153,6 +152,9 @@ TEST(StabilityVerdict, TimeStepsThatDoNotEnterAreNoFigure)
 // - one class dropped: a projection removes at most its own error, and the other classes still hold the body, so the verdict stays.
 // - multipliers forgotten: XPBD is not part of the claim; each of its projections still takes a share below one, so it is as stable as with
 //   them.
+
+using test_support::broken;
+using test_support::Broken;
 
 constexpr int still_steps = 100;  // one second
 
