@@ -11,12 +11,10 @@
 
 namespace {
 
+using namespace experiments;
 using namespace test_support;
 using analysis::Measurement;
 using analysis::VerdictKind;
-using experiments::ArtefactBody;
-using experiments::ArtefactCase;
-using experiments::ArtefactSample;
 
 class ArtefactsVerdict : public testing::Test {
 protected:
@@ -68,7 +66,7 @@ TEST_F(ArtefactsVerdict, QuadraticElementsAreTheReference)
 TEST_F(ArtefactsVerdict, ARatioAboveOneIsNotSmoother)
 {
     bent.poses = {{2, "bend_60_deg"}};
-    std::vector<Measurement> measured = experiments::compare_weights(bent).measurements;
+    std::vector<Measurement> measured = compare_weights(bent).measurements;
     expect_quantities_of("C06", measured);
     const auto put = [&](const std::string& quantity, const analysis::CaseKey& of, double ratio) {
         for (Measurement& measurement : measured)
@@ -96,8 +94,8 @@ std::vector<Measurement> twisted(Broken how, const std::string& angle_deg = "170
     const ArtefactCase of = twisted_limb(400, angle_deg, how);
     const ArtefactBody body(of);
     std::vector<ArtefactSample> samples;
-    for (const experiments::DeformerSpec& spec : of.scene.deformers) {
-        const experiments::Shape shape = body.posed.shapes(spec).at(0);
+    for (const DeformerSpec& spec : of.scene.deformers) {
+        const Shape shape = body.posed.shapes(spec).at(0);
         samples.push_back({spec.kind, 0, 0, extremes_of(body.sections.at(0).measure(shape.positions, body.posed.pose(0)))});
     }
     return candy_wrapper_values(of, body, samples);
@@ -123,8 +121,8 @@ TEST(BrokenArtefacts, NothingProjectedIsLbs)
     const ArtefactCase of = twisted_limb(400, "170");
     const ArtefactBody body(of);
     const pbs::Positions lbs = body.posed.shapes(spec_of(of.scene, "lbs")).at(0).positions;
-    for (const auto& [what, size] : {std::pair{"radius_over_rest", &experiments::SectionExtremesOverRest::smallest_radius},
-                                     {"area_over_rest", &experiments::SectionExtremesOverRest::smallest_area}}) {
+    for (const auto& [what, size] : {std::pair{"radius_over_rest", &SectionExtremesOverRest::smallest_radius},
+                                     {"area_over_rest", &SectionExtremesOverRest::smallest_area}}) {
         const auto value = [&, size = size](const pbs::Positions& positions) {
             return extremes_of(body.sections.at(0).measure(positions, body.posed.pose(0))).*size;
         };

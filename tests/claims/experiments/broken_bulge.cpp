@@ -24,14 +24,10 @@
 
 namespace {
 
-using analysis::Extent;
-using analysis::Measurement;
-using analysis::VerdictKind;
+using namespace analysis;
+using namespace test_support;
 using experiments::ArtefactSample;
 using experiments::Shapes;
-using test_support::Broken;
-using test_support::values_of;
-using test_support::verdict_on;
 
 const std::string radius = "largest_section_radius_over_reference", area = "largest_section_area_over_reference";
 
@@ -211,7 +207,7 @@ HandCutWidest hand_cut_widest(const experiments::ArtefactBody& body, const pbs::
 template <typename Value>
 double of_cuts(const pbs::Positions& positions, Value value)
 {
-    return test_support::value_rounding(positions, test_support::coordinate_rounding_m(positions, 2 * (6 + 8)), value);
+    return value_rounding(positions, coordinate_rounding_m(positions, 2 * (6 + 8)), value);
 }
 
 TEST(BrokenBulge, FiguresAreTheRatiosOfSectionsCutByHand)
@@ -251,7 +247,7 @@ TEST(BrokenBulge, NothingProjectedIsLbs)
             return measure(rounded).at(i).value;
         };
         const pbs::Positions& rest = limb().body.posed.character().mesh.rest;
-        EXPECT_NEAR(measured[i].value, lbs[i].value, test_support::value_rounding(rest, test_support::single_rounding_m(rest), value));
+        EXPECT_NEAR(measured[i].value, lbs[i].value, value_rounding(rest, single_rounding_m(rest), value));
     }
     EXPECT_EQ(verdict_on("C05", measured), VerdictKind::not_reproduced);
 }
@@ -270,7 +266,7 @@ TEST(BrokenBulge, AtRestItIsAsThickAsItWasTaken)
     const Shapes rest = solved_with(thickened(limb().body.posed.character(), thicker), {still});
     const auto of_float = [&](double offset_m, double experiments::JointSection::*size) {
         const pbs::Positions thick = thickened(limb().body.posed.character(), thicker).mesh.rest;
-        return test_support::value_rounding(thick, test_support::single_rounding_m(thick), [&](const pbs::Positions& positions) {
+        return value_rounding(thick, single_rounding_m(thick), [&](const pbs::Positions& positions) {
             for (const auto& section : limb().body.sections.at(0).measure(positions, still))
                 if (section.offset_m == offset_m) return section.*size;
             return std::nan("");

@@ -24,12 +24,10 @@
 
 namespace {
 
+using namespace test_support;
 using analysis::Measurement;
 using analysis::VerdictKind;
 using experiments::WeightsComparison;
-using test_support::Broken;
-using test_support::values_of;
-using test_support::verdict_on;
 
 const std::string of_pbs = "pbs", of_lbs = "lbs", strain_jump = "strain_jump_over_rigid_weights";
 
@@ -37,7 +35,7 @@ constexpr int vertices = 1200;  // tets smaller than the region that Eq. 2 blend
 
 WeightsComparison twisted(Broken how = Broken::nothing, const std::string& weights = "paper")
 {
-    return experiments::compare_weights(test_support::twisted_limb(vertices, "90", how, weights));
+    return experiments::compare_weights(twisted_limb(vertices, "90", how, weights));
 }
 
 const WeightsComparison& sound()
@@ -69,7 +67,7 @@ WeightsComparison twisted_with(ForearmWeight forearm_weight, Broken how = Broken
         const double forearm = is_blended(v) ? forearm_weight(v) : limb().binding.bone[v];
         text << v << ",upper," << 1.0 - forearm << "\n" << v << ",forearm," << forearm << "\n";
     }
-    const test_support::ScratchFolder folder;
+    const ScratchFolder folder;
     return twisted(how, folder.file("weights.csv", text.str()));
 }
 
@@ -182,14 +180,14 @@ double jump(const pbs::Positions& positions)
 double ratio_rounding(const pbs::Positions& positions, double rounding_m)
 {
     const pbs::Positions rigid = turned(rigidly);
-    const double of_rigid = test_support::value_rounding(rigid, rounding_m, jump);
-    return (test_support::value_rounding(positions, rounding_m, jump) + jump(positions) / jump(rigid) * of_rigid) / jump(rigid);
+    const double of_rigid = value_rounding(rigid, rounding_m, jump);
+    return (value_rounding(positions, rounding_m, jump) + jump(positions) / jump(rigid) * of_rigid) / jump(rigid);
 }
 
 // The solver rounds positions to float.
 double ratio_rounding_of_float(const pbs::Positions& positions)
 {
-    return ratio_rounding(positions, test_support::single_rounding_m(positions));
+    return ratio_rounding(positions, single_rounding_m(positions));
 }
 
 TEST(BrokenWeights, AsTheyAreTheResultIsSmoother)
@@ -203,7 +201,7 @@ TEST(BrokenWeights, TheFigureOfLbsIsTheRatioOfStrainsByHand)
     // Positions go through 24 roundings of two motions, on both sides, and edges and their squares through two. The strains here solve for
     // six components, in a dozen roundings of squared lengths.
     const pbs::Positions smooth = turned(by_eq_2);
-    const double rounding_m = test_support::coordinate_rounding_m(smooth, 2 * (24 + 2) + 12);
+    const double rounding_m = coordinate_rounding_m(smooth, 2 * (24 + 2) + 12);
     EXPECT_NEAR(measurement(sound(), of_lbs).value, jump(smooth) / jump(turned(rigidly)), ratio_rounding(smooth, rounding_m));
 }
 

@@ -11,12 +11,13 @@
 
 namespace {
 
+using namespace experiments;
 using namespace test_support;
 using analysis::VerdictKind;
 
 const analysis::Records& records_of_limb()
 {
-    static const analysis::Records records = records_of(experiments::momentum_study().plan(false));
+    static const analysis::Records records = records_of(momentum_study().plan(false));
     return records;
 }
 
@@ -41,8 +42,6 @@ TEST(MomentumVerdict, HoldsWhereMassesAreKnownAndTurnsWithItsFigures)
 // - a class dropped: a class that is not projected has no drift, so it is not counted as conserved.
 
 using analysis::Measurement;
-using experiments::MomentumDrift;
-using experiments::ProjectedClass;
 using pbs::Masses;
 
 pbs::PbsOptions in_double()
@@ -74,8 +73,7 @@ std::vector<Measurement> drifts(const pbs::PbsOptions& options)
         measured.push_back({"C07", std::string(direction) + "_drift" + quantity, key, drift, drift, drift, "1"});
     };
     for (const auto& [projected, name] : {std::pair{ProjectedClass::stretch, "stretch"}, {ProjectedClass::volume, "volume"}})
-        for (const auto& [measure, quantity] :
-             {std::pair{&experiments::drift_of_projections, ""}, {&experiments::drift_of_a_pass, "_of_a_pass"}}) {
+        for (const auto& [measure, quantity] : {std::pair{&drift_of_projections, ""}, {&drift_of_a_pass, "_of_a_pass"}}) {
             const MomentumDrift drift = measure(character, limb().pose, options, projected, Masses::unit);
             add("linear", quantity, name, drift.linear);
             add("angular", quantity, name, drift.angular);

@@ -11,15 +11,13 @@
 
 namespace {
 
+using namespace test_support;
 using analysis::VerdictKind;
 using namespace experiments;
-using test_support::claim;
-using test_support::joined;
-using test_support::verdict_on;
 
 const analysis::Records& print()
 {
-    static const analysis::Records records = test_support::records_of(experiments::audit_study().plan(false));
+    static const analysis::Records records = records_of(experiments::audit_study().plan(false));
     return records;
 }
 

@@ -43,7 +43,7 @@ TEST(PairOrder, HoldsForEveryExactSolutionWithinTheBoundAndForNoLargerOne)
     EXPECT_GT(decided, 500);
 }
 
-TEST(PairOrder, IsUndecidedForEqualErrorsAndForWhatIsNotFinite)
+TEST(PairOrder, IsUndecidedForEqualErrorsAndForWhatIsNotFiniteAndTakesTheSumForADistanceThatIsNotKnown)
 {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
     EXPECT_EQ(order_of({2.0, 1.0, 1.0, 0.0}), PairOrder::second_is_closer);
@@ -52,11 +52,7 @@ TEST(PairOrder, IsUndecidedForEqualErrorsAndForWhatIsNotFinite)
     EXPECT_EQ(order_of({2.0, 1.0, 0.5, std::nullopt}), PairOrder::undecided);
     for (const std::optional<double> first : {std::optional(nan), std::optional(infinity), std::optional<double>()})
         EXPECT_EQ(order_of({first, 1.0, 0.5, 0.1}), PairOrder::undecided);
-}
-
-// Without the distance the rule is that the errors differ by more than twice the bound.
-TEST(PairOrder, TakesTheSumOfTheErrorsForADistanceThatIsNotKnown)
-{
+    // Without the distance the rule is that the errors differ by more than twice the bound.
     EXPECT_EQ(order_of({20.0, 33.0, std::nullopt, 6.0}), PairOrder::first_is_closer);
     EXPECT_EQ(order_of({20.0, 31.0, std::nullopt, 6.0}), PairOrder::undecided);
     EXPECT_EQ(order_of({20.0, 31.0, 40.0, 6.0}), PairOrder::first_is_closer);

@@ -35,7 +35,7 @@ protected:
     const std::string folder = scratch / "study/count";
 };
 
-TEST_F(StudyRunTest, WorkThatEndedIsFinishedUnderItsOwnSettings)
+TEST_F(StudyRunTest, WorkThatEndedIsFinishedUnderItsOwnSettingsAndWorkThatFailsLeavesNoRecordOfIt)
 {
     const StudyRun run = counting_run(3, write_a_record);
     EXPECT_FALSE(is_finished(run, folder));
@@ -43,6 +43,9 @@ TEST_F(StudyRunTest, WorkThatEndedIsFinishedUnderItsOwnSettings)
     EXPECT_TRUE(fs::exists(fs::path(folder) / "rows.csv"));
     EXPECT_TRUE(is_finished(run, folder));
     EXPECT_FALSE(is_finished(counting_run(4, write_a_record), folder));
+    const StudyRun failing = counting_run(3, [](const std::string&) -> std::string { throw std::runtime_error("no solver"); });
+    EXPECT_THROW(carry_out(failing, folder), std::runtime_error);
+    EXPECT_FALSE(is_finished(failing, folder));
 }
 
 TEST_F(StudyRunTest, AnAlteredRecordIsNotFinished)
@@ -94,14 +97,6 @@ TEST_F(StudyRunTest, AFrameThatWasNotReachedIsABreakdownWhereTheSceneWasExpected
     run.bad_frames_are_results = true;
     EXPECT_EQ(carry_out(run, folder), "");
     EXPECT_EQ(breakdown_on_record(run, folder), "");
-}
-
-TEST_F(StudyRunTest, WorkThatFailsLeavesNoRecordOfAnEarlierRun)
-{
-    carry_out(counting_run(3, write_a_record), folder);
-    const StudyRun failing = counting_run(3, [](const std::string&) -> std::string { throw std::runtime_error("no solver"); });
-    EXPECT_THROW(carry_out(failing, folder), std::runtime_error);
-    EXPECT_FALSE(is_finished(failing, folder));
 }
 
 // Reference: sums and maxima by hand.

@@ -13,10 +13,8 @@
 
 namespace {
 
+using namespace test_support;
 using namespace experiments;
-
-using test_support::bar_character;
-using test_support::rounding_error;
 
 FemOptions by(FemAttachment attachment, double spring_factor = 1e3)
 {
@@ -67,9 +65,11 @@ TEST(BoneAttachment, TargetsAreCarriedByTheirBones)
     }
 }
 
-TEST(NodesAttachment, WholeTetsInsideTheCapsulesAndNoVertexOfTwoBones)
+// Two bones at the same place claim the same vertices: the later one yields, and has no vertices left. A mesh that is too coarse for whole
+// tets is refused with the bone's name.
+TEST(NodesAttachment, WholeTetsInsideTheCapsulesAndTheLaterBoneGivesWay)
 {
-    const auto character = bar_character({48, 8, 8});
+    auto character = bar_character({48, 8, 8});
     const BoneAttachment bones = bone_attachment(character, by_nodes);
     ASSERT_FALSE(bones.tet_bone.empty());
     for (std::size_t k = 0; k < bones.tet_bone.size(); ++k)
@@ -78,17 +78,10 @@ TEST(NodesAttachment, WholeTetsInsideTheCapsulesAndNoVertexOfTwoBones)
             EXPECT_TRUE(bones.capsules[bones.tet_bone[k]].contains(character.mesh.rest.row(v)));
         }
     EXPECT_EQ(bones.attachment.spring_points.rows(), 0);
-}
-
-// Two bones at the same place claim the same vertices: the later one yields, and has no vertices left. A mesh that is too coarse for whole
-// tets is refused with the bone's name.
-TEST(NodesAttachment, TheLaterBoneGivesWayAndOneWithoutTetsIsRefused)
-{
-    auto character = bar_character({48, 8, 8});
     character.skeleton.bones.push_back(character.skeleton.bones[1]);
     character.skeleton.bones.back().name = "twin";
-    test_support::expect_refused("twin", [&] { bone_attachment(character, by_nodes); });
-    test_support::expect_refused("upper", [&] { bone_attachment(bar_character({24, 2, 2}), {.attachment = FemAttachment::nodes}); });
+    expect_refused("twin", [&] { bone_attachment(character, by_nodes); });
+    expect_refused("upper", [&] { bone_attachment(bar_character({24, 2, 2}), {.attachment = FemAttachment::nodes}); });
 }
 
 // The integral of q E / R^2 over the flesh of both bones, for any mesh: sum k_i R^2 = q E V.

@@ -11,9 +11,7 @@
 
 namespace {
 
-using experiments::drift_of_a_pass;
-using experiments::drift_of_projections;
-using experiments::ProjectedClass;
+using namespace experiments;
 using pbs::Masses;
 
 const test_support::TwoBoneLimb bent = test_support::two_bone_limb({16, 4, 4}, pbs::Vec3::UnitZ(), 60.0);
@@ -46,7 +44,7 @@ TEST(MomentumDrift, OfAVolumeProjectionInF32StartsFromTheRoundedPosition)
     pbs::PbsOptions options = in_double(Masses::unit);
     options.precision = pbs::Precision::f32;
     const auto set = pbs::make_constraint_set<float>(character.mesh, character.binding.distance, {}, options);
-    const pbs::Positions lbs = experiments::blended(character, bent.pose);
+    const pbs::Positions lbs = blended(character, bent.pose);
     const pbs::Vec3 centre = lbs.colwise().mean();
     const Eigen::MatrixX3f rounded = (lbs.rowwise() - centre.transpose()).cast<float>();
     double linear = 0.0, sum = 0.0;

@@ -15,12 +15,13 @@
 
 namespace {
 
+using namespace test_support;
 using namespace experiments;
 using pbs::Order;
 using pbs::Precision;
 
-const test_support::TwoBoneLimb limb = test_support::two_bone_limb({16, 4, 4}, pbs::Vec3::UnitZ(), 60.0);
-const pbs::Character character = test_support::character_of(limb);
+const TwoBoneLimb limb = two_bone_limb({16, 4, 4}, pbs::Vec3::UnitZ(), 60.0);
+const pbs::Character character = character_of(limb);
 
 IterationPath path_of(const pbs::PbsOptions& options, const pbs::Positions& start, int most)
 {
@@ -46,7 +47,6 @@ TEST_P(IterationPathOf, LeadsWhereTheSolverGoesToTheBitAndHasItsResiduals)
     const IterationPath path = path_of(options, limb.lbs, 24);
     EXPECT_EQ(path.last, solver.positions());
     ASSERT_EQ(path.looks.size(), 25u);
-    using test_support::rounding_error;
     const double of_scalar = options.precision == Precision::f32 ? 0x1p29 : 1.0;  // unit roundoff over that of double
     const double of_coordinate = 2.0 * std::sqrt(3.0) / 0.075, sums = 2.0 * static_cast<double>(limb.mesh.tets.rows());
     const double of_stretch = rounding_error(of_scalar * 8 + of_coordinate + sums, 2.0),
@@ -75,7 +75,6 @@ TEST(IterationMetrics, OfAUniformlyScaledBody)
     const Look look = iteration_metrics.measure(0, scale * limb.mesh.rest);
     const double stretch = scale - 1.0, volume = std::pow(scale, 3) - 1.0;
     const double bind_m = stretch * std::sqrt(limb.binding.distance.array().square().mean());
-    using test_support::rounding_error;
     const double of_stretch = rounding_error(27 + 2 * 5, scale) + rounding_error(4, 1.0 + scale),
                  of_volume = rounding_error(80 + 2 * 5 * 10, 1.0 + volume) + rounding_error(4, 2.0 + volume),
                  of_bind_m = rounding_error(2 * std::sqrt(3.0) + 2 * 5, scale);
@@ -118,9 +117,6 @@ TEST(Iterate, OneStartDoesNotRememberAnother)
 }
 
 // Reference: paths defined by formulas, whose rates and floors are known.
-
-using test_support::path_by;
-using test_support::path_to_floor;
 
 TEST(ReachedResidual, IsTheIterationFromWhichOnItStaysWithinFivePerCentOfTheFloor)
 {
@@ -165,8 +161,8 @@ double log_rate_error(int iterations, double above, double rate)
     std::vector<double> n, logs;
     for (int i = 1; i <= iterations; ++i) n.push_back(i), logs.push_back(std::log(above) + i * std::log(rate));
     const double least = above * std::pow(rate, iterations), steepest = std::max(std::abs(logs.front()), std::abs(logs.back()));
-    const double of_logs = test_support::rounding_error(1, (1.0 + least) / least) + test_support::rounding_error(2 + 1 + 2 * steepest, 1.0);
-    return test_support::slope_error(n, logs, std::log(rate), 0.0, of_logs);
+    const double of_logs = rounding_error(1, (1.0 + least) / least) + rounding_error(2 + 1 + 2 * steepest, 1.0);
+    return slope_error(n, logs, std::log(rate), 0.0, of_logs);
 }
 
 // The end of the path replaces the limit: 0.9^400 is below the spacing of numbers at 1. The residuals of n equidistant points are at most
@@ -175,7 +171,7 @@ TEST(RateOf, IsThatOfTheFormula)
 {
     const Rate rate = rate_of(path_to_floor(400, 1.0, 1.0, 0.9), 0.3);
     const double rounding = log_rate_error(29, 1.0, 0.9);
-    EXPECT_NEAR(rate.rate.estimate, 0.9, 0.9 * rounding + test_support::rounding_error(2, 0.9));
+    EXPECT_NEAR(rate.rate.estimate, 0.9, 0.9 * rounding + rounding_error(2, 0.9));
     EXPECT_LT(rate.log_rms_off, 29.0 * rounding);
     ASSERT_TRUE(rate.stalls_at.has_value());
     EXPECT_EQ(*rate.stalls_at, 29);
@@ -187,7 +183,7 @@ TEST(RateOf, OfAResidualThatStillFallsIsTakenFromTheFloorOfOthers)
     EXPECT_TRUE(std::isnan(rate_of(path_by(100, [](int n) { return n % 2 == 0 ? 3e-7 : 6e-7; }), 3e-7).rate.estimate));
     const Rate rate = rate_of(path_to_floor(400, 1.0, 10.0, 0.995), 1.0);
     EXPECT_FALSE(rate.stalls_at.has_value());
-    EXPECT_NEAR(rate.rate.estimate, 0.995, 0.995 * log_rate_error(400, 10.0, 0.995) + test_support::rounding_error(2, 0.995));
+    EXPECT_NEAR(rate.rate.estimate, 0.995, 0.995 * log_rate_error(400, 10.0, 0.995) + rounding_error(2, 0.995));
 }
 
 TEST(LookAt, IsTheLastOneNotAfterItAndTheNearestToTheReferenceNeedNotBeTheLast)

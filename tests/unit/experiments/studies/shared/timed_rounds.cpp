@@ -7,8 +7,7 @@
 
 namespace {
 
-using experiments::spread_of;
-using experiments::take_turns;
+using namespace experiments;
 
 TEST(TimedRounds, VariantsTakeTurnsNoMoreThanTheMostAndTheFirstRoundIsNotKept)
 {
@@ -41,9 +40,8 @@ TEST(TimedRounds, MedianAndQuartiles)
 
 TEST(TimedRounds, ColumnsOfASpread)
 {
-    const analysis::Columns<experiments::Spread> columns = experiments::spread_columns("step_ms", "ms", "a step");
-    EXPECT_EQ(table_of(columns, std::vector<experiments::Spread>{{2.0, 1.5, 4.0, 7}}).text(),
-              "step_ms,step_ms_low,step_ms_high\n2,1.5,4\n");
+    const analysis::Columns<Spread> columns = spread_columns("step_ms", "ms", "a step");
+    EXPECT_EQ(table_of(columns, std::vector<Spread>{{2.0, 1.5, 4.0, 7}}).text(), "step_ms,step_ms_low,step_ms_high\n2,1.5,4\n");
 }
 
 }  // namespace

@@ -17,12 +17,10 @@
 
 namespace {
 
+using namespace test_support;
 using namespace experiments;
 
 // Reference: paths of iterations that are defined by formulas, whose times and targets are found by hand.
-
-using test_support::path_by;
-using test_support::path_to_floor;
 
 MeasuredOrder measured(const std::string& order, const std::string& sequence, IterationPath path, double ms)
 {
