@@ -27,6 +27,8 @@
 namespace experiments {
 
 using namespace reference_fem;
+using pbs::Positions;
+using pbs::Vec3;
 
 namespace {
 
@@ -348,9 +350,6 @@ VerificationRows error_split_rows(const Effort& effort)
             variant(limb, flesh, embedded, "embedded_bones"),
             variant(limb, flesh, bind, "bind_constraint_of_the_paper")};
 }
-
-using pbs::Positions;
-using pbs::Vec3;
 
 AttachedSolution solve_manufactured(const pbs::TetMesh& mesh, int element_order, const ManufacturedSprings& of,
                                     const ElasticMaterial& material)
