@@ -27,8 +27,8 @@ pbs_tests(unit experiments BLAS
     ALONE experiments/run/frame_measurement experiments/run/reference_error_bar
     LIBRARIES experiments)
 pbs_tests(unit experiments_studies BLAS FOLDERS experiments/studies EXCEPT ${left_out}
-    ALONE experiments/studies/ambiguity/readings experiments/studies/ambiguity/reading_values experiments/studies/convergence/convergence_values
-        experiments/studies/recorded_settings experiments/studies/shared/iteration_path
+    ALONE experiments/studies/ambiguity/readings experiments/studies/ambiguity/reading_values
+        experiments/studies/convergence/convergence_values experiments/studies/recorded_settings experiments/studies/shared/iteration_path
         experiments/studies/stability/stability_cells experiments/studies/stiffness/stiffness_ratios experiments/studies/timing/frames
         experiments/studies/work_precision/measured_points
     LIBRARIES experiments)

@@ -29,7 +29,7 @@ MeasuredCell cell_of(const std::string& factor, StabilityOutcome outcome, bool a
     return measured;
 }
 
-VerdictKind verdict_on(const std::vector<MeasuredCell>& cells)
+VerdictKind verdict_on_cells(const std::vector<MeasuredCell>& cells)
 {
     const test_support::ScratchFolder folder;
     const std::string file = folder / "measurements.csv";
@@ -50,13 +50,13 @@ std::vector<MeasuredCell> altered(std::size_t index, StabilityOutcome outcome, s
 TEST(StabilityVerdict, TurnsWithTheCellsThatRunAway)
 {
     using enum StabilityOutcome;
-    EXPECT_EQ(verdict_on(stable), VerdictKind::reproduced);
+    EXPECT_EQ(verdict_on_cells(stable), VerdictKind::reproduced);
     for (const StabilityOutcome outcome : {diverged, not_finite})  // the other sweeps are left
-        EXPECT_EQ(verdict_on(altered(0, outcome)), VerdictKind::reproduced_only_for);
-    EXPECT_EQ(verdict_on(altered(0, diverged, altered(2, not_finite))), VerdictKind::not_reproduced) << "a cell in every sweep";
+        EXPECT_EQ(verdict_on_cells(altered(0, outcome)), VerdictKind::reproduced_only_for);
+    EXPECT_EQ(verdict_on_cells(altered(0, diverged, altered(2, not_finite))), VerdictKind::not_reproduced) << "a cell in every sweep";
     std::vector<MeasuredCell> not_claimed = stable;
     not_claimed.push_back(cell_of("printed_form", not_finite, false));
-    EXPECT_EQ(verdict_on(not_claimed), VerdictKind::reproduced) << "the paper does not claim it";
+    EXPECT_EQ(verdict_on_cells(not_claimed), VerdictKind::reproduced) << "the paper does not claim it";
 }
 
 std::string blind_spots_of(const std::vector<MeasuredCell>& cells)
@@ -178,7 +178,7 @@ VerdictKind verdict(bool jiggle, Broken how)
         options_of<pbs::PbsOptions>(cell.spec) = broken(options_of<pbs::PbsOptions>(cell.spec), how);
         measured.push_back({cell, run_cell(cell)});
     }
-    return verdict_on(measured);
+    return verdict_on_cells(measured);
 }
 
 bool ran_away(const CellResult& result)
