@@ -257,15 +257,4 @@ CsvTable printed_table(const std::vector<PrintedValue>& values)
     return table_of(used_columns(printed_columns(), values), values);
 }
 
-std::vector<double> metric_series(const CaseRecord& record, const std::string& metric)
-{
-    require_whole(record);
-    if (metric == "volume_change_pct") return record.volume_change_pct;
-    if (metric == "volume_abs_change_pct") return record.volume_abs_change_pct;
-    if (metric != "volume_loss_pct") throw pbs::InputError("", 0, "metric", metric, "no verdict is computed from it");
-    std::vector<double> loss;
-    for (double change : record.volume_change_pct) loss.push_back(0.0 - change);  // and no -0
-    return loss;
-}
-
 }  // namespace analysis
