@@ -204,16 +204,6 @@ void add_frame(CaseRecord& record, const MetricsRow& row)
     if (row.angle_deg) record.angle_deg.push_back(*row.angle_deg);
 }
 
-void require_whole(const CaseRecord& record)
-{
-    const std::size_t frames = record.frame.size();
-    const bool angles_fit = record.angle_deg.empty() || record.angle_deg.size() == frames;
-    if (record.time_s.size() != frames || record.volume_change_pct.size() != frames || record.volume_abs_change_pct.size() != frames ||
-        record.inverted_tets.size() != frames || !angles_fit)
-        throw pbs::InputError(record.run, 0, fmt::format("record of {} on {}", record.deformer, record.scene), "",
-                              fmt::format("expected {} values in every series", frames));
-}
-
 const Columns<PrintedValue>& printed_columns()
 {
     static const Columns<PrintedValue> columns =
@@ -245,6 +235,16 @@ std::vector<CaseRecord> case_records(const CsvTable& metrics, const std::string&
     }
     for (const CaseRecord& record : records) require_whole(record);
     return records;
+}
+
+void require_whole(const CaseRecord& record)
+{
+    const std::size_t frames = record.frame.size();
+    const bool angles_fit = record.angle_deg.empty() || record.angle_deg.size() == frames;
+    if (record.time_s.size() != frames || record.volume_change_pct.size() != frames || record.volume_abs_change_pct.size() != frames ||
+        record.inverted_tets.size() != frames || !angles_fit)
+        throw pbs::InputError(record.run, 0, fmt::format("record of {} on {}", record.deformer, record.scene), "",
+                              fmt::format("expected {} values in every series", frames));
 }
 
 std::vector<PrintedValue> printed_values(const std::string& csv)

@@ -115,11 +115,11 @@ struct EnumNames<Limit> {
 
 // A value that a study measured for a claim: a row of measurements.csv.
 struct Measurement {
-    std::string claim;                          // id of the claim
-    std::string quantity;                       // as the claim's `metrics` name it
-    CaseKey of;                                 // the case: character, pose, setting
+    std::string claim = {};                     // id of the claim
+    std::string quantity = {};                  // as the claim names it
+    CaseKey of = {};                            // the case: character, pose, setting
     double value = 0.0, low = 0.0, high = 0.0;  // in `unit`, with its range (see Claim::range); without one, both equal the value
-    std::string unit;                           // "1" for a pure number
+    std::string unit = {};                      // "1" for a pure number
     std::string run = {};                       // the folder of the run
     Limit limit = Limit::none;                  // how the value limits the quantity
     int n = 0;                                  // number of settings, cells or comparisons from which the value is computed; 0: one
@@ -145,6 +145,8 @@ struct Records {
 // InputError for a missing column, for a cell that is not a number, and for a case with angles in some frames only. run: for
 // CaseRecord::run.
 std::vector<CaseRecord> case_records(const CsvTable& metrics, const std::string& run);
+
+void require_whole(const CaseRecord& record);  // InputError unless all series have one value per frame
 
 // The rows of a file printed.csv: claim, quantity, fields of the key, printed, least, most. An empty most means that there is no upper
 // bound. InputError as for read_csv, for a missing column and for a cell that is not a number.

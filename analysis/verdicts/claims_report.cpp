@@ -36,6 +36,8 @@ json to_json_of(const Bound& bound)
 }
 
 json to_json_of(const Judged& judged);
+json to_json_of(const Unit& unit);
+json to_json_of(const PrintedValue& value);
 
 template <typename List>
 json list_of(const List& all)

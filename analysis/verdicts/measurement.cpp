@@ -38,17 +38,18 @@ CaseKey key_of(const CaseRecord& record)
     return key;
 }
 
-// The values of all frames, or of one.
+// The values of all frames, or of one frame of a sweep.
 void add_values(const CaseRecord& record, const CaseKey& key, const std::vector<double>& loss, const std::vector<double>& absolute,
                 std::vector<Measurement>& to)
 {
-    const auto add = [&](const char* quantity, const std::vector<double>& values, const char* unit) {
+    const std::string mean_of = record.is_sweep() ? "" : "mean_";
+    const auto add = [&](const std::string& quantity, const std::vector<double>& values, const char* unit) {
         const auto [least, most] = std::ranges::minmax(values);
         to.push_back({.quantity = quantity, .of = key, .value = mean(values), .low = least, .high = most, .unit = unit, .run = record.run,
                       .beside = record.beside});
     };
-    add("mean_volume_loss_pct", loss, "%");
-    add("mean_volume_abs_change_pct", absolute, "%");
+    add(mean_of + "volume_loss_pct", loss, "%");
+    add(mean_of + "volume_abs_change_pct", absolute, "%");
     const auto is_kept = [](double change) { return std::abs(change) <= kept_volume_pct; };
     const double share = static_cast<double>(std::ranges::count_if(loss, is_kept)) / static_cast<double>(loss.size());
     add("share_of_frames_within_half_pct", {share}, "1");
@@ -70,6 +71,7 @@ CsvTable measurement_table(const std::vector<Measurement>& measurements)
 std::vector<Measurement> frame_measurements(const CaseRecord& record)
 {
     std::vector<Measurement> measured;
+    require_whole(record);
     if (record.frame.empty()) return measured;
     std::vector<double> loss;
     for (const double change : record.volume_change_pct) loss.push_back(0.0 - change);  // and no -0

@@ -247,7 +247,7 @@ VerdictKind kind_of(const Verdict& verdict)
     return verdict.own.share() >= holding_share ? VerdictKind::holds : VerdictKind::mixed;
 }
 
-void judge_units(const std::vector<Measurement>& measured, Verdict& verdict)
+void judge_units(Verdict& verdict)
 {
     const Claim& claim = verdict.claim;
     const auto unseen = std::ranges::find(verdict.others, claim.unseen_by, [](const Judged& one) { return one.selection.name; });
@@ -322,8 +322,8 @@ void judge_measured(const Records& records, Verdict& verdict)
         verdict.confirmatory += std::ranges::any_of(claim.confirmatory, [&](const CaseKey& key) { return matches(unit.of, key); });
     if (claim.rule == ClaimRule::single)
         judge_single(verdict);
-    else
-        judge_units(measured, verdict);
+    else if (claim.rule == ClaimRule::units)
+        judge_units(verdict);
 }
 
 }  // namespace
@@ -357,19 +357,14 @@ Judged judged(const Claim& claim, const Selection& selection, const std::vector<
 Verdict judge(const Claim& claim, const Records& records)
 {
     Verdict verdict{.claim = claim};
-    switch (claim.rule) {
-        case ClaimRule::printed:
-            judge_print(records.printed, verdict);
-            break;
-        case ClaimRule::definition:
-            verdict.kind = VerdictKind::definition;
-            break;
-        case ClaimRule::untestable:
-            verdict.kind = VerdictKind::not_testable;
-            verdict.untested = Untested::reason_of_the_claim;
-            break;
-        default:
-            judge_measured(records, verdict);
+    if (claim.rule == ClaimRule::printed)
+        judge_print(records.printed, verdict);
+    else if (!claim.own.quantities.empty())
+        judge_measured(records, verdict);
+    if (claim.rule == ClaimRule::definition && verdict.missing.empty()) verdict.kind = VerdictKind::definition;
+    if (claim.rule == ClaimRule::untestable && verdict.missing.empty()) {
+        verdict.kind = VerdictKind::not_testable;
+        verdict.untested = Untested::reason_of_the_claim;
     }
     return verdict;
 }

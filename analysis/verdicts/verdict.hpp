@@ -31,7 +31,7 @@ enum class LeftOutUnit { no, nothing_to_see, no_control, nothing_to_compare_with
 
 // A unit of a claim: its number is the mean of its dependent values.
 struct Unit {
-    std::string quantity;  // empty unless the claim has several
+    std::string quantity = {};  // empty unless the unit is one of a single quantity
     CaseKey of = {};       // the fields that make the unit
     std::string unit = {};
     double value = 0.0, low = 0.0, high = 0.0;  // the range spans what Claim::range names
@@ -56,7 +56,7 @@ struct Judged {
 
 // The property by whose values the shares of a claim differ most.
 struct Difference {
-    std::string field, least_at, most_at;
+    std::string field = {}, least_at = {}, most_at = {};
     double least = 0.0, most = 0.0;  // shares at these values
 };
 
