@@ -58,16 +58,17 @@ def bound(low, high):
     return f"{high:.4g} or less" if high == float(f"{high:.15g}") else f"below {high:.4g}"
 
 
+def of_bound(claim, of):
+    """The quantity or the settings for which a bound is, where there are several."""
+    settings = [case_words.of_field(field, value) for field, value in of.items() if field not in ("low", "high", "quantity")]
+    return ", ".join(settings + ([title(claim, of["quantity"])] if "quantity" in of else []))
+
+
 def expected(claim):
-    """The text of each bound, with the quantity or the settings for which it is if there are several."""
+    """The text of each bound."""
     if claim["rule"] == "printed":
         return ["each value as the others require"]
-    texts = []
-    for of in claim["bounds"]:
-        told = [case_words.of_field(field, value) for field, value in of.items() if field not in ("low", "high", "quantity")]
-        told += [title(claim, of["quantity"])] if "quantity" in of else []
-        texts.append(": ".join(filter(None, [", ".join(told), bound(of["low"], of["high"])])))
-    return texts
+    return [": ".join(filter(None, [of_bound(claim, of), bound(of["low"], of["high"])])) for of in claim["bounds"]]
 
 
 def shown(case):
@@ -98,8 +99,9 @@ def numbers(claim):
     groups = {}
     for case in counting(claim):
         groups.setdefault((case["bound_low"], case["bound_high"]), []).append(case)
-    return [f"{span(cases)}, bound {bound(*ends)}" if any(end is not None for end in ends) else span(cases)
-            for ends, cases in groups.items()]
+    names = {(of["low"], of["high"]): of_bound(claim, of) for of in claim["bounds"]}
+    texts = {ends: f"{span(cases)}, bound {bound(*ends)}" if bound(*ends) else span(cases) for ends, cases in groups.items()}
+    return [f"{names[ends]}: {text}" if names.get(ends) else text for ends, text in texts.items()]
 
 
 # How many units hold.
@@ -168,6 +170,12 @@ def facts(claim):
         return [one_number(claim), *why_untested(claim)]
     told = [share(claim), *numbers(claim)] if claim["n"] else []
     return [*told, *left_out_units(claim), *by_chance(claim), *difference(claim), *why_untested(claim), *left_out(claim)] or ["no record"]
+
+
+def in_line(claim):
+    """All facts in one line, for a table or a paragraph."""
+    text = "; ".join(facts(claim))
+    return text[:1].upper() + text[1:]
 
 
 def one_number(claim):
