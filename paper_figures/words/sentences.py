@@ -50,12 +50,14 @@ def with_unit(unit):
 def bound(low, high):
     """0.9 to 1.1; 1.05 or more; below 1; above 0; empty without bounds. A bound right beside a round number excludes this number."""
     if low is not None and high is not None:
-        return f"{low:.4g}" if low == high else f"{low:.4g} to {high:.4g}"
-    if low is not None:
-        return "above 0" if 0 < low <= 1e-9 else f"{low:.4g} or more"
-    if high is None:
-        return ""
-    return f"{high:.4g} or less" if high == float(f"{high:.15g}") else f"below {high:.4g}"
+        text = f"{low:.4g}" if low == high else f"{low:.4g} to {high:.4g}"
+    elif low is not None:
+        text = "above 0" if 0 < low <= 1e-9 else f"{low:.4g} or more"
+    elif high is not None:
+        text = f"{high:.4g} or less" if high == float(f"{high:.15g}") else f"below {high:.4g}"
+    else:
+        text = ""
+    return text.replace("-", "\u2212")
 
 
 def of_bound(claim, of):
