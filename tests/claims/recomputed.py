@@ -6,6 +6,7 @@ import json
 import math
 import pathlib
 import shutil
+import tempfile
 import tomllib
 import unittest
 
@@ -185,7 +186,8 @@ class Verdict:
     """The verdict on one claim from the kept records, with the facts that claims.json states."""
 
     def __init__(self, claim):
-        self.claim, self.untested, self.controls, self.q, self.chance = claim, "none", [], None, None
+        self.claim, self.untested, self.controls, self.compared = claim, "none", [], []
+        self.q = self.chance = None
         plan = json.loads((RECORDS / "plans.json").read_text())[claim["study"]]
         self.values = rows_of(claim["study"], "measurements.csv") + frame_values(claim["study"], plan)
         self.own = Units(claim | {"unit": claim.get("unit", [])}, self.values, {"of": claim.get("of", {})})
@@ -206,8 +208,9 @@ class Verdict:
     def by_units(self):
         self.controls = [Units(self.claim, self.values, control) for control in self.claim.get("controls", [])]
         unseen = [control for control in self.controls if control.selection["name"] == self.claim.get("unseen_by")]
-        if unseen:
-            self.own.leave_out_unseen(unseen[0])
+        self.compared = [Units(self.claim, self.values, other) for other in self.claim.get("compared", [])]
+        for one in [self.own, *self.compared] if unseen else []:
+            one.leave_out_unseen(unseen[0])
         self.q = self.claim.get("no_effect") or max((control.held + 1) / (control.n + 2) for control in self.controls
                                                     if control.selection["role"] == "must_fail")
         n, held = self.own.n, self.own.held
@@ -239,23 +242,24 @@ class Verdict:
         return "holds" if all(map(self.is_consistent, self.printed)) else "inconsistent_in_print"
 
 
-class Recomputed(program.ProgramTest):
+class Recomputed(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.verdicts = {claim["id"]: Verdict(claim) for claim in claims()}
+        with tempfile.TemporaryDirectory() as folder:
+            kept = pathlib.Path(folder) / "kept"
+            shutil.copytree(RECORDS, kept)
+            process = program.run("reproduce", "--judge", "-o", kept, "--quiet")
+            if process.returncode != 0:
+                raise AssertionError(process.stderr)
+            cls.judged = json.loads((kept / "claims.json").read_text(encoding="utf-8"))["claims"]
+        cls.verdicts = [Verdict(claim) for claim in claims()]
 
-    def setUp(self):
-        super().setUp()
-        copy = pathlib.Path(self.path("kept"))
-        shutil.copytree(RECORDS, copy)
-        self.succeeds("reproduce", "--judge", "-o", copy, "--quiet")
-        self.judged = {claim["id"]: claim for claim in self.json("kept", "claims.json")["claims"]}
-
-    def each(self):
-        self.assertEqual(list(self.judged), list(self.verdicts))
-        for name, verdict in self.verdicts.items():
-            with self.subTest(name):
-                yield verdict, self.judged[name]
+    def compare(self, test):
+        """Calls test(own verdict, claim in claims.json) for each claim; one without its records has no further facts."""
+        self.assertEqual([judged["id"] for judged in self.judged], [verdict.claim["id"] for verdict in self.verdicts])
+        for verdict, judged in zip(self.verdicts, self.judged):
+            with self.subTest(judged["id"]):
+                test(verdict, judged)
 
     def assert_near(self, one, other):
         self.assertTrue(one == other or math.isclose(one, other, rel_tol=1e-9, abs_tol=1e-15), f"{one} is not {other}")
@@ -272,39 +276,59 @@ class Recomputed(program.ProgramTest):
                 self.assert_near(unit["value"], case["value"])
 
     def test_each_verdict_and_why_a_claim_is_not_testable(self):
-        for verdict, judged in self.each():
+        def test(verdict, judged):
             self.assertEqual((verdict.kind, verdict.untested), (judged["verdict"], judged["untested"]))
 
+        self.compare(test)
+
     def test_the_number_of_each_unit_and_whether_it_counts_and_holds(self):
-        for verdict, judged in self.each():
-            if verdict.claim["rule"] == "printed":
+        def test(verdict, judged):
+            if verdict.kind == "not_computable":
+                self.assertEqual(judged["cases"], [])
+            elif verdict.claim["rule"] == "printed":
                 self.assertEqual([verdict.is_consistent(row) for row in verdict.printed], [case["holds"] for case in judged["cases"]])
             else:
                 self.assert_same_units(verdict.own, judged["cases"])
 
+        self.compare(test)
+
     def test_the_share_and_its_interval(self):
-        for verdict, judged in self.each():
-            if verdict.claim["rule"] != "printed":
+        def test(verdict, judged):
+            if verdict.claim["rule"] != "printed" and verdict.kind != "not_computable":
                 self.assertEqual((verdict.own.held, verdict.own.n), (judged["held"], judged["n"]))
-            if verdict.claim["rule"] == "units" and verdict.own.n:
+            if verdict.claim["rule"] == "units" and judged["n"]:
                 self.assert_near(verdict.own.held / verdict.own.n, judged["share"])
                 low, high = exact_interval(verdict.own.held, verdict.own.n)
                 self.assertGreaterEqual(judged["interval_high"] - judged["interval_low"], high - low - 1e-9)
 
+        self.compare(test)
+
     def test_q_and_chance(self):
-        for verdict, judged in self.each():
+        def test(verdict, judged):
             for own, stated in ((verdict.q, judged["q"]), (verdict.chance, judged["chance"])):
                 self.assertEqual(own is None, stated is None)
                 if own is not None:
                     self.assert_near(own, stated)
 
+        self.compare(test)
+
     def test_the_controls_and_whether_they_behave(self):
-        for verdict, judged in self.each():
+        def test(verdict, judged):
             if verdict.kind != "not_computable":
                 own = [(control.selection["name"], control.selection["role"], control.held, control.n, control.behaves)
                        for control in verdict.controls]
                 self.assertEqual(own, [tuple(control[key] for key in ("name", "role", "held", "n", "behaves"))
                                        for control in judged["controls"]])
+
+        self.compare(test)
+
+    def test_how_many_units_of_each_comparison_lie_within_the_bound(self):
+        def test(verdict, judged):
+            if verdict.claim["rule"] == "units" and verdict.kind != "not_computable":
+                own = [(one.selection["name"], one.held, one.n) for one in verdict.compared]
+                self.assertEqual(own, [(one["name"], one["held"], one["n"]) for one in judged["compared"]])
+
+        self.compare(test)
 
 
 class OwnFormulae(unittest.TestCase):
