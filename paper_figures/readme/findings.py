@@ -54,7 +54,8 @@ def artefacts(claims):
         failing = [f"{case_words.of(case)} ({sentences.shown(case)})" for case in units if not case["holds"]]
         more = [f"{len(failing) - most_exceptions} more"] if len(failing) > most_exceptions else []
         exceptions = f", except for {' and '.join(failing[:most_exceptions] + more)}" if failing else ""
-        texts.append(told or f"{solver} shows no {what} in {claim['held']} of the {counted(claim['n'], 'pose')} in which {where}{exceptions}.")
+        poses = f"{claim['held']} of the {counted(claim['n'], 'pose')} in which {where}"
+        texts.append(told or f"{solver} shows no {what} in {poses}{exceptions}.")
         solver = solver if told else "It"
     return f"**Artefacts.** {' '.join(texts)}"
 
@@ -92,16 +93,17 @@ def stability(results):
 def stiffness(claims):
     _, units, told = counted_units(claims, "C11")
     factors = [case["value"] for case in units]
-    return "**Stiffness.** " + (told or f"k alone does not define a stiffness: with {paper_s_solver}, doubling the iterations makes the flesh "
-                                f"{min(factors):.1f} to {max(factors):.1f} times stiffer.")
+    return "**Stiffness.** " + (told or f"k alone does not define a stiffness: with {paper_s_solver}, doubling the iterations makes the "
+                                f"flesh {min(factors):.1f} to {max(factors):.1f} times stiffer.")
 
 
 def speed(claims):
     claim, units, told = counted_units(claims, "C10a")
     compared = of(claims, "C10b")
     table_1 = f", {sentences.span(sentences.counting(compared))} times the rates of Table 1 on a processor of 2014" if compared["n"] else ""
-    return "**Speed.** " + (told or f"At the sizes of Table 1, PBS with {paper_s_solver} reaches {sentences.span(units).removesuffix(' 1/s')} "
-                            f"frames per second on one core{table_1}. The bound is {claim['bounds'][0]['low']:.0f}.")
+    rates = sentences.span(units).removesuffix(" 1/s")
+    return "**Speed.** " + (told or f"At the sizes of Table 1, PBS with {paper_s_solver} reaches {rates} frames per second on one "
+                            f"core{table_1}. The bound is {claim['bounds'][0]['low']:.0f}.")
 
 
 def first_errors(results):
@@ -140,9 +142,9 @@ def distance(results):
     measured = len(errors["pbs"])
     left_out = "" if measured == poses else (f" These errors leave out {counted(poses - measured, 'pose')} in which the reference has no "
                                              "bound on its own error.")
-    return (f"**Distance from flesh.** In {counted(measured, 'pose')} of the limb and the human, PBS with 24 iterations (ordered, single precision) is {spans['pbs']} "
-            f"of the mean bone distance away from neo-Hookean flesh at the joints (LBS {spans['lbs']}, DQS {spans['dqs']}, delta mush "
-            f"{spans['delta_mush']}).{left_out} In all {counted(poses, 'pose')}, {notable[0]['members']} references with other attachments "
+    return (f"**Distance from flesh.** In {counted(measured, 'pose')} of the limb and the human, PBS with 24 iterations (ordered, single "
+            f"precision) is {spans['pbs']} of the mean bone distance away from neo-Hookean flesh at the joints (LBS {spans['lbs']}, DQS "
+            f"{spans['dqs']}, delta mush {spans['delta_mush']}).{left_out} In all {counted(poses, 'pose')}, {notable[0]['members']} references with other attachments "
             f"and Poisson's ratios decide which of two methods is closer in {decided} of the {len(notable)} pairs of skinning methods that "
             f"differ by more than {notable_points} percentage points.{undecided(notable)}")
 

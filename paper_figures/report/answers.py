@@ -8,8 +8,8 @@ from report.verdicts import mark_of
 from words import case_words, sentences
 from words.number_words import counted, figure, span
 
-who = ("Each entry states how many of a claim\u2019s units hold, a unit being a body with a clip, a joint or a mesh, and the numbers of these "
-       "units; brackets are the interval of the share.")
+who = ("Each entry states how many of a claim\u2019s units hold and their numbers. A unit is a body with a clip, a joint or a mesh; "
+       "brackets are the interval of the share.")
 failing = ("fails", "mixed", "inconsistent_in_print", "not_testable", "not_computable")
 
 

@@ -33,7 +33,8 @@ test("the first screen answers four questions, as claims.json does", async () =>
 });
 
 test("every claim has its mark and its row, with the verdict on record", async () => {
-    const chips = await page.locator(".chips .chip").evaluateAll((all) => all.map((one) => one.textContent.match(/(C\d+[a-z]?): (.*)/).slice(1)));
+    const chips = await page.locator(".chips .chip").evaluateAll((all) =>
+        all.map((one) => one.textContent.match(/(C\d+[a-z]?): (.*)/).slice(1)));
     const recorded = claims.map(({ id, verdict }) => [id, named[verdict]]);
     assert.deepEqual(chips, recorded);
     const rows = await page.locator("tr.claim").evaluateAll((all) => all.map((row) =>

@@ -14,7 +14,7 @@ import program
 
 SOURCE = pathlib.Path(program.SOURCE)
 RECORDS = SOURCE / "experiments" / "records" / "full"
-TABLES = ("measurements.csv", "metrics.csv", "printed.csv")
+SETTING = ("run", "scene", "deformer", "variant", "order", "precision", "iterations", "threads")
 INFINITE = math.inf
 LEAST_UNITS, HOLDING, FAILING, LARGEST_CHANCE = 5, 0.95, 0.5, 0.01
 
@@ -52,7 +52,7 @@ def frame_values(study, plan):
     for row in rows_of(study, "metrics.csv"):
         if "frame" not in row or (row.get("outcome") == "not_converged" and "iterations" not in row):
             continue
-        setting = tuple(row.get(name, "") for name in ("run", "scene", "deformer", "variant", "order", "precision", "iterations", "threads"))
+        setting = tuple(row.get(name, "") for name in SETTING)
         series.setdefault(setting, []).append(row)
     values = []
     for (run, *_), frames in series.items():
@@ -133,8 +133,9 @@ class Units:
             if not math.isfinite(base) or base == 0:
                 return {"value": number, "holds": False, "left_out": "nothing_to_compare_with"}
             number /= base
-        return {"value": number, "holds": lies_within(bound, number), "left_out": "censored" if is_undecided(bound, number, limit) else None,
-                "low": min(float(value.get("low", value["value"])) for value in own), "bound": bound,
+        return {"value": number, "bound": bound, "holds": lies_within(bound, number),
+                "left_out": "censored" if is_undecided(bound, number, limit) else None,
+                "low": min(float(value.get("low", value["value"])) for value in own),
                 "high": max(float(value.get("high", value["value"])) for value in own)}
 
     def leave_out_unseen(self, control):

@@ -1,7 +1,8 @@
 """The README and the pages state what the kept records have, and the verdicts of the kept records are those on record by the bounds of
 claims.toml: they change only with new records or another rule. Every study and every claim has its page, with the required sections, whose
 generated part is current. `pbskin explain` prints each page, and those of deformers. README, page, report and `pbskin explain` have the
-numbers of claims.json. The files and columns that the pages quote are those of the kept records. Reference: the kept records, claims.toml and figures.toml."""
+numbers of claims.json. The files and columns that the pages quote are those of the kept records. Reference: the kept records, claims.toml
+and figures.toml."""
 import csv
 import fnmatch
 import pathlib
@@ -54,7 +55,8 @@ def key_numbers(claim):
         return []
     if claim["rule"] == "printed":
         return [f"{claim['held']} of {claim['n']} printed values"]
-    return [f"{claim['held']} of {claim['n']} unit", f"share {claim['share']:.2f} [{claim['interval_low']:.2f}, {claim['interval_high']:.2f}]"]
+    interval = f"[{claim['interval_low']:.2f}, {claim['interval_high']:.2f}]"
+    return [f"{claim['held']} of {claim['n']} unit", f"share {claim['share']:.2f} {interval}"]
 
 
 def header(table):

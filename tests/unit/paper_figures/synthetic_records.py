@@ -194,15 +194,17 @@ def selection(name, cases=(), role="comparison", behaves=True, **others):
 
 def claim(name, verdict, cases=(), **others):
     empty = {"statement": "Volume is kept.", "place": "Sec. 4", "study": "volume", "rule": "units", "reason": "", "untested": "none",
-             "quantities": ["ratio"], "bounds": [{"low": 0.95, "high": None}], "source": "Sec. 4", "range": "meshes", "unit_fields": ["body"],
-             "interval_low": None, "interval_high": None, "chance": None, "q": None, "differs": None, "fixed_at": "", "confirmatory": 0,
-             "controls": [], "compared": [], "readings": [], "left_out": [], "missing": [], "runs": [], "titles": {}}
+             "quantities": ["ratio"], "bounds": [{"low": 0.95, "high": None}], "source": "Sec. 4", "range": "meshes",
+             "unit_fields": ["body"], "interval_low": None, "interval_high": None, "chance": None, "q": None, "differs": None,
+             "fixed_at": "", "confirmatory": 0, "controls": [], "compared": [], "readings": [], "left_out": [],
+             "missing": [], "runs": [], "titles": {}}
     return {**empty, **facts(list(cases)), "id": name, "verdict": verdict, **others}
 
 
 def write_claims(results, statement="Volume is kept."):
     """One claim of each kind: that fails on two of three clips, that holds, about printed values, without a control, untestable."""
-    clips = [unit(share, share > 0.95, 0.1, body="human", motion=clip) for clip, share in (("01_01", 0.975), ("01_03", 0.4), ("01_05", 0.2))]
+    clips = [unit(share, share > 0.95, 0.1, body="human", motion=clip)
+             for clip, share in (("01_01", 0.975), ("01_03", 0.4), ("01_05", 0.2))]
     rates = [unit(rate, True, rate - 3.0, rate + 7.0, 30.0, None, "1/s", body=body) for body, rate in (("man", 233.0), ("frankie", 107.0))]
     printed = [{"quantity": "tets", "model": "Man", "value": 5000.0, "bound_low": 1.0, "bound_high": bound, "holds": holds}
                for bound, holds in ((None, True), (9.0, False))]

@@ -83,7 +83,8 @@ class Facts(unittest.TestCase):
     def test_chance_is_stated_where_it_decides(self):
         cases = [unit(1.0)] * 14 + [unit(0.9, False)] * 4
         words = "chance reaches as many with a probability of 0.0154"
-        for verdict, chance, share, stated in (("fails", 0.0154, 14 / 18, True), ("mixed", 0.001, 14 / 18, False), ("fails", 0.9, 0.4, False)):
+        for verdict, chance, share, stated in (("fails", 0.0154, 14 / 18, True), ("mixed", 0.001, 14 / 18, False),
+                                               ("fails", 0.9, 0.4, False)):
             judged = claim("C06", verdict, cases, chance=chance, q=0.5) | {"share": share}
             self.assertEqual(words in sentences.facts(judged), stated, verdict)
 
@@ -142,7 +143,8 @@ class Basis(unittest.TestCase):
 
 class Compared(unittest.TestCase):
     def test_a_control_has_its_role_and_whether_it_behaves(self):
-        controls = [selection("LBS", [unit(0.5, False), unit(1.0)], "must_fail"), selection("LBS", (), "must_hold", False, quantities=["ms"])]
+        controls = [selection("LBS", [unit(0.5, False), unit(1.0)], "must_fail"),
+                    selection("LBS", (), "must_hold", False, quantities=["ms"])]
         self.assertEqual(sentences.control_rows(claim("C04", "holds", controls=controls)), [
             ["LBS", "must fail", "1 of 2 units, share 0.50", "0.5 to 1", "yes"], ["LBS (ms)", "must hold", "no record", "", "no"]])
 
