@@ -144,9 +144,9 @@ def distance(results):
                                              "bound on its own error.")
     return (f"**Distance from flesh.** In {counted(measured, 'pose')} of the limb and the human, PBS with 24 iterations (ordered, single "
             f"precision) is {spans['pbs']} of the mean bone distance away from neo-Hookean flesh at the joints (LBS {spans['lbs']}, DQS "
-            f"{spans['dqs']}, delta mush {spans['delta_mush']}).{left_out} In all {counted(poses, 'pose')}, {notable[0]['members']} references with other attachments "
-            f"and Poisson's ratios decide which of two methods is closer in {decided} of the {len(notable)} pairs of skinning methods that "
-            f"differ by more than {notable_points} percentage points.{undecided(notable)}")
+            f"{spans['dqs']}, delta mush {spans['delta_mush']}).{left_out} In all {counted(poses, 'pose')}, {notable[0]['members']} "
+            f"references with other attachments and Poisson's ratios decide which of two methods is closer in {decided} of the "
+            f"{len(notable)} pairs of skinning methods that differ by more than {notable_points} percentage points.{undecided(notable)}")
 
 
 def lines_of(results):
