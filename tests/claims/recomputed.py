@@ -194,7 +194,7 @@ class Verdict:
         self.own = Units(claim | {"unit": claim.get("unit", [])}, self.values, {"of": claim.get("of", {})})
         self.printed = [row for row in rows_of(claim["study"], "printed.csv") if row["claim"] == claim["id"]]
         judged = {"units": self.by_units, "single": self.by_range, "printed": self.by_print, "definition": lambda: "definition"}
-        is_missing = claim["rule"] in ("units", "single") and self.lacks_a_run(plan)
+        is_missing = claim["rule"] != "printed" and "quantities" in claim and self.lacks_a_run(plan)
         self.kind = "not_computable" if is_missing else judged.get(claim["rule"], self.without_a_test)()
 
     def lacks_a_run(self, plan):
