@@ -50,6 +50,7 @@ void add_values(const CaseRecord& record, const CaseKey& key, const std::vector<
     };
     add(mean_of + "volume_loss_pct", loss, "%");
     add(mean_of + "volume_abs_change_pct", absolute, "%");
+    if (record.is_sweep()) return;  // its frames are no sample of a motion
     const auto is_kept = [](double change) { return std::abs(change) <= kept_volume_pct; };
     const double share = static_cast<double>(std::ranges::count_if(loss, is_kept)) / static_cast<double>(loss.size());
     add("share_of_frames_within_half_pct", {share}, "1");

@@ -13,13 +13,10 @@ bool is_selected(const Selection& selection, const CaseKey& of, const Measuremen
     return std::ranges::count(selection.quantities, measured.quantity) > 0 && matches(measured.of, of);
 }
 
-// Runs beside the study's own count only where no other run has such values.
 std::vector<Measurement> selected(const Selection& selection, const CaseKey& of, const std::vector<Measurement>& measured)
 {
     std::vector<Measurement> found;
     std::ranges::copy_if(measured, std::back_inserter(found), [&](const Measurement& one) { return is_selected(selection, of, one); });
-    if (std::ranges::any_of(found, [](const Measurement& one) { return !one.beside; }))
-        std::erase_if(found, [](const Measurement& one) { return one.beside; });
     return found;
 }
 
@@ -122,6 +119,13 @@ Unit compared(const Claim& claim, const Selection& selection, Unit unit, const V
     unit.holds = unit.bound.contains(unit.value);
     if (is_undecided(unit)) unit.left_out = LeftOutUnit::censored;
     return unit;
+}
+
+// Runs beside the study's own count only in units of which no other run has values.
+void drop_those_beside(Values& values)
+{
+    if (std::ranges::any_of(values, [](const Measurement* one) { return !one->beside; }))
+        std::erase_if(values, [](const Measurement* one) { return one->beside; });
 }
 
 // A unit without one of the quantities does not hold, since nothing shows that it does.
@@ -348,6 +352,8 @@ Judged judged(const Claim& claim, const Selection& selection, const std::vector<
     base.resize(units.size());
     for (const Measurement& one : over)
         if (const auto place = static_cast<std::size_t>(place_of(one)); place < units.size()) base[place].push_back(&one);
+    for (auto* lists : {&values, &base})
+        for (Values& of_unit : *lists) drop_those_beside(of_unit);
     Judged result{.selection = selection};
     for (std::size_t i = 0; i < units.size(); ++i) result.units.push_back(judged_unit(claim, selection, units[i], values[i], base[i]));
     count(result);
