@@ -5,9 +5,6 @@
 #include "pbs/geometry/meshing_attempts.hpp"
 #include "pbs/geometry/meshing_cgal.hpp"
 
-#include <CGAL/Intersections_3/Iso_cuboid_3_Line_3.h>
-#include <CGAL/Intersections_3/Iso_cuboid_3_Ray_3.h>
-
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -37,12 +34,8 @@ public:
     std::optional<SkinPoint> crossing(const Line& line) const override
     {
         if (const auto* segment = std::get_if<Kernel::Segment_3>(&line)) return crossing(*segment);
-        const auto clipped = [this](const auto& whole) -> std::optional<SkinPoint> {
-            const auto part = CGAL::intersection(whole, box_);
-            const auto* segment = part ? boost::get<Kernel::Segment_3>(&*part) : nullptr;
-            return segment ? crossing(*segment) : std::nullopt;
-        };
-        return std::visit(clipped, line);
+        const auto part = clipped(line, box_);
+        return part ? crossing(*part) : std::nullopt;
     }
 
     // CGAL would begin with a dozen random points; where two fall close together a short edge stays, whatever the cell size. Here these are

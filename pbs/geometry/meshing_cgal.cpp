@@ -1,5 +1,7 @@
 #include "pbs/geometry/meshing_cgal.hpp"
 
+#include <CGAL/Intersections_3/Iso_cuboid_3_Line_3.h>
+#include <CGAL/Intersections_3/Iso_cuboid_3_Ray_3.h>
 #include <CGAL/Mesh_complex_3_in_triangulation_3.h>
 #include <CGAL/Mesh_criteria_3.h>
 #include <CGAL/Mesh_domain_with_polyline_features_3.h>
@@ -100,6 +102,16 @@ TetMesh tet_mesh_of(const Complex& complex)
 }
 
 }  // namespace
+
+std::optional<Kernel::Segment_3> clipped(const MeshedBody::Line& line, const Kernel::Iso_cuboid_3& box)
+{
+    const auto part_of = [&](const auto& whole) -> std::optional<Kernel::Segment_3> {
+        const auto part = CGAL::intersection(whole, box);
+        const auto* segment = part ? boost::get<Kernel::Segment_3>(&*part) : nullptr;
+        return segment ? std::optional(*segment) : std::nullopt;
+    };
+    return std::visit(part_of, line);
+}
 
 TetMesh mesh_body(MeshedBody& body, const MeshCriteria& criteria)
 {

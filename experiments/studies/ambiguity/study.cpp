@@ -124,11 +124,12 @@ std::string flips(const JudgedValue* a, const JudgedValue* b, bool b_broke_down)
     return a->extent == b->extent ? "no" : "yes";
 }
 
-// Either may be null, but not both.
+// Either may be null.
 ClaimChange compared(ClaimChange row, const JudgedValue* a, const JudgedValue* b, bool b_broke_down)
 {
-    const JudgedValue& one = a ? *a : *b;
-    row.quantity = one.quantity, row.of = one.of, row.unit = one.unit, row.bound = one.bound;
+    const JudgedValue* one = a ? a : b;
+    if (!one) return row;
+    row.quantity = one->quantity, row.of = one->of, row.unit = one->unit, row.bound = one->bound;
     if (a) row.a = a->value, row.holds_a = analysis::name_of(a->extent);
     if (b) row.b = b->value, row.holds_b = analysis::name_of(b->extent);
     if (a && b) row.change = b->value - a->value;
