@@ -41,9 +41,6 @@ public:
     virtual double relative_size(const Point&) const { return 1.0; }
 };
 
-// The segment of a line inside a box; none where they share a point or nothing.
-std::optional<Kernel::Segment_3> clipped(const MeshedBody::Line& line, const Kernel::Iso_cuboid_3& box);
-
 // What triangles enclose, counterclockwise from outside: three vertices and the patch.
 using PatchTriangle = std::array<unsigned, 4>;
 std::unique_ptr<MeshedBody> make_enclosed_body(const std::vector<Point>& points, const std::vector<PatchTriangle>& triangles);
