@@ -45,7 +45,7 @@ double smooth_density(const BoneCapsule& capsule, AttachmentKernel kernel, doubl
 // The springs by which bones hold the flesh: at sample points of a capsule around each bone (bone_capsules.hpp), so that they act as a
 // volume. The density of their stiffness is q E / r^2 times a relative density, r the capsule's radius.
 //   const CapsuleSprings held = smooth_springs(character, {});
-// Those of a smooth attachment decrease in density to zero at the surface of the capsules.
+// The springs of a smooth attachment. Their density decreases to zero at the surface of the capsules.
 struct SmoothSpringOptions {
     double core_radius = 0.7;     // capsule radius over local limb radius
     double spring_factor = 10.0;  // q on the axis

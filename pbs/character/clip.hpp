@@ -89,8 +89,8 @@ Skeleton skeleton_from_clip(const Clip& clip, double scale);
 // By the file's extension or its first word, HIERARCHY, as assimp tells it; white space and a byte-order mark may stand before that.
 bool is_bvh(const std::string& text, const std::string& path);
 
-// What assimp omits: an InputError where Frames or Frame Time is no positive number, more frames are announced than the text can hold, or
-// joints are nested deeper than a reader's stack. A header that is not there is left to the reader to refuse.
+// Checks what assimp does not. InputError: Frames or Frame Time is not a positive number, the header announces more frames than the text
+// can hold, or joints are nested deeper than a reader's stack allows. The reader itself refuses a file without a header.
 void check_bvh_header(const std::string& text, const std::string& path);
 
 }  // namespace pbs

@@ -18,8 +18,8 @@ struct BoneSprings {
 // The edges of a tet between its corners, in the order of all values per edge of a tet in this folder.
 inline constexpr int edges_of_tet[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
 
-// What the bones contribute to the points that the springs draw to: row `row` is the sum of bone (first, zeroth)^T, bone being the 3 x 4
-// matrix of a bone's transform.
+// One bone's share of row `row` of the target points of the springs. The row is the sum over its shares of B (first, zeroth)^T, where B is
+// the 3 x 4 matrix of the bone's transform.
 struct BoneShare {
     int row, bone;
     Vec3 first;     // [m] times the unit of zeroth

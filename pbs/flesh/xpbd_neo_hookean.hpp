@@ -59,7 +59,7 @@ struct XpbdVisit {
 template <typename Scalar>
 class XpbdSystem : public RowSystem<Scalar> {
 public:
-    // Of positions and w; in places without a vertex w is 1.
+    // Empty rows for positions and inverse masses w. A place without a vertex has w = 1.
     Rows<Scalar> rows() const override
     {
         Rows<Scalar> rows(this->rows_);

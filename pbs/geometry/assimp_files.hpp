@@ -80,8 +80,8 @@ inline void add_triangles(const aiMesh& mesh, int first, std::vector<int>& corne
             corners.push_back(first + static_cast<int>(mesh.mFaces[f].mIndices[c]));
 }
 
-// Of a file that assimp has read. FBX states its unit in centimetres. COLLADA's is in the root's transform, and the other formats have
-// none.
+// The unit of a file that assimp has read [m]. FBX states its unit in centimetres. COLLADA has it in the root's transform, and the other
+// formats have none.
 inline double metres_per_unit(const aiScene& scene)
 {
     constexpr double metres_per_centimetre = 0.01;

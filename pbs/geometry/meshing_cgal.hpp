@@ -37,7 +37,7 @@ public:
     // Asked where the refinement cannot begin with these points; false if there are no more.
     virtual bool double_initial_points() { return false; }
 
-    // Of cells near a point relative to each other.
+    // The size of cells near a point, as a factor of MeshCriteria's sizes.
     virtual double relative_size(const Point&) const { return 1.0; }
 };
 

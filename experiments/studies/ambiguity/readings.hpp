@@ -97,7 +97,7 @@ struct ReadingComparison {
     void measure(const std::vector<std::string>& claims, const Measure& measure);
 };
 
-// What is measured here of a scene that moves by each reading: its volume (C01, C02), and the time of a frame (C10).
+// A scene is moved by each reading. The measurements are its volume (C01, C02) and the time of a frame (C10).
 //   const ReadMotion moved = move(character, scene);
 //   volume_changes("limb_bend", reading, a, b, a, {});
 

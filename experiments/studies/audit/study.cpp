@@ -79,7 +79,7 @@ std::pair<Tet, Corners> random_tet(std::mt19937& random)
 // Eq. 11-16 in double: about ten roundings of products of about 10 m^3, over a step of 1e-2 m and a gradient of about 0.1 m^2.
 constexpr double rounding = 1e-10;
 
-// Of so many random tets.
+// The largest error among `tets` random tets.
 template <typename Error>
 double largest_error(int tets, unsigned seed, const Error& error)
 {

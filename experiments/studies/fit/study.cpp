@@ -185,7 +185,7 @@ pbs::PbsOptions pbs_options(const BarSetting& setting)
     return options;
 }
 
-// Of the tip, downwards.
+// The mean downward displacement of the tip [m].
 double mean_sag_m(const Cantilever& cantilever, const pbs::Positions& displacement)
 {
     double sum = 0.0;

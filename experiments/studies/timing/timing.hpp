@@ -1,5 +1,5 @@
-// What the study timing measures: the cost of a frame and of its parts, the cost of each optional feature of a scene, and the time to an
-// equal answer of each order of projection. study.cpp has the list of the runs; bench.hpp is a measurement of its own.
+// The measurements of the study `timing`: the cost of a frame and of its parts, the cost of each optional feature of a scene, and the time
+// that each order of projection takes to an equal answer. study.cpp has the list of the runs; bench.hpp is a measurement of its own.
 #pragma once
 
 #include "analysis/records/tables.hpp"

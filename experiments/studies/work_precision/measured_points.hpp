@@ -129,8 +129,8 @@ struct PointRow {
     std::optional<bool> reference_order_is_reliable = {};
     std::optional<bool> below_reference_error = {};
     std::optional<double> error_whole_joint_pct = {}, masked_share_pct = {};
-    // Of PBS at the joints: the distance from its own converged shape, the distance of that from the reference, the bound of the
-    // reference's distance from its limit, and the distance of the converged shape from that after half of its iterations.
+    // Distances at the joints, for PBS only: from its own converged shape to the solution (solver), from there to the reference (model),
+    // the reference's bound (discretisation), and from the converged shape to the one after half of its iterations (not_converged).
     std::optional<double> solver_pct = {}, model_pct = {}, discretisation_pct = {}, not_converged_pct = {};
     Half half = Half::evaluation;
     std::string reason = {};  // why the outcome is not_applicable or over_time_limit; why the reference is not reached
@@ -139,7 +139,7 @@ struct PointRow {
     MemberErrors members = {};
     bool is_external = false;              // a deformer of the user's own
     std::optional<FrameClock> clock = {};  // nothing where there is no time
-    // Of PBS and of a change to it: the distances from PBS after each of budget_iterations, at the joints outside the overlap.
+    // Distances from PBS after each of budget_iterations, at the joints outside the overlap. Only PBS and its variants have them.
     std::array<std::optional<double>, budget_iterations.size()> from_pbs_pct = {};
 
     bool is_of_reference() const { return outcome == "reference" || outcome == "not_reached"; }
