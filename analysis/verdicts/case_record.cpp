@@ -204,16 +204,6 @@ void add_frame(CaseRecord& record, const MetricsRow& row)
     if (row.angle_deg) record.angle_deg.push_back(*row.angle_deg);
 }
 
-void require_whole(const CaseRecord& record)
-{
-    const std::size_t frames = record.frame.size();
-    const bool angles_fit = record.angle_deg.empty() || record.angle_deg.size() == frames;
-    if (record.time_s.size() != frames || record.volume_change_pct.size() != frames || record.volume_abs_change_pct.size() != frames ||
-        record.inverted_tets.size() != frames || !angles_fit)
-        throw pbs::InputError(record.run, 0, fmt::format("record of {} on {}", record.deformer, record.scene), "",
-                              fmt::format("expected {} values in every series", frames));
-}
-
 const Columns<PrintedValue>& printed_columns()
 {
     static const Columns<PrintedValue> columns =
@@ -247,6 +237,16 @@ std::vector<CaseRecord> case_records(const CsvTable& metrics, const std::string&
     return records;
 }
 
+void require_whole(const CaseRecord& record)
+{
+    const std::size_t frames = record.frame.size();
+    const bool angles_fit = record.angle_deg.empty() || record.angle_deg.size() == frames;
+    if (record.time_s.size() != frames || record.volume_change_pct.size() != frames || record.volume_abs_change_pct.size() != frames ||
+        record.inverted_tets.size() != frames || !angles_fit)
+        throw pbs::InputError(record.run, 0, fmt::format("record of {} on {}", record.deformer, record.scene), "",
+                              fmt::format("expected {} values in every series", frames));
+}
+
 std::vector<PrintedValue> printed_values(const std::string& csv)
 {
     return rows_of(printed_columns(), read_csv(csv));
@@ -255,17 +255,6 @@ std::vector<PrintedValue> printed_values(const std::string& csv)
 CsvTable printed_table(const std::vector<PrintedValue>& values)
 {
     return table_of(used_columns(printed_columns(), values), values);
-}
-
-std::vector<double> metric_series(const CaseRecord& record, const std::string& metric)
-{
-    require_whole(record);
-    if (metric == "volume_change_pct") return record.volume_change_pct;
-    if (metric == "volume_abs_change_pct") return record.volume_abs_change_pct;
-    if (metric != "volume_loss_pct") throw pbs::InputError("", 0, "metric", metric, "no verdict is computed from it");
-    std::vector<double> loss;
-    for (double change : record.volume_change_pct) loss.push_back(0.0 - change);  // and no -0
-    return loss;
 }
 
 }  // namespace analysis

@@ -128,7 +128,7 @@ class Viewer(ResultsTest):
         figures = {column: [0.0, 1.0] for column in viewer_data.figures}
         run = {"name": "human_walk", "frames": [0, 1], "deformers": [{"label": label, "figures": figures}
                                                                       for label in ("lbs", "pbs_jiggle", "nh_p1")]}
-        self.assertEqual([(pose["claim"], pose["panels"]) for pose in viewer_html.poses_of([run])], [("C09", "lbs,pbs_jiggle,nh_p1")])
+        self.assertEqual([(pose["claim"], pose["panels"]) for pose in viewer_html.poses_of([run])], [("C09a", "lbs,pbs_jiggle,nh_p1")])
         run["deformers"].append({"label": "pbs_no_zone", "figures": figures})
         self.assertEqual(viewer_html.poses_of([run])[0]["panels"], "lbs,pbs_no_zone,pbs_jiggle,nh_p1")
 
