@@ -47,10 +47,10 @@ inline std::vector<analysis::Measurement> joined(const std::vector<std::vector<a
 inline void expect_quantities_of(const std::string& id, const std::vector<analysis::Measurement>& measured)
 {
     const analysis::Claim of = claim(id);
-    std::set<std::string> known(of.metrics.begin(), of.metrics.end()), written;
+    std::set<std::string> known(of.own.quantities.begin(), of.own.quantities.end()), written;
     for (const analysis::Measurement& measurement : measured) written.insert(measurement.quantity);
     for (const std::string& quantity : known) EXPECT_TRUE(written.contains(quantity)) << quantity;
-    known.insert(of.reported.begin(), of.reported.end());
+    for (const analysis::Quantity& quantity : of.quantities) known.insert(quantity.name);
     for (const std::string& quantity : written) EXPECT_TRUE(known.contains(quantity)) << quantity;
 }
 

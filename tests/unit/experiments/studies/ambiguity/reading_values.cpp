@@ -48,7 +48,7 @@ TEST(ReadingValues, OfStartsNameTheCaseAlike)
     EXPECT_LE(number_of(all[0], "iterations_over_lbs_guess"), 6);
     EXPECT_EQ(value(all[0], "iterations_over_lbs_guess").of, value(all[1], "iterations_over_lbs_guess").of);
     ASSERT_EQ(all[0].left_out.size(), 1u);
-    EXPECT_EQ(all[0].left_out[0].claim, "C12");
+    EXPECT_EQ(all[0].left_out[0].claim, "C12a");
     EXPECT_EQ(all[0].left_out[0].reason, "judged on characters alone");
 }
 
@@ -63,7 +63,7 @@ TEST(ReadingValues, OfProjectionsAreTheMomentumStudysDrifts)
     EXPECT_EQ(value(all[0], "angular_drift").value, drift.angular);
     EXPECT_NE(value(all[1], "linear_drift_of_a_pass").value, value(all[0], "linear_drift_of_a_pass").value);
     // The projection takes these masses into account.
-    EXPECT_EQ(analysis::extent_of(claim_named("C07"), value(all[1], "linear_drift_of_a_pass")), analysis::Extent::whole);
+    EXPECT_LE(value(all[1], "linear_drift").value, claim_named("C07").own.bounds.at(1).high);
 }
 
 // In Algorithm 1 the next position depends on the last two alone, whatever the step, so half the step swings twice as fast, exactly. In the
@@ -84,7 +84,7 @@ TEST(ReadingValues, OfJoltsHaveTheSameDampingInSubstepsAndNoSwingWhereTheFleshIs
     std::vector<std::string> left_out;
     for (const auto& one : all[0].left_out) {
         left_out.push_back(one.quantity);
-        EXPECT_EQ(one.claim, "C09");
+        EXPECT_EQ(one.claim, "C09a");
         EXPECT_EQ(one.reason, "the bound is for the study's 16 settings, a reading is jolted at 4");
         EXPECT_EQ(number_of(all[0], one.quantity), 0);
     }
