@@ -48,7 +48,7 @@ const std::vector<CaseKeyField>& case_key_fields()
         number("time_step_s", &Key::time_step_s, "s", "time step; of a range, its first setting"),
         number("time_step_to_s", &Key::time_step_to_s, "s", "last setting of the range", as_end_of_range),
         text("constraint", &Key::constraint, "stretch, volume, bind"),
-        text("initial_guess", &Key::initial_guess, "previous_frame, rest_pose, rigid_bind"),
+        text("initial_guess", &Key::initial_guess, "previous_frame, rest_pose, rigid_bind; of controls: lbs, random"),
         text("tolerance", &Key::tolerance, "residual: within 5 % of its floor; volume: absolute change within 0.5 %"),
         text("load", &Key::load, "load of a stiffness test"),
         text("ladder", &Key::ladder, "how its mesh sizes are made, if not as wanted"),

@@ -31,7 +31,7 @@ struct CaseKey {
     std::optional<double> iterations = {}, iterations_to = {};
     std::optional<double> time_step_s = {}, time_step_to_s = {};
     std::string constraint = {};                  // stretch, volume, bind
-    std::string initial_guess = {};               // previous_frame, rest_pose, rigid_bind
+    std::string initial_guess = {};               // previous_frame, rest_pose, rigid_bind; of controls: lbs, random
     std::string tolerance = {};                   // residual: within 5 % of its floor; volume: absolute change within 0.5 %
     std::string load = {}, ladder = {};           // of a stiffness test
     std::string factor = {}, second_factor = {};  // the parameters that a sweep of the stability study varies
