@@ -166,8 +166,7 @@ const Sweep iterations{"iterations", "1", {1.0, 24.0, 1000.0}, {2.0, 4.0, 8.0, 9
                            pbs_of(cell).iterations = static_cast<int>(count);
                        }};
 const Sweep iterations_of_maps{"iterations", "1", {1.0, 4.0, 24.0, 96.0}, {2.0, 8.0, 384.0}, iterations.set};
-const Sweep clip_time_steps{
-    "time_step", "s", {0.1}, {1e-4, 1.0}, [](StabilityCell& cell, double value) { cell.time_step_s = value; }};
+const Sweep clip_time_steps{"time_step", "s", {0.1}, {1e-4, 1.0}, [](StabilityCell& cell, double value) { cell.time_step_s = value; }};
 const Sweep gravities{"gravity", "g", {1.0, 100.0, 1e4}, {10.0, 1e3}, [](StabilityCell& cell, double count) {
                           pbs_of(cell).gravity_m_s2.y() = -g_m_s2 * count;
                       }};

@@ -6,8 +6,8 @@
 // has no effect after one step, so that only this step can fail. The finite elements in equilibrium take a broken initial state as the
 // initial guess of Newton's method in the last pose, without a load path. The finite elements in time have no such cells.
 //
-// The verdict follows from the share of cells at rest at the end. The bind constraint bounds a body that has lost its shape, so the shares of
-// diverged and inverted bodies and of those that end as if undisturbed are reported as well.
+// The verdict follows from the share of cells at rest at the end. The bind constraint bounds a body that has lost its shape, so the shares
+// of diverged and inverted bodies and of those that end as if undisturbed are reported as well.
 #include "analysis/records/record_files.hpp"
 #include "experiments/settings/recorded_settings.hpp"
 #include "experiments/studies/stability/stability_cells.hpp"
