@@ -85,7 +85,7 @@ def stability(results):
     diverged, every = trials(results, "share_of_cells_diverged")
     moving, _ = trials(results, "share_of_cells_in_motion")
     correct, _ = trials(results, "share_of_cells_at_rest")
-    return (f"**Stability.** In the default order and both precisions, PBS stays bounded in {every - diverged} of {every} trials with "
+    return (f"**Stability.** In the paper's order and the default one, PBS stays bounded in {every - diverged} of {every} trials with "
             f"disturbances, extreme settings and time steps to 1 s. At the end it is at rest in {every - moving}, and as if undisturbed in "
             f"{correct}.")
 
