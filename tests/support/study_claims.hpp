@@ -43,15 +43,31 @@ inline std::vector<analysis::Measurement> joined(const std::vector<std::vector<a
     return all;
 }
 
-// Every quantity on which the claim is judged is written, and none that it does not know.
+// The claim's own units, whatever its controls are.
+inline analysis::Judged own_units(const std::string& id, const std::vector<analysis::Measurement>& measured)
+{
+    const analysis::Claim of = claim(id);
+    return judged(of, of.own, measured);
+}
+
+// Every quantity on which the claim is judged is written, and none without a title.
 inline void expect_quantities_of(const std::string& id, const std::vector<analysis::Measurement>& measured)
 {
     const analysis::Claim of = claim(id);
-    std::set<std::string> known(of.metrics.begin(), of.metrics.end()), written;
+    std::set<std::string> known, written;
+    for (const analysis::Quantity& quantity : of.quantities) known.insert(quantity.name);
     for (const analysis::Measurement& measurement : measured) written.insert(measurement.quantity);
-    for (const std::string& quantity : known) EXPECT_TRUE(written.contains(quantity)) << quantity;
-    known.insert(of.reported.begin(), of.reported.end());
+    for (const std::string& quantity : of.own.quantities) EXPECT_TRUE(written.contains(quantity)) << quantity;
     for (const std::string& quantity : written) EXPECT_TRUE(known.contains(quantity)) << quantity;
+}
+
+// The claim itself and each of its controls and comparisons has a value.
+inline void expect_values_of(const std::string& id, const std::vector<analysis::Measurement>& measured)
+{
+    const analysis::Claim of = claim(id);
+    std::vector<analysis::Selection> selections = of.others;
+    selections.push_back(of.own);
+    for (const analysis::Selection& one : selections) EXPECT_FALSE(judged(of, one, measured).units.empty()) << id << " " << one.name;
 }
 
 // Carries out the first `runs` runs of the plan, like `pbskin reproduce`.
