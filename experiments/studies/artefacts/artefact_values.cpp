@@ -144,7 +144,7 @@ public:
             analysis::CaseKey key = key_of(of_, body, pose, joint, spec.kind);
             key.order = deformer.order;
             key.precision = deformer.precision;
-            if (!key.order.empty()) key.variant = weights == "paper" ? "default" : weights + "_weights";
+            key.variant = weights == "paper" ? "default" : weights + "_weights";
             return key;
         };
         for (std::size_t pose = 0; pose < own.size(); ++pose) {
@@ -364,8 +364,10 @@ WeightsComparison compare_weights(const ArtefactCase& of)
         comparison.compare_convergence(paper, rigid, options_of<pbs::PbsOptions>(pbs));
         if (vertices != 0) continue;
         const pbs::Weights diffused = pbs::weights_by(pbs::WeightKind::diffused, paper.posed.character());
-        comparison.compare(with_weights(paper, exchanged_weights(paper)), rigid, plain, "exchanged");
-        comparison.compare(with_weights(paper, diffused), rigid, plain, "diffused");
+        for (const DeformerSpec& spec : {specs.front(), plain}) {
+            comparison.compare(with_weights(paper, exchanged_weights(paper)), rigid, spec, "exchanged");
+            comparison.compare(with_weights(paper, diffused), rigid, spec, "diffused");
+        }
     }
     return std::move(comparison).result();
 }

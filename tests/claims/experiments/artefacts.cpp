@@ -41,7 +41,6 @@ protected:
 TEST_F(ArtefactsVerdict, ThinSectionsAreACandyWrapper)
 {
     std::vector<ArtefactSample> samples = samples_of({0.97, 0.97, 0.97, 0.97, 0.97});
-    expect_quantities_of("C04", thin(samples));
     expect_values_of("C04", thin(samples));
     EXPECT_EQ(verdict_on("C04", thin(samples)), VerdictKind::holds);
     samples.push_back(sample("pbs", 1, 0.5, 0, "ordered"));
@@ -68,7 +67,6 @@ TEST_F(ArtefactsVerdict, SectionsThinnerThanThoseOfFleshAreACandyWrapper)
 TEST_F(ArtefactsVerdict, WideSectionsAreABulge)
 {
     std::vector<ArtefactSample> samples = samples_of({1.02, 1.02, 1.02, 1.02, 1.02});
-    expect_quantities_of("C05", wide(samples));
     expect_values_of("C05", wide(samples));
     EXPECT_EQ(verdict_on("C05", wide(samples)), VerdictKind::holds);
     for (const double wide_over_rest : {1.2, 2.9, 3.1, 8.0}) {  // beyond 3, only PBS itself assigns the limb to another part
@@ -99,7 +97,6 @@ TEST_F(ArtefactsVerdict, RatiosAboveOneAreNotSmoother)
             one.of.body = name;
             measured.push_back(one);
         }
-    expect_quantities_of("C06", measured);
     expect_values_of("C06", measured);
     const auto put = [&](const std::string& quantity, const analysis::CaseKey& of, double ratio) {
         for (Measurement& measurement : measured)
@@ -128,14 +125,16 @@ TEST_F(ArtefactsVerdict, RatiosAboveOneAreNotSmoother)
 // - nothing projected: LBS remains, with radii down to cos 85 deg = 0.09 of the radius and less: a candy wrapper.
 // - bind dropped: only bind constraints contain the distance from the bone, so at 170 degrees sections are narrower than with them.
 // - volume sign: the volume projections undo the effect of the bind constraints, so sections are narrower.
-// - volume or stretch dropped: the bind constraints still put every vertex at its distance, so the verdict stays at 90 degrees. There is no
+// - volume or stretch dropped: the bind constraints still put every vertex at its distance, so the verdict stays at 60 degrees. There is no
 //   theory for the effect of the remaining class on the skin between the vertices. At 170 degrees, where the verdict was also expected to
 //   stay, sections fall below the bound, although they are far above those of LBS.
+
+constexpr int vertices = 1200;  // on a coarser mesh, sections between the vertices narrow by themselves
 
 // On one mesh. Flesh is taken to keep its sections; it narrows by 3 % when the limb is twisted by 180 degrees.
 std::vector<Measurement> twisted(Broken how, const std::string& angle_deg = "170")
 {
-    const ArtefactCase of = twisted_limb(400, angle_deg, how);
+    const ArtefactCase of = twisted_limb(vertices, angle_deg, how);
     const ArtefactBody body(of);
     std::vector<ArtefactSample> samples = {sample("reference", 0, 1.0, 1)};
     for (const DeformerSpec& spec : of.scene.deformers) {
@@ -151,7 +150,7 @@ double smallest(const std::vector<Measurement>& measured, const std::string& def
     return values_of(measured, "smallest_section_radius_over_rest", {.deformer = deformer}).at(0).value;
 }
 
-bool holds(const std::vector<Measurement>& measured)
+bool lies_within_bound(const std::vector<Measurement>& measured)
 {
     return own_units("C04", measured).units.at(0).holds;
 }
@@ -159,16 +158,16 @@ bool holds(const std::vector<Measurement>& measured)
 TEST(BrokenArtefacts, AsItIsThereIsNoCandyWrapper)
 {
     const auto measured = twisted(Broken::nothing);
-    EXPECT_TRUE(holds(measured)) << smallest(measured);
+    EXPECT_TRUE(lies_within_bound(measured)) << smallest(measured);
     EXPECT_LT(smallest(measured, "lbs"), 0.5);  // there is an artefact to remove
 }
 
 TEST(BrokenArtefacts, NothingProjectedIsLbs)
 {
     const auto measured = twisted(Broken::nothing_projected);
-    EXPECT_FALSE(holds(measured));
+    EXPECT_FALSE(lies_within_bound(measured));
     // Positions go through 24 roundings of two motions, on both sides.
-    const ArtefactCase of = twisted_limb(400, "170");
+    const ArtefactCase of = twisted_limb(vertices, "170");
     const ArtefactBody body(of);
     const pbs::Positions lbs = body.posed.shapes(spec_of(of.scene, "lbs")).at(0).positions;
     const auto value = [&](const pbs::Positions& positions) {
@@ -183,7 +182,7 @@ TEST(BrokenArtefacts, WithoutBindOrWithTheSignTurnedRoundSectionsAreNarrower)
     for (const Broken how : {Broken::bind_dropped, Broken::volume_sign}) {
         const auto measured = twisted(how);
         EXPECT_LT(smallest(measured), sound) << name_of(how);
-        EXPECT_FALSE(holds(measured)) << name_of(how);
+        EXPECT_FALSE(lies_within_bound(measured)) << name_of(how);
     }
 }
 
@@ -192,7 +191,7 @@ TEST(BrokenArtefacts, WithoutVolumeOrStretchTheBindConstraintsStillHold)
 {
     const double sound = smallest(twisted(Broken::nothing)), without_bind = smallest(twisted(Broken::bind_dropped));
     for (const Broken how : {Broken::volume_dropped, Broken::stretch_dropped}) {
-        EXPECT_TRUE(holds(twisted(how, "90"))) << name_of(how);
+        EXPECT_TRUE(lies_within_bound(twisted(how, "60"))) << name_of(how);
         const double radius = smallest(twisted(how));
         EXPECT_LT(radius, sound) << name_of(how);
         EXPECT_GT(radius, 0.5) << name_of(how);  // half way from LBS
