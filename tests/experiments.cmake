@@ -3,7 +3,7 @@ if(NOT TARGET pbskin)
     return()
 endif()
 
-# Tests that load deal.II at run time, in the module pbskin_fem.
+# Tests that load deal.II at run time, in the modules pbskin_fem and pbskin_verification.
 set(with_the_module experiments/deformers/fem/fem_module experiments/deformers/flesh_limits
     experiments/studies/convergence/convergence_case
     experiments/studies/ensemble/ensemble experiments/studies/fit/fit
@@ -41,7 +41,7 @@ pbs_tests(verification experiments BLAS FOLDERS experiments
     LIBRARIES experiments)
 if(PBS_WITH_FEM)
     foreach(target claims_experiments unit_experiments unit_experiments_studies verification_experiments verification_experiments_fem)
-        add_dependencies(test_${target} pbskin_fem)
+        add_dependencies(test_${target} pbskin_fem pbskin_verification)
     endforeach()
 endif()
 
