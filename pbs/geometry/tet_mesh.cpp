@@ -1,5 +1,6 @@
 #include "pbs/geometry/tet_mesh.hpp"
 
+#include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/topology.hpp"
 
 #include <Eigen/Geometry>
@@ -137,6 +138,15 @@ Eigen::VectorXd tet_volumes(const Positions& positions, const Tets& tets)
     Eigen::VectorXd volumes(tets.rows());
     for (Eigen::Index t = 0; t < tets.rows(); ++t)
         volumes(t) = tet_volume(positions.row(tets(t, 0)), positions.row(tets(t, 1)), positions.row(tets(t, 2)), positions.row(tets(t, 3)));
+    return volumes;
+}
+
+Eigen::VectorXd positive_volumes(const Positions& rest, const Tets& tets)
+{
+    Eigen::VectorXd volumes = tet_volumes(rest, tets);
+    for (Eigen::Index t = 0; t < volumes.size(); ++t)
+        if (!(volumes(t) > 0.0))
+            throw InputError("mesh", 0, "tet " + std::to_string(t), number_text(volumes(t)) + " m^3", "expected a positive rest volume");
     return volumes;
 }
 

@@ -56,10 +56,7 @@ void check_mesh(const TetMesh& mesh, const Eigen::VectorXd& bind_distance, const
     if (mesh.tets.size() && mesh.rest.rows() == 0) throw InputError("mesh", 0, "points", "0", "expected at least one point");
     if (mesh.tets.size() && (mesh.tets.minCoeff() < 0 || mesh.tets.maxCoeff() >= mesh.rest.rows()))
         throw InputError("mesh", 0, "tets", "", expected_whole("vertex indices", 0, mesh.rest.rows() - 1));
-    const Eigen::VectorXd volumes = tet_volumes(mesh.rest, mesh.tets);
-    for (Eigen::Index t = 0; t < volumes.size(); ++t)
-        if (!(volumes(t) > 0.0))
-            throw InputError("mesh", 0, "tet " + std::to_string(t), std::to_string(volumes(t)) + " m^3", "expected a positive rest volume");
+    positive_volumes(mesh.rest, mesh.tets);
 }
 
 void check_held(const std::vector<bool>& held, const std::vector<bool>& jiggle_zone, const PbsOptions& options)
