@@ -159,17 +159,14 @@ SmoothnessMetrics::SmoothnessMetrics(const Positions& rest, const pbs::Tets& tet
 
 void SmoothnessMetrics::find_inner_faces(const std::vector<bool>& near)
 {
-    std::map<std::array<int, 3>, int> open;  // faces seen once, and the tet of each
-    for (int t = 0; t < static_cast<int>(tets_.rows()); ++t)
-        for (int opposite = 0; opposite < 4; ++opposite) {
-            std::array<int, 3> face;
-            for (int corner = 0, i = 0; corner < 4; ++corner)
-                if (corner != opposite) face[i++] = tets_(t, corner);
-            if (!all_near(face, near)) continue;
-            std::sort(face.begin(), face.end());
-            const auto [seen, first_time] = open.try_emplace(face, t);
-            if (!first_time) faces_.push_back({seen->second, t, triangle_area(rest_, face)});
-        }
+    const std::vector<pbs::TetFace> faces = pbs::sorted_faces(tets_);
+    std::map<std::array<int, 2>, InnerFace> in_file_order;  // by the second tet and its corner opposite to the face
+    for (std::size_t f = 1; f < faces.size(); ++f) {
+        const auto& [vertices, tet, opposite, even] = faces[f];
+        if (vertices == faces[f - 1].sorted && all_near(vertices, near))
+            in_file_order[{tet, opposite}] = {faces[f - 1].tet, tet, triangle_area(rest_, vertices)};
+    }
+    for (const auto& [place, face] : in_file_order) faces_.push_back(face);
 }
 
 void SmoothnessMetrics::find_skin_edges(const std::vector<bool>& near)
