@@ -14,7 +14,6 @@ double mean(const std::vector<double>& values);                // NaN if a value
 double median(const std::vector<double>& values);              // quantile at 0.5
 double quantile(std::vector<double> values, double share);     // linear between the order statistics at share (n - 1), 0 <= share <= 1
 double standard_deviation(const std::vector<double>& values);  // n - 1 in the denominator
-double standard_error(const std::vector<double>& values);      // standard error of the mean of independent values
 
 // Spearman's rank correlation: 1 if y rises with x throughout. NaN for fewer than two pairs.
 double rank_correlation(const std::vector<double>& x, const std::vector<double>& y);
