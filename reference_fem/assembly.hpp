@@ -1,4 +1,4 @@
-// Integrals over the tets: stiffness, load, strain energy, error norms. One assembly serves both the reference and its verification.
+// Integrals over the tets: mass, load, strain energy, error norms. One assembly serves both the reference and its verification.
 #pragma once
 
 #include "pbs/geometry/tet_mesh.hpp"
@@ -14,12 +14,11 @@
 
 namespace reference_fem {
 
-// Continuous vector-valued finite elements on the character's own tets: P1 or P2 on straight tets (deal.II's FE_SimplexP).
-// Node v is vertex v of the mesh; a P2 space numbers its mid-edge nodes after the vertices. Degree of freedom 3 n + c is component c at
-// node n. The header is plain; deal.II is seen by assembly.cpp alone.
 using TetNodes = Eigen::Matrix<int, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;  // #T x 4 or #T x 10
 
-// The mesh may go.
+// Continuous vector-valued finite elements on the character's own tets: P1 or P2 on straight tets (deal.II's FE_SimplexP).
+// Node v is vertex v of the mesh; a P2 space numbers its mid-edge nodes after the vertices. Degree of freedom 3 n + c is component c at
+// node n. The mesh may go.
 class SimplexSpace {
 public:
     struct Elements;  // deal.II's side, in assembly.cpp
@@ -60,9 +59,6 @@ using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, std::int64_t>;
 
 using VectorField = std::function<pbs::Vec3(const pbs::Vec3&)>;          // of a rest point [m]; unit by use: N/m^3, m
 using GradientField = std::function<Eigen::Matrix3d(const pbs::Vec3&)>;  // (i, j): d u_i / d x_j at a rest point [m]
-
-// K_ij = integral of lambda div(phi_i) div(phi_j) + 2 mu eps(phi_i) : eps(phi_j) [N/m], #dofs x #dofs; exact on straight tets.
-SparseMatrix stiffness_matrix(const SimplexSpace& space, const Lame& material);
 
 // M_ij = integral of density phi_i phi_j [kg], #nodes x #nodes: the consistent mass, the same for each component; exact on straight tets.
 SparseMatrix mass_matrix(const SimplexSpace& space, double density_kg_m3);

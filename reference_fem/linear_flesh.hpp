@@ -19,6 +19,9 @@
 
 namespace reference_fem {
 
+// K_ij = integral of lambda div(phi_i) div(phi_j) + 2 mu eps(phi_i) : eps(phi_j) [N/m], #dofs x #dofs; exact on straight tets.
+SparseMatrix stiffness_matrix(const SimplexSpace& space, const Lame& material);
+
 // The whole body has one material.
 class LinearFlesh {
 public:

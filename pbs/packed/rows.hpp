@@ -30,7 +30,7 @@ private:
     std::vector<Block> blocks_;
 };
 
-// Positions of the mesh as rows of the kernels (rows.hpp), relative to an origin, and back. place: the row of each vertex, #V.
+// Positions of the mesh as rows of the kernels, relative to an origin, and back. place: the row of each vertex, #V.
 template <typename Scalar>
 void load_rows(const Positions& x, const std::vector<int>& place, const Vec3& origin, Rows<Scalar>& rows)
 {

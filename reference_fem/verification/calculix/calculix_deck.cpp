@@ -1,5 +1,6 @@
 #include "reference_fem/verification/calculix/calculix_deck.hpp"
 
+#include "reference_fem/linear_flesh.hpp"
 #include "reference_fem/linear_solvers.hpp"
 
 #include <Eigen/Eigenvalues>
