@@ -32,7 +32,7 @@ public:
 
     int element_order() const { return element_order_; }                      // 1 or 2
     int nodes() const { return static_cast<int>(node_positions_.rows()); }    // #V with P1, #V + #E with P2
-    int dofs() const { return 3 * nodes(); }                                  // 3 a node, prescribed ones too
+    int dofs() const { return 3 * nodes(); }                                  // 3 per node, prescribed ones too
     const pbs::Positions& node_positions() const { return node_positions_; }  // [m], #nodes x 3
     const TetNodes& tet_nodes() const { return tet_nodes_; }                  // the corners first, in the mesh's order
 
@@ -86,7 +86,7 @@ struct ErrorNorms {
     double l2 = 0.0;           // sqrt of the integral of |u - u_h|^2 [m^(5/2)]
     double h1_seminorm = 0.0;  // sqrt of the integral of |grad u - grad u_h|^2 [m^(3/2)]
 };
-// displacement [m], #dofs. By quadrature with 4 points a direction, exact to degree 7.
+// displacement [m], #dofs. By quadrature with 4 points per direction, exact to degree 7.
 ErrorNorms error_norms(const SimplexSpace& space, const Eigen::VectorXd& displacement, const VectorField& exact,
                        const GradientField& exact_gradient);
 
@@ -106,7 +106,7 @@ struct ElementTables {
     double weight(Eigen::Index tet, int q) const { return weights(tet * points_per_tet + q); }  // [m^3]
 };
 
-// Quadrature with `points_1d` points a direction: exact to degree 2 points_1d - 1; 1 to 4.
+// Quadrature with `points_1d` points per direction: exact to degree 2 points_1d - 1; 1 to 4.
 ElementTables element_tables(const SimplexSpace& space, int points_1d);
 
 // Any rule: points by their coordinates on corners 2, 3, 4; the weights add up to 1/6, the volume of the unit tet.

@@ -103,7 +103,7 @@ public:
     pbs::Positions vertices(const Eigen::VectorXd& displacement) const;
     std::vector<bool> prescribed_vertices() const;  // #V
 
-    // pbs::InputError unless there is one target a spring point and one a vertex.
+    // pbs::InputError unless there is one target per spring point and one per vertex.
     void require_targets(const pbs::Positions& spring_targets, const pbs::Positions& vertex_targets) const;
     SetupSummary summary(const PreparedSolver* factor, double assemble_s) const;  // null: nothing is factored yet
 

@@ -41,7 +41,7 @@ protected:
     double analyse_s_ = 0.0, factor_s_ = 0.0, reciprocal_condition_ = 0.0;  // [s], [s], [1]
 };
 
-// What an iterative solver's coarse levels must keep, such as the rigid_body_modes. Where its rows are whole nodes, block_size is 3.
+// Modes that an iterative solver's coarse levels must keep, such as rigid_body_modes. Where their rows are whole nodes, block_size is 3.
 struct NearNullSpace {
     Eigen::MatrixXd modes = {};  // #rows x #modes; empty: constants
     int block_size = 1;          // 1 or 3

@@ -13,7 +13,7 @@ namespace reference_fem {
 // (potentials/potentials.hpp).
 enum class Formulation {
     displacement,     // theta at every quadrature point: locks as nu goes to 1/2
-    mean_dilatation,  // theta's mean over each tet, one volume constraint a tet; on P2 the P2-P0 element
+    mean_dilatation,  // theta's mean over each tet, one volume constraint per tet; on P2 the P2-P0 element
     taylor_hood,      // P2 with a continuous P1 pressure
 };
 

@@ -152,7 +152,7 @@ double ErrorMetrics::share_pct(const std::vector<bool>& vertices) const
 SmoothnessMetrics::SmoothnessMetrics(const Positions& rest, const pbs::Tets& tets, const std::vector<bool>& near) : rest_(rest), tets_(tets)
 {
     checked_rest_volumes(rest, tets);
-    if (static_cast<Eigen::Index>(near.size()) != rest.rows()) throw pbs::InputError("", 0, "near", "", "expected one entry a vertex");
+    if (static_cast<Eigen::Index>(near.size()) != rest.rows()) throw pbs::InputError("", 0, "near", "", "expected one entry per vertex");
     find_inner_faces(near);
     find_skin_edges(near);
 }

@@ -1,4 +1,4 @@
-// What needs the readers of PBS_WITH_RIG_IMPORT, in a build without them.
+// The functions that need the readers of PBS_WITH_RIG_IMPORT, in a build without them.
 #include "pbs/character/clip.hpp"
 #include "pbs/character/named_bodies.hpp"
 #include "pbs/character/skeleton_file.hpp"

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int surface_mesher_version = 3;  // raised whenever mesh_surface makes something else of the same surface
 
-// The ring.
+// The ring has these dimensions.
 constexpr int ring_version = 1;                                              // raised with what is below, so that the cache knows
 constexpr double ring_strand = 0.36, ring_apart = 0.14, tube_radius = 0.07;  // [m] half the strands' length, half their distance
 constexpr double ring_end = ring_strand + ring_apart;

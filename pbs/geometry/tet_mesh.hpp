@@ -77,7 +77,7 @@ struct Location {
     Vec3 barycentric = Vec3::Zero();  // coordinates on corners 2, 3, 4 of that tet
 };
 
-// The grid has about one cell a tet.
+// The grid has about one cell per tet.
 class PointLocation {
 public:
     explicit PointLocation(const TetMesh& mesh);  // the mesh outlives it

@@ -63,7 +63,7 @@ Vec3 load_held_centres(const Positions& centres, const std::vector<int>& place, 
     return origin;
 }
 
-// What solvers on rows have in common: where the rows of the vertices lie, and the origin to which positions are relative.
+// Solvers on rows have in common where the rows of the vertices lie, and the origin to which positions are relative.
 template <typename Scalar>
 class RowSystem {
 public:

@@ -48,7 +48,8 @@ void check_mesh(const TetMesh& mesh, const Eigen::VectorXd& bind_distance, const
                 const std::vector<bool>& held)
 {
     const auto size_error = [&](const char* field, auto size) {
-        throw InputError("pbs", 0, field, std::to_string(size) + " entries", "expected one a vertex, " + std::to_string(mesh.rest.rows()));
+        throw InputError("pbs", 0, field, std::to_string(size) + " entries",
+                         "expected one per vertex, " + std::to_string(mesh.rest.rows()));
     };
     if (bind_distance.size() != mesh.rest.rows()) size_error("bind_distance", bind_distance.size());
     if (!jiggle_zone.empty() && Eigen::Index(jiggle_zone.size()) != mesh.rest.rows()) size_error("jiggle_zone", jiggle_zone.size());

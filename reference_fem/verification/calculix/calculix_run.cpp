@@ -175,7 +175,7 @@ private:
         if (!node || *node != std::floor(*node) || *node < 1.0 || *node > static_cast<double>(seen_.size()))
             refuse("node", fields[0], "expected 1 to " + std::to_string(seen_.size()));
         const auto n = static_cast<std::size_t>(*node) - 1;
-        if (seen_[n]) refuse("node", fields[0], "expected one line a node");
+        if (seen_[n]) refuse("node", fields[0], "expected one line per node");
         seen_[n] = true;
         for (int c = 0; c < 3; ++c) {
             const std::optional<double> component = number(fields[c + 1]);
