@@ -162,9 +162,9 @@ void SmoothnessMetrics::find_inner_faces(const std::vector<bool>& near)
     const std::vector<pbs::TetFace> faces = pbs::sorted_faces(tets_);
     std::map<std::array<int, 2>, InnerFace> in_file_order;  // by the second tet and its corner opposite to the face
     for (std::size_t f = 1; f < faces.size(); ++f) {
-        const auto& [vertices, tet, opposite, even] = faces[f];
-        if (vertices == faces[f - 1].sorted && all_near(vertices, near))
-            in_file_order[{tet, opposite}] = {faces[f - 1].tet, tet, triangle_area(rest_, vertices)};
+        const pbs::TetFace &face = faces[f], &before = faces[f - 1];
+        if (face.sorted == before.sorted && all_near(face.sorted, near))
+            in_file_order[{face.tet, face.face}] = {before.tet, face.tet, triangle_area(rest_, face.sorted)};
     }
     for (const auto& [place, face] : in_file_order) faces_.push_back(face);
 }

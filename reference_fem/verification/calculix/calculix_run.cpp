@@ -196,7 +196,7 @@ bool agrees(const pbs::Positions& record, const pbs::Positions& printed)
     return ((record - printed).array().abs() <= last_digit * printed.array().abs() + smallest_printed).all();
 }
 
-// A record of 1 + 3 numbers a node, the first one its temperature: of the nodes, then of the ends of springs.
+// A record of 1 + 3 numbers per node, the first one its temperature: of the nodes, then of the ends of springs.
 std::optional<pbs::Positions> displacements_in(const std::string& restart, std::size_t begin, std::size_t length, Eigen::Index nodes)
 {
     using Record = Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor>;
