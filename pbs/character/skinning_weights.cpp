@@ -1,7 +1,6 @@
 #include "pbs/character/skinning_weights.hpp"
 
 #include "pbs/character/embedding.hpp"
-#include "pbs/geometry/files.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/topology.hpp"
 #include "pbs/skinning/weights.hpp"
@@ -214,11 +213,6 @@ Weights parse_weights(const std::string& text, const std::string& name, const Sk
         weights.end_vertex();
     }
     return weights;
-}
-
-Weights read_weights(const std::string& path, const Skeleton& skeleton, int vertices)
-{
-    return parse_weights(read_text_file(path), path, skeleton, vertices);
 }
 
 }  // namespace pbs
