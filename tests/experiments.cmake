@@ -48,7 +48,8 @@ endif()
 # The program as users run it: exit status, messages, folders. The tests are in Python, so that they share no code with the program.
 function(pbs_program_test kind name)
     add_test(NAME ${kind}/${name} COMMAND ${PBS_TEST_PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/${kind}/${name}.py)
-    set_tests_properties(${kind}/${name} PROPERTIES LABELS ${kind} TIMEOUT 900
+    # ctest starts the costliest tests first, so that no core is idle in the end: these are longer than most.
+    set_tests_properties(${kind}/${name} PROPERTIES LABELS ${kind} TIMEOUT 900 COST 60
         ENVIRONMENT "PBSKIN=$<TARGET_FILE:pbskin>;PBS_SOURCE=${PROJECT_SOURCE_DIR};PYTHONPATH=${CMAKE_CURRENT_SOURCE_DIR}/support")
 endfunction()
 pbs_program_test(robustness experiments/command_line)
