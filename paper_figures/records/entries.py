@@ -12,6 +12,7 @@ import tomllib
 from dataclasses import dataclass
 
 import records
+from records import kept
 
 listing = pathlib.Path(__file__).resolve().parents[1] / "figures.toml"
 marks = {"R": "minutes, on any machine: ./reproduce", "NR": "not from this repository's records",
@@ -51,13 +52,12 @@ class Entry:
             records.need(files, f"{results / pattern}: does not exist")
         return [file for files in found.values() for file in files]
 
-    def runs(self, results):
-        """The run.json of each run behind it."""
-        return list(dict.fromkeys(run for file in self.files(results) for run in runs_behind(file, results)))
-
     def origin(self, results):
-        """For the figure's metadata: versions, revisions, processors and scenes of the runs behind it, and the licences of bodies shown."""
-        runs = {run.parent.name: records.read_json(run) for run in self.runs(results)}
+        """For the figure's metadata: versions, revisions, processors and scenes of the runs behind it, and the licences of bodies shown. A
+        table that was measured apart from its study's runs has its own origin."""
+        apart, files = kept.measured_apart(results), self.files(results)
+        runs = {run.parent.name: records.read_json(run) for file in files if file not in apart for run in runs_behind(file, results)}
+        runs |= {file.name: {"provenance": apart[file]} for file in files if file in apart}
         shown = [licence for run in runs.values() for licence in licences_of(run)] if "frames" in self.studies() else []
         return records.origin_of(runs) | {"rights": "; ".join(dict.fromkeys(shown))}
 

@@ -2,6 +2,7 @@
 from the complete records."""
 import json
 import pathlib
+import shutil
 import subprocess
 import sys
 import unittest
@@ -12,7 +13,7 @@ KEEP = pathlib.Path(program.SOURCE) / "experiments" / "records" / "keep.py"
 sys.path.insert(0, str(KEEP.parent))
 import keep  # noqa: E402
 sys.path.insert(0, str(pathlib.Path(program.SOURCE) / "paper_figures"))
-from records import kept as kept_records  # noqa: E402
+from records import RecordsMissing, kept as kept_records  # noqa: E402
 
 
 class KeptRecords(program.ProgramTest):
@@ -57,6 +58,53 @@ class KeptRecords(program.ProgramTest):
         for name, text in runs.items():
             self.assertEqual(json.loads((opened / name).read_text()), json.loads(text))
         self.assertEqual(sorted(file.name for file in (merged / "study" / "runs").iterdir()), ["a.csv", "b.csv"])
+
+    def test_every_column_of_a_table_is_kept(self):
+        """`setting` distinguishes the rows of work_precision/RUN/changes.csv."""
+        run, kept = pathlib.Path(self.path("work_precision", "limb")), pathlib.Path(self.path("kept"))
+        run.mkdir(parents=True)
+        changes = "change,setting,iterations\nbound,0.002,4\nbound,0.01,4\n"
+        for name, text in (("run.json", '{"schema": 3}'), ("changes.csv", changes)):
+            (run / name).write_text(text)
+        self.assertEqual(keep.keep_run(run, kept), [])
+        self.assertEqual((kept / "changes.csv").read_text(), changes)
+
+    def merged(self, **changed):
+        """Kept records of one run, whose files may be changed."""
+        kept = pathlib.Path(self.path("kept"))
+        origin = {"schema": 3, "provenance": {"version": "1"}, "runs": ["study/one"]}
+        shutil.rmtree(kept, ignore_errors=True)
+        (kept / "study" / "runs").mkdir(parents=True)
+        (kept / "plans.json").write_text(json.dumps({changed.get("study", "study"): {"runs": [{"name": "one"}]}}))
+        (kept / "provenance.json").write_text(json.dumps({"origins": [origin | changed.get("origin", {})]}))
+        (kept / "study" / "runs" / "metrics.csv").write_text(changed.get("table", "run,x\none,1\n"))
+        return kept
+
+    def test_names_that_leave_the_folder_are_refused(self):
+        outside = self.path("outside")
+        for name in ("../outside", outside, "one/../../../outside"):
+            for changed in ({"study": name}, {"origin": {"runs": [name]}}, {"table": f"run,x\n{name},1\n"}):
+                with self.subTest(changed):
+                    kept = self.merged(**changed)
+                    with self.assertRaisesRegex(RecordsMissing, "expected no leading / and no .. in a name"):
+                        kept_records.opened(kept)
+                    self.refuses("expected no leading / and no .. in a name", "reproduce", "--judge", "-o", kept, "--quiet")
+        self.assertFalse(pathlib.Path(outside).exists())
+
+    def test_malformed_tables_and_origins_are_refused(self):
+        for changed, message in (({"table": "run,x\none\n"}, "metrics.csv:2: one: expected a name and the cells of a row"),
+                                 ({"table": "run,x\n,1\n"}, "metrics.csv:2: : expected a name"), ({"table": ""}, "metrics.csv: no rows"),
+                                 ({"origin": {"runs": 1}}, "provenance.json: not as"), ({"origin": {"tables": [1]}}, "provenance.json: not as")):
+            with self.subTest(changed), self.assertRaisesRegex(RecordsMissing, message):
+                kept_records.opened(self.merged(**changed))
+
+    def test_tables_that_were_measured_apart_keep_their_own_origin(self):
+        origins = [{"schema": 3, "provenance": {"version": "1"}, "runs": ["study/one"]},
+                   {"schema": 3, "provenance": {"version": "2"}, "runs": [], "tables": ["study/runs/metrics.csv"]}]
+        kept = self.merged()
+        (kept / "provenance.json").write_text(json.dumps({"origins": origins}))
+        opened = kept_records.opened(kept)
+        self.assertEqual(kept_records.measured_apart(opened), {opened / "study" / "one" / "metrics.csv": {"version": "2"}})
 
     def test_files_that_are_too_long_are_listed(self):
         results, kept = self.recorded("audit")
