@@ -1,15 +1,26 @@
-"""Writes the pages of studies for readers, DIR/STUDY/STUDY.md, from their tables.
+"""Writes the pages of studies for readers, DIR/STUDY/STUDY.md, from their tables. Exit status 2 if DIR holds no records for a page, or
+damaged ones.
 
     python3 paper_figures/make_pages.py results/reproduce
 """
+import argparse
 import pathlib
 import sys
 
 import pages
 
-if __name__ == "__main__":
-    if len(sys.argv) != 2:
-        print(__doc__, file=sys.stderr)
-        sys.exit(2)
-    for file in pages.write(pathlib.Path(sys.argv[1])):
+
+def main(folder):
+    written, status = pages.write(folder)
+    for file in written:
         print(file)
+    if not written and status == 0:
+        print(f"make_pages: {folder}: no records of a study that has a page; run ./reproduce first", file=sys.stderr)
+        return 2
+    return status
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("results", metavar="DIR", type=pathlib.Path, help="the records of ./reproduce")
+    sys.exit(main(parser.parse_args().results))

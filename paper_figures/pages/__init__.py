@@ -1,6 +1,6 @@
 """The pages of studies for readers, DIR/STUDY/STUDY.md, composed from the tables that the studies write.
 
-    pages.write(results)   # of each study that has a page and records
+    written, status = pages.write(results)   # of each study that has a page and records
 """
 import importlib
 import math
@@ -14,8 +14,14 @@ studies = ("ambiguity", "artefacts", "audit", "convergence", "ensemble", "jiggle
 
 
 def write(results):
-    """Returns the pages that were written. A study without records has none, and damaged records are named on stderr."""
-    opened, written = kept.opened(results), []
+    """Returns the pages that were written and the exit status. A study without records has no page. Missing tables of a study are named on
+    stderr; so are damaged records and pages that cannot be written, whose status is 2."""
+    try:
+        opened = kept.opened(results)
+    except records.RecordsMissing as error:
+        print(f"pbskin: {error}", file=sys.stderr)
+        return [], 2
+    written, status = [], 0
     for study in studies:
         if not (opened / study / "plan.json").is_file():
             continue
@@ -27,7 +33,9 @@ def write(results):
             written.append(file)
         except (records.RecordsMissing, whole_file.CannotBeWritten) as error:
             print(f"pbskin: page of {study}: {error}", file=sys.stderr)
-    return written
+            if isinstance(error, (records.RecordsDamaged, whole_file.CannotBeWritten)):
+                status = 2
+    return written, status
 
 
 def table(rows, columns):

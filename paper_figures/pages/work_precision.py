@@ -42,7 +42,7 @@ def nearest(folder):
         shown = []
         for row in of_comparison(rows, comparison):
             if row["rank"] == "1":
-                shown.append(dict(row) | {"next": ""})
+                shown.append(row | {"next": ""})
             elif row["rank"] == "2":
                 shown[-1]["next"] = f"{looks.of(row['group']).name}: {float(row['error_joint_pct']):.1f}"
         text += f"\n## Nearest within a time: {words}\n\n" + pages.table(shown, {
@@ -96,7 +96,7 @@ def omissions(folder):
 
 
 def references(points):
-    rows = [dict(row) | {"case": run, "s": float(row["reach_ms"]) / 1e3} for run, of in points.items() for row in of
+    rows = [row | {"case": run, "s": float(row["reach_ms"]) / 1e3} for run, of in points.items() for row in of
             if row["outcome"] in ("reference", "not_reached")]
     return "\n## References\n\n" + pages.table(rows, {
         "case": "case", "half": "half", "reference": words_of, "outcome": "outcome", "time of its solutions [s]": ("s", 0),

@@ -5,10 +5,12 @@ import csv
 import importlib
 import json
 import math
+import shutil
 import tomllib
 import unittest
 
 from results_case import ResultsTest, listening, root
+import make_pages
 import make_readme
 import pages
 import synthetic_records
@@ -269,10 +271,30 @@ class Pages(ResultsTest):
         self.assertEqual([(claim["low"], claim["high"]) for claim in claims if claim["id"] == "C11"], [stiffness.bounds])
 
     def test_a_study_without_records_has_no_page(self):
-        self.assertEqual(pages.write(self.results), [])
+        self.assertEqual(pages.write(self.results), ([], 0))
+        with listening() as (_, complaints):
+            self.assertEqual(make_pages.main(self.results), 2)
+        self.assertIn("no records of a study", complaints.getvalue())
         (self.results / "ensemble").mkdir()
         (self.results / "ensemble" / "plan.json").write_text(json.dumps({"runs": []}), encoding="utf-8")
-        self.assertEqual(pages.write(self.results), [], "its tables are missing")
+        self.assertEqual(pages.write(self.results), ([], 0), "its tables are missing")
+
+    def test_a_damaged_table_is_refused_with_its_place(self):
+        study = self.results / "ensemble"
+        shutil.copytree(kept.opened(KEPT) / "ensemble", study)
+        whole = (study / "pairs.csv").read_text()
+        head, first, *_ = whole.splitlines()
+        columns, cells = head.split(","), first.split(",")
+        cells[columns.index("largest_difference_pct")] = "ten"
+        for damaged, message in ((",".join(cells), "pairs.csv:2: largest_difference_pct = ten: expected a number"),
+                                 (first.rpartition(",")[0], f"pairs.csv:2: expected {len(columns)} cells"),
+                                 (first + ",1", f"pairs.csv:2: expected {len(columns)} cells")):
+            (study / "pairs.csv").write_text(whole.replace(first, damaged, 1))
+            with self.subTest(message), listening() as (_, complaints):
+                self.assertEqual(pages.write(self.results), ([], 2))
+                self.assertIn(message, complaints.getvalue())
+        (study / "pairs.csv").write_text(whole)
+        self.assertEqual(pages.write(self.results), ([study / "ensemble.md"], 0))
 
 
 def shown():
