@@ -94,7 +94,7 @@ def title_of(recorded, label):
     if "k_stretch" not in own or own["k_stretch"] == plain.get("k_stretch"):
         return looks.of(label).name
     zone = f"zone {own['jiggle']['k_stretch']:g}" if own.get("jiggle") else "no zone"
-    return f"PBS, k_stretch {own['k_stretch']:g}, {zone}"
+    return f"{looks.of('pbs').name}, k_stretch {own['k_stretch']:g}, {zone}"
 
 
 def pack_bones(recorded, frames, block):

@@ -12,6 +12,7 @@ import checked_looks
 import make_all
 import synthetic_records
 from drawing import style
+from figures import pbs_errors
 from records import entries
 from synthetic_records import claim, interval, judged_run, subject, value, write_table
 from words import captions, case_words, looks, sentences
@@ -191,7 +192,14 @@ class Looks(unittest.TestCase):
         axes[0][0].plot([0, 1], [0, 1], color=look.color, marker=look.marker, label="DQS")
         self.assertEqual(checked_looks.wrongly_drawn(figure), [])
         axes[0][0].plot([0, 1], [0, 1], color=style.black, marker=look.marker, label="DQS, 90 degrees")
-        self.assertEqual(checked_looks.wrongly_drawn(figure), ["DQS, 90 degrees: #000000 s"])
+        axes[0][0].plot([0, 1], [0, 1], color=style.black, marker=look.marker, label="DQS (baseline)")
+        axes[0][0].plot([0, 1], [0, 1], color=style.black, marker=look.marker, label="DQS-like")
+        self.assertEqual(checked_looks.wrongly_drawn(figure), ["DQS, 90 degrees: #000000 s", "DQS (baseline): #000000 s"])
+
+    def test_a_change_to_pbs_has_no_deformers_colour(self):
+        taken = {entry.get("color") for entry in looks.listed.values()} | {color for color, _, _ in looks.own}
+        self.assertFalse(taken & {color for color, _ in pbs_errors.changes.values()})
+        self.assertEqual({"pbs", *pbs_errors.changes}, set(pbs_errors.names))
 
 
 listed = {entry.name: entry for entry in entries.read()}
