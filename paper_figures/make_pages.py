@@ -9,18 +9,12 @@ import sys
 
 import pages
 
-
-def main(folder):
-    written, status = pages.write(folder)
-    for file in written:
-        print(file)
-    if not written and status == 0:
-        print(f"make_pages: {folder}: no records of a study that has a page; run ./reproduce first", file=sys.stderr)
-        return 2
-    return status
-
-
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("results", metavar="DIR", type=pathlib.Path, help="the records of ./reproduce")
-    sys.exit(main(parser.parse_args().results))
+    results = parser.parse_args().results
+    written, status = pages.write(results)
+    print(*written, sep="\n")
+    if not written and status == 0:
+        parser.error(f"{results}: no records of a study that has a page; run ./reproduce first")
+    sys.exit(status)

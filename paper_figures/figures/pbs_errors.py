@@ -134,11 +134,10 @@ def error_parts(results):
 # iterations, and the gain of each change in the time of 4, 24 and 96 iterations of PBS, with its interval over the poses. A gain that is
 # decided is drawn filled.
 
-names = {"pbs": f"{looks.of('pbs').name} (baseline)", "smooth_weights": "smooth weights", "bind_to_blended_position": "bind to blended position",
-         "region_volumes": "volumes of regions", "tet_and_region_volumes": "volumes of tets and regions",
-         "k_by_edge_length": "k by edge length", "another_order": "another order", "other_stiffnesses": "other stiffnesses (control)"}
-changes = dict(zip([name for name in names if name != "pbs"], [  # no deformer has one of these colours
-    ("#C0392B", "v"), ("#16A085", "^"), ("#8E44AD", "D"), ("#C9A400", "s"), ("#5D6D7E", "P"), ("#A0522D", "x"), ("#AAAAAA", "+")]))
+changes = {"smooth_weights": ("#C0392B", "v"), "bind_to_blended_position": ("#16A085", "^"), "region_volumes": ("#8E44AD", "D"),
+           "tet_and_region_volumes": ("#C9A400", "s"), "k_by_edge_length": ("#5D6D7E", "P"), "another_order": ("#A0522D", "x"),
+           "other_stiffnesses": ("#AAAAAA", "+")}  # no deformer has one of these colours
+names = {"pbs": f"{looks.of('pbs').name} (baseline)"} | {change: case_words.of_field("change", change) for change in changes}
 curve_columns = {"body", "change", "setting", "iterations", "poses", "mean_ms", "error_joint_pct"}
 gain_columns = {"group", "budget_iterations", "change", "than", "poses", "gain_pct", "gain_low_pct", "gain_high_pct", "decision"}
 looks_of_budgets = {"4": (style.orange, "v"), "24": (style.blue, "o"), "96": (style.vermillion, "s")}
@@ -195,8 +194,7 @@ def improvements(results):
     bodies = list(dict.fromkeys(row["body"] for row in curves))
     records.need(bodies, f"{folder}: no pose with a reference")
     figure, (upper, (lower,)) = style.stacked((len(bodies), 2.9), (1, 2.7))
-    behind = [row for panel, body in zip(upper, bodies)
-              for row in draw_curves(panel, body, [row for row in curves if row["body"] == body])]
+    behind = [row for panel, body in zip(upper, bodies) for row in draw_curves(panel, body, [row for row in curves if row["body"] == body])]
     behind += draw_gains(lower, gains)
     omitted = not_ranked(gains)
     omission_boxes.draw(lower, omitted, 110, place=(0.01, 0.02), fontsize=5)

@@ -4,13 +4,14 @@
 """
 import importlib
 import math
+import pkgutil
 import sys
 
 import records
 from records import kept, whole_file
 
-# Each with a module that has page(folder).
-studies = ("ambiguity", "artefacts", "audit", "convergence", "ensemble", "jiggle", "stiffness", "timing", "work_precision")
+# Each module of this folder has page(folder) for the study of its name.
+studies = sorted(module.name for module in pkgutil.iter_modules(__path__))
 
 
 def write(results):
@@ -33,8 +34,7 @@ def write(results):
             written.append(file)
         except (records.RecordsMissing, whole_file.CannotBeWritten) as error:
             print(f"pbskin: page of {study}: {error}", file=sys.stderr)
-            if isinstance(error, (records.RecordsDamaged, whole_file.CannotBeWritten)):
-                status = 2
+            status = max(status, 2 * isinstance(error, (records.RecordsDamaged, whole_file.CannotBeWritten)))
     return written, status
 
 
@@ -53,6 +53,12 @@ def table(rows, columns):
 
     lines = ["| " + " | ".join(columns) + " |", "|" + "---|" * len(columns)]
     return "\n".join([*lines, *("| " + " | ".join(cell(row, of) for of in columns.values()) + " |" for row in rows)]) + "\n"
+
+
+def own_names(text):
+    """Columns under their own names, for table(): NAME, NAME:DECIMALS or NAME:g4."""
+    parts = (word.partition(":") for word in text.split())
+    return {name: (name, int(digits) if digits.isdigit() else digits) if digits else name for name, _, digits in parts}
 
 
 def files(folder, name):

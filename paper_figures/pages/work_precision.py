@@ -2,11 +2,9 @@
 changes to PBS gain. Fronts and crossings are on the page where their tables are there; they are too long to be kept."""
 import pages
 import records
-from words import looks
+from words import case_words, looks
 
-comparisons = {"packed_f32": "packed f32 code where a deformer has it", "plain_f64": "plain f64 code"}
-clocks = {"processor": "processor time, as of all other deformers", "own": "the times that the program states in seconds.f64",
-          "wall": "the wall time of the program with its start, divided by the number of its poses"}
+comparisons, clocks = (case_words.tables[field] for field in ("comparison", "clock"))
 setting = ("iterations", "k_stretch", "order", "precision", "substeps", "element_order", "wanted_vertices", "tuned")
 crossed = (("pbs", "delta_mush"), ("pbs", "xpbd"), ("quasi_newton", "pbs"), ("quasi_newton", "delta_mush"), ("vbd", "pbs"),
            ("vbd", "delta_mush"), ("linear_fem", "pbs"), ("nonlinear_fem", "pbs"))

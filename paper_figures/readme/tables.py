@@ -36,19 +36,16 @@ def claims_table(results):
 
 
 def claims_lines(results):
-    """With each revision and the studies that were run at it; the revision with the most studies comes first, and the tables that were
-    measured apart come last."""
+    """With each revision and the studies, or tables, that were measured at it; the revision with the most of them comes first."""
     table, studies = claims_table(results), {}
     for file in sorted(results.glob("*/*/run.json")):
         revision = of_revision(shapes.read(file, shapes.run).get("provenance", {}))
         studies.setdefault(revision, {})[file.parent.parent.name] = True
     records.need(studies, f"{results}: no run.json of a study's run in it")
-    most, *others = sorted(studies, key=lambda revision: -len(studies[revision]))
-    apart = {}
     for file, provenance in kept.measured_apart(results).items():
-        apart.setdefault(of_revision(provenance), {})[f"{file.relative_to(results).parts[0]}/{file.name}"] = True
-    named = [f"{revision} ({', '.join(sorted(of))})" for revision, of in [*((other, studies[other]) for other in others), *apart.items()]]
-    measured = ", ".join([most, *named])
+        studies.setdefault(of_revision(provenance), {})[f"{file.relative_to(results).parts[0]}/{file.name}"] = True
+    most, *others = sorted(studies, key=lambda revision: -len(studies[revision]))
+    measured = ", ".join([most, *(f"{revision} ({', '.join(sorted(studies[revision]))})" for revision in others)])
     return [*table, "", f"Measured at revision {measured}."]
 
 

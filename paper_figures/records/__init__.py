@@ -9,6 +9,8 @@ import hashlib
 import json
 import math
 
+notable_points = 2  # pairs of deformers whose errors differ by more than this [percentage points] are to be decided
+
 
 class RecordsMissing(Exception):
     pass
@@ -145,19 +147,15 @@ def read_json(file):
 
 class Cell(str):
     """The text of a cell; float(cell) and int(cell) raise RecordsDamaged if it is no number."""
-
-    def __new__(cls, text, place):
-        cell = super().__new__(cls, text)
-        cell.place = place  # file, line and column
-        return cell
+    place = ""  # file, line and column
 
     def __float__(self):
-        return self._converted(float, "a number")
+        return self._number(float, "a number")
 
     def __int__(self):
-        return self._converted(int, "a whole number")
+        return self._number(int, "a whole number")
 
-    def _converted(self, kind, words):
+    def _number(self, kind, words):
         try:
             return kind(str(self))
         except ValueError:
@@ -172,8 +170,11 @@ class Row(dict):
         self.place = place  # file and line
 
     def __getitem__(self, column):
-        text = super().__getitem__(column)
-        return Cell(text, f"{self.place}: {column}") if isinstance(text, str) else text
+        cell = super().__getitem__(column)
+        if isinstance(cell, str):
+            cell = Cell(cell)
+            cell.place = f"{self.place}: {column}"
+        return cell
 
     def __missing__(self, column):
         raise RecordsMissing(f"{self.place}: no column {column}")
@@ -197,7 +198,7 @@ def read_rows(file):
     except (UnicodeDecodeError, csv.Error) as error:
         raise RecordsDamaged(f"{file}: not a table: {error}") from None
     for row in rows:
-        if None in row or None in row.values():  # csv.DictReader has None for a column or cell that the row does not share with the header
+        if None in row or None in row.values():  # csv.DictReader has None for a column or a cell of its own making
             raise RecordsDamaged(f"{row.place}: expected {len(reader.fieldnames)} cells, as in the first line")
     return rows
 

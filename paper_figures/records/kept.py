@@ -45,39 +45,35 @@ def expand(kept, into):
 
     plans, provenance, tables = kept / "plans.json", kept / "provenance.json", {}
     for study, plan in records.read_json(plans).items():
-        write(json.dumps(plan, indent=2) + "\n", plans, study, "plan.json")
+        write(json.dumps(plan), plans, study, "plan.json")
     try:
         for origin in records.read_json(provenance)["origins"]:
             for run in origin["runs"]:
-                record = {"schema": origin["schema"], "provenance": origin["provenance"]}
-                write(json.dumps(record, indent=1) + "\n", provenance, run, "run.json")
+                write(json.dumps({key: origin[key] for key in ("schema", "provenance")}) + "\n", provenance, run, "run.json")
             tables |= {table.replace("/runs/", "/*/"): origin["provenance"] for table in origin.get("tables", [])}
     except (AttributeError, KeyError, TypeError):
         raise records.RecordsMissing(f"{provenance}: not as experiments/records/keep.py writes it") from None
     if tables:
-        write(json.dumps(tables, indent=1) + "\n", provenance, apart)
+        write(json.dumps(tables), provenance, apart)
     for file in sorted(kept.rglob("*")):
-        place = file.relative_to(kept)
         if file.parent.name == "runs" or (file.parent == kept and file.suffix == ".csv"):
-            study = "" if file.parent == kept else place.parts[0]
+            study = "" if file.parent == kept else file.relative_to(kept).parts[0]
             for folder, lines in by_first_column(file).items():
                 write(lines, file, study, folder, file.name)
         elif file.is_file() and file not in (plans, provenance):
-            (into / place).parent.mkdir(parents=True, exist_ok=True)
-            shutil.copyfile(file, into / place)
+            place = into / file.relative_to(kept)
+            place.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copyfile(file, place)
 
 
 def by_first_column(file):
     """The table without its first column, for each value of it. A row without cells states that the table has no rows."""
-    try:
-        lines = [line.partition(",") for line in file.read_text(encoding="utf-8").splitlines(keepends=True)]
-    except UnicodeDecodeError as error:
-        raise records.RecordsMissing(f"{file}: not a table: {error}") from None
-    for number, (value, comma, _) in enumerate(lines, 1):
+    tables, head = {}, None
+    for number, text in enumerate(file.read_text(encoding="utf-8", errors="replace").splitlines(keepends=True), 1):
+        value, comma, line = text.partition(",")
         records.need(value and comma, f"{file}:{number}: {value.strip()}: expected a name and the cells of a row")
-    records.need(lines, f"{file}: no rows")
-    (_, _, head), *rows = lines
-    tables = {}
-    for value, _, line in rows:
-        tables[value] = tables.get(value, head) + (line if line.strip(",\n") else "")
+        if head is not None:
+            tables[value] = tables.get(value, head) + (line if line.strip(",\n") else "")
+        head = head or line
+    records.need(head, f"{file}: no rows")
     return tables

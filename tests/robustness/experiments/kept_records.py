@@ -1,8 +1,8 @@
 """The kept part of a study's records is sufficient to judge its claims again, and is kept as a whole or not at all. Reference: the verdicts
 from the complete records."""
 import json
+import os
 import pathlib
-import shutil
 import subprocess
 import sys
 import unittest
@@ -61,50 +61,38 @@ class KeptRecords(program.ProgramTest):
 
     def test_every_column_of_a_table_is_kept(self):
         """`setting` distinguishes the rows of work_precision/RUN/changes.csv."""
-        run, kept = pathlib.Path(self.path("work_precision", "limb")), pathlib.Path(self.path("kept"))
-        run.mkdir(parents=True)
         changes = "change,setting,iterations\nbound,0.002,4\nbound,0.01,4\n"
-        for name, text in (("run.json", '{"schema": 3}'), ("changes.csv", changes)):
-            (run / name).write_text(text)
-        self.assertEqual(keep.keep_run(run, kept), [])
-        self.assertEqual((kept / "changes.csv").read_text(), changes)
+        keep.keep_table(pathlib.Path(self.write("changes.csv", changes)), pathlib.Path(self.path("kept.csv")))
+        self.assertEqual(self.read("kept.csv"), changes)
 
-    def merged(self, **changed):
-        """Kept records of one run, whose files may be changed."""
-        kept = pathlib.Path(self.path("kept"))
-        origin = {"schema": 3, "provenance": {"version": "1"}, "runs": ["study/one"]}
-        shutil.rmtree(kept, ignore_errors=True)
-        (kept / "study" / "runs").mkdir(parents=True)
-        (kept / "plans.json").write_text(json.dumps({changed.get("study", "study"): {"runs": [{"name": "one"}]}}))
-        (kept / "provenance.json").write_text(json.dumps({"origins": [origin | changed.get("origin", {})]}))
-        (kept / "study" / "runs" / "metrics.csv").write_text(changed.get("table", "run,x\none,1\n"))
-        return kept
+    def kept_records(self, table="run,x\none,1\n", study="study", **origin):
+        """The folder of kept records of one run, which may be changed."""
+        os.makedirs(self.path("kept", "study", "runs"), exist_ok=True)
+        origins = [{"schema": 3, "provenance": {"version": "1"}, "runs": ["study/one"]} | origin]
+        self.write("kept/plans.json", json.dumps({study: {"runs": [{"name": "one"}]}}))
+        self.write("kept/provenance.json", json.dumps({"origins": origins}))
+        self.write("kept/study/runs/metrics.csv", table)
+        return pathlib.Path(self.path("kept"))
 
     def test_names_that_leave_the_folder_are_refused(self):
-        outside = self.path("outside")
-        for name in ("../outside", outside, "one/../../../outside"):
-            for changed in ({"study": name}, {"origin": {"runs": [name]}}, {"table": f"run,x\n{name},1\n"}):
-                with self.subTest(changed):
-                    kept = self.merged(**changed)
-                    with self.assertRaisesRegex(RecordsMissing, "expected no leading / and no .. in a name"):
-                        kept_records.opened(kept)
-                    self.refuses("expected no leading / and no .. in a name", "reproduce", "--judge", "-o", kept, "--quiet")
-        self.assertFalse(pathlib.Path(outside).exists())
+        message = "expected no leading / and no .. in a name"
+        for name in ("../outside", self.path("outside"), "one/../../../outside"):
+            for changed in ({"study": name}, {"runs": [name]}, {"table": f"run,x\n{name},1\n"}):
+                with self.subTest(changed), self.assertRaisesRegex(RecordsMissing, message):
+                    kept_records.opened(self.kept_records(**changed))
+                self.refuses(message, "reproduce", "--judge", "-o", self.path("kept"), "--quiet")
+        self.assertFalse(os.path.exists(self.path("outside")))
 
     def test_malformed_tables_and_origins_are_refused(self):
-        for changed, message in (({"table": "run,x\none\n"}, "metrics.csv:2: one: expected a name and the cells of a row"),
-                                 ({"table": "run,x\n,1\n"}, "metrics.csv:2: : expected a name"), ({"table": ""}, "metrics.csv: no rows"),
-                                 ({"origin": {"runs": 1}}, "provenance.json: not as"), ({"origin": {"tables": [1]}}, "provenance.json: not as")):
+        for message, changed in (("metrics.csv:2: one: expected a name and the cells of a row", {"table": "run,x\none\n"}),
+                                 ("metrics.csv:2: : expected a name", {"table": "run,x\n,1\n"}), ("metrics.csv: no rows", {"table": ""}),
+                                 ("provenance.json: not as", {"runs": 1}), ("provenance.json: not as", {"tables": [1]})):
             with self.subTest(changed), self.assertRaisesRegex(RecordsMissing, message):
-                kept_records.opened(self.merged(**changed))
+                kept_records.opened(self.kept_records(**changed))
 
-    def test_tables_that_were_measured_apart_keep_their_own_origin(self):
-        origins = [{"schema": 3, "provenance": {"version": "1"}, "runs": ["study/one"]},
-                   {"schema": 3, "provenance": {"version": "2"}, "runs": [], "tables": ["study/runs/metrics.csv"]}]
-        kept = self.merged()
-        (kept / "provenance.json").write_text(json.dumps({"origins": origins}))
-        opened = kept_records.opened(kept)
-        self.assertEqual(kept_records.measured_apart(opened), {opened / "study" / "one" / "metrics.csv": {"version": "2"}})
+    def test_tables_that_were_measured_apart_keep_their_origin(self):
+        opened = kept_records.opened(self.kept_records(tables=["study/runs/metrics.csv"]))
+        self.assertEqual(kept_records.measured_apart(opened), {opened / "study" / "one" / "metrics.csv": {"version": "1"}})
 
     def test_files_that_are_too_long_are_listed(self):
         results, kept = self.recorded("audit")
