@@ -117,10 +117,6 @@ def per_cent_scale(axes, signed):
     axes.yaxis.set_minor_locator(ticker.NullLocator())
 
 
-def paper_band(axes, signed):
-    axes.axhspan(-0.5 if signed else 0.0, 0.5, color="#E8E8E8", linewidth=0, zorder=0, label="within 0.5 % (Sec. 4)")
-
-
 def legend_above(figure, columns=None):
     """The common legend of the panels, above them all: every label that occurs, once."""
     shown = {}

@@ -5,7 +5,6 @@ import records
 from words import case_words, sentences
 from words.number_words import counted
 
-notable_points = 2  # of difference between the errors of two methods
 first_member = "smooth"  # the reference of the other studies
 
 
@@ -101,7 +100,7 @@ def distance(results):
     """The errors against the family's first reference, and how many of the pairs that differ notably the whole family decides."""
     errors, poses = first_errors(results)
     pairs = records.table(results / "ensemble" / "pairs.csv", {"first", "second", "largest_difference_pct", "members", "decision"})
-    notable = [pair for pair in pairs if float(pair["largest_difference_pct"]) > notable_points and "fem_linear" not in
+    notable = [pair for pair in pairs if float(pair["largest_difference_pct"]) > records.notable_points and "fem_linear" not in
                (pair["first"], pair["second"])]
     if not notable or not {"lbs", "dqs", "delta_mush", "pbs"} <= set(errors):
         raise records.RecordsMissing(f"{results / 'ensemble'}: no errors of LBS, DQS, delta mush and PBS, or no pair of them")
@@ -114,7 +113,7 @@ def distance(results):
             f"of the mean bone distance away from neo-Hookean flesh at the joints (LBS {spans['lbs']}, DQS {spans['dqs']}, delta mush "
             f"{spans['delta_mush']}).{left_out} In all {counted(poses, 'pose')}, {notable[0]['members']} references with other attachments "
             f"and Poisson's ratios decide which of two methods is closer in {decided} of the {len(notable)} pairs of skinning methods that "
-            f"differ by more than {notable_points} percentage points.{undecided(notable)}")
+            f"differ by more than {records.notable_points} percentage points.{undecided(notable)}")
 
 
 def lines_of(results):

@@ -111,10 +111,11 @@ bool has_artist_weights(const Character& character)
     return character.artist && character.artist->weights.vertices() > 0;
 }
 
-const char* name_of(WeightKind kind)
+std::optional<WeightKind> weights_named(const std::string& name)
 {
-    constexpr const char* names[] = {"paper", "rigid", "smooth", "diffused", "either_end", "artist", "file"};  // in the order of WeightKind
-    return names[static_cast<int>(kind)];
+    const auto file = weight_names.end() - 1, found = std::find(weight_names.begin(), file, name);
+    if (found == file) return {};
+    return static_cast<WeightKind>(found - weight_names.begin());
 }
 
 Weights weights_by(WeightKind kind, const Character& character)

@@ -6,6 +6,8 @@
 #include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/skinning/weights.hpp"
 
+#include <array>
+#include <optional>
 #include <string>
 
 namespace pbs {
@@ -22,7 +24,10 @@ Character with_weights(WeightKind kind, Character character);
 
 bool has_artist_weights(const Character& character);
 
-const char* name_of(WeightKind kind);  // paper, rigid, smooth, diffused, either_end, artist, file
+// The names of the rules, in the order of WeightKind. A scene states the last one, file, by the path of the file.
+inline constexpr std::array weight_names = {"paper", "rigid", "smooth", "diffused", "either_end", "artist", "file"};
+inline const char* name_of(WeightKind kind) { return weight_names[static_cast<std::size_t>(kind)]; }
+std::optional<WeightKind> weights_named(const std::string& name);  // null for a file, and for every other name
 
 // An artist's skin weights in the flesh.
 struct TransferredWeights {

@@ -96,8 +96,10 @@ TEST(SkinningWeights, HaveNames)
                                      {diffused, "diffused"},
                                      {either_end, "either_end"},
                                      {artist, "artist"},
-                                     {file, "file"}})
+                                     {file, "file"}}) {
         EXPECT_STREQ(name_of(kind), name);
+        EXPECT_EQ(weights_named(name), kind == file ? std::nullopt : std::optional(kind));
+    }
 }
 
 // Reference: weights that are a linear function of the place. They are reproduced on the surface, because they are linear in its triangles,
