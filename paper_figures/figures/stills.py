@@ -65,10 +65,10 @@ def above_floor(file, middle_m, half_height_m, direction):
 def fig_01_motion(results):
     """A character in motion: the human jumping under LBS, PBS, and PBS with its jiggling zone."""
     frames, labels = Frames(results, "human_jump"), ("lbs", "pbs", "pbs_jiggle")
-    shown = frames.frames_at(0.0, 0.32, 0.48, 0.72, 1.08, 1.6)
-    views = {frame: above_floor(frames.skin("lbs", frame), 0.95, 0.98, (1.0, 0.15, 0.75)) for frame in shown}
+    views = {frame: above_floor(frames.skin("lbs", frame), 0.95, 0.98, (1.0, 0.15, 0.75))
+             for frame in frames.frames_at(0.0, crouch_s, 0.48, 0.72, 1.08, 1.6)}
     figure, behind = grid(skins(frames, labels, views, rendering.Stage(440, 720)), "volume {volume_change_pct:+.1f} %",
-                          times_of(frames, shown), [looks.of(label).name for label in labels], height_in=2.1)
+                          times_of(frames, views), [looks.of(label).name for label in labels], height_in=2.1)
     return figure, style.columns_of(behind, *volumes)
 
 
@@ -218,9 +218,9 @@ def clip_jump_facts(rows):
 def clip_jump(results):
     frames = Frames(results, "human_jump")
     still, = frames.frames_at(crouch_s)
-    view = rendering.Camera(rendering.middle_of(frames.skin("nh_p1", still)), 0.78, clip_direction)
-    stills = skins(frames, in_clip, {still: view}, rendering.Stage(700, 800))
-    figure, _ = grid([[line[0] for line in stills]], in_words, [looks.of(label).name for label in in_clip], height_in=3.0)
+    view, stage = rendering.Camera(rendering.middle_of(frames.skin("nh_p1", still)), 0.78, clip_direction), rendering.Stage(700, 800)
+    stills = [line[0] for line in skins(frames, in_clip, {still: view}, stage)]
+    figure, _ = grid([stills], in_words, [looks.of(label).name for label in in_clip], height_in=3.0)
     behind = [frames.row(label, frame) for label in in_clip for frame in range(len(frames.times_s()))]
     return (figure, style.columns_of(behind, "volume_change_pct", "inverted_tets", "min_section_pct"),
             {"webp": lambda file, origin: draw_clip(file, frames, origin)})

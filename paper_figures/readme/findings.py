@@ -89,8 +89,7 @@ def first_errors(results):
 
 def undecided(notable):
     """The causes with their counts, as a sentence, or nothing."""
-    causes = {"reference_error": "the own error of a reference is too large or not known",
-              "models_disagree": "the references disagree"}
+    causes = {"reference_error": "the own error of a reference is too large or not known", "models_disagree": "the references disagree"}
     counts = {text: sum(pair["decision"] == cause for pair in notable) for cause, text in causes.items()}
     parts = [f"in {count} {text}" for text, count in counts.items() if count]
     return f" The others are undecided: {' and '.join(parts)}." if parts else ""

@@ -65,11 +65,6 @@ def too_long(study, results):
     return [f"These files are too long to be kept, in some runs or in all: {', '.join(names)}."]
 
 
-def study_lines(study, results):
-    parts = [served_claims(study), drawn_figures(study), summaries(study, results), cost(study, results), too_long(study, results)]
-    return [line for part in parts if part for line in [*part, ""]][:-1]
-
-
 def bound_lines(claim):
     """The bound of each judged quantity, as in claims.toml."""
     bounds = {bound["quantity"]: bound for bound in claim.get("bounds", [])}
@@ -142,7 +137,10 @@ def compared_lines(claim, own):
 def pages(results):
     """Each page with its generated lines."""
     judged = {claim["id"]: claim for claim in tables.claims_of(results)}
-    found = {studies / study / "README.md": study_lines(study, results) for study in study_names()}
+    found = {}
+    for study in study_names():
+        parts = served_claims(study), drawn_figures(study), summaries(study, results), cost(study, results), too_long(study, results)
+        found[studies / study / "README.md"] = [line for part in parts if part for line in [*part, ""]][:-1]
     for claim in listed_claims():
         found[claim_pages / f"{claim['id']}.md"] = claim_lines(claim, judged[claim["id"]])
     return found

@@ -63,8 +63,8 @@ class Frames:
 
     def frames_at(self, *times_s):
         """The frames nearest to these times after the first one [s]."""
-        own = self.times_s()
-        return [min(range(len(own)), key=lambda frame, time_s=time_s: abs(own[frame] - own[0] - time_s)) for time_s in times_s]
+        own = numpy.array(self.times_s())
+        return [int(abs(own - own[0] - time_s).argmin()) for time_s in times_s]
 
     def frame_at_angle(self, angle_deg):
         return int(records.at_angle(self.run.select("lbs"), angle_deg)["frame"])

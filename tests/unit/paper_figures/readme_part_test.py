@@ -72,8 +72,7 @@ class Markers(ReadmeTest):
 
     def test_a_readme_without_its_markers_in_order_is_refused_and_stays(self):
         for text, words in (("", f"{begin} occurs 0 times: expected once"),
-                            (f"{end}", f"{begin} occurs 0 times"),
-                            (f"{begin}\n", f"{end} occurs 0 times: expected once"),
+                            (f"{end}", f"{begin} occurs 0 times"), (f"{begin}\n", f"{end} occurs 0 times: expected once"),
                             (f"{begin}\n{begin}\n{end}", f"{begin} occurs 2 times"),
                             (f"{begin}\n{end}\n{end}", f"{end} occurs 2 times"),
                             (f"{end}\n{begin}", f"{end} precedes {begin}: expected after it"),
