@@ -27,8 +27,7 @@ matplotlib.rcParams.update({
     "xtick.labelsize": 7, "ytick.labelsize": 7, "lines.linewidth": 1.2, "lines.markersize": 3.2, "axes.linewidth": 0.6,
     "xtick.major.width": 0.6, "ytick.major.width": 0.6, "axes.grid": True, "grid.linewidth": 0.3, "grid.color": "#D0D0D0",
     "axes.axisbelow": True, "legend.frameon": False, "savefig.dpi": 300, "pdf.fonttype": 42, "svg.fonttype": "none",
-    "svg.hashsalt": "pbskin", "axes.spines.top": False, "axes.spines.right": False, "figure.constrained_layout.use": True,
-})
+    "svg.hashsalt": "pbskin", "axes.spines.top": False, "axes.spines.right": False, "figure.constrained_layout.use": True})
 
 
 sequence = [(vermillion, "v"), (blue, "o"), (green, "^"), (purple, "D"), (orange, "s"), (sky, "P"), (black, "x")]

@@ -17,7 +17,8 @@ def opened(frames, skin, towards, view, rod_m):
     """The tets at rest behind their bones, with a transparent skin and the bones in front."""
     file, bones = frames.tets("lbs", 0), frames.bones_at_rest()
     ahead_m = (bodies.rest_positions_of(file) - frames.projections(bones)) @ towards
-    return [bodies.cut_open(bodies.at_rest(file), ahead_m), bodies.skin(skin, ambient=0.6, opacity=0.3), *bodies.bones(bones, rod_m, view.direction)]
+    front = bodies.skin(skin, ambient=0.6, opacity=0.3), *bodies.bones(bones, rod_m, view.direction)
+    return [bodies.cut_open(bodies.at_rest(file), ahead_m), *front]
 
 
 def fig_02_tets_and_bones(results):
