@@ -6,7 +6,7 @@ file(CREATE_LINK ${PROJECT_SOURCE_DIR}/paper_figures ${PROJECT_BINARY_DIR}/${dat
 
 set(programs pbskin)
 set(modules pbskin_native_plain)
-foreach(target IN ITEMS pbskin_cholmod pbskin_gmsh pbskin_fem)
+foreach(target IN ITEMS pbskin_cholmod pbskin_gmsh pbskin_fem pbskin_verification)
     if(TARGET ${target})
         list(APPEND modules ${target})
     endif()

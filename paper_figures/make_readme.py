@@ -16,8 +16,7 @@ from records import kept
 
 parts = {"claims": lambda results: {part.own_readme: tables.claims_lines(results)},
          "findings": lambda results: {part.own_readme: findings.lines_of(results)},
-         "features": lambda results: {tables.features_page: tables.features_lines(results)},
-         "kept": pages.pages,
+         "features": lambda results: {tables.features_page: tables.features_lines(results)}, "kept": pages.pages,
          "reliability": lambda folder: {tables.reliability_page: tables.reliability_lines(folder)}}
 
 

@@ -1,22 +1,26 @@
 """Writes DIR's records and the figures drawn from them as one self-contained page, DIR/report.html, and prints what is missing in it; and
-the pages of studies, DIR/STUDY/STUDY.md. Exit status 2 if DIR holds no records.
+the pages of studies, DIR/STUDY/STUDY.md. Exit status 2 if DIR holds no records, or damaged ones.
 
     python3 paper_figures/make_report.py results/reproduce
     python3 paper_figures/make_report.py --picture RUN    # only RUN/picture.png: the values of a single run over its frames
 """
+import argparse
 import pathlib
 import sys
 
 import pages
 import report
 
+
+def main(folder, quiet=False):
+    status = report.main(folder, quiet)
+    return max(status, pages.write(folder)[1])
+
+
 if __name__ == "__main__":
-    folders = [argument for argument in sys.argv[1:] if not argument.startswith("--")]
-    if len(folders) != 1:
-        print(__doc__, file=sys.stderr)
-        sys.exit(2)
-    folder = pathlib.Path(folders[0])
-    if "--picture" in sys.argv:
-        sys.exit(report.picture(folder))
-    pages.write(folder)
-    sys.exit(report.main(folder, quiet="--quiet" in sys.argv))
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("results", metavar="DIR", type=pathlib.Path, help="the records of ./reproduce, or the folder of a run")
+    parser.add_argument("--picture", action="store_true", help="draw only DIR/picture.png")
+    parser.add_argument("--quiet", action="store_true", help="do not print what is missing")
+    chosen = parser.parse_args()
+    sys.exit(report.picture(chosen.results) if chosen.picture else main(chosen.results, chosen.quiet))

@@ -1,4 +1,4 @@
-// Integrals over the tets: stiffness, load, strain energy, error norms. One assembly serves both the reference and its verification.
+// Integrals over the tets: mass, load, strain energy, error norms. One assembly serves both the reference and its verification.
 #pragma once
 
 #include "pbs/geometry/tet_mesh.hpp"
@@ -14,12 +14,11 @@
 
 namespace reference_fem {
 
-// Continuous vector-valued finite elements on the character's own tets: P1 or P2 on straight tets (deal.II's FE_SimplexP).
-// Node v is vertex v of the mesh; a P2 space numbers its mid-edge nodes after the vertices. Degree of freedom 3 n + c is component c at
-// node n. The header is plain; deal.II is seen by assembly.cpp alone.
 using TetNodes = Eigen::Matrix<int, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;  // #T x 4 or #T x 10
 
-// The mesh may go.
+// Continuous vector-valued finite elements on the character's own tets: P1 or P2 on straight tets (deal.II's FE_SimplexP).
+// Node v is vertex v of the mesh; a P2 space numbers its mid-edge nodes after the vertices. Degree of freedom 3 n + c is component c at
+// node n. The mesh may go.
 class SimplexSpace {
 public:
     struct Elements;  // deal.II's side, in assembly.cpp
@@ -33,7 +32,7 @@ public:
 
     int element_order() const { return element_order_; }                      // 1 or 2
     int nodes() const { return static_cast<int>(node_positions_.rows()); }    // #V with P1, #V + #E with P2
-    int dofs() const { return 3 * nodes(); }                                  // 3 a node, prescribed ones too
+    int dofs() const { return 3 * nodes(); }                                  // 3 per node, prescribed ones too
     const pbs::Positions& node_positions() const { return node_positions_; }  // [m], #nodes x 3
     const TetNodes& tet_nodes() const { return tet_nodes_; }                  // the corners first, in the mesh's order
 
@@ -61,9 +60,6 @@ using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, std::int64_t>;
 using VectorField = std::function<pbs::Vec3(const pbs::Vec3&)>;          // of a rest point [m]; unit by use: N/m^3, m
 using GradientField = std::function<Eigen::Matrix3d(const pbs::Vec3&)>;  // (i, j): d u_i / d x_j at a rest point [m]
 
-// K_ij = integral of lambda div(phi_i) div(phi_j) + 2 mu eps(phi_i) : eps(phi_j) [N/m], #dofs x #dofs; exact on straight tets.
-SparseMatrix stiffness_matrix(const SimplexSpace& space, const Lame& material);
-
 // M_ij = integral of density phi_i phi_j [kg], #nodes x #nodes: the consistent mass, the same for each component; exact on straight tets.
 SparseMatrix mass_matrix(const SimplexSpace& space, double density_kg_m3);
 
@@ -90,7 +86,7 @@ struct ErrorNorms {
     double l2 = 0.0;           // sqrt of the integral of |u - u_h|^2 [m^(5/2)]
     double h1_seminorm = 0.0;  // sqrt of the integral of |grad u - grad u_h|^2 [m^(3/2)]
 };
-// displacement [m], #dofs. By quadrature with 4 points a direction, exact to degree 7.
+// displacement [m], #dofs. By quadrature with 4 points per direction, exact to degree 7.
 ErrorNorms error_norms(const SimplexSpace& space, const Eigen::VectorXd& displacement, const VectorField& exact,
                        const GradientField& exact_gradient);
 
@@ -110,7 +106,7 @@ struct ElementTables {
     double weight(Eigen::Index tet, int q) const { return weights(tet * points_per_tet + q); }  // [m^3]
 };
 
-// Quadrature with `points_1d` points a direction: exact to degree 2 points_1d - 1; 1 to 4.
+// Quadrature with `points_1d` points per direction: exact to degree 2 points_1d - 1; 1 to 4.
 ElementTables element_tables(const SimplexSpace& space, int points_1d);
 
 // Any rule: points by their coordinates on corners 2, 3, 4; the weights add up to 1/6, the volume of the unit tet.

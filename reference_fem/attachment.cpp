@@ -199,14 +199,14 @@ void require_held(const pbs::TetMesh& mesh, const pbs::Positions& points, const 
 void check_attachment(const pbs::TetMesh& mesh, const Attachment& attachment)
 {
     require(attachment.spring_stiffness.size() == attachment.spring_points.rows(), "spring_stiffness", attachment.spring_stiffness.size(),
-            "expected one a spring point");
+            "expected one per spring point");
     require(attachment.spring_points.allFinite(), "spring_points", "not a number or infinite", "expected finite coordinates");
     for (const double stiffness : attachment.spring_stiffness)
         require(stiffness > 0.0 && std::isfinite(stiffness), "spring_stiffness", stiffness, "expected a finite stiffness > 0");
     for (const int tet : attachment.prescribed_tets)
         require(tet >= 0 && tet < mesh.tets.rows(), "prescribed_tets", tet, "expected an index below the number of tets");
     require(attachment.bind_distance.size() == 0 || attachment.bind_distance.size() == mesh.rest.rows(), "bind_distance",
-            attachment.bind_distance.size(), "expected one a vertex");
+            attachment.bind_distance.size(), "expected one per vertex");
     require(attachment.bind_stiffness.size() == attachment.bind_distance.size(), "bind_stiffness", attachment.bind_stiffness.size(),
             "expected one a bound vertex");
     for (Eigen::Index v = 0; v < attachment.bind_distance.size(); ++v) {
@@ -248,8 +248,8 @@ std::vector<bool> HeldSpace::prescribed_vertices() const
 void HeldSpace::require_targets(const pbs::Positions& spring_targets, const pbs::Positions& vertex_targets) const
 {
     require(spring_targets.rows() == static_cast<Eigen::Index>(springs_.tets().size()), "spring_targets", spring_targets.rows(),
-            "expected one a spring point");
-    require(vertex_targets.rows() == rest_.rows(), "vertex_targets", vertex_targets.rows(), "expected one a vertex");
+            "expected one per spring point");
+    require(vertex_targets.rows() == rest_.rows(), "vertex_targets", vertex_targets.rows(), "expected one per vertex");
 }
 
 SetupSummary HeldSpace::summary(const PreparedSolver* factor, double assemble_s) const

@@ -82,11 +82,10 @@ private:
 // naming a tet of the part. `points` [m], #P x 3, lie in `tets`, #P; -1: left out.
 void require_held(const pbs::TetMesh& mesh, const pbs::Positions& points, const std::vector<int>& tets);
 
-// A mesh's elements and what the skeleton holds of them: what LinearElasticity and ElasticBody have in common.
 // pbs::InputError where the springs, prescribed tets or bound vertices do not fit the mesh.
 void check_attachment(const pbs::TetMesh& mesh, const Attachment& attachment);
 
-// Keeps what it needs: mesh and attachment may go.
+// A mesh's elements and what the skeleton holds of them: what LinearElasticity and ElasticBody have in common. Mesh and attachment may go.
 class HeldSpace {
 public:
     // pbs::InputError where the mesh, an option or the attachment is out of bounds, or a connected part of the mesh is not held.
@@ -104,7 +103,7 @@ public:
     pbs::Positions vertices(const Eigen::VectorXd& displacement) const;
     std::vector<bool> prescribed_vertices() const;  // #V
 
-    // pbs::InputError unless there is one target a spring point and one a vertex.
+    // pbs::InputError unless there is one target per spring point and one per vertex.
     void require_targets(const pbs::Positions& spring_targets, const pbs::Positions& vertex_targets) const;
     SetupSummary summary(const PreparedSolver* factor, double assemble_s) const;  // null: nothing is factored yet
 

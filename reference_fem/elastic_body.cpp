@@ -126,7 +126,7 @@ public:
     {
         held_.require_targets(targets.springs, targets.vertices);
         require(!bind_ || targets.bind_points.rows() == held_.rest().rows(), "bind_points", targets.bind_points.rows(),
-                "expected one a vertex");
+                "expected one per vertex");
         return targets;
     }
 

@@ -3,7 +3,7 @@
 //   fem.solve(spring_targets, vertex_targets);         // every frame: a right-hand side and a re-solve
 //   fem.positions();
 // Strains are small: a rotation by theta produces a fictitious strain of 1 - cos(theta). Above some 10 degrees it is a negative control.
-// The header is plain; deal.II and SuiteSparse are seen by the .cpp files alone.
+// The header is plain; deal.II is seen by assembly.cpp alone, and SuiteSparse by linear_solvers.cpp.
 #pragma once
 
 #include "reference_fem/attachment.hpp"

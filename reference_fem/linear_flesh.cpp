@@ -82,7 +82,7 @@ ElasticPotential mean_dilatation(const SimplexSpace& space, const Lame& lame)
 
 SparseMatrix stiffness_matrix(const SimplexSpace& space, const Lame& material)
 {
-    // Products of gradients have degree 2 (order - 1); n points a direction integrate degree 2 n - 1.
+    // Products of gradients have degree 2 (order - 1); n points per direction integrate degree 2 n - 1.
     const ElementTables tables = element_tables(space, space.element_order());
     NodalMatrix stiffness(space);
     TetMatrix of_tet(3 * tables.nodes_per_tet, 3 * tables.nodes_per_tet);

@@ -19,6 +19,9 @@
 
 namespace reference_fem {
 
+// K_ij = integral of lambda div(phi_i) div(phi_j) + 2 mu eps(phi_i) : eps(phi_j) [N/m], #dofs x #dofs; exact on straight tets.
+SparseMatrix stiffness_matrix(const SimplexSpace& space, const Lame& material);
+
 // The whole body has one material.
 class LinearFlesh {
 public:
@@ -26,8 +29,8 @@ public:
     // pbs::InputError for taylor_hood unless element_order is 2 and lambda > 0. The space outlives this object.
     LinearFlesh(const SimplexSpace& space, const Lame& lame, Formulation formulation, const std::vector<int>& held_tets = {});
 
-    // Unknowns: the displacements of the nodes [m], #dofs; with taylor_hood a pressure a vertex after them, in units of pressure_unit_pa(),
-    // which make all entries [N/m] of one size.
+    // Unknowns: the displacements of the nodes [m], #dofs; with taylor_hood one pressure per vertex after them, in units of
+    // pressure_unit_pa(), which make all entries [N/m] of one size.
     int unknowns() const;
     int pressures() const { return static_cast<int>(has_pressure_.size()); }  // #V, or 0
     double pressure_unit_pa() const { return pressure_unit_pa_; }  // mu / (mean tet volume)^(1/3) in SI units; 0 without taylor_hood

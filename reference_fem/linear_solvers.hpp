@@ -41,13 +41,13 @@ protected:
     double analyse_s_ = 0.0, factor_s_ = 0.0, reciprocal_condition_ = 0.0;  // [s], [s], [1]
 };
 
-// `matrix` is symmetric, holds both triangles, is compressed, and outlives the solver. `near_null_space`, #rows x #modes: what an iterative
-// solver's coarse levels must keep, see linear_solvers.hpp; empty: constants. Where its rows are whole nodes, block_size is 3.
+// Modes that an iterative solver's coarse levels must keep, such as rigid_body_modes. Where their rows are whole nodes, block_size is 3.
 struct NearNullSpace {
-    Eigen::MatrixXd modes = {};  // #rows x #modes
+    Eigen::MatrixXd modes = {};  // #rows x #modes; empty: constants
     int block_size = 1;          // 1 or 3
 };
-// Analyses and factors at once. Leaves the BLAS at one thread, for good.
+// Analyses and factors at once. The matrix is symmetric, holds both triangles, is compressed, and outlives the solver. Leaves the BLAS at
+// one thread, for good.
 std::unique_ptr<PreparedSolver> prepare(const SparseMatrix& matrix, LinearSolver solver, const NearNullSpace& near_null_space = {});
 
 std::unique_ptr<PreparedSolver> prepare_cholmod(const SparseMatrix& matrix);  // reads the upper triangle
@@ -71,18 +71,17 @@ std::string resolved_blas();  // e.g. "OpenBLAS 0.3.21 ... (/usr/lib/x86_64-linu
 // A sum's order depends on the number of threads; one thread makes every run the same to the bit. No effect on other BLAS than OpenBLAS.
 void use_one_blas_thread();
 
-// K u = f with some degrees of freedom prescribed, by elimination: K_ff u_f = f_f - K_fp u_p. K_ff is factored once and K_fp is kept, so
-// new loads and new prescribed values cost a right-hand side and a re-solve.
 // Values of all degrees of freedom, with the prescribed ones at their values.
 struct EliminatedSolution {
     Eigen::VectorXd displacement;  // [m], #dofs; not finite where the factorisation broke down
     double residual = 0.0;         // |K_ff u_f - right-hand side| / |right-hand side|; 0 where both are 0; infinite where it broke down
 };
 
-// Keeps K_ff and K_fp: the stiffness may go.
+// K u = f with some degrees of freedom prescribed, by elimination: K_ff u_f = f_f - K_fp u_p. K_ff is factored once and K_fp is kept, so
+// new loads and new prescribed values cost a right-hand side and a re-solve. The stiffness may go.
 class EliminatedSystem {
 public:
-    // prescribed: #dofs. near_null_space, #dofs x #modes: for an iterative solver, see linear_solvers.hpp.
+    // prescribed: #dofs. near_null_space, #dofs x #modes: for an iterative solver, see NearNullSpace.
     EliminatedSystem(const SparseMatrix& stiffness, const std::vector<bool>& prescribed, LinearSolver solver,
                      const Eigen::MatrixXd& near_null_space = {});
 

@@ -1,4 +1,5 @@
-// How the change of volume enters the elements.
+// Choices that several parts of the reference have in common: formulation, law, scheme in time and linear solver. Also Lame's parameters
+// and the checks of meshes and of single values.
 #pragma once
 
 #include "pbs/geometry/input_error.hpp"
@@ -8,10 +9,11 @@
 
 namespace reference_fem {
 
-// All three for the linear law (linear_flesh.hpp), the first two for any (potentials/potentials.hpp).
+// How the change of volume enters the elements: all three for the linear law (linear_flesh.hpp), the first two for any
+// (potentials/potentials.hpp).
 enum class Formulation {
     displacement,     // theta at every quadrature point: locks as nu goes to 1/2
-    mean_dilatation,  // theta's mean over each tet, one volume constraint a tet; on P2 the P2-P0 element
+    mean_dilatation,  // theta's mean over each tet, one volume constraint per tet; on P2 the P2-P0 element
     taylor_hood,      // P2 with a continuous P1 pressure
 };
 

@@ -9,7 +9,8 @@ find_program(PBS_CPPCHECK NAMES cppcheck)
 if(PBS_CPPCHECK)
     add_test(NAME architecture/static_analysis
         COMMAND ${PBS_TEST_PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/architecture/checkers_test.py Cppcheck)
-    set_tests_properties(architecture/static_analysis PROPERTIES LABELS architecture TIMEOUT 600 ENVIRONMENT PBS_CPPCHECK=${PBS_CPPCHECK})
+    set_tests_properties(architecture/static_analysis PROPERTIES LABELS architecture TIMEOUT 600 COST 50
+        ENVIRONMENT PBS_CPPCHECK=${PBS_CPPCHECK})
 else()
     message(STATUS "cppcheck is not installed: its test is left out")
 endif()

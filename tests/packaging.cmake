@@ -1,7 +1,7 @@
 # Tests of the installation: by another project, and by the program outside of its source tree.
 function(pbs_packaging_test name)
     add_test(NAME packaging/${name} COMMAND ${PBS_TEST_PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/packaging/${name}.py)
-    set_tests_properties(packaging/${name} PROPERTIES LABELS packaging SKIP_RETURN_CODE 77 TIMEOUT 3600
+    set_tests_properties(packaging/${name} PROPERTIES LABELS packaging SKIP_RETURN_CODE 77 TIMEOUT 3600 COST 70
         ENVIRONMENT "PBS_BUILD=${PROJECT_BINARY_DIR};PBS_SOURCE=${PROJECT_SOURCE_DIR};PBS_CMAKE=${CMAKE_COMMAND};CXX=${CMAKE_CXX_COMPILER}")
 endfunction()
 pbs_packaging_test(consumer)

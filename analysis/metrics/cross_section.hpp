@@ -13,7 +13,7 @@ namespace analysis {
 // A plane through a point; the side of the normal is above it.
 struct Plane {
     pbs::Vec3 point;   // [m]
-    pbs::Vec3 normal;  // any length but zero
+    pbs::Vec3 normal;  // any length except zero
 };
 
 // The area [m^2] that the plane cuts out of the chosen tets (indices into #T). A face that lies in the plane counts for the tet on the
@@ -23,7 +23,7 @@ double cross_section_area(const pbs::Positions& positions, const pbs::Tets& tets
 // A place along a limb: the same material plane at rest and in the pose, and the tets of that limb. Tets of another limb that the plane
 // also meets are not in the list.
 struct SectionStation {
-    Plane rest, posed;          // with normals of any length but zero
+    Plane rest, posed;          // with normals of any length except zero
     std::vector<int> tets;      // indices into #T
     double rest_area_m2 = 0.0;  // area of its tets in the plane at rest; 0: it is measured
 };

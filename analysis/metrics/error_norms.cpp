@@ -152,24 +152,21 @@ double ErrorMetrics::share_pct(const std::vector<bool>& vertices) const
 SmoothnessMetrics::SmoothnessMetrics(const Positions& rest, const pbs::Tets& tets, const std::vector<bool>& near) : rest_(rest), tets_(tets)
 {
     checked_rest_volumes(rest, tets);
-    if (static_cast<Eigen::Index>(near.size()) != rest.rows()) throw pbs::InputError("", 0, "near", "", "expected one entry a vertex");
+    if (static_cast<Eigen::Index>(near.size()) != rest.rows()) throw pbs::InputError("", 0, "near", "", "expected one entry per vertex");
     find_inner_faces(near);
     find_skin_edges(near);
 }
 
 void SmoothnessMetrics::find_inner_faces(const std::vector<bool>& near)
 {
-    std::map<std::array<int, 3>, int> open;  // faces seen once, and the tet of each
-    for (int t = 0; t < static_cast<int>(tets_.rows()); ++t)
-        for (int opposite = 0; opposite < 4; ++opposite) {
-            std::array<int, 3> face;
-            for (int corner = 0, i = 0; corner < 4; ++corner)
-                if (corner != opposite) face[i++] = tets_(t, corner);
-            if (!all_near(face, near)) continue;
-            std::sort(face.begin(), face.end());
-            const auto [seen, first_time] = open.try_emplace(face, t);
-            if (!first_time) faces_.push_back({seen->second, t, triangle_area(rest_, face)});
-        }
+    const std::vector<pbs::TetFace> faces = pbs::sorted_faces(tets_);
+    std::map<std::array<int, 2>, InnerFace> in_file_order;  // by the second tet and its corner opposite to the face
+    for (std::size_t f = 1; f < faces.size(); ++f) {
+        const pbs::TetFace &face = faces[f], &before = faces[f - 1];
+        if (face.sorted == before.sorted && all_near(face.sorted, near))
+            in_file_order[{face.tet, face.face}] = {before.tet, face.tet, triangle_area(rest_, face.sorted)};
+    }
+    for (const auto& [place, face] : in_file_order) faces_.push_back(face);
 }
 
 void SmoothnessMetrics::find_skin_edges(const std::vector<bool>& near)

@@ -19,11 +19,7 @@ Eigen::VectorXd checked_rest_volumes(const pbs::Positions& rest, const pbs::Tets
             if (tets(t, corner) < 0 || tets(t, corner) >= rest.rows())
                 throw pbs::InputError("", 0, fmt::format("tet {}", t), fmt::format("vertex {}", tets(t, corner)),
                                       fmt::format("expected 0 <= vertex < {}", rest.rows()));
-    Eigen::VectorXd volumes = pbs::tet_volumes(rest, tets);
-    for (Eigen::Index t = 0; t < volumes.size(); ++t)
-        if (!(volumes(t) > 0.0))
-            throw pbs::InputError("", 0, fmt::format("rest volume of tet {}", t), fmt::format("{} m^3", volumes(t)), "expected > 0");
-    return volumes;
+    return pbs::positive_volumes(rest, tets);
 }
 
 void require_points(const pbs::Positions& positions, Eigen::Index vertices, const char* name)

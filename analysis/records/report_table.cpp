@@ -199,20 +199,6 @@ std::vector<ReportColumn> report_columns(const std::string& names)
     return columns;
 }
 
-std::string markdown_table(const CsvTable& table, const std::vector<ReportColumn>& columns)
-{
-    std::string text;
-    for (const auto& row : shown_rows(table, columns)) {
-        for (const std::string& cell : row) text += "| " + cell + " ";
-        text += "|\n";
-        if (text.find('\n') == text.size() - 1) {  // there are no rows below the headings
-            for (std::size_t c = 0; c < columns.size(); ++c) text += "|---";
-            text += "|\n";
-        }
-    }
-    return text;
-}
-
 std::string text_table(const CsvTable& table, const std::vector<ReportColumn>& columns)
 {
     const auto rows = shown_rows(table, columns);

@@ -1,7 +1,6 @@
-// Chosen columns of a record as a readable table: Markdown for a page, aligned columns for a terminal.
+// Chosen columns of a record as aligned columns for a terminal.
 //   const std::vector<ReportColumn> columns = {{"body", "body"}, {"step [ms]", "step_s", "{:.2f}", 1e3}};
-//   markdown_table(table, columns);   // | body | step [ms] | ...
-//   text_table(table, columns);       // body   step [ms] ...
+//   text_table(table, columns);   // body   step [ms] ...
 //   text_table(table, report_columns("body step_s:.2f"));   // body   step_s ...
 #pragma once
 
@@ -42,7 +41,6 @@ struct ReportColumn {
 std::vector<ReportColumn> report_columns(const std::string& names);
 
 // One line per row of the record. InputError for a missing column, or for a text where a format expects a number.
-std::string markdown_table(const CsvTable& table, const std::vector<ReportColumn>& columns);
 std::string text_table(const CsvTable& table, const std::vector<ReportColumn>& columns);
 
 // Markdown as plain text for a terminal.

@@ -81,14 +81,6 @@ private:
 CsvTable parse_csv(const std::string& text, const std::string& file);
 CsvTable read_csv(const std::string& path);  // InputError as for read_text and parse_csv
 
-// A CSV record that is declared once: a row is a plain struct, and one list of columns names, explains, writes and reads its members.
-//   struct Distance { int frame; double rms_mm; };
-//   const Columns<Distance> distance_columns = {{"frame", &Distance::frame, "", "number of the frame, from 0"},
-//                                               {"rms_mm", &Distance::rms_mm, "mm", "root mean square over the points"}};
-//   table_of(distance_columns, rows).write("distances.csv");
-//   const std::vector<Distance> rows = rows_of(distance_columns, read_csv("distances.csv"));
-// A member is a double, int, long, long long, bool (0 or 1), std::string, an enum with EnumNames, std::optional of one (nothing: an empty
-// cell), or a list of names without spaces.
 // The names of an enum's values in records; a specialisation defines `table`, an array of pairs of value and name.
 template <typename Enum>
 struct EnumNames;
@@ -237,6 +229,14 @@ struct Column {
     std::function<void(Row&, const CsvTable&, int)> read;
 };
 
+// A CSV record that is declared once: a row is a plain struct, and one list of columns names, explains, writes and reads its members.
+//   struct Distance { int frame; double rms_mm; };
+//   const Columns<Distance> distance_columns = {{"frame", &Distance::frame, "", "number of the frame, from 0"},
+//                                               {"rms_mm", &Distance::rms_mm, "mm", "root mean square over the points"}};
+//   table_of(distance_columns, rows).write("distances.csv");
+//   const std::vector<Distance> rows = rows_of(distance_columns, read_csv("distances.csv"));
+// A member is a double, int, long, long long, bool (0 or 1), std::string, an enum with EnumNames, std::optional of one (nothing: an empty
+// cell), or a list of names without spaces.
 template <typename Row>
 class Columns : public std::vector<Column<Row>> {
 public:

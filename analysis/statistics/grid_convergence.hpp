@@ -29,20 +29,6 @@ GridConvergence two_grids(const std::array<double, 2>& values, double ratio, dou
 // Like two_grids, for two fields that are known by the norm of their difference; the bounds use the same norm.
 GridConvergence two_fields(double difference, double ratio, double order);
 
-// The error of finite elements from four nested solutions: linear and quadratic elements on some tets and on the same tets cut into eight.
-// The quadratic solution on the refined tets stands for the limit in the observed order of the linear ones,
-//   2^p = |linear, unrefined - quadratic, refined| / |linear, refined - quadratic, refined|.
-// Quadratic elements converge at least as fast as linear ones on the same meshes. Where the finest solution is much closer to the limit
-// than the linear ones, p is therefore cautious for it, and its distance from the limit is at most
-// |quadratic, unrefined - quadratic, refined| / (2^p - 1), times a safety factor. Norms are compared, not the fields point by point: nodal
-// errors of finite elements are not proportional to each other.
-// The order is not a least squares fit of a power law to the four solutions: only two of them are of one element order, so that no residual
-// would be left to judge the fit by, and a third mesh of that order would have 64 times as many tets. With nested meshes and a ratio of 2,
-// the two distances determine the order of the linear solutions. fits.hpp fits errors on three or more meshes.
-//   const NestedOrder order = nested_order({.linear = 2.0, .linear_refined = 0.6, .quadratic = 0.1}, 2.0);
-//   order.bound(0.1);         // of the quadratic solution on the refined tets
-//   2.0 + order.bound(0.1);   // of any other one, by the triangle inequality
-// Where the finest solution was not reached, the other three give a wider bound (order_without_finest).
 // The distances of the other solutions from the quadratic one on the refined tets, in any norm and unit.
 struct NestedDistances {
     double linear = 0.0;          // linear elements, unrefined tets
@@ -63,6 +49,20 @@ struct NestedOrder {
     double bound(double quadratic) const;
 };
 
+// The error of finite elements from four nested solutions: linear and quadratic elements on some tets and on the same tets cut into eight.
+// The quadratic solution on the refined tets stands for the limit in the observed order of the linear ones,
+//   2^p = |linear, unrefined - quadratic, refined| / |linear, refined - quadratic, refined|.
+// Quadratic elements converge at least as fast as linear ones on the same meshes. Where the finest solution is much closer to the limit
+// than the linear ones, p is therefore cautious for it, and its distance from the limit is at most
+// |quadratic, unrefined - quadratic, refined| / (2^p - 1), times a safety factor. Norms are compared, not the fields point by point: nodal
+// errors of finite elements are not proportional to each other.
+// The order is not a least squares fit of a power law to the four solutions: only two of them are of one element order, so that no residual
+// would be left to judge the fit by, and a third mesh of that order would have 64 times as many tets. With nested meshes and a ratio of 2,
+// the two distances determine the order of the linear solutions. fits.hpp fits errors on three or more meshes.
+//   const NestedOrder order = nested_order({.linear = 2.0, .linear_refined = 0.6, .quadratic = 0.1}, 2.0);
+//   order.bound(0.1);         // of the quadratic solution on the refined tets
+//   2.0 + order.bound(0.1);   // of any other one, by the triangle inequality
+// Where the finest solution was not reached, the other three give a wider bound (order_without_finest).
 // formal_order: of linear elements, > 0. Distances are >= 0.
 NestedOrder nested_order(const NestedDistances& distances, double formal_order);
 

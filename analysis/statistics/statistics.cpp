@@ -106,11 +106,6 @@ double standard_deviation(const std::vector<double>& values)
     return values.size() < 2 ? not_known : gsl_stats_sd(values.data(), 1, values.size());
 }
 
-double standard_error(const std::vector<double>& values)
-{
-    return standard_deviation(values) / std::sqrt(static_cast<double>(values.size()));
-}
-
 double rank_correlation(const std::vector<double>& x, const std::vector<double>& y)
 {
     const std::size_t n = std::min(x.size(), y.size());

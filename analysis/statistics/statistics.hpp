@@ -14,7 +14,6 @@ double mean(const std::vector<double>& values);                // NaN if a value
 double median(const std::vector<double>& values);              // quantile at 0.5
 double quantile(std::vector<double> values, double share);     // linear between the order statistics at share (n - 1), 0 <= share <= 1
 double standard_deviation(const std::vector<double>& values);  // n - 1 in the denominator
-double standard_error(const std::vector<double>& values);      // standard error of the mean of independent values
 
 // Spearman's rank correlation: 1 if y rises with x throughout. NaN for fewer than two pairs.
 double rank_correlation(const std::vector<double>& x, const std::vector<double>& y);
@@ -23,10 +22,6 @@ double rank_correlation(const std::vector<double>& x, const std::vector<double>&
 // as that of n / tau independent ones. At least 1; 1 for a series without spread.
 double integrated_autocorrelation_time(const std::vector<double>& series);
 
-// Confidence intervals for the mean of a series of frames, whose neighbours are correlated: moving-block bootstrap (Kunsch 1989),
-// percentile interval. Percentile intervals of short series are somewhat too narrow. A series without spread has an interval of width zero.
-//   const Interval loss = bootstrap_mean(loss_pct);            // loss.low .. loss.high at 95 %
-//   const Interval share = bootstrap_share(frame_holds);       // share of frames, 0 to 1
 // An estimate with its confidence interval, in the unit of the series. NaN bounds mean that the interval is not known.
 struct Interval {
     double estimate = 0.0, low = 0.0, high = 0.0;  // the estimated value and its bounds
@@ -50,6 +45,10 @@ struct BootstrapOptions {
 // with the same integrated autocorrelation time: (3/2)^(1/3) ((tau^2 - 1) / (2 tau))^(2/3) n^(1/3), between 1 and n / 2.
 int block_length(const std::vector<double>& series);
 
+// Confidence intervals for the mean of a series of frames, whose neighbours are correlated: moving-block bootstrap (Kunsch 1989),
+// percentile interval. Percentile intervals of short series are somewhat too narrow. A series without spread has an interval of width zero.
+//   const Interval loss = bootstrap_mean(loss_pct);            // loss.low .. loss.high at 95 %
+//   const Interval share = bootstrap_share(frame_holds);       // share of frames, 0 to 1
 // The bounds are NaN for fewer than two samples and for values that are not finite.
 Interval bootstrap_mean(const std::vector<double>& series, const BootstrapOptions& options = {});
 // The share of samples that hold, 0 to 1. autocorrelation_time matters only where all samples hold, or none.

@@ -6,7 +6,6 @@
 #include "pbs/skinning/delta_mush.hpp"
 #include "pbs/skinning/direct_delta_mush.hpp"
 
-#include <array>
 #include <optional>
 #include <type_traits>
 
@@ -124,14 +123,12 @@ template <class Scalar>
 using PackedDirectMushDeformer = DirectDeltaMushDeformer<pbs::PackedDirectMush<Scalar>>;
 
 // The weights of DeformerSpec::weights, by the key `weights` of a deformer's table.
-constexpr std::array<pbs::WeightKind, 6> own_weights = {pbs::WeightKind::paper,    pbs::WeightKind::rigid,      pbs::WeightKind::smooth,
-                                                        pbs::WeightKind::diffused, pbs::WeightKind::either_end, pbs::WeightKind::artist};
-
 template <typename Options>
 OptionFields<Options>& add_weights_key(OptionFields<Options>& fields)
 {
     std::vector<std::string> choices = {"scene"};
-    for (const pbs::WeightKind weights : own_weights) choices.push_back(pbs::name_of(weights));
+    for (const char* name : pbs::weight_names)
+        if (pbs::weights_named(name)) choices.emplace_back(name);
     fields.key("weights", KeyType::text, "scene",
                {.choices = choices, .meaning = "the weights that it blends with; scene: those of skinning.weights"});
     return fields;
@@ -142,8 +139,7 @@ template <typename Options>
 void read_weights(const SceneValues& values, const std::string& table, Options& /*options*/, DeformerSpec& spec)
 {
     const std::string weights = values.text(table + ".weights");
-    for (const pbs::WeightKind kind : own_weights)
-        if (weights == pbs::name_of(kind)) spec.weights = kind;
+    spec.weights = pbs::weights_named(weights);
     if (spec.weights) spec.variant = "weights_" + weights;
 }
 

@@ -22,8 +22,7 @@ DRAWN = ("bones.csv", "bones_rest.csv", "binding.csv", "embedding.csv")  # besid
 MOST_BYTES = 12_000_000
 RAW = ("points.csv", "rates.csv")  # the measured points of a run, from which the study's tables follow: kept whatever their length
 PICTURED = ("nh_p2",)  # the reference in the picture of the README, which no claim selects
-PAGES = ("bench.txt",)  # what a study says on the screen, where it writes no page
-REPEATED = {"work_precision": {"setting"}}  # study -> columns of its runs that other columns repeat
+PAGES = ("bench.txt",)  # the text that a study prints on the screen, where it writes no page
 TABLE_BYTES = 60_000  # of a run's further tables; longer ones are made again by the run
 SUMMARY_BYTES = 200_000  # of a study's own files, which sum up its runs'
 
@@ -61,10 +60,10 @@ def keep_metrics(source, target):
         writer.writerows([rounded(row[column]) for column in columns] for row in rows)
 
 
-def keep_table(source, target, without=()):
+def keep_table(source, target):
     with source.open(newline="", encoding="utf-8") as file, target.open("w", newline="", encoding="utf-8") as kept:
         rows = csv.DictReader(file)
-        writer = csv.DictWriter(kept, [name for name in rows.fieldnames if name not in without], extrasaction="ignore", lineterminator="\n")
+        writer = csv.DictWriter(kept, rows.fieldnames, lineterminator="\n")
         writer.writeheader()
         writer.writerows({name: rounded(cell) for name, cell in row.items()} for row in rows)
 
@@ -84,7 +83,7 @@ def keep_run(source, target):
         elif table.name in ("measurements.csv", "printed.csv"):
             shutil.copyfile(table, target / table.name)
         elif table.name in RAW or table.stat().st_size <= TABLE_BYTES:
-            keep_table(table, target / table.name, REPEATED.get(source.parent.name, ()))
+            keep_table(table, target / table.name)
         else:
             too_long.append(table.relative_to(source.parent))
     return too_long

@@ -124,11 +124,6 @@ MetricRow metric_row(const Scene& scene, const DeformerSpec& spec, int frame, do
     return row;
 }
 
-const analysis::Columns<MetricRow>& metric_columns()
-{
-    return all_columns;
-}
-
 analysis::Columns<MetricRow> metric_columns_of(const Scene& scene)
 {
     analysis::Columns<MetricRow> columns = all_columns;

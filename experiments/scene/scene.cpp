@@ -58,9 +58,7 @@ pbs::CharacterSource read_character(const SceneValues& values, const std::string
         if (file != &source.skeleton_file || !has_named_skeleton) *file = in_folder(folder, *file);
     check_character(values, source);
     const std::string weights = values.text("skinning.weights");
-    for (const pbs::WeightKind kind : {pbs::WeightKind::paper, pbs::WeightKind::rigid, pbs::WeightKind::smooth, pbs::WeightKind::diffused,
-                                       pbs::WeightKind::either_end, pbs::WeightKind::artist})
-        if (weights == pbs::name_of(kind)) source.weights = kind;
+    source.weights = pbs::weights_named(weights);
     if (source.weights == pbs::WeightKind::artist && source.model_file.empty())
         values.refuse("skinning.weights", "expected a character.model, which brings the artist's weights");
     if (!weights.empty() && !source.weights) source.weights_file = in_folder(folder, weights);

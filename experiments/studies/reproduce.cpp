@@ -12,8 +12,9 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <numeric>
+#include <map>
 #include <set>
+#include <span>
 
 namespace experiments {
 namespace {
@@ -138,18 +139,7 @@ void report_breakdown(const std::string& name, const std::string& breakdown, Stu
     outcome.broke_down = true;
 }
 
-void report_runs(const PlannedStudy& planned)
-{
-    spdlog::info("{} runs to do, {} kept", planned.to_do.size(), planned.kept.size());
-    std::vector<std::string> names;
-    for (const StudyRun& run : planned.absent) names.push_back(run.name);
-    if (names.empty()) return;
-    spdlog::warn("left out by --only: {}; the tables do not contain these runs, and verdicts that need them cannot be computed",
-                 fmt::join(names, ", "));
-}
-
-// then_s: expected wall time of the studies after this one [s].
-StudyOutcome run_study(const PlannedStudy& planned, int jobs, double then_s)
+void begin(const PlannedStudy& planned)
 {
     analysis::make_output_folder(planned.folder);
     analysis::remove_abandoned_files(planned.folder);
@@ -157,26 +147,70 @@ StudyOutcome run_study(const PlannedStudy& planned, int jobs, double then_s)
     for (const auto& runs : {planned.to_do, planned.absent})
         for (const StudyRun& run : runs) analysis::remove_record(fs::path(planned.folder) / run.name / "run.json");
     write_study_plan(planned.folder, planned.plan);
-    std::vector<PooledWork> work;
-    for (const StudyRun& run : planned.to_do)
-        work.push_back(
-            {run.name, run.cost_s, [&run, folder = (fs::path(planned.folder) / run.name).string()] { return carry_out(run, folder); }});
-    report_runs(planned);
+    spdlog::info("study {}: {} runs to do, {} kept", planned.study->name, planned.to_do.size(), planned.kept.size());
+    std::vector<std::string> names;
+    for (const StudyRun& run : planned.absent) names.push_back(run.name);
+    if (names.empty()) return;
+    spdlog::warn("left out by --only: {}; the tables do not contain these runs, and verdicts that need them cannot be computed",
+                 fmt::join(names, ", "));
+}
+
+// results: of the runs to do, in their order.
+StudyOutcome outcome_of(const PlannedStudy& planned, std::span<const PooledResult> results)
+{
     StudyOutcome outcome{.costs = StudyCosts(planned.folder)};
     for (const StudyRun& run : planned.kept)  // a kept breakdown has the same effect as that of a new run
         report_breakdown(run.name, breakdown_on_record(run, (fs::path(planned.folder) / run.name).string()), outcome);
-    for (const PooledResult& result : run_in_pool(work, planned.study->alone ? 1 : jobs, then_s)) {
+    for (std::size_t i = 0; i < results.size(); ++i) {
+        const PooledResult& result = results[i];
         if (!result.finished) spdlog::error("pbskin: {}: {}", result.name, result.failure);
         report_breakdown(result.name, result.breakdown, outcome);
         outcome.failed |= !result.finished;
         outcome.refused |= result.refused;
-        const auto run = std::ranges::find(planned.to_do, result.name, &StudyRun::name);
-        if (result.finished) outcome.costs.add(result.name, run->cost_s, result.cpu_s);
+        if (result.finished) outcome.costs.add(planned.to_do[i].name, planned.to_do[i].cost_s, result.cpu_s);
     }
     outcome.costs.complete(planned.folder, planned.plan);
     outcome.costs.write();
     outcome.finished = finished_runs(planned.folder);
     return outcome;
+}
+
+// The runs of all these studies share the cores, so that no core is idle while a study ends. then_s: expected wall time of the studies
+// after these [s].
+void run_together(const std::vector<const PlannedStudy*>& planned, int jobs, double then_s,
+                  std::map<const Study*, StudyOutcome>& outcomes)
+{
+    std::vector<PooledWork> work;
+    for (const PlannedStudy* one : planned) {
+        begin(*one);
+        for (const StudyRun& run : one->to_do)
+            work.push_back({planned.size() > 1 ? one->study->name + "/" + run.name : run.name, run.cost_s,
+                            [&run, folder = (fs::path(one->folder) / run.name).string()] { return carry_out(run, folder); }});
+    }
+    const std::vector<PooledResult> results = run_in_pool(work, jobs, then_s);
+    std::span<const PooledResult> left = results;
+    for (const PlannedStudy* one : planned) {
+        outcomes.emplace(one->study, outcome_of(*one, left.first(one->to_do.size())));
+        left = left.subspan(one->to_do.size());
+    }
+}
+
+// First all studies that share the cores, then those that measure time, one after the other.
+std::map<const Study*, StudyOutcome> run_all(const std::vector<PlannedStudy>& planned, int jobs)
+{
+    std::map<const Study*, StudyOutcome> outcomes;
+    std::vector<const PlannedStudy*> sharing, alone;
+    double then_s = 0.0;
+    for (const PlannedStudy& of : planned) {
+        (of.study->alone ? alone : sharing).push_back(&of);
+        if (of.study->alone) then_s += expected_cost(*of.study, of.to_do, jobs).wall_s;
+    }
+    run_together(sharing, jobs, then_s, outcomes);
+    for (const PlannedStudy* one : alone) {
+        then_s -= expected_cost(*one->study, one->to_do, jobs).wall_s;
+        run_together({one}, 1, then_s, outcomes);
+    }
+    return outcomes;
 }
 
 std::vector<analysis::Verdict> verdicts_of(const Study& study, const std::string& folder, const std::string& root)
@@ -218,22 +252,20 @@ int reproduce(const ReproduceArguments& arguments)
     std::string conclusions;      // of the studies, and on frames that need attention
     std::set<std::string> named;  // the reasons for which runs are left out: each is a warning once
     bool broke_down = false, refused = false, all_hold = true;
-    for (std::size_t i = 0; i < planned.size(); ++i) {
-        const Study* study = planned[i].study;
-        spdlog::info("study {}", study->name);
-        for (const auto& left_out : planned[i].plan.left_out)
+    for (const PlannedStudy& of : planned)
+        for (const auto& left_out : of.plan.left_out)
             if (named.insert(left_out.reason).second) spdlog::warn("left out: {}: {}", left_out.scene, left_out.reason);
-        const double then_s = std::accumulate(expected.begin() + static_cast<std::ptrdiff_t>(i) + 1, expected.end(), 0.0,
-                                              [](double sum, const ExpectedCost& cost) { return sum + cost.wall_s; });
-        const StudyOutcome outcome = run_study(planned[i], arguments.jobs, then_s);
-        costs.emplace_back(study->name, outcome.costs);
+    const std::map<const Study*, StudyOutcome> outcomes = run_all(planned, arguments.jobs);
+    for (const PlannedStudy& of : planned) {
+        const StudyOutcome& outcome = outcomes.at(of.study);
+        costs.emplace_back(of.study->name, outcome.costs);
         broke_down |= outcome.broke_down;
         refused |= outcome.refused;
         all_hold &= !outcome.failed;
         conclusions += marked_frames(outcome.finished.folders);
-        for (auto& verdict : verdicts_of(*study, planned[i].folder, arguments.folder)) verdicts.push_back(std::move(verdict));
-        if (!study->conclude) continue;
-        const StudyConclusion conclusion = study->conclude(outcome.finished);
+        for (auto& verdict : verdicts_of(*of.study, of.folder, arguments.folder)) verdicts.push_back(std::move(verdict));
+        if (!of.study->conclude) continue;
+        const StudyConclusion conclusion = of.study->conclude(outcome.finished);
         outcome.finished.write("conclusion.txt", conclusion.text);
         conclusions += conclusion.text;
         all_hold &= conclusion.holds;

@@ -24,6 +24,14 @@ std::string plan_file(const std::string& folder)
     return (fs::path(folder) / "plan.json").string();
 }
 
+// The names of studies and runs become folders below the records.
+void require_below(const std::string& name, const std::string& file)
+{
+    const fs::path path = name;
+    if (path.is_absolute() || std::find(path.begin(), path.end(), "..") != path.end())
+        throw pbs::InputError(file, 0, "name", name, "expected no leading / and no .. in a name");
+}
+
 // The entries of plan.json are checked, for the file may have been changed.
 const nlohmann::json& list_in(const pbs::JsonFile& plan, const std::string& key)
 {
@@ -85,6 +93,7 @@ void write_tables_of_runs(const fs::path& merged, const fs::path& study)
         if (line.find_first_not_of(',', comma) != std::string::npos) table += line.substr(comma + 1) + '\n';
     }
     for (const auto& [run, table] : tables) {
+        require_below(run, merged.string());
         fs::create_directories(study / run);
         analysis::write_text_atomically((study / run / merged.filename()).string(), table);
     }
@@ -129,11 +138,12 @@ std::string marks_of(const json& outcome, const std::string& run)
 
 OpenedRecords::OpenedRecords(const std::string& folder) : folder_(folder)
 {
-    const std::string provenance = analysis::path_in(folder, "provenance.json");
+    const std::string provenance = analysis::path_in(folder, "provenance.json"), all_plans = analysis::path_in(folder, "plans.json");
     if (!fs::exists(provenance)) return;
     const fs::path opened = scratch_.emplace().path();
-    analysis::from_record(analysis::path_in(folder, "plans.json"), [&](const nlohmann::json& plans) {
+    analysis::from_record(all_plans, [&](const nlohmann::json& plans) {
         for (const auto& [study, plan] : plans.items()) {
+            require_below(study, all_plans);
             fs::create_directories(opened / study);
             analysis::write_text_atomically(plan_file((opened / study).string()), plan.dump());
             for (const char* table : {"measurements.csv", "metrics.csv", "printed.csv"})
@@ -144,6 +154,7 @@ OpenedRecords::OpenedRecords(const std::string& folder) : folder_(folder)
     analysis::from_record(provenance, [&](const nlohmann::json& record) {
         for (const nlohmann::json& origin : record.at("origins"))
             for (const std::string run : origin.at("runs")) {
+                require_below(run, provenance);
                 fs::create_directories(opened / run);
                 analysis::write_text_atomically((opened / run / "run.json").string(),
                                                 nlohmann::json{{"schema", origin.at("schema")}}.dump());

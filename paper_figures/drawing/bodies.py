@@ -60,13 +60,8 @@ def _actor(data, color, ambient=0.25, **settings):
     return rendering.actor_of(made(vtkPolyDataMapper, InputData=data, ScalarVisibility=False), ambient, Color=color, **settings)
 
 
-def skin(file, color=rendering.skin_color, ambient=0.25):
-    return _actor(surface(rendering.read(file)), color, ambient)
-
-
-def glass(data, color=rendering.skin_color, opacity=0.3):
-    """A transparent skin."""
-    return _actor(surface(data), color, ambient=0.6, Opacity=opacity)
+def skin(file, color=rendering.skin_color, ambient=0.25, opacity=1.0):
+    return _actor(surface(file if hasattr(file, "GetPoints") else rendering.read(file)), color, ambient, Opacity=opacity)
 
 
 def skin_by(file, values, scale, colors, steps=256):

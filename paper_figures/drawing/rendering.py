@@ -107,9 +107,13 @@ def corners_of(data):
     return vtk_to_numpy(data.GetCells().GetConnectivityArray()).reshape(-1, 4)
 
 
-def tets(file):
+def tets(file, steps=600):
+    """The tets with ratio_colors over ratio_scale; inverted tets (below zero) have a colour of their own."""
+    most = ratio_scale.vmax
+    ratios = [-most + (step + 0.5) * 2 * most / steps for step in range(steps)]
+    table = table_of(-most, most, [(*inverted_color, 1.0) if ratio <= 0 else ratio_colors(ratio_scale(ratio)) for ratio in ratios])
     surface = made(vtkDataSetSurfaceFilter, InputData=read(file))
-    mapper = made(vtkDataSetMapper, InputConnection=surface.GetOutputPort(), LookupTable=ratio_table())
+    mapper = made(vtkDataSetMapper, InputConnection=surface.GetOutputPort(), LookupTable=table)
     mapper.SetScalarModeToUseCellFieldData()
     mapper.SelectColorArray("volume_ratio")
     mapper.UseLookupTableScalarRangeOn()
@@ -126,13 +130,6 @@ def table_of(low, high, colors):
         table.SetTableValue(step, *color)
     table.Build()
     return table
-
-
-def ratio_table(steps=600):
-    """ratio_colors over ratio_scale; inverted tets (below zero) have a colour of their own."""
-    most = ratio_scale.vmax
-    ratios = [-most + (step + 0.5) * 2 * most / steps for step in range(steps)]
-    return table_of(-most, most, [(*inverted_color, 1.0) if ratio <= 0 else ratio_colors(ratio_scale(ratio)) for ratio in ratios])
 
 
 def actor_of(mapper, ambient, **settings):

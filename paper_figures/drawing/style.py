@@ -27,9 +27,7 @@ matplotlib.rcParams.update({
     "xtick.labelsize": 7, "ytick.labelsize": 7, "lines.linewidth": 1.2, "lines.markersize": 3.2, "axes.linewidth": 0.6,
     "xtick.major.width": 0.6, "ytick.major.width": 0.6, "axes.grid": True, "grid.linewidth": 0.3, "grid.color": "#D0D0D0",
     "axes.axisbelow": True, "legend.frameon": False, "savefig.dpi": 300, "pdf.fonttype": 42, "svg.fonttype": "none",
-    "svg.hashsalt": "pbskin", "axes.spines.top": False,
-    "axes.spines.right": False, "figure.constrained_layout.use": True,
-})
+    "svg.hashsalt": "pbskin", "axes.spines.top": False, "axes.spines.right": False, "figure.constrained_layout.use": True})
 
 
 sequence = [(vermillion, "v"), (blue, "o"), (green, "^"), (purple, "D"), (orange, "s"), (sky, "P"), (black, "x")]
@@ -115,10 +113,6 @@ def per_cent_scale(axes, signed):
     text = (lambda value, _: f"{value:+g}".replace("-", "\u2212") if value else "0") if signed else (lambda value, _: f"{value:g}")
     axes.yaxis.set_major_formatter(ticker.FuncFormatter(text))
     axes.yaxis.set_minor_locator(ticker.NullLocator())
-
-
-def paper_band(axes, signed):
-    axes.axhspan(-0.5 if signed else 0.0, 0.5, color="#E8E8E8", linewidth=0, zorder=0, label="within 0.5 % (Sec. 4)")
 
 
 def legend_above(figure, columns=None):

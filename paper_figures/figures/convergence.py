@@ -97,7 +97,8 @@ def draw_iterations(axes, rows, name, number):
 
 
 def convergence_mesh_facts(rows):
-    """The residuals of the coarsest and the finest mesh of each sequence, and how many meshes keep volumes within 0.5 %."""
+    """The residuals of the coarsest and the finest mesh of each sequence, the early and late errors of those that have a reference, and how
+    many meshes keep volumes within 0.5 %."""
     told = {"vertices": span([int(row["vertices"]) for row in rows]), "last": rows[0]["iterations"]}
     for ladder in ladders:
         shown = sorted((row for row in rows if row["ladder"] == ladder), key=lambda row: int(row["vertices"]))
@@ -106,15 +107,12 @@ def convergence_mesh_facts(rows):
                            ("last_volume_abs_change_pct", "last_volume")):
             told[f"{name}_{of}"] = " and ".join(figure(float(row[column])) for row in ends)
         told[f"{name}_reached"] = f"{sum(float(row['volume_reached']) == 1.0 for row in shown)} of {len(shown)}"
-        told[f"{name}_error"] = errors_of([row for row in shown if is_measured(row, "error_24_pct")])
+        measured = [row for row in shown if is_measured(row, "error_24_pct")]
+        told[f"{name}_error"] = ", ".join(
+            f"{figure(float(row['error_24_pct']))} % after 24 and {figure(float(row['last_error_pct']))} % after {row['iterations']} on "
+            f"{row['vertices']} vertices" for row in (measured if len(measured) < 3 else measured[::len(measured) - 1])
+        ) or "no reference on record"
     return told
-
-
-def errors_of(measured):
-    """The errors of the coarsest and the finest mesh that have a reference, early and late."""
-    ends = measured[:1] if len(measured) == 1 else [*measured[:1], *measured[-1:]]
-    return ", ".join(f"{figure(float(row['error_24_pct']))} % after 24 and {figure(float(row['last_error_pct']))} % after "
-                     f"{row['iterations']} on {row['vertices']} vertices" for row in ends) or "no reference on record"
 
 
 def convergence_mesh(results):

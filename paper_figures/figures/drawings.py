@@ -17,7 +17,8 @@ def opened(frames, skin, towards, view, rod_m):
     """The tets at rest behind their bones, with a transparent skin and the bones in front."""
     file, bones = frames.tets("lbs", 0), frames.bones_at_rest()
     ahead_m = (bodies.rest_positions_of(file) - frames.projections(bones)) @ towards
-    return [bodies.cut_open(bodies.at_rest(file), ahead_m), bodies.glass(skin), *bodies.bones(bones, rod_m, view.direction)]
+    front = bodies.skin(skin, ambient=0.6, opacity=0.3), *bodies.bones(bones, rod_m, view.direction)
+    return [bodies.cut_open(bodies.at_rest(file), ahead_m), *front]
 
 
 def fig_02_tets_and_bones(results):
@@ -100,12 +101,6 @@ states = {"rest": (style.black, "o", "at rest"), "lbs": (looks.of("lbs").color, 
           "pbs": (looks.of("pbs").color, "s", "after PBS")}
 
 
-def chosen_tet(frames, frame):
-    """The tet that LBS has compressed most without inverting it."""
-    ratios = vtk_to_numpy(rendering.read(frames.tets("lbs", frame)).GetCellData().GetArray("volume_ratio"))
-    return int(numpy.where(ratios > 0.2, ratios, numpy.inf).argmin())
-
-
 def lengths_mm(corners):
     return [1000 * numpy.linalg.norm(corners[one] - corners[other]) for one, other in edges]
 
@@ -162,7 +157,9 @@ def draw_lengths(panel, corners):
 def fig_06_constraints(results):
     frames = Frames(results, "limb_bend")
     frame = frames.frame_at_angle(90)
-    tet, lbs = chosen_tet(frames, frame), frames.tets("lbs", frame)
+    lbs = frames.tets("lbs", frame)
+    ratios = vtk_to_numpy(rendering.read(lbs).GetCellData().GetArray("volume_ratio"))
+    tet = int(numpy.where(ratios > 0.2, ratios, numpy.inf).argmin())  # the one that LBS has compressed most without inverting it
     points = {"rest": bodies.rest_positions_of(lbs), "lbs": bodies.points_of(lbs), "pbs": bodies.points_of(frames.tets("pbs", frame))}
     corners = {state: points[state][rendering.corners_of(rendering.read(lbs))[tet]] for state in states}  # [m], 4 x 3
     figure, axes = style.panels(1, 4, height_in=2.1, width_ratios=(1, 1, 1, 1.5))
@@ -188,12 +185,6 @@ def chosen_vertex(frames, rest, lbs, pbs):
     return max(near, key=lambda vertex: moved[vertex])
 
 
-def draw_bind(panel, vertex, foot, color, text, marker):
-    panel.plot(*zip(foot[:2], vertex[:2]), color=color, linewidth=1.3, marker=marker, markersize=5, zorder=3)
-    for name, place, offset in ((text, vertex, (9, -9)), ("$q_i$", foot, (9, 7))):
-        panel.annotate(name, place[:2], offset, textcoords="offset points", color=color, ha="left", va="center", fontsize=9)
-
-
 def fig_07_bind(results):
     """With the slice of vertices around the plane of bending, and the bones."""
     frames = Frames(results, "limb_bend")
@@ -210,7 +201,9 @@ def fig_07_bind(results):
         distance_mm = 1000 * numpy.linalg.norm(place - foot)
         panel.plot(*points[abs(rest[:, 2]) < 0.05].T[:2], linestyle="", marker=".", color="#B0B0B0", markersize=2.5)
         draw_bones(panel, frames.bones(at))
-        draw_bind(panel, place, foot, color, text, marker)
+        panel.plot(*zip(foot[:2], place[:2]), color=color, linewidth=1.3, marker=marker, markersize=5, zorder=3)
+        for name, end, offset in ((text, place, (9, -9)), ("$q_i$", foot, (9, 7))):
+            panel.annotate(name, end[:2], offset, textcoords="offset points", color=color, ha="left", va="center", fontsize=9)
         panel.set(xlabel="x [m]", aspect="equal", xlim=(-0.45, 0.45), ylim=(-0.3, 0.46),
                   title=f"{title}: $|p_i - q_i|$ = {distance_mm:.0f} mm")
         behind.append({"scene": "limb_bend", "frame": at, "state": title, "vertex": vertex, "distance_mm": distance_mm,

@@ -83,10 +83,10 @@ def draw_reference(axes, rows):
     found = [row for row in rows if row["outcome"] == "found" and float(row["k_bind"]) == 1.0
              and float(row["iterations"]) == usual_jolt["iterations"]]
     for row in found:
-        fem = row["deformer"] != "pbs"
-        axes.plot(float(row["k_stretch"]), float(row["damping_ratio"]), linestyle="none", marker="*" if fem else "o", markersize=8,
-                  color=style.black, markerfacecolor=style.yellow if fem else "none", markeredgewidth=0.8,
-                  label="neo-Hookean FEM in time, limb" if fem else "PBS on the FEM's mesh")
+        name = looks.of(row["deformer"]).name
+        label = f"{name}, on the FEM's mesh" if row["deformer"] == "pbs" else f"{name}, in time, limb"
+        axes.plot(float(row["k_stretch"]), float(row["damping_ratio"]), **style.as_of(
+            row["deformer"], label=label, linestyle="none", markersize=8, markerfacecolor="none", markeredgewidth=0.8))
     return style.taken(found, sorted(jolt_columns), body="limb_reference", varied="")
 
 

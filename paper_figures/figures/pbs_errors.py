@@ -4,7 +4,7 @@ import math
 
 import records
 from drawing import omission_boxes, style
-from words import case_words
+from words import case_words, looks
 
 parts = {"error_joint_pct": ("whole error", style.black, "x", "-"), "solver_pct": ("solver", style.vermillion, "v", (0, (4, 1.5))),
          "model_pct": ("model", style.blue, "o", "-"), "discretisation_pct": ("discretisation (bound)", style.green, "^", (0, (1, 1)))}
@@ -134,22 +134,22 @@ def error_parts(results):
 # iterations, and the gain of each change in the time of 4, 24 and 96 iterations of PBS, with its interval over the poses. A gain that is
 # decided is drawn filled.
 
-names = {"pbs": "PBS (baseline)", "smooth_weights": "smooth weights", "bind_to_blended_position": "bind to blended position",
-         "region_volumes": "volumes of regions", "tet_and_region_volumes": "volumes of tets and regions",
-         "k_by_edge_length": "k by edge length", "another_order": "another order", "other_stiffnesses": "other stiffnesses (control)"}
-looks = dict(zip(names, [(style.black, "o"), (style.vermillion, "v"), (style.green, "^"), (style.purple, "D"), (style.orange, "s"),
-                         (style.sky, "P"), (style.blue, "x"), ("#999999", "+")]))
+changes = {"smooth_weights": ("#C0392B", "v"), "bind_to_blended_position": ("#16A085", "^"), "region_volumes": ("#8E44AD", "D"),
+           "tet_and_region_volumes": ("#C9A400", "s"), "k_by_edge_length": ("#5D6D7E", "P"), "another_order": ("#A0522D", "x"),
+           "other_stiffnesses": ("#AAAAAA", "+")}  # no deformer has one of these colours
+names = {"pbs": f"{looks.of('pbs').name} (baseline)"} | {change: case_words.of_field("change", change) for change in changes}
 curve_columns = {"body", "change", "setting", "iterations", "poses", "mean_ms", "error_joint_pct"}
 gain_columns = {"group", "budget_iterations", "change", "than", "poses", "gain_pct", "gain_low_pct", "gain_high_pct", "decision"}
 looks_of_budgets = {"4": (style.orange, "v"), "24": (style.blue, "o"), "96": (style.vermillion, "s")}
 
 
 def draw_curves(axes, body, rows):
-    for change, (color, marker) in looks.items():
+    for change, name in names.items():
+        color, marker = changes.get(change, (None, None))  # without those of the baseline
+        look = {"color": color, "marker": marker, "linewidth": 1.0} if color else style.as_of(change, linewidth=2.0)
         curve = [row for row in rows if row["change"] == change]
         if curve:
-            style.plot(axes, curve, "mean_ms", "error_joint_pct", color=color, marker=marker, markersize=2.8,
-                       linewidth=2.0 if change == "pbs" else 1.0, label=names[change])
+            style.plot(axes, curve, "mean_ms", "error_joint_pct", **look | {"markersize": 2.8, "label": name})
     style.log_scale(axes.xaxis)
     style.log_scale(axes.yaxis, [2, 3, 5, 7, 10, 15, 20, 30, 50, 70])
     axes.set(title=f"{case_words.of_field('body', body)}, mean of {rows[0]['poses']} poses", xlabel="processor time per frame [ms]",
@@ -194,8 +194,7 @@ def improvements(results):
     bodies = list(dict.fromkeys(row["body"] for row in curves))
     records.need(bodies, f"{folder}: no pose with a reference")
     figure, (upper, (lower,)) = style.stacked((len(bodies), 2.9), (1, 2.7))
-    behind = [row for panel, body in zip(upper, bodies)
-              for row in draw_curves(panel, body, [row for row in curves if row["body"] == body])]
+    behind = [row for panel, body in zip(upper, bodies) for row in draw_curves(panel, body, [row for row in curves if row["body"] == body])]
     behind += draw_gains(lower, gains)
     omitted = not_ranked(gains)
     omission_boxes.draw(lower, omitted, 110, place=(0.01, 0.02), fontsize=5)

@@ -41,13 +41,6 @@ models = ("pbs", "pbs_no_memory", "pbs_jiggle", "xpbd", "xpbd_small_steps", "fem
 cell_columns = {"body", "model", "factor", "value", "unit", "named", "second_factor", "precision", "outcome"}
 
 
-def shown_cells(rows):
-    """The rows of the limb with one factor varied at a time, in the precision of most of a model's cells."""
-    rows = [row for row in rows if row["body"] == "limb" and not row["second_factor"] and row["model"] in models]
-    single = {row["model"] for row in rows if row["precision"] == "f32"}
-    return [row for row in rows if row["precision"] == "f32" or row["model"] not in single]
-
-
 def range_of(rows):
     if all(row["named"] and not row["unit"] for row in rows):
         return ", ".join(dict.fromkeys(case_words.in_plain(row["named"]) for row in rows))
@@ -92,7 +85,11 @@ def stability_cells_facts(rows):
 
 
 def stability_cells(results):
-    rows = shown_cells(records.table(results / "stability" / "cells.csv", cell_columns))
+    """The rows of the limb with one factor varied at a time, in the precision of most of a model's cells."""
+    rows = [row for row in records.table(results / "stability" / "cells.csv", cell_columns)
+            if row["body"] == "limb" and not row["second_factor"] and row["model"] in models]
+    single = {row["model"] for row in rows if row["precision"] == "f32"}
+    rows = [row for row in rows if row["precision"] == "f32" or row["model"] not in single]
     of_factors = {factor: [row for row in rows if row["factor"] == factor] for factor in dict.fromkeys(row["factor"] for row in rows)}
     figure, ((panel,),) = style.panels(1, 1, height_in=0.6 + 0.21 * len(of_factors), width_in=style.page_in)
     for place, cells in enumerate(of_factors.values()):
@@ -134,15 +131,11 @@ def draw_map(axes, rows, title):
     axes.grid(False)
 
 
-ends = {"converged": "at rest as if undisturbed", "bounded": "bounded", "inverted": "with inverted tets", "diverged": "diverged",
-        "not_finite": "not finite"}
-
-
 def stability_maps_facts(rows):
     """The number of cells of each map by outcome, and the steps of the longest run."""
     def counts(file):
         found = [row["outcome"] for row in rows if row["map"] == file]
-        return f"of {len(found)} cells " + ", ".join(f"{found.count(outcome)} {words}" for outcome, words in ends.items())
+        return f"of {len(found)} cells " + ", ".join(f"{found.count(end)} {case_words.of_field('end', end)}" for end in looks_of_outcomes)
 
     left, right = map(counts, maps)
     return {"left": left, "right": right, "steps": max(int(row["steps"]) for row in rows)}

@@ -14,6 +14,7 @@ from words import looks
 from words.number_words import span
 
 distance_scale, distance_colors = matplotlib.colors.Normalize(0, 60), matplotlib.colormaps["YlGnBu"]  # [mm]
+crouch_s = 0.32  # after the first frame of human_jump
 volumes = ("volume_change_pct", "volume_abs_change_pct", "inverted_tets")
 
 
@@ -63,16 +64,18 @@ def above_floor(file, middle_m, half_height_m, direction):
 
 def fig_01_motion(results):
     """A character in motion: the human jumping under LBS, PBS, and PBS with its jiggling zone."""
-    frames, labels, shown = Frames(results, "human_jump"), ("lbs", "pbs", "pbs_jiggle"), (0, 8, 12, 18, 27, 40)
-    views = {frame: above_floor(frames.skin("lbs", frame), 0.95, 0.98, (1.0, 0.15, 0.75)) for frame in shown}
+    frames, labels = Frames(results, "human_jump"), ("lbs", "pbs", "pbs_jiggle")
+    views = {frame: above_floor(frames.skin("lbs", frame), 0.95, 0.98, (1.0, 0.15, 0.75))
+             for frame in frames.frames_at(0.0, crouch_s, 0.48, 0.72, 1.08, 1.6)}
     figure, behind = grid(skins(frames, labels, views, rendering.Stage(440, 720)), "volume {volume_change_pct:+.1f} %",
-                          times_of(frames, shown), [looks.of(label).name for label in labels], height_in=2.1)
+                          times_of(frames, views), [looks.of(label).name for label in labels], height_in=2.1)
     return figure, style.columns_of(behind, *volumes)
 
 
 def fig_03_two_layers(results):
     """The rendered surface at rest, after linear blend skinning and after position based dynamics. The lower row shows the hips."""
-    frames, frame = Frames(results, "human_jump"), 8
+    frames = Frames(results, "human_jump")
+    frame, = frames.frames_at(crouch_s)
     rows = [frames.row(label, frame) for label in ("lbs", "pbs")]
     rest, posed = bodies.rest_positions_of(frames.tets("lbs", frame)), bodies.points_of(frames.tets("lbs", frame))
     bodies_at = [(points.min(0) + points.max(0)) / 2 for points in (rest, posed, posed)]
@@ -126,7 +129,8 @@ def fig_09_jiggle(results):
     """The human walking under PBS with its jiggling zone, coloured by the distance from PBS with the same stiffness but without a zone. The
     camera turns with the hips and shows the front and the back."""
     frames, stage = Frames(results, "human_walk"), rendering.Stage(440, 680)
-    compared, shown, sides = ("pbs_jiggle", "pbs_no_zone"), (0, 12, 24, 36, 48, 60), {"front": 1, "back": -1}
+    compared, sides = ("pbs_jiggle", "pbs_no_zone"), {"front": 1, "back": -1}
+    shown = frames.frames_at(0.0, 0.48, 0.96, 1.44, 1.92, 2.4)
     figure, axes = style.panels(len(sides), len(shown), height_in=2.15)
     behind = []
     for panels, frame in zip(axes.T, shown):
@@ -154,7 +158,8 @@ def fig_09_jiggle_facts(rows):
 
 def fig_10_start_from_lbs(results):
     """Poses with and without LBS as the initial guess. No package provides a kicking clip, so the poses are from a jump."""
-    frames, stage, shown = Frames(results, "human_jump"), rendering.Stage(480, 640), (4, 8, 12, 18, 27)
+    frames, stage = Frames(results, "human_jump"), rendering.Stage(480, 640)
+    shown = frames.frames_at(0.16, crouch_s, 0.48, 0.72, 1.08)
     deformers = {"pbs": "from LBS in each frame", "pbs_increment": "moved by LBS's increment"}
     views = {frame: rendering.Camera(rendering.middle_of(frames.skin("pbs", frame)), 0.87, (0.8, 0.12, 1.0)) for frame in shown}
     figure, axes = style.panels(3, len(shown), height_in=2.2)
@@ -173,7 +178,7 @@ def fig_10_start_from_lbs(results):
 
 # The human jumping under LBS, PBS and FEM side by side, as an animated WebP at the clip's own speed, and as one still.
 
-in_clip, still, clip_direction = ("lbs", "pbs", "nh_p1"), 8, (0.9, 0.15, 1.0)
+in_clip, clip_direction = ("lbs", "pbs", "nh_p1"), (0.9, 0.15, 1.0)
 pixels, margin_px = (300, 440), 40
 in_words = "volume {volume_change_pct:+.1f} %, {inverted_tets:.0f} inverted"
 xmp = ('<x:xmpmeta xmlns:x="adobe:ns:meta/"><rdf:RDF xmlns:rdf="http://www.w3.org/1999/02/22-rdf-syntax-ns#"><rdf:Description '
@@ -212,9 +217,10 @@ def clip_jump_facts(rows):
 
 def clip_jump(results):
     frames = Frames(results, "human_jump")
-    view = rendering.Camera(rendering.middle_of(frames.skin("nh_p1", still)), 0.78, clip_direction)
-    stills = skins(frames, in_clip, {still: view}, rendering.Stage(700, 800))
-    figure, _ = grid([[line[0] for line in stills]], in_words, [looks.of(label).name for label in in_clip], height_in=3.0)
+    still, = frames.frames_at(crouch_s)
+    view, stage = rendering.Camera(rendering.middle_of(frames.skin("nh_p1", still)), 0.78, clip_direction), rendering.Stage(700, 800)
+    stills = [line[0] for line in skins(frames, in_clip, {still: view}, stage)]
+    figure, _ = grid([stills], in_words, [looks.of(label).name for label in in_clip], height_in=3.0)
     behind = [frames.row(label, frame) for label in in_clip for frame in range(len(frames.times_s()))]
     return (figure, style.columns_of(behind, "volume_change_pct", "inverted_tets", "min_section_pct"),
             {"webp": lambda file, origin: draw_clip(file, frames, origin)})

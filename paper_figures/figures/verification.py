@@ -64,7 +64,7 @@ def draw_locking(axes, rows):
     kept = [row for row in rows if (row["formulation"], row["quantity"]) == ("volume_constraints", "tip_deflection")]
     if kept:  # nu = 1/2 lies beyond a logarithmic axis, so it is a line
         axes.axhline(shown_of(kept[-1])["value_over_reference"], color=style.purple, linestyle=(0, (1, 1)),
-                     label="PBS constraints, every volume kept")
+                     label="constraints of PBS, every volume kept")
     axes.axhline(1.0, color=style.black, linewidth=0.6)
     axes.set(xscale="log", ylim=(0.0, 1.65), xlabel="1 \u2212 2 \u03bd, from compressible to incompressible", ylabel="value over theory",
              title="locking: bending (full lines), torsion (dashed)")

@@ -22,8 +22,9 @@ def draw_deformers(panels, run, x, **options):
 
 
 def finish_measure(panel, measure):
-    style.paper_band(panel, signed=measure == "volume_change_pct")
-    style.per_cent_scale(panel, signed=measure == "volume_change_pct")
+    signed = measure == "volume_change_pct"
+    panel.axhspan(-0.5 if signed else 0.0, 0.5, color="#E8E8E8", linewidth=0, zorder=0, label="within 0.5 % (Sec. 4)")
+    style.per_cent_scale(panel, signed)
 
 
 def volume_over_angle(results):
@@ -65,13 +66,6 @@ def draw_human(axes, run, measure, color):
             for of in zip(iterations, median, low, high)]
 
 
-def draw_pose(axes, run, angle_deg, label, measure, color, marker):
-    values = records.numbers([records.at_angle(run.select("pbs", iterations), angle_deg) for iterations in run.pbs_iterations()], measure)
-    axes.plot(run.pbs_iterations(), values, color=color, marker=marker, linestyle=(0, (4, 1.5)), linewidth=0.9, label=label)
-    return [{"scene": run.name, "pose": f"{angle_deg} degrees", "measure": measure, "iterations": iterations, "median": value, "q10": "",
-             "q90": ""} for iterations, value in zip(run.pbs_iterations(), values)]
-
-
 def volume_over_iterations_facts(rows):
     """The change that remains after 24 and after the most iterations: the human's median, and the limb bent by 90 degrees [%]."""
     def left(measure, scene, pose):
@@ -94,8 +88,12 @@ def volume_over_iterations(results):
     behind = []
     for panel, (measure, label) in zip(axes[0], measures.items()):
         behind += draw_human(panel, human, measure, looks.of("pbs").color)
-        for (scene, angle_deg, name), look in zip(poses, [style.sequence[place] for place in (0, 4, 2, 6)]):
-            behind += draw_pose(panel, limbs[scene], angle_deg, name, measure, *look)
+        for (scene, angle_deg, name), place in zip(poses, (0, 4, 2, 6)):
+            (color, marker), counts = style.sequence[place], limbs[scene].pbs_iterations()
+            values = records.numbers([records.at_angle(limbs[scene].select("pbs", count), angle_deg) for count in counts], measure)
+            panel.plot(counts, values, color=color, marker=marker, linestyle=(0, (4, 1.5)), linewidth=0.9, label=name)
+            behind += [{"scene": scene, "pose": f"{angle_deg} degrees", "measure": measure, "iterations": count, "median": value, "q10": "",
+                        "q90": ""} for count, value in zip(counts, values)]
         finish_measure(panel, measure)
         panel.set_xscale("log", base=2)
         panel.set_xticks(human.pbs_iterations(), [str(iterations) for iterations in human.pbs_iterations()])

@@ -1,21 +1,28 @@
 """The pages of studies for readers, DIR/STUDY/STUDY.md, composed from the tables that the studies write.
 
-    pages.write(results)   # of each study that has a page and records
+    written, status = pages.write(results)   # of each study that has a page and records
 """
 import importlib
 import math
+import pkgutil
 import sys
 
 import records
 from records import kept, whole_file
 
-# Each with a module that has page(folder).
-studies = ("ambiguity", "artefacts", "audit", "convergence", "ensemble", "jiggle", "stiffness", "timing", "work_precision")
+# Each module of this folder has page(folder) for the study of its name.
+studies = sorted(module.name for module in pkgutil.iter_modules(__path__))
 
 
 def write(results):
-    """Returns the pages that were written. A study without records has none, and damaged records are named on stderr."""
-    opened, written = kept.opened(results), []
+    """Returns the pages that were written and the exit status. A study without records has no page. Missing tables of a study are named on
+    stderr; so are damaged records and pages that cannot be written, whose status is 2."""
+    try:
+        opened = kept.opened(results)
+    except records.RecordsMissing as error:
+        print(f"pbskin: {error}", file=sys.stderr)
+        return [], 2
+    written, status = [], 0
     for study in studies:
         if not (opened / study / "plan.json").is_file():
             continue
@@ -27,7 +34,8 @@ def write(results):
             written.append(file)
         except (records.RecordsMissing, whole_file.CannotBeWritten) as error:
             print(f"pbskin: page of {study}: {error}", file=sys.stderr)
-    return written
+            status = max(status, 2 * isinstance(error, (records.RecordsDamaged, whole_file.CannotBeWritten)))
+    return written, status
 
 
 def table(rows, columns):
@@ -45,6 +53,12 @@ def table(rows, columns):
 
     lines = ["| " + " | ".join(columns) + " |", "|" + "---|" * len(columns)]
     return "\n".join([*lines, *("| " + " | ".join(cell(row, of) for of in columns.values()) + " |" for row in rows)]) + "\n"
+
+
+def own_names(text):
+    """Columns under their own names, for table(): NAME, NAME:DECIMALS or NAME:g4."""
+    parts = (word.partition(":") for word in text.split())
+    return {name: (name, int(digits) if digits.isdigit() else digits) if digits else name for name, _, digits in parts}
 
 
 def files(folder, name):

@@ -2,15 +2,9 @@
 import math
 
 import pages
+from words import case_words
 
-titles = {
-    "nearest_bone": "Sec. 3.6: projection on the nearest bone", "vertex_on_bone": "Sec. 3.6: a vertex on the bone",
-    "n_joints": "Eq. 2: n_joints",
-    "stiffness_form": "Eq. 8-9: stiffness in each iteration", "masses": "Eq. 5: masses",
-    "class_order": "Algorithm 1, lines 11-13: order of the classes", "k_stretch_outside_zone": "unstated: k_stretch outside the zone",
-    "k_volume": "unstated: k_volume", "k_bind": "unstated: k_bind", "lbs_entry": "where LBS enters Algorithm 1",
-    "jiggling_zone": "Sec. 4: jiggling zone", "bind_in_zone": "Table 1: bind in the zone", "jiggling": "Table 1: jiggling",
-    "step_and_frame": "Sec. 4: step and frame", "gravity": "unstated: gravity"}
+places = case_words.tables["place"]
 
 
 def size_of_change(row):
@@ -37,7 +31,7 @@ def cell(rows):
 
 def of_body(rows, claims):
     readings = dict.fromkeys((row["place"], row["reading_b"]) for row in rows)
-    columns = {"place": lambda reading: titles.get(reading[0], reading[0]), "reading": lambda reading: reading[1]}
+    columns = {"place": lambda reading: places.get(reading[0], reading[0]), "reading": lambda reading: reading[1]}
     for claim in claims:
         columns[claim] = lambda reading, claim=claim: cell(
             [row for row in rows if (row["place"], row["reading_b"], row["claim"]) == (*reading, claim)])
@@ -70,7 +64,7 @@ def of_volume(rows):
         return lambda of: f"{scale * float(of[1][name]['a']):.2f} -> {scale * float(of[1][name]['b']):.2f}"
 
     return pages.table(values.items(), {
-        "scene": lambda of: of[0][0], "place": lambda of: titles.get(of[0][1], of[0][1]), "B": lambda of: of[0][2],
+        "scene": lambda of: of[0][0], "place": lambda of: places.get(of[0][1], of[0][1]), "B": lambda of: of[0][2],
         "signed A -> B [%]": change("mean_volume_change_pct"), "absolute A -> B [%]": change("mean_volume_abs_change_pct"),
         "within 0.5 % A -> B": change("share_of_frames_within_printed"),
         "distance of B from A [mm]": lambda of: f"{1e3 * float(of[1]['distance_of_b_from_a_rms_m']['b']):.3f}",

@@ -3,17 +3,12 @@ import pages
 import records
 
 
-def is_shown(run, row):
-    default = row["order"] == "ordered" and row["precision"] == "f32"
-    return default and (row["start"] == "lbs" if run.startswith("ladder") else row["own_mesh"] == "1")
-
-
 def page(folder):
     rows = []
-    for run in (run["name"] for run in records.read_json(folder / "plan.json")["runs"]):
-        if (folder / run / "rates.csv").is_file():
-            rows += [row for row in records.table(folder / run / "rates.csv", {"start", "order", "precision", "own_mesh"})
-                     if is_shown(run, row)]
+    for file in pages.files(folder, "rates.csv"):
+        rows += [row for row in records.table(file, {"start", "order", "precision", "own_mesh"})
+                 if (row["order"], row["precision"]) == ("ordered", "f32")
+                 and (row["start"] == "lbs" if file.parent.name.startswith("ladder") else row["own_mesh"] == "1")]
     return "# Convergence from each initial guess\n\n" + pages.table(rows, {
         "body": "body", "pose": "pose", "vertices": "vertices", "k_stretch": "k_stretch", "initial guess": "start",
         "rate": ("rate_per_iteration", 4), "to residual": "iterations_to_residual", "reached": "residual_reached",

@@ -5,7 +5,6 @@ import pages
 import records
 from words import looks
 
-notable_points = 2.0  # pairs that differ by more than this are to be decided
 pose = {"body": "body", "motion": "motion", "pose": lambda row: row["pose"] or f"{float(row['angle_deg']):g}\u00b0"}
 
 
@@ -14,10 +13,10 @@ def decided(pairs):
 
 
 def of_pairs(pairs):
-    notable = [pair for pair in pairs if float(pair["largest_difference_pct"]) > notable_points]
+    notable = [pair for pair in pairs if float(pair["largest_difference_pct"]) > records.notable_points]
     skinning = [pair for pair in notable if "fem_linear" not in (pair["first"], pair["second"])]
-    text = (f"{decided(notable)} pairs of deformers whose errors differ by more than {notable_points:g} percentage points are decided. "
-            f"Without linear finite elements, these are {decided(skinning)} pairs.\n")
+    text = (f"{decided(notable)} pairs of deformers whose errors differ by more than {records.notable_points} percentage points are "
+            f"decided. Without linear finite elements, these are {decided(skinning)} pairs.\n")
     undecided = [pair for pair in notable if pair["decision"] != "decided"]
     return text + ("\n" + pages.table(undecided, pose | {
         "first": lambda row: looks.of(row["first"]).name, "second": lambda row: looks.of(row["second"]).name,

@@ -9,9 +9,8 @@ def of_jolts(folder):
             f"of it skin, in {zone[0]['pieces']} pieces: "
             + ", ".join(f"{row['bone']} {100 * float(row['share_of_zone']):.0f} %" for row in zone[:5]) + ".\n\n")
     return text + pages.table(records.table(folder / "responses.csv", {"deformer", "outcome", "frequency_hz"}), {
-        "deformer": "deformer", "k_stretch": "k_stretch", "step [ms]": lambda row: f"{float(row['time_step_ms']):.3g}",
-        "iterations": "iterations", "masses": "masses",
-        "k_bind": "k_bind", "outcome": "outcome", "frequency [Hz]": ("frequency_hz", 2), "damping ratio": ("damping_ratio", 3),
+        **pages.own_names("deformer k_stretch"), "step [ms]": ("time_step_ms", "g"), **pages.own_names("iterations masses k_bind outcome"),
+        "frequency [Hz]": ("frequency_hz", 2), "damping ratio": ("damping_ratio", 3),
         "overshoot / jolt": ("overshoot_over_jolt", 2), "left / peak": ("left_over_peak", 3)})
 
 

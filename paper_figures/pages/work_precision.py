@@ -2,11 +2,9 @@
 changes to PBS gain. Fronts and crossings are on the page where their tables are there; they are too long to be kept."""
 import pages
 import records
-from words import looks
+from words import case_words, looks
 
-comparisons = {"packed_f32": "packed f32 code where a deformer has it", "plain_f64": "plain f64 code"}
-clocks = {"processor": "processor time, as of all other deformers", "own": "the times that the program states in seconds.f64",
-          "wall": "the wall time of the program with its start, divided by the number of its poses"}
+comparisons, clocks = (case_words.tables[field] for field in ("comparison", "clock"))
 setting = ("iterations", "k_stretch", "order", "precision", "substeps", "element_order", "wanted_vertices", "tuned")
 crossed = (("pbs", "delta_mush"), ("pbs", "xpbd"), ("quasi_newton", "pbs"), ("quasi_newton", "delta_mush"), ("vbd", "pbs"),
            ("vbd", "delta_mush"), ("linear_fem", "pbs"), ("nonlinear_fem", "pbs"))
@@ -42,7 +40,7 @@ def nearest(folder):
         shown = []
         for row in of_comparison(rows, comparison):
             if row["rank"] == "1":
-                shown.append(dict(row) | {"next": ""})
+                shown.append(row | {"next": ""})
             elif row["rank"] == "2":
                 shown[-1]["next"] = f"{looks.of(row['group']).name}: {float(row['error_joint_pct']):.1f}"
         text += f"\n## Nearest within a time: {words}\n\n" + pages.table(shown, {
@@ -96,7 +94,7 @@ def omissions(folder):
 
 
 def references(points):
-    rows = [dict(row) | {"case": run, "s": float(row["reach_ms"]) / 1e3} for run, of in points.items() for row in of
+    rows = [row | {"case": run, "s": float(row["reach_ms"]) / 1e3} for run, of in points.items() for row in of
             if row["outcome"] in ("reference", "not_reached")]
     return "\n## References\n\n" + pages.table(rows, {
         "case": "case", "half": "half", "reference": words_of, "outcome": "outcome", "time of its solutions [s]": ("s", 0),

@@ -7,7 +7,6 @@ from words.number_words import counted
 
 paper_s_solver = "the paper's own solver (file order, double precision)"
 most_exceptions = 2  # named one by one
-notable_points = 2  # of difference between the errors of two methods
 first_member = "smooth"  # the reference of the other studies
 
 
@@ -122,8 +121,7 @@ def first_errors(results):
 
 def undecided(notable):
     """The causes with their counts, as a sentence, or nothing."""
-    causes = {"reference_error": "the own error of a reference is too large or not known",
-              "models_disagree": "the references disagree"}
+    causes = {"reference_error": "the own error of a reference is too large or not known", "models_disagree": "the references disagree"}
     counts = {text: sum(pair["decision"] == cause for pair in notable) for cause, text in causes.items()}
     parts = [f"in {count} {text}" for text, count in counts.items() if count]
     return f" The others are undecided: {' and '.join(parts)}." if parts else ""
@@ -133,7 +131,7 @@ def distance(results):
     """The errors against the family's first reference, and how many of the pairs that differ notably the whole family decides."""
     errors, poses = first_errors(results)
     pairs = records.table(results / "ensemble" / "pairs.csv", {"first", "second", "largest_difference_pct", "members", "decision"})
-    notable = [pair for pair in pairs if float(pair["largest_difference_pct"]) > notable_points and "fem_linear" not in
+    notable = [pair for pair in pairs if float(pair["largest_difference_pct"]) > records.notable_points and "fem_linear" not in
                (pair["first"], pair["second"])]
     if not notable or not {"lbs", "dqs", "delta_mush", "pbs"} <= set(errors):
         raise records.RecordsMissing(f"{results / 'ensemble'}: no errors of LBS, DQS, delta mush and PBS, or no pair of them")
@@ -146,7 +144,7 @@ def distance(results):
             f"precision) is {spans['pbs']} of the mean bone distance away from neo-Hookean flesh at the joints (LBS {spans['lbs']}, DQS "
             f"{spans['dqs']}, delta mush {spans['delta_mush']}).{left_out} In all {counted(poses, 'pose')}, {notable[0]['members']} "
             f"references with other attachments and Poisson's ratios decide which of two methods is closer in {decided} of the "
-            f"{len(notable)} pairs of skinning methods that differ by more than {notable_points} percentage points.{undecided(notable)}")
+            f"{len(notable)} pairs of skinning methods that differ by more than {records.notable_points} percentage points.{undecided(notable)}")
 
 
 def lines_of(results):

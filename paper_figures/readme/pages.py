@@ -64,11 +64,6 @@ def too_long(study, results):
     return [f"These files are too long to be kept, in some runs or in all: {', '.join(names)}."]
 
 
-def study_lines(study, results):
-    parts = [served_claims(study), drawn_figures(study), summaries(study, results), cost(study, results), too_long(study, results)]
-    return [line for part in parts if part for line in [*part, ""]][:-1]
-
-
 def markdown_table(head, rows):
     return ["", tables.line(*head), "|---" * len(head) + "|", *(tables.line(*map(tables.in_markdown, row)) for row in rows)] if rows else []
 
@@ -92,7 +87,10 @@ def claim_page_lines(claims):
 
 def pages(results):
     """Each page with its generated lines."""
-    found = {studies / study / "README.md": study_lines(study, results) for study in study_names()}
+    found = {}
+    for study in study_names():
+        parts = served_claims(study), drawn_figures(study), summaries(study, results), cost(study, results), too_long(study, results)
+        found[studies / study / "README.md"] = [line for part in parts if part for line in [*part, ""]][:-1]
     served = {}
     for claim in tables.claims_of(results):
         served.setdefault(claim_pages / f"{sentences.page_of(claim['id'])}.md", []).append(claim)

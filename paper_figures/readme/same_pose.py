@@ -17,11 +17,13 @@ sys.path.insert(0, str(own.parent))
 import records  # noqa: E402
 from drawing import rendering, style  # noqa: E402
 from records import kept, whole_file  # noqa: E402
+from words import looks  # noqa: E402
 
 kept_volume = kept.opened(own.parents[1] / "experiments" / "records" / "full") / "volume"
 picture = own / "same_pose.png"
 compared = ("volume_change_pct", "volume_abs_change_pct", "inverted_tets")
-titles = {"lbs": "LBS", "dqs": "DQS", "pbs": "PBS, 24 iterations", "reference": "FEM (the reference)"}
+titles = {name: looks.of(name).name for name in ("lbs", "dqs", "pbs")}
+titles |= {"pbs": f"{titles['pbs']}, 24 iterations", "reference": "FEM (the reference)"}
 width_px = 1500
 
 

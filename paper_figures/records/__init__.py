@@ -9,9 +9,15 @@ import hashlib
 import json
 import math
 
+notable_points = 2  # pairs of deformers whose errors differ by more than this [percentage points] are to be decided
+
 
 class RecordsMissing(Exception):
     pass
+
+
+class RecordsDamaged(RecordsMissing):
+    """Records that exist and cannot be read."""
 
 
 def need(found, message):
@@ -139,22 +145,46 @@ def read_json(file):
     return record
 
 
+class Cell(str):
+    """The text of a cell; float(cell) and int(cell) raise RecordsDamaged if it is no number."""
+    place = ""  # file, line and column
+
+    def __float__(self):
+        return self._number(float, "a number")
+
+    def __int__(self):
+        return self._number(int, "a whole number")
+
+    def _number(self, kind, words):
+        try:
+            return kind(str(self))
+        except ValueError:
+            raise RecordsDamaged(f"{self.place} = {self}: expected {words}") from None
+
+
 class Row(dict):
-    """A row of a table: column -> text. A missing column raises RecordsMissing."""
+    """A row of a table: column -> text. A missing column raises RecordsMissing. A row with further cells keeps its place."""
 
     def __init__(self, cells, place):
         super().__init__(cells)
         self.place = place  # file and line
 
+    def __getitem__(self, column):
+        cell = super().__getitem__(column)
+        if isinstance(cell, str):
+            cell = Cell(cell)
+            cell.place = f"{self.place}: {column}"
+        return cell
+
     def __missing__(self, column):
         raise RecordsMissing(f"{self.place}: no column {column}")
 
+    def __or__(self, cells):
+        return Row({**self, **cells}, self.place)
+
     def number(self, column):
         """None where the cell is empty."""
-        try:
-            return float(self[column]) if self[column] else None
-        except ValueError:
-            raise RecordsMissing(f"{self.place}: {column} = {self[column]}: expected a number") from None
+        return float(self[column]) if self[column] else None
 
 
 def read_rows(file):
@@ -162,11 +192,15 @@ def read_rows(file):
     try:
         with open(file, newline="") as stream:
             reader = csv.DictReader(stream)
-            return [Row(cells, f"{file}:{reader.line_num}") for cells in reader]
+            rows = [Row(cells, f"{file}:{reader.line_num}") for cells in reader]
     except OSError:
         raise RecordsMissing(f"{file}: does not exist") from None
     except (UnicodeDecodeError, csv.Error) as error:
-        raise RecordsMissing(f"{file}: not a table: {error}") from None
+        raise RecordsDamaged(f"{file}: not a table: {error}") from None
+    for row in rows:
+        if None in row or None in row.values():  # csv.DictReader has None for a column or a cell of its own making
+            raise RecordsDamaged(f"{row.place}: expected {len(reader.fieldnames)} cells, as in the first line")
+    return rows
 
 
 def rows_if_any(file):

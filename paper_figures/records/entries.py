@@ -12,6 +12,7 @@ import tomllib
 from dataclasses import dataclass
 
 import records
+from records import kept
 
 listing = pathlib.Path(__file__).resolve().parents[1] / "figures.toml"
 marks = {"R": "minutes, on any machine: ./reproduce", "NR": "not from this repository's records",
@@ -51,13 +52,11 @@ class Entry:
             records.need(files, f"{results / pattern}: does not exist")
         return [file for files in found.values() for file in files]
 
-    def runs(self, results):
-        """The run.json of each run behind it."""
-        return list(dict.fromkeys(run for file in self.files(results) for run in runs_behind(file, results)))
-
     def origin(self, results):
-        """For the figure's metadata: versions, revisions, processors and scenes of the runs behind it, and the licences of bodies shown."""
-        runs = {run.parent.name: records.read_json(run) for run in self.runs(results)}
+        """For the figure's metadata: versions, revisions, processors and scenes of the runs (or tables) behind it; licences of bodies."""
+        apart, files = kept.measured_apart(results), self.files(results)
+        runs = {run.parent.name: records.read_json(run) for file in files if file not in apart for run in runs_behind(file, results)}
+        runs |= {file.name: {"provenance": apart[file]} for file in files if file in apart}
         shown = [licence for run in runs.values() for licence in licences_of(run)] if "frames" in self.studies() else []
         return records.origin_of(runs) | {"rights": "; ".join(dict.fromkeys(shown))}
 
@@ -82,7 +81,9 @@ class Entry:
                 if not is_planned(run):
                     raise RecordsStale(f"stale: {run.parent} is no run of its study's plan.json: left from an earlier one")
                 check_times(file, run)
-                revisions.setdefault(revision_of(run), run)
+                origin = records.read_json(run).get("provenance", {})
+                revision = origin.get("git_revision", "unknown")[:10] + (" (dirty)" if origin.get("git_dirty") else "")
+                revisions.setdefault(revision, run)
         if len(revisions) > 1:
             (first, one), (second, other) = list(revisions.items())[:2]
             raise RecordsStale(f"stale: {one.parent} is of revision {first}, {other.parent} of {second}: run both anew")
@@ -150,8 +151,3 @@ def check_times(file, run):
         raise RecordsStale(f"stale: {file} was changed after its run ended")
     if not own and written_s < ended_s - slack_s:
         raise RecordsStale(f"stale: {file} is older than {run.parent}, which it sums up")
-
-
-def revision_of(run):
-    origin = records.read_json(run).get("provenance", {})
-    return origin.get("git_revision", "unknown")[:10] + (" (dirty)" if origin.get("git_dirty") else "")

@@ -3,9 +3,9 @@ folder of results again.
 
     results = kept.opened(pathlib.Path(arguments[1]))
 
-provenance.json: {"origins": [{"schema", "provenance", "runs": ["STUDY/RUN", ...]}]}. plans.json: {STUDY: plan}. Tables of this folder begin
-with a column `study`, and STUDY/runs/NAME.csv is NAME.csv of all runs with a column `run` in front. Everything else is as the study wrote
-it.
+provenance.json: {"origins": [{"schema", "provenance", "runs": ["STUDY/RUN", ...], "tables": ["STUDY/curves.csv", ...]}]}, where `tables`
+names tables that were measured apart from their runs, or is missing. plans.json: {STUDY: plan}. Tables of this folder begin with a column
+`study`, and STUDY/runs/NAME.csv is NAME.csv of all runs with a column `run` in front. Everything else is as the study wrote it.
 """
 import atexit
 import json
@@ -14,6 +14,8 @@ import shutil
 import tempfile
 
 import records
+
+apart = "measured_apart.json"  # in the opened folder: {pattern of tables: their provenance}
 
 
 def opened(folder):
@@ -26,35 +28,52 @@ def opened(folder):
     return scratch
 
 
+def measured_apart(results):
+    """{table: provenance} of the tables that were measured apart from the runs of their study."""
+    listed = records.read_json(results / apart) if (results / apart).is_file() else {}
+    return {file: provenance for pattern, provenance in listed.items() for file in sorted(results.glob(pattern))}
+
+
 def expand(kept, into):
     """Writes each run's own files below `into`."""
-    def write(name, text):
-        (into / name).parent.mkdir(parents=True, exist_ok=True)
-        (into / name).write_text(text, encoding="utf-8")
+    def write(text, source, *names):
+        for name in map(pathlib.PurePath, names):
+            records.need(not name.is_absolute() and ".." not in name.parts, f"{source}: {name}: expected no leading / and no .. in a name")
+        file = into.joinpath(*names)
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(text, encoding="utf-8")
 
+    plans, provenance, tables = kept / "plans.json", kept / "provenance.json", {}
+    for study, plan in records.read_json(plans).items():
+        write(json.dumps(plan), plans, study, "plan.json")
     try:
-        for study, plan in records.read_json(kept / "plans.json").items():
-            write(f"{study}/plan.json", json.dumps(plan, indent=2) + "\n")
-        for origin in records.read_json(kept / "provenance.json")["origins"]:
+        for origin in records.read_json(provenance)["origins"]:
             for run in origin["runs"]:
-                write(f"{run}/run.json", json.dumps({"schema": origin["schema"], "provenance": origin["provenance"]}, indent=1) + "\n")
-    except (KeyError, TypeError):
-        raise records.RecordsMissing(f"{kept / 'provenance.json'}: not as experiments/records/keep.py writes it") from None
+                write(json.dumps({key: origin[key] for key in ("schema", "provenance")}) + "\n", provenance, run, "run.json")
+            tables |= {table.replace("/runs/", "/*/"): origin["provenance"] for table in origin.get("tables", [])}
+    except (AttributeError, KeyError, TypeError):
+        raise records.RecordsMissing(f"{provenance}: not as experiments/records/keep.py writes it") from None
+    if tables:
+        write(json.dumps(tables), provenance, apart)
     for file in sorted(kept.rglob("*")):
-        place = file.relative_to(kept)
         if file.parent.name == "runs" or (file.parent == kept and file.suffix == ".csv"):
-            study = "" if file.parent == kept else f"{place.parts[0]}/"
+            study = "" if file.parent == kept else file.relative_to(kept).parts[0]
             for folder, lines in by_first_column(file).items():
-                write(f"{study}{folder}/{file.name}", lines)
-        elif file.is_file() and place.name not in ("plans.json", "provenance.json"):
-            (into / place).parent.mkdir(parents=True, exist_ok=True)
-            shutil.copyfile(file, into / place)
+                write(lines, file, study, folder, file.name)
+        elif file.is_file() and file not in (plans, provenance):
+            place = into / file.relative_to(kept)
+            place.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copyfile(file, place)
 
 
 def by_first_column(file):
     """The table without its first column, for each value of it. A row without cells states that the table has no rows."""
-    (_, head), *rows = (line.split(",", 1) for line in file.read_text(encoding="utf-8").splitlines(keepends=True))
-    tables = {}
-    for value, line in rows:
-        tables[value] = tables.get(value, head) + (line if line.strip(",\n") else "")
+    tables, head = {}, None
+    for number, text in enumerate(file.read_text(encoding="utf-8", errors="replace").splitlines(keepends=True), 1):
+        value, comma, line = text.partition(",")
+        records.need(value and comma, f"{file}:{number}: {value.strip()}: expected a name and the cells of a row")
+        if head is not None:
+            tables[value] = tables.get(value, head) + (line if line.strip(",\n") else "")
+        head = head or line
+    records.need(head, f"{file}: no rows")
     return tables

@@ -61,6 +61,11 @@ class Frames:
     def times_s(self):
         return records.numbers(self.run.select("lbs"), "time_s")
 
+    def frames_at(self, *times_s):
+        """The frames nearest to these times after the first one [s]."""
+        own = numpy.array(self.times_s())
+        return [int(abs(own - own[0] - time_s).argmin()) for time_s in times_s]
+
     def frame_at_angle(self, angle_deg):
         return int(records.at_angle(self.run.select("lbs"), angle_deg)["frame"])
 

@@ -10,17 +10,8 @@ const folder = process.env.PBS_VIEWER_BUILD || path.join(here, "dist");
 const licence = fs.readFileSync(path.join(here, "node_modules/three/LICENSE"), "utf8");
 
 await build({
-    absWorkingDir: here,
-    entryPoints: ["src/main.js"],
-    outfile: path.join(folder, "viewer.js"),
-    bundle: true,
-    minify: true,
-    format: "iife",
-    target: "es2022",
-    charset: "ascii",
-    loader: { ".css": "text", ".glsl": "text" },
-    banner: { js: `/*! three.js\n${licence}*/` },
-    legalComments: "eof",
-    logLevel: "warning",
+    absWorkingDir: here, entryPoints: ["src/main.js"], outfile: path.join(folder, "viewer.js"), bundle: true, minify: true, format: "iife",
+    target: "es2022", charset: "ascii", loader: { ".css": "text", ".glsl": "text" }, banner: { js: `/*! three.js\n${licence}*/` },
+    legalComments: "eof", logLevel: "warning",
 });
 console.log(`viewer: ${path.join(folder, "viewer.js")}`);

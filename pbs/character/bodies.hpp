@@ -43,7 +43,7 @@ bool body_is_installed(const std::string& body);  // whether require_body throws
 
 // Builds it, or takes the tets from the cache (content hash of what they are made from). A body that is not installed is an InputError
 // that names its package. InputErrors as well: another name; a mesh without a skeleton or the other way round; vertices below 0, or fewer
-// than the mesher makes; what read_tet_mesh, read_skeleton, read_clip and read_weights refuse; a skeleton from a file none of whose bones
+// than the mesher makes; what read_tet_mesh, parse_skeleton, read_clip and parse_weights refuse; a skeleton from a file none of whose bones
 // reaches the mesh's bounding box, or that is 25 times larger or smaller than the mesh (other units); a file that changed while it was
 // read.
 Character make_character(const CharacterSource& source);

@@ -42,9 +42,6 @@ enum class AttachmentKernel { biweight, wendland };
 // The relative density at a point [m]; 0 outside the capsule. `ends` > 0.
 double smooth_density(const BoneCapsule& capsule, AttachmentKernel kernel, double ends, const Vec3& point);
 
-// The springs by which bones hold the flesh: at sample points of a capsule around each bone (bone_capsules.hpp), so that they act as a
-// volume. The density of their stiffness is q E / r^2 times a relative density, r the capsule's radius.
-//   const CapsuleSprings held = smooth_springs(character, {});
 // The springs of a smooth attachment. Their density decreases to zero at the surface of the capsules.
 struct SmoothSpringOptions {
     double core_radius = 0.7;     // capsule radius over local limb radius

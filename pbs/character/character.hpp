@@ -40,7 +40,7 @@ struct Character {
     std::optional<ArtistSkin> artist;                         // of a character from a rigged file
     std::vector<std::pair<std::string, std::string>> inputs;  // what it is made from, its clip with a run's -> content hash
     WeightKind weight_kind = WeightKind::paper;               // the rule that `weights` obey, on finer tets too
-    int refinements = 0;                                      // how often its tets were cut into eight; see character.hpp
+    int refinements = 0;                                      // how often its tets were cut into eight; see `refined`
     std::shared_ptr<const Character> unrefined;               // whose first vertices and whose bones' sizes it keeps; null: itself
 };
 

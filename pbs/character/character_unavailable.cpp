@@ -1,4 +1,4 @@
-// What needs the readers of PBS_WITH_RIG_IMPORT, in a build without them.
+// The functions that need the readers of PBS_WITH_RIG_IMPORT, in a build without them.
 #include "pbs/character/clip.hpp"
 #include "pbs/character/named_bodies.hpp"
 #include "pbs/character/skeleton_file.hpp"
@@ -29,7 +29,6 @@ constexpr const char* left_out = "left out of this build (PBS_WITH_RIG_IMPORT is
 
 PBS_REFUSE(refuse_file(path, "clips"), Clip read_clip(const std::string& path))
 PBS_REFUSE(refuse_file(name, "skeleton files"), Skeleton parse_skeleton(const std::string&, const std::string& name))
-PBS_REFUSE(refuse_file(path, "skeleton files"), Skeleton read_skeleton(const std::string& path))
 PBS_REFUSE(refuse_body("human"), Skeleton human_skeleton())
 PBS_REFUSE(refuse_body(name), std::vector<std::string> human_files(const std::string& name))
 PBS_REFUSE(refuse_body(name), Character make_human(const std::string& name, int, bool))

@@ -16,7 +16,7 @@ struct Clip {
     std::vector<int> parent;                             // -1: root; parents precede their children
     Positions zero_pose;                                 // joint positions of the zero pose [clip's units], #joints x 3
     std::vector<std::vector<Eigen::Quaterniond>> local;  // relative to the parent, identities in the zero pose, #frames x #joints
-    Positions root;                                      // root position a frame [clip's units], #frames x 3
+    Positions root;                                      // root position per frame [clip's units], #frames x 3
     // 1 or more of a clip that was read.
     int frames() const { return static_cast<int>(local.size()); }
 };
@@ -86,7 +86,7 @@ double largest_displacement_m(const Motion& motion, const Skeleton& skeleton);
 // is left.
 Skeleton skeleton_from_clip(const Clip& clip, double scale);
 
-// By the file's extension or its first word, HIERARCHY, as assimp tells it; white space and a byte-order mark may stand before that.
+// Whether a file is BVH, by its extension or its first word, HIERARCHY, as assimp decides. White space and a byte-order mark may precede.
 bool is_bvh(const std::string& text, const std::string& path);
 
 // Checks what assimp does not. InputError: Frames or Frame Time is not a positive number, the header announces more frames than the text

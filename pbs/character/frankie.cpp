@@ -87,7 +87,7 @@ Positions read_positions(const IqmFile& file)
         const std::size_t array = arrays + a * array_bytes;
         if (file.word_at(array) != position_type) continue;
         if (file.word_at(array + 8) != float_format || file.word_at(array + 12) != 3)
-            file.refuse("vertexarrays.position", "", "expected three floats a vertex");
+            file.refuse("vertexarrays.position", "", "expected three floats per vertex");
         const std::size_t count = file.header(vertex_count);
         const std::size_t values = file.block("vertexarrays.position", file.word_at(array + 16), count, 12);
         Positions points(static_cast<Eigen::Index>(count), 3);

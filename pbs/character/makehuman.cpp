@@ -153,7 +153,7 @@ SurfaceMesh surface_of_material(const JsonFile& model, const Positions& vertices
     return surface;
 }
 
-// The rig's ends of bones, 163 folded to 23: the spine to three, each limb segment to one, but the forearm, which keeps its two halves.
+// The rig's ends of bones, 163 folded to 23: the spine to three, each limb segment to one, except the forearm, which keeps its two halves.
 const std::vector<FoldedBone> fold = {
     {"pelvis", "", {"root____head"}, {"spine04____head"}},
     {"spine", "pelvis", {"spine04____head"}, {"spine02____head"}},
@@ -174,7 +174,7 @@ const std::vector<FoldedBone> fold = {
 Positions read_vertices(const JsonFile& model)
 {
     const std::vector<double> values = model.numbers<double>("vertices");
-    if (values.empty() || values.size() % 3 != 0) model.refuse("vertices", "expected three numbers a vertex");
+    if (values.empty() || values.size() % 3 != 0) model.refuse("vertices", "expected three numbers per vertex");
     return Eigen::Map<const Positions>(values.data(), static_cast<Eigen::Index>(values.size() / 3), 3);
 }
 

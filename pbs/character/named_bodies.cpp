@@ -9,14 +9,14 @@
 namespace pbs {
 namespace {
 
-constexpr int mesher_version = 3;  // raised whenever mesh_surface makes something else of the same surface
+constexpr int surface_mesher_version = 3;  // raised whenever mesh_surface makes something else of the same surface
 
-// The ring.
-constexpr int version = 1;                                         // raised with what is below, so that the cache knows
-constexpr double strand = 0.36, apart = 0.14, tube_radius = 0.07;  // [m] half the strands' length, half their distance
-constexpr double end = strand + apart;
+// The ring has these dimensions.
+constexpr int ring_version = 1;                                              // raised with what is below, so that the cache knows
+constexpr double ring_strand = 0.36, ring_apart = 0.14, tube_radius = 0.07;  // [m] half the strands' length, half their distance
+constexpr double ring_end = ring_strand + ring_apart;
 constexpr int around_tube = 32;
-constexpr double spacing = 0.015;  // [m] of the surface along the strands
+constexpr double ring_spacing = 0.015;  // [m] of the surface along the strands
 
 SurfaceMeshing meshing_of(const SurfaceBody& body, int vertices)
 {
@@ -42,13 +42,14 @@ struct Centre {
 std::vector<Centre> centre_line()
 {
     std::vector<Centre> line;
-    const int straight = static_cast<int>(2.0 * strand / spacing), turn = static_cast<int>(std::numbers::pi * apart / spacing);
+    const int straight = static_cast<int>(2.0 * ring_strand / ring_spacing),
+              turn = static_cast<int>(std::numbers::pi * ring_apart / ring_spacing);
     for (const double side : {1.0, -1.0}) {
         for (int i = 0; i < straight; ++i)
-            line.push_back({{side * apart, side * (2.0 * strand * i / straight - strand), 0.0}, {side, 0.0, 0.0}});
+            line.push_back({{side * ring_apart, side * (2.0 * ring_strand * i / straight - ring_strand), 0.0}, {side, 0.0, 0.0}});
         for (int i = 0; i < turn; ++i) {
             const Vec3 outward = side * Vec3(std::cos(std::numbers::pi * i / turn), std::sin(std::numbers::pi * i / turn), 0.0);
-            line.push_back({Vec3(0.0, side * strand, 0.0) + apart * outward, outward});
+            line.push_back({Vec3(0.0, side * ring_strand, 0.0) + ring_apart * outward, outward});
         }
     }
     return line;
@@ -76,9 +77,9 @@ SurfaceMesh ring_surface()
 
 Skeleton ring_skeleton()
 {
-    return {{{"pelvis", -1, Vec3(0.0, end, 0.0), Vec3(0.0, strand, 0.0)},
-             {"thigh.L", 0, Vec3(0.0, strand, 0.0), Vec3::Zero()},
-             {"shin.L", 1, Vec3::Zero(), Vec3(0.0, -end, 0.0)}}};
+    return {{{"pelvis", -1, Vec3(0.0, ring_end, 0.0), Vec3(0.0, ring_strand, 0.0)},
+             {"thigh.L", 0, Vec3(0.0, ring_strand, 0.0), Vec3::Zero()},
+             {"shin.L", 1, Vec3::Zero(), Vec3(0.0, -ring_end, 0.0)}}};
 }
 
 }  // namespace
@@ -99,7 +100,7 @@ Character make_surface_body(const SurfaceBody& body, int vertices, bool with_sur
     character.name = body.name;
     character.skeleton = body.skeleton;
     const std::string key =
-        body.name + "-" + std::to_string(vertices) + "-" + content_hash(body.made_from + std::to_string(mesher_version));
+        body.name + "-" + std::to_string(vertices) + "-" + content_hash(body.made_from + std::to_string(surface_mesher_version));
     character.mesh = cached_mesh(key, [&] { return mesh_surface(body.surface(), meshing_of(body, vertices)); });
     if (with_surface) {
         const SurfaceMesh surface = body.surface();
@@ -111,11 +112,11 @@ Character make_surface_body(const SurfaceBody& body, int vertices, bool with_sur
 Character make_ring(const std::string& name, int vertices, bool)
 {
     const SurfaceBody body{.name = name,
-                           .made_from = std::to_string(version),
+                           .made_from = std::to_string(ring_version),
                            .skeleton = ring_skeleton(),
                            .surface = ring_surface,
                            .boundary_euler = 0,
-                           .inside = {Vec3(apart, 0.0, 0.0), Vec3(-apart, 0.0, 0.0)}};
+                           .inside = {Vec3(ring_apart, 0.0, 0.0), Vec3(-ring_apart, 0.0, 0.0)}};
     return make_surface_body(body, vertices, false);
 }
 

@@ -1,4 +1,4 @@
-// What the bodies are made from that make_character knows by name; their table is in bodies.cpp. The makers take the wanted number of
+// The sources of the bodies that make_character knows by name; their table is in bodies.cpp. The makers take the wanted number of
 // vertices, more than 0; the files are those that must be installed.
 #pragma once
 
@@ -13,8 +13,8 @@
 
 namespace pbs {
 
-// The default real character: MakeHuman's base body in Debian's assimp-testmodels, and its skeleton (data/human.skeleton.toml),
-// in metres, which is available without the package. InputError in a build without PBS_WITH_RIG_IMPORT.
+// The default real character is MakeHuman's base body in Debian's assimp-testmodels. Its skeleton (data/human.skeleton.toml) is in metres
+// and available without the package. InputError in a build without PBS_WITH_RIG_IMPORT.
 Skeleton human_skeleton();
 std::vector<std::string> human_files(const std::string& name);
 // Mesh, skeleton, surface (if requested) and inputs.

@@ -98,9 +98,4 @@ Skeleton parse_skeleton(const std::string& text, const std::string& name)
     return order_skeleton(joints, name);
 }
 
-Skeleton read_skeleton(const std::string& path)
-{
-    return parse_skeleton(read_text_file(path, most_settings_bytes), path);
-}
-
 }  // namespace pbs

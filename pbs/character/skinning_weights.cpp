@@ -1,7 +1,6 @@
 #include "pbs/character/skinning_weights.hpp"
 
 #include "pbs/character/embedding.hpp"
-#include "pbs/geometry/files.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/topology.hpp"
 #include "pbs/skinning/weights.hpp"
@@ -112,10 +111,11 @@ bool has_artist_weights(const Character& character)
     return character.artist && character.artist->weights.vertices() > 0;
 }
 
-const char* name_of(WeightKind kind)
+std::optional<WeightKind> weights_named(const std::string& name)
 {
-    constexpr const char* names[] = {"paper", "rigid", "smooth", "diffused", "either_end", "artist", "file"};  // in the order of WeightKind
-    return names[static_cast<int>(kind)];
+    const auto file = weight_names.end() - 1, found = std::find(weight_names.begin(), file, name);
+    if (found == file) return {};
+    return static_cast<WeightKind>(found - weight_names.begin());
 }
 
 Weights weights_by(WeightKind kind, const Character& character)
@@ -214,11 +214,6 @@ Weights parse_weights(const std::string& text, const std::string& name, const Sk
         weights.end_vertex();
     }
     return weights;
-}
-
-Weights read_weights(const std::string& path, const Skeleton& skeleton, int vertices)
-{
-    return parse_weights(read_text_file(path), path, skeleton, vertices);
 }
 
 }  // namespace pbs

@@ -6,6 +6,8 @@
 #include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/skinning/weights.hpp"
 
+#include <array>
+#include <optional>
 #include <string>
 
 namespace pbs {
@@ -22,7 +24,10 @@ Character with_weights(WeightKind kind, Character character);
 
 bool has_artist_weights(const Character& character);
 
-const char* name_of(WeightKind kind);  // paper, rigid, smooth, diffused, either_end, artist, file
+// The names of the rules, in the order of WeightKind. A scene states the last one, file, by the path of the file.
+inline constexpr std::array weight_names = {"paper", "rigid", "smooth", "diffused", "either_end", "artist", "file"};
+inline const char* name_of(WeightKind kind) { return weight_names[static_cast<std::size_t>(kind)]; }
+std::optional<WeightKind> weights_named(const std::string& name);  // null for a file, and for every other name
 
 // An artist's skin weights in the flesh.
 struct TransferredWeights {
@@ -44,12 +49,10 @@ struct CarriedWeight {
 };
 CarriedWeight carried_weight(const Weights& skin, const Weights& in_tets, const EmbeddedSurface& surface, const Tets& tets, int bones);
 
-// Skinning weights from a file: CSV vertex,joint,weight. vertices: #V of the mesh. Zero weights are left out. InputError by line where the
-// header vertex,joint,weight is missing; a row has not three fields, a vertex from 0 to #V - 1, a joint of the skeleton (the nearest is
-// named) and a weight in [0, 1]; a vertex names a joint twice, has no weight, or its weights do not sum to one within 1e-6.
-Weights read_weights(const std::string& path, const Skeleton& skeleton, int vertices);
-
-// `name` stands for the file in errors.
+// Skinning weights from the text of a file, which `name` stands for in errors: CSV vertex,joint,weight. vertices: #V of the mesh. Zero
+// weights are left out. InputError by line where the header vertex,joint,weight is missing; a row has not three fields, a vertex from 0 to
+// #V - 1, a joint of the skeleton (the nearest is named) and a weight in [0, 1]; a vertex names a joint twice, has no weight, or its
+// weights do not sum to one within 1e-6.
 Weights parse_weights(const std::string& text, const std::string& name, const Skeleton& skeleton, int vertices);
 
 // The same for tets of whose file vertices were left out or split: file_vertex is the file's number of each vertex, #V, below

@@ -10,22 +10,10 @@
 #include <string>
 
 namespace pbs {
-namespace {
-
-Eigen::VectorXd positive_volumes(const TetMesh& mesh)
-{
-    const Eigen::VectorXd volumes = tet_volumes(mesh.rest, mesh.tets);
-    for (Eigen::Index t = 0; t < volumes.size(); ++t)
-        if (!(volumes(t) > 0.0))
-            throw InputError("flesh", 0, "tet " + std::to_string(t), std::to_string(volumes(t)) + " m^3", "expected a volume above 0");
-    return volumes;
-}
-
-}  // namespace
 
 FleshEnergy::FleshEnergy(const TetMesh& mesh, const FleshMaterial& material, const BoneHold& hold) : hold_(hold.stiffness())
 {
-    const Eigen::VectorXd volumes = positive_volumes(mesh);
+    const Eigen::VectorXd volumes = positive_volumes(mesh.rest, mesh.tets);
     for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t) {
         FleshTet tet{{mesh.tets(t, 0), mesh.tets(t, 1), mesh.tets(t, 2), mesh.tets(t, 3)}, {}, 0.0, 0.0};
         const auto gradients = barycentric_gradients(mesh, t);
@@ -114,7 +102,7 @@ FleshMaterial flesh_material(double poisson)
 
 std::vector<NeoHookeanTet> neo_hookean_tets(const TetMesh& mesh)
 {
-    const Eigen::VectorXd volumes = positive_volumes(mesh);
+    const Eigen::VectorXd volumes = positive_volumes(mesh.rest, mesh.tets);
     std::vector<NeoHookeanTet> tets;
     for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t) {
         NeoHookeanTet tet{{mesh.tets(t, 0), mesh.tets(t, 1), mesh.tets(t, 2), mesh.tets(t, 3)}, {}, volumes(t)};

@@ -43,7 +43,7 @@ template <typename Scalar>
 void solve_supernodes(const Supernode* nodes, int count, const std::uint32_t* below, const Scalar* values, const std::uint32_t* place,
                       int rows, Scalar* b, Scalar* work);
 
-// Projective dynamics.
+// The kernel of projective dynamics follows.
 
 // Sixteen tets that share no vertex; see ProjectiveTet. A lane without a tet has zeros and dummy vertices of its own.
 template <typename Scalar>
@@ -61,7 +61,7 @@ template <typename Scalar>
 double add_gradient_of_projective_tets(const ProjectiveBatch<Scalar>* batches, int count, Scalar strain, Scalar volume, const Scalar* x,
                                        Scalar* gradient, int* refused, int* refused_count);
 
-// Vertex block descent.
+// The kernels of vertex block descent follow.
 
 // Sixteen vertices that share no tet. A lane without a vertex has a dummy row of its own and the diagonal 0.
 template <typename Scalar>

@@ -1,7 +1,6 @@
 #include "pbs/flesh/projective_dynamics.hpp"
 
 #include "pbs/flesh/flesh_energy.hpp"
-#include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/nearest_rotation.hpp"
 
 #include <Eigen/Eigenvalues>
@@ -10,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string>
 
 namespace pbs {
 
@@ -73,13 +71,12 @@ ProjectiveForces projective_forces(const ProjectiveTet& tet, const ProjectiveWei
 ProjectiveEnergy::ProjectiveEnergy(const TetMesh& mesh, const ProjectiveWeights& weights, const BoneHold& hold)
     : weights_(weights), hold_(hold.stiffness())
 {
+    positive_volumes(mesh.rest, mesh.tets);
     for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t) {
         ProjectiveTet tet{{mesh.tets(t, 0), mesh.tets(t, 1), mesh.tets(t, 2), mesh.tets(t, 3)}, {}, 0.0, {}};
         Eigen::Matrix3d edges;
         for (int k = 0; k < 3; ++k) edges.col(k) = (mesh.rest.row(tet.vertex[k + 1]) - mesh.rest.row(tet.vertex[0])).transpose();
         tet.volume = edges.determinant() / 6.0;
-        if (!(tet.volume > 0.0))
-            throw InputError("projective_dynamics", 0, "tet " + std::to_string(t), number_text(tet.volume), "expected a positive volume");
         tet.inverse_edges = edges.inverse();
         for (int e = 0; e < 6; ++e) tet.w[e] = hold.edge_stiffness()(t, e);
         tets_.push_back(tet);

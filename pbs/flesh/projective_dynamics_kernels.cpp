@@ -14,7 +14,9 @@
 //   3. No eigenvector is needed: g is a polynomial in S by Newton's divided differences. The equation of y makes them
 //        [s_i, s_j] = P_ij / (P_ij - kappa), P_ij = y_i y_j,   and   [s_1, s_2, s_3] = -kappa / product of all (P_ij - kappa),
 //      so that nothing is divided by a difference of eigenvalues.
-namespace pbs::local_shape_formula {
+namespace pbs {
+namespace {
+namespace local_shape_formula {
 
 using rotation_formula::Matrix3;
 
@@ -149,10 +151,7 @@ template <class Number>
     return {s, g, unit.beyond, q23 / p23};
 }
 
-}  // namespace pbs::local_shape_formula
-
-namespace pbs {
-namespace {
+}  // namespace local_shape_formula
 
 using local_shape_formula::Symmetric3;
 using rotation_formula::Matrix3;

@@ -1,4 +1,4 @@
-// Elastic flesh in equilibrium by XPBD with the two neo-Hookean constraints of M. Macklin, M. Mueller (MIG 2021); xpbd_neo_hookean.hpp has
+// Elastic flesh in equilibrium by XPBD with the two neo-Hookean constraints of M. Macklin, M. Mueller (MIG 2021). Below are
 // the constraints and the equations of one visit. A frame is a sequence of steps of implicit Euler without inertia from frame to frame:
 // step n begins at the predicted positions y = x_n + b (x_n - x_{n-1}) and ends near the minimum of E(x) + sum_i m_i / 2 |x_i - y_i|^2, the
 // proximal point of y, after `iterations_per_step` passes over all constraints. Its fixed point is a minimum of E, for every mass and step.

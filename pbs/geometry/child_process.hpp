@@ -2,7 +2,7 @@
 // may take memory or time without limit. A child process tries first, silent, with limits on memory, processor time and time: far more than
 // a sound file needs, and no more than half of the memory that there is. Whatever becomes of the child, the caller gets what was read or an
 // InputError that names the file and says how the child died.
-//   const IndexedPoints mesh = read_guarded("arm.vtu", read_vtk);
+//   const TetMesh mesh = read_guarded("arm.vtu", read_vtk);
 // Also: a child that ends with its parent, and whether a process is still running.
 //   const pid_t parent = getpid();
 //   if (fork() == 0) { end_with_parent(parent); ... }   // a child that does not outlive its parent, however that one ends

@@ -1,4 +1,4 @@
-// What every format needs (paths, sizes and index ranges), the conditions on a mesh, repairs, and remarks.
+// Checks that every format needs (paths, sizes and index ranges), the conditions on a mesh, repairs, and remarks.
 #include "pbs/geometry/mesh_io_formats.hpp"
 
 #include "pbs/geometry/input_error.hpp"

@@ -57,7 +57,7 @@ struct FrameFields {
     std::map<std::string, std::vector<int>> point_flags;  // e.g. prescribed
     std::map<std::string, Eigen::VectorXd> cell_scalars;  // e.g. volume_ratio
 };
-// points [m], #V x 3. InputError where a field has not one entry a point (a cell), or the file cannot be written; the
+// points [m], #V x 3. InputError where a field has not one entry per point (per cell), or the file cannot be written; the
 // extension of the path is not checked.
 void write_vtu(const std::string& path, const Positions& points, const Tets& tets, const FrameFields& fields);
 // A surface, without fields; errors as of write_vtu.

@@ -45,10 +45,10 @@ bool self_intersects(const Positions& positions, const Triangles& boundary);
 std::vector<std::array<int, 2>> self_intersections(const Positions& positions, const Triangles& boundary);  // pairs of triangles, sorted
 int count_self_intersections(const Positions& positions, const Triangles& boundary);                        // of those pairs
 
-// The closed lines in which each plane cuts a surface, points [m], #P x 3 a line, the first not repeated at its end. A surface that
+// The closed lines in which each plane cuts a surface, points [m], #P x 3 per line, the first not repeated at its end. A surface that
 // intersects itself is cut all the same, triangle by triangle.
 struct CuttingPlane {
-    Vec3 point, normal;  // any point of the plane [m]; of any length but zero
+    Vec3 point, normal;  // any point of the plane [m]; of any length except zero
 };
 // The lines of each plane, #planes; lines that do not close are left out. InputError where a normal is zero.
 std::vector<std::vector<Positions>> section_outlines(const Positions& positions, const Triangles& boundary,

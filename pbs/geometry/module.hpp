@@ -1,6 +1,7 @@
 // Modules: parts of the program in shared objects of their own, loaded on first use, because the library behind them is slow
 // to load (libgmsh alone brings some 90 shared objects) and most runs never need it.
-//   auto* read = load_module("pbskin_gmsh").function<void(const std::string&, TetMesh&)>("pbskin_gmsh_read");
+//   using Read = void(const std::string&, const std::string&, TetMesh&, std::vector<std::size_t>&);
+//   load_module("pbskin_gmsh").function<Read>("pbskin_gmsh_read")(path, named, mesh, tags);
 // lib<name>.so is looked for in the folder named by the environment variable PBSKIN_MODULES, otherwise next to the executable's folder in
 // ../lib (a build) and ../lib/pbskin (an installation). A module that is not there is an InputError saying where it was looked for.
 #pragma once

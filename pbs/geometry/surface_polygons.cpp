@@ -20,18 +20,22 @@ namespace {
 using Point = CGAL::Exact_predicates_inexact_constructions_kernel::Point_3;
 using Polygon = std::vector<std::size_t>;
 
-// CGAL splits faces of a mesh: a mesh of this one polygon, its vertices numbered by corner.
-void add_triangles(const std::vector<Point>& points, const Polygon& polygon, std::vector<int>& triangles)
+// CGAL splits faces of a mesh: a mesh of this one polygon, its vertices numbered by corner. False if CGAL cannot split the polygon.
+bool add_triangles(const std::vector<Point>& points, const Polygon& polygon, std::vector<int>& triangles)
 {
-    if (polygon.size() == 3) return static_cast<void>(triangles.insert(triangles.end(), polygon.begin(), polygon.end()));
+    if (polygon.size() == 3) {
+        triangles.insert(triangles.end(), polygon.begin(), polygon.end());
+        return true;
+    }
     CGAL::Surface_mesh<Point> mesh;
     std::vector<CGAL::Surface_mesh<Point>::Vertex_index> corners;
     for (const std::size_t vertex : polygon) corners.push_back(mesh.add_vertex(points[vertex]));
     mesh.add_face(corners);
-    CGAL::Polygon_mesh_processing::triangulate_faces(mesh);
+    if (!CGAL::Polygon_mesh_processing::triangulate_faces(mesh)) return false;
     for (const auto face : mesh.faces())
         for (const auto vertex : mesh.vertices_around_face(mesh.halfedge(face)))
             triangles.push_back(static_cast<int>(polygon[vertex.idx()]));
+    return true;
 }
 
 // The corners of all triangles.
@@ -44,7 +48,8 @@ std::vector<int> triangulated(const std::string& path, const std::vector<Point>&
             if (vertex >= points.size())
                 throw InputError(path, 0, "face " + std::to_string(f) + " vertex", std::to_string(static_cast<long long>(vertex)),
                                  expected_whole("an index", 0, static_cast<long long>(points.size()) - 1));
-        if (polygons[f].size() >= 3) add_triangles(points, polygons[f], triangles);
+        if (polygons[f].size() >= 3 && !add_triangles(points, polygons[f], triangles))
+            throw InputError(path, 0, "face " + std::to_string(f), "", "expected an area, and no two edges that cross");
     }
     return triangles;
 }

@@ -1,5 +1,6 @@
 #include "pbs/geometry/tet_mesh.hpp"
 
+#include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/topology.hpp"
 
 #include <Eigen/Geometry>
@@ -16,7 +17,7 @@
 namespace pbs {
 namespace {
 
-// Of refinement.
+// Refinement divides a tet into eight by these nodes.
 using Nodes = std::array<int, 10>;  // of a tet: its corners, then the midpoints of 01, 02, 03, 12, 13, 23
 constexpr std::array<std::array<int, 2>, 6> edge_corners = {{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
 
@@ -59,7 +60,7 @@ const Diagonal& shortest_diagonal(const Positions& rest, const Nodes& nodes)
                              [&](const Diagonal& a, const Diagonal& b) { return squared_length(a) < squared_length(b); });
 }
 
-// Of the tet at a point.
+// A point this close to a face counts as on it.
 constexpr double on_face = 1e-10;  // of a barycentric coordinate: some 1e5 roundings of a well-shaped tet
 
 Vec3 barycentric_in(const TetMesh& mesh, Eigen::Index tet, const Vec3& point)
@@ -70,8 +71,7 @@ Vec3 barycentric_in(const TetMesh& mesh, Eigen::Index tet, const Vec3& point)
     return edges.inverse() * (point - corner(0));
 }
 
-// Of regions.
-constexpr int none = -1;
+constexpr int none = -1;                             // no neighbour, no region
 using Neighbours = std::vector<std::array<int, 4>>;  // over the faces of each tet, opposite to its vertices; or none
 
 // A face in more than two tets joins the first two.
@@ -140,6 +140,15 @@ Eigen::VectorXd tet_volumes(const Positions& positions, const Tets& tets)
     return volumes;
 }
 
+Eigen::VectorXd positive_volumes(const Positions& rest, const Tets& tets)
+{
+    Eigen::VectorXd volumes = tet_volumes(rest, tets);
+    for (Eigen::Index t = 0; t < volumes.size(); ++t)
+        if (!(volumes(t) > 0.0))
+            throw InputError("mesh", 0, "tet " + std::to_string(t), number_text(volumes(t)) + " m^3", "expected a positive rest volume");
+    return volumes;
+}
+
 Eigen::Matrix<double, 3, 4> barycentric_gradients(const TetMesh& mesh, Eigen::Index tet, double* volume_m3)
 {
     Eigen::Matrix3d edges;
@@ -196,7 +205,7 @@ Positions prolongated(const Positions& coarse, const Edges& parents)
 PointLocation::PointLocation(const TetMesh& mesh) : mesh_(mesh), low_(mesh.rest.colwise().minCoeff())
 {
     const Vec3 size = mesh.rest.colwise().maxCoeff().transpose() - low_;
-    const double cell_m = std::cbrt(size.prod() / static_cast<double>(mesh.tets.rows()));  // about one cell a tet
+    const double cell_m = std::cbrt(size.prod() / static_cast<double>(mesh.tets.rows()));  // about one cell per tet
     for (int axis = 0; axis < 3; ++axis) cells_(axis) = std::clamp(static_cast<int>(size(axis) / cell_m), 1, 1000);
     cell_size_m_ = size.cwiseQuotient(cells_.cast<double>());
 

@@ -38,6 +38,7 @@ inline double tet_volume(const Vec3& p1, const Vec3& p2, const Vec3& p3, const V
 
 // Signed volumes [m^3] of all tets, #T. Indices of tets are in range (unchecked), here and below.
 Eigen::VectorXd tet_volumes(const Positions& positions, const Tets& tets);
+Eigen::VectorXd positive_volumes(const Positions& rest, const Tets& tets);  // the same; an InputError where one is not above 0
 
 // Gradients of the barycentric coordinates of a tet at rest [1/m], one per column, and its signed volume [m^3], if wanted.
 Eigen::Matrix<double, 3, 4> barycentric_gradients(const TetMesh& mesh, Eigen::Index tet, double* volume_m3 = nullptr);
@@ -76,7 +77,7 @@ struct Location {
     Vec3 barycentric = Vec3::Zero();  // coordinates on corners 2, 3, 4 of that tet
 };
 
-// The grid has about one cell a tet.
+// The grid has about one cell per tet.
 class PointLocation {
 public:
     explicit PointLocation(const TetMesh& mesh);  // the mesh outlives it

@@ -40,8 +40,8 @@ void for_each_run(const std::vector<Entry>& entries, Key key, Body body)
         }
 }
 
-// Everything that each(add) adds, twice the same, sorted by `less`, which compares vertex(entry) first: a bucket a vertex, then every
-// bucket, all of them short, by itself. Linear in the entries.
+// Everything that each(add) adds, twice the same, sorted by `less`, which compares vertex(entry) first: into one bucket per vertex, and
+// then within each bucket, all of which are short. Linear in the entries.
 template <typename Entry, typename Each, typename Vertex, typename Less>
 std::vector<Entry> sorted_by_vertex(const Each& each, const Vertex& vertex, const Less& less)
 {

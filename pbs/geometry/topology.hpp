@@ -50,7 +50,7 @@ struct Topology {
     int components = 0;           // of the tets, over shared faces
     int unused_vertices = 0;      // that no tet names
 };
-// Without a tet the boundary is manifold, by the letter, and all counts but unused_vertices are zero.
+// Without a tet the boundary is manifold, by the letter, and all counts except unused_vertices are zero.
 Topology topology_of(const Tets& tets, Eigen::Index vertices);
 
 // The part of each tet, from 0 in the order of first tets, #T. Tets belong together if they share a face.

@@ -19,7 +19,7 @@ namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
 
-// Of the volume of a tet with these vertices.
+// The gradients of the volume of a tet with these vertices.
 std::array<Vec3, 4> volume_gradients(const Positions& rest, const auto& vertex)
 {
     const auto corner = [&](int c) -> Vec3 { return rest.row(vertex[c]); };

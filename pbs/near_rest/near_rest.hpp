@@ -37,14 +37,8 @@ private:
     Eigen::SparseMatrix<double> gradients_;
 };
 
-// A time step near rest as a linear map of displacements, and where a body comes to rest under a small constant acceleration.
-//   const RestingState state = settle(mesh, held, options, {0.0, 0.0, -9.81});   // the paper's solver
-//   positions = mesh.rest + dt_s * dt_s * state.displacement;
-// Near rest the iterations of a step, lines (10)-(14) of Algorithm 1, are a linear map S of displacements. With lines (7)-(8) and (16) a
-// step is x <- S (2 x - x_before + a dt^2), which rests at x = (I - S)^-1 S a dt^2 whatever the damping. GMRES finds that state, whereas
-// time stepping would swing for thousands of steps.
-
-// S, for the position based solver and for XPBD. One projection takes  C = sum g_i . u_i  and computes
+// Near rest the iterations of a step, lines (10)-(14) of Algorithm 1, are a linear map S of displacements.
+// This is S, for the position based solver and for XPBD. One projection takes  C = sum g_i . u_i  and computes
 //   dlambda = -share (C + alpha / dt^2 lambda) / (sum w |g|^2 + alpha / dt^2),   u_i += w_i g_i dlambda
 // The position based solver has share = k and alpha = 0; XPBD has share = 1 and its compliance alpha. lambda belongs to one step.
 class StepNearRest {
@@ -79,6 +73,11 @@ private:
     std::vector<Projection> projections_;
 };
 
+// Where a body comes to rest under a small constant acceleration a. With lines (7)-(8) and (16) of Algorithm 1 a step is
+// x <- S (2 x - x_before + a dt^2), which rests at x = (I - S)^-1 S a dt^2 whatever the damping. GMRES finds that state, whereas time
+// stepping would swing for thousands of steps.
+//   const RestingState state = settle(mesh, held, options, {0.0, 0.0, -9.81});   // the paper's solver
+//   positions = mesh.rest + dt_s * dt_s * state.displacement;
 struct RestingState {
     Positions displacement;  // [m], #V x 3; zero where nothing moves
     bool converged = false;

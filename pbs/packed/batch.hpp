@@ -17,7 +17,7 @@ inline constexpr int batch_size = 16;
 // edge.
 enum class GroupKind { edge, edge_wedge, edge_triangle, edge_tet, tet, tet_fan_2, tet_fan_3 };
 
-// Of each constraint of a group, the vertices within the group that it joins.
+// The vertices within a group that each of its constraints joins.
 template <GroupKind kind>
 inline constexpr std::array<std::array<int, 0>, 0> joins_of = {};
 template <>

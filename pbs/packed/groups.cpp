@@ -35,10 +35,9 @@ std::vector<ConstraintGroup> single_tets(const std::vector<std::array<int, 4>>& 
     return groups;
 }
 
-// Edges in groups, the largest first: tets whose edges are nearly all free, then triangles, then pairs at a vertex, then what is left.
-
 namespace {
 
+// Edges in groups, the largest first: tets whose edges are nearly all free, then triangles, then pairs at a vertex, then what is left.
 class EdgeGrouping {
 public:
     EdgeGrouping(const std::vector<std::array<int, 2>>& edges, const Tets& mesh_tets) : edges_(edges), free_(edges.size(), true)
@@ -154,6 +153,7 @@ struct Fan {
     std::vector<int> ring, tets;
 };
 
+// Tets in fans round an edge, the largest first; among several, the fan whose members have the fewest free neighbours.
 class TetGrouping {
 public:
     explicit TetGrouping(const std::vector<Tet>& tets) : tets_(tets), neighbour_(neighbours_of(tets)), free_(tets.size(), true)
@@ -257,8 +257,6 @@ std::vector<ConstraintGroup> grouped_edges(const std::vector<std::array<int, 2>>
 {
     return EdgeGrouping(edges, mesh_tets).groups;
 }
-
-// Tets in fans round an edge, the largest first; of several, the fan whose members have the fewest free neighbours.
 
 std::vector<ConstraintGroup> grouped_tets(const std::vector<std::array<int, 4>>& tets)
 {

@@ -30,7 +30,7 @@ private:
     std::vector<Block> blocks_;
 };
 
-// Positions of the mesh as rows of the kernels (rows.hpp), relative to an origin, and back. place: the row of each vertex, #V.
+// Positions of the mesh as rows of the kernels, relative to an origin, and back. place: the row of each vertex, #V.
 template <typename Scalar>
 void load_rows(const Positions& x, const std::vector<int>& place, const Vec3& origin, Rows<Scalar>& rows)
 {
@@ -63,7 +63,7 @@ Vec3 load_held_centres(const Positions& centres, const std::vector<int>& place, 
     return origin;
 }
 
-// What solvers on rows have in common: where the rows of the vertices lie, and the origin to which positions are relative.
+// Solvers on rows have in common where the rows of the vertices lie, and the origin to which positions are relative.
 template <typename Scalar>
 class RowSystem {
 public:

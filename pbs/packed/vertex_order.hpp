@@ -17,26 +17,24 @@ int vertices_a_slab(int vertices);
 // Fewer slabs than these are done before a second thread has come to help.
 inline constexpr int slabs_worth_threads = 3;
 
-// old: the mesh's numbers of vertices; new: where they lie.
+// old: the mesh's numbers of vertices; new: their places in memory.
 struct VertexOrder {
-    // #V, either the other's inverse.
-    std::vector<int> old_of_new, new_of_old;  // #V
+    std::vector<int> old_of_new, new_of_old;  // each the other's inverse, #V
     std::vector<int> slab_begin;              // first vertex of each slab, in the new order; #slabs + 1
 
-    int slabs() const { return static_cast<int>(slab_begin.size()) - 1; }  // #slabs
-    std::vector<int> slab_of_new() const;                                  // #V
+    int slabs() const { return static_cast<int>(slab_begin.size()) - 1; }
+    std::vector<int> slab_of_new() const;  // #V
 };
 
 // A slab has at least `vertices_a_slab` vertices, the first of several half as many, so that where the middle of a body is,
 // where its joint often is, no slab ends; a last one of less than a third joins the one before.
 VertexOrder order_vertices(const Tets& tets, int vertices, int vertices_a_slab);
 
-// Colours of vertices: two vertices of one tet never have the same colour, so that all vertices of a colour may move at once.
-//   for (const std::vector<int>& colour : vertex_colours(tets, vertices)) ...
 VertexOrder breadth_first(const Tets& tets, int vertices);  // one slab
 
-// The vertices of each colour, in breadth-first order. Greedy in that order: each vertex gets the first colour that none of its neighbours
-// has.
+// The vertices of each colour, in breadth-first order. Two vertices of one tet never have the same colour, so that all vertices of a colour
+// may move at once. Greedy in that order: each vertex gets the first colour that none of its neighbours has.
+//   for (const std::vector<int>& colour : vertex_colours(tets, vertices)) ...
 std::vector<std::vector<int>> vertex_colours(const Tets& tets, int vertices);
 
 }  // namespace pbs

@@ -10,7 +10,7 @@
 
 namespace pbs {
 
-// The pose of a rig at a time of an animation, and the skinning formula of its file format.
+// These functions pose a rig at a time of an animation, and move its mesh by the skinning formula of its file format.
 
 // From the coordinates of each node to those of the file's scene, #nodes. animation null: at rest. Before the first key and after the last
 // one a property keeps that key's value.

@@ -48,7 +48,7 @@ struct VertexStretch {
 template <class Scalar>
 struct PackedWeights {
     int bones = 0;                         // the largest bone that has a vertex, and one
-    WeightRows<Scalar> shared;             // blended once a pose: rows that several vertices have (Eq. 2 knows few)
+    WeightRows<Scalar> shared;             // blended once per pose: rows that several vertices have (Eq. 2 knows few)
     WeightRows<Scalar> own;                // rows of one vertex alone, in the order of the vertices
     std::vector<int> matrix;               // of a vertex: its only bone, or bones + a shared row; -1: blended by a row of its own, #V
     std::vector<VertexStretch> stretches;  // all vertices, in order
@@ -59,7 +59,7 @@ struct PackedWeights {
 template <class Scalar>
 PackedWeights<Scalar> pack_weights(const Weights& weights);
 
-// What the deformers in packed code share: origins near the body, so that float loses no digits, and the way back to the world.
+// The deformers in packed code compute relative to an origin near the body, so that float loses no digits, and return to the world.
 
 // The middle of the box around the points [m]; zero of no points.
 Vec3 middle_of_box(const Positions& points);
@@ -72,7 +72,7 @@ template <class Scalar>
 void to_world(const std::vector<Scalar>& rows, const Vec3& origin, Positions& positions);
 
 // The blends for many poses of one body: what does not depend on the pose is packed once, and weights that several vertices
-// have (Eq. 2 knows few) are blended once a pose. A vertex of one bone or of such weights then costs one matrix times a point.
+// have (Eq. 2 knows few) are blended once per pose. A vertex of one bone or of such weights then costs one matrix times a point.
 //   BlendSkinning<float> skinning(rest, weights);
 //   skinning.linear(pose, posed);           // as linear_blend_skinning(rest, weights, pose, posed)
 //   skinning.dual_quaternion(pose, posed);  // as dual_quaternion_skinning(rest, weights, pose, posed)

@@ -89,7 +89,7 @@ PaddedMatrix<Scalar> matrix_of(const PackedDualQuaternion<Scalar>& blended)
     return matrix;
 }
 
-// Four numbers are stored for each point but the last; the next point overwrites the fourth.
+// Four numbers are stored for each point except the last; the next point overwrites the fourth.
 template <class Scalar, class MovedPoint>
 PBS_INLINE void store_points(int n, Scalar* posed, const MovedPoint& moved_point)
 {

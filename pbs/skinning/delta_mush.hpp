@@ -46,8 +46,7 @@ private:
     Positions delta_;  // the detail that smoothing removes [m], #V x 3
 };
 
-// The parts that delta mush and direct delta mush share in packed code: rows of four numbers, and the vertices whose rotation the formulae
-// refuse.
+// Delta mush and direct delta mush share in packed code the rows of four numbers, and the vertices whose rotation the formulae refuse.
 
 // Rows x, y, z, `fourth` of points relative to an origin.
 template <class Scalar>

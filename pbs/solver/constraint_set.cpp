@@ -48,7 +48,8 @@ void check_mesh(const TetMesh& mesh, const Eigen::VectorXd& bind_distance, const
                 const std::vector<bool>& held)
 {
     const auto size_error = [&](const char* field, auto size) {
-        throw InputError("pbs", 0, field, std::to_string(size) + " entries", "expected one a vertex, " + std::to_string(mesh.rest.rows()));
+        throw InputError("pbs", 0, field, std::to_string(size) + " entries",
+                         "expected one per vertex, " + std::to_string(mesh.rest.rows()));
     };
     if (bind_distance.size() != mesh.rest.rows()) size_error("bind_distance", bind_distance.size());
     if (!jiggle_zone.empty() && Eigen::Index(jiggle_zone.size()) != mesh.rest.rows()) size_error("jiggle_zone", jiggle_zone.size());
@@ -56,10 +57,7 @@ void check_mesh(const TetMesh& mesh, const Eigen::VectorXd& bind_distance, const
     if (mesh.tets.size() && mesh.rest.rows() == 0) throw InputError("mesh", 0, "points", "0", "expected at least one point");
     if (mesh.tets.size() && (mesh.tets.minCoeff() < 0 || mesh.tets.maxCoeff() >= mesh.rest.rows()))
         throw InputError("mesh", 0, "tets", "", expected_whole("vertex indices", 0, mesh.rest.rows() - 1));
-    const Eigen::VectorXd volumes = tet_volumes(mesh.rest, mesh.tets);
-    for (Eigen::Index t = 0; t < volumes.size(); ++t)
-        if (!(volumes(t) > 0.0))
-            throw InputError("mesh", 0, "tet " + std::to_string(t), std::to_string(volumes(t)) + " m^3", "expected a positive rest volume");
+    positive_volumes(mesh.rest, mesh.tets);
 }
 
 void check_held(const std::vector<bool>& held, const std::vector<bool>& jiggle_zone, const PbsOptions& options)

@@ -18,7 +18,7 @@ namespace pbs {
 template <typename Scalar>
 struct ConstraintSet {
     std::vector<BindConstraint<Scalar>> bind;        // at most one per vertex
-    std::vector<StretchConstraint<Scalar>> stretch;  // at most one an edge
+    std::vector<StretchConstraint<Scalar>> stretch;  // at most one per edge
     std::vector<VolumeConstraint<Scalar>> volume;    // one per tet, or none
     // unit: 1; lumped: mean lumped volume / lumped volume of the vertex, so that no unit enters; held: 0, #V
     std::vector<Scalar> inverse_mass;

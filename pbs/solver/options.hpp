@@ -104,9 +104,8 @@ struct PbsOptions {
     double k_stretch_length_m = 0.0;
 };
 
-// Options of extended position based dynamics (XPBD).
-
-// XpbdSolver refuses with an InputError: poisson outside [1/4, 1/2), substeps below 1, threads below 1.
+// XpbdSolver (extended position based dynamics, XPBD) has these options. It refuses with an InputError: poisson outside [1/4, 1/2),
+// substeps below 1, threads below 1.
 struct XpbdOptions {
     double young_pa = 1.0e5;
     double poisson = 0.45;  // at least 1/4, which springs alone have; volume constraints raise it

@@ -24,7 +24,8 @@ std::vector<int> integrated_vertices(const Positions& rest, const std::vector<bo
 void check_rows(const char* field, const Positions& points, Eigen::Index vertices)
 {
     if (points.rows() != vertices)
-        throw InputError("pbs", 0, field, std::to_string(points.rows()) + " points", "expected one a vertex, " + std::to_string(vertices));
+        throw InputError("pbs", 0, field, std::to_string(points.rows()) + " points",
+                         "expected one per vertex, " + std::to_string(vertices));
 }
 
 }  // namespace

@@ -77,7 +77,7 @@ const T& of_pose(const std::vector<T>& all, std::size_t pose)
 void check_count(const char* field, std::size_t count, std::size_t poses)
 {
     if (count != 1 && count != poses)
-        throw InputError("pbs", 0, field, std::to_string(count), "expected one a pose, " + std::to_string(poses) + ", or one for all");
+        throw InputError("pbs", 0, field, std::to_string(count), "expected one per pose, " + std::to_string(poses) + ", or one for all");
 }
 
 void check_poses(const std::vector<PbsOptions>& options)

@@ -24,8 +24,8 @@ public:
     // mesh: positive rest volumes; it and the options are copied. bind_distance: d_i [m], #V, finite and not negative (unchecked).
     // jiggle_zone: #V, or empty where nothing jiggles (then no velocity exists). held: #V, or empty; a held particle has infinite mass: it
     // is where LBS puts it, and no projection moves it (the end of a cantilever; the paper holds none). InputError where options break
-    // their rules (options.hpp); bind_distance, jiggle_zone or held have not one entry a vertex; a tet names a vertex that is not there or
-    // has no positive rest volume; a held vertex jiggles; or any is held with LbsEntry::increment (all are integrated) or a volume_form
+    // their rules (options.hpp); bind_distance, jiggle_zone or held have not one entry per vertex; a tet names a vertex that is not there
+    // or has no positive rest volume; a held vertex jiggles; or any is held with LbsEntry::increment (all are integrated) or a volume_form
     // other than derived (all masses are one).
     PbsSolver(const TetMesh& mesh, const Eigen::VectorXd& bind_distance, const std::vector<bool>& jiggle_zone, const PbsOptions& options,
               const std::vector<bool>& held = {});

@@ -77,7 +77,7 @@ std::array<void (Projection<Scalar>::*)(), 3> classes_in(ClassOrder order)
 template <typename Scalar>
 class ReorderedProjection : public Projection<Scalar> {
 public:
-    // Takes the projection over; all but the order of classes is its own.
+    // Takes the projection over; everything except the order of classes is its own.
     ReorderedProjection(std::unique_ptr<Projection<Scalar>> projection, ClassOrder class_order)
         : projection_(std::move(projection)), in_place_(classes_in<Scalar>(class_order))
     {

@@ -57,7 +57,7 @@ public:
 
     // p: positions, q: posed bind points [m], #V x 3; inside, positions are relative to origin [m].
     virtual void load(const Positions& p, const Positions& q, const Vec3& origin) = 0;
-    // Of this length; all multipliers become zero.
+    // The substep has this length; all multipliers become zero.
     void begin_substep(double dt_s)
     {
         dt2_s2_ = dt_s * dt_s;

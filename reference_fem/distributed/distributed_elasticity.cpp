@@ -126,7 +126,7 @@ void DistributedSystem::allocate()
 
 void DistributedSystem::assemble()
 {
-    // On straight tets the stiffness has degree 2 (order - 1), gravity's and the traction's load degree order: n points a direction
+    // On straight tets the stiffness has degree 2 (order - 1), gravity's and the traction's load degree order: n points per direction
     // integrate degree 2 n - 1.
     const int order = problem_.options.element_order;
     FEValues<3> values(space_.mapping, space_.element, dealii::QGaussSimplex<3>(order),

@@ -92,9 +92,9 @@ void check_problem(const pbs::TetMesh& mesh, const ElasticProblem& problem)
     require(problem.attachment.bind_distance.size() == 0, "bind_distance", problem.attachment.bind_distance.size(),
             "expected none: the bind constraint is not linear");
     require(problem.spring_targets.rows() == problem.attachment.spring_points.rows(), "spring_targets", problem.spring_targets.rows(),
-            "expected one a spring point");
+            "expected one per spring point");
     require(problem.attachment.prescribed_tets.empty() || problem.vertex_targets.rows() == mesh.rest.rows(), "vertex_targets",
-            problem.vertex_targets.rows(), "expected one a vertex");
+            problem.vertex_targets.rows(), "expected one per vertex");
     require_vertices(mesh, problem.held_vertices, "held_vertices");
     require_vertices(mesh, problem.pulled_vertices, "pulled_vertices");
 

@@ -3,6 +3,7 @@
 #include "pbs/geometry/topology.hpp"
 #include "reference_fem/assembly.hpp"
 #include "reference_fem/attachment.hpp"
+#include "reference_fem/linear_flesh.hpp"
 #include "reference_fem/linear_solvers.hpp"
 
 #include <Eigen/Geometry>

@@ -1,5 +1,5 @@
-// A body of the linear law that vibrates freely, for what is known of it in closed form: modes, energies, damping. Beside the skeleton, as
-// BoundaryValueProblem is for equilibrium, through the same elements, mass, solver and time stepper as the reference.
+// A body of the linear law that vibrates freely: its modes, energies and damping are known in closed form. No skeleton holds it, as in a
+// BoundaryValueProblem. It has the elements, mass, solver and time stepper of the reference.
 //   VibratingBody bar(mesh, {.held = [](const pbs::Vec3& x) { return x.x() < 1e-9; }});
 //   const Mode mode = bar.first_mode();
 //   TimeStepper time = bar.stepper({.scheme = generalized_alpha(0.8)});

@@ -61,7 +61,7 @@ ElasticPotential::ElasticPotential(const SimplexSpace& space, Model model, const
       law_(constitutive_law(model, lame)),
       tables_(std::move(tables))
 {
-    require(tables_.points_per_tet <= most_points, "quadrature points", tables_.points_per_tet, "expected at most 6 a tet");
+    require(tables_.points_per_tet <= most_points, "quadrature points", tables_.points_per_tet, "expected at most 6 per tet");
     require(formulation != Formulation::taylor_hood, "formulation", "taylor_hood", "expected displacement or mean_dilatation here");
     require(formulation == Formulation::displacement || law_->volume_term(), "formulation", "mean_dilatation",
             "expected a law with a volume term lambda / 2 theta^2");

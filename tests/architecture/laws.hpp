@@ -86,8 +86,7 @@ struct Budget {
     std::string what;
     std::vector<std::string> folders, endings = {};  // of its files; no endings: all files
     int most_lines = 1 << 30, most_files = 1 << 30;
-    int least_mean = 0;   // lines per file, of each folder and of each of its direct rooms; 0: neither this rule nor the next one
-    int small_files = 0;  // at most so many files that are too small
+    int least_mean = 0;  // lines per file, of each folder and of each of its direct rooms; 0: files may be of any size
 };
 const std::vector<Budget>& budgets();  // of this project
 

@@ -28,8 +28,7 @@ const Budget made_up = {.what = "libraries",
                         .endings = {".cpp", ".hpp"},
                         .most_lines = 1000,
                         .most_files = 8,
-                        .least_mean = 80,
-                        .small_files = 1};
+                        .least_mean = 80};
 
 const std::map<std::string, Law> all_laws = {
     {"IncludesPointOneWay", include_direction},

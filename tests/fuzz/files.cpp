@@ -47,7 +47,7 @@ void try_tetgen(const std::string& bytes)
 
 void try_weights(const std::string& bytes)
 {
-    const pbs::Weights weights = pbs::read_weights(written("fuzz.csv", bytes), arm, vertices);
+    const pbs::Weights weights = pbs::parse_weights(bytes, "fuzz.csv", arm, vertices);
     expect(weights.first.size() == vertices + 1);
     for (int vertex = 0; vertex < vertices; ++vertex) {
         double sum = 0.0;

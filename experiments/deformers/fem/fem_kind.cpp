@@ -7,9 +7,8 @@
 namespace experiments {
 namespace {
 
-OptionFields<FemOptions> declared_fields()
+void add_material_fields(OptionFields<FemOptions>& fields)
 {
-    OptionFields<FemOptions> fields("fem", true);
     fields.key("name", KeyType::text, "fem", {.meaning = "the name this reference has in the records"})
         .add("model", &FemOptions::model,
              {.meaning =
@@ -42,6 +41,10 @@ OptionFields<FemOptions> declared_fields()
                 .range = {0, 1e6},
                 .meaning = "Rayleigh damping [mass, stiffness]: C = mass M + stiffness K(rest); without dynamics, zero"},
                read_rayleigh, write_rayleigh);
+}
+
+void add_attachment_fields(OptionFields<FemOptions>& fields)
+{
     fields.add(
         "attachment", &FemOptions::attachment,
         {.meaning = "smooth: springs whose density decreases smoothly to zero from the bone's axis to the surface of a capsule around it; "
@@ -80,6 +83,10 @@ OptionFields<FemOptions> declared_fields()
              {.range = {1, 4},
               .meaning = "attachments smooth and embedded: multiplies the 40 stations along a bone, the 8 rings of sample points across it "
                          "and the 24 points of a ring"});
+}
+
+void add_solver_fields(OptionFields<FemOptions>& fields)
+{
     fields
         .add(
             "solver", &FemOptions::solver,
@@ -95,7 +102,6 @@ OptionFields<FemOptions> declared_fields()
                   "nonlinear model, with element_order 2 or a refined character: in the first pose and where a bone turns by more than 15 "
                   "degrees from the last pose, Newton's iterations start from the solution with order 1 or of the unrefined character. "
                   "This leads to the same solution in fewer steps"});
-    return fields;
 }
 
 // The rules that involve more than one key.
@@ -138,7 +144,13 @@ void check(const SceneValues& values, const std::string& table, FemOptions& opti
 
 const OptionFields<FemOptions>& fem_fields()
 {
-    static const OptionFields<FemOptions> fields = declared_fields();
+    static const OptionFields<FemOptions> fields = [] {
+        OptionFields<FemOptions> declared("fem", true);
+        add_material_fields(declared);
+        add_attachment_fields(declared);
+        add_solver_fields(declared);
+        return declared;
+    }();
     return fields;
 }
 

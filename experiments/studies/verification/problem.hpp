@@ -78,5 +78,5 @@ pbs::Positions exact_positions(const pbs::Positions& rest);  // [m]
 
 }  // namespace experiments
 
-// The verification's entry into the module lib/libpbskin_fem.so, which carries deal.II.
+// The entry into the module lib/libpbskin_verification.so, which carries deal.II.
 extern "C" const std::vector<experiments::VerificationProblem>* pbskin_verification_problems();

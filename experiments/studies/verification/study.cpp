@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 // Loads deal.II, when the study is planned or run.
 const std::vector<VerificationProblem>& problems_of_module()
 {
-    return *load_module_with_blas("pbskin_fem").function<decltype(pbskin_verification_problems)>("pbskin_verification_problems")();
+    return *load_module_with_blas("pbskin_verification").function<decltype(pbskin_verification_problems)>("pbskin_verification_problems")();
 }
 
 pbs::Character limb(int vertices, int refinements)
@@ -62,7 +62,7 @@ StudyPlan plan(bool full)
             plan.runs.push_back(
                 work_run<VerificationCase>(problem.name, {problem.name, full}, full ? problem.full_s : problem.quick_s, solve_and_record));
     } catch (const pbs::InputError& error) {
-        plan.left_out.push_back({"verification", error.what()});
+        plan.left_out.push_back({"verification", error.what() + std::string("; `cmake --build build/release` builds it")});
     }
     return plan;
 }

@@ -151,6 +151,11 @@ void add_to(std::vector<Family>& families, const std::string& name, const Diagra
     (found == families.end() ? families.emplace_back(name, std::vector<Diagram>{}) : *found).second.push_back(diagram);
 }
 
+int code_rank(const SettingKey& key)
+{
+    return (key.precision == "f32" ? 2 : 0) + (key.packed ? 1 : 0);
+}
+
 }  // namespace
 
 const Columns<ChosenSetting> chosen_columns =
@@ -160,11 +165,6 @@ const Columns<ChosenSetting> chosen_columns =
         {"tried", &ChosenSetting::tried, "", "number of settings tried at this rung"},
         {"training_poses", &ChosenSetting::training_poses, "", "poses on which it was chosen; 0: there was no choice"},
         {"training_error_joint_pct", &ChosenSetting::training_error_pct, "%", "its geometric mean error over these poses"}};
-
-int code_rank(const SettingKey& key)
-{
-    return (key.precision == "f32" ? 2 : 0) + (key.packed ? 1 : 0);
-}
 
 BestCodes best_codes(const std::vector<CaseRows>& cases)
 {

@@ -32,9 +32,8 @@ inline constexpr NameTable<Comparison, 2> option_names<Comparison>{
 
 using CaseRows = std::vector<PointRow>;  // of one case
 
-// The best code of each deformer, by code_rank. In packed_f32 only that code takes part.
-using BestCodes = std::map<std::string, int>;
-int code_rank(const SettingKey& key);  // 3: packed f32, 2: plain f32, 1: packed f64, 0: plain f64
+// The best code of each deformer. In packed_f32 only that code takes part.
+using BestCodes = std::map<std::string, int>;  // 3: packed f32, 2: plain f32, 1: packed f64, 0: plain f64
 BestCodes best_codes(const std::vector<CaseRows>& cases);
 // A deformer that has no entry in `best` takes part with any code.
 bool takes_part(Comparison comparison, const SettingKey& key, const BestCodes& best);

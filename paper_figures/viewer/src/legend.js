@@ -21,12 +21,8 @@ export function distance_shade(shades, most, distance) {
 
 // The page's tables, parsed.
 export function palette_of(colours) {
-    return {
-        ratio: { ...colours.ratio, shades: colours.ratio.shades.map(rgb_of) },
-        error: { shades: colours.error.shades.map(rgb_of) },
-        skin: rgb_of(colours.skin),
-        inverted: rgb_of(colours.inverted),
-    };
+    return { ratio: { ...colours.ratio, shades: colours.ratio.shades.map(rgb_of) }, error: { shades: colours.error.shades.map(rgb_of) },
+             skin: rgb_of(colours.skin), inverted: rgb_of(colours.inverted) };
 }
 
 // The colour of a tet for each code.

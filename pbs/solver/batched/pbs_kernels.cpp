@@ -1,6 +1,5 @@
-// The projections of pbs/constraints in every lane at once: twins of bind.hpp, stretch.hpp and volume.hpp, line by line.
-// A lane whose constraint has no gradient stays, as there. For kernels alone.
-
+// The projections of pbs/constraints in every lane at once, line by line as in bind.hpp, stretch.hpp and volume.hpp, and the loops over
+// batches and poses that call them. A lane whose constraint has no gradient stays, as there.
 #include "pbs/solver/batched/pbs_kernels.hpp"
 
 #include "pbs/packed/lanes.hpp"
@@ -8,6 +7,7 @@
 #include <limits>
 
 namespace pbs {
+namespace {
 
 // q: posed bind points; k: stiffness, zero where the vertex is pinned.
 template <typename Scalar>
@@ -91,8 +91,6 @@ template <typename Scalar>
     add(Lanes<Scalar>(step * p3.w), n3, p3);
     add(Lanes<Scalar>(step * p4.w), n4, p4);
 }
-
-namespace {
 
 // Part of a batch: as many groups as there are lanes.
 template <typename Scalar, GroupKind kind>

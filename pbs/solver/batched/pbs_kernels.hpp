@@ -31,7 +31,7 @@ int kernel_lanes(int bytes_of_scalar);  // numbers that these kernels work on at
 const char* kernel_instructions();      // AVX-512, AVX2, AVX, SSE2, baseline
 
 // The inner loops of XPBD in the orders `ordered` and `grouped`, compiled for the machine (PBS_NATIVE): raw pointers only. They are twins
-// of project_batches (pbs_kernels.hpp): the same batches and vertices, with a compliance and a multiplier for each constraint. A batch's
+// of project_batches: the same batches and vertices, with a compliance and a multiplier for each constraint. A batch's
 // stiffness is 1 / alpha here: of an edge [N/m], and of six times the volume of a tet [N/m^5]; zero: there is no constraint. vertices: x,
 // y, z [m] and w [1/kg] of each, 16 bytes aligned in float, 32 in double.
 

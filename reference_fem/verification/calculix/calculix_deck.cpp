@@ -1,5 +1,6 @@
 #include "reference_fem/verification/calculix/calculix_deck.hpp"
 
+#include "reference_fem/linear_flesh.hpp"
 #include "reference_fem/linear_solvers.hpp"
 
 #include <Eigen/Eigenvalues>
@@ -62,7 +63,7 @@ public:
     std::pair<int, Eigen::Vector4d> locate(const Eigen::RowVector3d& point) const
     {
         const Eigen::Vector4d homogeneous(1.0, point(0), point(1), point(2));
-        double deepest = -1e-10;  // a point this far outside is on the face but for rounding
+        double deepest = -1e-10;  // a point this far outside is on the face except for rounding
         std::pair<int, Eigen::Vector4d> found{-1, Eigen::Vector4d::Zero()};
         for (std::size_t t = 0; t < of_point_.size(); ++t) {
             const Eigen::Vector4d barycentric = of_point_[t] * homogeneous;

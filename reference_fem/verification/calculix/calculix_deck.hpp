@@ -68,10 +68,10 @@ void write_calculix_deck(std::ostream& deck, const NodalProblem& problem, const 
 // The nearest number that fits in 20 characters, with at least 14 digits: CalculiX refuses or, worse, cuts what is longer.
 std::string calculix_number(double value);
 
-// Springs between many points of the flesh and fixed targets as a few springs to ground, exact but for rounding.
+// Springs between many points of the flesh and fixed targets as a few springs to ground, exact except for rounding.
 //   const EquivalentSprings few = equivalent_springs(problem);
-// A tet has the shape functions N. The springs of its points X_s have the energy sum_s k_s / 2 |X_s + u(X_s) - t_s|^2, which is, but for a
-// constant and for each component of the nodes' displacements u, u^T Q u / 2 - f^T u with Q = sum_s k_s N(X_s) N(X_s)^T and
+// A tet has the shape functions N. The springs of its points X_s have the energy sum_s k_s / 2 |X_s + u(X_s) - t_s|^2, which is, for each
+// component of the nodes' displacements u and except for a constant, u^T Q u / 2 - f^T u with Q = sum_s k_s N(X_s) N(X_s)^T and
 // f = sum_s k_s N(X_s) (t_s - X_s). Q = sum_m lambda_m v_m v_m^T by its eigenvectors, so one spring for each m, whose end moves by
 // sqrt(lambda_m / k) v_m . u, has the same energy with the one stiffness k. f is a dead load.
 //

@@ -1,6 +1,7 @@
 #include "reference_fem/verification/calculix/calculix_rows.hpp"
 
 #include "reference_fem/linear_elasticity.hpp"
+#include "reference_fem/linear_flesh.hpp"
 #include "reference_fem/linear_solvers.hpp"
 #include "reference_fem/potentials/potentials.hpp"
 

@@ -175,7 +175,7 @@ private:
         if (!node || *node != std::floor(*node) || *node < 1.0 || *node > static_cast<double>(seen_.size()))
             refuse("node", fields[0], "expected 1 to " + std::to_string(seen_.size()));
         const auto n = static_cast<std::size_t>(*node) - 1;
-        if (seen_[n]) refuse("node", fields[0], "expected one line a node");
+        if (seen_[n]) refuse("node", fields[0], "expected one line per node");
         seen_[n] = true;
         for (int c = 0; c < 3; ++c) {
             const std::optional<double> component = number(fields[c + 1]);
@@ -196,7 +196,7 @@ bool agrees(const pbs::Positions& record, const pbs::Positions& printed)
     return ((record - printed).array().abs() <= last_digit * printed.array().abs() + smallest_printed).all();
 }
 
-// A record of 1 + 3 numbers a node, the first one its temperature: of the nodes, then of the ends of springs.
+// A record of 1 + 3 numbers per node, the first one its temperature: of the nodes, then of the ends of springs.
 std::optional<pbs::Positions> displacements_in(const std::string& restart, std::size_t begin, std::size_t length, Eigen::Index nodes)
 {
     using Record = Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor>;

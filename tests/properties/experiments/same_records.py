@@ -18,6 +18,7 @@ ALL = ('["lbs", "dqs", "delta_mush", "direct_delta_mush", "pbs", "pbs_author", "
        '"xpbd_neo_hookean", "projective_dynamics"]')
 WITH_ORDERS = '["pbs", "xpbd", "xpbd_small_steps"]'
 FEM = '[[fem]]\nname = "p1"\nmodel = "linear"\n[[fem]]\nname = "snh"\nmodel = "stable_neo_hookean"\n'
+ITERATED = ("pbs", "quasi_newton", "vbd", "xpbd_neo_hookean", "projective_dynamics")  # threads share the same in each iteration
 ORDERS, PRECISIONS = ["plain", "ordered", "grouped"], ["f32", "f64"]
 BLAS_THREADS = [{"OPENBLAS_NUM_THREADS": n, "OMP_NUM_THREADS": n} for n in "124"]
 ENVIRONMENTS = [{"LC_ALL": "de_DE.UTF-8", "LANG": "de_DE.UTF-8"}, {"LC_ALL": "C"}, {"TZ": "Asia/Kathmandu"},
@@ -71,10 +72,11 @@ class SameRecords(program.ProgramTest):
     def test_threads_on_a_mesh_that_is_shared_among_them(self):
         settings = list(itertools.product(ORDERS, PRECISIONS)) if LONG else [("ordered", "f32"), ("grouped", "f64")]
         for order, precision in settings:
-            sets = ["--set", f'pbs.order="{order}"', "--set", f'pbs.precision="{precision}"',
-                    "--set", f'xpbd.order="{order}"', "--set", f'xpbd.precision="{precision}"']
+            sets = [word for name in ITERATED for word in ("--set", f"{name}.iterations=3")]
+            sets += ["--set", f'pbs.order="{order}"', "--set", f'pbs.precision="{precision}"',
+                     "--set", f'xpbd.order="{order}"', "--set", f'xpbd.precision="{precision}"']
             all_once = ALL if (order, precision) == settings[0] else WITH_ORDERS
-            scene = self.write_arm((64, 15, 15), all_once)  # 16,640 vertices: vbd shares 16,384 or more
+            scene = self.write_arm((64, 15, 15), all_once, frames=2)  # 16,640 vertices: vbd shares 16,384 or more
             alone = self.run_once(scene, *sets, "--threads", 1)
             for threads in (2, 4) if LONG else (4,):
                 with self.subTest(order=order, precision=precision, threads=threads):
@@ -89,7 +91,8 @@ class SameRecords(program.ProgramTest):
                 self.expect_same(first, self.run_once(scene, env=os.environ | change))
 
     def test_the_human(self):
-        overrides = [f"motion.duration_s={1.0 if LONG else 0.05}", "output.frames=[]", "output.frame_names=[]"]
+        overrides = [f"motion.duration_s={1.0 if LONG else 0.05}", "output.frames=[]", "output.frame_names=[]",
+                     "reference.name=", 'deformers.use=["lbs", "dqs", "pbs", "xpbd"]']
         short = ["human_01_01", *(word for override in overrides for word in ("--set", override))]
         if "not installed" in program.run("run", *short, "-o", self.path("out")).stderr:
             self.skipTest("the human is not installed")

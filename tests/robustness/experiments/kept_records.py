@@ -1,6 +1,7 @@
 """The kept part of a study's records is sufficient to judge its claims again, and is kept as a whole or not at all. Reference: the verdicts
 from the complete records."""
 import json
+import os
 import pathlib
 import subprocess
 import sys
@@ -12,7 +13,7 @@ KEEP = pathlib.Path(program.SOURCE) / "experiments" / "records" / "keep.py"
 sys.path.insert(0, str(KEEP.parent))
 import keep  # noqa: E402
 sys.path.insert(0, str(pathlib.Path(program.SOURCE) / "paper_figures"))
-from records import kept as kept_records  # noqa: E402
+from records import RecordsMissing, kept as kept_records  # noqa: E402
 
 
 class KeptRecords(program.ProgramTest):
@@ -57,6 +58,41 @@ class KeptRecords(program.ProgramTest):
         for name, text in runs.items():
             self.assertEqual(json.loads((opened / name).read_text()), json.loads(text))
         self.assertEqual(sorted(file.name for file in (merged / "study" / "runs").iterdir()), ["a.csv", "b.csv"])
+
+    def test_every_column_of_a_table_is_kept(self):
+        """`setting` distinguishes the rows of work_precision/RUN/changes.csv."""
+        changes = "change,setting,iterations\nbound,0.002,4\nbound,0.01,4\n"
+        keep.keep_table(pathlib.Path(self.write("changes.csv", changes)), pathlib.Path(self.path("kept.csv")))
+        self.assertEqual(self.read("kept.csv"), changes)
+
+    def kept_records(self, table="run,x\none,1\n", study="study", **origin):
+        """The folder of kept records of one run, which may be changed."""
+        os.makedirs(self.path("kept", "study", "runs"), exist_ok=True)
+        origins = [{"schema": 3, "provenance": {"version": "1"}, "runs": ["study/one"]} | origin]
+        self.write("kept/plans.json", json.dumps({study: {"runs": [{"name": "one"}]}}))
+        self.write("kept/provenance.json", json.dumps({"origins": origins}))
+        self.write("kept/study/runs/metrics.csv", table)
+        return pathlib.Path(self.path("kept"))
+
+    def test_names_that_leave_the_folder_are_refused(self):
+        message = "expected no leading / and no .. in a name"
+        for name in ("../outside", self.path("outside"), "one/../../../outside"):
+            for changed in ({"study": name}, {"runs": [name]}, {"table": f"run,x\n{name},1\n"}):
+                with self.subTest(changed), self.assertRaisesRegex(RecordsMissing, message):
+                    kept_records.opened(self.kept_records(**changed))
+                self.refuses(message, "reproduce", "--judge", "-o", self.path("kept"), "--quiet")
+        self.assertFalse(os.path.exists(self.path("outside")))
+
+    def test_malformed_tables_and_origins_are_refused(self):
+        for message, changed in (("metrics.csv:2: one: expected a name and the cells of a row", {"table": "run,x\none\n"}),
+                                 ("metrics.csv:2: : expected a name", {"table": "run,x\n,1\n"}), ("metrics.csv: no rows", {"table": ""}),
+                                 ("provenance.json: not as", {"runs": 1}), ("provenance.json: not as", {"tables": [1]})):
+            with self.subTest(changed), self.assertRaisesRegex(RecordsMissing, message):
+                kept_records.opened(self.kept_records(**changed))
+
+    def test_tables_that_were_measured_apart_keep_their_origin(self):
+        opened = kept_records.opened(self.kept_records(tables=["study/runs/metrics.csv"]))
+        self.assertEqual(kept_records.measured_apart(opened), {opened / "study" / "one" / "metrics.csv": {"version": "1"}})
 
     def test_files_that_are_too_long_are_listed(self):
         results, kept = self.recorded("audit")

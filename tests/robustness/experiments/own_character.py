@@ -88,11 +88,9 @@ class OwnCharacter(program.ProgramTest):
     def test_warnings(self):
         still = [(1, "rotation", [0.0, 1.0], [rig_files.turn((0, 0, 1), 0)] * 2, "LINEAR")]
         for words, variant, options in (
-                ("no joint moves", "plain", {"animations": (), "extra": [("Still", still)]}),
-                ("unlikely units", "centimetres", {}),
+                ("no joint moves", "plain", {"animations": (), "extra": [("Still", still)]}), ("unlikely units", "centimetres", {}),
                 ("bones lie outside the body", "plain", {"shifted_m": (0.0, 3.0, 0.0)}),
-                ("are without flesh", "plain", {"tiny_tip": True}),
-                ("inverted tets in the first frame", "plain", {"first_deg": 170.0}),
+                ("are without flesh", "plain", {"tiny_tip": True}), ("inverted tets in the first frame", "plain", {"first_deg": 170.0}),
                 ("it has no animation: the joint elbow is bent", "no_animation", {}),
                 ("it has 2 animations; Bend is taken", "two_animations", {})):
             with self.subTest(words):

@@ -1,5 +1,7 @@
-"""Importing this module makes style.save refuse a figure in which a line, labelled by the name of a deformer, has another colour or marker
-than looks.toml states. The tests that draw figures import it."""
+"""Importing this module makes style.save refuse a figure in which a line, whose label begins with the name of a deformer, has another
+colour or marker than looks.toml states. The tests that draw figures import it."""
+import re
+
 from drawing import style
 from matplotlib import colors
 from words import looks
@@ -8,8 +10,8 @@ by_name = {looks.of(deformer).name: looks.of(deformer) for deformer in looks.lis
 
 
 def look_of_label(label):
-    """The look of the deformer whose name begins a label, e.g. PBS for `PBS, k_stretch 0.2`."""
-    names = [name for name in by_name if label == name or label.startswith(name + ", ")]
+    """The look of the deformer whose name begins a label, e.g. PBS for `PBS, k_stretch 0.2` and for `PBS (baseline)`."""
+    names = [name for name in by_name if re.match(re.escape(name) + r"(?![\w-])", label)]
     return by_name[max(names, key=len)] if names else None
 
 

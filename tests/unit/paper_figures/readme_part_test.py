@@ -5,6 +5,9 @@ import csv
 import importlib
 import json
 import math
+import shutil
+import subprocess
+import sys
 import unittest
 
 from results_case import ResultsTest, listening, root
@@ -64,8 +67,7 @@ class Markers(ReadmeTest):
 
     def test_a_readme_without_its_markers_in_order_is_refused_and_stays(self):
         for text, words in (("", f"{begin} occurs 0 times: expected once"),
-                            (f"{end}", f"{begin} occurs 0 times"),
-                            (f"{begin}\n", f"{end} occurs 0 times: expected once"),
+                            (f"{end}", f"{begin} occurs 0 times"), (f"{begin}\n", f"{end} occurs 0 times: expected once"),
                             (f"{begin}\n{begin}\n{end}", f"{begin} occurs 2 times"),
                             (f"{begin}\n{end}\n{end}", f"{end} occurs 2 times"),
                             (f"{end}\n{begin}", f"{end} precedes {begin}: expected after it"),
@@ -118,6 +120,14 @@ class Tables(ReadmeTest):
                             "| 1 of 2 printed values consistent | [C13](experiments/verdicts/claims/C13.md) |",
                             "| not testable | No record of the control DQS | [C14](experiments/verdicts/claims/C14.md) |",
                             f"\nMeasured at revision {synthetic_records.revision[:12]}.")
+
+    def test_tables_that_were_measured_apart_state_their_revision(self):
+        synthetic_records.write_study(self.results)
+        synthetic_records.write_claims(self.results)
+        table = "volume/limb_twist/metrics.csv"
+        (self.results / kept.apart).write_text(json.dumps({table: {"git_revision": "f" * 40}}))
+        self.assertEqual(readme_tables.claims_lines(self.results)[-1],
+                         f"Measured at revision {synthetic_records.revision[:12]}, {'f' * 12} ({table.replace('limb_twist/', '')}).")
 
     def test_findings_without_the_values_that_they_state_are_refused(self):
         synthetic_records.write_study(self.results)
@@ -224,7 +234,8 @@ KEPT = root / "experiments" / "records" / "full"
 class Pages(ResultsTest):
     def test_those_of_the_kept_records_are_current(self):
         opened = kept.opened(KEPT)
-        for study in pages.studies:
+        self.assertLessEqual({"ambiguity", "timing", "work_precision"}, set(pages.studies))
+        for study in (study for study in pages.studies if (KEPT / study).is_dir()):
             page = importlib.import_module(f"pages.{study}").page
             self.assertEqual((KEPT / study / f"{study}.md").read_text(encoding="utf-8"), page(opened / study), study)
 
@@ -283,10 +294,30 @@ class Pages(ResultsTest):
                          "- C05: human crouch elbow, measured: pbs is wide\n")
 
     def test_a_study_without_records_has_no_page(self):
-        self.assertEqual(pages.write(self.results), [])
+        self.assertEqual(pages.write(self.results), ([], 0))
+        run = subprocess.run([sys.executable, "-B", root / "paper_figures/make_pages.py", self.results], capture_output=True, text=True)
+        self.assertEqual((run.returncode, run.stderr.splitlines()[-1].split(": ")[-1]),
+                         (2, "no records of a study that has a page; run ./reproduce first"))
         (self.results / "ensemble").mkdir()
         (self.results / "ensemble" / "plan.json").write_text(json.dumps({"runs": []}), encoding="utf-8")
-        self.assertEqual(pages.write(self.results), [], "its tables are missing")
+        self.assertEqual(pages.write(self.results), ([], 0), "its tables are missing")
+
+    def test_a_damaged_table_is_refused_with_its_place(self):
+        study = self.results / "ensemble"
+        shutil.copytree(kept.opened(KEPT) / "ensemble", study)
+        whole = (study / "pairs.csv").read_text()
+        head, first, *_ = whole.splitlines()
+        columns, cells = head.split(","), first.split(",")
+        cells[columns.index("largest_difference_pct")] = "ten"
+        for damaged, message in ((",".join(cells), "pairs.csv:2: largest_difference_pct = ten: expected a number"),
+                                 (first.rpartition(",")[0], f"pairs.csv:2: expected {len(columns)} cells"),
+                                 (first + ",1", f"pairs.csv:2: expected {len(columns)} cells")):
+            (study / "pairs.csv").write_text(whole.replace(first, damaged, 1))
+            with self.subTest(message), listening() as (_, complaints):
+                self.assertEqual(pages.write(self.results), ([], 2))
+                self.assertIn(message, complaints.getvalue())
+        (study / "pairs.csv").write_text(whole)
+        self.assertEqual(pages.write(self.results), ([study / "ensemble.md"], 0))
 
 
 def shown():

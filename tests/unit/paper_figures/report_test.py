@@ -13,7 +13,8 @@ import types
 import unittest
 import unittest.mock
 
-from results_case import ReportTest, root
+from results_case import ReportTest, listening, root
+import make_report
 import records
 import report
 import synthetic_records
@@ -54,6 +55,16 @@ class Report(ReportTest):
 
     def found(self):
         return record_set.RecordSet(self.results)
+
+    def test_a_damaged_table_of_a_study_leaves_the_report(self):
+        jiggle = self.results / "jiggle"
+        synthetic_records.write_table(jiggle / "limb_walk" / "walk.csv", [
+            {"k_stretch": "1", "moving_lag_rms_mm": "much", "most_lag_rms_mm": "2", "last_speed_share": "0"}])
+        (jiggle / "plan.json").write_text(json.dumps({"runs": [{"name": "limb_walk"}]}))
+        with listening() as (_, complaints):
+            self.assertEqual(make_report.main(self.results), 2)
+        self.assertIn("limb_walk/walk.csv:2: moving_lag_rms_mm = much: expected a number", complaints.getvalue())
+        self.assertTrue((self.results / "report.html").is_file())
 
     def page(self):
         status, text, _, complaints = self.report()

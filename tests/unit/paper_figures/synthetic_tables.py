@@ -32,8 +32,7 @@ def write_error_parts(study):
     """A solver part of 30 % / n and a model part of 20 %; rows with other k_stretch, orders, substeps and meshes are not part of the
     figure."""
     write_origin(study / "limb_twist_90")
-    settings = [("ordered", 0.2, 1, ""), ("plain", 0.2, 1, ""), ("ordered", 0.9, 1, ""), ("ordered", 0.2, 2, ""),
-                ("ordered", 0.2, 1, 300)]
+    settings = [("ordered", 0.2, 1, ""), ("plain", 0.2, 1, ""), ("ordered", 0.9, 1, ""), ("ordered", 0.2, 2, ""), ("ordered", 0.2, 1, 300)]
     write_table(study / "limb_twist_90" / "points.csv",
           [{"body": "limb", "motion": "twist", "pose": "", "angle_deg": 90, "deformer": "pbs", "iterations": n, "k_stretch": k,
             "order": order, "precision": "f32", "packed": 1, "outcome": "finished", "substeps": substeps,

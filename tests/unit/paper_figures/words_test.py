@@ -12,6 +12,7 @@ import checked_looks
 import make_all
 import synthetic_records
 from drawing import style
+from figures import pbs_errors
 from records import entries
 from synthetic_records import claim, selection, unit, write_table
 from words import captions, case_words, looks, sentences
@@ -216,7 +217,13 @@ class Looks(unittest.TestCase):
         axes[0][0].plot([0, 1], [0, 1], color=look.color, marker=look.marker, label="DQS")
         self.assertEqual(checked_looks.wrongly_drawn(figure), [])
         axes[0][0].plot([0, 1], [0, 1], color=style.black, marker=look.marker, label="DQS, 90 degrees")
-        self.assertEqual(checked_looks.wrongly_drawn(figure), ["DQS, 90 degrees: #000000 s"])
+        axes[0][0].plot([0, 1], [0, 1], color=style.black, marker=look.marker, label="DQS (baseline)")
+        axes[0][0].plot([0, 1], [0, 1], color=style.black, marker=look.marker, label="DQS-like")
+        self.assertEqual(checked_looks.wrongly_drawn(figure), ["DQS, 90 degrees: #000000 s", "DQS (baseline): #000000 s"])
+
+    def test_a_change_to_pbs_has_no_deformers_colour(self):
+        taken = {entry.get("color") for entry in looks.listed.values()} | {color for color, _, _ in looks.own}
+        self.assertFalse(taken & {color for color, _ in pbs_errors.changes.values()})
 
 
 listed = {entry.name: entry for entry in entries.read()}
@@ -230,10 +237,12 @@ class Captions(ResultsTest):
         write_table(self.results / f"{name}.csv", rows)
         return captions.whole(listed[name], self.results, {"cpu_model": "a processor"})
 
-    def assert_told(self, name, rows, *words):
-        text = self.told(name, rows)
-        for one in words:
-            self.assertIn(one, text)
+    def test_each_states_the_facts_of_the_rows_behind_its_figure(self):
+        for case in tomllib.loads((root / "tests/unit/paper_figures/captions.toml").read_text(encoding="utf-8"))["case"]:
+            text = self.told(case["figure"], [dict(zip(case["columns"], row)) for row in case["rows"]])
+            for words in case["states"]:
+                with self.subTest(case["what"]):
+                    self.assertIn(words, text)
 
     def test_no_number_that_another_run_would_change_is_typed(self):
         for entry in listed.values():
@@ -253,56 +262,6 @@ class Captions(ResultsTest):
             if not captions.asked(entry):
                 self.assertNotIn("{", entry.caption)
 
-    def test_cells_are_counted_by_method_and_their_ends_named(self):
-        rows = [{"model": model, "factor": factor, "outcome": outcome} for model, factor, outcome in (
-            ("pbs", "gravity", "converged"), ("pbs", "gravity", "inverted"), ("pbs", "twist", "converged"),
-            ("pbs_jiggle", "start", "bounded"), ("fem_linear", "gravity", "diverged"), ("fem_linear", "slivers_height_kept", "diverged"))]
-        self.assert_told("stability_cells", rows, "undisturbed: PBS in 2 of 3; PBS, jiggling in 0 of 1; linear FEM in 0 of 2 (",
-                         "PBS keeps inverted tets after: gravity; the jiggling PBS after: none. ",
-                         "Diverged: linear FEM (gravity and slivers, height kept); ",
-                         "Not finite: none.")
-
-    def test_cells_of_each_map_are_counted(self):
-        rows = [{"map": f"map_{name}.csv", "outcome": outcome, "steps": steps} for name, outcome, steps in (
-            ("time_step_k_stretch", "inverted", 23), ("time_step_k_stretch", "converged", 611), ("iterations_twist", "bounded", 90))]
-        self.assert_told("stability_maps", rows,
-                         "k_stretch: of 2 cells 1 at rest as if undisturbed, 0 bounded, 1 with inverted tets, 0 diverged, 0 not finite.",
-                         "twist: of 1 cells 0 at rest as if undisturbed, 1 bounded, ",
-                         "The longest took 611 steps")
-
-    def test_folds_of_frequency_are_largest_over_smallest(self):
-        rows = [{"body": body, "varied": varied, "frequency_hz": hz, "deformer": "nh_p1" if pa else "pbs", "young_pa": pa or "nan"}
-                for body, varied, hz, pa in (
-                    ("limb", "k_stretch", 10, ""), ("limb", "k_stretch", 5, ""), ("limb", "k_stretch", 8, ""), ("man", "k_stretch", 7, ""),
-                    ("limb", "iterations", 4, ""), ("limb", "iterations", 6, ""), ("limb_reference", "", 99, ""),
-                    ("limb_reference", "", 98, 117e3), ("limb_reference", "", 97, 121e3))]
-        self.assert_told("jiggle_response", rows, "each with the others at k_stretch 0.1, 10 ms and 24 iterations.",
-                         "Young's modulus (117 to 121 kPa) is chosen so that they swing as fast as PBS, so only the damping",
-                         "changes with k_stretch 2-fold (limb); with the time step, which is no material property, none; "
-                         "with the iterations 1.5-fold (limb).")
-
-    def test_folds_of_stiffness_are_of_xpbd_over_iterations(self):
-        rows = [{"body": body, "varied": varied, "method": method, "iterations": count, "stiffness_n_m": stiffness}
-                for body, varied, method, count, stiffness in (
-                    ("bar", "iterations", "xpbd", 6, 10), ("bar", "iterations", "xpbd", 48, 25), ("bar", "time_step_ms", "xpbd", 24, 999),
-                    ("bar", "iterations", "pbs", 48, 500), ("human", "iterations", "xpbd_small_steps", 6, 4),
-                    ("human", "iterations", "xpbd_small_steps", 48, 5))]
-        self.assert_told("stiffness", rows, "others at 24 iterations and 10 ms; PBS with the exponent has k_stretch 0.2.",
-                         "grows 2.5-fold (bar, 6 to 48) with the iterations; in small steps 1.25-fold (human, 6 to 48).")
-
-    def test_linear_elements_are_told_apart_from_the_truth(self):
-        def row(problem, quantity, order, difference="", ratio=""):
-            return {"problem": problem, "quantity": quantity, "element_order": order, "difference_pct": difference,
-                    "value_over_reference": ratio}
-
-        rows = [row("locking", "tip_deflection", order, -50, ratio) for order, ratio in (
-            (1, 0.5), (1, 0.0125), (2, 0.75), (2, 0.875), ("", 0.001))]
-        rows += [row("locking", "torque", 1, 37, 1.37), row("thick_plate", "another", 2, 99)]
-        rows += [row("thick_plate", "stress_yy_at_d", order, pct) for order, pct in ((1, -47), (1, 12), (2, -1.5), (2, 1))]
-        self.assert_told("verification", rows,
-                         "keep 75 to 87.5 % of a beam's bending towards incompressibility and meet published benchmarks within 1.5 %.",
-                         "lock: they keep 1.25 to 50 % of the bending and miss benchmarks by up to 47 %.")
-
     def test_figures_of_time_name_the_processor(self):
         timed = [entry for entry in listed.values() if set(entry.studies()) & {"timing", "work_precision"}]
         timed = [entry for entry in timed if entry.name != "error_parts"]
@@ -312,35 +271,6 @@ class Captions(ResultsTest):
                 self.assertIn("{cpu}", entry.caption)
                 self.assertIn("a processor", captions.whole(entry, self.results, {"cpu_model": "a processor"}))
                 self.assertIn("a processor that is not on record", captions.whole(entry, self.results, {}))
-
-    def test_a_ladder_is_told_by_its_ends(self):
-        def row(ladder, vertices, residual, error):
-            return {"ladder": f"ladder_{ladder}", "vertices": vertices, "iterations": 1000, "residual_24": residual, "last_residual": 0.01,
-                    "volume_abs_change_24_pct": 2, "last_volume_abs_change_pct": 0.25, "error_24_pct": error, "last_error_pct": 40,
-                    "volume_reached": int(vertices > 500)}
-
-        rows = [row("bend", 900, 0.5, "nan"), row("bend", 300, 0.25, "nan"), row("twist", 300, 0.125, 23), row("twist", 600, 0.3, 21),
-                row("twist", 900, 0.75, "nan")]
-        self.assert_told("convergence_mesh", rows, "limb, 300 to 900 vertices, after 24 iterations (filled) and after 1000 (hollow)",
-                         "In the bend, the residual on the coarsest and the finest mesh is 0.25 and 0.5 after 24 iterations and 0.01 and "
-                         "0.01",
-                         "reached on 1 of 2 meshes in the bend and on 2 of 3 in the twist",
-                         "twisted 23 % after 24 and 40 % after 1000 on 300 vertices, 21 % after 24 and 40 % after 1000 on 600 vertices; "
-                         "bent no reference on record.")
-
-    def test_inverted_tets_of_stills_and_clip(self):
-        rows = [{"deformer": deformer, "inverted_tets": count} for deformer, count in (
-            ("lbs", 73), ("lbs", 109), ("pbs", 0), ("pbs", 1), ("nh_p1", 0), ("nh_p1", 12))]
-        self.assertIn("LBS inverts 73 to 109 tets and PBS 0 to 1; the finite elements, which are the reference, invert 0 to 12",
-                      self.told("frames_skin", rows))
-        self.assertIn("inverted tets in 1 of 2 frames. LBS has up to 109 inverted tets, PBS up to 1.", self.told("clip_jump", rows))
-
-    def test_where_the_jiggling_skin_is_farthest(self):
-        rows = [{"largest_mm": mm, "farthest_bone": bone, "time_s": time_s} for mm, bone, time_s in (
-            (31.9, "upper_arm.R", 0.0), (65.1, "neck", 1.92))]
-        self.assert_told("fig_09_jiggle", rows,
-                         "The largest distances: 32 mm at the right upper arm (0.00 s), 65 mm at the neck (1.92 s).",
-                         "moved yet: 32 mm at the right upper arm (0.00 s) is softness")
 
     def test_it_is_written_with_the_figure_and_deleted_with_it(self):
         synthetic_records.write_study(self.results)

@@ -5,6 +5,7 @@
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/topology.hpp"
 #include "reference_fem/assembly.hpp"
+#include "reference_fem/linear_flesh.hpp"
 #include "reference_fem/options.hpp"
 #include "tests/support/fem_rounding.hpp"
 #include "tests/support/rounding_error.hpp"

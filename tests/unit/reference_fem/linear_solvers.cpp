@@ -1,6 +1,7 @@
 // Reference: a dense solve of the same small system by Eigen. Tolerances: two solves, each in error by rounding, sqrt(n) eps cond(K).
 
 #include "reference_fem/assembly.hpp"
+#include "reference_fem/linear_flesh.hpp"
 #include "reference_fem/linear_solvers.hpp"
 #include "reference_fem/verification/problems.hpp"
 #include "tests/support/structured_bar.hpp"

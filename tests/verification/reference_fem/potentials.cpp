@@ -4,6 +4,7 @@
 #include "pbs/geometry/input_error.hpp"
 #include "reference_fem/assembly.hpp"
 #include "reference_fem/dynamics/time_stepper.hpp"
+#include "reference_fem/linear_flesh.hpp"
 #include "reference_fem/potentials/potentials.hpp"
 
 #include "tests/support/fem_rounding.hpp"

@@ -85,6 +85,10 @@ const BadFile bad_meshes[] = {
     {"points_and_lines", "obj", "", "v 0 0 0\nv 1 0 0\nl 1 2\n", ": ", ""},
     {"triangles_without_area", "obj", "", "v 0 0 0\nv 1 0 0\nv 1 0 0\nf 1 2 3\nf 1 1 1\n",
      ": triangles = 2: ", "expected one whose three corners differ"},
+#ifdef PBS_WITH_CGAL
+    {"polygon_without_area", "off", "4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n", "6 5 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n2 0 0\n3 0 0\n4 0 1 4 5\n",
+     ": face 0: ", "expected an area"},
+#endif
 };
 INSTANTIATE_TEST_SUITE_P(Meshes, RefusedFile, testing::ValuesIn(bad_meshes), [](const auto& info) { return info.param.name; });
 

@@ -60,13 +60,13 @@ std::string read_clip(const std::string& path)
 
 std::string read_skeleton(const std::string& path)
 {
-    return std::to_string(pbs::read_skeleton(path).bones.size()) + " bones";
+    return std::to_string(pbs::parse_skeleton(pbs::read_text_file(path, pbs::most_settings_bytes), path).bones.size()) + " bones";
 }
 
 std::string read_weights(const std::string& path)
 {
     const pbs::Skeleton skeleton{{{"upper", -1, {-1, 0, 0}, {0, 0, 0}}, {"forearm", 0, {0, 0, 0}, {1, 0, 0}}}};
-    return std::to_string(pbs::read_weights(path, skeleton, 2).vertices()) + " vertices";
+    return std::to_string(pbs::parse_weights(pbs::read_text_file(path), path, skeleton, 2).vertices()) + " vertices";
 }
 
 // A bar as this program writes it.

@@ -23,9 +23,7 @@ CsvTable table()
 TEST(ReportTable, HasARowOfHeadingsAndAScaledNumberPerRow)
 {
     const CsvTable none({"body", "step_s"});
-    EXPECT_EQ(markdown_table(table(), columns), "| body | step [ms] |\n|---|---|\n| limb | 12.5 |\n| lady | - |\n");
-    EXPECT_EQ(markdown_table(table(), report_columns("body step_s:.2f")), "| body | step_s |\n|---|---|\n| limb | 0.01 |\n| lady |  |\n");
-    EXPECT_EQ(markdown_table(none, columns), "| body | step [ms] |\n|---|---|\n");
+    EXPECT_EQ(text_table(table(), report_columns("body step_s:.2f")), "body  step_s\nlimb    0.01\nlady\n");
     EXPECT_EQ(text_table(table(), columns), "body  step [ms]\nlimb       12.5\nlady          -\n") << "words left, numbers right";
     EXPECT_EQ(text_table(none, columns), "body  step [ms]\n");
     EXPECT_THROW(text_table(table(), {{"step", "step_ms"}}), pbs::InputError) << "a missing column";

@@ -154,7 +154,7 @@ TEST(FitOverCases, JackknifeOfAMeanIsItsStandardError)
     const double of_place = place_error(tolerance, test_support::rounding_error(10, deviation), 1.0 / deviation);
     EXPECT_NEAR(fit.all.x, mean(centres), of_place);
     EXPECT_NEAR(fit.interval.estimate, mean(centres), of_place);
-    const double t = gsl_cdf_tdist_Pinv(0.975, 3), half_width = t * standard_error(centres);
+    const double t = gsl_cdf_tdist_Pinv(0.975, 3), half_width = t * deviation / std::sqrt(4.0);
     // t sqrt(3 / 4 sum (x_i - mean)^2) of four places.
     EXPECT_NEAR(fit.interval.high - fit.interval.estimate, half_width, t * std::sqrt(3.0 / 4.0 * 4.0) * of_place);
     EXPECT_NEAR(fit.interval.estimate - fit.interval.low, half_width, t * std::sqrt(3.0 / 4.0 * 4.0) * of_place);

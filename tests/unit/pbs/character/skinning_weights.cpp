@@ -3,7 +3,6 @@
 #include "pbs/character/skinning_weights.hpp"
 #include "pbs/geometry/topology.hpp"
 #include "tests/support/bar_character.hpp"
-#include "tests/support/scratch_folder.hpp"
 #include "tests/support/structured_bar.hpp"
 #include "tests/support/weight_sums.hpp"
 #include "tests/unit/pbs/character/expect_input_error.hpp"
@@ -12,7 +11,6 @@
 
 namespace {
 
-using WeightsFile = test_support::FolderTest;
 using namespace pbs;
 using test_support::weight_in;
 
@@ -98,8 +96,10 @@ TEST(SkinningWeights, HaveNames)
                                      {diffused, "diffused"},
                                      {either_end, "either_end"},
                                      {artist, "artist"},
-                                     {file, "file"}})
+                                     {file, "file"}}) {
         EXPECT_STREQ(name_of(kind), name);
+        EXPECT_EQ(weights_named(name), kind == file ? std::nullopt : std::optional(kind));
+    }
 }
 
 // Reference: weights that are a linear function of the place. They are reproduced on the surface, because they are linear in its triangles,
@@ -188,29 +188,28 @@ TEST(CarriedWeight, IsTheOverlapOfTheArtistsWeightsAndThoseOfTheTets)
 
 const Skeleton two_bones{{{"upper", -1, Vec3(-1, 0, 0), Vec3(0, 0, 0)}, {"forearm", 0, Vec3(0, 0, 0), Vec3(1, 0, 0)}}};
 const std::string header = "vertex,joint,weight\n";
-TEST_F(WeightsFile, ReadsRowsInAnyOrder)
+TEST(WeightsFile, ReadsRowsInAnyOrder)
 {
-    const std::string path = folder.file("w.csv", header + "1,forearm,0.25\n0,upper,1\n1,upper,0.75\n");
-    const Weights weights = read_weights(path, two_bones, 2);
+    const Weights weights = parse_weights(header + "1,forearm,0.25\n0,upper,1\n1,upper,0.75\n", "w.csv", two_bones, 2);
     EXPECT_EQ(weights.first, (std::vector<int>{0, 1, 3}));
     EXPECT_EQ(weights.bone, (std::vector<int>{0, 1, 0}));
     EXPECT_EQ(weights.weight, (std::vector<double>{1.0, 0.25, 0.75}));
 }
 
-TEST_F(WeightsFile, LeavesOutZerosAndTakesWindowsLineEnds)
+TEST(WeightsFile, LeavesOutZerosAndTakesWindowsLineEnds)
 {
-    const Weights weights = read_weights(folder.file("w.csv", "vertex,joint,weight\r\n0,upper,1.0\r\n0,forearm,0\r\n"), two_bones, 1);
+    const Weights weights = parse_weights("vertex,joint,weight\r\n0,upper,1.0\r\n0,forearm,0\r\n", "w.csv", two_bones, 1);
     EXPECT_FALSE(weights.blended(0));
     EXPECT_EQ(weights.bone, (std::vector<int>{0}));
 }
 
-TEST_F(WeightsFile, SumsMayDifferFromOneByAMillionth)
+TEST(WeightsFile, SumsMayDifferFromOneByAMillionth)
 {
-    EXPECT_NO_THROW(read_weights(folder.file("w.csv", header + "0,upper,0.5\n0,forearm,0.5000009\n"), two_bones, 1));
+    EXPECT_NO_THROW(parse_weights(header + "0,upper,0.5\n0,forearm,0.5000009\n", "w.csv", two_bones, 1));
 }
 
 // Vertex 1 of the file was left out, and vertex 2 was split.
-TEST_F(WeightsFile, OfRepairedTetsHasTheNumbersOfTheFile)
+TEST(WeightsFile, OfRepairedTetsHasTheNumbersOfTheFile)
 {
     const std::string rows = header + "0,upper,1\n2,upper,0.25\n2,forearm,0.75\n";
     const Weights weights = parse_weights(rows, "w.csv", two_bones, 3, {0, 2, 2});

@@ -122,7 +122,7 @@ TEST(PrintedDisplacements, MalformedFilesAreRefused)
     const std::vector<std::pair<std::string, std::string>> all = {{"", "expected a block"},
                                                                   {first + second, "below a header"},
                                                                   {once, "node = 2"},
-                                                                  {once + first + second, "one line a node"},
+                                                                  {once + first + second, "one line per node"},
                                                                   {once + "         3  0.0 0.0 0.0\n", "expected 1 to 2"},
                                                                   {once + "       1.5  0.0 0.0 0.0\n", "expected 1 to 2"},
                                                                   {once + "         2  0.0 0.0\n", "three numbers"},
