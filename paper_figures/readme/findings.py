@@ -144,7 +144,8 @@ def distance(results):
             f"precision) is {spans['pbs']} of the mean bone distance away from neo-Hookean flesh at the joints (LBS {spans['lbs']}, DQS "
             f"{spans['dqs']}, delta mush {spans['delta_mush']}).{left_out} In all {counted(poses, 'pose')}, {notable[0]['members']} "
             f"references with other attachments and Poisson's ratios decide which of two methods is closer in {decided} of the "
-            f"{len(notable)} pairs of skinning methods that differ by more than {records.notable_points} percentage points.{undecided(notable)}")
+            f"{len(notable)} pairs of skinning methods that differ by more than {records.notable_points} percentage points."
+            f"{undecided(notable)}")
 
 
 def lines_of(results):
