@@ -81,15 +81,7 @@ TEST(ReadingValues, OfJoltsHaveTheSameDampingInSubstepsAndNoSwingWhereTheFleshIs
     EXPECT_EQ(number_of(all[2], "damping_ratio"), 0);
     EXPECT_FALSE(all[2].broke_down);
 
-    std::vector<std::string> left_out;
-    for (const auto& one : all[0].left_out) {
-        left_out.push_back(one.quantity);
-        EXPECT_EQ(one.claim, "C09a");
-        EXPECT_EQ(one.reason, "the bound is for the study's 16 settings, a reading is jolted at 4");
-        EXPECT_EQ(number_of(all[0], one.quantity), 0);
-    }
-    EXPECT_EQ(left_out, (std::vector<std::string>{"share_of_settings_that_swing", "rank_correlation_of_frequency_and_k_stretch",
-                                                  "frequency_ratio_over_k_stretch"}));
+    EXPECT_TRUE(all[0].left_out.empty());
     for (const char* quantity : {"frequency_ratio_at_half_time_step", "frequency_ratio_at_twice_iterations"})
         EXPECT_EQ(number_of(all[0], quantity), 1) << quantity;
 }
