@@ -47,7 +47,7 @@ SourceTree read_source_tree()
          ++entry) {
         const std::string path = entry->path().lexically_relative(root).generic_string();
         if (entry->is_directory() && starts_with_any(path + "/", left_out)) entry.disable_recursion_pending();
-        // Of the kept records, other files than texts are only counted.
+        // Kept records that are no texts are only counted.
         if (entry->is_regular_file() && (belongs(path) || path.starts_with("experiments/records/")))
             tree[path] = belongs(path) ? read(entry->path()) : "";
     }

@@ -77,7 +77,7 @@ class Pages(program.ProgramTest):
                 self.assertEqual(sections(text), CLAIM_SECTIONS)
 
     def test_the_program_prints_every_page(self):
-        """Of studies, of claims, and of the deformers that have one."""
+        """The pages are those of studies, of claims, and of the deformers that have one."""
         folder = SOURCE / "experiments" / "deformers"
         pages = {page.stem: page for page in folder.glob("*.md") if page.stem != "README"}
         pages |= {page.parent.name: page for page in folder.glob("*/README.md")}
