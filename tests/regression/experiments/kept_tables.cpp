@@ -90,7 +90,7 @@ void expect_same(const analysis::Columns<Row>& all, const std::string& file, boo
 
 TEST(KeptTables, ReadAsRowsAndWrittenAgainAreTheSame)
 {
-    expect_same(experiments::metric_columns_of(experiments::read_scene("limb_twist")), "volume/runs/metrics.csv", some);
+    expect_same(experiments::metric_columns_of(experiments::read_scene("limb_twist", {})), "volume/runs/metrics.csv", some);
     expect_same(experiments::region_columns, "volume/runs/regions.csv");
     expect_same(experiments::section_columns, "artefacts/runs/sections.csv");
     expect_same(experiments::profile_columns, "artefacts/runs/profiles.csv");
