@@ -18,7 +18,7 @@ def size_of_change(row):
 
 
 def cell(rows):
-    """Of a body, a reading and a claim: the value whose verdict flips, or else the one that changes most."""
+    """The value of a body, a reading and a claim: the one whose verdict flips, or else the one that changes most."""
     if not rows:
         return ""
     if any(row["verdict_flips"] == "not_touched" for row in rows):

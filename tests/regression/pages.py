@@ -92,7 +92,7 @@ class Pages(program.ProgramTest):
                 self.assertLessEqual(len(re.findall(r"\S*\w\S*", readme_part.cut(page, "kept")[0])), MOST_WORDS)
 
     def test_the_program_prints_every_page(self):
-        """Of studies, of claims, and of the deformers that have one."""
+        """The pages are those of studies, of claims, and of the deformers that have one."""
         folder = SOURCE / "experiments" / "deformers"
         pages = {page.stem: page for page in folder.glob("*.md") if page.stem != "README"}
         pages |= {page.parent.name: page for page in folder.glob("*/README.md")}

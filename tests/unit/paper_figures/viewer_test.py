@@ -115,7 +115,7 @@ class Viewer(ResultsTest):
         for words in (stills.moment_words, stills.artefacts):
             for outcome, marked in (("finished", False), ("not_converged", True), ("not_finite", True), (None, False)):
                 with self.subTest(words, outcome=outcome):
-                    self.assertEqual("pose not reached" in stills.told({**row, "outcome": outcome}, words), marked)
+                    self.assertEqual("pose not reached" in stills.filled({**row, "outcome": outcome}, words), marked)
 
     def test_positions_that_are_not_finite_are_refused_by_file(self):
         file = self.run / "frames" / "pbs_000001.vtu"
