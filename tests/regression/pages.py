@@ -9,6 +9,7 @@ import pathlib
 import re
 import shutil
 import sys
+import tempfile
 import unittest
 
 import program
@@ -138,28 +139,33 @@ class Pages(program.ProgramTest):
                 self.assertTrue(found or name in WRITTEN, f"{page.relative_to(SOURCE)}: {name}")
 
 
-class KeptVerdicts(program.ProgramTest):
-    def judged(self):
-        copy = pathlib.Path(self.path("kept"))
-        shutil.copytree(RECORDS, copy)
-        (copy / "claims.md").unlink()
-        self.succeeds("reproduce", "--judge", "-o", copy, "--quiet")
-        return copy
+class KeptVerdicts(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        """A copy of the kept records, judged."""
+        temporary = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(temporary.cleanup)
+        cls.judged = pathlib.Path(temporary.name, "kept")
+        shutil.copytree(RECORDS, cls.judged)
+        (cls.judged / "claims.md").unlink()
+        judging = program.run("reproduce", "--judge", "-o", cls.judged, "--quiet")
+        if judging.returncode != 0:
+            raise RuntimeError(judging.stdout + judging.stderr)
 
     def test_records_beside_the_sources_give_the_verdicts_on_record(self):
-        self.assertEqual((self.judged() / "claims.md").read_text(), (RECORDS / "claims.md").read_text())
+        self.assertEqual((self.judged / "claims.md").read_text(), (RECORDS / "claims.md").read_text())
 
     def test_every_claim_is_on_record(self):
-        claims = sentences.claims_of(self.judged() / "claims.json")
+        claims = sentences.claims_of(self.judged / "claims.json")
         self.assertEqual([claim["id"] for claim in claims], [claim["id"] for claim in readme_pages.listed_claims()])
         self.assertEqual(list(dict.fromkeys(sentences.page_of(claim["id"]) for claim in claims)), [f"C{n:02d}" for n in range(1, 18)])
 
     def test_readme_page_report_and_explain_have_the_numbers_of_claims_json(self):
-        for claim in sentences.claims_of(self.judged() / "claims.json"):
+        for claim in sentences.claims_of(self.judged / "claims.json"):
             page = readme_pages.claim_pages / f"{sentences.page_of(claim['id'])}.md"
             row = next(line for line in (SOURCE / "README.md").read_text(encoding="utf-8").splitlines() if f"| [{claim['id']}](" in line)
             texts = {"README": row, "page": readme_part.cut(page, "kept")[1], "report": report_verdicts.row(claim, None),
-                     "explain": self.succeeds("explain", claim["id"]).stdout}
+                     "explain": program.run("explain", claim["id"]).stdout}
             for place, text in texts.items():
                 with self.subTest(f"{claim['id']} {place}"):
                     told = " ".join(text.split())
@@ -169,12 +175,12 @@ class KeptVerdicts(program.ProgramTest):
 
     def test_judging_them_where_they_lie_leaves_nothing_that_git_would_see(self):
         ignored = (SOURCE / ".gitignore").read_text().splitlines()
-        before, after = ({file.relative_to(folder) for file in folder.rglob("*")} for folder in (RECORDS, self.judged()))
+        before, after = ({file.relative_to(folder) for file in folder.rglob("*")} for folder in (RECORDS, self.judged))
         for file in after - before:
             self.assertIn(f"/experiments/records/full/{file}", ignored)
 
     def test_readme_states_each_claim_and_finding_as_the_records_have_it(self):
-        judged = kept.opened(self.judged())
+        judged = kept.opened(self.judged)
         for name, lines_of in (("claims", readme_tables.claims_table), ("findings", readme_findings.lines_of)):
             _, stated, _ = readme_part.cut(SOURCE / "README.md", name)
             self.assertEqual(stated.strip().split("\n\n")[0].splitlines(), lines_of(judged))
