@@ -150,14 +150,14 @@ std::string SceneKey::rule() const
 
 const SceneKey* SceneSchema::find(const std::string& path) const
 {
-    const auto found = std::ranges::find(keys, path, &SceneKey::path);
+    const auto found = std::ranges::find_if(keys, [&](const SceneKey& key) { return path.ends_with(key.name) && key.path() == path; });
     return found == keys.end() ? nullptr : &*found;
 }
 
 bool SceneSchema::is_table(const std::string& path) const
 {
-    return std::any_of(keys.begin(), keys.end(),
-                       [&](const SceneKey& key) { return key.table == path || key.table.starts_with(path + "."); });
+    const std::string inside = path + ".";
+    return std::any_of(keys.begin(), keys.end(), [&](const SceneKey& key) { return key.table == path || key.table.starts_with(inside); });
 }
 
 bool SceneSchema::is_list(const std::string& table) const
