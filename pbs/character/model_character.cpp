@@ -128,8 +128,10 @@ Character make_model_character(const ModelSource& source, std::vector<std::strin
                          "expected no other skeleton (character.skeleton, --skeleton): the model has joints of its own");
 
     const auto hashed = input.hashed();
-    std::string made_from = std::to_string(model_version) + "|" + number_text(source.scale, 17) + "|" + source.animation + "|";
-    for (const auto& [name, hash] : hashed) made_from += hash;
+    // The tets depend on the surface alone: other animations, weights or joints in the file leave them as they are.
+    std::string made_from = std::to_string(model_version) + "|" + std::to_string(body.surface.rows()) + "|";
+    made_from.append(reinterpret_cast<const char*>(body.surface.data()), body.surface.size() * sizeof(double));
+    made_from.append(reinterpret_cast<const char*>(body.triangles.data()), body.triangles.size() * sizeof(int));
     const SurfaceBody surface{.name = file_name(source.file),
                               .made_from = made_from,
                               .skeleton = rigged ? body.skeleton : source.skeleton,

@@ -88,7 +88,7 @@ Character make_ring(const std::string& name, int vertices, bool with_surface);
 // the name and the number of vertices are the key by which tets are cached: the same ones mean the same tets.
 struct SurfaceBody {
     std::string name;                           // of the character, and the beginning of its file in the cache
-    std::string made_from = {};                 // content hashes of what surface and skeleton come from
+    std::string made_from = {};                 // what the tets depend on: content hashes of files, or the surface itself
     Skeleton skeleton = {};                     // [m]
     std::function<SurfaceMesh()> surface = {};  // [m]; called only where it is needed
     int boundary_euler = 2;                     // 0: a body with one handle
