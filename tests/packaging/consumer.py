@@ -40,8 +40,9 @@ def asking_for(name, components, version=""):
 
 
 class MethodTest(installation.BuildTest):
-    def expect_bent_bar(self, build, installed):
-        self.build(configure(project, build, installed=installed), build)
+    def expect_bent_bar(self, build, installed=None):
+        if not (folder / build / "bent_bar").exists():
+            self.build(configure(project, build, installed=installed), build)
         told = self.succeeds(run(folder / build / "bent_bar"))
         match = re.fullmatch(r"tets 1920, lbs (-[0-9.]+) %, pbs (-?[0-9.]+) %\n", told.stdout)
         self.assertTrue(match, told.stdout)
@@ -53,20 +54,21 @@ class MethodTest(installation.BuildTest):
 
 class WithoutThreads(MethodTest):
     def test_eigen_is_all_that_the_method_needs(self):
-        """Built and run, the method searches for no other package, and the number of threads does not change its result."""
+        """Built and run, the method searches for no other package, and the number of threads does not change its result. The compiler does
+        not optimise it, since that takes most of the time of the build."""
         off = [f"-DPBS_WITH_{part}=OFF" for part in re.findall(r"option\(PBS_WITH_(\w+)", (SOURCE / "CMakeLists.txt").read_text())]
         self.assertIn("-DPBS_WITH_THREADS=OFF", off)
-        off += [f"-DCMAKE_CXX_FLAGS={own_flags}", "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG"]  # -O1: two thirds of the time
+        off += [f"-DCMAKE_CXX_FLAGS={own_flags}", "-DCMAKE_CXX_FLAGS_RELEASE=-O0 -DNDEBUG"]
         self.build(installation.configured(SOURCE, "alone", *off), "alone", "--target", "pbs_method")
         self.assertEqual(looked_for("alone"), {"Eigen3"})
         alone = self.expect_bent_bar("consumer_alone", installation.install("method", folder / "alone"))
         self.assertEqual(looked_for("consumer_alone"), {"pbs", "Eigen3"})
-        self.assertEqual(alone, self.expect_bent_bar("consumer_beside", prefix))
+        self.assertEqual(alone, self.expect_bent_bar("consumer"))
 
 
 class Consumer(MethodTest):
     def test_method_in_a_project_of_its_own(self):
-        self.expect_bent_bar("consumer", prefix)
+        self.expect_bent_bar("consumer")
         self.assertLessEqual(looked_for("consumer"), {"pbs", "Eigen3", "TBB"}, "the method asks for Eigen, and oneTBB with threads")
 
     # An array that is allocated in one part and freed in the other would crash. EIGEN_MAX_ALIGN_BYTES limits only members of fixed size.

@@ -8,6 +8,7 @@ import pathlib
 import re
 import shutil
 import sys
+import tempfile
 import unittest
 
 import program
@@ -123,29 +124,34 @@ class Pages(program.ProgramTest):
                 self.assertTrue(found or name in WRITTEN, f"{page.relative_to(SOURCE)}: {name}")
 
 
-class KeptVerdicts(program.ProgramTest):
-    def judged(self):
-        copy = pathlib.Path(self.path("kept"))
-        shutil.copytree(RECORDS, copy)
-        (copy / "claims.md").unlink()
-        self.succeeds("reproduce", "--judge", "-o", copy, "--quiet")
-        return copy
+class KeptVerdicts(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        """A copy of the kept records, judged."""
+        temporary = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(temporary.cleanup)
+        cls.judged = pathlib.Path(temporary.name, "kept")
+        shutil.copytree(RECORDS, cls.judged)
+        (cls.judged / "claims.md").unlink()
+        judging = program.run("reproduce", "--judge", "-o", cls.judged, "--quiet")
+        if judging.returncode != 0:
+            raise RuntimeError(judging.stdout + judging.stderr)
 
     def test_records_beside_the_sources_give_the_verdicts_on_record(self):
-        self.assertEqual((self.judged() / "claims.md").read_text(), (RECORDS / "claims.md").read_text())
+        self.assertEqual((self.judged / "claims.md").read_text(), (RECORDS / "claims.md").read_text())
 
     def test_all_seventeen_claims_are_on_record(self):
-        claims = sentences.claims_of(self.judged() / "claims.json")
+        claims = sentences.claims_of(self.judged / "claims.json")
         self.assertEqual([claim["id"] for claim in claims], [f"C{number:02d}" for number in range(1, 18)])
 
     def test_judging_them_where_they_lie_leaves_nothing_that_git_would_see(self):
         ignored = (SOURCE / ".gitignore").read_text().splitlines()
-        before, after = ({file.relative_to(folder) for file in folder.rglob("*")} for folder in (RECORDS, self.judged()))
+        before, after = ({file.relative_to(folder) for file in folder.rglob("*")} for folder in (RECORDS, self.judged))
         for file in after - before:
             self.assertIn(f"/experiments/records/full/{file}", ignored)
 
     def test_readme_states_each_claim_and_finding_as_the_records_have_it(self):
-        judged = kept.opened(self.judged())
+        judged = kept.opened(self.judged)
         for name, lines_of in (("claims", readme_tables.claims_table), ("findings", readme_findings.lines_of)):
             _, stated, _ = readme_part.cut(SOURCE / "README.md", name)
             self.assertEqual(stated.strip().split("\n\n")[0].splitlines(), lines_of(judged))

@@ -85,7 +85,7 @@ class Breakdown(foreign_arm.ArmTest):
     def test_a_trial_whose_reference_is_not_reached(self):
         """The elbow moves 1e8 m away, so that Newton's method does not converge. All files of the trial are written nevertheless."""
         slide = [(2, "translation", [0.0, 1.0], [[0.35, 0.0, 0.0], [1e8, 0.0, 0.0]], "LINEAR")]
-        model = rig_files.write("plain", self.path("far.glb"), animations=(), extra=[("Slide", slide)])
+        model = rig_files.write("plain", self.path("rig.glb"), animations=(), extra=[("Slide", slide)])
         self.ends(3, "try", model, "-o", self.path("out"), "--frames", "3", "--vertices", "300",
                   says="pose not reached: nh_p1 is not converged in frame 1: worst tet")
         self.assertEqual(self.outcome()["not_converged"], {"nh_p1": [1, 2]})

@@ -25,7 +25,8 @@ ROUNDS = 3
 CUTS = (0, 1 / 3, 1 / 2)
 RUN = ["--set", "output.frames_every=2", "-o", "out"]
 READ = {"x.vtu": (COMMON["arm.vtu"], ["measure", "x.vtu", "x.vtu", "--csv", "out/figures.csv"]),
-        "x.obj": (mesh_texts.obj(200 * sound_files.CORNERS, sound_files.FACES), ["mesh", "x.obj", "-o", "out/t.vtu", "--vertices", "150"]),
+        "x.obj": (mesh_texts.obj(200 * sound_files.CORNERS, sound_files.FACES),
+                  ["mesh", "x.obj", "-o", "out/t.vtu", "--vertices", "150", "--wrap-alpha", "0.05"]),
         "y.vtu": (COMMON["arm.vtu"], ["run", "arm.toml", *RUN, "--set", "character.mesh=y.vtu"]),
         "y.skeleton.toml": (foreign_arm.SKELETON, ["run", "arm.toml", *RUN, "--set", "character.skeleton=y.skeleton.toml"]),
         "x.bvh": (COMMON["good.bvh"], ["run", "clip.toml", *RUN, "--set", "motion.clip=x.bvh"]),

@@ -79,7 +79,7 @@ class FullDisk(foreign_arm.ArmTest):
         surface = self.write("good.off", mesh_texts.off(sound_files.CORNERS, sound_files.FACES))
         for name, arguments in {"figures.csv": ["measure", arm, arm, "--csv", self.path("figures.csv")],
                                 "figures.xml": ["measure", arm, arm, "--junit", self.path("figures.xml")],
-                                "tets.vtu": ["mesh", surface, "-o", self.path("tets.vtu"), "--vertices", 200],
+                                "tets.vtu": ["mesh", surface, "-o", self.path("tets.vtu"), "--vertices", 200, "--wrap-alpha", 0.05],
                                 "bench.json": ["bench", "--quick", "-o", self.path("bench")],
                                 "lbs_000000.vtu": ["check", "--bounds", bounds, "-o", self.path("check")]}.items():
             with self.subTest(name):

@@ -2,6 +2,7 @@
 continues, and --resume keeps the runs that ended, does the others, and ends with the records and the state hashes of an undisturbed run.
 Reference: those records and the times of the files; the exit status in experiments/command_line/README.md; /proc. PBS_KILL_SEED determines
 the moments."""
+import functools
 import itertools
 import json
 import os
@@ -10,6 +11,7 @@ import random
 import shutil
 import signal
 import subprocess
+import tempfile
 import time
 import unittest
 
@@ -54,6 +56,21 @@ def is_pbskin(process):
         return False
 
 
+def begin_of_command(studies):
+    """Of the study `frames`, only the limb is run."""
+    return [*(run_records.limb_alone() if "frames" in studies else ()), program.PBSKIN, "reproduce", *studies]
+
+
+@functools.cache
+def undisturbed(*studies):
+    """The folder of the finished studies, and the seconds that they took."""
+    temporary = tempfile.TemporaryDirectory()
+    unittest.addModuleCleanup(temporary.cleanup)
+    start = time.monotonic()
+    subprocess.run([*begin_of_command(studies), "-o", temporary.name, "-j", "2"], check=True, **QUIET)
+    return pathlib.Path(temporary.name), time.monotonic() - start
+
+
 class Kills(program.ProgramTest):
     kills = survived = hashes = 0
 
@@ -68,12 +85,12 @@ class Kills(program.ProgramTest):
         self.ways = list(itertools.product(SIGNALS, AIMS))
         self.chance.shuffle(self.ways)
 
-    def command(self, folder, *more):
-        return [*self.before, program.PBSKIN, "reproduce", *self.studies, "-o", str(folder), "-j", "2", *more]
+    def command(self, folder):
+        return [*begin_of_command(self.studies), "-o", str(folder), "-j", "2", "--resume"]
 
     def begin(self, folder):
         """The process, once it executes pbskin."""
-        process = subprocess.Popen(self.command(folder, "--resume"), start_new_session=True, **QUIET)
+        process = subprocess.Popen(self.command(folder), start_new_session=True, **QUIET)
         while process.poll() is None and not is_pbskin(process):
             time.sleep(0.001)
         return process
@@ -122,13 +139,10 @@ class Kills(program.ProgramTest):
             return True
         return False
 
-    def kill_and_resume(self, studies, before=()):
+    def kill_and_resume(self, *studies):
         """State hashes of the undisturbed run, after a check that those of every other run are equal."""
-        self.studies, self.before = studies, before
-        whole = pathlib.Path(self.path("whole"))
-        start = time.monotonic()
-        subprocess.run(self.command(whole), check=True, **QUIET)
-        seconds = time.monotonic() - start
+        self.studies = studies
+        whole, seconds = undisturbed(*studies)
         self.undisturbed = run_records.records(whole)
         self.assertGreater(len(self.undisturbed), 5)
         folder, kills = pathlib.Path(self.path("killed")), 0
@@ -136,7 +150,7 @@ class Kills(program.ProgramTest):
             shutil.rmtree(folder, ignore_errors=True)
             folder.mkdir()
             kills += sum(self.kill_once(folder, seconds) for _ in range(self.chance.choice([1, 2, 3])))
-            subprocess.run(self.command(folder, "--resume"), check=True, **QUIET)
+            subprocess.run(self.command(folder), check=True, **QUIET)
             resumed = run_records.records(folder)
             self.assertEqual(resumed, self.undisturbed)
             type(self).hashes += len(run_records.state_hashes(resumed))
@@ -144,17 +158,17 @@ class Kills(program.ProgramTest):
         return run_records.state_hashes(self.undisturbed)
 
     def test_studies_of_the_limb_and_the_human(self):
-        self.kill_and_resume(STUDIES)
+        self.kill_and_resume(*STUDIES)
 
     def test_whole_runs_of_scenes(self):
-        hashes = self.kill_and_resume(["frames"], run_records.limb_alone())
+        hashes = self.kill_and_resume("frames")
         self.assertIn("frames/limb_twist/run.json pbs", hashes)
 
 
 class KilledReport(program.ProgramTest):
     def test_the_page_is_whole_or_not_there(self):
         results, chance = pathlib.Path(self.path("results")), random.Random(SEED)
-        self.succeeds("reproduce", "momentum", "-o", results)
+        shutil.copytree(undisturbed("momentum")[0], results)
         start = time.monotonic()
         self.succeeds("report", results)
         seconds, page = time.monotonic() - start, results / "report.html"
@@ -206,7 +220,7 @@ class ResumedStudy(program.ProgramTest):
         return ended[0]
 
     def test_killed_and_resumed(self):
-        subprocess.run(self.command(self.whole), check=True, **QUIET)
+        whole, _ = undisturbed("momentum")
         first = self.kill_after_first_run(self.command(self.killed), self.killed / "momentum")
         ended = identity(first)
         self.assertFalse((self.killed / "claims.json").exists())
@@ -215,17 +229,17 @@ class ResumedStudy(program.ProgramTest):
         self.assertEqual(identity(first), ended)
         for run in RUNS:
             path = pathlib.Path("momentum") / run / "measurements.csv"
-            self.assertEqual((self.killed / path).read_text(), (self.whole / path).read_text())
-        self.assertEqual((self.killed / "claims.json").read_text(), (self.whole / "claims.json").read_text())
+            self.assertEqual((self.killed / path).read_text(), (whole / path).read_text())
+        self.assertEqual((self.killed / "claims.json").read_text(), (whole / "claims.json").read_text())
 
     def test_whole_runs_of_scenes(self):
-        by_itself, to_kill = ([*run_records.limb_alone(), *self.command(results, study="frames")] for results in (self.whole, self.killed))
-        subprocess.run(by_itself, check=True, **QUIET)
+        whole, _ = undisturbed("frames")
+        to_kill = [*run_records.limb_alone(), *self.command(self.killed, study="frames")]
         first = self.kill_after_first_run(to_kill, self.killed / "frames")
         ended = identity(first)
         subprocess.run([*to_kill, "--resume"], check=True, **QUIET)
         self.assertEqual(identity(first), ended)
-        self.assertEqual(run_records.records(self.killed), run_records.records(self.whole))
+        self.assertEqual(run_records.records(self.killed), run_records.records(whole))
         self.assertIn("frames/limb_twist/run.json pbs", run_records.state_hashes(run_records.records(self.killed)))
 
     def test_a_run_with_another_setting_is_repeated(self):
@@ -272,7 +286,7 @@ class ResumedStudy(program.ProgramTest):
 
     def test_a_kept_breakdown_counts(self):
         results = self.whole
-        subprocess.run(self.command(results), check=True, **QUIET)
+        shutil.copytree(undisturbed("momentum")[0], results)
         alter(results / "momentum" / RUNS[0] / "run.json", lambda run: run["outcome"].update(breakdown="vertex 3 is not finite"))
         resumed = subprocess.run(self.command(results, "--resume"), capture_output=True, text=True)
         self.assertEqual(resumed.returncode, 3, resumed.stderr)

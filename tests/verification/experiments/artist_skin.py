@@ -66,10 +66,10 @@ class ArtistSkin(SkinTest):
         for variant, options in rig_files.VARIANTS.items():
             if options.get("animations", ["Bend"]):
                 with self.subTest(variant):
-                    self.compare(rig_files.write(variant, self.path(f"{variant}.glb")))
+                    self.compare(rig_files.write(variant, self.path("rig.glb")))  # the cache has one mesh for those with the same surface
 
     def test_the_second_animation(self):
-        self.compare(rig_files.write("two_animations", self.path("two.glb")), "Twist")
+        self.compare(rig_files.write("two_animations", self.path("rig.glb")), "Twist")
 
     def compare_fbx(self, file, rate_hz, frames, between_keys):
         """The artist's surface in so many frames; the number of frames whose difference is above single precision. between_keys: whether a
