@@ -55,10 +55,10 @@ class SkinTest(program.ProgramTest):
         self.check_carried(frame, expected)
 
     def check_carried(self, frame, expected):
-        """The surface carried by the tets of lbs stays within 3 % of the size."""
+        """The surface carried by the tets of lbs stays within 1.5 % of the size."""
         carried = points_of(self.path("run", "frames", f"lbs_surface_{frame:06}.vtp"))
         size = numpy.linalg.norm(numpy.ptp(expected, axis=0))
-        self.assertLess(numpy.linalg.norm(carried - expected, axis=1).max(), 0.03 * size, f"frame {frame}")
+        self.assertLess(numpy.linalg.norm(carried - expected, axis=1).max(), 0.015 * size, f"frame {frame}")
 
 
 class ArtistSkin(SkinTest):
