@@ -74,6 +74,7 @@ if(PBS_WITH_FEM)
     set_tests_properties(verification/experiments/reference_error_bar verification/experiments/recomputed_frames
         PROPERTIES LABELS "verification;blas")
 endif()
+pbs_program_test(claims recomputed)
 pbs_program_test(claims volume)
 pbs_program_test(regression pages)
 pbs_program_test(robustness experiments/kept_records)

@@ -35,7 +35,7 @@ struct PlannedStudy {
 bool is_named(const Study& study, const std::vector<std::string>& names)
 {
     return std::any_of(names.begin(), names.end(), [&](const std::string& name) {
-        const auto of_study = [&](const analysis::Claim& claim) { return claim.id == name && claim.study == study.name; };
+        const auto of_study = [&](const analysis::Claim& claim) { return is_asked_for(claim, name) && claim.study == study.name; };
         return name == study.name || std::any_of(claims().begin(), claims().end(), of_study);
     });
 }
@@ -97,7 +97,7 @@ void refuse_unknown(const std::vector<std::string>& names)
     for (const auto& study : studies()) known.push_back(study.name);
     for (const auto& claim : claims()) known.push_back(claim.id);
     for (const auto& name : names)
-        if (!is_among(name, known))
+        if (!is_among(name, known) && std::ranges::none_of(claims(), [&](const auto& claim) { return is_asked_for(claim, name); }))
             throw pbs::InputError("", 0, "reproduce", name,
                                   "unknown claim or study; expected one of " + fmt::format("{}", fmt::join(known, ", ")));
 }

@@ -1,7 +1,8 @@
 """The README and the pages state what the kept records have, and the verdicts of the kept records are those on record by the bounds of
 claims.toml: they change only with new records or another rule. Every study and every claim has its page, with the required sections, whose
-generated part is current. `pbskin explain` prints each page, and those of deformers. The files and columns that the pages quote are those
-of the kept records. Reference: the kept records, claims.toml and figures.toml."""
+generated part is current. `pbskin explain` prints each page, and those of deformers. README, page, report and `pbskin explain` have the
+numbers of claims.json. The files and columns that the pages quote are those of the kept records. Reference: the kept records, claims.toml
+and figures.toml."""
 import csv
 import fnmatch
 import pathlib
@@ -17,12 +18,14 @@ SOURCE = pathlib.Path(program.SOURCE)
 sys.path.insert(0, str(SOURCE / "paper_figures"))
 from readme import findings as readme_findings, pages as readme_pages, part as readme_part, tables as readme_tables  # noqa: E402
 from records import kept  # noqa: E402
+from report import verdicts as report_verdicts  # noqa: E402
 from words import sentences  # noqa: E402
 
 RECORDS = SOURCE / "experiments" / "records" / "full"
 KEPT = kept.opened(RECORDS)
 STUDY_SECTIONS = ["Cases", "Records", "Claims, figures, cost", "What it cannot show"]
-CLAIM_SECTIONS = ["What is measured", "Formula", "Bound", "What would make it fail", "How the paper can be read", "Result"]
+CLAIM_SECTIONS = ["What the paper says", "What was measured", "What would refute it", "What it depends on", "Result"]
+MOST_WORDS = 150  # of a claim's page, without its generated part
 WRITTEN = {"metrics.csv", "measurements.csv", "printed.csv"}  # these files are written by runs
 
 
@@ -43,6 +46,16 @@ def kept_tables(study, file):
     """The kept tables that a name matches; capital letters in it match any text."""
     pattern = re.sub(r"[A-Z][A-Z_]+", "*", file)
     return [table for table in (KEPT / study).rglob("*.csv") if fnmatch.fnmatch(str(table.relative_to(KEPT / study)), pattern)]
+
+
+def key_numbers(claim):
+    """The counts, the share and its interval, as plain formats of the facts."""
+    if not claim["n"] or claim["rule"] in ("definition", "untestable", "single"):
+        return []
+    if claim["rule"] == "printed":
+        return [f"{claim['held']} of {claim['n']} printed values"]
+    interval = f"[{claim['interval_low']:.2f}, {claim['interval_high']:.2f}]"
+    return [f"{claim['held']} of {claim['n']} unit", f"share {claim['share']:.2f} {interval}"]
 
 
 def header(table):
@@ -69,22 +82,24 @@ class Pages(program.ProgramTest):
                 self.assertIn("?", text.split("\n\n")[1], "the first paragraph asks the study's question")
                 self.assertEqual(sections(text), STUDY_SECTIONS)
 
-    def test_each_claim_has_a_page_with_the_sections_and_its_own_statement(self):
-        self.assertEqual(sorted(page.stem for page in readme_pages.claim_pages.glob("*.md")), sorted(self.claims()))
-        for name, claim in self.claims().items():
-            text = (readme_pages.claim_pages / f"{name}.md").read_text(encoding="utf-8")
-            with self.subTest(name):
-                self.assertTrue(text.startswith(f"# {name}: {claim['statement']}\n\n"))
+    def test_each_claim_has_a_page_of_few_words_with_the_sections(self):
+        self.assertEqual(sorted(page.stem for page in readme_pages.claim_pages.glob("*.md")),
+                         sorted({sentences.page_of(claim) for claim in self.claims()}))
+        for page in readme_pages.claim_pages.glob("*.md"):
+            text = page.read_text(encoding="utf-8")
+            with self.subTest(page.stem):
+                self.assertTrue(text.startswith(f"# {page.stem}: "))
                 self.assertEqual(sections(text), CLAIM_SECTIONS)
+                self.assertLessEqual(len(re.findall(r"\S*\w\S*", readme_part.cut(page, "kept")[0])), MOST_WORDS)
 
     def test_the_program_prints_every_page(self):
-        """Of studies, of claims, and of the deformers that have one."""
+        """The pages are those of studies, of claims, and of the deformers that have one."""
         folder = SOURCE / "experiments" / "deformers"
         pages = {page.stem: page for page in folder.glob("*.md") if page.stem != "README"}
         pages |= {page.parent.name: page for page in folder.glob("*/README.md")}
         self.assertLessEqual({"pbs_author", "external"}, set(pages))
         pages |= {study: readme_pages.studies / study / "README.md" for study in self.studies()}
-        pages |= {claim: readme_pages.claim_pages / f"{claim}.md" for claim in self.claims()}
+        pages |= {claim: readme_pages.claim_pages / f"{sentences.page_of(claim)}.md" for claim in self.claims()}
         for name, page in sorted(pages.items()):
             printed = self.explained(name)
             for section in sections(page.read_text(encoding="utf-8")):
@@ -140,9 +155,23 @@ class KeptVerdicts(unittest.TestCase):
     def test_records_beside_the_sources_give_the_verdicts_on_record(self):
         self.assertEqual((self.judged / "claims.md").read_text(), (RECORDS / "claims.md").read_text())
 
-    def test_all_seventeen_claims_are_on_record(self):
+    def test_every_claim_is_on_record(self):
         claims = sentences.claims_of(self.judged / "claims.json")
-        self.assertEqual([claim["id"] for claim in claims], [f"C{number:02d}" for number in range(1, 18)])
+        self.assertEqual([claim["id"] for claim in claims], [claim["id"] for claim in readme_pages.listed_claims()])
+        self.assertEqual(list(dict.fromkeys(sentences.page_of(claim["id"]) for claim in claims)), [f"C{n:02d}" for n in range(1, 18)])
+
+    def test_readme_page_report_and_explain_have_the_numbers_of_claims_json(self):
+        for claim in sentences.claims_of(self.judged / "claims.json"):
+            page = readme_pages.claim_pages / f"{sentences.page_of(claim['id'])}.md"
+            row = next(line for line in (SOURCE / "README.md").read_text(encoding="utf-8").splitlines() if f"| [{claim['id']}](" in line)
+            texts = {"README": row, "page": readme_part.cut(page, "kept")[1], "report": report_verdicts.row(claim, None),
+                     "explain": program.run("explain", claim["id"]).stdout}
+            for place, text in texts.items():
+                with self.subTest(f"{claim['id']} {place}"):
+                    told = " ".join(text.split())
+                    self.assertIn(sentences.names[claim["verdict"]], told)
+                    for number in key_numbers(claim):
+                        self.assertIn(number, told)
 
     def test_judging_them_where_they_lie_leaves_nothing_that_git_would_see(self):
         ignored = (SOURCE / ".gitignore").read_text().splitlines()

@@ -34,6 +34,12 @@ Scene scene_of(const BodySetup& setup, double rate_hz);
 // double precision, where float overflows; double precision with softer volume constraints.
 const std::vector<std::vector<std::string>>& further_keys();
 
+// The control of C17: two bodies that must need a further key, or fail. open_surface: triangles that enclose nothing, with the skeleton of
+// the clip. without_bones: tets on the same points, without a skeleton.
+bool is_unsuitable(const std::string& body);
+// Writes the files of an unsuitable body into `folder` and names them in the keys of its character. Any other body is returned as it is.
+BodySetup with_files(const BodySetup& setup, const std::string& folder);
+
 // Returns why the body did not run (refused input, positions that are not finite, a pose that was not reached). Empty: it ran.
 using Trial = std::function<std::string(const BodySetup&)>;
 struct TriedSetup {
