@@ -16,6 +16,7 @@ struct BodySetup {
     std::string body;                       // character.body
     int vertices = 0;                       // character.vertices; 0: the body's own default
     std::vector<std::string> further = {};  // key=value: what else was changed
+    std::string deformer = "pbs";
 };
 
 // A run of the study: the body, and frames per second of the clip.
@@ -26,8 +27,8 @@ struct SetupCase {
 nlohmann::json to_json(const BodySetup& setup);
 nlohmann::json to_json(const SetupCase& of);
 
-// The shared text: the human through the clip, PBS alone, at rate_hz frames per second.
-Scene shared_scene(double rate_hz);
+// The shared text: the human through the clip, one deformer alone, at rate_hz frames per second.
+Scene shared_scene(double rate_hz, const std::string& deformer = "pbs");
 Scene scene_of(const BodySetup& setup, double rate_hz);
 
 // The keys that are tried on a body, one set after the other, until it runs: none; the nearest bone's weights, where Eq. 2 gives none;
