@@ -179,8 +179,11 @@ Interval bootstrap_share_of_groups(const std::vector<std::string>& groups, const
         held += holds[i];
         ++all;
     }
-    Interval share{.estimate = mean(std::vector<double>(holds.begin(), holds.end())), .low = not_known, .high = not_known,
-                   .level = options.level, .n = static_cast<int>(holds.size())};
+    Interval share{.estimate = mean(std::vector<double>(holds.begin(), holds.end())),
+                   .low = not_known,
+                   .high = not_known,
+                   .level = options.level,
+                   .n = static_cast<int>(holds.size())};
     if (counts.size() < 2) return share;
     std::vector<std::array<double, 2>> drawn_from;
     for (const auto& [group, count] : counts) drawn_from.push_back(count);

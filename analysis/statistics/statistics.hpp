@@ -60,8 +60,8 @@ Interval bootstrap_share(const std::vector<bool>& holds, const BootstrapOptions&
 // 0 <= counted <= all, all > 0.
 Interval share_interval(int counted, int all, double level = 0.95);
 
-// A share of cases that belong to groups, such as bodies, whose cases are alike: the bootstrap draws whole groups (percentile interval, with
-// the resamples and the seed of `options`). NaN bounds for fewer than two groups.
+// A share of cases that belong to groups, such as bodies, whose cases are alike: the bootstrap draws whole groups (percentile interval,
+// with the resamples and the seed of `options`). NaN bounds for fewer than two groups.
 //   const Interval share = bootstrap_share_of_groups({"limb", "limb", "man"}, {true, true, false});
 // groups, holds: #cases each.
 Interval bootstrap_share_of_groups(const std::vector<std::string>& groups, const std::vector<bool>& holds,

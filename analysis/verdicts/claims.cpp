@@ -18,10 +18,8 @@ const Names<ClaimRule> rules = {{"units", ClaimRule::units},
                                 {"printed", ClaimRule::printed},
                                 {"definition", ClaimRule::definition},
                                 {"untestable", ClaimRule::untestable}};
-const Names<Role> roles = {{"claimed", Role::claimed},
-                           {"must_fail", Role::must_fail},
-                           {"must_hold", Role::must_hold},
-                           {"comparison", Role::comparison}};
+const Names<Role> roles = {
+    {"claimed", Role::claimed}, {"must_fail", Role::must_fail}, {"must_hold", Role::must_hold}, {"comparison", Role::comparison}};
 const Names<Mean> means = {{"arithmetic", Mean::arithmetic}, {"geometric", Mean::geometric}};
 
 template <typename Enum>

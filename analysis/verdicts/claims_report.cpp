@@ -60,6 +60,7 @@ json to_json_of(const Unit& unit)
                    {"holds", unit.holds},
                    {"left_out", unit.counts() ? json(nullptr) : json(name_of(unit.left_out))}});
     if (!unit.quantity.empty()) object["quantity"] = unit.quantity;
+    for (const Unit& part : unit.parts) object["parts"].push_back(to_json_of(part));
     if (unit.limit != Limit::none) object["limit"] = recorded_name(unit.limit);
     return object;
 }
@@ -156,6 +157,7 @@ json claim_object(const Verdict& verdict)
                    {"differs", difference_of(verdict)},
                    {"fixed_at", claim.fixed_at},
                    {"confirmatory", verdict.confirmatory},
+                   {"confirmatory_held", verdict.confirmatory_held},
                    {"cases", verdict.printed.empty() ? list_of(verdict.own.units) : list_of(verdict.printed)},
                    {"controls", controls},
                    {"compared", compared},
@@ -167,7 +169,7 @@ json claim_object(const Verdict& verdict)
         object["n"] = verdict.printed.size();
         object["held"] = std::ranges::count_if(verdict.printed, &PrintedValue::is_consistent);
     }
-    if (verdict.own.n == 0) object["interval_low"] = object["interval_high"] = nullptr;
+    if (claim.rule != ClaimRule::units) object["share"] = nullptr;
     return object;
 }
 
@@ -224,7 +226,7 @@ std::string share_text(const Verdict& verdict)
     if (!verdict.printed.empty())
         return fmt::format("{} of {} printed values are consistent", std::ranges::count_if(verdict.printed, &PrintedValue::is_consistent),
                            verdict.printed.size());
-    if (verdict.own.n == 0 || verdict.claim.rule == ClaimRule::single) return "";
+    if (verdict.own.n == 0 || verdict.claim.rule != ClaimRule::units) return "";
     return fmt::format("{} of {} hold, share {:.3g} [{:.3g}, {:.3g}]", verdict.own.held, verdict.own.n, verdict.own.share(),
                        verdict.interval.low, verdict.interval.high);
 }
@@ -253,8 +255,9 @@ std::string facts_text(const Verdict& verdict)
     if (verdict.untested != Untested::none && verdict.untested != Untested::reason_of_the_claim) {
         lines.push_back(spoken(name_of(verdict.untested)));
         for (const Judged& other : verdict.others)
-            if (!other.behaves) lines.push_back(fmt::format("{} ({}): {} of {} hold", other.selection.name,
-                                                            spoken(name_of(other.selection.role)), other.held, other.n));
+            if (!other.behaves)
+                lines.push_back(fmt::format("{} ({}): {} of {} hold", other.selection.name, spoken(name_of(other.selection.role)),
+                                            other.held, other.n));
     }
     if (!verdict.claim.reason.empty()) lines.push_back("reason: " + verdict.claim.reason);
     if (!verdict.missing.empty()) lines.push_back(fmt::format("no record: {}", fmt::join(verdict.missing, ", ")));
@@ -292,7 +295,7 @@ std::string claims_markdown(const std::vector<Verdict>& verdicts)
         "| id | statement | verdict | held | units | share | interval | chance | numbers | study |\n"
         "|---|---|---|---|---|---|---|---|---|---|\n";
     for (const Verdict& verdict : verdicts) {
-        const bool none = verdict.own.n == 0;
+        const bool none = verdict.own.n == 0 || verdict.claim.rule != ClaimRule::units;
         const auto known = [&](double value) { return none || !std::isfinite(value) ? std::string() : fmt::format("{:.3g}", value); };
         const std::string interval = none ? "" : fmt::format("[{:.3g}, {:.3g}]", verdict.interval.low, verdict.interval.high);
         text += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", markdown_cell(verdict.claim.id),
@@ -324,7 +327,7 @@ std::string bound_text(const Bound& bound)
 {
     if (bound.low == bound.high) return fmt::format("{:.4g}", bound.low);
     if (std::isinf(bound.high)) return fmt::format("{:.4g} or more", bound.low);
-    if (std::isinf(bound.low)) return fmt::format("{:.4g} or less", bound.high);
+    if (std::isinf(bound.low)) return std::nextafter(bound.high, 2.0) == 1.0 ? "below 1" : fmt::format("{:.4g} or less", bound.high);
     return fmt::format("{:.4g} to {:.4g}", bound.low, bound.high);
 }
 

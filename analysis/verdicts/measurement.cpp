@@ -45,7 +45,13 @@ void add_values(const CaseRecord& record, const CaseKey& key, const std::vector<
     const std::string mean_of = record.is_sweep() ? "" : "mean_";
     const auto add = [&](const std::string& quantity, const std::vector<double>& values, const char* unit) {
         const auto [least, most] = std::ranges::minmax(values);
-        to.push_back({.quantity = quantity, .of = key, .value = mean(values), .low = least, .high = most, .unit = unit, .run = record.run,
+        to.push_back({.quantity = quantity,
+                      .of = key,
+                      .value = mean(values),
+                      .low = least,
+                      .high = most,
+                      .unit = unit,
+                      .run = record.run,
                       .beside = record.beside});
     };
     add(mean_of + "volume_loss_pct", loss, "%");

@@ -21,7 +21,8 @@ inline constexpr double kept_volume_pct = 0.5;  // the paper's Sec. 4: "the volu
 //   mean_volume_loss_pct            mean of -volume_change_pct (the paper's E = V0 - V'); its range is that of the frames
 //   mean_volume_abs_change_pct      likewise of volume_abs_change_pct
 //   share_of_frames_within_half_pct |volume_change_pct| <= 0.5
-// A sweep gives volume_loss_pct and volume_abs_change_pct of each frame, with its angle, since its frames are no sample of a motion. A frame that is not finite makes a mean NaN and lies within no bound. InputError for series of different lengths.
+// A sweep gives volume_loss_pct and volume_abs_change_pct of each frame, with its angle, since its frames are no sample of a motion. A
+// frame that is not finite makes a mean NaN and lies within no bound. InputError for series of different lengths.
 std::vector<Measurement> frame_measurements(const CaseRecord& record);
 
 }  // namespace analysis

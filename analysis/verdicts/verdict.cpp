@@ -132,17 +132,21 @@ void drop_those_beside(Values& values)
 Unit judged_unit(const Claim& claim, const Selection& selection, const Unit& unit, const Values& values, const Values& over)
 {
     if (!unit.quantity.empty()) return compared(claim, selection, unit, values, over);
-    std::optional<Unit> all;
+    std::vector<Unit> parts;
     for (const std::string& quantity : selection.quantities) {
         const Values own = of_quantity(values, quantity);
-        const bool has_values = !own.empty();
-        const Unit one = has_values ? compared(claim, selection, unit, own, of_quantity(over, quantity)) : Unit{};
-        if (!all && has_values) all = one;
-        if (!all) return Unit{.of = unit.of};
-        all->holds &= one.holds;
-        if (all->counts()) all->left_out = one.left_out;
+        Unit part{.of = unit.of, .value = not_known, .low = not_known, .high = not_known};
+        if (!own.empty()) part = compared(claim, selection, unit, own, of_quantity(over, quantity));
+        part.quantity = quantity;
+        parts.push_back(part);
     }
-    return *all;
+    Unit all = parts.front();
+    all.quantity = "";
+    all.holds = std::ranges::all_of(parts, &Unit::holds);
+    for (const Unit& part : parts)
+        if (all.counts()) all.left_out = part.left_out;
+    if (parts.size() > 1) all.parts = std::move(parts);
+    return all;
 }
 
 void count(Judged& judged)
@@ -169,13 +173,17 @@ void leave_out_unseen(const Judged& control, Judged& own)
     count(own);
 }
 
-// The rule of succession, (k + 1) / (n + 2): a control that fails in each of a few units does not show a share of exactly 0.
+// The rule of succession, (k + 1) / (n + 2): a control that fails in each of a few units does not show a share of exactly 0. The control
+// by which units are left out fails in all that count.
 double share_of_controls(const Verdict& verdict)
 {
     if (verdict.claim.no_effect > 0.0) return verdict.claim.no_effect;
     double largest = 0.0;
-    for (const Judged& other : verdict.others)
-        if (other.selection.role == Role::must_fail) largest = std::max(largest, (other.held + 1.0) / (other.n + 2.0));
+    for (const Judged& other : verdict.others) {
+        if (other.selection.role != Role::must_fail) continue;
+        const bool decides = !verdict.claim.unseen_by.empty() && other.selection.name == verdict.claim.unseen_by;
+        largest = std::max(largest, decides ? 1.0 / (verdict.own.n + 2.0) : (other.held + 1.0) / (other.n + 2.0));
+    }
     return largest;
 }
 
@@ -322,12 +330,15 @@ void judge_measured(const Records& records, Verdict& verdict)
     for (const Measurement& one : selected(claim.own, claim.own.of, measured))
         if (!one.run.empty()) runs.insert(one.run);
     verdict.runs.assign(runs.begin(), runs.end());
-    for (const Unit& unit : verdict.own.units)
-        verdict.confirmatory += std::ranges::any_of(claim.confirmatory, [&](const CaseKey& key) { return matches(unit.of, key); });
     if (claim.rule == ClaimRule::single)
         judge_single(verdict);
     else if (claim.rule == ClaimRule::units)
         judge_units(verdict);
+    for (const Unit& unit : verdict.own.units) {
+        const bool is_new = std::ranges::any_of(claim.confirmatory, [&](const CaseKey& key) { return matches(unit.of, key); });
+        verdict.confirmatory += is_new && unit.counts();
+        verdict.confirmatory_held += is_new && unit.counts() && unit.holds;
+    }
 }
 
 }  // namespace
@@ -377,7 +388,8 @@ Verdict judge(const Claim& claim, const Records& records)
 
 const char* name_of(VerdictKind kind)
 {
-    static constexpr std::array names = {"holds", "fails", "mixed", "not_testable", "definition", "inconsistent_in_print", "not_computable"};
+    static constexpr std::array names = {"holds",         "fails", "mixed", "not_testable", "definition", "inconsistent_in_print",
+                                         "not_computable"};
     return names[static_cast<std::size_t>(kind)];
 }
 

@@ -29,10 +29,10 @@ enum class Untested { none, reason_of_the_claim, too_few_units, control_without_
 // Why a unit does not count.
 enum class LeftOutUnit { no, nothing_to_see, no_control, nothing_to_compare_with, censored };
 
-// A unit of a claim: its number is the mean of its dependent values.
+// A unit of a claim: its number is the mean of its dependent values, of the first quantity if there are several. NaN: it has none.
 struct Unit {
     std::string quantity = {};  // empty unless the unit is one of a single quantity
-    CaseKey of = {};       // the fields that make the unit
+    CaseKey of = {};            // the fields that make the unit
     std::string unit = {};
     double value = 0.0, low = 0.0, high = 0.0;  // the range spans what Claim::range names
     Limit limit = Limit::none;                  // how a censored value limits the number
@@ -40,6 +40,7 @@ struct Unit {
     Bound bound = {};
     bool holds = false;
     LeftOutUnit left_out = LeftOutUnit::no;
+    std::vector<Unit> parts = {};  // one for each quantity, if the unit has several
 
     bool counts() const { return left_out == LeftOutUnit::no; }
 };
@@ -66,17 +67,18 @@ struct Verdict {
     VerdictKind kind = VerdictKind::not_computable;  // by the claim's rule
     Untested untested = Untested::none;
     Judged own = {};
-    Interval interval = {};                 // of the share: the wider one of the exact binomial interval and a bootstrap over bodies
-    double by_chance = not_known;           // the probability of at least as many units under q
-    double q = not_known;                   // the share that the positive controls, or no effect, reach
-    std::optional<Difference> differs = {};  // for a mixed verdict
-    int confirmatory = 0;                   // units recorded after the rule was fixed
-    std::vector<Judged> others = {};        // controls and comparisons, as in the claim
-    std::vector<Judged> readings = {};      // the same in each recorded order and precision of projection
-    std::vector<PrintedValue> printed = {};  // values of a claim about printed numbers
-    std::vector<LeftOut> left_out = {};     // scenes that are not installed
-    std::vector<std::string> missing = {};  // planned scenes or runs without a record: the reason why it is not computable
-    std::vector<std::string> runs = {};     // the folders on which the verdict rests
+    // Of the share: the wider one of the exact binomial interval and a bootstrap over bodies.
+    Interval interval = {.estimate = not_known, .low = not_known, .high = not_known};
+    double by_chance = not_known;                 // the probability of at least as many units under q
+    double q = not_known;                         // the share that the positive controls, or no effect, reach
+    std::optional<Difference> differs = {};       // for a mixed verdict
+    int confirmatory = 0, confirmatory_held = 0;  // units that count and were recorded after the rule was fixed, and those that hold
+    std::vector<Judged> others = {};              // controls and comparisons, as in the claim
+    std::vector<Judged> readings = {};            // the same in each recorded order and precision of projection
+    std::vector<PrintedValue> printed = {};       // values of a claim about printed numbers
+    std::vector<LeftOut> left_out = {};           // scenes that are not installed
+    std::vector<std::string> missing = {};        // planned scenes or runs without a record: the reason why it is not computable
+    std::vector<std::string> runs = {};           // the folders on which the verdict rests
 };
 
 // Rule by rule:

@@ -161,7 +161,8 @@ bool explain_claim(const std::string& name)
     std::set<std::string> found;
     for (const auto& claim : claims()) {
         const bool is_decided_by_it = std::ranges::count(claim.own.quantities, name) > 0 && !find_metric(name);
-        if ((is_asked_for(claim, name) || is_decided_by_it) && found.insert(page_of(claim)).second) fmt::print("{}", text_of(page_of(claim)));
+        if ((is_asked_for(claim, name) || is_decided_by_it) && found.insert(page_of(claim)).second)
+            fmt::print("{}", text_of(page_of(claim)));
     }
     return !found.empty();
 }

@@ -177,8 +177,7 @@ StudyOutcome outcome_of(const PlannedStudy& planned, std::span<const PooledResul
 
 // The runs of all these studies share the cores, so that no core is idle while a study ends. then_s: expected wall time of the studies
 // after these [s].
-void run_together(const std::vector<const PlannedStudy*>& planned, int jobs, double then_s,
-                  std::map<const Study*, StudyOutcome>& outcomes)
+void run_together(const std::vector<const PlannedStudy*>& planned, int jobs, double then_s, std::map<const Study*, StudyOutcome>& outcomes)
 {
     std::vector<PooledWork> work;
     for (const PlannedStudy* one : planned) {

@@ -7,6 +7,7 @@ from words.number_words import counted
 
 paper_s_solver = "the paper's own solver (file order, double precision)"
 most_exceptions = 2  # named one by one
+read_scenes = ("human", "human_moving")  # in which the study ambiguity measures the volume over a clip
 first_member = "smooth"  # the reference of the other studies
 
 
@@ -33,15 +34,25 @@ def percent(value):
     return f"{100 * value:.0f} %"
 
 
-def volume(claims):
-    """The shares of frames in the paper's order, by clip, and the range over the other orders and precisions."""
+def between(values):
+    """0 % to 73 %; or the one value."""
+    return " to ".join(dict.fromkeys(percent(value) for value in (min(values), max(values))))
+
+
+def volume(claims, results):
+    """The shares of frames in the paper's order, by clip; the range over the other orders and precisions, and over the readings of the
+    paper, which the study `ambiguity` runs in the paper's order too."""
     claim, clips, told = counted_units(claims, "C02a")
     if not told:
-        readings = claim["readings"] + [of for of in claim["compared"] if of["name"] == "ordered f32"]
-        others = [case["value"] for of in readings for case in sentences.counting(of) if case["value"] is not None]
+        orders = claim["readings"] + [of for of in claim["compared"] if of["name"] == "ordered f32"]
+        others = [case["value"] for of in orders for case in sentences.counting(of) if case["value"] is not None]
         shares = "; ".join(f"{case_words.of(case)}: {percent(case['value'])}" for case in clips)
+        readings = [float(row["b"]) for scene in read_scenes for row in records.table(
+            results / "ambiguity" / scene / "figures.csv", {"quantity", "b"}) if row["quantity"] == "share_of_frames_within_printed"]
+        records.need(readings, f"{results / 'ambiguity'}: no share of frames within 0.5 %")
         told = (f"With {paper_s_solver}, PBS with 24 iterations keeps the volume within 0.5 % in this share of the frames: {shares}."
-                + (f" In other orders and precisions it is {percent(min(others))} to {percent(max(others))}." if others else ""))
+                + (f" In other orders and precisions it is {between(others)}." if others else "")
+                + f" In other readings of the paper it is {between(readings)} (human, clip 01_01).")
     return f"**Volume.** {told}"
 
 
@@ -52,7 +63,8 @@ def artefacts(claims):
         claim, units, told = counted_units(claims, name)
         failing = [f"{case_words.of(case)} ({sentences.shown(case)})" for case in units if not case["holds"]]
         more = [f"{len(failing) - most_exceptions} more"] if len(failing) > most_exceptions else []
-        exceptions = f", except for {' and '.join(failing[:most_exceptions] + more)}" if failing else ""
+        verb = "exception is" if len(failing) == 1 else "exceptions are"
+        exceptions = f"; the {verb} {' and '.join(failing[:most_exceptions] + more)}" if failing else ""
         poses = f"{claim['held']} of the {counted(claim['n'], 'pose')} in which {where}"
         texts.append(told or f"{solver} shows no {what} in {poses}{exceptions}.")
         solver = solver if told else "It"
@@ -71,22 +83,42 @@ def convergence(claims):
     return f"**Convergence.** {told}"
 
 
-def trials(results, quantity):
-    """The trials of PBS that end like this, and all of them, over all bodies and factors."""
-    rows = [row for file in sorted((results / "stability").glob("*/measurements.csv")) for row in records.read_rows(file)
-            if row["quantity"] == quantity and row["deformer"] == "pbs"]
-    records.need(rows, f"{results / 'stability'}: no {quantity} of PBS")
-    return sum(round(row.number("value") * row.number("n")) for row in rows), sum(round(row.number("n")) for row in rows)
+def trials(results):
+    """(order, precision) -> quantity -> the trials of PBS that end like this, and of all of them, over all bodies and factors."""
+    counts = {}
+    for row in (row for file in sorted((results / "stability").glob("*/measurements.csv")) for row in records.read_rows(file)):
+        if row["deformer"] == "pbs" and row["quantity"].startswith("share_of_cells_"):
+            ends = counts.setdefault((row.get("order") or "", row["precision"]), {})
+            ended, every = ends.get(row["quantity"], (0, 0))
+            ends[row["quantity"]] = ended + round(row.number("value") * row.number("n")), every + round(row.number("n"))
+    return counts
+
+
+def ends_of(counts):
+    """How many trials there are, how many are bounded, and the shares at rest and as if undisturbed. A bounded body may move on, and one at
+    rest may be elsewhere than the undisturbed one; a diverged one does not rest."""
+    diverged, every = counts["share_of_cells_diverged"]
+    moving, correct = (counts[f"share_of_cells_{what}"][0] for what in ("in_motion", "at_rest"))
+    return every, every - diverged, (every - diverged - moving) / every, correct / every
+
+
+def bounded_in(counts):
+    bounded, every = (sum(of) for of in zip(*((ends_of(of)[1], ends_of(of)[0]) for of in counts)))
+    return f"all {every} trials" if bounded == every else f"{bounded} of {every} trials"
 
 
 def stability(results):
-    """A bounded body may move on, and one at rest may be elsewhere than the undisturbed one."""
-    diverged, every = trials(results, "share_of_cells_diverged")
-    moving, _ = trials(results, "share_of_cells_in_motion")
-    correct, _ = trials(results, "share_of_cells_at_rest")
-    return (f"**Stability.** In the paper's order and the default one, PBS stays bounded in {every - diverged} of {every} trials with "
-            f"disturbances, extreme settings and time steps to 1 s. At the end it is at rest in {every - moving}, and as if undisturbed in "
-            f"{correct}.")
+    counts = trials(results)
+    own = counts.pop(("plain", "f64"), None)
+    records.need(own, f"{results / 'stability'}: no trial of PBS in the paper's order and double precision")
+    _, _, rest, correct = ends_of(own)
+    told = (f"With {paper_s_solver}, PBS stays bounded in {bounded_in([own])} with disturbances, extreme settings and time steps to 1 s; "
+            f"at the end it is at rest in {percent(rest)} and correct (as if undisturbed) in {percent(correct)}.")
+    if counts:
+        _, _, rests, corrects = zip(*map(ends_of, counts.values()))
+        names = " and ".join(" ".join(filter(None, pair)) for pair in sorted(counts))
+        told += f" In {names} it is bounded in {bounded_in(counts.values())}, at rest in {between(rests)}, correct in {between(corrects)}."
+    return f"**Stability.** {told}"
 
 
 def stiffness(claims):
@@ -150,6 +182,6 @@ def distance(results):
 
 def lines_of(results):
     claims = sentences.claims_of(results / "claims.json")
-    findings = [volume(claims), artefacts(claims), convergence(claims), stability(results), stiffness(claims), speed(claims),
+    findings = [volume(claims, results), artefacts(claims), convergence(claims), stability(results), stiffness(claims), speed(claims),
                 distance(results)]
     return [f"{number}. {finding}".replace("\u2212", "-") for number, finding in enumerate(findings, 1)]

@@ -71,8 +71,8 @@ def markdown_table(head, rows):
 def claim_lines(claim):
     """Verdict and primary number of a claim; its controls, comparisons and readings, which are no part of the verdict."""
     lines = [f"**{claim['id']}: {sentences.names[claim['verdict']]}.** {claim['statement']}", "", f"{sentences.in_line(claim)}."]
-    basis = "; ".join(sentences.basis(claim))
-    lines = [tables.in_markdown(text) for text in lines + (["", f"{basis}."] if basis else [])]
+    basis = sentences.basis(claim)
+    lines = [tables.in_markdown(text) for text in lines + (["", basis] if basis else [])]
     lines += markdown_table(sentences.control_head, sentences.control_rows(claim))
     lines += markdown_table(sentences.compared_head, sentences.compared_rows(claim))
     lines += markdown_table(sentences.reading_head, sentences.reading_rows(claim))

@@ -110,7 +110,8 @@ key |= {name + "?": number for name in ("angle_deg", "time_s", "vertices", "vert
 judged = {"value": figure, "bound_low": figure, "bound_high": figure, "holds": truth}
 left_out = one_of(None, "nothing_to_see", "no_control", "nothing_to_compare_with", "censored")
 unit = key | judged | {"quantity?": text, "unit": text, "low": figure, "high": figure, "n": whole, "left_out": left_out,
-                       "limit?": one_of("at_least", "at_most", "more_than")}
+                       "limit?": one_of("at_least", "at_most", "more_than"),
+                       "parts?": [judged | {"quantity": text, "unit?": text, "low": figure, "high": figure}]}
 printed = key | judged | {"quantity": text}
 facts = {"held": whole, "n": whole, "share": figure, "least": figure, "median": figure, "most": figure, "left_out_units": {"*": whole},
          "quantities": [text], "of": key, "over": key, "bounds": [key | {"low": figure, "high": figure, "quantity?": text}]}
@@ -121,6 +122,7 @@ claim = facts | {"id": text, "statement": text, "place": text, "study": text, "r
                  "untested": one_of("none", "reason_of_the_claim", "too_few_units", "control_without_record", "control_misbehaves"),
                  "range": text, "interval_low": figure, "interval_high": figure, "chance": figure, "q": figure,
                  "differs": lambda value: anything if value is None else difference, "fixed_at": text, "confirmatory": whole,
+                 "confirmatory_held?": whole,
                  "cases": [with_member("unit", unit, printed)], "controls": [selection], "compared": [selection], "readings": [selection],
                  "left_out": [{"scene": text, "reason": text}], "missing": [text], "runs": [text]}
 claims = {"schema": third_schema, "quantities": {"*": {"title": text, "unit": text}}, "claims": [claim]}

@@ -22,18 +22,24 @@ def outcome(case):
     return "\u2714 yes" if case["holds"] else "\u2718 no"
 
 
-def unit_row(claim, case):
-    of = ", ".join(filter(None, [case_words.of(case), sentences.title(claim, case["quantity"]) if "quantity" in case else ""]))
-    ends = "" if case.get("low") == case.get("high") else f"{figure(case['low'])} to {figure(case['high'])}"
-    return [of, sentences.shown(case), ends or "\u2013", sentences.bound(case["bound_low"], case["bound_high"]), outcome(case)]
+def unit_rows(claim, case):
+    """One row for each quantity of the unit."""
+    rows = []
+    for part in sentences.parts(claim, case):
+        has_quantity = "quantity" in case or "parts" in case
+        of = ", ".join(filter(None, [case_words.of(part), sentences.title(claim, part["quantity"]) if has_quantity else ""]))
+        ends = "" if part.get("low") == part.get("high") else f"{figure(part['low'])} to {figure(part['high'])}"
+        rows.append([of, sentences.shown(part), ends or "\u2013", sentences.bound(part["bound_low"], part["bound_high"]), outcome(part)])
+    return rows
 
 
 def unit_table(claim, name, cases):
     if not cases:
         return ""
-    header = ["unit", "number", f"range over {claim['range']}" if claim["range"] else "range", "bound", "holds"]
-    shown = table(name, header, [unit_row(claim, case) for case in cases[:most_rows]], "tall")
+    header = ["printed value" if claim["rule"] == "printed" else "unit", "number", sentences.range_name(claim), "bound", "holds"]
+    rows = [row for case in cases[:most_rows] for row in unit_rows(claim, case)]
     left = len(cases) - most_rows
+    shown = table(name, header, rows, "tall")
     return joined([shown, element("p", f"claims.json has {left} more.")]) if left > 0 else shown
 
 
@@ -43,7 +49,9 @@ def rows_table(claim, what, header, rows):
 
 def behind(claim, found):
     """A part that the reader opens: the units, the controls, and what is compared."""
-    parts = [element("p", "; ".join(sentences.basis(claim))), unit_table(claim, f"{claim['id']}: units", claim["cases"]),
+    what = "printed value" if claim["rule"] == "printed" else "unit"
+    basis = sentences.basis(claim)
+    parts = [element("p", basis) if basis else "", unit_table(claim, f"{claim['id']}: {what}s", claim["cases"]),
              rows_table(claim, "controls", sentences.control_head, sentences.control_rows(claim)),
              rows_table(claim, "for comparison, no part of the verdict", sentences.compared_head, sentences.compared_rows(claim)),
              rows_table(claim, "other readings, no part of the verdict", sentences.reading_head, sentences.reading_rows(claim)),
@@ -51,7 +59,7 @@ def behind(claim, found):
              *(unit_table(claim, f"{claim['id']}: {of['name']}", of["cases"]) for of in claim["controls"])]
     runs = joined((folder_link(found.results, run) for run in claim["runs"] or [claim["study"]]), ", ")
     parts.append(element("p", joined(["Runs (", beside_the_page("folders"), "): ", runs])))
-    count = f" ({counted(claim['n'], 'unit')})" if claim["n"] else ""
+    count = f" ({counted(claim['n'], what)})" if claim["n"] else ""
     return details(f"{claim['id']}: the data behind it{count}", joined(parts, "\n"))
 
 

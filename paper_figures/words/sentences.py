@@ -6,6 +6,8 @@
 A claim is judged by its units: 28 of 29 units hold, share 0.97 [0.82, 1.00]; 0.067 to 1.02, bound 0.95 or more. In brackets stands only the
 interval of the share; ranges over meshes, frames or orders of projection have these names.
 """
+import math
+
 from records import shapes
 from words import case_words
 from words.number_words import counted, figure
@@ -17,6 +19,7 @@ kinds = {"holds": ("holds", "hold"), "fails": ("fails", "fail"), "mixed": ("is m
          "not_computable": ("is not computable", "are not computable")}
 author = "the author's later code"
 holding_share, failing_share = 0.95, 0.5  # as in analysis/verdicts/verdict.hpp
+most_ranges = 2  # that cross the bound, named one by one
 
 
 def claims_of(file):
@@ -60,17 +63,17 @@ def bound(low, high):
     return text.replace("-", "\u2212")
 
 
-def of_bound(claim, of):
-    """The quantity or the settings for which a bound is, where there are several."""
-    settings = [case_words.of_field(field, value) for field, value in of.items() if field not in ("low", "high", "quantity")]
-    return ", ".join(settings + ([title(claim, of["quantity"])] if "quantity" in of else []))
+def settings_of(of):
+    """The settings for which a bound is, where there are several."""
+    return [case_words.of_field(field, value) for field, value in of.items() if field not in ("low", "high", "quantity")]
 
 
 def expected(claim):
     """The text of each bound."""
     if claim["rule"] == "printed":
         return ["each value as the others require"]
-    return [": ".join(filter(None, [of_bound(claim, of), bound(of["low"], of["high"])])) for of in claim["bounds"]]
+    named = [", ".join(settings_of(of) + ([title(claim, of["quantity"])] if "quantity" in of else [])) for of in claim["bounds"]]
+    return [": ".join(filter(None, [name, bound(of["low"], of["high"])])) for name, of in zip(named, claim["bounds"])]
 
 
 def shown(case):
@@ -96,14 +99,65 @@ def span(cases):
     return "; ".join(filter(None, [text, f"{counted(broken, 'value')} not a number" if broken else ""]))
 
 
-def numbers(claim):
-    """The range of the units' numbers with their bound, for each bound that applies to some: 0.067 to 1.02, bound 0.95 or more."""
+def parts(of, case):
+    """The number of a unit for each of its quantities, with the key of the unit."""
+    if "parts" not in case:
+        return [{"quantity": of["quantities"][0]} | case if of["quantities"] else case]
+    unit = {name: value for name, value in case.items() if name not in ("parts", "limit")}
+    return [unit | part | {"left_out": case["left_out"]} for part in case["parts"]]
+
+
+def by_quantity(of):
+    """The numbers of the units that count: quantity -> its numbers."""
     groups = {}
-    for case in counting(claim):
-        groups.setdefault((case["bound_low"], case["bound_high"]), []).append(case)
-    names = {(of["low"], of["high"]): of_bound(claim, of) for of in claim["bounds"]}
-    texts = {ends: f"{span(cases)}, bound {bound(*ends)}" if bound(*ends) else span(cases) for ends, cases in groups.items()}
-    return [f"{names[ends]}: {text}" if names.get(ends) else text for ends, text in texts.items()]
+    for part in (part for case in counting(of) for part in parts(of, case)):
+        groups.setdefault(part.get("quantity"), []).append(part)
+    return groups
+
+
+def spans(claim, of):
+    """From the least to the most of each quantity of a selection."""
+    groups = by_quantity(of)
+    return "; ".join(span(cases) if len(groups) == 1 else f"{title(claim, quantity)}: {span(cases)}" for quantity, cases in groups.items())
+
+
+def number_of(claim, quantity):
+    return title(claim, quantity) + (f", over that of the {case_words.of(claim['over'])}" if claim["over"] else "")
+
+
+def numbers(claim):
+    """The range of the units' numbers for each quantity and each bound: section radius: 0.067 to 1.02, bound 0.95 or more."""
+    texts = []
+    for quantity, cases in by_quantity(claim).items():
+        for ends in dict.fromkeys((case["bound_low"], case["bound_high"]) for case in cases):
+            settings = [settings_of(of) for of in claim["bounds"]
+                        if (of["low"], of["high"]) == ends and of.get("quantity", quantity) == quantity]
+            text = span([case for case in cases if (case["bound_low"], case["bound_high"]) == ends])
+            name = ", ".join([number_of(claim, quantity), *(settings[0] if settings else [])])
+            texts.append(f"{name}: {text}" + (f", bound {bound(*ends)}" if bound(*ends) else ""))
+    return texts
+
+
+def crosses(case):
+    """Whether a part of the range lies within the bound and a part outside."""
+    least = -math.inf if case["bound_low"] is None else case["bound_low"]
+    most = math.inf if case["bound_high"] is None else case["bound_high"]
+    low, high = case["low"], case["high"]
+    return None not in (low, high) and low <= most and high >= least and not least <= low <= high <= most
+
+
+def ranges(claim):
+    """The units whose range crosses the bound: range over meshes of limb, twist 180 deg: 0.065 to 0.97."""
+    found = [case for case in counting(claim) if crosses(case)] if claim["range"] else []
+    told = [f"{range_name(claim)} of {case_words.of(case)}: {figure(case['low'])} to {figure(case['high'])}"
+            for case in found[:most_ranges]]
+    return told + ([f"the ranges of {counted(len(found) - most_ranges, 'more unit')} cross the bound"] if len(found) > most_ranges else [])
+
+
+def range_name(claim):
+    """What low and high of a number span; that of a single number has its whole name on record: 95 % range of the fit."""
+    over = "" if claim["rule"] == "single" else "range over "
+    return over + claim["range"] if claim["range"] else "range"
 
 
 # How many units hold.
@@ -144,12 +198,15 @@ def difference(claim):
     if of is None:
         return []
     least, most = (case_words.of_field(of["field"], of[end]) for end in ("least_at", "most_at"))
-    return [f"the share differs most by {case_words.in_plain(of['field'])}: {of['least']:.2f} for {least}, {of['most']:.2f} for {most}"]
+    return [f"the share differs most by {case_words.of_field('unit_field', of['field'])}: {of['least']:.2f} for {least}, "
+            f"{of['most']:.2f} for {most}"]
 
 
 def why_untested(claim):
     """Why the claim is not testable: its own reason, the controls without a record or that misbehave, or too few units."""
     reason = claim["untested"]
+    if reason == "too_few_units" and claim["rule"] == "single" and claim["cases"]:
+        return [f"{counted(len(claim['cases']), 'number')} are on record where one is expected"]
     if reason == "too_few_units":
         return ["no unit is on record" if not claim["cases"] else f"only {counted(claim['n'], 'unit')}, fewer than five"]
     if reason not in ("control_without_record", "control_misbehaves"):
@@ -167,10 +224,11 @@ def facts(claim):
     if claim["rule"] == "printed":
         return [f"{claim['held']} of {counted(claim['n'], 'printed value')} consistent"] if claim["n"] else ["no record"]
     if claim["rule"] in ("definition", "untestable"):
-        return [*why_untested(claim), *(f"{title(claim, claim['quantities'][0])}: {text}" for text in numbers(claim))]
-    if claim["rule"] == "single" and claim["n"]:
-        return [one_number(claim), *why_untested(claim)]
-    told = [share(claim), *numbers(claim)] if claim["n"] else []
+        return [*why_untested(claim), *numbers(claim)]
+    if claim["rule"] == "single":
+        told = [one_number(claim)] if len(claim["cases"]) == 1 else numbers(claim)
+        return [*told, *why_untested(claim), *left_out(claim)] or ["no record"]
+    told = [share(claim), *numbers(claim), *ranges(claim)] if claim["n"] else []
     return [*told, *left_out_units(claim), *by_chance(claim), *difference(claim), *why_untested(claim), *left_out(claim)] or ["no record"]
 
 
@@ -182,26 +240,28 @@ def in_line(claim):
 
 def one_number(claim):
     """The single number by which a claim is judged, with the range that decides."""
-    case = counting(claim)[0]
-    return f"{shown(case)} ({claim['range'] or 'range'}: {figure(case['low'])} to {figure(case['high'])}), bound " + bound(
-        case["bound_low"], case["bound_high"])
+    case, = claim["cases"]
+    return (f"{number_of(claim, claim['quantities'][0])}: {shown(case)} ({range_name(claim)}: {figure(case['low'])} to "
+            f"{figure(case['high'])}), bound {bound(case['bound_low'], case['bound_high'])}")
 
 
 def basis(claim):
-    """What a unit is, its number and bound, chance, and when the rule was fixed."""
+    """Sentences: what a unit is, its number and bound; chance; when the rule was fixed."""
     if claim["rule"] not in ("units", "single") or not claim["quantities"]:
-        return []
+        return ""
     unit = ", ".join(case_words.of_field("unit_field", field) for field in claim["unit_fields"])
-    number = ", ".join(title(claim, quantity) for quantity in claim["quantities"])
-    over = f", over that of the {case_words.of(claim['over'])}" if claim["over"] else ""
-    told = [f"The number of a unit ({unit}) is the {number}{over}; bound: {', '.join(expected(claim))} ({claim['source']})"]
+    between = " or " if "quantity" in claim["unit_fields"] else " and "
+    number = between.join(number_of(claim, quantity) for quantity in claim["quantities"])
+    told = [f"The number of a unit ({unit}) is the {number}; bound: {', '.join(expected(claim))} ({claim['source']})"]
     if claim["chance"] is not None:
-        probability = "" if is_by_chance(claim) else f"chance reaches as many with a probability of {figure(claim['chance'])}, "
-        told.append(f"{probability}each unit holding with q = {figure(claim['q'])} by chance")
+        told.append(f"If each unit held by chance with a probability of q = {figure(claim['q'])}, as many would hold with a probability of "
+                    f"{figure(claim['chance'])}")
     if claim["fixed_at"]:
-        told.append(f"rule and bound are of revision {claim['fixed_at'][:12]}, and {counted(claim['confirmatory'], 'unit')} "
-                    "recorded later")
-    return told
+        later, held = claim["confirmatory"], claim.get("confirmatory_held")
+        units = f"{later or 'no'} {'unit' if later < 2 else 'units'} {'was' if later < 2 else 'were'} recorded later"
+        told.append(f"Rule and bound are of revision {claim['fixed_at'][:12]}, and {units}"
+                    + (f"; the bound holds in {held} of them" if later and held is not None else ""))
+    return ". ".join(told) + "."
 
 
 def left_out(claim):
@@ -223,16 +283,16 @@ def named(claim, of):
     """A selection with the title of its quantity, where that is not the claim's own: LBS (time of LBS per frame)."""
     if of["quantities"] == claim["quantities"] or not of["quantities"]:
         return of["name"] or "not recorded"
-    titles = ", ".join(title(claim, name) for name in of["quantities"])
+    titles = " and ".join(title(claim, name) for name in of["quantities"])
     return titles if of["name"] in titles else f"{of['name']} ({titles})"
 
 
 def control_rows(claim):
-    return [[named(claim, of), role(of), held(of), span(counting(of)), "yes" if of["behaves"] else "no"] for of in claim["controls"]]
+    return [[named(claim, of), role(of), held(of), spans(claim, of), "yes" if of["behaves"] else "no"] for of in claim["controls"]]
 
 
 def compared_rows(claim):
-    return [[named(claim, of), held(of), span(counting(of))] for of in claim["compared"]]
+    return [[named(claim, of), held(of), spans(claim, of)] for of in claim["compared"]]
 
 
 def reading_rows(claim):
@@ -245,7 +305,8 @@ def reading_rows(claim):
 
 def extent(of):
     """How far the units hold, by the rule's own limits of a share."""
-    return "throughout" if of["share"] >= holding_share else "in half of the units or fewer" if of["share"] <= failing_share else "in part"
+    return ("throughout" if of["share"] >= holding_share else "in half of the units or fewer" if of["share"] <= failing_share else
+            "in more than half of the units")
 
 
 def disagreements(claim):

@@ -9,7 +9,7 @@ import program
 WITHOUT_FRAMES = ("--quiet", "--set", "output.frames_every=0", "--set", "reference.name=", "--set", 'deformers.use=["lbs", "pbs"]')
 
 
-class VolumeClaims(program.ProgramTest):
+class LimbTest(program.ProgramTest):
     def last_frame(self, scene, angle_deg, *overrides):
         out = scene + "_%g" % angle_deg
         self.succeeds("run", scene, "-o", self.path(out), *WITHOUT_FRAMES, "--set", "motion.angle_deg=%g" % angle_deg,
@@ -19,6 +19,8 @@ class VolumeClaims(program.ProgramTest):
     def change(self, row, column="volume_change_pct"):
         return float(row[column])
 
+
+class VolumeClaims(LimbTest):
     def test_twist_170_loses_more_than_a_tenth_by_blending_and_holds_by_constraints(self):
         frame = self.last_frame("limb_twist", 170.0)
         self.assertLess(self.change(frame["lbs"]), -10.0)
@@ -50,12 +52,13 @@ class VolumeClaims(program.ProgramTest):
 
 
 DROPPED = ("--set", "pbs.k_volume=0.0")
+HALF = ("--set", "pbs.k_volume=0.5")
 SIGN = ("--set", "pbs.variant.volume_form=sign", "--set", "pbs.order=plain")
 QUARTER_DEG = {"limb_twist": 45.0, "limb_bend": 37.5}  # every solver holds near the rest pose
 NOTHING = DROPPED + ("--set", "pbs.k_stretch=0.0", "--set", "pbs.k_bind=0.0")
 
 
-class BrokenSolver(program.ProgramTest):
+class BrokenSolver(LimbTest):
     def held_angle_deg(self, scene, name, *overrides):
         """The angle up to which the volume stays within 0.5 %."""
         self.succeeds("run", scene, "-o", self.path(name), *WITHOUT_FRAMES, "--set", "motion.frames=10", "--set", "character.vertices=600",
@@ -80,6 +83,12 @@ class BrokenSolver(program.ProgramTest):
     def test_sign_of_the_volume_gradient_turned_round(self):
         for scene, most_deg in QUARTER_DEG.items():
             self.assertLess(self.holds_at_fewer_angles(scene, "_sign", SIGN), most_deg)
+
+    def test_half_the_volume_stiffness(self):
+        """Half of each correction: stretch and bind constraints keep more of their own."""
+        lost = [self.change(self.last_frame( "limb_bend", 90.0, *overrides)["pbs"], "volume_abs_change_pct")
+                for overrides in ((), HALF)]
+        self.assertLess(lost[0], lost[1])
 
     def test_nothing_projected(self):
         for scene, most_deg in QUARTER_DEG.items():

@@ -120,7 +120,8 @@ extern const analysis::Columns<VolumeChange> volume_change_columns;
 std::vector<VolumeChange> volume_changes(const std::string& scene, const Reading& reading, const ReadMotion& a, const ReadMotion& b,
                                          const ReadMotion& resting, const std::vector<bool>& zone);
 
-// C10a: frames per second of processor time, including LBS, of all readings in turns, in the order and precision that are judged (plain, f64).
+// C10a: frames per second of processor time, including LBS, of all readings in turns, in the order and precision that are judged (plain,
+// f64).
 std::vector<JudgedReading> values_of_frames(const StudyCase& of, const std::vector<Overrides>& readings);
 
 }  // namespace experiments

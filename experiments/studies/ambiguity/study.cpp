@@ -314,8 +314,7 @@ std::string digest_of(const std::vector<analysis::Claim>& claims)
     for (const analysis::Claim& claim : claims) {
         all.push_back({claim.id, static_cast<int>(claim.rule), claim.own.quantities, to_json_of(claim.own.of), to_json_of(claim.own.over),
                        claim.unit, static_cast<int>(claim.mean)});
-        for (const analysis::Bound& bound : claim.own.bounds)
-            all.push_back({bound.quantity, bound.low, bound.high, to_json_of(bound.of)});
+        for (const analysis::Bound& bound : claim.own.bounds) all.push_back({bound.quantity, bound.low, bound.high, to_json_of(bound.of)});
     }
     return pbs::content_hash(all.dump());
 }

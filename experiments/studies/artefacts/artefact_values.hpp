@@ -55,8 +55,8 @@ std::vector<SectionRow> section_rows(const ArtefactCase& of, const ArtefactBody&
 // Measured are, at each joint, the jump of strain between neighbouring tets and the bending of the skin (analysis/metrics/error_norms.hpp);
 // for the whole body, the absolute volume change; and the number of iterations after which PBS stays within the tolerance of its residual,
 // by the rule of shared/iteration_path.hpp with the two blends as initial guesses. Each value is a ratio of Eq. 2 to rigid weights, with
-// its spread over meshes, with the variant default; PBS has one in each order and precision. Two controls take the place of Eq. 2 under LBS,
-// and under PBS in file order and double precision, on the own mesh: exchanged_weights, in which the two bones of each joint have each
+// its spread over meshes, with the variant default; PBS has one in each order and precision. Two controls take the place of Eq. 2 under
+// LBS, and under PBS in file order and double precision, on the own mesh: exchanged_weights, in which the two bones of each joint have each
 // other's weights near it, and diffused_weights (pbs/skinning/weights.hpp).
 inline constexpr int most_weight_iterations = 1000;
 

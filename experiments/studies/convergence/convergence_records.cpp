@@ -237,6 +237,8 @@ void add_starts(std::vector<analysis::Measurement>& to, const Group& group)
     add_guess("random", [](const ConvergencePaths& of) -> const IterationPath& { return of.controls[1]; });
 }
 
+constexpr double exponent_level = 0.99;  // sizes in any other order than their own lie beyond it in less than 1 % of all cases
+
 // iterations ~ vertices^exponent, over the sizes that reach the tolerance, by order.
 void add_exponents(std::vector<analysis::Measurement>& to, const ConvergenceResult& result)
 {
@@ -252,7 +254,7 @@ void add_exponents(std::vector<analysis::Measurement>& to, const ConvergenceResu
                     iterations.push_back(lbs.iterations);
                 }
             if (vertices.size() < 3) continue;
-            const analysis::Interval exponent = analysis::observed_order(vertices, iterations).slope;
+            const analysis::Interval exponent = analysis::observed_order(vertices, iterations, exponent_level).slope;
             const auto [fewest, most] = std::minmax_element(vertices.begin(), vertices.end());
             analysis::CaseKey key = key_of(first);
             key.tolerance = tolerance.name;

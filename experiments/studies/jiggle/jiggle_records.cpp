@@ -233,9 +233,9 @@ void add_frequencies(std::vector<Measurement>& measurements, const std::string& 
                                        over(largest.response.swing.frequency_hz, smallest.response.swing.frequency_hz), "1"));
 }
 
-// LBS at each k_stretch, which it does not have, and finite elements in time: with damping at each Young's modulus, without it at the
-// first, at which those with damping come to rest within the steps. Linear elements suffice where nothing turns, and average acceleration
-// adds no damping of its own.
+// LBS at each k_stretch, which it does not have; the author's later code; and finite elements in time: with damping at each Young's
+// modulus, without it at the first, at which those with damping come to rest within the steps. Linear elements suffice where nothing turns,
+// and average acceleration adds no damping of its own.
 void add_controls(const JoltCase& of, const pbs::Character& character, const std::vector<int>& probe,
                   std::vector<Measurement>& measurements)
 {
@@ -248,6 +248,9 @@ void add_controls(const JoltCase& of, const pbs::Character& character, const std
         of_lbs.value.push_back(jolt_response(character, default_spec("lbs"), probe, jolt).overshoot_over_jolt);
     }
     add_amplitudes(measurements, {.body = character.name, .deformer = "lbs"}, of_lbs);
+    DeformerSpec author = default_spec("pbs_author");
+    options_of<pbs::AuthorOptions>(author).gravity_m_s2.setZero();
+    add_setting(measurements, {.body = character.name, .deformer = "pbs_author"}, jolt_response(character, author, probe, jolt), true);
     const auto response = [&](double young_pa, double damping_s) {
         DeformerSpec spec = dynamic_reference(young_pa);
         auto& options = options_of<FemOptions>(spec);

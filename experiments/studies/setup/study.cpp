@@ -100,7 +100,8 @@ RECORD_SETTINGS_AND(SetupCase,
                                  const bool has_scene = !is_unsuitable(one.setup.body);  // the others are made by the run
                                  return has_scene ? to_json(scene_of(one.setup, one.rate_hz)) : nlohmann::json();
                              })
-                        .derived("compared_with", [](const SetupCase& one) { return shared_scene(one.rate_hz, one.setup.deformer).resolved; })
+                        .derived("compared_with",
+                                 [](const SetupCase& one) { return shared_scene(one.rate_hz, one.setup.deformer).resolved; })
                         .constant("further_keys", further_keys()),
                     setup, rate_hz)
 

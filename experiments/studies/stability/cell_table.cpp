@@ -50,7 +50,7 @@ Keyed by_sweep(const std::vector<MeasuredCell>& cells)
     Keyed sweeps;
     for (const MeasuredCell& measured : cells) {
         const StabilityCell& cell = measured.cell;
-        if (deformer_of(cell).empty()) continue;
+        if (deformer_of(cell).empty() || cell.named == "not_used") continue;  // not_used: no time step of its own
         const analysis::CaseKey key = {.body = cell.body,
                                        .deformer = deformer_of(cell),
                                        .variant = jiggles(cell) ? "jiggle" : "",

@@ -195,7 +195,7 @@ double of_cuts(const pbs::Positions& positions, Value value)
     return value_rounding(positions, coordinate_rounding_m(positions, 2 * (6 + 8)), value);
 }
 
-TEST(BrokenBulge, FiguresAreTheRatiosOfSectionsCutByHand)
+TEST(BrokenBulge, ValuesAreTheRatiosOfSectionsCutByHand)
 {
     const Shapes own = solved(Broken::nothing);
     const auto measured = measure(own);

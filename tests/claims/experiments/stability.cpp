@@ -219,7 +219,7 @@ TEST(StabilityVerdict, WhatMovesToTheEndIsNotAtRest)
 }
 
 // Without jiggle the time step has no effect, so that sweep holds for any method and is not a value of the claim.
-TEST(StabilityVerdict, TimeStepsThatDoNotEnterAreNoFigure)
+TEST(StabilityVerdict, TimeStepsThatDoNotEnterAreNotCounted)
 {
     for (const bool full : {false, true}) {
         int controls = 0;

@@ -41,7 +41,7 @@ TEST(AuditVerdict, WhatCannotBeTestedSaysWhy)
 {
     const analysis::Verdict verdict = judge(claim("C16"), {});
     EXPECT_EQ(verdict.kind, VerdictKind::not_testable);
-    EXPECT_NE(verdict.claim.reason.find("no figure"), std::string::npos) << verdict.claim.reason;
+    EXPECT_NE(verdict.claim.reason.find("no number"), std::string::npos) << verdict.claim.reason;
 }
 
 std::vector<analysis::Measurement> timed(const std::string& model, double ms, double lbs_ms = 0.02)

@@ -13,7 +13,7 @@ using namespace analysis;
 
 const std::string head = "schema = 1\n[[claim]]\nid = \"X\"\nstatement = \"s\"\nplace = \"p\"\nstudy = \"volume\"\ncost_minutes = 1\n";
 const std::string units = "rule = \"units\"\nquantities = [\"radius\"]\nunit = [\"body\"]\nsource = \"p\"\n";  // lines 8 to 11
-const std::string bounds = "bounds = [{ low = 1 }]\n", no_effect = "no_effect = 0.5\n";                    // lines 12 and 13
+const std::string bounds = "bounds = [{ low = 1 }]\n", no_effect = "no_effect = 0.5\n";                        // lines 12 and 13
 
 std::string message_of(const std::string& text)
 {
@@ -33,8 +33,12 @@ TEST(Claims, TheProjectsOwnFileIsRead)
 
 TEST(Claims, AControlHasWhatItDoesNotStateFromItsClaim)
 {
-    const std::string controls = "over = { deformer = \"flesh\" }\ncontrols = [{ name = \"LBS\", role = \"must_fail\", of = { deformer = \"lbs\" } }]\n";
-    const std::string compared = "compared = [{ name = \"area\", quantities = [\"area\"], over = {}, of = { time_s = 2 }, bounds = [{ high = 3 }] }]\n";
+    const std::string controls =
+        "over = { deformer = \"flesh\" }\n"
+        "controls = [{ name = \"LBS\", role = \"must_fail\", of = { deformer = \"lbs\" } }]\n";
+    const std::string compared =
+        "compared = [{ name = \"area\", quantities = [\"area\"], over = {}, of = { time_s = 2 }, "
+        "bounds = [{ high = 3 }] }]\n";
     const Claim claim = parse_claims(head + units + bounds + controls + compared, "claims.toml").at(0);
     ASSERT_EQ(claim.others.size(), 2u);
     EXPECT_EQ(claim.others[0].role, Role::must_fail);
@@ -84,7 +88,8 @@ TEST(Claims, BrokenFilesAreNamedWithTheirLine)
               "claims.toml:14: role: expected must_fail or must_hold in controls, and none in compared"},
              {whole + "compared = [{ name = \"LBS\", role = \"must_fail\" }]\n",
               "claims.toml:14: role = must_fail: expected must_fail or must_hold in controls, and none in compared"},
-             {whole + "controls = [{ name = \"LBS\", role = \"might\" }]\n", "claims.toml:14: role = might: expected must_fail or must_hold"},
+             {whole + "controls = [{ name = \"LBS\", role = \"might\" }]\n",
+              "claims.toml:14: role = might: expected must_fail or must_hold"},
          })
         EXPECT_EQ(message_of(text), message);
     EXPECT_EQ(message_of(std::string("\1\2", 2)).substr(0, 14), "claims.toml:1:");

@@ -66,8 +66,13 @@ TEST(FrameMeasurements, OfAClipAreItsMeansAndTheShareOfItsFrames)
     EXPECT_DOUBLE_EQ(measured[0].value, 0.25);
     EXPECT_EQ(measured[0].low, -0.5);
     EXPECT_EQ(measured[0].high, 0.9);
-    EXPECT_EQ(measured[0].of,
-              (CaseKey{.body = "human", .motion = "01_01", .deformer = "pbs", .variant = "default", .order = "plain", .precision = "f64", .iterations = 24.0}));
+    EXPECT_EQ(measured[0].of, (CaseKey{.body = "human",
+                                       .motion = "01_01",
+                                       .deformer = "pbs",
+                                       .variant = "default",
+                                       .order = "plain",
+                                       .precision = "f64",
+                                       .iterations = 24.0}));
     EXPECT_EQ(measured[0].run, "volume/walk");
     EXPECT_DOUBLE_EQ(measured[1].value, 1.5);
     EXPECT_EQ(measured[2].quantity, "share_of_frames_within_half_pct");

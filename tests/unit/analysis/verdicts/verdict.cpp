@@ -16,7 +16,9 @@ using enum VerdictKind;
 // A claim on the radius of PBS at the joints of bodies: at least 0.9. LBS must fail, flesh must hold.
 Claim radius_claim()
 {
-    Claim claim{.id = "X01", .statement = "It | holds", .place = "Sec. 1", .study = "artefacts", .unit = {"body", "joint"}, .source = "Sec. 1"};
+    Claim claim{.id = "X01", .statement = "It | holds", .place = "Sec. 1", .study = "artefacts"};
+    claim.unit = {"body", "joint"};
+    claim.source = "Sec. 1";
     claim.own = {.name = "X01", .quantities = {"radius"}, .of = {.deformer = "pbs"}, .bounds = {{.low = 0.9}}};
     claim.others = {claim.own, claim.own, claim.own};
     const std::array<std::tuple<const char*, Role, const char*>, 3> others = {
@@ -56,8 +58,15 @@ TEST(Verdict, FollowsFromTheShareOfTheUnits)
         int held, units;
         VerdictKind kind;
     };
-    for (const auto& [held, units, kind] : {Case{20, 20, holds}, {19, 20, holds}, {18, 20, mixed}, {11, 20, mixed}, {10, 20, fails},
-                                            {0, 20, fails}, {5, 5, holds}, {4, 4, not_testable}, {0, 0, not_testable}})
+    for (const auto& [held, units, kind] : {Case{20, 20, holds},
+                                            {19, 20, holds},
+                                            {18, 20, mixed},
+                                            {11, 20, mixed},
+                                            {10, 20, fails},
+                                            {0, 20, fails},
+                                            {5, 5, holds},
+                                            {4, 4, not_testable},
+                                            {0, 0, not_testable}})
         EXPECT_EQ(verdict_on(held, units).kind, kind) << held << " of " << units;
     EXPECT_EQ(verdict_on(4, 4).untested, Untested::too_few_units);
     const Verdict verdict = verdict_on(18, 20);
@@ -240,7 +249,10 @@ TEST(Verdict, ShowsTheClaimInEachOrderAndPrecision)
     for (Measurement& one : records.measurements)
         if (one.of.deformer == "pbs") one.of.order = "plain", one.of.precision = "f64";
     for (Measurement one : all)
-        if (one.of.deformer == "pbs") one.of.order = "ordered", one.of.precision = "f32", one.value = 0.1, records.measurements.push_back(one);
+        if (one.of.deformer == "pbs") {
+            one.of.order = "ordered", one.of.precision = "f32", one.value = 0.1;
+            records.measurements.push_back(one);
+        }
     const Verdict verdict = judge(claim, records);
     EXPECT_EQ(verdict.kind, holds);
     ASSERT_EQ(verdict.readings.size(), 1u);
@@ -265,7 +277,8 @@ TEST(Verdict, PrintedValuesAreConsistentOrNot)
     Claim claim;
     claim.id = "C14";
     claim.rule = ClaimRule::printed;
-    std::vector<PrintedValue> printed = {{"C14", "edges", {.model = "Man"}, 5.0, 4.0, 6.0}, {"C14", "edges", {.model = "Lady"}, 7.0, 4.0, 6.0},
+    std::vector<PrintedValue> printed = {{"C14", "edges", {.model = "Man"}, 5.0, 4.0, 6.0},
+                                         {"C14", "edges", {.model = "Lady"}, 7.0, 4.0, 6.0},
                                          {"C13", "edges", {}, 0.0, 4.0, 6.0}};
     EXPECT_EQ(judge(claim, {.printed = printed}).kind, inconsistent_in_print);
     EXPECT_EQ(judge(claim, {.printed = printed}).printed.size(), 2u);
@@ -277,7 +290,7 @@ TEST(Verdict, PrintedValuesAreConsistentOrNot)
 TEST(Verdict, DefinitionsAndUntestableClaimsSayWhy)
 {
     Claim claim = radius_claim();
-    claim.reason = "no figures";
+    claim.reason = "no numbers";
     claim.rule = ClaimRule::definition;
     EXPECT_EQ(judge(claim, records_of(3, 20)).kind, definition);
     EXPECT_EQ(judge(claim, records_of(3, 20)).own.held, 3) << "its values are reported";

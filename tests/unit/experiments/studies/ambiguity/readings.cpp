@@ -34,9 +34,8 @@ std::vector<ClaimChange> compared(const JudgedReading& a, const JudgedReading& b
 // A value that B lacks because it breaks down does not hold.
 TEST(ClaimChanges, StateWhetherTheVerdictFlipsOrWhyThereIsNoValue)
 {
-    const std::vector<JudgedValue> none, holds = {value(0.5, true)}, holds_too = {value(0.6, true)},
-                                         fails = {value(2.0, false)}, zero = {value(0.0, false)},
-                                         bounded = {value(1.25, false, analysis::Limit::at_least)},
+    const std::vector<JudgedValue> none, holds = {value(0.5, true)}, holds_too = {value(0.6, true)}, fails = {value(2.0, false)},
+                                         zero = {value(0.0, false)}, bounded = {value(1.25, false, analysis::Limit::at_least)},
                                          unknown = {value(std::numeric_limits<double>::quiet_NaN(), false)};
     struct Row {
         const char* name;
@@ -99,14 +98,16 @@ TEST(ClaimChanges, HoldBothValuesOfEachCase)
 TEST(JudgedValue, IsTheUnitOfAClaimInAnySettingWithItsLimit)
 {
     const analysis::CaseKey jolted = {.body = "limb", .deformer = "pbs", .masses = "lumped"};
-    const auto values = judged({{"C09", "damping_ratio", jolted, 0.5, 0.5, 0.5, "1"}, {"C09", "frequency_hz", jolted, 14.0, 14.0, 14.0, "Hz"}});
+    const auto values =
+        judged({{"C09", "damping_ratio", jolted, 0.5, 0.5, 0.5, "1"}, {"C09", "frequency_hz", jolted, 14.0, 14.0, 14.0, "Hz"}});
     ASSERT_EQ(values.size(), 1u);
     EXPECT_EQ(values[0].claim, "C09a");
     EXPECT_EQ(values[0].quantity, "damping_ratio");
     EXPECT_TRUE(values[0].holds);
     EXPECT_FALSE(judged({{"C09", "damping_ratio", jolted, 2.0, 2.0, 2.0, "1"}})[0].holds);
 
-    const analysis::CaseKey of = {.body = "limb", .order = "ordered", .precision = "f32", .initial_guess = "rigid_bind", .tolerance = "residual"};
+    const analysis::CaseKey of = {
+        .body = "limb", .order = "ordered", .precision = "f32", .initial_guess = "rigid_bind", .tolerance = "residual"};
     const auto bounded = judged({{"C03", "iterations_over_lbs_guess", of, 30.0, 30.0, 30.0, "1", "", analysis::Limit::at_least}});
     ASSERT_EQ(bounded.size(), 1u);
     EXPECT_EQ(bounded[0].of.body, "limb");
