@@ -231,14 +231,24 @@ std::string share_text(const Verdict& verdict)
                        verdict.interval.low, verdict.interval.high);
 }
 
+// A censored number with its sign: > 1,000.
+std::string number_text(const Judged& judged, double number)
+{
+    static constexpr std::array signs = {"", ">= ", "<= ", "> "};
+    const auto is_it = [&](const Unit& unit) { return unit.counts() && unit.value == number && unit.limit != Limit::none; };
+    const auto censored = std::ranges::find_if(judged.units, is_it);
+    const Limit limit = censored == judged.units.end() ? Limit::none : censored->limit;
+    return signs[static_cast<std::size_t>(limit)] + (limit == Limit::none ? fmt::format("{:.3g}", number) : fmt::format("{:.4g}", number));
+}
+
 // The numbers of the units, least to most, with their bound.
 std::string numbers_text(const Verdict& verdict)
 {
     const std::vector<double> numbers = numbers_of(verdict.own);
     if (numbers.empty()) return "";
     const std::string unit = verdict.own.units.front().unit, shown = unit.empty() || unit == "1" ? "" : " " + unit;
-    const std::string values = numbers.front() == numbers.back() ? fmt::format("{:.3g}", numbers.front())
-                                                                 : fmt::format("{:.3g} to {:.3g}", numbers.front(), numbers.back());
+    const std::string least = number_text(verdict.own, numbers.front()), most = number_text(verdict.own, numbers.back());
+    const std::string values = numbers.front() == numbers.back() ? least : least + " to " + most;
     std::vector<std::string> bounds;
     for (const Bound& bound : verdict.claim.own.bounds) bounds.push_back(bound_text(bound));
     return fmt::format("{}: {}{}; bound {}", fmt::join(verdict.claim.own.quantities, ", "), values, shown, fmt::join(bounds, ", "));

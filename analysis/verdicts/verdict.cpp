@@ -43,6 +43,7 @@ bool is_same(const Unit& one, const Unit& other)
 double mean_of(Mean mean_kind, const std::vector<double>& values)
 {
     if (mean_kind == Mean::arithmetic) return mean(values);
+    if (std::ranges::count(values, 0.0) > 0) return std::ranges::all_of(values, [](double one) { return one >= 0.0; }) ? 0.0 : not_known;
     std::vector<double> logarithms;
     for (const double value : values) logarithms.push_back(std::log(value));  // NaN for a value below 0, as for one that is not known
     return std::exp(mean(logarithms));

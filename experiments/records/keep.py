@@ -36,16 +36,21 @@ def rounded(text):
 
 
 def shown_deformers():
-    """Each deformer that claims of the study `volume`, the only one judged from metrics.csv, select -> its iterations, None for any."""
+    """Each deformer that claims of the study `volume`, the only one judged from metrics.csv, select -> its numbers of iterations; None for
+    any, as where one selection states none."""
     claims = tomllib.loads((pathlib.Path(__file__).resolve().parents[1] / "verdicts" / "claims.toml").read_text(encoding="utf-8"))["claim"]
     selected = [of.get("of", {}) for claim in claims if claim["study"] == "volume"
                 for of in (claim, *claim.get("controls", []), *claim.get("compared", []))]
-    return {name: None for name in PICTURED} | {of["deformer"]: of.get("iterations") for of in selected}
+    deformers = {name: None for name in PICTURED}
+    for of in (of for of in selected if "deformer" in of):
+        known = deformers.setdefault(of["deformer"], set())
+        deformers[of["deformer"]] = known | {of["iterations"]} if known is not None and "iterations" in of else None
+    return deformers
 
 
 def is_shown(row, deformers):
     iterations = deformers.get(row["deformer"])
-    return row["deformer"] in deformers and (iterations is None or int(float(row["iterations"])) == iterations)
+    return row["deformer"] in deformers and (iterations is None or int(float(row["iterations"])) in iterations)
 
 
 def keep_metrics(source, target):

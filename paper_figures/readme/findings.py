@@ -88,7 +88,7 @@ def trials(results):
     counts = {}
     for row in (row for file in sorted((results / "stability").glob("*/measurements.csv")) for row in records.read_rows(file)):
         if row["deformer"] == "pbs" and row["quantity"].startswith("share_of_cells_"):
-            ends = counts.setdefault((row.get("order") or "", row["precision"]), {})
+            ends = counts.setdefault((row.get("order", ""), row.get("precision", "")), {})
             ended, every = ends.get(row["quantity"], (0, 0))
             ends[row["quantity"]] = ended + round(row.number("value") * row.number("n")), every + round(row.number("n"))
     return counts

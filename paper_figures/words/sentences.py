@@ -183,13 +183,10 @@ def left_out_units(of):
     return [f"{counted(number, 'unit')} left out: {case_words.of_field('left_out', why)}" for why, number in of["left_out_units"].items()]
 
 
-def is_by_chance(claim):
-    return claim["verdict"] == "fails" and claim["chance"] is not None and (claim["share"] or 0) > failing_share
-
-
 def by_chance(claim):
     """Where chance decides."""
-    return [f"chance reaches as many with a probability of {figure(claim['chance'])}"] if is_by_chance(claim) else []
+    decides = claim["verdict"] == "fails" and claim["chance"] is not None and (claim["share"] or 0) > failing_share
+    return [f"chance reaches as many with a probability of {figure(claim['chance'])}"] if decides else []
 
 
 def difference(claim):
@@ -212,7 +209,8 @@ def why_untested(claim):
     if reason not in ("control_without_record", "control_misbehaves"):
         return [claim["reason"]] if claim["reason"] else []
     none = [control["name"] for control in claim["controls"] if not control["n"]]
-    wrong = [f"the control {control['name']}, which {role(control)}, holds in {control['held']} of {counted(control['n'], 'unit')}"
+    wrong = [f"the control {control['name']}, which {case_words.of_field('role', control['role'])}, holds in {control['held']} of "
+             f"{counted(control['n'], 'unit')}"
              for control in claim["controls"] if control["n"] and not control["behaves"]]
     return [*([f"no record of the control{'s' if len(none) > 1 else ''} {', '.join(none)}"] if none else []), *wrong]
 
@@ -275,10 +273,6 @@ compared_head = ["for comparison", "units within the bound", "numbers"]
 reading_head = ["order and precision of projection", "units within the bound", "least", "most"]
 
 
-def role(control):
-    return case_words.tables["role"].get(control["role"], control["role"])
-
-
 def named(claim, of):
     """A selection with the title of its quantity, where that is not the claim's own: LBS (time of LBS per frame)."""
     if of["quantities"] == claim["quantities"] or not of["quantities"]:
@@ -288,7 +282,8 @@ def named(claim, of):
 
 
 def control_rows(claim):
-    return [[named(claim, of), role(of), held(of), spans(claim, of), "yes" if of["behaves"] else "no"] for of in claim["controls"]]
+    return [[named(claim, of), case_words.of_field("role", of["role"]), held(of), spans(claim, of), "yes" if of["behaves"] else "no"]
+            for of in claim["controls"]]
 
 
 def compared_rows(claim):

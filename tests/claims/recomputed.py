@@ -1,11 +1,14 @@
 """Every verdict on the kept records, computed a second time from their tables and from claims.toml: the number of each unit, which units
-count, the share that holds, its exact binomial interval, q, chance and the verdict. Reference: the rule as the head of claims.toml and the
-headers in analysis/verdicts state it. Nothing is shared with the program or with paper_figures: the standard library reads the files."""
+count, the share that holds with its interval, q, chance and the verdict. Reference: the rule as the head of claims.toml and the headers in
+analysis/verdicts state it. Nothing is shared with the program or with paper_figures: the standard library reads the files."""
 import csv
+import functools
 import json
 import math
 import pathlib
+import random
 import shutil
+import statistics
 import tempfile
 import tomllib
 import unittest
@@ -17,6 +20,7 @@ RECORDS = SOURCE / "experiments" / "records" / "full"
 SETTING = ("run", "scene", "deformer", "variant", "order", "precision", "iterations", "threads")
 INFINITE = math.inf
 LEAST_UNITS, HOLDING, FAILING, LARGEST_CHANCE = 5, 0.95, 0.5, 0.01
+DRAWS, DRAWS_OF_THE_PROGRAM, SEED = 10_000, 2_000, 38
 
 
 def claims():
@@ -71,7 +75,9 @@ def frame_values(study, plan):
 def mean(how, values):
     if how == "arithmetic":
         return sum(values) / len(values)
-    return math.exp(sum(map(math.log, values)) / len(values)) if all(value > 0 for value in values) else math.nan
+    if not all(value >= 0 for value in values):  # a value below 0 has no logarithm, and one that is not a number decides nothing
+        return math.nan
+    return math.exp(sum(map(math.log, values)) / len(values)) if all(values) else 0.0
 
 
 def lies_within(bound, value):
@@ -109,34 +115,32 @@ class Units:
         return {unit: [value for value in group if not value.get("beside")] or group for unit, group in groups.items()}
 
     def judged(self, unit, own, over):
+        """The first quantity is the number of the unit; one without a value does not hold."""
         if "quantity" in self.claim["unit"]:
             return self.compared(own[0]["quantity"], unit, own, over)
         parts = []
         for quantity in self.selection["quantities"]:
             mine = [value for value in own if value["quantity"] == quantity]
-            if mine:
-                base = None if over is None else [value for value in over if value["quantity"] == quantity]
-                parts.append(self.compared(quantity, unit, mine, base))
-        whole = len(parts) == len(self.selection["quantities"])
+            base = None if over is None else [value for value in over if value["quantity"] == quantity]
+            parts.append(self.compared(quantity, unit, mine, base) if mine else {"value": math.nan, "holds": False, "left_out": None})
         left_out = [part["left_out"] for part in parts if part["left_out"]]
-        return parts[0] | {"holds": whole and all(part["holds"] for part in parts), "left_out": left_out[0] if left_out else None}
+        return parts[0] | {"holds": all(part["holds"] for part in parts), "left_out": left_out[0] if left_out else None, "parts": parts}
 
     def compared(self, quantity, unit, own, over):
         key = dict(zip(self.claim["unit"], unit))
         bound = next((one for one in self.selection["bounds"]
                       if one.get("quantity", quantity) == quantity and agrees(key, one.get("of", {}))), {})
-        how = self.claim.get("mean", "arithmetic")
-        number = mean(how, [float(value["value"]) for value in own])
-        limit = next((value["limit"] for value in own if "limit" in value), None)
+        values, how = [float(value["value"]) for value in own], self.claim.get("mean", "arithmetic")
+        ends = {end: [*values, *(float(value.get(end, value["value"])) for value in own)] for end in ("low", "high")}
+        numbers = mean(how, values), min(INFINITE, *ends["low"]), max(-INFINITE, *ends["high"])
+        limit = next((value["limit"] for value in reversed(own) if "limit" in value), None)
         if over is not None:
             base = mean(how, [float(value["value"]) for value in over]) if over else math.nan
             if not math.isfinite(base) or base == 0:
-                return {"value": number, "holds": False, "left_out": "nothing_to_compare_with"}
-            number /= base
-        return {"value": number, "bound": bound, "holds": lies_within(bound, number),
-                "left_out": "censored" if is_undecided(bound, number, limit) else None,
-                "low": min(float(value.get("low", value["value"])) for value in own),
-                "high": max(float(value.get("high", value["value"])) for value in own)}
+                return {"value": numbers[0], "holds": False, "left_out": "nothing_to_compare_with"}
+            numbers = [number / base for number in numbers]
+        return {**dict(zip(("value", "low", "high"), numbers)), "bound": bound, "holds": lies_within(bound, numbers[0]),
+                "left_out": "censored" if is_undecided(bound, numbers[0], limit) else None}
 
     def leave_out_unseen(self, control):
         for unit, one in self.units.items():
@@ -157,6 +161,28 @@ class Units:
     @property
     def held(self):
         return sum(one["holds"] for one in self.counted)
+
+    @property
+    def numbers(self):
+        return sorted(one["value"] for one in self.counted if math.isfinite(one["value"]))
+
+    def shares(self, field):
+        """value of a field -> the share of its units that hold, of at least two units."""
+        place, groups = self.claim["unit"].index(field), {}
+        for unit, one in self.units.items():
+            if not one["left_out"]:
+                groups.setdefault(unit[place], []).append(one["holds"])
+        return {value: sum(held) / len(held) for value, held in groups.items() if len(held) > 1}
+
+    @property
+    def by_body(self):
+        """Of each body, how many units count, and how many hold."""
+        place = self.claim["unit"].index("body") if "body" in self.claim["unit"] else None
+        groups = {}
+        for unit, one in self.units.items():
+            if not one["left_out"]:
+                groups.setdefault("" if place is None else unit[place], []).append(one["holds"])
+        return [(len(held), sum(held)) for held in groups.values()]
 
     @property
     def behaves(self):
@@ -183,19 +209,37 @@ def exact_interval(held, n, level=0.95):
             1.0 if held == n else root(lambda q: 1 - tail(held + 1, n, q) <= half))
 
 
+def bootstrap_ends(bodies):
+    """Between which values the ends of the 95 % range of the share must lie if bodies are drawn with replacement, as many as there are. The
+    quantile at p of N draws lies between those at p - d and p + d of all draws, d = 4 sqrt(p (1 - p) / N), except with a probability of
+    6e-5; the variances of this draw and the program's add up."""
+    source, drawn = random.Random(SEED), []
+    for _ in range(DRAWS):
+        chosen = source.choices(bodies, k=len(bodies))
+        drawn.append(sum(held for _, held in chosen) / sum(n for n, _ in chosen))
+    drawn.sort()
+    margin = 4 * math.sqrt(0.025 * 0.975 * (1 / DRAWS + 1 / DRAWS_OF_THE_PROGRAM))
+    return [(drawn[math.floor((p - margin) * (DRAWS - 1))], drawn[math.ceil((p + margin) * (DRAWS - 1))]) for p in (0.025, 0.975)]
+
+
 class Verdict:
     """The verdict on one claim from the kept records, with the facts that claims.json states."""
 
     def __init__(self, claim):
-        self.claim, self.untested, self.controls, self.compared = claim, "none", [], []
+        self.claim, self.untested = claim, "none"
         self.q = self.chance = None
         plan = json.loads((RECORDS / "plans.json").read_text())[claim["study"]]
         self.values = rows_of(claim["study"], "measurements.csv") + frame_values(claim["study"], plan)
-        self.own = Units(claim | {"unit": claim.get("unit", [])}, self.values, {"of": claim.get("of", {})})
+        self.own = self.units({"of": claim.get("of", {})})
+        self.controls = [self.units(control) for control in claim.get("controls", [])]
+        self.compared = [self.units(other) for other in claim.get("compared", [])]
         self.printed = [row for row in rows_of(claim["study"], "printed.csv") if row["claim"] == claim["id"]]
         judged = {"units": self.by_units, "single": self.by_range, "printed": self.by_print, "definition": lambda: "definition"}
         is_missing = claim["rule"] != "printed" and "quantities" in claim and self.lacks_a_run(plan)
         self.kind = "not_computable" if is_missing else judged.get(claim["rule"], self.without_a_test)()
+
+    def units(self, selection):
+        return Units(self.claim | {"unit": self.claim.get("unit", [])}, self.values, selection)
 
     def lacks_a_run(self, plan):
         origins = json.loads((RECORDS / "provenance.json").read_text())["origins"]
@@ -207,14 +251,13 @@ class Verdict:
         return "not_testable"
 
     def by_units(self):
-        self.controls = [Units(self.claim, self.values, control) for control in self.claim.get("controls", [])]
         unseen = [control for control in self.controls if control.selection["name"] == self.claim.get("unseen_by")]
-        self.compared = [Units(self.claim, self.values, other) for other in self.claim.get("compared", [])]
         for one in [self.own, *self.compared] if unseen else []:
             one.leave_out_unseen(unseen[0])
-        self.q = self.claim.get("no_effect") or max((control.held + 1) / (control.n + 2) for control in self.controls
-                                                    if control.selection["role"] == "must_fail")
         n, held = self.own.n, self.own.held
+        self.q = self.claim.get("no_effect") or max(
+            1 / (n + 2) if control in unseen else (control.held + 1) / (control.n + 2)  # of the units that count, the former holds in none
+            for control in self.controls if control.selection["role"] == "must_fail")
         self.chance = tail(held, n, self.q) if n else None
         for control in self.controls:
             if not control.behaves:
@@ -232,7 +275,7 @@ class Verdict:
         if lies_within(only["bound"], only["low"]) and lies_within(only["bound"], only["high"]):
             return "holds"
         low, high = only["bound"].get("low", -INFINITE), only["bound"].get("high", INFINITE)
-        return "fails" if only["high"] < low or only["low"] > high else "mixed"
+        return "fails" if only["high"] < low or only["low"] > high or math.isnan(only["value"]) else "mixed"
 
     def is_consistent(self, row):
         return float(row["least"]) <= float(row["printed"]) <= float(row.get("most", INFINITE))
@@ -241,6 +284,18 @@ class Verdict:
         if not self.printed:
             return "not_computable"
         return "holds" if all(map(self.is_consistent, self.printed)) else "inconsistent_in_print"
+
+
+def of_each_claim(test):
+    """Calls test(self, own verdict, claim in claims.json) for each claim."""
+    @functools.wraps(test)
+    def run(self):
+        self.assertEqual([judged["id"] for judged in self.judged], [verdict.claim["id"] for verdict in self.verdicts])
+        for verdict, judged in zip(self.verdicts, self.judged):
+            with self.subTest(judged["id"]):
+                test(self, verdict, judged)
+
+    return run
 
 
 class Recomputed(unittest.TestCase):
@@ -255,15 +310,13 @@ class Recomputed(unittest.TestCase):
             cls.judged = json.loads((kept / "claims.json").read_text(encoding="utf-8"))["claims"]
         cls.verdicts = [Verdict(claim) for claim in claims()]
 
-    def compare(self, test):
-        """Calls test(own verdict, claim in claims.json) for each claim; one without its records has no further facts."""
-        self.assertEqual([judged["id"] for judged in self.judged], [verdict.claim["id"] for verdict in self.verdicts])
-        for verdict, judged in zip(self.verdicts, self.judged):
-            with self.subTest(judged["id"]):
-                test(verdict, judged)
-
     def assert_near(self, one, other):
         self.assertTrue(one == other or math.isclose(one, other, rel_tol=1e-9, abs_tol=1e-15), f"{one} is not {other}")
+
+    def assert_same_number(self, own, stated, case):
+        self.assertEqual(math.isfinite(own), stated is not None, case)
+        if stated is not None:
+            self.assert_near(own, stated)
 
     def assert_same_units(self, own, cases):
         fields = own.claim["unit"]
@@ -271,65 +324,83 @@ class Recomputed(unittest.TestCase):
         for case in cases:
             unit = own.units[tuple(text(case.get(field, "")) for field in fields)]
             self.assertEqual((unit["left_out"], unit["holds"]), (case["left_out"], case["holds"]), case)
-            if case["value"] is None:
-                self.assertFalse(math.isfinite(unit["value"]), case)
-            else:
-                self.assert_near(unit["value"], case["value"])
+            self.assert_same_number(unit["value"], case["value"], case)
+            self.assertEqual(len(case.get("parts", [])), len(unit.get("parts", [])) if len(unit.get("parts", [])) > 1 else 0, case)
+            for part, stated in zip(unit.get("parts", []), case.get("parts", [])):
+                self.assertEqual(part["holds"], stated["holds"], case)
+                self.assert_same_number(part["value"], stated["value"], case)
 
-    def test_each_verdict_and_why_a_claim_is_not_testable(self):
-        def test(verdict, judged):
-            self.assertEqual((verdict.kind, verdict.untested), (judged["verdict"], judged["untested"]))
+    @of_each_claim
+    def test_every_claim_and_control_has_units_on_record(self, verdict, judged):
+        self.assertNotEqual(verdict.kind, "not_computable")
+        if verdict.claim["rule"] == "printed":
+            self.assertTrue(verdict.printed)
+        elif "quantities" in verdict.claim:
+            self.assertGreater(verdict.own.n, 0)
+        self.assertEqual([one.selection["name"] for one in [*verdict.controls, *verdict.compared] if one.n == 0], [])
 
-        self.compare(test)
+    @of_each_claim
+    def test_each_verdict_and_why_a_claim_is_not_testable(self, verdict, judged):
+        self.assertEqual((verdict.kind, verdict.untested), (judged["verdict"], judged["untested"]))
 
-    def test_the_number_of_each_unit_and_whether_it_counts_and_holds(self):
-        def test(verdict, judged):
-            if verdict.kind == "not_computable":
-                self.assertEqual(judged["cases"], [])
-            elif verdict.claim["rule"] == "printed":
-                self.assertEqual([verdict.is_consistent(row) for row in verdict.printed], [case["holds"] for case in judged["cases"]])
-            else:
-                self.assert_same_units(verdict.own, judged["cases"])
+    @of_each_claim
+    def test_the_number_of_each_unit_and_whether_it_counts_and_holds(self, verdict, judged):
+        if verdict.claim["rule"] == "printed":
+            own = [(float(row["printed"]), verdict.is_consistent(row)) for row in verdict.printed]
+            self.assertEqual(own, [(case["value"], case["holds"]) for case in judged["cases"]])
+            self.assertEqual((sum(holds for _, holds in own), len(own)), (judged["held"], judged["n"]))
+        else:
+            self.assert_same_units(verdict.own, judged["cases"])
+            self.assertEqual((verdict.own.held, verdict.own.n), (judged["held"], judged["n"]))
 
-        self.compare(test)
+    @of_each_claim
+    def test_the_least_the_median_and_the_most_number(self, verdict, judged):
+        numbers = verdict.own.numbers
+        own = (numbers[0], statistics.median(numbers), numbers[-1]) if numbers else (math.nan,) * 3
+        for number, name in zip(own, ("least", "median", "most")):
+            self.assert_same_number(number, judged[name], name)
 
-    def test_the_share_and_its_interval(self):
-        def test(verdict, judged):
-            if verdict.claim["rule"] != "printed" and verdict.kind != "not_computable":
-                self.assertEqual((verdict.own.held, verdict.own.n), (judged["held"], judged["n"]))
-            if verdict.claim["rule"] == "units" and judged["n"]:
-                self.assert_near(verdict.own.held / verdict.own.n, judged["share"])
-                low, high = exact_interval(verdict.own.held, verdict.own.n)
-                self.assertGreaterEqual(judged["interval_high"] - judged["interval_low"], high - low - 1e-9)
+    @of_each_claim
+    def test_the_share_and_its_interval(self, verdict, judged):
+        if verdict.claim["rule"] != "units" or not judged["n"]:
+            return
+        self.assert_near(verdict.own.held / verdict.own.n, judged["share"])
+        exact, stated = exact_interval(verdict.own.held, verdict.own.n), (judged["interval_low"], judged["interval_high"])
+        self.assertTrue(0 <= stated[0] <= stated[1] <= 1, stated)
+        is_exact = all(math.isclose(one, other, abs_tol=1e-9) for one, other in zip(stated, exact))
+        bodies, width = verdict.own.by_body, exact[1] - exact[0]
+        if len(bodies) > 1:
+            low, high = bootstrap_ends(bodies)
+            is_bootstrap = low[0] <= stated[0] <= low[1] and high[0] <= stated[1] <= high[1] and stated[1] - stated[0] > width
+            self.assertTrue(is_exact and high[0] - low[1] <= width or is_bootstrap, f"{stated}: neither {exact} nor in {low}, {high}")
+        else:
+            self.assertTrue(is_exact, f"{stated} is not {exact}")
 
-        self.compare(test)
+    @of_each_claim
+    def test_the_property_by_which_the_units_of_a_mixed_claim_differ(self, verdict, judged):
+        if verdict.kind != "mixed":
+            self.assertIsNone(judged["differs"])
+            return
+        shares = {field: verdict.own.shares(field) for field in verdict.own.claim["unit"]}
+        spread = max(max(values.values()) - min(values.values()) for values in shares.values() if values)
+        of = judged["differs"] or {"least": 0, "most": 0}
+        self.assert_near(of["most"] - of["least"], spread)
+        for end in ("least", "most") if "field" in of else ():
+            self.assert_near(shares[of["field"]][text(of[f"{end}_at"])], of[end])
 
-    def test_q_and_chance(self):
-        def test(verdict, judged):
-            for own, stated in ((verdict.q, judged["q"]), (verdict.chance, judged["chance"])):
-                self.assertEqual(own is None, stated is None)
-                if own is not None:
-                    self.assert_near(own, stated)
+    @of_each_claim
+    def test_q_and_chance(self, verdict, judged):
+        for own, stated in ((verdict.q, judged["q"]), (verdict.chance, judged["chance"])):
+            self.assertEqual(own is None, stated is None)
+            if own is not None:
+                self.assert_near(own, stated)
 
-        self.compare(test)
-
-    def test_the_controls_and_whether_they_behave(self):
-        def test(verdict, judged):
-            if verdict.kind != "not_computable":
-                own = [(control.selection["name"], control.selection["role"], control.held, control.n, control.behaves)
-                       for control in verdict.controls]
-                self.assertEqual(own, [tuple(control[key] for key in ("name", "role", "held", "n", "behaves"))
-                                       for control in judged["controls"]])
-
-        self.compare(test)
-
-    def test_how_many_units_of_each_comparison_lie_within_the_bound(self):
-        def test(verdict, judged):
-            if verdict.claim["rule"] == "units" and verdict.kind != "not_computable":
-                own = [(one.selection["name"], one.held, one.n) for one in verdict.compared]
-                self.assertEqual(own, [(one["name"], one["held"], one["n"]) for one in judged["compared"]])
-
-        self.compare(test)
+    @of_each_claim
+    def test_how_many_units_of_each_control_and_comparison_hold_and_whether_it_behaves(self, verdict, judged):
+        own = [(one.selection["name"], one.selection.get("role", "comparison"), one.held, one.n, one.behaves)
+               for one in [*verdict.controls, *verdict.compared]]
+        self.assertEqual(own, [tuple(one[key] for key in ("name", "role", "held", "n", "behaves"))
+                               for one in judged["controls"] + judged["compared"]])
 
 
 class OwnFormulae(unittest.TestCase):
@@ -339,6 +410,14 @@ class OwnFormulae(unittest.TestCase):
         self.assertAlmostEqual(tail(0, 5, 0.3), 1.0)
         self.assertAlmostEqual(tail(14, 18, 0.5), 0.01544189453125)
         self.assertAlmostEqual(tail(5, 5, 0.5), 1 / 32)
+
+    def test_means_with_a_zero_or_without_a_value(self):
+        self.assertEqual((mean("geometric", [0.0, 4.0]), mean("geometric", [1.0, 4.0])), (0.0, 2.0))
+        self.assertTrue(all(math.isnan(mean("geometric", values)) for values in ([-1.0, 4.0], [math.nan, 1.0])))
+
+    def test_the_ends_of_a_bootstrap_over_bodies(self):
+        """Two bodies, of which one holds: both draws of one body have a probability of 1/4, more than 2.5 %."""
+        self.assertEqual(bootstrap_ends([(3, 3), (2, 0)]), [(0.0, 0.0), (1.0, 1.0)])
 
     def test_exact_intervals(self):
         low, high = exact_interval(0, 6)

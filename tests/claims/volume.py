@@ -86,7 +86,7 @@ class BrokenSolver(LimbTest):
 
     def test_half_the_volume_stiffness(self):
         """Half of each correction: stretch and bind constraints keep more of their own."""
-        lost = [self.change(self.last_frame( "limb_bend", 90.0, *overrides)["pbs"], "volume_abs_change_pct")
+        lost = [self.change(self.last_frame("limb_bend", 90.0, *overrides)["pbs"], "volume_abs_change_pct")
                 for overrides in ((), HALF)]
         self.assertLess(lost[0], lost[1])
 

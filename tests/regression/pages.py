@@ -1,10 +1,12 @@
 """The README and the pages state what the kept records have, and the verdicts of the kept records are those on record by the bounds of
 claims.toml: they change only with new records or another rule. Every study and every claim has its page, with the required sections, whose
-generated part is current. `pbskin explain` prints each page, and those of deformers. README, page, report and `pbskin explain` have the
-numbers of claims.json. The files and columns that the pages quote are those of the kept records. Reference: the kept records, claims.toml
-and figures.toml."""
+generated part is current. `pbskin explain` prints each page, and those of deformers. README, page, report, `pbskin explain` and the tables
+of the program have the verdicts and numbers of claims.json. The files and columns that the pages quote are those of the kept records.
+Reference: the kept records, claims.toml and figures.toml."""
 import csv
 import fnmatch
+import html
+import os
 import pathlib
 import re
 import shutil
@@ -48,14 +50,35 @@ def kept_tables(study, file):
     return [table for table in (KEPT / study).rglob("*.csv") if fnmatch.fnmatch(str(table.relative_to(KEPT / study)), pattern)]
 
 
-def key_numbers(claim):
-    """The counts, the share and its interval, as plain formats of the facts."""
-    if not claim["n"] or claim["rule"] in ("definition", "untestable", "single"):
-        return []
+def told(value):
+    """A pattern of the number in three digits, of thousands in all of them; a censored one may have a sign in front."""
+    digits = "|".join({f"{value:.3g}".replace("+", r"\+")} | ({f"{value:.0f}", f"{value:,.0f}"} if 1000 <= abs(value) < 1e6 else set()))
+    return rf"(?:[<>\u2264\u2265] )?(?:{digits})(?![\d.,]*\d)"
+
+
+def counts_of(claim):
+    """Patterns of how many units hold, and their share with its interval."""
     if claim["rule"] == "printed":
-        return [f"{claim['held']} of {claim['n']} printed values"]
-    interval = f"[{claim['interval_low']:.2f}, {claim['interval_high']:.2f}]"
-    return [f"{claim['held']} of {claim['n']} unit", f"share {claim['share']:.2f} {interval}"]
+        return [rf"\b{claim['held']} of {claim['n']} printed values"]
+    if claim["rule"] != "units" or not claim["n"]:
+        return []
+    share, low, high = (rf"(?:{claim[name]:.2f}|{claim[name]:.3g})" for name in ("share", "interval_low", "interval_high"))
+    return [rf"\b{claim['held']} of {claim['n']} (?:units? )?hold, share {share} \[{low}, {high}\]"]
+
+
+def numbers_of(claim):
+    """Patterns of the least and the most of the units' numbers."""
+    return [] if claim["least"] is None else [f": {told(claim['least'])}", f"(?:to|:) {told(claim['most'])}"]
+
+
+def range_of(claim):
+    """A pattern of the range by which a single number is judged."""
+    return [rf"\({claim['range']}: {told(case['low'])} to {told(case['high'])}\)" for case in claim["cases"] if claim["rule"] == "single"]
+
+
+def own_part(text, name):
+    """What a page states of one claim, which may be one of two on it, in one line."""
+    return " ".join(re.split(r"\*\*C\d", text.split(f"**{name}:", 1)[1])[0].split())
 
 
 def header(table):
@@ -148,9 +171,10 @@ class KeptVerdicts(unittest.TestCase):
         cls.judged = pathlib.Path(temporary.name, "kept")
         shutil.copytree(RECORDS, cls.judged)
         (cls.judged / "claims.md").unlink()
-        judging = program.run("reproduce", "--judge", "-o", cls.judged, "--quiet")
+        judging = program.run("reproduce", "--judge", "-o", cls.judged, "--quiet", env={**os.environ, "COLUMNS": "1000"})
         if judging.returncode != 0:
             raise RuntimeError(judging.stdout + judging.stderr)
+        cls.printed = judging.stdout  # in lines that are not wrapped
 
     def test_records_beside_the_sources_give_the_verdicts_on_record(self):
         self.assertEqual((self.judged / "claims.md").read_text(), (RECORDS / "claims.md").read_text())
@@ -160,18 +184,23 @@ class KeptVerdicts(unittest.TestCase):
         self.assertEqual([claim["id"] for claim in claims], [claim["id"] for claim in readme_pages.listed_claims()])
         self.assertEqual(list(dict.fromkeys(sentences.page_of(claim["id"]) for claim in claims)), [f"C{n:02d}" for n in range(1, 18)])
 
-    def test_readme_page_report_and_explain_have_the_numbers_of_claims_json(self):
+    def test_every_text_has_the_verdict_and_the_numbers_of_claims_json_in_its_place(self):
+        readme, listed = (file.read_text(encoding="utf-8") for file in (SOURCE / "README.md", self.judged / "claims.md"))
         for claim in sentences.claims_of(self.judged / "claims.json"):
-            page = readme_pages.claim_pages / f"{sentences.page_of(claim['id'])}.md"
-            row = next(line for line in (SOURCE / "README.md").read_text(encoding="utf-8").splitlines() if f"| [{claim['id']}](" in line)
-            texts = {"README": row, "page": readme_part.cut(page, "kept")[1], "report": report_verdicts.row(claim, None),
-                     "explain": program.run("explain", claim["id"]).stdout}
-            for place, text in texts.items():
-                with self.subTest(f"{claim['id']} {place}"):
-                    told = " ".join(text.split())
-                    self.assertIn(sentences.names[claim["verdict"]], told)
-                    for number in key_numbers(claim):
-                        self.assertIn(number, told)
+            name, kind, word = claim["id"], claim["verdict"], claim["verdict"].replace("_", " ")
+            page = readme_part.cut(readme_pages.claim_pages / f"{sentences.page_of(name)}.md", "kept")[1]
+            counts, numbers, span = counts_of(claim), numbers_of(claim), range_of(claim)
+            for place, text, patterns in (
+                    ("README", re.search(rf"^.*\| \[{name}\]\(.*$", readme, re.M)[0], [rf"\| {word} \|", *counts, *numbers, *span]),
+                    ("page", own_part(page, name), [rf"^{word}\.\*\*", *counts, *numbers, *span]),
+                    ("explain", own_part(program.run("explain", name).stdout, name), [rf"^{word}\.\*\*", *counts, *numbers, *span]),
+                    ("report", html.unescape(report_verdicts.row(claim, None)), [f"</span> {word}</span>", *counts, *numbers, *span]),
+                    ("claims.md", re.search(rf"^\| {name} \|.*$", listed, re.M)[0], [rf"\| {kind} \|", *numbers]),
+                    ("terminal", re.search(rf"^{name} .*?(?=^C\d|\Z)", self.printed, re.M | re.S)[0],
+                     [rf"^{name} +{word} ", *counts, *numbers])):
+                for pattern in patterns:
+                    with self.subTest(f"{name} {place}"):
+                        self.assertRegex(text.replace("\u2212", "-"), pattern)
 
     def test_judging_them_where_they_lie_leaves_nothing_that_git_would_see(self):
         ignored = (SOURCE / ".gitignore").read_text().splitlines()

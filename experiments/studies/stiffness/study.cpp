@@ -30,8 +30,8 @@ const analysis::Columns<StiffnessExponent>& exponent_columns()
                                {"points", &Row::points, "", "settings that the line is fitted to"},
                                {"left_out", &Row::left_out, "", "settings that did not converge, or hang upwards"},
                                {"exponent", &Row::exponent, "", "slope of log stiffness over the log of vertices, iterations or 1 / step"},
-                               {"exponent_low", &Row::low, "", "lower end of its 95 % interval"},
-                               {"exponent_high", &Row::high, "", "upper end of its 95 % interval"}};
+                               {"exponent_low", &Row::low, "", "lower end of its 95 % range"},
+                               {"exponent_high", &Row::high, "", "upper end of its 95 % range"}};
     return columns;
 }
 

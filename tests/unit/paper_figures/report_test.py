@@ -97,7 +97,9 @@ class Report(ReportTest):
         self.assertIn('<tr id="C02a" class="claim">', text)
         self.assertIn('<a href="volume/limb_twist/">volume/limb_twist</a>', text)
         self.assertIn("<li>1 of 3 units hold, share 0.33 [0.01, 0.91]</li>", text)
-        self.assertIn("<li>107 to 233 1/s, bound 30 or more</li>", text)
+        self.assertIn("<li>frames per second: 107 to 233 1/s, bound 30 or more</li>", text)
+        self.assertIn("C13: the data behind it (2 printed values)", text)
+        self.assertNotIn("<p></p>", text)
         self.assertIn('<th scope="row">human, clip 01_03</th><td>0.4</td><td>0.1 to 0.4</td><td>0.95 or more</td><td>\u2718 no</td>', text)
         self.assertIn('<th scope="row">LBS (ratio)</th><td>must fail</td><td>0 of 1 unit, share 0.00</td><td>0.01</td><td>yes</td>', text)
         self.assertIn("The author&#x27;s later code and the claim&#x27;s own reading disagree: the bound holds throughout in the one, in "
@@ -149,7 +151,7 @@ class Report(ReportTest):
         text = self.page()
         body = re.sub(r"<style>.*?</style>|<script>.*?</script>", "", text, flags=re.S)
         self.assertEqual(len(re.findall("(?i)inconsistent in print", body)), 4)  # count, chip, section on limits, row
-        for other in ("reproduced", "inconsistent_in_print", "not_testable", "untestable"):
+        for other in ("inconsistent_in_print", "not_testable", "must_fail", "control_without_record"):
             self.assertNotIn(other, body)
 
     def test_planned_poses_without_their_points_are_named(self):

@@ -68,8 +68,24 @@ class Numbers(unittest.TestCase):
         bounds = [{"low": None, "high": high, "precision": name} for name, high in (("f64", 1e-12), ("f32", 1e-5))]
         cases = [unit(number, bound_low=None, bound_high=high) for number, high in ((2e-15, 1e-12), (1e-6, 1e-5), (4e-15, 1e-12))]
         self.assertEqual(sentences.numbers(claim("C07", "holds", cases, bounds=bounds)),
-                         ["double precision: 2e-15 to 4e-15, bound 1e-12 or less".replace("-", "\u2212"),
-                          "single precision: 1e-06, bound 1e-05 or less".replace("-", "\u2212")])
+                         ["ratio, double precision: 2e-15 to 4e-15, bound 1e-12 or less".replace("-", "\u2212"),
+                          "ratio, single precision: 1e-06, bound 1e-05 or less".replace("-", "\u2212")])
+
+    def test_each_quantity_of_a_unit_has_its_numbers(self):
+        bounds = [{"low": 0.1, "high": None, "quantity": "damping"}, {"low": None, "high": 0.05, "quantity": "left"}]
+        cases = [unit(d, parts=[unit(d, bound_low=0.1, quantity="damping"), unit(r, bound_low=None, bound_high=0.05, quantity="left")])
+                 for d, r in ((0.2, 0.01), (0.4, 0.07))]
+        judged = claim("C09a", "mixed", cases, bounds=bounds, quantities=["damping", "left"], titles={"left": "what is left"})
+        self.assertEqual(sentences.numbers(judged),
+                         ["damping: 0.2 to 0.4, bound 0.1 or more", "what is left: 0.01 to 0.07, bound 0.05 or less"])
+        self.assertEqual(sentences.spans(judged, judged), "damping: 0.2 to 0.4; what is left: 0.01 to 0.07")
+        self.assertIn("is the damping and what is left; bound: ", sentences.basis(judged))
+
+    def test_ranges_that_cross_the_bound_are_named(self):
+        cases = [unit(1.0, low=0.9, high=1.1, body=body) for body in ("limb", "man", "lady")] + [unit(1.0), unit(0.5, low=0.4, high=0.6)]
+        self.assertEqual(sentences.ranges(claim("C04", "mixed", cases)), [
+            "range over meshes of limb: 0.9 to 1.1", "range over meshes of man: 0.9 to 1.1", "the ranges of 1 more unit cross the bound"])
+        self.assertEqual(sentences.ranges(claim("C04", "mixed", cases, range="")), [])
 
 
 class Facts(unittest.TestCase):
@@ -78,7 +94,7 @@ class Facts(unittest.TestCase):
     def test_the_share_with_its_interval_then_the_numbers_then_what_is_left_out(self):
         judged = claim("C04", "holds", self.joints, interval_low=0.822, interval_high=0.999, chance=1e-30, q=0.06)
         self.assertEqual(sentences.facts(judged),
-                         ["28 of 29 units hold, share 0.97 [0.82, 1.00]", "0.067 to 1.02, bound 0.95 or more",
+                         ["28 of 29 units hold, share 0.97 [0.82, 1.00]", "ratio: 0.067 to 1.02, bound 0.95 or more",
                           "1 unit left out: the control that must fail does not fail there"])
 
     def test_chance_is_stated_where_it_decides(self):
@@ -113,8 +129,10 @@ class Facts(unittest.TestCase):
         self.assertEqual(sentences.facts(claim("C14", "inconsistent_in_print", printed, rule="printed")),
                          ["2 of 3 printed values consistent"])
         exponent = unit(0.42, low=0.21, high=0.63, bound_low=1e-9)
-        self.assertEqual(sentences.facts(claim("C12b", "holds", [exponent], rule="single", range="95 % interval of the fit")),
-                         ["0.42 (95 % interval of the fit: 0.21 to 0.63), bound above 0"])
+        self.assertEqual(sentences.facts(claim("C12b", "holds", [exponent], rule="single", range="95 % range of the fit")),
+                         ["ratio: 0.42 (95 % range of the fit: 0.21 to 0.63), bound above 0"])
+        self.assertEqual(sentences.facts(claim("C12b", "not_testable", [exponent] * 2, rule="single", untested="too_few_units"))[-1],
+                         "2 numbers are on record where one is expected")
 
     def test_a_definition_has_its_reason_and_its_numbers(self):
         cases = [unit(factor, bound_low=None) for factor in (1.85, 5.98)]
@@ -134,12 +152,14 @@ class Facts(unittest.TestCase):
 class Basis(unittest.TestCase):
     def test_it_states_the_unit_its_number_the_bound_with_its_source_chance_and_the_revision(self):
         judged = claim("C04", "holds", [unit(1.0)] * 5, chance=0.001, q=0.0625, fixed_at="0123456789abcdef", confirmatory=2,
-                       unit_fields=["body", "angle_deg"], titles={"ratio": "radius"}, over={"deformer": "reference"}, source="Fig. 8")
-        self.assertEqual(sentences.basis(judged), [
-            "The number of a unit (body, angle) is the radius, over that of the reference; bound: 0.95 or more (Fig. 8)",
-            "chance reaches as many with a probability of 0.001, each unit holding with q = 0.0625 by chance",
-            "rule and bound are of revision 0123456789ab, and 2 units recorded later"])
-        self.assertEqual(sentences.basis(claim("C13", "holds", rule="printed")), [])
+                       confirmatory_held=1, unit_fields=["body", "angle_deg"], titles={"ratio": "radius"}, over={"deformer": "reference"},
+                       source="Fig. 8")
+        self.assertEqual(
+            sentences.basis(judged),
+            "The number of a unit (body, angle) is the radius, over that of the reference; bound: 0.95 or more (Fig. 8). If each unit "
+            "held by chance with a probability of q = 0.0625, as many would hold with a probability of 0.001. Rule and bound are of "
+            "revision 0123456789ab, and 2 units were recorded later; the bound holds in 1 of them.")
+        self.assertEqual(sentences.basis(claim("C13", "holds", rule="printed")), "")
 
 
 class Compared(unittest.TestCase):
@@ -229,7 +249,7 @@ class Looks(unittest.TestCase):
 listed = {entry.name: entry for entry in entries.read()}
 extents_differ = {"convergence", "jiggle", "stability", "stiffness", "volume", "work_precision"}  # a quick run has fewer settings
 same_in_every_run = {"0.5 %", "8 frames in 10", "24 iterations", "after 24", "90 degrees", "2007", "4.5e15 N/m", "1 N", "1 m", "01_01",
-                     "f32", "f64", "10, 5 and 2 %", "4, 24 and", "96 iterations"}
+                     "f32", "f64", "10, 5 and 2 %", "4, 24 and", "96 iterations", "95 %"}
 
 
 class Captions(ResultsTest):
