@@ -148,7 +148,7 @@ const std::vector<Budget>& budgets()
          .folders = {"pbs/", "reference_fem/", "analysis/", "experiments/"},
          .endings = cpp,
          .most_lines = 63'200},
-        {.what = "tests in C++", .folders = {"tests/"}, .endings = cpp, .most_lines = 41'500, .least_mean = 120},
+        {.what = "tests in C++", .folders = {"tests/"}, .endings = cpp, .most_lines = 41'650, .least_mean = 120},
         {.what = "tests in Python and JavaScript", .folders = {"tests/"}, .endings = scripts, .most_lines = 11'150},
         {.what = "paper_figures", .folders = {"paper_figures/"}, .endings = scripts, .most_lines = 7'900},
         {.what = "kept records", .folders = {"experiments/records/full/"}, .most_files = 150},

@@ -406,13 +406,13 @@ pbs::Vec3 hinge_axis(const pbs::Skeleton& skeleton, const LimbJoint& joint)
     return z.norm() > straight_rad ? pbs::Vec3(z.normalized()) : pbs::Vec3(pbs::Vec3::UnitX());
 }
 
-std::vector<bool> near_joint(const pbs::Character& character, const LimbJoint& joint)
+std::vector<bool> near_joint(const pbs::Character& character, const LimbJoint& joint, double share)
 {
     std::vector<bool> near(character.binding.bone.size());
     for (std::size_t v = 0; v < near.size(); ++v) {
         const int bone = character.binding.bone[v];
         const double parameter = character.binding.parameter(v);
-        near[v] = (bone == joint.child && parameter <= 1.0 / 3.0) || (bone == joint.parent && parameter >= 2.0 / 3.0);
+        near[v] = (bone == joint.child && parameter <= share) || (bone == joint.parent && parameter >= 1.0 - share);
     }
     return near;
 }

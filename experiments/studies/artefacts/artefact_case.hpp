@@ -50,8 +50,8 @@ pbs::Vec3 twist_axis(const pbs::Skeleton& skeleton, const LimbJoint& joint);  //
 // Across both bones, so that a turn about it bends the limb further in the direction in which it is bent at rest; z for a straight limb.
 pbs::Vec3 hinge_axis(const pbs::Skeleton& skeleton, const LimbJoint& joint);
 
-// The vertices of the two bones that are no farther from the joint, along the bone, than a third of its length, #V.
-std::vector<bool> near_joint(const pbs::Character& character, const LimbJoint& joint);
+// The vertices of the two bones that are no farther from the joint, along the bone, than this share of its length, #V.
+std::vector<bool> near_joint(const pbs::Character& character, const LimbJoint& joint, double share = 1.0 / 3.0);
 
 // Cross-sections of a limb from one side of a joint to the other, in any pose, relative to rest.
 //   const JointSections sections(character, joint);

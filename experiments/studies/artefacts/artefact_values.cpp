@@ -110,12 +110,13 @@ ArtefactBody with_weights(ArtefactBody body, pbs::Weights weights)
     return body;
 }
 
-// The body's weights, but near each joint its two bones have each other's.
+// The body's weights, but near each joint its two bones have each other's: within a quarter of a bone, so that the strain jumps inside the
+// region in which it is measured.
 pbs::Weights exchanged_weights(const ArtefactBody& body)
 {
     pbs::Weights weights = body.posed.character().weights;
     for (const LimbJoint& joint : body.joints) {
-        const std::vector<bool> near = near_joint(body.posed.character(), joint);
+        const std::vector<bool> near = near_joint(body.posed.character(), joint, 0.25);
         for (int v = 0; v < weights.vertices(); ++v)
             for (int i = weights.first[v]; near[v] && i < weights.first[v + 1]; ++i) {
                 int& bone = weights.bone[i];

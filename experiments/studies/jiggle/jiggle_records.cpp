@@ -6,6 +6,7 @@
 #include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/settings/recorded_settings.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
+#include "pbs/author/author_solver.hpp"
 
 #include <fmt/format.h>
 

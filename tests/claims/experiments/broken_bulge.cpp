@@ -35,7 +35,7 @@ experiments::ArtefactCase small_bend()
     of.scene = experiments::read_scene("limb_bend", {"character.vertices=1200", "motion.angle_deg=60", "motion.frames=3", "pbs.order=plain",
                                                      "pbs.precision=f64", R"(deformers.use=["lbs", "dqs", "pbs", "nh_p1"])"});
     of.claim = experiments::ArtefactCase::Claim::bulge;
-    of.poses = {{1, "bend_30_deg"}, {2, "bend_60_deg"}};
+    of.poses = {{1, "bend_30_deg", {.angle_deg = 30.0}}, {2, "bend_60_deg", {.angle_deg = 60.0}}};
     return of;
 }
 

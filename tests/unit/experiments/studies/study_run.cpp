@@ -195,6 +195,7 @@ TEST(StudyCases, HaveTheKeysAndTheCostOfTheirForm)
         std::vector<std::string> rings;
         plan_of_cases("setup", full, [&](const StudyCase& of, StudyPlan&) {
             EXPECT_EQ(of.full, full);
+            EXPECT_EQ(of.value<std::string>("deformer", "pbs_author"), "pbs_author");
             EXPECT_EQ(of.value<double>("rate_hz"), full ? 100.0 : 5.0);
             if (of.name == "ring") {
                 EXPECT_EQ(of.cost_s, full ? 9.0 : 5.5);
