@@ -179,8 +179,9 @@ class KeptVerdicts(unittest.TestCase):
     def test_records_beside_the_sources_give_the_verdicts_on_record(self):
         self.assertEqual((self.judged / "claims.md").read_text(), (RECORDS / "claims.md").read_text())
 
-    def test_every_claim_is_on_record(self):
+    def test_every_claim_is_on_record_with_the_revision_that_fixed_its_rule(self):
         claims = sentences.claims_of(self.judged / "claims.json")
+        self.assertEqual([claim["id"] for claim in claims if not re.fullmatch(r"[0-9a-f]{40}", claim["fixed_at"])], [])
         self.assertEqual([claim["id"] for claim in claims], [claim["id"] for claim in readme_pages.listed_claims()])
         self.assertEqual(list(dict.fromkeys(sentences.page_of(claim["id"]) for claim in claims)), [f"C{n:02d}" for n in range(1, 18)])
 
