@@ -16,10 +16,12 @@ endif()
 # A verdict changes with its records: the project's own claims with the values of the studies. A broken solver changes the values and
 # verdicts that it must change by theory, and no others.
 pbs_tests(claims experiments FOLDERS experiments EXCEPT ${left_out}
-    ALONE experiments/broken_bulge experiments/momentum experiments/stiffness experiments/broken_weights
+    ALONE experiments/attacks experiments/broken_bulge experiments/momentum experiments/stiffness experiments/broken_weights
         experiments/jiggle
     LIBRARIES experiments)
-target_compile_definitions(test_claims_experiments PRIVATE ${claims_file})
+set(kept_records PBS_KEPT_RECORDS="${PROJECT_SOURCE_DIR}/experiments/records/full")
+target_compile_definitions(test_claims_experiments PRIVATE ${claims_file} ${kept_records}
+    PBS_ATTACKS_FILE="${PROJECT_SOURCE_DIR}/tests/claims/attacks.toml")
 pbs_tests(unit experiments BLAS
     FOLDERS experiments/process experiments/scene experiments/run experiments/deformers experiments/trial
     FILES experiments/deformers/fem/fem_module
@@ -34,7 +36,7 @@ pbs_tests(unit experiments_studies BLAS FOLDERS experiments/studies EXCEPT ${lef
     LIBRARIES experiments)
 pbs_tests(properties experiments FOLDERS experiments LIBRARIES experiments)
 pbs_tests(regression experiments FOLDERS experiments LIBRARIES experiments)
-target_compile_definitions(test_regression_experiments PRIVATE PBS_KEPT_RECORDS="${PROJECT_SOURCE_DIR}/experiments/records/full")
+target_compile_definitions(test_regression_experiments PRIVATE ${kept_records})
 pbs_tests(verification experiments BLAS FOLDERS experiments
     EXCEPT experiments/deformers/fem experiments/studies/verification/calculix experiments/verification_record
         experiments/studies/stability/broken_fem_starts ${left_out}
@@ -74,6 +76,7 @@ if(PBS_WITH_FEM)
     set_tests_properties(verification/experiments/reference_error_bar verification/experiments/recomputed_frames
         PROPERTIES LABELS "verification;blas")
 endif()
+pbs_program_test(claims recomputed)
 pbs_program_test(claims volume)
 pbs_program_test(regression pages)
 pbs_program_test(robustness experiments/kept_records)

@@ -5,7 +5,9 @@
 #include <gsl/gsl_rng.h>
 #include <gsl/gsl_statistics_double.h>
 
+#include <array>
 #include <cmath>
+#include <map>
 #include <memory>
 
 namespace analysis {
@@ -167,6 +169,44 @@ Interval share_interval(int counted, int all, double level)
     if (counted > 0) share.low = gsl_cdf_beta_Pinv(tail, counted, all - counted + 1.0);
     if (counted < all) share.high = gsl_cdf_beta_Pinv(1.0 - tail, counted + 1.0, all - counted);
     return share;
+}
+
+Interval bootstrap_share_of_groups(const std::vector<std::string>& groups, const std::vector<bool>& holds, const BootstrapOptions& options)
+{
+    std::map<std::string, std::array<double, 2>> counts;  // of each group: cases that hold, cases
+    for (std::size_t i = 0; i < groups.size(); ++i) {
+        auto& [held, all] = counts[groups[i]];
+        held += holds[i];
+        ++all;
+    }
+    Interval share{.estimate = mean(std::vector<double>(holds.begin(), holds.end())),
+                   .low = not_known,
+                   .high = not_known,
+                   .level = options.level,
+                   .n = static_cast<int>(holds.size())};
+    if (counts.size() < 2) return share;
+    std::vector<std::array<double, 2>> drawn_from;
+    for (const auto& [group, count] : counts) drawn_from.push_back(count);
+    const Random random(gsl_rng_alloc(gsl_rng_mt19937), gsl_rng_free);
+    gsl_rng_set(random.get(), options.seed);
+    std::vector<double> shares(static_cast<std::size_t>(options.resamples));
+    for (double& value : shares) {
+        double held = 0.0, all = 0.0;
+        for (std::size_t drawn = 0; drawn < drawn_from.size(); ++drawn) {
+            const auto& count = drawn_from[gsl_rng_uniform_int(random.get(), drawn_from.size())];
+            held += count[0];
+            all += count[1];
+        }
+        value = held / all;
+    }
+    share.low = quantile(shares, (1.0 - options.level) / 2.0);
+    share.high = quantile(shares, (1.0 + options.level) / 2.0);
+    return share;
+}
+
+double binomial_tail(int counted, int all, double q)
+{
+    return counted <= 0 ? 1.0 : gsl_cdf_binomial_Q(static_cast<unsigned>(counted - 1), q, static_cast<unsigned>(all));
 }
 
 CsvTable frame_statistics(const CsvTable& metrics)

@@ -60,6 +60,16 @@ Interval bootstrap_share(const std::vector<bool>& holds, const BootstrapOptions&
 // 0 <= counted <= all, all > 0.
 Interval share_interval(int counted, int all, double level = 0.95);
 
+// A share of cases that belong to groups, such as bodies, whose cases are alike: the bootstrap draws whole groups (percentile interval,
+// with the resamples and the seed of `options`). NaN bounds for fewer than two groups.
+//   const Interval share = bootstrap_share_of_groups({"limb", "limb", "man"}, {true, true, false});
+// groups, holds: #cases each.
+Interval bootstrap_share_of_groups(const std::vector<std::string>& groups, const std::vector<bool>& holds,
+                                   const BootstrapOptions& options = {});
+
+// The probability that at least `counted` of `all` independent cases hold if each does with probability q (GSL's binomial distribution).
+double binomial_tail(int counted, int all, double q);
+
 // Order statistics over the frames of a table of metrics. One row per deformer and setting:
 //   scene, deformer, variant, order, precision, iterations, frames
 //   volume_change_least_pct, _p10_pct, _median_pct, _p90_pct, _most_pct   likewise volume_abs_change, error_l2, error_joint

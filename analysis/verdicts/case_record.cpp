@@ -48,7 +48,7 @@ const std::vector<CaseKeyField>& case_key_fields()
         number("time_step_s", &Key::time_step_s, "s", "time step; of a range, its first setting"),
         number("time_step_to_s", &Key::time_step_to_s, "s", "last setting of the range", as_end_of_range),
         text("constraint", &Key::constraint, "stretch, volume, bind"),
-        text("initial_guess", &Key::initial_guess, "previous_frame, rest_pose, rigid_bind"),
+        text("initial_guess", &Key::initial_guess, "previous_frame, rest_pose, rigid_bind; of controls: lbs, random"),
         text("tolerance", &Key::tolerance, "residual: within 5 % of its floor; volume: absolute change within 0.5 %"),
         text("load", &Key::load, "load of a stiffness test"),
         text("ladder", &Key::ladder, "how its mesh sizes are made, if not as wanted"),
@@ -204,16 +204,6 @@ void add_frame(CaseRecord& record, const MetricsRow& row)
     if (row.angle_deg) record.angle_deg.push_back(*row.angle_deg);
 }
 
-void require_whole(const CaseRecord& record)
-{
-    const std::size_t frames = record.frame.size();
-    const bool angles_fit = record.angle_deg.empty() || record.angle_deg.size() == frames;
-    if (record.time_s.size() != frames || record.volume_change_pct.size() != frames || record.volume_abs_change_pct.size() != frames ||
-        record.inverted_tets.size() != frames || !angles_fit)
-        throw pbs::InputError(record.run, 0, fmt::format("record of {} on {}", record.deformer, record.scene), "",
-                              fmt::format("expected {} values in every series", frames));
-}
-
 const Columns<PrintedValue>& printed_columns()
 {
     static const Columns<PrintedValue> columns =
@@ -247,6 +237,16 @@ std::vector<CaseRecord> case_records(const CsvTable& metrics, const std::string&
     return records;
 }
 
+void require_whole(const CaseRecord& record)
+{
+    const std::size_t frames = record.frame.size();
+    const bool angles_fit = record.angle_deg.empty() || record.angle_deg.size() == frames;
+    if (record.time_s.size() != frames || record.volume_change_pct.size() != frames || record.volume_abs_change_pct.size() != frames ||
+        record.inverted_tets.size() != frames || !angles_fit)
+        throw pbs::InputError(record.run, 0, fmt::format("record of {} on {}", record.deformer, record.scene), "",
+                              fmt::format("expected {} values in every series", frames));
+}
+
 std::vector<PrintedValue> printed_values(const std::string& csv)
 {
     return rows_of(printed_columns(), read_csv(csv));
@@ -255,17 +255,6 @@ std::vector<PrintedValue> printed_values(const std::string& csv)
 CsvTable printed_table(const std::vector<PrintedValue>& values)
 {
     return table_of(used_columns(printed_columns(), values), values);
-}
-
-std::vector<double> metric_series(const CaseRecord& record, const std::string& metric)
-{
-    require_whole(record);
-    if (metric == "volume_change_pct") return record.volume_change_pct;
-    if (metric == "volume_abs_change_pct") return record.volume_abs_change_pct;
-    if (metric != "volume_loss_pct") throw pbs::InputError("", 0, "metric", metric, "no verdict is computed from it");
-    std::vector<double> loss;
-    for (double change : record.volume_change_pct) loss.push_back(0.0 - change);  // and no -0
-    return loss;
 }
 
 }  // namespace analysis

@@ -31,7 +31,7 @@ struct CaseKey {
     std::optional<double> iterations = {}, iterations_to = {};
     std::optional<double> time_step_s = {}, time_step_to_s = {};
     std::string constraint = {};                  // stretch, volume, bind
-    std::string initial_guess = {};               // previous_frame, rest_pose, rigid_bind
+    std::string initial_guess = {};               // previous_frame, rest_pose, rigid_bind; of controls: lbs, random
     std::string tolerance = {};                   // residual: within 5 % of its floor; volume: absolute change within 0.5 %
     std::string load = {}, ladder = {};           // of a stiffness test
     std::string factor = {}, second_factor = {};  // the parameters that a sweep of the stability study varies
@@ -84,7 +84,7 @@ struct CaseRecord {
     int frames_not_converged = 0;                  // these frames are left out of the series
     std::vector<double> volume_change_pct, volume_abs_change_pct, inverted_tets;  // #frames each; as in FrameMetrics
     std::string run;                                                              // the folder of the run, as reports name it
-    // a further run of the same body and motion (another mesh, another reference): reported, but not part of the verdict
+    // a further run of the same body and motion (another mesh, another reference), for comparisons only
     bool beside = false;
 
     bool is_sweep() const { return !angle_deg.empty(); }  // true for a sweep of one joint through angle_deg
@@ -115,23 +115,24 @@ struct EnumNames<Limit> {
 
 // A value that a study measured for a claim: a row of measurements.csv.
 struct Measurement {
-    std::string claim;                          // id of the claim
-    std::string quantity;                       // as the claim's `metrics` name it
-    CaseKey of;                                 // the case: character, pose, setting
-    double value = 0.0, low = 0.0, high = 0.0;  // in `unit`, with its interval; without an interval, low and high equal the value
-    std::string unit;                           // "1" for a pure number
+    std::string claim = {};                     // id of the claim
+    std::string quantity = {};                  // as the claim names it
+    CaseKey of = {};                            // the case: character, pose, setting
+    double value = 0.0, low = 0.0, high = 0.0;  // in `unit`, with its range (see Claim::range); without one, both equal the value
+    std::string unit = {};                      // "1" for a pure number
     std::string run = {};                       // the folder of the run
     Limit limit = Limit::none;                  // how the value limits the quantity
     int n = 0;                                  // number of settings, cells or comparisons from which the value is computed; 0: one
     int not_reached = 0;                        // how many of these n reach the tolerance from no initial guess
+    bool beside = false;                        // as CaseRecord::beside
 };
 
 // All records from which a claim is judged.
 struct Records {
-    std::vector<CaseRecord> cases = {};            // all scenes and deformers
+    std::vector<CaseRecord> cases = {};            // all scenes and deformers; judged by their frame_measurements()
     std::vector<LeftOut> left_out = {};            // named in the verdict
-    std::vector<PrintedValue> printed = {};        // values for all claims with rule = "printed"
-    std::vector<Measurement> measurements = {};    // values for all claims with rule = "measured"
+    std::vector<PrintedValue> printed = {};        // for claims with rule = "printed"
+    std::vector<Measurement> measurements = {};    // for claims with rule = "units" or "single"
     std::vector<std::string> missing_runs = {};    // planned runs that have not ended; measured values cannot be judged without them
     std::vector<std::string> planned_scenes = {};  // each must have a record or be left out; otherwise the verdict cannot be computed
 };
@@ -145,12 +146,11 @@ struct Records {
 // CaseRecord::run.
 std::vector<CaseRecord> case_records(const CsvTable& metrics, const std::string& run);
 
+void require_whole(const CaseRecord& record);  // InputError unless all series have one value per frame
+
 // The rows of a file printed.csv: claim, quantity, fields of the key, printed, least, most. An empty most means that there is no upper
 // bound. InputError as for read_csv, for a missing column and for a cell that is not a number.
 std::vector<PrintedValue> printed_values(const std::string& csv);
 CsvTable printed_table(const std::vector<PrintedValue>& values);  // the table that printed_values() reads
-
-// The series of a claim's metric, #frames. InputError for an unknown name, or for a record with series of different lengths.
-std::vector<double> metric_series(const CaseRecord& record, const std::string& metric);
 
 }  // namespace analysis

@@ -2,10 +2,7 @@
 
 #include "analysis/records/toml_keys.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
-#include <map>
+#include <algorithm>
 #include <set>
 
 namespace analysis {
@@ -13,23 +10,34 @@ namespace {
 
 using pbs::InputError;
 
-const std::map<std::string, ClaimRule> rules = {{"share_within", ClaimRule::share_within},
-                                                {"mean_within", ClaimRule::mean_within},
-                                                {"measured", ClaimRule::measured},
-                                                {"printed", ClaimRule::printed},
-                                                {"untestable", ClaimRule::untestable}};
+template <typename Enum>
+using Names = std::vector<std::pair<const char*, Enum>>;
 
-const std::set<std::string> measurable = {"volume_loss_pct", "volume_change_pct", "volume_abs_change_pct"};
+const Names<ClaimRule> rules = {{"units", ClaimRule::units},
+                                {"single", ClaimRule::single},
+                                {"printed", ClaimRule::printed},
+                                {"definition", ClaimRule::definition},
+                                {"untestable", ClaimRule::untestable}};
+const Names<Role> roles = {
+    {"claimed", Role::claimed}, {"must_fail", Role::must_fail}, {"must_hold", Role::must_hold}, {"comparison", Role::comparison}};
+const Names<Mean> means = {{"arithmetic", Mean::arithmetic}, {"geometric", Mean::geometric}};
 
-// of = { deformer = "pbs", ... }
-CaseKey read_key(TomlKeys& claim, const std::string& file)
+template <typename Enum>
+void read_name(TomlKeys& keys, const char* key, const Names<Enum>& names, const char* rule, Enum& value)
 {
-    claim.mark_read("of");
-    const toml::node* node = claim.node("of");
+    std::string text;
+    keys.optional(key, text);
+    if (!keys.has(key)) return;
+    const auto found = std::ranges::find_if(names, [&](const auto& entry) { return entry.first == text; });
+    if (found == names.end()) keys.refuse(key, rule);
+    value = found->second;
+}
+
+// { deformer = "pbs", ... }
+CaseKey read_key(const toml::table& table, const std::string& file)
+{
+    TomlKeys fields(table, file, "key");
     CaseKey key;
-    if (!node) return key;
-    if (!node->is_table()) claim.refuse("of", "expected { field = value }");
-    TomlKeys fields(*node->as_table(), file, "key");
     for (const CaseKeyField& field : case_key_fields()) {
         if (field.text)
             fields.optional(field.name, key.*field.text);
@@ -42,96 +50,123 @@ CaseKey read_key(TomlKeys& claim, const std::string& file)
     return key;
 }
 
-// [{ quantity, low, high }, ...]
-std::vector<QuantityBound> read_bounds(TomlKeys& claim, const std::string& file)
+CaseKey read_key(TomlKeys& keys, const char* name, const std::string& file)
 {
-    claim.mark_read("bounds");
-    const toml::node* node = claim.node("bounds");
+    keys.mark_read(name);
+    const toml::node* node = keys.node(name);
     if (!node) return {};
-    if (!node->is_array()) claim.refuse("bounds", "expected a list");
-    std::vector<QuantityBound> bounds;
+    if (!node->is_table()) keys.refuse(name, "expected { field = value }");
+    return read_key(*node->as_table(), file);
+}
+
+// Calls `read` with each table of a list; nothing for a key that is missing.
+template <typename Read>
+void read_each(TomlKeys& keys, const char* name, const char* rule, Read&& read)
+{
+    keys.mark_read(name);
+    const toml::node* node = keys.node(name);
+    if (!node) return;
+    if (!node->is_array()) keys.refuse(name, rule);
     for (const toml::node& entry : *node->as_array()) {
-        if (!entry.is_table()) claim.refuse("bounds", "expected { quantity, low, high }");
-        TomlKeys keys(*entry.as_table(), file, "claim");
-        QuantityBound& bound = bounds.emplace_back();
-        keys.required("quantity", bound.quantity);
+        if (!entry.is_table()) keys.refuse(name, rule);
+        read(*entry.as_table());
+    }
+}
+
+std::vector<Bound> read_bounds(TomlKeys& claim, const std::string& file)
+{
+    std::vector<Bound> bounds;
+    read_each(claim, "bounds", "expected a list of { low, high, of }", [&](const toml::table& table) {
+        TomlKeys keys(table, file, "bound");
+        Bound& bound = bounds.emplace_back();
+        keys.optional("quantity", bound.quantity);
         keys.optional("low", bound.low);
         keys.optional("high", bound.high);
+        bound.of = read_key(keys, "of", file);
         keys.require_nothing_unknown();
         if (!(bound.low <= bound.high)) keys.refuse("low", "expected low <= high");
-    }
+        if (!keys.has("low") && !keys.has("high")) keys.refuse("low", "expected low, high or both");
+    });
     return bounds;
 }
 
-void require_bounds(const Claim& claim, const TomlKeys& reader)
+// What an entry of `controls` or `compared` does not state is that of the claim.
+void read_others(TomlKeys& claim, const char* list, const std::string& file, Claim& to)
 {
-    const auto bounded = [&](const std::string& quantity) {
-        return std::any_of(claim.bounds.begin(), claim.bounds.end(), [&](const auto& bound) { return bound.quantity == quantity; });
-    };
-    for (const QuantityBound& bound : claim.bounds)
-        if (!std::count(claim.metrics.begin(), claim.metrics.end(), bound.quantity))
-            reader.refuse("bounds", bound.quantity + ": expected one of this claim's metrics");
-    if (!reader.has("low") && !reader.has("high") && !std::all_of(claim.metrics.begin(), claim.metrics.end(), bounded))
-        reader.refuse("bounds", "expected a bound for each of the metrics, or low and high");
+    read_each(claim, list, "expected a list of { name, of }", [&](const toml::table& table) {
+        TomlKeys keys(table, file, "control");
+        Selection& other = to.others.emplace_back();
+        other.role = Role::comparison;
+        keys.required("name", other.name);
+        read_name(keys, "role", roles, "expected must_fail or must_hold", other.role);
+        keys.optional("quantities", other.quantities);
+        if (!keys.has("quantities")) other.quantities = to.own.quantities;
+        other.of = read_key(keys, "of", file);
+        other.over = keys.has("over") ? read_key(keys, "over", file) : to.own.over;
+        other.bounds = read_bounds(keys, file);
+        if (other.bounds.empty()) other.bounds = to.own.bounds;
+        keys.require_nothing_unknown();
+        const bool is_control = other.role == Role::must_fail || other.role == Role::must_hold;
+        if (is_control != (std::string(list) == "controls"))
+            keys.refuse("role", "expected must_fail or must_hold in controls, and none in compared");
+    });
+}
+
+bool is_field_of_a_unit(const std::string& name)
+{
+    return name == "quantity" || case_key_field(name);
 }
 
 void require_judgeable(const Claim& claim, const TomlKeys& reader)
 {
-    const bool by_records = claim.rule == ClaimRule::share_within || claim.rule == ClaimRule::mean_within;
-    if (by_records && claim.metrics.empty()) reader.refuse("metrics", "expected at least one");
-    const bool measured = claim.rule == ClaimRule::measured;
-    if (measured && claim.metrics.empty()) reader.refuse("metrics", "expected at least one");
-    if (measured && !(claim.low <= claim.high)) reader.refuse("low", "expected low <= high");
-    if (measured) require_bounds(claim, reader);
-    if (!case_key_field(claim.subject)) reader.refuse("subject", "expected a field of a key, as body or masses");
-    for (const std::string& field : claim.each)
-        if (!case_key_field(field)) reader.refuse("each", field + ": expected fields of a key, as body, deformer or joint");
-    for (const auto& metric : claim.metrics)
-        if (by_records && !measurable.contains(metric))
-            reader.refuse("metrics", fmt::format("{}: expected one of {}", metric, fmt::join(measurable, ", ")));
-    if (by_records && claim.deformer.empty()) reader.refuse("deformer", "missing in this claim");
-    if (by_records && !(claim.low < claim.high)) reader.refuse("low_pct", "expected low_pct < high_pct");
-    if (!(claim.share > 0.0 && claim.share <= 1.0)) reader.refuse("share", "expected 0 < share <= 1");
-    if (!(claim.part > 0.0 && claim.part <= claim.share)) reader.refuse("part", "expected 0 < part <= share");
-    if (!(claim.level > 0.0 && claim.level < 1.0)) reader.refuse("level", "expected 0 < level < 1");
-    if (claim.iterations < 0) reader.refuse("iterations", "expected >= 0");
-    if (claim.rule == ClaimRule::untestable && claim.reason.empty()) reader.refuse("reason", "missing in this claim");
+    const bool by_units = claim.rule == ClaimRule::units, measured = by_units || claim.rule == ClaimRule::single;
+    if (measured && claim.own.quantities.empty()) reader.refuse("quantities", "expected at least one");
+    if (measured && claim.own.bounds.empty()) reader.refuse("bounds", "missing in this claim");
+    if (measured && claim.source.empty()) reader.refuse("source", "expected where the bound comes from");
+    if (by_units && claim.unit.empty()) reader.refuse("unit", "expected the fields that make a unit");
+    for (const std::string& field : claim.unit)
+        if (!is_field_of_a_unit(field)) reader.refuse("unit", field + ": expected fields of a key, as body or joint, or quantity");
+    if (!(claim.no_effect >= 0.0 && claim.no_effect < 1.0)) reader.refuse("no_effect", "expected 0 <= no_effect < 1");
+    const auto is_positive = [](const Selection& one) { return one.role == Role::must_fail; };
+    if (by_units && claim.no_effect == 0.0 && std::ranges::none_of(claim.others, is_positive))
+        reader.refuse("controls", "expected one that must fail, or no_effect");
+    const auto is_unseen = [&](const Selection& one) { return one.name == claim.unseen_by && is_positive(one); };
+    if (!claim.unseen_by.empty() && std::ranges::none_of(claim.others, is_unseen))
+        reader.refuse("unseen_by", "expected the name of a control that must fail");
+    const bool untested = claim.rule == ClaimRule::untestable || claim.rule == ClaimRule::definition;
+    if (untested && claim.reason.empty()) reader.refuse("reason", "missing in this claim");
 }
 
 Claim read_claim(const toml::table& table, const std::string& file)
 {
     TomlKeys reader(table, file, "claim");
     Claim claim;
-    std::string rule;
     reader.required("id", claim.id);
     reader.required("statement", claim.statement);
     reader.required("place", claim.place);
     reader.required("study", claim.study);
     reader.required("cost_minutes", claim.cost_minutes);
-    reader.required("rule", rule);
-    reader.optional("metrics", claim.metrics);
-    reader.optional("deformer", claim.deformer);
-    claim.of = read_key(reader, file);
-    reader.optional("subject", claim.subject);
-    reader.optional("each", claim.each);
-    reader.optional("compared", claim.compared);
-    reader.optional("reported", claim.reported);
-    reader.optional("orders", claim.orders);
-    claim.bounds = read_bounds(reader, file);
-    reader.optional("iterations", claim.iterations);
-    reader.optional("expected_pct", claim.expected);
-    reader.optional("low_pct", claim.low);
-    reader.optional("high_pct", claim.high);
-    reader.optional("low", claim.low);
-    reader.optional("high", claim.high);
-    reader.optional("share", claim.share);
-    reader.optional("part", claim.part);
-    reader.optional("level", claim.level);
+    if (!reader.has("rule")) reader.refuse("rule", "missing in this claim");
+    read_name(reader, "rule", rules, "expected units, single, printed, definition or untestable", claim.rule);
+    claim.own.name = claim.id;
+    reader.optional("quantities", claim.own.quantities);
+    claim.own.of = read_key(reader, "of", file);
+    claim.own.over = read_key(reader, "over", file);
+    claim.own.bounds = read_bounds(reader, file);
+    reader.optional("unit", claim.unit);
+    read_name(reader, "mean", means, "expected arithmetic or geometric", claim.mean);
+    reader.optional("source", claim.source);
+    reader.optional("range", claim.range);
+    read_others(reader, "controls", file, claim);
+    read_others(reader, "compared", file, claim);
+    reader.optional("unseen_by", claim.unseen_by);
+    reader.optional("no_effect", claim.no_effect);
+    read_each(reader, "confirmatory", "expected a list of { field = value }",
+              [&](const toml::table& key) { claim.confirmatory.push_back(read_key(key, file)); });
+    reader.optional("fixed_at", claim.fixed_at);
     reader.optional("reason", claim.reason);
     reader.optional("formulae", claim.formulae);
     reader.require_nothing_unknown();
-    if (!rules.contains(rule)) reader.refuse("rule", "expected share_within, mean_within, measured, printed or untestable");
-    claim.rule = rules.at(rule);
     require_judgeable(claim, reader);
     return claim;
 }
@@ -158,12 +193,17 @@ std::vector<Quantity> read_quantities(const toml::table& document, const std::st
 
 std::vector<Quantity> named_by(const Claim& claim, const std::vector<Quantity>& quantities)
 {
+    std::set<std::string> names(claim.own.quantities.begin(), claim.own.quantities.end());
+    for (const Selection& other : claim.others) names.insert(other.quantities.begin(), other.quantities.end());
     std::vector<Quantity> named;
-    for (const auto& names : {claim.metrics, claim.reported})
-        for (const std::string& name : names)
-            for (const Quantity& quantity : quantities)
-                if (quantity.name == name) named.push_back(quantity);
+    std::ranges::copy_if(quantities, std::back_inserter(named), [&](const Quantity& one) { return names.contains(one.name); });
     return named;
+}
+
+template <typename Enum>
+const char* name_in(const Names<Enum>& names, Enum value)
+{
+    return std::ranges::find(names, value, &std::pair<const char*, Enum>::second)->first;
 }
 
 }  // namespace
@@ -178,8 +218,7 @@ std::vector<Claim> parse_claims(const std::string& text, const std::string& file
     for (const toml::table* table : tables) {
         claims.push_back(read_claim(*table, file));
         claims.back().quantities = named_by(claims.back(), quantities);
-        const auto same = [&](const Claim& other) { return other.id == claims.back().id; };
-        if (std::count_if(claims.begin(), claims.end(), same) > 1)
+        if (std::ranges::count(claims, claims.back().id, &Claim::id) > 1)
             throw InputError(file, static_cast<int>(table->source().begin.line), "id", claims.back().id, "expected each claim once");
     }
     return claims;
@@ -187,7 +226,12 @@ std::vector<Claim> parse_claims(const std::string& text, const std::string& file
 
 const char* name_of(ClaimRule rule)
 {
-    return std::find_if(rules.begin(), rules.end(), [&](const auto& entry) { return entry.second == rule; })->first.c_str();
+    return name_in(rules, rule);
+}
+
+const char* name_of(Role role)
+{
+    return name_in(roles, role);
 }
 
 }  // namespace analysis

@@ -1,4 +1,5 @@
-// The paper's claims as data: each states what is claimed and where, the study and metric that measure it, and the bound fixed beforehand.
+// The paper's claims as data: each states what is claimed and where, the study and the quantity that measure it, the bound that was fixed
+// beforehand, and the controls that show that the bound can be missed and met.
 //   for (const Claim& claim : parse_claims(text, "claims.toml")) verdicts.push_back(judge(claim, records));
 // The fields are documented at the head of experiments/verdicts/claims.toml.
 #pragma once
@@ -11,15 +12,42 @@
 
 namespace analysis {
 
-// The rule by which a claim holds.
-enum class ClaimRule { share_within, mean_within, measured, printed, untestable };
+// The rule by which a claim is judged.
+enum class ClaimRule {
+    units,       // the share of its units that hold
+    single,      // one number, by its interval
+    printed,     // printed values against those that the paper's others require
+    definition,  // the sentence defines a word: there is nothing to measure
+    untestable,  // for `reason`
+};
 
-inline constexpr double open_end = 1e9;  // the `high` of claims.toml for a bound that any finite value meets, however large
+// The mean of the dependent values of a unit.
+enum class Mean { arithmetic, geometric };
 
-// The bound of one quantity that a study measures.
-struct QuantityBound {
-    std::string quantity;                                                                                   // one of the claim's metrics
-    double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();  // in its unit; infinite: none
+// A bound of the values of a quantity, or of all where none is named, whose key agrees with `of`; infinite: none.
+struct Bound {
+    double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
+    std::string quantity = {};
+    CaseKey of = {};
+    bool contains(double value) const { return low <= value && value <= high; }  // false for NaN
+};
+
+// What a selection of values is for.
+enum class Role {
+    claimed,     // the claim's own values
+    must_fail,   // positive control: it shows that the bound can be missed
+    must_hold,   // negative control: it shows that the bound can be met
+    comparison,  // printed next to the claim, no part of the verdict
+};
+
+// Values of the claim's study: the quantities with all fields of `of`. Each is divided by the value of the same unit with the fields of
+// `over`, if there are any. A unit with several quantities holds if all of them do; the first one is its number.
+struct Selection {
+    std::string name;  // as reports show it: LBS; flesh, nu 0.49
+    Role role = Role::claimed;
+    std::vector<std::string> quantities = {};
+    CaseKey of = {}, over = {};
+    std::vector<Bound> bounds = {};  // the first one that applies to a unit
 };
 
 // A quantity that claims name: its title and its unit (1: none).
@@ -29,31 +57,28 @@ struct Quantity {
 
 // One table [[claim]]; members that its rule does not need are empty or have their default.
 struct Claim {
-    std::string id, statement, place, study;   // place: in the paper; study: its name, as for `pbskin reproduce`
-    double cost_minutes = 0.0;                 // cost of the study's quick form on 2 cores
-    ClaimRule rule = ClaimRule::share_within;  // the rule by which it is judged
-    std::vector<std::string> metrics;          // the claim's own metric comes first
-    std::string deformer;                      // share_within, mean_within: the deformer whose records are judged
-    CaseKey of = {};                           // measured: values of the metrics with other fields are controls and not part of the verdict
-    std::string subject = "body";              // measured: the field of the key that names the subjects of the claim
-    std::vector<std::string> each = {};        // measured: fields of the key; values that differ in them are counted apart
-    std::vector<std::string> compared = {};    // other deformers measured with the claim's own metric; not part of the verdict
-    std::vector<std::string> reported = {};    // measured: other quantities; not part of the verdict
-    std::vector<Quantity> quantities = {};     // titles and units of metrics and reported, where the file states them
-    std::vector<QuantityBound> bounds = {};    // bounds of single quantities, which replace low and high
-    std::string orders;                        // the deformer in other orders and precisions; judged likewise, but not part of the verdict
-    int iterations = 0;                        // 0: any
-    double expected = 0.0, low = 0.0, high = 0.0;  // the paper's value and the bound on the metric, in its unit
-    double share = 0.95;                           // share of the frames that must hold
-    double part = 0.25;                            // share of a sweep that must hold for it to count in part
-    double level = 0.95;                           // confidence level of the intervals
-    std::string reason;                            // why the claim cannot be tested
-    std::vector<std::string> formulae = {};        // how the values of the metrics are computed
+    std::string id, statement, place, study;  // place: in the paper; study: its name, as for `pbskin reproduce`
+    double cost_minutes = 0.0;                // cost of the study's quick form on 2 cores
+    ClaimRule rule = ClaimRule::units;
+    Selection own = {};                      // the claim's own values
+    std::vector<std::string> unit = {};      // fields of the key, or quantity: the values that agree in them are one unit
+    Mean mean = Mean::arithmetic;            // of the values of a unit
+    std::string source = {};                 // where the bound comes from
+    std::string range = {};                  // what the ranges of the values span: meshes, timing rounds
+    std::vector<Selection> others = {};      // controls and comparisons
+    std::string unseen_by = {};              // the control whose success leaves a unit out, since there is nothing to see in it; or empty
+    double no_effect = 0.0;                  // the share that a method without effect reaches; 0: the share of the positive controls
+    std::vector<CaseKey> confirmatory = {};  // the units that were recorded after rule and bounds were fixed
+    std::string fixed_at = {};               // the revision at which rule and bounds were fixed
+    std::string reason = {};                 // why the claim is a definition or cannot be tested
+    std::vector<std::string> formulae = {};  // how the values are computed
+    std::vector<Quantity> quantities = {};   // titles and units of all quantities that the file names
 };
 
 // InputError with file and line for broken TOML, unknown or missing keys, a duplicate claim, or a bound that no value can meet.
 std::vector<Claim> parse_claims(const std::string& text, const std::string& file);
 
 const char* name_of(ClaimRule rule);  // as in claims.toml
+const char* name_of(Role role);
 
 }  // namespace analysis

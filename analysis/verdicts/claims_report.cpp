@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
@@ -21,37 +22,22 @@ json finite(double value)
     return std::isfinite(value) ? json(value) : json(nullptr);
 }
 
-json to_json_of(const Interval& interval)
-{
-    return {{"estimate", finite(interval.estimate)},
-            {"low", finite(interval.low)},
-            {"high", finite(interval.high)},
-            {"level", interval.level},
-            {"n", interval.n},
-            {"block", interval.block}};
-}
-
 json to_json_of(const LeftOut& out)
 {
     return {{"scene", out.scene}, {"reason", out.reason}};
 }
 
-json to_json_of(const SubjectCount& subject)
+json to_json_of(const Bound& bound)
 {
-    return {{"name", subject.name}, {"within", subject.within}, {"n", subject.all}, {"holds", name_of(subject.extent)}};
+    json object = to_json_of(bound.of);
+    object.update({{"low", finite(bound.low)}, {"high", finite(bound.high)}});
+    if (!bound.quantity.empty()) object["quantity"] = bound.quantity;
+    return object;
 }
 
-json to_json_of(const FailingFrame& failing)
-{
-    return {{"frame", failing.frame},
-            {"time_s", failing.time_s},
-            {"angle_deg", finite(failing.angle_deg)},
-            {"value", finite(failing.value)},
-            {"inverted_tets", failing.inverted_tets}};
-}
-
-json to_json_of(const CaseJudgement& judged);
-json to_json_of(const OrderVerdict& verdict);
+json to_json_of(const Judged& judged);
+json to_json_of(const Unit& unit);
+json to_json_of(const PrintedValue& value);
 
 template <typename List>
 json list_of(const List& all)
@@ -61,55 +47,21 @@ json list_of(const List& all)
     return list;
 }
 
-// The number on which the claim's rule is based: the share of frames, or the mean.
-json to_json_of(const CaseJudgement& judged)
+json to_json_of(const Unit& unit)
 {
-    const bool by_share = judged.rule == ClaimRule::share_within;
-    const Interval& deciding = by_share ? judged.share : judged.mean;
-    json angles = json::array();
-    for (const AngleRange& range : judged.angles) angles.push_back({range.from_deg, range.to_deg});
-    json object = to_json_of(judged.of);
-    object.update({{"quantity", judged.metric},
-                   {"statistic", by_share ? "share_of_frames" : "mean"},
-                   {"unit", by_share ? "1" : "%"},
-                   {"value", finite(deciding.estimate)},
-                   {"low", finite(deciding.low)},
-                   {"high", finite(deciding.high)},
-                   {"holds", name_of(judged.extent)},
-                   {"scene", judged.scene},
-                   {"run", judged.run},
-                   {"frames", judged.frames},
-                   {"sweep", judged.sweep},
-                   {"mean", to_json_of(judged.mean)},
-                   {"share_of_frames", to_json_of(judged.share)},
-                   {"held_angles_deg", angles},
-                   {"last_angle_deg", judged.sweep ? json(judged.last_angle_deg) : json(nullptr)},
-                   {"least", finite(judged.least)},
-                   {"most", finite(judged.most)},
-                   {"holding_with_inverted_tets", judged.holding_with_inverted_tets},
-                   {"deepest", list_of(judged.deepest)}});
-    return object;
-}
-
-json to_json_of(const Measurement& measured)
-{
-    json object = to_json_of(measured.of);
-    object.update({{"quantity", measured.quantity},
-                   {"unit", measured.unit},
-                   {"value", finite(measured.value)},
-                   {"low", finite(measured.low)},
-                   {"high", finite(measured.high)},
-                   {"run", measured.run}});
-    if (measured.limit != Limit::none) object["limit"] = recorded_name(measured.limit);
-    if (measured.n > 0) object["n"] = measured.n;
-    if (measured.not_reached > 0) object["not_reached"] = measured.not_reached;
-    return object;
-}
-
-json to_json_of(const Claim& claim, const Measurement& measured)
-{
-    json object = to_json_of(measured);
-    object["holds"] = name_of(extent_of(claim, measured));
+    json object = to_json_of(unit.of);
+    object.update({{"unit", unit.unit},
+                   {"value", finite(unit.value)},
+                   {"low", finite(unit.low)},
+                   {"high", finite(unit.high)},
+                   {"bound_low", finite(unit.bound.low)},
+                   {"bound_high", finite(unit.bound.high)},
+                   {"n", unit.n},
+                   {"holds", unit.holds},
+                   {"left_out", unit.counts() ? json(nullptr) : json(name_of(unit.left_out))}});
+    if (!unit.quantity.empty()) object["quantity"] = unit.quantity;
+    for (const Unit& part : unit.parts) object["parts"].push_back(to_json_of(part));
+    if (unit.limit != Limit::none) object["limit"] = recorded_name(unit.limit);
     return object;
 }
 
@@ -118,97 +70,107 @@ json to_json_of(const PrintedValue& value)
     json object = to_json_of(value.of);
     object.update({{"quantity", value.quantity},
                    {"value", finite(value.printed)},
-                   {"low", finite(value.printed)},
-                   {"high", finite(value.printed)},
                    {"bound_low", finite(value.least)},
                    {"bound_high", finite(value.most)},
-                   {"holds", name_of(value.is_consistent() ? Extent::whole : Extent::none)}});
+                   {"holds", value.is_consistent()}});
     return object;
 }
 
-json to_json_of(const OrderVerdict& verdict)
+// The numbers of the units that count: least, median, most.
+std::vector<double> numbers_of(const Judged& judged)
 {
-    return {{"order", verdict.order},           {"precision", verdict.precision},
-            {"verdict", name_of(verdict.kind)}, {"own_verdict", name_of(verdict.own_kind)},
-            {"same", verdict.same()},           {"differing", verdict.differing},
-            {"cases", list_of(verdict.cases)}};
+    std::vector<double> numbers;
+    for (const Unit& unit : judged.units)
+        if (unit.counts() && std::isfinite(unit.value)) numbers.push_back(unit.value);
+    std::ranges::sort(numbers);
+    return numbers;
 }
 
-json primary_of(const Verdict& verdict)
+json left_out_of(const Judged& judged)
 {
-    if (!verdict.primary) return nullptr;
-    const PrimaryFact& primary = *verdict.primary;
-    json object = to_json_of(primary.of);
-    object.update({{"quantity", primary.quantity},
-                   {"statistic", primary.statistic},
-                   {"unit", primary.unit},
-                   {"value", finite(primary.value)},
-                   {"low", finite(primary.low)},
-                   {"high", finite(primary.high)},
-                   {"n", verdict.n},
-                   {"within", verdict.within},
-                   {"bound_low", finite(primary.bound_low)},
-                   {"bound_high", primary.bound_high >= open_end ? json(nullptr) : json(primary.bound_high)},
-                   {"share", verdict.n > 0 ? json(double(verdict.within) / verdict.n) : json(nullptr)}});
+    json counts = json::object();
+    for (const Unit& unit : judged.units)
+        if (!unit.counts()) counts[name_of(unit.left_out)] = counts.value(name_of(unit.left_out), 0) + 1;
+    return counts;
+}
+
+json facts_of(const Judged& judged)
+{
+    const std::vector<double> numbers = numbers_of(judged);
+    const bool none = numbers.empty();
+    return {{"held", judged.held},
+            {"n", judged.n},
+            {"share", finite(judged.share())},
+            {"least", none ? json(nullptr) : json(numbers.front())},
+            {"median", none ? json(nullptr) : json(median(numbers))},
+            {"most", none ? json(nullptr) : json(numbers.back())},
+            {"left_out_units", left_out_of(judged)}};
+}
+
+json to_json_of(const Judged& judged)
+{
+    json object = facts_of(judged);
+    object.update({{"name", judged.selection.name},
+                   {"role", name_of(judged.selection.role)},
+                   {"quantities", judged.selection.quantities},
+                   {"of", to_json_of(judged.selection.of)},
+                   {"over", to_json_of(judged.selection.over)},
+                   {"bounds", list_of(judged.selection.bounds)},
+                   {"behaves", judged.behaves},
+                   {"cases", list_of(judged.units)}});
     return object;
 }
 
-// The quantities of the claim and their bounds.
-json bounds_of(const Claim& claim)
+json difference_of(const Verdict& verdict)
 {
-    json bounds = json::array();
-    if (claim.rule == ClaimRule::printed) return bounds;  // each value has a bound of its own
-    for (const std::string& quantity : claim.metrics) {
-        const QuantityBound bound = bound_of(claim, quantity);
-        bounds.push_back(
-            {{"quantity", quantity}, {"low", finite(bound.low)}, {"high", bound.high >= open_end ? json(nullptr) : json(bound.high)}});
-    }
-    return bounds;
-}
-
-json cases_of(const Verdict& verdict)
-{
-    json cases = list_of(verdict.cases);
-    for (const Measurement& measured : verdict.measurements) cases.push_back(to_json_of(verdict.claim, measured));
-    for (const PrintedValue& value : verdict.printed) cases.push_back(to_json_of(value));
-    return cases;
-}
-
-json controls_of(const Verdict& verdict)
-{
-    json controls = list_of(verdict.compared);
-    for (const Measurement& measured : verdict.controls) controls.push_back(to_json_of(measured));
-    return controls;
+    if (!verdict.differs) return nullptr;
+    const Difference& of = *verdict.differs;
+    return {{"field", of.field}, {"least_at", of.least_at}, {"least", of.least}, {"most_at", of.most_at}, {"most", of.most}};
 }
 
 json claim_object(const Verdict& verdict)
 {
     const Claim& claim = verdict.claim;
-    const bool by_mean = claim.rule == ClaimRule::mean_within, by_share = claim.rule == ClaimRule::share_within;
-    return {{"id", claim.id},
-            {"statement", claim.statement},
-            {"place", claim.place},
-            {"study", claim.study},
-            {"rule", name_of(claim.rule)},
-            {"reason", claim.reason},
-            {"verdict", name_of(verdict.kind)},
-            {"primary", primary_of(verdict)},
-            {"n", verdict.n},
-            {"within", verdict.within},
-            {"bounds", bounds_of(claim)},
-            {"expected", by_mean || by_share ? json(claim.expected) : json(nullptr)},
-            {"required_share", by_share ? json(claim.share) : json(nullptr)},
-            {"interval", verdict.interval.n > 0 ? to_json_of(verdict.interval) : json(nullptr)},
-            {"subject", claim.subject},
-            {"subjects", list_of(verdict.subjects)},
-            {"each", claim.each},
-            {"of", to_json_of(claim.of)},
-            {"cases", cases_of(verdict)},
-            {"controls", controls_of(verdict)},
-            {"readings", list_of(verdict.orders)},
-            {"left_out", list_of(verdict.left_out)},
-            {"missing", verdict.missing},
-            {"runs", verdict.runs}};
+    json controls = json::array(), compared = json::array();
+    for (const Judged& other : verdict.others)
+        (other.selection.role == Role::comparison ? compared : controls).push_back(to_json_of(other));
+    json object = facts_of(verdict.own);
+    object.update({{"id", claim.id},
+                   {"statement", claim.statement},
+                   {"place", claim.place},
+                   {"study", claim.study},
+                   {"rule", name_of(claim.rule)},
+                   {"reason", claim.reason},
+                   {"verdict", name_of(verdict.kind)},
+                   {"untested", name_of(verdict.untested)},
+                   {"quantities", claim.own.quantities},
+                   {"of", to_json_of(claim.own.of)},
+                   {"over", to_json_of(claim.own.over)},
+                   {"bounds", list_of(claim.own.bounds)},
+                   {"source", claim.source},
+                   {"range", claim.range},
+                   {"unit_fields", claim.unit},
+                   {"interval_low", finite(verdict.interval.low)},
+                   {"interval_high", finite(verdict.interval.high)},
+                   {"chance", finite(verdict.by_chance)},
+                   {"q", finite(verdict.q)},
+                   {"differs", difference_of(verdict)},
+                   {"fixed_at", claim.fixed_at},
+                   {"confirmatory", verdict.confirmatory},
+                   {"confirmatory_held", verdict.confirmatory_held},
+                   {"cases", verdict.printed.empty() ? list_of(verdict.own.units) : list_of(verdict.printed)},
+                   {"controls", controls},
+                   {"compared", compared},
+                   {"readings", list_of(verdict.readings)},
+                   {"left_out", list_of(verdict.left_out)},
+                   {"missing", verdict.missing},
+                   {"runs", verdict.runs}});
+    if (!verdict.printed.empty()) {
+        object["n"] = verdict.printed.size();
+        object["held"] = std::ranges::count_if(verdict.printed, &PrintedValue::is_consistent);
+    }
+    if (claim.rule != ClaimRule::units) object["share"] = nullptr;
+    return object;
 }
 
 json quantities_of(const std::vector<Verdict>& verdicts)
@@ -234,25 +196,8 @@ std::string markdown_cell(const std::string& text)
 const char* colour_of(VerdictKind kind)
 {
     constexpr const char *green = "\033[32m", *yellow = "\033[33m", *red = "\033[31m", *purple = "\033[35m", *grey = "\033[90m";
-    constexpr const char* colours[] = {green, yellow, red, purple, grey, red};  // in the order of the enum
+    constexpr const char* colours[] = {green, red, yellow, grey, grey, purple, red};  // in the order of the enum
     return colours[static_cast<int>(kind)];
-}
-
-// The primary value in columns of text; all are empty if there is none.
-struct PrimaryTexts {
-    std::string quantity, value, interval, bound, of;  // volume_change_pct, share_of_frames; 0.42; [0.31, 0.5]; 0.95 to 1; human, 01_01
-};
-
-PrimaryTexts texts_of_primary(const Verdict& verdict)
-{
-    if (!verdict.primary) return {};
-    const PrimaryFact& primary = *verdict.primary;
-    const bool plain = primary.statistic == "value" || primary.statistic == "printed";
-    const bool has_interval = primary.low != primary.high && !std::isnan(primary.low);
-    const std::string unit = primary.unit.empty() || primary.unit == "1" ? "" : " " + primary.unit;
-    return {plain ? primary.quantity : fmt::format("{} of {}", primary.statistic, primary.quantity),
-            fmt::format("{:.3g}{}", primary.value, unit), has_interval ? fmt::format("[{:.3g}, {:.3g}]", primary.low, primary.high) : "",
-            bound_text({"", primary.bound_low, primary.bound_high}), text_of(primary.of)};
 }
 
 struct Layout {
@@ -269,23 +214,60 @@ Layout layout_of(const std::vector<Verdict>& verdicts, std::size_t width)
     return layout;
 }
 
-std::string spoken(VerdictKind kind)
+std::string spoken(std::string name)
 {
-    std::string name = name_of(kind);
-    if (name == "reproduced_only_for") return "reproduced in part";
-    std::replace(name.begin(), name.end(), '_', ' ');
+    std::ranges::replace(name, '_', ' ');
     return name;
 }
 
-// One line each: how many values hold; the primary value with its bound; its case; what is missing.
+// 28 of 29 hold, share 0.966 [0.822, 0.999]; empty without units.
+std::string share_text(const Verdict& verdict)
+{
+    if (!verdict.printed.empty())
+        return fmt::format("{} of {} printed values are consistent", std::ranges::count_if(verdict.printed, &PrintedValue::is_consistent),
+                           verdict.printed.size());
+    if (verdict.own.n == 0 || verdict.claim.rule != ClaimRule::units) return "";
+    return fmt::format("{} of {} hold, share {:.3g} [{:.3g}, {:.3g}]", verdict.own.held, verdict.own.n, verdict.own.share(),
+                       verdict.interval.low, verdict.interval.high);
+}
+
+// A censored number with its sign: > 1,000.
+std::string number_text(const Judged& judged, double number)
+{
+    static constexpr std::array signs = {"", ">= ", "<= ", "> "};
+    const auto is_it = [&](const Unit& unit) { return unit.counts() && unit.value == number && unit.limit != Limit::none; };
+    const auto censored = std::ranges::find_if(judged.units, is_it);
+    const Limit limit = censored == judged.units.end() ? Limit::none : censored->limit;
+    return signs[static_cast<std::size_t>(limit)] + (limit == Limit::none ? fmt::format("{:.3g}", number) : fmt::format("{:.4g}", number));
+}
+
+// The numbers of the units, least to most, with their bound.
+std::string numbers_text(const Verdict& verdict)
+{
+    const std::vector<double> numbers = numbers_of(verdict.own);
+    if (numbers.empty()) return "";
+    const std::string unit = verdict.own.units.front().unit, shown = unit.empty() || unit == "1" ? "" : " " + unit;
+    const std::string least = number_text(verdict.own, numbers.front()), most = number_text(verdict.own, numbers.back());
+    const std::string values = numbers.front() == numbers.back() ? least : least + " to " + most;
+    std::vector<std::string> bounds;
+    for (const Bound& bound : verdict.claim.own.bounds) bounds.push_back(bound_text(bound));
+    return fmt::format("{}: {}{}; bound {}", fmt::join(verdict.claim.own.quantities, ", "), values, shown, fmt::join(bounds, ", "));
+}
+
+// One line each: how many units hold; their numbers with the bound; why a claim is not testable; what is missing.
 std::string facts_text(const Verdict& verdict)
 {
     std::vector<std::string> lines;
-    if (verdict.n > 0) lines.push_back(fmt::format("within the bound: {} of {}", verdict.within, verdict.n));
-    if (const PrimaryTexts primary = texts_of_primary(verdict); !primary.value.empty()) {
-        const std::string interval = primary.interval.empty() ? "" : " " + primary.interval;
-        lines.push_back(fmt::format("{}: {}{}; bound {}", primary.quantity, primary.value, interval, primary.bound));
-        if (!primary.of.empty()) lines.push_back(fmt::format("of: {}", primary.of));
+    for (const std::string& line : {share_text(verdict), numbers_text(verdict)})
+        if (!line.empty()) lines.push_back(line);
+    if (verdict.kind == VerdictKind::fails && verdict.own.share() > failing_share)
+        lines.push_back(fmt::format("chance reaches as many with a probability of {:.2g}", verdict.by_chance));
+    if (verdict.untested != Untested::none && verdict.untested != Untested::reason_of_the_claim) {
+        lines.push_back(spoken(name_of(verdict.untested)));
+        for (const Judged& other : verdict.others)
+            if (!other.behaves)
+                lines.push_back(fmt::format("{} ({}): {} of {} hold", other.selection.name, spoken(name_of(other.selection.role)),
+                                            other.held, other.n));
     }
     if (!verdict.claim.reason.empty()) lines.push_back("reason: " + verdict.claim.reason);
     if (!verdict.missing.empty()) lines.push_back(fmt::format("no record: {}", fmt::join(verdict.missing, ", ")));
@@ -302,7 +284,7 @@ std::vector<std::string> closing_texts(const std::vector<Verdict>& verdicts)
     for (const auto& [reason, claims] : left_out) texts.push_back(fmt::format("left out of {}: {}", fmt::join(claims, ", "), reason));
     for (int k = 0; k <= static_cast<int>(VerdictKind::not_computable); ++k) {
         const auto count = std::ranges::count(verdicts, static_cast<VerdictKind>(k), &Verdict::kind);
-        if (count > 0) counts.push_back(fmt::format("{} {}", count, spoken(static_cast<VerdictKind>(k))));
+        if (count > 0) counts.push_back(fmt::format("{} {}", count, spoken(name_of(static_cast<VerdictKind>(k)))));
     }
     texts.push_back(fmt::format("{} claim{}: {}", verdicts.size(), verdicts.size() == 1 ? "" : "s", fmt::join(counts, ", ")));
     return texts;
@@ -314,19 +296,22 @@ json claims_json(const std::vector<Verdict>& verdicts, const std::string& revisi
 {
     json claims = json::array();
     for (const Verdict& verdict : verdicts) claims.push_back(claim_object(verdict));
-    return {{"schema", 2}, {"revision", revision}, {"quantities", quantities_of(verdicts)}, {"claims", claims}};
+    return {{"schema", 3}, {"revision", revision}, {"quantities", quantities_of(verdicts)}, {"claims", claims}};
 }
 
 std::string claims_markdown(const std::vector<Verdict>& verdicts)
 {
     std::string text =
-        "| id | statement | verdict | within | n | quantity | value | interval | bound | case | study |\n"
-        "|---|---|---|---|---|---|---|---|---|---|---|\n";
+        "| id | statement | verdict | held | units | share | interval | chance | numbers | study |\n"
+        "|---|---|---|---|---|---|---|---|---|---|\n";
     for (const Verdict& verdict : verdicts) {
-        const PrimaryTexts primary = texts_of_primary(verdict);
-        text += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", markdown_cell(verdict.claim.id),
-                            markdown_cell(verdict.claim.statement), name_of(verdict.kind), verdict.within, verdict.n, primary.quantity,
-                            primary.value, primary.interval, primary.bound, markdown_cell(primary.of), verdict.claim.study);
+        const bool none = verdict.own.n == 0 || verdict.claim.rule != ClaimRule::units;
+        const auto known = [&](double value) { return none || !std::isfinite(value) ? std::string() : fmt::format("{:.3g}", value); };
+        const std::string interval = none ? "" : fmt::format("[{:.3g}, {:.3g}]", verdict.interval.low, verdict.interval.high);
+        text += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", markdown_cell(verdict.claim.id),
+                            markdown_cell(verdict.claim.statement), name_of(verdict.kind), verdict.own.held, verdict.own.n,
+                            known(verdict.own.share()), interval, known(verdict.by_chance), markdown_cell(numbers_text(verdict)),
+                            verdict.claim.study);
     }
     return text;
 }
@@ -339,13 +324,21 @@ std::string claims_table(const std::vector<Verdict>& verdicts, std::size_t width
     table += std::string(whole, '-') + "\n";
     for (const Verdict& verdict : verdicts)
         table += side_by_side({{verdict.claim.id, layout.id},
-                               {spoken(verdict.kind), layout.verdict, colours ? colour_of(verdict.kind) : ""},
+                               {spoken(name_of(verdict.kind)), layout.verdict, colours ? colour_of(verdict.kind) : ""},
                                {fmt::format("{} ({})", verdict.claim.statement, verdict.claim.place), layout.statement},
                                {facts_text(verdict), layout.facts}}) +
                  "\n";
     for (const std::string& text : closing_texts(verdicts))
         for (const std::string& line : wrapped(text, whole)) table += line + "\n";
     return table;
+}
+
+std::string bound_text(const Bound& bound)
+{
+    if (bound.low == bound.high) return fmt::format("{:.4g}", bound.low);
+    if (std::isinf(bound.high)) return fmt::format("{:.4g} or more", bound.low);
+    if (std::isinf(bound.low)) return std::nextafter(bound.high, 2.0) == 1.0 ? "below 1" : fmt::format("{:.4g} or less", bound.high);
+    return fmt::format("{:.4g} to {:.4g}", bound.low, bound.high);
 }
 
 }  // namespace analysis

@@ -1,7 +1,6 @@
 #include "analysis/verdicts/verdict.hpp"
 
-#include "analysis/statistics/statistics.hpp"
-
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
@@ -9,318 +8,402 @@
 namespace analysis {
 namespace {
 
-template <typename Predicate>
-void add_of(const std::vector<std::string>& quantities, const Records& records, std::vector<Measurement>& to, Predicate is_wanted)
+bool is_selected(const Selection& selection, const CaseKey& of, const Measurement& measured)
 {
-    for (const std::string& quantity : quantities)
-        for (const Measurement& measured : records.measurements)
-            if (measured.quantity == quantity && is_wanted(measured)) to.push_back(measured);
+    return std::ranges::count(selection.quantities, measured.quantity) > 0 && matches(measured.of, of);
 }
 
-struct Count {
-    int within = 0, all = 0;
+std::vector<Measurement> selected(const Selection& selection, const CaseKey& of, const std::vector<Measurement>& measured)
+{
+    std::vector<Measurement> found;
+    std::ranges::copy_if(measured, std::back_inserter(found), [&](const Measurement& one) { return is_selected(selection, of, one); });
+    return found;
+}
+
+Unit unit_of(const Claim& claim, const Measurement& measured)
+{
+    Unit unit;
+    for (const std::string& name : claim.unit) {
+        const CaseKeyField* field = case_key_field(name);
+        if (!field)
+            unit.quantity = measured.quantity;
+        else if (field->text)
+            unit.of.*field->text = measured.of.*field->text;
+        else
+            unit.of.*field->number = measured.of.*field->number;
+    }
+    return unit;
+}
+
+bool is_same(const Unit& one, const Unit& other)
+{
+    return one.quantity == other.quantity && one.of == other.of;
+}
+
+double mean_of(Mean mean_kind, const std::vector<double>& values)
+{
+    if (mean_kind == Mean::arithmetic) return mean(values);
+    if (std::ranges::count(values, 0.0) > 0) return std::ranges::all_of(values, [](double one) { return one >= 0.0; }) ? 0.0 : not_known;
+    std::vector<double> logarithms;
+    for (const double value : values) logarithms.push_back(std::log(value));  // NaN for a value below 0, as for one that is not known
+    return std::exp(mean(logarithms));
+}
+
+// The dependent values of a unit as one number.
+struct Dependent {
+    double value = 0.0, low = 0.0, high = 0.0;
+    Limit limit = Limit::none;
 };
 
-// The values of a subject, grouped by quantity and by the fields that the claim counts apart: how many there are, and how many hold.
-using Subject = std::map<std::vector<std::string>, Count>;
-
-std::vector<std::string> group_of(const Claim& claim, const Measurement& measured)
+Dependent mean_of(const Claim& claim, const std::vector<const Measurement*>& values)
 {
-    std::vector<std::string> group = {measured.quantity};
-    for (const std::string& field : claim.each) group.push_back(value_text(*case_key_field(field), measured.of));
-    return group;
-}
-
-std::map<std::string, Subject> by_subject(const Verdict& verdict)
-{
-    std::map<std::string, Subject> subjects;
-    for (const Measurement& measured : verdict.measurements) {
-        Count& count = subjects[value_text(*case_key_field(verdict.claim.subject), measured.of)][group_of(verdict.claim, measured)];
-        ++count.all;
-        count.within += extent_of(verdict.claim, measured) == Extent::whole;
+    Dependent all{.low = std::numeric_limits<double>::infinity(), .high = -std::numeric_limits<double>::infinity()};
+    std::vector<double> numbers;
+    for (const Measurement* one : values) {
+        numbers.push_back(one->value);
+        all.low = std::min({all.low, one->value, one->low});
+        all.high = std::max({all.high, one->value, one->high});
+        if (one->limit != Limit::none) all.limit = one->limit;
     }
-    return subjects;
+    all.value = mean_of(claim.mean, numbers);
+    return all;
 }
 
-Count sum_of(const Subject& subject)
+Bound bound_of(const Selection& selection, const std::string& quantity, const CaseKey& of)
 {
-    Count sum;
-    for (const auto& [quantity, count] : subject) sum = {sum.within + count.within, sum.all + count.all};
-    return sum;
-}
-
-// A claim of several quantities requires all of them.
-Extent extent_of(const Subject& subject)
-{
-    const auto some = [](const auto& entry) { return entry.second.within > 0; };
-    if (sum_of(subject).within == sum_of(subject).all) return Extent::whole;
-    return std::all_of(subject.begin(), subject.end(), some) ? Extent::part : Extent::none;
-}
-
-VerdictKind kind_of(const std::map<std::string, Subject>& subjects)
-{
-    const auto holds = [](Extent least) { return [least](const auto& entry) { return extent_of(entry.second) >= least; }; };
-    if (std::all_of(subjects.begin(), subjects.end(), holds(Extent::whole))) return VerdictKind::reproduced;
-    return std::any_of(subjects.begin(), subjects.end(), holds(Extent::part)) ? VerdictKind::reproduced_only_for
-                                                                              : VerdictKind::not_reproduced;
-}
-
-// How far the value lies outside, relative to the size of the bound; negative inside. NaN counts as farthest outside. An open end counts
-// only where an infinite value lies beyond it.
-double distance_outside(const QuantityBound& bound, double value)
-{
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    const auto relative = [](double by, double end) {
-        if (std::abs(end) >= open_end) return by == infinity ? by : -infinity;
-        return by / std::max(std::abs(end), 1e-300);
+    const auto applies = [&](const Bound& bound) {
+        return (bound.quantity.empty() || bound.quantity == quantity) && matches(of, bound.of);
     };
-    if (std::isnan(value)) return infinity;
-    return std::max(relative(bound.low - value, bound.low), relative(value - bound.high, bound.high));
+    const auto found = std::ranges::find_if(selection.bounds, applies);
+    return found == selection.bounds.end() ? Bound{} : *found;
 }
 
-// A value outside the bound is worse than one whose interval leaves it, and that one is worse than any that holds.
-PrimaryFact worst_of(const Verdict& verdict)
+// A censored value decides only where every value that it stands for does.
+bool is_undecided(const Unit& unit)
 {
-    const auto holds_and_distance = [&](const Measurement& of) {
-        return std::pair(extent_of(verdict.claim, of), -distance_outside(bound_of(verdict.claim, of.quantity), of.value));
-    };
-    const Measurement& worst = *std::ranges::min_element(verdict.measurements, {}, holds_and_distance);
-    const QuantityBound bound = bound_of(verdict.claim, worst.quantity);
-    return {worst.quantity, "value", worst.unit, worst.value, worst.low, worst.high, bound.low, bound.high, worst.of};
+    if (unit.limit == Limit::none) return false;
+    const bool above = unit.limit == Limit::at_least || unit.limit == Limit::more_than;
+    if (!unit.bound.contains(unit.value)) return above ? unit.value < unit.bound.low : unit.value > unit.bound.high;
+    return std::isfinite(above ? unit.bound.high : unit.bound.low);
 }
 
-bool is_judged(const Claim& claim, const CaseRecord& record)
+using Values = std::vector<const Measurement*>;
+
+Values of_quantity(const Values& values, const std::string& quantity)
 {
-    return (claim.iterations == 0 || record.iterations == claim.iterations) && !record.frame.empty();
+    Values found;
+    std::ranges::copy_if(values, std::back_inserter(found), [&](const Measurement* one) { return one->quantity == quantity; });
+    return found;
 }
 
-bool is_asked_for(const Claim& claim, const CaseRecord& record)
+// One quantity of a unit, compared with its bound.
+Unit compared(const Claim& claim, const Selection& selection, Unit unit, const Values& values, const Values& over)
 {
-    return record.deformer == claim.deformer && is_judged(claim, record);
-}
-
-const CaseRecord* own_record(const Claim& claim, const Records& records, const std::string& scene)
-{
-    const auto found = std::ranges::find_if(records.cases, [&](const CaseRecord& record) {
-        return record.scene == scene && is_asked_for(claim, record) && (record.variant.empty() || record.variant == "default");
-    });
-    return found == records.cases.end() ? nullptr : &*found;
-}
-
-OrderVerdict& entry_of(std::vector<OrderVerdict>& verdicts, const CaseRecord& record)
-{
-    const auto same = [&](const OrderVerdict& entry) { return entry.order == record.order && entry.precision == record.precision; };
-    const auto found = std::find_if(verdicts.begin(), verdicts.end(), same);
-    if (found != verdicts.end()) return *found;
-    verdicts.push_back({.order = record.order, .precision = record.precision});
-    return verdicts.back();
-}
-
-void add_case(const Claim& claim, const CaseRecord& other, const CaseRecord& own, OrderVerdict& verdict)
-{
-    for (const std::string& metric : claim.metrics) {
-        verdict.cases.push_back(judge_case(claim, other, metric));
-        verdict.own_cases.push_back(judge_case(claim, own, metric));
-        if (verdict.cases.back().extent != verdict.own_cases.back().extent) verdict.differing.push_back(verdict.cases.size() - 1);
+    const Dependent own = mean_of(claim, values);
+    unit.value = own.value;
+    unit.low = own.low;
+    unit.high = own.high;
+    unit.limit = own.limit;
+    unit.n = static_cast<int>(values.size());
+    unit.unit = values.front()->unit;
+    unit.bound = bound_of(selection, values.front()->quantity, unit.of);
+    if (selection.over != CaseKey{}) {
+        const double base = over.empty() ? not_known : mean_of(claim, over).value;
+        if (!(std::isfinite(base) && base != 0.0)) {
+            unit.left_out = LeftOutUnit::nothing_to_compare_with;
+            return unit;
+        }
+        unit.value /= base;
+        unit.low /= base;
+        unit.high /= base;
     }
+    unit.holds = unit.bound.contains(unit.value);
+    if (is_undecided(unit)) unit.left_out = LeftOutUnit::censored;
+    return unit;
 }
 
-// Scenes that were planned and have neither a record nor a reason for its absence.
-std::vector<std::string> missing_scenes(const Claim& claim, const Records& records)
+// Runs beside the study's own count only in units of which no other run has values.
+void drop_those_beside(Values& values)
+{
+    if (std::ranges::any_of(values, [](const Measurement* one) { return !one->beside; }))
+        std::erase_if(values, [](const Measurement* one) { return one->beside; });
+}
+
+// A unit without one of the quantities does not hold, since nothing shows that it does.
+Unit judged_unit(const Claim& claim, const Selection& selection, const Unit& unit, const Values& values, const Values& over)
+{
+    if (!unit.quantity.empty()) return compared(claim, selection, unit, values, over);
+    std::vector<Unit> parts;
+    for (const std::string& quantity : selection.quantities) {
+        const Values own = of_quantity(values, quantity);
+        Unit part{.of = unit.of, .value = not_known, .low = not_known, .high = not_known};
+        if (!own.empty()) part = compared(claim, selection, unit, own, of_quantity(over, quantity));
+        part.quantity = quantity;
+        parts.push_back(part);
+    }
+    Unit all = parts.front();
+    all.quantity = "";
+    all.holds = std::ranges::all_of(parts, &Unit::holds);
+    for (const Unit& part : parts)
+        if (all.counts()) all.left_out = part.left_out;
+    if (parts.size() > 1) all.parts = std::move(parts);
+    return all;
+}
+
+void count(Judged& judged)
+{
+    judged.held = judged.n = 0;
+    for (const Unit& unit : judged.units) {
+        judged.n += unit.counts();
+        judged.held += unit.counts() && unit.holds;
+    }
+    const bool fails = judged.n > 0 && judged.share() <= failing_share, holds = judged.n > 0 && judged.share() >= holding_share;
+    judged.behaves = judged.selection.role == Role::must_fail ? fails : judged.selection.role == Role::must_hold ? holds : true;
+}
+
+// A unit in which the method that must fail does not fail shows nothing.
+void leave_out_unseen(const Judged& control, Judged& own)
+{
+    for (Unit& unit : own.units) {
+        const auto same = std::ranges::find_if(control.units, [&](const Unit& one) { return is_same(one, unit); });
+        if (same == control.units.end() || !same->counts())
+            unit.left_out = LeftOutUnit::no_control;
+        else if (same->holds)
+            unit.left_out = LeftOutUnit::nothing_to_see;
+    }
+    count(own);
+}
+
+// The rule of succession, (k + 1) / (n + 2): a control that fails in each of a few units does not show a share of exactly 0. The control
+// by which units are left out fails in all that count.
+double share_of_controls(const Verdict& verdict)
+{
+    if (verdict.claim.no_effect > 0.0) return verdict.claim.no_effect;
+    double largest = 0.0;
+    for (const Judged& other : verdict.others) {
+        if (other.selection.role != Role::must_fail) continue;
+        const bool decides = !verdict.claim.unseen_by.empty() && other.selection.name == verdict.claim.unseen_by;
+        largest = std::max(largest, decides ? 1.0 / (verdict.own.n + 2.0) : (other.held + 1.0) / (other.n + 2.0));
+    }
+    return largest;
+}
+
+Interval interval_of(const Judged& own)
+{
+    std::vector<std::string> bodies;
+    std::vector<bool> holds;
+    for (const Unit& unit : own.units) {
+        if (!unit.counts()) continue;
+        bodies.push_back(unit.of.body);
+        holds.push_back(unit.holds);
+    }
+    const Interval binomial = share_interval(own.held, own.n), bootstrap = bootstrap_share_of_groups(bodies, holds);
+    return bootstrap.high - bootstrap.low > binomial.high - binomial.low ? bootstrap : binomial;
+}
+
+// Shares by the values of each field; a value with fewer than two units says nothing.
+std::optional<Difference> largest_difference(const Claim& claim, const Judged& own)
+{
+    std::optional<Difference> largest;
+    for (const std::string& name : claim.unit) {
+        const CaseKeyField* field = case_key_field(name);
+        std::map<std::string, std::array<int, 2>> counts;  // held, all
+        for (const Unit& unit : own.units) {
+            if (!unit.counts()) continue;
+            auto& [held, all] = counts[field ? value_text(*field, unit.of) : unit.quantity];
+            held += unit.holds;
+            ++all;
+        }
+        Difference found{.field = name, .least = 2.0, .most = -1.0};
+        for (const auto& [value, of] : counts) {
+            if (of[1] < 2) continue;
+            const double share = double(of[0]) / of[1];
+            if (share < found.least) found.least = share, found.least_at = value;
+            if (share > found.most) found.most = share, found.most_at = value;
+        }
+        if (found.least_at != found.most_at && (!largest || found.most - found.least > largest->most - largest->least)) largest = found;
+    }
+    return largest;
+}
+
+// The claim in each order and precision in which its values are recorded, where its own are named.
+std::vector<Judged> readings_of(const Claim& claim, const std::vector<Measurement>& measured)
+{
+    std::vector<Judged> readings;
+    if (claim.own.of.order.empty() && claim.own.of.precision.empty()) return readings;
+    Selection any = claim.own;
+    any.of.order = any.of.precision = "";
+    std::set<std::pair<std::string, std::string>> found;
+    for (const Measurement& one : measured)
+        if (is_selected(any, any.of, one)) found.insert({one.of.order, one.of.precision});
+    for (const auto& [order, precision] : found) {
+        any.of.order = order;
+        any.of.precision = precision;
+        any.name = order.empty() ? precision : order + " " + precision;
+        any.role = Role::comparison;
+        if (any.of != claim.own.of) readings.push_back(judged(claim, any, measured));
+    }
+    return readings;
+}
+
+Untested why_untested(const Verdict& verdict)
+{
+    for (const Judged& other : verdict.others)
+        if (!other.behaves) return other.n == 0 ? Untested::control_without_record : Untested::control_misbehaves;
+    return verdict.own.n < least_units ? Untested::too_few_units : Untested::none;
+}
+
+VerdictKind kind_of(const Verdict& verdict)
+{
+    if (verdict.untested != Untested::none) return VerdictKind::not_testable;
+    if (verdict.own.share() <= failing_share || !(verdict.by_chance < largest_chance)) return VerdictKind::fails;
+    return verdict.own.share() >= holding_share ? VerdictKind::holds : VerdictKind::mixed;
+}
+
+void judge_units(Verdict& verdict)
+{
+    const Claim& claim = verdict.claim;
+    const auto unseen = std::ranges::find(verdict.others, claim.unseen_by, [](const Judged& one) { return one.selection.name; });
+    if (!claim.unseen_by.empty()) {
+        leave_out_unseen(*unseen, verdict.own);
+        for (Judged& reading : verdict.readings) leave_out_unseen(*unseen, reading);
+        for (Judged& other : verdict.others)
+            if (other.selection.role == Role::comparison) leave_out_unseen(*unseen, other);
+    }
+    verdict.q = share_of_controls(verdict);
+    verdict.untested = why_untested(verdict);
+    if (verdict.own.n > 0) {
+        verdict.by_chance = binomial_tail(verdict.own.held, verdict.own.n, verdict.q);
+        verdict.interval = interval_of(verdict.own);
+    }
+    verdict.kind = kind_of(verdict);
+    if (verdict.kind == VerdictKind::mixed) verdict.differs = largest_difference(claim, verdict.own);
+}
+
+// One number, judged by its range.
+void judge_single(Verdict& verdict)
+{
+    if (verdict.own.units.size() != 1) {
+        verdict.kind = VerdictKind::not_testable;
+        verdict.untested = Untested::too_few_units;
+        return;
+    }
+    const Unit& only = verdict.own.units.front();
+    const bool inside = only.bound.contains(only.low) && only.bound.contains(only.high);
+    const bool outside = only.high < only.bound.low || only.low > only.bound.high || std::isnan(only.value);
+    verdict.kind = inside ? VerdictKind::holds : outside ? VerdictKind::fails : VerdictKind::mixed;
+}
+
+void judge_print(const std::vector<PrintedValue>& values, Verdict& verdict)
+{
+    std::ranges::copy_if(values, std::back_inserter(verdict.printed),
+                         [&](const PrintedValue& value) { return value.claim == verdict.claim.id; });
+    if (verdict.printed.empty()) return;
+    const bool consistent = std::ranges::all_of(verdict.printed, &PrintedValue::is_consistent);
+    verdict.kind = consistent ? VerdictKind::holds : VerdictKind::inconsistent_in_print;
+}
+
+// Planned scenes without a record and without a reason for it, then planned runs without a record.
+std::vector<std::string> missing_from(const Records& records)
 {
     std::vector<std::string> missing;
     for (const std::string& scene : records.planned_scenes) {
-        const bool recorded = std::any_of(records.cases.begin(), records.cases.end(),
-                                          [&](const CaseRecord& record) { return record.scene == scene && is_asked_for(claim, record); });
-        const bool left_out =
-            std::any_of(records.left_out.begin(), records.left_out.end(), [&](const LeftOut& entry) { return entry.scene == scene; });
+        const bool recorded = std::ranges::count(records.cases, scene, &CaseRecord::scene) > 0;
+        const bool left_out = std::ranges::count(records.left_out, scene, &LeftOut::scene) > 0;
         if (!recorded && !left_out) missing.push_back(scene);
     }
+    missing.insert(missing.end(), records.missing_runs.begin(), records.missing_runs.end());
     return missing;
 }
 
-// Chooses the clip that represents the claim, by the claim's own metric: the one with the lowest share, or with the mean farthest from the
-// printed value.
-void choose_primary(Verdict& verdict)
+void judge_measured(const Records& records, Verdict& verdict)
 {
-    const bool by_share = verdict.claim.rule == ClaimRule::share_within;
-    double worst = -std::numeric_limits<double>::infinity();
-    for (const CaseJudgement& judged : verdict.cases) {
-        if (judged.sweep || judged.metric != verdict.claim.metrics.front()) continue;
-        const double distance = by_share ? -judged.share.estimate : std::abs(judged.mean.estimate - verdict.claim.expected);
-        if (!(distance > worst)) continue;
-        worst = distance;
-        verdict.interval = by_share ? judged.share : judged.mean;
-        const Interval& interval = verdict.interval;
-        verdict.primary = PrimaryFact{judged.metric,
-                                      by_share ? "share_of_frames" : "mean",
-                                      by_share ? "1" : "%",
-                                      interval.estimate,
-                                      interval.low,
-                                      interval.high,
-                                      by_share ? verdict.claim.share : verdict.claim.low,
-                                      by_share ? 1.0 : verdict.claim.high,
-                                      judged.of};
-    }
-}
-
-void count_and_list_runs(Verdict& verdict)
-{
-    std::set<std::string> runs;
-    for (const CaseJudgement& judged : verdict.cases) {
-        if (!judged.run.empty()) runs.insert(judged.run);
-        if (judged.metric != verdict.claim.metrics.front()) continue;
-        ++verdict.n;
-        verdict.within += judged.extent == Extent::whole;
-    }
-    verdict.runs.assign(runs.begin(), runs.end());
-}
-
-Verdict judge_cases(const Claim& claim, const Records& records)
-{
-    if (const auto missing = missing_scenes(claim, records); !missing.empty()) {
-        Verdict none = verdict_of(claim, VerdictKind::not_computable);
-        none.missing = missing;
-        return none;
-    }
-    Verdict verdict = verdict_of(claim, VerdictKind::not_computable);
+    const Claim& claim = verdict.claim;
     verdict.left_out = records.left_out;
-    for (const std::string& metric : claim.metrics)
-        for (const CaseRecord& record : records.cases)
-            if (is_asked_for(claim, record) && !record.beside) verdict.cases.push_back(judge_case(claim, record, metric));
-    if (verdict.cases.empty()) {
-        if (!records.left_out.empty()) verdict.kind = VerdictKind::cannot_be_tested_here;
-        return verdict;
+    verdict.missing = missing_from(records);
+    if (!verdict.missing.empty()) return;
+    std::vector<Measurement> measured = records.measurements;
+    for (const CaseRecord& record : records.cases) std::ranges::move(frame_measurements(record), std::back_inserter(measured));
+    verdict.own = judged(claim, claim.own, measured);
+    for (const Selection& other : claim.others) verdict.others.push_back(judged(claim, other, measured));
+    verdict.readings = readings_of(claim, measured);
+    std::set<std::string> runs;
+    for (const Measurement& one : selected(claim.own, claim.own.of, measured))
+        if (!one.run.empty()) runs.insert(one.run);
+    verdict.runs.assign(runs.begin(), runs.end());
+    if (claim.rule == ClaimRule::single)
+        judge_single(verdict);
+    else if (claim.rule == ClaimRule::units)
+        judge_units(verdict);
+    for (const Unit& unit : verdict.own.units) {
+        const bool is_new = std::ranges::any_of(claim.confirmatory, [&](const CaseKey& key) { return matches(unit.of, key); });
+        verdict.confirmatory += is_new && unit.counts();
+        verdict.confirmatory_held += is_new && unit.counts() && unit.holds;
     }
-    for (const CaseRecord& record : records.cases)
-        if (is_asked_for(claim, record) && record.beside) verdict.compared.push_back(judge_case(claim, record, claim.metrics.front()));
-    for (const std::string& deformer : claim.compared)
-        for (const CaseRecord& record : records.cases)
-            if (record.deformer == deformer && !record.frame.empty())
-                verdict.compared.push_back(judge_case(claim, record, claim.metrics.front()));
-    verdict.kind = kind_of(claim, verdict.cases);
-    verdict.orders = judge_orders(claim, records);
-    choose_primary(verdict);
-    count_and_list_runs(verdict);
-    return verdict;
-}
-
-// How far the value lies outside, relative to the size of the bound; negative inside.
-double distance_outside(const PrintedValue& value)
-{
-    const double below = (value.least - value.printed) / std::max(std::abs(value.least), 1e-300);
-    const double above = std::isinf(value.most) ? -value.most : (value.printed - value.most) / std::max(std::abs(value.most), 1e-300);
-    return std::max(below, above);
-}
-
-Verdict judge_print(const Claim& claim, const std::vector<PrintedValue>& values)
-{
-    Verdict verdict = verdict_of(claim, VerdictKind::not_computable);
-    for (const PrintedValue& value : values)
-        if (value.claim == claim.id) verdict.printed.push_back(value);
-    if (verdict.printed.empty()) return verdict;
-    verdict.n = static_cast<int>(verdict.printed.size());
-    verdict.within = static_cast<int>(
-        std::count_if(verdict.printed.begin(), verdict.printed.end(), [](const auto& value) { return value.is_consistent(); }));
-    verdict.kind = verdict.within == verdict.n ? VerdictKind::reproduced : VerdictKind::inconsistent_in_print;
-    const PrintedValue& farthest = *std::max_element(verdict.printed.begin(), verdict.printed.end(), [](const auto& a, const auto& b) {
-        return distance_outside(a) < distance_outside(b);
-    });
-    verdict.primary = PrimaryFact{farthest.quantity, "printed",     "",         farthest.printed, farthest.printed, farthest.printed,
-                                  farthest.least,    farthest.most, farthest.of};
-    return verdict;
 }
 
 }  // namespace
 
-Verdict judge_measurements(const Claim& claim, const Records& records)
+Judged judged(const Claim& claim, const Selection& selection, const std::vector<Measurement>& measured)
 {
-    Verdict verdict = verdict_of(claim, VerdictKind::not_computable);
-    verdict.left_out = records.left_out;
-    verdict.missing = records.missing_runs;
-    if (!verdict.missing.empty()) return verdict;
-    add_of(claim.metrics, records, verdict.measurements, [&](const Measurement& measured) { return is_judged(claim, measured); });
-    add_of(claim.metrics, records, verdict.controls, [&](const Measurement& measured) { return is_control(claim, measured); });
-    add_of(claim.reported, records, verdict.controls, [&](const Measurement& measured) { return measured.claim == claim.id; });
-    if (verdict.measurements.empty()) {
-        if (!records.left_out.empty()) verdict.kind = VerdictKind::cannot_be_tested_here;
-        return verdict;
-    }
-    std::set<std::string> runs;
-    for (const Measurement& measured : verdict.measurements) {
-        verdict.within += extent_of(claim, measured) == Extent::whole;
-        if (!measured.run.empty()) runs.insert(measured.run);
-    }
-    verdict.n = static_cast<int>(verdict.measurements.size());
-    verdict.runs.assign(runs.begin(), runs.end());
-    const auto subjects = by_subject(verdict);
-    for (const auto& [name, subject] : subjects)
-        verdict.subjects.push_back({name, sum_of(subject).within, sum_of(subject).all, extent_of(subject)});
-    verdict.kind = kind_of(subjects);
-    verdict.primary = worst_of(verdict);
-    return verdict;
-}
-
-std::vector<OrderVerdict> judge_orders(const Claim& claim, const Records& records)
-{
-    std::vector<OrderVerdict> verdicts;
-    if (claim.orders.empty()) return verdicts;
-    for (const CaseRecord& record : records.cases) {
-        if (record.deformer != claim.orders || !is_judged(claim, record)) continue;
-        if (const CaseRecord* own = own_record(claim, records, record.scene)) add_case(claim, record, *own, entry_of(verdicts, record));
-    }
-    for (OrderVerdict& verdict : verdicts) {
-        verdict.kind = kind_of(claim, verdict.cases);
-        verdict.own_kind = kind_of(claim, verdict.own_cases);
-    }
-    return verdicts;
-}
-
-VerdictKind kind_of(const Claim& claim, const std::vector<CaseJudgement>& cases)
-{
-    const auto is_whole_or_other = [&](const CaseJudgement& judged) {
-        return judged.extent == Extent::whole || judged.metric != claim.metrics.front();
+    const std::vector<Measurement> own = selected(selection, selection.of, measured), over = selected(selection, selection.over, measured);
+    std::vector<Unit> units;
+    std::vector<Values> values, base;
+    const auto place_of = [&](const Measurement& one) {
+        const Unit unit = unit_of(claim, one);
+        return std::ranges::find_if(units, [&](const Unit& other) { return is_same(unit, other); }) - units.begin();
     };
-    const auto holds_somewhere = [](const CaseJudgement& judged) { return judged.extent != Extent::none; };
-    if (std::all_of(cases.begin(), cases.end(), is_whole_or_other)) return VerdictKind::reproduced;
-    if (std::any_of(cases.begin(), cases.end(), holds_somewhere)) return VerdictKind::reproduced_only_for;
-    return VerdictKind::not_reproduced;
+    for (const Measurement& one : own) {
+        const auto place = static_cast<std::size_t>(place_of(one));
+        if (place == units.size()) {
+            units.push_back(unit_of(claim, one));
+            values.emplace_back();
+        }
+        values[place].push_back(&one);
+    }
+    base.resize(units.size());
+    for (const Measurement& one : over)
+        if (const auto place = static_cast<std::size_t>(place_of(one)); place < units.size()) base[place].push_back(&one);
+    for (auto* lists : {&values, &base})
+        for (Values& of_unit : *lists) drop_those_beside(of_unit);
+    Judged result{.selection = selection};
+    for (std::size_t i = 0; i < units.size(); ++i) result.units.push_back(judged_unit(claim, selection, units[i], values[i], base[i]));
+    count(result);
+    return result;
 }
 
 Verdict judge(const Claim& claim, const Records& records)
 {
-    switch (claim.rule) {
-        case ClaimRule::printed:
-            return judge_print(claim, records.printed);
-        case ClaimRule::measured:
-            return judge_measurements(claim, records);
-        case ClaimRule::untestable:
-            return verdict_of(claim, VerdictKind::cannot_be_tested_here);
-        default:
-            return judge_cases(claim, records);
+    Verdict verdict{.claim = claim};
+    if (claim.rule == ClaimRule::printed)
+        judge_print(records.printed, verdict);
+    else if (!claim.own.quantities.empty())
+        judge_measured(records, verdict);
+    if (claim.rule == ClaimRule::definition && verdict.missing.empty()) verdict.kind = VerdictKind::definition;
+    if (claim.rule == ClaimRule::untestable && verdict.missing.empty()) {
+        verdict.kind = VerdictKind::not_testable;
+        verdict.untested = Untested::reason_of_the_claim;
     }
-}
-
-Verdict verdict_of(const Claim& claim, VerdictKind kind)
-{
-    Verdict verdict;
-    verdict.claim = claim;
-    verdict.kind = kind;
-    verdict.interval = {not_known, not_known, not_known, claim.level, 0, 0};
     return verdict;
 }
 
 const char* name_of(VerdictKind kind)
 {
-    static constexpr std::array names = {
-        "reproduced", "reproduced_only_for", "not_reproduced", "inconsistent_in_print", "cannot_be_tested_here", "not_computable"};
+    static constexpr std::array names = {"holds",         "fails", "mixed", "not_testable", "definition", "inconsistent_in_print",
+                                         "not_computable"};
     return names[static_cast<std::size_t>(kind)];
 }
 
-const char* name_of(Extent extent)
+const char* name_of(Untested why)
 {
-    static constexpr std::array names = {"none", "part", "whole"};
-    return names[static_cast<std::size_t>(extent)];
+    static constexpr std::array names = {"none", "reason_of_the_claim", "too_few_units", "control_without_record", "control_misbehaves"};
+    return names[static_cast<std::size_t>(why)];
+}
+
+const char* name_of(LeftOutUnit why)
+{
+    static constexpr std::array names = {"no", "nothing_to_see", "no_control", "nothing_to_compare_with", "censored"};
+    return names[static_cast<std::size_t>(why)];
 }
 
 }  // namespace analysis

@@ -1,119 +1,120 @@
 // Verdicts, computed from records and from bounds that were fixed beforehand. A verdict holds facts; the sentences are composed by its
 // readers.
-//   const Verdict verdict = judge(claim, records);   // verdict.kind, verdict.primary, verdict.cases
+//   const Verdict verdict = judge(claim, records);   // verdict.kind, verdict.own.share, verdict.own.units
 #pragma once
 
+#include "analysis/statistics/statistics.hpp"
+#include "analysis/verdicts/claims.hpp"
 #include "analysis/verdicts/measurement.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace analysis {
 
+// The rule's numbers, fixed before the records of today were judged by it.
+inline constexpr double holding_share = 0.95, failing_share = 0.5;  // holds from the one on, fails up to the other
+inline constexpr double largest_chance = 0.01;                      // a result that chance reaches more often is none
+inline constexpr int least_units = 5;                               // fewer units do not carry a verdict
+
 // The verdict on a claim; every kind except the last is a result.
-enum class VerdictKind {
-    reproduced,
-    reproduced_only_for,
-    not_reproduced,
-    inconsistent_in_print,
-    cannot_be_tested_here,
-    not_computable,  // records are missing: this is a failure of the run, not a result
+enum class VerdictKind { holds, fails, mixed, not_testable, definition, inconsistent_in_print, not_computable };
+
+// Why a claim is not testable.
+enum class Untested { none, reason_of_the_claim, too_few_units, control_without_record, control_misbehaves };
+
+// Why a unit does not count.
+enum class LeftOutUnit { no, nothing_to_see, no_control, nothing_to_compare_with, censored };
+
+// A unit of a claim: its number is the mean of its dependent values, of the first quantity if there are several. NaN: it has none.
+struct Unit {
+    std::string quantity = {};  // empty unless the unit is one of a single quantity
+    CaseKey of = {};            // the fields that make the unit
+    std::string unit = {};
+    double value = 0.0, low = 0.0, high = 0.0;  // the range spans what Claim::range names
+    Limit limit = Limit::none;                  // how a censored value limits the number
+    int n = 0;                                  // dependent values
+    Bound bound = {};
+    bool holds = false;
+    LeftOutUnit left_out = LeftOutUnit::no;
+    std::vector<Unit> parts = {};  // one for each quantity, if the unit has several
+
+    bool counts() const { return left_out == LeftOutUnit::no; }
 };
 
-// The claim judged on the records of another order and precision of projection, and its own deformer on the same scenes.
-struct OrderVerdict {
-    std::string order, precision;  // plain, ordered, grouped; f32, f64
-    // From its own records, and from those of the claim's deformer on the same scenes.
-    VerdictKind kind = VerdictKind::not_computable, own_kind = VerdictKind::not_computable;
-    std::vector<CaseJudgement> cases = {}, own_cases = {};  // the same scenes and metrics, in the same order
-    std::vector<std::size_t> differing = {};                // the indices in `cases` of those whose extent differs
+// The units of a selection of values, and the share of those that hold.
+struct Judged {
+    Selection selection = {};
+    std::vector<Unit> units = {};
+    int held = 0, n = 0;  // of the units that count
+    bool behaves = true;  // of a control
 
-    bool same() const { return kind == own_kind && differing.empty(); }  // compares every case, not only the verdict
+    double share() const { return n > 0 ? static_cast<double>(held) / n : not_known; }
 };
 
-// A subject (see claim.subject; mostly a body), and how many of its values lie within the claim's bounds.
-struct SubjectCount {
-    std::string name;
-    int within = 0, all = 0;
-    Extent extent = Extent::none;  // whole: all of its values; part: some values of each quantity
-};
-
-// The value that represents the claim. share_within, mean_within: the clip with the lowest share of frames within the bound, or with the
-// mean farthest from the printed value. measured, printed: the value farthest outside its bound relative to the size of the bound or, if
-// all lie within, the one nearest to its bound.
-struct PrimaryFact {
-    std::string quantity, statistic, unit;  // statistic: share_of_frames, mean, value, printed
-    double value = 0.0, low = 0.0, high = 0.0;
-    double bound_low = 0.0, bound_high = 0.0;
-    CaseKey of = {};
+// The property by whose values the shares of a claim differ most.
+struct Difference {
+    std::string field = {}, least_at = {}, most_at = {};
+    double least = 0.0, most = 0.0;  // shares at these values
 };
 
 // The verdict on a claim, with all values that reports show.
 struct Verdict {
     Claim claim;                                     // the claim that was judged
     VerdictKind kind = VerdictKind::not_computable;  // by the claim's rule
-    std::optional<PrimaryFact> primary = {};         // none if there is no such value, or only sweeps
-    int within = 0, n = 0;                           // how many values or cases hold by the claim's own metric, and how many there are
-    Interval interval;                               // interval of `primary`, only for share_within and mean_within; n = 0: none
-    std::vector<CaseJudgement> cases = {};           // each matching record with each metric, the claim's own metric first
-    std::vector<CaseJudgement> compared = {};    // the claim's other deformers and records, with its own metric; not part of the verdict
-    std::vector<Measurement> measurements = {};  // the values by which a measured claim is judged, its own quantity first
-    std::vector<Measurement> controls = {};      // its quantities with other keys, then claim.reported; not part of the verdict
-    std::vector<SubjectCount> subjects = {};     // subjects of the measurements
-    std::vector<PrintedValue> printed = {};      // values of a claim about printed numbers
-    std::vector<OrderVerdict> orders = {};       // the claim in other orders and precisions; not part of the verdict
-    std::vector<LeftOut> left_out = {};          // scenes that are not installed
-    std::vector<std::string> missing = {};       // planned scenes or runs without a record: the reason why it is not computable
-    std::vector<std::string> runs = {};          // the folders on which the verdict rests
+    Untested untested = Untested::none;
+    Judged own = {};
+    // Of the share: the wider one of the exact binomial interval and a bootstrap over bodies.
+    Interval interval = {.estimate = not_known, .low = not_known, .high = not_known};
+    double by_chance = not_known;                 // the probability of at least as many units under q
+    double q = not_known;                         // the share that the positive controls, or no effect, reach
+    std::optional<Difference> differs = {};       // for a mixed verdict
+    int confirmatory = 0, confirmatory_held = 0;  // units that count and were recorded after the rule was fixed, and those that hold
+    std::vector<Judged> others = {};              // controls and comparisons, as in the claim
+    std::vector<Judged> readings = {};            // the same in each recorded order and precision of projection
+    std::vector<PrintedValue> printed = {};       // values of a claim about printed numbers
+    std::vector<LeftOut> left_out = {};           // scenes that are not installed
+    std::vector<std::string> missing = {};        // planned scenes or runs without a record: the reason why it is not computable
+    std::vector<std::string> runs = {};           // the folders on which the verdict rests
 };
 
-// By the claim's own metric: if every case holds as a whole, the claim is reproduced. If some case holds as a whole or in part by any of
-// the metrics, it is reproduced only for those. If none does, it is not reproduced. Planned scenes or runs without a record make it not
-// computable. InputError as for metric_series.
+// Rule by rule:
+// units        The dependent values of each unit are averaged and compared with the bound. Units in which the control `unseen_by` does not
+//              fail are left out. Not testable if a control has no record or misbehaves (one that must fail does so in at least half of its
+//              units, one that must hold in at least 95 %), and with fewer than five units. Fails if at most half of the units hold, or if
+//              chance reaches as many with a probability of 1 % or more; holds from 95 % on; otherwise mixed.
+// single       The one number holds if its range lies within the bound, fails if it lies outside, and is mixed otherwise.
+// printed      Holds if all printed values are consistent; otherwise inconsistent in print.
+// Planned scenes or runs without a record make the verdict not computable. InputError for records with series of different lengths.
 Verdict judge(const Claim& claim, const Records& records);
 
-// A verdict of that kind without cases.
-Verdict verdict_of(const Claim& claim, VerdictKind kind);
+// The units of a selection, in order of first appearance.
+Judged judged(const Claim& claim, const Selection& selection, const std::vector<Measurement>& measured);
 
-// The verdict on judged cases, by the same rule.
-VerdictKind kind_of(const Claim& claim, const std::vector<CaseJudgement>& cases);
-
-const char* name_of(VerdictKind kind);  // reproduced, reproduced_only_for, ...
-const char* name_of(Extent extent);     // none, part, whole
-
-// The verdict on a claim that is judged by values that a study measured (rule = "measured").
-// Values are grouped by subject: the field of the key that the claim names, mostly the body. A subject holds if all its values hold as a
-// whole. It holds in part if some values of each of its quantities do, since a claim of several quantities requires all of them. The
-// verdict is reproduced if all subjects hold, reproduced only for some if some hold or hold in part, and not reproduced if none does. If a
-// planned run has no record, the verdict is not computable.
-Verdict judge_measurements(const Claim& claim, const Records& records);
-
-// Whether a claim's verdict changes with the order and precision of projection. Constraints that contradict each other converge to a
-// different limit in each order.
-//   for (const OrderVerdict& other : judge_orders(claim, records)) ...
-// One verdict for each order and precision among the records of claim.orders, in order of first appearance. Each is judged on the scenes on
-// which it was recorded, and so is the claim's own deformer (default variant). None if claim.orders is empty.
-std::vector<OrderVerdict> judge_orders(const Claim& claim, const Records& records);
+const char* name_of(VerdictKind kind);  // holds, fails, ...
+const char* name_of(Untested why);
+const char* name_of(LeftOutUnit why);
 
 // Verdicts as files: claims.json holds the facts for programs, claims.md the most important of them as a table.
 //   write_text_atomically(folder + "/claims.json", claims_json(verdicts, revision).dump(2) + "\n");
 //   write_text_atomically(folder + "/claims.md", claims_markdown(verdicts));
-// {"schema": 2, "revision", "quantities": {NAME: {"title", "unit"}}, "claims": [{id, statement, place, study, rule, verdict, ...}]}. The
+// {"schema": 3, "revision", "quantities": {NAME: {"title", "unit"}}, "claims": [{id, statement, place, study, rule, verdict, ...}]}. The
 // document holds facts alone and no sentences. The fields of a key (case_record.hpp) are members of the object that they describe. Values
 // that are not known or not finite are null. revision: the program that judged.
 nlohmann::json claims_json(const std::vector<Verdict>& verdicts, const std::string& revision);
 
-// A table with one row per claim: id, verdict, how many of its values hold, and the primary value with its interval, bound and case.
+// A table with one row per claim: id, verdict, how many of its units hold, share, interval and chance, and the range of its numbers.
 std::string claims_markdown(const std::vector<Verdict>& verdicts);
 
 // The verdicts as a table for the terminal, with a few lines per claim.
 //   fmt::print("{}", claims_table(verdicts, 100, false));
-// The columns are claim, verdict, statement and facts: how many values lie within the bound, and the primary value with its interval, bound
-// and case. Lines are wrapped so that none is longer than `width` characters (below 60: 60). The last lines count the verdicts. colours:
-// green for reproduced, yellow for reproduced in part, red for not reproduced, magenta for inconsistent, grey otherwise. claims.json holds
-// all values.
+// The columns are claim, verdict, statement and facts. Lines are wrapped so that none is longer than `width` characters (below 60: 60). The
+// last lines count the verdicts. colours: green for holds, yellow for mixed, red for fails, magenta for inconsistent, grey otherwise.
 std::string claims_table(const std::vector<Verdict>& verdicts, std::size_t width, bool colours);
+
+std::string bound_text(const Bound& bound);  // 0.9 to 1.1; 30 or more
 
 }  // namespace analysis

@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <functional>
 #include <map>
+#include <set>
 #include <sstream>
 
 namespace experiments {
@@ -112,7 +113,7 @@ int list(const std::vector<std::string>& asked)
 }
 
 // The README.md of a study or a deformer, or the page of a claim.
-std::string page_of(const std::string& name)
+std::string text_of(const std::string& name)
 {
     return analysis::plain_text(*pages::by_name.at(name), terminal_width());
 }
@@ -154,17 +155,16 @@ bool explain_metric(const std::string& name)
     return true;
 }
 
-// A claim is found by its id, and by a quantity that decides it unless a metric has that name.
+// A claim is found by its id or page, and by a quantity that decides it unless a metric has that name.
 bool explain_claim(const std::string& name)
 {
-    bool found = false;
+    std::set<std::string> found;
     for (const auto& claim : claims()) {
-        const bool is_decided_by_it = std::count(claim.metrics.begin(), claim.metrics.end(), name) && !find_metric(name);
-        if (claim.id != name && !is_decided_by_it) continue;
-        fmt::print("{}", page_of(claim.id));
-        found = true;
+        const bool is_decided_by_it = std::ranges::count(claim.own.quantities, name) > 0 && !find_metric(name);
+        if ((is_asked_for(claim, name) || is_decided_by_it) && found.insert(page_of(claim)).second)
+            fmt::print("{}", text_of(page_of(claim)));
     }
-    return found;
+    return !found.empty();
 }
 
 std::string extent_text(const Study& study, bool full)
@@ -183,7 +183,7 @@ bool explain_study(const std::string& name)
 {
     const auto study = std::ranges::find(studies(), name, &Study::name);
     if (study == studies().end()) return false;
-    fmt::print("{}\nCost on this machine\n\n", page_of(name));
+    fmt::print("{}\nCost on this machine\n\n", text_of(name));
     line("--quick", extent_text(*study, false));
     line("--full", extent_text(*study, true));
     line("part of", fmt::format("reproduce: {}\nreproduce --full: {}", part_text(study->sets.quick), part_text(study->sets.full)));
@@ -195,7 +195,7 @@ bool explain_deformer_or_scene(const std::string& name)
     if (const DeformerKind* kind = find_deformer_kind(name)) {
         fmt::print("{} (deformer)\n", kind->name);
         line("meaning", kind->meaning);
-        if (pages::by_name.contains(name)) fmt::print("\n{}\n", page_of(name));
+        if (pages::by_name.contains(name)) fmt::print("\n{}\n", text_of(name));
         return true;
     }
     for (const auto& scene : built_in_scenes())
@@ -209,8 +209,8 @@ std::vector<std::string> known_names()
     for (const auto& key : scene_schema().keys) names.insert(names.end(), {key.path(), key.name});
     for (const auto& text : metric_texts()) names.push_back(text.name);
     for (const auto& claim : claims()) {
-        names.push_back(claim.id);
-        names.insert(names.end(), claim.metrics.begin(), claim.metrics.end());
+        names.insert(names.end(), {claim.id, page_of(claim)});
+        names.insert(names.end(), claim.own.quantities.begin(), claim.own.quantities.end());
     }
     for (const auto& study : studies()) names.push_back(study.name);
     for (const auto& kind : deformer_kinds()) names.push_back(kind.name);

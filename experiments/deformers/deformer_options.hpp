@@ -1,4 +1,4 @@
-// The names of the deformers' options in scenes and records, and the options of LBS and DQS.
+// The options of deformers: their names in scenes and records, the options of LBS and DQS, the choice of the code, and the keys of PBS.
 #pragma once
 
 #include "experiments/deformers/deformer.hpp"

@@ -1,4 +1,4 @@
-// Processor time [s]: other work on the machine stretches it less than wall time.
+// The machine: processor time, memory, how many processors other work keeps busy, and the kernels of OpenBLAS.
 #pragma once
 
 #include "pbs/geometry/module.hpp"
@@ -11,6 +11,7 @@
 
 namespace experiments {
 
+// Processor time [s]: other work on the machine stretches it less than wall time.
 inline double clock_s(clockid_t clock)
 {
     timespec time{};

@@ -1,4 +1,4 @@
-// The terminal that standard output goes to.
+// The program and its user: exit statuses and failures, interruption, and the terminal with its width, colours, progress and warnings.
 #pragma once
 
 #include "pbs/geometry/cost.hpp"
@@ -28,7 +28,7 @@ struct Failure {
 };
 
 // To be called in a catch, for the exception that is being handled. The user can mend bad input, a failing disk and too little memory
-// (exit_input). Any other exception is an internal error, and its message says so.
+// (exit_input). Any other exception is an internal error, and its message states this.
 Failure caught_failure();
 
 // The first SIGINT or SIGTERM ends the work between two frames, so that finished work is kept. The second ends the program at once.

@@ -21,6 +21,7 @@ PROVENANCE = ["version", "git_revision", "git_dirty", "compiler", "flags", "buil
 DRAWN = ("bones.csv", "bones_rest.csv", "binding.csv", "embedding.csv")  # beside frames, which are not kept
 MOST_BYTES = 12_000_000
 RAW = ("points.csv", "rates.csv")  # the measured points of a run, from which the study's tables follow: kept whatever their length
+PICTURED = ("nh_p2",)  # the reference in the picture of the README, which no claim selects
 PAGES = ("bench.txt",)  # the text that a study prints on the screen, where it writes no page
 TABLE_BYTES = 60_000  # of a run's further tables; longer ones are made again by the run
 SUMMARY_BYTES = 200_000  # of a study's own files, which sum up its runs'
@@ -35,15 +36,21 @@ def rounded(text):
 
 
 def shown_deformers():
-    """Each deformer that claims judge, or show for comparison, from metrics.csv -> its iterations, None for any."""
+    """Each deformer that claims of the study `volume`, the only one judged from metrics.csv, select -> its numbers of iterations; None for
+    any, as where one selection states none."""
     claims = tomllib.loads((pathlib.Path(__file__).resolve().parents[1] / "verdicts" / "claims.toml").read_text(encoding="utf-8"))["claim"]
-    compared = {deformer: None for claim in claims for deformer in claim.get("compared", [])}
-    return compared | {claim[key]: claim.get("iterations") for claim in claims for key in ("deformer", "orders") if key in claim}
+    selected = [of.get("of", {}) for claim in claims if claim["study"] == "volume"
+                for of in (claim, *claim.get("controls", []), *claim.get("compared", []))]
+    deformers = {name: None for name in PICTURED}
+    for of in (of for of in selected if "deformer" in of):
+        known = deformers.setdefault(of["deformer"], set())
+        deformers[of["deformer"]] = known | {of["iterations"]} if known is not None and "iterations" in of else None
+    return deformers
 
 
 def is_shown(row, deformers):
     iterations = deformers.get(row["deformer"])
-    return row["deformer"] in deformers and (iterations is None or int(float(row["iterations"])) == iterations)
+    return row["deformer"] in deformers and (iterations is None or int(float(row["iterations"])) in iterations)
 
 
 def keep_metrics(source, target):

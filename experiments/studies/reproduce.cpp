@@ -35,7 +35,7 @@ struct PlannedStudy {
 bool is_named(const Study& study, const std::vector<std::string>& names)
 {
     return std::any_of(names.begin(), names.end(), [&](const std::string& name) {
-        const auto of_study = [&](const analysis::Claim& claim) { return claim.id == name && claim.study == study.name; };
+        const auto of_study = [&](const analysis::Claim& claim) { return is_asked_for(claim, name) && claim.study == study.name; };
         return name == study.name || std::any_of(claims().begin(), claims().end(), of_study);
     });
 }
@@ -97,7 +97,7 @@ void refuse_unknown(const std::vector<std::string>& names)
     for (const auto& study : studies()) known.push_back(study.name);
     for (const auto& claim : claims()) known.push_back(claim.id);
     for (const auto& name : names)
-        if (!is_among(name, known))
+        if (!is_among(name, known) && std::ranges::none_of(claims(), [&](const auto& claim) { return is_asked_for(claim, name); }))
             throw pbs::InputError("", 0, "reproduce", name,
                                   "unknown claim or study; expected one of " + fmt::format("{}", fmt::join(known, ", ")));
 }
@@ -177,8 +177,7 @@ StudyOutcome outcome_of(const PlannedStudy& planned, std::span<const PooledResul
 
 // The runs of all these studies share the cores, so that no core is idle while a study ends. then_s: expected wall time of the studies
 // after these [s].
-void run_together(const std::vector<const PlannedStudy*>& planned, int jobs, double then_s,
-                  std::map<const Study*, StudyOutcome>& outcomes)
+void run_together(const std::vector<const PlannedStudy*>& planned, int jobs, double then_s, std::map<const Study*, StudyOutcome>& outcomes)
 {
     std::vector<PooledWork> work;
     for (const PlannedStudy* one : planned) {

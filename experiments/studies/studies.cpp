@@ -12,6 +12,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <numeric>
@@ -140,6 +141,16 @@ const std::vector<analysis::Claim>& claims()
     return all;
 }
 
+bool is_asked_for(const analysis::Claim& claim, const std::string& name)
+{
+    return claim.id == name || page_of(claim) == name;
+}
+
+std::string page_of(const analysis::Claim& claim)
+{
+    return std::isalpha(static_cast<unsigned char>(claim.id.back())) ? claim.id.substr(0, claim.id.size() - 1) : claim.id;
+}
+
 const analysis::Claim& claim_named(const std::string& id)
 {
     const auto found = std::ranges::find(claims(), id, &analysis::Claim::id);
@@ -150,7 +161,7 @@ const analysis::Claim& claim_named(const std::string& id)
 std::vector<ReadingValues::LeftOut> all_but(const std::string& claim, const std::vector<std::string>& measured, const std::string& reason)
 {
     std::vector<ReadingValues::LeftOut> left_out;
-    for (const std::string& quantity : claim_named(claim).metrics)
+    for (const std::string& quantity : claim_named(claim).own.quantities)
         if (std::find(measured.begin(), measured.end(), quantity) == measured.end()) left_out.push_back({claim, quantity, reason});
     return left_out;
 }

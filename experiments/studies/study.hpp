@@ -241,6 +241,10 @@ std::string cost_table(const std::vector<std::pair<std::string, StudyCosts>>& st
 // The claims of claims.toml, which is compiled into the program.
 const std::vector<analysis::Claim>& claims();
 
+// The page of a claim, which the halves of a sentence share: C02 for C02a and C02b.
+std::string page_of(const analysis::Claim& claim);
+bool is_asked_for(const analysis::Claim& claim, const std::string& name);  // by its id or its page
+
 const analysis::Claim& claim_named(const std::string& id);  // std::logic_error for an id that claims.toml does not contain
 
 // The paths at which two JSON objects differ: "pbs.k_volume". An object that only one of them has is one path.

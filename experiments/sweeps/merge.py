@@ -64,7 +64,8 @@ def write(plan, folder):
                                     *(text for metric in metrics for text in summary(row.get(metric, "") for row in own))])
     if len(origins["git_revision"]) > 1:
         print("sweep: the runs are of several revisions, see sweep.json", file=sys.stderr)
-    told = {"schema": 1, "sweep": plan.file.name, "sweep_text": plan.text, "scene": plan.scene, "files": plan.files, "runs": len(plan.runs),
-            "exit_statuses": statuses, "sweep_csv_sha256": hashlib.sha256((folder / "sweep.csv").read_bytes()).hexdigest(),
-            "provenance": {key: [json.loads(text) for text in sorted(texts)] for key, texts in sorted(origins.items())}}
-    (folder / "sweep.json").write_text(json.dumps(told, indent=2) + "\n", encoding="utf-8")
+    sweep = {"schema": 1, "sweep": plan.file.name, "sweep_text": plan.text, "scene": plan.scene, "files": plan.files,
+             "runs": len(plan.runs), "exit_statuses": statuses,
+             "sweep_csv_sha256": hashlib.sha256((folder / "sweep.csv").read_bytes()).hexdigest(),
+             "provenance": {key: [json.loads(text) for text in sorted(texts)] for key, texts in sorted(origins.items())}}
+    (folder / "sweep.json").write_text(json.dumps(sweep, indent=2) + "\n", encoding="utf-8")

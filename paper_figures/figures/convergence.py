@@ -99,20 +99,20 @@ def draw_iterations(axes, rows, name, number):
 def convergence_mesh_facts(rows):
     """The residuals of the coarsest and the finest mesh of each sequence, the early and late errors of those that have a reference, and how
     many meshes keep volumes within 0.5 %."""
-    told = {"vertices": span([int(row["vertices"]) for row in rows]), "last": rows[0]["iterations"]}
+    facts = {"vertices": span([int(row["vertices"]) for row in rows]), "last": rows[0]["iterations"]}
     for ladder in ladders:
         shown = sorted((row for row in rows if row["ladder"] == ladder), key=lambda row: int(row["vertices"]))
         name, ends = ladder.removeprefix("ladder_"), (shown[0], shown[-1])
         for column, of in (("residual_24", "residual"), ("last_residual", "last_residual"), ("volume_abs_change_24_pct", "volume"),
                            ("last_volume_abs_change_pct", "last_volume")):
-            told[f"{name}_{of}"] = " and ".join(figure(float(row[column])) for row in ends)
-        told[f"{name}_reached"] = f"{sum(float(row['volume_reached']) == 1.0 for row in shown)} of {len(shown)}"
+            facts[f"{name}_{of}"] = " and ".join(figure(float(row[column])) for row in ends)
+        facts[f"{name}_reached"] = f"{sum(float(row['volume_reached']) == 1.0 for row in shown)} of {len(shown)}"
         measured = [row for row in shown if is_measured(row, "error_24_pct")]
-        told[f"{name}_error"] = ", ".join(
+        facts[f"{name}_error"] = ", ".join(
             f"{figure(float(row['error_24_pct']))} % after 24 and {figure(float(row['last_error_pct']))} % after {row['iterations']} on "
             f"{row['vertices']} vertices" for row in (measured if len(measured) < 3 else measured[::len(measured) - 1])
         ) or "no reference on record"
-    return told
+    return facts
 
 
 def convergence_mesh(results):

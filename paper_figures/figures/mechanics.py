@@ -122,7 +122,7 @@ def jiggle_response(results):
 
 
 # Force over displacement of flesh under its weight against iterations, time step and resolution. The stiffness of a material would be a
-# flat line. That of PBS grows with the iterations and falls with the square of the time step. The exponent of Mueller 2007 removes neither
+# flat line. The stiffness of PBS grows with the iterations and falls with the square of the time step. Mueller's exponent removes neither
 # dependence. XPBD, which keeps multipliers, is nearly flat. Values too stiff to move in double precision are left out.
 
 bodies = [("bar", "cantilever", "bar, held at one end"), ("limb", "zone_on_held", "limb, flesh on a held core"),

@@ -131,7 +131,7 @@ def error_parts(results):
 
 
 # The gains of single changes to PBS: the mean error over the poses of each body against the time per frame, with marks at the numbers of
-# iterations, and the gain of each change in the time of 4, 24 and 96 iterations of PBS, with its interval over the poses. A gain that is
+# iterations, and the gain of each change in the time of 4, 24 and 96 iterations of PBS, with its range over the poses. A gain that is
 # decided is drawn filled.
 
 changes = {"smooth_weights": ("#C0392B", "v"), "bind_to_blended_position": ("#16A085", "^"), "region_volumes": ("#8E44AD", "D"),
@@ -172,7 +172,7 @@ def draw_gains(axes, rows):
     axes.set_xscale("symlog", linthresh=1.0)
     axes.set_xticks([-10, -1, 0, 1, 10], ["\u221210", "\u22121", "0", "1", "10"])
     axes.set_yticks(range(len(named)), [names[change] for change in named])
-    axes.set_xlabel("gain over PBS in equal time [percentage points]; line: 95 % interval over the poses")
+    axes.set_xlabel("gain over PBS in equal time [percentage points]; line: 95 % range over the poses")
     return style.taken(rows, sorted(gain_columns), shown="gain")
 
 

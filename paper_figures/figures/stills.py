@@ -32,7 +32,7 @@ class Facts:
         return words[name] if name in words else float(self.row[name])
 
 
-def told(row, words):
+def filled(row, words):
     return style.signed(words.format_map(Facts(row)))
 
 
@@ -41,7 +41,7 @@ def grid(stills, words, titles=(), names=(), **layout):
     figure, axes = style.panels(len(stills), len(stills[0]), **layout)
     for panels, line in zip(axes, stills):
         for panel, (row, picture) in zip(panels, line):
-            style.show(panel, picture, below=told(row, words))
+            style.show(panel, picture, below=filled(row, words))
     style.label(axes, titles, names)
     return figure, [row for line in stills for row, _ in line]
 
@@ -80,7 +80,7 @@ def fig_03_two_layers(results):
     rest, posed = bodies.rest_positions_of(frames.tets("lbs", frame)), bodies.points_of(frames.tets("lbs", frame))
     bodies_at = [(points.min(0) + points.max(0)) / 2 for points in (rest, posed, posed)]
     hips_at = [middle_of(points, frames.binding(), ("hip.L", "hip.R", "pelvis")) for points in (rest, posed, posed)]
-    words = [told(row, "volume {volume_change_pct:+.1f} %, {inverted_tets:.0f} inverted tet{s}") for row in rows]
+    words = [filled(row, "volume {volume_change_pct:+.1f} %, {inverted_tets:.0f} inverted tet{s}") for row in rows]
     figure, axes = style.panels(2, 3, height_in=2.4, height_ratios=(2, 1))
     for panels, centers, pixels, half_height_m, titles, below in (
             (axes[0], bodies_at, (640, 760), 0.88, ("rest", "step 1: LBS", "step 2: PBS, 24 iterations"), ("", "", "")),
@@ -166,7 +166,7 @@ def fig_10_start_from_lbs(results):
     behind = []
     for panels, (frame, view) in zip(axes.T, views.items()):
         for panel, ((row, picture),) in zip(panels, skins(frames, deformers, {frame: view}, stage)):
-            style.show(panel, picture, below=told(row, "volume {volume_change_pct:+.2f} %\nsmallest section {min_section_pct:.0f} %"))
+            style.show(panel, picture, below=filled(row, "volume {volume_change_pct:+.2f} %\nsmallest section {min_section_pct:.0f} %"))
             behind.append(row)
         away_mm = bodies.distances_mm(frames, frame, *deformers)
         actor = bodies.skin_by(frames.skin("pbs_increment", frame), away_mm, distance_scale, distance_colors)
@@ -194,7 +194,7 @@ def page_of_clip(frames, frame, stage, font):
     for column, ((row, picture),) in enumerate(skins(frames, in_clip, {frame: view}, stage)):
         page.paste(Image.fromarray(picture), (column * width, margin_px))
         name = looks.of(in_clip[column]).name
-        pen.text((column * width + 10, 4), f"{name}\n{told(row, in_words)}", fill="black", font=font)
+        pen.text((column * width + 10, 4), f"{name}\n{filled(row, in_words)}", fill="black", font=font)
     pen.text((10, height + margin_px + 10), *times_of(frames, [frame]), fill="black", font=font)
     return page
 

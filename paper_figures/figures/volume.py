@@ -73,12 +73,12 @@ def volume_over_iterations_facts(rows):
                  if (row["measure"], row["scene"], row["pose"]) == (measure, scene, pose)}
         return figure(found[24]), figure(found[max(found)])
 
-    told = {"most": max(int(row["iterations"]) for row in rows)}
+    facts = {"most": max(int(row["iterations"]) for row in rows)}
     for name, of in (("human", ("volume_change_pct", "human_01_01", "all frames")),
                      ("bend", ("volume_change_pct", "limb_bend", "90 degrees")),
                      ("absolute", ("volume_abs_change_pct", "human_01_01", "all frames"))):
-        told[f"{name}_24"], told[f"{name}_most"] = left(*of)
-    return told
+        facts[f"{name}_24"], facts[f"{name}_most"] = left(*of)
+    return facts
 
 
 def volume_over_iterations(results):

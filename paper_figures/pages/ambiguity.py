@@ -18,7 +18,7 @@ def size_of_change(row):
 
 
 def cell(rows):
-    """Of a body, a reading and a claim: the value whose verdict flips, or else the one that changes most."""
+    """The value of a body, a reading and a claim: the one whose verdict flips, or else the one that changes most."""
     if not rows:
         return ""
     if any(row["verdict_flips"] == "not_touched" for row in rows):
@@ -58,7 +58,7 @@ def of_volume(rows):
     """One line per reading and scene."""
     values = {}
     for row in rows:
-        values.setdefault((row["scene"], row["place"], row["reading_b"]), {"verdict": row["verdict_changed"]})[row["quantity"]] = row
+        values.setdefault((row["scene"], row["place"], row["reading_b"]), {})[row["quantity"]] = row
 
     def change(name, scale=1.0):
         return lambda of: f"{scale * float(of[1][name]['a']):.2f} -> {scale * float(of[1][name]['b']):.2f}"
@@ -68,7 +68,7 @@ def of_volume(rows):
         "signed A -> B [%]": change("mean_volume_change_pct"), "absolute A -> B [%]": change("mean_volume_abs_change_pct"),
         "within 0.5 % A -> B": change("share_of_frames_within_printed"),
         "distance of B from A [mm]": lambda of: f"{1e3 * float(of[1]['distance_of_b_from_a_rms_m']['b']):.3f}",
-        "jiggle A -> B [mm]": change("distance_of_zone_by_jiggle_rms_m", 1e3), "verdict changed": lambda of: of[1]["verdict"]})
+        "jiggle A -> B [mm]": change("distance_of_zone_by_jiggle_rms_m", 1e3)})
 
 
 def page(folder):

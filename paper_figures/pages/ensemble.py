@@ -53,7 +53,7 @@ def of_parts(folder):
              for row in pages.of_runs(folder, "attachments.csv", {"attachment", "model_pct"}) if row["attachment"] == "bind"}
     rows = [row | {"bind_pct": bound.get(tuple(row[name] for name in key), "")} for row in parts]
     return "\n## The error of PBS after 24 iterations [% of the bone distance]\n\n" + pages.table(rows, pose | {
-        "k_stretch": "k_stretch", "masked [% of the volume]": ("masked_share_pct", 1), "error": ("error_joint_pct", 1),
+        "k_stretch": "k_stretch", "overlap [% of the volume]": ("masked_share_pct", 1), "error": ("error_joint_pct", 1),
         "on the whole body": ("whole_joint_pct", 1), "solver": ("solver_pct", 1), "model": ("model_pct", 1),
         "discretisation (bound)": ("discretisation_pct", 2), "observed order": ("observed_order", 2),
         "flesh held by bind constraints": ("bind_pct", 1)})

@@ -77,13 +77,13 @@ def profiles(folder):
 def tried(folder):
     counts = {}
     for row in records.table(folder / "settings.csv", {"comparison", "deformer", "tried"}):
-        count = counts.setdefault((row["comparison"], row["deformer"]), [0, 0])
-        count[0] += 1
-        count[1] += int(row["tried"])
-    rows = [{"comparison": comparison, "deformer": deformer, "rungs": str(rungs), "tried": str(settings)}
-            for (comparison, deformer), (rungs, settings) in counts.items()]
-    return ("\n## Settings tried\n\nA rung is a number of iterations on a mesh, or an element order on a mesh.\n\n"
-            + pages.table(rows, {"comparison": "comparison", "deformer": "deformer", "rungs": "rungs", "settings at all rungs": "tried"}))
+        shown, settings = counts.get((row["comparison"], row["deformer"]), (0, 0))
+        counts[row["comparison"], row["deformer"]] = shown + 1, settings + int(row["tried"])
+    rows = [{"comparison": comparison, "deformer": deformer, "shown": str(shown), "tried": str(settings)}
+            for (comparison, deformer), (shown, settings) in counts.items()]
+    return ("\n## Settings tried\n\nA setting is a number of iterations (or an element order) on a mesh with one value of the grid. One "
+            "value for each of these numbers is shown.\n\n" + pages.table(rows, {
+                "comparison": "comparison", "deformer": "deformer", "settings shown": "shown", "settings tried": "tried"}))
 
 
 def omissions(folder):

@@ -1,11 +1,11 @@
-"""The tables of the README and of other pages: one line per claim of DIR/claims.json with its verdict, key number and page; the human's
+"""The tables of the README and of other pages: one line per claim of DIR/claims.json with its verdict, numbers and page; the human's
 rows of DIR/timing/features_human/features.csv; and the counts of the reliability tests, DIR/*.json."""
 import records
 from readme import part
 from records import kept, shapes
 from words import case_words, sentences
 
-claim_head = "| claim | verdict | values within the bound; the one farthest beyond it, or else nearest to it [interval], expected | page |"
+claim_head = "| claim | verdict | units that hold, their share [95 % interval]; least to most of their numbers, bound | page |"
 claim_pages = "experiments/verdicts/claims"
 features_page = part.source / "experiments" / "studies" / "timing" / "README.md"
 features_head = ["| feature | processor ms per frame without | with | ratio [quartiles] | start [s] without | with "
@@ -28,11 +28,19 @@ def claims_of(results):
     return sentences.claims_of(file)
 
 
+def page_link(claim, folder=claim_pages):
+    return f"[{claim['id']}]({folder}/{sentences.page_of(claim['id'])}.md)"
+
+
+def in_markdown(text):
+    return text.replace("|", "\\|").replace("\u2212", "-")
+
+
 def claims_table(results):
     """The lines of the table, the header first."""
-    rows = [[f"{claim['statement']} ({claim['place']})", sentences.names[claim["verdict"]], sentences.key_number(claim),
-             f"[{claim['id']}]({claim_pages}/{claim['id']}.md)"] for claim in claims_of(results)]
-    return [claim_head, "|---" * 4 + "|", *(line(*(cell.replace("|", "\\|").replace("\u2212", "-") for cell in row)) for row in rows)]
+    rows = [[f"{claim['statement']} ({claim['place']})", sentences.names[claim["verdict"]], sentences.in_line(claim),
+             page_link(claim)] for claim in claims_of(results)]
+    return [claim_head, "|---" * 4 + "|", *(line(*map(in_markdown, row)) for row in rows)]
 
 
 def claims_lines(results):

@@ -23,7 +23,7 @@ class Rule:
 
 
 def one_of(*words):
-    return Rule(f"one of {', '.join(words)}", lambda value: value in words)
+    return Rule(f"one of {', '.join('null' if word is None else word for word in words)}", lambda value: value in words)
 
 
 def is_number(value):
@@ -87,7 +87,7 @@ def read(file, shape):
     return record
 
 
-second_schema, third_schema = Rule("2", lambda value: value == 2), Rule("3", lambda value: value == 3)
+third_schema = Rule("3", lambda value: value == 3)
 provenance = {"version?": text, "git_revision?": text, "git_dirty?": truth, "compiler?": text, "flags?": text, "build_type?": text,
               "cpu_model?": text, "logical_cpus?": whole, "threads?": whole, "libraries?": {"*": text}, "input_hashes?": {"*": text}}
 deformer = {"label": text, "name": text, "variant": text, "options?": {"k_stretch?": number, "jiggle?": {"k_stretch": number}}}
@@ -101,33 +101,30 @@ posed_run = {"work?": {"settings?": {"scene?": {"pbs?": {"k_stretch?": number}}}
 
 plan = {"extent?": text, "runs": [{"name": text}], "left_out?": [{"scene": text, "reason": text}]}
 
-extent = one_of("whole", "part", "none")
-verdict = one_of("reproduced", "reproduced_only_for", "not_reproduced", "inconsistent_in_print", "cannot_be_tested_here", "not_computable")
+verdict = one_of("holds", "fails", "mixed", "not_testable", "definition", "inconsistent_in_print", "not_computable")
 key = {name + "?": text for name in ("body", "motion", "pose", "joint", "deformer", "variant", "reference", "order", "precision", "masses",
                                      "constraint", "initial_guess", "tolerance", "load", "ladder", "factor", "second_factor", "model",
                                      "equation", "gradient_of", "reading")}
 key |= {name + "?": number for name in ("angle_deg", "time_s", "vertices", "vertices_to", "k_stretch", "k_stretch_to", "k_bind", "young_pa",
                                         "iterations", "iterations_to", "time_step_s", "time_step_to_s")}
-interval = {"estimate": figure, "low": figure, "high": figure}
-judged_frames = {"scene": text, "sweep": truth, "deformer": text, "mean": interval, "share_of_frames": interval, "last_angle_deg": figure,
-                 "held_angles_deg": [(number, number)], "least": figure, "most": figure, "holding_with_inverted_tets": whole,
-                 "deepest": [{"time_s": figure, "angle_deg": figure, "value": figure}]}  # a run of a scene
-measured = {"value": figure, "low": figure, "high": figure, "quantity": text}
-value = key | measured | {"unit?": text, "run?": text, "holds?": extent, "limit?": one_of("at_least", "at_most", "more_than"), "n?": whole,
-                          "not_reached?": whole, "frames?": whole, "bound_low?": figure, "bound_high?": figure}
-run_of_a_scene = key | measured | judged_frames | {"unit": text, "run": text, "holds": extent, "frames": whole}
-printed = key | measured | {"bound_low": figure, "bound_high": figure, "holds": extent}
-a_value = with_member("frames", run_of_a_scene, with_member("bound_low", printed, value | {"unit": text, "run": text}))
-primary = key | measured | {"unit": text, "statistic": one_of("share_of_frames", "mean", "value", "printed"), "bound_low": figure,
-                            "bound_high": figure}
-reading = {"order": text, "precision": text, "verdict": verdict, "own_verdict": verdict, "same": truth, "differing": [whole],
-           "cases": [run_of_a_scene]}
-claim = {"id": text, "statement": text, "place": text, "study": text,
-         "rule": one_of("share_within", "mean_within", "measured", "printed", "untestable"), "reason": text, "verdict": verdict,
-         "primary": lambda value: anything if value is None else primary, "n": whole, "within": whole,
-         "bounds": [{"quantity": text, "low": figure, "high": figure}], "expected": figure, "subject": text,
-         "subjects": [{"name": text, "within": whole, "n": whole, "holds": extent}], "each": [text], "of": key, "cases": [a_value],
-         "controls": [a_value], "readings": [reading], "left_out": [{"scene": text, "reason": text}], "missing": [text], "runs": [text]}
-claims = {"schema": second_schema, "quantities": {"*": {"title": text, "unit": text}}, "claims": [claim]}
+judged = {"value": figure, "bound_low": figure, "bound_high": figure, "holds": truth}
+left_out = one_of(None, "nothing_to_see", "no_control", "nothing_to_compare_with", "censored")
+unit = key | judged | {"quantity?": text, "unit": text, "low": figure, "high": figure, "n": whole, "left_out": left_out,
+                       "limit?": one_of("at_least", "at_most", "more_than"),
+                       "parts?": [judged | {"quantity": text, "unit?": text, "low": figure, "high": figure}]}
+printed = key | judged | {"quantity": text}
+facts = {"held": whole, "n": whole, "share": figure, "least": figure, "median": figure, "most": figure, "left_out_units": {"*": whole},
+         "quantities": [text], "of": key, "over": key, "bounds": [key | {"low": figure, "high": figure, "quantity?": text}]}
+selection = facts | {"name": text, "role": one_of("must_fail", "must_hold", "comparison"), "behaves": truth, "cases": [unit]}
+difference = {"field": text, "least_at": text, "least": number, "most_at": text, "most": number}
+claim = facts | {"id": text, "statement": text, "place": text, "study": text, "reason": text, "verdict": verdict,
+                 "rule": one_of("units", "single", "printed", "definition", "untestable"), "unit_fields": [text], "source": text,
+                 "untested": one_of("none", "reason_of_the_claim", "too_few_units", "control_without_record", "control_misbehaves"),
+                 "range": text, "interval_low": figure, "interval_high": figure, "chance": figure, "q": figure,
+                 "differs": lambda value: anything if value is None else difference, "fixed_at": text, "confirmatory": whole,
+                 "confirmatory_held?": whole,
+                 "cases": [with_member("unit", unit, printed)], "controls": [selection], "compared": [selection], "readings": [selection],
+                 "left_out": [{"scene": text, "reason": text}], "missing": [text], "runs": [text]}
+claims = {"schema": third_schema, "quantities": {"*": {"title": text, "unit": text}}, "claims": [claim]}
 
 reliability = {"name": text, "count": number, "of": number, "command": text, "revision": text, "note?": text}

@@ -8,37 +8,33 @@ from report.verdicts import mark_of
 from words import case_words, sentences
 from words.number_words import counted, figure, span
 
-who = ("Each entry lists the bodies on which the claim was tested; brackets state how many of a body\u2019s values lie within the "
-       "claim\u2019s bound.")
-failing = ("not_reproduced", "reproduced_only_for", "inconsistent_in_print", "not_computable")
+who = ("Each entry states how many of a claim\u2019s units hold and their numbers. A unit is a body with a clip, a joint or a mesh; "
+       "brackets are the interval of the share.")
+failing = ("fails", "mixed", "inconsistent_in_print", "not_testable", "not_computable")
 
 
 def do_they_hold(found):
     if not found.claims:
         return element("p", "No verdict is on record: run `pbskin reproduce`, or `pbskin reproduce --judge` on these records.",
                        class_="missing")
-    return joined([element("p", verdicts.counts_sentence(found.claims), class_="answer"), verdicts.chips(found.claims)])
+    return joined([element("p", sentences.counts(found.claims), class_="answer"), verdicts.chips(found.claims)])
 
 
-def entry(claim, words):
-    """Mark, claim and statement; then the name of the verdict, and the subjects or the values measured for comparison."""
+def entry(claim):
+    """Mark, claim and statement; then the name of the verdict and the numbers behind it."""
     symbol, colour, name = mark_of(claim["verdict"])
     link = element("a", claim["id"], href=f"#{claim['id']}")
     sign = Markup(f'<span class="{colour}" aria-hidden="true">{symbol}</span>')
     statement = element("span", claim["statement"].replace("k_stretch", "k_stretch (how stiff edges are, 0 to 1)"), class_="statement")
     verdict = element("b", name[:1].upper() + name[1:], class_=colour)
-    return joined([sign, " ", link, " ", statement, " ", verdict, words])
+    return joined([sign, " ", link, " ", statement, " ", verdict, f": {'; '.join(sentences.facts(claim))}."])
 
 
 def when_not(found):
-    """Every claim that does not hold throughout, with where it holds; for the others, the values measured for comparison."""
-    claims = found.claims or []
-    entries = [entry(claim, f": {sentences.outcome(claim, in_short=True)}.") for kind in failing for claim in claims
-               if claim["verdict"] == kind]
-    entries += [entry(claim, f"; for comparison: {sentences.controls(claim)}.") for claim in claims
-                if claim["verdict"] == "reproduced" and sentences.controls(claim)]
+    """Every claim that does not hold and could hold: those that fail come first, those that are not testable last."""
+    entries = [entry(claim) for kind in failing for claim in found.claims or [] if claim["verdict"] == kind]
     if not entries:
-        return element("p", "Every claim that could be tested is reproduced." if found.claims else "Not known without verdicts.")
+        return element("p", "Every claim that could be tested holds." if found.claims else "Not known without verdicts.")
     return joined([element("p", who, class_="who"), items(entries, "when")])
 
 

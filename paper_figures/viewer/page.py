@@ -83,14 +83,14 @@ def fragment_of(recorded, claims=None):
 # `#run=limb_twist&frame=18&colour=ratio&claim=C01`. Claim, run, deformer and its column, which extreme, colouring, panels, description.
 poses = (
     ("C01", "limb_twist", "lbs", "volume_change_pct", min, "ratio", "", "LBS loses most volume"),
-    ("C02", "human_jump", "pbs", "volume_change_pct", "far", "ratio", "", "PBS is farthest from the volume at rest"),
+    ("C02a", "human_jump", "pbs", "volume_change_pct", "far", "ratio", "", "PBS is farthest from the volume at rest"),
     ("C03", "human_jump", "pbs_increment", "error_linf_m", max, "error", "lbs,pbs,pbs_increment,nh_p1",
      "PBS without the start from LBS is farthest from FEM"),
     ("C04", "limb_twist", "lbs", "min_section_pct", min, "skin", "", "LBS has its thinnest section"),
     ("C05", "limb_bend", "dqs", "error_joint_pct", max, "error", "", "DQS errs most at the joint"),
-    ("C09", "human_walk", "pbs_jiggle", "error_linf_m", max, "error", "lbs,pbs_no_zone,pbs_jiggle,nh_p1",
+    ("C09a", "human_walk", "pbs_jiggle", "error_linf_m", max, "error", "lbs,pbs_no_zone,pbs_jiggle,nh_p1",
      "jiggling flesh is farthest from FEM; for comparison, the same stiffness without a jiggling zone"),
-    ("C12", "human_jump", "pbs", "error_joint_pct", max, "error", "", "PBS with 24 iterations errs most at the joints"),
+    ("C12a", "human_jump", "pbs", "error_joint_pct", max, "error", "", "PBS with 24 iterations errs most at the joints"),
 )
 
 

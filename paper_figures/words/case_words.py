@@ -17,18 +17,18 @@ def number(value):
 
 
 def motion(case):
-    """bend 90°; clip 01_01, crouch; clip 01_01 at 1 s; clip 01_01."""
+    """bend 90°; 90° or crouch where the key has no motion; clip 01_01, crouch; clip 01_01 at 1 s; clip 01_01."""
     name = case.get("motion")
-    if name is None:
-        return ""
     if "angle_deg" in case:
-        return f"{name} {number(case['angle_deg'])}\u00b0"
+        return f"{name or ''} {number(case['angle_deg'])}\u00b0".strip()
+    if name is None:
+        return in_plain(case.get("pose", ""))
     if "time_s" in case:
         return f"clip {name} at {number(case['time_s'])} s"
     if "pose" in case:
         fraction = re.sub(r"^(\d+)_(\d+)_", r"\1/\2 ", case["pose"])  # 2/5 of the clip, for 2_5_of_the_clip
         return f"clip {name}, {in_plain(fraction)}"
-    return name if name in (*tables["sweep"], "turn") else f"clip {name}"
+    return name if name in ("twist", "bend", "turn") else f"clip {name}"
 
 
 def in_plain(identifier):
@@ -87,12 +87,3 @@ def settings(case):
 def of(case):
     place = [case.get("body", ""), motion(case), case.get("joint", "")]
     return ", ".join([part for part in place if part] + settings(case))
-
-
-def run(case):
-    """A judged run of a scene: limb twisted; human, clip 01_01, jiggling flesh."""
-    if case.get("body") == "limb" and case.get("motion") in tables["sweep"]:
-        name = tables["sweep"][case["motion"]]
-    else:
-        name = ", ".join(part for part in (case.get("body", ""), motion(case)) if part)
-    return name + (f", {of_field('variant', case['variant'])}" if "variant" in case else "")

@@ -1,14 +1,25 @@
-"""Every sentence about a claim, composed from the facts of claims.json. The README, the report and the figures' pages all use these.
+"""Every sentence about a claim, composed from the facts of claims.json. The README, the claims' pages and the report all use these.
 
     for claim in sentences.claims_of(results / "claims.json"):
-        print(claim["id"], sentences.outcome(claim))
+        print(claim["id"], "; ".join(sentences.facts(claim)))
+
+A claim is judged by its units: 28 of 29 units hold, share 0.97 [0.82, 1.00]; 0.067 to 1.02, bound 0.95 or more. In brackets stands only the
+interval of the share; ranges over meshes, frames or orders of projection have these names.
 """
+import math
+
 from records import shapes
 from words import case_words
-from words.number_words import counted, figure, span, span_of_thousandths
+from words.number_words import counted, figure
 
 names = case_words.tables["verdict"]
-trials = case_words.tables["trial"]  # these shares are counts of trials
+kinds = {"holds": ("holds", "hold"), "fails": ("fails", "fail"), "mixed": ("is mixed", "are mixed"),
+         "inconsistent_in_print": ("is inconsistent in print", "are inconsistent in print"),
+         "not_testable": ("is not testable", "are not testable"), "definition": ("is a definition", "are definitions"),
+         "not_computable": ("is not computable", "are not computable")}
+author = "the author's later code"
+holding_share, failing_share = 0.95, 0.5  # as in analysis/verdicts/verdict.hpp
+most_ranges = 2  # that cross the bound, named one by one
 
 
 def claims_of(file):
@@ -16,6 +27,20 @@ def claims_of(file):
     document = shapes.read(file, shapes.claims)
     return [claim | {"titles": {name: of["title"] for name, of in document["quantities"].items()}} for claim in document["claims"]]
 
+
+def counts(claims):
+    """There are 22 claims: 5 hold, 8 fail, 1 is a definition."""
+    numbers = {kind: sum(claim["verdict"] == kind for claim in claims) for kind in kinds}
+    parts = [f"{number} {kinds[kind][number != 1]}" for kind, number in numbers.items() if number]
+    return f"There {'is' if len(claims) == 1 else 'are'} {counted(len(claims), 'claim')}: {', '.join(parts)}."
+
+
+def page_of(name):
+    """The page C02 serves the claims C02a and C02b."""
+    return name.rstrip("abcdefghijklmnopqrstuvwxyz")
+
+
+# Bounds and numbers.
 
 def title(claim, quantity):
     return claim["titles"].get(quantity, case_words.in_plain(quantity))
@@ -25,248 +50,264 @@ def with_unit(unit):
     return "" if unit in ("", "1") else f" {unit}"
 
 
-# The expected values.
-
 def bound(low, high):
-    """0.9 to 1.1; 1.05 or more; 0.5 or less; 0; empty without bounds."""
-    if low is None and high is None:
-        return ""
-    if low is None or high is None:
-        return f"{low:.4g} or more" if high is None else f"{high:.4g} or less"
-    return f"{low:.4g}" if low == high else f"{low:.4g} to {high:.4g}"
+    """0.9 to 1.1; 1.05 or more; below 1; above 0; empty without bounds. A bound right beside a round number excludes this number."""
+    if low is not None and high is not None:
+        text = f"{low:.4g}" if low == high else f"{low:.4g} to {high:.4g}"
+    elif low is not None:
+        text = "above 0" if 0 < low <= 1e-9 else f"{low:.4g} or more"
+    elif high is not None:
+        text = f"{high:.4g} or less" if high == float(f"{high:.15g}") else f"below {high:.4g}"
+    else:
+        text = ""
+    return text.replace("-", "\u2212")
+
+
+def settings_of(of):
+    """The settings for which a bound is, where there are several."""
+    return [case_words.of_field(field, value) for field, value in of.items() if field not in ("low", "high", "quantity")]
 
 
 def expected(claim):
-    """One text for all quantities, or one text for each; none if the claim cannot be tested."""
+    """The text of each bound."""
     if claim["rule"] == "printed":
         return ["each value as the others require"]
-    if not claim["bounds"]:
-        return []
-    if claim["expected"] is not None:
-        return [f"{claim['expected']:.4g} % ({bound(claim['bounds'][0]['low'], claim['bounds'][0]['high'])} %)"]
-    texts = [bound(of["low"], of["high"]) for of in claim["bounds"]]
-    return texts[:1] if len(set(texts)) == 1 else [f"{title(claim, of['quantity'])}: {text}" for of, text in zip(claim["bounds"], texts)]
+    named = [", ".join(settings_of(of) + ([title(claim, of["quantity"])] if "quantity" in of else [])) for of in claim["bounds"]]
+    return [": ".join(filter(None, [name, bound(of["low"], of["high"])])) for name, of in zip(named, claim["bounds"])]
 
 
-# Claims about runs of scenes, frame by frame.
-
-def own_runs(claim):
-    """The runs judged by the claim's own metric."""
-    own = claim["bounds"][0]["quantity"] if claim["bounds"] else None
-    return [case for case in claim["cases"] if "frames" in case and case["quantity"] == own]
-
-
-def is_by_share(claim):
-    """Whether the share of frames that hold decides, rather than their mean."""
-    return claim["rule"] == "share_within"
+def shown(case):
+    """A number with its unit. A censored one is not a number: > 1,000."""
+    if case["value"] is None:
+        return "not a number"
+    limit = case_words.tables["limit"].get(case.get("limit"), "")
+    digits = f"{case['value']:,.0f}" if limit and abs(case["value"]) >= 1000 else figure(case["value"])
+    return limit + digits + with_unit(case.get("unit", ""))
 
 
-def run_text(claim, case):
-    name = case_words.run(case)
-    if case["sweep"]:
-        return f"{name}: {span_of_thousandths([case['least'], case['most']])} % over the angle"
-    share = is_by_share(claim)
-    return f"{name}: " + with_interval(case["share_of_frames" if share else "mean"], 100 if share else 1)
+def counting(of):
+    return [case for case in of["cases"] if case.get("left_out") is None]
 
 
-def with_interval(interval, scale=1):
-    if interval["estimate"] is None:
-        return "\u2013"
-    text = figure(scale * interval["estimate"])
-    if None in (interval["low"], interval["high"]):
-        return text
-    return f"{text} [{figure(scale * interval['low'])}, {figure(scale * interval['high'])}]"
+def span(cases):
+    """From the least to the most: 13 to > 1,000."""
+    known = sorted((case for case in cases if case["value"] is not None), key=lambda case: case["value"])
+    broken = len(cases) - len(known)
+    ends = list(dict.fromkeys(shown(case) for case in (known[:1] + known[-1:])))
+    unit = with_unit(known[0].get("unit", "")) if known else ""
+    text = " to ".join([*(end.removesuffix(unit) for end in ends[:-1]), *ends[-1:]])
+    return "; ".join(filter(None, [text, f"{counted(broken, 'value')} not a number" if broken else ""]))
 
 
-def clips_text(claim, clips):
-    if is_by_share(claim):
-        return f"{span([case['share_of_frames']['estimate'] for case in clips], 100)} % of the frames within the bound"
-    return f"means of {span([case['mean']['estimate'] for case in clips])} %"
+def parts(of, case):
+    """The number of a unit for each of its quantities, with the key of the unit."""
+    if "parts" not in case:
+        return [{"quantity": of["quantities"][0]} | case if of["quantities"] else case]
+    unit = {name: value for name, value in case.items() if name not in ("parts", "limit")}
+    return [unit | part | {"left_out": case["left_out"]} for part in case["parts"]]
 
 
-def angles_text(case):
-    """The angles at which a sweep holds, and its last angle."""
-    held = ", ".join(f"{figure(low)} to {figure(high)}" for low, high in case["held_angles_deg"])
-    return f"{case_words.run(case)} " + (f"by {held} of {figure(case['last_angle_deg'])}\u00b0" if held else "by no angle")
-
-
-# Claims about values that a study measured.
-
-def grouped(claim, values, fields):
-    """The values by the title of their quantity, with the fields that distinguish its groups."""
+def by_quantity(of):
+    """The numbers of the units that count: quantity -> its numbers."""
     groups = {}
-    for value in (value for value in values if "frames" not in value):
-        own = all(value.get(field) == wanted for field, wanted in claim["of"].items())
-        told = [case_words.of_field(field, value[field]) for field in fields if field in value and not (own and field in claim["of"])]
-        groups.setdefault(", ".join([title(claim, value["quantity"]), *told]), []).append(value)
+    for part in (part for case in counting(of) for part in parts(of, case)):
+        groups.setdefault(part.get("quantity"), []).append(part)
     return groups
 
 
-def range_of(values):
-    known = [value["value"] for value in values if value["value"] is not None]
-    return span(known) + with_unit(values[0].get("unit", "")) if known else ""
+def spans(claim, of):
+    """From the least to the most of each quantity of a selection."""
+    groups = by_quantity(of)
+    return "; ".join(span(cases) if len(groups) == 1 else f"{title(claim, quantity)}: {span(cases)}" for quantity, cases in groups.items())
 
 
-def range_with_intervals(values):
-    """From the smallest to the largest value; in brackets, from the lowest to the highest end of their intervals."""
-    known = [value for value in values if value["value"] is not None]
-    if not known:
-        return "no value"
-    own = [value["value"] for value in known]
-    ends = [end for value in known for end in (value["low"], value["high"]) if end is not None] or own
-    interval = f" [{figure(min(ends))}, {figure(max(ends))}]" if (min(ends), max(ends)) != (min(own), max(own)) else ""
-    return f"{span(own)}{interval}{with_unit(values[0]['unit'])}"
+def number_of(claim, quantity):
+    return title(claim, quantity) + (f", over that of the {case_words.of(claim['over'])}" if claim["over"] else "")
 
 
-def within(claim):
-    """States how many values hold."""
-    return f"{claim['within']} of {counted(claim['n'], 'value')} " + ("consistent" if claim["rule"] == "printed" else "within the bound")
+def numbers(claim):
+    """The range of the units' numbers for each quantity and each bound: section radius: 0.067 to 1.02, bound 0.95 or more."""
+    texts = []
+    for quantity, cases in by_quantity(claim).items():
+        for ends in dict.fromkeys((case["bound_low"], case["bound_high"]) for case in cases):
+            settings = [settings_of(of) for of in claim["bounds"]
+                        if (of["low"], of["high"]) == ends and of.get("quantity", quantity) == quantity]
+            text = span([case for case in cases if (case["bound_low"], case["bound_high"]) == ends])
+            name = ", ".join([number_of(claim, quantity), *(settings[0] if settings else [])])
+            texts.append(f"{name}: {text}" + (f", bound {bound(*ends)}" if bound(*ends) else ""))
+    return texts
 
 
-def farthest(claim, in_short=False):
-    """The value farthest outside its bound; in short, without its case. Empty if every value lies within."""
-    primary = claim["primary"]
-    if primary is None or primary["statistic"] != "value" or claim["within"] == claim["n"]:
-        return ""
-    words = "" if in_short else case_words.of(primary)
-    of = f" of {words}" if words else ""
-    value = "not a number" if primary["value"] is None else figure(primary["value"]) + with_unit(primary["unit"])
-    return f"farthest: {title(claim, primary['quantity'])}{of} is {value}, expected {bound(primary['bound_low'], primary['bound_high'])}"
+def crosses(case):
+    """Whether a part of the range lies within the bound and a part outside."""
+    least = -math.inf if case["bound_low"] is None else case["bound_low"]
+    most = math.inf if case["bound_high"] is None else case["bound_high"]
+    low, high = case["low"], case["high"]
+    return None not in (low, high) and low <= most and high >= least and not least <= low <= high <= most
 
 
-# The subjects for which a claim holds.
-
-def subjects(claim):
-    """for limb, man (3 of 4 values); not for lady."""
-    groups = {"for": [], "not for": []}
-    for subject in claim["subjects"]:
-        fails, whole = subject["holds"] == "none", subject["within"] == subject["n"]
-        share = "" if fails or whole else f" ({subject['within']} of {counted(subject['n'], 'value')})"
-        groups["not for" if fails else "for"].append(case_words.of_field(claim["subject"], subject["name"]) + share)
-    return "; ".join(f"{words} {', '.join(of)}" for words, of in groups.items() if of)
+def ranges(claim):
+    """The units whose range crosses the bound: range over meshes of limb, twist 180 deg: 0.065 to 0.97."""
+    found = [case for case in counting(claim) if crosses(case)] if claim["range"] else []
+    told = [f"{range_name(claim)} of {case_words.of(case)}: {figure(case['low'])} to {figure(case['high'])}"
+            for case in found[:most_ranges]]
+    return told + ([f"the ranges of {counted(len(found) - most_ranges, 'more unit')} cross the bound"] if len(found) > most_ranges else [])
 
 
-def outcome(claim, in_short=False):
-    """The subjects for which the claim holds, where it does not hold, and by how much; in short, without the case of the farthest value."""
-    runs = own_runs(claim)
+def range_name(claim):
+    """What low and high of a number span; that of a single number has its whole name on record: 95 % range of the fit."""
+    over = "" if claim["rule"] == "single" else "range over "
+    return over + claim["range"] if claim["range"] else "range"
+
+
+# How many units hold.
+
+def share(claim):
+    """28 of 29 units hold, share 0.97 [0.82, 1.00]"""
+    text = held(claim, " hold")
+    return text if claim["interval_low"] is None or claim["interval_high"] is None else (
+        f"{text} [{claim['interval_low']:.2f}, {claim['interval_high']:.2f}]")
+
+
+def held(of, verb=""):
+    """28 of 29 units, share 0.97; without a bound only their number; no record without units."""
+    if not of["n"]:
+        return "no record" if not of["cases"] else "no unit counts"
+    if not of["bounds"]:
+        return counted(of["n"], "unit")
+    known = "" if of["share"] is None else f", share {of['share']:.2f}"
+    return f"{of['held']} of {counted(of['n'], 'unit')}{verb}{known}"
+
+
+def left_out_units(of):
+    return [f"{counted(number, 'unit')} left out: {case_words.of_field('left_out', why)}" for why, number in of["left_out_units"].items()]
+
+
+def by_chance(claim):
+    """Where chance decides."""
+    decides = claim["verdict"] == "fails" and claim["chance"] is not None and (claim["share"] or 0) > failing_share
+    return [f"chance reaches as many with a probability of {figure(claim['chance'])}"] if decides else []
+
+
+def difference(claim):
+    """The property by which holding and failing units differ most."""
+    of = claim["differs"]
+    if of is None:
+        return []
+    least, most = (case_words.of_field(of["field"], of[end]) for end in ("least_at", "most_at"))
+    return [f"the share differs most by {case_words.of_field('unit_field', of['field'])}: {of['least']:.2f} for {least}, "
+            f"{of['most']:.2f} for {most}"]
+
+
+def why_untested(claim):
+    """Why the claim is not testable: its own reason, the controls without a record or that misbehave, or too few units."""
+    reason = claim["untested"]
+    if reason == "too_few_units" and claim["rule"] == "single" and claim["cases"]:
+        return [f"{counted(len(claim['cases']), 'number')} are on record where one is expected"]
+    if reason == "too_few_units":
+        return ["no unit is on record" if not claim["cases"] else f"only {counted(claim['n'], 'unit')}, fewer than five"]
+    if reason not in ("control_without_record", "control_misbehaves"):
+        return [claim["reason"]] if claim["reason"] else []
+    none = [control["name"] for control in claim["controls"] if not control["n"]]
+    wrong = [f"the control {control['name']}, which {case_words.of_field('role', control['role'])}, holds in {control['held']} of "
+             f"{counted(control['n'], 'unit')}"
+             for control in claim["controls"] if control["n"] and not control["behaves"]]
+    return [*([f"no record of the control{'s' if len(none) > 1 else ''} {', '.join(none)}"] if none else []), *wrong]
+
+
+def facts(claim):
+    """The statements behind a verdict, the primary number first; without units, why there are none."""
     if claim["missing"]:
-        return f"without records of {', '.join(claim['missing'])}"
-    if runs:
-        return runs_outcome(claim, runs)
-    if claim["rule"] == "printed" and claim["n"]:
-        return f"{within(claim)} with the paper\u2019s other values"
-    if not claim["subjects"]:
-        return claim["reason"] or "; ".join(left_out(claim))
-    told = [farthest(claim, in_short)] if claim["verdict"] == "not_reproduced" else []
-    return "; ".join([subjects(claim), *filter(None, told)])
+        return [f"no record of {', '.join(claim['missing'])}"]
+    if claim["rule"] == "printed":
+        return [f"{claim['held']} of {counted(claim['n'], 'printed value')} consistent"] if claim["n"] else ["no record"]
+    if claim["rule"] in ("definition", "untestable"):
+        return [*why_untested(claim), *numbers(claim)]
+    if claim["rule"] == "single":
+        told = [one_number(claim)] if len(claim["cases"]) == 1 else numbers(claim)
+        return [*told, *why_untested(claim), *left_out(claim)] or ["no record"]
+    told = [share(claim), *numbers(claim), *ranges(claim)] if claim["n"] else []
+    return [*told, *left_out_units(claim), *by_chance(claim), *difference(claim), *why_untested(claim), *left_out(claim)] or ["no record"]
 
 
-def runs_outcome(claim, runs):
-    clips = [case for case in runs if not case["sweep"]]
-    parts = ["for " + ", ".join(angles_text(case) for case in runs if case["sweep"])] if len(clips) < len(runs) else []
-    if clips:
-        held = sum(case["holds"] == "whole" for case in clips)
-        parts.append(f"for {held} of {counted(len(clips), 'clip')} ({clips_text(claim, clips)})")
-    return "; ".join(parts)
+def in_line(claim):
+    """All facts in one line, for a table or a paragraph."""
+    text = "; ".join(facts(claim))
+    return text[:1].upper() + text[1:]
+
+
+def one_number(claim):
+    """The single number by which a claim is judged, with the range that decides."""
+    case, = claim["cases"]
+    return (f"{number_of(claim, claim['quantities'][0])}: {shown(case)} ({range_name(claim)}: {figure(case['low'])} to "
+            f"{figure(case['high'])}), bound {bound(case['bound_low'], case['bound_high'])}")
+
+
+def basis(claim):
+    """Sentences: what a unit is, its number and bound; chance; when the rule was fixed."""
+    if claim["rule"] not in ("units", "single") or not claim["quantities"]:
+        return ""
+    unit = ", ".join(case_words.of_field("unit_field", field) for field in claim["unit_fields"])
+    between = " or " if "quantity" in claim["unit_fields"] else " and "
+    number = between.join(number_of(claim, quantity) for quantity in claim["quantities"])
+    told = [f"The number of a unit ({unit}) is the {number}; bound: {', '.join(expected(claim))} ({claim['source']})"]
+    if claim["chance"] is not None:
+        told.append(f"If each unit held by chance with a probability of q = {figure(claim['q'])}, as many would hold with a probability of "
+                    f"{figure(claim['chance'])}")
+    if claim["fixed_at"]:
+        later, held = claim["confirmatory"], claim.get("confirmatory_held")
+        units = f"{later or 'no'} {'unit' if later < 2 else 'units'} {'was' if later < 2 else 'were'} recorded later"
+        told.append(f"Rule and bound are of revision {claim['fixed_at'][:12]}, and {units}"
+                    + (f"; the bound holds in {held} of them" if later and held is not None else ""))
+    return ". ".join(told) + "."
 
 
 def left_out(claim):
     return [f"{of['scene']} is left out: {of['reason']}" for of in claim["left_out"]]
 
 
-def by_other_metrics(claim):
-    """How many runs hold by metrics other than the claim's own."""
-    texts = []
-    for of in claim["bounds"][1:] if own_runs(claim) else []:
-        runs = [case for case in claim["cases"] if case["quantity"] == of["quantity"]]
-        held, partly = (sum(case["holds"] == how for case in runs) for how in ("whole", "part"))
-        texts.append(f"by {title(claim, of['quantity'])}: {held} of {counted(len(runs), 'run')} within the bound, {partly} in part")
-    return texts
+# Controls, comparisons and readings: the rows of tables.
+
+control_head = ["control", "role", "units that hold", "numbers", "as it must"]
+compared_head = ["for comparison", "units within the bound", "numbers"]
+reading_head = ["order and precision of projection", "units within the bound", "least", "most"]
 
 
-def by_other_orders(claim):
-    same = [reading_name(reading) for reading in claim["readings"] if reading["same"]]
-    texts = [f"the same verdict in {'; '.join(same)}"] if same else []
-    for reading in (reading for reading in claim["readings"] if not reading["same"]):
-        places = "; ".join(differing(claim, reading))
-        texts.append(f"{names[reading['verdict']]} in {reading_name(reading)}, as against {names[reading['own_verdict']]}"
-                     + (f" ({places})" if places else ""))
-    return texts
+def named(claim, of):
+    """A selection with the title of its quantity, where that is not the claim's own: LBS (time of LBS per frame)."""
+    if of["quantities"] == claim["quantities"] or not of["quantities"]:
+        return of["name"] or "not recorded"
+    titles = " and ".join(title(claim, name) for name in of["quantities"])
+    return titles if of["name"] in titles else f"{of['name']} ({titles})"
 
 
-def reading_name(reading):
-    return f"order {reading['order']} in {case_words.of_field('precision', reading['precision'])}"
+def control_rows(claim):
+    return [[named(claim, of), case_words.of_field("role", of["role"]), held(of), spans(claim, of), "yes" if of["behaves"] else "no"]
+            for of in claim["controls"]]
 
 
-def differing(claim, reading):
-    """The runs whose extent differs from that in the claim's own order."""
-    cases = [reading["cases"][place] for place in reading["differing"] if 0 <= place < len(reading["cases"])]
-    return [f"{case_words.run(case)} by {title(claim, case['quantity'])}" for case in cases]
+def compared_rows(claim):
+    return [[named(claim, of), held(of), spans(claim, of)] for of in claim["compared"]]
 
 
-def verdict_in_full(claim):
-    """A list of statements: the verdict with its subjects, the farthest value, other metrics and orders, and what was left out."""
-    first = outcome(claim, in_short=True) if claim["verdict"] != "not_reproduced" else subjects(claim)
-    told = [names[claim["verdict"]] + (f": {first}" if first else "")]
-    return told + [text for text in (farthest(claim), *by_other_metrics(claim), *by_other_orders(claim), *left_out(claim)) if text]
+def reading_rows(claim):
+    def ends(of):
+        known = sorted((case for case in counting(of) if case["value"] is not None), key=lambda case: case["value"])
+        return [shown(known[0]), shown(known[-1])] if known else ["", ""]
+
+    return [[named(claim, of), held(of), *ends(of)] for of in claim["readings"]]
 
 
-def controls(claim, most=4):
-    """The first quantities that were measured for comparison, without a bound, from the smallest to the largest value; empty if there are
-    none."""
-    groups = grouped(claim, claim["controls"], [*claim["of"], *claim["each"]])
-    return ", ".join([control_text(of, values) for of, values in groups.items()][:most])
+def extent(of):
+    """How far the units hold, by the rule's own limits of a share."""
+    return ("throughout" if of["share"] >= holding_share else "in half of the units or fewer" if of["share"] <= failing_share else
+            "in more than half of the units")
 
 
-def control_text(of, values):
-    """A share of trials as a count out of all of them."""
-    known = [value["value"] for value in values]
-    quantity = values[0]["quantity"]
-    if quantity in trials and None not in known and all("n" in value for value in values):
-        held = sum(round(value["value"] * value["n"]) for value in values)
-        return f"{held} of {sum(value['n'] for value in values)} trials {trials[quantity]}"
-    return f"{of} {span(known)}{with_unit(values[0]['unit'])}"
-
-
-# One line per claim, for the README.
-
-most_quantities = 3  # quantities named one by one
-
-
-def measured_in_line(claim):
-    """The number by which its runs are judged, or the range of each bounded quantity, and how much of it is as expected."""
-    runs = own_runs(claim)
-    if runs:  # the range of each sweep; for clips, the number by which they are judged
-        clips, partly = [case for case in runs if not case["sweep"]], sum(case["holds"] == "part" for case in runs)
-        texts = [run_text(claim, case) for case in runs if case["sweep"]]
-        texts += [f"{counted(len(clips), 'clip')}: {clips_text(claim, clips)}"] if clips else []
-        return "; ".join([*texts, f"{claim['within']} of {counted(claim['n'], 'run')} within the bound, {partly} in part"])
-    if not claim["n"]:
-        return ""
-    if claim["rule"] == "printed":
-        return within(claim)
-    if len(expected(claim)) > most_quantities:
-        return "; ".join(filter(None, [within(claim), farthest(claim, in_short=True)]))
-    values = [case for case in claim["cases"] if "frames" not in case]
-    groups = [[value for value in values if value["quantity"] == of["quantity"]] for of in claim["bounds"]]
-    return "; ".join([*filter(None, map(range_of, [values] if len(expected(claim)) == 1 else groups)), within(claim)])
-
-
-def key_number(claim):
-    """How many values hold; then the value farthest outside its bound or, if all hold, nearest to it, with its interval, case and bound."""
-    primary = claim["primary"]
-    if primary is None or primary["statistic"] == "printed":
-        return within(claim) if claim["n"] else ""
-    by_share = primary["statistic"] == "share_of_frames"
-    ends = (None, None) if primary["low"] == primary["high"] else (primary["low"], primary["high"])
-    value = with_interval({"estimate": primary["value"], "low": ends[0], "high": ends[1]}, 100 if by_share else 1)
-    name = title(claim, primary["quantity"])
-    named = {"share_of_frames": "share of frames", "mean": f"mean {name}"}.get(primary["statistic"], name)
-    other = "" if primary.get("deformer") == "pbs" or "deformer" in claim["of"] else primary.get("deformer", "")
-    place = [primary.get("body", ""), case_words.motion(primary), case_words.of_field("deformer", other)]
-    place += [case_words.of_field(field, primary[field]) for field in ("initial_guess", "masses") if field in primary]
-    unit = " %" if by_share else with_unit(primary["unit"])
-    ends = [end if end is None else 100 * end if by_share else end for end in (primary["bound_low"], primary["bound_high"])]
-    expected_of_it = f"expected {bound(*ends)}" + (" %" if by_share else "")
-    told = f"{claim['within']} of {claim['n']} within; {named} {value}{unit}"
-    return f"{told} ({', '.join(filter(None, place))}), {expected_of_it}" if any(place) else f"{told}, {expected_of_it}"
+def disagreements(claim):
+    """The orders and the author's later code that hold to another extent than the claim's own reading."""
+    if claim["rule"] != "units" or claim["share"] is None:
+        return []
+    others = claim["readings"] + [of for of in claim["compared"] if of["name"] == author]
+    return [f"{of['name'][:1].upper()}{of['name'][1:]} and the claim's own reading disagree: the bound holds {extent(of)} in the one, "
+            f"{extent(claim)} in the other." for of in others if of["share"] is not None and extent(of) != extent(claim)]

@@ -68,12 +68,14 @@ public:
     const Positions& positions() const { return positions_; }  // [m], #V x 3; the rest positions before the first step
     const std::vector<AuthorGroup>& groups() const { return groups_; }
 
-private:
+    // The parts of a step: advance() predicts, projects as often as there are iterations, and updates positions() and the velocities.
     void predict(const Pose& pose);
     void project(const std::vector<BoneSegment>& bones);
     void update();
-    WorkCounters work_of(int iterations) const;
     std::vector<BoneSegment> posed_bones(const Pose& pose) const;
+
+private:
+    WorkCounters work_of(int iterations) const;
 
     AuthorOptions options_;
     AuthorStiffness stiffness_;

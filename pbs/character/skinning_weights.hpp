@@ -26,7 +26,10 @@ bool has_artist_weights(const Character& character);
 
 // The names of the rules, in the order of WeightKind. A scene states the last one, file, by the path of the file.
 inline constexpr std::array weight_names = {"paper", "rigid", "smooth", "diffused", "either_end", "artist", "file"};
-inline const char* name_of(WeightKind kind) { return weight_names[static_cast<std::size_t>(kind)]; }
+inline const char* name_of(WeightKind kind)
+{
+    return weight_names[static_cast<std::size_t>(kind)];
+}
 std::optional<WeightKind> weights_named(const std::string& name);  // null for a file, and for every other name
 
 // An artist's skin weights in the flesh.

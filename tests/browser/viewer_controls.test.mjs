@@ -123,7 +123,7 @@ test("without an address the first claim's pose is open", async () => {
     });
 });
 
-test_in_windows("nothing is wider than the window, every control can be pressed", file, "#claim=C09", async (other, name) => {
+test_in_windows("nothing is wider than the window, every control can be pressed", file, "#claim=C09a", async (other, name) => {
     const wide = await other.evaluate(() => [...document.querySelectorAll("#frame-viewer, #frame-viewer *")]
         .filter((one) => one.getBoundingClientRect().right > innerWidth + 0.5).map((one) => one.className || one.tagName));
     assert.deepEqual(wide, []);

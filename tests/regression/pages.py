@@ -1,9 +1,12 @@
 """The README and the pages state what the kept records have, and the verdicts of the kept records are those on record by the bounds of
 claims.toml: they change only with new records or another rule. Every study and every claim has its page, with the required sections, whose
-generated part is current. `pbskin explain` prints each page, and those of deformers. The files and columns that the pages quote are those
-of the kept records. Reference: the kept records, claims.toml and figures.toml."""
+generated part is current. `pbskin explain` prints each page, and those of deformers. README, page, report, `pbskin explain` and the tables
+of the program have the verdicts and numbers of claims.json. The files and columns that the pages quote are those of the kept records.
+Reference: the kept records, claims.toml and figures.toml."""
 import csv
 import fnmatch
+import html
+import os
 import pathlib
 import re
 import shutil
@@ -17,12 +20,14 @@ SOURCE = pathlib.Path(program.SOURCE)
 sys.path.insert(0, str(SOURCE / "paper_figures"))
 from readme import findings as readme_findings, pages as readme_pages, part as readme_part, tables as readme_tables  # noqa: E402
 from records import kept  # noqa: E402
+from report import verdicts as report_verdicts  # noqa: E402
 from words import sentences  # noqa: E402
 
 RECORDS = SOURCE / "experiments" / "records" / "full"
 KEPT = kept.opened(RECORDS)
 STUDY_SECTIONS = ["Cases", "Records", "Claims, figures, cost", "What it cannot show"]
-CLAIM_SECTIONS = ["What is measured", "Formula", "Bound", "What would make it fail", "How the paper can be read", "Result"]
+CLAIM_SECTIONS = ["What the paper says", "What was measured", "What would refute it", "What it depends on", "Result"]
+MOST_WORDS = 150  # of a claim's page, without its generated part
 WRITTEN = {"metrics.csv", "measurements.csv", "printed.csv"}  # these files are written by runs
 
 
@@ -43,6 +48,37 @@ def kept_tables(study, file):
     """The kept tables that a name matches; capital letters in it match any text."""
     pattern = re.sub(r"[A-Z][A-Z_]+", "*", file)
     return [table for table in (KEPT / study).rglob("*.csv") if fnmatch.fnmatch(str(table.relative_to(KEPT / study)), pattern)]
+
+
+def told(value):
+    """A pattern of the number in three digits, of thousands in all of them; a censored one may have a sign in front."""
+    digits = "|".join({f"{value:.3g}".replace("+", r"\+")} | ({f"{value:.0f}", f"{value:,.0f}"} if 1000 <= abs(value) < 1e6 else set()))
+    return rf"(?:[<>\u2264\u2265] )?(?:{digits})(?![\d.,]*\d)"
+
+
+def counts_of(claim):
+    """Patterns of how many units hold, and their share with its interval."""
+    if claim["rule"] == "printed":
+        return [rf"\b{claim['held']} of {claim['n']} printed values"]
+    if claim["rule"] != "units" or not claim["n"]:
+        return []
+    share, low, high = (rf"(?:{claim[name]:.2f}|{claim[name]:.3g})" for name in ("share", "interval_low", "interval_high"))
+    return [rf"\b{claim['held']} of {claim['n']} (?:units? )?hold, share {share} \[{low}, {high}\]"]
+
+
+def numbers_of(claim):
+    """Patterns of the least and the most of the units' numbers."""
+    return [] if claim["least"] is None else [f": {told(claim['least'])}", f"(?:to|:) {told(claim['most'])}"]
+
+
+def range_of(claim):
+    """A pattern of the range by which a single number is judged."""
+    return [rf"\({claim['range']}: {told(case['low'])} to {told(case['high'])}\)" for case in claim["cases"] if claim["rule"] == "single"]
+
+
+def own_part(text, name):
+    """What a page states of one claim, which may be one of two on it, in one line."""
+    return " ".join(re.split(r"\*\*C\d", text.split(f"**{name}:", 1)[1])[0].split())
 
 
 def header(table):
@@ -69,22 +105,24 @@ class Pages(program.ProgramTest):
                 self.assertIn("?", text.split("\n\n")[1], "the first paragraph asks the study's question")
                 self.assertEqual(sections(text), STUDY_SECTIONS)
 
-    def test_each_claim_has_a_page_with_the_sections_and_its_own_statement(self):
-        self.assertEqual(sorted(page.stem for page in readme_pages.claim_pages.glob("*.md")), sorted(self.claims()))
-        for name, claim in self.claims().items():
-            text = (readme_pages.claim_pages / f"{name}.md").read_text(encoding="utf-8")
-            with self.subTest(name):
-                self.assertTrue(text.startswith(f"# {name}: {claim['statement']}\n\n"))
+    def test_each_claim_has_a_page_of_few_words_with_the_sections(self):
+        self.assertEqual(sorted(page.stem for page in readme_pages.claim_pages.glob("*.md")),
+                         sorted({sentences.page_of(claim) for claim in self.claims()}))
+        for page in readme_pages.claim_pages.glob("*.md"):
+            text = page.read_text(encoding="utf-8")
+            with self.subTest(page.stem):
+                self.assertTrue(text.startswith(f"# {page.stem}: "))
                 self.assertEqual(sections(text), CLAIM_SECTIONS)
+                self.assertLessEqual(len(re.findall(r"\S*\w\S*", readme_part.cut(page, "kept")[0])), MOST_WORDS)
 
     def test_the_program_prints_every_page(self):
-        """Of studies, of claims, and of the deformers that have one."""
+        """The pages are those of studies, of claims, and of the deformers that have one."""
         folder = SOURCE / "experiments" / "deformers"
         pages = {page.stem: page for page in folder.glob("*.md") if page.stem != "README"}
         pages |= {page.parent.name: page for page in folder.glob("*/README.md")}
         self.assertLessEqual({"pbs_author", "external"}, set(pages))
         pages |= {study: readme_pages.studies / study / "README.md" for study in self.studies()}
-        pages |= {claim: readme_pages.claim_pages / f"{claim}.md" for claim in self.claims()}
+        pages |= {claim: readme_pages.claim_pages / f"{sentences.page_of(claim)}.md" for claim in self.claims()}
         for name, page in sorted(pages.items()):
             printed = self.explained(name)
             for section in sections(page.read_text(encoding="utf-8")):
@@ -133,16 +171,37 @@ class KeptVerdicts(unittest.TestCase):
         cls.judged = pathlib.Path(temporary.name, "kept")
         shutil.copytree(RECORDS, cls.judged)
         (cls.judged / "claims.md").unlink()
-        judging = program.run("reproduce", "--judge", "-o", cls.judged, "--quiet")
+        judging = program.run("reproduce", "--judge", "-o", cls.judged, "--quiet", env={**os.environ, "COLUMNS": "1000"})
         if judging.returncode != 0:
             raise RuntimeError(judging.stdout + judging.stderr)
+        cls.printed = judging.stdout  # in lines that are not wrapped
 
     def test_records_beside_the_sources_give_the_verdicts_on_record(self):
         self.assertEqual((self.judged / "claims.md").read_text(), (RECORDS / "claims.md").read_text())
 
-    def test_all_seventeen_claims_are_on_record(self):
+    def test_every_claim_is_on_record_with_the_revision_that_fixed_its_rule(self):
         claims = sentences.claims_of(self.judged / "claims.json")
-        self.assertEqual([claim["id"] for claim in claims], [f"C{number:02d}" for number in range(1, 18)])
+        self.assertEqual([claim["id"] for claim in claims if not re.fullmatch(r"[0-9a-f]{40}", claim["fixed_at"])], [])
+        self.assertEqual([claim["id"] for claim in claims], [claim["id"] for claim in readme_pages.listed_claims()])
+        self.assertEqual(list(dict.fromkeys(sentences.page_of(claim["id"]) for claim in claims)), [f"C{n:02d}" for n in range(1, 18)])
+
+    def test_every_text_has_the_verdict_and_the_numbers_of_claims_json_in_its_place(self):
+        readme, listed = (file.read_text(encoding="utf-8") for file in (SOURCE / "README.md", self.judged / "claims.md"))
+        for claim in sentences.claims_of(self.judged / "claims.json"):
+            name, kind, word = claim["id"], claim["verdict"], claim["verdict"].replace("_", " ")
+            page = readme_part.cut(readme_pages.claim_pages / f"{sentences.page_of(name)}.md", "kept")[1]
+            counts, numbers, span = counts_of(claim), numbers_of(claim), range_of(claim)
+            for place, text, patterns in (
+                    ("README", re.search(rf"^.*\| \[{name}\]\(.*$", readme, re.M)[0], [rf"\| {word} \|", *counts, *numbers, *span]),
+                    ("page", own_part(page, name), [rf"^{word}\.\*\*", *counts, *numbers, *span]),
+                    ("explain", own_part(program.run("explain", name).stdout, name), [rf"^{word}\.\*\*", *counts, *numbers, *span]),
+                    ("report", html.unescape(report_verdicts.row(claim, None)), [f"</span> {word}</span>", *counts, *numbers, *span]),
+                    ("claims.md", re.search(rf"^\| {name} \|.*$", listed, re.M)[0], [rf"\| {kind} \|", *numbers]),
+                    ("terminal", re.search(rf"^{name} .*?(?=^C\d|\Z)", self.printed, re.M | re.S)[0],
+                     [rf"^{name} +{word} ", *counts, *numbers])):
+                for pattern in patterns:
+                    with self.subTest(f"{name} {place}"):
+                        self.assertRegex(text.replace("\u2212", "-"), pattern)
 
     def test_judging_them_where_they_lie_leaves_nothing_that_git_would_see(self):
         ignored = (SOURCE / ".gitignore").read_text().splitlines()

@@ -27,7 +27,7 @@ inline experiments::IterationPath path_to_floor(int most, double floor, double a
     return path_by(most, [=](int n) { return floor + above * std::pow(rate, n); });
 }
 
-// A character whose initial guesses converge to the floor 1 at the given rates, LBS first.
+// A character whose initial guesses converge to the floor 1 at the given rates, LBS first, by default in the order `ordered` and f32.
 inline experiments::ConvergencePaths starts_at_rates(int vertices, const std::vector<double>& rates, int most = 1000)
 {
     experiments::ConvergencePaths paths;
@@ -39,6 +39,15 @@ inline experiments::ConvergencePaths starts_at_rates(int vertices, const std::ve
     paths.of.k_stretch = 0.2;
     for (const double rate : rates) paths.paths.push_back(path_to_floor(most, 1.0, 1.0, rate));
     paths.limit_from_lbs_pct.assign(rates.size(), 0.0);
+    return paths;
+}
+
+// The same in the paper's order and precision, with the controls: LBS once more, and random positions that never converge.
+inline experiments::ConvergencePaths papers_paths(const std::vector<double>& rates)
+{
+    experiments::ConvergencePaths paths = starts_at_rates(1780, rates);
+    paths.of.order = "plain", paths.of.precision = "f64";
+    paths.controls = {paths.paths.front(), path_to_floor(1000, 2.0, 1.0, 0.99)};
     return paths;
 }
 

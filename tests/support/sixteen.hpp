@@ -14,7 +14,7 @@ namespace test_support {
 
 constexpr int lanes = pbs::batch_size, most_vertices = 6;
 
-// With the same constraints in each lane.
+// Each lane has the same constraints.
 template <typename Scalar>
 struct Sixteen {
     using Vector = pbs::Vector3<Scalar>;
@@ -95,7 +95,7 @@ struct Groups {
     }
 };
 
-// XPBD. Of tets, stiffness and multiplier are those of six times the volume.
+// XPBD. Stiffness and multiplier of a tet are those of six times its volume.
 template <typename S, pbs::GroupKind kind>
 struct Compliant : Groups<S, kind> {
     static constexpr bool compliant = true;

@@ -14,7 +14,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <set>
 
 namespace test_support {
 
@@ -43,15 +42,27 @@ inline std::vector<analysis::Measurement> joined(const std::vector<std::vector<a
     return all;
 }
 
-// Every quantity on which the claim is judged is written, and none that it does not know.
-inline void expect_quantities_of(const std::string& id, const std::vector<analysis::Measurement>& measured)
+// The claim's own units, whatever its controls are.
+inline analysis::Judged own_units(const std::string& id, const std::vector<analysis::Measurement>& measured)
 {
     const analysis::Claim of = claim(id);
-    std::set<std::string> known(of.metrics.begin(), of.metrics.end()), written;
-    for (const analysis::Measurement& measurement : measured) written.insert(measurement.quantity);
-    for (const std::string& quantity : known) EXPECT_TRUE(written.contains(quantity)) << quantity;
-    known.insert(of.reported.begin(), of.reported.end());
-    for (const std::string& quantity : written) EXPECT_TRUE(known.contains(quantity)) << quantity;
+    return judged(of, of.own, measured);
+}
+
+// Every quantity on which the claim is judged is written.
+inline void expect_quantities_of(const std::string& id, const std::vector<analysis::Measurement>& measured)
+{
+    for (const std::string& quantity : claim(id).own.quantities)
+        EXPECT_NE(std::ranges::find(measured, quantity, &analysis::Measurement::quantity), measured.end()) << quantity;
+}
+
+// The claim itself and each of its controls and comparisons has a value.
+inline void expect_values_of(const std::string& id, const std::vector<analysis::Measurement>& measured)
+{
+    const analysis::Claim of = claim(id);
+    std::vector<analysis::Selection> selections = of.others;
+    selections.push_back(of.own);
+    for (const analysis::Selection& one : selections) EXPECT_FALSE(judged(of, one, measured).units.empty()) << id << " " << one.name;
 }
 
 // Carries out the first `runs` runs of the plan, like `pbskin reproduce`.

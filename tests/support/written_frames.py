@@ -27,6 +27,6 @@ def points_of(path):
 
 
 def signed_volumes(grid):
-    """Of the tets [m^3]."""
+    """The volume of each tet [m^3]."""
     a, b, c, d = (points(grid).astype(numpy.float64)[tets(grid)[:, corner]] for corner in range(4))
     return numpy.einsum("ij,ij->i", numpy.cross(b - a, c - a), d - a) / 6.0

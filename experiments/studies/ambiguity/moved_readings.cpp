@@ -24,8 +24,7 @@ const analysis::Columns<VolumeChange> volume_change_columns = {
     {"quantity", &VolumeChange::quantity, "", "what is compared; its name ends with its unit"},
     {"a", &VolumeChange::a, "", "value by reading A"},
     {"b", &VolumeChange::b, "", "value by reading B"},
-    {"change", &VolumeChange::change, "", "b less a"},
-    {"verdict_changed", &VolumeChange::verdict_changed, "", "no, or the claims that are judged otherwise"}};
+    {"change", &VolumeChange::change, "", "b less a"}};
 
 namespace {
 
@@ -33,7 +32,7 @@ namespace {
 analysis::CaseRecord record_of(const Scene& scene, const pbs::Motion& motion, const analysis::MeshMetrics& mesh_metrics,
                                const std::vector<pbs::Positions>& shapes)
 {
-    analysis::CaseRecord record{.scene = scene.name, .angle_deg = motion.angle_deg};
+    analysis::CaseRecord record{.scene = scene.name, .place = {.body = scene.name}, .angle_deg = motion.angle_deg};
     for (std::size_t frame = 0; frame < shapes.size(); ++frame) {
         const analysis::FrameMetrics metrics = mesh_metrics.measure(shapes[frame]);
         record.frame.push_back(double(frame));
@@ -45,45 +44,9 @@ analysis::CaseRecord record_of(const Scene& scene, const pbs::Motion& motion, co
     return record;
 }
 
-JudgedValue of_case(const analysis::Claim& claim, const analysis::CaseRecord& record, const std::string& metric)
-{
-    const analysis::CaseJudgement judgement = analysis::judge_case(claim, record, metric);
-    const bool of_share = claim.rule == analysis::ClaimRule::share_within;
-    return {claim.id,
-            (of_share ? "share_of_frames_by_" : "mean_") + metric,
-            {.body = record.scene},
-            of_share ? "1" : "%",
-            of_share ? analysis::bound_text({"", claim.share, 1.0}) : analysis::bound_text({"", claim.low, claim.high}),
-            of_share ? judgement.share.estimate : judgement.mean.estimate,
-            judgement.extent};
-}
-
-// The claims of the volume study, each with its metrics.
-std::vector<std::pair<analysis::Claim, std::string>> volume_metrics()
-{
-    std::vector<std::pair<analysis::Claim, std::string>> metrics;
-    for (const analysis::Claim& claim : claims())
-        if (claim.study == "volume")
-            for (const std::string& metric : claim.metrics) metrics.emplace_back(claim, metric);
-    return metrics;
-}
-
-// The claims whose extent on this scene differs, by metric.
-std::string changed_verdicts(const ReadMotion& a, const ReadMotion& b)
-{
-    const std::vector<JudgedValue> before = judged(a), after = judged(b);
-    std::vector<std::string> changes;
-    for (std::size_t i = 0; i < before.size(); ++i)
-        if (before[i].extent != after[i].extent)
-            changes.push_back(fmt::format("{} by {}: {} -> {}", before[i].claim, volume_metrics()[i].second,
-                                          analysis::name_of(before[i].extent), analysis::name_of(after[i].extent)));
-    return changes.empty() ? "no" : fmt::format("{}", fmt::join(changes, "; "));
-}
-
 double share_within(const std::vector<double>& change_pct)
 {
-    constexpr double printed_pct = 0.5;  // Sec. 4
-    const auto holds = [](double change) { return std::abs(change) <= printed_pct; };
+    const auto holds = [](double change) { return std::abs(change) <= analysis::kept_volume_pct; };
     return double(std::ranges::count_if(change_pct, holds)) / double(change_pct.size());
 }
 
@@ -141,20 +104,6 @@ private:
     bool finite_ = true;
 };
 
-JudgedValue of_frame(const std::string& body, int vertices, double ms)
-{
-    const analysis::Claim& claim = claim_named("C10");
-    const double frames_s = 1e3 / ms;
-    const analysis::Measurement pace{"C10", claim.metrics.front(), {}, frames_s, frames_s, frames_s, "1/s"};
-    return {"C10",
-            "processor_time_of_a_frame_ms",
-            {.body = body, .order = "plain", .precision = "f64", .vertices = vertices},
-            "ms",
-            fmt::format("{} frames per second", analysis::bound_text(analysis::bound_of(claim, pace.quantity))),
-            ms,
-            analysis::extent_of(claim, pace)};
-}
-
 }  // namespace
 
 ReadMotion move(const pbs::Character& character, const Scene& scene)
@@ -173,22 +122,13 @@ ReadMotion move(const pbs::Character& character, const Scene& scene)
     return moved;
 }
 
-std::vector<JudgedValue> judged(const ReadMotion& moved)
-{
-    std::vector<JudgedValue> values;
-    for (const auto& [claim, metric] : volume_metrics())
-        values.push_back(of_case(claim, claim.deformer == "lbs" ? moved.lbs : moved.pbs, metric));
-    return values;
-}
-
 std::vector<VolumeChange> volume_changes(const std::string& scene, const Reading& reading, const ReadMotion& a, const ReadMotion& b,
                                          const ReadMotion& resting, const std::vector<bool>& zone)
 {
     using analysis::mean;
-    const std::string verdict = changed_verdicts(a, b);
     std::vector<VolumeChange> rows;
     const auto add = [&](const std::string& quantity, double of_a, double of_b) {
-        rows.push_back({scene, reading.place, reading.baseline, reading.name, quantity, of_a, of_b, of_b - of_a, verdict});
+        rows.push_back({scene, reading.place, reading.baseline, reading.name, quantity, of_a, of_b, of_b - of_a});
     };
     add("mean_volume_change_pct", mean(a.pbs.volume_change_pct), mean(b.pbs.volume_change_pct));
     add("mean_volume_abs_change_pct", mean(a.pbs.volume_abs_change_pct), mean(b.pbs.volume_abs_change_pct));
@@ -221,8 +161,9 @@ std::vector<JudgedReading> values_of_frames(const StudyCase& of, const std::vect
     const auto seconds = take_turns(turns, {.seconds = of.value<double>("timing_s")});
     std::vector<JudgedReading> all;
     for (std::size_t i = 0; i < timed.size(); ++i) {
-        const double ms = 1e3 * spread_of(seconds[i][0]).median;
-        all.push_back({{of_frame(scene.character.body, int(character.mesh.rest.rows()), ms)}, !timed[i]->finite()});
+        const double per_s = 1.0 / spread_of(seconds[i][0]).median;
+        const analysis::CaseKey of_frame = {.body = scene.character.body, .deformer = "pbs"};
+        all.push_back({judged({{"C10", "frames_per_s", of_frame, per_s, per_s, per_s, "1/s"}}), !timed[i]->finite()});
     }
     return all;
 }

@@ -42,14 +42,14 @@ std::vector<Reading> readings_of(const StudyCase& of, const std::string& which);
 // Why a reading cannot change a claim, from how the claim's values are measured and not from the results; empty where it can.
 std::string untouched_because(const std::string& claim, const Reading& reading, const Reading& baseline);
 
-// A value that a claim is judged by, for a character that is moved by one reading, and whether it lies in the claim's bound.
+// The number of a unit of a claim, for a character that is moved by one reading, and whether it lies within the claim's bound.
 struct JudgedValue {
     std::string claim, quantity;
     analysis::CaseKey of;
     std::string unit, bound;
     double value = 0.0;
-    analysis::Extent extent = analysis::Extent::none;  // of the claim, by this value
-    analysis::Limit limit = analysis::Limit::none;     // where the value only bounds the quantity
+    bool holds = false;
+    analysis::Limit limit = analysis::Limit::none;  // where the value only bounds the quantity
 };
 
 // The values of the measured claims by one reading.
@@ -59,7 +59,7 @@ struct JudgedReading {
     std::vector<ReadingValues::LeftOut> left_out = {};
 };
 
-// Only of quantities that a claim is judged by.
+// The units of all claims, one quantity at a time, whatever the order, precision and other settings are that a claim is judged in.
 std::vector<JudgedValue> judged(const std::vector<analysis::Measurement>& measured);
 
 // A hash of everything that decides whether a value holds: another bound gives another digest.
@@ -74,7 +74,7 @@ struct ClaimChange {
     analysis::CaseKey of = {};
     std::string unit = {}, bound = {};  // unit: of a, b and change
     std::optional<double> a = {}, b = {}, change = {}, b_over_a = {};
-    std::string holds_a = {}, holds_b = {};  // whole, part, none
+    std::string holds_a = {}, holds_b = {};  // yes, no
     std::string verdict_flips = {}, reason = {};
 };
 const analysis::Columns<ClaimChange>& claim_change_columns();  // case_body: of the value's case, or its scene
@@ -97,7 +97,7 @@ struct ReadingComparison {
     void measure(const std::vector<std::string>& claims, const Measure& measure);
 };
 
-// A scene is moved by each reading. The measurements are its volume (C01, C02) and the time of a frame (C10).
+// A scene is moved by each reading. The measurements are its volume (C01, C02a) and the time of a frame (C10a).
 //   const ReadMotion moved = move(character, scene);
 //   volume_changes("limb_bend", reading, a, b, a, {});
 
@@ -109,14 +109,10 @@ struct ReadMotion {
 };
 ReadMotion move(const pbs::Character& character, const Scene& scene);
 
-// C01: the mean of its metrics over the frames; C02: the share of frames within; both judged as analysis::judge_case does.
-std::vector<JudgedValue> judged(const ReadMotion& moved);
-
 // A row of figures.csv.
 struct VolumeChange {
     std::string scene, place, reading_a, reading_b, quantity;
     double a = 0.0, b = 0.0, change = 0.0;
-    std::string verdict_changed;  // no, or the claims with their extents before and after
 };
 extern const analysis::Columns<VolumeChange> volume_change_columns;
 
@@ -124,7 +120,8 @@ extern const analysis::Columns<VolumeChange> volume_change_columns;
 std::vector<VolumeChange> volume_changes(const std::string& scene, const Reading& reading, const ReadMotion& a, const ReadMotion& b,
                                          const ReadMotion& resting, const std::vector<bool>& zone);
 
-// C10: processor time per frame, including LBS, of all readings in turns, in the order and precision that are judged (plain, f64).
+// C10a: frames per second of processor time, including LBS, of all readings in turns, in the order and precision that are judged (plain,
+// f64).
 std::vector<JudgedReading> values_of_frames(const StudyCase& of, const std::vector<Overrides>& readings);
 
 }  // namespace experiments

@@ -88,8 +88,8 @@ const analysis::Columns<ClaimChange>& claim_change_columns()
                        {"b", &ClaimChange::b, "", "value by reading B"},
                        {"change", &ClaimChange::change, "", "b less a"},
                        {"b_over_a", &ClaimChange::b_over_a, "", "b over a"},
-                       {"holds_a", &ClaimChange::holds_a, "", "extent to which a lies within the bound: whole, part, none"},
-                       {"holds_b", &ClaimChange::holds_b, "", "extent to which b lies within the bound"},
+                       {"holds_a", &ClaimChange::holds_a, "", "yes, or no: a lies within the bound, or not"},
+                       {"holds_b", &ClaimChange::holds_b, "", "the same for b"},
                        {"verdict_flips", &ClaimChange::verdict_flips, "", "yes, no, not_touched or no_value"},
                        {"reason", &ClaimChange::reason, "", "why there is no value, or why it is only a limit, in words"}};
     }();
@@ -119,9 +119,9 @@ std::string why(const JudgedValue* a, const JudgedValue* b, bool b_broke_down)
 
 std::string flips(const JudgedValue* a, const JudgedValue* b, bool b_broke_down)
 {
-    if (a && !b && b_broke_down) return a->extent == analysis::Extent::none ? "no" : "yes";
+    if (a && !b && b_broke_down) return a->holds ? "yes" : "no";
     if (!a || !b) return "no_value";
-    return a->extent == b->extent ? "no" : "yes";
+    return a->holds == b->holds ? "no" : "yes";
 }
 
 // Either may be null.
@@ -130,8 +130,8 @@ ClaimChange compared(ClaimChange row, const JudgedValue* a, const JudgedValue* b
     const JudgedValue* one = a ? a : b;
     if (!one) return row;
     row.quantity = one->quantity, row.of = one->of, row.unit = one->unit, row.bound = one->bound;
-    if (a) row.a = a->value, row.holds_a = analysis::name_of(a->extent);
-    if (b) row.b = b->value, row.holds_b = analysis::name_of(b->extent);
+    if (a) row.a = a->value, row.holds_a = a->holds ? "yes" : "no";
+    if (b) row.b = b->value, row.holds_b = b->holds ? "yes" : "no";
     if (a && b) row.change = b->value - a->value;
     if (a && b && a->value != 0.0) row.b_over_a = b->value / a->value;
     row.verdict_flips = flips(a, b, b_broke_down);
@@ -183,7 +183,12 @@ std::string measure_volume(const StudyCase& of, ReadingComparison& comparison, c
     }
     comparison.measure(of.value<std::vector<std::string>>("claims"), [&](const std::vector<Reading>& readings) {
         std::vector<JudgedReading> all;
-        for (const Reading& reading : readings) all.push_back({judged(moved.at(reading.name)), !moved.at(reading.name).finite});
+        for (const Reading& reading : readings) {
+            const ReadMotion& of_reading = moved.at(reading.name);
+            std::vector<analysis::Measurement> measured = frame_measurements(of_reading.pbs);
+            std::ranges::move(frame_measurements(of_reading.lbs), std::back_inserter(measured));
+            all.push_back({judged(measured), !of_reading.finite});
+        }
         return all;
     });
     table_of(volume_change_columns, volumes).write(analysis::path_in(folder, "figures.csv"));
@@ -307,9 +312,9 @@ std::string digest_of(const std::vector<analysis::Claim>& claims)
 {
     nlohmann::json all = nlohmann::json::array();
     for (const analysis::Claim& claim : claims) {
-        all.push_back({claim.id, static_cast<int>(claim.rule), claim.metrics, claim.deformer, claim.iterations, claim.low, claim.high,
-                       claim.share, claim.part, claim.level});
-        for (const analysis::QuantityBound& bound : claim.bounds) all.push_back({bound.quantity, bound.low, bound.high});
+        all.push_back({claim.id, static_cast<int>(claim.rule), claim.own.quantities, to_json_of(claim.own.of), to_json_of(claim.own.over),
+                       claim.unit, static_cast<int>(claim.mean)});
+        for (const analysis::Bound& bound : claim.own.bounds) all.push_back({bound.quantity, bound.low, bound.high, to_json_of(bound.of)});
     }
     return pbs::content_hash(all.dump());
 }
@@ -317,12 +322,16 @@ std::string digest_of(const std::vector<analysis::Claim>& claims)
 std::vector<JudgedValue> judged(const std::vector<analysis::Measurement>& measured)
 {
     std::vector<JudgedValue> values;
-    for (const analysis::Measurement& one : measured) {
-        const analysis::Claim& claim = claim_named(one.claim);
-        if (!analysis::is_judged(claim, one)) continue;
-        values.push_back({one.claim, one.quantity, one.of, one.unit, analysis::bound_text(analysis::bound_of(claim, one.quantity)),
-                          one.value, analysis::extent_of(claim, one), one.limit});
-    }
+    for (const analysis::Claim& claim : claims())
+        for (const std::string& quantity : claim.own.quantities) {
+            analysis::Selection own = claim.own;
+            own.quantities = {quantity};
+            own.of.order = own.of.precision = own.of.variant = own.of.masses = "";  // a reading sets what it is
+            own.of.iterations.reset();
+            if (own.of.deformer.starts_with("pbs")) own.of.deformer = "pbs";
+            for (const analysis::Unit& unit : analysis::judged(claim, own, measured).units)
+                values.push_back({claim.id, quantity, unit.of, unit.unit, bound_text(unit.bound), unit.value, unit.holds, unit.limit});
+        }
     return values;
 }
 

@@ -81,10 +81,10 @@ int element_order_of(const DeformerSpec& spec)
     return fem ? fem->element_order : 0;
 }
 
-// The deformers whose sections are part of a claim.
+// The deformers whose sections a claim selects.
 bool is_on_other_meshes(const DeformerSpec& spec)
 {
-    static const std::set<std::string> claimed = {"lbs", "dqs", "pbs"};
+    static const std::set<std::string> claimed = {"lbs", "dqs", "pbs", "pbs_author"};
     return claimed.contains(spec.kind) || element_order_of(spec) == 1;
 }
 
@@ -118,9 +118,11 @@ private:
     void add_profile(const ArtefactBody& body, const DeformerSpec& spec, const Shape& shape, std::size_t pose, std::size_t joint)
     {
         const JointProfile profile = body.sections[joint].measure(shape.positions, body.posed.pose(pose));
-        records_.samples.push_back({group_of(of_.scene, spec), pose, joint, extremes_of(profile), element_order_of(spec)});
+        const ArtefactDeformer deformer = recorded(spec);
+        records_.samples.push_back(
+            {group_of(of_.scene, spec), pose, joint, extremes_of(profile), element_order_of(spec), deformer.order, deformer.precision});
         for (const JointSection& section : profile)
-            records_.profiles.push_back({place_of(of_, body, pose), body.joints[joint].name, recorded(spec), section});
+            records_.profiles.push_back({place_of(of_, body, pose), body.joints[joint].name, deformer, section});
     }
 
     void add_intersections(const ArtefactBody& body, const DeformerSpec& spec, const Shape& shape, std::size_t pose)
@@ -259,13 +261,14 @@ ArtefactBody::ArtefactBody(const ArtefactCase& of, int vertices) : posed(with_ve
 ArtefactRecords find_artefacts(const ArtefactCase& of, const ArtefactBody& body)
 {
     Search search(of);
-    for (const DeformerSpec& spec : of.scene.deformers) search.look_at(body, spec, true);
-    for (const DeformerSpec& spec : other_orders(spec_of(of.scene, "pbs"))) search.look_at(body, spec, false);
-    for (const int vertices : of.vertices) {
-        const ArtefactBody other(of, vertices);
+    const std::vector<DeformerSpec> orders = other_orders(spec_of(of.scene, "pbs"));
+    const auto look_at = [&](const ArtefactBody& mesh, bool is_own) {
         for (const DeformerSpec& spec : of.scene.deformers)
-            if (is_on_other_meshes(spec)) search.look_at(other, spec, false);
-    }
+            if (is_own || is_on_other_meshes(spec)) search.look_at(mesh, spec, is_own);
+        for (const DeformerSpec& spec : orders) search.look_at(mesh, spec, false);
+    };
+    look_at(body, true);
+    for (const int vertices : of.vertices) look_at(ArtefactBody(of, vertices), false);
     return std::move(search).records();
 }
 
@@ -277,8 +280,6 @@ SectionExtremesOverRest extremes_of(const JointProfile& profile)
     extremes.smallest_radius = std::ranges::min(profile, {}, &JointSection::smallest_radius).smallest_radius;
     extremes.largest_radius = widest.largest_radius;
     extremes.limb_share_of_widest = widest.limb_share;
-    extremes.smallest_area = std::ranges::min(profile, {}, &JointSection::area).area;
-    extremes.largest_area = std::ranges::max(profile, {}, &JointSection::area).area;
     return extremes;
 }
 
@@ -405,13 +406,13 @@ pbs::Vec3 hinge_axis(const pbs::Skeleton& skeleton, const LimbJoint& joint)
     return z.norm() > straight_rad ? pbs::Vec3(z.normalized()) : pbs::Vec3(pbs::Vec3::UnitX());
 }
 
-std::vector<bool> near_joint(const pbs::Character& character, const LimbJoint& joint)
+std::vector<bool> near_joint(const pbs::Character& character, const LimbJoint& joint, double share)
 {
     std::vector<bool> near(character.binding.bone.size());
     for (std::size_t v = 0; v < near.size(); ++v) {
         const int bone = character.binding.bone[v];
         const double parameter = character.binding.parameter(v);
-        near[v] = (bone == joint.child && parameter <= 1.0 / 3.0) || (bone == joint.parent && parameter >= 2.0 / 3.0);
+        near[v] = (bone == joint.child && parameter <= share) || (bone == joint.parent && parameter >= 1.0 - share);
     }
     return near;
 }

@@ -1,8 +1,8 @@
 // One body, turned at a joint or in poses of a clip, under all deformers, as it is examined for the artefacts of blending.
 //   const ArtefactRecords records = find_artefacts(of, body);
 //   table_of(profile_columns, records.profiles).write("profiles.csv");
-// Every deformer of the scene runs on the body's own mesh. PBS also runs in the other orders and precisions; PBS, the blends and the
-// reference also run on the body's other meshes. Their spread is the uncertainty of a value.
+// Every deformer of the scene runs on the body's own mesh, PBS also in the other orders and precisions. The same, except what no claim
+// selects, runs on the body's other meshes. Their spread is the range of a value.
 #pragma once
 
 #include "analysis/metrics/cross_section.hpp"
@@ -50,13 +50,13 @@ pbs::Vec3 twist_axis(const pbs::Skeleton& skeleton, const LimbJoint& joint);  //
 // Across both bones, so that a turn about it bends the limb further in the direction in which it is bent at rest; z for a straight limb.
 pbs::Vec3 hinge_axis(const pbs::Skeleton& skeleton, const LimbJoint& joint);
 
-// The vertices of the two bones that are no farther from the joint, along the bone, than a third of its length, #V.
-std::vector<bool> near_joint(const pbs::Character& character, const LimbJoint& joint);
+// The vertices of the two bones that are no farther from the joint, along the bone, than this share of its length, #V.
+std::vector<bool> near_joint(const pbs::Character& character, const LimbJoint& joint, double share = 1.0 / 3.0);
 
 // Cross-sections of a limb from one side of a joint to the other, in any pose, relative to rest.
 //   const JointSections sections(character, joint);
 //   sections.measure(positions, pose);            // a profile, one section per station
-//   extremes_of(profile).smallest_area;           // of the narrowest section, over the same at rest
+//   extremes_of(profile).smallest_radius;         // of the narrowest section, over the same at rest
 // Stations lie on the bones, up to 2 limb radii or the joint's reach away from it. Over 3 radii on each side, their planes turn evenly from
 // the direction of one bone to that of the other. On the inside of a joint that is bent by an angle they meet 6 radii / angle away from it,
 // so that they do not cut the limb's other half. The planes move with the bones and are the same for all deformers. Only the limb's own
@@ -70,7 +70,7 @@ struct JointSection {
 using JointProfile = std::vector<JointSection>;
 
 struct SectionExtremesOverRest {
-    double smallest_radius = 1.0, smallest_area = 1.0, largest_radius = 1.0, largest_area = 1.0;
+    double smallest_radius = 1.0, largest_radius = 1.0;
     double limb_share_of_widest = 1.0;  // where the largest radius is
 };
 SectionExtremesOverRest extremes_of(const JointProfile& profile);
@@ -110,7 +110,7 @@ struct ArtefactPose {
 struct ArtefactCase {
     enum class Claim { candy_wrapper, bulge };  // C04, C05
 
-    Scene scene;  // with lbs, dqs, pbs, nh_p1 and others; its reference is nh_p1
+    Scene scene;  // with lbs, dqs, pbs, pbs_author, nh_p1 and others; its reference is nh_p1
     std::vector<ArtefactPose> poses;
     std::string joint;           // LimbJoint::name; empty: all of them
     Claim claim = Claim::bulge;  // for which the sections are measured
@@ -133,10 +133,11 @@ struct ArtefactBody {
 
 // The extremes of one deformer's sections in one pose at one joint.
 struct ArtefactSample {
-    std::string group;  // pbs, in any order and precision; reference, for flesh with the reference's Poisson's ratio; otherwise the label
+    std::string group;  // the kind of deformer; reference: flesh with the reference's Poisson's ratio; with another one: the label
     std::size_t pose = 0, joint = 0;
     SectionExtremesOverRest extremes;
-    int element_order = 0;  // of the reference
+    int element_order = 0;                   // of the reference
+    std::string order = {}, precision = {};  // of PBS
 };
 
 // The place and the deformer of a row.
@@ -174,7 +175,7 @@ extern const analysis::Columns<ProfileRow> profile_columns;            // profil
 extern const analysis::Columns<IntersectionRow> intersection_columns;  // intersections.csv
 
 struct ArtefactRecords {
-    std::vector<ArtefactSample> samples;  // in each group, pose and joint the own mesh and the default order come first
+    std::vector<ArtefactSample> samples;  // in each group, order, pose and joint the own mesh comes first
     std::vector<ProfileRow> profiles;
     std::vector<IntersectionRow> intersections;
     std::string breakdown;  // deformers that did not finish

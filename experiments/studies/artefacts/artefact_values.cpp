@@ -4,6 +4,7 @@
 #include "analysis/statistics/statistics.hpp"
 #include "experiments/deformers/deformer_options.hpp"
 #include "experiments/settings/recorded_settings.hpp"
+#include "pbs/character/skinning_weights.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <tuple>
 #include <utility>
 
 namespace experiments {
@@ -33,6 +35,14 @@ std::vector<ArtefactSample> chosen(const std::vector<ArtefactSample>& samples, c
         if (sample.group == group && sample.pose == pose && sample.joint == joint) chosen.push_back(sample);
     std::stable_sort(chosen.begin(), chosen.end(), [](const auto& a, const auto& b) { return a.element_order > b.element_order; });
     return chosen;
+}
+
+// By order and precision of projection, which only PBS has; the own mesh comes first.
+std::map<std::pair<std::string, std::string>, std::vector<ArtefactSample>> by_order(const std::vector<ArtefactSample>& samples)
+{
+    std::map<std::pair<std::string, std::string>, std::vector<ArtefactSample>> orders;
+    for (const ArtefactSample& sample : samples) orders[{sample.order, sample.precision}].push_back(sample);
+    return orders;
 }
 
 std::vector<double> sizes(const std::vector<ArtefactSample>& samples, Extreme extreme)
@@ -94,20 +104,29 @@ Columns<Reached> reached_columns(const std::string& name, const std::string& wei
 
 constexpr double rounding = 1e-12;  // a smaller value is that of the rest pose
 
-struct Twin {
-    ArtefactBody paper, rigid;
-};
-
-Twin twin_of(ArtefactCase of, int vertices)
+ArtefactBody with_weights(ArtefactBody body, pbs::Weights weights)
 {
-    of.scene.character.weights = pbs::WeightKind::paper;
-    ArtefactBody paper(of, vertices);
-    of.scene.character.weights = pbs::WeightKind::rigid;
-    of.scene.character.weights_file.clear();
-    return {std::move(paper), ArtefactBody(of, vertices)};
+    body.posed.set_weights(std::move(weights));
+    return body;
 }
 
-// The ratios of one quantity over meshes and orders, the own mesh and order first. Not a number where there is none.
+// The body's weights, but near each joint its two bones have each other's: within a quarter of a bone, so that the strain jumps inside the
+// region in which it is measured.
+pbs::Weights exchanged_weights(const ArtefactBody& body)
+{
+    pbs::Weights weights = body.posed.character().weights;
+    for (const LimbJoint& joint : body.joints) {
+        const std::vector<bool> near = near_joint(body.posed.character(), joint, 0.25);
+        for (int v = 0; v < weights.vertices(); ++v)
+            for (int i = weights.first[v]; near[v] && i < weights.first[v + 1]; ++i) {
+                int& bone = weights.bone[i];
+                bone = bone == joint.parent ? joint.child : bone == joint.child ? joint.parent : bone;
+            }
+    }
+    return weights;
+}
+
+// The ratios of one quantity over meshes, the own mesh first. Not a number where there is none.
 struct Ratios {
     std::vector<double> values = {};
     analysis::Limit limit = analysis::Limit::none;  // of the first value
@@ -117,35 +136,44 @@ class Comparison {
 public:
     explicit Comparison(const ArtefactCase& of) : of_(of) {}
 
-    void compare(const Twin& twin, const DeformerSpec& spec)
+    // weights: those of `body`: paper, or a control's.
+    void compare(const ArtefactBody& body, const ArtefactBody& rigid, const DeformerSpec& spec, const std::string& weights = "paper")
     {
-        const Shapes paper = twin.paper.posed.shapes(spec), rigid = twin.rigid.posed.shapes(spec);
-        for (std::size_t pose = 0; pose < paper.size(); ++pose) {
-            if (!paper[pose].finished || !rigid[pose].finished) continue;
-            for (std::size_t joint = 0; joint < twin.paper.joints.size(); ++joint) {
-                const analysis::Smoothness smooth = measure(twin.paper, spec, paper[pose], pose, joint, "paper"),
-                                           rough = measure(twin.rigid, spec, rigid[pose], pose, joint, "rigid");
-                const analysis::CaseKey at = key_of(of_, twin.paper, pose, twin.paper.joints[joint].name, spec.kind);
-                add("strain_jump_over_rigid_weights", at, smooth.strain_jump_rms, rough.strain_jump_rms);
-                add("curvature_over_rigid_weights", at, smooth.bending_rms_rad, rough.bending_rms_rad);
+        const Shapes own = body.posed.shapes(spec), of_rigid = rigid.posed.shapes(spec);
+        const ArtefactDeformer deformer = recorded(spec);
+        const auto key_at = [&](std::size_t pose, const std::string& joint) {
+            analysis::CaseKey key = key_of(of_, body, pose, joint, spec.kind);
+            key.order = deformer.order;
+            key.precision = deformer.precision;
+            key.variant = weights == "paper" ? "default" : weights + "_weights";
+            return key;
+        };
+        for (std::size_t pose = 0; pose < own.size(); ++pose) {
+            if (!own[pose].finished || !of_rigid[pose].finished) continue;
+            for (std::size_t joint = 0; joint < body.joints.size(); ++joint) {
+                const Smoothness smooth = measure(body, spec, own[pose], pose, joint, weights),
+                                 rough = measure(rigid, spec, of_rigid[pose], pose, joint, "rigid");
+                if (weights != "paper") result_.smoothness.pop_back();  // rigid weights are recorded once
+                add("strain_jump_over_rigid_weights", key_at(pose, body.joints[joint].name), smooth.strain_jump_rms, rough.strain_jump_rms);
+                add("curvature_over_rigid_weights", key_at(pose, body.joints[joint].name), smooth.bending_rms_rad, rough.bending_rms_rad);
             }
-            if (options_if<pbs::PbsOptions>(spec))
-                add("volume_abs_change_over_rigid_weights", key_of(of_, twin.paper, pose, of_.joint, "pbs"),
-                    volume_change_pct(twin.paper, paper[pose]), volume_change_pct(twin.rigid, rigid[pose]));
+            if (!deformer.order.empty())
+                add("volume_abs_change_over_rigid_weights", key_at(pose, of_.joint), volume_change_pct(body, own[pose]),
+                    volume_change_pct(rigid, of_rigid[pose]));
         }
     }
 
     // The weights affect only the initial guess of the solver: two guesses lead to one limit.
-    void compare_convergence(const Twin& twin, const pbs::PbsOptions& options)
+    void compare_convergence(const ArtefactBody& body, const ArtefactBody& with_rigid, const pbs::PbsOptions& options)
     {
-        const pbs::Character &paper = twin.paper.posed.character(), &rigid = twin.rigid.posed.character();
+        const pbs::Character &paper = body.posed.character(), &rigid = with_rigid.posed.character();
         for (std::size_t pose = 0; pose < of_.poses.size(); ++pose) {
-            const pbs::Pose& now = twin.paper.posed.pose(pose);
+            const pbs::Pose& now = body.posed.pose(pose);
             const pbs::Positions bind_points = pbs::posed_bind_points(paper.binding, now);
             const std::vector<IterationPath> paths = iterate(paper, options, bind_points, {blended(paper, now), blended(rigid, now)},
                                                              most_weight_iterations, IterationMetrics(paper, bind_points));
             const double floor = floor_of(paths);
-            add_iterations(twin, pose, reached_residual(paths[0], floor), reached_residual(paths[1], floor));
+            add_iterations(body, pose, reached_residual(paths[0], floor), reached_residual(paths[1], floor));
         }
     }
 
@@ -172,10 +200,10 @@ private:
     }
 
     // An initial guess within the tolerance counts as one iteration. Where neither path reaches it there is no ratio.
-    void add_iterations(const Twin& twin, std::size_t pose, const Reached& paper, const Reached& rigid)
+    void add_iterations(const ArtefactBody& body, std::size_t pose, const Reached& paper, const Reached& rigid)
     {
-        result_.iterations.push_back({place_of(of_, twin.paper, pose), paper, rigid});
-        Ratios& ratios = ratios_[{"iterations_over_rigid_weights", key_of(of_, twin.paper, pose, of_.joint, "pbs")}];
+        result_.iterations.push_back({place_of(of_, body, pose), paper, rigid});
+        Ratios& ratios = ratios_[{"iterations_over_rigid_weights", key_of(of_, body, pose, of_.joint, "pbs")}];
         const bool some = paper.within || rigid.within;
         if (ratios.values.empty() && some && paper.within != rigid.within)
             ratios.limit = paper.within ? analysis::Limit::at_most : analysis::Limit::at_least;
@@ -207,43 +235,26 @@ private:
 
 }  // namespace
 
-std::vector<analysis::Measurement> candy_wrapper_values(const ArtefactCase& of, const ArtefactBody& body,
-                                                        const std::vector<ArtefactSample>& samples)
+std::vector<analysis::Measurement> section_values(const ArtefactCase& of, const ArtefactBody& body,
+                                                  const std::vector<ArtefactSample>& samples)
 {
-    std::vector<analysis::Measurement> measurements;
-    for (const auto& [pose, joint, reference, outcome, remark] : section_outcomes(of, body, samples))
-        for (const std::string group : {"pbs", "lbs", "dqs", "reference", nearly_incompressible})
-            for (const auto& [quantity, extreme] :
-                 {std::pair{"smallest_section_radius_over_rest", &SectionExtremesOverRest::smallest_radius},
-                  {"smallest_section_area_over_rest", &SectionExtremesOverRest::smallest_area}}) {
-                const std::vector<double> values = sizes(chosen(samples, group, pose, joint), extreme);
-                if (values.empty()) continue;
-                analysis::CaseKey key = key_of(of, body, pose, body.joints[joint].name, group);
-                if (group == "reference") key.reference = reference;
-                measurements.push_back({"C04", quantity, key, values.front(), std::ranges::min(values), std::ranges::max(values), "1"});
-            }
-    return measurements;
-}
-
-std::vector<analysis::Measurement> bulge_values(const ArtefactCase& of, const ArtefactBody& body,
-                                                const std::vector<ArtefactSample>& samples)
-{
+    const bool is_bulge = of.claim == ArtefactCase::Claim::bulge;
+    const Extreme extreme = is_bulge ? &SectionExtremesOverRest::largest_radius : &SectionExtremesOverRest::smallest_radius;
+    const char* quantity = is_bulge ? "largest_section_radius_over_reference" : "smallest_section_radius_over_rest";
     std::vector<analysis::Measurement> measurements;
     for (const auto& [pose, joint, reference_name, outcome, remark] : section_outcomes(of, body, samples)) {
         if (outcome != SectionOutcome::measured && outcome != SectionOutcome::pbs_did_not_finish) continue;
-        for (const auto& [quantity, extreme] :
-             {std::pair{"largest_section_radius_over_reference", &SectionExtremesOverRest::largest_radius},
-              {"largest_section_area_over_reference", &SectionExtremesOverRest::largest_area}}) {
-            const std::vector<double> reference = sizes(chosen(samples, "reference", pose, joint), extreme);
-            for (const std::string group : {"pbs", "lbs", "dqs", nearly_incompressible}) {
-                const std::vector<ArtefactSample> own = chosen(samples, group, pose, joint);
-                if (own.empty()) continue;
+        const std::vector<double> base = is_bulge ? sizes(chosen(samples, "reference", pose, joint), extreme) : std::vector{1.0};
+        for (const std::string group : {"pbs", "lbs", "dqs", "pbs_author", "reference", nearly_incompressible}) {
+            if (is_bulge && group == "reference") continue;
+            for (const auto& [order, own] : by_order(chosen(samples, group, pose, joint))) {
                 const std::vector<double> values = sizes(own, extreme);
                 analysis::CaseKey key = key_of(of, body, pose, body.joints[joint].name, group);
-                key.reference = reference_name;
-                measurements.push_back({"C05", quantity, key, values.front() / reference.front(),
-                                        std::ranges::min(values) / std::ranges::max(reference),
-                                        std::ranges::max(values) / std::ranges::min(reference), "1"});
+                std::tie(key.order, key.precision) = order;
+                if (is_bulge || group == "reference") key.reference = reference_name;
+                measurements.push_back({name_of(of.claim), quantity, key, values.front() / base.front(),
+                                        std::ranges::min(values) / std::ranges::max(base),
+                                        std::ranges::max(values) / std::ranges::min(base), "1"});
             }
         }
     }
@@ -337,16 +348,27 @@ const Columns<WeightIterations> weight_iteration_columns = within(&WeightIterati
 WeightsComparison compare_weights(const ArtefactCase& of)
 {
     Comparison comparison(of);
+    const DeformerSpec pbs = spec_of(of.scene, "pbs");
+    DeformerSpec plain = pbs;
+    options_of<pbs::PbsOptions>(plain).order = pbs::Order::plain;
+    options_of<pbs::PbsOptions>(plain).precision = pbs::Precision::f64;
+    std::vector<DeformerSpec> specs = other_orders(pbs);
+    specs.insert(specs.begin(), {spec_of(of.scene, "lbs"), pbs});
+    ArtefactCase by_eq_2 = of;
+    by_eq_2.scene.character.weights = pbs::WeightKind::paper;
     std::vector<int> meshes = {0};
     meshes.insert(meshes.end(), of.vertices.begin(), of.vertices.end());
-    const DeformerSpec pbs = spec_of(of.scene, "pbs");
     for (const int vertices : meshes) {
-        const Twin twin = twin_of(of, vertices);
-        comparison.compare(twin, spec_of(of.scene, "lbs"));
-        comparison.compare(twin, pbs);
-        comparison.compare_convergence(twin, options_of<pbs::PbsOptions>(pbs));
+        const ArtefactBody paper(by_eq_2, vertices);
+        const ArtefactBody rigid = with_weights(paper, pbs::weights_by(pbs::WeightKind::rigid, paper.posed.character()));
+        for (const DeformerSpec& spec : specs) comparison.compare(paper, rigid, spec);
+        comparison.compare_convergence(paper, rigid, options_of<pbs::PbsOptions>(pbs));
         if (vertices != 0) continue;
-        for (const DeformerSpec& other : other_orders(pbs)) comparison.compare(twin, other);
+        const pbs::Weights diffused = pbs::weights_by(pbs::WeightKind::diffused, paper.posed.character());
+        for (const DeformerSpec& spec : {specs.front(), plain}) {
+            comparison.compare(with_weights(paper, exchanged_weights(paper)), rigid, spec, "exchanged");
+            comparison.compare(with_weights(paper, diffused), rigid, spec, "diffused");
+        }
     }
     return std::move(comparison).result();
 }

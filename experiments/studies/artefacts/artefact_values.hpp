@@ -1,7 +1,7 @@
 // The values of C04 and C05 from the sections of all deformers: the narrowest and the widest section near a joint, with the spread over
-// meshes, orders and the reference's element orders. The reference is nh_p2 where it was run and reached, and nh_p1 otherwise; the key
-// states which. Nearly incompressible flesh (nu = 0.49) has values of its own for comparison.
-//   const auto measurements = bulge_values(of, body, records.samples);
+// meshes and the reference's element orders. PBS has a value in each order and precision. The reference is nh_p2 where it was run and
+// reached, and nh_p1 otherwise; the key states which. Nearly incompressible flesh (nu = 0.49) has values of its own.
+//   const auto measurements = section_values(of, body, records.samples);
 //   section_outcomes(of, body, records.samples)   // which poses and joints have a value, and why the others have none
 #pragma once
 
@@ -16,12 +16,10 @@ namespace experiments {
 nlohmann::json to_json(const ArtefactPose& pose);
 nlohmann::json to_json(const ArtefactCase& of);
 
-// With keys such as "limb, twist 90 deg, upper|forearm". A group without samples has no value.
-std::vector<analysis::Measurement> candy_wrapper_values(const ArtefactCase& of, const ArtefactBody& body,
-                                                        const std::vector<ArtefactSample>& samples);
-// With keys such as "limb, bend 60 deg, upper|forearm, reference nh_p2". A value requires that flesh has a section there.
-std::vector<analysis::Measurement> bulge_values(const ArtefactCase& of, const ArtefactBody& body,
-                                                const std::vector<ArtefactSample>& samples);
+// Of the case's claim. C04: the narrowest section over rest, also of the reference, by whose value the verdict divides the others. C05: the
+// widest section over the reference's; a value requires that flesh has a section there. A group without samples has no value.
+std::vector<analysis::Measurement> section_values(const ArtefactCase& of, const ArtefactBody& body,
+                                                  const std::vector<ArtefactSample>& samples);
 
 inline constexpr double deepest_bend_deg = 110.0;  // including the bend at rest
 
@@ -42,7 +40,7 @@ struct JudgedSection {
         {};  // for C05, unless bent too far: which deformers are wider than widest_over_rest, and whose skin their outline is
 };
 
-// One per pose and joint, for the case's claim. C04 needs no reference; its reference is reported for comparison.
+// One per pose and joint, for the case's claim. Values of C04 need no reference here.
 std::vector<JudgedSection> section_outcomes(const ArtefactCase& of, const ArtefactBody& body, const std::vector<ArtefactSample>& samples);
 // One row for each of them, and one per pose for a joint by hand without section, whose outcome is the reason (why_left_out).
 struct SectionRow {
@@ -57,7 +55,9 @@ std::vector<SectionRow> section_rows(const ArtefactCase& of, const ArtefactBody&
 // Measured are, at each joint, the jump of strain between neighbouring tets and the bending of the skin (analysis/metrics/error_norms.hpp);
 // for the whole body, the absolute volume change; and the number of iterations after which PBS stays within the tolerance of its residual,
 // by the rule of shared/iteration_path.hpp with the two blends as initial guesses. Each value is a ratio of Eq. 2 to rigid weights, with
-// its spread over orders, precisions and meshes; for iterations over meshes only.
+// its spread over meshes, with the variant default; PBS has one in each order and precision. Two controls take the place of Eq. 2 under
+// LBS, and under PBS in file order and double precision, on the own mesh: exchanged_weights, in which the two bones of each joint have each
+// other's weights near it, and diffused_weights (pbs/skinning/weights.hpp).
 inline constexpr int most_weight_iterations = 1000;
 
 struct SmoothnessRow {

@@ -24,9 +24,7 @@ std::string look_and_record(const ArtefactCase& of, const std::string& folder)
     const ArtefactBody body(of);
     const ArtefactRecords records = find_artefacts(of, body);
     WeightsComparison weights = compare_weights(of);
-    std::vector<analysis::Measurement> measurements = of.claim == ArtefactCase::Claim::candy_wrapper
-                                                          ? candy_wrapper_values(of, body, records.samples)
-                                                          : bulge_values(of, body, records.samples);
+    std::vector<analysis::Measurement> measurements = section_values(of, body, records.samples);
     measurements.insert(measurements.end(), weights.measurements.begin(), weights.measurements.end());
     const auto path = [&](const char* name) { return analysis::path_in(folder, name); };
     table_of(section_columns, section_rows(of, body, section_outcomes(of, body, records.samples))).write(path("sections.csv"));
@@ -88,9 +86,8 @@ std::vector<ReadingValues> read_sections(const StudyCase& of, const std::vector<
         for (std::size_t joint = 0; joint < body.joints.size(); ++joint)
             samples.push_back({group, pose, joint, extremes_of(body.sections[joint].measure(shape, body.posed.pose(pose))), element_order});
     };
-    const bool is_bulge = base.claim == ArtefactCase::Claim::bulge;
-    std::vector<ArtefactSample> reference;  // C04 does without it
-    const Shapes flesh = is_bulge ? body.posed.shapes(spec_of(base.scene, base.scene.reference)) : Shapes{};
+    std::vector<ArtefactSample> reference;
+    const Shapes flesh = body.posed.shapes(spec_of(base.scene, base.scene.reference));
     for (std::size_t pose = 0; pose < flesh.size(); ++pose)
         if (flesh[pose].finished) add(reference, "reference", pose, flesh[pose].positions);
     std::vector<ReadingValues> all;
@@ -102,7 +99,7 @@ std::vector<ReadingValues> read_sections(const StudyCase& of, const std::vector<
             if (const pbs::Positions& shape = shapes.at(static_cast<std::size_t>(base.poses[pose].frame)); shape.allFinite())
                 add(samples, "pbs", pose, shape);
         const bool finite = std::ranges::all_of(shapes, [](const pbs::Positions& shape) { return shape.allFinite(); });
-        all.push_back({is_bulge ? bulge_values(base, body, samples) : candy_wrapper_values(base, body, samples), !finite});
+        all.push_back({section_values(base, body, samples), !finite});
     }
     return all;
 }

@@ -4,7 +4,6 @@
 #include "analysis/records/record_files.hpp"
 #include "experiments/settings/recorded_settings.hpp"
 #include "experiments/studies/audit/printed_values.hpp"
-#include "experiments/studies/shared/bodies.hpp"
 #include "experiments/studies/study.hpp"
 #include "pbs/constraints/volume_printed.hpp"
 
@@ -101,23 +100,14 @@ Study audit_study()
 
 using analysis::PrintedValue;
 
-std::vector<PrintedValue> mesh_size_values()
+std::vector<PrintedValue> mesh_size_values(const std::array<TableOneRow, 5>& table)
 {
-    const auto range = [](const std::string& quantity, double printed, auto count, auto counted) {
-        PrintedValue value{"C13", quantity, {}, printed, std::numeric_limits<double>::infinity(), 0.0};
-        for (const TableOneRow& row : table_1()) {
-            if (!counted(row)) continue;
-            value.least = std::min<double>(value.least, count(row));
-            value.most = std::max<double>(value.most, count(row));
-        }
-        return value;
+    const auto of_mean = [&](const std::string& quantity, double printed, int TableOneRow::*count) {
+        double mean = 0.0;
+        for (const TableOneRow& row : table) mean += row.*count / static_cast<double>(table.size());
+        return PrintedValue{"C13", quantity, {}, printed, 0.75 * mean, 1.25 * mean};
     };
-    const auto vertices = [](const TableOneRow& row) { return row.vertices; };
-    const auto tets = [](const TableOneRow& row) { return row.tets; };
-    const auto any = [](const TableOneRow&) { return true; };
-    const auto some_2k = [](const TableOneRow& row) { return row.vertices >= 1500 && row.vertices < 2500; };
-    return {range("vertices", 2000.0, vertices, any), range("tets", 10000.0, tets, any),
-            range("tets_of_meshes_with_2k_vertices", 10000.0, tets, some_2k)};
+    return {of_mean("mean_vertices", 2000.0, &TableOneRow::vertices), of_mean("mean_tets", 10000.0, &TableOneRow::tets)};
 }
 
 std::vector<PrintedValue> table_1_values()

@@ -22,6 +22,7 @@ namespace experiments {
 //   previous_frame  the solver's result in the previous frame, which began from the one before it, and so on from the motion's beginning
 //   rest_pose       the rest positions, wherever the character is
 //   rigid_bind      every vertex moved by its nearest bone alone
+// Two further ones are controls: LBS once more, and random positions in the box around the LBS shape, from a fixed seed.
 //   for (const FrameStarts& frame : starts_of(character, motion, {164, 708}, options)) frame.shapes[int(SolverStart::rest_pose)];
 enum class SolverStart { lbs, previous_frame, rest_pose, rigid_bind };
 inline constexpr std::array<SolverStart, 4> all_starts = {SolverStart::lbs, SolverStart::previous_frame, SolverStart::rest_pose,
@@ -32,12 +33,17 @@ const char* name_of(SolverStart start);  // lbs, previous_frame, ..., as in reco
 struct FrameStarts {
     pbs::Positions bind_points;            // posed q_i [m], #V x 3
     std::array<pbs::Positions, 4> shapes;  // by SolverStart [m], #V x 3
+    pbs::Positions random;                 // [m], #V x 3
 };
 
 // frames: of the motion, increasing. options: for the bind points, and for the steps that lead to previous_frame, whose own bind points are
 // always the bones' material points. Before the first frame previous_frame is LBS.
 std::vector<FrameStarts> starts_of(const pbs::Character& character, const pbs::Motion& motion, const std::vector<int>& frames,
                                    const pbs::PbsOptions& options);
+
+// The path of the later code of the paper's first author (pbs/author) in a pose, as in its first frame: from its own LBS shape, without
+// velocities. The metrics are those of the paper's constraints.
+IterationPath author_path(const pbs::Character& character, const pbs::Pose& pose, int most, const IterationMetrics& iteration_metrics);
 
 struct NamedFrame {
     int frame = 0;
@@ -60,6 +66,7 @@ struct ConvergenceCase {
     std::vector<int> other_vertices = {};          // further meshes by their wanted size
     int every_setting_to = 0;                      // further meshes up to this wanted size take all settings
     bool ladder = false;  // other_vertices are a ladder of sizes with values of their own; otherwise their spread is the uncertainty
+    bool from_lbs_alone = false;  // without the other initial guesses
     int most_iterations = 1000;
     DeformerSpec reference = {};    // as PosedReference takes it, solved on the scene's own mesh and on those of a ladder
     bool refines_reference = true;  // also solves it on tets cut into eight, without which it has no bound
@@ -94,6 +101,10 @@ struct ConvergencePaths {
     ReferenceQuality quality = {};
     std::vector<IterationPath> paths = {};        // by SolverStart
     std::vector<double> limit_from_lbs_pct = {};  // between the last shapes of each path and of that from LBS, at the joints
+    // In the paper's order and precision alone, outside of twists and ladders: from LBS once more and from random positions, and on a
+    // character the author's later code. None of them changes the floor of the residual.
+    std::vector<IterationPath> controls = {};
+    std::optional<IterationPath> author = {};
 };
 
 struct ConvergenceResult {
@@ -134,12 +145,11 @@ std::vector<LookRow> look_rows(const ConvergenceResult& result);  // thinned to 
 std::vector<LookRow> towards_rows(std::vector<LookRow> looks);    // those with an error
 std::vector<RateRow> rate_rows(const ConvergenceResult& result);  // one per path
 
-// The values by which C03 and C12 are judged, from the paths of a case. The default setting on the scene's own mesh gives the value, and
-// the other orders, precisions and meshes of about that size give its interval. Where a tolerance is never reached, the number of
-// iterations that were tried takes its place and `limit` marks it, so that a ratio is a bound. Where neither initial guess reaches the
-// tolerance there is no value; where this happens in another order or on another mesh, the interval is open. The share of such cases is a
-// value of its own. Only characters are judged. The limb is measured for comparison, as are twists, in which the rest pose already
-// satisfies all constraints.
+// The values by which C03 and C12 are judged, from the paths of a case: one per order and precision. The scene's own mesh gives the value,
+// and the other meshes of about that size give its range. Where a tolerance is never reached, the number of iterations that were tried
+// takes its place and `limit` marks it, so that a ratio is a bound. Where neither initial guess reaches the tolerance there is no value;
+// where this happens on another mesh, the range is open. The iterations of limbs have a quantity of their own, and so have ratios in
+// twists, in which the rest pose already satisfies all constraints. A ladder has no ratios, since its sizes are no independent cases.
 std::vector<analysis::Measurement> convergence_values(const ConvergenceResult& result);
 
 }  // namespace experiments

@@ -29,8 +29,8 @@ const Columns<MemberRow> member_columns =
         {"outcome", &MemberRow::outcome, "", "reached; inverted: det F <= 0 somewhere in each solution; not_converged"},
         {"element_order", &MemberRow::element_order, "", "of the finest solution with det F > 0, which is the reference"},
         {"refinements", &MemberRow::refinements, "", "how often its tets are cut into eight"},
-        {"error_bound_pct", &MemberRow::error_bound_pct, "%", "bound of its distance from the limit, at the joints outside the mask"},
-        {"error_bound_l2_pct", &MemberRow::error_bound_l2_pct, "%", "bound of its distance from the limit, outside the mask"},
+        {"error_bound_pct", &MemberRow::error_bound_pct, "%", "bound of its distance from the limit, at the joints outside the overlap"},
+        {"error_bound_l2_pct", &MemberRow::error_bound_l2_pct, "%", "bound of its distance from the limit, outside the overlap"},
         {"observed_order", &MemberRow::observed_order, "", "of convergence of linear elements, with the finest solution as the limit"},
         {"reliable", &MemberRow::reliable, "", "the observed order is credible, and the safety factor 1.25 instead of 3"},
         {"masked_share_pct", &MemberRow::masked_share_pct, "%", "share of the volume that is left out because the body overlaps itself"},
@@ -48,8 +48,8 @@ const Columns<ErrorRow> error_columns =
     within(&ErrorRow::of, pose_columns()) +
     Columns<ErrorRow>{{"member", &ErrorRow::member, "", "name of the member"},
                       {"deformer", &ErrorRow::deformer, "", "name of the deformer"},
-                      {"error_joint_pct", &ErrorRow::error_joint_pct, "%", "error over the blended vertices outside the mask"},
-                      {"error_l2_pct", &ErrorRow::error_l2_pct, "%", "error over all vertices outside the mask"},
+                      {"error_joint_pct", &ErrorRow::error_joint_pct, "%", "error over the blended vertices outside the overlap"},
+                      {"error_l2_pct", &ErrorRow::error_l2_pct, "%", "error over all vertices outside the overlap"},
                       {"whole_joint_pct", &ErrorRow::whole_joint_pct, "%", "error over all blended vertices"},
                       {"volume_change_pct", &ErrorRow::volume_change_pct, "%", "signed change of the volume"}};
 
@@ -71,7 +71,7 @@ const Columns<PartsRow> part_columns =
     Columns<PartsRow>{
         {"k_stretch", &PartsRow::k_stretch, "", "stiffness of the stretch constraints"},
         {"iterations", &PartsRow::iterations, "", "iterations of PBS"},
-        {"error_joint_pct", &PartsRow::error_joint_pct, "%", "distance of PBS from the reference, at the joints outside the mask"},
+        {"error_joint_pct", &PartsRow::error_joint_pct, "%", "distance of PBS from the reference, at the joints outside the overlap"},
         {"solver_pct", &PartsRow::solver_pct, "%", "distance of PBS from its own converged shape"},
         {"model_pct", &PartsRow::model_pct, "%", "distance of PBS's converged shape from the reference"},
         {"discretisation_pct", &PartsRow::discretisation_pct, "%",
@@ -79,8 +79,8 @@ const Columns<PartsRow> part_columns =
         {"not_converged_pct", &PartsRow::not_converged_pct, "%",
          "distance of PBS's converged shape from that after half of the iterations"},
         {"pbs_refinement_pct", &PartsRow::pbs_refinement_pct, "%", "distance of PBS's converged shape from that on refined tets"},
-        {"error_l2_pct", &PartsRow::error_l2_pct, "%", "distance of PBS from the reference, over all vertices outside the mask"},
-        {"error_linf_m", &PartsRow::error_linf_m, "m", "largest distance of a vertex of PBS from the reference outside the mask"},
+        {"error_l2_pct", &PartsRow::error_l2_pct, "%", "distance of PBS from the reference, over all vertices outside the overlap"},
+        {"error_linf_m", &PartsRow::error_linf_m, "m", "largest distance of a vertex of PBS from the reference outside the overlap"},
         {"whole_joint_pct", &PartsRow::whole_joint_pct, "%", "distance of PBS from the reference at the joints of the whole body"},
         {"masked_share_pct", &PartsRow::masked_share_pct, "%",
          "share of the volume that is left out because the reference overlaps itself"},
@@ -98,7 +98,7 @@ const Columns<AttachmentRow> attachment_columns =
          "q of its springs or of the bind constraint; empty: prescribed nodes have none"},
         {"core_radius", &AttachmentRow::core_radius, "",
          "radius of the bones' capsules over the limb's; empty: the bind constraint has none"},
-        {"difference_pct", &AttachmentRow::difference_pct, "%", "its distance from the reference, at the joints outside the mask"},
+        {"difference_pct", &AttachmentRow::difference_pct, "%", "its distance from the reference, at the joints outside the overlap"},
         {"k_stretch", &AttachmentRow::k_stretch, "", "stiffness of the stretch constraints of PBS"},
         {"model_pct", &AttachmentRow::model_pct, "%", "distance of PBS's converged shape from this flesh"},
         {"finished", &AttachmentRow::finished, "", "the flesh reached its pose"}};
@@ -286,7 +286,7 @@ private:
         return row;
     }
 
-    // Outside the mask. Not a number where one of them did not finish.
+    // Outside the overlap. Not a number where one of them did not finish.
     analysis::ErrorNorms distance(const Shape& one, const Shape& other) const
     {
         constexpr double nothing = std::numeric_limits<double>::quiet_NaN();

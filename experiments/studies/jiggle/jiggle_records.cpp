@@ -3,8 +3,10 @@
 #include "analysis/records/record_files.hpp"
 #include "analysis/statistics/statistics.hpp"
 #include "experiments/deformers/deformer_options.hpp"
+#include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/settings/recorded_settings.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
+#include "pbs/author/author_solver.hpp"
 
 #include <fmt/format.h>
 
@@ -45,7 +47,9 @@ const Columns<JoltResponse> jolt_columns =
                           {"speed_growth", &JoltResponse::speed_growth, "", "largest speed after the first tenth over that within it"},
                           {"finished", &JoltResponse::finished, "", "all positions are finite"}};
 
-constexpr double first_young_pa = 1e5;  // of the reference, before its frequency is matched
+constexpr double first_young_pa = 1e5;         // of the reference, before its frequency is matched
+constexpr double rayleigh_stiffness_s = 0.02;  // of the control with damping
+constexpr int control_steps = 100;
 
 ResponseRow response_row(const JiggleSetting& setting, double young_pa, double time_step_s, const JoltResponse& response)
 {
@@ -104,7 +108,7 @@ void add_reference(const JoltCase& of, const pbs::Character& character, const st
         {"C09", "damping_ratio_of_reference", at, swing.damping_ratio.estimate, swing.damping_ratio.low, swing.damping_ratio.high, "1"});
 }
 
-constexpr int least_for_correlation = 4;
+constexpr std::size_t least_for_correlation = 4;
 
 Measurement measurement(const std::string& quantity, const analysis::CaseKey& of, const Interval& value, const std::string& unit)
 {
@@ -158,58 +162,118 @@ void add_share(std::vector<Measurement>& measurements, const std::string& body, 
     measurements.back().n = all;
 }
 
-void add_setting(std::vector<Measurement>& measurements, const std::string& body, const MeasuredJiggle& one)
+// of: with the body and the deformer.
+void add_setting(std::vector<Measurement>& measurements, const analysis::CaseKey& of, const JoltResponse& response, bool of_the_paper)
 {
-    const analysis::CaseKey of = key_of(body, one.setting);
-    if (one.response.finished) measurements.push_back(exact_value("amplitude", of, one.response.overshoot_over_jolt));
-    if (!one.response.swing.found()) return;
-    const std::string damping = is_of_the_paper(one.setting) ? "damping_ratio" : "damping_ratio_in_other_readings";
-    measurements.push_back(measurement(damping, of, one.response.swing.damping_ratio, "1"));
-    measurements.push_back(measurement("frequency_hz", of, one.response.swing.frequency_hz, "Hz"));
+    if (response.finished) measurements.push_back(exact_value("amplitude", of, response.overshoot_over_jolt));
+    if (of_the_paper)
+        measurements.push_back(exact_value("last_share_of_peak", of, response.finished ? response.left_over_peak : analysis::not_known));
+    if (!response.swing.found()) return;
+    const std::string damping = of_the_paper ? "damping_ratio" : "damping_ratio_in_other_readings";
+    measurements.push_back(measurement(damping, of, response.swing.damping_ratio, "1"));
+    measurements.push_back(measurement("frequency_hz", of, response.swing.frequency_hz, "Hz"));
 }
 
-// Those that swing and differ from the first setting in k_stretch alone, the smallest first.
-std::vector<MeasuredJiggle> by_k_stretch(const std::vector<MeasuredJiggle>& measured)
+// Those that differ from the first setting in k_stretch alone, the smallest first.
+std::vector<MeasuredJiggle> by_k_stretch(const std::vector<MeasuredJiggle>& measured, bool (*is_known)(const JoltResponse&))
 {
     std::vector<MeasuredJiggle> chosen;
     for (const MeasuredJiggle& one : measured)
-        if (one.response.swing.found() && one.setting == JiggleSetting{.k_stretch = one.setting.k_stretch}) chosen.push_back(one);
-    std::stable_sort(chosen.begin(), chosen.end(), [](auto& a, auto& b) { return a.setting.k_stretch < b.setting.k_stretch; });
+        if (is_known(one.response) && one.setting == JiggleSetting{.k_stretch = one.setting.k_stretch}) chosen.push_back(one);
+    std::ranges::stable_sort(chosen, {}, [](const MeasuredJiggle& one) { return one.setting.k_stretch; });
     return chosen;
 }
 
-double correlation_without(const std::vector<MeasuredJiggle>& measured, std::size_t left_out)
+// A quantity at each stiffness: k_stretch, or Young's modulus.
+struct Trend {
+    std::vector<double> stiffness, value;
+};
+
+double correlation_without(Trend trend, std::size_t left_out)
 {
-    std::vector<double> k, hz;
-    for (std::size_t i = 0; i < measured.size(); ++i) {
-        if (i == left_out) continue;
-        k.push_back(measured[i].setting.k_stretch);
-        hz.push_back(measured[i].response.swing.frequency_hz.estimate);
-    }
-    return std::clamp(analysis::rank_correlation(k, hz), -1.0, 1.0);  // rounding goes beyond
+    for (std::vector<double>* of : {&trend.stiffness, &trend.value})
+        if (left_out < of->size()) of->erase(of->begin() + static_cast<std::ptrdiff_t>(left_out));
+    return std::clamp(analysis::rank_correlation(trend.stiffness, trend.value), -1.0, 1.0);  // rounding goes beyond
 }
 
-void add_correlation(std::vector<Measurement>& measurements, const std::string& body, const std::vector<MeasuredJiggle>& measured)
+void add_correlation(std::vector<Measurement>& measurements, const std::string& quantity, const analysis::CaseKey& of, const Trend& trend)
 {
-    if (static_cast<int>(measured.size()) < least_for_correlation) return;
-    Measurement correlation =
-        exact_value("rank_correlation_of_frequency_and_k_stretch", {.body = body}, correlation_without(measured, measured.size()));
-    correlation.n = static_cast<int>(measured.size());
-    for (std::size_t left_out = 0; left_out < measured.size(); ++left_out) {
-        const double without = correlation_without(measured, left_out);
+    const std::size_t points = trend.value.size();
+    if (points < least_for_correlation) return;
+    Measurement correlation = exact_value(quantity, of, correlation_without(trend, points));
+    correlation.n = static_cast<int>(points);
+    for (std::size_t left_out = 0; left_out < points; ++left_out) {
+        const double without = correlation_without(trend, left_out);
         correlation.low = std::min(correlation.low, without);
         correlation.high = std::max(correlation.high, without);
     }
     measurements.push_back(correlation);
 }
 
-void add_range(std::vector<Measurement>& measurements, const std::string& body, const std::vector<MeasuredJiggle>& measured)
+// NaN where nothing swings beyond its place at any stiffness.
+void add_amplitudes(std::vector<Measurement>& measurements, const analysis::CaseKey& of, const Trend& amplitude)
+{
+    if (amplitude.value.size() < 2) return;
+    const auto [least, most] = std::ranges::minmax(amplitude.value);
+    measurements.push_back(exact_value("amplitude_ratio_over_k_stretch", of, most / least));
+    add_correlation(measurements, "rank_correlation_of_amplitude_and_k_stretch", of, amplitude);
+}
+
+void add_frequencies(std::vector<Measurement>& measurements, const std::string& body, const std::vector<MeasuredJiggle>& measured)
 {
     if (measured.size() < 2) return;
+    Trend frequency;
+    for (const MeasuredJiggle& one : measured) {
+        frequency.stiffness.push_back(one.setting.k_stretch);
+        frequency.value.push_back(one.response.swing.frequency_hz.estimate);
+    }
+    add_correlation(measurements, "rank_correlation_of_frequency_and_k_stretch", {.body = body}, frequency);
     const MeasuredJiggle &smallest = measured.front(), &largest = measured.back();
     const analysis::CaseKey of = {.body = body, .k_stretch = smallest.setting.k_stretch, .k_stretch_to = largest.setting.k_stretch};
     measurements.push_back(measurement("frequency_ratio_over_k_stretch", of,
                                        over(largest.response.swing.frequency_hz, smallest.response.swing.frequency_hz), "1"));
+}
+
+// LBS at each k_stretch, which it does not have; the author's later code; and finite elements in time: with damping at each Young's
+// modulus, without it at the first, at which those with damping come to rest within the steps. Linear elements suffice where nothing turns,
+// and average acceleration adds no damping of its own.
+void add_controls(const JoltCase& of, const pbs::Character& character, const std::vector<int>& probe,
+                  std::vector<Measurement>& measurements)
+{
+    Jolt jolt = of.jolt;
+    jolt.steps = control_steps;
+    Trend of_lbs, of_fem;
+    for (const JiggleSetting& setting : of.settings) {
+        if (setting != JiggleSetting{.k_stretch = setting.k_stretch}) continue;
+        of_lbs.stiffness.push_back(setting.k_stretch);
+        of_lbs.value.push_back(jolt_response(character, default_spec("lbs"), probe, jolt).overshoot_over_jolt);
+    }
+    add_amplitudes(measurements, {.body = character.name, .deformer = "lbs"}, of_lbs);
+    DeformerSpec author = default_spec("pbs_author");
+    options_of<pbs::AuthorOptions>(author).gravity_m_s2.setZero();
+    add_setting(measurements, {.body = character.name, .deformer = "pbs_author"}, jolt_response(character, author, probe, jolt), true);
+    const auto response = [&](double young_pa, double damping_s) {
+        DeformerSpec spec = dynamic_reference(young_pa);
+        auto& options = options_of<FemOptions>(spec);
+        options.model = reference_fem::Model::linear;
+        options.dynamics = reference_fem::Dynamics::newmark;
+        options.rayleigh_stiffness_s = damping_s;
+        return jolt_response(character, spec, probe, jolt);
+    };
+    analysis::CaseKey key = {.body = character.name, .deformer = "fem_undamped"};
+    for (const double young_pa : of.young_pa) {
+        const bool is_first = young_pa == of.young_pa.front();
+        key.young_pa = young_pa;
+        if (is_first) add_setting(measurements, key, response(young_pa, 0.0), true);
+        key.deformer = "fem_damped";
+        const JoltResponse damped = response(young_pa, rayleigh_stiffness_s);
+        if (is_first) add_setting(measurements, key, damped, true);
+        if (!damped.finished) continue;
+        if (!is_first) measurements.push_back(exact_value("amplitude", key, damped.overshoot_over_jolt));
+        of_fem.stiffness.push_back(young_pa);
+        of_fem.value.push_back(damped.overshoot_over_jolt);
+    }
+    add_amplitudes(measurements, {.body = character.name, .deformer = "fem_damped"}, of_fem);
 }
 
 void add_half_step(std::vector<Measurement>& measurements, const std::string& body, const std::vector<MeasuredJiggle>& measured)
@@ -274,8 +338,9 @@ RECORD_SETTINGS_AND(JoltCase,
                     .constant("reference", {{"deformer", "neo-Hookean, linear elements, generalised alpha"},
                                             {"first_young_pa", first_young_pa},
                                             {"steps_a_period", reference_steps_a_period},
-                                            {"periods", reference_periods}}),
-                    scene, jolt, settings, with_reference)
+                                            {"periods", reference_periods}})
+                        .constant("controls", {{"rayleigh_stiffness_s", rayleigh_stiffness_s}, {"steps", control_steps}}),
+                    scene, jolt, settings, with_reference, young_pa)
 
 RECORD_SETTINGS_AND(WalkCase, .constant("setting", to_json(JiggleSetting{})), scene, k_stretch, still_steps)
 
@@ -296,8 +361,10 @@ std::string record_jolts(const JoltCase& of, const std::string& folder)
     }
     if (of.with_reference)
         for (const MeasuredJiggle& one : measured) add_reference(of, character, zone.pieces.front(), one, records);
-    else
+    else {
         records.measurements = jiggle_values(character.name, measured);
+        add_controls(of, character, zone.pieces.front(), records.measurements);
+    }
     table_of(zone_columns, zone_rows(zone)).write(analysis::path_in(folder, "zone.csv"));
     table_of(response_columns, records.responses).write(analysis::path_in(folder, "responses.csv"));
     table_of(jolt_series_columns, records.series).write(analysis::path_in(folder, "series.csv"));
@@ -328,9 +395,15 @@ std::vector<Measurement> jiggle_values(const std::string& body, const std::vecto
 {
     std::vector<Measurement> measurements;
     add_share(measurements, body, measured);
-    for (const MeasuredJiggle& one : measured) add_setting(measurements, body, one);
-    add_correlation(measurements, body, by_k_stretch(measured));
-    add_range(measurements, body, by_k_stretch(measured));
+    for (const MeasuredJiggle& one : measured)
+        add_setting(measurements, key_of(body, one.setting), one.response, is_of_the_paper(one.setting));
+    Trend amplitude;
+    for (const MeasuredJiggle& one : by_k_stretch(measured, [](const JoltResponse& response) { return response.finished; })) {
+        amplitude.stiffness.push_back(one.setting.k_stretch);
+        amplitude.value.push_back(one.response.overshoot_over_jolt);
+    }
+    add_amplitudes(measurements, {.body = body, .deformer = "pbs", .masses = name_of(pbs::Masses::unit)}, amplitude);
+    add_frequencies(measurements, body, by_k_stretch(measured, [](const JoltResponse& response) { return response.swing.found(); }));
     add_half_step(measurements, body, measured);
     const std::vector<FrequencyRatio> doublings = ratios(measured, [](JiggleSetting& setting) { setting.iterations *= 2; });
     for (const auto& [from, ratio] : doublings)

@@ -102,7 +102,8 @@ struct JoltCase {
     Scene scene;  // with pbs, whose gravity is used
     Jolt jolt;    // except its time step, which each setting has
     std::vector<JiggleSetting> settings;
-    bool with_reference = false;  // for each setting that swings; then the settings' own values are left to another run
+    bool with_reference = false;        // for each setting that swings; then the settings' own values are left to another run
+    std::vector<double> young_pa = {};  // of the finite elements that are controls
 };
 
 // The whole zone through the scene's motion.
@@ -151,7 +152,7 @@ nlohmann::json to_json(const WalkCase& of);
 std::string record_jolts(const JoltCase& of, const std::string& folder);
 std::string record_walk(const WalkCase& of, const std::string& folder);
 
-// The values that C09 is judged by, from the responses of one body at all settings.
+// The values of C09 from the responses of one body at all settings.
 //   for (const analysis::Measurement& measurement : jiggle_values("limb", measured)) ...
 struct MeasuredJiggle {
     JiggleSetting setting;
@@ -159,11 +160,13 @@ struct MeasuredJiggle {
 };
 
 // The values of one body:
-// - the share of the paper's own settings, all time steps included, at which the zone swings (DampedOscillation::found);
-// - for those that swing: the frequency; the damping ratio, with that of other readings (unbound, lumped masses) as a quantity of its own;
-//   the rank correlation of frequency and k_stretch, with its range when one setting is left out, and the ratio of frequencies at the ends;
+// - for the paper's own settings, all time steps included: the share of the peak that is left at the end (C09a), NaN where a setting breaks
+//   down; the share of settings at which the zone swings (DampedOscillation::found);
+// - for those that swing: the damping ratio (C09a), with that of other readings (unbound, lumped masses) as a quantity of its own; the
+//   frequency; its rank correlation with k_stretch, with its range when one setting is left out, and its ratio at the ends of k_stretch;
 //   the ratio of frequencies with twice the iterations and with the default;
-// - for those that finish: the amplitude, which is the overshoot over the jolt;
+// - for those that finish: the amplitude, which is the overshoot over the jolt; over k_stretch, the ratio of the largest and the smallest
+//   amplitude and the rank correlation (C09b);
 // - the ratio of frequencies with half the time step and with the whole, for the first setting, with its range over all halvings. Without
 //   gravity Algorithm 1 makes it 2 on any body: by lines 7, 8 and 16 a particle moves on by its last movement, x_n + (x_n - x_n-1), however
 //   long a step is, so that the frequency is one per step.

@@ -198,6 +198,7 @@ std::vector<ReadingValues> read_drifts(const StudyCase& of, const std::vector<Ov
         const PosedCharacter posed(scene, {of.value<int>("frame")});
         const auto& options = options_of<pbs::PbsOptions>(spec_of(scene, "pbs"));
         analysis::CaseKey key = of.key();
+        key.precision = name_of(options.precision);
         all.emplace_back();
         for (const auto& [projected, class_name] : classes) {
             if (projected == ProjectedClass::bind) continue;

@@ -16,6 +16,7 @@ struct BodySetup {
     std::string body;                       // character.body
     int vertices = 0;                       // character.vertices; 0: the body's own default
     std::vector<std::string> further = {};  // key=value: what else was changed
+    std::string deformer = "pbs";
 };
 
 // A run of the study: the body, and frames per second of the clip.
@@ -26,13 +27,19 @@ struct SetupCase {
 nlohmann::json to_json(const BodySetup& setup);
 nlohmann::json to_json(const SetupCase& of);
 
-// The shared text: the human through the clip, PBS alone, at rate_hz frames per second.
-Scene shared_scene(double rate_hz);
+// The shared text: the human through the clip, one deformer alone, at rate_hz frames per second.
+Scene shared_scene(double rate_hz, const std::string& deformer = "pbs");
 Scene scene_of(const BodySetup& setup, double rate_hz);
 
 // The keys that are tried on a body, one set after the other, until it runs: none; the nearest bone's weights, where Eq. 2 gives none;
 // double precision, where float overflows; double precision with softer volume constraints.
 const std::vector<std::vector<std::string>>& further_keys();
+
+// The control of C17: two bodies that must need a further key, or fail. open_surface: triangles that enclose nothing, with the skeleton of
+// the clip. without_bones: tets on the same points, without a skeleton.
+bool is_unsuitable(const std::string& body);
+// Writes the files of an unsuitable body into `folder` and names them in the keys of its character. Any other body is returned as it is.
+BodySetup with_files(const BodySetup& setup, const std::string& folder);
 
 // Returns why the body did not run (refused input, positions that are not finite, a pose that was not reached). Empty: it ran.
 using Trial = std::function<std::string(const BodySetup&)>;

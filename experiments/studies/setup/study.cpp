@@ -1,7 +1,8 @@
 // C17: are characters of other resolutions and topologies accommodated without set-up? The text of one scene is run on every body and on a
 // ladder of sizes, each meshed anew. Only character.body and character.vertices change. A body that fails is tried with further keys.
 //
-//   human at 1,200, 2,400 and 4,800 vertices; man, lady, frankie where installed; ring, a body with a handle
+//   human at 1,200, 2,400 and 4,800 vertices; man, lady, frankie where installed; ring, a body with a handle;
+//   as a control, an open surface and a body without bones; for comparison, the bodies under the author's later code
 //
 // Writes DIR/setup/BODY/measurements.csv, changed_keys.csv, trials.csv and run/ (the folder of a run), and setup.csv.
 #include "analysis/records/record_files.hpp"
@@ -14,6 +15,7 @@
 #include "experiments/studies/setup/body_setup.hpp"
 #include "experiments/studies/study.hpp"
 #include "pbs/character/body_cache.hpp"
+#include "pbs/character/clip.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 #include <fmt/format.h>
@@ -30,10 +32,10 @@ namespace {
 namespace fs = std::filesystem;
 using analysis::Measurement;
 
-std::vector<std::string> shared_overrides(double rate_hz)
+std::vector<std::string> shared_overrides(double rate_hz, const std::string& deformer)
 {
-    return {fmt::format("motion.rate_hz={:.1f}", rate_hz), R"(deformers.use=["pbs"])", R"(reference.name="")", "output.frames=[]",
-            "output.frame_names=[]"};
+    return {fmt::format("motion.rate_hz={:.1f}", rate_hz), fmt::format(R"(deformers.use=["{}"])", deformer), R"(reference.name="")",
+            "output.frames=[]", "output.frame_names=[]"};
 }
 
 // Sets an empty cache of meshes. Fetched packages remain visible in it.
@@ -54,7 +56,7 @@ void forget_meshes(const fs::path& cache)
 
 analysis::CaseKey key_of(const BodySetup& setup)
 {
-    return {.body = setup.body, .motion = "01_01", .deformer = "pbs"};
+    return {.body = setup.body, .motion = "01_01", .deformer = is_unsuitable(setup.body) ? "pbs_unsuitable" : setup.deformer};
 }
 
 std::vector<Measurement> measured_in(const fs::path& run_folder, const BodySetup& setup, const std::vector<std::string>& changed)
@@ -76,25 +78,30 @@ const analysis::Columns<TrialRow> trial_columns = {
 
 const analysis::Columns<std::string> key_columns = {{"key", std::identity{}, "", "a key that differs from the shared scene's"}};
 
-Scene shared_scene(double rate_hz)
+Scene shared_scene(double rate_hz, const std::string& deformer)
 {
-    return read_scene("human_01_01", shared_overrides(rate_hz));
+    return read_scene("human_01_01", shared_overrides(rate_hz, deformer));
 }
 
 Scene scene_of(const BodySetup& setup, double rate_hz)
 {
-    std::vector<std::string> overrides = shared_overrides(rate_hz);
+    std::vector<std::string> overrides = shared_overrides(rate_hz, setup.deformer);
     overrides.push_back("character.body=" + setup.body);
     overrides.push_back("character.vertices=" + std::to_string(setup.vertices));
     overrides.insert(overrides.end(), setup.further.begin(), setup.further.end());
     return read_scene("human_01_01", overrides);
 }
 
-RECORD_SETTINGS(BodySetup, body, vertices, further)
+RECORD_SETTINGS(BodySetup, body, vertices, further, deformer)
 
 RECORD_SETTINGS_AND(SetupCase,
-                    .derived("scene", [](const SetupCase& one) { return to_json(scene_of(one.setup, one.rate_hz)); })
-                        .derived("compared_with", [](const SetupCase& one) { return shared_scene(one.rate_hz).resolved; })
+                    .derived("scene",
+                             [](const SetupCase& one) {
+                                 const bool has_scene = !is_unsuitable(one.setup.body);  // the others are made by the run
+                                 return has_scene ? to_json(scene_of(one.setup, one.rate_hz)) : nlohmann::json();
+                             })
+                        .derived("compared_with",
+                                 [](const SetupCase& one) { return shared_scene(one.rate_hz, one.setup.deformer).resolved; })
                         .constant("further_keys", further_keys()),
                     setup, rate_hz)
 
@@ -110,6 +117,28 @@ const std::vector<std::vector<std::string>>& further_keys()
     static const std::vector<std::vector<std::string>> keys = {
         {}, {R"(skinning.weights="rigid")"}, {R"(pbs.precision="f64")"}, {R"(pbs.precision="f64")", "pbs.k_volume=0.5"}};
     return keys;
+}
+
+bool is_unsuitable(const std::string& body)
+{
+    return body == "open_surface" || body == "without_bones";
+}
+
+BodySetup with_files(const BodySetup& setup, const std::string& folder)
+{
+    if (!is_unsuitable(setup.body)) return setup;
+    const bool is_open = setup.body == "open_surface";
+    const std::string mesh = analysis::path_in(folder, setup.body + ".vtk");
+    analysis::write_text_atomically(mesh, std::string("# vtk DataFile Version 3.0\na pyramid\nASCII\nDATASET UNSTRUCTURED_GRID\n"
+                                                      "POINTS 5 double\n-1 -1 -1 1 -1 -1 1 -1 1 -1 -1 1 0 1 0\n") +
+                                              (is_open ? "CELLS 4 16\n3 0 1 4 3 1 2 4 3 2 3 4 3 3 0 4\nCELL_TYPES 4\n5 5 5 5\n"
+                                                       : "CELLS 2 10\n4 0 1 2 4 4 0 2 3 4\nCELL_TYPES 2\n10 10\n"));
+    BodySetup own{"", setup.vertices, {"character.mesh=" + mesh}, setup.deformer};
+    if (is_open) {  // CMU's unit of length
+        own.further.push_back("character.skeleton=" + pbs::find_clip("01_01.bvh", ""));
+        own.further.push_back(fmt::format("character.skeleton_scale={}", 0.0254 / 0.45));
+    }
+    return own;
 }
 
 std::vector<TriedSetup> tried_setups(const BodySetup& setup, const Trial& trial)
@@ -171,20 +200,29 @@ std::string set_up_and_record(const SetupCase& of, const std::string& folder)
         forget_meshes(cache);
         return run_scene(scene_of(own, of.rate_hz), run_folder.string()).failure();
     };
-    const std::vector<TriedSetup> tried = tried_setups(setup, run);
+    const BodySetup own = with_files(setup, folder);
+    const std::vector<TriedSetup> tried = tried_setups(own, run);
     fs::remove_all(cache);
 
     const BodySetup& last = tried.back().setup;
     const bool runs = tried.back().failure.empty();
     const auto path = [&](const char* name) { return (fs::path(folder) / name).string(); };
-    const std::vector<std::string> changed = keys_changed(shared_scene(rate_hz).resolved, scene_of(last, rate_hz).resolved);
-    analysis::measurement_table(runs ? measured_in(run_folder, last, changed) : not_set_up(key_of(setup))).write(path("measurements.csv"));
+    const auto is_of_the_body = [&](const std::string& key) {
+        return std::ranges::any_of(own.further, [&](const std::string& one) { return one.starts_with(key + "="); });
+    };
+    std::vector<std::string> changed;
+    if (runs) changed = keys_changed(shared_scene(rate_hz, setup.deformer).resolved, scene_of(last, rate_hz).resolved);
+    std::erase_if(changed, is_of_the_body);
+    analysis::measurement_table(runs ? measured_in(run_folder, setup, changed) : not_set_up(key_of(setup))).write(path("measurements.csv"));
     table_of(key_columns, changed).write(path("changed_keys.csv"));
     std::vector<TrialRow> trials;
-    for (std::size_t i = 0; i < tried.size(); ++i)
-        trials.push_back({int(i), fmt::format("{}", fmt::join(tried[i].setup.further, " ")), tried[i].failure});
+    for (std::size_t i = 0; i < tried.size(); ++i) {
+        std::string failure = tried[i].failure;
+        if (const auto at = failure.find(folder); at != std::string::npos) failure.erase(at, folder.size() + 1);  // it may name a file
+        trials.push_back({int(i), fmt::format("{}", fmt::join(further_keys()[i], " ")), failure});
+    }
     table_of(trial_columns, trials).write(path("trials.csv"));
-    return tried.back().failure;
+    return is_unsuitable(setup.body) ? "" : tried.back().failure;
 }
 
 // A measured value with its interval, for the terminal.
@@ -199,7 +237,7 @@ const analysis::Columns<Measurement> value_columns = {
 StudyPlan plan(bool full)
 {
     return plan_of_cases("setup", full, [](const StudyCase& of, StudyPlan& plan) {
-        const BodySetup setup{of.value<std::string>("body"), of.value("vertices", 0)};
+        const BodySetup setup{of.value<std::string>("body"), of.value("vertices", 0), {}, of.value<std::string>("deformer", "pbs")};
         plan.runs.push_back(work_run<SetupCase>(of.name, {setup, of.value<double>("rate_hz")}, of.cost_s, set_up_and_record));
     });
 }

@@ -69,11 +69,11 @@ Shape PosedCharacter::shape_of(const pbs::StepSummary& step, const pbs::Position
 Shapes PosedCharacter::shapes(const DeformerSpec& spec, std::optional<std::size_t> poses) const
 {
     const std::unique_ptr<Deformer> deformer = make_deformer(spec);
-    deformer->reset(character_);
     Shapes shapes;
     const std::size_t count = std::min(poses.value_or(poses_.size()), poses_.size());
     for (std::size_t pose = 0; pose < count; ++pose) {
         stop_if_interrupted();
+        if (pose == 0 || deformer->has_memory()) deformer->reset(character_);
         const pbs::StepSummary step = deformer->advance(poses_[pose], time_step_s_);
         shapes.push_back(shape_of(step, deformer->positions(), last_state(*deformer)));
     }

@@ -14,6 +14,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace experiments {
@@ -49,7 +50,8 @@ public:
     // frames: of the scene's motion, increasing.
     PosedCharacter(const Scene& scene, const std::vector<int>& frames);
 
-    // A deformer goes from pose to pose in their order, without the frames between. poses: only the first so many.
+    // A deformer goes from pose to pose in their order, without the frames between. One with memory starts at rest for each pose, since it
+    // would take the poses for the frames of a motion. poses: only the first so many.
     Shapes shapes(const DeformerSpec& spec, std::optional<std::size_t> poses = {}) const;
 
     // PBS with each of these options, from the paper's LBS. All options and all poses are solved together (pbs::PosesSolver).
@@ -60,6 +62,7 @@ public:
     analysis::ErrorNorms distance(const Shape& one, const Shape& other) const;
 
     const pbs::Character& character() const { return character_; }
+    void set_weights(pbs::Weights weights) { character_.weights = std::move(weights); }  // that all deformers blend with from now on
     const pbs::Pose& pose(std::size_t pose) const { return poses_[pose]; }
     const pbs::Triangles& boundary() const { return boundary_; }            // of its tets
     double angle_deg(std::size_t pose) const { return angles_deg_[pose]; }  // of a sweep; not a number for a clip

@@ -66,7 +66,7 @@ public:
     double masked_share_pct() const { return error_metrics_.share_pct(masked_); }
 
     // Positions are those of the character's vertices [m], #V x 3. The error is the distance from the reference. Both are measured outside
-    // the masked part, except by error_on_whole_body.
+    // the overlap, except by error_on_whole_body.
     analysis::ErrorNorms distance(const pbs::Positions& one, const pbs::Positions& other) const;
     analysis::ErrorNorms error_of(const pbs::Positions& positions) const { return distance(positions, reference().positions); }
     analysis::ErrorNorms error_on_whole_body(const pbs::Positions& positions) const;
@@ -74,7 +74,7 @@ public:
     // The observed order is empty unless the three coarser solutions finished. Where the finest one did not, the order is that of the other
     // three (analysis::order_without_finest), and the reference is the quadratic solution on the character's own tets.
     const std::optional<analysis::NestedOrder>& order() const { return order_; }
-    // Bounds the distance of the reference from the limit, outside the masked part. The bound is NaN where there is no order.
+    // Bounds the distance of the reference from the limit, outside the overlap. The bound is NaN where there is no order.
     analysis::ErrorNorms bound() const { return bound_; }
 
 private:

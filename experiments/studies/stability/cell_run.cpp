@@ -42,6 +42,8 @@ std::vector<pbs::Pose> way_of(const StabilityCell& cell, const pbs::Skeleton& sk
         const int forearm = pbs::find_bone(skeleton, "forearm");
         way = pbs::joint_sweep(skeleton, forearm, disturbance.axis, disturbance.angle_deg, disturbance.turning_steps + 1, cell.time_step_s)
                   .steps;
+    } else if (disturbance.angle_deg == 0.0) {
+        way = {pbs::Pose(skeleton.bones.size(), Eigen::Isometry3d::Identity())};
     } else {
         const Scene scene = stability_scene(cell.body);
         way = make_motion(scene.motion, skeleton, scene.file).steps;

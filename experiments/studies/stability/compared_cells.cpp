@@ -106,6 +106,7 @@ const Sweep no_time_step{"time_step", "s", {1.0}, {}, [](StabilityCell& cell, do
 
 // The time step of pbs_author is a setting of its own. It cancels without gravity.
 const Sweep own_time_steps{"own_time_step", "s", {1e-3, 0.1, 1.0}, {0.01, 0.03, 0.3}, [](StabilityCell& cell, double time_step_s) {
+                               cell.time_step_s = time_step_s;  // by which it is counted
                                auto& options = options_of<pbs::AuthorOptions>(cell.spec);
                                options.time_step_s = time_step_s;
                                options.gravity_m_s2.y() = -g_m_s2;

@@ -28,7 +28,7 @@ enum class Start { none, flattened, mirrored, random, point };
 // initial shape is broken.
 struct Disturbance {
     pbs::Vec3 axis = pbs::Vec3::UnitZ();
-    double angle_deg = 90.0;
+    double angle_deg = 90.0;  // 0: a character stays in its rest pose
     int turning_steps = 10;
     double teleport_m = 0.0;  // along (1, 1, 1)
     Start start = Start::none;
@@ -75,7 +75,7 @@ struct StabilityCell {
     // The whole body is moved along x by this length in every second step, for a method that does not step a pose that equals the last one.
     double nudge_m = 0.0;
 
-    bool as_published = false;  // the paper's method with settings that it allows; C08 is judged by these cells
+    bool as_published = false;  // the paper's method with settings that it allows; those in the paper's order and f64 are judged
 };
 
 std::string precision_of(const StabilityCell& cell);  // f32, f64
@@ -103,10 +103,12 @@ extern const Sweep time_steps, twists, jumps, teleports, starts, slivers, needle
 
 void append(std::vector<StabilityCell>& cells, std::vector<StabilityCell> more);
 
-std::vector<StabilityCell> pbs_cells(bool jiggle, bool full);  // on the limb, in both precisions
+std::vector<StabilityCell> pbs_cells(bool jiggle, bool full);  // on the limb, in the default order and f32, in the order plain and f64
+// In the order plain and f64, and without a disturbance.
 std::vector<StabilityCell> pbs_character_cells(const std::string& body, bool full);
 std::vector<StabilityCell> pbs_map_cells(bool full);  // time step x k_stretch, iterations x twist
-std::vector<StabilityCell> negative_controls();       // Eq. 12-20 as printed; distances whose squares overflow
+// On the limb: Eq. 12-20 as printed, distances whose squares overflow, and the cells of pbs_cells() without a disturbance.
+std::vector<StabilityCell> controls(bool full);
 std::vector<StabilityCell> xpbd_cells(bool full);
 std::vector<StabilityCell> fem_static_cells(bool full);   // linear, corotational, stable neo-Hookean; in equilibrium
 std::vector<StabilityCell> fem_dynamic_cells(bool full);  // corotational, stable neo-Hookean; in time
@@ -213,10 +215,12 @@ struct CellRow {
 extern const analysis::Columns<CellRow> cell_columns;
 CellRow cell_row(const MeasuredCell& measured);
 
-// The shares of the cells as published by body, jiggle, factor and precision, each with the number of its cells; one row per quantity. The
-// share of diverged cells has no interval: one cell refutes "unconditionally", and all cells are no sample. The shares of inverted cells,
-// of cells in motion (bounded or inverted, and moving until the end) and of cells at rest have the 95 % interval of Clopper and Pearson,
-// as if the cells were drawn at random from the settings between them.
+// The shares of the cells as published, of their controls, and of the deformers that C08 compares, by body, deformer, jiggle, order,
+// precision and factor, each with the number of its cells; one row per quantity. Cells at rest are bounded or inverted, no vertex moves in
+// the last steps, and the last step is solved; they are counted by the size of their time steps. Their share and that of diverged cells
+// have no interval: one cell refutes "unconditionally", and all cells are no sample. The shares of inverted cells, of cells in motion
+// (bounded or inverted, and moving until the end) and of cells that end as if undisturbed have the 95 % interval of Clopper and Pearson, as
+// if the cells were drawn at random from the settings between them.
 analysis::CsvTable stability_measurements(const std::vector<MeasuredCell>& cells);
 
 // The number of cells with each outcome, by body and model and on request by factor, as aligned columns.

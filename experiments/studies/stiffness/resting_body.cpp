@@ -63,12 +63,10 @@ pbs::PbsOptions pbs_options(const LoadedBody& body, const StiffnessSetting& sett
 
 pbs::XpbdOptions xpbd_options(const StiffnessSetting& setting)
 {
-    const bool small_steps = setting.method == Method::xpbd_small_steps;
     pbs::XpbdOptions options;
     options.young_pa = setting.young_pa;
     options.density_kg_m3 = flesh_density_kg_m3;
-    options.iterations = small_steps ? 1 : setting.iterations;
-    options.substeps = small_steps ? setting.iterations : 1;
+    options.iterations = setting.iterations_of_a_step();
     options.jiggle = true;
     options.keep_multipliers = setting.method != Method::xpbd_forgetting;
     return options;
@@ -146,11 +144,12 @@ std::vector<LoadedBody> bodies_of(const std::string& body, int vertices)
     return {jiggling_flesh(character, RestOfBody::projected), jiggling_flesh(character, RestOfBody::held)};
 }
 
-// Small steps run only where the rest of the body is held: it would be put back once per step, not once per substep. They do not run on the
-// bar, whose slowest motion takes more of such steps than the linear solver's Krylov space has.
-bool suits(const LoadedBody& body, const StiffnessSetting& setting)
+// Small steps do not run on the bar, whose slowest motion takes more of them than the linear solver's Krylov space has. Where the rest of
+// the body is projected, they are the control of the iterations alone.
+bool suits(const StiffnessSweep& sweep, const LoadedBody& body, const StiffnessSetting& setting)
 {
-    return setting.method != Method::xpbd_small_steps || body.load == "zone_on_held";
+    if (setting.method != Method::xpbd_small_steps) return true;
+    return body.load == "zone_on_held" || (body.load == "zone" && sweep.varied == Varied::iterations);
 }
 
 std::vector<StiffnessSetting> materials(bool full)
@@ -231,9 +230,8 @@ RECORD_SETTINGS(StiffnessSetting, method, k_stretch, young_pa, iterations, time_
 
 pbs::RestingState rest_near_rest(const LoadedBody& body, const StiffnessSetting& setting)
 {
-    const bool small_steps = setting.method == Method::xpbd_small_steps;
-    const double step_s = small_steps ? setting.time_step_s() / setting.iterations : setting.time_step_s();
-    pbs::StepNearRest step(body.mesh.rest, body.bind_point, small_steps ? 1 : setting.iterations, step_s,
+    const double step_s = setting.step_s();
+    pbs::StepNearRest step(body.mesh.rest, body.bind_point, setting.iterations_of_a_step(), step_s,
                            setting.method == Method::xpbd_forgetting);
     if (is_xpbd(setting.method))
         add_xpbd(body, setting, step);
@@ -254,12 +252,12 @@ SteppedBody step_until_still(const LoadedBody& body, const StiffnessSetting& set
         pbs::XpbdOptions options = xpbd_options(setting);
         options.gravity_m_s2 = gravity;
         pbs::XpbdSolver solver(body.mesh, body.bind_distance, body.zone, options, body.held);
-        return step(solver, body, setting.time_step_s(), most_steps);
+        return step(solver, body, setting.step_s(), most_steps);
     }
     pbs::PbsOptions options = pbs_options(body, setting);
     options.gravity_m_s2 = gravity;
     pbs::PbsSolver solver(body.mesh, bind_distance_of(body), body.zone, options, body.held);
-    return step(solver, body, setting.time_step_s(), most_steps);
+    return step(solver, body, setting.step_s(), most_steps);
 }
 
 StiffnessRow linear_stiffness(const LoadedBody& body, const StiffnessSetting& setting)
@@ -284,7 +282,7 @@ std::string record_stiffness(const StiffnessSweep& sweep, const std::string& fol
     for (const Size& size : sizes_of(sweep))
         for (const LoadedBody& body : bodies_of(sweep.body, size.vertices))
             for (const StiffnessSetting& setting : settings_of(sweep)) {
-                if (!suits(body, setting)) continue;
+                if (!suits(sweep, body, setting)) continue;
                 rows.push_back(linear_stiffness(body, setting));
                 rows.back().mesh = size.mesh;
                 if (is_stepped(sweep, body, setting)) rows.push_back(stepped_stiffness(body, setting));

@@ -40,6 +40,7 @@ StudyRun run_of_frames(const StudyCase& of)
     timed.scene.character.refinements = of.value("refinements", 0);
     timed.stands_in = row && body == "human";
     timed.seconds = of.full ? 4.0 : 1.5;
+    timed.fewest_rounds = of.full ? 3 : 1;
     return work_run(of.name, timed, of.cost_s, measure_frames);
 }
 

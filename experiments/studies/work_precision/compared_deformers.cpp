@@ -21,14 +21,14 @@
 
 namespace experiments {
 
-void from_json(const nlohmann::json& keys, SettingChange& change)
+void from_json(const nlohmann::json& keys, GridValue& value)
 {
     const std::string of_young = "young_factor=";
     for (const std::string key : keys)
         if (key.starts_with(of_young))
-            change.young_factor = std::stod(key.substr(of_young.size()));
+            value.young_factor = std::stod(key.substr(of_young.size()));
         else
-            change.keys.push_back(key);
+            value.keys.push_back(key);
 }
 
 namespace {
@@ -123,16 +123,16 @@ class SettingList {
 public:
     SettingList(const Scene& scene, const SettingRange& range) : scene_(scene), range_(range) {}
 
-    // All settings at all rungs of the case's own mesh, and the default setting at some rungs of the other meshes. A change to PBS is
-    // measured on the case's own mesh alone.
+    // The whole ladder with each value of the grid on the case's own mesh, and a part of it with the default value on the other meshes. A
+    // change to PBS is measured on the case's own mesh alone.
     void add(const ComparedDeformer& entry, bool is_change)
     {
         const std::size_t first = settings.size();
-        std::vector<SettingChange> grid = grid_of(entry);
+        std::vector<GridValue> grid = grid_of(entry);
         if (range_.in_short) grid.resize(std::min(grid.size(), grid_in_short));
         for (const KeyValues& code : codes_of(entry)) {
-            for (const SettingChange& change : grid)
-                add_ladder(entry, range_.in_short ? entry.few_iterations : entry.iterations, {{}, change, code}, 0);
+            for (const GridValue& value : grid)
+                add_ladder(entry, range_.in_short ? entry.few_iterations : entry.iterations, {{}, value, code}, 0);
             if (is_change) continue;
             for (const std::vector<int>* sizes : {&range_.other_vertices, &range_.without_fem})
                 for (const int vertices : *sizes) add_ladder(entry, entry.few_iterations, {{}, grid.front(), code}, vertices);
@@ -163,11 +163,11 @@ public:
 private:
     void add_ladder(const ComparedDeformer& entry, const std::vector<int>& iterations, SettingChoice choice, int vertices)
     {
-        std::vector<std::optional<int>> rungs(iterations.begin(), iterations.end());
-        if (rungs.empty()) rungs.emplace_back();
-        for (const std::optional<int> rung : rungs) {
-            choice.iterations = rung;
-            settings.push_back({entry.name, spec_with(entry, scene_, choice), rung, name_of(choice.change), vertices});
+        std::vector<std::optional<int>> counts(iterations.begin(), iterations.end());
+        if (counts.empty()) counts.emplace_back();
+        for (const std::optional<int> count : counts) {
+            choice.iterations = count;
+            settings.push_back({entry.name, spec_with(entry, scene_, choice), count, name_of(choice.value), vertices});
         }
     }
 
@@ -190,7 +190,7 @@ const std::vector<ComparedDeformer>& compared_deformers()
     return entries;
 }
 
-// In the packed code of PBS.
+// They are measured in the packed code of PBS.
 const std::vector<ComparedDeformer>& changes_to_pbs()
 {
     static const std::vector<ComparedDeformer> entries =
@@ -205,10 +205,10 @@ bool is_available(const ComparedDeformer& entry)
     return find_deformer_kind(entry.kind) && exist(keys);
 }
 
-std::vector<SettingChange> grid_of(const ComparedDeformer& entry)
+std::vector<GridValue> grid_of(const ComparedDeformer& entry)
 {
-    std::vector<SettingChange> grid = entry.grid;
-    std::erase_if(grid, [](const SettingChange& change) { return !exist(change.keys); });
+    std::vector<GridValue> grid = entry.grid;
+    std::erase_if(grid, [](const GridValue& value) { return !exist(value.keys); });
     return grid;
 }
 
@@ -224,9 +224,9 @@ DeformerSpec spec_with(const ComparedDeformer& entry, const Scene& scene, const 
     const DeformerSpec reference = reference_flesh(scene);
     const auto& flesh = options_of<FemOptions>(reference);
     KeyValues keys = entry.fixed;
-    for (const KeyValues& more : {choice.code, choice.change.keys}) keys.insert(keys.end(), more.begin(), more.end());
+    for (const KeyValues& more : {choice.code, choice.value.keys}) keys.insert(keys.end(), more.begin(), more.end());
     if (choice.iterations) keys.push_back(fmt::format("{}={}", entry.iterations_key, *choice.iterations));
-    if (!entry.young_key.empty()) keys.push_back(assigned(entry.young_key, choice.change.young_factor * flesh.young_pa));
+    if (!entry.young_key.empty()) keys.push_back(assigned(entry.young_key, choice.value.young_factor * flesh.young_pa));
     if (!entry.poisson_key.empty()) keys.push_back(assigned(entry.poisson_key, flesh.poisson));
     std::string text = text_of_scene(scene);
     if (!entry.weights.empty()) text += fmt::format("\n[[{}]]\nname = \"{}\"\nweights = \"{}\"\n", entry.kind, entry.name, entry.weights);
@@ -240,16 +240,16 @@ DeformerSpec spec_with(const ComparedDeformer& entry, const Scene& scene, const 
     return spec;
 }
 
-std::string name_of(const SettingChange& change)
+std::string name_of(const GridValue& value)
 {
     std::string name;
     const auto add = [&](const std::string& part) { name += (name.empty() ? "" : "+") + part; };
-    for (std::string key : change.keys) {
+    for (std::string key : value.keys) {
         const std::size_t equals = key.find('='), dot = key.rfind('.', equals);
         key[equals] = '_';
         add(key.substr(dot + 1));
     }
-    if (change.young_factor != 1.0) add(fmt::format("stiffness_factor_{:g}", change.young_factor));
+    if (value.young_factor != 1.0) add(fmt::format("stiffness_factor_{:g}", value.young_factor));
     return name;
 }
 
@@ -314,7 +314,7 @@ SettingKey key_of(const Setting& setting)
     return key;
 }
 
-SettingKey rung_of(SettingKey key)
+SettingKey without_grid_value(SettingKey key)
 {
     key.k_stretch.reset();
     key.tuned.clear();
@@ -334,7 +334,7 @@ const analysis::Columns<SettingKey>& setting_columns()
             {"wanted_vertices", &SettingKey::wanted_vertices, "", "wanted size of another mesh of the body; empty on the case's own"},
             {"refined", &SettingKey::refined, "", "solved on the case's own tets, each cut into eight"}} +
         analysis::Columns<SettingKey>{
-            {"tuned", &SettingKey::tuned, "", "the setting of the deformer's grid, as an identifier; empty: the default one"},
+            {"tuned", &SettingKey::tuned, "", "the value of the deformer's grid, as an identifier; empty: the default one"},
             {"packed", &SettingKey::packed, "", "code that computes several constraints, vertices or tets per instruction"}}
             .in_group("code");
     return columns;

@@ -1,12 +1,12 @@
 // The deformers that are compared, and the settings of each.
 //   for (const Setting& setting : settings_of(scene, {.other_vertices = {600}})) ...
-// A deformer is an entry of cases.toml: its ladder of iterations, which are the axis of its work, the grid of settings that are tried at
-// each of them, and its codes (packed f32, plain f64). An entry names keys of a scene (`pbskin explain KEY`). Entries whose kind or keys do
-// not exist in this program are skipped, and so are settings and codes. Seven further entries are single changes to PBS. They are measured
-// like the others, but no front has them: gains.hpp decides which one gains most over PBS in equal time. On other meshes of the body a
-// deformer runs a part of its ladder with its default setting. Finite elements have laws, element orders and meshes instead. A rung is a
-// place on the axis of work: iterations, substeps, element order and mesh. At each rung one setting of the grid is chosen on other poses
-// than those that are shown (diagram.hpp).
+// A deformer is an entry of cases.toml: its ladder of iterations, which are the axis of its work, the grid of values that are tried with
+// each of them, and its codes (packed f32, plain f64). A setting is one number of iterations on one mesh with one value of the grid in one
+// code. An entry names keys of a scene (`pbskin explain KEY`). Entries whose kind or keys do not exist in this program are skipped, and so
+// are values and codes. Further entries are single changes to PBS. They are measured like the others, but no front has them: gains.hpp
+// decides which one gains most over PBS in equal time. On other meshes of the body a deformer runs a part of its ladder with the default
+// value. Finite elements have laws, element orders and meshes instead. For each place on the axis of work (iterations, substeps, element
+// order and mesh), one value of the grid is chosen on other poses than those that are shown (diagram.hpp).
 #pragma once
 
 #include "analysis/records/tables.hpp"
@@ -25,16 +25,16 @@ namespace experiments {
 // Keys of a scene with their values, as for --set: "pbs.k_stretch=0.5".
 using KeyValues = std::vector<std::string>;
 
-// One place of the grid of settings, in cases.toml a list of keys: ["pbs.k_stretch=0.5"], ["young_factor=4"]. Empty: the deformer as the
-// scene or the default sets it.
-struct SettingChange {
+// One value of the grid, in cases.toml a list of keys: ["pbs.k_stretch=0.5"], ["young_factor=4"]. Empty: the deformer as the scene or the
+// default sets it.
+struct GridValue {
     KeyValues keys = {};
     double young_factor = 1.0;  // on Young's modulus of young_key
 
-    bool operator==(const SettingChange&) const = default;
+    bool operator==(const GridValue&) const = default;
 };
-// An identifier: k_stretch_0.9+stiffness_exponent, stiffness_factor_4. Empty: no change.
-std::string name_of(const SettingChange& change);
+// An identifier: k_stretch_0.9+stiffness_exponent, stiffness_factor_4. Empty: the default value.
+std::string name_of(const GridValue& value);
 
 struct ComparedDeformer {
     std::string name = {};     // in the records
@@ -45,7 +45,7 @@ struct ComparedDeformer {
     std::string iterations_key = {};
     std::vector<int> iterations = {};      // the ladder; empty: it does not iterate
     std::vector<int> few_iterations = {};  // part of it: on other meshes, and in the quick form
-    std::vector<SettingChange> grid = {{}};
+    std::vector<GridValue> grid = {{}};
     std::vector<KeyValues> codes = {{}};           // packed first; one: it has no other code
     std::string young_key = {}, poisson_key = {};  // take the reference's material
     bool smooth_weights = false;                   // the character has weights that are harmonic where Eq. 2 blends
@@ -54,16 +54,16 @@ struct ComparedDeformer {
 
 const std::vector<ComparedDeformer>& compared_deformers();
 const std::vector<ComparedDeformer>& changes_to_pbs();
-inline const std::string baseline = "pbs";               // with whose first code and default setting each change is compared
+inline const std::string baseline = "pbs";               // with whose first code and default value each change is compared
 inline const std::string control = "other_stiffnesses";  // no change to the method: other values of its k_stretch and k_bind
 
 bool is_available(const ComparedDeformer& entry);
-std::vector<SettingChange> grid_of(const ComparedDeformer& entry);  // whose keys exist; the default setting first
-std::vector<KeyValues> codes_of(const ComparedDeformer& entry);     // whose keys exist; an empty one if the deformer has one code
+std::vector<GridValue> grid_of(const ComparedDeformer& entry);   // whose keys exist; the default value first
+std::vector<KeyValues> codes_of(const ComparedDeformer& entry);  // whose keys exist; an empty one if the deformer has one code
 
 struct SettingChoice {
     std::optional<int> iterations = {};
-    SettingChange change = {};
+    GridValue value = {};
     KeyValues code = {};
 };
 // The entry's deformer with these settings and the others of the scene, which is a built-in one. InputError for a key that does not exist.
@@ -80,7 +80,7 @@ const std::vector<DeformerGroup>& deformer_groups();
 std::vector<DeformerGroup> groups_with(const std::vector<std::string>& external);
 
 // Deformers of the user's own in the comparison: the [[external]] tables of a file, which is written like a scene. An entry has no ladder
-// of iterations, no grid of settings and one code, so that it is one point per pose, on the case's own mesh. Throws an InputError for a
+// of iterations, no grid and one code, so that it is one setting per pose, on the case's own mesh. Throws an InputError for a
 // file that cannot be read, has no such table or other tables, a name that is that of a compared deformer or used twice, a program that
 // cannot be started, and a library that cannot be loaded. Paths are relative to the file. Libraries are loaded in another process.
 //   of.external = external_entries("mine.toml");
@@ -90,7 +90,7 @@ struct Setting {
     std::string deformer;  // its front: lbs, dqs, delta_mush, pbs, xpbd, xpbd_small_steps, fem_linear, ...
     DeformerSpec spec;
     std::optional<int> iterations = {};   // of its ladder
-    std::string tuned = {};               // the setting of its grid, see name_of(SettingChange)
+    std::string tuned = {};               // the value of its grid, see name_of(GridValue)
     int vertices = 0;                     // wanted size of another mesh of the body; 0: the case's own
     bool refined = false;                 // on the case's own tets, each cut into eight
     const ComparedDeformer* change = {};  // the change to PBS that it is a setting of; null: of none
@@ -120,7 +120,7 @@ struct SettingKey {
     std::optional<int> substeps = {}, element_order = {};
     std::optional<int> wanted_vertices = {};  // of another mesh of the body
     bool refined = false;
-    std::string tuned = {};  // the setting of the grid; empty: the default one
+    std::string tuned = {};  // the value of the grid; empty: the default one
     bool packed = false;     // code that computes several constraints, vertices or tets per instruction
 
     // f64 code that is not packed. A deformer of the user's own, whose code is not known, counts as such.
@@ -129,7 +129,7 @@ struct SettingKey {
     auto operator<=>(const SettingKey&) const = default;
 };
 SettingKey key_of(const Setting& setting);
-SettingKey rung_of(SettingKey key);                        // the same for all settings of the grid, and for no other rung
+SettingKey without_grid_value(SettingKey key);             // the same for settings that differ in the value of the grid alone
 const analysis::Columns<SettingKey>& setting_columns();    // all fields except the deformer; tuned and packed are in the group "code"
 const analysis::Columns<SettingKey>& point_key_columns();  // with the deformer, first
 
@@ -147,7 +147,7 @@ nlohmann::json to_json(const SettingRange& range);
 // The scene, a built-in one, gives the options that are not varied: its pbs, and the material of its first [[fem]].
 std::vector<Setting> settings_of(const Scene& scene, const SettingRange& range);
 
-// A digest in 32 hexadecimal digits of everything that the points depend on: their options and meshes.
+// A digest in 32 hexadecimal digits of everything that the settings' rows depend on: their options and meshes.
 std::string digest_of(const std::vector<Setting>& settings);
 
 }  // namespace experiments

@@ -37,7 +37,7 @@ std::optional<double> training_error_pct(const std::vector<const CaseRows*>& tra
     return std::exp(sum / double(training.size()));
 }
 
-// settings: of one rung in the order of the records, the default one first. training: the training poses that have this rung.
+// settings: of one choice in the order of the records, the default one first. training: the training poses that have them.
 std::optional<ChosenSetting> choose(Comparison comparison, const std::vector<SettingKey>& settings,
                                     const std::vector<const CaseRows*>& training)
 {
@@ -162,7 +162,7 @@ const Columns<ChosenSetting> chosen_columns =
     Columns<ChosenSetting>{{"comparison", &ChosenSetting::comparison, "", "packed_f32 or plain_f64"}} +
     within(&ChosenSetting::key, point_key_columns()) +
     Columns<ChosenSetting>{
-        {"tried", &ChosenSetting::tried, "", "number of settings tried at this rung"},
+        {"tried", &ChosenSetting::tried, "", "number of settings that differ in the value of the grid alone"},
         {"training_poses", &ChosenSetting::training_poses, "", "poses on which it was chosen; 0: there was no choice"},
         {"training_error_joint_pct", &ChosenSetting::training_error_pct, "%", "its geometric mean error over these poses"}};
 
@@ -187,20 +187,20 @@ std::vector<ChosenSetting> choose_settings(const std::vector<CaseRows>& cases)
     const BestCodes best = best_codes(cases);
     std::vector<ChosenSetting> chosen;
     for (const Comparison comparison : comparisons) {
-        std::vector<std::pair<SettingKey, std::vector<SettingKey>>> rungs;  // in the order of the records
+        std::vector<std::pair<SettingKey, std::vector<SettingKey>>> places;  // in the order of the records
         for (const CaseRows& rows : cases)
             for (const PointRow& row : rows) {
                 if (row.is_of_reference() || !takes_part(comparison, row.key, best)) continue;
-                const SettingKey rung = rung_of(row.key);
-                auto found = std::ranges::find(rungs, rung, [](const auto& one) { return one.first; });
-                if (found == rungs.end()) found = rungs.insert(rungs.end(), {rung, {}});
+                const SettingKey place = without_grid_value(row.key);
+                auto found = std::ranges::find(places, place, [](const auto& one) { return one.first; });
+                if (found == places.end()) found = places.insert(places.end(), {place, {}});
                 if (std::ranges::find(found->second, row.key) == found->second.end()) found->second.push_back(row.key);
             }
-        for (const auto& [rung, settings] : rungs) {
+        for (const auto& [place, settings] : places) {
             std::vector<const CaseRows*> training;
             for (const CaseRows& rows : cases)
                 if (!rows.empty() && rows.front().half == Half::training &&
-                    std::ranges::any_of(rows, [&](const PointRow& row) { return rung_of(row.key) == rung; }))
+                    std::ranges::any_of(rows, [&](const PointRow& row) { return without_grid_value(row.key) == place; }))
                     training.push_back(&rows);
             if (const auto choice = choose(comparison, settings, training)) chosen.push_back(*choice);
         }

@@ -17,12 +17,13 @@
 
 namespace experiments {
 
-// The setting of each rung: chosen on the training poses, shown on the others. There are two comparisons. packed_f32 has each deformer in
-// the best code that it has: packed f32, plain f32, packed f64 or plain f64, in this order. plain_f64 has each deformer in plain f64 code.
+// The settings of each deformer: chosen on the training poses, shown on the others. There are two comparisons. packed_f32 has each deformer
+// in the best code that it has: packed f32, plain f32, packed f64 or plain f64, in this order. plain_f64 has each deformer in plain f64
+// code.
 //   const std::vector<ChosenSetting> chosen = choose_settings(rows_of_all_cases);
-// The chosen setting of a rung has the least geometric mean of error_joint_pct over the training poses with that rung. Only settings
-// that finished in all of these poses are candidates. A single setting is no choice and needs no training. Where no training pose has the
-// rung, the default setting is chosen.
+// The settings that differ in the value of the grid alone are one choice: the one with the least geometric mean of error_joint_pct over the
+// training poses that have them is chosen. Only settings that finished in all of these poses are candidates. A single setting is no choice
+// and needs no training. Where no training pose has them, the default setting is chosen.
 enum class Comparison { packed_f32, plain_f64 };
 inline constexpr std::array<Comparison, 2> comparisons = {Comparison::packed_f32, Comparison::plain_f64};
 
@@ -41,8 +42,8 @@ bool takes_part(Comparison comparison, const SettingKey& key, const BestCodes& b
 struct ChosenSetting {
     Comparison comparison;
     SettingKey key;
-    int tried = 0;           // settings of this rung
-    int training_poses = 0;  // that decided; 0: there was no choice, or no training pose has the rung
+    int tried = 0;           // settings of this choice
+    int training_poses = 0;  // that decided; 0: there was no choice, or no training pose has its settings
     std::optional<double> training_error_pct = {};
 };
 extern const analysis::Columns<ChosenSetting> chosen_columns;  // settings.csv

@@ -241,7 +241,7 @@ private:
         return found != points_.end() && found->shape.finished ? &*found : nullptr;
     }
 
-    // Later rungs of a ladder of which a rung took too long are not tried.
+    // A ladder ends at the first setting that takes too long.
     void reach(const Setting& setting)
     {
         stop_if_interrupted();
@@ -251,7 +251,7 @@ private:
         ladder.iterations.reset();
         ladder.substeps.reset();
         if (const auto slow = too_slow_.find(ladder); slow != too_slow_.end()) {
-            const std::string why = fmt::format("{:.0f} ms on the rung before, {:g} ms allowed", slow->second, of_.longest_frame_ms);
+            const std::string why = fmt::format("{:.0f} ms with the setting before, {:g} ms allowed", slow->second, of_.longest_frame_ms);
             return add_row_of_case(row_without_answer(setting, mesh, "over_time_limit", why), &setting);
         }
         try {
@@ -375,7 +375,7 @@ private:
     std::map<int, BodyMesh> meshes_;  // by wanted size; 0: the case's own
     std::deque<PosedDeformer> deformers_;
     std::vector<ReachedPoint> points_;       // of each of these deformers
-    std::map<SettingKey, double> too_slow_;  // ladders, and the time of the rung that exceeded the limit [ms]
+    std::map<SettingKey, double> too_slow_;  // ladders, and the time of the setting that exceeded the limit [ms]
     std::vector<pbs::Positions> converged_;  // PBS with its default setting, after all of the iterations and after half of them
     MeasuredPoints measured_;
 };

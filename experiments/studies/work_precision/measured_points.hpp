@@ -1,12 +1,5 @@
-// One setting of one deformer, moving back and forth between a pose and that of the frame before: its shape in the pose, the time per
-// frame, and the work per frame. A solver that begins in its last state (finite elements) is thus timed on the motion of one frame, as in a
-// clip. A frame ends with the positions of the case's own vertices: where the deformer runs on another mesh, the transfer is part of the
-// time.
-//   PosedDeformer deformer(setting, mesh, motion);
-//   const Shape shape = deformer.reach();      // from rest, however long it takes
-//   take_turns({[&] { return deformer.turn(); }}, rounds);
-// The time is processor time over all threads of the process, so that other work on the machine affects it less. A deformer that works in
-// another process (DeformerTraits::has_own_clock) has the time that it states instead. It runs on the case's own mesh only.
+// The measured points of the study: the meshes of a body, one setting of a deformer that is timed between two poses, the row of each
+// setting in points.csv, and all rows of a case.
 #pragma once
 
 #include "analysis/metrics/frame_metrics.hpp"
@@ -71,6 +64,15 @@ struct PosePair {
     std::vector<pbs::Pose> way = {};  // the poses before, through which a deformer with memory goes to its first pose
 };
 
+// One setting of one deformer, moving back and forth between a pose and that of the frame before: its shape in the pose, the time per
+// frame, and the work per frame. A solver that begins in its last state (finite elements) is thus timed on the motion of one frame, as in a
+// clip. A frame ends with the positions of the case's own vertices: where the deformer runs on another mesh, the transfer is part of the
+// time.
+//   PosedDeformer deformer(setting, mesh, motion);
+//   const Shape shape = deformer.reach();      // from rest, however long it takes
+//   take_turns({[&] { return deformer.turn(); }}, rounds);
+// The time is processor time over all threads of the process, so that other work on the machine affects it less. A deformer that works in
+// another process (DeformerTraits::has_own_clock) has the time that it states instead. It runs on the case's own mesh only.
 class PosedDeformer {
 public:
     // The mesh and the poses outlive it. announced_turns: the number of turns that follow reach(); a program computes them in the same
@@ -207,8 +209,8 @@ struct MeasuredPoints {
 MeasuredPoints measure_points(const WorkPrecisionCase& of);
 
 // The length at which an edge has the stiffness k, so that the mean over all edges is k too: then the scaling softens long edges and
-// stiffens short ones, and the mesh as a whole is neither softer nor stiffer. By bisection, to 1e-12 of the longest edge; 0 < k < 1, some
-// edges.
+// stiffens short ones, and the mesh as a whole is neither softer nor stiffer. Bisection finds it to 1e-12 of the longest edge. It needs
+// 0 < k < 1 and at least one edge.
 double neutral_length(double k, const std::vector<double>& edge_lengths_m);
 
 }  // namespace experiments

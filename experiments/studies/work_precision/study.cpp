@@ -24,7 +24,7 @@ std::string measure_and_record(const WorkPrecisionCase& of, const std::string& f
     return points.breakdown;
 }
 
-// 1. The cases, in the order of cases.toml. In full: all rungs and settings, meshes of other sizes, a bound on the error of each reference,
+// 1. The cases, in the order of cases.toml. In full: all settings, meshes of other sizes, a bound on the error of each reference,
 // and on the evaluated poses the other references of the family.
 StudyPlan plan_of(bool full, const std::vector<DeformerSpec>& external)
 {

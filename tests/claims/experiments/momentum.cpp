@@ -21,18 +21,31 @@ const analysis::Records& records_of_limb()
     return records;
 }
 
-TEST(MomentumVerdict, HoldsWhereMassesAreKnownAndTurnsWithItsFigures)
+// Two classes, two precisions, linear and angular momentum. 1e-9 is rounding in f32, and no rounding in f64.
+TEST(MomentumVerdict, HoldsWhereMassesAreKnownAndTurnsWithItsValues)
 {
     const analysis::Verdict verdict = judge(claim("C07"), records_of_limb());
-    EXPECT_EQ(verdict.kind, VerdictKind::reproduced_only_for);
-    ASSERT_EQ(verdict.subjects.size(), 3u);
-    EXPECT_EQ(verdict.subjects[2].name, "unequal_by_eq_8_9");
-    for (const auto& subject : verdict.subjects) EXPECT_EQ(subject.extent == analysis::Extent::none, subject.name == "unequal_by_eq_8_9");
-    analysis::Records records = records_of_limb();
-    for (const auto& [drift, kind] : {std::pair(1e-9, VerdictKind::reproduced), {0.1, VerdictKind::not_reproduced}}) {
-        for (auto& measured : records.measurements) measured.value = measured.low = measured.high = drift;
-        EXPECT_EQ(judge(claim("C07"), records).kind, kind) << drift;
-    }
+    EXPECT_EQ(verdict.kind, VerdictKind::holds);
+    EXPECT_EQ(verdict.own.held, 8);
+    EXPECT_EQ(verdict.own.n, 8);
+    for (const analysis::Judged& control : verdict.others) EXPECT_TRUE(control.behaves) << control.selection.name;
+    const auto kind_with = [](const auto& change) {
+        analysis::Records records = records_of_limb();
+        for (auto& measured : records.measurements) change(measured);
+        return judge(claim("C07"), records).kind;
+    };
+    for (const auto& [drift, kind] : {std::pair(1e-13, VerdictKind::holds), {1e-9, VerdictKind::fails}, {0.1, VerdictKind::fails}})
+        EXPECT_EQ(kind_with([drift = drift](analysis::Measurement& one) {
+                      if (one.of.masses == "equal") one.value = one.low = one.high = drift;
+                  }),
+                  kind)
+            << drift;
+    EXPECT_EQ(kind_with([](analysis::Measurement& one) {  // labels exchanged
+                  const std::string masses = one.of.masses;
+                  if (masses == "equal") one.of.masses = "unequal_by_eq_8_9";
+                  if (masses == "unequal_by_eq_8_9") one.of.masses = "equal";
+              }),
+              VerdictKind::not_testable);
 }
 
 // C07 from correct and broken projections. Reference:
@@ -40,6 +53,7 @@ TEST(MomentumVerdict, HoldsWhereMassesAreKnownAndTurnsWithItsFigures)
 // - printed labels: gradients at the wrong particles still add up to zero (Eq. 15), but their moments do not: angular momentum is lost,
 //   linear momentum is not.
 // - a class dropped: a class that is not projected has no drift, so it is not counted as conserved.
+// A unit is a class and linear or angular momentum.
 
 using analysis::Measurement;
 using pbs::Masses;
@@ -69,7 +83,7 @@ std::vector<Measurement> drifts(const pbs::PbsOptions& options)
     const pbs::Character character = character_of(limb());
     std::vector<Measurement> measured;
     const auto add = [&](const char* direction, const char* quantity, const char* of, double drift) {
-        const analysis::CaseKey key = {.body = "limb", .masses = "equal", .constraint = of};
+        const analysis::CaseKey key = {.body = "limb", .precision = "f64", .masses = "equal", .constraint = of};
         measured.push_back({"C07", std::string(direction) + "_drift" + quantity, key, drift, drift, drift, "1"});
     };
     for (const auto& [projected, name] : {std::pair{ProjectedClass::stretch, "stretch"}, {ProjectedClass::volume, "volume"}})
@@ -81,14 +95,18 @@ std::vector<Measurement> drifts(const pbs::PbsOptions& options)
     return measured;
 }
 
-// A pass conserves angular momentum only to first order, so the verdict is based on single projections.
-std::vector<Measurement> single(const std::vector<Measurement>& measured, const std::string& of)
+// The units that hold, by class and quantity, from single projections: a pass conserves angular momentum only to first order.
+std::vector<std::string> conserved(const std::vector<Measurement>& measured)
 {
-    std::vector<Measurement> found;
-    for (const Measurement& measurement : measured)
-        if (!measurement.quantity.ends_with("_of_a_pass") && (of.empty() || measurement.of.constraint == of)) found.push_back(measurement);
-    return found;
+    std::vector<std::string> held;
+    for (const analysis::Unit& unit : judged(claim("C07"), claim("C07").own, measured).units)
+        if (unit.holds) held.push_back(unit.of.constraint + " " + unit.quantity);
+    return held;
 }
+
+using Units = std::vector<std::string>;
+const Units of_stretch = {"stretch linear_drift", "stretch angular_drift"};
+const Units of_both = {"stretch linear_drift", "stretch angular_drift", "volume linear_drift", "volume angular_drift"};
 
 double drift(const std::vector<Measurement>& measured, const std::string& quantity, const std::string& of)
 {
@@ -98,7 +116,8 @@ double drift(const std::vector<Measurement>& measured, const std::string& quanti
 TEST(BrokenMomentum, TheSignTurnedRoundConservesAsWell)
 {
     const auto sound = drifts(in_double()), turned = drifts(broken(in_double(), Broken::volume_sign));
-    EXPECT_EQ(verdict_on("C07", turned), verdict_on("C07", sound));
+    EXPECT_EQ(conserved(sound), of_both);
+    EXPECT_EQ(conserved(turned), of_both);
     // the sign is reversed
     EXPECT_NE(drift(turned, "angular_drift_of_a_pass", "volume"), drift(sound, "angular_drift_of_a_pass", "volume"));
     const auto rounding = rounding_of(ProjectedClass::volume);  // corrections of the other sign are as large
@@ -114,23 +133,19 @@ TEST(BrokenMomentum, GradientsUnderTheWrongParticlesLoseAngularMomentum)
     options.volume_form = pbs::VolumeForm::labels_relative;
     const auto wrong = drifts(options);
     // Three labels of four are wrong, and so are the corrections; they are not smaller than the right ones.
-    const auto of_volume = rounding_of(ProjectedClass::volume), of_stretch = rounding_of(ProjectedClass::stretch);
-    EXPECT_LT(drift(wrong, "linear_drift", "volume"), of_volume.linear);
-    EXPECT_LT(drift(wrong, "linear_drift", "stretch"), of_stretch.linear);
-    EXPECT_LT(drift(wrong, "linear_drift_of_a_pass", "volume"), of_volume.of_a_pass);
-    EXPECT_LT(drift(wrong, "linear_drift_of_a_pass", "stretch"), of_stretch.of_a_pass);
+    for (const auto& [projected, name] : {std::pair{ProjectedClass::stretch, "stretch"}, {ProjectedClass::volume, "volume"}}) {
+        EXPECT_LT(drift(wrong, "linear_drift", name), rounding_of(projected).linear);
+        EXPECT_LT(drift(wrong, "linear_drift_of_a_pass", name), rounding_of(projected).of_a_pass);
+    }
     for (const char* quantity : {"angular_drift", "angular_drift_of_a_pass"})
         EXPECT_GT(drift(wrong, quantity, "volume"), 0.01) << quantity;  // no rounding
-    EXPECT_EQ(verdict_on("C07", single(drifts(in_double()), "")), VerdictKind::reproduced);
-    EXPECT_EQ(verdict_on("C07", single(wrong, "")), VerdictKind::reproduced_only_for);
-    EXPECT_EQ(verdict_on("C07", single(wrong, "volume")), VerdictKind::not_reproduced);
+    EXPECT_EQ(conserved(wrong), (Units{"stretch linear_drift", "stretch angular_drift", "volume linear_drift"}));
 }
 
 TEST(BrokenMomentum, AClassThatIsNotProjectedIsNotConserved)
 {
-    const auto dropped = drifts(broken(in_double(), Broken::volume_dropped));
-    EXPECT_EQ(verdict_on("C07", single(dropped, "")), VerdictKind::reproduced_only_for);
-    EXPECT_EQ(verdict_on("C07", single(drifts(broken(in_double(), Broken::nothing_projected)), "")), VerdictKind::not_reproduced);
+    EXPECT_EQ(conserved(drifts(broken(in_double(), Broken::volume_dropped))), of_stretch);
+    EXPECT_EQ(conserved(drifts(broken(in_double(), Broken::nothing_projected))), Units{});
 }
 
 }  // namespace

@@ -69,7 +69,7 @@ std::string without_runs(const fs::path& merged)
     return text;
 }
 
-// A kept table. That of all runs of a study, in the folder runs, is without its first column.
+// A kept table. A table of all runs of a study, in the folder runs, is returned without its first column.
 analysis::CsvTable kept_table(const std::string& name)
 {
     const fs::path file = fs::path(PBS_KEPT_RECORDS) / name;

@@ -40,7 +40,7 @@ class CommandLine(foreign_arm.ArmTest):
         self.refuses("--json requires --version", "--json", "list")
 
     def test_lists_every_kind(self):
-        for kind, name in (("cases", "sweep"), ("scenes", "limb_twist"), ("deformers", "dqs"), ("studies", "volume"), ("claims", "C02"),
+        for kind, name in (("cases", "sweep"), ("scenes", "limb_twist"), ("deformers", "dqs"), ("studies", "volume"), ("claims", "C02a"),
                            ("metrics", "j_min")):
             self.assertIn(name, self.succeeds("list", kind).stdout)
 
@@ -57,14 +57,14 @@ class CommandLine(foreign_arm.ArmTest):
     def test_explains_each_claim_by_its_page_also_by_a_quantity_that_it_is_judged_by(self):
         claims = [line.split()[0] for line in self.succeeds("list", "claims").stdout.splitlines() if line.startswith("  C")]
         texts = {claim: self.succeeds("explain", claim).stdout for claim in claims}
-        self.assertEqual(len(claims), 17)
+        self.assertEqual(claims, list(self.listed_claims()))
         for claim, text in texts.items():
-            self.assertTrue(text.startswith(f"{claim}: "), text)
+            self.assertTrue(text.startswith(f"{claim[:3]}: "), text)  # C02a and C02b share a page
             self.assertNotRegex(text, r"<!--|\]\(|`")
-        for name in ("C05", "C09"):
-            for quantity in self.listed_claims()[name]["metrics"]:
+        for name in ("C05", "C09a"):
+            for quantity in self.listed_claims()[name]["quantities"]:
                 self.assertEqual(self.succeeds("explain", quantity).stdout, texts[name])
-        self.assertEqual(self.succeeds("explain", "volume_loss_pct").stdout, texts["C01"])
+        self.assertEqual(self.succeeds("explain", "mean_volume_loss_pct").stdout, texts["C01"])
 
     def test_explains_a_formula_with_its_symbols_within_the_terminals_width(self):
         text = self.succeeds("explain", "error_joint_pct", env={**os.environ, "COLUMNS": "100"}).stdout

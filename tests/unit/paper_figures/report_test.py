@@ -93,14 +93,18 @@ class Report(ReportTest):
     def test_verdicts_are_counted_and_open_to_their_runs(self):
         synthetic_records.write_claims(self.results)
         text = self.page()
-        self.assertIn("There are 4 claims: 1 is reproduced, 1 is reproduced in part, 1 is inconsistent in print, "
-                      "1 cannot be tested here.", text)
-        self.assertIn('<tr id="C02" class="claim">', text)
+        self.assertIn("There are 5 claims: 1 holds, 1 fails, 1 is inconsistent in print, 2 are not testable.", text)
+        self.assertIn('<tr id="C02a" class="claim">', text)
         self.assertIn('<a href="volume/limb_twist/">volume/limb_twist</a>', text)
-        self.assertIn("for limb twisted by 0 to 175 of 180\u00b0; for 1 of 2 clips (40 to 97.5 % of the frames within the bound)", text)
-        self.assertIn("<li>human, clip walk: 40 [30, 50]</li>", text)
-        self.assertIn("human, clip jump: 97.5 [96, 99]", text)
-        self.assertIn("<li>frames per second: 107 to 233 [100, 240] 1/s</li>", text)
+        self.assertIn("<li>1 of 3 units hold, share 0.33 [0.01, 0.91]</li>", text)
+        self.assertIn("<li>frames per second: 107 to 233 1/s, bound 30 or more</li>", text)
+        self.assertIn("C13: the data behind it (2 printed values)", text)
+        self.assertNotIn("<p></p>", text)
+        self.assertIn('<th scope="row">human, clip 01_03</th><td>0.4</td><td>0.1 to 0.4</td><td>0.95 or more</td><td>\u2718 no</td>', text)
+        self.assertIn('<th scope="row">LBS (ratio)</th><td>must fail</td><td>0 of 1 unit, share 0.00</td><td>0.01</td><td>yes</td>', text)
+        self.assertIn("The author&#x27;s later code and the claim&#x27;s own reading disagree: the bound holds throughout in the one, in "
+                      "half of the units or fewer in the other.", text)
+        self.assertIn("no record of the control DQS", text)
         self.assertIn("<code>", markup.inline("`x`"))
 
     def test_without_verdicts_it_is_said(self):
@@ -146,9 +150,9 @@ class Report(ReportTest):
         synthetic_records.write_claims(self.results)
         text = self.page()
         body = re.sub(r"<style>.*?</style>|<script>.*?</script>", "", text, flags=re.S)
-        self.assertEqual(len(re.findall("(?i)reproduced in part", body)), 5)  # count, chip, section on limits, row, data behind it
-        for other in ("in part, 1 ", "hold in part", "holds in part", "reproduced only"):
-            self.assertNotIn(other, body.replace("is reproduced in part, 1 ", ""))
+        self.assertEqual(len(re.findall("(?i)inconsistent in print", body)), 4)  # count, chip, section on limits, row
+        for other in ("inconsistent_in_print", "not_testable", "must_fail", "control_without_record"):
+            self.assertNotIn(other, body)
 
     def test_planned_poses_without_their_points_are_named(self):
         synthetic_records.write_poses(self.results)
@@ -290,7 +294,7 @@ class Report(ReportTest):
                                    ({"side_effect": refused}, "The viewer is missing: no frames on record")):
             module = types.ModuleType("viewer.page")
             module.fragment = unittest.mock.Mock(**fragment)
-            module.claim_links = lambda results: {"C02": "#run=limb"}
+            module.claim_links = lambda results: {"C02a": "#run=limb"}
             with unittest.mock.patch.dict(sys.modules, {"viewer.page": module}):
                 text = self.page()
             self.assertIn(expected, text)

@@ -171,60 +171,56 @@ def write_bench(results):
          "scaling": [{"variant": "ordered", "precision": "f32", "threads": 1, "exponent": 1.0, "interval": [None, None]}]}))
 
 
-def interval(estimate, low=None, high=None):
-    return {"estimate": estimate, "low": low, "high": high, "level": 0.95, "n": 50, "block": 1}
+def unit(number, holds=True, low=None, high=None, bound_low=0.95, bound_high=None, unit="1", left_out=None, **key):
+    """A unit of a claim as in claims.json; `limit` is a member like the fields of its key."""
+    return {**key, "unit": unit, "value": number, "low": number if low is None else low, "high": number if high is None else high,
+            "bound_low": bound_low, "bound_high": bound_high, "n": 1, "holds": holds, "left_out": left_out}
 
 
-def judged_run(body, motion, holds, mean, share, angles=None):
-    """A run of a scene as in claims.json; angles: of a sweep."""
-    return {"body": body, "motion": motion, "deformer": "pbs", "iterations": 24, "quantity": "volume_change_pct",
-            "statistic": "share_of_frames", "unit": "1", "value": share["estimate"], "low": share["low"], "high": share["high"],
-            "holds": holds, "scene": f"{body}_{motion}", "run": "volume/limb_twist", "frames": 50, "sweep": angles is not None,
-            "mean": mean, "share_of_frames": share, "held_angles_deg": angles or [], "last_angle_deg": None if angles is None else 180.0,
-            "least": -0.9, "most": 0.0, "holding_with_inverted_tets": 0,
-            "deepest": [{"frame": 3, "time_s": 0.1, "angle_deg": None, "value": -0.9, "inverted_tets": 0}]}
+def facts(cases):
+    """The counts and numbers that claims.json states of a claim or of a selection of its values."""
+    counted = [case for case in cases if case.get("left_out") is None]
+    known, held = sorted(case["value"] for case in counted if case["value"] is not None), sum(case["holds"] for case in counted)
+    reasons = [case["left_out"] for case in cases if case.get("left_out")]
+    return {"held": held, "n": len(counted), "share": held / len(counted) if counted else None, "least": known[0] if known else None,
+            "median": known[len(known) // 2] if known else None, "most": known[-1] if known else None, "cases": cases, "of": {}, "over": {},
+            "left_out_units": {reason: reasons.count(reason) for reason in reasons}}
 
 
-def claim(name, verdict, **others):
-    empty = {"statement": "Volume is kept.", "place": "Sec. 4", "study": "volume", "rule": "measured", "reason": "",
-             "primary": None, "n": 0, "within": 0, "bounds": [], "expected": None, "required_share": None, "interval": None,
-             "subject": "body", "subjects": [],
-             "each": [], "of": {}, "cases": [], "controls": [], "readings": [], "left_out": [], "missing": [], "runs": []}
-    return {**empty, "id": name, "verdict": verdict, **others}
+def selection(name, cases=(), role="comparison", behaves=True, **others):
+    bounds = [{"low": 0.95, "high": None}]
+    return {**facts(list(cases)), "name": name, "role": role, "quantities": ["ratio"], "bounds": bounds, "behaves": behaves, **others}
 
 
-def subject(name, within, n, holds):
-    return {"name": name, "within": within, "n": n, "holds": holds}
-
-
-def value(quantity, number, low=None, high=None, unit="1", **key):
-    low, high = number if low is None else low, number if high is None else high
-    return {**key, "quantity": quantity, "value": number, "low": low, "high": high, "unit": unit, "run": "timing/man"}
+def claim(name, verdict, cases=(), **others):
+    empty = {"statement": "Volume is kept.", "place": "Sec. 4", "study": "volume", "rule": "units", "reason": "", "untested": "none",
+             "quantities": ["ratio"], "bounds": [{"low": 0.95, "high": None}], "source": "Sec. 4", "range": "meshes",
+             "unit_fields": ["body"], "interval_low": None, "interval_high": None, "chance": None, "q": None, "differs": None,
+             "fixed_at": "", "confirmatory": 0, "controls": [], "compared": [], "readings": [], "left_out": [],
+             "missing": [], "runs": [], "titles": {}}
+    return {**empty, **facts(list(cases)), "id": name, "verdict": verdict, **others}
 
 
 def write_claims(results, statement="Volume is kept."):
-    """One claim of each kind: held in part over a sweep and two clips, real time, about printed values, untestable."""
-    runs = [judged_run("limb", "twist", "part", interval(-0.2), interval(0.9), [[0.0, 175.0]]),
-            judged_run("human", "walk", "none", interval(-0.6, -0.7, -0.5), interval(0.4, 0.3, 0.5)),
-            judged_run("human", "jump", "whole", interval(-0.1, -0.2, 0.0), interval(0.975, 0.96, 0.99))]
-    rates = [value("frames_per_s", 233.0, 230.0, 240.0, "1/s", body="man", holds="whole"),
-             value("frames_per_s", 107.0, 100.0, 110.0, "1/s", body="frankie", holds="whole")]
-    printed = [{"quantity": "tets", "model": "Man", "value": 5000.0, "low": 5000.0, "high": 5000.0, "bound_low": 1.0, "bound_high": bound,
-                "holds": holds} for bound, holds in ((None, "whole"), (9.0, "none"))]
-    judged = [claim("C02", "reproduced_only_for", rule="share_within", cases=runs, runs=["volume/limb_twist"], n=3, within=1, expected=0.5,
-                    bounds=[{"quantity": "volume_change_pct", "low": -0.5, "high": 0.5}], interval=interval(0.4, 0.3, 0.5),
-                    primary={"body": "human", "motion": "walk", "quantity": "volume_change_pct", "statistic": "share_of_frames",
-                             "unit": "1", "value": 0.4, "low": 0.3, "high": 0.5, "n": 3, "within": 1, "bound_low": 0.95, "bound_high": 1.0,
-                             "share": 1 / 3}),
-              claim("C10", "reproduced", cases=rates, n=2, within=2, subjects=[subject("man", 1, 1, "whole"),
-                                                                               subject("frankie", 1, 1, "whole")],
-                    bounds=[{"quantity": "frames_per_s", "low": 30.0, "high": None}],
-                    primary={"body": "frankie", "quantity": "frames_per_s", "statistic": "value", "unit": "1/s", "value": 107.0,
-                             "low": 100.0, "high": 110.0, "n": 2, "within": 2, "bound_low": 30.0, "bound_high": None, "share": 1.0}),
-              claim("C13", "inconsistent_in_print", rule="printed", cases=printed, n=2, within=1),
-              claim("C16", "cannot_be_tested_here", rule="untestable", reason="no value is in print")]
-    titles = {"volume_change_pct": {"title": "volume change", "unit": "%"}, "frames_per_s": {"title": "frames per second", "unit": "1/s"}}
-    document = {"schema": 2, "revision": revision, "quantities": titles, "claims": [{**one, "statement": statement} for one in judged]}
+    """One claim of each kind: that fails on two of three clips, that holds, about printed values, without a control, untestable."""
+    clips = [unit(share, share > 0.95, 0.1, body="human", motion=clip)
+             for clip, share in (("01_01", 0.975), ("01_03", 0.4), ("01_05", 0.2))]
+    rates = [unit(rate, True, rate - 3.0, rate + 7.0, 30.0, None, "1/s", body=body) for body, rate in (("man", 233.0), ("frankie", 107.0))]
+    printed = [{"quantity": "tets", "model": "Man", "value": 5000.0, "bound_low": 1.0, "bound_high": bound, "holds": holds}
+               for bound, holds in ((None, True), (9.0, False))]
+    lbs = selection("LBS", [unit(0.01, False, body="human", motion="01_01")], "must_fail")
+    author = selection("the author's later code", [unit(0.99, body="human", motion="01_01")])
+    judged = [claim("C02a", "fails", clips, runs=["volume/limb_twist"], quantities=["share_kept"], unit_fields=["body", "motion"],
+                    interval_low=0.01, interval_high=0.91, chance=0.7, q=1 / 3, fixed_at=revision, controls=[lbs], compared=[author],
+                    readings=[selection("ordered f32", clips)]),
+              claim("C10a", "holds", rates, quantities=["frames_per_s"], bounds=[{"low": 30.0, "high": None}], interval_low=0.16,
+                    interval_high=1.0, chance=0.001, q=0.03, differs={"field": "body", "least_at": "man", "least": 1, "most_at": "lady",
+                                                                      "most": 1}),
+              claim("C13", "inconsistent_in_print", printed, rule="printed"),
+              claim("C14", "not_testable", untested="control_without_record", controls=[selection("DQS", (), "must_fail", False)]),
+              claim("C16", "not_testable", rule="untestable", untested="reason_of_the_claim", reason="no value is in print")]
+    titles = {"share_kept": {"title": "share of frames", "unit": "1"}, "frames_per_s": {"title": "frames per second", "unit": "1/s"}}
+    document = {"schema": 3, "revision": revision, "quantities": titles, "claims": [{**one, "statement": statement} for one in judged]}
     (results / "claims.json").write_text(json.dumps(document))
 
 

@@ -115,7 +115,7 @@ class Viewer(ResultsTest):
         for words in (stills.moment_words, stills.artefacts):
             for outcome, marked in (("finished", False), ("not_converged", True), ("not_finite", True), (None, False)):
                 with self.subTest(words, outcome=outcome):
-                    self.assertEqual("pose not reached" in stills.told({**row, "outcome": outcome}, words), marked)
+                    self.assertEqual("pose not reached" in stills.filled({**row, "outcome": outcome}, words), marked)
 
     def test_positions_that_are_not_finite_are_refused_by_file(self):
         file = self.run / "frames" / "pbs_000001.vtu"
@@ -128,7 +128,7 @@ class Viewer(ResultsTest):
         figures = {column: [0.0, 1.0] for column in viewer_data.figures}
         run = {"name": "human_walk", "frames": [0, 1], "deformers": [{"label": label, "figures": figures}
                                                                       for label in ("lbs", "pbs_jiggle", "nh_p1")]}
-        self.assertEqual([(pose["claim"], pose["panels"]) for pose in viewer_html.poses_of([run])], [("C09", "lbs,pbs_jiggle,nh_p1")])
+        self.assertEqual([(pose["claim"], pose["panels"]) for pose in viewer_html.poses_of([run])], [("C09a", "lbs,pbs_jiggle,nh_p1")])
         run["deformers"].append({"label": "pbs_no_zone", "figures": figures})
         self.assertEqual(viewer_html.poses_of([run])[0]["panels"], "lbs,pbs_no_zone,pbs_jiggle,nh_p1")
 

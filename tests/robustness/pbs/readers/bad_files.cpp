@@ -128,7 +128,7 @@ const std::string primitive = "/meshes/0/primitives/0/", attributes = ": meshes/
                   of_points = attributes + "POSITION = ";
 const std::string beyond = "its elements reach beyond the bytes of their buffer", sampler = "/animations/0/samplers/0/";
 
-// Of the points, with the numbers of another view as indices.
+// The sparse accessor of the points. Its indices are the numbers of another view.
 std::string sparse(const std::string& count, const std::string& indices = R"({"bufferView": 1, "componentType": 5123})")
 {
     return R"({"count": )" + count + R"(, "values": {"bufferView": 0}, "indices": )" + indices + "}";

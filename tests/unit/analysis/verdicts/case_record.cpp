@@ -128,18 +128,4 @@ TEST(CaseRecords, AReferencesFramesThatAreNotReachedAreLeftOutAndCounted)
     EXPECT_EQ(records[1].frame.size(), 1u) << "PBS above its residual still is in its pose";
 }
 
-TEST(MetricSeries, LossIsMinusTheSignedChange)
-{
-    CaseRecord record;
-    record.frame = record.time_s = record.inverted_tets = {0.0, 1.0};
-    record.volume_change_pct = {-3.0, 1.0};
-    record.volume_abs_change_pct = {4.0, 2.0};
-    EXPECT_EQ(metric_series(record, "volume_loss_pct"), (std::vector<double>{3.0, -1.0}));
-    EXPECT_EQ(metric_series(record, "volume_change_pct"), record.volume_change_pct);
-    EXPECT_EQ(metric_series(record, "volume_abs_change_pct"), record.volume_abs_change_pct);
-    EXPECT_THROW(metric_series(record, "beauty"), pbs::InputError);
-    record.time_s.pop_back();
-    EXPECT_THROW(metric_series(record, "volume_loss_pct"), pbs::InputError);
-}
-
 }  // namespace

@@ -66,7 +66,7 @@ class EveryDeformer : public testing::TestWithParam<std::string> {
 protected:
     DeformerSpec spec = default_spec(GetParam());
     const pbs::Positions& rest = limb_of_tets().mesh.rest;
-    // Of a body of 2 m, in float: a hundred roundings.
+    // A hundred roundings of a body of 2 m in float.
     const double rounding_m = 100 * 0x1p-24 * 2.0;
 };
 INSTANTIATE_TEST_SUITE_P(Kind, EveryDeformer, testing::ValuesIn(kinds_without_tables()), [](const auto& one) { return one.param; });

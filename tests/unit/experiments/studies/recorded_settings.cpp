@@ -120,7 +120,7 @@ TEST(RecordedSettings, OfTheOtherStudies)
         EXPECT_NE(to_json(changed), to_json(stiffness)) << what;
     });
     EXPECT_GE(expect_each_change_repeats(SagCase{}), 7);
-    EXPECT_GE(expect_each_change_repeats(BodySetup{"ring", 0, {"pbs.k_volume=0.5"}}), 4);
+    EXPECT_GE(expect_each_change_repeats(BodySetup{"ring", 0, {"pbs.k_volume=0.5"}, "pbs_author"}), 5);
     EXPECT_GE(expect_each_change_repeats(BenchOptions{.mesh = "bar.msh", .sizes = {1000}}), 7);
     TimedCase timed{.name = "man_1654", .scene = limb(), .model = "Man"};
     EXPECT_GE(expect_each_change_repeats(timed), 6);

@@ -107,7 +107,7 @@ TEST(SkinningWeights, HaveNames)
 
 const TetMesh flesh = test_support::structured_bar({0, 0, 0}, {1, 0.5, 0.5}, {8, 4, 4});
 
-// Of two bones: x on the second one, for points whose x is from 0 to 1.
+// The weights of two bones: x on the second one, for points whose x is from 0 to 1.
 Weights linear_weights(const Positions& points)
 {
     Weights skin;

@@ -59,7 +59,7 @@ struct ByXpbd {
     }
 };
 
-// Of an energy of its own.
+// It has an energy of its own.
 struct ByProjections {
     static constexpr int enough = 1200;
     template <typename Scalar>

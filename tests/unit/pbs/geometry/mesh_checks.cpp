@@ -102,7 +102,7 @@ TEST(RestMesh, TetsThatTouchAreSeparatedThereOrJoinedByTheirFace)
     EXPECT_TRUE(pbs::check_rest("m.vtu", touching_in_a_face).split_vertices.empty());
 }
 
-// Of three layers of 2 x 2 cubes, the middle one has two cubes that touch in an edge alone; the other layers join its ends.
+// The middle one of three layers of 2 x 2 cubes has two cubes that touch in an edge alone; the other layers join its ends.
 TEST(RestMesh, TetsThatTouchInAnEdgeWhoseEndsAreJoinedAreRefusedByTheirVertices)
 {
     const pbs::TetMesh bar = test_support::structured_bar({0, 0, 0}, {2, 2, 3}, {2, 2, 3});

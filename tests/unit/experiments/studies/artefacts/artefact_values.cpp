@@ -29,7 +29,7 @@ class BulgeFigures : public testing::Test {
 protected:
     std::vector<analysis::Measurement> measurements(const std::string& deformer = "pbs") const
     {
-        return of_quantity(bulge_values(of, body, samples), "largest_section_area_over_reference", deformer);
+        return of_quantity(section_values(of, body, samples), "largest_section_radius_over_reference", deformer);
     }
     SectionOutcome outcome(std::size_t pose) const { return section_outcomes(of, body, samples)[pose].outcome; }
     std::string remark(std::size_t pose) const { return section_outcomes(of, body, samples)[pose].remark; }
@@ -50,9 +50,10 @@ TEST_F(BulgeFigures, AreOverTheReferenceOfTheHighestOrder)
         EXPECT_EQ(text_of(measurements()[0].of), "limb, bend, upper|forearm, " + of);
     };
     samples = {sample("pbs", 0, 1.2), sample("reference", 0, 1.0, 1), sample("reference", 0, 1.5, 2), sample("reference", 0, 0.8, 1)};
-    expect_values(1.2 / 1.5, 1.2 / 1.5, 1.2 / 0.8, "30 deg, pbs, reference nh_p2");  // relative to the largest and the smallest reference
+    expect_values(1.2 / 1.5, 1.2 / 1.5, 1.2 / 0.8,
+                  "30 deg, pbs, reference nh_p2, plain, f64");  // relative to the largest and the smallest reference
     samples = {sample("pbs", 1, 1.1), sample("pbs", 1, 1.3), sample("reference", 1, 1.0, 1)};
-    expect_values(1.1, 1.1, 1.3, "90 deg, pbs, reference nh_p1");
+    expect_values(1.1, 1.1, 1.3, "90 deg, pbs, reference nh_p1, plain, f64");
 }
 
 TEST_F(BulgeFigures, StateWhySectionsAreLeftOut)
@@ -141,20 +142,23 @@ TEST(SectionTable, SaysWhyAJointHasNoSection)
     EXPECT_EQ(section_rows(of, tail, section_outcomes(of, tail, {})).size(), 1u);
 }
 
-TEST(CandyWrapperFigures, TakeTheThinnestOfAllAndDoWithoutTheReference)
+// One row per order and precision, whose range is that of its meshes. The reference has a row of its own.
+TEST(CandyWrapperFigures, AreThoseOfTheOwnMeshInEachOrderAndDoWithoutTheReference)
 {
     const ArtefactCase of = test_support::small_limb(ArtefactCase::Claim::candy_wrapper);
     const ArtefactBody body(of);
-    const std::vector<ArtefactSample> samples = {sample("pbs", 0, 0.95), sample("pbs", 0, 0.85), sample("lbs", 0, 0.1),
-                                                 sample("pbs", 2, 0.9)};
-    const auto measurements = candy_wrapper_values(of, body, samples);
+    const std::vector<ArtefactSample> samples = {sample("pbs", 0, 0.95), sample("pbs", 0, 0.8, 0, "grouped"), sample("pbs", 0, 0.85),
+                                                 sample("lbs", 0, 0.1),  sample("reference", 0, 1.1),         sample("pbs", 2, 0.9)};
+    const auto measurements = section_values(of, body, samples);
     const auto own = of_quantity(measurements, "smallest_section_radius_over_rest", "pbs");
-    ASSERT_EQ(own.size(), 2u);
-    EXPECT_DOUBLE_EQ(own[0].value, 0.95);
-    EXPECT_DOUBLE_EQ(own[0].low, 0.85);
-    EXPECT_EQ(text_of(own[0].of), "limb, bend, upper|forearm, 30 deg, pbs");
-    EXPECT_EQ(of_quantity(measurements, "smallest_section_area_over_rest", "lbs").size(), 1u);
-    EXPECT_TRUE(of_quantity(measurements, "smallest_section_area_over_rest", "reference").empty());
+    ASSERT_EQ(own.size(), 3u);
+    EXPECT_EQ(own[0].value, 0.8);
+    EXPECT_EQ(text_of(own[0].of), "limb, bend, upper|forearm, 30 deg, pbs, grouped, f64");
+    EXPECT_EQ(own[1].value, 0.95);
+    EXPECT_EQ(own[1].low, 0.85);
+    EXPECT_EQ(text_of(own[1].of), "limb, bend, upper|forearm, 30 deg, pbs, plain, f64");
+    EXPECT_EQ(of_quantity(measurements, "smallest_section_radius_over_rest", "lbs").size(), 1u);
+    EXPECT_EQ(of_quantity(measurements, "smallest_section_radius_over_rest", "reference").at(0).value, 1.1);
     const auto outcomes = section_outcomes(of, body, samples);
     EXPECT_EQ(outcomes[1].outcome, SectionOutcome::pbs_did_not_finish);
     EXPECT_EQ(outcomes[2].outcome, SectionOutcome::measured);  // bent, which has no effect here
@@ -176,6 +180,15 @@ TEST(ArtefactBreakdown, NamesThePoseTheMeshAndTheWorstTet)
     EXPECT_NE(breakdown.find(" inverted. "), std::string::npos) << breakdown;
 }
 
+// A deformer that remembers its last frame would take the pose before for it.
+TEST(ArtefactPoses, AreReachedFromRestByADeformerWithMemory)
+{
+    const Scene scene =
+        read_scene("limb_bend", {"character.vertices=400", "motion.frames=6", R"(deformers.use=["pbs_author"])", R"(reference.name="")"});
+    const auto shapes = [&](const std::vector<int>& frames) { return PosedCharacter(scene, frames).shapes(spec_of(scene, "pbs_author")); };
+    EXPECT_EQ(shapes({1, 3}).at(1).positions, shapes({3}).at(0).positions);
+}
+
 // The weights of Eq. 2 compared with rigid ones on a small limb. Reference: the records whose ratios are the values; with rigid weights one
 // layer of tets takes all of a twist; without a pose there is no roughness; weights do not change the limit of the solver.
 
@@ -194,24 +207,28 @@ const analysis::Measurement* measurement(const WeightsComparison& comparison, co
     return nullptr;
 }
 
-double strain_jump(const WeightsComparison& comparison, const std::string& weights, const std::string& deformer)
+double strain_jump(const WeightsComparison& comparison, const std::string& weights, const analysis::CaseKey& of)
 {
     for (const SmoothnessRow& row : comparison.smoothness)
-        if (row.weights == weights && row.deformer.deformer == deformer) return row.smoothness.strain_jump_rms;
+        if (row.weights == weights && row.deformer.deformer == of.deformer && row.deformer.order == of.order &&
+            row.deformer.precision == of.precision)
+            return row.smoothness.strain_jump_rms;
     return -1.0;
 }
 
 TEST(WeightsComparison, FiguresAreTheRatiosOfTheRecords)
 {
     const WeightsComparison bent = compared({{2, "bend_60_deg", {.motion = "bend", .angle_deg = 60.0}}});
-    for (const std::string deformer : {"lbs", "pbs"}) {
-        const auto* jump = measurement(bent, "strain_jump_over_rigid_weights", deformer);
-        ASSERT_NE(jump, nullptr);
-        EXPECT_DOUBLE_EQ(jump->value, strain_jump(bent, "paper", deformer) / strain_jump(bent, "rigid", deformer));
-        EXPECT_LE(jump->low, jump->value);
-        EXPECT_GE(jump->high, jump->value);
-        EXPECT_EQ(text_of(jump->of), "limb, bend, upper|forearm, 60 deg, " + deformer);
+    std::map<std::string, std::string> weights = {
+        {"default", "paper"}, {"exchanged_weights", "exchanged"}, {"diffused_weights", "diffused"}};
+    std::map<std::string, int> rows;  // by variant
+    for (const auto& one : bent.measurements) {
+        if (one.quantity != "strain_jump_over_rigid_weights") continue;
+        EXPECT_DOUBLE_EQ(one.value, strain_jump(bent, weights.at(one.of.variant), one.of) / strain_jump(bent, "rigid", one.of));
+        EXPECT_TRUE(text_of(one.of).starts_with("limb, bend, upper|forearm, 60 deg, " + one.of.deformer)) << text_of(one.of);
+        ++rows[one.of.variant];
     }
+    EXPECT_EQ(rows, (std::map<std::string, int>{{"default", 7}, {"exchanged_weights", 2}, {"diffused_weights", 2}}));
 }
 
 // On tets that are smaller than the region blended by Eq. 2.
@@ -250,7 +267,7 @@ TEST(WeightsComparison, AtRestThereIsNothingToCompareButTheSameStart)
     const auto worst = test_support::worst_magnification(pbs::make_character({.body = "limb", .vertices = 400}).mesh);
     const double of_gradient = 2.0 * std::sqrt(3.0) * test_support::motion_error(2, 1.15) * worst.inverse_edges +
                                test_support::rounding_error(12 + 3, worst.condition);
-    EXPECT_LT(strain_jump(rest, "rigid", "lbs"), 2.0 * std::sqrt(3.0) * of_gradient);
+    EXPECT_LT(strain_jump(rest, "rigid", {.deformer = "lbs"}), 2.0 * std::sqrt(3.0) * of_gradient);
     ASSERT_NE(measurement(rest, "iterations_over_rigid_weights"), nullptr);
     EXPECT_DOUBLE_EQ(measurement(rest, "iterations_over_rigid_weights")->value, 1.0);
 }

@@ -101,4 +101,36 @@ TEST(ConvergenceCase, WithoutAReferenceThereAreNoErrors)
     expect_no_errors(not_compared, "none");
 }
 
+// The second path from LBS is another run of the same iterations.
+TEST(ConvergenceCase, TheControlsOfThePapersOrderAreLbsOnceMoreAndRandomPositions)
+{
+    ConvergenceCase of = two_sizes(false);
+    of.scene = read_scene("limb_bend", {"character.vertices=" + std::to_string(fewer)});
+    of.frames = {{3, "bend 15"}};
+    of.settings = {{pbs::Order::plain, pbs::Precision::f64}, {}};
+    of.other_vertices.clear();
+    const ConvergenceResult result = measure_convergence(of);
+    ASSERT_EQ(result.all.size(), 2u);
+    const ConvergencePaths& papers = result.all.front();
+    ASSERT_EQ(papers.controls.size(), 2u);
+    EXPECT_EQ(papers.controls[0].last, papers.paths[0].last);
+    EXPECT_GT(papers.controls[1].looks.front().combined, 10.0 * papers.paths[0].looks.front().combined);
+    EXPECT_GT(papers.controls[1].looks.back().combined, papers.paths[0].looks.back().combined);
+    EXPECT_FALSE(papers.author) << "the limb is no character";
+    EXPECT_TRUE(result.all.back().controls.empty()) << "another order";
+    of.frames.front().twist = true;
+    EXPECT_TRUE(measure_convergence(of).all.front().controls.empty());
+}
+
+TEST(ConvergenceCase, FromLbsAloneThereIsOnePath)
+{
+    ConvergenceCase of = two_sizes(true);
+    of.frames.front().compared = false;
+    of.from_lbs_alone = true;
+    for (const ConvergencePaths& paths : measure_convergence(of).all) {
+        EXPECT_EQ(paths.paths.size(), 1u);
+        EXPECT_TRUE(paths.controls.empty());
+    }
+}
+
 }  // namespace

@@ -2,6 +2,7 @@
 #include "experiments/studies/convergence/convergence_case.hpp"
 
 #include "experiments/deformers/deformer_options.hpp"
+#include "pbs/author/author_solver.hpp"
 #include "pbs/solver/pbs_solver.hpp"
 #include "tests/support/iteration_paths.hpp"
 #include "tests/support/bar_character.hpp"
@@ -12,6 +13,7 @@ namespace {
 
 using namespace experiments;
 using analysis::Measurement;
+using test_support::papers_paths;
 using test_support::starts_at_rates;
 
 std::vector<Measurement> values_named(const std::vector<Measurement>& all, const std::string& quantity, const std::string& guess = "")
@@ -22,7 +24,7 @@ std::vector<Measurement> values_named(const std::vector<Measurement>& all, const
     return named;
 }
 
-TEST(ConvergenceFigures, ValueIsOfTheFirstSettingAndTheOthersItsInterval)
+TEST(ConvergenceFigures, ValueIsOfTheOwnMeshAndTheOthersAreItsRange)
 {
     const ConvergenceResult result{{starts_at_rates(1780, {0.9, 0.95, 0.9, 0.8}), starts_at_rates(1900, {0.88, 0.95, 0.9, 0.8}),
                                     starts_at_rates(1650, {0.91, 0.95, 0.9, 0.8})},
@@ -35,6 +37,45 @@ TEST(ConvergenceFigures, ValueIsOfTheFirstSettingAndTheOthersItsInterval)
     EXPECT_EQ(iterations[0].high, 32.0);
     EXPECT_EQ(iterations[1].value, 1000.0);
     EXPECT_EQ(iterations[1].limit, analysis::Limit::more_than);
+}
+
+TEST(ConvergenceFigures, EachOrderAndPrecisionHasAValueOfItsOwn)
+{
+    const auto all = convergence_values({{papers_paths({0.88, 0.9, 0.9, 0.9}), starts_at_rates(1780, {0.9, 0.9, 0.9, 0.9})}, false, ""});
+    const auto iterations = values_named(all, "iterations_to_tolerance");
+    ASSERT_EQ(iterations.size(), 4u);  // two settings by two tolerances
+    for (const auto& [at, value, setting] : {std::tuple(0, 24.0, "plain f64"), {2, 29.0, "ordered f32"}}) {
+        EXPECT_EQ(iterations[at].of.order + " " + iterations[at].of.precision, setting);
+        EXPECT_EQ(iterations[at].value, value);
+        EXPECT_EQ(iterations[at].low, value);
+        EXPECT_EQ(iterations[at].high, value);
+    }
+}
+
+// A residual of 0.5 would be a lower floor, by which nothing else converges.
+TEST(ConvergenceFigures, ControlsAreComparedWithLbsAndLeaveTheFloorAsItIs)
+{
+    ConvergencePaths paths = papers_paths({0.9, 0.9, 0.9, 0.9});
+    const auto all = convergence_values({{paths}, false, ""});
+    const Measurement lbs = values_named(all, "iterations_over_lbs_guess", "lbs").at(0),
+                      random = values_named(all, "iterations_over_lbs_guess", "random").at(0);
+    EXPECT_EQ(lbs.value, 1.0);
+    EXPECT_EQ(random.value, 1000.0 / 29.0);
+    EXPECT_EQ(random.limit, analysis::Limit::at_least);
+    paths.controls[0] = test_support::path_to_floor(1000, 0.5, 1.0, 0.9);
+    EXPECT_EQ(values_named(convergence_values({{paths}, false, ""}), "iterations_to_tolerance").at(0).value, 29.0);
+    EXPECT_LT(values_named(convergence_values({{paths}, false, ""}), "iterations_over_lbs_guess", "lbs").at(0).value, 1.0);
+}
+
+TEST(ConvergenceFigures, TheAuthorsLaterCodeHasAFloorOfItsOwn)
+{
+    ConvergencePaths paths = papers_paths({0.9, 0.9, 0.9, 0.9});
+    paths.author = test_support::path_to_floor(1000, 3.0, 3.0, 0.5);  // 3 + 3 0.5^n <= 1.05 * 3 from n = 5 on
+    const auto all = values_named(convergence_values({{paths}, false, ""}), "iterations_to_tolerance");
+    ASSERT_EQ(all.size(), 3u);
+    EXPECT_EQ(all[2].value, 5.0);
+    EXPECT_EQ(all[2].limit, analysis::Limit::none);
+    EXPECT_EQ(text_of(all[2].of), "human, pbs_author, first_fit, f64, vertices 1780, k_stretch 0.2, tolerance residual");
 }
 
 TEST(ConvergenceFigures, StartsAreComparedWithLbs)
@@ -56,22 +97,16 @@ TEST(ConvergenceFigures, AStartThatNeverArrivesGivesABound)
     EXPECT_EQ(ratio[0].limit, analysis::Limit::at_least);
 }
 
-// Volume stays at 1 % from every initial guess: three comparisons of three.
-TEST(ConvergenceFigures, WhereNeitherArrivesThereIsNoneAndItIsCounted)
+// Volume stays at 1 % from every initial guess.
+TEST(ConvergenceFigures, WhereNeitherArrivesThereIsNone)
 {
     const auto all = convergence_values({{starts_at_rates(1780, {0.9, 0.9, 0.9, 0.9})}, false, ""});
     for (const Measurement& measured : all)
         EXPECT_FALSE(measured.quantity == "iterations_over_lbs_guess" && measured.of.tolerance == "volume") << text_of(measured.of);
-    const auto neither = values_named(all, "share_of_ratios_not_reached");
-    ASSERT_EQ(neither.size(), 2u);
-    EXPECT_EQ(neither[0].value, 0.0);
-    EXPECT_EQ(neither[1].value, 1.0);
-    EXPECT_EQ(neither[1].of, (analysis::CaseKey{.body = "human", .tolerance = "volume"}));
-    EXPECT_EQ(neither[1].n, 3);
 }
 
-// From LBS and from the previous frame the second order is never within 0.5 %.
-TEST(ConvergenceFigures, AnOrderInWhichNeitherArrivesOpensTheInterval)
+// From LBS and from the previous frame the second mesh is never within 0.5 %.
+TEST(ConvergenceFigures, AMeshOnWhichNeitherArrivesOpensTheRange)
 {
     ConvergencePaths arriving = starts_at_rates(1780, {0.9, 0.9, 0.9, 0.9}), lost = arriving;
     for (IterationPath& path : arriving.paths)
@@ -85,7 +120,6 @@ TEST(ConvergenceFigures, AnOrderInWhichNeitherArrivesOpensTheInterval)
     EXPECT_EQ(previous.not_reached, 1);
     EXPECT_EQ(previous.n, 2);
     EXPECT_EQ(values_named(all, "iterations_over_lbs_guess", "rest_pose").at(1).low, 8.0 / 1000.0);
-    EXPECT_EQ(values_named(all, "share_of_ratios_not_reached").at(1).value, 1.0 / 6.0);
 }
 
 TEST(ConvergenceFigures, TwistsAndTheLimbAreReportedAndNotJudged)
@@ -117,7 +151,9 @@ TEST(ConvergenceFigures, ExponentOfALadderIsThatOfTheFormula)
     EXPECT_NEAR(exponent[0].value, 0.5, 0.015 / std::log(64.0) * 2.0);
     EXPECT_LE(exponent[0].low, exponent[0].value);
     EXPECT_GE(exponent[0].high, exponent[0].value);
-    EXPECT_EQ(values_named(convergence_values(ladder), "iterations_to_tolerance").size(), 8u);  // one for each size, with two tolerances
+    // One for each size and order, with two tolerances.
+    EXPECT_EQ(values_named(convergence_values(ladder), "iterations_to_tolerance").size(), 16u);
+    EXPECT_TRUE(values_named(convergence_values(ladder), "iterations_over_lbs_guess").empty());
 }
 
 TEST(ConvergenceFigures, ErrorsOfNoReferenceAreLeftOut)
@@ -155,6 +191,34 @@ TEST(Starts, AreWhatTheyAreCalled)
     EXPECT_EQ(shape(frame, SolverStart::rest_pose), limb.mesh.rest);
     EXPECT_EQ(frame.bind_points, pbs::posed_bind_points(limb.binding, bending.steps[3]));
     EXPECT_NE(shape(frame, SolverStart::lbs), shape(frame, SolverStart::rigid_bind));
+}
+
+// The mean of n numbers that are uniform in an interval has the standard deviation of 1 / sqrt(12 n) of its width.
+TEST(Starts, RandomPositionsFillTheBoxOfLbsAndAreTheSameAgain)
+{
+    const FrameStarts frame = experiments::starts_of(character, bending, {3}, {}).front();
+    EXPECT_EQ(frame.random, experiments::starts_of(character, bending, {3}, {}).front().random);
+    const pbs::Positions& lbs = shape(frame, SolverStart::lbs);
+    ASSERT_EQ(frame.random.rows(), lbs.rows());
+    for (int axis = 0; axis < 3; ++axis) {
+        const double low = lbs.col(axis).minCoeff(), high = lbs.col(axis).maxCoeff();
+        EXPECT_GE(frame.random.col(axis).minCoeff(), low);
+        EXPECT_LE(frame.random.col(axis).maxCoeff(), high);
+        EXPECT_NEAR(frame.random.col(axis).mean(), 0.5 * (low + high), 6.0 * (high - low) / std::sqrt(12.0 * double(lbs.rows())));
+    }
+}
+
+// Reference: the author's solver, which ends where its path does, to the bit.
+TEST(AuthorPath, LeadsFromItsLbsWhereTheAuthorsSolverGoes)
+{
+    const pbs::Pose& pose = bending.steps[3];
+    const IterationMetrics metrics(character, pbs::posed_bind_points(limb.binding, pose));
+    const IterationPath path = author_path(character, pose, 12, metrics);
+    pbs::AuthorSolver solver(limb.mesh, limb.skeleton, limb.binding, {.iterations = 12});
+    solver.advance(pose);
+    EXPECT_EQ(path.last, solver.positions());
+    ASSERT_EQ(path.looks.size(), 13u);
+    EXPECT_EQ(path.looks.front().combined, metrics.measure(0, blended(pbs::author_weights(limb.binding, limb.skeleton), pose)).combined);
 }
 
 // The first frame has none before it.

@@ -72,12 +72,15 @@ TEST(JiggleFigures, WhatDoesNotSwingCountsInTheShareAndHasNeitherFrequencyNorDam
     EXPECT_EQ(shares[0].of, analysis::CaseKey{.body = "limb"});
     EXPECT_EQ(shares[0].n, 4);
     MeasuredJiggle still = creeping({});
+    still.response.left_over_peak = 0.25;
     const auto measurements = experiments::jiggle_values("limb", {still});
-    ASSERT_EQ(measurements.size(), 2u);  // share, amplitude
+    ASSERT_EQ(measurements.size(), 3u);  // share, amplitude, last share of the peak
     EXPECT_EQ(measurements[0].value, 0.0);
     EXPECT_EQ(measurements[1].quantity, "amplitude");
+    EXPECT_EQ(measurements[2].value, 0.25);
     still.response.finished = false;
     EXPECT_TRUE(of_quantity({still}, "amplitude").empty()) << "it broke down";
+    EXPECT_TRUE(std::isnan(of_quantity({still}, "last_share_of_peak").at(0).value)) << "it does not come to rest";
     EXPECT_EQ(of_quantity({still}, share).size(), 1u);
     EXPECT_TRUE(experiments::jiggle_values("limb", {}).empty());
 }
@@ -88,6 +91,7 @@ TEST(JiggleFigures, OtherReadingsHaveTheirOwnDampingRatio)
                                                   swinging({.masses = pbs::Masses::lumped}, 3.0)};
     EXPECT_EQ(of_quantity(measured, "damping_ratio").size(), 1u);
     EXPECT_EQ(of_quantity(measured, "damping_ratio_in_other_readings").size(), 2u);
+    EXPECT_EQ(of_quantity(measured, "last_share_of_peak").size(), 1u);
     EXPECT_DOUBLE_EQ(of_quantity(measured, share)[0].value, 1.0);
 }
 
@@ -100,7 +104,7 @@ TEST(JiggleFigures, RatiosOfHalfTheStepAndOfTwiceTheIterationsHaveTheirRange)
     EXPECT_DOUBLE_EQ(halved[0].value, 12.0 / 6.0);
     EXPECT_DOUBLE_EQ(halved[0].low, 6.0 / 4.0);
     EXPECT_DOUBLE_EQ(halved[0].high, 27.0 / 12.0);
-    EXPECT_EQ(text_of(halved[0].of), "limb, k_stretch 0.1, masses unit, iterations 24, time_step 0.01 s");
+    EXPECT_EQ(text_of(halved[0].of), "limb, pbs, k_stretch 0.1, masses unit, iterations 24, time_step 0.01 s");
     EXPECT_EQ(halved[0].n, 3);
     const auto ratios = of_quantity({swinging({}, 6.0), swinging({.iterations = 48}, 9.0)}, "frequency_ratio_at_twice_iterations");
     ASSERT_EQ(ratios.size(), 1u);
@@ -141,6 +145,27 @@ TEST(JiggleFigures, CorrelationIsOfRanksAndTakesTheLeastWithoutOne)
             EXPECT_NEAR(measurement.value, 1.0, correlation_error(n)) << n;
         }
     }
+}
+
+// A setting that does not swing has an amplitude as well. Other time steps, iterations and readings do not enter.
+TEST(JiggleFigures, AmplitudesAreComparedOverKStretchAlone)
+{
+    std::vector<MeasuredJiggle> measured = {swinging({}, 3.0), creeping({.k_stretch = 1.0}), swinging({.k_stretch = 0.05}, 2.0),
+                                            swinging({.k_stretch = 0.5}, 4.0), swinging({.iterations = 96}, 4.0)};
+    const double amplitudes[] = {0.25, 0.125, 0.5, 0.1875, 100.0};
+    for (std::size_t i = 0; i < measured.size(); ++i) measured[i].response.overshoot_over_jolt = amplitudes[i];
+    const auto ratio = of_quantity(measured, "amplitude_ratio_over_k_stretch");
+    ASSERT_EQ(ratio.size(), 1u);
+    EXPECT_EQ(ratio[0].value, 4.0);
+    EXPECT_EQ(text_of(ratio[0].of), "limb, pbs, masses unit");
+    const char* const falling = "rank_correlation_of_amplitude_and_k_stretch";
+    EXPECT_NEAR(of_quantity(measured, falling).at(0).value, -1.0, correlation_error(4));
+    EXPECT_EQ(of_quantity(measured, falling)[0].of, ratio[0].of);
+    measured[1].response.finished = false;  // three are left
+    EXPECT_TRUE(of_quantity(measured, falling).empty());
+    EXPECT_DOUBLE_EQ(of_quantity(measured, "amplitude_ratio_over_k_stretch").at(0).value, 0.5 / 0.1875);
+    for (MeasuredJiggle& one : measured) one.response.overshoot_over_jolt = 0.0;
+    EXPECT_TRUE(std::isnan(of_quantity(measured, "amplitude_ratio_over_k_stretch").at(0).value)) << "nothing swings";
 }
 
 TEST(JiggleFigures, RangeIsOfTheEndsThatSwing)

@@ -1,7 +1,9 @@
 // Reference: differences of scenes, and shares and means of a few frames, by hand.
 #include "experiments/studies/setup/body_setup.hpp"
 
+#include "pbs/character/bodies.hpp"
 #include "pbs/geometry/input_error.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 #include <gtest/gtest.h>
 
@@ -60,6 +62,31 @@ TEST(BodySetup, WhatBreaksDownOrIsRefusedIsTriedWithFurtherKeysAndWhatNeverRunsI
     ASSERT_EQ(measurements.size(), 2u);
     EXPECT_TRUE(std::isnan(measurements[0].value));
     EXPECT_EQ(measurements[1].value, 0.0);
+}
+
+// The tets that lack a skeleton are accepted with the skeleton of the surface that lacks tets.
+TEST(BodySetup, UnsuitableBodiesAreRefusedForWhatTheyLackAlone)
+{
+    const test_support::ScratchFolder folder;
+    const auto keys = [&](const char* body) { return with_files({body}, folder.path().string()).further; };
+    const auto failures = [&](const std::vector<std::string>& further) {
+        const auto make = [](const BodySetup& setup) {
+            const Scene scene = scene_of(setup, 5.0);
+            make_case_motion(scene.motion, pbs::make_character(scene.character), scene.file);
+            return std::string();
+        };
+        std::string failures;
+        for (const TriedSetup& tried : tried_setups({"", 0, further}, make)) failures += tried.failure + "\n";
+        return failures;
+    };
+    std::vector<std::string> whole = keys("open_surface");
+    EXPECT_NE(failures(whole).find("expected at least one tetrahedron"), std::string::npos) << failures(whole);
+    EXPECT_NE(failures(keys("without_bones")).find("expected the skeleton of the mesh"), std::string::npos);
+    whole[0] = keys("without_bones").at(0);
+    EXPECT_EQ(failures(whole), "\n");
+    EXPECT_TRUE(keys("ring").empty());
+    for (const char* body : {"open_surface", "without_bones"}) EXPECT_TRUE(is_unsuitable(body));
+    EXPECT_FALSE(is_unsuitable("ring"));
 }
 
 analysis::Measurement measurement(const std::vector<analysis::Measurement>& all, const std::string& quantity)

@@ -177,7 +177,7 @@ TEST(RateOf, IsThatOfTheFormula)
     EXPECT_EQ(*rate.stalls_at, 29);
 }
 
-// Of rounding there is no rate.
+// Rounding has no rate.
 TEST(RateOf, OfAResidualThatStillFallsIsTakenFromTheFloorOfOthers)
 {
     EXPECT_TRUE(std::isnan(rate_of(path_by(100, [](int n) { return n % 2 == 0 ? 3e-7 : 6e-7; }), 3e-7).rate.estimate));

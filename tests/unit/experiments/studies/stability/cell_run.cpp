@@ -58,6 +58,21 @@ TEST(CellRun, SignOfTheVolumeGradientAsPrintedDivergesAndWithoutVolumeConstraint
     EXPECT_EQ(outcome(without_volume), StabilityOutcome::inverted);
 }
 
+// The controls of C08: in the rest pose and without gravity every constraint is satisfied; a projection with the printed sign doubles the
+// error that it should remove.
+TEST(CellRun, WhatNothingDisturbsStaysAtRestAndThePrintedSignDiverges)
+{
+    const auto outcome_of = [](const std::vector<StabilityCell>& cells, const std::string& model, double time_step_s) {
+        for (const StabilityCell& cell : cells)
+            if (cell.model == model && cell.factor == "time_step" && cell.time_step_s == time_step_s) return outcome(cell);
+        ADD_FAILURE() << "no cell of " << model;
+        return StabilityOutcome::bounded;
+    };
+    EXPECT_EQ(outcome_of(controls(false), "pbs_undisturbed", 1.0), StabilityOutcome::converged);
+    EXPECT_EQ(outcome_of(pbs_character_cells("human", false), "pbs_undisturbed", 0.1), StabilityOutcome::converged);
+    EXPECT_EQ(outcome_of(controls(false), "pbs_printed_sign", 0.01), StabilityOutcome::diverged);
+}
+
 // The square of 1e25 m is not representable in f32, but it is in f64.
 TEST(CellRun, ATeleportBeyondTheNumbersIsNotFinite)
 {

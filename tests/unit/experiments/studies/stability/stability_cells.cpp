@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 
 namespace {
@@ -71,6 +72,35 @@ TEST(CellSweep, ARecordTellsWhatACellStandsForAndItsSettingDoesNot)
     StabilityCell elsewhere = cell;
     elsewhere.disturbance.angle_deg += 1.0;
     EXPECT_NE(setting_of(elsewhere), setting_of(cell));
+}
+
+// The factors of the cells that `counts` selects.
+template <typename Counts>
+std::set<std::string> factors_where(const std::vector<StabilityCell>& cells, Counts counts)
+{
+    std::set<std::string> factors;
+    for (const StabilityCell& cell : cells)
+        if (counts(cell)) factors.insert(cell.factor);
+    return factors;
+}
+
+TEST(PbsCells, AreJudgedInThePapersOrderAndHaveTheirControls)
+{
+    const auto is_judged = [](const StabilityCell& cell) {
+        return cell.as_published && precision_of(cell) == "f64" && options_of<pbs::PbsOptions>(cell.spec).order == pbs::Order::plain;
+    };
+    const auto is_undisturbed = [](const StabilityCell& cell) { return cell.model == "pbs_undisturbed"; };
+    for (const bool full : {false, true}) {
+        std::vector<StabilityCell> limb = pbs_cells(true, full);
+        append(limb, pbs_cells(false, full));
+        EXPECT_EQ(factors_where(controls(full), is_undisturbed), factors_where(limb, is_judged));
+        EXPECT_GE(factors_where(controls(full), [](const auto& cell) { return cell.model == "pbs_printed_sign"; }).size(), 5u);
+        for (const StabilityCell& cell : controls(full)) EXPECT_FALSE(cell.as_published) << cell.model;
+        const std::vector<StabilityCell> lady = pbs_character_cells("lady", full);
+        EXPECT_EQ(factors_where(lady, is_undisturbed), factors_where(lady, is_judged));
+        for (const StabilityCell& cell : lady) EXPECT_NE(cell.as_published, is_undisturbed(cell));
+        EXPECT_TRUE(std::ranges::any_of(lady, [&](const auto& cell) { return is_judged(cell) && cell.time_step_s >= 0.05; }));
+    }
 }
 
 // The deformers that are compared with PBS in the study of stability. Reference: the list of methods and of extreme cases that the study

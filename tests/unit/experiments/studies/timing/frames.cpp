@@ -99,7 +99,7 @@ TEST(TimingTable, ValuesOfTheClaim)
 {
     const auto measured = timing_measurements(rows_of_mesh());
     EXPECT_EQ(measured[0].quantity, "frames_per_s");
-    EXPECT_EQ(text_of(measured[0].of), "man, 01_01, pbs, plain, f64, vertices 1654, model Man");
+    EXPECT_EQ(text_of(measured[0].of), "man, 01_01, pbs, table_1, plain, f64, vertices 1654, model Man");
     EXPECT_EQ(measured[0].value, 500.0);
     EXPECT_EQ(measured[0].low, 250.0);
     EXPECT_EQ(measured[0].high, 1000.0);
@@ -108,6 +108,30 @@ TEST(TimingTable, ValuesOfTheClaim)
     EXPECT_EQ(measurement(measured, "frames_per_s", {.order = "ordered", .precision = "f32"}), 1000.0);
     EXPECT_EQ(measurement(measured, "frames_per_s_over_table_1"), 500.0 / 90.5);
     EXPECT_TRUE(timing_measurements(rows_of_mesh("")).empty());  // a step of the ladder
+}
+
+TEST(TimingTable, ARefinedMeshHasTheFrameRateThatIsJudgedAlone)
+{
+    std::vector<TimingRow> rows = rows_of_mesh("", 96525, 500.0);
+    for (TimingRow& row : rows) row.is_refined = true;
+    const auto measured = timing_measurements(rows);
+    ASSERT_EQ(measured.size(), 1u);
+    EXPECT_EQ(measured[0].quantity, "frames_per_s");
+    EXPECT_EQ(measured[0].value, 2.0);
+    EXPECT_EQ(text_of(measured[0].of), "man, 01_01, pbs, refined, plain, f64, vertices 96525");
+}
+
+TEST(TimingTable, TheAuthorsLaterCodeIsTimedOnTheSameMesh)
+{
+    const pbs::Character limb = test_support::character_of(test_support::two_bone_limb({20, 6, 6}, pbs::Vec3::UnitZ(), 0.0));
+    const pbs::Motion motion = pbs::joint_sweep(limb.skeleton, 1, pbs::Vec3::UnitZ(), 60.0, 8, 0.01);
+    const auto rate = author_frame_rate({.mesh = "man_1654", .body = "man", .model = "Man", .vertices = 1654}, limb, motion,
+                                        {.seconds = 0.0, .fewest = 3, .most = 3});
+    EXPECT_EQ(rate.quantity, "frames_per_s");
+    EXPECT_EQ(text_of(rate.of), "man, 01_01, pbs_author, table_1, first_fit, f64, vertices 1654, iterations 12, model Man");
+    EXPECT_GT(rate.low, 0.0);
+    EXPECT_LE(rate.low, rate.value);
+    EXPECT_LE(rate.value, rate.high);
 }
 
 // 1 / 30 s by wall time at 100,000 vertices, on a straight line.

@@ -34,7 +34,7 @@ TEST(ComparedDeformers, AreDeclaredOnceWithTheirDefaultSettingFirst)
     for (const ComparedDeformer& one : compared_deformers()) {
         EXPECT_TRUE(names.insert(one.name).second) << one.name;
         EXPECT_EQ(one.iterations.empty(), one.iterations_key.empty()) << one.name;
-        EXPECT_TRUE(one.grid.front() == SettingChange{}) << one.name;
+        EXPECT_TRUE(one.grid.front() == GridValue{}) << one.name;
         for (const int few : one.few_iterations) EXPECT_EQ(std::ranges::count(one.iterations, few), 1) << one.name;
     }
 }
@@ -49,8 +49,8 @@ TEST(ComparedDeformers, HaveSettingsAndCodesThatTheirKindsAccept)
         SCOPED_TRACE(one.name);
         const std::vector<KeyValues> codes = codes_of(one);
         for (const KeyValues& code : codes)
-            for (const SettingChange& change : grid_of(one)) {
-                SettingChoice choice{.change = change, .code = code};
+            for (const GridValue& value : grid_of(one)) {
+                SettingChoice choice{.value = value, .code = code};
                 if (!one.iterations.empty()) choice.iterations = one.iterations.back();
                 EXPECT_EQ(spec_with(one, scene, choice).kind, one.kind);
             }
@@ -90,7 +90,7 @@ TEST(ComparedDeformers, TakeTheirOptionsFromTheEntryTheSceneAndTheReference)
 {
     const Scene scene = read_scene("limb_twist", {});
     const DeformerSpec spec =
-        spec_with(entry("pbs"), scene, {.iterations = 8, .change = {{"pbs.k_stretch=0.9"}}, .code = entry("pbs").codes[1]});
+        spec_with(entry("pbs"), scene, {.iterations = 8, .value = {{"pbs.k_stretch=0.9"}}, .code = entry("pbs").codes[1]});
     const auto& options = options_of<pbs::PbsOptions>(spec);
     EXPECT_EQ(options.iterations, 8);
     EXPECT_EQ(options.k_stretch, 0.9);
@@ -109,16 +109,16 @@ TEST(ComparedDeformers, TakeTheirOptionsFromTheEntryTheSceneAndTheReference)
         EXPECT_EQ(elastic.at("spring_factor"), flesh.used_spring_factor()) << name;
         EXPECT_EQ(elastic.at("poisson"), flesh.poisson) << name;
     }
-    const auto xpbd = spec_with(entry("xpbd"), scene, {.iterations = 4, .change = {.young_factor = 4.0}});
+    const auto xpbd = spec_with(entry("xpbd"), scene, {.iterations = 4, .value = {.young_factor = 4.0}});
     EXPECT_EQ(options_of<pbs::XpbdOptions>(xpbd).young_pa, 4.0 * flesh.young_pa);
     EXPECT_EQ(options_of<pbs::XpbdOptions>(xpbd).poisson, flesh.poisson);
 }
 
 TEST(SettingNames, AreIdentifiers)
 {
-    EXPECT_EQ(name_of(SettingChange{}), "");
-    EXPECT_EQ(name_of(SettingChange{{"pbs.k_stretch=0.9", "pbs.variant.stiffness=exponent"}}), "k_stretch_0.9+stiffness_exponent");
-    EXPECT_EQ(name_of(SettingChange{.young_factor = 4.0}), "stiffness_factor_4");
+    EXPECT_EQ(name_of(GridValue{}), "");
+    EXPECT_EQ(name_of(GridValue{{"pbs.k_stretch=0.9", "pbs.variant.stiffness=exponent"}}), "k_stretch_0.9+stiffness_exponent");
+    EXPECT_EQ(name_of(GridValue{.young_factor = 4.0}), "stiffness_factor_4");
 }
 
 TEST(DeformerGroups, HaveEveryDeformerOnce)
@@ -160,11 +160,11 @@ TEST(ChangesToPbs, ChangeOneThingAtATime)
         EXPECT_EQ(one.k_by_edge_length, one.name == "k_by_edge_length");
         EXPECT_EQ(std::ranges::count_if(compared_deformers(), [&](const ComparedDeformer& other) { return other.name == one.name; }), 0);
         std::set<std::string> settings;
-        for (const SettingChange& change : grid_of(one)) {
-            const DeformerSpec spec = spec_with(one, scene, {.change = change, .code = codes_of(one).front()});
+        for (const GridValue& value : grid_of(one)) {
+            const DeformerSpec spec = spec_with(one, scene, {.value = value, .code = codes_of(one).front()});
             EXPECT_TRUE(std::ranges::includes(allowed.at(one.name), changed_fields(spec, from))) << one.name;
-            EXPECT_EQ(changed_fields(spec, from).empty(), allowed.at(one.name).empty()) << one.name << " " << name_of(change);
-            EXPECT_TRUE(settings.insert(name_of(change)).second) << one.name << " " << name_of(change);
+            EXPECT_EQ(changed_fields(spec, from).empty(), allowed.at(one.name).empty()) << one.name << " " << name_of(value);
+            EXPECT_TRUE(settings.insert(name_of(value)).second) << one.name << " " << name_of(value);
         }
         for (const int budget : {4, 24, 96})
             for (const auto* ladder : {&one.iterations, &one.few_iterations}) EXPECT_EQ(std::ranges::count(*ladder, budget), 1);

@@ -13,7 +13,7 @@ using namespace test_support;
 using namespace experiments;
 using analysis::CsvTable;
 
-// Of the front of all points by the error.
+// Returns the cells of the front of all points by the error.
 std::vector<std::string> of_front(const CsvTable& fronts, const std::string& column)
 {
     std::vector<std::string> cells;
@@ -180,7 +180,7 @@ TEST(Omissions, NameEachReasonWithItsPoints)
                                                                {vbd(16), 16.0, {}, "over_time_limit"},
                                                                {fem, 9.0, {}, "not_converged"},
                                                                hand_reference()});
-    first[3].reason = "900 ms on the rung before, 300 ms allowed";
+    first[3].reason = "900 ms with the setting before, 300 ms allowed";
     const CaseRows second = hand_case({.body = "limb", .pose = "b"}, {{vbd(1), 1.0, 9.0}, hand_reference()});
     const std::vector<Found> expected = {{Comparison::packed_f32, "limb_a", "vbd", "not_finite", 1, 4},
                                          {Comparison::packed_f32, "limb_a", "vbd", "over_time_limit", 2, 4},
@@ -193,7 +193,7 @@ TEST(Omissions, NameEachReasonWithItsPoints)
                                          {Comparison::plain_f64, "limb_b", "vbd", "no_such_code", 0, 0},
                                          {Comparison::plain_f64, "limb_b", "fem_linear", "not_run", 0, 0}};
     EXPECT_EQ(found_in(omissions_of({first, second})), expected);
-    EXPECT_EQ(omissions_of({first})[1].reason, "900 ms on the rung before, 300 ms allowed");
+    EXPECT_EQ(omissions_of({first})[1].reason, "900 ms with the setting before, 300 ms allowed");
 }
 
 TEST(Omissions, NameAPoseWithoutAReference)

@@ -96,7 +96,7 @@ TEST(EqualTime, EachBodyChoosesOnItsOwnPosesToo)
         }
 }
 
-// A rung without a time, as one whose frames are not finite, takes longer than any budget.
+// A setting without a time, for example one whose frames are not finite, takes longer than any budget.
 TEST(EqualTime, APoseWithoutAnErrorOrATimeHasNoValue)
 {
     std::vector<PointRow> points = baseline_in({limb_twist_pose});

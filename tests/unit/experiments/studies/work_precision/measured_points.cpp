@@ -78,7 +78,7 @@ TEST(PointSettings, AreEachOnce)
         ++of_deformer[setting.deformer];
     }
     EXPECT_EQ(of_deformer["lbs"], 2 * 4);                  // codes; one mesh and three others
-    EXPECT_EQ(of_deformer["pbs"], 2 * (8 * 9 + 3 * 3));    // codes, settings, rungs; and three rungs on each other mesh
+    EXPECT_EQ(of_deformer["pbs"], 2 * (8 * 9 + 3 * 3));    // codes, values, iterations; and three numbers of iterations on each other mesh
     EXPECT_EQ(of_deformer["fem_linear"], 2 * 1 + 2);       // orders 1 and 2; order 1 on each other mesh
     EXPECT_EQ(of_deformer["fem_neo_hookean"], 2 + 3 + 1);  // quadratic on the mesh of 300 too; and on the tets cut into eight
     EXPECT_EQ(of_deformer["fem_stable_neo_hookean"], 1);   // the limit of the deformers that minimise an energy
@@ -87,7 +87,7 @@ TEST(PointSettings, AreEachOnce)
     EXPECT_LT(settings_of(read_scene("limb_twist", {}), in_short).size(), settings.size() / 2);
 }
 
-// Each change at each of its settings and rungs, in one code on the case's own mesh.
+// Each change has all its settings, in one code on the case's own mesh.
 TEST(PointSettings, OfChangesToPbsAreMarked)
 {
     SettingRange range;
@@ -103,16 +103,16 @@ TEST(PointSettings, OfChangesToPbsAreMarked)
         }
     EXPECT_EQ(of_change.size(), changes_to_pbs().size());
     for (const ComparedDeformer& one : changes_to_pbs()) EXPECT_EQ(of_change[one.name], one.grid.size() * one.iterations.size());
-    EXPECT_EQ(settings.size(), without + 25 * 8);  // settings of all changes, rungs
+    EXPECT_EQ(settings.size(), without + 25 * 8);  // values of all changes, iterations
 }
 
-// A ladder takes one rung for all of its settings: neither k_stretch nor the rest of the grid belongs to it.
+// The place of a setting on its ladder depends neither on k_stretch nor on the rest of the grid.
 TEST(PointSettings, OfOneRungDifferInTheirSettingAloneAndHaveADigestOfAllTheyDependOn)
 {
-    std::map<SettingKey, std::set<std::string>> of_rung;
+    std::map<SettingKey, std::set<std::string>> of_place;
     std::vector<Setting> settings = settings_of(read_scene("limb_twist", {}), {});
-    for (const Setting& setting : settings) EXPECT_TRUE(of_rung[rung_of(key_of(setting))].insert(setting.tuned).second);
-    for (const auto& [rung, of_pbs] : of_rung) EXPECT_TRUE(rung.deformer != "pbs" || of_pbs.size() == 8u);
+    for (const Setting& setting : settings) EXPECT_TRUE(of_place[without_grid_value(key_of(setting))].insert(setting.tuned).second);
+    for (const auto& [place, of_pbs] : of_place) EXPECT_TRUE(place.deformer != "pbs" || of_pbs.size() == 8u);
     const std::string digest = digest_of(settings);
     EXPECT_EQ(digest_of(settings_of(read_scene("limb_twist", {}), {})), digest);
     options_of<FemOptions>(settings.back().spec).nested_start = !options_of<FemOptions>(settings.back().spec).nested_start;
@@ -221,7 +221,7 @@ const MeasuredPoints& small_points()
     return points;
 }
 
-// A ladder ends at the rung that takes too long, and the reason names the limit.
+// A ladder ends at the setting that takes too long, and the reason names the limit.
 TEST(MeasuredPoints, StopAtTheLimitOfTimeAndRecordTheSplit)
 {
     const WorkPrecisionCase of = small_case();
@@ -245,10 +245,10 @@ TEST(MeasuredPoints, StopAtTheLimitOfTimeAndRecordTheSplit)
     EXPECT_EQ(points.members[0].outcome, "reached");
     EXPECT_FALSE(points.members[0].error_bound_pct) << "the first reference has no bound";
     EXPECT_EQ(finished, 2 * 3);      // codes, settings
-    EXPECT_EQ(left_out, 2 * 3 * 2);  // and the rungs of 24 and 96 iterations
+    EXPECT_EQ(left_out, 2 * 3 * 2);  // and 24 and 96 iterations
 }
 
-// Reference: the solution with the law of the deformers that minimise an energy. That of the reference's law differs.
+// Reference: the solution with the law of the deformers that minimise an energy. The solution with the reference's law differs.
 TEST(MeasuredPoints, HaveTheirDistanceFromTheOwnLimitOfTheDeformers)
 {
     std::map<std::string, double> distance_pct;
@@ -259,7 +259,7 @@ TEST(MeasuredPoints, HaveTheirDistanceFromTheOwnLimitOfTheDeformers)
     EXPECT_LT(distance_pct.at("fem_neo_hookean"), 0.1 * distance_pct.at("lbs")) << "the laws are near each other";
 }
 
-// The first rung has 4 iterations of PBS and one of a change, and the others take too long. In the quick form the bound is the distance of
+// The ladders begin with 4 iterations of PBS and one of a change; more take too long. In the quick form the bound is the distance of
 // linear elements.
 TEST(MeasuredPoints, HaveTheChangesToPbsInATableOfTheirOwn)
 {

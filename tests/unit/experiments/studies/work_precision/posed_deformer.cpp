@@ -34,7 +34,7 @@ protected:
         of.rounds = of.newton_rounds = {.seconds = 0.0, .fewest = 3, .most = 3};
         of.reference_is_refined = false;
         of.converged_iterations = 0;
-        of.longest_frame_ms = 1e-6;  // one rung of each ladder
+        of.longest_frame_ms = 1e-6;  // the first setting of each ladder
     }
 
     // #poses x #V x 3 and #poses numbers for reach(), a turn that warms up and three that are timed. NaN where `bad`.

@@ -176,7 +176,7 @@ protected:
         expect_as_plain<Kernel>(on);
     }
 
-    // Of XPBD, powers of two, so that products that must cancel do.
+    // XPBD has powers of two, so that products that must cancel do.
     static std::vector<double> sizes_m()
     {
         if (compliant) return {1.0 / 1024.0, 1.0, 1024.0};

@@ -1,0 +1,438 @@
+"""Every verdict on the kept records, computed a second time from their tables and from claims.toml: the number of each unit, which units
+count, the share that holds with its interval, q, chance and the verdict. Reference: the rule as the head of claims.toml and the headers in
+analysis/verdicts state it. Nothing is shared with the program or with paper_figures: the standard library reads the files."""
+import csv
+import functools
+import json
+import math
+import pathlib
+import random
+import shutil
+import statistics
+import tempfile
+import tomllib
+import unittest
+
+import program
+
+SOURCE = pathlib.Path(program.SOURCE)
+RECORDS = SOURCE / "experiments" / "records" / "full"
+SETTING = ("run", "scene", "deformer", "variant", "order", "precision", "iterations", "threads")
+INFINITE = math.inf
+LEAST_UNITS, HOLDING, FAILING, LARGEST_CHANCE = 5, 0.95, 0.5, 0.01
+DRAWS, DRAWS_OF_THE_PROGRAM, SEED = 10_000, 2_000, 38
+
+
+def claims():
+    with open(SOURCE / "experiments" / "verdicts" / "claims.toml", "rb") as file:
+        return tomllib.load(file)["claim"]
+
+
+def text(value):
+    """A field of a key as it is compared: 150, 150.0 and "150" are the same, and 01_01 is a name."""
+    try:
+        return f"{float(value):.9g}" if "_" not in str(value) else str(value)
+    except ValueError:
+        return str(value)
+
+
+def agrees(row, wanted):
+    return all(row.get(field, "") != "" and text(row[field]) == text(value) for field, value in wanted.items())
+
+
+def rows_of(study, table):
+    file = RECORDS / study / "runs" / table
+    if not file.exists():
+        return []
+    with file.open(newline="", encoding="utf-8") as stream:
+        return [{name: cell for name, cell in row.items() if cell} for row in csv.DictReader(stream)]
+
+
+def frame_values(study, plan):
+    """What the frames of each run and setting give: their mean loss, mean absolute change and share within 0.5 %. A sweep is no sample of a
+    motion, so each of its frames gives its own loss."""
+    places = {run["name"]: run for run in plan["runs"]}
+    series = {}
+    for row in rows_of(study, "metrics.csv"):
+        if "frame" not in row or (row.get("outcome") == "not_converged" and "iterations" not in row):
+            continue
+        setting = tuple(row.get(name, "") for name in SETTING)
+        series.setdefault(setting, []).append(row)
+    values = []
+    for (run, *_), frames in series.items():
+        settings = {name: frames[0][name] for name in ("deformer", "variant", "order", "precision", "iterations") if name in frames[0]}
+        key = places[run].get("of", {}) | settings | {"beside": places[run].get("beside", False)}
+        loss = [-float(row["volume_change_pct"]) for row in frames]
+        if "angle_deg" in frames[0]:
+            values += [key | {"quantity": "volume_loss_pct", "angle_deg": row["angle_deg"], "value": one} for row, one in zip(frames, loss)]
+            continue
+        means = {"mean_volume_loss_pct": loss, "mean_volume_abs_change_pct": [float(row["volume_abs_change_pct"]) for row in frames],
+                 "share_of_frames_within_half_pct": [abs(one) <= 0.5 for one in loss]}
+        values += [key | {"quantity": name, "value": sum(all_values) / len(frames)} for name, all_values in means.items()]
+    return values
+
+
+def mean(how, values):
+    if how == "arithmetic":
+        return sum(values) / len(values)
+    if not all(value >= 0 for value in values):  # a value below 0 has no logarithm, and one that is not a number decides nothing
+        return math.nan
+    return math.exp(sum(map(math.log, values)) / len(values)) if all(values) else 0.0
+
+
+def lies_within(bound, value):
+    return bound.get("low", -INFINITE) <= value <= bound.get("high", INFINITE)
+
+
+def is_undecided(bound, value, limit):
+    """A censored value stands for all values on its side, which may lie within the bound and outside of it."""
+    if limit is None:
+        return False
+    low, high = bound.get("low", -INFINITE), bound.get("high", INFINITE)
+    first, last = (value, INFINITE) if limit in ("at_least", "more_than") else (-INFINITE, value)
+    return not (low <= first and last <= high) and not (last < low or first > high)
+
+
+class Units:
+    """The units of a selection of values: unit -> number, whether it holds and why it does not count."""
+
+    def __init__(self, claim, values, selection):
+        self.claim, self.values = claim, values
+        self.selection = {"quantities": claim.get("quantities", []), "bounds": claim.get("bounds", []), "over": claim.get("over", {}),
+                          "of": {}} | selection
+        self.units = {}
+        over = self.grouped(self.selection["over"]) if self.selection["over"] else None
+        for unit, own in self.grouped(self.selection["of"]).items():
+            self.units[unit] = self.judged(unit, own, None if over is None else over.get(unit, []))
+
+    def grouped(self, of):
+        """Runs beside the study's own count in a unit only where no other run has such values."""
+        groups = {}
+        for value in self.values:
+            if value["quantity"] in self.selection["quantities"] and agrees(value, of):
+                unit = tuple(text(value.get(field, "")) for field in self.claim["unit"])
+                groups.setdefault(unit, []).append(value)
+        return {unit: [value for value in group if not value.get("beside")] or group for unit, group in groups.items()}
+
+    def judged(self, unit, own, over):
+        """The first quantity is the number of the unit; one without a value does not hold."""
+        if "quantity" in self.claim["unit"]:
+            return self.compared(own[0]["quantity"], unit, own, over)
+        parts = []
+        for quantity in self.selection["quantities"]:
+            mine = [value for value in own if value["quantity"] == quantity]
+            base = None if over is None else [value for value in over if value["quantity"] == quantity]
+            parts.append(self.compared(quantity, unit, mine, base) if mine else {"value": math.nan, "holds": False, "left_out": None})
+        left_out = [part["left_out"] for part in parts if part["left_out"]]
+        return parts[0] | {"holds": all(part["holds"] for part in parts), "left_out": left_out[0] if left_out else None, "parts": parts}
+
+    def compared(self, quantity, unit, own, over):
+        key = dict(zip(self.claim["unit"], unit))
+        bound = next((one for one in self.selection["bounds"]
+                      if one.get("quantity", quantity) == quantity and agrees(key, one.get("of", {}))), {})
+        values, how = [float(value["value"]) for value in own], self.claim.get("mean", "arithmetic")
+        ends = {end: [*values, *(float(value.get(end, value["value"])) for value in own)] for end in ("low", "high")}
+        numbers = mean(how, values), min(INFINITE, *ends["low"]), max(-INFINITE, *ends["high"])
+        limit = next((value["limit"] for value in reversed(own) if "limit" in value), None)
+        if over is not None:
+            base = mean(how, [float(value["value"]) for value in over]) if over else math.nan
+            if not math.isfinite(base) or base == 0:
+                return {"value": numbers[0], "holds": False, "left_out": "nothing_to_compare_with"}
+            numbers = [number / base for number in numbers]
+        return {**dict(zip(("value", "low", "high"), numbers)), "bound": bound, "holds": lies_within(bound, numbers[0]),
+                "left_out": "censored" if is_undecided(bound, numbers[0], limit) else None}
+
+    def leave_out_unseen(self, control):
+        for unit, one in self.units.items():
+            same = control.units.get(unit)
+            if same is None or same["left_out"]:
+                one["left_out"] = "no_control"
+            elif same["holds"]:
+                one["left_out"] = "nothing_to_see"
+
+    @property
+    def counted(self):
+        return [one for one in self.units.values() if not one["left_out"]]
+
+    @property
+    def n(self):
+        return len(self.counted)
+
+    @property
+    def held(self):
+        return sum(one["holds"] for one in self.counted)
+
+    @property
+    def numbers(self):
+        return sorted(one["value"] for one in self.counted if math.isfinite(one["value"]))
+
+    def shares(self, field):
+        """value of a field -> the share of its units that hold, of at least two units."""
+        place, groups = self.claim["unit"].index(field), {}
+        for unit, one in self.units.items():
+            if not one["left_out"]:
+                groups.setdefault(unit[place], []).append(one["holds"])
+        return {value: sum(held) / len(held) for value, held in groups.items() if len(held) > 1}
+
+    @property
+    def by_body(self):
+        """Of each body, how many units count, and how many hold."""
+        place = self.claim["unit"].index("body") if "body" in self.claim["unit"] else None
+        groups = {}
+        for unit, one in self.units.items():
+            if not one["left_out"]:
+                groups.setdefault("" if place is None else unit[place], []).append(one["holds"])
+        return [(len(held), sum(held)) for held in groups.values()]
+
+    @property
+    def behaves(self):
+        role = self.selection.get("role")
+        return role is None or (self.n > 0 and (self.held <= FAILING * self.n if role == "must_fail" else self.held >= HOLDING * self.n))
+
+
+def tail(held, n, q):
+    """P(at least `held` of n)."""
+    return sum(math.comb(n, k) * q ** k * (1 - q) ** (n - k) for k in range(held, n + 1))
+
+
+def exact_interval(held, n, level=0.95):
+    """Clopper and Pearson, by bisection of the two tails."""
+    def root(reaches):
+        low, high = 0.0, 1.0
+        for _ in range(100):
+            middle = (low + high) / 2
+            low, high = (low, middle) if reaches(middle) else (middle, high)
+        return low
+
+    half = (1 - level) / 2
+    return (0.0 if held == 0 else root(lambda q: tail(held, n, q) >= half),
+            1.0 if held == n else root(lambda q: 1 - tail(held + 1, n, q) <= half))
+
+
+def bootstrap_ends(bodies):
+    """Between which values the ends of the 95 % range of the share must lie if bodies are drawn with replacement, as many as there are. The
+    quantile at p of N draws lies between those at p - d and p + d of all draws, d = 4 sqrt(p (1 - p) / N), except with a probability of
+    6e-5; the variances of this draw and the program's add up."""
+    source, drawn = random.Random(SEED), []
+    for _ in range(DRAWS):
+        chosen = source.choices(bodies, k=len(bodies))
+        drawn.append(sum(held for _, held in chosen) / sum(n for n, _ in chosen))
+    drawn.sort()
+    margin = 4 * math.sqrt(0.025 * 0.975 * (1 / DRAWS + 1 / DRAWS_OF_THE_PROGRAM))
+    return [(drawn[math.floor((p - margin) * (DRAWS - 1))], drawn[math.ceil((p + margin) * (DRAWS - 1))]) for p in (0.025, 0.975)]
+
+
+class Verdict:
+    """The verdict on one claim from the kept records, with the facts that claims.json states."""
+
+    def __init__(self, claim):
+        self.claim, self.untested = claim, "none"
+        self.q = self.chance = None
+        plan = json.loads((RECORDS / "plans.json").read_text())[claim["study"]]
+        self.values = rows_of(claim["study"], "measurements.csv") + frame_values(claim["study"], plan)
+        self.own = self.units({"of": claim.get("of", {})})
+        self.controls = [self.units(control) for control in claim.get("controls", [])]
+        self.compared = [self.units(other) for other in claim.get("compared", [])]
+        self.printed = [row for row in rows_of(claim["study"], "printed.csv") if row["claim"] == claim["id"]]
+        judged = {"units": self.by_units, "single": self.by_range, "printed": self.by_print, "definition": lambda: "definition"}
+        is_missing = claim["rule"] != "printed" and "quantities" in claim and self.lacks_a_run(plan)
+        self.kind = "not_computable" if is_missing else judged.get(claim["rule"], self.without_a_test)()
+
+    def units(self, selection):
+        return Units(self.claim | {"unit": self.claim.get("unit", [])}, self.values, selection)
+
+    def lacks_a_run(self, plan):
+        origins = json.loads((RECORDS / "provenance.json").read_text())["origins"]
+        finished = {run for origin in origins for run in origin["runs"]}
+        return any(f"{self.claim['study']}/{run['name']}" not in finished for run in plan["runs"])
+
+    def without_a_test(self, why="reason_of_the_claim"):
+        self.untested = why
+        return "not_testable"
+
+    def by_units(self):
+        unseen = [control for control in self.controls if control.selection["name"] == self.claim.get("unseen_by")]
+        for one in [self.own, *self.compared] if unseen else []:
+            one.leave_out_unseen(unseen[0])
+        n, held = self.own.n, self.own.held
+        self.q = self.claim.get("no_effect") or max(
+            1 / (n + 2) if control in unseen else (control.held + 1) / (control.n + 2)  # of the units that count, the former holds in none
+            for control in self.controls if control.selection["role"] == "must_fail")
+        self.chance = tail(held, n, self.q) if n else None
+        for control in self.controls:
+            if not control.behaves:
+                return self.without_a_test("control_misbehaves" if control.n else "control_without_record")
+        if n < LEAST_UNITS:
+            return self.without_a_test("too_few_units")
+        if held <= FAILING * n or self.chance >= LARGEST_CHANCE:
+            return "fails"
+        return "holds" if held >= HOLDING * n else "mixed"
+
+    def by_range(self):
+        if len(self.own.units) != 1:
+            return self.without_a_test("too_few_units")
+        only, = self.own.units.values()
+        if lies_within(only["bound"], only["low"]) and lies_within(only["bound"], only["high"]):
+            return "holds"
+        low, high = only["bound"].get("low", -INFINITE), only["bound"].get("high", INFINITE)
+        return "fails" if only["high"] < low or only["low"] > high or math.isnan(only["value"]) else "mixed"
+
+    def is_consistent(self, row):
+        return float(row["least"]) <= float(row["printed"]) <= float(row.get("most", INFINITE))
+
+    def by_print(self):
+        if not self.printed:
+            return "not_computable"
+        return "holds" if all(map(self.is_consistent, self.printed)) else "inconsistent_in_print"
+
+
+def of_each_claim(test):
+    """Calls test(self, own verdict, claim in claims.json) for each claim."""
+    @functools.wraps(test)
+    def run(self):
+        self.assertEqual([judged["id"] for judged in self.judged], [verdict.claim["id"] for verdict in self.verdicts])
+        for verdict, judged in zip(self.verdicts, self.judged):
+            with self.subTest(judged["id"]):
+                test(self, verdict, judged)
+
+    return run
+
+
+class Recomputed(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        with tempfile.TemporaryDirectory() as folder:
+            kept = pathlib.Path(folder) / "kept"
+            shutil.copytree(RECORDS, kept)
+            process = program.run("reproduce", "--judge", "-o", kept, "--quiet")
+            if process.returncode != 0:
+                raise AssertionError(process.stderr)
+            cls.judged = json.loads((kept / "claims.json").read_text(encoding="utf-8"))["claims"]
+        cls.verdicts = [Verdict(claim) for claim in claims()]
+
+    def assert_near(self, one, other):
+        self.assertTrue(one == other or math.isclose(one, other, rel_tol=1e-9, abs_tol=1e-15), f"{one} is not {other}")
+
+    def assert_same_number(self, own, stated, case):
+        self.assertEqual(math.isfinite(own), stated is not None, case)
+        if stated is not None:
+            self.assert_near(own, stated)
+
+    def assert_same_units(self, own, cases):
+        fields = own.claim["unit"]
+        self.assertEqual(sorted(own.units), sorted(tuple(text(case.get(field, "")) for field in fields) for case in cases))
+        for case in cases:
+            unit = own.units[tuple(text(case.get(field, "")) for field in fields)]
+            self.assertEqual((unit["left_out"], unit["holds"]), (case["left_out"], case["holds"]), case)
+            self.assert_same_number(unit["value"], case["value"], case)
+            self.assertEqual(len(case.get("parts", [])), len(unit.get("parts", [])) if len(unit.get("parts", [])) > 1 else 0, case)
+            for part, stated in zip(unit.get("parts", []), case.get("parts", [])):
+                self.assertEqual(part["holds"], stated["holds"], case)
+                self.assert_same_number(part["value"], stated["value"], case)
+
+    @of_each_claim
+    def test_every_claim_and_control_has_units_on_record(self, verdict, judged):
+        self.assertNotEqual(verdict.kind, "not_computable")
+        if verdict.claim["rule"] == "printed":
+            self.assertTrue(verdict.printed)
+        elif "quantities" in verdict.claim:
+            self.assertGreater(verdict.own.n, 0)
+        self.assertEqual([one.selection["name"] for one in [*verdict.controls, *verdict.compared] if one.n == 0], [])
+
+    @of_each_claim
+    def test_each_verdict_and_why_a_claim_is_not_testable(self, verdict, judged):
+        self.assertEqual((verdict.kind, verdict.untested), (judged["verdict"], judged["untested"]))
+
+    @of_each_claim
+    def test_the_number_of_each_unit_and_whether_it_counts_and_holds(self, verdict, judged):
+        if verdict.claim["rule"] == "printed":
+            own = [(float(row["printed"]), verdict.is_consistent(row)) for row in verdict.printed]
+            self.assertEqual(own, [(case["value"], case["holds"]) for case in judged["cases"]])
+            self.assertEqual((sum(holds for _, holds in own), len(own)), (judged["held"], judged["n"]))
+        else:
+            self.assert_same_units(verdict.own, judged["cases"])
+            self.assertEqual((verdict.own.held, verdict.own.n), (judged["held"], judged["n"]))
+
+    @of_each_claim
+    def test_the_least_the_median_and_the_most_number(self, verdict, judged):
+        numbers = verdict.own.numbers
+        own = (numbers[0], statistics.median(numbers), numbers[-1]) if numbers else (math.nan,) * 3
+        for number, name in zip(own, ("least", "median", "most")):
+            self.assert_same_number(number, judged[name], name)
+
+    @of_each_claim
+    def test_the_share_and_its_interval(self, verdict, judged):
+        if verdict.claim["rule"] != "units" or not judged["n"]:
+            return
+        self.assert_near(verdict.own.held / verdict.own.n, judged["share"])
+        exact, stated = exact_interval(verdict.own.held, verdict.own.n), (judged["interval_low"], judged["interval_high"])
+        self.assertTrue(0 <= stated[0] <= stated[1] <= 1, stated)
+        is_exact = all(math.isclose(one, other, abs_tol=1e-9) for one, other in zip(stated, exact))
+        bodies, width = verdict.own.by_body, exact[1] - exact[0]
+        if len(bodies) > 1:
+            low, high = bootstrap_ends(bodies)
+            is_bootstrap = low[0] <= stated[0] <= low[1] and high[0] <= stated[1] <= high[1] and stated[1] - stated[0] > width
+            self.assertTrue(is_exact and high[0] - low[1] <= width or is_bootstrap, f"{stated}: neither {exact} nor in {low}, {high}")
+        else:
+            self.assertTrue(is_exact, f"{stated} is not {exact}")
+
+    @of_each_claim
+    def test_the_property_by_which_the_units_of_a_mixed_claim_differ(self, verdict, judged):
+        if verdict.kind != "mixed":
+            self.assertIsNone(judged["differs"])
+            return
+        shares = {field: verdict.own.shares(field) for field in verdict.own.claim["unit"]}
+        spread = max(max(values.values()) - min(values.values()) for values in shares.values() if values)
+        of = judged["differs"] or {"least": 0, "most": 0}
+        self.assert_near(of["most"] - of["least"], spread)
+        for end in ("least", "most") if "field" in of else ():
+            self.assert_near(shares[of["field"]][text(of[f"{end}_at"])], of[end])
+
+    @of_each_claim
+    def test_q_and_chance(self, verdict, judged):
+        for own, stated in ((verdict.q, judged["q"]), (verdict.chance, judged["chance"])):
+            self.assertEqual(own is None, stated is None)
+            if own is not None:
+                self.assert_near(own, stated)
+
+    @of_each_claim
+    def test_how_many_units_of_each_control_and_comparison_hold_and_whether_it_behaves(self, verdict, judged):
+        own = [(one.selection["name"], one.selection.get("role", "comparison"), one.held, one.n, one.behaves)
+               for one in [*verdict.controls, *verdict.compared]]
+        self.assertEqual(own, [tuple(one[key] for key in ("name", "role", "held", "n", "behaves"))
+                               for one in judged["controls"] + judged["compared"]])
+
+
+class OwnFormulae(unittest.TestCase):
+    """Reference: tables of the binomial distribution; the closed forms at 0 and n of n."""
+
+    def test_tails(self):
+        self.assertAlmostEqual(tail(0, 5, 0.3), 1.0)
+        self.assertAlmostEqual(tail(14, 18, 0.5), 0.01544189453125)
+        self.assertAlmostEqual(tail(5, 5, 0.5), 1 / 32)
+
+    def test_means_with_a_zero_or_without_a_value(self):
+        self.assertEqual((mean("geometric", [0.0, 4.0]), mean("geometric", [1.0, 4.0])), (0.0, 2.0))
+        self.assertTrue(all(math.isnan(mean("geometric", values)) for values in ([-1.0, 4.0], [math.nan, 1.0])))
+
+    def test_the_ends_of_a_bootstrap_over_bodies(self):
+        """Two bodies, of which one holds: both draws of one body have a probability of 1/4, more than 2.5 %."""
+        self.assertEqual(bootstrap_ends([(3, 3), (2, 0)]), [(0.0, 0.0), (1.0, 1.0)])
+
+    def test_exact_intervals(self):
+        low, high = exact_interval(0, 6)
+        self.assertEqual(low, 0.0)
+        self.assertAlmostEqual(high, 1 - 0.025 ** (1 / 6))
+        low, high = exact_interval(28, 29)
+        self.assertAlmostEqual(low, 0.8224, places=4)
+        self.assertAlmostEqual(high, 0.99913, places=5)
+
+    def test_what_a_censored_value_decides(self):
+        for bound, value, limit, undecided in (({"high": 24.0}, 1000.0, "more_than", False), ({"high": 24.0}, 20.0, "at_least", True),
+                                               ({"low": 1.05}, 2.0, "at_least", False), ({"low": 1.05}, 1.0, "at_most", False),
+                                               ({"low": 1.05}, 2.0, "at_most", True), ({"low": 1.05}, 0.5, "more_than", True)):
+            self.assertEqual(is_undecided(bound, value, limit), undecided, (bound, value, limit))
+
+
+if __name__ == "__main__":
+    unittest.main()
