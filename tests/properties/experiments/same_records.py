@@ -18,7 +18,7 @@ ALL = ('["lbs", "dqs", "delta_mush", "direct_delta_mush", "pbs", "pbs_author", "
        '"xpbd_neo_hookean", "projective_dynamics"]')
 WITH_ORDERS = '["pbs", "xpbd", "xpbd_small_steps"]'
 FEM = '[[fem]]\nname = "p1"\nmodel = "linear"\n[[fem]]\nname = "snh"\nmodel = "stable_neo_hookean"\n'
-# threads share the same in each iteration, and direct_delta_mush iterates before the first pose
+# Threads share the same vertices in each iteration; direct_delta_mush iterates before the first pose.
 ITERATED = ("direct_delta_mush", "pbs", "quasi_newton", "vbd", "xpbd_neo_hookean", "projective_dynamics")
 ORDERS, PRECISIONS = ["plain", "ordered", "grouped"], ["f32", "f64"]
 BLAS_THREADS = [{"OPENBLAS_NUM_THREADS": n, "OMP_NUM_THREADS": n} for n in "124"]
