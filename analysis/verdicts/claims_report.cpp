@@ -35,18 +35,6 @@ json to_json_of(const Bound& bound)
     return object;
 }
 
-json to_json_of(const Judged& judged);
-json to_json_of(const Unit& unit);
-json to_json_of(const PrintedValue& value);
-
-template <typename List>
-json list_of(const List& all)
-{
-    json list = json::array();
-    for (const auto& one : all) list.push_back(to_json_of(one));
-    return list;
-}
-
 json to_json_of(const Unit& unit)
 {
     json object = to_json_of(unit.of);
@@ -74,6 +62,16 @@ json to_json_of(const PrintedValue& value)
                    {"bound_high", finite(value.most)},
                    {"holds", value.is_consistent()}});
     return object;
+}
+
+json to_json_of(const Judged& judged);
+
+template <typename List>
+json list_of(const List& all)
+{
+    json list = json::array();
+    for (const auto& one : all) list.push_back(to_json_of(one));
+    return list;
 }
 
 // The numbers of the units that count: least, median, most.

@@ -35,11 +35,6 @@ Unit unit_of(const Claim& claim, const Measurement& measured)
     return unit;
 }
 
-bool is_same(const Unit& one, const Unit& other)
-{
-    return one.quantity == other.quantity && one.of == other.of;
-}
-
 double mean_of(Mean mean_kind, const std::vector<double>& values)
 {
     if (mean_kind == Mean::arithmetic) return mean(values);
@@ -47,26 +42,6 @@ double mean_of(Mean mean_kind, const std::vector<double>& values)
     std::vector<double> logarithms;
     for (const double value : values) logarithms.push_back(std::log(value));  // NaN for a value below 0, as for one that is not known
     return std::exp(mean(logarithms));
-}
-
-// The dependent values of a unit as one number.
-struct Dependent {
-    double value = 0.0, low = 0.0, high = 0.0;
-    Limit limit = Limit::none;
-};
-
-Dependent mean_of(const Claim& claim, const std::vector<const Measurement*>& values)
-{
-    Dependent all{.low = std::numeric_limits<double>::infinity(), .high = -std::numeric_limits<double>::infinity()};
-    std::vector<double> numbers;
-    for (const Measurement* one : values) {
-        numbers.push_back(one->value);
-        all.low = std::min({all.low, one->value, one->low});
-        all.high = std::max({all.high, one->value, one->high});
-        if (one->limit != Limit::none) all.limit = one->limit;
-    }
-    all.value = mean_of(claim.mean, numbers);
-    return all;
 }
 
 Bound bound_of(const Selection& selection, const std::string& quantity, const CaseKey& of)
@@ -89,6 +64,13 @@ bool is_undecided(const Unit& unit)
 
 using Values = std::vector<const Measurement*>;
 
+double mean_of(Mean mean_kind, const Values& values)
+{
+    std::vector<double> numbers;
+    for (const Measurement* one : values) numbers.push_back(one->value);
+    return mean_of(mean_kind, numbers);
+}
+
 Values of_quantity(const Values& values, const std::string& quantity)
 {
     Values found;
@@ -99,16 +81,18 @@ Values of_quantity(const Values& values, const std::string& quantity)
 // One quantity of a unit, compared with its bound.
 Unit compared(const Claim& claim, const Selection& selection, Unit unit, const Values& values, const Values& over)
 {
-    const Dependent own = mean_of(claim, values);
-    unit.value = own.value;
-    unit.low = own.low;
-    unit.high = own.high;
-    unit.limit = own.limit;
+    unit.value = mean_of(claim.mean, values);
+    unit.low = unit.high = values.front()->value;
+    for (const Measurement* one : values) {
+        unit.low = std::min({unit.low, one->value, one->low});
+        unit.high = std::max({unit.high, one->value, one->high});
+        if (one->limit != Limit::none) unit.limit = one->limit;
+    }
     unit.n = static_cast<int>(values.size());
     unit.unit = values.front()->unit;
     unit.bound = bound_of(selection, values.front()->quantity, unit.of);
     if (selection.over != CaseKey{}) {
-        const double base = over.empty() ? not_known : mean_of(claim, over).value;
+        const double base = over.empty() ? not_known : mean_of(claim.mean, over);
         if (!(std::isfinite(base) && base != 0.0)) {
             unit.left_out = LeftOutUnit::nothing_to_compare_with;
             return unit;
@@ -165,7 +149,7 @@ void count(Judged& judged)
 void leave_out_unseen(const Judged& control, Judged& own)
 {
     for (Unit& unit : own.units) {
-        const auto same = std::ranges::find_if(control.units, [&](const Unit& one) { return is_same(one, unit); });
+        const auto same = std::ranges::find_if(control.units, [&](const Unit& one) { return one.is_same(unit); });
         if (same == control.units.end() || !same->counts())
             unit.left_out = LeftOutUnit::no_control;
         else if (same->holds)
@@ -351,7 +335,7 @@ Judged judged(const Claim& claim, const Selection& selection, const std::vector<
     std::vector<Values> values, base;
     const auto place_of = [&](const Measurement& one) {
         const Unit unit = unit_of(claim, one);
-        return std::ranges::find_if(units, [&](const Unit& other) { return is_same(unit, other); }) - units.begin();
+        return std::ranges::find_if(units, [&](const Unit& other) { return other.is_same(unit); }) - units.begin();
     };
     for (const Measurement& one : own) {
         const auto place = static_cast<std::size_t>(place_of(one));

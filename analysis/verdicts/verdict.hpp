@@ -43,6 +43,7 @@ struct Unit {
     std::vector<Unit> parts = {};  // one for each quantity, if the unit has several
 
     bool counts() const { return left_out == LeftOutUnit::no; }
+    bool is_same(const Unit& other) const { return quantity == other.quantity && of == other.of; }
 };
 
 // The units of a selection of values, and the share of those that hold.

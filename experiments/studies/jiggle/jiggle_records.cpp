@@ -49,7 +49,7 @@ const Columns<JoltResponse> jolt_columns =
 
 constexpr double first_young_pa = 1e5;         // of the reference, before its frequency is matched
 constexpr double rayleigh_stiffness_s = 0.02;  // of the control with damping
-constexpr int control_steps = 100;
+constexpr int control_steps = 100, least_for_correlation = 4;
 
 ResponseRow response_row(const JiggleSetting& setting, double young_pa, double time_step_s, const JoltResponse& response)
 {
@@ -85,6 +85,21 @@ struct JoltRecords {
     std::vector<analysis::Measurement> measurements = {};
 };
 
+Measurement measurement(const std::string& quantity, const analysis::CaseKey& of, const Interval& value, const std::string& unit)
+{
+    return {"C09", quantity, of, value.estimate, value.low, value.high, unit};
+}
+
+Measurement exact_value(const std::string& quantity, const analysis::CaseKey& of, double value)
+{
+    return {"C09", quantity, of, value, value, value, "1"};
+}
+
+Interval over(const Interval& a, const Interval& b)
+{
+    return {a.estimate / b.estimate, a.low / b.high, a.high / b.low};
+}
+
 void add_reference(const JoltCase& of, const pbs::Character& character, const std::vector<int>& probe, const MeasuredJiggle& measured,
                    JoltRecords& records)
 {
@@ -100,29 +115,10 @@ void add_reference(const JoltCase& of, const pbs::Character& character, const st
     analysis::CaseKey at = key_of(character.name, measured.setting);
     at.reference = "nh_p1";
     at.young_pa = reference->young_pa;
-    const double pace = hz / swing.frequency_hz.estimate, reach = own.overshoot_over_jolt / reference->response.overshoot_over_jolt;
-    records.measurements.push_back({"C09", "frequency_over_reference", at, pace, own.swing.frequency_hz.low / swing.frequency_hz.high,
-                                    own.swing.frequency_hz.high / swing.frequency_hz.low, "1"});
-    records.measurements.push_back({"C09", "amplitude_over_reference", at, reach, reach, reach, "1"});
-    records.measurements.push_back(
-        {"C09", "damping_ratio_of_reference", at, swing.damping_ratio.estimate, swing.damping_ratio.low, swing.damping_ratio.high, "1"});
-}
-
-constexpr std::size_t least_for_correlation = 4;
-
-Measurement measurement(const std::string& quantity, const analysis::CaseKey& of, const Interval& value, const std::string& unit)
-{
-    return {"C09", quantity, of, value.estimate, value.low, value.high, unit};
-}
-
-Measurement exact_value(const std::string& quantity, const analysis::CaseKey& of, double value)
-{
-    return {"C09", quantity, of, value, value, value, "1"};
-}
-
-Interval over(const Interval& a, const Interval& b)
-{
-    return {a.estimate / b.estimate, a.low / b.high, a.high / b.low};
+    const double reach = own.overshoot_over_jolt / reference->response.overshoot_over_jolt;
+    records.measurements.push_back(measurement("frequency_over_reference", at, over(own.swing.frequency_hz, swing.frequency_hz), "1"));
+    records.measurements.push_back(exact_value("amplitude_over_reference", at, reach));
+    records.measurements.push_back(measurement("damping_ratio_of_reference", at, swing.damping_ratio, "1"));
 }
 
 const Interval* frequency_at(const std::vector<MeasuredJiggle>& measured, const JiggleSetting& setting)
@@ -151,15 +147,12 @@ std::vector<FrequencyRatio> ratios(const std::vector<MeasuredJiggle>& measured, 
 
 void add_share(std::vector<Measurement>& measurements, const std::string& body, const std::vector<MeasuredJiggle>& measured)
 {
-    int all = 0, swinging = 0;
-    for (const MeasuredJiggle& one : measured) {
-        if (!is_of_the_paper(one.setting)) continue;
-        ++all;
-        swinging += one.response.swing.found();
-    }
-    if (all == 0) return;
-    measurements.push_back(exact_value("share_of_settings_that_swing", {.body = body}, static_cast<double>(swinging) / all));
-    measurements.back().n = all;
+    std::vector<double> swings;  // 1 where it does
+    for (const MeasuredJiggle& one : measured)
+        if (is_of_the_paper(one.setting)) swings.push_back(one.response.swing.found());
+    if (swings.empty()) return;
+    measurements.push_back(exact_value("share_of_settings_that_swing", {.body = body}, analysis::mean(swings)));
+    measurements.back().n = static_cast<int>(swings.size());
 }
 
 // of: with the body and the deformer.
@@ -189,6 +182,16 @@ struct Trend {
     std::vector<double> stiffness, value;
 };
 
+Trend trend_of(const std::vector<MeasuredJiggle>& measured, double (*value)(const JoltResponse&))
+{
+    Trend trend;
+    for (const MeasuredJiggle& one : measured) {
+        trend.stiffness.push_back(one.setting.k_stretch);
+        trend.value.push_back(value(one.response));
+    }
+    return trend;
+}
+
 double correlation_without(Trend trend, std::size_t left_out)
 {
     for (std::vector<double>* of : {&trend.stiffness, &trend.value})
@@ -199,7 +202,7 @@ double correlation_without(Trend trend, std::size_t left_out)
 void add_correlation(std::vector<Measurement>& measurements, const std::string& quantity, const analysis::CaseKey& of, const Trend& trend)
 {
     const std::size_t points = trend.value.size();
-    if (points < least_for_correlation) return;
+    if (points < std::size_t{least_for_correlation}) return;
     Measurement correlation = exact_value(quantity, of, correlation_without(trend, points));
     correlation.n = static_cast<int>(points);
     for (std::size_t left_out = 0; left_out < points; ++left_out) {
@@ -222,12 +225,8 @@ void add_amplitudes(std::vector<Measurement>& measurements, const analysis::Case
 void add_frequencies(std::vector<Measurement>& measurements, const std::string& body, const std::vector<MeasuredJiggle>& measured)
 {
     if (measured.size() < 2) return;
-    Trend frequency;
-    for (const MeasuredJiggle& one : measured) {
-        frequency.stiffness.push_back(one.setting.k_stretch);
-        frequency.value.push_back(one.response.swing.frequency_hz.estimate);
-    }
-    add_correlation(measurements, "rank_correlation_of_frequency_and_k_stretch", {.body = body}, frequency);
+    add_correlation(measurements, "rank_correlation_of_frequency_and_k_stretch", {.body = body},
+                    trend_of(measured, [](const JoltResponse& response) { return response.swing.frequency_hz.estimate; }));
     const MeasuredJiggle &smallest = measured.front(), &largest = measured.back();
     const analysis::CaseKey of = {.body = body, .k_stretch = smallest.setting.k_stretch, .k_stretch_to = largest.setting.k_stretch};
     measurements.push_back(measurement("frequency_ratio_over_k_stretch", of,
@@ -282,10 +281,8 @@ void add_half_step(std::vector<Measurement>& measurements, const std::string& bo
     if (halvings.empty()) return;
     Measurement half =
         exact_value("frequency_ratio_at_half_time_step", key_of(body, halvings.front().from), halvings.front().ratio.estimate);
-    for (const FrequencyRatio& halving : halvings) {
-        half.low = std::min(half.low, halving.ratio.estimate);
-        half.high = std::max(half.high, halving.ratio.estimate);
-    }
+    for (const FrequencyRatio& halving : halvings) half.low = std::min(half.low, halving.ratio.estimate);
+    for (const FrequencyRatio& halving : halvings) half.high = std::max(half.high, halving.ratio.estimate);
     half.n = static_cast<int>(halvings.size());
     measurements.push_back(half);
 }
@@ -397,12 +394,9 @@ std::vector<Measurement> jiggle_values(const std::string& body, const std::vecto
     add_share(measurements, body, measured);
     for (const MeasuredJiggle& one : measured)
         add_setting(measurements, key_of(body, one.setting), one.response, is_of_the_paper(one.setting));
-    Trend amplitude;
-    for (const MeasuredJiggle& one : by_k_stretch(measured, [](const JoltResponse& response) { return response.finished; })) {
-        amplitude.stiffness.push_back(one.setting.k_stretch);
-        amplitude.value.push_back(one.response.overshoot_over_jolt);
-    }
-    add_amplitudes(measurements, {.body = body, .deformer = "pbs", .masses = name_of(pbs::Masses::unit)}, amplitude);
+    const auto finished = by_k_stretch(measured, [](const JoltResponse& response) { return response.finished; });
+    add_amplitudes(measurements, {.body = body, .deformer = "pbs", .masses = name_of(pbs::Masses::unit)},
+                   trend_of(finished, [](const JoltResponse& response) { return response.overshoot_over_jolt; }));
     add_frequencies(measurements, body, by_k_stretch(measured, [](const JoltResponse& response) { return response.swing.found(); }));
     add_half_step(measurements, body, measured);
     const std::vector<FrequencyRatio> doublings = ratios(measured, [](JiggleSetting& setting) { setting.iterations *= 2; });
