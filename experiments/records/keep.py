@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Keeps what the verdicts rest on: from the records of `pbskin reproduce --full -o DIR` the values by which claims are judged, those that
-they show for comparison, the studies' own tables and the provenance, below 12 MB, in experiments/records/full. `pbskin reproduce --judge -o
-experiments/records/full` judges them again.
+they show for comparison, the studies' own tables and the provenance, below 12 MB, in experiments/records/full. Studies that DIR lacks keep
+their earlier records, with the revision of these. `pbskin reproduce --judge -o experiments/records/full` judges them all again.
 
     python3 experiments/records/keep.py results/full [FOLDER]
 """
@@ -14,6 +14,9 @@ import shutil
 import sys
 import tempfile
 import tomllib
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "paper_figures"))
+from records import kept  # noqa: E402
 
 JUDGED = ["scene", "deformer", "variant", "order", "precision", "iterations", "threads", "frame", "time_s", "angle_deg", "outcome",
           "volume_change_pct", "volume_abs_change_pct", "inverted_tets", "masked_share_pct", "error_joint_pct"]
@@ -131,7 +134,24 @@ def joined(tables, column):
     return text.getvalue()
 
 
-def merge(results, target):
+def earlier_studies(kept_records, new, scratch):
+    """Writes the kept records of all studies that are not among the new ones, a folder per run, into scratch. Returns the origins of those
+    of their tables that were measured apart."""
+    if not (kept_records / "provenance.json").is_file():
+        return []
+    expanded = scratch / "earlier"
+    kept.expand(kept_records, expanded)
+    for folder in expanded.iterdir():
+        if folder.is_dir() and folder.name not in new:
+            folder.rename(scratch / folder.name)
+    shutil.rmtree(expanded)
+    origins = json.loads((kept_records / "provenance.json").read_text(encoding="utf-8"))["origins"]
+    apart = [origin | {"runs": [], "tables": [table for table in origin.get("tables", []) if table.split("/")[0] not in new]}
+             for origin in origins]
+    return [origin for origin in apart if origin["tables"]]
+
+
+def merge(results, target, apart=()):
     """From a folder per run to one table per study and kind (paper_figures/records/kept.py reads it)."""
     origins, plans, tables = {}, {}, {}
     for file in sorted(results.rglob("*")):
@@ -153,7 +173,7 @@ def merge(results, target):
         (target / name).parent.mkdir(parents=True, exist_ok=True)
         (target / name).write_text(joined(parts, column), encoding="utf-8")
     for name, content in (("plans.json", plans),
-                          ("provenance.json", {"origins": [json.loads(text) | {"runs": runs} for text, runs in origins.items()]})):
+                          ("provenance.json", {"origins": [json.loads(text) | {"runs": runs} for text, runs in origins.items()] + list(apart)})):
         (target / name).write_text(json.dumps(content, indent=1, sort_keys=True) + "\n", encoding="utf-8")
 
 
@@ -166,11 +186,12 @@ def keep(results, target):
     shutil.rmtree(beside, ignore_errors=True)
     beside.mkdir(parents=True)
     with tempfile.TemporaryDirectory() as scratch:
-        for plan in plans:
-            if plan.parent.name != "frames":  # no claim is judged by them
-                keep_study(plan.parent, pathlib.Path(scratch) / plan.parent.name)
+        new = {plan.parent.name for plan in plans} - {"frames"}  # no claim is judged by them
+        apart = earlier_studies(target, new, pathlib.Path(scratch))
+        for study in sorted(new):
+            keep_study(results / study, pathlib.Path(scratch) / study)
         shutil.copyfile(results / "claims.md", pathlib.Path(scratch) / "claims.md")  # claims.json is longer, and --judge writes it again
-        merge(pathlib.Path(scratch), beside)
+        merge(pathlib.Path(scratch), beside, apart)
     size = sum(file.stat().st_size for file in beside.rglob("*") if file.is_file())
     if size > MOST_BYTES:
         sys.exit(f"keep: {size / 1e6:.2f} MB in {beside}, more than {MOST_BYTES / 1e6:g}")

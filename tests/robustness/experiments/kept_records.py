@@ -41,6 +41,16 @@ class KeptRecords(program.ProgramTest):
         provenance.write_text(provenance.read_text().replace('"momentum/limb"', '"momentum/another"'))
         self.ends(1, "reproduce", "--judge", "-o", kept, "--quiet")
 
+    def test_studies_without_new_records_keep_their_earlier_ones(self):
+        results, kept = self.recorded("audit")[0], self.kept_records(study="study", tables=["study/runs/metrics.csv"])
+        before = (kept / "study" / "runs" / "metrics.csv").read_text()
+        self.assertEqual(self.keep(results, kept).returncode, 0)
+        self.assertEqual((kept / "study" / "runs" / "metrics.csv").read_text(), before)
+        self.assertEqual(set(json.loads((kept / "plans.json").read_text())), {"audit", "study"})
+        origins = json.loads((kept / "provenance.json").read_text())["origins"]
+        self.assertEqual([origin["runs"] for origin in origins], [["audit/print"], ["study/one"], []])
+        self.assertEqual(origins[2]["tables"], ["study/runs/metrics.csv"])
+
     def test_each_run_has_its_tables_again(self):
         results, merged, opened = (pathlib.Path(self.path(name)) for name in ("results", "merged", "opened"))
         tables = {"study/one/a.csv": "x,y\n1,\"p,q\"\n2,r\n", "study/two/a.csv": "y,z\ns,3\n", "study/two/b.csv": "only\n",
