@@ -172,8 +172,8 @@ def merge(results, target, apart=()):
     for (name, column), parts in tables.items():
         (target / name).parent.mkdir(parents=True, exist_ok=True)
         (target / name).write_text(joined(parts, column), encoding="utf-8")
-    for name, content in (("plans.json", plans),
-                          ("provenance.json", {"origins": [json.loads(text) | {"runs": runs} for text, runs in origins.items()] + list(apart)})):
+    measured = [json.loads(text) | {"runs": runs} for text, runs in origins.items()]
+    for name, content in (("plans.json", plans), ("provenance.json", {"origins": [*measured, *apart]})):
         (target / name).write_text(json.dumps(content, indent=1, sort_keys=True) + "\n", encoding="utf-8")
 
 
