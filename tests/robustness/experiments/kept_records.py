@@ -118,8 +118,8 @@ class KeptRecords(program.ProgramTest):
         results, kept = self.recorded("audit")
         self.assertEqual(self.keep(results, kept).returncode, 0)
         before = {file: file.read_bytes() for file in kept.rglob("*.*") if file.is_file()}
-        (results / "audit" / "print" / "measurements.csv").write_text("claim\n" + ("x" * 99 + "\n") * 120_000)
-        self.assertIn("more than 12", self.keep(results, kept).stderr)
+        (results / "audit" / "print" / "measurements.csv").write_text("claim\n" + ("x" * 99 + "\n") * 140_000)
+        self.assertIn("more than 14", self.keep(results, kept).stderr)
         self.assertIn("no records", self.keep(pathlib.Path(self.path("nothing")), kept).stderr)
         self.assertEqual({file: file.read_bytes() for file in kept.rglob("*.*") if file.is_file()}, before)
 
