@@ -68,5 +68,7 @@ def files(folder, name):
 
 
 def of_runs(folder, name, needed):
-    """The rows of a table of all runs, in the order of the plan."""
-    return [row for file in files(folder, name) for row in records.table(file, needed)]
+    """The rows of a table of all runs, in the order of the plan. A run may have none, but not all of them."""
+    filled = [file for file in files(folder, name) if records.read_rows(file)]
+    records.need(filled, f"{folder}: {name}: no rows in any run")
+    return [row for file in filled for row in records.table(file, needed)]
