@@ -236,7 +236,7 @@ std::string number_text(const Judged& judged, double number)
     const auto is_it = [&](const Unit& unit) { return unit.counts() && unit.value == number && unit.limit != Limit::none; };
     const auto censored = std::ranges::find_if(judged.units, is_it);
     const Limit limit = censored == judged.units.end() ? Limit::none : censored->limit;
-    return signs[static_cast<std::size_t>(limit)] + (limit == Limit::none ? fmt::format("{:.3g}", number) : fmt::format("{:.4g}", number));
+    return signs[static_cast<std::size_t>(limit)] + fmt::format("{:.{}g}", number, limit != Limit::none && number >= 1e3 ? 4 : 3);
 }
 
 // The numbers of the units, least to most, with their bound.

@@ -43,7 +43,7 @@ def page_of(name):
 # Bounds and numbers.
 
 def title(claim, quantity):
-    return claim["titles"].get(quantity, case_words.in_plain(quantity))
+    return claim["titles"].get(quantity) or case_words.in_plain(quantity or "number")
 
 
 def with_unit(unit):
