@@ -269,7 +269,7 @@ TEST_P(ShuffledSizes, LoseTheVerdict)
     std::vector<double> vertices, iterations;
     CaseKey of = claim_.own.of;
     for (const Measurement& one : kept(claim_.study).measurements)
-        if (one.quantity == "iterations_to_tolerance_of_limbs" && matches(one.of, of)) {
+        if (one.quantity == "iterations_to_tolerance_of_limbs" && matches(one.of, of) && one.run == rows_.front().run) {
             vertices.push_back(*one.of.vertices);
             iterations.push_back(one.value);
         }
