@@ -6,6 +6,7 @@
 #include "experiments/process/child_process.hpp"
 #include "experiments/process/terminal.hpp"
 #include "experiments/run/run.hpp"
+#include "experiments/run/run_folder.hpp"
 #include "experiments/trial/trial.hpp"
 #include "pbs/character/body_cache.hpp"
 #include "pbs/character/json_file.hpp"
@@ -13,6 +14,7 @@
 #include "pbs/geometry/input_error.hpp"
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
 
@@ -40,17 +42,18 @@ std::string python_that_draws()
 }
 
 // Runs the scene that was just written. If it is refused, nothing of it is left behind.
-RunResult run_new_scene(const std::string& scene_file, const std::string& folder, bool folder_is_new, int threads,
+RunResult run_new_scene(const std::string& scene_file, const TrialOptions& options, bool folder_is_new, int threads,
                         const std::vector<std::string>& warnings)
 {
     try {
         Scene scene = read_scene(scene_file, {});
         for (DeformerSpec& spec : scene.deformers) spec.threads = threads;
-        return run_scene(scene, folder, warnings);
+        scene.output.surface_files = options.paraview;
+        return run_scene(scene, options.folder, warnings);
     } catch (const pbs::InputError&) {
         std::error_code code;
         fs::remove(scene_file, code);
-        if (folder_is_new) fs::remove(folder, code);  // fails if anything else is there
+        if (folder_is_new) fs::remove(options.folder, code);  // fails if anything else is there
         throw;
     }
 }
@@ -67,6 +70,31 @@ void refuse_a_scene_of_the_user(const std::string& scene_file, const std::string
                               "exists and is not the scene of a trial: expected another folder (-o); `pbskin run` runs this scene");
 }
 
+// Of a trial remain the page, the tables, the .glb files and the artist's surface. The frames for ParaView take most of the space; once the
+// page is written, it has what it shows of them.
+void leave_what_is_of_use(const TrialOptions& options, bool has_page)
+{
+    const fs::path folder = options.folder;
+    const bool leaves_out = has_page && !options.paraview;
+    if (leaves_out) {
+        remove_frames(options.folder);
+        if (pbs::read_text_file((folder / "report.html").string()).find("id=\"viewer-block\"") == std::string::npos)
+            warn(
+                {fmt::format("{}: has no viewer, for the reason above; --paraview keeps the frames of which `pbskin report` makes one, and "
+                             "frames/*.glb have the moving surfaces",
+                             (folder / "report.html").string())});
+    }
+    std::uintmax_t bytes = 0;
+    int files = 0;
+    for (const auto& file : fs::recursive_directory_iterator(folder)) {
+        if (!file.is_regular_file()) continue;
+        bytes += file.file_size();
+        ++files;
+    }
+    spdlog::info("{}: {:.1f} MB in {} files{}", options.folder, static_cast<double>(bytes) / 1e6, files,
+                 leaves_out ? ", without frames for ParaView (--paraview keeps them)" : "");
+}
+
 int try_model(TrialOptions options, const CommonOptions& common)
 {
     if (options.folder.empty()) options.folder = "results/" + fs::path(options.model).stem().string();
@@ -76,7 +104,7 @@ int try_model(TrialOptions options, const CommonOptions& common)
     refuse_a_scene_of_the_user(scene_file, made.text);
     analysis::write_text_atomically(scene_file, made.text);
 
-    const RunResult result = run_new_scene(scene_file, options.folder, is_new, common.threads, made.remarks);
+    const RunResult result = run_new_scene(scene_file, options, is_new, common.threads, made.remarks);
     for (const auto& line : result.lines) spdlog::info("{}", line);
     nlohmann::json facts = trial_facts(options.folder);
     facts["scene_hash"] = pbs::content_hash(made.text);
@@ -85,6 +113,7 @@ int try_model(TrialOptions options, const CommonOptions& common)
     spdlog::info("{}", facts["summary"].get<std::string>());
     spdlog::info("To go on, change {} and run it with `pbskin run`.", scene_file);
     const int page = write_report_page(options.folder, common.quiet);
+    leave_what_is_of_use(options, page == exit_finished);
     if (result.failure().empty()) return page;
     spdlog::error("pbskin: {}", result.failure());
     return exit_breakdown;
@@ -131,6 +160,7 @@ void add_try_verb(CommandLine& line)
         ->check(CLI::Range(150, 10'000'000));
     verb->add_option("--skeleton", options->skeleton, "skeleton of a model without joints: a file, or human");
     verb->add_option("--scale", options->scale, "enlarges the model, for files that state a wrong unit");
+    verb->add_flag("--paraview", options->paraview, "keeps the frames for ParaView too (.vtu, .vtp), which take most of the space");
     verb->add_flag("--allow-partial", options->allow_partial, "accepts a clip of which fewer than half of the moving joints match a bone");
     verb->add_flag_callback(
         "--no-reference", [options] { options->reference = false; }, "leaves out the finite elements, which take most of the time");

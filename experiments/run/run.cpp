@@ -153,6 +153,7 @@ public:
               cost_.time("metrics_set_up", [&] { return FrameMeasurer(character_, measured_output(scene), prescribed_by_any(runners_)); })),
           folder_((refuse_frames_beyond(motion_, scene), scene), character_, folder)
     {
+        add_warnings(folder_.remarks(), warnings_);
         if (scene.output.surface && character_.surface && !measurer_.measures_surface_volume())
             add_warnings({scene.file + ": surface_volume_change_pct is empty: the rendered surface is open or encloses no volume"},
                          warnings_);
@@ -211,7 +212,7 @@ private:
         if (frame == 0) warn_of_inverted_start();
         if (scene_.output.writes(frame)) {
             folder_.write_pose(frame, time_s, character_.skeleton, motion_.steps[step]);
-            folder_.write_artist_skin(frame, time_s, character_, scene_.motion);
+            folder_.write_artist_skin(frame, time_s, character_, scene_.motion, motion_.steps[step]);
         }
         ++frames_;
     }
@@ -309,7 +310,9 @@ private:
         }
         if (error_bar_) outcome["frames_below_reference_error"] = frames_below_reference_error_;
         outcome["warnings"] = warnings_;
-        outcome["motion"] = {{"largest_rotation_deg", motion_case_.largest_rotation_deg}};
+        outcome["motion"] = {{"largest_rotation_deg", motion_case_.largest_rotation_deg},
+                             {"time_zero", motion_case_.time_zero},
+                             {"time_zero_s", motion_case_.time_zero_s}};
         if (motion_case_.clip_joints > 0)
             outcome["motion"].update({{"clip_joints", motion_case_.clip_joints}, {"matched_joints", motion_case_.matched_joints}});
         outcome.update(run_end(stopwatch_.seconds()));

@@ -1,6 +1,6 @@
 // The folder of a run: metrics.csv, frame_statistics.csv, iterations.csv, regions.csv and run.json. If frames are written, it also has
 // frames/, distances.csv, bones.csv, bones_rest.csv, binding.csv and, for a body with a rendered surface, surface_rest.vtp and
-// embedding.csv; of a model's animation skin/. Each file is written whole or not at all. run.json comes last, so that a folder with
+// embedding.csv; for a model with joints skin/. Each file is written whole or not at all. run.json comes last, so that a folder with
 // run.json is a finished run.
 #pragma once
 
@@ -211,8 +211,11 @@ public:
     {
         add_bones(bones_, frame, time_s, skeleton, pose);
     }
-    // skin/artist_000123.vtp: the model's surface by the skinning formula of its file; nothing without an animation of a model.
-    void write_artist_skin(int frame, double time_s, const pbs::Character& character, const MotionSpec& motion);
+    // skin/artist_000123.vtp: the model's surface by the skinning formula of its file, for its animation with scale and shear, for a clip
+    // or a sweep with the bones' rigid pose; nothing for a model without joints.
+    void write_artist_skin(int frame, double time_s, const pbs::Character& character, const MotionSpec& motion, const pbs::Pose& pose);
+    // What of the model the .glb files do not show.
+    const std::vector<std::string>& remarks() const { return materials_.remarks; }
     // Into the deformer's state hash and the changes of its regions.
     void add_positions(const std::string& label, const pbs::Positions& positions)
     {
@@ -238,7 +241,12 @@ private:
     std::map<std::string, analysis::StateHash> hashes_;
     std::map<std::string, std::vector<std::pair<double, std::string>>> collections_;  // label -> time and file of each frame, for its .pvd
     std::vector<std::pair<double, std::string>> artist_frames_;
+    pbs::RigLook look_;  // of the model's surface
+    pbs::RigMaterials materials_;
     std::map<std::string, pbs::GlbWriter> surfaces_;  // by label, for output.glb
 };
+
+// Removes what ParaView shows of a run's frames: all in frames/ except the .glb files.
+void remove_frames(const std::string& folder);
 
 }  // namespace experiments

@@ -209,6 +209,8 @@ CaseMotion motion_of_clip(const MotionSpec& spec, const pbs::Character& characte
     const pbs::ClipMatch match = accepted_match(spec, clip, character.skeleton);
     CaseMotion made;
     made.motion = pbs::retarget(clip, character.skeleton, clip_sampling(spec));
+    made.time_zero = "start of the clip after its first frame, a T pose, plus motion.start_s";
+    made.time_zero_s = clip.frame_time_s + spec.start_s;
     made.clip_joints = match.moving;
     made.matched_joints = match.matched;
     if (match.matched < match.moving)
@@ -225,6 +227,8 @@ CaseMotion motion_of_model(const MotionSpec& spec, const pbs::Character& charact
     pbs::RigMotion rig = pbs::rig_motion(model.rig, model.body, *model.animation, sampling_of(spec));
     CaseMotion made;
     made.motion = std::move(rig.motion);
+    made.time_zero = "first key of the animation plus motion.start_s";
+    made.time_zero_s = model.animation->start_s + spec.start_s;
     if (rig.stretch > rigid_stretch)
         made.remarks.push_back(
             fmt::format("{}: the animation {} scales or shears bones by up to {:.1f} %; the deformers move bones rigidly", model.rig.file,
@@ -326,12 +330,14 @@ pbs::Motion make_motion(const MotionSpec& spec, const pbs::Skeleton& skeleton, c
 CaseMotion make_case_motion(const MotionSpec& spec, const pbs::Character& character, const std::string& scene_file)
 {
     CaseMotion made;
-    if (spec.of_model)
+    if (spec.of_model) {
         made = motion_of_model(spec, character, scene_file);
-    else if (!spec.clip.empty())
+    } else if (!spec.clip.empty()) {
         made = motion_of_clip(spec, character);
-    else
+    } else {
         made.motion = make_motion(spec, character.skeleton, scene_file);
+        made.time_zero = "rest pose, where the sweep begins";
+    }
     made.largest_rotation_deg = pbs::largest_rotation_deg(made.motion);
     const double displacement_m = pbs::largest_displacement_m(made.motion, character.skeleton);
     const pbs::Positions& rest = character.mesh.rest;

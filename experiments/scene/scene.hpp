@@ -38,6 +38,7 @@ struct OutputSpec {
     std::vector<int> frames;                              // further frames, by number
     bool errors = true, sections = true, surface = true;  // groups of metrics
     bool glb = false;                                     // the surface of each deformer in the written frames, as one .glb file
+    bool surface_files = true;                            // and as a .vtp file per frame; no key of a scene
 
     bool writes(int frame) const;
 };
@@ -96,6 +97,8 @@ struct CaseMotion {
     std::string partial_match;                // of a clip some of whose moving joints match no bone; empty: all do
     int clip_joints = 0, matched_joints = 0;  // of a clip: its joints that move, and those of them that move a bone
     double largest_rotation_deg = 0.0;        // of a bone, from the first frame to another one
+    std::string time_zero;                    // what time_s = 0 of the records is
+    double time_zero_s = 0.0;                 // that time in the file of the clip or the animation; 0 of a sweep
 };
 CaseMotion make_case_motion(const MotionSpec& spec, const pbs::Character& character, const std::string& scene_file);
 

@@ -80,8 +80,8 @@ const OptionFields<OutputSpec>& output_fields()
             .add("frames", &OutputSpec::frames, {.range = {0, 1e9}, .meaning = "further frames to write, by number"})
             .key("frame_names", texts, nlohmann::json::array(), {.meaning = "titles of `frames`, in the same order"})
             .add("glb", &OutputSpec::glb,
-                 {.meaning = "also writes the surface of each deformer over the written frames as frames/LABEL.glb, which Blender opens; "
-                             "the character needs a rendered surface"})
+                 {.meaning = "also writes the surface of each deformer over the written frames as frames/LABEL.glb, which Blender opens, "
+                             "of a model with its normals, texture coordinates and materials; the character needs a rendered surface"})
             .key("metrics", texts, {"all"},
                  {.meaning = "groups of metrics beyond the volume columns: errors, sections, surface, all; [] leaves them out"});
     return fields;

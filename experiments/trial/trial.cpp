@@ -281,7 +281,8 @@ nlohmann::json trial_facts(const std::string& folder)
             {"volume", volume_facts(metrics)},
             {"joints", joint_facts(regions)},
             {"nearer", nearer_frames(metrics)},
-            {"frame_ms", frame_ms(metrics)}};
+            {"frame_ms", frame_ms(metrics)},
+            {"control", fs::exists(folder + "/skin/artist.pvd") ? nlohmann::json("skin/artist_*.vtp") : nullptr}};
 }
 
 std::string trial_sentence(const nlohmann::json& facts)

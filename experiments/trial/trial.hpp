@@ -19,6 +19,7 @@ struct TrialOptions {
     int vertices = 0;       // wanted of the tets; 0: the default of models
     double scale = 1.0;
     bool reference = true, allow_partial = false;
+    bool paraview = false;  // the frames are kept as .vtu and .vtp too
 };
 
 // The text of scene.toml, and what the user should know about choices that were made, a sentence each. InputErrors are those of read_model
@@ -32,11 +33,12 @@ TrialScene trial_scene(const TrialOptions& options);
 // The results of a trial, computed from the records of its run.
 
 // The facts of try.json: the model as the run read it (joints, dropped joints with reasons, containers, bind pose, unit, weights), the
-// motion with its matched joints, the run's warnings, and
+// motion with its matched joints and what time_s = 0 of the records is (time_zero), the run's warnings, and
 //   volume        per deformer the lowest and highest change of the volume over the frames [%], and the most inverted tets in a frame
 //   joints        the two joints at which lbs loses most volume, with the mean change there of lbs and pbs [% of the joints' volume]
 //   nearer        number of frames in which pbs is nearer to the reference than lbs, of how many that can be compared
 //   frame_ms      median time of a frame, per deformer
+//   control       the files of the surface by the format's own skinning; null: the model has no joints and so no skinning
 // An InputError where the run's records are missing or damaged.
 nlohmann::json trial_facts(const std::string& folder);
 

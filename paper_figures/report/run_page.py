@@ -3,6 +3,7 @@ was asked for, and nothing else is reported as missing."""
 import importlib
 import math
 import pathlib
+import re
 import statistics
 import tempfile
 import types
@@ -194,9 +195,13 @@ def figures_section(found):
 
 
 def viewer_of(found):
-    """The viewer, and the reason if there is none although frames were written."""
+    """The viewer, and the reason if there is none although frames were written. A trial removes its frames after it has made its page; then
+    the viewer of that page is kept."""
     if not any((found.folder / "frames").glob("*.vtu")):
-        return None, []
+        page = found.folder / "report.html"
+        kept = page.is_file() and re.search(r'<div id="frame-viewer">.*?(<script.*?</script>\s*){3}', page.read_text(), re.DOTALL)
+        missing = ["viewer: frames/*.vtu: do not exist: `pbskin try --paraview` keeps them"] if found.trial and not kept else []
+        return Markup(kept[0].strip()) if kept else None, missing
     try:
         recorded_frames, page_of_viewer = map(importlib.import_module, ("records.recorded_frames", "viewer.page"))
         return Markup(page_of_viewer.fragment_of([recorded_frames.Frames(found.folder)])), []

@@ -47,6 +47,7 @@ bool is_sound(const RigMesh& mesh, std::size_t nodes)
     const auto points = static_cast<std::size_t>(mesh.points.rows());
     return is_index(mesh.node, nodes) &&
            std::ranges::all_of(mesh.triangles.reshaped(), [&](int corner) { return is_index(corner, points); }) &&
+           mesh.look.numbers.rows() <= mesh.points.rows() && mesh.look.material.size() <= static_cast<std::size_t>(mesh.triangles.rows()) &&
            std::ranges::all_of(
                mesh.joints, [&](const SkinJoint& joint) { return is_index(joint.node, nodes) && bounded(joint.inverse_bind.matrix()); }) &&
            (mesh.joints.empty() || is_sound(mesh.skin, mesh.points.rows(), mesh.joints.size()));
@@ -102,6 +103,18 @@ Rig read_rig(const std::string& path)
     Rig rig = read_any_rig(path);
     if (rig.meshes.empty()) throw InputError(path, 0, "meshes", "0", "expected a mesh with triangles");
     return rig;
+}
+
+RigMaterials read_materials(const std::string& path)
+{
+    RigMaterials materials;
+    try {
+        materials = read_guarded(path, format_of(path) == RigFormat::gltf ? read_gltf_materials : read_assimp_materials);
+    } catch (const InputError& error) {  // a surface needs none
+        materials.remarks = {error.what()};
+    }
+    for (std::string& remark : materials.remarks) remark = path + ": left out of the .glb files: " + remark;
+    return materials;
 }
 
 bool rig_has_skin(const std::string& path)

@@ -20,6 +20,9 @@ bool rig_has_skin(const std::string& path);
 // The reader is chosen by the file's content. An InputError where the file is none of these formats, damaged or has no mesh.
 Rig read_rig(const std::string& path);
 
+// The materials of the same file and their images, if they are in the file, below its folder or next to it.
+RigMaterials read_materials(const std::string& path);
+
 // Every index and number that the format does not guarantee, since damage may have led the library astray; an InputError where one is out
 // of range. Rotations of nodes are returned with unit length.
 Rig checked(Rig rig);

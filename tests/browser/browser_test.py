@@ -207,7 +207,7 @@ def trial(program, scratch):
     shutil.rmtree(folder, ignore_errors=True)
     surroundings = built(scratch, viewer_page=folder / "report.html", viewer_truth=truth)
     model = rig_files.write("two_animations", str(scratch / "hero.glb"))  # a warning names the animation that is taken
-    run([program, "try", model, "-o", folder, "--frames", str(trial_frames), "--vertices", "400"], env=surroundings)
+    run([program, "try", model, "-o", folder, "--frames", str(trial_frames), "--vertices", "400", "--paraview"], env=surroundings)
     truth.write_text(json.dumps(truth_of_trial(folder)))
     return status_of("trial/*.test.mjs", surroundings)
 

@@ -53,7 +53,7 @@ class PlainRig(TrialTest):
     def setUp(self):
         self.folder = self.shared.name
         if not self.facts:
-            type(self).facts, _ = self.tried(self.rig())
+            type(self).facts, _ = self.tried(self.rig(), "--paraview")
 
     def test_a_leaf_joint_is_a_bone_and_keeps_its_weight(self):
         self.assertIn("tip", self.facts["model"]["joints"])

@@ -132,6 +132,15 @@ class RunPage(ResultsTest):
         self.assertTrue(missing[0].startswith("viewer: "), missing)
         self.assertNotIn('id="viewer"', text)
 
+    def test_the_viewer_of_a_trial_without_frames_is_that_of_its_earlier_page(self):
+        self.write()
+        (self.results / "try.json").write_text(json.dumps({"summary": "PBS keeps it.", "warnings": []}))
+        self.assertEqual(run_page.page(self.results)[1], ["viewer: frames/*.vtu: do not exist: `pbskin try --paraview` keeps them"])
+        viewer = '<div id="frame-viewer">a</div>\n<script type="b">{}</script>\n<script id="viewer-block">c</script>\n<script>d</script>'
+        (self.results / "report.html").write_text(f"<html>{viewer}\n<script>e</script></html>")
+        text, missing = run_page.page(self.results)
+        self.assertEqual((text.count(viewer), text.count("<script>e"), missing), (1, 0, []))
+
     # Warnings and sentences.
 
     def test_warnings_are_shown(self):

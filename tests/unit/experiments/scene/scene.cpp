@@ -184,6 +184,7 @@ TEST_F(MotionCase, ASweepTurnsItsJointAndOneInWhichNothingTurnsIsRemarkedOn)
     const CaseMotion motion = made(sweep);
     EXPECT_NEAR(motion.largest_rotation_deg, 60.0, 1e-10);
     EXPECT_EQ(motion.motion.frames(), 3);
+    EXPECT_EQ(motion.time_zero, "rest pose, where the sweep begins");
     EXPECT_TRUE(motion.remarks.empty());
     sweep.angle_deg = 0.05;
     sweep.frames = 2;  // about the axis of the bone
@@ -228,6 +229,9 @@ TEST_F(MotionCase, AnAnimationOfTheModelAndARefusalOfAModelWithoutOne)
     MotionSpec spec;
     spec.of_model = true;
     spec.rate_hz = 10.0;
+    spec.start_s = 0.5;
+    EXPECT_EQ(made(spec).time_zero_s, 0.5);  // the animation begins at 0 s
+    spec.start_s = 0.0;
     const CaseMotion motion = made(spec);
     EXPECT_NEAR(motion.largest_rotation_deg, 90.0, 1e-3);  // glTF's numbers are single precision
     EXPECT_EQ(motion.motion.frames(), 21);
