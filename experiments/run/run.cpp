@@ -17,6 +17,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <ctime>
@@ -96,15 +97,25 @@ OutputSpec measured_output(const Scene& scene)
     return output;
 }
 
-// Warnings of a run reach the terminal at once and run.json at its end. Records name files without folders of the machine:
-// "folder/hero.glb: two joints ..." -> "hero.glb: two joints ...".
-void add_warnings(const std::vector<std::string>& remarks, std::vector<std::string>& warnings)
+constexpr double many_inverted_pct = 1.0;  // of the tets, in the first frame
+constexpr double large_mask_pct = 10.0;    // of the volume
+
+// Warnings and notes of a run reach the terminal at once and run.json at its end, each once. Records name files without folders of the
+// machine: "folder/hero.glb: two joints ..." -> "hero.glb: two joints ...".
+void add_remarks(const std::vector<std::string>& remarks, std::vector<std::string>& recorded, const char* kind)
 {
-    warn(remarks);
     for (const std::string& remark : remarks) {
         const std::size_t end = remark.find(": ");
-        warnings.push_back(end == std::string::npos ? remark : pbs::file_name(remark.substr(0, end)) + remark.substr(end));
+        const std::string text = end == std::string::npos ? remark : pbs::file_name(remark.substr(0, end)) + remark.substr(end);
+        if (std::ranges::count(recorded, text) > 0) continue;
+        spdlog::warn("pbskin: {}: {}", kind, remark);
+        recorded.push_back(text);
     }
+}
+
+void add_warnings(const std::vector<std::string>& remarks, std::vector<std::string>& warnings)
+{
+    add_remarks(remarks, warnings, "warning");
 }
 
 std::vector<std::string> printed(const std::vector<std::string>& remarks)
@@ -155,8 +166,9 @@ public:
     {
         add_warnings(folder_.remarks(), warnings_);
         if (scene.output.surface && character_.surface && !measurer_.measures_surface_volume())
-            add_warnings({scene.file + ": surface_volume_change_pct is empty: the rendered surface is open or encloses no volume"},
-                         warnings_);
+            add_remarks({scene.file + ": surface_volume_change_pct is empty: the rendered surface is open or encloses no volume"}, notes_,
+                        "note");
+        warn_of_bones_without_flesh();
         if (scene.error_bar != ErrorBar::none)
             cost_.time("error_bar_set_up", [&] { error_bar_.emplace(scene.error_bar, runners_.front().spec, character_); });
     }
@@ -173,6 +185,23 @@ public:
     }
 
 private:
+    // As a root on the ground, from which a rig hangs.
+    void warn_of_bones_without_flesh()
+    {
+        for (const Runner& runner : runners_) {
+            const nlohmann::json record = runner.deformer->record();
+            const nlohmann::json::json_pointer bones("/attachment/bones");
+            if (!record.contains(bones)) continue;
+            std::vector<std::string> without;
+            for (const nlohmann::json& grip : record.at(bones))
+                if (grip.value("tets_gripped", 1) == 0) without.push_back(grip.at("bone").get<std::string>());
+            if (!without.empty())
+                add_warnings({fmt::format("{}: {} leaves out {} of {} bones, whose middle lies outside the flesh: {}", scene_.file,
+                                          runner.spec.label, without.size(), character_.skeleton.bones.size(), pbs::name_list(without))},
+                             warnings_);
+        }
+    }
+
     void play()
     {
         std::vector<pbs::Pose> frames;
@@ -205,11 +234,12 @@ private:
             context.reference = &first.deformer->positions();
             const double masked_pct = cost_.time("metrics", [&] { return measurer_.leave_out_overlap(*context.reference); });
             frames_with_overlap_ += masked_pct > 0.0;
+            if (masked_pct > largest_masked_share_pct_) frame_of_largest_mask_ = frame;
             largest_masked_share_pct_ = std::max(largest_masked_share_pct_, masked_pct);
             if (error_bar_) cost_.time("error_bar", [&] { context.reference_error = error_bar_->bound(*context.reference, measurer_); });
         }
         for (Runner& runner : runners_) record_deformer(runner, frame, time_s, context);
-        if (frame == 0) warn_of_inverted_start();
+        if (frame == 0) remark_on_inverted_start();
         if (scene_.output.writes(frame)) {
             folder_.write_pose(frame, time_s, character_.skeleton, motion_.steps[step]);
             folder_.write_artist_skin(frame, time_s, character_, scene_.motion, motion_.steps[step]);
@@ -217,16 +247,34 @@ private:
         ++frames_;
     }
 
-    // Blending that inverts tets in the first frame, before anything has moved far, points to a rest pose that is not the model's.
-    void warn_of_inverted_start()
+    // Blending that inverts many tets in the first frame, before anything has moved far, points to a rest pose that is not the model's.
+    void remark_on_inverted_start()
     {
         if (!scene_.character.body.empty()) return;  // made with its skeleton
-        for (const Runner& runner : runners_)
-            if (traits_of(runner.spec).blends_linearly && runner.most_inverted > 0)
-                add_warnings({fmt::format("{}: {} has {} inverted tets in the first frame: its pose is far from the bind pose, or the "
-                                          "weights do not fit the joints",
-                                          scene_.file, runner.spec.label, runner.most_inverted)},
-                             warnings_);
+        std::vector<std::string> counts;
+        int most = 0;
+        for (const Runner& runner : runners_) {
+            if (!traits_of(runner.spec).blends_linearly || runner.most_inverted == 0) continue;
+            counts.push_back(fmt::format("{} has {}", runner.spec.label, runner.most_inverted));
+            most = std::max(most, runner.most_inverted);
+        }
+        if (counts.empty()) return;
+        const Eigen::Index tets = character_.mesh.tets.rows();
+        const std::string text =
+            fmt::format("{}: {} inverted tets in the first frame, of {}", scene_.file, fmt::join(counts, " and "), tets);
+        if (most > many_inverted_pct / 100.0 * static_cast<double>(tets))
+            add_warnings({text + ": its pose is far from the bind pose, or the weights do not fit the joints"}, warnings_);
+        else
+            add_remarks({text}, notes_, "note");
+    }
+
+    void warn_of_large_mask()
+    {
+        if (largest_masked_share_pct_ > large_mask_pct)
+            add_warnings({fmt::format("{}: errors leave out {:.0f} % of the volume in frame {}, where the reference overlaps itself or is "
+                                      "inverted",
+                                      scene_.file, largest_masked_share_pct_, frame_of_largest_mask_)},
+                         warnings_);
     }
 
     void record_deformer(Runner& runner, int frame, double time_s, FrameContext context)
@@ -309,7 +357,9 @@ private:
             outcome["largest_masked_share_pct"] = largest_masked_share_pct_;
         }
         if (error_bar_) outcome["frames_below_reference_error"] = frames_below_reference_error_;
+        warn_of_large_mask();
         outcome["warnings"] = warnings_;
+        outcome["notes"] = notes_;
         outcome["motion"] = {{"largest_rotation_deg", motion_case_.largest_rotation_deg},
                              {"time_zero", motion_case_.time_zero},
                              {"time_zero_s", motion_case_.time_zero_s}};
@@ -329,7 +379,7 @@ private:
     }
 
     const Scene& scene_;
-    std::vector<std::string> warnings_;
+    std::vector<std::string> warnings_, notes_;
     CostRecord cost_;
     pbs::Stopwatch stopwatch_;
     pbs::Character character_;
@@ -339,7 +389,7 @@ private:
     FrameMeasurer measurer_;
     std::optional<ReferenceErrorBar> error_bar_;
     RunFolder folder_;  // made last, for it removes the records of an earlier run
-    int frames_ = 0, frames_with_overlap_ = 0;
+    int frames_ = 0, frames_with_overlap_ = 0, frame_of_largest_mask_ = 0;
     double largest_masked_share_pct_ = 0.0;
     std::string breakdown_, bad_frame_;
     std::set<std::string> bad_labels_;                                    // of the deformers with bad frames

@@ -18,7 +18,8 @@ struct TrialOptions {
     int frames = 60;        // at most, distributed over the motion
     int vertices = 0;       // wanted of the tets; 0: the default of models
     double scale = 1.0;
-    bool reference = true, allow_partial = false;
+    bool reference = true;  // also left out, with a remark, where the finite elements are not installed
+    bool allow_partial = false;
     bool paraview = false;  // the frames are kept as .vtu and .vtp too
 };
 
@@ -35,14 +36,18 @@ TrialScene trial_scene(const TrialOptions& options);
 // The facts of try.json: the model as the run read it (joints, dropped joints with reasons, containers, bind pose, unit, weights), the
 // motion with its matched joints and what time_s = 0 of the records is (time_zero), the run's warnings, and
 //   volume        per deformer the lowest and highest change of the volume over the frames [%], and the most inverted tets in a frame
-//   joints        the two joints at which lbs loses most volume, with the mean change there of lbs and pbs [% of the joints' volume]
-//   nearer        number of frames in which pbs is nearer to the reference than lbs, of how many that can be compared
+//   notes         of the run, where nothing is wrong
+//   deforms       whether some flesh changes its shape in some frame
+//   joints        the two joints (of a bone and its parent) at which lbs loses most volume, with the mean change there of lbs and pbs
+//                 [% of the joints' volume]
+//   nearer        number of frames in which pbs is nearer to the reference than lbs, of how many that can be compared because an error is
+//                 at least 0.01 %; best_other: the same against the one of the other deformers whose median error is smallest
 //   frame_ms      median time of a frame, per deformer
 //   control       the files of the surface by the format's own skinning; null: the model has no joints and so no skinning
 // An InputError where the run's records are missing or damaged.
 nlohmann::json trial_facts(const std::string& folder);
 
-// One sentence per fact that the records hold.
+// What the facts mean, for people: PBS against LBS and the best other method in volume, distance from FEM and time.
 std::string trial_sentence(const nlohmann::json& facts);
 
 }  // namespace experiments

@@ -19,10 +19,11 @@ from report.record_set import number
 from words import looks
 from words.number_words import counted, figure, listed, span_of_thousandths
 
-moved = {"frames?": shapes.whole, "warnings?": [shapes.text], "bad_frame?": shapes.text, "breakdown?": shapes.text,
+moved = {"frames?": shapes.whole, "warnings?": [shapes.text], "notes?": [shapes.text], "bad_frame?": shapes.text,
+         "breakdown?": shapes.text,
          "motion?": {"largest_rotation_deg?": shapes.number, "clip_joints?": shapes.whole, "matched_joints?": shapes.whole}}
 shape = shapes.run | {"scene": shapes.scene | {"name": shapes.text}, "outcome": moved}
-trial = {"summary": shapes.text, "warnings": [shapes.text]}
+trial = {"summary": shapes.text, "warnings": [shapes.text], "notes?": [shapes.text]}
 
 
 class RunRecords:
@@ -66,32 +67,43 @@ def of_deformer(found, label):
     inverted = known(rows, "inverted_tets")
     is_reference = label == found.record["scene"].get("reference", {}).get("name")
     told_error = "the reference" if is_reference else f"{figure(statistics.median(error))} ({figure(max(error))})" if error else "\u2013"
-    return [looks.of(label).name, span_of_thousandths(change), f"{max(inverted, default=0):.0f}", told_error,
-            figure(statistics.median(step) if step else None)]
+    return [looks.of(label).name, span_of_thousandths(change), f"{max(inverted, default=0):.0f}",
+            *([told_error] if has_errors(found) else []), figure(statistics.median(step) if step else None)]
+
+
+def has_errors(found):
+    """Whether some frame has an error at the joints: a body without a joint has none, nor has a run without a reference."""
+    return bool(known(found.run.rows, "error_joint_pct"))
 
 
 def summary(found):
     """The sentence of `pbskin try`, if it made the run, and one row per deformer."""
     sentence = element("p", found.trial["summary"], class_="answer") if found.trial else ""
-    header = ["deformer", "volume change [%]", "most inverted tets in a frame", "error at the joints [%]: median (largest)",
-              "median step [ms]"]
+    header = ["deformer", "volume change [%]", "most inverted tets in a frame",
+              *(["error at the joints [%]: median (largest)"] if has_errors(found) else []), "median step [ms]"]
     rows = [of_deformer(found, label) for label in found.labels()]
     return joined([sentence, table("Over all frames", header, rows)], "\n")
 
 
 def joints(found):
-    """The mean change of the volume at each joint, in per cent of the joint's own volume."""
-    rows = [row for row in found.table("regions.csv") if row["kind"] == "joint"]
+    """The mean change of the volume at each joint, and where other bones meet, in per cent of the volume there."""
+    parents = {row["bone"]: row["parent"] for row in found.table("bones_rest.csv")}
     changes = {}
-    for row in rows:
-        changes.setdefault(f"{row['bone']} \u2013 {row['second_bone']}", {})[row["deformer"]] = number(row, "own_change_pct")
-    if not changes:
-        return ""
+    for row in found.table("regions.csv"):
+        one, other = row["bone"], row["second_bone"]
+        if row["kind"] == "joint":
+            of = changes.setdefault(parents.get(other) == one or parents.get(one) == other, {})
+            of.setdefault(f"{one} \u2013 {other}", {})[row["deformer"]] = number(row, "own_change_pct")
+    tables = ((True, "at a joint", "joint"), (False, "where two bones meet", "bones"))
+    return joined((volume_table(found, changes[kind], *words) for kind, *words in tables if kind in changes), "\n")
+
+
+def volume_table(found, changes, where, what):
     labels = [label for label in found.labels() if any(label in of for of in changes.values())]
     ordered = sorted(changes.items(), key=lambda pair: pair[1].get(labels[0]) or 0.0)
     body = [[name, *(figure(of.get(label)) for label in labels)] for name, of in ordered]
-    return table("Mean change of the volume of the tets at a joint [% of their volume at rest]",
-                 ["joint", *(looks.of(label).name for label in labels)], body, "tall")
+    return table(f"Mean change of the volume of the tets {where} [% of their volume at rest]",
+                 [what, *(looks.of(label).name for label in labels)], body, "tall")
 
 
 def distances(found):
@@ -101,8 +113,8 @@ def distances(found):
         pairs.setdefault((row["deformer"], row["other"], row["of"]), []).append((number(row, "rms_mm"), number(row, "largest_mm")))
     if not pairs:
         return ""
-    body = [[f"{one} and {other}", of, figure(statistics.median(rms for rms, _ in values)), figure(max(largest for _, largest in values)),
-             len(values)] for (one, other, of), values in pairs.items()]
+    body = [[f"{looks.of(one).name} and {looks.of(other).name}", of, figure(statistics.median(rms for rms, _ in values)),
+             figure(max(largest for _, largest in values)), len(values)] for (one, other, of), values in pairs.items()]
     return table("Distances between the same points", ["deformers", "of", "median rms [mm]", "largest [mm]", "frames"], body, "tall")
 
 
@@ -141,7 +153,7 @@ def abscissa(rows):
 def over_frames(found):
     rows = {label: found.rows(label) for label in found.labels()}
     shown = [(column, name) for column, name in measures
-             if any(number(row, column) not in (None, 0.0) for of in rows.values() for row in of)] or measures[:1]
+             if any(value for of in rows.values() for value in known(of, column))] or measures[:1]
     figure, axes = style.panels(len(shown), 1, height_in=1.7, width_in=style.page_in, sharex=True)
     for panel, (column, name) in zip(axes[:, 0], shown):
         for label, of in rows.items():
@@ -213,14 +225,18 @@ def page(folder):
     """The text of the page, and what is missing in it."""
     found = RunRecords(folder)
     outcome = found.record["outcome"]
-    warnings = [*(found.trial or outcome).get("warnings", []), *filter(None, (outcome.get("breakdown"), outcome.get("bad_frame")))]
+    remarks = found.trial or outcome
+    warnings = [*remarks.get("warnings", []), *filter(None, (outcome.get("breakdown"), outcome.get("bad_frame")))]
     viewer, missing = viewer_of(found)
+    unseen = joined(element("p", f"The moving model is missing: {reason}.", class_="missing") for reason in missing)
     as_set = types.SimpleNamespace(results=folder, runs={found.name: found.record}, left_out=lambda: [])
     sections = [("summary", "What was found", summary(found)), ("warnings", "Warnings", items(warnings, "missing") if warnings else ""),
-                ("viewer", "Viewer", viewer), ("frames", "Over the frames", figures_section(found)),
+                ("viewer", "Viewer", viewer or unseen), ("notes", "Notes", items(remarks["notes"]) if remarks.get("notes") else ""),
+                ("frames", "Over the frames", figures_section(found)),
                 ("joints", "Volume at the joints", joints(found)), ("distances", "Distances between the deformers", distances(found)),
                 ("model", "What was taken from the model", model(found)),
                 ("origin", "Where the records come from", origin.section(as_set, with_viewer=viewer is not None))]
     sections = [section for section in sections if section[-1]]
-    lead = element("p", f"{found.name}, {outcome.get('frames', 0)} frames, moved by {', '.join(found.labels())}.", class_="lead")
+    names = [looks.of(label).name for label in found.labels()]
+    lead = element("p", f"{found.name}, {outcome.get('frames', 0)} frames, moved by {listed(names)}.", class_="lead")
     return whole(f"pbskin: {found.name}", lead, [navigation(sections), *written(sections)], "summary"), missing

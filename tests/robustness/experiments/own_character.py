@@ -1,6 +1,9 @@
 """Rigs from outside: each error that once passed without a message has a test here, and each warning is provoked. The rigs are those of
 rig_files.py."""
+import glob
+import json
 import os
+import re
 import shutil
 import tempfile
 import unittest
@@ -13,6 +16,10 @@ import rig_files
 import skin_formula
 from written_frames import points_of
 
+MODULES = glob.glob(os.path.join(os.path.dirname(program.PBSKIN), "..", "lib", "**", "libpbskin_*.so"), recursive=True)
+HAS_FEM = any(file.endswith("_fem.so") for file in MODULES)
+
+
 def clip(names):
     """A BVH chain of these joints, all of which turn."""
     frames = [["0 0 0", *([f"{20 * frame} 0 0"] * len(names))] for frame in range(4)]
@@ -24,9 +31,11 @@ class TrialTest(program.ProgramTest):
         """One name for all, so that the cache has one mesh for those with the same surface."""
         return rig_files.write(variant, self.path("rig.glb"), **options)
 
-    def tried(self, model, *arguments, into="out"):
-        """try.json and what was printed."""
-        process = self.succeeds("try", model, "-o", self.path(into), "--no-reference", "--frames", "3", "--vertices", "300", *arguments)
+    def tried(self, model, *arguments, into="out", without=("--no-reference",), **environment):
+        """try.json and what was printed. The page has a viewer, whose program does nothing."""
+        self.write("viewer.js", "// a viewer")
+        process = self.succeeds("try", model, "-o", self.path(into), "--frames", "3", "--vertices", "300", *without, *arguments,
+                                env={**os.environ, "PBS_VIEWER_BUILD": self.folder, **environment})
         return self.json(into, "try.json"), process.stderr
 
     def refused(self, *arguments):
@@ -36,9 +45,15 @@ class TrialTest(program.ProgramTest):
         """In the terminal, in run.json, in try.json and in the page."""
         self.assertIn(words, printed)
         self.assertTrue(any(words in warning for warning in facts["warnings"]), facts["warnings"])
-        recorded = self.json("out", "run.json")["outcome"]["warnings"]
-        self.assertTrue(any(words in warning for warning in recorded), recorded)
+        recorded = self.json("out", "run.json")["outcome"]
+        self.assertEqual(sum(words in warning for warning in recorded["warnings"]), 1, recorded)
+        self.assertFalse(any(words in note for note in recorded["notes"]), recorded)
         self.assertIn(words, self.read("out", "report.html"))
+
+    def shown(self, folder="out"):
+        """The run in the viewer of a page."""
+        header = re.search(r'id="viewer-header">(.*?)</script>', self.read(folder, "report.html"))[1]
+        return json.loads(header)["runs"][0]
 
 
 class PlainRig(TrialTest):
@@ -149,6 +164,42 @@ class OwnCharacter(TrialTest):
         facts, printed = self.tried(self.rig("centimetres"), "--scale", "0.01")
         self.assertNotIn("unlikely units", printed)
         self.assertAlmostEqual(facts["model"]["extent_m"], 1.036, places=3)
+
+    def test_a_note_where_nothing_is_wrong(self):
+        facts, printed = self.tried(self.rig(first_deg=100.0))
+        words = "inverted tets in the first frame, of"
+        self.assertEqual([words in note for note in facts["notes"]], [True])
+        self.assertIn(f"pbskin: note: {self.path('out', facts['notes'][0])}\n", printed)
+        self.assertFalse(any(words in warning for warning in facts["warnings"]))
+
+    # The reference, and what the page shows.
+
+    @unittest.skipUnless(HAS_FEM, "the finite elements are not installed")
+    def test_a_root_on_the_ground_is_left_out_of_the_reference(self):
+        facts, printed = self.tried(self.rig(on_ground=True), without=())
+        self.warned(facts, printed, "nh_p1 leaves out 1 of 4 bones, whose middle lies outside the flesh: ground")
+        self.assertEqual(facts["nearer"]["of"], 2)  # the first frame is at rest
+
+    @unittest.skipUnless(HAS_FEM, "the finite elements are not installed")
+    def test_a_model_with_one_joint(self):
+        facts, _ = self.tried(self.rig(one_joint=True), without=())
+        self.assertIn("No flesh deforms", facts["summary"])
+        self.assertNotIn("error at the joints", self.read("out", "report.html"))
+        self.assertEqual(self.shown()["reference"], "nh_p1")
+
+    def test_without_the_finite_elements_the_trial_has_no_reference(self):
+        os.mkdir(self.path("modules"))
+        for file in MODULES:
+            if "_fem" not in file:
+                os.symlink(os.path.realpath(file), self.path("modules", os.path.basename(file)))
+        self.warned(*self.tried(self.rig(), without=(), PBSKIN_MODULES=self.path("modules")),
+                    "the trial has no reference: libpbskin_fem.so: ")
+        self.assertEqual(self.shown()["reference"], "")
+
+    def test_models_of_a_centimetre_and_of_ten_kilometres_are_shown(self):
+        for scale, extent_m in (("0.01", 0.01036), ("10000", 10360.0)):
+            self.tried(self.rig(), "--scale", scale)
+            self.assertAlmostEqual(65535 * self.shown()["step_m"] / extent_m, 1.0, delta=0.1)  # over all frames
 
     # What the files are for.
 
