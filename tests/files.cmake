@@ -14,7 +14,7 @@ else()
         pbs/character/overlap_and_jiggle)
 endif()
 if(NOT PBS_WITH_RIG_IMPORT)
-    list(APPEND left_out pbs/character/skeleton_file pbs/character/clip pbs/character/bodies
+    list(APPEND left_out pbs/character/skeleton_file pbs/character/clip pbs/character/joint_names pbs/character/bodies
         pbs/rig/assimp_rig pbs/rig/glb_writer pbs/rig/gltf_rig pbs/rig/rig_reader)
 endif()
 

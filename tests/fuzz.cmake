@@ -52,7 +52,7 @@ fuzz_target(fuzz/mesh.cpp pbs_mesh_io
 fuzz_target(fuzz/skeleton.cpp pbs_character
     pbs/character/skeleton_file.cpp pbs/character/folded_skeleton.cpp pbs/geometry/files.cpp pbs/geometry/input_error.cpp)
 fuzz_target(fuzz/clip.cpp pbs_character
-    pbs/character/clip.cpp pbs/character/retarget.cpp pbs/skinning/pose.cpp pbs/geometry/input_error.cpp)
+    pbs/character/clip.cpp pbs/character/joint_names.cpp pbs/character/retarget.cpp pbs/skinning/pose.cpp pbs/geometry/input_error.cpp)
 fuzz_target(fuzz/rig.cpp pbs_rig
     pbs/rig/rigged_body.cpp pbs/rig/gltf_rig.cpp pbs/rig/gltf_model.cpp pbs/rig/rig_pose.cpp
     pbs/rig/rig_reader.cpp pbs/skinning/pose.cpp

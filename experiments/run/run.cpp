@@ -136,15 +136,11 @@ pbs::Character character_with_warnings(const Scene& scene, std::vector<std::stri
     return character;
 }
 
-// Reads the motion, and adds the hashes of its clip to the character's inputs; a sweep has no clip. A clip whose names partly match is
-// expected for the bodies by name, which are made for other clips too.
+// Reads the motion, and adds the hashes of its clip to the character's inputs; a sweep has no clip.
 CaseMotion read_motion(const Scene& scene, pbs::Character& character, std::vector<std::string>& warnings)
 {
     const pbs::InputFile clip(scene.motion.clip);
-    MotionSpec spec = scene.motion;
-    spec.allow_partial = spec.allow_partial || !scene.character.body.empty();
-    CaseMotion motion = make_case_motion(spec, character, scene.file);
-    if (!motion.partial_match.empty() && scene.character.body.empty()) motion.remarks.push_back(motion.partial_match);
+    CaseMotion motion = make_case_motion(scene.motion, character, scene.file);
     add_warnings(motion.remarks, warnings);
     if (scene.motion.clip.empty()) return motion;
     for (const auto& hashed : clip.hashed()) character.inputs.push_back(hashed);

@@ -5,10 +5,14 @@
 #include "analysis/statistics/statistics.hpp"
 #include "experiments/process/machine.hpp"
 #include "experiments/scene/scene.hpp"
+#include "experiments/process/terminal.hpp"
+#include "pbs/character/body_cache.hpp"
 #include "pbs/character/clip.hpp"
 #include "pbs/character/json_file.hpp"
-#include "pbs/character/model_character.hpp"
+#include "pbs/geometry/files.hpp"
 #include "pbs/geometry/input_error.hpp"
+#include "pbs/rig/rig_reader.hpp"
+#include "pbs/rig/rigged_body.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -27,7 +31,12 @@ namespace fs = std::filesystem;
 
 constexpr double highest_rate_hz = 30.0;  // of a motion that is shorter than its frames
 constexpr double lowest_scale = 1e-6, highest_scale = 1e6;
-constexpr double bend_deg = 60.0;  // of the joint of a model without a motion
+constexpr double bend_deg = 60.0;       // of the joint of a model without a motion
+constexpr double least_turn_deg = 5.0;  // of a joint in an animation that is worth a trial
+constexpr int frames_looked_at = 31;    // of each animation, to find the one that moves
+constexpr double highest_rate_looked_at_hz = 1e5;
+// The last line of a trial's scene, with the hash of all lines before it: the scene was written by a trial and not changed since.
+constexpr const char* seal = "# As `pbskin try` wrote it: ";
 
 // A TOML string: JSON's escapes are TOML's, which escapes the character 127 too.
 std::string quoted(const std::string& text)
@@ -105,29 +114,69 @@ std::string clip_file(const TrialOptions& options, const pbs::Rig& rig)
     }
 }
 
-std::string motion(const TrialOptions& options, std::vector<std::string>& remarks)
+struct AnimationMotion {
+    double turn_deg = 0.0;  // the largest of a joint, from the animation's first frame
+    double share = 0.0;     // the same in radians, or the largest displacement over the size of the model, whichever is larger
+};
+
+AnimationMotion motion_of(const pbs::Rig& rig, const pbs::RiggedBody& body, const pbs::RigAnimation& animation)
 {
-    const auto model = pbs::read_model(options.model, "", options.scale);
-    const auto& animations = model->rig.animations;
-    const auto motion_of = [&](const pbs::RigAnimation& animation) {
-        return fmt::format("animation = {}\n", quoted(animation.name)) + sampled(animation.end_s - animation.start_s, options.frames);
-    };
-    const auto named = std::ranges::find(animations, options.animation, &pbs::RigAnimation::name);
-    if (named != animations.end()) return motion_of(*named);
-    if (!options.animation.empty()) return clip_motion(options, clip_file(options, model->rig), model->body.skeleton);
-    if (animations.empty()) {
-        if (model->body.skeleton.bones.empty())
-            throw pbs::InputError(options.model, 0, "skins", "0",
-                                  "the model has no joints and no animation: expected --skeleton FILE and --animation CLIP");
-        return bending(options, model->body, remarks);
+    const double duration_s = animation.end_s - animation.start_s;
+    pbs::MotionSampling sampling;
+    sampling.rate_hz = duration_s > 0.0 ? std::min((frames_looked_at - 1) / duration_s, highest_rate_looked_at_hz) : highest_rate_hz;
+    sampling.time_step_s = 1.0 / sampling.rate_hz;
+    const pbs::Motion motion = pbs::rig_motion(rig, body, animation, sampling).motion;
+    const double size_m = (body.surface.colwise().maxCoeff() - body.surface.colwise().minCoeff()).norm();
+    const double turn_deg = pbs::largest_rotation_deg(motion);
+    return {turn_deg, std::max(turn_deg * M_PI / 180.0, pbs::largest_displacement_m(motion, body.skeleton) / size_m)};
+}
+
+// The first animation that turns a joint by more than least_turn_deg, else the one that moves most; null: there is none. `made` gets what
+// is known about all of them, and a remark on the choice.
+const pbs::RigAnimation* moving_animation(const TrialOptions& options, const pbs::Rig& rig, const pbs::RiggedBody& body, TrialScene& made)
+{
+    const auto& animations = rig.animations;
+    std::vector<AnimationMotion> motions;
+    made.animations = nlohmann::json::array();
+    for (const pbs::RigAnimation& animation : animations) {
+        stop_if_interrupted();
+        motions.push_back(motion_of(rig, body, animation));
+        made.animations.push_back({{"name", animation.name},
+                                   {"duration_s", animation.end_s - animation.start_s},
+                                   {"largest_rotation_deg", motions.back().turn_deg}});
     }
-    if (animations.size() > 1) {
-        std::string names;
-        for (const pbs::RigAnimation& animation : animations) names += (names.empty() ? "" : ", ") + animation.name;
-        remarks.push_back(fmt::format("{}: it has {} animations; {} is taken (--animation NAME takes another one): {}", options.model,
-                                      animations.size(), animations.front().name, names));
+    if (animations.empty()) return nullptr;
+    auto moving = std::ranges::find_if(motions, [](const AnimationMotion& motion) { return motion.turn_deg > least_turn_deg; });
+    std::string why = fmt::format("the first one that turns a joint by more than {} degrees", least_turn_deg);
+    if (moving == motions.end()) {
+        moving = std::ranges::max_element(motions, {}, &AnimationMotion::share);
+        why = fmt::format("which moves most: none turns a joint by more than {} degrees", least_turn_deg);
     }
-    return motion_of(animations.front());
+    const pbs::RigAnimation& taken = animations[moving - motions.begin()];
+    std::vector<std::string> others;
+    for (const pbs::RigAnimation& animation : animations)
+        if (&animation != &taken) others.push_back(animation.name);
+    if (!others.empty() && options.animation.empty())
+        made.remarks.push_back(fmt::format("{}: it has {} animations; {} is taken, {} (--animation NAME takes another one: {})",
+                                           options.model, animations.size(), taken.name, why, fmt::join(others, ", ")));
+    return &taken;
+}
+
+std::string motion(const TrialOptions& options, TrialScene& made)
+{
+    const pbs::Rig rig = pbs::read_rig(options.model);
+    const pbs::RiggedBody body = pbs::make_rigged_body(rig, nullptr, options.scale);
+    const pbs::RigAnimation* taken = moving_animation(options, rig, body, made);
+    const auto named = std::ranges::find(rig.animations, options.animation, &pbs::RigAnimation::name);
+    if (named != rig.animations.end())
+        taken = &*named;
+    else if (!options.animation.empty())
+        return clip_motion(options, clip_file(options, rig), body.skeleton);
+    if (taken) return fmt::format("animation = {}\n", quoted(taken->name)) + sampled(taken->end_s - taken->start_s, options.frames);
+    if (body.skeleton.bones.empty())
+        throw pbs::InputError(options.model, 0, "skins", "0",
+                              "the model has no joints and no animation: expected --skeleton FILE and --animation CLIP");
+    return bending(options, body, made.remarks);
 }
 
 // The settings of the built-in scenes.
@@ -304,7 +353,7 @@ TrialScene trial_scene(const TrialOptions& options)
     const bool has_skeleton_file = !options.skeleton.empty() && options.skeleton != "human";
     if (has_skeleton_file && !fs::exists(options.skeleton)) throw pbs::InputError(options.skeleton, 0, "", "", "no such file");
     TrialScene made;
-    const std::string moved = motion(options, made.remarks);
+    const std::string moved = motion(options, made);
     const bool reference = options.reference && finds_the_finite_elements(options, made.remarks);
     std::string character = fmt::format("model = {}\n", quoted(from_folder(options.model, options.folder)));
     if (options.scale != 1.0) character += fmt::format("scale = {}\n", nlohmann::json(options.scale).dump());
@@ -322,7 +371,29 @@ TrialScene trial_scene(const TrialOptions& options)
     made.text += fmt::format("[deformers]\nuse = [\"lbs\", \"dqs\", {}\"delta_mush\", \"pbs\"{}]\n", has_artist ? "\"lbs_paper\", " : "",
                              reference ? ", \"nh_p1\"" : "");
     made.text += "[output]\nframes_every = 1\nglb = true                       # also the moving surface of each deformer\n";
+    made.text += seal + pbs::content_hash(made.text) + "\n";
     return made;
+}
+
+std::string earlier_trial_scene(const TrialOptions& options)
+{
+    const fs::path folder(options.folder), scene_file = folder / "scene.toml";
+    const std::string expected = "expected another folder (-o) for " + options.model;
+    if (!fs::exists(scene_file)) {
+        for (const char* name : {"run.json", "metrics.csv", "try.json", "report.html", "frames", "skin"})
+            if (fs::exists(folder / name))
+                throw pbs::InputError((folder / name).string(), 0, "", "", "exists, and the folder is not that of a trial: " + expected);
+        return "";
+    }
+    const std::string found = pbs::read_text_file(scene_file.string(), pbs::most_text_bytes);
+    const std::size_t end = std::min(found.rfind(seal), found.size());
+    if (found.substr(end) != seal + pbs::content_hash(found.substr(0, end)) + "\n")
+        throw pbs::InputError(scene_file.string(), 0, "", "",
+                              "exists and is not the scene of a trial, or was changed: " + expected + "; `pbskin run` runs this scene");
+    const std::string model = SceneValues(found, scene_file.string(), {}, scene_schema()).text("character.model");
+    if (fs::weakly_canonical(folder / model) != fs::weakly_canonical(options.model))
+        throw pbs::InputError(scene_file.string(), 0, "character.model", model, "the folder has the trial of this model: " + expected);
+    return found;
 }
 
 nlohmann::json trial_facts(const std::string& folder)

@@ -3,7 +3,7 @@
 
 #include "experiments/scene/scene.hpp"
 
-#include <nlohmann/json_fwd.hpp>
+#include <nlohmann/json.hpp>
 
 #include <string>
 #include <vector>
@@ -12,7 +12,7 @@ namespace experiments {
 
 struct TrialOptions {
     std::string model;      // the file, relative to the working folder
-    std::string animation;  // one of the model's by name, or a clip's file; empty: the first animation
+    std::string animation;  // one of the model's by name, or a clip's file; empty: the first one that moves
     std::string skeleton;   // of a model without joints: a file, or human
     std::string folder;     // where scene.toml will be
     int frames = 60;        // at most, distributed over the motion
@@ -28,8 +28,13 @@ struct TrialOptions {
 struct TrialScene {
     std::string text;
     std::vector<std::string> remarks;
+    nlohmann::json animations;  // those of the model, in the order of the file: [{name, duration_s, largest_rotation_deg of a joint}]
 };
 TrialScene trial_scene(const TrialOptions& options);
+
+// The scene of an earlier trial of the model in options.folder, which a new one replaces; empty: there is none. An InputError where the
+// folder has the trial of another model, a scene that a user wrote or changed, or other files that a trial would replace.
+std::string earlier_trial_scene(const TrialOptions& options);
 
 // The results of a trial, computed from the records of its run.
 

@@ -23,7 +23,8 @@ moved = {"frames?": shapes.whole, "warnings?": [shapes.text], "notes?": [shapes.
          "breakdown?": shapes.text,
          "motion?": {"largest_rotation_deg?": shapes.number, "clip_joints?": shapes.whole, "matched_joints?": shapes.whole}}
 shape = shapes.run | {"scene": shapes.scene | {"name": shapes.text}, "outcome": moved}
-trial = {"summary": shapes.text, "warnings": [shapes.text], "notes?": [shapes.text]}
+animation = {"name": shapes.text, "duration_s": shapes.number, "largest_rotation_deg": shapes.number}
+trial = {"summary": shapes.text, "warnings": [shapes.text], "notes?": [shapes.text], "animations?": [animation]}
 
 
 class RunRecords:
@@ -128,13 +129,21 @@ def model(found):
     facts = [f"File: {record['file']}; {counted(len(record['meshes']), 'mesh', 'meshes')}: {listed(record['meshes'])}.",
             f"Largest extent: {figure(record['extent_m'])} m, with {figure(record['metres_per_unit'])} m per unit of the file.",
             f"Joints dropped: {listed(dropped)}.", f"Containers, which only contribute their transform: {listed(record['containers'])}.",
-            f"From the bind pose to the file's rest pose, bones turn by up to {figure(record['bind_pose_deg'])}\u00b0.",
-            f"Animations: {listed(record['animations'])}."]
+            f"From the bind pose to the file's rest pose, bones turn by up to {figure(record['bind_pose_deg'])}\u00b0."]
+    of_trial = found.trial.get("animations", []) if found.trial else []
+    if not of_trial:
+        facts.append(f"Animations: {listed(record['animations'])}.")
     if "weights_transferred_pct" in record:
         facts.append(f"The tets carry {figure(record['weights_transferred_pct'])} % of the artist's weights.")
     if "clip_joints" in motion:
         facts.append(f"{motion['matched_joints']} of the clip's {motion['clip_joints']} moving joints match.")
-    return joined([items(facts), details(f"{counted(len(record['joints']), 'joint')} that are bones", items(record["joints"]))], "\n")
+    played = record.get("animation") if "clip_joints" not in motion else None
+    rows = [[one["name"], figure(one["duration_s"]), figure(one["largest_rotation_deg"]), "yes" if one["name"] == played else ""]
+            for one in of_trial]
+    header = ["animation", "duration [s]", "largest rotation of a joint [degrees]", "shown here"]
+    animations = table("Animations of the model; --animation NAME takes another one", header, rows, "tall") if rows else ""
+    bones = details(f"{counted(len(record['joints']), 'joint')} that are bones", items(record["joints"]))
+    return joined([items(facts), animations, bones], "\n")
 
 
 # The figures: the numbers over the frames, and error against run time.

@@ -48,7 +48,7 @@ struct NodeTracks {
 };
 
 struct RigAnimation {
-    std::string name;
+    std::string name;                   // of a rig that was read, each once
     double start_s = 0.0, end_s = 0.0;  // of its keys
     std::vector<NodeTracks> nodes;      // each node once
 };

@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
 
 namespace pbs {
 namespace {
@@ -69,6 +71,21 @@ bool is_sound(const RigAnimation& animation, std::size_t nodes)
            std::ranges::all_of(animation.nodes, [&](const NodeTracks& tracks) {
                return is_index(tracks.node, nodes) && is_sound(tracks.translation) && is_sound(tracks.rotation) && is_sound(tracks.scale);
            });
+}
+
+// The first of equal names stays, the others are "NAME (2)", "NAME (3)", ..., without a number that makes the name of another animation.
+void tell_apart(std::vector<RigAnimation>& animations)
+{
+    std::set<std::string> names;
+    std::map<std::string, int> last;  // number of each name
+    for (const RigAnimation& animation : animations) names.insert(animation.name);
+    for (RigAnimation& animation : animations) {
+        const std::string name = animation.name;
+        int& number = last[name];
+        if (++number == 1) continue;
+        while (!names.insert(name + " (" + std::to_string(number) + ")").second) ++number;
+        animation.name = name + " (" + std::to_string(number) + ")";
+    }
 }
 
 enum class RigFormat { none, gltf, fbx, collada };
@@ -140,6 +157,7 @@ Rig checked(Rig rig)
         require(is_sound(mesh, rig.nodes.size()));
     }
     for (const RigAnimation& animation : rig.animations) require(is_sound(animation, rig.nodes.size()));
+    tell_apart(rig.animations);
     return rig;
 }
 

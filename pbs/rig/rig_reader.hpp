@@ -24,7 +24,7 @@ Rig read_rig(const std::string& path);
 RigMaterials read_materials(const std::string& path);
 
 // Every index and number that the format does not guarantee, since damage may have led the library astray; an InputError where one is out
-// of range. Rotations of nodes are returned with unit length.
+// of range. Rotations of nodes are returned with unit length, and animations with different names: the second of equal names is "NAME (2)".
 Rig checked(Rig rig);
 
 // The skin weights of a mesh while its points are read one after another.

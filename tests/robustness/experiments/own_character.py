@@ -5,7 +5,10 @@ import json
 import os
 import re
 import shutil
+import signal
+import subprocess
 import tempfile
+import time
 import unittest
 
 import numpy
@@ -133,6 +136,8 @@ class OwnCharacter(TrialTest):
     def test_every_animation_can_be_chosen_and_an_unknown_one_lists_them(self):
         facts, printed = self.tried(self.rig("two_animations"), "--animation", "Twist")
         self.assertEqual(facts["model"]["animations"], ["Bend", "Twist"])
+        self.assertEqual([(one["name"], round(one["largest_rotation_deg"])) for one in facts["animations"]], [("Bend", 79), ("Twist", 90)])
+        self.assertIn("Animations of the model", self.read("out", "report.html"))
         self.assertNotIn("2 animations", printed)
         self.assertIn("expected one of Bend, Twist", self.refused("try", self.rig("two_animations"), "--animation", "Walk"))
 
@@ -206,20 +211,44 @@ class OwnCharacter(TrialTest):
     def test_run_explains_what_a_scene_is(self):
         self.assertRegex(self.refused("run", self.rig()), "is a model(.|\n)*pbskin try")
 
-    @unittest.skipUnless(os.path.exists("/usr/share/assimp/models/BVH/01_01.bvh"), "assimp-testmodels is not installed")
-    def test_a_body_by_name_may_use_few_joints_of_a_clip(self):
+    def test_a_body_by_name_is_no_exception(self):
+        self.write("walk.bvh", clip(["upper", "a", "b"]))
         scene = f"""schema = 1
 [character]
-body = "ring"
+body = "limb"
+vertices = 300
 [motion]
-clip = "01_01.bvh"
-duration_s = 0.1
-rate_hz = 20.0
+clip = "walk.bvh"
+rate_hz = 10.0
 {foreign_arm.PBS}[deformers]
 use = ["lbs"]
 """
-        process = self.succeeds("run", self.write("ring.toml", scene), "-o", self.path("run"))
-        self.assertNotIn("warning", process.stderr)
+        scene = self.write("limb.toml", scene)
+        self.assertIn("joints = 1 of 3 moving joints: expected at least one half", self.refused("run", scene, "-o", self.path("run")))
+        printed = self.succeeds("run", scene, "-o", self.path("run"), "--set", "motion.allow_partial=true").stderr
+        words = "1 of 3 moving joints of the clip match a bone; without a bone: a, b; bones without a motion of their own: forearm"
+        self.assertIn(words, printed)
+        self.assertIn(f"walk.bvh: {words}", self.json("run", "run.json")["outcome"]["warnings"])
+
+    def test_a_trial_that_was_interrupted_runs_again(self):
+        slow = [(1, "rotation", [0.0, 100.0], [rig_files.turn((0, 0, 1), 0), rig_files.turn((0, 0, 1), 60)], "LINEAR")]
+        command = [program.PBSKIN, "try", self.rig(animations=(), extra=[("Slow", slow)]), "-o", self.path("out"), "--no-reference"]
+        with subprocess.Popen([*command, "--frames", "3000", "--vertices", "300"], stderr=subprocess.PIPE, text=True) as process:
+            while process.poll() is None and not os.path.exists(self.path("out", "frames", "lbs_000001.vtu")):
+                time.sleep(0.01)
+            process.send_signal(signal.SIGINT)
+            self.assertEqual(process.wait(), 130, process.stderr.read())
+        self.assertFalse(os.path.exists(self.path("out", "run.json")))
+        self.tried(self.path("rig.glb"))
+        self.assertEqual(self.json("out", "run.json")["outcome"]["frames"], 3)
+
+    def test_the_folder_of_another_model_is_refused_and_kept(self):
+        self.tried(self.rig())
+        other, before = rig_files.write("two_animations", self.path("other.glb")), self.read("out", "try.json")
+        message = self.refused("try", other, "-o", self.path("out"), "--no-reference")
+        self.assertIn("character.model = ../rig.glb: the folder has the trial of this model: expected another folder (-o)", message)
+        self.assertIn(other, message)
+        self.assertEqual(self.read("out", "try.json"), before)
 
     def test_a_joint_that_only_moves_along_is_no_warning(self):
         slide = [(2, "translation", [0.0, 1.0], [[0.35, 0, 0], [0.45, 0, 0]], "LINEAR")]

@@ -117,6 +117,14 @@ class RunPage(ResultsTest):
                       "30 of the clip&#x27;s 31 moving joints match.", "2 joints that are bones", "<li>knee</li>"):
             self.assertIn(words, text)
 
+    def test_a_trial_lists_the_animations_of_the_model_and_marks_the_one_that_is_shown(self):
+        self.write(model=MODEL | {"animation": "Run"})
+        found = [{"name": name, "duration_s": seconds, "largest_rotation_deg": degrees}
+                 for name, seconds, degrees in (("Walk", 2.5, 0.25), ("Run", 1, 60))]
+        (self.results / "try.json").write_text(json.dumps({"summary": "", "warnings": [], "animations": found}))
+        rows = Tables(self.page()).rows["Animations of the model; --animation NAME takes another one"]
+        self.assertEqual(rows[1:], [["Walk", "2.5", "0.25", ""], ["Run", "1", "60", "yes"]])
+
     # What the run was not asked for.
 
     def test_nothing_is_missing_that_the_run_was_not_asked_for(self):

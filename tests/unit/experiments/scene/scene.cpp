@@ -201,7 +201,6 @@ TEST_F(MotionCase, AClipWhoseJointsAllMatch)
     const CaseMotion motion = made(clip({"upper", "forearm"}));
     EXPECT_EQ(motion.clip_joints, 2);
     EXPECT_EQ(motion.matched_joints, 2);
-    EXPECT_EQ(motion.partial_match, "");
     EXPECT_TRUE(motion.remarks.empty());
     EXPECT_NEAR(motion.largest_rotation_deg, 120.0, 1e-3);  // the forearm follows both joints; BVH's numbers are single precision
 }
@@ -220,6 +219,10 @@ TEST_F(MotionCase, AClipThatMatchesLessThanHalfIsRefusedUnlessItIsAllowed)
     walk.allow_partial = true;
     EXPECT_EQ(made(walk).matched_joints, 2);
     EXPECT_EQ(made(clip({"upper", "forearm", "a", "b"})).matched_joints, 2);  // one half is enough
+    walk = clip({"upper", "a"});
+    EXPECT_EQ(made(walk).remarks,
+              std::vector<std::string>{walk.clip + ": 1 of 2 moving joints of the clip match a bone; without a bone: a; "
+                                                   "bones without a motion of their own: forearm"});
 }
 
 TEST_F(MotionCase, AnAnimationOfTheModelAndARefusalOfAModelWithoutOne)

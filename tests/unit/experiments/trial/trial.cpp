@@ -59,6 +59,54 @@ TEST_F(TrialSceneTest, IsASceneOfTheModelAndItsFirstAnimation)
     EXPECT_TRUE(trial_scene(options).remarks.empty());
 }
 
+TEST_F(TrialSceneTest, TakesTheFirstAnimationThatTurnsAJoint)
+{
+    const auto names_with = [](const std::string& model, const std::string& choice) {
+        return std::vector<std::string>{model + ": it has 3 animations; " + choice};
+    };
+    TrialOptions options =
+        options_for(test_support::write_rigged_gltf(folder, "arm.gltf", {"Take 001", "Take 001", "Bend"}, 2.0f, {0.0f, 6.0f, 90.0f}));
+    EXPECT_EQ(read(options).motion.animation, "Take 001 (2)");
+    const TrialScene made = trial_scene(options);
+    EXPECT_EQ(made.remarks, names_with(options.model,
+                                       "Take 001 (2) is taken, the first one that turns a joint by more than 5 degrees "
+                                       "(--animation NAME takes another one: Take 001, Bend)"));
+    EXPECT_EQ(made.animations.at(2).at("name"), "Bend");
+    EXPECT_EQ(made.animations.at(2).at("duration_s"), 2.0);
+    EXPECT_NEAR(made.animations.at(2).at("largest_rotation_deg").get<double>(), 90.0, 1e-3);  // glTF's numbers are single precision
+    options.animation = "Take 001";
+    EXPECT_EQ(read(options).motion.animation, "Take 001");
+    EXPECT_TRUE(trial_scene(options).remarks.empty());
+
+    options = options_for(test_support::write_rigged_gltf(folder, "calm.gltf", {"Idle", "Breathe", "Blink"}, 2.0f, {0.0f, 4.0f, 2.0f}));
+    EXPECT_EQ(trial_scene(options).remarks, names_with(options.model,
+                                                       "Breathe is taken, which moves most: none turns a joint by more than "
+                                                       "5 degrees (--animation NAME takes another one: Idle, Blink)"));
+}
+
+TEST_F(TrialSceneTest, ReplacesOnlyTheTrialOfTheSameModel)
+{
+    TrialOptions options = options_for(test_support::write_rigged_gltf(folder, "arm.gltf", {"Bend"}));
+    EXPECT_EQ(earlier_trial_scene(options), "") << "no folder";
+    const auto put = [&](const std::string& name, const std::string& text) { std::ofstream(fs::path(options.folder) / name) << text; };
+    fs::create_directories(options.folder);
+    put("notes.txt", "mine");
+    EXPECT_EQ(earlier_trial_scene(options), "") << "files that no trial replaces";
+    put("metrics.csv", "");
+    expect_input_error([&] { earlier_trial_scene(options); }, options.folder + "/metrics.csv: ", "expected another folder (-o) for ");
+    const std::string scene = trial_scene(options).text;
+    put("scene.toml", scene);
+    options.frames = 7;
+    options.folder = fs::path(options.folder) / "." / "";
+    EXPECT_EQ(earlier_trial_scene(options), scene) << "other options and another spelling of the folder";
+
+    TrialOptions other = options;
+    other.model = test_support::write_rigged_gltf(folder, "leg.gltf", {"Bend"});
+    expect_input_error([&] { earlier_trial_scene(other); }, options.folder + "scene.toml: character.model = ../arm.gltf: ", other.model);
+    put("scene.toml", scene + "# my own line\n");
+    expect_input_error([&] { earlier_trial_scene(options); }, options.folder + "scene.toml: ", options.model);
+}
+
 TEST_F(TrialSceneTest, AShortMotionHasNoMoreFramesThanThirtyPerSecondAndOptionsReachTheScene)
 {
     TrialOptions options = options_for(test_support::write_rigged_gltf(folder, "arm.gltf", {"Bend"}, 0.5f));
