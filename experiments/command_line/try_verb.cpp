@@ -9,6 +9,7 @@
 #include "experiments/trial/trial.hpp"
 #include "pbs/character/body_cache.hpp"
 #include "pbs/character/json_file.hpp"
+#include "pbs/geometry/child_process.hpp"
 #include "pbs/geometry/files.hpp"
 #include "pbs/geometry/input_error.hpp"
 
@@ -70,7 +71,10 @@ void refuse_a_scene_of_the_user(const std::string& scene_file, const std::string
 int try_model(TrialOptions options, const CommonOptions& common)
 {
     if (options.folder.empty()) options.folder = "results/" + fs::path(options.model).stem().string();
-    const TrialScene made = trial_scene(options);
+    const TrialScene made = [&] {
+        const pbs::Stage stage("reading " + options.model);
+        return trial_scene(options);
+    }();
     const bool is_new = analysis::make_output_folder(options.folder);
     const std::string scene_file = (fs::path(options.folder) / "scene.toml").string();
     refuse_a_scene_of_the_user(scene_file, made.text);
@@ -99,6 +103,7 @@ int write_report_page(const std::string& folder, bool quiet)
     if (!fs::is_regular_file(page_maker()))
         throw pbs::InputError(page_maker().string(), 0, "", "",
                               "not found: the page is made by scripts that are installed with the program");
+    const pbs::Stage stage("making the page " + (fs::path(folder) / "report.html").string());
     std::vector<std::string> words = {python_that_draws(), "-B", page_maker().string(), folder};
     if (quiet) words.push_back("--quiet");
     const ProgramRun page = run_program(words, std::nullopt);
