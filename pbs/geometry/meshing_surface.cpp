@@ -264,6 +264,7 @@ bool is_far_off(double volume_ratio)
 std::string advice(double volume_ratio)
 {
     if (!is_far_off(volume_ratio)) return "the body has parts thinner than its cells; ask for more vertices";
+    if (!std::isfinite(volume_ratio)) return "the surface encloses no volume; give it a thickness";
     return "its wrap holds " + number_text(volume_ratio, 2) + " times what the surface seems to enclose; close it, or give it a thickness";
 }
 
