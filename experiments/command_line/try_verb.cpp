@@ -8,6 +8,7 @@
 #include "experiments/run/run.hpp"
 #include "experiments/run/run_folder.hpp"
 #include "experiments/trial/trial.hpp"
+#include "pbs/geometry/child_process.hpp"
 #include "pbs/geometry/files.hpp"
 #include "pbs/geometry/input_error.hpp"
 
@@ -87,7 +88,10 @@ void leave_what_is_of_use(const TrialOptions& options, bool has_page)
 int try_model(TrialOptions options, const CommonOptions& common)
 {
     if (options.folder.empty()) options.folder = "results/" + fs::path(options.model).stem().string();
-    const TrialScene made = trial_scene(options);
+    const TrialScene made = [&] {
+        const pbs::Stage stage("reading " + options.model);
+        return trial_scene(options);
+    }();
     const bool is_new = analysis::make_output_folder(options.folder);
     const std::string scene_file = (fs::path(options.folder) / "scene.toml").string(), earlier_scene = earlier_trial_scene(options);
     analysis::write_text_atomically(scene_file, made.text);
@@ -116,6 +120,7 @@ int write_report_page(const std::string& folder, bool quiet)
     if (!fs::is_regular_file(page_maker()))
         throw pbs::InputError(page_maker().string(), 0, "", "",
                               "not found: the page is made by scripts that are installed with the program");
+    const pbs::Stage stage("making the page " + (fs::path(folder) / "report.html").string());
     std::vector<std::string> words = {python_that_draws(), "-B", page_maker().string(), folder};
     if (quiet) words.push_back("--quiet");
     const ProgramRun page = run_program(words, std::nullopt);

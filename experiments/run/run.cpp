@@ -9,6 +9,7 @@
 #include "experiments/scene/scene.hpp"
 #include "pbs/character/bodies.hpp"
 #include "pbs/character/body_cache.hpp"
+#include "pbs/geometry/child_process.hpp"
 #include "pbs/geometry/cost.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/solver/step_summary.hpp"
@@ -59,10 +60,10 @@ std::vector<Runner> make_runners(const Scene& scene, const pbs::Character& chara
     std::vector<Runner> runners;
     for (const DeformerSpec& spec : scene.deformers) {
         cost.time("set_up", spec.label, [&] {
+            const pbs::Stage stage("setting up " + spec.label);
             runners.push_back({spec, traits_of(spec), make_deformer(spec)});
             runners.back().deformer->reset(character);
         });
-        stop_if_interrupted();
     }
     // The reference moves first, so that a frame's errors can be measured.
     std::stable_partition(runners.begin(), runners.end(), [&](const Runner& runner) { return runner.spec.name == scene.reference; });
@@ -147,6 +148,9 @@ CaseMotion read_motion(const Scene& scene, pbs::Character& character, std::vecto
     return motion;
 }
 
+// [s] of finished frames whose rows an interruption in the middle of a long step may lose.
+constexpr double longest_loss_s = 1.0;
+
 class SceneRun {
 public:
     SceneRun(const Scene& scene, const std::string& folder, const std::vector<std::string>& warnings)
@@ -174,7 +178,7 @@ public:
         try {
             play();
         } catch (const Interrupted&) {
-            folder_.write_tables();
+            folder_.write_tables(true);
             throw;
         }
         return finish();
@@ -204,6 +208,8 @@ private:
         for (std::size_t step = 0; step < motion_.steps.size(); step += motion_.steps_per_frame) frames.push_back(motion_.steps[step]);
         for (Runner& runner : runners_) runner.deformer->foresee(runner.deformer->has_memory() ? motion_.steps : frames);
         Progress progress(scene_.name, static_cast<int>(motion_.steps.size()));
+        const pbs::Stage stage(fmt::format("moving {} through {} frames", scene_.name, frames.size()));
+        pbs::Stopwatch since_tables;
         for (std::size_t step = 0; step < motion_.steps.size(); ++step) {
             stop_if_interrupted();
             const bool is_frame = step % motion_.steps_per_frame == 0;
@@ -215,6 +221,10 @@ private:
             if (error_bar_ && (is_frame || runners_.front().deformer->has_memory()))
                 cost_.time("error_bar", [&] { error_bar_->advance(motion_.steps[step], motion_.time_step_s); });
             if (is_frame) record_frame(static_cast<int>(step / motion_.steps_per_frame), step);
+            if (since_tables.seconds() > longest_loss_s) {
+                folder_.write_tables(false);
+                since_tables = {};
+            }
             progress.advance_to(static_cast<int>(step) + 1);
         }
     }
@@ -398,7 +408,10 @@ private:
 
 RunResult run_scene(const Scene& scene, const std::string& folder, const std::vector<std::string>& warnings)
 {
-    return SceneRun(scene, folder, warnings).run();
+    std::optional<pbs::Stage> preparing("preparing " + scene.name);
+    SceneRun run(scene, folder, warnings);
+    preparing.reset();
+    return run.run();
 }
 
 }  // namespace experiments

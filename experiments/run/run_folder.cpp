@@ -167,7 +167,7 @@ void remove_frames(const std::string& folder)
         if (is_own_frame(file) && file.extension() != ".glb") analysis::remove_record(file);
 }
 
-void RunFolder::write_tables()
+void RunFolder::write_tables(bool with_moving_surfaces)
 {
     const fs::path folder(folder_);
     metrics_.write((folder / "metrics.csv").string());
@@ -178,7 +178,8 @@ void RunFolder::write_tables()
     if (!bones_.empty()) table_of(posed_bone_columns, bones_).write((folder / "bones.csv").string());
     for (const auto& [name, frames] : collections_) pbs::write_pvd((folder / "frames" / (name + ".pvd")).string(), frames);
     if (!artist_frames_.empty()) pbs::write_pvd((folder / "skin" / "artist.pvd").string(), artist_frames_);
-    for (auto& [name, surface] : surfaces_) surface.write();
+    if (with_moving_surfaces)
+        for (auto& [name, surface] : surfaces_) surface.write();
 }
 
 void RunFolder::write_what_frames_depend_on(const pbs::Character& character) const
@@ -193,7 +194,7 @@ void RunFolder::finish(const pbs::Character& character, const std::map<std::stri
                        const nlohmann::json& outcome, CostRecord& cost, const nlohmann::json& reference_error_method)
 {
     cost.time("records", [&] {
-        write_tables();
+        write_tables(true);
         if (!bones_.empty()) write_what_frames_depend_on(character);
     });
     analysis::Provenance provenance = run_provenance(std::ranges::max(scene_.deformers, {}, &DeformerSpec::threads).threads);

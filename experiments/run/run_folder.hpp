@@ -223,7 +223,9 @@ public:
         regions_.add(label, positions);
     }
 
-    void write_tables();  // all CSV files of the frames so far, and the collections; of an interrupted run, these are all records
+    // All CSV files of the frames so far, and the collections: all records of an interrupted run. The moving surfaces (.glb) are large, and
+    // need to be written once.
+    void write_tables(bool with_moving_surfaces);
 
     // Writes the tables and, last, run.json with the cost. A method of the reference's error bar that is null is left out.
     void finish(const pbs::Character& character, const std::map<std::string, nlohmann::json>& deformer_records,

@@ -4,6 +4,7 @@
 #include "pbs/character/named_bodies.hpp"
 #include "pbs/character/separated_parts.hpp"
 #include "pbs/character/skinning_weights.hpp"
+#include "pbs/geometry/child_process.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/meshing.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
@@ -11,6 +12,7 @@
 #include "pbs/rig/rig_reader.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace pbs {
 namespace {
@@ -91,6 +93,20 @@ void add_sheet(const RiggedBody& body, const std::string& file, std::vector<std:
                           " m on both sides of it");
 }
 
+// What the verb `mesh` refuses: tets of another volume or another shape than the surface. A surface without volume has its own remark.
+void add_shape(const RiggedBody& body, const TetMesh& mesh, const std::string& file, std::vector<std::string>& remarks)
+{
+    if (sheet_offset_m({body.surface, body.triangles}) > 0.0) return;
+    const double ratio = tet_volumes(mesh.rest, mesh.tets).sum() / std::abs(fan_volume(body.surface, body.triangles));
+    if (ratio < 0.5 || ratio > 2.0)
+        remarks.push_back(file + ": the tets hold " + number_text(ratio, 3) +
+                          " times the volume that the surface seems to enclose: it is open, or its triangles are not oriented one way");
+    const Topology shape = topology_of(mesh.tets, mesh.rest.rows());
+    if (const int handles = shape.boundary_components - shape.boundary_euler / 2; handles > 0)
+        remarks.push_back(file + ": the boundary of the tets has the Euler number " + std::to_string(shape.boundary_euler) + ", " +
+                          std::to_string(handles) + " handles: unless the model has them, parts that nearly touch have grown together");
+}
+
 void add_bones_outside(const RiggedBody& body, const TetMesh& mesh, const std::string& file, std::vector<std::string>& remarks)
 {
     std::vector<Vec3> samples;
@@ -131,10 +147,21 @@ void add_joints_without_flesh(const RiggedBody& body, const Character& character
                           " joints are without flesh: the tets are too coarse for what they move: " + name_list(without));
 }
 
+// The mesher does not know the name of the file.
+Character meshed(const SurfaceBody& surface, const ModelSource& source)
+{
+    try {
+        return make_surface_body(surface, source.vertices > 0 ? source.vertices : default_model_vertices, false);
+    } catch (const InputError& error) {
+        throw InputError(source.file, 0, "", "", error.what());
+    }
+}
+
 }  // namespace
 
 std::shared_ptr<const RiggedModel> read_model(const std::string& file, const std::string& animation, double scale)
 {
+    const Stage stage("reading " + file);
     auto model = std::make_shared<RiggedModel>();
     model->rig = read_rig(file);
     model->animation = find_animation(model->rig, animation);
@@ -168,7 +195,9 @@ Character make_model_character(const ModelSource& source, std::vector<std::strin
                                       return SurfaceMesh{body.surface, body.triangles};
                                   },
                               .is_foreign = true};
-    Character character = make_surface_body(surface, source.vertices > 0 ? source.vertices : default_model_vertices, false);
+    Character character = meshed(surface, source);
+    add_shape(body, character.mesh, source.file, remarks);
+    const Stage weighting("carrying the weights of " + source.file + " to the tets");
     leave_out_parts_without_bone(character, source.file, remarks);
     character.inputs = hashed;
     character.artist.emplace();

@@ -153,14 +153,15 @@ def bend(gltf, joints, first_deg=0.0):
 
 
 def rig(containers=(), unit=1.0, compact=False, halves=1, rest_deg=0.0, mesh_name="body", animations=("Bend",), extra=(),
-        shifted_m=(0.0, 0.0, 0.0), first_deg=None, tiny_tip=False, on_ground=False, one_joint=False):
+        shifted_m=(0.0, 0.0, 0.0), first_deg=None, tiny_tip=False, on_ground=False, one_joint=False, surface=None):
     """The document and the bytes of the buffer of a glTF file.
 
     containers: transforms of the nodes above the root joint, outermost first. unit: metres per unit of the points and joints. rest_deg:
     angle of the elbow in the file's rest pose, which then is not the bind pose. extra: further animations, as add_animation takes them.
     shifted_m: distance of the joints from the tube. first_deg: angle of the elbow in the first frame. tiny_tip: the tip
     moves a bead inside the tube alone. on_ground: the root hangs on a joint `ground` 0.5 m below the tube, which has a hundredth of its
-    weight. one_joint: the root alone, which the animation Sway turns.
+    weight. one_joint: the root alone, which the animation Sway turns. surface: points and triangles in
+    place of the tube.
     """
     gltf, parent, joints = Gltf(), None, []
     for name, members in containers:
@@ -180,7 +181,7 @@ def rig(containers=(), unit=1.0, compact=False, halves=1, rest_deg=0.0, mesh_nam
     for half in range(halves):
         begin, end = LENGTH * half / halves, LENGTH * (half + 1) / halves
         overlap = 0.05 if halves > 1 else 0.0
-        points, triangles = tube(begin - overlap * (half > 0), end)
+        points, triangles = surface or tube(begin - overlap * (half > 0), end)
         weights = weights_of(points)
         if tiny_tip:  # the elbow has the weights of the tip
             weights = numpy.stack([weights[:, 0], weights[:, 1] + weights[:, 2], numpy.zeros(len(weights))], axis=1)
