@@ -9,6 +9,7 @@
 #include "experiments/scene/scene.hpp"
 #include "pbs/character/bodies.hpp"
 #include "pbs/character/body_cache.hpp"
+#include "pbs/character/separated_parts.hpp"
 #include "pbs/geometry/child_process.hpp"
 #include "pbs/geometry/cost.hpp"
 #include "pbs/geometry/input_error.hpp"
@@ -98,8 +99,9 @@ OutputSpec measured_output(const Scene& scene)
     return output;
 }
 
-constexpr double many_inverted_pct = 1.0;  // of the tets, in the first frame
-constexpr double large_mask_pct = 10.0;    // of the volume
+constexpr double many_inverted_pct = 1.0;    // of the tets, in the first frame
+constexpr double large_mask_pct = 10.0;      // of the volume
+constexpr double far_from_artist_pct = 2.0;  // of the model's size
 
 // Warnings and notes of a run reach the terminal at once and run.json at its end, each once. Records name files without folders of the
 // machine: "folder/hero.glb: two joints ..." -> "hero.glb: two joints ...".
@@ -283,6 +285,32 @@ private:
                          warnings_);
     }
 
+    // How well the tets carry the artist's surface. Parts that they weld together follow the wrong bone.
+    nlohmann::json record_followed_skin()
+    {
+        const RunFolder::FollowedSkin& followed = folder_.followed_skin();
+        if (followed.frame < 0) return nullptr;
+        const pbs::Positions& rest = character_.artist->model->body.surface;
+        const double pct = 100.0 * followed.largest_m / (rest.colwise().maxCoeff() - rest.colwise().minCoeff()).norm();
+        const pbs::Carrier carrier = pbs::carrier_of(character_, followed.vertex);
+        const auto name = [&](int bone) { return character_.skeleton.bones[static_cast<std::size_t>(bone)].name; };
+        if (pct > far_from_artist_pct)
+            add_warnings(
+                {fmt::format("{}: the surface that LBS carries with the tets is up to {:.1f} % of the model's size away from the "
+                             "artist's, in frame {}: ",
+                             scene_.file, pct, followed.frame) +
+                 (carrier.bone == carrier.of_flesh
+                      ? fmt::format("the tets at {} are too coarse for its weights; character.vertices asks for more", name(carrier.bone))
+                      : fmt::format("there the flesh of {} carries the surface of {}, with a gap of {:.3g} mm at rest",
+                                    name(carrier.of_flesh), name(carrier.bone), 1e3 * carrier.gap_m))},
+                warnings_);
+        return {{"largest_pct", pct},
+                {"frame", followed.frame},
+                {"bone", name(carrier.bone)},
+                {"bone_of_flesh", name(carrier.of_flesh)},
+                {"gap_mm", 1e3 * carrier.gap_m}};
+    }
+
     void record_deformer(Runner& runner, int frame, double time_s, FrameContext context)
     {
         const pbs::Positions& positions = runner.deformer->positions();
@@ -364,6 +392,7 @@ private:
         }
         if (error_bar_) outcome["frames_below_reference_error"] = frames_below_reference_error_;
         warn_of_large_mask();
+        if (const nlohmann::json followed = record_followed_skin(); !followed.is_null()) outcome["from_artist"] = followed;
         outcome["warnings"] = warnings_;
         outcome["notes"] = notes_;
         outcome["motion"] = {{"largest_rotation_deg", motion_case_.largest_rotation_deg},

@@ -139,6 +139,7 @@ void RunFolder::write_frame(const DeformerSpec& spec, int frame, double time_s, 
         if (scene_.output.surface_files)
             pbs::write_vtp((frames / frame_file(name + "_surface", frame, ".vtp")).string(), rendered, character.surface->triangles);
         distances_.add(frame, time_s, name, "rendered surface", rendered);
+        if (name == "lbs") lbs_surface_ = rendered;
         if (scene_.output.glb && rendered.allFinite()) {  // a frame that broke down has no place in it
             surfaces_.try_emplace(name, (frames / (name + ".glb")).string(), name, character.surface->triangles, look_, materials_);
             surfaces_.at(name).add_frame(time_s, rendered);
@@ -159,6 +160,10 @@ void RunFolder::write_artist_skin(int frame, double time_s, const pbs::Character
     const std::string file = frame_file("artist", frame, ".vtp");
     pbs::write_vtp((fs::path(folder_) / "skin" / file).string(), points, model.body.triangles);
     artist_frames_.emplace_back(time_s, file);
+    if (lbs_surface_.rows() != points.rows() || !lbs_surface_.allFinite()) return;
+    Eigen::Index vertex = 0;
+    const double largest_m = (lbs_surface_ - points).rowwise().norm().maxCoeff(&vertex);
+    if (followed_.frame < 0 || largest_m > followed_.largest_m) followed_ = {largest_m, frame, vertex};
 }
 
 void remove_frames(const std::string& folder)

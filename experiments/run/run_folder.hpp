@@ -214,6 +214,13 @@ public:
     // skin/artist_000123.vtp: the model's surface by the skinning formula of its file, for its animation with scale and shear, for a clip
     // or a sweep with the bones' rigid pose; nothing for a model without joints.
     void write_artist_skin(int frame, double time_s, const pbs::Character& character, const MotionSpec& motion, const pbs::Pose& pose);
+    // Where the surface that LBS carries with the tets is farthest from the artist's; no frame: they were not compared.
+    struct FollowedSkin {
+        double largest_m = 0.0;
+        int frame = -1;
+        Eigen::Index vertex = -1;
+    };
+    const FollowedSkin& followed_skin() const { return followed_; }
     // What of the model the .glb files do not show.
     const std::vector<std::string>& remarks() const { return materials_.remarks; }
     // Into the deformer's state hash and the changes of its regions.
@@ -243,6 +250,8 @@ private:
     std::map<std::string, analysis::StateHash> hashes_;
     std::map<std::string, std::vector<std::pair<double, std::string>>> collections_;  // label -> time and file of each frame, for its .pvd
     std::vector<std::pair<double, std::string>> artist_frames_;
+    pbs::Positions lbs_surface_;  // of the frame that was written last
+    FollowedSkin followed_;
     pbs::RigLook look_;  // of the model's surface
     pbs::RigMaterials materials_;
     std::map<std::string, pbs::GlbWriter> surfaces_;  // by label, for output.glb

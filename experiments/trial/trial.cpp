@@ -409,6 +409,7 @@ nlohmann::json trial_facts(const std::string& folder)
             {"motion", run.at(outcome, "motion")},
             {"frames", run.at(outcome, "frames")},
             {"warnings", run.at(outcome, "warnings")},
+            {"from_artist", outcome.value("from_artist", nlohmann::json())},
             {"notes", run.at(outcome, "notes")},
             {"deforms", deforms(metrics)},
             {"volume", volume_facts(metrics)},

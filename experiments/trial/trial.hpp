@@ -48,6 +48,8 @@ std::string earlier_trial_scene(const TrialOptions& options);
 //   nearer        number of frames in which pbs is nearer to the reference than lbs, of how many that can be compared because an error is
 //                 at least 0.01 %; best_other: the same against the one of the other deformers whose median error is smallest
 //   frame_ms      median time of a frame, per deformer
+//   from_artist   where the surface carried by the tets under lbs is farthest from the artist's: largest_pct of the model's size, frame,
+//                 the bones of surface and flesh there, and the gap between them at rest; null: not compared
 //   control       the files of the surface by the format's own skinning; null: the model has no joints and so no skinning
 // An InputError where the run's records are missing or damaged.
 nlohmann::json trial_facts(const std::string& folder);

@@ -21,6 +21,7 @@ from words.number_words import counted, figure, listed, span_of_thousandths
 
 moved = {"frames?": shapes.whole, "warnings?": [shapes.text], "notes?": [shapes.text], "bad_frame?": shapes.text,
          "breakdown?": shapes.text,
+         "from_artist?": {"largest_pct": shapes.number, "frame": shapes.whole},
          "motion?": {"largest_rotation_deg?": shapes.number, "clip_joints?": shapes.whole, "matched_joints?": shapes.whole}}
 shape = shapes.run | {"scene": shapes.scene | {"name": shapes.text}, "outcome": moved}
 animation = {"name": shapes.text, "duration_s": shapes.number, "largest_rotation_deg": shapes.number}
@@ -135,6 +136,10 @@ def model(found):
         facts.append(f"Animations: {listed(record['animations'])}.")
     if "weights_transferred_pct" in record:
         facts.append(f"The tets carry {figure(record['weights_transferred_pct'])} % of the artist's weights.")
+    if "from_artist" in found.record["outcome"]:
+        followed = found.record["outcome"]["from_artist"]
+        facts.append(f"The surface that LBS carries with the tets is up to {figure(followed['largest_pct'])} % of the model's size away from "
+                     f"the artist's, in frame {followed['frame']}.")
     if "clip_joints" in motion:
         facts.append(f"{motion['matched_joints']} of the clip's {motion['clip_joints']} moving joints match.")
     played = record.get("animation") if "clip_joints" not in motion else None

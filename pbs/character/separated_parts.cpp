@@ -274,6 +274,25 @@ SeparatedFlesh separate_parts(const TetMesh& mesh, const SkinParts& parts, const
     return made;
 }
 
+Carrier carrier_of(const Character& character, Eigen::Index vertex)
+{
+    const RiggedBody& body = character.artist->model->body;
+    const SkinParts parts(body, {});
+    const Weights& in_tets = character.artist->weights;
+    std::map<int, double> of_flesh;
+    for (int corner = 0; corner < 4; ++corner) {
+        const int v = character.mesh.tets(character.surface->tet(vertex), corner);
+        for (int e = in_tets.first[static_cast<std::size_t>(v)]; e < in_tets.first[static_cast<std::size_t>(v) + 1]; ++e)
+            of_flesh[in_tets.bone[static_cast<std::size_t>(e)]] +=
+                character.surface->barycentric(vertex, corner) * in_tets.weight[static_cast<std::size_t>(e)];
+    }
+    Carrier carrier{.bone = parts.bone_at(parts.at_vertex(vertex))};
+    carrier.of_flesh = std::ranges::max_element(of_flesh, {}, [](const auto& one) { return one.second; })->first;
+    const Vec3 point = body.surface.row(vertex);
+    carrier.gap_m = parts.nearest(point, [&](const SurfacePoint& other) { return parts.bone_at(other) == carrier.of_flesh; }).distance_m;
+    return carrier;
+}
+
 std::vector<bool> has_bone_inside(const TetMesh& mesh, const std::vector<int>& part, const Skeleton& skeleton)
 {
     std::vector<Vec3> middles;

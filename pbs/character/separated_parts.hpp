@@ -1,10 +1,10 @@
 // Parts of a model that its skeleton moves apart, and the cut of the flesh between them.
 #pragma once
 
-#include "pbs/character/embedding.hpp"
-#include "pbs/rig/rigged_body.hpp"
+#include "pbs/character/character.hpp"
+#include "pbs/character/model_character.hpp"
 
-#include <string>
+#include <functional>
 #include <vector>
 
 namespace pbs {
@@ -22,7 +22,10 @@ public:
 
     SkinParts(const RiggedBody& body, std::vector<Pose> poses);  // the body outlives it
 
-    SurfacePoint nearest(const Vec3& point) const { return tree_.nearest(point); }
+    SurfacePoint nearest(const Vec3& point, const std::function<bool(const SurfacePoint&)>& is_wanted = {}) const
+    {
+        return tree_.nearest(point, is_wanted);
+    }
     SurfacePoint at_vertex(Eigen::Index vertex) const;  // of the surface; no triangle where none has it
     bool are_apart(const SurfacePoint& a, const SurfacePoint& b) const;
     int bone_at(const SurfacePoint& point) const;  // the one with the largest weight there
@@ -61,6 +64,14 @@ struct SeparatedFlesh {
 // Cuts the faces between tets whose nearest points of the surface (from their centres) are apart. A piece without a bone inside is not cut
 // off, since nothing would hold it.
 SeparatedFlesh separate_parts(const TetMesh& mesh, const SkinParts& parts, const Skeleton& skeleton);
+
+// The flesh that carries a point of the artist's surface.
+struct Carrier {
+    int bone = -1;       // with the largest weight of the artist at the point
+    int of_flesh = -1;   // with the largest weight in the tet that carries it
+    double gap_m = 0.0;  // at rest, from the point to the nearest one of the surface on which the bone of the flesh has the largest weight
+};
+Carrier carrier_of(const Character& character, Eigen::Index vertex);  // of a model with joints
 
 // For each part (parts_of), whether the middle half of a bone passes through it.
 std::vector<bool> has_bone_inside(const TetMesh& mesh, const std::vector<int>& part, const Skeleton& skeleton);
