@@ -138,8 +138,8 @@ def model(found):
         facts.append(f"The tets carry {figure(record['weights_transferred_pct'])} % of the artist's weights.")
     if "from_artist" in found.record["outcome"]:
         followed = found.record["outcome"]["from_artist"]
-        facts.append(f"The surface that LBS carries with the tets is up to {figure(followed['largest_pct'])} % of the model's size away from "
-                     f"the artist's, in frame {followed['frame']}.")
+        facts.append(f"The surface that LBS carries with the tets lies up to {figure(followed['largest_pct'])} % of the model's size "
+                     f"from the artist's, in frame {followed['frame']}.")
     if "clip_joints" in motion:
         facts.append(f"{motion['matched_joints']} of the clip's {motion['clip_joints']} moving joints match.")
     played = record.get("animation") if "clip_joints" not in motion else None
