@@ -1,5 +1,5 @@
 """The page of a single run: what it found over its frames, its warnings, the viewer and where its records come from. It holds what the run
-was asked for, and nothing else is reported as missing."""
+was asked for. What is missing is the viewer, if no frames were written or they cannot be shown."""
 import importlib
 import math
 import pathlib
@@ -194,9 +194,9 @@ def figures_section(found):
 
 
 def viewer_of(found):
-    """The viewer, and the reason if there is none although frames were written."""
+    """The viewer, and the reason if there is none."""
     if not any((found.folder / "frames").glob("*.vtu")):
-        return None, []
+        return None, ["viewer: no frames/*.vtu; run the scene again with `--set output.frames_every=1`"]
     try:
         recorded_frames, page_of_viewer = map(importlib.import_module, ("records.recorded_frames", "viewer.page"))
         return Markup(page_of_viewer.fragment_of([recorded_frames.Frames(found.folder)])), []

@@ -103,6 +103,16 @@ void add_joints_without_flesh(const RiggedBody& body, const Character& character
                           " joints are without flesh: the tets are too coarse for what they move: " + name_list(without));
 }
 
+// The mesher does not know the name of the file.
+Character meshed(const SurfaceBody& surface, const ModelSource& source)
+{
+    try {
+        return make_surface_body(surface, source.vertices > 0 ? source.vertices : default_model_vertices, false);
+    } catch (const InputError& error) {
+        throw InputError(source.file, 0, "", "", error.what());
+    }
+}
+
 }  // namespace
 
 std::shared_ptr<const RiggedModel> read_model(const std::string& file, const std::string& animation, double scale)
@@ -140,7 +150,7 @@ Character make_model_character(const ModelSource& source, std::vector<std::strin
                                       return SurfaceMesh{body.surface, body.triangles};
                                   },
                               .is_foreign = true};
-    Character character = make_surface_body(surface, source.vertices > 0 ? source.vertices : default_model_vertices, false);
+    Character character = meshed(surface, source);
     leave_out_parts_without_bone(character, source.file, remarks);
     character.surface = embed(body.surface, body.triangles, character.mesh);
     character.inputs = hashed;
