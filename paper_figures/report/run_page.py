@@ -1,5 +1,5 @@
 """The page of a single run: what it found over its frames, its warnings, the viewer and where its records come from. It holds what the run
-was asked for, and nothing else is reported as missing."""
+was asked for. What is missing is the viewer, if no frames were written or they cannot be shown."""
 import importlib
 import math
 import pathlib
@@ -227,6 +227,8 @@ def viewer_of(found):
         page = found.folder / "report.html"
         kept = page.is_file() and re.search(r'<div id="frame-viewer">.*?(<script.*?</script>\s*){3}', page.read_text(), re.DOTALL)
         missing = ["viewer: frames/*.vtu: do not exist: `pbskin try --paraview` keeps them"] if found.trial and not kept else []
+        if not found.trial:
+            missing = ["viewer: no frames/*.vtu; run the scene again with `--set output.frames_every=1`"]
         return Markup(kept[0].strip()) if kept else None, missing
     try:
         recorded_frames, page_of_viewer = map(importlib.import_module, ("records.recorded_frames", "viewer.page"))
