@@ -39,20 +39,30 @@ std::string other_side(std::string name)
     return name;
 }
 
-Names with_right_side(Names names)
+// Depth first, as the columns of a BVH file: the trunk, both arms, both legs.
+const std::vector<int> part_of_joint = {0, 1, 2, 3, 4, 5, 6, 7, 8, 5, 6, 7, 8, 9, 10, 11, 9, 10, 11};
+const std::vector<int> parent = {-1, 0, 1, 2, 3, 2, 5, 6, 7, 2, 9, 10, 11, 0, 13, 14, 0, 16, 17};
+
+bool is_right(int joint)
 {
-    for (std::size_t part = 5; part < 12; ++part) names.push_back(other_side(names[part]));
-    return names;
+    return (joint >= 9 && joint < 13) || joint >= 16;
 }
 
-const std::vector<int> parent = {-1, 0, 1, 2, 3, 2, 5, 6, 7, 0, 9, 10, 2, 12, 13, 14, 0, 16, 17};
+Names on_both_sides(const Names& names)
+{
+    Names all;
+    for (int joint = 0; joint < 19; ++joint)
+        all.push_back(is_right(joint) ? other_side(names[part_of_joint[joint]]) : names[part_of_joint[joint]]);
+    return all;
+}
+
 constexpr double turn_deg = 40.0;
 
 std::string joint_text(const Names& names, int joint)
 {
-    const int part = joint < 12 ? joint : joint - 7;
+    const int part = part_of_joint[joint];
     const double offsets[12][2] = {{0, 0}, {0, 1}, {0, 1}, {0, 2}, {0, 1}, {1, 1}, {1, 0}, {2, 0}, {2, 0}, {1, -1}, {0, -4}, {0, -4}};
-    const std::string x = std::to_string((joint < 12 ? 1 : -1) * offsets[part][0]), y = std::to_string(offsets[part][1]);
+    const std::string x = std::to_string((is_right(joint) ? -1 : 1) * offsets[part][0]), y = std::to_string(offsets[part][1]);
     std::string text = (joint == 0 ? "ROOT " : "JOINT ") + names[joint] + "\n{\nOFFSET " + x + " " + y + " 0\nCHANNELS " +
                        (joint == 0 ? "6 Xposition Yposition Zposition " : "3 ") + "Zrotation Xrotation Yrotation\n";
     bool is_end = true;
@@ -80,11 +90,11 @@ Clip clip_of(const Names& names)
 TEST(JointNames, EachSchemeReachesEveryPartOfTheHuman)
 {
     const Skeleton human = human_skeleton();
-    const Names parts = with_right_side(bones);
+    const Names parts = on_both_sides(bones);
     Motion first;
     for (const Names& scheme : schemes) {
         SCOPED_TRACE(scheme[9]);
-        const Clip clip = clip_of(with_right_side(scheme));
+        const Clip clip = clip_of(on_both_sides(scheme));
         const ClipMatch match = match_of(clip, human);
         EXPECT_EQ(match.matched, 19);
         EXPECT_TRUE(match.unmatched.empty());
@@ -109,17 +119,17 @@ TEST(JointNames, EachSchemeReachesEveryPartOfTheHuman)
 
 TEST(JointNames, ABoneOfAModelFollowsTheSamePartOfAnotherScheme)
 {
-    const Names of_model = with_right_side(schemes[mixamo]);
-    const Clip clip = clip_of(with_right_side(schemes[unreal]));
+    const Names of_model = on_both_sides(schemes[mixamo]);
+    const Clip clip = clip_of(on_both_sides(schemes[unreal]));
     const Skeleton model = skeleton_from_clip(clip_of(of_model), 1.0);
     const JointMap map = joint_map(clip, model);
     for (std::size_t part = 0; part < 19; ++part)
-        EXPECT_EQ(clip.joints.at(map.bones.at(find_bone(model, of_model[part])).joint), with_right_side(schemes[unreal])[part]);
+        EXPECT_EQ(clip.joints.at(map.bones.at(find_bone(model, of_model[part])).joint), on_both_sides(schemes[unreal])[part]);
 }
 
 TEST(JointNames, FingersCountOnlyWhereABoneFollowsThem)
 {
-    Clip clip = clip_of(with_right_side(schemes[mixamo]));
+    Clip clip = clip_of(on_both_sides(schemes[mixamo]));
     for (const std::string finger : {"mixamorig:LeftHandThumb1", "mixamorig:LeftHandIndex1", "mixamorig:LeftWing"}) {
         clip.joints.push_back(finger);
         clip.parent.push_back(8);
