@@ -33,7 +33,7 @@ constexpr double lowest_scale = 1e-6, highest_scale = 1e6;
 constexpr double bend_deg = 60.0;       // of the joint of a model without a motion
 constexpr double least_turn_deg = 5.0;  // of a joint in an animation that is worth a trial
 constexpr int frames_looked_at = 31;    // of each animation, to find the one that moves
-constexpr double highest_rate_looked_at_hz = 1e5;
+constexpr double shortest_motion_s = 1e-3;
 // The last line of a trial's scene, with the hash of all lines before it: the scene was written by a trial and not changed since.
 constexpr const char* seal = "# As `pbskin try` wrote it: ";
 
@@ -113,16 +113,12 @@ std::string clip_file(const TrialOptions& options, const pbs::Rig& rig)
     }
 }
 
-struct AnimationMotion {
-    double turn_deg = 0.0;  // the largest of a joint, from the animation's first frame
-    double share = 0.0;     // the same in radians, or the largest displacement over the size of the model, whichever is larger
-};
-
-AnimationMotion motion_of(const pbs::Rig& rig, const pbs::RiggedBody& body, const pbs::RigAnimation& animation)
+// The largest rotation of a joint from the animation's first frame [deg], and the larger of it [rad] and the largest displacement over the
+// size of the model.
+std::pair<double, double> motion_of(const pbs::Rig& rig, const pbs::RiggedBody& body, const pbs::RigAnimation& animation)
 {
-    const double duration_s = animation.end_s - animation.start_s;
     pbs::MotionSampling sampling;
-    sampling.rate_hz = duration_s > 0.0 ? std::min((frames_looked_at - 1) / duration_s, highest_rate_looked_at_hz) : highest_rate_hz;
+    sampling.rate_hz = (frames_looked_at - 1) / std::max(animation.end_s - animation.start_s, shortest_motion_s);
     sampling.time_step_s = 1.0 / sampling.rate_hz;
     const pbs::Motion motion = pbs::rig_motion(rig, body, animation, sampling).motion;
     const double size_m = (body.surface.colwise().maxCoeff() - body.surface.colwise().minCoeff()).norm();
@@ -135,20 +131,20 @@ AnimationMotion motion_of(const pbs::Rig& rig, const pbs::RiggedBody& body, cons
 const pbs::RigAnimation* moving_animation(const TrialOptions& options, const pbs::Rig& rig, const pbs::RiggedBody& body, TrialScene& made)
 {
     const auto& animations = rig.animations;
-    std::vector<AnimationMotion> motions;
+    std::vector<std::pair<double, double>> motions;
     made.animations = nlohmann::json::array();
     for (const pbs::RigAnimation& animation : animations) {
         stop_if_interrupted();
         motions.push_back(motion_of(rig, body, animation));
         made.animations.push_back({{"name", animation.name},
                                    {"duration_s", animation.end_s - animation.start_s},
-                                   {"largest_rotation_deg", motions.back().turn_deg}});
+                                   {"largest_rotation_deg", motions.back().first}});
     }
     if (animations.empty()) return nullptr;
-    auto moving = std::ranges::find_if(motions, [](const AnimationMotion& motion) { return motion.turn_deg > least_turn_deg; });
+    auto moving = std::ranges::find_if(motions, [](const auto& motion) { return motion.first > least_turn_deg; });
     std::string why = fmt::format("the first one that turns a joint by more than {} degrees", least_turn_deg);
     if (moving == motions.end()) {
-        moving = std::ranges::max_element(motions, {}, &AnimationMotion::share);
+        moving = std::ranges::max_element(motions, {}, &std::pair<double, double>::second);
         why = fmt::format("which moves most: none turns a joint by more than {} degrees", least_turn_deg);
     }
     const pbs::RigAnimation& taken = animations[moving - motions.begin()];

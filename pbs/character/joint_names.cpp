@@ -42,6 +42,8 @@ constexpr BodyPart body_parts[] = {
     {PartKind::limb, 0, 0.0, {"", "toebase", "toes", "toes", "toebase", "toe", "ball"}},
 };
 
+constexpr int thigh = 12;  // row of body_parts; the shin follows
+
 // Words in the names of joints that a body may lack without being another one: fingers, toes, the face, twists, goals of kinematics.
 const std::set<std::string> small_parts = {"finger", "fingers", "thumb", "index", "middle", "ring", "pinky", "little", "metacarpal",
                                            "palm",   "toe",     "toes",  "ball",  "eye",    "jaw",  "twist", "ik"};
@@ -87,19 +89,15 @@ JointKey key_of(const std::string& name)
     for (std::size_t w = 0; w < words.size(); ++w) {
         const std::string& word = words[w];
         if (w == 0 && words.size() > 1 && (word == "def" || word == "org" || word.starts_with("mixamorig"))) continue;
-        const bool is_side = word == "l" || word == "r" || word == "left" || word == "right";
-        if (is_side)
+        if (word == "l" || word == "r" || word == "left" || word == "right")
             key.side = word[0];
         else
             key.stem += word;
         key.is_small = key.is_small || is_small_part(word);
     }
     for (const std::string side : {"left", "right", "l", "r"})
-        if (key.side == ' ' && key.stem.starts_with(side) && has_two_sides(key.stem.substr(side.size()))) {
-            key.side = side[0];
-            key.stem.erase(0, side.size());
-            key.is_small = key.is_small || is_small_part(key.stem);
-        }
+        if (key.side == ' ' && key.stem.starts_with(side) && has_two_sides(key.stem.substr(side.size())))
+            key = {key.stem.substr(side.size()), side[0], key.is_small || is_small_part(key.stem.substr(side.size()))};
     return key;
 }
 
@@ -116,16 +114,12 @@ int part_of(const JointKey& key, int scheme)
 int scheme_of(const std::vector<JointKey>& keys)
 {
     int scheme = -1;
-    std::ptrdiff_t most = 0;
+    std::size_t most = 0;
     for (int s = 0; s < static_cast<int>(body_parts[0].names.size()); ++s) {
-        std::ptrdiff_t known = 0;
-        std::set<int> legs;
-        for (const JointKey& key : keys) {
-            const int part = part_of(key, s);
-            known += part >= 0;
-            if (part >= 0 && body_parts[part].kind == PartKind::leg) legs.insert(part);
-        }
-        if (legs.size() < 2 || known <= most) continue;
+        std::multiset<int> parts;
+        for (const JointKey& key : keys) parts.insert(part_of(key, s));
+        const std::size_t known = parts.size() - parts.count(-1);
+        if (known <= most || parts.count(thigh) == 0 || parts.count(thigh + 1) == 0) continue;
         most = known;
         scheme = s;
     }

@@ -17,12 +17,9 @@ constexpr double shortest_limb = 1e-6;      // of the zero pose's extent: CMU's 
 constexpr double rounding = 1e-6;           // of a frame: times given in decimal are not refused for their last digit
 constexpr double same_rotation_rad = 1e-4;  // of keys in single precision, with margin
 
-// The plan of one bone.
-struct BoneFollowing {
-    int joint = -1;                                                 // of the clip; -1: the bone follows its parent
+// The plan of one bone. Without a joint it follows its parent.
+struct BoneFollowing : JointMapping {
     Eigen::Quaterniond alignment = Eigen::Quaterniond::Identity();  // A: rest direction of the bone -> limb in the zero pose
-    int twist_joint = -1;                                           // -1: none
-    double twist_share = 0.0;                                       // of that joint's twist about the limb, 0 to 1
     Vec3 limb = Vec3::Zero();                                       // to the end of the joint's limb in the zero pose [clip's units]
 };
 
@@ -55,56 +52,32 @@ Vec3 limb_of(const Clip& clip, int joint, int limb_end)
     return Vec3::Zero();
 }
 
-BoneFollowing follow(const Bone& bone, const JointMapping& mapping, const Clip& clip)
-{
-    BoneFollowing following;
-    following.joint = mapping.joint;
-    if (following.joint < 0) return following;
-    following.limb = limb_of(clip, mapping.joint, mapping.limb_end);
-    if (mapping.aligned && !following.limb.isZero(0.0))
-        following.alignment = Eigen::Quaterniond::FromTwoVectors(bone.tail - bone.head, following.limb);
-    following.twist_joint = mapping.twist_joint;
-    following.twist_share = mapping.twist_share;
-    return following;
-}
-
-[[noreturn]] void refuse(const Clip& clip, const Skeleton& skeleton, const std::string& why)
-{
-    std::vector<std::string> bones;
-    for (const Bone& bone : skeleton.bones) bones.push_back(bone.name);
-    throw InputError(clip.name, 0, "joints", name_list(clip.joints), why + " (bones: " + name_list(bones) + ")");
-}
-
-// Bone lengths over limb lengths: of the legs where the map knows them, else of all bones that follow.
-double scale_of(const std::vector<double>& lengths, const RetargetPlan& plan, const std::vector<bool>& counts)
-{
-    double bones = 0.0, limbs = 0.0;
-    for (std::size_t b = 0; b < lengths.size(); ++b) {
-        const double limb = plan.bones[b].limb.norm();
-        if (!counts[b] || limb == 0.0) continue;
-        bones += lengths[b];
-        limbs += limb;
-    }
-    return limbs > 0.0 ? bones / limbs : 1.0;
-}
-
 // An InputError where the map has no joint for any bone.
 RetargetPlan plan_retargeting(const Clip& clip, const Skeleton& skeleton, const JointMap& map)
 {
     RetargetPlan plan;
-    std::vector<double> lengths;
-    std::vector<bool> is_leg, follows;
+    std::vector<std::string> names;
+    bool follows = false;
+    Eigen::Vector2d legs(0.0, 0.0), all(0.0, 0.0);  // lengths of the bones [m] and of their limbs
     for (std::size_t b = 0; b < skeleton.bones.size(); ++b) {
-        const Bone& bone = skeleton.bones[b];
-        plan.bones.push_back(follow(bone, map.bones[b], clip));
-        lengths.push_back((bone.tail - bone.head).norm());
-        follows.push_back(plan.bones.back().joint >= 0);
-        is_leg.push_back(map.bones[b].leg && follows.back());
+        const Vec3 bone = skeleton.bones[b].tail - skeleton.bones[b].head;
+        BoneFollowing following{map.bones[b]};
+        names.push_back(skeleton.bones[b].name);
+        follows = follows || following.joint >= 0;
+        if (following.joint >= 0) following.limb = limb_of(clip, following.joint, following.limb_end);
+        if (!following.limb.isZero(0.0)) {
+            if (following.aligned) following.alignment = Eigen::Quaterniond::FromTwoVectors(bone, following.limb);
+            const Eigen::Vector2d lengths(bone.norm(), following.limb.norm());
+            all += lengths;
+            if (following.leg) legs += lengths;
+        }
+        plan.bones.push_back(following);
     }
-    if (std::find(follows.begin(), follows.end(), true) == follows.end())
-        refuse(clip, skeleton, "no joint has the name of a bone, or another one that is known for it");
-    const bool has_legs = std::find(is_leg.begin(), is_leg.end(), true) != is_leg.end();
-    plan.scale = scale_of(lengths, plan, has_legs ? is_leg : follows);
+    if (!follows)
+        throw InputError(clip.name, 0, "joints", name_list(clip.joints),
+                         "no joint has the name of a bone (bones: " + name_list(names) + ")");
+    const Eigen::Vector2d& lengths = legs(1) > 0.0 ? legs : all;
+    plan.scale = lengths(1) > 0.0 ? lengths(0) / lengths(1) : 1.0;
     return plan;
 }
 
@@ -209,20 +182,18 @@ ClipMatch match_of(const Clip& clip, const Skeleton& skeleton)
     const RetargetPlan plan = plan_retargeting(clip, skeleton, map);
     ClipMatch match;
     std::set<int> followed;
-    for (std::size_t b = 0; b < plan.bones.size(); ++b) {
-        followed.insert(plan.bones[b].joint);
-        followed.insert(plan.bones[b].twist_joint);
-        if (plan.bones[b].joint < 0) match.bones_without_joint.push_back(skeleton.bones[b].name);
-    }
+    for (std::size_t b = 0; b < plan.bones.size(); ++b)
+        if (plan.bones[b].joint >= 0)
+            followed.insert({plan.bones[b].joint, plan.bones[b].twist_joint});
+        else
+            match.bones_without_joint.push_back(skeleton.bones[b].name);
     for (std::size_t j = 0; j < clip.joints.size(); ++j) {
         if (!moves(clip, j)) continue;
         ++match.moving;
-        if (followed.count(static_cast<int>(j)) > 0) {
-            ++match.matched;
-        } else {
-            match.unmatched.push_back(clip.joints[j]);
-            match.small += map.is_small[j];
-        }
+        match.matched += static_cast<int>(followed.count(static_cast<int>(j)));
+        if (followed.count(static_cast<int>(j)) > 0) continue;
+        match.unmatched.push_back(clip.joints[j]);
+        match.small += map.is_small[j];
     }
     return match;
 }
