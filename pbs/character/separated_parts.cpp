@@ -137,9 +137,8 @@ std::vector<Cut> cuts_of(const TetMesh& mesh, const SkinParts& parts, const std:
         if (!is_cut[f]) continue;
         const auto& [a, b, c] = faces[f].vertices;
         const Vec3 origin = mesh.rest.row(a), one = mesh.rest.row(b), other = mesh.rest.row(c);
-        const int first = parts.bone_at(skin[static_cast<std::size_t>(faces[f].first)]);
-        const int second = parts.bone_at(skin[static_cast<std::size_t>(faces[f].second)]);
-        areas[std::minmax(first, second)] += 0.5 * (one - origin).cross(other - origin).norm();
+        const auto bones = parts.bones_between(skin[static_cast<std::size_t>(faces[f].first)], skin[static_cast<std::size_t>(faces[f].second)]);
+        areas[std::minmax(bones.first, bones.second)] += 0.5 * (one - origin).cross(other - origin).norm();
     }
     std::vector<Cut> cuts;
     for (const auto& [bones, area] : areas) cuts.push_back({bones.first, bones.second, area});
@@ -186,6 +185,15 @@ int SkinParts::bone_at(const SurfacePoint& point) const
     WeightDifference weights;
     add_weights(body_, point, 1.0, weights);
     return std::ranges::max_element(weights, {}, [](const auto& one) { return one.second; })->first;
+}
+
+std::pair<int, int> SkinParts::bones_between(const SurfacePoint& a, const SurfacePoint& b) const
+{
+    WeightDifference difference;
+    add_weights(body_, a, 1.0, difference);
+    add_weights(body_, b, -1.0, difference);
+    const auto [least, most] = std::ranges::minmax_element(difference, {}, [](const auto& one) { return one.second; });
+    return {most->first, least->first};
 }
 
 bool SkinParts::are_apart(const SurfacePoint& a, const SurfacePoint& b) const

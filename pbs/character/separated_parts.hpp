@@ -5,6 +5,7 @@
 #include "pbs/character/model_character.hpp"
 
 #include <functional>
+#include <utility>
 #include <vector>
 
 namespace pbs {
@@ -29,6 +30,8 @@ public:
     SurfacePoint at_vertex(Eigen::Index vertex) const;  // of the surface; no triangle where none has it
     bool are_apart(const SurfacePoint& a, const SurfacePoint& b) const;
     int bone_at(const SurfacePoint& point) const;  // the one with the largest weight there
+    // The bone that moves a more than b, and the one that moves b more than a.
+    std::pair<int, int> bones_between(const SurfacePoint& a, const SurfacePoint& b) const;
 
 private:
     struct Way {
@@ -48,7 +51,7 @@ private:
     double diagonal_m_ = 0.0;
 };
 
-// A cut between two bones, and its area [m^2].
+// A cut between what two bones move, and its area [m^2].
 struct Cut {
     int first = -1, second = -1;  // first < second
     double area_m2 = 0.0;
