@@ -3,8 +3,8 @@
     for claim in sentences.claims_of(results / "claims.json"):
         print(claim["id"], "; ".join(sentences.facts(claim)))
 
-A claim is judged by its units: 28 of 29 units hold, share 0.966 [0.822, 0.999]; 0.067 to 1.02, bound 0.95 or more. In brackets stands only the
-interval of the share; ranges over meshes, frames or orders of projection have these names.
+A claim is judged by its units: 28 of 29 units hold, share 0.966 [0.822, 0.999]; 0.067 to 1.02, bound 0.95 or more. In brackets stands
+only the interval of the share; ranges over meshes, frames or orders of projection have these names.
 """
 import math
 
@@ -232,8 +232,9 @@ def facts(claim):
     if claim["rule"] == "printed":
         if not claim["n"]:
             return ["no record"]
+        few = claim["verdict"] == "holds" and claim["n"] <= most_values
         values = [f"{title(claim, case['quantity'])}: {shown(case)}, by the others {figure(case['bound_low'])} to "
-                  f"{figure(case['bound_high'])}" for case in claim["cases"]] if claim["n"] <= most_values else []
+                  f"{figure(case['bound_high'])}" for case in claim["cases"] if few]
         return [f"{claim['held']} of {counted(claim['n'], 'printed value')} consistent", *values]
     if claim["rule"] in ("definition", "untestable"):
         return [*why_untested(claim), *numbers(claim)]
@@ -331,6 +332,6 @@ def disagreements(claim):
         pairs = [(own[unit], holds) for unit, holds in by_unit(claim, of).items() if unit in own]
         mine, other = zip(*pairs) if len(pairs) >= least_units else ([True], [True])
         if extent(mine) != extent(other):
-            told.append(f"{of['name'][:1].upper()}{of['name'][1:]} and the claim's own reading disagree: in the {len(pairs)} units that both "
-                        f"have, the bound holds {extent(other)} in the one, {extent(mine)} in the other.")
+            told.append(f"{of['name'][:1].upper()}{of['name'][1:]} and the claim's own reading disagree: in the {len(pairs)} units that "
+                        f"both have, the bound holds {extent(other)} in the one, {extent(mine)} in the other.")
     return told
