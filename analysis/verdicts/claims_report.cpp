@@ -230,26 +230,42 @@ std::string share_text(const Verdict& verdict)
 }
 
 // A censored number with its sign: > 1,000.
-std::string number_text(const Judged& judged, double number)
+std::string number_text(const Unit& unit)
 {
     static constexpr std::array signs = {"", ">= ", "<= ", "> "};
-    const auto is_it = [&](const Unit& unit) { return unit.counts() && unit.value == number && unit.limit != Limit::none; };
-    const auto censored = std::ranges::find_if(judged.units, is_it);
-    const Limit limit = censored == judged.units.end() ? Limit::none : censored->limit;
-    return signs[static_cast<std::size_t>(limit)] + fmt::format("{:.{}g}", number, limit != Limit::none && number >= 1e3 ? 4 : 3);
+    const bool is_long = unit.limit != Limit::none && unit.value >= 1e3;
+    return signs[static_cast<std::size_t>(unit.limit)] + fmt::format("{:.{}g}", unit.value, is_long ? 4 : 3);
 }
 
-// The numbers of the units, least to most, with their bound.
+// The units that count, or their parts, that have a number of this quantity, the least first.
+std::vector<Unit> units_with(const Judged& judged, const std::string& quantity)
+{
+    std::vector<Unit> units;
+    for (const Unit& unit : judged.units) {
+        const std::vector<Unit> whole = {unit};
+        for (const Unit& part : unit.parts.empty() ? whole : unit.parts)
+            if (unit.counts() && std::isfinite(part.value) && (part.quantity.empty() || part.quantity == quantity)) units.push_back(part);
+    }
+    std::ranges::stable_sort(units, {}, &Unit::value);
+    return units;
+}
+
+// The numbers of the units for each quantity, least to most, with their bounds.
 std::string numbers_text(const Verdict& verdict)
 {
-    const std::vector<double> numbers = numbers_of(verdict.own);
-    if (numbers.empty()) return "";
-    const std::string unit = verdict.own.units.front().unit, shown = unit.empty() || unit == "1" ? "" : " " + unit;
-    const std::string least = number_text(verdict.own, numbers.front()), most = number_text(verdict.own, numbers.back());
-    const std::string values = numbers.front() == numbers.back() ? least : least + " to " + most;
-    std::vector<std::string> bounds;
-    for (const Bound& bound : verdict.claim.own.bounds) bounds.push_back(bound_text(bound));
-    return fmt::format("{}: {}{}; bound {}", fmt::join(verdict.claim.own.quantities, ", "), values, shown, fmt::join(bounds, ", "));
+    std::vector<std::string> texts;
+    for (const std::string& quantity : verdict.claim.own.quantities) {
+        const std::vector<Unit> units = units_with(verdict.own, quantity);
+        if (units.empty()) continue;
+        const std::string unit = units.front().unit, shown = unit.empty() || unit == "1" ? "" : " " + unit;
+        const std::string least = number_text(units.front()), most = number_text(units.back());
+        std::vector<std::string> bounds;
+        for (const Bound& bound : verdict.claim.own.bounds)
+            if (bound.quantity.empty() || bound.quantity == quantity) bounds.push_back(bound_text(bound));
+        texts.push_back(fmt::format("{}: {}{}{}{}", quantity, least == most ? least : least + " to " + most, shown,
+                                    bounds.empty() ? "" : "; bound ", fmt::join(bounds, ", ")));
+    }
+    return fmt::format("{}", fmt::join(texts, "; "));
 }
 
 // One line each: how many units hold; their numbers with the bound; why a claim is not testable; what is missing.
@@ -306,10 +322,12 @@ std::string claims_markdown(const std::vector<Verdict>& verdicts)
         const bool none = verdict.own.n == 0 || verdict.claim.rule != ClaimRule::units;
         const auto known = [&](double value) { return none || !std::isfinite(value) ? std::string() : fmt::format("{:.3g}", value); };
         const std::string interval = none ? "" : fmt::format("[{:.3g}, {:.3g}]", verdict.interval.low, verdict.interval.high);
+        const json object = claim_object(verdict);
+        const bool is_bounded = !verdict.claim.own.bounds.empty() || !verdict.printed.empty();
         text += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", markdown_cell(verdict.claim.id),
-                            markdown_cell(verdict.claim.statement), name_of(verdict.kind), verdict.own.held, verdict.own.n,
-                            known(verdict.own.share()), interval, known(verdict.by_chance), markdown_cell(numbers_text(verdict)),
-                            verdict.claim.study);
+                            markdown_cell(verdict.claim.statement), name_of(verdict.kind), is_bounded ? object["held"].dump() : "",
+                            object["n"].dump(), known(verdict.own.share()), interval, known(verdict.by_chance),
+                            markdown_cell(numbers_text(verdict)), verdict.claim.study);
     }
     return text;
 }
@@ -334,7 +352,7 @@ std::string claims_table(const std::vector<Verdict>& verdicts, std::size_t width
 std::string bound_text(const Bound& bound)
 {
     if (bound.low == bound.high) return fmt::format("{:.4g}", bound.low);
-    if (std::isinf(bound.high)) return fmt::format("{:.4g} or more", bound.low);
+    if (std::isinf(bound.high)) return bound.low > 0.0 && bound.low <= 1e-9 ? "above 0" : fmt::format("{:.4g} or more", bound.low);
     if (std::isinf(bound.low)) return std::nextafter(bound.high, 2.0) == 1.0 ? "below 1" : fmt::format("{:.4g} or less", bound.high);
     return fmt::format("{:.4g} to {:.4g}", bound.low, bound.high);
 }

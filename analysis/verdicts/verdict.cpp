@@ -83,10 +83,13 @@ Unit compared(const Claim& claim, const Selection& selection, Unit unit, const V
 {
     unit.value = mean_of(claim.mean, values);
     unit.low = unit.high = values.front()->value;
+    bool has_least = false, has_most = false;  // of a mean with a number of each kind nothing is known
     for (const Measurement* one : values) {
         unit.low = std::min({unit.low, one->value, one->low});
         unit.high = std::max({unit.high, one->value, one->high});
-        if (one->limit != Limit::none) unit.limit = one->limit;
+        if (one->limit == Limit::none) continue;
+        unit.limit = one->limit;
+        (one->limit == Limit::at_most ? has_most : has_least) = true;
     }
     unit.n = static_cast<int>(values.size());
     unit.unit = values.front()->unit;
@@ -102,7 +105,7 @@ Unit compared(const Claim& claim, const Selection& selection, Unit unit, const V
         unit.high /= base;
     }
     unit.holds = unit.bound.contains(unit.value);
-    if (is_undecided(unit)) unit.left_out = LeftOutUnit::censored;
+    if (is_undecided(unit) || (has_least && has_most)) unit.left_out = LeftOutUnit::censored;
     return unit;
 }
 
@@ -185,7 +188,7 @@ Interval interval_of(const Judged& own)
     return bootstrap.high - bootstrap.low > binomial.high - binomial.low ? bootstrap : binomial;
 }
 
-// Shares by the values of each field; a value with fewer than two units says nothing.
+// Shares by the values of each field that a unit has; a value with fewer than two units says nothing.
 std::optional<Difference> largest_difference(const Claim& claim, const Judged& own)
 {
     std::optional<Difference> largest;
@@ -193,7 +196,7 @@ std::optional<Difference> largest_difference(const Claim& claim, const Judged& o
         const CaseKeyField* field = case_key_field(name);
         std::map<std::string, std::array<int, 2>> counts;  // held, all
         for (const Unit& unit : own.units) {
-            if (!unit.counts()) continue;
+            if (!unit.counts() || (field && !field->is_set(unit.of))) continue;
             auto& [held, all] = counts[field ? value_text(*field, unit.of) : unit.quantity];
             held += unit.holds;
             ++all;

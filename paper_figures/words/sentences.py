@@ -3,8 +3,8 @@
     for claim in sentences.claims_of(results / "claims.json"):
         print(claim["id"], "; ".join(sentences.facts(claim)))
 
-A claim is judged by its units: 28 of 29 units hold, share 0.97 [0.82, 1.00]; 0.067 to 1.02, bound 0.95 or more. In brackets stands only the
-interval of the share; ranges over meshes, frames or orders of projection have these names.
+A claim is judged by its units: 28 of 29 units hold, share 0.966 [0.822, 0.999]; 0.067 to 1.02, bound 0.95 or more. In brackets stands
+only the interval of the share; ranges over meshes, frames or orders of projection have these names.
 """
 import math
 
@@ -18,8 +18,9 @@ kinds = {"holds": ("holds", "hold"), "fails": ("fails", "fail"), "mixed": ("is m
          "not_testable": ("is not testable", "are not testable"), "definition": ("is a definition", "are definitions"),
          "not_computable": ("is not computable", "are not computable")}
 author = "the author's later code"
-holding_share, failing_share = 0.95, 0.5  # as in analysis/verdicts/verdict.hpp
+holding_share, failing_share, least_units = 0.95, 0.5, 5  # as in analysis/verdicts/verdict.hpp
 most_ranges = 2  # that cross the bound, named one by one
+most_values = 2  # that are printed, likewise
 
 
 def claims_of(file):
@@ -142,15 +143,24 @@ def crosses(case):
     """Whether a part of the range lies within the bound and a part outside."""
     least = -math.inf if case["bound_low"] is None else case["bound_low"]
     most = math.inf if case["bound_high"] is None else case["bound_high"]
-    low, high = case["low"], case["high"]
-    return None not in (low, high) and low <= most and high >= least and not least <= low <= high <= most
+    low, high = range_of(case)
+    return case["value"] is not None and low <= most and high >= least and not least <= low <= high <= most
+
+
+def range_of(case):
+    """The ends of a range; one without an end on record, as of an iteration that does not arrive, is infinite."""
+    return -math.inf if case["low"] is None else case["low"], math.inf if case["high"] is None else case["high"]
+
+
+def range_text(case):
+    low, high = range_of(case)
+    return f"{figure(low)} to {'any number' if math.isinf(high) else figure(high)}"
 
 
 def ranges(claim):
     """The units whose range crosses the bound: range over meshes of limb, twist 180 deg: 0.065 to 0.97."""
     found = [case for case in counting(claim) if crosses(case)] if claim["range"] else []
-    told = [f"{range_name(claim)} of {case_words.of(case)}: {figure(case['low'])} to {figure(case['high'])}"
-            for case in found[:most_ranges]]
+    told = [f"{range_name(claim)} of {case_words.of(case)}: {range_text(case)}" for case in found[:most_ranges]]
     return told + ([f"the ranges of {counted(len(found) - most_ranges, 'more unit')} cross the bound"] if len(found) > most_ranges else [])
 
 
@@ -163,19 +173,19 @@ def range_name(claim):
 # How many units hold.
 
 def share(claim):
-    """28 of 29 units hold, share 0.97 [0.82, 1.00]"""
+    """28 of 29 units hold, share 0.966 [0.822, 0.999]"""
     text = held(claim, " hold")
     return text if claim["interval_low"] is None or claim["interval_high"] is None else (
-        f"{text} [{claim['interval_low']:.2f}, {claim['interval_high']:.2f}]")
+        f"{text} [{claim['interval_low']:.3g}, {claim['interval_high']:.3g}]")
 
 
 def held(of, verb=""):
-    """28 of 29 units, share 0.97; without a bound only their number; no record without units."""
+    """28 of 29 units, share 0.966; without a bound only their number; no record without units."""
     if not of["n"]:
         return "no record" if not of["cases"] else "no unit counts"
     if not of["bounds"]:
         return counted(of["n"], "unit")
-    known = "" if of["share"] is None else f", share {of['share']:.2f}"
+    known = "" if of["share"] is None else f", share {of['share']:.3g}"
     return f"{of['held']} of {counted(of['n'], 'unit')}{verb}{known}"
 
 
@@ -195,8 +205,8 @@ def difference(claim):
     if of is None:
         return []
     least, most = (case_words.of_field(of["field"], of[end]) for end in ("least_at", "most_at"))
-    return [f"the share differs most by {case_words.of_field('unit_field', of['field'])}: {of['least']:.2f} for {least}, "
-            f"{of['most']:.2f} for {most}"]
+    return [f"the share differs most by {case_words.of_field('unit_field', of['field'])}: {of['least']:.3g} for {least}, "
+            f"{of['most']:.3g} for {most}"]
 
 
 def why_untested(claim):
@@ -220,7 +230,12 @@ def facts(claim):
     if claim["missing"]:
         return [f"no record of {', '.join(claim['missing'])}"]
     if claim["rule"] == "printed":
-        return [f"{claim['held']} of {counted(claim['n'], 'printed value')} consistent"] if claim["n"] else ["no record"]
+        if not claim["n"]:
+            return ["no record"]
+        few = claim["verdict"] == "holds" and claim["n"] <= most_values
+        values = [f"{title(claim, case['quantity'])}: {shown(case)}, by the others {figure(case['bound_low'])} to "
+                  f"{figure(case['bound_high'])}" for case in claim["cases"] if few]
+        return [f"{claim['held']} of {counted(claim['n'], 'printed value')} consistent", *values]
     if claim["rule"] in ("definition", "untestable"):
         return [*why_untested(claim), *numbers(claim)]
     if claim["rule"] == "single":
@@ -298,16 +313,25 @@ def reading_rows(claim):
     return [[named(claim, of), held(of), *ends(of)] for of in claim["readings"]]
 
 
-def extent(of):
-    """How far the units hold, by the rule's own limits of a share."""
-    return ("throughout" if of["share"] >= holding_share else "in half of the units or fewer" if of["share"] <= failing_share else
+def extent(holding):
+    """How far units hold, by the rule's own limits of a share."""
+    share = sum(holding) / len(holding)
+    return ("throughout" if share >= holding_share else "in half of the units or fewer" if share <= failing_share else
             "in more than half of the units")
 
 
+def by_unit(claim, of):
+    """Whether each unit that counts holds, by its key."""
+    return {tuple(case.get(field) for field in claim["unit_fields"]): case["holds"] for case in counting(of)}
+
+
 def disagreements(claim):
-    """The orders and the author's later code that hold to another extent than the claim's own reading."""
-    if claim["rule"] != "units" or claim["share"] is None:
-        return []
-    others = claim["readings"] + [of for of in claim["compared"] if of["name"] == author]
-    return [f"{of['name'][:1].upper()}{of['name'][1:]} and the claim's own reading disagree: the bound holds {extent(of)} in the one, "
-            f"{extent(claim)} in the other." for of in others if of["share"] is not None and extent(of) != extent(claim)]
+    """The orders and the author's later code that hold to another extent than the claim's own reading, in the units that both have."""
+    told, own = [], by_unit(claim, claim) if claim["rule"] == "units" else {}
+    for of in claim["readings"] + [of for of in claim["compared"] if of["name"] == author]:
+        pairs = [(own[unit], holds) for unit, holds in by_unit(claim, of).items() if unit in own]
+        mine, other = zip(*pairs) if len(pairs) >= least_units else ([True], [True])
+        if extent(mine) != extent(other):
+            told.append(f"{of['name'][:1].upper()}{of['name'][1:]} and the claim's own reading disagree: in the {len(pairs)} units that "
+                        f"both have, the bound holds {extent(other)} in the one, {extent(mine)} in the other.")
+    return told

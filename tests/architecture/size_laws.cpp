@@ -143,14 +143,14 @@ const std::vector<Budget>& budgets()
         {.what = "pbs", .folders = {"pbs/"}, .endings = cpp, .most_lines = 21'500, .least_mean = 120},
         {.what = "reference_fem", .folders = {"reference_fem/"}, .endings = cpp, .most_lines = 9'300, .least_mean = 120},
         {.what = "analysis", .folders = {"analysis/"}, .endings = cpp, .most_lines = 6'300, .least_mean = 120},
-        {.what = "experiments", .folders = {"experiments/"}, .endings = cpp, .most_lines = 26'200, .least_mean = 120},
+        {.what = "experiments", .folders = {"experiments/"}, .endings = cpp, .most_lines = 26'250, .least_mean = 120},
         {.what = "production C++",
          .folders = {"pbs/", "reference_fem/", "analysis/", "experiments/"},
          .endings = cpp,
-         .most_lines = 63'200},
-        {.what = "tests in C++", .folders = {"tests/"}, .endings = cpp, .most_lines = 41'650, .least_mean = 120},
+         .most_lines = 63'300},
+        {.what = "tests in C++", .folders = {"tests/"}, .endings = cpp, .most_lines = 41'700, .least_mean = 120},
         {.what = "tests in Python and JavaScript", .folders = {"tests/"}, .endings = scripts, .most_lines = 11'150},
-        {.what = "paper_figures", .folders = {"paper_figures/"}, .endings = scripts, .most_lines = 7'900},
+        {.what = "paper_figures", .folders = {"paper_figures/"}, .endings = scripts, .most_lines = 7'950},
         {.what = "kept records", .folders = {"experiments/records/full/"}, .most_files = 150},
     };
     return all;

@@ -62,7 +62,7 @@ def counts_of(claim):
         return [rf"\b{claim['held']} of {claim['n']} printed values"]
     if claim["rule"] != "units" or not claim["n"]:
         return []
-    share, low, high = (rf"(?:{claim[name]:.2f}|{claim[name]:.3g})" for name in ("share", "interval_low", "interval_high"))
+    share, low, high = (f"{claim[name]:.3g}" for name in ("share", "interval_low", "interval_high"))
     return [rf"\b{claim['held']} of {claim['n']} (?:units? )?hold, share {share} \[{low}, {high}\]"]
 
 

@@ -145,11 +145,16 @@ std::vector<FrequencyRatio> ratios(const std::vector<MeasuredJiggle>& measured, 
     return all;
 }
 
+bool is_of_the_papers_solver(const JiggleSetting& setting)
+{
+    return setting.order == JiggleSetting{}.order && setting.precision == JiggleSetting{}.precision;
+}
+
 void add_share(std::vector<Measurement>& measurements, const std::string& body, const std::vector<MeasuredJiggle>& measured)
 {
     std::vector<double> swings;  // 1 where it does
     for (const MeasuredJiggle& one : measured)
-        if (is_of_the_paper(one.setting)) swings.push_back(one.response.swing.found());
+        if (is_of_the_paper(one.setting) && is_of_the_papers_solver(one.setting)) swings.push_back(one.response.swing.found());
     if (swings.empty()) return;
     measurements.push_back(exact_value("share_of_settings_that_swing", {.body = body}, analysis::mean(swings)));
     measurements.back().n = static_cast<int>(swings.size());
@@ -167,12 +172,15 @@ void add_setting(std::vector<Measurement>& measurements, const analysis::CaseKey
     measurements.push_back(measurement("frequency_hz", of, response.swing.frequency_hz, "Hz"));
 }
 
-// Those that differ from the first setting in k_stretch alone, the smallest first.
-std::vector<MeasuredJiggle> by_k_stretch(const std::vector<MeasuredJiggle>& measured, bool (*is_known)(const JoltResponse&))
+// Those that differ from `from` in k_stretch alone, the smallest first.
+std::vector<MeasuredJiggle> by_k_stretch(const std::vector<MeasuredJiggle>& measured, JiggleSetting from,
+                                         bool (*is_known)(const JoltResponse&))
 {
     std::vector<MeasuredJiggle> chosen;
-    for (const MeasuredJiggle& one : measured)
-        if (is_known(one.response) && one.setting == JiggleSetting{.k_stretch = one.setting.k_stretch}) chosen.push_back(one);
+    for (const MeasuredJiggle& one : measured) {
+        from.k_stretch = one.setting.k_stretch;
+        if (is_known(one.response) && one.setting == from) chosen.push_back(one);
+    }
     std::ranges::stable_sort(chosen, {}, [](const MeasuredJiggle& one) { return one.setting.k_stretch; });
     return chosen;
 }
@@ -353,6 +361,7 @@ std::string record_jolts(const JoltCase& of, const std::string& folder)
         measured.push_back({setting, jolt_response(character, spec, zone.pieces.front(), jolt_at(of, setting))});
         const JoltResponse& response = measured.back().response;
         if (!response.finished) breakdown += text_of(setting) + ". ";
+        if (!is_of_the_papers_solver(setting)) continue;
         records.responses.push_back(response_row(setting, analysis::not_known, setting.time_step_s, response));
         add_series(records.series, text_of(setting), setting.time_step_s, response.excursion_m, response.speed_rms_m_s);
     }
@@ -394,10 +403,17 @@ std::vector<Measurement> jiggle_values(const std::string& body, const std::vecto
     add_share(measurements, body, measured);
     for (const MeasuredJiggle& one : measured)
         add_setting(measurements, key_of(body, one.setting), one.response, is_of_the_paper(one.setting));
-    const auto finished = by_k_stretch(measured, [](const JoltResponse& response) { return response.finished; });
-    add_amplitudes(measurements, {.body = body, .deformer = "pbs", .masses = name_of(pbs::Masses::unit)},
-                   trend_of(finished, [](const JoltResponse& response) { return response.overshoot_over_jolt; }));
-    add_frequencies(measurements, body, by_k_stretch(measured, [](const JoltResponse& response) { return response.swing.found(); }));
+    for (const JiggleSetting& from : {JiggleSetting{}, JiggleSetting{.order = pbs::Order::ordered, .precision = pbs::Precision::f32}}) {
+        const auto finished = by_k_stretch(measured, from, [](const JoltResponse& response) { return response.finished; });
+        add_amplitudes(measurements,
+                       {.body = body,
+                        .deformer = "pbs",
+                        .order = name_of(from.order),
+                        .precision = name_of(from.precision),
+                        .masses = name_of(from.masses)},
+                       trend_of(finished, [](const JoltResponse& response) { return response.overshoot_over_jolt; }));
+    }
+    add_frequencies(measurements, body, by_k_stretch(measured, {}, [](const JoltResponse& response) { return response.swing.found(); }));
     add_half_step(measurements, body, measured);
     const std::vector<FrequencyRatio> doublings = ratios(measured, [](JiggleSetting& setting) { setting.iterations *= 2; });
     for (const auto& [from, ratio] : doublings)

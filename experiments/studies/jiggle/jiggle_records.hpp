@@ -26,13 +26,16 @@ struct JiggleSetting {
     int iterations = 24;
     double k_bind = 1.0;  // in the zone; 1 elsewhere
     pbs::Masses masses = pbs::Masses::unit;
+    pbs::Order order = pbs::Order::plain;  // the paper's solver, by which C09 is judged
+    pbs::Precision precision = pbs::Precision::f64;
     bool operator==(const JiggleSetting&) const = default;
 };
 
-// The default, then one change at a time: k_stretch 0.05 to 1, steps of 2.5 to 40 ms, 6 to 96 iterations, lumped masses, an unbound zone.
+// The default, then one change at a time: k_stretch 0.05 to 1, steps of 2.5 to 40 ms, 6 to 96 iterations, lumped masses, an unbound zone;
+// then each k_stretch in ordered f32, the default of the deformer.
 std::vector<JiggleSetting> jiggle_settings();
 
-// The zone is bound and all masses are 1, as in the paper. Other settings are other readings of the paper.
+// The zone is bound and all masses are 1, as in the paper, in any order and precision. Other settings are other readings of the paper.
 bool is_of_the_paper(const JiggleSetting& setting);
 
 nlohmann::json to_json(const JiggleSetting& setting);
@@ -113,7 +116,7 @@ struct WalkCase {
     int still_steps = 100;  // after the motion
 };
 
-// responses.csv: one row per setting, and one per reference that was matched to it.
+// responses.csv: one row per setting in plain f64, and one per reference that was matched to it.
 struct ResponseRow {
     std::string deformer;
     JiggleSetting setting;
@@ -166,7 +169,7 @@ struct MeasuredJiggle {
 //   frequency; its rank correlation with k_stretch, with its range when one setting is left out, and its ratio at the ends of k_stretch;
 //   the ratio of frequencies with twice the iterations and with the default;
 // - for those that finish: the amplitude, which is the overshoot over the jolt; over k_stretch, the ratio of the largest and the smallest
-//   amplitude and the rank correlation (C09b);
+//   amplitude and the rank correlation (C09b), in each order and precision;
 // - the ratio of frequencies with half the time step and with the whole, for the first setting, with its range over all halvings. Without
 //   gravity Algorithm 1 makes it 2 on any body: by lines 7, 8 and 16 a particle moves on by its last movement, x_n + (x_n - x_n-1), however
 //   long a step is, so that the frequency is one per step.

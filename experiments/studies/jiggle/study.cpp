@@ -126,6 +126,8 @@ MeasuredJiggle jolted(const pbs::Character& character, const std::vector<int>& p
     options.jiggle->k_stretch = k_stretch;
     if (everywhere) options.k_stretch = k_stretch;
     options.iterations = named.iterations;
+    options.order = named.order;
+    options.precision = named.precision;
     options.gravity_m_s2.setZero();
     MeasuredJiggle measured{named, jolt_response(character, spec, probe, jolt)};
     if (measured.response.peak_over_jolt < least_answer) measured.response.swing = {};
@@ -264,6 +266,8 @@ std::vector<JiggleSetting> jiggle_settings()
     for (const int iterations : {6, 12, 48, 96}) settings.push_back({.iterations = iterations});
     settings.push_back({.k_bind = 0.0});
     settings.push_back({.masses = pbs::Masses::lumped});
+    for (const double k : {0.05, 0.1, 0.2, 0.35, 0.5, 0.7, 0.9, 1.0})
+        settings.push_back({.k_stretch = k, .order = pbs::Order::ordered, .precision = pbs::Precision::f32});
     return settings;
 }
 
@@ -279,6 +283,8 @@ DeformerSpec jiggling(DeformerSpec pbs, const JiggleSetting& setting)
     options.jiggle = pbs::Jiggle{.k_stretch = setting.k_stretch, .k_bind = setting.k_bind};
     options.iterations = setting.iterations;
     options.masses = setting.masses;
+    options.order = setting.order;
+    options.precision = setting.precision;
     return pbs;
 }
 
@@ -286,6 +292,8 @@ analysis::CaseKey key_of(const std::string& body, const JiggleSetting& setting)
 {
     analysis::CaseKey key = {.body = body,
                              .deformer = "pbs",
+                             .order = name_of(setting.order),
+                             .precision = name_of(setting.precision),
                              .k_stretch = setting.k_stretch,
                              .masses = name_of(setting.masses),
                              .iterations = setting.iterations,
@@ -297,12 +305,12 @@ analysis::CaseKey key_of(const std::string& body, const JiggleSetting& setting)
 std::string text_of(const JiggleSetting& setting)
 {
     const std::string bind = setting.k_bind < 1.0 ? fmt::format(", k_bind {}", setting.k_bind) : "";
-    return fmt::format("k_stretch {}, {} ms, {} iterations, {} masses", setting.k_stretch, 1e3 * setting.time_step_s, setting.iterations,
-                       name_of(setting.masses)) +
+    return fmt::format("k_stretch {}, {} ms, {} iterations, {} masses, {} {}", setting.k_stretch, 1e3 * setting.time_step_s,
+                       setting.iterations, name_of(setting.masses), name_of(setting.order), name_of(setting.precision)) +
            bind;
 }
 
-RECORD_SETTINGS(JiggleSetting, k_stretch, time_step_s, iterations, k_bind, masses)
+RECORD_SETTINGS(JiggleSetting, k_stretch, time_step_s, iterations, k_bind, masses, order, precision)
 
 Study jiggle_study()
 {

@@ -272,7 +272,8 @@ Held held(bool jiggle, Broken how)
     const analysis::Claim c08a = claim("C08a");
     analysis::Selection own = c08a.own;
     own.of = {.deformer = "pbs"};
-    const analysis::Selection bounded = *std::ranges::find(c08a.others, "bounded", &analysis::Selection::name);
+    analysis::Selection bounded = *std::ranges::find(c08a.others, "bounded", &analysis::Selection::name);
+    bounded.of = own.of;
     const auto holds = [&, values = values_from(measured)](const analysis::Selection& selection) {
         const analysis::Judged one = judged(c08a, selection, values);
         EXPECT_EQ(one.n, 1) << name_of(how);

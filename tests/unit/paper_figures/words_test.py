@@ -94,7 +94,7 @@ class Facts(unittest.TestCase):
     def test_the_share_with_its_interval_then_the_numbers_then_what_is_left_out(self):
         judged = claim("C04", "holds", self.joints, interval_low=0.822, interval_high=0.999, chance=1e-30, q=0.06)
         self.assertEqual(sentences.facts(judged),
-                         ["28 of 29 units hold, share 0.97 [0.82, 1.00]", "ratio: 0.067 to 1.02, bound 0.95 or more",
+                         ["28 of 29 units hold, share 0.966 [0.822, 0.999]", "ratio: 0.067 to 1.02, bound 0.95 or more",
                           "1 unit left out: the control that must fail does not fail there"])
 
     def test_chance_is_stated_where_it_decides(self):
@@ -108,7 +108,7 @@ class Facts(unittest.TestCase):
     def test_a_mixed_claim_names_the_property_by_which_its_units_differ(self):
         judged = claim("C03", "mixed", [unit(1.2), unit(0.8, False)], differs={
             "field": "body", "least_at": "frankie", "least": 0.0, "most_at": "human", "most": 1.0})
-        self.assertIn("the share differs most by body: 0.00 for frankie, 1.00 for human", sentences.facts(judged))
+        self.assertIn("the share differs most by body: 0 for frankie, 1 for human", sentences.facts(judged))
 
     def test_without_a_verdict_it_says_why(self):
         cases, silent = [unit(1.0)] * 4, selection("DQS", (), "must_fail", False)
@@ -167,22 +167,22 @@ class Compared(unittest.TestCase):
         controls = [selection("LBS", [unit(0.5, False), unit(1.0)], "must_fail"),
                     selection("LBS", (), "must_hold", False, quantities=["ms"])]
         self.assertEqual(sentences.control_rows(claim("C04", "holds", controls=controls)), [
-            ["LBS", "must fail", "1 of 2 units, share 0.50", "0.5 to 1", "yes"], ["LBS (ms)", "must hold", "no record", "", "no"]])
+            ["LBS", "must fail", "1 of 2 units, share 0.5", "0.5 to 1", "yes"], ["LBS (ms)", "must hold", "no record", "", "no"]])
 
     def test_a_comparison_without_a_bound_counts_its_units_alone(self):
         compared = [selection("flesh, nu 0.45", [unit(0.5, False)]), selection("XPBD", [unit(1.0)], bounds=[]), selection("MLS")]
         self.assertEqual(sentences.compared_rows(claim("C04", "holds", compared=compared)), [
-            ["flesh, nu 0.45", "0 of 1 unit, share 0.00", "0.5"], ["XPBD", "1 unit", "1"], ["MLS", "no record", ""]])
+            ["flesh, nu 0.45", "0 of 1 unit, share 0", "0.5"], ["XPBD", "1 unit", "1"], ["MLS", "no record", ""]])
 
     def test_a_reading_has_its_least_and_most(self):
         readings = [selection("plain f32", [unit(0.5, False), unit(1.0)]), selection("")]
         self.assertEqual(sentences.reading_rows(claim("C04", "holds", readings=readings)), [
-            ["plain f32", "1 of 2 units, share 0.50", "0.5", "1"], ["not recorded", "no record", "", ""]])
+            ["plain f32", "1 of 2 units, share 0.5", "0.5", "1"], ["not recorded", "no record", "", ""]])
 
     def test_a_reading_or_the_author_s_code_that_disagrees_is_named(self):
-        holding, failing = [unit(1.0)] * 5, [unit(0.5, False)] * 5
+        holding, failing = ([unit(value, holds, body=body) for body in "abcde"] for value, holds in ((1.0, True), (0.5, False)))
         judged = claim("C04", "holds", holding, readings=[selection("plain f32", holding), selection("grouped f32", failing)],
-                       compared=[selection("DQS", failing), selection("the author's later code", failing[:1] + holding[:1] * 2)])
+                       compared=[selection("DQS", failing), selection("the author's later code", failing[:2] + holding[2:])])
         told = sentences.disagreements(judged)
         self.assertEqual([text.split(" and ")[0] for text in told], ["Grouped f32", "The author's later code"])
         self.assertIn("the bound holds in half of the units or fewer in the one, throughout in the other", told[0])

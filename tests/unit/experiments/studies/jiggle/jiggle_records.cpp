@@ -104,7 +104,7 @@ TEST(JiggleFigures, RatiosOfHalfTheStepAndOfTwiceTheIterationsHaveTheirRange)
     EXPECT_DOUBLE_EQ(halved[0].value, 12.0 / 6.0);
     EXPECT_DOUBLE_EQ(halved[0].low, 6.0 / 4.0);
     EXPECT_DOUBLE_EQ(halved[0].high, 27.0 / 12.0);
-    EXPECT_EQ(text_of(halved[0].of), "limb, pbs, k_stretch 0.1, masses unit, iterations 24, time_step 0.01 s");
+    EXPECT_EQ(text_of(halved[0].of), "limb, pbs, plain, f64, k_stretch 0.1, masses unit, iterations 24, time_step 0.01 s");
     EXPECT_EQ(halved[0].n, 3);
     const auto ratios = of_quantity({swinging({}, 6.0), swinging({.iterations = 48}, 9.0)}, "frequency_ratio_at_twice_iterations");
     ASSERT_EQ(ratios.size(), 1u);
@@ -157,7 +157,7 @@ TEST(JiggleFigures, AmplitudesAreComparedOverKStretchAlone)
     const auto ratio = of_quantity(measured, "amplitude_ratio_over_k_stretch");
     ASSERT_EQ(ratio.size(), 1u);
     EXPECT_EQ(ratio[0].value, 4.0);
-    EXPECT_EQ(text_of(ratio[0].of), "limb, pbs, masses unit");
+    EXPECT_EQ(text_of(ratio[0].of), "limb, pbs, plain, f64, masses unit");
     const char* const falling = "rank_correlation_of_amplitude_and_k_stretch";
     EXPECT_NEAR(of_quantity(measured, falling).at(0).value, -1.0, correlation_error(4));
     EXPECT_EQ(of_quantity(measured, falling)[0].of, ratio[0].of);
