@@ -30,7 +30,7 @@ class TouchingParts(program.ProgramTest):
         self.assertLess(farthest, BOUND)
         self.assertAlmostEqual(facts["from_artist"]["largest_pct"], 100.0 * farthest, delta=1e-3)  # single precision
         self.assertRegex(printed, f"the flesh is cut between ({first} and {second}|{second} and {first})")
-        self.assertIn("of the model's size", self.read("out", "report.html"))
+        self.assertIn("of the model&#x27;s size", self.read("out", "report.html"))
 
     def test_both_shoes_follow(self):
         self.check(block_rigs.write_shoes(self.path("shoes.glb")), "leg.L", "leg.R")
