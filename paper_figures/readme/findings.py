@@ -112,15 +112,15 @@ def stability(results):
     own = counts.pop(("plain", "f64"), None)
     records.need(own, f"{results / 'stability'}: no trial of PBS in the paper's order and double precision")
     _, _, rest, correct = ends_of(own)
-    told = (f"With {paper_s_solver}, PBS stays bounded in {bounded_in([own])} with disturbances, extreme settings and time steps to 1 s; "
+    text = (f"With {paper_s_solver}, PBS stays bounded in {bounded_in([own])} with disturbances, extreme settings and time steps to 1 s; "
             f"at the end it is at rest in {percent(rest)} and correct (as if undisturbed) in {percent(correct)}.")
     if counts:
         pooled = {quantity: tuple(map(sum, zip(*(of[quantity] for of in counts.values() if quantity in of))))
                   for quantity in next(iter(counts.values()))}
         _, _, rest, correct = ends_of(pooled)
-        told += (f" In the other orders and precisions it is bounded in {bounded_in([pooled])}, at rest in {percent(rest)} and correct in "
-                 f"{percent(correct)}.")
-    return f"**Stability.** {told}"
+        text += f" In the other orders and precisions it is bounded in {bounded_in([pooled])}, at rest in {percent(rest)} and correct in " \
+                f"{percent(correct)}."
+    return f"**Stability.** {text}"
 
 
 def stiffness(claims):

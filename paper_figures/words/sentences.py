@@ -160,8 +160,8 @@ def range_text(case):
 def ranges(claim):
     """The units whose range crosses the bound: range over meshes of limb, twist 180 deg: 0.065 to 0.97."""
     found = [case for case in counting(claim) if crosses(case)] if claim["range"] else []
-    told = [f"{range_name(claim)} of {case_words.of(case)}: {range_text(case)}" for case in found[:most_ranges]]
-    return told + ([f"the ranges of {counted(len(found) - most_ranges, 'more unit')} cross the bound"] if len(found) > most_ranges else [])
+    named = [f"{range_name(claim)} of {case_words.of(case)}: {range_text(case)}" for case in found[:most_ranges]]
+    return named + ([f"the ranges of {counted(len(found) - most_ranges, 'more unit')} cross the bound"] if len(found) > most_ranges else [])
 
 
 def range_name(claim):
@@ -232,9 +232,9 @@ def facts(claim):
     if claim["rule"] == "printed":
         if not claim["n"]:
             return ["no record"]
-        few = claim["verdict"] == "holds" and claim["n"] <= most_values
+        are_listed = claim["verdict"] == "holds" and claim["n"] <= most_values
         values = [f"{title(claim, case['quantity'])}: {shown(case)}, by the others {figure(case['bound_low'])} to "
-                  f"{figure(case['bound_high'])}" for case in claim["cases"] if few]
+                  f"{figure(case['bound_high'])}" for case in claim["cases"] if are_listed]
         return [f"{claim['held']} of {counted(claim['n'], 'printed value')} consistent", *values]
     if claim["rule"] in ("definition", "untestable"):
         return [*why_untested(claim), *numbers(claim)]
@@ -326,12 +326,15 @@ def by_unit(claim, of):
 
 
 def disagreements(claim):
-    """The orders and the author's later code that hold to another extent than the claim's own reading, in the units that both have."""
-    told, own = [], by_unit(claim, claim) if claim["rule"] == "units" else {}
-    for of in claim["readings"] + [of for of in claim["compared"] if of["name"] == author]:
-        pairs = [(own[unit], holds) for unit, holds in by_unit(claim, of).items() if unit in own]
-        mine, other = zip(*pairs) if len(pairs) >= least_units else ([True], [True])
-        if extent(mine) != extent(other):
-            told.append(f"{of['name'][:1].upper()}{of['name'][1:]} and the claim's own reading disagree: in the {len(pairs)} units that "
-                        f"both have, the bound holds {extent(other)} in the one, {extent(mine)} in the other.")
-    return told
+    """One sentence for each order, and for the author's later code, that disagrees with the claim's own reading. Only units with a number
+    in both are compared, and only if there are at least five."""
+    sentences, own = [], by_unit(claim, claim) if claim["rule"] == "units" else {}
+    for other in claim["readings"] + [compared for compared in claim["compared"] if compared["name"] == author]:
+        pairs = [(own[unit], holds) for unit, holds in by_unit(claim, other).items() if unit in own]
+        if len(pairs) < least_units:
+            continue
+        extent_of_own, extent_of_other = (extent(holding) for holding in zip(*pairs))
+        if extent_of_own != extent_of_other:
+            sentences.append(f"{other['name'][:1].upper()}{other['name'][1:]} and the claim's own reading disagree: in the {len(pairs)} "
+                             f"units that both have, the bound holds {extent_of_other} in the one, {extent_of_own} in the other.")
+    return sentences
