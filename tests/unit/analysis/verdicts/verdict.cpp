@@ -172,6 +172,26 @@ TEST(Verdict, CensoredValuesDecideOnlyWhatTheyBound)
     }
 }
 
+TEST(Verdict, OfAMeanWithALeastAndAMostNumberNothingIsKnown)
+{
+    const Claim claim = radius_claim();
+    std::vector<Measurement> measured = {radius("pbs", 0, 0.8), radius("pbs", 0, 2.0)};
+    std::tie(measured[0].limit, measured[1].limit) = std::pair(Limit::at_most, Limit::at_least);
+    EXPECT_FALSE(judged(claim, claim.own, measured).units[0].counts());
+    std::ranges::reverse(measured);
+    EXPECT_FALSE(judged(claim, claim.own, measured).units[0].counts());
+}
+
+TEST(Verdict, AFieldThatAUnitLacksIsNoPropertyByWhichUnitsDiffer)
+{
+    Claim claim = radius_claim();
+    claim.unit = {"joint", "pose"};
+    Records records = records_of(8, 12);
+    for (Measurement& one : records.measurements)
+        if (const int joint = std::stoi(one.of.joint); joint >= 6) one.of.pose = joint % 2 ? "crouch" : "landing";
+    EXPECT_FALSE(judge(claim, records).differs) << "with a pose the share is a third for both; without one there is no pose to name";
+}
+
 TEST(Verdict, AUnitOfSeveralQuantitiesHoldsIfAllDo)
 {
     Claim claim = radius_claim();
@@ -332,6 +352,9 @@ TEST(ClaimsReport, OneRowPerClaim)
     const std::string table = claims_markdown({verdict_on(20, 20)});
     EXPECT_NE(table.find("| X01 | It \\| holds | holds | 20 | 20 | 1 | [0.832, 1] | "), std::string::npos) << table;
     EXPECT_EQ(std::ranges::count(table, '\n'), 3);
+    Verdict free = verdict_on(20, 20);
+    free.claim.own.bounds.clear();
+    EXPECT_NE(claims_markdown({free}).find("| holds |  | 20 |"), std::string::npos) << "without a bound none holds";
 }
 
 TEST(ClaimsReport, TheTerminalsTableKeepsItsWidthAndCountsTheVerdicts)
