@@ -93,6 +93,15 @@ class Breakdown(foreign_arm.ArmTest):
         for name in ("scene.toml", "report.html"):
             self.assertTrue(self.read("out", name), name)
 
+    def test_a_reference_that_overlaps_itself_in_more_than_a_tenth_of_the_volume_is_a_warning(self):
+        sets = ('deformers.use=["lbs", "nh_p1"]', "motion.frames=6", "output.frames_every=0")
+        printed = self.succeeds("run", "limb_bend", "-o", self.path("out"), *(word for one in sets for word in ("--set", one))).stderr
+        share_pct = self.outcome()["largest_masked_share_pct"]
+        self.assertGreater(share_pct, 10.0)  # the forearm is bent by 150 degrees
+        words = f"limb_bend.toml: errors leave out {share_pct:.0f} % of the volume in frame 5, where the reference overlaps itself"
+        self.assertEqual([warning.startswith(words) for warning in self.outcome()["warnings"]], [True])
+        self.assertIn(f"pbskin: warning: {words}", printed)
+
     def test_a_run_that_holds_names_nothing(self):
         _, outcome = self.run_scene(0, use='["lbs", "pbs"]')
         self.assertEqual(outcome["broken_frames"], {})

@@ -86,6 +86,26 @@ class ForeignFrames(program.ProgramTest):
             self.refuses("arm_0004.vtu: frame = 4: missing: the sequence goes from 1 to 5 by 1", frames)
         self.refuses("no such frames", "leg_%04d.vtu")
 
+    def test_two_frames_show_no_step(self):
+        self.frames({1: 0.1, 3: 0.1})
+        for frames in ("arm_%04d.vtu", "arm_*.vtu"):
+            self.refuses("arm_0002.vtu: frame = 2: missing: the sequence goes from 1 to 3 by 1", frames)
+        self.measure(0, "arm_0001.vtu", "arm_0003.vtu")
+        self.frames({5: 0.1})
+        self.measure(0, "arm_%04d.vtu")
+
+    def test_parts_that_touch_in_an_edge(self):
+        """The middle one of three layers of 2 x 2 cells lacks two cells, so that the other two touch in the edge 17-18 alone."""
+        points, tets = foreign_arm.mesh((3, 2, 2))
+        cells = [tets[6 * cell:6 * cell + 6] for cell in range(12)]
+        kept = [tet for cell, of_cell in enumerate(cells) if cell not in (5, 6) for tet in of_cell]
+        foreign_arm.write_msh(self.path("rest.msh"), points, kept)
+        write_vtk(self.path("arm.vtk"), [(1.01 * x, y, z) for x, y, z in points], kept)
+        process = self.measure(0, "arm.vtk", "--csv", "volume.csv", "--max-volume-change", "1.001",
+                               says="edges at which parts touch = 1 (17-18): kept: no metric needs a manifold boundary")
+        self.assertNotIn("split", process.stderr)
+        self.assertAlmostEqual(float(self.rows("volume.csv")[0]["volume_change_pct"]), 1.0, places=5)
+
     def test_a_number_that_is_not_the_last_of_the_name(self):
         self.frames({number: 0.1 * number for number in (1, 2, 3, 5, 10)}, "s/f_%d_v2.vtu")
         for frames in ("s/f_%d_v2.vtu", "s/f_*.vtu", "s"):

@@ -1,6 +1,7 @@
 """Reference: the definition. The packed data represent the records within what the header states; errors name what is missing, and no page
 is made from incomplete data."""
 import base64
+import csv
 import gzip
 import json
 import os
@@ -102,6 +103,19 @@ class Viewer(ResultsTest):
         self.assertEqual([deformer["title"] for deformer in run["deformers"]], ["LBS", "DQS", "PBS", "neo-Hookean FEM, linear elements"])
         self.assertEqual([deformer["colour"] for deformer in run["deformers"]],
                          [looks.of(name).color for name in ("lbs", "dqs", "pbs", "nh_p1")])
+
+    def test_a_run_without_a_reference_or_with_errors_that_are_not_finite_is_packed(self):
+        file = self.run / "metrics.csv"
+        with open(file, newline="") as stream:
+            rows = [row | {"error_joint_pct": "nan"} for row in csv.DictReader(stream)]
+        synthetic_frames.write_table(file, rows)
+        header, _ = self.pack()
+        json.dumps(header, allow_nan=False)
+        self.assertEqual(header["runs"][0]["deformers"][0]["figures"]["error_joint_pct"], [None] * 4)
+        record = json.loads((self.run / "run.json").read_text())
+        record["scene"]["reference"] = {"name": ""}
+        (self.run / "run.json").write_text(json.dumps(record))
+        self.assertEqual(self.pack()[0]["runs"][0]["reference"], "")
 
     def test_frames_whose_pose_was_not_reached_are_packed_as_such(self):
         shutil.rmtree(self.run)

@@ -133,7 +133,8 @@ class Human(program.ProgramTest):
     """MakeHuman's body as its authors export it: a surface without joints, which takes the skeleton of the body `human`."""
 
     def test_the_surface_at_rest_is_that_of_the_file_and_the_clip_moves_it(self):
-        self.succeeds("try", HUMAN, "--skeleton", "human", "--animation", CLIP, "-o", self.path("out"), "--no-reference", "--frames", "3")
+        self.succeeds("try", HUMAN, "--skeleton", "human", "--animation", CLIP, "-o", self.path("out"), "--no-reference", "--frames", "3",
+                      "--paraview")
         expected = collada_points(HUMAN)
         found = points_of(self.path("out", "surface_rest.vtp"))
         tolerance = 1e-6 * numpy.linalg.norm(numpy.ptp(expected, axis=0))
@@ -143,6 +144,10 @@ class Human(program.ProgramTest):
         self.assertGreaterEqual(len(found), 0.95 * len(expected))  # some points belong to no triangle
         moved = points_of(self.path("out", "frames", "pbs_surface_000002.vtp"))
         self.assertGreater(abs(moved - found).max(), 0.1)
+        with zipfile.ZipFile(HUMAN) as archive:
+            texture = archive.read("textures/brown_eye.png")
+        with open(self.path("out", "frames", "pbs.glb"), "rb") as file:
+            self.assertIn(texture, file.read())
 
 
 if __name__ == "__main__":
