@@ -109,16 +109,14 @@ void add_shape(const RiggedBody& body, const TetMesh& mesh, const std::string& f
 
 void add_bones_outside(const RiggedBody& body, const TetMesh& mesh, const std::string& file, std::vector<std::string>& remarks)
 {
-    std::vector<Vec3> samples;
-    for (const Bone& bone : body.skeleton.bones)
-        for (int s = 0; s < samples_per_bone; ++s)
-            samples.emplace_back(bone.head + (1.0 / 6.0 + 4.0 / 6.0 * (s + 0.5) / samples_per_bone) * (bone.tail - bone.head));
-    const std::vector<bool> inside = points_inside(mesh.rest, boundary_of(mesh.tets), samples);
     std::vector<std::string> outside;
-    for (std::size_t b = 0; b < body.skeleton.bones.size(); ++b) {
-        int count = 0;
-        for (int s = 0; s < samples_per_bone; ++s) count += inside[b * samples_per_bone + static_cast<std::size_t>(s)];
-        if (count == 0) outside.push_back(body.skeleton.bones[b].name);
+    for (const Bone& bone : body.skeleton.bones) {
+        bool is_inside = false;
+        for (int s = 0; s < samples_per_bone; ++s) {
+            const Vec3 point = bone.head + (1.0 / 6.0 + 4.0 / 6.0 * (s + 0.5) / samples_per_bone) * (bone.tail - bone.head);
+            for (Eigen::Index t = 0; t < mesh.tets.rows() && !is_inside; ++t) is_inside = tet_holds(mesh, t, point);
+        }
+        if (!is_inside) outside.push_back(bone.name);
     }
     if (!outside.empty())
         remarks.push_back(file + ": " + std::to_string(outside.size()) + " of " + std::to_string(body.skeleton.bones.size()) +

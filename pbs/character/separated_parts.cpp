@@ -1,9 +1,9 @@
 #include "pbs/character/separated_parts.hpp"
 
-#include "pbs/geometry/meshing.hpp"
 #include "pbs/geometry/topology.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <map>
@@ -137,7 +137,8 @@ std::vector<Cut> cuts_of(const TetMesh& mesh, const SkinParts& parts, const std:
         if (!is_cut[f]) continue;
         const auto& [a, b, c] = faces[f].vertices;
         const Vec3 origin = mesh.rest.row(a), one = mesh.rest.row(b), other = mesh.rest.row(c);
-        const auto bones = parts.bones_between(skin[static_cast<std::size_t>(faces[f].first)], skin[static_cast<std::size_t>(faces[f].second)]);
+        const auto skin_of = [&](int tet) { return skin[static_cast<std::size_t>(tet)]; };
+        const auto bones = parts.bones_between(skin_of(faces[f].first), skin_of(faces[f].second));
         areas[std::minmax(bones.first, bones.second)] += 0.5 * (one - origin).cross(other - origin).norm();
     }
     std::vector<Cut> cuts;
@@ -301,20 +302,27 @@ Carrier carrier_of(const Character& character, Eigen::Index vertex)
     return carrier;
 }
 
+bool tet_holds(const TetMesh& mesh, Eigen::Index tet, const Vec3& point)
+{
+    std::array<Vec3, 4> corners;
+    for (int corner = 0; corner < 4; ++corner) corners[static_cast<std::size_t>(corner)] = mesh.rest.row(mesh.tets(tet, corner));
+    for (int corner = 0; corner < 4; ++corner) {
+        std::array<Vec3, 4> with_point = corners;
+        with_point[static_cast<std::size_t>(corner)] = point;
+        if (tet_volume(with_point[0], with_point[1], with_point[2], with_point[3]) < 0.0) return false;
+    }
+    return true;
+}
+
 std::vector<bool> has_bone_inside(const TetMesh& mesh, const std::vector<int>& part, const Skeleton& skeleton)
 {
-    std::vector<Vec3> middles;
+    std::vector<bool> has_bone(part.empty() ? 0 : static_cast<std::size_t>(1 + *std::ranges::max_element(part)));
     for (const Bone& bone : skeleton.bones)
-        for (const double along : {0.25, 0.5, 0.75}) middles.emplace_back(bone.head + along * (bone.tail - bone.head));
-    const int parts = part.empty() ? 0 : 1 + *std::ranges::max_element(part);
-    std::vector<bool> has_bone;
-    for (int p = 0; p < parts; ++p) {
-        std::vector<bool> own(part.size());
-        for (std::size_t t = 0; t < part.size(); ++t) own[t] = part[t] == p;
-        const TetMesh piece = kept_tets(mesh, own);
-        const std::vector<bool> inside = points_inside(piece.rest, boundary_of(piece.tets), middles);
-        has_bone.push_back(std::ranges::count(inside, true) > 0);
-    }
+        for (const double along : {0.25, 0.5, 0.75}) {
+            const Vec3 point = bone.head + along * (bone.tail - bone.head);
+            for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t)
+                if (tet_holds(mesh, t, point)) has_bone[static_cast<std::size_t>(part[static_cast<std::size_t>(t)])] = true;
+        }
     return has_bone;
 }
 

@@ -12,8 +12,7 @@ namespace pbs {
 
 // The mesher's wrap closes narrow gaps. Parts that touch or nearly touch at rest, such as two shoes or the jaws, become one piece of flesh,
 // although the artist moves them independently of each other. Two points of the artist's surface are *apart* if
-// - the skeleton moves one away from the other: by more than `least_apart` of the body's diagonal, in one of the poses or when a joint
-// turns
+// - the skeleton moves one away from the other by more than `least_apart` of the body's diagonal, in one of the poses or when a joint turns
 //   by 30 degrees, and
 // - the way between them along the surface is more than three times as long as the straight one, or there is none.
 // The second condition keeps a joint whole, at which the skin is continuous.
@@ -75,6 +74,9 @@ struct Carrier {
     double gap_m = 0.0;  // at rest, from the point to the nearest one of the surface on which the bone of the flesh has the largest weight
 };
 Carrier carrier_of(const Character& character, Eigen::Index vertex);  // of a model with joints
+
+// Whether a tet at rest holds the point [m], its faces included. For parts whose boundary is not closed, as where two tets meet in an edge.
+bool tet_holds(const TetMesh& mesh, Eigen::Index tet, const Vec3& point);
 
 // For each part (parts_of), whether the middle half of a bone passes through it.
 std::vector<bool> has_bone_inside(const TetMesh& mesh, const std::vector<int>& part, const Skeleton& skeleton);
