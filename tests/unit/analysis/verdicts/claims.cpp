@@ -97,7 +97,7 @@ TEST(Claims, BrokenFilesAreNamedWithTheirLine)
     EXPECT_EQ(message_of("[" + std::string(100, '.') + "]\n").substr(0, 21), "claims.toml:1: key = ");
     std::string other_unit = whole;
     other_unit.replace(other_unit.find("body"), 4, "bone");
-    EXPECT_EQ(message_of(other_unit), "claims.toml:10: unit = [bone]: bone: expected fields of a key, as body or joint, or quantity");
+    EXPECT_EQ(message_of(other_unit), R"(claims.toml:10: unit = ["bone"]: bone: expected fields of a key, as body or joint, or quantity)");
 }
 
 }  // namespace

@@ -339,7 +339,7 @@ TEST(LinearFemDeformer, RecordsWhatIsGrippedOfEachBone)
     }
 }
 
-TEST(LinearFemDeformer, ReportsAPoseThatIsNotANumberStartsTheRecordAnewAndRefusesABoneOutsideTheFlesh)
+TEST(LinearFemDeformer, ReportsAPoseThatIsNotANumberStartsTheRecordAnewAndLeavesOutABoneOutsideTheFlesh)
 {
     LinearBar fem(linear_tets, fine_bar());
     EXPECT_EQ(fem.at(not_a_number()), Outcome::not_finite);
@@ -350,7 +350,10 @@ TEST(LinearFemDeformer, ReportsAPoseThatIsNotANumberStartsTheRecordAnewAndRefuse
     EXPECT_EQ(fem.positions(), fine_bar().mesh.rest);
     auto character = fine_bar();
     character.skeleton.bones.push_back({"ghost", 0, {0, 5, 0}, {0, 6, 0}});
-    expect_refused("ghost", [&] { LinearBar(linear_tets, character); });
+    LinearBar with_ghost(linear_tets, character);
+    EXPECT_EQ(with_ghost.record()["attachment"]["bones"].back()["bone"], "ghost");
+    EXPECT_EQ(with_ghost.record()["attachment"]["bones"].back()["tets_gripped"], 0);
+    EXPECT_EQ(with_ghost.at(turned(10.0)), Outcome::finished);
 }
 
 // Reference: sums and extremes over invented paths with known numbers.
