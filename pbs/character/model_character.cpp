@@ -21,7 +21,8 @@ constexpr int model_version = 2;                       // raised whenever someth
 constexpr double smallest_m = 0.05, largest_m = 20.0;  // of a body whose unit is believed
 constexpr double far_from_tets = 0.01;                 // over the diagonal of the body; the wrap alone takes up to 0.008
 constexpr int most_poses = 24;                         // of an animation, evenly in time
-constexpr int samples_per_bone = 5;                    // on its middle, the part that Eq. 2 gives to it alone
+constexpr const char* open_surface = "; the surface is open, and the tets fill a layer along it: close it where it should enclose flesh";
+constexpr int samples_per_bone = 5;  // on its middle, the part that Eq. 2 gives to it alone
 
 // Parts of the tets through which no bone passes would be held by nothing.
 void leave_out_parts_without_bone(Character& character, const std::string& file, std::vector<std::string>& remarks)
@@ -118,9 +119,10 @@ void add_bones_outside(const RiggedBody& body, const TetMesh& mesh, const std::s
         }
         if (!is_inside) outside.push_back(bone.name);
     }
+    const bool is_layer = outside.size() == body.skeleton.bones.size() && !is_watertight(joined_triangles(body.surface, body.triangles));
     if (!outside.empty())
         remarks.push_back(file + ": " + std::to_string(outside.size()) + " of " + std::to_string(body.skeleton.bones.size()) +
-                          " bones lie outside the body: " + name_list(outside));
+                          " bones lie outside the body: " + name_list(outside) + (is_layer ? open_surface : ""));
 }
 
 void add_distance(const RiggedBody& body, double distance_m, const std::string& file, std::vector<std::string>& remarks)

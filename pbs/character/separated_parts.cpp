@@ -79,13 +79,14 @@ int corner_of(const Tets& tets, int tet, int vertex)
     return 4 * tet + corner;
 }
 
-// A piece without a bone stays with the piece that it shares most faces with.
-void keep_pieces_without_bone(const TetMesh& mesh, const Skeleton& skeleton, const std::vector<SharedFace>& faces,
-                              std::vector<bool>& is_cut)
+// A piece without a bone that moves its skin stays with the piece that it shares most faces with.
+void keep_pieces_without_bone(const TetMesh& mesh, const SkinParts& parts, const std::vector<SurfacePoint>& skin, const Skeleton& skeleton,
+                              const std::vector<SharedFace>& faces, std::vector<bool>& is_cut)
 {
+    const auto moves_skin = [&](int tet, int bone) { return parts.weight_at(skin[static_cast<std::size_t>(tet)], bone) > 0.0; };
     for (int pass = 0; pass < passes; ++pass) {
         const std::vector<int> part = parts_without(faces, is_cut, static_cast<std::size_t>(mesh.tets.rows()));
-        const std::vector<bool> has_bone = has_bone_inside(mesh, part, skeleton);
+        const std::vector<bool> has_bone = has_bone_inside(mesh, part, skeleton, moves_skin);
         std::map<int, std::map<int, int>> shared;  // faces of a piece without a bone with each other piece
         const auto of = [&](int tet) { return part[static_cast<std::size_t>(tet)]; };
         for (const auto& [first, second, vertices] : faces)
@@ -188,6 +189,13 @@ int SkinParts::bone_at(const SurfacePoint& point) const
     return std::ranges::max_element(weights, {}, [](const auto& one) { return one.second; })->first;
 }
 
+double SkinParts::weight_at(const SurfacePoint& point, int bone) const
+{
+    WeightDifference weights;
+    add_weights(body_, point, 1.0, weights);
+    return weights[bone];
+}
+
 std::pair<int, int> SkinParts::bones_between(const SurfacePoint& a, const SurfacePoint& b) const
 {
     WeightDifference difference;
@@ -274,7 +282,7 @@ SeparatedFlesh separate_parts(const TetMesh& mesh, const SkinParts& parts, const
     for (const SharedFace& face : faces)
         is_cut.push_back(parts.are_apart(made.skin_of_tet[static_cast<std::size_t>(face.first)],
                                          made.skin_of_tet[static_cast<std::size_t>(face.second)]));
-    keep_pieces_without_bone(mesh, skeleton, faces, is_cut);
+    keep_pieces_without_bone(mesh, parts, made.skin_of_tet, skeleton, faces, is_cut);
     made.cuts = cuts_of(mesh, parts, made.skin_of_tet, faces, is_cut);
     made.mesh = split(mesh, faces, is_cut);
     made.tet_at.resize(made.mesh.rest.rows());
@@ -314,14 +322,17 @@ bool tet_holds(const TetMesh& mesh, Eigen::Index tet, const Vec3& point)
     return true;
 }
 
-std::vector<bool> has_bone_inside(const TetMesh& mesh, const std::vector<int>& part, const Skeleton& skeleton)
+std::vector<bool> has_bone_inside(const TetMesh& mesh, const std::vector<int>& part, const Skeleton& skeleton,
+                                  const std::function<bool(int, int)>& may_count)
 {
     std::vector<bool> has_bone(part.empty() ? 0 : static_cast<std::size_t>(1 + *std::ranges::max_element(part)));
-    for (const Bone& bone : skeleton.bones)
+    for (std::size_t b = 0; b < skeleton.bones.size(); ++b)
         for (const double along : {0.25, 0.5, 0.75}) {
-            const Vec3 point = bone.head + along * (bone.tail - bone.head);
-            for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t)
-                if (tet_holds(mesh, t, point)) has_bone[static_cast<std::size_t>(part[static_cast<std::size_t>(t)])] = true;
+            const Vec3 point = skeleton.bones[b].head + along * (skeleton.bones[b].tail - skeleton.bones[b].head);
+            for (std::size_t t = 0; t < part.size(); ++t)
+                if (tet_holds(mesh, static_cast<Eigen::Index>(t), point) &&
+                    (!may_count || may_count(static_cast<int>(t), static_cast<int>(b))))
+                    has_bone[static_cast<std::size_t>(part[t])] = true;
         }
     return has_bone;
 }

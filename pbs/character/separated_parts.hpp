@@ -29,6 +29,7 @@ public:
     SurfacePoint at_vertex(Eigen::Index vertex) const;  // of the surface; no triangle where none has it
     bool are_apart(const SurfacePoint& a, const SurfacePoint& b) const;
     int bone_at(const SurfacePoint& point) const;  // the one with the largest weight there
+    double weight_at(const SurfacePoint& point, int bone) const;
     // The bone that moves a more than b, and the one that moves b more than a.
     std::pair<int, int> bones_between(const SurfacePoint& a, const SurfacePoint& b) const;
 
@@ -63,8 +64,8 @@ struct SeparatedFlesh {
     Eigen::VectorXi tet_at;                 // a tet that has each vertex, #V
 };
 
-// Cuts the faces between tets whose nearest points of the surface (from their centres) are apart. A piece without a bone inside is not cut
-// off, since nothing would hold it.
+// Cuts the faces between tets whose nearest points of the surface (from their centres) are apart. A piece without a bone inside that
+// moves its skin is not cut off, since nothing would hold it.
 SeparatedFlesh separate_parts(const TetMesh& mesh, const SkinParts& parts, const Skeleton& skeleton);
 
 // The flesh that carries a point of the artist's surface.
@@ -78,7 +79,8 @@ Carrier carrier_of(const Character& character, Eigen::Index vertex);  // of a mo
 // Whether a tet at rest holds the point [m], its faces included. For parts whose boundary is not closed, as where two tets meet in an edge.
 bool tet_holds(const TetMesh& mesh, Eigen::Index tet, const Vec3& point);
 
-// For each part (parts_of), whether the middle half of a bone passes through it.
-std::vector<bool> has_bone_inside(const TetMesh& mesh, const std::vector<int>& part, const Skeleton& skeleton);
+// For each part (parts_of), whether the middle half of a bone passes through it. may_count(tet, bone): only there; by default everywhere.
+std::vector<bool> has_bone_inside(const TetMesh& mesh, const std::vector<int>& part, const Skeleton& skeleton,
+                                  const std::function<bool(int, int)>& may_count = {});
 
 }  // namespace pbs

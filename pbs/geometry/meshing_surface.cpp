@@ -134,7 +134,7 @@ constexpr const char* boundary_not_manifold = "the boundary is not manifold";
 // size. Otherwise the search overshoots most where the first size fits 2,000 vertices and far more are wanted: its slope of -2.5 instead of
 // -3 gives 2.2 times 99,900 and 5.5 times 10 million. A vertex takes up to 3 kB. A full search takes some 10 refinements for each of 6
 // distances. The wrap of a thin layer, at the default alpha, has 10,000 points, that of a bulky body some 40,000.
-constexpr std::size_t least_bound = 40'000, bound_over_wanted = 6, refinements_in_all = 15, most_wrap_points = 1'000'000;
+constexpr std::size_t least_bound = 30'000, bound_over_wanted = 6, refinements_in_all = 15, most_wrap_points = 1'000'000;
 
 double diagonal_of(const Positions& points)
 {
@@ -239,9 +239,10 @@ private:
     std::vector<double> thickness_;
 };
 
-// What each refinement may take, and what all together may still take.
+// What each refinement may take, what all together may still take, and whether one of them took too much.
 struct Effort {
     std::size_t most, left;
+    bool is_exceeded = false;
 };
 
 // TooManyVertices where a bound is reached.
@@ -324,10 +325,10 @@ std::string breach_of(const TetMesh& mesh, const SurfaceMeshing& options)
     return std::to_string(outside) + " of the points asked inside are outside, the first is number " + std::to_string(first);
 }
 
-// The first mesh of the quality asked; nothing, and why, where none of the distances gives one. may_thicken: gives up sooner at a boundary
-// that is not manifold, which is what becomes of a layer too thin to be meshed.
-std::optional<TetMesh> mesh_wrapped(const SurfaceMesh& surface, double alpha, double offset, bool may_thicken,
-                                    const SurfaceMeshing& options, Effort& effort, std::optional<InputError>& why)
+// The first mesh of the quality asked; nothing, and why, where none of the distances gives one. is_open: gives up sooner at a boundary that
+// is not manifold, which is what becomes of a layer too thin to be meshed.
+std::optional<TetMesh> mesh_wrapped(const SurfaceMesh& surface, double alpha, double offset, bool is_open, const SurfaceMeshing& options,
+                                    Effort& effort, std::optional<InputError>& why)
 {
     WrappedBody body(surface, alpha, offset);
     const double ratio = body.volume() / std::abs(fan_volume(surface.points, surface.triangles));
@@ -344,8 +345,9 @@ std::optional<TetMesh> mesh_wrapped(const SurfaceMesh& surface, double alpha, do
             if (breach.empty()) return mesh;
             why.emplace("", 0, "surface", "", "could not be meshed with the quality asked: " + breach + "; " + advice(ratio));
             not_manifold += breach == boundary_not_manifold;
-            if (may_thicken && not_manifold == 2) break;
+            if (is_open && not_manifold == 2) break;
         } catch (const TooManyVertices& reached) {  // as with every other distance
+            effort.is_exceeded = true;
             why.emplace("", 0, "vertices of the tets", reached.vertices,
                         "expected about " + std::to_string(options.vertices) + " (--vertices): " + advice(ratio));
             break;
@@ -397,15 +399,15 @@ TetMesh mesh_surface(const SurfaceMesh& surface, const SurfaceMeshing& options)
     const double offset = options.wrap_offset_m > 0.0 ? options.wrap_offset_m : sheet_m > 0.0 ? sheet_m : alpha / 3.0;
 
     // A sheet of the surface, such as hair or a cape, becomes a layer between the offsets on both sides. Where that is too thin to be
-    // meshed, the offset grows.
-    std::vector<double> offsets = {offset};
-    if (options.wrap_offset_m == 0.0 && !is_watertight(joined_triangles(surface.points, surface.triangles)))
-        offsets.insert(offsets.end(), {3.0 * offset, 6.0 * offset});
+    // meshed, the offset grows; where it takes too many vertices, to the largest one at once.
+    const bool is_open = options.wrap_offset_m == 0.0 && !is_watertight(joined_triangles(surface.points, surface.triangles));
     const std::size_t most = std::max(least_bound, bound_over_wanted * static_cast<std::size_t>(options.vertices));
     Effort effort{most, refinements_in_all * most};
     std::optional<InputError> why;
-    for (const double grown : offsets)
-        if (const auto mesh = mesh_wrapped(surface, alpha, grown, grown < offsets.back(), options, effort, why)) return *mesh;
+    for (const double growth : {1.0, 3.0, 6.0}) {
+        if (growth > 1.0 && (!is_open || (growth < 6.0 && effort.is_exceeded))) continue;
+        if (const auto mesh = mesh_wrapped(surface, alpha, growth * offset, is_open, options, effort, why)) return *mesh;
+    }
     throw InputError(*why);
 }
 

@@ -171,7 +171,7 @@ class OwnCharacter(TrialTest):
         self.assertAlmostEqual(facts["model"]["extent_m"], 1.036, places=3)
 
     def test_a_note_where_nothing_is_wrong(self):
-        facts, printed = self.tried(self.rig(first_deg=100.0))
+        facts, printed = self.tried(self.rig(first_deg=115.0), "--vertices", "2000")
         words = "inverted tets in the first frame, of"
         self.assertEqual([words in note for note in facts["notes"]], [True])
         self.assertIn(f"pbskin: note: {self.path('out', facts['notes'][0])}\n", printed)
