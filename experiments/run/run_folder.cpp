@@ -162,7 +162,9 @@ void RunFolder::write_artist_skin(int frame, double time_s, const pbs::Character
     artist_frames_.emplace_back(time_s, file);
     if (lbs_surface_.rows() != points.rows() || !lbs_surface_.allFinite()) return;
     Eigen::Index vertex = 0;
-    const double largest_m = (lbs_surface_ - points).rowwise().norm().maxCoeff(&vertex);
+    Eigen::VectorXd is_on_surface = Eigen::VectorXd::Zero(points.rows());  // some points of a file belong to no triangle
+    for (const int corner : character.artist->model->body.triangles.reshaped()) is_on_surface(corner) = 1.0;
+    const double largest_m = (lbs_surface_ - points).rowwise().norm().cwiseProduct(is_on_surface).maxCoeff(&vertex);
     if (followed_.frame < 0 || largest_m > followed_.largest_m) followed_ = {largest_m, frame, vertex};
 }
 

@@ -127,14 +127,16 @@ constexpr double inside_to_skin = 1.2;  // size of cells over size of facets
 constexpr double flat_surface = 1e-12;
 constexpr double smallest_m = 1e-9;       // squares and cubes of cells of a smaller surface leave the range that CGAL can compare
 constexpr double sheet_thickness = 0.05;  // over the diagonal: some tets across it at the default number of vertices
-constexpr const char* boundary_not_manifold = "the boundary is not manifold";
+constexpr const char *boundary_not_manifold = "the boundary is not manifold", *no_tets = "no tets";
 
 // Bounds on the work, far above what a sound mesh takes. They count points, so that a slow machine makes the same meshes. A thin layer is
 // refined down to its thickness, whatever cells are wanted: an open tube gets 18,000 vertices instead of 2,000, and 25,000 at the first
 // size. Otherwise the search overshoots most where the first size fits 2,000 vertices and far more are wanted: its slope of -2.5 instead of
-// -3 gives 2.2 times 99,900 and 5.5 times 10 million. A vertex takes up to 3 kB. A full search takes some 10 refinements for each of 6
-// distances. The wrap of a thin layer, at the default alpha, has 10,000 points, that of a bulky body some 40,000.
-constexpr std::size_t least_bound = 30'000, bound_over_wanted = 6, refinements_in_all = 15, most_wrap_points = 1'000'000;
+// -3 gives 2.2 times 99,900 and 5.5 times 10 million. A vertex takes up to 3 kB. A search takes up to 10 refinements, and
+// most bodies are meshed at the first or second of 6 distances. The wrap of a thin layer, at the default alpha, has 10,000 points, that of
+// a bulky body some 40,000.
+constexpr std::size_t least_bound = 30'000, bound_over_wanted = 6, least_in_all = 60'000, in_all_over_wanted = 30,
+                      most_wrap_points = 1'000'000;
 
 double diagonal_of(const Positions& points)
 {
@@ -239,17 +241,20 @@ private:
     std::vector<double> thickness_;
 };
 
-// What each refinement may take, what all together may still take, and whether one of them took too much.
+// What each refinement of a wrap may take, and what all together may still take.
 struct Effort {
+    explicit Effort(std::size_t wanted)
+        : most(std::max(least_bound, bound_over_wanted * wanted)), left(std::max(least_in_all, in_all_over_wanted * wanted))
+    {
+    }
     std::size_t most, left;
-    bool is_exceeded = false;
 };
 
 // TooManyVertices where a bound is reached.
 TetMesh mesh_within(Effort& effort, MeshedBody& body, MeshCriteria criteria)
 {
     criteria.most_vertices = std::min(effort.most, effort.left);
-    if (effort.left == 0) throw TooManyVertices{"more than " + std::to_string(refinements_in_all * effort.most) + " in all attempts"};
+    if (effort.left == 0) throw TooManyVertices{"too many in all attempts"};
     effort.left -= criteria.most_vertices;  // all of them, if it ends with an exception
     TetMesh mesh = mesh_body(body, criteria);
     effort.left += criteria.most_vertices - static_cast<std::size_t>(mesh.rest.rows());
@@ -305,7 +310,7 @@ double size_of(WrappedBody& body, int vertices, double distance, Effort& effort)
 // the wanted Euler number and dihedral angle, free of self-intersections, and all points lie inside.
 std::string breach_of(const TetMesh& mesh, const SurfaceMeshing& options)
 {
-    if (mesh.tets.rows() == 0) return "no tets";
+    if (mesh.tets.rows() == 0) return no_tets;
     const Quality quality = quality_of(mesh);
     if (!quality.topology.boundary_manifold) return boundary_not_manifold;
     if (options.is_one_piece && quality.topology.components != 1) return std::to_string(quality.topology.components) + " pieces";
@@ -325,18 +330,20 @@ std::string breach_of(const TetMesh& mesh, const SurfaceMeshing& options)
     return std::to_string(outside) + " of the points asked inside are outside, the first is number " + std::to_string(first);
 }
 
-// The first mesh of the quality asked; nothing, and why, where none of the distances gives one. is_open: gives up sooner at a boundary that
-// is not manifold, which is what becomes of a layer too thin to be meshed.
+// The first mesh of the quality asked; nothing, and why, where none of the distances gives one. is_open: gives up sooner without tets
+// or at a boundary that is not manifold, which is what becomes of a layer too thin to be meshed. is_exceeded: becomes true where a bound is
+// reached.
 std::optional<TetMesh> mesh_wrapped(const SurfaceMesh& surface, double alpha, double offset, bool is_open, const SurfaceMeshing& options,
-                                    Effort& effort, std::optional<InputError>& why)
+                                    bool& is_exceeded, std::optional<InputError>& why)
 {
+    Effort effort(static_cast<std::size_t>(options.vertices));
     WrappedBody body(surface, alpha, offset);
     const double ratio = body.volume() / std::abs(fan_volume(surface.points, surface.triangles));
     if (options.is_closed && is_far_off(ratio))
         throw InputError("", 0, "wrapped volume / enclosed volume", std::to_string(ratio),
                          "expected 0.5 to 2: a closed or nearly closed surface, its triangles oriented one way");
     check_wrap(body, options);
-    int not_manifold = 0, attempt = 0;
+    int too_thin = 0, attempt = 0;
     for (const double distance : {1.0, 0.8, 1.25, 0.65, 1.5, 0.5}) try {
             const Stage stage("filling the wrap with tets, attempt " + std::to_string(++attempt));
             const double size = size_of(body, options.vertices, distance, effort);
@@ -344,10 +351,10 @@ std::optional<TetMesh> mesh_wrapped(const SurfaceMesh& surface, double alpha, do
             const std::string breach = breach_of(mesh, options);
             if (breach.empty()) return mesh;
             why.emplace("", 0, "surface", "", "could not be meshed with the quality asked: " + breach + "; " + advice(ratio));
-            not_manifold += breach == boundary_not_manifold;
-            if (is_open && not_manifold == 2) break;
+            too_thin += breach == boundary_not_manifold || breach == no_tets;
+            if (is_open && too_thin == 2) break;
         } catch (const TooManyVertices& reached) {  // as with every other distance
-            effort.is_exceeded = true;
+            is_exceeded = true;
             why.emplace("", 0, "vertices of the tets", reached.vertices,
                         "expected about " + std::to_string(options.vertices) + " (--vertices): " + advice(ratio));
             break;
@@ -401,12 +408,11 @@ TetMesh mesh_surface(const SurfaceMesh& surface, const SurfaceMeshing& options)
     // A sheet of the surface, such as hair or a cape, becomes a layer between the offsets on both sides. Where that is too thin to be
     // meshed, the offset grows; where it takes too many vertices, to the largest one at once.
     const bool is_open = options.wrap_offset_m == 0.0 && !is_watertight(joined_triangles(surface.points, surface.triangles));
-    const std::size_t most = std::max(least_bound, bound_over_wanted * static_cast<std::size_t>(options.vertices));
-    Effort effort{most, refinements_in_all * most};
+    bool is_exceeded = false;
     std::optional<InputError> why;
     for (const double growth : {1.0, 3.0, 6.0}) {
-        if (growth > 1.0 && (!is_open || (growth < 6.0 && effort.is_exceeded))) continue;
-        if (const auto mesh = mesh_wrapped(surface, alpha, growth * offset, is_open, options, effort, why)) return *mesh;
+        if (growth > 1.0 && (!is_open || (growth < 6.0 && is_exceeded))) continue;
+        if (const auto mesh = mesh_wrapped(surface, alpha, growth * offset, is_open, options, is_exceeded, why)) return *mesh;
     }
     throw InputError(*why);
 }

@@ -295,6 +295,10 @@ NodeTransform transform_of(const tinygltf::Node& node, const std::string& path, 
     if (node.matrix.size() == 16) {
         Eigen::Affine3d matrix;
         matrix.matrix() = Eigen::Map<const Eigen::Matrix4d>(node.matrix.data());  // by columns
+        if (!node.translation.empty() || !node.rotation.empty() || !node.scale.empty())
+            throw InputError(path, 0, field + "/matrix", "", "expected a matrix or translation, rotation and scale, not both");
+        if (matrix.matrix().row(3) != Eigen::RowVector4d(0.0, 0.0, 0.0, 1.0))
+            throw InputError(path, 0, field + "/matrix", "", "expected the last row 0, 0, 0, 1");
         transform.matrix = matrix;
     }
     transform.translation = vec3_or(node.translation, Vec3::Zero());

@@ -208,7 +208,8 @@ def trial(program, scratch):
     model = rig_files.write("two_animations", str(scratch / "hero.glb"))  # a warning names the animation that is taken
     for options in ([], ["--no-reference"], ["--no-reference", "--scale", "0.01"], ["--no-reference", "--scale", "10000"]):
         shutil.rmtree(folder, ignore_errors=True)
-        run([program, "try", model, "-o", folder, "--frames", str(trial_frames), "--vertices", "400", "--paraview", *options], env=surroundings)
+        run([program, "try", model, "-o", folder, "--frames", str(trial_frames), "--vertices", "400", "--paraview", *options],
+            env=surroundings)
         truth.write_text(json.dumps(truth_of_trial(folder)))
         if status := status_of("trial/*.test.mjs", surroundings):
             print(f"pbskin try {' '.join(options)}")

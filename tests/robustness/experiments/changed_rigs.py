@@ -105,7 +105,8 @@ CHANGE = {
                                      if r.random.random() < 0.1 else numpy.where(numpy.arange(len(t))[:, None] < len(t) / 3, t[:, :1], t)),
     "orientation": lambda r: r.change_triangles((0.01, 0.5, 1.0), lambda t: t[:, ::-1]),
     "corners": lambda r: r.change_triangles((0.002, 0.1), lambda t: t + r.random.randrange(-3, 20)),
-    "some points": lambda r: r.change_points(lambda p: r.put(p, (0.005, 0.1), lambda q: q + r.factor() * numpy.reshape(r.normal(q.size), q.shape))),
+    "some points": lambda r: r.change_points(lambda p: r.put(p, (0.005, 0.1), lambda q: q + r.factor() * numpy.reshape(r.normal(q.size),
+                                                                                                                  q.shape))),
     "rough points": lambda r: r.change_points(lambda p: p + r.random.choice((0.001, 0.02)) * numpy.reshape(r.normal(p.size), p.shape)),
     "endless points": lambda r: r.change_points(lambda p: r.put(p, (0.005,), lambda _: r.random.choice((math.inf, math.nan)))),
     "flat": lambda r: r.change_points(lambda p: p * [1, 1, r.random.choice((0.0, 0.01, -1.0))]),
@@ -127,7 +128,8 @@ class ChangedRigs(program.ProgramTest):
             file.write(rig_files.glb(rig.document, rig.data))
         return ", ".join(kinds)
 
-    def check_sound(self):
+    def check_sound(self, changes_times):
+        """changes_times: keys may be at the same time, so that the formula has several values."""
         facts = self.json("out", "try.json")
         for row in self.rows("out", "metrics.csv"):
             self.assertEqual([column for column, cell in row.items() if cell.lower().strip("-") in ("nan", "inf")], [])
@@ -136,7 +138,7 @@ class ChangedRigs(program.ProgramTest):
         if followed and followed["largest_pct"] > FAR_FROM_ARTIST_PCT:
             self.assertTrue(any("away from the artist's" in warning for warning in facts["warnings"]), facts)
         model, name = skin_formula.Model(self.path("rig.glb")), re.search('animation = "(.*)"', self.read("out", "scene.toml"))
-        if name and "\\" not in name[1]:
+        if name and "\\" not in name[1] and not changes_times:
             with numpy.errstate(all="ignore"):
                 expected = model.points(name[1], facts["motion"]["time_zero_s"])
             known = numpy.isfinite(expected).all(axis=1)  # points without weight are left to the program
@@ -146,13 +148,14 @@ class ChangedRigs(program.ProgramTest):
 
     def test_every_change_ends_in_a_sound_result_or_an_error_with_its_rule(self):
         for number in range(CHANGES):
-            with self.subTest(number, changes=self.changed(number)):
+            changes = self.changed(number)
+            with self.subTest(number, changes=changes):
                 start = time.monotonic()
                 process = program.run("try", self.path("rig.glb"), "-o", self.path("out"), "--no-reference", "--frames", 2,
                                       "--vertices", "300")
                 self.assertLess(time.monotonic() - start, MOST_S)
                 if process.returncode == 0:
-                    self.check_sound()
+                    self.check_sound("times" in changes.split(", "))
                 else:
                     self.assertEqual(process.returncode, 2, process.stderr)
                     self.assertRegex(process.stderr.splitlines()[-1], r"^pbskin: .*rig\.glb\b.*: .")

@@ -73,7 +73,7 @@ class MeshingEnds(program.ProgramTest):
 
     def test_a_signal_ends_meshing(self):
         self.interrupted(signal.SIGTERM, "try", self.rig(), "-o", self.path("out"), "--no-reference", *LARGE)
-        left = run_records.files(self.folder)
+        left = [path for path in run_records.files(self.folder) if path.name != "making.lock"]  # which stays in the cache
         self.assertEqual([path for path in left if run_records.is_temporary(path) or run_records.what_is_torn(path)], [])
         points, triangles = rig_files.tube()
         lines = [f"v {x} {y} {z}" for x, y, z in points] + [f"f {a} {b} {c}" for a, b, c in triangles + 1]
