@@ -63,8 +63,9 @@ void on_alarm(int)
         for (const char* text : {"pbskin: ", last_words, "\n"}) print_from_handler(text, std::strlen(text));
         _exit(exit_interrupted);
     }
-    if (const int length = line_length.exchange(0); length > 0) print_from_handler(line_of_stage, static_cast<std::size_t>(length));
     ring_after(long_stage_s);
+    if (signalled != 0) ring_after(grace_s);  // a signal came after the first line
+    if (const int length = line_length.exchange(0); length > 0) print_from_handler(line_of_stage, static_cast<std::size_t>(length));
     errno = error;
 }
 
