@@ -248,7 +248,7 @@ int reproduce(const ReproduceArguments& arguments)
     analysis::remove_abandoned_files(arguments.folder, false);
     std::vector<analysis::Verdict> verdicts;
     std::vector<std::pair<std::string, StudyCosts>> costs;
-    std::string conclusions;      // of the studies, and on frames that need attention
+    std::string marked;           // frames that need attention
     std::set<std::string> named;  // the reasons for which runs are left out: each is a warning once
     bool broke_down = false, refused = false, all_hold = true;
     for (const PlannedStudy& of : planned)
@@ -261,16 +261,12 @@ int reproduce(const ReproduceArguments& arguments)
         broke_down |= outcome.broke_down;
         refused |= outcome.refused;
         all_hold &= !outcome.failed;
-        conclusions += marked_frames(outcome.finished.folders);
+        marked += marked_frames(outcome.finished.folders);
         for (auto& verdict : verdicts_of(*of.study, of.folder, arguments.folder)) verdicts.push_back(std::move(verdict));
-        if (!of.study->conclude) continue;
-        const StudyConclusion conclusion = of.study->conclude(outcome.finished);
-        outcome.finished.write("conclusion.txt", conclusion.text);
-        conclusions += conclusion.text;
-        all_hold &= conclusion.holds;
+        if (of.study->conclude) all_hold &= of.study->conclude(outcome.finished);
     }
     spdlog::info("actual cost:\n{}", cost_table(costs));
-    fmt::print("{}", conclusions);
+    fmt::print("{}", marked);
     const bool all_computed = verdicts.empty() || report_verdicts(verdicts, arguments.folder);
     if (refused) return exit_input;
     if (broke_down) return exit_breakdown;

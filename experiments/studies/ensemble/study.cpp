@@ -5,7 +5,6 @@
 //   pbskin reproduce ensemble --full     four hours
 #include "analysis/metrics/frame_metrics.hpp"
 #include "analysis/records/record_files.hpp"
-#include "analysis/records/report_table.hpp"
 #include "experiments/deformers/deformer_options.hpp"
 #include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/deformers/registry.hpp"
@@ -337,23 +336,12 @@ StudyPlan plan(bool full)
     });
 }
 
-// For the terminal: the pairs, and the parts after the paper's 24 iterations.
-StudyConclusion conclude(const FinishedRuns& finished)
+bool conclude(const FinishedRuns& finished)
 {
-    if (finished.none()) return {"", false};
-    const std::vector<PairRow> pairs = finished.rows(pair_columns, "pairs.csv");
-    finished.write("pairs.csv", pair_columns, pairs);
+    if (finished.none()) return false;
+    finished.write("pairs.csv", pair_columns, finished.rows(pair_columns, "pairs.csv"));
     finished.write("members.csv", member_columns, finished.rows(member_columns, "members.csv"));
-    std::vector<PartsRow> parts = finished.rows(part_columns, "parts.csv");
-    std::erase_if(parts, [](const PartsRow& row) { return row.iterations != 24; });
-    const std::string of_pairs =
-        text_table(table_of(pair_columns, pairs), analysis::report_columns("body motion pose angle_deg first second "
-                                                                           "largest_difference_pct:.1f first_is_closer second_is_closer "
-                                                                           "members decision"));
-    const std::string of_parts =
-        text_table(table_of(part_columns, parts), analysis::report_columns("body motion pose angle_deg k_stretch error_joint_pct:.1f "
-                                                                           "solver_pct:.1f model_pct:.1f discretisation_pct:.2f"));
-    return {of_pairs + "\n" + of_parts, true};
+    return true;
 }
 
 }  // namespace

@@ -223,9 +223,6 @@ CellRow cell_row(const MeasuredCell& measured);
 // if the cells were drawn at random from the settings between them.
 analysis::CsvTable stability_measurements(const std::vector<MeasuredCell>& cells);
 
-// The number of cells with each outcome, by body and model and on request by factor, as aligned columns.
-std::string outcome_table(const std::vector<CellRow>& cells, bool by_factor);
-
 // The text states why the map is unreliable: an outcome that occurs in no cell, or a cell in which the printed sign does not
 // diverge. Empty where there is no such defect.
 std::string blind_spots(const std::vector<CellRow>& cells);
@@ -279,7 +276,6 @@ StartRow run_broken_start(const StabilityCell& cell, int most_iterations);
 // The other deformers of the map, with the reason why they have no broken start.
 std::vector<StartRow> starts_not_applicable();
 
-std::string start_table(const std::vector<StartRow>& rows);  // counts by model and setting, as aligned columns
-std::string start_criteria_text(int most_iterations);        // the definitions in words, as Markdown
+std::string start_criteria_text(int most_iterations);  // the definitions in words, as Markdown
 
 }  // namespace experiments

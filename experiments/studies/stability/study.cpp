@@ -108,23 +108,22 @@ StudyPlan plan(bool full)
     return plan;
 }
 
-StudyConclusion conclude(const FinishedRuns& finished)
+bool conclude(const FinishedRuns& finished)
 {
     const std::vector<CellRow> cells = finished.rows(cell_columns, "cells.csv");
     finished.write("cells.csv", cell_columns, cells);
     finished.write("map_time_step_k_stretch.csv", map_csv(cells, "time_step", "k_stretch"));
     finished.write("map_iterations_twist.csv", map_csv(cells, "iterations", "twist"));
     const std::vector<StartRow> starts = finished.rows(start_columns, "starts.csv");
-    std::string criteria = analysis::criteria_text() + endings_text(), outcomes = "```\n" + outcome_table(cells, true) + "```\n";
+    std::string criteria = analysis::criteria_text() + endings_text();
     if (!starts.empty()) {
         finished.write("starts.csv", start_columns, starts);
         criteria += start_criteria_text(starts.front().most_iterations);
-        outcomes += "\n```\n" + start_table(starts) + "```\n";
     }
-    finished.write("outcomes.md", outcomes);
     finished.write("criteria.md", criteria);
     const std::string missing = blind_spots(cells);
-    return {outcome_table(cells, false) + (starts.empty() ? "" : "\n" + start_table(starts)) + missing, missing.empty()};
+    if (!missing.empty()) spdlog::error("pbskin: the map of stability cannot tell stable from unstable:\n{}", missing);
+    return missing.empty();
 }
 
 }  // namespace

@@ -196,16 +196,6 @@ class Report(ReportTest):
         shown = origin.costs_section(self.found())
         self.assertIn("<td>quick</td><td>2</td><td>30</td><td>180</td><td>195</td>", shown)
 
-    def test_what_a_study_concludes_stands_beside_its_first_figure(self):
-        (self.results / "volume" / "conclusion.txt").write_text("chest  -1.0 %\nspine  < 0\n")
-        for name in ("volume_over_angle", "volume_over_clip"):
-            self.write_svg(name)
-        text = self.page()
-        self.assertEqual(text.count("What the study volume concludes"), 1)
-        self.assertIn("chest  -1.0 %\nspine  &lt; 0</pre>", text)
-        self.assertLess(text.index('id="figure-volume_over_angle"'), text.index("What the study volume concludes"))
-        self.assertLess(text.index("What the study volume concludes"), text.index('id="figure-volume_over_clip"'))
-
     def test_errors_over_whole_runs_are_the_recorded_order_statistics(self):
         run = self.results / "volume" / "limb_twist"
         fem = {"name": "nh_p2", "model": "neo_hookean", "element_order": 2}
