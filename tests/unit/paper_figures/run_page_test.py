@@ -1,14 +1,13 @@
 """The page of a single run. Reference: its records, which are written here with numbers that can be predicted. Each number of a table is
 that of a record, warnings are shown, and except the frames nothing is missing that the run was not asked for."""
 import csv
-import html
 import json
 import re
 import sys
 import unittest
 import unittest.mock
 
-from results_case import ResultsTest, listening
+from results_case import ResultsTest, listening, tables_of
 import report
 from report import run_page
 from synthetic_records import write_table
@@ -21,15 +20,6 @@ numbers = {"lbs": lambda i: (-2.0 * i, i, 0.01 * (i + 1), 5.0 + i), "pbs": lambd
 MODEL = {"file": "hero.glb", "meshes": ["body", "hat"], "extent_m": 1.75, "metres_per_unit": 0.01, "containers": ["Armature"],
          "joints_dropped": [{"name": "IK <target>", "reason": "no weight"}], "bind_pose_deg": 12.5, "animations": ["Walk", "Run"],
          "joints": ["hips", "knee"], "weights_transferred_pct": 98.7}
-
-
-def tables_of(text):
-    """The cells of each table by its caption, row by row."""
-    def cells_of(row):
-        return [html.unescape(re.sub("<[^>]+>", "", cell)) for cell in re.findall(r"<t[hd]\b[^>]*>(.*?)</t[hd]>", row, re.DOTALL)]
-
-    return {html.unescape(caption): [cells_of(row) for row in re.findall(r"<tr\b.*?</tr>", body, re.DOTALL)]
-            for caption, body in re.findall(r"<caption>(.*?)</caption>(.*?)</table>", text, re.DOTALL)}
 
 
 class RunPage(ResultsTest):
