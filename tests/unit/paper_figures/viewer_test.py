@@ -12,7 +12,7 @@ import unittest
 
 import numpy
 
-from results_case import ResultsTest, root
+from results_case import ResultsTest
 import records
 import synthetic_frames
 from figures import stills
@@ -182,13 +182,6 @@ class Viewer(ResultsTest):
         (self.results / "frames" / "plan.json").write_text(json.dumps({"runs": [{"name": "limb_bend"}]}))
         with self.refused("no run of its study"):
             self.pack()
-
-    def test_the_bundle_carries_the_licence_of_three_js(self):
-        build = (root / "paper_figures" / "viewer" / "build.mjs").read_text()
-        self.assertRegex(build, r"node_modules/three/LICENSE")
-        bundle = root / "paper_figures" / "viewer" / "dist" / "viewer.js"
-        if bundle.is_file():
-            self.assertIn("Permission is hereby granted, free of charge", bundle.read_text())
 
     def test_page_with_and_without_the_program(self):
         os.environ["PBS_VIEWER_BUILD"] = str(self.results)
