@@ -41,9 +41,12 @@ class RunPage(ResultsTest):
         write_table(self.results / "metrics.csv", rows)
 
     def page(self):
-        """Of a run without frames, which is told how to get them."""
+        """Of a run or trial without frames: the page says that, and how to get them."""
         text, missing = run_page.page(self.results)
-        self.assertEqual(missing, ["viewer: no frames/*.vtu; run the scene again with `--set output.frames_every=1`"])
+        is_trial = (self.results / "try.json").exists()
+        self.assertEqual(missing, ["viewer: frames/*.vtu: do not exist: `pbskin try --paraview` keeps them" if is_trial else
+                                   "viewer: no frames/*.vtu; run the scene again with `--set output.frames_every=1`"])
+        self.assertIn("The moving model is missing: viewer", text)
         return text
 
     # The tables.
@@ -103,7 +106,7 @@ class RunPage(ResultsTest):
     def test_no_section_is_there_for_what_the_run_was_not_asked_for(self):
         self.write(reference="")
         text = self.page()
-        for anchor in ("warnings", "notes", "viewer", "joints", "distances", "model", "figure-error-against-time"):
+        for anchor in ("warnings", "notes", "joints", "distances", "model", "figure-error-against-time"):
             self.assertNotIn(f'id="{anchor}"', text)
         self.assertIn('id="figure-over-frames"', text)
         self.assertEqual(tables_of(text)["Over all frames"][1], ["LBS", "\u22128 to 0", "4", "0.03"])
