@@ -149,8 +149,8 @@ const std::vector<Budget>& budgets()
          .endings = cpp,
          .most_lines = 64'100},
         {.what = "tests in C++", .folders = {"tests/"}, .endings = cpp, .most_lines = 42'900, .least_mean = 120},
-        {.what = "tests in Python and JavaScript", .folders = {"tests/"}, .endings = scripts, .most_lines = 11'350},
-        {.what = "paper_figures", .folders = {"paper_figures/"}, .endings = scripts, .most_lines = 7'950},
+        {.what = "tests in Python and JavaScript", .folders = {"tests/"}, .endings = scripts, .most_lines = 11'325},
+        {.what = "paper_figures", .folders = {"paper_figures/"}, .endings = scripts, .most_lines = 8'010},
         {.what = "kept records", .folders = {"experiments/records/full/"}, .most_files = 150},
     };
     return all;
