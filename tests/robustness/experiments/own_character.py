@@ -34,10 +34,10 @@ class TrialTest(program.ProgramTest):
         """One name for all, so that the cache has one mesh for those with the same surface."""
         return rig_files.write(variant, self.path("rig.glb"), **options)
 
-    def tried(self, model, *arguments, into="out", without=("--no-reference",), **environment):
+    def tried(self, model, *arguments, into="out", without=("--no-reference",), vertices="300", **environment):
         """try.json and what was printed. The page has a viewer, whose program does nothing."""
         self.write("viewer.js", "// a viewer")
-        process = self.succeeds("try", model, "-o", self.path(into), "--frames", "3", "--vertices", "300", *without, *arguments,
+        process = self.succeeds("try", model, "-o", self.path(into), "--frames", "3", "--vertices", vertices, *without, *arguments,
                                 env={**os.environ, "PBS_VIEWER_BUILD": self.folder, **environment})
         return self.json(into, "try.json"), process.stderr
 
@@ -171,7 +171,7 @@ class OwnCharacter(TrialTest):
         self.assertAlmostEqual(facts["model"]["extent_m"], 1.036, places=3)
 
     def test_a_note_where_nothing_is_wrong(self):
-        facts, printed = self.tried(self.rig(first_deg=115.0), "--vertices", "2000")
+        facts, printed = self.tried(self.rig(first_deg=115.0), vertices="2000")
         words = "inverted tets in the first frame, of"
         self.assertEqual([words in note for note in facts["notes"]], [True])
         self.assertIn(f"pbskin: note: {self.path('out', facts['notes'][0])}\n", printed)
