@@ -1,4 +1,4 @@
-"""Random changes to the rigs of rig_files.py, 50 with fixed seeds and 1,000 in ./check --long. Each ends within the bounds on time and memory: refused with
+"""Random changes to the rigs of rig_files.py, 50 with fixed seeds and 1,000 in ./check --long. Each ends in time: refused with
 the file and a rule, or tried with a sound result. Sound: every number of the tables is finite, the artist's surface is that of the format's
 formula (skin_formula.py), and flesh that does not follow it has a warning."""
 import math
