@@ -177,6 +177,13 @@ std::string plain_text(const std::string& markdown, std::size_t width)
     return plain.end();
 }
 
+std::string markdown_cell(std::string text)
+{
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2) text.insert(at, "\\");
+    return text;
+}
+
 std::string first_paragraph(const std::string& markdown)
 {
     const std::size_t begin = markdown.find("\n\n") + 2;

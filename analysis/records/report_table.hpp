@@ -29,6 +29,9 @@ std::string side_by_side(const std::vector<TextColumn>& columns);
 // code keep their blanks unless they are too long.
 std::string plain_text(const std::string& markdown, std::size_t width);
 
+// A cell of a Markdown table: one line, with vertical bars escaped.
+std::string markdown_cell(std::string text);
+
 std::string first_paragraph(const std::string& markdown);  // the one below the title, on one line
 
 }  // namespace analysis

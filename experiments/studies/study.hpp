@@ -213,9 +213,6 @@ public:
     void complete(const std::string& folder, const StudyPlan& plan);
     void write() const;
 
-    double expected_s() const;
-    double cpu_s() const;
-
 private:
     std::string file_;
     std::vector<RunCost> runs_;
@@ -229,9 +226,6 @@ struct ExpectedCost {
 };
 ExpectedCost expected_cost(const Study& study, const std::vector<StudyRun>& runs, int jobs);
 std::string expected_cost_table(const std::vector<ExpectedCost>& costs);  // one line per study, and their sum
-
-// Expected and actual processor time. A study outside a factor of two is marked.
-std::string cost_table(const std::vector<std::pair<std::string, StudyCosts>>& studies);
 
 // The claims of claims.toml, which is compiled into the program.
 const std::vector<analysis::Claim>& claims();

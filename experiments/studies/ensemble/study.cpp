@@ -106,32 +106,27 @@ RECORD_SETTINGS(EnsembleCase, of, scene, frame, flesh, members, deformers, pbs, 
 
 std::vector<DeformerSpec> other_attachments(const DeformerSpec& reference)
 {
-    FemOptions flesh = options_of<FemOptions>(reference);
-    flesh.element_order = 2;
-    flesh.nested_start = true;
-    flesh.attachment = FemAttachment::smooth;
-    FemOptions stiffer = flesh, thinner = flesh, embedded = flesh, bind = flesh;
-    stiffer.spring_factor = 100.0;
-    thinner.core_radius = 0.5;
-    embedded.attachment = FemAttachment::embedded;
-    embedded.spring_factor = embedded.core_radius = 0.0;  // the attachment's own
-    bind.attachment = FemAttachment::bind;
-    bind.spring_factor = bind.core_radius = 0.0;
-    FemOptions linear = flesh, linear_embedded = embedded;
-    for (FemOptions* small_strain : {&linear, &linear_embedded}) {
-        small_strain->model = reference_fem::Model::linear;
-        small_strain->nested_start = false;
-        small_strain->most_newton_steps = 0;
-    }
     std::vector<DeformerSpec> others;
-    const std::pair<const char*, FemOptions> all[] = {{"smooth_q_100", stiffer}, {"smooth_core_0.5", thinner},
-                                                      {"embedded", embedded},    {"bind", bind},
-                                                      {"linear_smooth", linear}, {"linear_embedded", linear_embedded}};
-    for (const auto& [label, options] : all) {
-        others.push_back(reference);
-        others.back().name = others.back().label = label;
-        others.back().options = options;
-    }
+    const auto add = [&](const char* label, FemAttachment attachment, double spring_factor, double core_radius, bool is_linear = false) {
+        DeformerSpec& other = others.emplace_back(reference);
+        other.name = other.label = label;
+        auto& options = options_of<FemOptions>(other);
+        options.element_order = 2;
+        options.nested_start = !is_linear;
+        options.attachment = attachment;
+        options.spring_factor = spring_factor;
+        options.core_radius = core_radius;
+        if (!is_linear) return;
+        options.model = reference_fem::Model::linear;
+        options.most_newton_steps = 0;
+    };
+    const auto& own = options_of<FemOptions>(reference);
+    add("smooth_q_100", FemAttachment::smooth, 100.0, own.core_radius);
+    add("smooth_core_0.5", FemAttachment::smooth, own.spring_factor, 0.5);
+    add("embedded", FemAttachment::embedded, 0.0, 0.0);  // 0: the attachment's own
+    add("bind", FemAttachment::bind, 0.0, 0.0);
+    add("linear_smooth", FemAttachment::smooth, own.spring_factor, own.core_radius, true);
+    add("linear_embedded", FemAttachment::embedded, 0.0, 0.0, true);
     return others;
 }
 

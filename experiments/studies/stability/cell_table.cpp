@@ -29,12 +29,6 @@ constexpr StabilityOutcome outcomes[] = {StabilityOutcome::converged, StabilityO
 using Group = std::vector<const MeasuredCell*>;
 using Keyed = std::vector<std::pair<analysis::CaseKey, Group>>;
 
-bool jiggles(const StabilityCell& cell)
-{
-    const auto* pbs = options_if<pbs::PbsOptions>(cell.spec);
-    return pbs && pbs->jiggle;
-}
-
 // In the key of its values; empty: the cell has none.
 std::string deformer_of(const StabilityCell& cell)
 {
@@ -51,9 +45,10 @@ Keyed by_sweep(const std::vector<MeasuredCell>& cells)
     for (const MeasuredCell& measured : cells) {
         const StabilityCell& cell = measured.cell;
         if (deformer_of(cell).empty() || cell.named == "not_used") continue;  // not_used: no time step of its own
+        const auto* pbs = options_if<pbs::PbsOptions>(cell.spec);
         const analysis::CaseKey key = {.body = cell.body,
                                        .deformer = deformer_of(cell),
-                                       .variant = jiggles(cell) ? "jiggle" : "",
+                                       .variant = pbs && pbs->jiggle ? "jiggle" : "",
                                        .order = traits_of(cell.spec).order,
                                        .precision = precision_of(cell),
                                        .factor = cell.factor,

@@ -250,9 +250,8 @@ const nlohmann::json& document()
 
 Sweep sweep_named(const std::string& name)
 {
-    const auto is_named = [&](const nlohmann::json& one) { return one.at("name") == name; };
     const nlohmann::json& all = document().at("sweep");
-    const auto found = std::ranges::find_if(all, is_named);
+    const auto found = std::ranges::find_if(all, [&](const nlohmann::json& one) { return one.at("name") == name; });
     if (found == all.end()) throw std::logic_error("stability/cases.toml: no sweep " + name);
     return {found->value("factor", name),
             found->at("unit"),

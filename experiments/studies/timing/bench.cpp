@@ -140,18 +140,6 @@ json context_of(const BenchOptions& options)
             {"provenance", provenance}};
 }
 
-constexpr const char* legend = R"(
-Read ratios, not times. A step is 24 iterations; ns_stretch, ns_volume and ns_bind are per constraint. ratio_to_plain_spread: times faster
-than plain loops, with all that this compiler offers, on constraints whose neighbours in the list share no vertex, so that none waits for
-the stores of the one before; ratio_to_plain: than order `plain`, which is built for the same bits on every machine and whose projections
-wait for each other's stores; ratio_to_plain_native: than the loops of `plain` with all that this compiler offers. Orders give different
-answers: residual_to_plain_spread and volume_rms_to_plain_spread are the combined residual and the root mean square volume error after the
-step over those of the same loops, and _to_plain over those of `plain`; above 1 is a loss. The study timing compares the times to equal
-answers. ms_floor: the time that moving the bytes takes. exponent: the cost of a step is ~ constraints^exponent. Deformers: ms_first is
-the set-up and the first frame; ns_tet and ns_vertex are per iteration, or per frame of a deformer without iterations; ratio_to_plain: to
-the plain implementation of the same deformer. The finite elements have no plain implementation; their iterations are Newton steps.
-)";
-
 // One line per entry of bench.json. Each column is a place inside the entry, with a format for a number. Numbers are aligned to the right.
 std::string table(const json& entries, const std::string& places)
 {
@@ -279,7 +267,7 @@ std::string bench_table(const json& record)
     for (const json& mesh : record.at("meshes")) text += mesh_text(mesh);
     return text +
            table(record.value("scaling", json::array()), "variant precision threads:.0f exponent:.3f interval/0:.3f interval/1:.3f") +
-           legend;
+           "\nRead ratios, not times; `pbskin explain timing` explains the columns.\n";
 }
 
 int parse_size(const std::string& text)
