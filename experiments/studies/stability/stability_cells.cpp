@@ -297,7 +297,7 @@ DeformerSpec spec_of(const nlohmann::json& entry)
         auto& xpbd = options_of<pbs::XpbdOptions>(spec);
         xpbd.jiggle = true;  // the zone, the cost and gravity are those of PBS with jiggle
         xpbd.gravity_m_s2 = downwards_m_s2;
-        if (spec.kind == "xpbd_small_steps") std::swap(xpbd.iterations, xpbd.substeps);
+        if (entry.value("small_steps", false)) std::swap(xpbd.iterations, xpbd.substeps);
     }
     return spec;
 }
@@ -312,7 +312,7 @@ StabilityCell base_of(const nlohmann::json& entry, const std::string& body, bool
     const nlohmann::json& steps = entry.at("still_steps");
     cell.still_steps = steps.is_array() ? steps.at(full ? 1 : 0) : steps;
     cell.nudge_m = entry.value("nudge_m", 0.0);
-    cell.as_published = entry.value("as_published", cell.spec.kind == "pbs");
+    cell.as_published = entry.value("as_published", options_if<pbs::PbsOptions>(cell.spec) != nullptr);
     if (entry.value("twisted", false)) cell.disturbance.axis = pbs::Vec3::UnitX();
     return cell;
 }
@@ -333,9 +333,9 @@ std::vector<StabilityCell> undisturbed(std::vector<StabilityCell> cells)
 
 void refuse_unknown_keys(const nlohmann::json& entry)
 {
-    static const std::set<std::string> known = {"of",          "undisturbed", "kind",    "precision",    "jiggle",      "order",
-                                                "volume_form", "material",    "in_time", "model",        "still_steps", "nudge_m",
-                                                "sweeps",      "full_sweeps", "maps",    "as_published", "short",       "twisted"};
+    static const std::set<std::string> known = {"of",       "undisturbed",  "kind",  "precision",   "jiggle",     "order",  "volume_form",
+                                                "material", "in_time",      "model", "still_steps", "nudge_m",    "sweeps", "full_sweeps",
+                                                "maps",     "as_published", "short", "twisted",     "small_steps"};
     for (const auto& [key, value] : entry.items())
         if (!known.contains(key)) throw std::logic_error("stability/cases.toml: nothing reads the key " + key + " of cells");
 }

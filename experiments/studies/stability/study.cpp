@@ -13,7 +13,6 @@
 #include "experiments/studies/stability/stability_cells.hpp"
 #include "experiments/studies/study.hpp"
 
-#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 namespace experiments {
