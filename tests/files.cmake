@@ -5,7 +5,7 @@ if(PBS_WITH_MESH_IO)
     list(APPEND left_out pbs/geometry/mesh_io_unavailable)
 else()
     list(APPEND left_out pbs/geometry/content_format pbs/geometry/child_process pbs/geometry/mesh_checks pbs/geometry/mesh_io
-        pbs/geometry/surface_reader pbs/character/bodies pbs/character/body_cache)
+        pbs/geometry/mesh_repairs pbs/geometry/surface_reader pbs/character/bodies pbs/character/body_cache)
 endif()
 if(PBS_WITH_CGAL)
     list(APPEND left_out pbs/geometry/meshing_unavailable)
@@ -14,13 +14,13 @@ else()
         pbs/character/overlap_and_jiggle)
 endif()
 if(NOT PBS_WITH_RIG_IMPORT)
-    list(APPEND left_out pbs/character/skeleton_file pbs/character/clip pbs/character/bodies
+    list(APPEND left_out pbs/character/skeleton_file pbs/character/clip pbs/character/joint_names pbs/character/bodies
         pbs/rig/assimp_rig pbs/rig/glb_writer pbs/rig/gltf_rig pbs/rig/rig_reader)
 endif()
 
 pbs_tests(unit pbs_files
     FILES pbs/geometry/content_format pbs/geometry/child_process pbs/geometry/mesh_checks pbs/geometry/mesh_io
-        pbs/geometry/mesh_io_unavailable pbs/geometry/meshing pbs/geometry/meshing_unavailable
+        pbs/geometry/mesh_io_unavailable pbs/geometry/mesh_repairs pbs/geometry/meshing pbs/geometry/meshing_unavailable
         pbs/geometry/self_intersection pbs/geometry/surface_reader
     EXCEPT ${left_out}
     ALONE pbs/geometry/surface_reader

@@ -48,11 +48,12 @@ fuzz_target(fuzz/scene.cpp experiments
     experiments/deformers/fem/fem_kind.cpp experiments/process/machine.cpp pbs/geometry/module.cpp
     pbs/geometry/files.cpp pbs/geometry/input_error.cpp)
 fuzz_target(fuzz/mesh.cpp pbs_mesh_io
-    pbs/geometry/mesh_checks.cpp pbs/geometry/files.cpp pbs/geometry/tet_mesh.cpp pbs/geometry/topology.cpp pbs/geometry/input_error.cpp)
+    pbs/geometry/mesh_checks.cpp pbs/geometry/mesh_repairs.cpp pbs/geometry/files.cpp pbs/geometry/tet_mesh.cpp
+    pbs/geometry/topology.cpp pbs/geometry/input_error.cpp)
 fuzz_target(fuzz/skeleton.cpp pbs_character
     pbs/character/skeleton_file.cpp pbs/character/folded_skeleton.cpp pbs/geometry/files.cpp pbs/geometry/input_error.cpp)
 fuzz_target(fuzz/clip.cpp pbs_character
-    pbs/character/clip.cpp pbs/character/retarget.cpp pbs/skinning/pose.cpp pbs/geometry/input_error.cpp)
+    pbs/character/clip.cpp pbs/character/joint_names.cpp pbs/character/retarget.cpp pbs/skinning/pose.cpp pbs/geometry/input_error.cpp)
 fuzz_target(fuzz/rig.cpp pbs_rig
     pbs/rig/rigged_body.cpp pbs/rig/gltf_rig.cpp pbs/rig/gltf_model.cpp pbs/rig/rig_pose.cpp
     pbs/rig/rig_reader.cpp pbs/skinning/pose.cpp
@@ -64,15 +65,15 @@ fuzz_target(fuzz/texts.cpp experiments
     pbs/character/clip.cpp pbs/geometry/files.cpp pbs/geometry/input_error.cpp)
 fuzz_target(fuzz/files.cpp pbs_character
     pbs/character/frankie.cpp pbs/character/skinning_weights.cpp pbs/skinning/pose.cpp pbs/geometry/tetgen_and_tobj.cpp
-    pbs/geometry/content_format.cpp pbs/geometry/msh_files.cpp pbs/geometry/mesh_checks.cpp pbs/geometry/files.cpp
-    pbs/geometry/input_error.cpp)
+    pbs/geometry/content_format.cpp pbs/geometry/msh_files.cpp pbs/geometry/mesh_checks.cpp pbs/geometry/mesh_repairs.cpp
+    pbs/geometry/files.cpp pbs/geometry/input_error.cpp)
 fuzz_target(fuzz/assimp.cpp pbs_rig
     pbs/rig/assimp_rig.cpp pbs/rig/rigged_body.cpp pbs/rig/collada_and_fbx.cpp pbs/rig/rig_pose.cpp
     pbs/rig/rig_reader.cpp pbs/skinning/pose.cpp pbs/geometry/content_format.cpp
     pbs/geometry/files.cpp pbs/geometry/input_error.cpp)
 fuzz_libraries(assimp assimp::assimp pugixml::pugixml ${MINIZIP_LIBRARY} ZLIB::ZLIB)
 fuzz_target(fuzz/content.cpp pbs_mesh_io
-    pbs/geometry/content_format.cpp pbs/geometry/mesh_io.cpp pbs/geometry/mesh_checks.cpp
+    pbs/geometry/content_format.cpp pbs/geometry/mesh_io.cpp pbs/geometry/mesh_checks.cpp pbs/geometry/mesh_repairs.cpp
     pbs/geometry/msh_files.cpp pbs/geometry/files.cpp pbs/geometry/vtk_files.cpp pbs/geometry/surface_reader.cpp
     pbs/geometry/tet_mesh.cpp pbs/geometry/tetgen_and_tobj.cpp pbs/geometry/topology.cpp pbs/geometry/input_error.cpp)
 fuzz_libraries(content assimp::assimp ${VTK_LIBRARIES})

@@ -7,7 +7,7 @@ endif()
 
 pbs_tests(unit pbs_geometry FOLDERS pbs/geometry
     EXCEPT pbs/geometry/content_format pbs/geometry/child_process pbs/geometry/mesh_checks pbs/geometry/mesh_io
-        pbs/geometry/mesh_io_unavailable pbs/geometry/meshing pbs/geometry/meshing_unavailable
+        pbs/geometry/mesh_io_unavailable pbs/geometry/mesh_repairs pbs/geometry/meshing pbs/geometry/meshing_unavailable
         pbs/geometry/self_intersection pbs/geometry/surface_reader
     ALONE pbs/geometry/topology
     LIBRARIES pbs_method)

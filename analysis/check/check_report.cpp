@@ -1,5 +1,7 @@
 #include "analysis/check/check.hpp"
 
+#include "analysis/records/report_table.hpp"
+
 #include <fmt/format.h>
 #include <pugixml.hpp>
 
@@ -55,13 +57,6 @@ std::string annotation(const CheckCase& check)
     if (check.line > 0) place += fmt::format("line={},", check.line);
     return fmt::format("::{} {}title={}::{}\n", check.state == CheckState::left_out ? "warning" : "error", place,
                        escaped(fmt::format("{} {}", check.suite, check.name), true), escaped(check.message, false));
-}
-
-std::string table_cell(std::string text)
-{
-    for (std::size_t at = 0; (at = text.find_first_of("|\n", at)) != std::string::npos; at += 2)
-        text.replace(at, 1, text[at] == '|' ? "\\|" : "  ");
-    return text;
 }
 
 void set(pugi::xml_node node, const char* name, const std::string& value)
@@ -121,10 +116,10 @@ std::string github_summary(const std::vector<CheckSuite>& suites)
         count(suites, CheckState::left_out));
     for (const CheckSuite& suite : suites) {
         for (const CheckCase& check : suite.cases)
-            text += fmt::format("| {} | {} | {} | {} |\n", to_string(check.state), table_cell(suite.name), table_cell(check.name),
-                                table_cell(check.message));
+            text += fmt::format("| {} | {} | {} | {} |\n", to_string(check.state), markdown_cell(suite.name), markdown_cell(check.name),
+                                markdown_cell(check.message));
         for (const auto& [name, value] : suite.properties)
-            text += fmt::format("| | {} | {} | {} |\n", table_cell(suite.name), table_cell(name), table_cell(value));
+            text += fmt::format("| | {} | {} | {} |\n", markdown_cell(suite.name), markdown_cell(name), markdown_cell(value));
     }
     return text + "\n";
 }

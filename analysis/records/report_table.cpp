@@ -1,9 +1,9 @@
 #include "analysis/records/report_table.hpp"
 
-#include <fmt/format.h>
-
+#include <algorithm>
 #include <numeric>
 #include <regex>
+#include <sstream>
 
 namespace analysis {
 namespace {
@@ -44,25 +44,6 @@ void wrap_paragraph(const std::string& paragraph, std::size_t width, std::vector
 std::string coloured(const std::string& text, const std::string& colour)
 {
     return colour.empty() || text.empty() ? text : colour + text + colours_off;
-}
-
-std::string shown(const CsvTable& table, int row, const ReportColumn& column)
-{
-    const std::string& text = table.text_at(row, column.column);
-    if (text.empty() || text == "nan") return column.unknown;
-    return column.format.empty() ? text : fmt::format(fmt::runtime(column.format), column.factor * table.number(row, column.column));
-}
-
-// The headings, then each row's cells.
-std::vector<std::vector<std::string>> shown_rows(const CsvTable& table, const std::vector<ReportColumn>& columns)
-{
-    std::vector<std::vector<std::string>> rows(1);
-    for (const ReportColumn& column : columns) rows[0].push_back(column.heading);
-    for (int r = 0; r < table.rows(); ++r) {
-        rows.emplace_back();
-        for (const ReportColumn& column : columns) rows.back().push_back(shown(table, r, column));
-    }
-    return rows;
 }
 
 using Row = std::vector<std::string>;
@@ -187,36 +168,6 @@ std::string side_by_side(const std::vector<TextColumn>& columns)
     return text;
 }
 
-std::vector<ReportColumn> report_columns(const std::string& names)
-{
-    std::vector<ReportColumn> columns;
-    std::istringstream words(names);
-    for (std::string word; words >> word;) {
-        const auto end = word.find(':');
-        const std::string name = word.substr(0, end);
-        columns.push_back({name, name, end == std::string::npos ? "" : fmt::format("{{{}}}", word.substr(end))});
-    }
-    return columns;
-}
-
-std::string text_table(const CsvTable& table, const std::vector<ReportColumn>& columns)
-{
-    const auto rows = shown_rows(table, columns);
-    std::vector<std::size_t> widths(columns.size(), 0);
-    for (const auto& row : rows)
-        for (std::size_t c = 0; c < columns.size(); ++c) widths[c] = std::max(widths[c], characters(row[c]));
-    std::string text;
-    for (const auto& row : rows) {
-        std::string line;
-        for (std::size_t c = 0; c < columns.size(); ++c) {
-            const std::string blanks(widths[c] - characters(row[c]), ' ');
-            line += (c ? "  " : "") + (columns[c].format.empty() ? row[c] + blanks : blanks + row[c]);
-        }
-        text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
-    }
-    return text;
-}
-
 std::string plain_text(const std::string& markdown, std::size_t width)
 {
     static const std::regex link(R"(\[([^\]]+)\]\([^)]+\))"), code("`");
@@ -224,6 +175,13 @@ std::string plain_text(const std::string& markdown, std::size_t width)
     std::istringstream lines(std::regex_replace(std::regex_replace(markdown, link, "$1"), code, ""));
     for (std::string line; std::getline(lines, line);) plain.add(line);
     return plain.end();
+}
+
+std::string markdown_cell(std::string text)
+{
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2) text.insert(at, "\\");
+    return text;
 }
 
 std::string first_paragraph(const std::string& markdown)

@@ -7,10 +7,10 @@
 namespace analysis {
 namespace {
 
-// The value as the file writes it: a text without its quotes, nothing for tables.
+// The value as the file writes it, nothing for tables.
 std::string value_text(const toml::node& node)
 {
-    if (node.is_string()) return *node.value<std::string>();
+    if (node.is_string()) return fmt::format("\"{}\"", *node.value<std::string>());
     if (node.is_table() || node.is_array_of_tables()) return "";
     if (const toml::array* array = node.as_array()) {
         std::vector<std::string> values;
@@ -63,10 +63,11 @@ void TomlKeys::require_nothing_unknown() const
             throw pbs::InputError(file_, line_of(node), std::string(key.str()), "", "unknown key of a " + thing_);
 }
 
-void TomlKeys::refuse(const char* key, const std::string& rule) const
+void TomlKeys::refuse(const char* key, const std::string& rule, bool in_quotes) const
 {
     const toml::node* node = table_.get(key);
-    throw pbs::InputError(file_, node ? line_of(*node) : line(), key, node ? value_text(*node) : "", rule);
+    const std::string value = !node ? "" : node->is_string() && !in_quotes ? *node->value<std::string>() : value_text(*node);
+    throw pbs::InputError(file_, node ? line_of(*node) : line(), key, value, rule);
 }
 
 }  // namespace analysis

@@ -43,7 +43,7 @@ public:
         const toml::node* node = table_.get(key);
         if (!node) return;
         const auto found = node->value<Value>();
-        if (!found) refuse(key, expected<Value>());
+        if (!found) refuse(key, expected<Value>(), true);
         value = *found;
     }
 
@@ -54,7 +54,7 @@ public:
         read_.insert(key);
         const toml::node* node = table_.get(key);
         if (!node) return;
-        if (!node->is_array()) refuse(key, "expected a list");
+        if (!node->is_array()) refuse(key, "expected a list", true);
         for (const toml::node& entry : *node->as_array()) {
             const auto found = entry.value<Value>();
             if (!found) refuse(key, expected<Value>() + " at each place of the list");
@@ -67,7 +67,8 @@ public:
     const toml::node* node(const char* key) const { return table_.get(key); }  // null if missing; not marked as read
     int line() const { return line_of(table_); }                               // line of the table, from 1
     void require_nothing_unknown() const;                                      // InputError at the first key that was not read
-    [[noreturn]] void refuse(const char* key, const std::string& rule) const;  // throws InputError at the place of the key
+    // Throws InputError at the place of the key. in_quotes: a text is shown with its quotes, for it stands in place of another kind.
+    [[noreturn]] void refuse(const char* key, const std::string& rule, bool in_quotes = false) const;
 
 private:
     template <typename Value>

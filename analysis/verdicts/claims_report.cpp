@@ -180,36 +180,11 @@ json quantities_of(const std::vector<Verdict>& verdicts)
     return quantities;
 }
 
-// A cell of a Markdown table: one line, with vertical bars escaped.
-std::string markdown_cell(const std::string& text)
-{
-    std::string cell;
-    for (char c : text) {
-        if (c == '|') cell += '\\';
-        cell += c == '\n' ? ' ' : c;
-    }
-    return cell;
-}
-
 const char* colour_of(VerdictKind kind)
 {
     constexpr const char *green = "\033[32m", *yellow = "\033[33m", *red = "\033[31m", *purple = "\033[35m", *grey = "\033[90m";
     constexpr const char* colours[] = {green, red, yellow, grey, grey, purple, red};  // in the order of the enum
     return colours[static_cast<int>(kind)];
-}
-
-struct Layout {
-    std::size_t id, verdict, statement, facts;
-};
-
-Layout layout_of(const std::vector<Verdict>& verdicts, std::size_t width)
-{
-    Layout layout = {.id = 2, .verdict = 14, .statement = 0, .facts = 0};
-    for (const Verdict& verdict : verdicts) layout.id = std::max(layout.id, characters(verdict.claim.id));
-    const std::size_t rest = std::max<std::size_t>(width, 60) - layout.id - layout.verdict - 6;
-    layout.statement = rest * 2 / 5;
-    layout.facts = rest - layout.statement;
-    return layout;
 }
 
 std::string spoken(std::string name)
@@ -334,16 +309,20 @@ std::string claims_markdown(const std::vector<Verdict>& verdicts)
 
 std::string claims_table(const std::vector<Verdict>& verdicts, std::size_t width, bool colours)
 {
-    const Layout layout = layout_of(verdicts, width);
+    constexpr std::size_t verdict_width = 14, gaps = 6;
     const std::size_t whole = std::max<std::size_t>(width, 60);
-    std::string table = side_by_side({{"", layout.id}, {"verdict", layout.verdict}, {"claim", layout.statement}, {"facts", layout.facts}});
-    table += std::string(whole, '-') + "\n";
-    for (const Verdict& verdict : verdicts)
-        table += side_by_side({{verdict.claim.id, layout.id},
-                               {spoken(name_of(verdict.kind)), layout.verdict, colours ? colour_of(verdict.kind) : ""},
-                               {fmt::format("{} ({})", verdict.claim.statement, verdict.claim.place), layout.statement},
-                               {facts_text(verdict), layout.facts}}) +
-                 "\n";
+    std::size_t id_width = 2;
+    for (const Verdict& verdict : verdicts) id_width = std::max(id_width, characters(verdict.claim.id));
+    const std::size_t rest = whole - id_width - verdict_width - gaps, statement_width = rest * 2 / 5;
+    const auto row = [&](const std::string& id, const TextColumn& kind, const std::string& statement, const std::string& facts) {
+        return side_by_side({{id, id_width}, kind, {statement, statement_width}, {facts, rest - statement_width}});
+    };
+    std::string table = row("", {"verdict", verdict_width}, "claim", "facts") + std::string(whole, '-') + "\n";
+    for (const Verdict& verdict : verdicts) {
+        const TextColumn kind{spoken(name_of(verdict.kind)), verdict_width, colours ? colour_of(verdict.kind) : ""};
+        table +=
+            row(verdict.claim.id, kind, fmt::format("{} ({})", verdict.claim.statement, verdict.claim.place), facts_text(verdict)) + "\n";
+    }
     for (const std::string& text : closing_texts(verdicts))
         for (const std::string& line : wrapped(text, whole)) table += line + "\n";
     return table;

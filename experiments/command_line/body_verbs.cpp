@@ -198,6 +198,7 @@ pbs::TetMesh meshed(const MeshArguments& arguments, const pbs::SurfaceMesh& surf
 
 int mesh(const MeshArguments& arguments)
 {
+    const pbs::Stage stage("reading " + arguments.surface);
     std::vector<std::string> remarks;
     const pbs::SurfaceMesh surface = pbs::read_surface(arguments.surface, remarks, arguments.scale);
     warn(remarks);

@@ -203,9 +203,24 @@ bool explain_deformer_or_scene(const std::string& name)
     return false;
 }
 
-std::vector<std::string> known_names()
+// The verbs that --help lists.
+std::vector<const CLI::App*> verbs_of(const CLI::App& app)
+{
+    return app.get_subcommands([](const CLI::App* verb) { return !verb->get_group().empty(); });
+}
+
+// As --help prints it.
+bool explain_verb(const CLI::App& app, const std::string& name)
+{
+    for (const CLI::App* verb : verbs_of(app))
+        if (verb->get_name() == name) return fmt::print("{}", verb->help(app.get_name())), true;
+    return false;
+}
+
+std::vector<std::string> known_names(const CLI::App& app)
 {
     std::vector<std::string> names;
+    for (const CLI::App* verb : verbs_of(app)) names.push_back(verb->get_name());
     for (const auto& key : scene_schema().keys) names.insert(names.end(), {key.path(), key.name});
     for (const auto& text : metric_texts()) names.push_back(text.name);
     for (const auto& claim : claims()) {
@@ -218,13 +233,14 @@ std::vector<std::string> known_names()
     return names;
 }
 
-int explain(const std::string& name)
+int explain(const CLI::App& app, const std::string& name)
 {
-    bool found = false;
+    bool found = explain_verb(app, name);
     for (const auto explain_one : {explain_metric, explain_claim, explain_study, explain_deformer_or_scene, explain_key})
         found |= explain_one(name);
     if (!found)
-        throw pbs::InputError("", 0, "explain", name, "unknown name; the nearest known one is " + pbs::nearest_name(name, known_names()));
+        throw pbs::InputError("", 0, "explain", name,
+                              "unknown name; the nearest known one is " + pbs::nearest_name(name, known_names(app)));
     return exit_finished;
 }
 
@@ -233,9 +249,8 @@ int explain(const std::string& name)
 std::string describe(const CLI::App& app)
 {
     json verbs = json::array();
-    for (const CLI::App* verb : app.get_subcommands(std::function<bool(const CLI::App*)>{}))
-        if (!verb->get_group().empty())
-            verbs.push_back({{"name", verb->get_name()}, {"meaning", verb->get_description()}, {"options", describe_options(*verb)}});
+    for (const CLI::App* verb : verbs_of(app))
+        verbs.push_back({{"name", verb->get_name()}, {"meaning", verb->get_description()}, {"options", describe_options(*verb)}});
     const json all = {{"name", app.get_name()},
                       {"meaning", app.get_description()},
                       {"options", describe_options(app)},
@@ -254,14 +269,14 @@ void add_list_verb(CommandLine& line)
         ->check(CLI::IsMember({"cases", "scenes", "deformers", "studies", "claims", "metrics"}));
 }
 
-// pbskin explain NAME: prints what a metric, claim, scene key, study, deformer or scene means.
+// pbskin explain NAME: prints what a metric, claim, scene key, study, deformer, scene or verb means.
 
 void add_explain_verb(CommandLine& line)
 {
     auto name = std::make_shared<std::string>();
-    CLI::App* verb =
-        line.add("explain", "prints what a metric, claim, scene key, study, deformer or scene means", [name] { return explain(*name); });
-    verb->add_option("name", *name, "its name, e.g. volume_change_pct, C02, pbs.k_volume")->required();
+    CLI::App* verb = line.add("explain", "prints what a metric, claim, scene key, study, deformer, scene or verb means",
+                              [&app = line.app, name] { return explain(app, *name); });
+    verb->add_option("name", *name, "its name, e.g. volume_change_pct, C02, pbs.k_volume, measure")->required();
 }
 
 }  // namespace experiments

@@ -113,10 +113,11 @@ FoundFrames sequences_in(const std::string& argument, const std::vector<std::str
     return found;
 }
 
+// Two files alone show no step: between frames 1 and 3, frame 2 is missing.
 void require_no_gap(const Sequence& sequence)
 {
     const auto& files = sequence.files;
-    long long step = std::numeric_limits<long long>::max();
+    long long step = files.size() < 3 ? 1 : std::numeric_limits<long long>::max();
     for (auto file = files.begin(); std::next(file) != files.end(); ++file) step = std::min(step, std::next(file)->first - file->first);
     for (auto file = files.begin(); std::next(file) != files.end(); ++file) {
         const long long wanted = file->first + step;

@@ -57,7 +57,7 @@ constexpr std::array units = {Unit{10.0, "millimetres against centimetres"}, Uni
 constexpr double nearness = 0.1, twofold = 2.0;
 
 // Frames that another program has written. They must have the vertices of the rest mesh, in the same order and in the same unit.
-//   const RestMesh rest(pbs::read_tet_mesh("rest.msh"));
+//   const RestMesh rest(pbs::read_tet_mesh("rest.msh", false));
 //   const pbs::Positions positions = rest.read_frame("frame_0001.vtu");
 class RestMesh {
 public:
@@ -179,7 +179,7 @@ int measure(const MeasureArguments& arguments, bool quiet)
     if (!arguments.csv.empty()) analysis::require_writable(arguments.csv);
     require_writable(arguments.reports);
     const std::vector<std::string> paths = frame_files(arguments.frames), names = frame_names(paths);
-    const pbs::MeshReading reading = pbs::read_tet_mesh(arguments.rest);
+    const pbs::MeshReading reading = pbs::read_tet_mesh(arguments.rest, false);
     warn(pbs::remarks_on(arguments.rest, reading));
     const RestMesh rest(reading);
     const analysis::MeshMetrics mesh_metrics(rest.mesh().rest, rest.mesh().tets);

@@ -6,13 +6,14 @@
 #include "experiments/process/child_process.hpp"
 #include "experiments/process/terminal.hpp"
 #include "experiments/run/run.hpp"
+#include "experiments/run/run_folder.hpp"
 #include "experiments/trial/trial.hpp"
-#include "pbs/character/body_cache.hpp"
-#include "pbs/character/json_file.hpp"
+#include "pbs/geometry/child_process.hpp"
 #include "pbs/geometry/files.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
 
@@ -39,52 +40,72 @@ std::string python_that_draws()
                           "no python3 that can import numpy and matplotlib: install python3-numpy and python3-matplotlib");
 }
 
-// Runs the scene that was just written. If it is refused, nothing of it is left behind.
-RunResult run_new_scene(const std::string& scene_file, const std::string& folder, bool folder_is_new, int threads,
-                        const std::vector<std::string>& warnings)
+// Runs the scene that was just written. If it is refused before the run has written anything, the folder is left as it was.
+RunResult run_new_scene(const std::string& scene_file, const std::string& earlier_scene, const TrialOptions& options,
+                        bool folder_is_new, int threads, const std::vector<std::string>& warnings)
 {
     try {
         Scene scene = read_scene(scene_file, {});
         for (DeformerSpec& spec : scene.deformers) spec.threads = threads;
-        return run_scene(scene, folder, warnings);
+        scene.output.surface_files = options.paraview;
+        return run_scene(scene, options.folder, warnings);
     } catch (const pbs::InputError&) {
         std::error_code code;
-        fs::remove(scene_file, code);
-        if (folder_is_new) fs::remove(folder, code);  // fails if anything else is there
+        if (!earlier_scene.empty())
+            analysis::write_text_atomically(scene_file, earlier_scene);
+        else if (!fs::exists(fs::path(options.folder) / "frames", code))
+            fs::remove(scene_file, code);
+        if (folder_is_new) fs::remove(options.folder, code);  // fails if anything else is there
         throw;
     }
 }
 
-// The scene of an earlier trial is replaced. One that was changed since, or written by somebody else, is not.
-void refuse_a_scene_of_the_user(const std::string& scene_file, const std::string& text)
+// Of a trial remain the page, the tables, the .glb files and the artist's surface. The frames for ParaView take most of the space; once the
+// page is written, it has what it shows of them.
+void leave_what_is_of_use(const TrialOptions& options, bool has_page)
 {
-    if (!fs::exists(scene_file)) return;
-    const std::string found = pbs::read_text_file(scene_file, pbs::most_text_bytes);
-    const fs::path facts_file = fs::path(scene_file).parent_path() / "try.json";
-    const bool is_of_a_trial = fs::exists(facts_file) && pbs::JsonFile(facts_file.string()).at("scene_hash") == pbs::content_hash(found);
-    if (found != text && !is_of_a_trial)
-        throw pbs::InputError(scene_file, 0, "", "",
-                              "exists and is not the scene of a trial: expected another folder (-o); `pbskin run` runs this scene");
+    const fs::path folder = options.folder;
+    const bool leaves_out = has_page && !options.paraview;
+    if (leaves_out) {
+        remove_frames(options.folder);
+        if (pbs::read_text_file((folder / "report.html").string()).find("id=\"viewer-block\"") == std::string::npos)
+            warn(
+                {fmt::format("{}: has no viewer, for the reason above; --paraview keeps the frames of which `pbskin report` makes one, and "
+                             "frames/*.glb have the moving surfaces",
+                             (folder / "report.html").string())});
+    }
+    std::uintmax_t bytes = 0;
+    int files = 0;
+    for (const auto& file : fs::recursive_directory_iterator(folder)) {
+        if (!file.is_regular_file()) continue;
+        bytes += file.file_size();
+        ++files;
+    }
+    spdlog::info("{}: {:.1f} MB in {} files{}", options.folder, static_cast<double>(bytes) / 1e6, files,
+                 leaves_out ? ", without frames for ParaView (--paraview keeps them)" : "");
 }
 
 int try_model(TrialOptions options, const CommonOptions& common)
 {
     if (options.folder.empty()) options.folder = "results/" + fs::path(options.model).stem().string();
-    const TrialScene made = trial_scene(options);
+    const TrialScene made = [&] {
+        const pbs::Stage stage("reading " + options.model);
+        return trial_scene(options);
+    }();
     const bool is_new = analysis::make_output_folder(options.folder);
-    const std::string scene_file = (fs::path(options.folder) / "scene.toml").string();
-    refuse_a_scene_of_the_user(scene_file, made.text);
+    const std::string scene_file = (fs::path(options.folder) / "scene.toml").string(), earlier_scene = earlier_trial_scene(options);
     analysis::write_text_atomically(scene_file, made.text);
 
-    const RunResult result = run_new_scene(scene_file, options.folder, is_new, common.threads, made.remarks);
+    const RunResult result = run_new_scene(scene_file, earlier_scene, options, is_new, common.threads, made.remarks);
     for (const auto& line : result.lines) spdlog::info("{}", line);
     nlohmann::json facts = trial_facts(options.folder);
-    facts["scene_hash"] = pbs::content_hash(made.text);
+    facts["animations"] = made.animations;
     facts["summary"] = trial_sentence(facts);
     analysis::write_text_atomically((fs::path(options.folder) / "try.json").string(), analysis::record_text(facts));
     spdlog::info("{}", facts["summary"].get<std::string>());
     spdlog::info("To go on, change {} and run it with `pbskin run`.", scene_file);
     const int page = write_report_page(options.folder, common.quiet);
+    leave_what_is_of_use(options, page == exit_finished);
     if (result.failure().empty()) return page;
     spdlog::error("pbskin: {}", result.failure());
     return exit_breakdown;
@@ -99,6 +120,7 @@ int write_report_page(const std::string& folder, bool quiet)
     if (!fs::is_regular_file(page_maker()))
         throw pbs::InputError(page_maker().string(), 0, "", "",
                               "not found: the page is made by scripts that are installed with the program");
+    const pbs::Stage stage("making the page " + (fs::path(folder) / "report.html").string());
     std::vector<std::string> words = {python_that_draws(), "-B", page_maker().string(), folder};
     if (quiet) words.push_back("--quiet");
     const ProgramRun page = run_program(words, std::nullopt);
@@ -122,8 +144,10 @@ void add_try_verb(CommandLine& line)
                               [&common = line.common, options] { return try_model(*options, common); });
     verb->add_option("model", options->model, ".glb .gltf .fbx .dae .zae")->required();
     verb->add_option("--animation", options->animation,
-                     "an animation of the model by name, or a clip (.bvh .gltf .glb .fbx); by default the model's first one");
-    verb->add_option("-o,--output", options->folder, "folder of the records; by default results/NAME");
+                     "an animation of the model by name, the second of equal names being NAME (2), or a clip (.bvh .gltf .glb .fbx); by "
+                     "default the model's first one that turns a joint by more than 5 degrees");
+    verb->add_option("-o,--output", options->folder,
+                     "folder of the records; by default results/NAME; an earlier trial of the same model there is replaced");
     verb->add_option("--frames", options->frames, "largest number of frames, distributed over the motion")
         ->check(CLI::Range(2, 100'000))
         ->capture_default_str();
@@ -131,6 +155,7 @@ void add_try_verb(CommandLine& line)
         ->check(CLI::Range(150, 10'000'000));
     verb->add_option("--skeleton", options->skeleton, "skeleton of a model without joints: a file, or human");
     verb->add_option("--scale", options->scale, "enlarges the model, for files that state a wrong unit");
+    verb->add_flag("--paraview", options->paraview, "keeps the frames for ParaView too (.vtu, .vtp), which take most of the space");
     verb->add_flag("--allow-partial", options->allow_partial, "accepts a clip of which fewer than half of the moving joints match a bone");
     verb->add_flag_callback(
         "--no-reference", [options] { options->reference = false; }, "leaves out the finite elements, which take most of the time");

@@ -49,7 +49,8 @@ int write_report_page(const std::string& folder, bool quiet);
 // - for a pattern or a folder that has no frames,
 // - for names that differ in several numbers,
 // - for a folder with several sequences,
-// - for a number that is missing between the first and the last of a sequence, by its own smallest step: every fifth frame is no gap.
+// - for a number that is missing between the first and the last of a sequence, by its own smallest step: every fifth frame is no gap, if
+//   there are three or more.
 std::vector<std::string> frame_files(const std::vector<std::string>& arguments);
 
 // The names of the frames in reports: the file's name, or its path as given if several files have that name.

@@ -243,7 +243,13 @@ ProgramRun run_program(const std::vector<std::string>& program_and_arguments, co
         run.last_words = std::strerror(failure);
         return run;
     }
-    const int status = status_of(child);
+    int status = 0;
+    bool told_to_stop = false;
+    while (waitpid(child, &status, WNOHANG) == 0) {
+        if (interrupted() && !std::exchange(told_to_stop, true)) kill(child, SIGTERM);
+        wait_for_text({});
+    }
+    stop_if_interrupted();
     run.status = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
     if (!folder) return run;
     run.last_words = end_of(analysis::read_text(output));

@@ -1,13 +1,17 @@
 #include "experiments/process/terminal.hpp"
 
 #include "pbs/geometry/child_process.hpp"
+#include "pbs/geometry/files.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 #include <sys/ioctl.h>
+#include <sys/time.h>
 #include <unistd.h>
 
+#include <atomic>
+#include <cerrno>
 #include <charconv>
 #include <csignal>
 #include <cstdio>
@@ -22,13 +26,66 @@ namespace experiments {
 namespace {
 
 volatile std::sig_atomic_t signalled = 0;
+bool progress_is_hidden = false;
+
+// The work that is interrupted has the time of grace to end by itself: a step between two frames, and the tables of the frames before it.
+constexpr double grace_s = 0.7, long_stage_s = 2.0;
+constexpr char last_words[] = "interrupted; what was finished is kept";
+
+// Of stages in the process that watches; its children are ended by it. Signal handlers read them.
+std::atomic<pid_t> watching = 0;
+std::atomic<int> stages = 0, line_length = 0;  // 0: the line of the innermost stage has been printed
+char line_of_stage[800];
+
+void ring_after(double seconds)
+{
+    const auto whole = static_cast<time_t>(seconds);
+    const itimerval once{{0, 0}, {whole, static_cast<suseconds_t>(1e6 * (seconds - static_cast<double>(whole)))}};
+    setitimer(ITIMER_REAL, &once, nullptr);
+}
+
+void print_from_handler(const char* text, std::size_t length)
+{
+    if (::write(STDERR_FILENO, text, length) < 0) return;  // nobody reads it
+}
 
 void on_signal(int)
 {
     signalled = 1;
+    if (stages > 0 && getpid() == watching) ring_after(grace_s);
 }
 
-bool progress_is_hidden = false;
+void on_alarm(int)
+{
+    const int error = errno;
+    if (signalled != 0) {
+        pbs::AtomicFile::remove_unfinished();
+        for (const char* text : {"pbskin: ", last_words, "\n"}) print_from_handler(text, std::strlen(text));
+        _exit(exit_interrupted);
+    }
+    ring_after(long_stage_s);
+    if (signalled != 0) ring_after(grace_s);  // a signal came after the first line
+    if (const int length = line_length.exchange(0); length > 0) print_from_handler(line_of_stage, static_cast<std::size_t>(length));
+    errno = error;
+}
+
+void begin_stage(const std::string& name)
+{
+    stop_if_interrupted();
+    if (getpid() != watching) return;
+    if (stages++ == 0) ring_after(long_stage_s);
+    line_length = 0;
+    const auto line = fmt::format_to_n(line_of_stage, sizeof line_of_stage, "{:.190} ...\n", name);  // a character has at most 4 bytes
+    if (!progress_is_hidden) line_length = static_cast<int>(line.size);
+}
+
+void end_stage()
+{
+    if (getpid() != watching || --stages > 0) return;
+    line_length = 0;
+    ring_after(0.0);
+}
+
 constexpr int bar_width = 30;
 constexpr double redraw_s = 0.1;
 
@@ -55,7 +112,7 @@ Failure caught_failure()
     } catch (const pbs::InputError& error) {
         return {error.what(), exit_input};
     } catch (const Interrupted&) {
-        return {"interrupted; what was finished is kept", exit_interrupted};
+        return {last_words, exit_interrupted};
     } catch (const std::filesystem::filesystem_error& error) {
         return {pbs::InputError(error.path1().string(), 0, "", "", error.code().message()).what(), exit_input};
     } catch (const std::bad_alloc&) {
@@ -74,6 +131,11 @@ void watch_interrupts()
     action.sa_flags = SA_RESETHAND;  // the second signal ends the program at once
     sigaction(SIGINT, &action, nullptr);
     sigaction(SIGTERM, &action, nullptr);
+    action.sa_handler = on_alarm;
+    action.sa_flags = SA_RESTART;  // work goes on as if nothing had happened
+    sigaction(SIGALRM, &action, nullptr);
+    watching = getpid();
+    pbs::stage_watcher = {begin_stage, end_stage};
     pbs::ask_while_reading(stop_if_interrupted);
     std::signal(SIGXFSZ, SIG_IGN);  // then a file over the limit (ulimit -f) is a write error, as on a full disk
 }
@@ -85,7 +147,9 @@ bool interrupted()
 
 void stop_if_interrupted()
 {
-    if (interrupted()) throw Interrupted{};
+    if (!interrupted()) return;
+    if (getpid() == watching) ring_after(0.0);  // from here on, the work ends by itself
+    throw Interrupted{};
 }
 
 std::size_t terminal_width()

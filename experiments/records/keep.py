@@ -25,7 +25,7 @@ DRAWN = ("bones.csv", "bones_rest.csv", "binding.csv", "embedding.csv")  # besid
 MOST_BYTES = 14_000_000
 RAW = ("points.csv", "rates.csv")  # the measured points of a run, from which the study's tables follow: kept whatever their length
 PICTURED = ("nh_p2",)  # the reference in the picture of the README, which no claim selects
-PAGES = ("bench.txt",)  # the text that a study prints on the screen, where it writes no page
+PAGES = ("bench.txt",)  # a study's texts that are no pages
 TABLE_BYTES = 60_000  # of a run's further tables; longer ones are made again by the run
 SUMMARY_BYTES = 200_000  # of a study's own files, which sum up its runs'
 

@@ -64,7 +64,7 @@ const Rows all_columns =
          {"iterations", &MetricRow::iterations, "", "iterations per step, those of all substeps; empty if the deformer has none"},
          {"threads", &MetricRow::threads, "", "number of threads"},
          {"frame", &MetricRow::frame, "", "number of the frame, from 0"},
-         {"time_s", &MetricRow::time_s, "s", "time since the motion began"}} +
+         {"time_s", &MetricRow::time_s, "s", "time since the motion began; outcome.motion.time_zero of run.json states when that is"}} +
     within(&MetricRow::measured, measured_columns) +
     Rows{{"step_ms", &MetricRow::step_ms, "ms", "wall time of the deformer for this frame, without measuring and writing"}} +
     within(&MetricRow::measured, within(&FrameMeasurement::errors, error_columns) +

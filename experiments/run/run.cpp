@@ -9,6 +9,8 @@
 #include "experiments/scene/scene.hpp"
 #include "pbs/character/bodies.hpp"
 #include "pbs/character/body_cache.hpp"
+#include "pbs/character/separated_parts.hpp"
+#include "pbs/geometry/child_process.hpp"
 #include "pbs/geometry/cost.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/solver/step_summary.hpp"
@@ -17,6 +19,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <ctime>
@@ -58,10 +61,10 @@ std::vector<Runner> make_runners(const Scene& scene, const pbs::Character& chara
     std::vector<Runner> runners;
     for (const DeformerSpec& spec : scene.deformers) {
         cost.time("set_up", spec.label, [&] {
+            const pbs::Stage stage("setting up " + spec.label);
             runners.push_back({spec, traits_of(spec), make_deformer(spec)});
             runners.back().deformer->reset(character);
         });
-        stop_if_interrupted();
     }
     // The reference moves first, so that a frame's errors can be measured.
     std::stable_partition(runners.begin(), runners.end(), [&](const Runner& runner) { return runner.spec.name == scene.reference; });
@@ -96,15 +99,26 @@ OutputSpec measured_output(const Scene& scene)
     return output;
 }
 
-// Warnings of a run reach the terminal at once and run.json at its end. Records name files without folders of the machine:
-// "folder/hero.glb: two joints ..." -> "hero.glb: two joints ...".
-void add_warnings(const std::vector<std::string>& remarks, std::vector<std::string>& warnings)
+constexpr double many_inverted_pct = 1.0;    // of the tets, in the first frame
+constexpr double large_mask_pct = 10.0;      // of the volume
+constexpr double far_from_artist_pct = 2.0;  // of the model's size
+
+// Warnings and notes of a run reach the terminal at once and run.json at its end, each once. Records name files without folders of the
+// machine: "folder/hero.glb: two joints ..." -> "hero.glb: two joints ...".
+void add_remarks(const std::vector<std::string>& remarks, std::vector<std::string>& recorded, const char* kind)
 {
-    warn(remarks);
     for (const std::string& remark : remarks) {
         const std::size_t end = remark.find(": ");
-        warnings.push_back(end == std::string::npos ? remark : pbs::file_name(remark.substr(0, end)) + remark.substr(end));
+        const std::string text = end == std::string::npos ? remark : pbs::file_name(remark.substr(0, end)) + remark.substr(end);
+        if (std::ranges::count(recorded, text) > 0) continue;
+        spdlog::warn("pbskin: {}: {}", kind, remark);
+        recorded.push_back(text);
     }
+}
+
+void add_warnings(const std::vector<std::string>& remarks, std::vector<std::string>& warnings)
+{
+    add_remarks(remarks, warnings, "warning");
 }
 
 std::vector<std::string> printed(const std::vector<std::string>& remarks)
@@ -125,20 +139,19 @@ pbs::Character character_with_warnings(const Scene& scene, std::vector<std::stri
     return character;
 }
 
-// Reads the motion, and adds the hashes of its clip to the character's inputs; a sweep has no clip. A clip whose names partly match is
-// expected for the bodies by name, which are made for other clips too.
+// Reads the motion, and adds the hashes of its clip to the character's inputs; a sweep has no clip.
 CaseMotion read_motion(const Scene& scene, pbs::Character& character, std::vector<std::string>& warnings)
 {
     const pbs::InputFile clip(scene.motion.clip);
-    MotionSpec spec = scene.motion;
-    spec.allow_partial = spec.allow_partial || !scene.character.body.empty();
-    CaseMotion motion = make_case_motion(spec, character, scene.file);
-    if (!motion.partial_match.empty() && scene.character.body.empty()) motion.remarks.push_back(motion.partial_match);
+    CaseMotion motion = make_case_motion(scene.motion, character, scene.file);
     add_warnings(motion.remarks, warnings);
     if (scene.motion.clip.empty()) return motion;
     for (const auto& hashed : clip.hashed()) character.inputs.push_back(hashed);
     return motion;
 }
+
+// [s] of finished frames whose rows an interruption in the middle of a long step may lose.
+constexpr double longest_loss_s = 1.0;
 
 class SceneRun {
 public:
@@ -153,9 +166,11 @@ public:
               cost_.time("metrics_set_up", [&] { return FrameMeasurer(character_, measured_output(scene), prescribed_by_any(runners_)); })),
           folder_((refuse_frames_beyond(motion_, scene), scene), character_, folder)
     {
+        add_warnings(folder_.remarks(), warnings_);
         if (scene.output.surface && character_.surface && !measurer_.measures_surface_volume())
-            add_warnings({scene.file + ": surface_volume_change_pct is empty: the rendered surface is open or encloses no volume"},
-                         warnings_);
+            add_remarks({scene.file + ": surface_volume_change_pct is empty: the rendered surface is open or encloses no volume"}, notes_,
+                        "note");
+        warn_of_bones_without_flesh();
         if (scene.error_bar != ErrorBar::none)
             cost_.time("error_bar_set_up", [&] { error_bar_.emplace(scene.error_bar, runners_.front().spec, character_); });
     }
@@ -165,19 +180,38 @@ public:
         try {
             play();
         } catch (const Interrupted&) {
-            folder_.write_tables();
+            folder_.write_tables(true);
             throw;
         }
         return finish();
     }
 
 private:
+    // As a root on the ground, from which a rig hangs.
+    void warn_of_bones_without_flesh()
+    {
+        for (const Runner& runner : runners_) {
+            const nlohmann::json record = runner.deformer->record();
+            const nlohmann::json::json_pointer bones("/attachment/bones");
+            if (!record.contains(bones)) continue;
+            std::vector<std::string> without;
+            for (const nlohmann::json& grip : record.at(bones))
+                if (grip.value("tets_gripped", 1) == 0) without.push_back(grip.at("bone").get<std::string>());
+            if (!without.empty())
+                add_warnings({fmt::format("{}: {} leaves out {} of {} bones, whose middle lies outside the flesh: {}", scene_.file,
+                                          runner.spec.label, without.size(), character_.skeleton.bones.size(), pbs::name_list(without))},
+                             warnings_);
+        }
+    }
+
     void play()
     {
         std::vector<pbs::Pose> frames;
         for (std::size_t step = 0; step < motion_.steps.size(); step += motion_.steps_per_frame) frames.push_back(motion_.steps[step]);
         for (Runner& runner : runners_) runner.deformer->foresee(runner.deformer->has_memory() ? motion_.steps : frames);
         Progress progress(scene_.name, static_cast<int>(motion_.steps.size()));
+        const pbs::Stage stage(fmt::format("moving {} through {} frames", scene_.name, frames.size()));
+        pbs::Stopwatch since_tables;
         for (std::size_t step = 0; step < motion_.steps.size(); ++step) {
             stop_if_interrupted();
             const bool is_frame = step % motion_.steps_per_frame == 0;
@@ -189,6 +223,10 @@ private:
             if (error_bar_ && (is_frame || runners_.front().deformer->has_memory()))
                 cost_.time("error_bar", [&] { error_bar_->advance(motion_.steps[step], motion_.time_step_s); });
             if (is_frame) record_frame(static_cast<int>(step / motion_.steps_per_frame), step);
+            if (since_tables.seconds() > longest_loss_s) {
+                folder_.write_tables(false);
+                since_tables = {};
+            }
             progress.advance_to(static_cast<int>(step) + 1);
         }
     }
@@ -204,28 +242,73 @@ private:
             context.reference = &first.deformer->positions();
             const double masked_pct = cost_.time("metrics", [&] { return measurer_.leave_out_overlap(*context.reference); });
             frames_with_overlap_ += masked_pct > 0.0;
+            if (masked_pct > largest_masked_share_pct_) frame_of_largest_mask_ = frame;
             largest_masked_share_pct_ = std::max(largest_masked_share_pct_, masked_pct);
             if (error_bar_) cost_.time("error_bar", [&] { context.reference_error = error_bar_->bound(*context.reference, measurer_); });
         }
         for (Runner& runner : runners_) record_deformer(runner, frame, time_s, context);
-        if (frame == 0) warn_of_inverted_start();
+        if (frame == 0) remark_on_inverted_start();
         if (scene_.output.writes(frame)) {
             folder_.write_pose(frame, time_s, character_.skeleton, motion_.steps[step]);
-            folder_.write_artist_skin(frame, time_s, character_, scene_.motion);
+            folder_.write_artist_skin(frame, time_s, character_, scene_.motion, motion_.steps[step]);
         }
         ++frames_;
     }
 
-    // Blending that inverts tets in the first frame, before anything has moved far, points to a rest pose that is not the model's.
-    void warn_of_inverted_start()
+    // Blending that inverts many tets in the first frame, before anything has moved far, points to a rest pose that is not the model's.
+    void remark_on_inverted_start()
     {
         if (!scene_.character.body.empty()) return;  // made with its skeleton
-        for (const Runner& runner : runners_)
-            if (traits_of(runner.spec).blends_linearly && runner.most_inverted > 0)
-                add_warnings({fmt::format("{}: {} has {} inverted tets in the first frame: its pose is far from the bind pose, or the "
-                                          "weights do not fit the joints",
-                                          scene_.file, runner.spec.label, runner.most_inverted)},
-                             warnings_);
+        std::vector<std::string> counts;
+        int most = 0;
+        for (const Runner& runner : runners_) {
+            if (!traits_of(runner.spec).blends_linearly || runner.most_inverted == 0) continue;
+            counts.push_back(fmt::format("{} has {}", runner.spec.label, runner.most_inverted));
+            most = std::max(most, runner.most_inverted);
+        }
+        if (counts.empty()) return;
+        const Eigen::Index tets = character_.mesh.tets.rows();
+        const std::string text =
+            fmt::format("{}: {} inverted tets in the first frame, of {}", scene_.file, fmt::join(counts, " and "), tets);
+        if (most > many_inverted_pct / 100.0 * static_cast<double>(tets))
+            add_warnings({text + ": its pose is far from the bind pose, or the weights do not fit the joints"}, warnings_);
+        else
+            add_remarks({text}, notes_, "note");
+    }
+
+    void warn_of_large_mask()
+    {
+        if (largest_masked_share_pct_ > large_mask_pct)
+            add_warnings({fmt::format("{}: errors leave out {:.0f} % of the volume in frame {}, where the reference overlaps itself or is "
+                                      "inverted",
+                                      scene_.file, largest_masked_share_pct_, frame_of_largest_mask_)},
+                         warnings_);
+    }
+
+    // How well the tets carry the artist's surface. Parts that they weld together follow the wrong bone.
+    nlohmann::json record_followed_skin()
+    {
+        const RunFolder::FollowedSkin& followed = folder_.followed_skin();
+        if (followed.frame < 0) return nullptr;
+        const pbs::Positions& rest = character_.artist->model->body.surface;
+        const double pct = 100.0 * followed.largest_m / (rest.colwise().maxCoeff() - rest.colwise().minCoeff()).norm();
+        const pbs::Carrier carrier = pbs::carrier_of(character_, followed.vertex);
+        const auto name = [&](int bone) { return character_.skeleton.bones[static_cast<std::size_t>(bone)].name; };
+        if (pct > far_from_artist_pct)
+            add_warnings(
+                {fmt::format("{}: the surface that LBS carries with the tets is up to {:.1f} % of the model's size away from the "
+                             "artist's, in frame {}: ",
+                             scene_.file, pct, followed.frame) +
+                 (carrier.bone == carrier.of_flesh
+                      ? fmt::format("the tets at {} are too coarse for its weights; character.vertices asks for more", name(carrier.bone))
+                      : fmt::format("there the flesh of {} carries the surface of {}, with a gap of {:.3g} mm at rest",
+                                    name(carrier.of_flesh), name(carrier.bone), 1e3 * carrier.gap_m))},
+                warnings_);
+        return {{"largest_pct", pct},
+                {"frame", followed.frame},
+                {"bone", name(carrier.bone)},
+                {"bone_of_flesh", name(carrier.of_flesh)},
+                {"gap_mm", 1e3 * carrier.gap_m}};
     }
 
     void record_deformer(Runner& runner, int frame, double time_s, FrameContext context)
@@ -308,8 +391,13 @@ private:
             outcome["largest_masked_share_pct"] = largest_masked_share_pct_;
         }
         if (error_bar_) outcome["frames_below_reference_error"] = frames_below_reference_error_;
+        warn_of_large_mask();
+        if (const nlohmann::json followed = record_followed_skin(); !followed.is_null()) outcome["from_artist"] = followed;
         outcome["warnings"] = warnings_;
-        outcome["motion"] = {{"largest_rotation_deg", motion_case_.largest_rotation_deg}};
+        outcome["notes"] = notes_;
+        outcome["motion"] = {{"largest_rotation_deg", motion_case_.largest_rotation_deg},
+                             {"time_zero", motion_case_.time_zero},
+                             {"time_zero_s", motion_case_.time_zero_s}};
         if (motion_case_.clip_joints > 0)
             outcome["motion"].update({{"clip_joints", motion_case_.clip_joints}, {"matched_joints", motion_case_.matched_joints}});
         outcome.update(run_end(stopwatch_.seconds()));
@@ -326,7 +414,7 @@ private:
     }
 
     const Scene& scene_;
-    std::vector<std::string> warnings_;
+    std::vector<std::string> warnings_, notes_;
     CostRecord cost_;
     pbs::Stopwatch stopwatch_;
     pbs::Character character_;
@@ -336,7 +424,7 @@ private:
     FrameMeasurer measurer_;
     std::optional<ReferenceErrorBar> error_bar_;
     RunFolder folder_;  // made last, for it removes the records of an earlier run
-    int frames_ = 0, frames_with_overlap_ = 0;
+    int frames_ = 0, frames_with_overlap_ = 0, frame_of_largest_mask_ = 0;
     double largest_masked_share_pct_ = 0.0;
     std::string breakdown_, bad_frame_;
     std::set<std::string> bad_labels_;                                    // of the deformers with bad frames
@@ -349,7 +437,10 @@ private:
 
 RunResult run_scene(const Scene& scene, const std::string& folder, const std::vector<std::string>& warnings)
 {
-    return SceneRun(scene, folder, warnings).run();
+    std::optional<pbs::Stage> preparing("preparing " + scene.name);
+    SceneRun run(scene, folder, warnings);
+    preparing.reset();
+    return run.run();
 }
 
 }  // namespace experiments

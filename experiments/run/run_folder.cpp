@@ -10,6 +10,7 @@
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/mesh_io.hpp"
 #include "pbs/geometry/topology.hpp"
+#include "pbs/rig/rig_reader.hpp"
 
 #include <fmt/format.h>
 
@@ -67,6 +68,12 @@ nlohmann::json character_record(const pbs::Character& character)
     return record;
 }
 
+// A model without joints has no skinning of its own.
+bool has_artist_skin(const pbs::Character& character)
+{
+    return character.artist && character.artist->model && !character.artist->model->body.skeleton.bones.empty();
+}
+
 // The files that RunFolder writes into frames/: LABEL_000123.vtu, LABEL_surface_000123.vtp, LABEL.pvd, LABEL.glb.
 bool is_own_frame(const fs::path& file)
 {
@@ -96,7 +103,12 @@ RunFolder::RunFolder(const Scene& scene, const pbs::Character& character, const 
     if (fs::is_directory(fs::path(folder) / "skin"))
         for (const fs::path& file : analysis::files_in(fs::path(folder) / "skin"))
             if (is_own_frame(file)) analysis::remove_record(file);
-    if (character.artist && scene.motion.of_model) fs::create_directories(fs::path(folder) / "skin", error);
+    if (has_artist_skin(character)) fs::create_directories(fs::path(folder) / "skin", error);
+    if (scene.output.glb && character.artist && character.artist->model) {
+        const pbs::RiggedModel& model = *character.artist->model;
+        look_ = model.body.look;
+        materials_ = pbs::read_materials(model.rig.file);
+    }
 }
 
 void RunFolder::add_frame(const DeformerSpec& spec, int frame, double time_s, const FrameMeasurement& measured,
@@ -124,10 +136,12 @@ void RunFolder::write_frame(const DeformerSpec& spec, int frame, double time_s, 
     pbs::write_vtu((frames / frame_file(name, frame, ".vtu")).string(), positions, character.mesh.tets, fields);
     if (character.surface) {
         const pbs::Positions rendered = pbs::embedded_positions(*character.surface, positions, character.mesh.tets);
-        pbs::write_vtp((frames / frame_file(name + "_surface", frame, ".vtp")).string(), rendered, character.surface->triangles);
+        if (scene_.output.surface_files)
+            pbs::write_vtp((frames / frame_file(name + "_surface", frame, ".vtp")).string(), rendered, character.surface->triangles);
         distances_.add(frame, time_s, name, "rendered surface", rendered);
-        if (scene_.output.glb) {
-            surfaces_.try_emplace(name, (frames / (name + ".glb")).string(), name, character.surface->triangles);
+        if (name == "lbs") lbs_surface_ = rendered;
+        if (scene_.output.glb && rendered.allFinite()) {  // a frame that broke down has no place in it
+            surfaces_.try_emplace(name, (frames / (name + ".glb")).string(), name, character.surface->triangles, look_, materials_);
             surfaces_.at(name).add_frame(time_s, rendered);
         }
     } else {
@@ -136,17 +150,31 @@ void RunFolder::write_frame(const DeformerSpec& spec, int frame, double time_s, 
     collections_[name].emplace_back(time_s, frame_file(name, frame, ".vtu"));
 }
 
-void RunFolder::write_artist_skin(int frame, double time_s, const pbs::Character& character, const MotionSpec& motion)
+void RunFolder::write_artist_skin(int frame, double time_s, const pbs::Character& character, const MotionSpec& motion,
+                                  const pbs::Pose& pose)
 {
-    if (!motion.of_model || !character.artist || !character.artist->model->animation) return;
+    if (!has_artist_skin(character)) return;
     const pbs::RiggedModel& model = *character.artist->model;
-    const pbs::Positions points = pbs::artist_frame(model.rig, model.body, *model.animation, sampling_of(motion), frame);
+    const pbs::Positions points = motion.of_model ? pbs::artist_frame(model.rig, model.body, *model.animation, sampling_of(motion), frame)
+                                                  : pbs::artist_points(model.body, pose);
     const std::string file = frame_file("artist", frame, ".vtp");
     pbs::write_vtp((fs::path(folder_) / "skin" / file).string(), points, model.body.triangles);
     artist_frames_.emplace_back(time_s, file);
+    if (lbs_surface_.rows() != points.rows() || !lbs_surface_.allFinite()) return;
+    Eigen::Index vertex = 0;
+    Eigen::VectorXd is_on_surface = Eigen::VectorXd::Zero(points.rows());  // some points of a file belong to no triangle
+    for (const int corner : character.artist->model->body.triangles.reshaped()) is_on_surface(corner) = 1.0;
+    const double largest_m = (lbs_surface_ - points).rowwise().norm().cwiseProduct(is_on_surface).maxCoeff(&vertex);
+    if (followed_.frame < 0 || largest_m > followed_.largest_m) followed_ = {largest_m, frame, vertex};
 }
 
-void RunFolder::write_tables()
+void remove_frames(const std::string& folder)
+{
+    for (const fs::path& file : analysis::files_in(fs::path(folder) / "frames"))
+        if (is_own_frame(file) && file.extension() != ".glb") analysis::remove_record(file);
+}
+
+void RunFolder::write_tables(bool with_moving_surfaces)
 {
     const fs::path folder(folder_);
     metrics_.write((folder / "metrics.csv").string());
@@ -157,7 +185,8 @@ void RunFolder::write_tables()
     if (!bones_.empty()) table_of(posed_bone_columns, bones_).write((folder / "bones.csv").string());
     for (const auto& [name, frames] : collections_) pbs::write_pvd((folder / "frames" / (name + ".pvd")).string(), frames);
     if (!artist_frames_.empty()) pbs::write_pvd((folder / "skin" / "artist.pvd").string(), artist_frames_);
-    for (auto& [name, surface] : surfaces_) surface.write();
+    if (with_moving_surfaces)
+        for (auto& [name, surface] : surfaces_) surface.write();
 }
 
 void RunFolder::write_what_frames_depend_on(const pbs::Character& character) const
@@ -172,7 +201,7 @@ void RunFolder::finish(const pbs::Character& character, const std::map<std::stri
                        const nlohmann::json& outcome, CostRecord& cost, const nlohmann::json& reference_error_method)
 {
     cost.time("records", [&] {
-        write_tables();
+        write_tables(true);
         if (!bones_.empty()) write_what_frames_depend_on(character);
     });
     analysis::Provenance provenance = run_provenance(std::ranges::max(scene_.deformers, {}, &DeformerSpec::threads).threads);

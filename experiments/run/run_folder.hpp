@@ -1,6 +1,6 @@
 // The folder of a run: metrics.csv, frame_statistics.csv, iterations.csv, regions.csv and run.json. If frames are written, it also has
 // frames/, distances.csv, bones.csv, bones_rest.csv, binding.csv and, for a body with a rendered surface, surface_rest.vtp and
-// embedding.csv; of a model's animation skin/. Each file is written whole or not at all. run.json comes last, so that a folder with
+// embedding.csv; for a model with joints skin/. Each file is written whole or not at all. run.json comes last, so that a folder with
 // run.json is a finished run.
 #pragma once
 
@@ -211,8 +211,18 @@ public:
     {
         add_bones(bones_, frame, time_s, skeleton, pose);
     }
-    // skin/artist_000123.vtp: the model's surface by the skinning formula of its file; nothing without an animation of a model.
-    void write_artist_skin(int frame, double time_s, const pbs::Character& character, const MotionSpec& motion);
+    // skin/artist_000123.vtp: the model's surface by the skinning formula of its file, for its animation with scale and shear, for a clip
+    // or a sweep with the bones' rigid pose; nothing for a model without joints.
+    void write_artist_skin(int frame, double time_s, const pbs::Character& character, const MotionSpec& motion, const pbs::Pose& pose);
+    // Where the surface that LBS carries with the tets is farthest from the artist's; no frame: they were not compared.
+    struct FollowedSkin {
+        double largest_m = 0.0;
+        int frame = -1;
+        Eigen::Index vertex = -1;
+    };
+    const FollowedSkin& followed_skin() const { return followed_; }
+    // What of the model the .glb files do not show.
+    const std::vector<std::string>& remarks() const { return materials_.remarks; }
     // Into the deformer's state hash and the changes of its regions.
     void add_positions(const std::string& label, const pbs::Positions& positions)
     {
@@ -220,7 +230,9 @@ public:
         regions_.add(label, positions);
     }
 
-    void write_tables();  // all CSV files of the frames so far, and the collections; of an interrupted run, these are all records
+    // All CSV files of the frames so far, and the collections: all records of an interrupted run. The moving surfaces (.glb) are large, and
+    // need to be written once.
+    void write_tables(bool with_moving_surfaces);
 
     // Writes the tables and, last, run.json with the cost. A method of the reference's error bar that is null is left out.
     void finish(const pbs::Character& character, const std::map<std::string, nlohmann::json>& deformer_records,
@@ -238,7 +250,14 @@ private:
     std::map<std::string, analysis::StateHash> hashes_;
     std::map<std::string, std::vector<std::pair<double, std::string>>> collections_;  // label -> time and file of each frame, for its .pvd
     std::vector<std::pair<double, std::string>> artist_frames_;
+    pbs::Positions lbs_surface_;  // of the frame that was written last
+    FollowedSkin followed_;
+    pbs::RigLook look_;  // of the model's surface
+    pbs::RigMaterials materials_;
     std::map<std::string, pbs::GlbWriter> surfaces_;  // by label, for output.glb
 };
+
+// Removes what ParaView shows of a run's frames: all in frames/ except the .glb files.
+void remove_frames(const std::string& folder);
 
 }  // namespace experiments

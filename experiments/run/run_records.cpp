@@ -26,8 +26,9 @@ const analysis::Columns<BonePlace> bone_columns = {
     {"tail_z_m", [](auto& bone) -> decltype(auto) { return (bone.tail.z()); }, "m", "z of the bone's end"}};
 
 const analysis::Columns<PosedBone> posed_bone_columns =
-    analysis::Columns<PosedBone>{{"frame", &PosedBone::frame, "", "number of the frame, from 0"},
-                                 {"time_s", &PosedBone::time_s, "s", "time since the motion began"}} +
+    analysis::Columns<PosedBone>{
+        {"frame", &PosedBone::frame, "", "number of the frame, from 0"},
+        {"time_s", &PosedBone::time_s, "s", "time since the motion began; outcome.motion.time_zero of run.json states when that is"}} +
     analysis::within(&PosedBone::place, bone_columns);
 
 const analysis::Columns<BoundVertex> bound_vertex_columns = {
@@ -134,7 +135,7 @@ nlohmann::json CostRecord::json() const
 
 const analysis::Columns<DeformerDistance> distance_columns = {
     {"frame", &DeformerDistance::frame, "", "number of the frame, from 0"},
-    {"time_s", &DeformerDistance::time_s, "s", "time since the motion began"},
+    {"time_s", &DeformerDistance::time_s, "s", "time since the motion began; outcome.motion.time_zero of run.json states when that is"},
     {"deformer", &DeformerDistance::deformer, "", "label of one deformer"},
     {"other", &DeformerDistance::other, "", "label of the other deformer"},
     {"of", &DeformerDistance::of, "", "what the points belong to: rendered surface, or mesh where the body has none"},

@@ -200,7 +200,18 @@ pbs::ClipSampling clip_sampling(const MotionSpec& spec)
 
 std::string share_of(const pbs::ClipMatch& match)
 {
-    return fmt::format("{} of {} moving joints", match.matched, match.moving);
+    const std::string aside = match.small > 0 ? fmt::format(" (without {} fingers, toes and the like)", match.small) : "";
+    return fmt::format("{} of {} moving joints{}", match.matched, match.moving - match.small, aside);
+}
+
+// Of a clip that leaves anything out; nothing otherwise.
+std::vector<std::string> remarks_on_match(const pbs::ClipMatch& match, const std::string& clip)
+{
+    if (match.unmatched.empty() && match.bones_without_joint.empty()) return {};
+    std::string text = fmt::format("{}: {} of the clip match a bone", clip, share_of(match));
+    if (!match.unmatched.empty()) text += "; without a bone: " + pbs::name_list(match.unmatched);
+    if (!match.bones_without_joint.empty()) text += "; bones without a motion of their own: " + pbs::name_list(match.bones_without_joint);
+    return {text};
 }
 
 CaseMotion motion_of_clip(const MotionSpec& spec, const pbs::Character& character)
@@ -209,11 +220,11 @@ CaseMotion motion_of_clip(const MotionSpec& spec, const pbs::Character& characte
     const pbs::ClipMatch match = accepted_match(spec, clip, character.skeleton);
     CaseMotion made;
     made.motion = pbs::retarget(clip, character.skeleton, clip_sampling(spec));
+    made.time_zero = "start of the clip after its first frame, a T pose, plus motion.start_s";
+    made.time_zero_s = clip.frame_time_s + spec.start_s;
     made.clip_joints = match.moving;
     made.matched_joints = match.matched;
-    if (match.matched < match.moving)
-        made.partial_match =
-            fmt::format("{}: {} of the clip match a bone; without a bone: {}", spec.clip, share_of(match), pbs::name_list(match.unmatched));
+    made.remarks = remarks_on_match(match, spec.clip);
     return made;
 }
 
@@ -225,6 +236,8 @@ CaseMotion motion_of_model(const MotionSpec& spec, const pbs::Character& charact
     pbs::RigMotion rig = pbs::rig_motion(model.rig, model.body, *model.animation, sampling_of(spec));
     CaseMotion made;
     made.motion = std::move(rig.motion);
+    made.time_zero = "first key of the animation plus motion.start_s";
+    made.time_zero_s = model.animation->start_s + spec.start_s;
     if (rig.stretch > rigid_stretch)
         made.remarks.push_back(
             fmt::format("{}: the animation {} scales or shears bones by up to {:.1f} %; the deformers move bones rigidly", model.rig.file,
@@ -326,12 +339,14 @@ pbs::Motion make_motion(const MotionSpec& spec, const pbs::Skeleton& skeleton, c
 CaseMotion make_case_motion(const MotionSpec& spec, const pbs::Character& character, const std::string& scene_file)
 {
     CaseMotion made;
-    if (spec.of_model)
+    if (spec.of_model) {
         made = motion_of_model(spec, character, scene_file);
-    else if (!spec.clip.empty())
+    } else if (!spec.clip.empty()) {
         made = motion_of_clip(spec, character);
-    else
+    } else {
         made.motion = make_motion(spec, character.skeleton, scene_file);
+        made.time_zero = "rest pose, where the sweep begins";
+    }
     made.largest_rotation_deg = pbs::largest_rotation_deg(made.motion);
     const double displacement_m = pbs::largest_displacement_m(made.motion, character.skeleton);
     const pbs::Positions& rest = character.mesh.rest;
@@ -345,7 +360,7 @@ CaseMotion make_case_motion(const MotionSpec& spec, const pbs::Character& charac
 pbs::ClipMatch accepted_match(const MotionSpec& spec, const pbs::Clip& clip, const pbs::Skeleton& skeleton)
 {
     pbs::ClipMatch match = pbs::match_of(clip, skeleton);
-    if (2 * match.matched < match.moving && !spec.allow_partial)
+    if (2 * match.matched < match.moving - match.small && !spec.allow_partial)
         throw pbs::InputError(spec.clip, 0, "joints", share_of(match),
                               "expected at least one half to match a bone of the character (motion.allow_partial = true in the scene, or "
                               "--allow-partial of `pbskin try`, accepts fewer); without a bone: " +

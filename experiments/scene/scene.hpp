@@ -38,6 +38,7 @@ struct OutputSpec {
     std::vector<int> frames;                              // further frames, by number
     bool errors = true, sections = true, surface = true;  // groups of metrics
     bool glb = false;                                     // the surface of each deformer in the written frames, as one .glb file
+    bool surface_files = true;                            // and as a .vtp file per frame; no key of a scene
 
     bool writes(int frame) const;
 };
@@ -88,19 +89,20 @@ const std::vector<BuiltInScene>& built_in_scenes();
 // A sweep or a clip on a skeleton. `scene_file` is named in errors.
 pbs::Motion make_motion(const MotionSpec& spec, const pbs::Skeleton& skeleton, const std::string& scene_file);
 
-// Any motion, with what looks wrong about it, a sentence each: a motion in which no bone turns, bones that the animation scales. An
-// InputError if less than half of the clip's moving joints match and the scene does not allow it.
+// Any motion, with what looks wrong about it, a sentence each: a motion in which no bone turns, bones that the animation scales,
+// joints and bones that a clip leaves out. An InputError where accepted_match throws one.
 struct CaseMotion {
     pbs::Motion motion;
     std::vector<std::string> remarks;
-    std::string partial_match;                // of a clip some of whose moving joints match no bone; empty: all do
     int clip_joints = 0, matched_joints = 0;  // of a clip: its joints that move, and those of them that move a bone
     double largest_rotation_deg = 0.0;        // of a bone, from the first frame to another one
+    std::string time_zero;                    // what time_s = 0 of the records is
+    double time_zero_s = 0.0;                 // that time in the file of the clip or the animation; 0 of a sweep
 };
 CaseMotion make_case_motion(const MotionSpec& spec, const pbs::Character& character, const std::string& scene_file);
 
 // The moving joints of a clip that move a bone of the skeleton. An InputError if there are none, or fewer than one half and the scene does
-// not allow it.
+// not allow it. Fingers, toes and the like of a clip whose scheme of names is known do not count where the skeleton lacks them.
 pbs::ClipMatch accepted_match(const MotionSpec& spec, const pbs::Clip& clip, const pbs::Skeleton& skeleton);
 
 pbs::MotionSampling sampling_of(const MotionSpec& spec);

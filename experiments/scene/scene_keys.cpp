@@ -58,11 +58,18 @@ const OptionFields<MotionSpec>& motion_fields()
                   .meaning = "angle of a sweep's last frame; frame i has angle_deg * i / (frames - 1)"})
             .add("frames", &MotionSpec::frames, {.range = {2, 1e6}, .meaning = "number of frames of a sweep, including the rest pose"})
             .add("clip", &MotionSpec::clip,
-                 {.meaning = "motion capture clip: relative to the scene, or by name from Debian's assimp-testmodels (01_01.bvh)"})
+                 {.meaning =
+                      "motion capture clip: relative to the scene, or by name from Debian's assimp-testmodels (01_01.bvh); a bone follows "
+                      "the joint of the same name, or of the same part of the body in the names of CMU (BVH, ASF/AMC), Mixamo, "
+                      "Rigify and Unreal"})
             .add("animation", &MotionSpec::animation,
-                 {.meaning = "an animation of character.model by name; without this key, a joint or a clip the model's first one"})
+                 {.meaning =
+                      "an animation of character.model by name, the second of equal names being NAME (2); without this key, a joint or a "
+                      "clip the model's first one"})
             .add("allow_partial", &MotionSpec::allow_partial,
-                 {.meaning = "accepts a clip of which fewer than half of the moving joints match a bone"})
+                 {.meaning =
+                      "accepts a clip of which fewer than half of the moving joints match a bone, fingers, toes and the like aside where "
+                      "the names are known ones"})
             .add("start_s", &MotionSpec::start_s,
                  {.unit = "s", .range = {0, 1e6}, .meaning = "start of the motion in the clip, without the T-pose of its first frame"})
             .add("duration_s", &MotionSpec::duration_s,
@@ -80,8 +87,8 @@ const OptionFields<OutputSpec>& output_fields()
             .add("frames", &OutputSpec::frames, {.range = {0, 1e9}, .meaning = "further frames to write, by number"})
             .key("frame_names", texts, nlohmann::json::array(), {.meaning = "titles of `frames`, in the same order"})
             .add("glb", &OutputSpec::glb,
-                 {.meaning = "also writes the surface of each deformer over the written frames as frames/LABEL.glb, which Blender opens; "
-                             "the character needs a rendered surface"})
+                 {.meaning = "also writes the surface of each deformer over the written frames as frames/LABEL.glb, which Blender opens, "
+                             "of a model with its normals, texture coordinates and materials; the character needs a rendered surface"})
             .key("metrics", texts, {"all"},
                  {.meaning = "groups of metrics beyond the volume columns: errors, sections, surface, all; [] leaves them out"});
     return fields;

@@ -46,11 +46,12 @@ json to_json(const toml::node& node)
     return nullptr;
 }
 
-std::string shown(const toml::node& node)
+// A text without its quotes where a text is expected, otherwise as the file writes it: "1" is no number.
+std::string shown(const toml::node& node, bool in_quotes = false)
 {
     const json value = to_json(node);
     if (node.is_floating_point() && !std::isfinite(value.get<double>())) return std::to_string(value.get<double>());  // JSON has no nan
-    return value.is_null() ? "(a table)" : value.is_string() ? value.get<std::string>() : value.dump();
+    return value.is_null() ? "(a table)" : value.is_string() && !in_quotes ? value.get<std::string>() : value.dump();
 }
 
 bool is_number(const json& value, const SceneKey& key)
@@ -139,6 +140,7 @@ std::string SceneKey::rule() const
                                             "three numbers", "a list of numbers", "a list of texts", "a list of integers"};
     std::string words = fmt::format("expected {}", names[static_cast<int>(type)]);
     const auto& [lowest, highest] = range;
+    if (lowest == highest) return fmt::format("expected {:g}", lowest);
     if (lowest == above_zero)
         words += highest < infinite ? fmt::format(" > 0 and <= {:.10g}", highest) : " > 0";
     else if (lowest > -infinite && highest < infinite)
@@ -254,7 +256,7 @@ public:
             throw pbs::InputError(source, line, path, node.is_table() ? "" : shown(node),
                                   "unknown key; the nearest known one is " + scene_.schema_.nearest_key(of_schema));
         const json value = to_json(node);
-        if (!obeys(value, *key)) throw pbs::InputError(source, line, path, shown(node), key->rule());
+        if (!obeys(value, *key)) throw pbs::InputError(source, line, path, shown(node, key->type != KeyType::text), key->rule());
         scene_.values_[path] = {value, source, line, false};
     }
 

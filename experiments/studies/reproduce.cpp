@@ -129,7 +129,6 @@ std::vector<PlannedStudy> plan_studies(const ReproduceArguments& arguments)
 struct StudyOutcome {
     FinishedRuns finished = {};  // without failed runs, which are reported and whose verdicts cannot be computed
     bool broke_down = false, failed = false, refused = false;
-    StudyCosts costs;
 };
 
 void report_breakdown(const std::string& name, const std::string& breakdown, StudyOutcome& outcome)
@@ -158,7 +157,8 @@ void begin(const PlannedStudy& planned)
 // results: of the runs to do, in their order.
 StudyOutcome outcome_of(const PlannedStudy& planned, std::span<const PooledResult> results)
 {
-    StudyOutcome outcome{.costs = StudyCosts(planned.folder)};
+    StudyOutcome outcome;
+    StudyCosts costs(planned.folder);
     for (const StudyRun& run : planned.kept)  // a kept breakdown has the same effect as that of a new run
         report_breakdown(run.name, breakdown_on_record(run, (fs::path(planned.folder) / run.name).string()), outcome);
     for (std::size_t i = 0; i < results.size(); ++i) {
@@ -167,10 +167,10 @@ StudyOutcome outcome_of(const PlannedStudy& planned, std::span<const PooledResul
         report_breakdown(result.name, result.breakdown, outcome);
         outcome.failed |= !result.finished;
         outcome.refused |= result.refused;
-        if (result.finished) outcome.costs.add(planned.to_do[i].name, planned.to_do[i].cost_s, result.cpu_s);
+        if (result.finished) costs.add(planned.to_do[i].name, planned.to_do[i].cost_s, result.cpu_s);
     }
-    outcome.costs.complete(planned.folder, planned.plan);
-    outcome.costs.write();
+    costs.complete(planned.folder, planned.plan);
+    costs.write();
     outcome.finished = finished_runs(planned.folder);
     return outcome;
 }
@@ -247,8 +247,7 @@ int reproduce(const ReproduceArguments& arguments)
 
     analysis::remove_abandoned_files(arguments.folder, false);
     std::vector<analysis::Verdict> verdicts;
-    std::vector<std::pair<std::string, StudyCosts>> costs;
-    std::string conclusions;      // of the studies, and on frames that need attention
+    std::string marked;           // frames that need attention
     std::set<std::string> named;  // the reasons for which runs are left out: each is a warning once
     bool broke_down = false, refused = false, all_hold = true;
     for (const PlannedStudy& of : planned)
@@ -257,20 +256,14 @@ int reproduce(const ReproduceArguments& arguments)
     const std::map<const Study*, StudyOutcome> outcomes = run_all(planned, arguments.jobs);
     for (const PlannedStudy& of : planned) {
         const StudyOutcome& outcome = outcomes.at(of.study);
-        costs.emplace_back(of.study->name, outcome.costs);
         broke_down |= outcome.broke_down;
         refused |= outcome.refused;
         all_hold &= !outcome.failed;
-        conclusions += marked_frames(outcome.finished.folders);
+        marked += marked_frames(outcome.finished.folders);
         for (auto& verdict : verdicts_of(*of.study, of.folder, arguments.folder)) verdicts.push_back(std::move(verdict));
-        if (!of.study->conclude) continue;
-        const StudyConclusion conclusion = of.study->conclude(outcome.finished);
-        outcome.finished.write("conclusion.txt", conclusion.text);
-        conclusions += conclusion.text;
-        all_hold &= conclusion.holds;
+        if (of.study->conclude) all_hold &= of.study->conclude(outcome.finished);
     }
-    spdlog::info("actual cost:\n{}", cost_table(costs));
-    fmt::print("{}", conclusions);
+    fmt::print("{}", marked);
     const bool all_computed = verdicts.empty() || report_verdicts(verdicts, arguments.folder);
     if (refused) return exit_input;
     if (broke_down) return exit_breakdown;

@@ -13,9 +13,7 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
 #include <filesystem>
-#include <numeric>
 #include <optional>
 #include <stdexcept>
 
@@ -197,16 +195,6 @@ void StudyCosts::write() const
     table_of(cost_columns, runs_).write(file_);
 }
 
-double StudyCosts::expected_s() const
-{
-    return std::accumulate(runs_.begin(), runs_.end(), 0.0, [](double sum, const RunCost& cost) { return sum + cost.expected_s; });
-}
-
-double StudyCosts::cpu_s() const
-{
-    return std::accumulate(runs_.begin(), runs_.end(), 0.0, [](double sum, const RunCost& cost) { return sum + cost.cpu_s; });
-}
-
 ExpectedCost expected_cost(const Study& study, const std::vector<StudyRun>& runs, int jobs)
 {
     ExpectedCost cost{.study = study.name, .runs = static_cast<int>(runs.size())};
@@ -233,19 +221,6 @@ std::string expected_cost_table(const std::vector<ExpectedCost>& costs)
         sum.wall_s += cost.wall_s;
     }
     return table + line(sum);
-}
-
-std::string cost_table(const std::vector<std::pair<std::string, StudyCosts>>& studies)
-{
-    std::string table = fmt::format("{:<16} {:>18} {:>12} {:>7}\n", "study", "expected cpu [s]", "cpu [s]", "ratio");
-    for (const auto& [name, costs] : studies) {
-        constexpr double too_short_to_matter_s = 5.0;
-        const double ratio = costs.cpu_s() / std::max(costs.expected_s(), 1e-9);
-        const bool is_outside = std::abs(costs.cpu_s() - costs.expected_s()) > too_short_to_matter_s && (ratio > 2.0 || ratio < 0.5);
-        table += fmt::format("{:<16} {:>18.0f} {:>12.0f} {:>7.2f}{}\n", name, costs.expected_s(), costs.cpu_s(), ratio,
-                             is_outside ? "  not within a factor of 2" : "");
-    }
-    return table;
 }
 
 }  // namespace experiments

@@ -1,4 +1,4 @@
-// A study: its runs, and a conclusion from their records. experiments/README.md describes how to add one.
+// A study: its runs, and the tables over their records. experiments/README.md describes how to add one.
 #pragma once
 
 #include "analysis/records/tables.hpp"
@@ -15,7 +15,7 @@
 
 namespace experiments {
 
-// The finished runs of a study. The conclusion of a study reads their records and writes summaries into the folder of the study.
+// The finished runs of a study. A study reads their records and writes tables over all of them into its own folder.
 struct FinishedRuns {
     std::string folder = {};                // of the study
     std::vector<std::string> folders = {};  // one per finished run, in the order of the plan
@@ -128,12 +128,6 @@ nlohmann::json cases_document(const std::string& study);
 // refuses by InputError, for example because a clip is missing, is left out with all of its further cases.
 StudyPlan plan_of_cases(const std::string& study, bool full, const std::function<void(const StudyCase& of, StudyPlan& plan)>& add);
 
-// The result of a study in addition to the verdicts on its claims.
-struct StudyConclusion {
-    std::string text;  // for the terminal
-    bool holds = true;
-};
-
 // What a study measures of a case in which the scene has further overrides: another reading of the paper (the study `ambiguity`).
 struct ReadingValues {
     std::vector<analysis::Measurement> values;
@@ -162,8 +156,9 @@ struct Study {
     std::string name;  // of its folder, whose README.md is the page of `pbskin explain`, and of the folder of its records
     StudyPlan (*plan)(bool full) = nullptr;
     Sets sets = {};
-    StudyConclusion (*conclude)(const FinishedRuns& finished) = nullptr;  // writes the summaries; null: there are none
-    bool alone = false;                                                   // it measures time: one run at a time, whatever -j is
+    // Writes the tables over all runs, and returns whether the study holds, apart from the verdicts on its claims. Null: there are none.
+    bool (*conclude)(const FinishedRuns& finished) = nullptr;
+    bool alone = false;  // it measures time: one run at a time, whatever -j is
     // The plan with deformers of the user's own from the [[external]] tables of a file. Null: the study has a fixed list of deformers.
     StudyPlan (*plan_with)(bool full, const std::string& external_file) = nullptr;
     // The values of the study's claims for a case of `ambiguity`, by each of the readings. Null: it has none.
@@ -218,9 +213,6 @@ public:
     void complete(const std::string& folder, const StudyPlan& plan);
     void write() const;
 
-    double expected_s() const;
-    double cpu_s() const;
-
 private:
     std::string file_;
     std::vector<RunCost> runs_;
@@ -234,9 +226,6 @@ struct ExpectedCost {
 };
 ExpectedCost expected_cost(const Study& study, const std::vector<StudyRun>& runs, int jobs);
 std::string expected_cost_table(const std::vector<ExpectedCost>& costs);  // one line per study, and their sum
-
-// Expected and actual processor time. A study outside a factor of two is marked.
-std::string cost_table(const std::vector<std::pair<std::string, StudyCosts>>& studies);
 
 // The claims of claims.toml, which is compiled into the program.
 const std::vector<analysis::Claim>& claims();

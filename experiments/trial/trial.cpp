@@ -3,13 +3,19 @@
 #include "analysis/records/record_files.hpp"
 #include "analysis/records/tables.hpp"
 #include "analysis/statistics/statistics.hpp"
+#include "experiments/process/machine.hpp"
 #include "experiments/scene/scene.hpp"
+#include "experiments/process/terminal.hpp"
+#include "pbs/character/body_cache.hpp"
 #include "pbs/character/clip.hpp"
 #include "pbs/character/json_file.hpp"
-#include "pbs/character/model_character.hpp"
+#include "pbs/geometry/files.hpp"
 #include "pbs/geometry/input_error.hpp"
+#include "pbs/rig/rig_reader.hpp"
+#include "pbs/rig/rigged_body.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -25,7 +31,12 @@ namespace fs = std::filesystem;
 
 constexpr double highest_rate_hz = 30.0;  // of a motion that is shorter than its frames
 constexpr double lowest_scale = 1e-6, highest_scale = 1e6;
-constexpr double bend_deg = 60.0;  // of the joint of a model without a motion
+constexpr double bend_deg = 60.0;       // of the joint of a model without a motion
+constexpr double least_turn_deg = 5.0;  // of a joint in an animation that is worth a trial
+constexpr int frames_looked_at = 31;    // of each animation, to find the one that moves
+constexpr double shortest_motion_s = 1e-3;
+// The last line of a trial's scene, with the hash of all lines before it: the scene was written by a trial and not changed since.
+constexpr const char* seal = "# As `pbskin try` wrote it: ";
 
 // A TOML string: JSON's escapes are TOML's, which escapes the character 127 too.
 std::string quoted(const std::string& text)
@@ -103,29 +114,65 @@ std::string clip_file(const TrialOptions& options, const pbs::Rig& rig)
     }
 }
 
-std::string motion(const TrialOptions& options, std::vector<std::string>& remarks)
+// The largest rotation of a joint from the animation's first frame [deg], and the larger of it [rad] and the largest displacement over the
+// size of the model.
+std::pair<double, double> motion_of(const pbs::Rig& rig, const pbs::RiggedBody& body, const pbs::RigAnimation& animation)
 {
-    const auto model = pbs::read_model(options.model, "", options.scale);
-    const auto& animations = model->rig.animations;
-    const auto motion_of = [&](const pbs::RigAnimation& animation) {
-        return fmt::format("animation = {}\n", quoted(animation.name)) + sampled(animation.end_s - animation.start_s, options.frames);
-    };
-    const auto named = std::ranges::find(animations, options.animation, &pbs::RigAnimation::name);
-    if (named != animations.end()) return motion_of(*named);
-    if (!options.animation.empty()) return clip_motion(options, clip_file(options, model->rig), model->body.skeleton);
-    if (animations.empty()) {
-        if (model->body.skeleton.bones.empty())
-            throw pbs::InputError(options.model, 0, "skins", "0",
-                                  "the model has no joints and no animation: expected --skeleton FILE and --animation CLIP");
-        return bending(options, model->body, remarks);
+    pbs::MotionSampling sampling;
+    sampling.rate_hz = (frames_looked_at - 1) / std::max(animation.end_s - animation.start_s, shortest_motion_s);
+    sampling.time_step_s = 1.0 / sampling.rate_hz;
+    const pbs::Motion motion = pbs::rig_motion(rig, body, animation, sampling).motion;
+    const double size_m = (body.surface.colwise().maxCoeff() - body.surface.colwise().minCoeff()).norm();
+    const double turn_deg = pbs::largest_rotation_deg(motion);
+    return {turn_deg, std::max(turn_deg * M_PI / 180.0, pbs::largest_displacement_m(motion, body.skeleton) / size_m)};
+}
+
+// The first animation that turns a joint by more than least_turn_deg, else the one that moves most; null: there is none. `made` gets what
+// is known about all of them, and a remark on the choice.
+const pbs::RigAnimation* moving_animation(const TrialOptions& options, const pbs::Rig& rig, const pbs::RiggedBody& body, TrialScene& made)
+{
+    const auto& animations = rig.animations;
+    std::vector<std::pair<double, double>> motions;
+    made.animations = nlohmann::json::array();
+    for (const pbs::RigAnimation& animation : animations) {
+        stop_if_interrupted();
+        motions.push_back(motion_of(rig, body, animation));
+        made.animations.push_back({{"name", animation.name},
+                                   {"duration_s", animation.end_s - animation.start_s},
+                                   {"largest_rotation_deg", motions.back().first}});
     }
-    if (animations.size() > 1) {
-        std::string names;
-        for (const pbs::RigAnimation& animation : animations) names += (names.empty() ? "" : ", ") + animation.name;
-        remarks.push_back(fmt::format("{}: it has {} animations; {} is taken (--animation NAME takes another one): {}", options.model,
-                                      animations.size(), animations.front().name, names));
+    if (animations.empty()) return nullptr;
+    auto moving = std::ranges::find_if(motions, [](const auto& motion) { return motion.first > least_turn_deg; });
+    std::string why = fmt::format("the first one that turns a joint by more than {} degrees", least_turn_deg);
+    if (moving == motions.end()) {
+        moving = std::ranges::max_element(motions, {}, &std::pair<double, double>::second);
+        why = fmt::format("which moves most: none turns a joint by more than {} degrees", least_turn_deg);
     }
-    return motion_of(animations.front());
+    const pbs::RigAnimation& taken = animations[moving - motions.begin()];
+    std::vector<std::string> others;
+    for (const pbs::RigAnimation& animation : animations)
+        if (&animation != &taken) others.push_back(animation.name);
+    if (!others.empty() && options.animation.empty())
+        made.remarks.push_back(fmt::format("{}: it has {} animations; {} is taken, {} (--animation NAME takes another one: {})",
+                                           options.model, animations.size(), taken.name, why, fmt::join(others, ", ")));
+    return &taken;
+}
+
+std::string motion(const TrialOptions& options, TrialScene& made)
+{
+    const pbs::Rig rig = pbs::read_rig(options.model);
+    const pbs::RiggedBody body = pbs::make_rigged_body(rig, nullptr, options.scale);
+    const pbs::RigAnimation* taken = moving_animation(options, rig, body, made);
+    const auto named = std::ranges::find(rig.animations, options.animation, &pbs::RigAnimation::name);
+    if (named != rig.animations.end())
+        taken = &*named;
+    else if (!options.animation.empty())
+        return clip_motion(options, clip_file(options, rig), body.skeleton);
+    if (taken) return fmt::format("animation = {}\n", quoted(taken->name)) + sampled(taken->end_s - taken->start_s, options.frames);
+    if (body.skeleton.bones.empty())
+        throw pbs::InputError(options.model, 0, "skins", "0",
+                              "the model has no joints and no animation: expected --skeleton FILE and --animation CLIP");
+    return bending(options, body, made.remarks);
 }
 
 // The settings of the built-in scenes.
@@ -137,6 +184,7 @@ k_bind = 1.0
 gravity_m_s2 = [0.0, 0.0, 0.0]   # a model does not state which way is up
 )";
 
+constexpr const char* reference_name = "nh_p1";
 constexpr const char* reference_tables = R"([[fem]]
 name = "nh_p1"                   # the reference: a neo-Hookean body on the same tets
 model = "neo_hookean"
@@ -144,6 +192,20 @@ element_order = 1
 [reference]
 name = "nh_p1"
 )";
+
+constexpr double least_visible_pct = 0.01;  // changes of volume and errors below it are no difference between two methods
+
+// False in a build or an installation without them.
+bool finds_the_finite_elements(const TrialOptions& options, std::vector<std::string>& remarks)
+{
+    try {
+        load_module_with_blas("pbskin_fem");
+        return true;
+    } catch (const pbs::InputError& error) {
+        remarks.push_back(fmt::format("{}: the trial has no reference: {}", options.model, error.what()));
+        return false;
+    }
+}
 
 using analysis::CsvTable;
 
@@ -179,22 +241,60 @@ nlohmann::json frame_ms(const CsvTable& metrics)
     return facts;
 }
 
-// Frames in which both have an error at the joints, and those of them in which that of pbs is smaller.
-nlohmann::json nearer_frames(const CsvTable& metrics)
+// Whether some flesh changes its shape: a rigid motion leaves every tet its volume.
+bool deforms(const CsvTable& metrics)
 {
-    if (!metrics.has_column("error_joint_pct")) return nullptr;
-    std::map<long long, std::map<std::string, double>> errors;
+    if (!metrics.has_column("volume_abs_change_pct")) return true;
     for (int row = 0; row < metrics.rows(); ++row)
-        if (const auto error = finite(metrics, row, "error_joint_pct"))
-            errors[metrics.integer(row, "frame")][metrics.text_at(row, "deformer")] = *error;
+        if (finite(metrics, row, "volume_abs_change_pct").value_or(least_visible_pct) >= least_visible_pct) return true;
+    return false;
+}
+
+// By frame and deformer, in frames in which somebody has a visible error: at the joints, or over the body where no frame has one there.
+using FrameErrors = std::map<long long, std::map<std::string, double>>;
+
+FrameErrors errors_of(const CsvTable& metrics)
+{
+    FrameErrors errors;
+    for (const char* column : {"error_joint_pct", "error_l2_pct"}) {
+        if (!errors.empty() || !metrics.has_column(column)) continue;
+        for (int row = 0; row < metrics.rows(); ++row)
+            if (const auto error = finite(metrics, row, column))
+                if (const std::string& of = metrics.text_at(row, "deformer"); of != reference_name)
+                    errors[metrics.integer(row, "frame")][of] = *error;
+    }
+    std::erase_if(errors, [](const auto& frame) {
+        return std::ranges::all_of(frame.second, [](const auto& of) { return of.second < least_visible_pct; });
+    });
+    return errors;
+}
+
+// Frames in which both have an error, and those of them in which that of pbs is smaller; null without such frames.
+nlohmann::json nearer_than(const std::string& other, const FrameErrors& errors)
+{
     int compared = 0, nearer = 0;
     for (const auto& [frame, of] : errors) {
-        if (of.count("lbs") == 0 || of.count("pbs") == 0) continue;
+        if (of.count(other) == 0 || of.count("pbs") == 0) continue;
         ++compared;
-        nearer += of.at("pbs") < of.at("lbs");
+        nearer += of.at("pbs") < of.at(other);
     }
     if (compared == 0) return nullptr;
-    return {{"frames", nearer}, {"of", compared}};
+    return {{"deformer", other}, {"frames", nearer}, {"of", compared}};
+}
+
+// pbs against lbs, and against the one of the others whose median error is smallest.
+nlohmann::json nearer_frames(const CsvTable& metrics)
+{
+    const FrameErrors errors = errors_of(metrics);
+    nlohmann::json nearer = nearer_than("lbs", errors);
+    if (nearer.is_null()) return nullptr;
+    std::map<std::string, std::vector<double>> others;
+    for (const auto& [frame, of] : errors)
+        for (const auto& [deformer, error] : of)
+            if (deformer != "pbs" && deformer != "lbs") others[deformer].push_back(error);
+    const auto best = std::ranges::min_element(others, {}, [](const auto& other) { return analysis::median(other.second); });
+    nearer["best_other"] = best == others.end() ? nlohmann::json() : nearer_than(best->first, errors);
+    return nearer;
 }
 
 struct JointChange {
@@ -203,13 +303,17 @@ struct JointChange {
     std::map<std::string, double> change_pct;  // of the body's volume, by deformer
 };
 
-// The two joints at which lbs loses most of the body's volume.
-nlohmann::json joint_facts(const CsvTable& regions)
+// The two joints, of a bone and its parent, at which lbs loses most of the body's volume.
+nlohmann::json joint_facts(const CsvTable& regions, const CsvTable& bones)
 {
+    std::map<std::string, std::string> parent;
+    for (int row = 0; row < bones.rows(); ++row) parent[bones.text_at(row, "bone")] = bones.text_at(row, "parent");
     std::map<std::string, JointChange> joints;
     for (int row = 0; row < regions.rows(); ++row) {
         if (regions.text_at(row, "kind") != "joint") continue;
-        const std::string name = regions.text_at(row, "bone") + " - " + regions.text_at(row, "second_bone");
+        const std::string &one = regions.text_at(row, "bone"), &other = regions.text_at(row, "second_bone");
+        if (parent[other] != one && parent[one] != other) continue;  // their flesh meets, but no joint connects them
+        const std::string name = one + " - " + other;
         JointChange& joint = joints[name];
         joint.name = name;
         joint.share_pct = regions.number(row, "rest_share_pct");
@@ -218,8 +322,7 @@ nlohmann::json joint_facts(const CsvTable& regions)
     std::vector<JointChange> sorted;
     for (const auto& [name, joint] : joints)
         if (joint.change_pct.count("lbs") > 0 && joint.change_pct.count("pbs") > 0) sorted.push_back(joint);
-    std::sort(sorted.begin(), sorted.end(),
-              [](const JointChange& a, const JointChange& b) { return a.change_pct.at("lbs") < b.change_pct.at("lbs"); });
+    std::ranges::sort(sorted, {}, [](const JointChange& joint) { return joint.change_pct.at("lbs"); });
     sorted.resize(std::min<std::size_t>(sorted.size(), 2));
     if (sorted.empty()) return nullptr;
     nlohmann::json facts = {{"names", nlohmann::json::array()}};
@@ -246,7 +349,8 @@ TrialScene trial_scene(const TrialOptions& options)
     const bool has_skeleton_file = !options.skeleton.empty() && options.skeleton != "human";
     if (has_skeleton_file && !fs::exists(options.skeleton)) throw pbs::InputError(options.skeleton, 0, "", "", "no such file");
     TrialScene made;
-    const std::string moved = motion(options, made.remarks);
+    const std::string moved = motion(options, made);
+    const bool reference = options.reference && finds_the_finite_elements(options, made.remarks);
     std::string character = fmt::format("model = {}\n", quoted(from_folder(options.model, options.folder)));
     if (options.scale != 1.0) character += fmt::format("scale = {}\n", nlohmann::json(options.scale).dump());
     if (options.vertices > 0) character += fmt::format("vertices = {}\n", options.vertices);
@@ -259,17 +363,40 @@ TrialScene trial_scene(const TrialOptions& options)
     made.text += pbs_table;
     if (has_artist)
         made.text += "[[lbs]]\nname = \"lbs_paper\"               # linear blend skinning with the weights of Eq. 2\nweights = \"paper\"\n";
-    if (options.reference) made.text += reference_tables;
+    if (reference) made.text += reference_tables;
     made.text += fmt::format("[deformers]\nuse = [\"lbs\", \"dqs\", {}\"delta_mush\", \"pbs\"{}]\n", has_artist ? "\"lbs_paper\", " : "",
-                             options.reference ? ", \"nh_p1\"" : "");
+                             reference ? ", \"nh_p1\"" : "");
     made.text += "[output]\nframes_every = 1\nglb = true                       # also the moving surface of each deformer\n";
+    made.text += seal + pbs::content_hash(made.text) + "\n";
     return made;
+}
+
+std::string earlier_trial_scene(const TrialOptions& options)
+{
+    const fs::path folder(options.folder), scene_file = folder / "scene.toml";
+    const std::string expected = "expected another folder (-o) for " + options.model;
+    if (!fs::exists(scene_file)) {
+        for (const char* name : {"run.json", "metrics.csv", "try.json", "report.html", "frames", "skin"})
+            if (fs::exists(folder / name))
+                throw pbs::InputError((folder / name).string(), 0, "", "", "exists, and the folder is not that of a trial: " + expected);
+        return "";
+    }
+    const std::string found = pbs::read_text_file(scene_file.string(), pbs::most_text_bytes);
+    const std::size_t end = std::min(found.rfind(seal), found.size());
+    if (found.substr(end) != seal + pbs::content_hash(found.substr(0, end)) + "\n")
+        throw pbs::InputError(scene_file.string(), 0, "", "",
+                              "exists and is not the scene of a trial, or was changed: " + expected + "; `pbskin run` runs this scene");
+    const std::string model = SceneValues(found, scene_file.string(), {}, scene_schema()).text("character.model");
+    if (fs::weakly_canonical(folder / model) != fs::weakly_canonical(options.model))
+        throw pbs::InputError(scene_file.string(), 0, "character.model", model, "the folder has the trial of this model: " + expected);
+    return found;
 }
 
 nlohmann::json trial_facts(const std::string& folder)
 {
     const pbs::JsonFile run(folder + "/run.json");
-    const CsvTable metrics = analysis::read_csv(folder + "/metrics.csv"), regions = analysis::read_csv(folder + "/regions.csv");
+    const CsvTable metrics = analysis::read_csv(folder + "/metrics.csv"), regions = analysis::read_csv(folder + "/regions.csv"),
+                   bones = analysis::read_csv(folder + "/bones_rest.csv");
     const nlohmann::json &outcome = run.at("outcome"), &character = run.at("character");
     return {{"schema", 1},
             {"model", run.at(character, "model")},
@@ -278,34 +405,83 @@ nlohmann::json trial_facts(const std::string& folder)
             {"motion", run.at(outcome, "motion")},
             {"frames", run.at(outcome, "frames")},
             {"warnings", run.at(outcome, "warnings")},
+            {"from_artist", outcome.value("from_artist", nlohmann::json())},
+            {"notes", run.at(outcome, "notes")},
+            {"deforms", deforms(metrics)},
             {"volume", volume_facts(metrics)},
-            {"joints", joint_facts(regions)},
+            {"joints", joint_facts(regions, bones)},
             {"nearer", nearer_frames(metrics)},
-            {"frame_ms", frame_ms(metrics)}};
+            {"frame_ms", frame_ms(metrics)},
+            {"control", fs::exists(folder + "/skin/artist.pvd") ? nlohmann::json("skin/artist_*.vtp") : nullptr}};
 }
+
+namespace {
+
+std::string shown_name(const std::string& deformer)
+{
+    static const std::map<std::string, std::string> names = {
+        {"lbs", "LBS"}, {"dqs", "DQS"}, {"lbs_paper", "LBS with the weights of Eq. 2"}, {"delta_mush", "delta mush"}, {"pbs", "PBS"}};
+    const auto named = names.find(deformer);
+    return named == names.end() ? deformer : named->second;
+}
+
+// With a sign and one decimal place; + 0.0 takes the minus from a zero.
+std::string per_cent(double value)
+{
+    return fmt::format("{:+.1f}", std::round(10.0 * value) / 10.0 + 0.0);
+}
+
+std::string volume_range(const nlohmann::json& of)
+{
+    const std::string lowest = per_cent(of.at("lowest_pct")), highest = per_cent(of.at("highest_pct"));
+    if (lowest == highest) return lowest == "+0.0" ? "by less than 0.05 %" : fmt::format("by {} %", lowest);
+    if (lowest == "+0.0" || highest == "+0.0") return fmt::format("by at most {} %", lowest == "+0.0" ? highest : lowest);
+    return fmt::format("by {} to {} %", lowest, highest);
+}
+
+std::string joint_words(const nlohmann::json& joints)
+{
+    const auto names = joints.at("names").get<std::vector<std::string>>();
+    return fmt::format("; at the {} {} by {} % instead of {} % on average", names.size() > 1 ? "joints" : "joint",
+                       fmt::join(names, " and "), per_cent(joints.at("pbs_pct")), per_cent(joints.at("lbs_pct")));
+}
+
+std::string nearer_words(const nlohmann::json& nearer)
+{
+    const auto frames = [](const nlohmann::json& of) {
+        return fmt::format("{} of {} frames", of.at("frames").get<int>(), of.at("of").get<int>());
+    };
+    std::string text = " PBS is nearer to FEM than LBS in " + frames(nearer);
+    if (const nlohmann::json& best = nearer.at("best_other"); !best.is_null())
+        text += fmt::format(", and than {}, the best of the other methods, in {}", shown_name(best.at("deformer")), frames(best));
+    return text + ".";
+}
+
+std::string time_words(const nlohmann::json& facts)
+{
+    std::vector<std::string> deformers = {"pbs", "lbs"}, times;
+    if (const nlohmann::json& nearer = facts.at("nearer"); !nearer.is_null() && !nearer.at("best_other").is_null())
+        deformers.push_back(nearer.at("best_other").at("deformer").get<std::string>());
+    for (const std::string& deformer : deformers) {
+        const double ms = facts.at("frame_ms").at(deformer);
+        times.push_back((ms < 10.0 ? fmt::format("{:.2g} ms", ms) : fmt::format("{:.0f} ms", ms)) + " with " + shown_name(deformer));
+    }
+    return fmt::format(" A frame takes {}.", fmt::join(times, ", "));
+}
+
+}  // namespace
 
 std::string trial_sentence(const nlohmann::json& facts)
 {
-    // With a sign and one decimal place; + 0.0 takes the minus from a zero.
-    const auto per_cent = [](double value) { return fmt::format("{:+.1f}", std::round(10.0 * value) / 10.0 + 0.0); };
-    const auto range = [&](const char* deformer) {
-        const nlohmann::json& of = facts.at("volume").at(deformer);
-        return fmt::format("{} to {} %", per_cent(of.at("lowest_pct")), per_cent(of.at("highest_pct")));
-    };
-    if (!facts.at("volume").contains("pbs") || !facts.at("volume").contains("lbs")) return "PBS or LBS broke down in every frame.";
-    std::string text = fmt::format("PBS changes the volume by {}, LBS by {}", range("pbs"), range("lbs"));
-    if (const nlohmann::json& joints = facts.at("joints"); !joints.is_null()) {
-        const auto& names = joints.at("names");
-        std::string at = names[0].get<std::string>();
-        if (names.size() > 1) at += " and " + names[1].get<std::string>();
-        text += fmt::format("; at the joints {} by {} % instead of {} % on average", at, per_cent(joints.at("pbs_pct")),
-                            per_cent(joints.at("lbs_pct")));
-    }
-    if (const nlohmann::json& nearer = facts.at("nearer"); !nearer.is_null())
-        text += fmt::format("; it is closer to the finite elements in {} of {} frames", nearer.at("frames").get<int>(),
-                            nearer.at("of").get<int>());
-    const double ms = facts.at("frame_ms").at("pbs");
-    return text + (ms < 10.0 ? fmt::format("; a frame takes {:.2g} ms.", ms) : fmt::format("; a frame takes {:.0f} ms.", ms));
+    const nlohmann::json &volume = facts.at("volume"), &joints = facts.at("joints"), &nearer = facts.at("nearer");
+    if (!volume.contains("pbs") || !volume.contains("lbs")) return "PBS or LBS broke down in every frame.";
+    if (!facts.at("deforms").get<bool>())
+        return "No flesh deforms: it rests or moves rigidly in every frame, so that there is nothing to compare.";
+    std::string text = fmt::format("PBS changes the volume {}, LBS {}", volume_range(volume.at("pbs")), volume_range(volume.at("lbs")));
+    if (!joints.is_null()) text += joint_words(joints);
+    text += ".";
+    if (!nearer.is_null()) text += nearer_words(nearer);
+    return text + time_words(facts);
 }
 
 }  // namespace experiments

@@ -49,12 +49,12 @@ class Run:
                                  "expected one")
         return rows[0]
 
-    def reference(self):
-        """The name of the deformer that serves as the reference; if none is named, the last FEM deformer."""
+    def reference(self, needed=True):
+        """The name of the deformer that serves as the reference; if none is named, the last FEM deformer. Empty if none is needed."""
         name = self.record.get("scene", {}).get("reference", {}).get("name")
         fem = sorted({row["deformer"] for row in self.rows if row["deformer"].startswith("fem")})
-        if name or fem:
-            return name or fem[-1]
+        if name or fem or not needed:
+            return name or (fem or [""])[-1]
         raise RecordsMissing(f"{self.folder / 'metrics.csv'}: no FEM reference")
 
     def pbs_iterations(self):

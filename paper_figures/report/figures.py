@@ -7,7 +7,7 @@ import re
 import records
 from records import entries
 from report import record_set
-from report.markup import Markup, beside_the_page, details, element, escaped, joined
+from report.markup import Markup, beside_the_page, element, escaped, joined
 from words import captions
 
 most_inline_kb = 400  # size of a CSV that the page contains
@@ -84,20 +84,9 @@ def drawn_figure(found, entry, number, file):
     return element("figure", joined([picture(file, entry), clip(found, entry), caption], "\n"), id=f"figure-{entry.name}")
 
 
-def conclusions(found, entry, told):
-    """The conclusions of the studies behind a figure, each placed with the study's first figure."""
-    parts = []
-    for study in entry.studies():
-        file = found.results / study / "conclusion.txt"
-        if study not in told and file.is_file() and file.read_text().strip():
-            parts.append(details(f"What the study {study} concludes", element("pre", file.read_text().strip("\n"), tabindex="0")))
-        told.add(study)
-    return parts
-
-
 def section(found):
     """The HTML of the figures, and a list of those that are missing."""
-    parts, missing, told = [], [], set()
+    parts, missing = [], []
     number = 0
     for entry in entries.read():  # the paper's figures come first; each keeps its number even if others are missing
         number += not entry.title.startswith("Table")
@@ -105,7 +94,6 @@ def section(found):
             file = drawn(found, entry)
             as_drawn = dataclasses.replace(entry, caption=captions.read(entry, found.results / "figures"))  # as when it was drawn
             parts.append(drawn_figure(found, as_drawn, number, file))
-            parts += conclusions(found, entry, told)
         except records.RecordsMissing as error:
             missing.append(f"figure {entry.name}: {error}".replace(f"{found.results}/", ""))
     intro = ("R: redrawn in minutes on any machine; CR: in hours; NR: not from this repository\u2019s records. "

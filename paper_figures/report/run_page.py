@@ -1,8 +1,9 @@
 """The page of a single run: what it found over its frames, its warnings, the viewer and where its records come from. It holds what the run
-was asked for, and nothing else is reported as missing."""
+was asked for. What is missing is the viewer, if no frames were written or they cannot be shown."""
 import importlib
 import math
 import pathlib
+import re
 import statistics
 import tempfile
 import types
@@ -18,10 +19,13 @@ from report.record_set import number
 from words import looks
 from words.number_words import counted, figure, listed, span_of_thousandths
 
-moved = {"frames?": shapes.whole, "warnings?": [shapes.text], "bad_frame?": shapes.text, "breakdown?": shapes.text,
+moved = {"frames?": shapes.whole, "warnings?": [shapes.text], "notes?": [shapes.text], "bad_frame?": shapes.text,
+         "breakdown?": shapes.text,
+         "from_artist?": {"largest_pct": shapes.number, "frame": shapes.whole},
          "motion?": {"largest_rotation_deg?": shapes.number, "clip_joints?": shapes.whole, "matched_joints?": shapes.whole}}
 shape = shapes.run | {"scene": shapes.scene | {"name": shapes.text}, "outcome": moved}
-trial = {"summary": shapes.text, "warnings": [shapes.text]}
+animation = {"name": shapes.text, "duration_s": shapes.number, "largest_rotation_deg": shapes.number}
+trial = {"summary": shapes.text, "warnings": [shapes.text], "notes?": [shapes.text], "animations?": [animation]}
 
 
 class RunRecords:
@@ -65,32 +69,43 @@ def of_deformer(found, label):
     inverted = known(rows, "inverted_tets")
     is_reference = label == found.record["scene"].get("reference", {}).get("name")
     told_error = "the reference" if is_reference else f"{figure(statistics.median(error))} ({figure(max(error))})" if error else "\u2013"
-    return [looks.of(label).name, span_of_thousandths(change), f"{max(inverted, default=0):.0f}", told_error,
-            figure(statistics.median(step) if step else None)]
+    return [looks.of(label).name, span_of_thousandths(change), f"{max(inverted, default=0):.0f}",
+            *([told_error] if has_errors(found) else []), figure(statistics.median(step) if step else None)]
+
+
+def has_errors(found):
+    """Whether some frame has an error at the joints: a body without a joint has none, nor has a run without a reference."""
+    return bool(known(found.run.rows, "error_joint_pct"))
 
 
 def summary(found):
     """The sentence of `pbskin try`, if it made the run, and one row per deformer."""
     sentence = element("p", found.trial["summary"], class_="answer") if found.trial else ""
-    header = ["deformer", "volume change [%]", "most inverted tets in a frame", "error at the joints [%]: median (largest)",
-              "median step [ms]"]
+    header = ["deformer", "volume change [%]", "most inverted tets in a frame",
+              *(["error at the joints [%]: median (largest)"] if has_errors(found) else []), "median step [ms]"]
     rows = [of_deformer(found, label) for label in found.labels()]
     return joined([sentence, table("Over all frames", header, rows)], "\n")
 
 
 def joints(found):
-    """The mean change of the volume at each joint, in per cent of the joint's own volume."""
-    rows = [row for row in found.table("regions.csv") if row["kind"] == "joint"]
+    """The mean change of the volume at each joint, and where other bones meet, in per cent of the volume there."""
+    parents = {row["bone"]: row["parent"] for row in found.table("bones_rest.csv")}
     changes = {}
-    for row in rows:
-        changes.setdefault(f"{row['bone']} \u2013 {row['second_bone']}", {})[row["deformer"]] = number(row, "own_change_pct")
-    if not changes:
-        return ""
+    for row in found.table("regions.csv"):
+        one, other = row["bone"], row["second_bone"]
+        if row["kind"] == "joint":
+            of = changes.setdefault(parents.get(other) == one or parents.get(one) == other, {})
+            of.setdefault(f"{one} \u2013 {other}", {})[row["deformer"]] = number(row, "own_change_pct")
+    tables = ((True, "at a joint", "joint"), (False, "where two bones meet", "bones"))
+    return joined((volume_table(found, changes[kind], *words) for kind, *words in tables if kind in changes), "\n")
+
+
+def volume_table(found, changes, where, what):
     labels = [label for label in found.labels() if any(label in of for of in changes.values())]
     ordered = sorted(changes.items(), key=lambda pair: pair[1].get(labels[0]) or 0.0)
     body = [[name, *(figure(of.get(label)) for label in labels)] for name, of in ordered]
-    return table("Mean change of the volume of the tets at a joint [% of their volume at rest]",
-                 ["joint", *(looks.of(label).name for label in labels)], body, "tall")
+    return table(f"Mean change of the volume of the tets {where} [% of their volume at rest]",
+                 [what, *(looks.of(label).name for label in labels)], body, "tall")
 
 
 def distances(found):
@@ -100,8 +115,8 @@ def distances(found):
         pairs.setdefault((row["deformer"], row["other"], row["of"]), []).append((number(row, "rms_mm"), number(row, "largest_mm")))
     if not pairs:
         return ""
-    body = [[f"{one} and {other}", of, figure(statistics.median(rms for rms, _ in values)), figure(max(largest for _, largest in values)),
-             len(values)] for (one, other, of), values in pairs.items()]
+    body = [[f"{looks.of(one).name} and {looks.of(other).name}", of, figure(statistics.median(rms for rms, _ in values)),
+             figure(max(largest for _, largest in values)), len(values)] for (one, other, of), values in pairs.items()]
     return table("Distances between the same points", ["deformers", "of", "median rms [mm]", "largest [mm]", "frames"], body, "tall")
 
 
@@ -115,13 +130,25 @@ def model(found):
     facts = [f"File: {record['file']}; {counted(len(record['meshes']), 'mesh', 'meshes')}: {listed(record['meshes'])}.",
             f"Largest extent: {figure(record['extent_m'])} m, with {figure(record['metres_per_unit'])} m per unit of the file.",
             f"Joints dropped: {listed(dropped)}.", f"Containers, which only contribute their transform: {listed(record['containers'])}.",
-            f"From the bind pose to the file's rest pose, bones turn by up to {figure(record['bind_pose_deg'])}\u00b0.",
-            f"Animations: {listed(record['animations'])}."]
+            f"From the bind pose to the file's rest pose, bones turn by up to {figure(record['bind_pose_deg'])}\u00b0."]
+    of_trial = found.trial.get("animations", []) if found.trial else []
+    if not of_trial:
+        facts.append(f"Animations: {listed(record['animations'])}.")
     if "weights_transferred_pct" in record:
         facts.append(f"The tets carry {figure(record['weights_transferred_pct'])} % of the artist's weights.")
+    if "from_artist" in found.record["outcome"]:
+        followed = found.record["outcome"]["from_artist"]
+        facts.append(f"The surface that LBS carries with the tets lies up to {figure(followed['largest_pct'])} % of the model's size "
+                     f"from the artist's, in frame {followed['frame']}.")
     if "clip_joints" in motion:
         facts.append(f"{motion['matched_joints']} of the clip's {motion['clip_joints']} moving joints match.")
-    return joined([items(facts), details(f"{counted(len(record['joints']), 'joint')} that are bones", items(record["joints"]))], "\n")
+    played = record.get("animation") if "clip_joints" not in motion else None
+    rows = [[one["name"], figure(one["duration_s"]), figure(one["largest_rotation_deg"]), "yes" if one["name"] == played else ""]
+            for one in of_trial]
+    header = ["animation", "duration [s]", "largest rotation of a joint [degrees]", "shown here"]
+    animations = table("Animations of the model; --animation NAME takes another one", header, rows, "tall") if rows else ""
+    bones = details(f"{counted(len(record['joints']), 'joint')} that are bones", items(record["joints"]))
+    return joined([items(facts), animations, bones], "\n")
 
 
 # The figures: the numbers over the frames, and error against run time.
@@ -140,7 +167,7 @@ def abscissa(rows):
 def over_frames(found):
     rows = {label: found.rows(label) for label in found.labels()}
     shown = [(column, name) for column, name in measures
-             if any(number(row, column) not in (None, 0.0) for of in rows.values() for row in of)] or measures[:1]
+             if any(value for of in rows.values() for value in known(of, column))] or measures[:1]
     figure, axes = style.panels(len(shown), 1, height_in=1.7, width_in=style.page_in, sharex=True)
     for panel, (column, name) in zip(axes[:, 0], shown):
         for label, of in rows.items():
@@ -194,9 +221,15 @@ def figures_section(found):
 
 
 def viewer_of(found):
-    """The viewer, and the reason if there is none although frames were written."""
+    """The viewer, and the reason if there is none although frames were written. A trial removes its frames after it has made its page; then
+    the viewer of that page is kept."""
     if not any((found.folder / "frames").glob("*.vtu")):
-        return None, []
+        page = found.folder / "report.html"
+        kept = page.is_file() and re.search(r'<div id="frame-viewer">.*?(<script.*?</script>\s*){3}', page.read_text(), re.DOTALL)
+        missing = ["viewer: frames/*.vtu: do not exist: `pbskin try --paraview` keeps them"] if found.trial and not kept else []
+        if not found.trial:
+            missing = ["viewer: no frames/*.vtu; run the scene again with `--set output.frames_every=1`"]
+        return Markup(kept[0].strip()) if kept else None, missing
     try:
         recorded_frames, page_of_viewer = map(importlib.import_module, ("records.recorded_frames", "viewer.page"))
         return Markup(page_of_viewer.fragment_of([recorded_frames.Frames(found.folder)])), []
@@ -208,14 +241,18 @@ def page(folder):
     """The text of the page, and what is missing in it."""
     found = RunRecords(folder)
     outcome = found.record["outcome"]
-    warnings = [*(found.trial or outcome).get("warnings", []), *filter(None, (outcome.get("breakdown"), outcome.get("bad_frame")))]
+    remarks = found.trial or outcome
+    warnings = [*remarks.get("warnings", []), *filter(None, (outcome.get("breakdown"), outcome.get("bad_frame")))]
     viewer, missing = viewer_of(found)
+    unseen = joined(element("p", f"The moving model is missing: {reason}.", class_="missing") for reason in missing)
     as_set = types.SimpleNamespace(results=folder, runs={found.name: found.record}, left_out=lambda: [])
     sections = [("summary", "What was found", summary(found)), ("warnings", "Warnings", items(warnings, "missing") if warnings else ""),
-                ("viewer", "Viewer", viewer), ("frames", "Over the frames", figures_section(found)),
+                ("viewer", "Viewer", viewer or unseen), ("notes", "Notes", items(remarks["notes"]) if remarks.get("notes") else ""),
+                ("frames", "Over the frames", figures_section(found)),
                 ("joints", "Volume at the joints", joints(found)), ("distances", "Distances between the deformers", distances(found)),
                 ("model", "What was taken from the model", model(found)),
                 ("origin", "Where the records come from", origin.section(as_set, with_viewer=viewer is not None))]
     sections = [section for section in sections if section[-1]]
-    lead = element("p", f"{found.name}, {outcome.get('frames', 0)} frames, moved by {', '.join(found.labels())}.", class_="lead")
+    names = [looks.of(label).name for label in found.labels()]
+    lead = element("p", f"{found.name}, {outcome.get('frames', 0)} frames, moved by {listed(names)}.", class_="lead")
     return whole(f"pbskin: {found.name}", lead, [navigation(sections), *written(sections)], "summary"), missing

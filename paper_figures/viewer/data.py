@@ -9,6 +9,7 @@ Volume ratios take one byte: 0 is an inverted tet (ratio <= 0), a code c > 0 rep
 """
 import gzip
 import hashlib
+import math
 
 import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
@@ -119,14 +120,21 @@ def pack_surface(recorded, block):
             "corners": block.put(triangles.astype("<u4")), "tets": block.put(tets.astype("<u4")), "shares": block.put(shares.astype("<f4"))}
 
 
+def finite(row, column):
+    """None where the cell is empty, missing or not finite, as the errors at the joints of a body without a joint."""
+    value = float(row[column]) if row.get(column) else math.nan
+    return value if math.isfinite(value) else None
+
+
 def facts_of(recorded, every):
     """The facts from the run's tables, without its frames."""
     rows = {label: kept[::every] for label, kept in rows_of(recorded).items()}
     first = next(iter(rows.values()))
     shown = [{"label": label, "title": title_of(recorded, label), "colour": looks.of(label).color,
-              "figures": {column: [float(row[column]) if row.get(column) else None for row in of] for column in figures},
+              "figures": {column: [finite(row, column) for row in of] for column in figures},
               "not_reached": [at for at, row in enumerate(of) if not records.is_reached(row)]} for label, of in rows.items()]
-    return {"name": recorded.run.name, "title": titles.get(recorded.run.name, recorded.run.name), "reference": recorded.run.reference(),
+    return {"name": recorded.run.name, "title": titles.get(recorded.run.name, recorded.run.name),
+            "reference": recorded.run.reference(needed=False),
             "rights": "; ".join(entries.licences_of(recorded.run.record)), "frames": [int(row["frame"]) for row in first],
             "times_s": [float(row["time_s"]) for row in first], "deformers": shown}
 

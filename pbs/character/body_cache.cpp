@@ -45,6 +45,8 @@ public:
         byte.l_whence = SEEK_SET;
         byte.l_start = static_cast<off_t>(std::hash<std::string>()(key) & std::numeric_limits<int>::max());
         byte.l_len = 1;
+        if (::fcntl(file_, F_OFD_SETLK, &byte) == 0) return;
+        const Stage waiting("waiting for another process that makes the same tets");
         ::fcntl(file_, F_OFD_SETLKW, &byte);
     }
     ~MakingLock()

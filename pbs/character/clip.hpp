@@ -36,38 +36,46 @@ struct ClipSampling : MotionSampling {
 };
 
 // The clip's motion on a skeleton: R_bone(t) = R_joint(t) A, A the least rotation from the bone's rest direction to the joint's limb in the
-// zero pose (none where the joint branches). CMU's joint names reach the `human` skeleton, others go by equal names; bones without a joint
-// follow their parent. Rotations only, so that bones keep their lengths; the root's path is scaled by leg length, and the clip's first
-// frame (the T pose dropped) is at the skeleton's rest place. Poses between frames by slerp. A clip none of whose names match is an
-// InputError, and so is a stretch of time it does not hold, one without a frame after the dropped one, a rate_hz or time_step_s that is not
-// positive, and a product of the two that is not 1 / n with n from 1 to 100,000.
+// zero pose (none where the joint branches). joint_map() determines the joint of each bone; bones without one follow their parent.
+// Rotations only, so that bones keep their lengths; the root's path is scaled by leg length, and the clip's first frame (the T pose
+// dropped) is at the skeleton's rest place. Poses between frames by slerp. A clip none of whose names match is an InputError, and so is a
+// stretch of time it does not hold, one without a frame after the dropped one, a rate_hz or time_step_s that is not positive, and a product
+// of the two that is not 1 / n with n from 1 to 100,000.
 Motion retarget(const Clip& clip, const Skeleton& skeleton, const ClipSampling& sampling);
 
 // Full path of a clip given by name: as it is, relative to `folder`, or in Debian's assimp-testmodels. InputError where it is
 // in none of them.
 std::string find_clip(const std::string& name, const std::string& folder);
 
-// The joint of a clip that moves each bone: the names of CMU's motion capture (cgspeed's BVH conversion) for the bones of the `human`.
+// The joint of a clip that moves a bone, and how. Joints are indices into Clip::joints; -1: none.
 struct JointMapping {
-    std::string bone, joint;       // their names in the skeleton and in the clip
-    bool aligned = false;          // the bone turns to the joint's limb; false: it keeps its own rest direction (spine, neck, clavicles)
-    bool leg = false;              // its length counts in the scale of the root's path
-    std::string twist_joint = {};  // takes a share of this joint's twist about the limb; empty: none
-    double twist_share = 0.0;      // 0 to 1
+    int joint = -1;
+    int limb_end = -1;         // where the joint's limb ends; -1: at its first descendant
+    int twist_joint = -1;      // the bone takes a share of this joint's twist about the limb
+    double twist_share = 0.0;  // 0 to 1
+    bool aligned = false;      // the bone turns to the joint's limb; false: it keeps its own rest direction (spine, neck, clavicles)
+    bool leg = false;          // its length counts in the scale of the root's path
 };
 
-// CMU keeps the twist of the forearm in the wrist joint. Three joints can carry it here, elbow, mid-forearm and wrist; equal steps of a
-// third at each keep the largest step least: 1/3 on the upper half, 2/3 on the lower half, all of it on the hand.
-const std::vector<JointMapping>& cmu_joint_map();
+// Where clip and skeleton have the names of two schemes that are known (the table in joint_names.cpp: bodies by name, CMU, Mixamo, Rigify,
+// Unreal), a bone follows the joint of the same part of the body. All other bones follow the joint of the same name; where there is none,
+// names are compared without capitals, separators, namespaces and the spelling of the side (LeftHand, hand_l, L.Hand).
+struct JointMap {
+    std::vector<JointMapping> bones;  // #bones
+    std::vector<bool> is_small;       // fingers, toes and the like of a clip with a known scheme, #joints
+};
+JointMap joint_map(const Clip& clip, const Skeleton& skeleton);
 
 // Angle [rad], in (-pi, pi], of the twist of `rotation` about the unit vector `axis` (swing-twist decomposition).
 double twist_angle(const Eigen::Quaterniond& rotation, const Vec3& axis);
 
 // How much of a clip reaches a skeleton.
 struct ClipMatch {
-    int moving = 0;                      // joints of the clip whose rotation changes
-    int matched = 0;                     // of these, joints that a bone follows
-    std::vector<std::string> unmatched;  // names of the others
+    int moving = 0;                                // joints of the clip whose rotation changes
+    int matched = 0;                               // of these, joints that a bone follows
+    std::vector<std::string> unmatched;            // names of the others
+    int small = 0;                                 // of the others, fingers, toes and the like, which a body may lack
+    std::vector<std::string> bones_without_joint;  // names of the bones that follow their parent
 };
 
 // By the same names as retarget().

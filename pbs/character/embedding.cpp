@@ -15,6 +15,8 @@ using Box = Eigen::AlignedBox3d;
 using Tree = Eigen::KdBVH<double, 3, int>;
 using TetCorners = Eigen::Matrix<double, 4, 3>;
 
+constexpr double never = std::numeric_limits<double>::max();  // the squared distance of a cell that is not taken
+
 TetCorners corners_of(const TetMesh& mesh, int tet)
 {
     TetCorners corners;
@@ -132,17 +134,24 @@ Tree tree_of(const Positions& points, const Cells& cells)
 
 }  // namespace
 
-EmbeddedSurface embed(const Positions& surface, const Triangles& triangles, const TetMesh& mesh)
+EmbeddedSurface embed(const Positions& surface, const Triangles& triangles, const TetMesh& mesh,
+                      const std::function<bool(Eigen::Index, int)>& may_carry)
 {
     const Tree tree = tree_of(mesh.rest, mesh.tets);
     EmbeddedSurface embedded{triangles, Eigen::VectorXi(surface.rows()), {}, 0.0};
     embedded.barycentric.resize(surface.rows(), 4);
     for (Eigen::Index s = 0; s < surface.rows(); ++s) {
         const Vec3 point = surface.row(s);
-        const auto nearest = nearest_cell(tree, point, [&](int tet) { return squared_distance_to_tet(point, corners_of(mesh, tet)); });
-        embedded.tet(s) = nearest.cell;
-        embedded.barycentric.row(s) = barycentric_in_tet(point, corners_of(mesh, nearest.cell)).transpose();
-        embedded.largest_distance_outside_m = std::max(embedded.largest_distance_outside_m, std::sqrt(nearest.least));
+        for (const bool is_restricted : {static_cast<bool>(may_carry), false}) {
+            const auto nearest = nearest_cell(tree, point, [&](int tet) {
+                return is_restricted && !may_carry(s, tet) ? never : squared_distance_to_tet(point, corners_of(mesh, tet));
+            });
+            if (nearest.cell < 0) continue;
+            embedded.tet(s) = nearest.cell;
+            embedded.barycentric.row(s) = barycentric_in_tet(point, corners_of(mesh, nearest.cell)).transpose();
+            embedded.largest_distance_outside_m = std::max(embedded.largest_distance_outside_m, std::sqrt(nearest.least));
+            break;
+        }
     }
     return embedded;
 }
@@ -187,7 +196,7 @@ SurfaceTree::SurfaceTree(const Positions& points, const Triangles& triangles)
 
 SurfaceTree::~SurfaceTree() = default;
 
-SurfacePoint SurfaceTree::nearest(const Vec3& point) const
+SurfacePoint SurfaceTree::nearest(const Vec3& point, const std::function<bool(const SurfacePoint&)>& is_wanted) const
 {
     Eigen::Matrix3d corners;
     const auto barycentric_in = [&](int triangle) {
@@ -196,6 +205,7 @@ SurfacePoint SurfaceTree::nearest(const Vec3& point) const
     };
     const auto nearest = nearest_cell(tree_->boxes, point, [&](int triangle) {
         const Vec3 barycentric = barycentric_in(triangle);
+        if (is_wanted && !is_wanted({triangle, barycentric, 0.0})) return never;
         return (corners.transpose() * barycentric - point).squaredNorm();
     });
     if (nearest.cell < 0) return {};

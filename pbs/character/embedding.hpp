@@ -3,6 +3,7 @@
 
 #include "pbs/geometry/tet_mesh.hpp"
 
+#include <functional>
 #include <memory>
 
 namespace pbs {
@@ -16,8 +17,9 @@ struct EmbeddedSurface {
 };
 
 // Each point of `surface` [m], #S x 3, in the tet that holds it or is nearest, in rest pose. The mesh has at least one tet, none flat
-// (unchecked).
-EmbeddedSurface embed(const Positions& surface, const Triangles& triangles, const TetMesh& mesh);
+// (unchecked). may_carry(point, tet): only such tets are taken, unless there is none for the point; by default all.
+EmbeddedSurface embed(const Positions& surface, const Triangles& triangles, const TetMesh& mesh,
+                      const std::function<bool(Eigen::Index, int)>& may_carry = {});
 
 // The same surface points carried by the children of their tets, which `fine` holds in the order of pbs::refine.
 EmbeddedSurface embed_in_children(const EmbeddedSurface& surface, const TetMesh& coarse, const TetMesh& fine);
@@ -37,7 +39,8 @@ class SurfaceTree {
 public:
     SurfaceTree(const Positions& points, const Triangles& triangles);  // #S x 3 [m], #F x 3 with #F > 0
     ~SurfaceTree();
-    SurfacePoint nearest(const Vec3& point) const;
+    // is_wanted: only such points are taken; where there is none, the triangle is -1.
+    SurfacePoint nearest(const Vec3& point, const std::function<bool(const SurfacePoint&)>& is_wanted = {}) const;
 
 private:
     struct Tree;

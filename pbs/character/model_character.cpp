@@ -2,7 +2,9 @@
 
 #include "pbs/character/body_cache.hpp"
 #include "pbs/character/named_bodies.hpp"
+#include "pbs/character/separated_parts.hpp"
 #include "pbs/character/skinning_weights.hpp"
+#include "pbs/geometry/child_process.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/meshing.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
@@ -10,7 +12,7 @@
 #include "pbs/rig/rig_reader.hpp"
 
 #include <algorithm>
-#include <set>
+#include <cmath>
 
 namespace pbs {
 namespace {
@@ -18,33 +20,62 @@ namespace {
 constexpr int model_version = 2;                       // raised whenever something else is made of the same file, so that the cache knows
 constexpr double smallest_m = 0.05, largest_m = 20.0;  // of a body whose unit is believed
 constexpr double far_from_tets = 0.01;                 // over the diagonal of the body; the wrap alone takes up to 0.008
-constexpr int samples_per_bone = 5;                    // on its middle, the part that Eq. 2 gives to it alone
+constexpr int most_poses = 24;                         // of an animation, evenly in time
+constexpr const char* open_surface = "; the surface is open, and the tets fill a layer along it: close it where it should enclose flesh";
+constexpr int samples_per_bone = 5;  // on its middle, the part that Eq. 2 gives to it alone
 
 // Parts of the tets through which no bone passes would be held by nothing.
 void leave_out_parts_without_bone(Character& character, const std::string& file, std::vector<std::string>& remarks)
 {
     const std::vector<int> part = parts_of(character.mesh.tets);
-    std::set<int> with_bone;
-    const int parts = part.empty() ? 0 : 1 + *std::max_element(part.begin(), part.end());
-    if (parts <= 1) return;
-    std::vector<Vec3> middles;
-    for (const Bone& bone : character.skeleton.bones)
-        for (const double along : {0.25, 0.5, 0.75}) middles.emplace_back(bone.head + along * (bone.tail - bone.head));
-    for (int p = 0; p < parts; ++p) {
-        std::vector<bool> own(part.size());
-        for (std::size_t t = 0; t < part.size(); ++t) own[t] = part[t] == p;
-        const TetMesh mesh = kept_tets(character.mesh, own);
-        const std::vector<bool> inside = points_inside(mesh.rest, boundary_of(mesh.tets), middles);
-        if (std::find(inside.begin(), inside.end(), true) != inside.end()) with_bone.insert(p);
-    }
-    if (with_bone.empty() || static_cast<int>(with_bone.size()) == parts) return;
-    std::vector<bool> kept(part.size());
-    for (std::size_t t = 0; t < part.size(); ++t) kept[t] = with_bone.count(part[t]) > 0;
+    const std::vector<bool> has_bone = has_bone_inside(character.mesh, part, character.skeleton);
+    const auto without = std::ranges::count(has_bone, false), parts = std::ranges::ssize(has_bone);
+    if (without == 0 || without == parts) return;
+    std::vector<bool> kept;
+    for (const int own : part) kept.push_back(has_bone[static_cast<std::size_t>(own)]);
     const double whole_m3 = tet_volumes(character.mesh.rest, character.mesh.tets).sum();
     character.mesh = kept_tets(character.mesh, kept);
     const double lost_pct = 100.0 * (1.0 - tet_volumes(character.mesh.rest, character.mesh.tets).sum() / whole_m3);
-    remarks.push_back(file + ": " + std::to_string(parts - static_cast<int>(with_bone.size())) + " of " + std::to_string(parts) +
+    remarks.push_back(file + ": " + std::to_string(without) + " of " + std::to_string(parts) +
                       " separate parts have no bone inside; they are left out, with " + number_text(lost_pct, 3) + " % of the volume");
+}
+
+// Of the animation: its poses are where parts move apart.
+std::vector<Pose> sampled_poses(const RiggedModel& model)
+{
+    std::vector<Pose> poses;
+    if (!model.animation) return poses;
+    const auto& [start_s, end_s] = std::pair(model.animation->start_s, model.animation->end_s);
+    for (int i = 0; i <= most_poses; ++i)
+        poses.push_back(rigid_pose(model.body, node_transforms(model.rig, model.animation, start_s + (end_s - start_s) * i / most_poses)));
+    return poses;
+}
+
+// Cuts the flesh between parts that the skeleton moves apart. Surface and weights follow; without a cut they are those of the nearest
+// points.
+void add_skin(const RiggedModel& model, const std::string& file, Character& character, std::vector<std::string>& remarks)
+{
+    const RiggedBody& body = model.body;
+    const SkinParts parts(body, sampled_poses(model));
+    const SeparatedFlesh flesh = separate_parts(character.mesh, parts, body.skeleton);
+    character.mesh = flesh.mesh;
+    const auto skin_of = [&](int tet) { return flesh.skin_of_tet[static_cast<std::size_t>(tet)]; };
+    std::function<bool(Eigen::Index, int)> may_carry;
+    std::function<bool(Eigen::Index, const SurfacePoint&)> may_move;
+    if (!flesh.cuts.empty()) {
+        may_carry = [&](Eigen::Index point, int tet) { return !parts.are_apart(parts.at_vertex(point), skin_of(tet)); };
+        may_move = [&](Eigen::Index v, const SurfacePoint& point) { return !parts.are_apart(skin_of(flesh.tet_at(v)), point); };
+        std::vector<std::string> between;
+        for (const auto& [first, second, area_m2] : flesh.cuts)
+            between.push_back(body.skeleton.bones[static_cast<std::size_t>(first)].name + " and " +
+                              body.skeleton.bones[static_cast<std::size_t>(second)].name);
+        remarks.push_back(file + ": parts that touch or nearly touch at rest move apart; the flesh is cut between " + name_list(between));
+    }
+    character.surface = embed(body.surface, body.triangles, character.mesh, may_carry);
+    const TransferredWeights transferred =
+        transfer_weights(character.mesh, body.surface, body.triangles, body.skin, static_cast<int>(body.skeleton.bones.size()), may_move);
+    character.artist->weights = transferred.weights;
+    character.artist->largest_distance_m = transferred.largest_distance_m;
 }
 
 void add_size(const RiggedBody& body, const std::string& file, std::vector<std::string>& remarks)
@@ -63,22 +94,35 @@ void add_sheet(const RiggedBody& body, const std::string& file, std::vector<std:
                           " m on both sides of it");
 }
 
+// What the verb `mesh` refuses: tets of another volume or another shape than the surface. A surface without volume has its own remark.
+void add_shape(const RiggedBody& body, const TetMesh& mesh, const std::string& file, std::vector<std::string>& remarks)
+{
+    if (sheet_offset_m({body.surface, body.triangles}) > 0.0) return;
+    const double ratio = tet_volumes(mesh.rest, mesh.tets).sum() / std::abs(fan_volume(body.surface, body.triangles));
+    if (ratio < 0.5 || ratio > 2.0)
+        remarks.push_back(file + ": the tets hold " + number_text(ratio, 3) +
+                          " times the volume that the surface seems to enclose: it is open, or its triangles are not oriented one way");
+    const Topology shape = topology_of(mesh.tets, mesh.rest.rows());
+    if (const int handles = shape.boundary_components - shape.boundary_euler / 2; handles > 0)
+        remarks.push_back(file + ": the boundary of the tets has the Euler number " + std::to_string(shape.boundary_euler) + ", " +
+                          std::to_string(handles) + " handles: unless the model has them, parts that nearly touch have grown together");
+}
+
 void add_bones_outside(const RiggedBody& body, const TetMesh& mesh, const std::string& file, std::vector<std::string>& remarks)
 {
-    std::vector<Vec3> samples;
-    for (const Bone& bone : body.skeleton.bones)
-        for (int s = 0; s < samples_per_bone; ++s)
-            samples.emplace_back(bone.head + (1.0 / 6.0 + 4.0 / 6.0 * (s + 0.5) / samples_per_bone) * (bone.tail - bone.head));
-    const std::vector<bool> inside = points_inside(mesh.rest, boundary_of(mesh.tets), samples);
     std::vector<std::string> outside;
-    for (std::size_t b = 0; b < body.skeleton.bones.size(); ++b) {
-        int count = 0;
-        for (int s = 0; s < samples_per_bone; ++s) count += inside[b * samples_per_bone + static_cast<std::size_t>(s)];
-        if (count == 0) outside.push_back(body.skeleton.bones[b].name);
+    for (const Bone& bone : body.skeleton.bones) {
+        bool is_inside = false;
+        for (int s = 0; s < samples_per_bone; ++s) {
+            const Vec3 point = bone.head + (1.0 / 6.0 + 4.0 / 6.0 * (s + 0.5) / samples_per_bone) * (bone.tail - bone.head);
+            for (Eigen::Index t = 0; t < mesh.tets.rows() && !is_inside; ++t) is_inside = tet_holds(mesh, t, point);
+        }
+        if (!is_inside) outside.push_back(bone.name);
     }
+    const bool is_layer = outside.size() == body.skeleton.bones.size() && !is_watertight(joined_triangles(body.surface, body.triangles));
     if (!outside.empty())
         remarks.push_back(file + ": " + std::to_string(outside.size()) + " of " + std::to_string(body.skeleton.bones.size()) +
-                          " bones lie outside the body: " + name_list(outside));
+                          " bones lie outside the body: " + name_list(outside) + (is_layer ? open_surface : ""));
 }
 
 void add_distance(const RiggedBody& body, double distance_m, const std::string& file, std::vector<std::string>& remarks)
@@ -103,10 +147,21 @@ void add_joints_without_flesh(const RiggedBody& body, const Character& character
                           " joints are without flesh: the tets are too coarse for what they move: " + name_list(without));
 }
 
+// The mesher does not know the name of the file.
+Character meshed(const SurfaceBody& surface, const ModelSource& source)
+{
+    try {
+        return make_surface_body(surface, source.vertices > 0 ? source.vertices : default_model_vertices, false);
+    } catch (const InputError& error) {
+        throw InputError(source.file, 0, "", "", error.what());
+    }
+}
+
 }  // namespace
 
 std::shared_ptr<const RiggedModel> read_model(const std::string& file, const std::string& animation, double scale)
 {
+    const Stage stage("reading " + file);
     auto model = std::make_shared<RiggedModel>();
     model->rig = read_rig(file);
     model->animation = find_animation(model->rig, animation);
@@ -140,18 +195,17 @@ Character make_model_character(const ModelSource& source, std::vector<std::strin
                                       return SurfaceMesh{body.surface, body.triangles};
                                   },
                               .is_foreign = true};
-    Character character = make_surface_body(surface, source.vertices > 0 ? source.vertices : default_model_vertices, false);
+    Character character = meshed(surface, source);
+    add_shape(body, character.mesh, source.file, remarks);
+    const Stage weighting("carrying the weights of " + source.file + " to the tets");
     leave_out_parts_without_bone(character, source.file, remarks);
-    character.surface = embed(body.surface, body.triangles, character.mesh);
     character.inputs = hashed;
     character.artist.emplace();
     character.artist->model = model;
-    if (rigged) {
-        const TransferredWeights transferred =
-            transfer_weights(character.mesh, body.surface, body.triangles, body.skin, static_cast<int>(body.skeleton.bones.size()));
-        character.artist->weights = transferred.weights;
-        character.artist->largest_distance_m = transferred.largest_distance_m;
-    }
+    if (rigged)
+        add_skin(*model, source.file, character, remarks);
+    else
+        character.surface = embed(body.surface, body.triangles, character.mesh);
     const auto found = remarks_on_model(body, character, source.file);
     remarks.insert(remarks.end(), found.begin(), found.end());
     return character;

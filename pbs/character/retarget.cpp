@@ -17,12 +17,9 @@ constexpr double shortest_limb = 1e-6;      // of the zero pose's extent: CMU's 
 constexpr double rounding = 1e-6;           // of a frame: times given in decimal are not refused for their last digit
 constexpr double same_rotation_rad = 1e-4;  // of keys in single precision, with margin
 
-// The plan of one bone.
-struct BoneFollowing {
-    int joint = -1;                                                 // of the clip; -1: the bone follows its parent
+// The plan of one bone. Without a joint it follows its parent.
+struct BoneFollowing : JointMapping {
     Eigen::Quaterniond alignment = Eigen::Quaterniond::Identity();  // A: rest direction of the bone -> limb in the zero pose
-    int twist_joint = -1;                                           // -1: none
-    double twist_share = 0.0;                                       // of that joint's twist about the limb, 0 to 1
     Vec3 limb = Vec3::Zero();                                       // to the end of the joint's limb in the zero pose [clip's units]
 };
 
@@ -32,25 +29,6 @@ struct RetargetPlan {
     double scale = 1.0;  // [m] per clip unit: bones' lengths over limbs', of the legs where they are known, else of all that follow
 };
 
-void add_side(std::vector<JointMapping>& map, const std::string& side, const std::string& joint_prefix)
-{
-    const auto joint = [&](const char* name) { return joint_prefix + name; };
-    map.push_back({"clavicle" + side, joint("Shoulder")});
-    map.push_back({"upper_arm" + side, joint("Arm"), true});
-    map.push_back({"forearm_upper" + side, joint("ForeArm"), true, false, joint("Hand"), 1.0 / 3.0});
-    map.push_back({"forearm_lower" + side, joint("ForeArm"), true, false, joint("Hand"), 2.0 / 3.0});
-    map.push_back({"hand" + side, joint("Hand"), true});
-    map.push_back({"thigh" + side, joint("UpLeg"), true, true});
-    map.push_back({"shin" + side, joint("Leg"), true, true});
-    map.push_back({"foot" + side, joint("Foot"), true});
-}
-
-int joint_named(const Clip& clip, const std::string& name)
-{
-    const auto found = std::find(clip.joints.begin(), clip.joints.end(), name);
-    return name.empty() || found == clip.joints.end() ? -1 : static_cast<int>(found - clip.joints.begin());
-}
-
 std::vector<int> children_of(const Clip& clip, int joint)
 {
     std::vector<int> children;
@@ -59,79 +37,47 @@ std::vector<int> children_of(const Clip& clip, int joint)
     return children;
 }
 
-// Vector from the joint to the first descendant at another position, along first children; zero where there is none.
-Vec3 limb_of(const Clip& clip, int joint)
+// Vector from the joint to the first of limb_end and its descendants at another position, along first children; zero where there is none.
+// limb_end -1: the joint's children, of which a thumb points to the side of its hand.
+Vec3 limb_of(const Clip& clip, int joint, int limb_end)
 {
     const double extent = (clip.zero_pose.colwise().maxCoeff() - clip.zero_pose.colwise().minCoeff()).norm();
-    for (std::vector<int> below = children_of(clip, joint); !below.empty(); below = children_of(clip, below.front()))
+    for (std::vector<int> below = limb_end < 0 ? children_of(clip, joint) : std::vector{limb_end}; !below.empty();
+         below = children_of(clip, below.front()))
         for (const int child : below) {
+            if (clip.joints[child].find("humb") != std::string::npos) continue;
             const Vec3 limb = clip.zero_pose.row(child) - clip.zero_pose.row(joint);
             if (limb.norm() > shortest_limb * extent) return limb;
         }
     return Vec3::Zero();
 }
 
-JointMapping mapping_of(const Bone& bone, const Clip& clip)
-{
-    for (const JointMapping& mapping : cmu_joint_map())
-        if (mapping.bone == bone.name && joint_named(clip, mapping.joint) >= 0) return mapping;
-    const int joint = joint_named(clip, bone.name);
-    return {bone.name, bone.name, joint >= 0 && children_of(clip, joint).size() == 1};
-}
-
-BoneFollowing follow(const Bone& bone, const JointMapping& mapping, const Clip& clip)
-{
-    BoneFollowing following;
-    following.joint = joint_named(clip, mapping.joint);
-    if (following.joint < 0) return following;
-    following.limb = limb_of(clip, following.joint);
-    if (mapping.aligned && !following.limb.isZero(0.0))
-        following.alignment = Eigen::Quaterniond::FromTwoVectors(bone.tail - bone.head, following.limb);
-    following.twist_joint = joint_named(clip, mapping.twist_joint);
-    following.twist_share = mapping.twist_share;
-    return following;
-}
-
-[[noreturn]] void refuse(const Clip& clip, const Skeleton& skeleton, const std::string& why)
-{
-    std::vector<std::string> bones;
-    for (const Bone& bone : skeleton.bones) bones.push_back(bone.name);
-    throw InputError(clip.name, 0, "joints", name_list(clip.joints), why + " (bones: " + name_list(bones) + ")");
-}
-
-// Bone lengths over limb lengths: of the legs where the map knows them, else of all bones that follow.
-double scale_of(const std::vector<double>& lengths, const RetargetPlan& plan, const std::vector<bool>& counts)
-{
-    double bones = 0.0, limbs = 0.0;
-    for (std::size_t b = 0; b < lengths.size(); ++b) {
-        const double limb = plan.bones[b].limb.norm();
-        if (!counts[b] || limb == 0.0) continue;
-        bones += lengths[b];
-        limbs += limb;
-    }
-    return limbs > 0.0 ? bones / limbs : 1.0;
-}
-
-// Uses CMU's joint names for the bones of the `human`, else equal names. InputError where no joint has the name of a bone, or some have
-// CMU's and the legs' are missing.
-RetargetPlan plan_retargeting(const Clip& clip, const Skeleton& skeleton)
+// An InputError where the map has no joint for any bone.
+RetargetPlan plan_retargeting(const Clip& clip, const Skeleton& skeleton, const JointMap& map)
 {
     RetargetPlan plan;
-    std::vector<double> lengths;
-    std::vector<bool> is_leg, follows;
-    bool by_map = false;
-    for (const Bone& bone : skeleton.bones) {
-        const JointMapping mapping = mapping_of(bone, clip);
-        plan.bones.push_back(follow(bone, mapping, clip));
-        lengths.push_back((bone.tail - bone.head).norm());
-        follows.push_back(plan.bones.back().joint >= 0);
-        is_leg.push_back(mapping.leg && follows.back());
-        by_map = by_map || (follows.back() && mapping.joint != bone.name);
+    std::vector<std::string> names;
+    bool follows = false;
+    Eigen::Vector2d legs(0.0, 0.0), all(0.0, 0.0);  // lengths of the bones [m] and of their limbs
+    for (std::size_t b = 0; b < skeleton.bones.size(); ++b) {
+        const Vec3 bone = skeleton.bones[b].tail - skeleton.bones[b].head;
+        BoneFollowing following{map.bones[b]};
+        names.push_back(skeleton.bones[b].name);
+        follows = follows || following.joint >= 0;
+        if (following.joint >= 0) following.limb = limb_of(clip, following.joint, following.limb_end);
+        if (!following.limb.isZero(0.0)) {
+            if (following.aligned) following.alignment = Eigen::Quaterniond::FromTwoVectors(bone, following.limb);
+            const Eigen::Vector2d lengths(bone.norm(), following.limb.norm());
+            all += lengths;
+            if (following.leg) legs += lengths;
+        }
+        plan.bones.push_back(following);
     }
-    if (std::find(follows.begin(), follows.end(), true) == follows.end()) refuse(clip, skeleton, "no joint has the name of a bone");
-    const bool has_legs = std::find(is_leg.begin(), is_leg.end(), true) != is_leg.end();
-    if (by_map && !has_legs) refuse(clip, skeleton, "some joints have CMU's names, but the legs' are missing");
-    plan.scale = scale_of(lengths, plan, has_legs ? is_leg : follows);
+    if (!follows)
+        throw InputError(clip.name, 0, "joints", name_list(clip.joints),
+                         "no joint has the name of a bone (bones: " + name_list(names) + ")");
+    const Eigen::Vector2d& lengths = legs(1) > 0.0 ? legs : all;
+    plan.scale = lengths(1) > 0.0 ? lengths(0) / lengths(1) : 1.0;
     return plan;
 }
 
@@ -201,19 +147,6 @@ std::vector<int> first_children(const Clip& clip)
 
 }  // namespace
 
-const std::vector<JointMapping>& cmu_joint_map()
-{
-    static const std::vector<JointMapping> map = [] {
-        std::vector<JointMapping> joints = {
-            {"pelvis", "Hips"}, {"spine", "LowerBack"}, {"chest", "Spine1"}, {"neck", "Neck"}, {"head", "Head"},
-        };
-        add_side(joints, ".L", "Left");
-        add_side(joints, ".R", "Right");
-        return joints;
-    }();
-    return map;
-}
-
 double twist_angle(const Eigen::Quaterniond& rotation, const Vec3& axis)
 {
     double angle = 2.0 * std::atan2(rotation.vec().dot(axis), rotation.w());
@@ -226,7 +159,7 @@ Motion retarget(const Clip& clip, const Skeleton& skeleton, const ClipSampling& 
 {
     const int first = sampling.drop_first_frame ? 1 : 0;
     if (clip.frames() <= first) throw InputError(clip.name, 0, "Frames", std::to_string(clip.frames()), "no frame is left after the first");
-    const RetargetPlan plan = plan_retargeting(clip, skeleton);
+    const RetargetPlan plan = plan_retargeting(clip, skeleton, joint_map(clip, skeleton));
 
     Motion motion;
     motion.time_step_s = sampling.time_step_s;
@@ -245,19 +178,22 @@ Motion retarget(const Clip& clip, const Skeleton& skeleton, const ClipSampling& 
 
 ClipMatch match_of(const Clip& clip, const Skeleton& skeleton)
 {
-    std::set<int> followed;
-    for (const BoneFollowing& bone : plan_retargeting(clip, skeleton).bones) {
-        followed.insert(bone.joint);
-        followed.insert(bone.twist_joint);
-    }
+    const JointMap map = joint_map(clip, skeleton);
+    const RetargetPlan plan = plan_retargeting(clip, skeleton, map);
     ClipMatch match;
+    std::set<int> followed;
+    for (std::size_t b = 0; b < plan.bones.size(); ++b)
+        if (plan.bones[b].joint >= 0)
+            followed.insert({plan.bones[b].joint, plan.bones[b].twist_joint});
+        else
+            match.bones_without_joint.push_back(skeleton.bones[b].name);
     for (std::size_t j = 0; j < clip.joints.size(); ++j) {
         if (!moves(clip, j)) continue;
         ++match.moving;
-        if (followed.count(static_cast<int>(j)) > 0)
-            ++match.matched;
-        else
-            match.unmatched.push_back(clip.joints[j]);
+        match.matched += static_cast<int>(followed.count(static_cast<int>(j)));
+        if (followed.count(static_cast<int>(j)) > 0) continue;
+        match.unmatched.push_back(clip.joints[j]);
+        match.small += map.is_small[j];
     }
     return match;
 }

@@ -149,7 +149,7 @@ Character with_weights(WeightKind kind, Character character)
 }
 
 TransferredWeights transfer_weights(const TetMesh& mesh, const Positions& surface, const Triangles& triangles, const Weights& skin,
-                                    int bones)
+                                    int bones, const std::function<bool(Eigen::Index, const SurfacePoint&)>& may_move)
 {
     const SurfaceTree tree(surface, triangles);
     const std::vector<bool> on_boundary = boundary_vertices(mesh.tets, mesh.rest.rows());
@@ -157,8 +157,14 @@ TransferredWeights transfer_weights(const TetMesh& mesh, const Positions& surfac
     TransferredWeights transferred;
     for (Eigen::Index v = 0; v < mesh.rest.rows(); ++v) {
         if (!on_boundary[static_cast<std::size_t>(v)]) continue;
-        const SurfacePoint nearest = tree.nearest(mesh.rest.row(v).transpose());
-        transferred.largest_distance_m = std::max(transferred.largest_distance_m, nearest.distance_m);
+        const Vec3 point = mesh.rest.row(v);
+        SurfacePoint nearest = tree.nearest(point);
+        if (may_move && !may_move(v, nearest)) {  // at a cut, which lies in the flesh
+            const SurfacePoint other = tree.nearest(point, [&](const SurfacePoint& candidate) { return may_move(v, candidate); });
+            if (other.triangle >= 0) nearest = other;
+        } else {
+            transferred.largest_distance_m = std::max(transferred.largest_distance_m, nearest.distance_m);
+        }
         for (int corner = 0; corner < 3; ++corner) {
             const int point = triangles(nearest.triangle, corner);
             for (int e = skin.first[point]; e < skin.first[point + 1]; ++e)

@@ -7,6 +7,7 @@
 #include "pbs/skinning/weights.hpp"
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -40,9 +41,10 @@ struct TransferredWeights {
 
 // A vertex on the boundary of the tets gets the weights of the surface's nearest point (linear in its triangle), a vertex inside their
 // harmonic extension. surface [m], #S x 3; triangles #F x 3 with #F > 0; skin: weights of the surface's points, #S. Small weights (1e-6)
-// are removed and the others normalised.
+// are removed and the others normalised. may_move(vertex, point): only such points are taken, unless there is none for the vertex; by
+// default all.
 TransferredWeights transfer_weights(const TetMesh& mesh, const Positions& surface, const Triangles& triangles, const Weights& skin,
-                                    int bones);
+                                    int bones, const std::function<bool(Eigen::Index, const SurfacePoint&)>& may_move = {});
 
 // How much of the artist's weights the tets carry: at a point of the surface, the lesser of the artist's weight of a bone and the one that
 // the tets have there.

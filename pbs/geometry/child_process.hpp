@@ -3,7 +3,7 @@
 // a sound file needs, and no more than half of the memory that there is. Whatever becomes of the child, the caller gets what was read or an
 // InputError that names the file and says how the child died.
 //   const TetMesh mesh = read_guarded("arm.vtu", read_vtk);
-// Also: a child that ends with its parent, and whether a process is still running.
+// Also: the stages of long work, a child that ends with its parent, and whether a process is still running.
 //   const pid_t parent = getpid();
 //   if (fork() == 0) { end_with_parent(parent); ... }   // a child that does not outlive its parent, however that one ends
 #pragma once
@@ -33,6 +33,29 @@ auto read_guarded(const std::string& path, const Read& read)
     try_reading(path, [&](const std::string& file) { read(file); });
     return read(path);
 }
+
+// A stage of long work. The program prints the name of a stage that takes long, and ends within a second if it is interrupted in one.
+//   const Stage stage("wrapping the surface");
+// Stages may contain others. Where nobody watches, as in a program of the user's own, a stage does nothing.
+struct StageWatcher {
+    void (*begin)(const std::string& name) = nullptr;  // may throw; then the stage has not begun
+    void (*end)() = nullptr;
+};
+inline StageWatcher stage_watcher;
+
+class Stage {
+public:
+    explicit Stage(const std::string& name)
+    {
+        if (stage_watcher.begin) stage_watcher.begin(name);
+    }
+    ~Stage()
+    {
+        if (stage_watcher.end) stage_watcher.end();
+    }
+    Stage(const Stage&) = delete;
+    Stage& operator=(const Stage&) = delete;
+};
 
 // Call this first in the child (prctl(2), PR_SET_PDEATHSIG). The parent's thread that forked must live as long as the child is needed.
 inline void end_with_parent(pid_t parent)

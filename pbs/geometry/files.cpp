@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cctype>
 #include <cerrno>
 #include <cstdio>
@@ -116,6 +117,15 @@ int open_new(const std::string& beginning, std::string& name)
     return -1;
 }
 
+// The names of the first files that are being written; a signal handler may read them at any time.
+std::array<std::atomic<const char*>, 64> unfinished = {};
+
+void exchange_unfinished(const char* name, const char* by)
+{
+    for (auto& entry : unfinished)
+        if (const char* expected = name; entry.compare_exchange_strong(expected, by)) return;
+}
+
 // The new name survives a loss of power, too. File systems that cannot flush a folder keep no such promise.
 void flush_folder_of(const std::string& path)
 {
@@ -186,12 +196,20 @@ AtomicFile::AtomicFile(const std::string& path) : path_(path)
     require_no_device(path);
     file_ = open_new(beginning_of_temporary(path), temporary_);
     if (file_ < 0) refuse(errno);
+    exchange_unfinished(nullptr, temporary_.c_str());
 }
 
 AtomicFile::~AtomicFile()
 {
     if (file_ >= 0) ::close(file_);
     if (!temporary_.empty()) ::unlink(temporary_.c_str());
+    exchange_unfinished(temporary_.c_str(), nullptr);
+}
+
+void AtomicFile::remove_unfinished()
+{
+    for (const auto& entry : unfinished)
+        if (const char* name = entry.load()) ::unlink(name);
 }
 
 void AtomicFile::write(std::string_view bytes)
@@ -208,6 +226,7 @@ void AtomicFile::finish()
 {
     if (::fsync(file_) != 0) refuse(errno);  // a full disk may say so no earlier
     if (::close(std::exchange(file_, -1)) != 0 || std::rename(temporary_.c_str(), path_.c_str()) != 0) refuse(errno);
+    exchange_unfinished(temporary_.c_str(), nullptr);
     temporary_.clear();
     flush_folder_of(path_);
 }

@@ -49,6 +49,9 @@ public:
 
     const std::string& temporary() const { return temporary_; }  // what was written so far
 
+    // Removes what all AtomicFiles of this process have written so far. For a signal handler that ends the process.
+    static void remove_unfinished();
+
 private:
     [[noreturn]] void refuse(int reason) const;
 

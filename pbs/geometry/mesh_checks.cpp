@@ -146,19 +146,9 @@ void check_faces(const std::string& path, const TetMesh& mesh)
     }
 }
 
-// Parts that touch in a vertex of the file are split there, so that their triangles share a place but no vertex.
-void check_boundary(const std::string& path, const MeshReading& reading)
+// Where tets were separated, triangles share a place but not all vertices.
+void check_boundary([[maybe_unused]] const std::string& path, [[maybe_unused]] const MeshReading& reading)
 {
-    if (!topology_of(reading.mesh.tets, reading.mesh.rest.rows()).boundary_manifold) {
-        const auto edge = edge_that_is_not_manifold(reading.mesh.tets);
-        const std::string where =
-            edge ? "vertices " + std::to_string(reading.file_vertex[(*edge)[0]]) + " and " + std::to_string(reading.file_vertex[(*edge)[1]])
-                 : "";
-        throw InputError(
-            path, 0, "boundary", where,
-            "expected a manifold; tets that share no face touch in the edge of these vertices: join them by a face or give them "
-            "vertices of their own");
-    }
 #ifdef PBS_WITH_CGAL
     const Triangles boundary = boundary_of(reading.mesh.tets);
     for (const auto& [a, b] : self_intersections(reading.mesh.rest, boundary)) {
@@ -182,35 +172,6 @@ std::map<std::pair<int, int>, int> triangles_at_edges(const Triangles& triangles
     return triangles_at;
 }
 
-// The tets of each vertex, #V.
-std::vector<std::vector<int>> tets_of_vertices(const TetMesh& mesh)
-{
-    std::vector<std::vector<int>> tets(static_cast<std::size_t>(mesh.rest.rows()));
-    for (int t = 0; t < mesh.tets.rows(); ++t)
-        for (const int vertex : mesh.tets.row(t)) tets[static_cast<std::size_t>(vertex)].push_back(t);
-    return tets;
-}
-
-// The group of each of a vertex's tets: those that are joined by faces at that vertex.
-std::vector<int> groups_at(int vertex, const std::vector<int>& around, const Tets& tets)
-{
-    Classes joined(around.size());
-    std::map<std::array<int, 2>, int> tet_at;  // by the other two vertices of a face
-    for (int member = 0; member < static_cast<int>(around.size()); ++member) {
-        std::vector<int> others;
-        for (const int corner : tets.row(around[member]))
-            if (corner != vertex) others.push_back(corner);
-        std::sort(others.begin(), others.end());
-        for (const auto& face : {std::array{others[0], others[1]}, std::array{others[0], others[2]}, std::array{others[1], others[2]}}) {
-            const auto [other, added] = tet_at.emplace(face, member);
-            if (!added) joined.unite(member, other->second);
-        }
-    }
-    std::vector<int> group;
-    for (int member = 0; member < static_cast<int>(around.size()); ++member) group.push_back(joined.find(member));
-    return group;
-}
-
 template <typename Value>
 std::string remark(const std::string& path, const std::string& field, const Value& value, const std::string& treatment)
 {
@@ -219,16 +180,26 @@ std::string remark(const std::string& path, const std::string& field, const Valu
     return text.str();
 }
 
-// The first few by number.
-void add_vertices(const std::string& path, const std::string& field, const std::vector<int>& vertices, const std::string& treatment,
-                  std::vector<std::string>& remarks)
+std::string shown(int vertex)
 {
-    if (vertices.empty()) return;
+    return std::to_string(vertex);
+}
+std::string shown(const std::array<int, 2>& edge)
+{
+    return shown(edge[0]) + "-" + shown(edge[1]);
+}
+
+// The first few vertices or edges by number.
+template <typename Item>
+void add_list(const std::string& path, const std::string& field, const std::vector<Item>& items, const std::string& treatment,
+              std::vector<std::string>& remarks)
+{
+    if (items.empty()) return;
     constexpr std::size_t most = 20;
     std::string list;
-    for (std::size_t v = 0; v < vertices.size() && v < most; ++v) list += (v ? ", " : "") + std::to_string(vertices[v]);
-    if (vertices.size() > most) list += ", ...";
-    remarks.push_back(remark(path, field, std::to_string(vertices.size()) + " (" + list + ")", treatment));
+    for (std::size_t i = 0; i < items.size() && i < most; ++i) list += (i ? ", " : "") + shown(items[i]);
+    if (items.size() > most) list += ", ...";
+    remarks.push_back(remark(path, field, std::to_string(items.size()) + " (" + list + ")", treatment));
 }
 
 void add_size(const std::string& path, const Positions& points, std::vector<std::string>& remarks)
@@ -276,52 +247,27 @@ void check_frame(const std::string& path, const TetMesh& mesh)
     check_places(path, mesh.rest);
 }
 
-MeshReading check_rest(const std::string& path, TetMesh mesh)
+MeshReading check_rest(const std::string& path, TetMesh mesh, bool separates)
 {
     check_frame(path, mesh);
     require_extent(path, mesh.rest);
     const int flipped_tets = normalise_orientation(path, mesh);
     check_faces(path, mesh);
     MeshReading reading = repaired(mesh);
-    reading.flipped_tets = flipped_tets;
     check_distinct(path, reading);
     check_boundary(path, reading);
+    if (!separates) reading = repaired(mesh, false);
+    reading.flipped_tets = flipped_tets;
+    reading.touching_edges = touching_edges(mesh.tets);
     return reading;
 }
 
-MeshReading repaired(const TetMesh& mesh)
+std::vector<std::array<int, 2>> touching_edges(const Tets& tets)
 {
-    MeshReading result;
-    result.file_vertices = static_cast<int>(mesh.rest.rows());
-    result.mesh.tets = mesh.tets;
-    const std::vector<std::vector<int>> tets_of = tets_of_vertices(mesh);
-    for (int vertex = 0; vertex < mesh.rest.rows(); ++vertex) {
-        const std::vector<int>& around = tets_of[static_cast<std::size_t>(vertex)];
-        if (around.empty()) {
-            result.unused_vertices.push_back(vertex);
-            continue;
-        }
-        const std::vector<int> groups = groups_at(vertex, around, mesh.tets);
-        std::map<int, int> index_of_group;
-        for (std::size_t member = 0; member < around.size(); ++member) {
-            const auto [index, added] = index_of_group.emplace(groups[member], static_cast<int>(result.file_vertex.size()));
-            if (added) result.file_vertex.push_back(vertex);
-            for (int corner = 0; corner < 4; ++corner)
-                if (mesh.tets(around[member], corner) == vertex) result.mesh.tets(around[member], corner) = index->second;
-        }
-        if (index_of_group.size() > 1) result.split_vertices.push_back(vertex);
-    }
-    result.mesh.rest.resize(static_cast<Eigen::Index>(result.file_vertex.size()), 3);
-    for (std::size_t v = 0; v < result.file_vertex.size(); ++v)
-        result.mesh.rest.row(static_cast<Eigen::Index>(v)) = mesh.rest.row(result.file_vertex[v]);
-    return result;
-}
-
-std::optional<std::array<int, 2>> edge_that_is_not_manifold(const Tets& tets)
-{
+    std::vector<std::array<int, 2>> edges;
     for (const auto& [edge, count] : triangles_at_edges(boundary_of(tets)))
-        if (count > 2) return std::array{edge.first, edge.second};
-    return std::nullopt;
+        if (count > 2) edges.push_back({edge.first, edge.second});
+    return edges;
 }
 
 std::string remark_on_name(const std::string& path, const std::string& content_extension)
@@ -335,8 +281,12 @@ std::vector<std::string> remarks_on(const std::string& path, const MeshReading& 
     if (!reading.read_as.empty()) remarks.push_back(remark_on_name(path, reading.read_as));
     if (reading.flipped_tets > 0)
         remarks.push_back(remark(path, "inverted tets", reading.flipped_tets, "turned, so that every rest volume is positive"));
-    add_vertices(path, "unused vertices", reading.unused_vertices, "left out; no tet uses them", remarks);
-    add_vertices(path, "vertices at which parts touch", reading.split_vertices, "split, so that each part has its own", remarks);
+    add_list(path, "unused vertices", reading.unused_vertices, "left out; no tet uses them", remarks);
+    const bool is_split = !reading.split_vertices.empty();
+    add_list(path, "edges at which parts touch", reading.touching_edges,
+             is_split ? "split, so that each side has its own" : "kept: no metric needs a manifold boundary", remarks);
+    add_list(path, "vertices at which parts touch", reading.split_vertices, "split, so that each part has its own", remarks);
+    if (reading.cut_faces > 0) remarks.push_back(remark(path, "faces that were cut", reading.cut_faces, "they joined parts that touch"));
     const int parts = topology_of(reading.mesh.tets, reading.mesh.rest.rows()).components;
     if (parts > 1) remarks.push_back(remark(path, "parts", parts, "kept; no face joins them"));
     add_size(path, reading.mesh.rest, remarks);

@@ -5,6 +5,7 @@
 
 #include "pbs/geometry/tet_mesh.hpp"
 
+#include <array>
 #include <map>
 #include <string>
 #include <vector>
@@ -19,15 +20,18 @@ struct MeshReading {
     std::vector<int> file_vertex;      // the file's number of each vertex, from 0, #V
     std::vector<int> unused_vertices;  // of the file, left out because no tet uses them
     std::vector<int> split_vertices;   // of the file, at which parts touch without a common face: each part got a vertex of its own
-    std::string read_as;               // the usual extension of the file's format, if its own is another one; empty: as it is named
+    std::vector<std::array<int, 2>> touching_edges;  // vertices of the file; in each, tets touch that no face joins around it
+    int cut_faces = 0;                               // in two tets of the file, but in one each after the split
+    std::string read_as;  // the usual extension of the file's format, if its own is another one; empty: as it is named
 };
 
 // The reader is chosen by the content of a file where it shows the format, otherwise by the extension. For TetGen and .tobj it does not.
 //
 // A tet mesh to compute on: finite, not empty, indices in range, no tet without volume, no face in three tets, no neighbours that
-// overlap, boundary manifold and not self-intersecting (checked in builds with CGAL), no two vertices in one place. Unused vertices are
-// left out, parts that touch in a vertex are separated there, and the orientation is normalised.
-MeshReading read_tet_mesh(const std::string& path);
+// overlap, boundary not self-intersecting (checked in builds with CGAL), no two vertices in one place. Unused vertices are left out, tets
+// that touch in a vertex or an edge alone are separated there, so that the boundary is manifold, and the orientation is normalised.
+// separates: false keeps the file's vertices, for metrics, which need no manifold boundary.
+MeshReading read_tet_mesh(const std::string& path, bool separates = true);
 
 // Points and tets as they are in the file, including inverted tets: the metrics of deformed frames need them.
 // InputError where there is no tet, an index out of range, or a coordinate that is not finite or beyond 1e9 m.
@@ -69,8 +73,8 @@ void write_pvd(const std::string& path, const std::vector<std::pair<double, std:
 
 // Remarks on properties of a mesh that are accepted although its author may not have intended them: one line each, printed for the user.
 //   for (const std::string& remark : remarks_on("arm.msh", read_tet_mesh("arm.msh"))) ...
-// A name that does not fit the content, turned tets, vertices that were left out or split, parts that no face joins, and a size that speaks
-// for other units than metres (under 1 mm or above 100 m).
+// A name that does not fit the content, turned tets, vertices that were left out or split, edges at which parts touch, faces that were cut,
+// parts that no face joins, and a size that speaks for other units than metres (under 1 mm or above 100 m).
 std::vector<std::string> remarks_on(const std::string& path, const MeshReading& reading);
 
 // read_surface of a file that a user names, with its remarks: a name that does not fit the content, points that no triangle uses, triangles

@@ -7,7 +7,7 @@
 #include "pbs/geometry/mesh_io.hpp"
 
 #include <array>
-#include <optional>
+#include <vector>
 
 namespace pbs {
 
@@ -46,15 +46,16 @@ int checked_index(const std::string& path, long long tet, long long index, long 
 void check_frame(const std::string& path, const TetMesh& mesh);
 
 // check_frame, and: not smaller than 1e-9 m, no tet without volume, no two vertices in one place, no face in three tets, no overlap of
-// neighbours, boundary manifold and, in a build with CGAL, free of self-intersections. The mesh is repaired; the orientation is normalised
-// by swapping the last two vertices.
-MeshReading check_rest(const std::string& path, TetMesh mesh);
+// neighbours and, in a build with CGAL, no self-intersection of the boundary. The mesh is repaired; the orientation is normalised by
+// swapping the last two vertices.
+MeshReading check_rest(const std::string& path, TetMesh mesh, bool separates = true);
 
-// Repairs that move no tet: unused vertices are left out, parts that touch get vertices of their own. Indices in range (unchecked). Where
-// parts touch in an edge whose ends are joined by other tets, the boundary stays not manifold.
-MeshReading repaired(const TetMesh& mesh);
+// Repairs that move no tet: unused vertices are left out, and the vertices of tets that touch without a common face are split, so that the
+// boundary is manifold; not if `separates` is false. Where other tets join what touches, some of their faces are cut. Indices in range, at
+// most two tets at a face (unchecked). A mesh that needs no repair stays as it is.
+MeshReading repaired(const TetMesh& mesh, bool separates = true);
 
-// An edge that is in more than two triangles of the boundary; nothing where there is none.
-std::optional<std::array<int, 2>> edge_that_is_not_manifold(const Tets& tets);
+// The edges that are in more than two triangles of the boundary, sorted.
+std::vector<std::array<int, 2>> touching_edges(const Tets& tets);
 
 }  // namespace pbs

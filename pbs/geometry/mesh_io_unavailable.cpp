@@ -11,7 +11,7 @@
 
 namespace pbs {
 
-PBS_REFUSE(MeshReading read_tet_mesh(const std::string& path))
+PBS_REFUSE(MeshReading read_tet_mesh(const std::string& path, bool))
 PBS_REFUSE(TetMesh read_tet_frame(const std::string& path))
 PBS_REFUSE(void require_tet_mesh_format(const std::string& path))
 PBS_REFUSE(void write_tet_mesh(const std::string& path, const TetMesh&))

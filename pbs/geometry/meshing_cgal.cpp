@@ -21,6 +21,7 @@
 #include <memory>
 #include <numbers>
 #include <optional>
+#include <string>
 #include <tuple>
 #include <unordered_map>
 #include <variant>
@@ -87,9 +88,14 @@ Complex refined(const Domain& domain, const MeshCriteria& wanted)
     // CGAL prints a warning when no refinement can begin. Such an empty complex is refined again from other points.
     const auto previous = CGAL::set_warning_handler([](const char*, const char*, const char*, int, const char*) {});
     const std::shared_ptr<void> quiet(nullptr, [previous](void*) { CGAL::set_warning_handler(previous); });
-    return CGAL::make_mesh_3<Complex>(domain, criteria, parameters::no_perturb(), parameters::no_exude(),
-                                      wanted.is_manifold ? parameters::manifold() : parameters::non_manifold(),
-                                      domain.maximal_curve_index() > 0 ? parameters::features() : parameters::no_features());
+    CGAL::Mesh_error_code end = CGAL::CGAL_MESH_3_NO_ERROR;
+    Complex complex = CGAL::make_mesh_3<Complex>(domain, criteria, parameters::no_perturb(), parameters::no_exude(),
+                                                 wanted.is_manifold ? parameters::manifold() : parameters::non_manifold(),
+                                                 domain.maximal_curve_index() > 0 ? parameters::features() : parameters::no_features(),
+                                                 parameters::mesh_3_options(parameters::maximal_number_of_vertices = wanted.most_vertices,
+                                                                            parameters::pointer_to_error_code = &end));
+    if (end != CGAL::CGAL_MESH_3_NO_ERROR) throw TooManyVertices{"more than " + std::to_string(wanted.most_vertices)};
+    return complex;
 }
 
 // Vertices are numbered as the cells first name them; cells come in the order of the triangulation's container.

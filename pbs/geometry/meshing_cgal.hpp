@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <string>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -51,6 +52,10 @@ struct MeshCriteria {
     double radius_edge_ratio = 2.0;
     bool is_manifold = false;                // the mesh of a skin of one patch
     std::optional<double> sliver_bound_deg;  // perturb and exude; dihedral angles above it are good enough; 0: as good as they get
+    std::size_t most_vertices = 0;           // a refinement that reaches so many ends with TooManyVertices; 0: no bound
+};
+struct TooManyVertices {
+    std::string vertices;  // how many, in words
 };
 TetMesh mesh_body(MeshedBody& body, const MeshCriteria& criteria);
 

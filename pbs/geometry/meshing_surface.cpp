@@ -2,6 +2,7 @@
 // Alpha wrap: Portaneri et al., ACM TOG 41(4), 2022. Delaunay refinement, perturbation, exudation: Jamin et al., ACM TOMS 41(4), 2015.
 #include "pbs/geometry/meshing.hpp"
 
+#include "pbs/geometry/child_process.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/meshing_attempts.hpp"
 #include "pbs/geometry/meshing_cgal.hpp"
@@ -22,6 +23,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 #include <optional>
@@ -125,15 +127,36 @@ constexpr double inside_to_skin = 1.2;  // size of cells over size of facets
 constexpr double flat_surface = 1e-12;
 constexpr double smallest_m = 1e-9;       // squares and cubes of cells of a smaller surface leave the range that CGAL can compare
 constexpr double sheet_thickness = 0.05;  // over the diagonal: some tets across it at the default number of vertices
-constexpr const char* boundary_not_manifold = "the boundary is not manifold";
+constexpr const char *boundary_not_manifold = "the boundary is not manifold", *no_tets = "no tets";
+
+// Bounds on the work, far above what a sound mesh takes. They count points, so that a slow machine makes the same meshes. A thin layer is
+// refined down to its thickness, whatever cells are wanted: an open tube gets 18,000 vertices instead of 2,000, and 25,000 at the first
+// size. Otherwise the search overshoots most where the first size fits 2,000 vertices and far more are wanted: its slope of -2.5 instead of
+// -3 gives 2.2 times 99,900 and 5.5 times 10 million. A vertex takes up to 3 kB. A search takes up to 10 refinements, and
+// most bodies are meshed at the first or second of 6 distances. The wrap of a thin layer, at the default alpha, has 10,000 points, that of
+// a bulky body some 40,000.
+constexpr std::size_t least_bound = 30'000, bound_over_wanted = 6, least_in_all = 60'000, in_all_over_wanted = 30,
+                      most_wrap_points = 1'000'000;
 
 double diagonal_of(const Positions& points)
 {
     return (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
 }
 
+struct WrapVisitor : CGAL::Alpha_wraps_3::internal::Wrapping_default_visitor {
+    template <typename Wrapper, typename NewPoint>
+    void before_Steiner_point_insertion(const Wrapper&, const NewPoint&)
+    {
+        if (++points > most_wrap_points)
+            throw InputError("", 0, "points of the wrap", "more than " + std::to_string(most_wrap_points),
+                             "expected fewer: a larger alpha (--wrap-alpha)");
+    }
+    std::size_t points = 0;
+};
+
 Surface wrap(const SurfaceMesh& surface, double alpha, double offset)
 {
+    const Stage stage("wrapping the surface");
     std::vector<Point> points;
     std::vector<std::array<std::size_t, 3>> triangles;
     for (Eigen::Index i = 0; i < surface.points.rows(); ++i)
@@ -142,7 +165,9 @@ Surface wrap(const SurfaceMesh& surface, double alpha, double offset)
         triangles.push_back({static_cast<std::size_t>(surface.triangles(f, 0)), static_cast<std::size_t>(surface.triangles(f, 1)),
                              static_cast<std::size_t>(surface.triangles(f, 2))});
     Surface wrapped;
-    CGAL::alpha_wrap_3(points, triangles, alpha, offset, wrapped);
+    WrapVisitor visitor;
+    CGAL::alpha_wrap_3(points, triangles, alpha, offset, wrapped, CGAL::parameters::default_values(),
+                       CGAL::parameters::visitor(std::ref(visitor)));
     return wrapped;
 }
 
@@ -216,13 +241,37 @@ private:
     std::vector<double> thickness_;
 };
 
-// An open sheet is wrapped on both sides: its wrap holds far less, or far more, than the surface seems to enclose.
-void check_closed(const SurfaceMesh& surface, const WrappedBody& body)
+// What each refinement of a wrap may take, and what all together may still take.
+struct Effort {
+    explicit Effort(std::size_t wanted)
+        : most(std::max(least_bound, bound_over_wanted * wanted)), left(std::max(least_in_all, in_all_over_wanted * wanted))
+    {
+    }
+    std::size_t most, left;
+};
+
+// TooManyVertices where a bound is reached.
+TetMesh mesh_within(Effort& effort, MeshedBody& body, MeshCriteria criteria)
 {
-    const double ratio = body.volume() / std::abs(fan_volume(surface.points, surface.triangles));
-    if (!(ratio > 0.5 && ratio < 2.0))
-        throw InputError("", 0, "wrapped volume / enclosed volume", std::to_string(ratio),
-                         "expected 0.5 to 2: a closed or nearly closed surface, its triangles oriented one way");
+    criteria.most_vertices = std::min(effort.most, effort.left);
+    if (effort.left == 0) throw TooManyVertices{"too many in all attempts"};
+    effort.left -= criteria.most_vertices;  // all of them, if it ends with an exception
+    TetMesh mesh = mesh_body(body, criteria);
+    effort.left += criteria.most_vertices - static_cast<std::size_t>(mesh.rest.rows());
+    return mesh;
+}
+
+// An open sheet is wrapped on both sides: its wrap holds far less, or far more, than the surface seems to enclose.
+bool is_far_off(double volume_ratio)
+{
+    return !(volume_ratio > 0.5 && volume_ratio < 2.0);
+}
+
+std::string advice(double volume_ratio)
+{
+    if (!is_far_off(volume_ratio)) return "the body has parts thinner than its cells; ask for more vertices";
+    if (!std::isfinite(volume_ratio)) return "the surface encloses no volume; give it a thickness";
+    return "its wrap holds " + number_text(volume_ratio, 2) + " times what the surface seems to enclose; close it, or give it a thickness";
 }
 
 // A defect of the wrap remains at every cell size.
@@ -236,13 +285,18 @@ void check_wrap(const WrappedBody& body, const SurfaceMeshing& options)
             throw InputError("", 0, "point " + std::to_string(i) + " asked inside", "", "expected inside the surface");
 }
 
-// The cell size that refines to the wanted number of vertices; optimising hardly changes it.
-double size_of(WrappedBody& body, int vertices, double distance)
+// The cell size that refines to the wanted number of vertices; optimising hardly changes it. TooManyVertices where far larger cells are
+// hardly fewer, so that the number cannot be reached.
+double size_of(WrappedBody& body, int vertices, double distance, Effort& effort)
 {
-    double nearest_size = 1.0, nearest_miss = std::numeric_limits<double>::infinity();
+    double nearest_size = 1.0, nearest_miss = std::numeric_limits<double>::infinity(), last_size = 0.0, last_count = 0.0;
     mesh_at_vertex_count(vertices, 1.0, [&](double size) {
-        TetMesh mesh = mesh_body(body, body.criteria(size, distance));
-        const double miss = std::abs(static_cast<double>(mesh.rest.rows()) - vertices);
+        TetMesh mesh = mesh_within(effort, body, body.criteria(size, distance));
+        const double count = static_cast<double>(mesh.rest.rows()), miss = std::abs(count - vertices);
+        if (last_count > 0.0 && size > 2.0 * last_size && count > 0.9 * last_count && count > 4.0 * vertices)
+            throw TooManyVertices{number_text(count) + " with larger cells too"};
+        last_size = size;
+        last_count = count;
         if (miss < nearest_miss) {
             nearest_miss = miss;
             nearest_size = size;
@@ -256,7 +310,7 @@ double size_of(WrappedBody& body, int vertices, double distance)
 // the wanted Euler number and dihedral angle, free of self-intersections, and all points lie inside.
 std::string breach_of(const TetMesh& mesh, const SurfaceMeshing& options)
 {
-    if (mesh.tets.rows() == 0) return "no tets";
+    if (mesh.tets.rows() == 0) return no_tets;
     const Quality quality = quality_of(mesh);
     if (!quality.topology.boundary_manifold) return boundary_not_manifold;
     if (options.is_one_piece && quality.topology.components != 1) return std::to_string(quality.topology.components) + " pieces";
@@ -276,23 +330,35 @@ std::string breach_of(const TetMesh& mesh, const SurfaceMeshing& options)
     return std::to_string(outside) + " of the points asked inside are outside, the first is number " + std::to_string(first);
 }
 
-// The first mesh of the quality asked; nothing where none of the distances gives one. may_thicken: gives up sooner at a boundary that is
-// not manifold, which is what becomes of a layer too thin to be meshed.
-std::optional<TetMesh> mesh_wrapped(const SurfaceMesh& surface, double alpha, double offset, bool may_thicken,
-                                    const SurfaceMeshing& options, std::string& breach)
+// The first mesh of the quality asked; nothing, and why, where none of the distances gives one. is_open: gives up sooner without tets
+// or at a boundary that is not manifold, which is what becomes of a layer too thin to be meshed. is_exceeded: becomes true where a bound is
+// reached.
+std::optional<TetMesh> mesh_wrapped(const SurfaceMesh& surface, double alpha, double offset, bool is_open, const SurfaceMeshing& options,
+                                    bool& is_exceeded, std::optional<InputError>& why)
 {
+    Effort effort(static_cast<std::size_t>(options.vertices));
     WrappedBody body(surface, alpha, offset);
-    if (options.is_closed) check_closed(surface, body);
+    const double ratio = body.volume() / std::abs(fan_volume(surface.points, surface.triangles));
+    if (options.is_closed && is_far_off(ratio))
+        throw InputError("", 0, "wrapped volume / enclosed volume", std::to_string(ratio),
+                         "expected 0.5 to 2: a closed or nearly closed surface, its triangles oriented one way");
     check_wrap(body, options);
-    int not_manifold = 0;
-    for (const double distance : {1.0, 0.8, 1.25, 0.65, 1.5, 0.5}) {
-        const double size = size_of(body, options.vertices, distance);
-        TetMesh mesh = mesh_body(body, body.criteria(size, distance, good_dihedral_deg));
-        breach = breach_of(mesh, options);
-        if (breach.empty()) return mesh;
-        not_manifold += breach == boundary_not_manifold;
-        if (may_thicken && not_manifold == 2) break;
-    }
+    int too_thin = 0, attempt = 0;
+    for (const double distance : {1.0, 0.8, 1.25, 0.65, 1.5, 0.5}) try {
+            const Stage stage("filling the wrap with tets, attempt " + std::to_string(++attempt));
+            const double size = size_of(body, options.vertices, distance, effort);
+            TetMesh mesh = mesh_within(effort, body, body.criteria(size, distance, good_dihedral_deg));
+            const std::string breach = breach_of(mesh, options);
+            if (breach.empty()) return mesh;
+            why.emplace("", 0, "surface", "", "could not be meshed with the quality asked: " + breach + "; " + advice(ratio));
+            too_thin += breach == boundary_not_manifold || breach == no_tets;
+            if (is_open && too_thin == 2) break;
+        } catch (const TooManyVertices& reached) {  // as with every other distance
+            is_exceeded = true;
+            why.emplace("", 0, "vertices of the tets", reached.vertices,
+                        "expected about " + std::to_string(options.vertices) + " (--vertices): " + advice(ratio));
+            break;
+        }
     return std::nullopt;
 }
 
@@ -340,14 +406,15 @@ TetMesh mesh_surface(const SurfaceMesh& surface, const SurfaceMeshing& options)
     const double offset = options.wrap_offset_m > 0.0 ? options.wrap_offset_m : sheet_m > 0.0 ? sheet_m : alpha / 3.0;
 
     // A sheet of the surface, such as hair or a cape, becomes a layer between the offsets on both sides. Where that is too thin to be
-    // meshed, the offset grows.
-    std::vector<double> offsets = {offset};
-    if (options.wrap_offset_m == 0.0 && !is_watertight(joined_triangles(surface.points, surface.triangles)))
-        offsets.insert(offsets.end(), {3.0 * offset, 6.0 * offset});
-    std::string breach;
-    for (const double grown : offsets)
-        if (const auto mesh = mesh_wrapped(surface, alpha, grown, grown < offsets.back(), options, breach)) return *mesh;
-    throw InputError("", 0, "surface", "", "could not be meshed with the quality asked: " + breach);
+    // meshed, the offset grows; where it takes too many vertices, to the largest one at once.
+    const bool is_open = options.wrap_offset_m == 0.0 && !is_watertight(joined_triangles(surface.points, surface.triangles));
+    bool is_exceeded = false;
+    std::optional<InputError> why;
+    for (const double growth : {1.0, 3.0, 6.0}) {
+        if (growth > 1.0 && (!is_open || (growth < 6.0 && is_exceeded))) continue;
+        if (const auto mesh = mesh_wrapped(surface, alpha, growth * offset, is_open, options, is_exceeded, why)) return *mesh;
+    }
+    throw InputError(*why);
 }
 
 }  // namespace pbs

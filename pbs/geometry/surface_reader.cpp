@@ -17,7 +17,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdlib>
 #include <map>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -127,14 +130,33 @@ SurfaceMesh read_assimp(const std::string& path, const std::string& mesh_name)
             Eigen::Map<const Triangles>(collected.corners.data(), triangles, 3)};
 }
 
+// A .obj counts its vertices from 1. assimp counts the corners of its faces, so that the file itself is asked.
+void refuse_far_vertex_of_obj(const std::string& path, const std::string& rule)
+{
+    std::istringstream lines(read_text_file(path, most_mesh_bytes));
+    int number = 0, vertex = 0;
+    for (std::string line; std::getline(lines, line);) {
+        ++number;
+        if (!line.starts_with("v ")) continue;
+        ++vertex;
+        char* next = line.data() + 1;
+        for (int axis = 0; axis < 3; ++axis)
+            if (!(std::abs(std::strtod(next, &next)) <= farthest_m))
+                throw InputError(path, number, "vertex " + std::to_string(vertex), "", rule);
+    }
+}
+
 // The surface as the file has it: at least one triangle and one point, finite coordinates within 1e9 m, indices in range. Each violation is
 // an InputError that names the file, the place, its value and the rule.
 void check_raw_surface(const std::string& path, const SurfaceMesh& mesh)
 {
     if (mesh.triangles.rows() == 0) throw InputError(path, 0, "triangles", "0", "expected at least one triangle");
-    for (Eigen::Index i = 0; i < mesh.points.rows(); ++i)
-        if (!(mesh.points.row(i).cwiseAbs().maxCoeff() <= farthest_m && mesh.points.row(i).allFinite()))
-            throw InputError(path, 0, "vertex " + std::to_string(i), "", "expected finite coordinates within 1e9 m of the origin");
+    for (Eigen::Index i = 0; i < mesh.points.rows(); ++i) {
+        if (mesh.points.row(i).cwiseAbs().maxCoeff() <= farthest_m && mesh.points.row(i).allFinite()) continue;
+        const std::string rule = "expected finite coordinates within 1e9 m of the origin";
+        if (format_extension(path) == ".obj") refuse_far_vertex_of_obj(path, rule);
+        throw InputError(path, 0, "vertex " + std::to_string(i), "", rule);
+    }
     require_points(path, mesh.points.rows());
     for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f)
         for (const int point : mesh.triangles.row(f))

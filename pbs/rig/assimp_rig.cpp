@@ -3,9 +3,11 @@
 #include "pbs/geometry/assimp_files.hpp"
 #include "pbs/geometry/files.hpp"
 #include "pbs/geometry/input_error.hpp"
+#include "pbs/rig/gltf_rig.hpp"
 #include "pbs/rig/rig.hpp"
 #include "pbs/rig/rig_reader.hpp"
 
+#include <assimp/Exporter.hpp>
 #include <assimp/Importer.hpp>
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
@@ -169,6 +171,15 @@ RigMesh mesh_of(const aiMesh& source, int node, const Nodes& nodes, Rig& rig)
     std::vector<int> corners;
     add_triangles(source, 0, corners);
     mesh.triangles = Eigen::Map<const Triangles>(corners.data(), static_cast<Eigen::Index>(corners.size() / 3), 3);
+    mesh.look.material.assign(corners.size() / 3, static_cast<int>(source.mMaterialIndex));
+    using Rows = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
+    const auto rows_of = [&](const aiVector3D* rows) { return Eigen::Map<const Rows>(&rows->x, source.mNumVertices, 3); };
+    if (source.mNormals) mesh.look.put(0, 0, rows_of(source.mNormals));
+    for (unsigned set = 0; set < AI_MAX_NUMBER_OF_TEXTURECOORDS && source.mTextureCoords[set]; ++set) {
+        const Rows uv = rows_of(source.mTextureCoords[set]);
+        mesh.look.put(0, 3 + 2 * set,
+                      (Eigen::MatrixX2f(uv.rows(), 2) << uv.col(0), (1.0F - uv.col(1).array()).matrix()).finished());  // glTF's v: down
+    }
     for (unsigned joint = 0; joint < source.mNumBones; ++joint)
         mesh.joints.push_back(
             {joint_named(source.mBones[joint]->mName.C_Str(), nodes, rig), to_eigen(source.mBones[joint]->mOffsetMatrix)});
@@ -215,6 +226,15 @@ Rig rig_of_scene(const aiScene& scene, const std::string& path)
     add_assimp_animations(scene, rig);
     remark_on_curves(rig);
     return rig;
+}
+
+RigMaterials read_assimp_materials(const std::string& path)
+{
+    Assimp::Importer importer;
+    Assimp::Exporter exporter;
+    const aiExportDataBlob* glb = exporter.ExportToBlob(&read_assimp_scene(importer, path), "glb2");
+    if (!glb) throw InputError(path, 0, "", "", std::string("the materials, which assimp cannot write: ") + exporter.GetErrorString());
+    return gltf_materials({static_cast<const char*>(glb->data), glb->size}, path);
 }
 
 Rig read_assimp_rig(const std::string& path)

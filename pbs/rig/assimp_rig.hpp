@@ -21,6 +21,9 @@ namespace pbs {
 // or not finite.
 Rig read_assimp_rig(const std::string& path);
 
+// As assimp writes them into a glTF file.
+RigMaterials read_assimp_materials(const std::string& path);
+
 // Its steps after check_collada_weights: assimp's reading, into a scene that the importer owns, and the conversion of that scene.
 const aiScene& read_assimp_scene(Assimp::Importer& importer, const std::string& path);
 Rig rig_of_scene(const aiScene& scene, const std::string& path);

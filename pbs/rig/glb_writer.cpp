@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <array>
+#include <cmath>
 #include <cstdint>
 #include <fstream>
 #include <string_view>
@@ -18,7 +20,7 @@ constexpr std::uint32_t json_chunk = 0x4E4F534A, binary_chunk = 0x004E4942;
 constexpr std::size_t header_bytes = 12, chunk_header_bytes = 8, bytes_per_number = 4;
 constexpr int of_indices = 5125, of_floats = 5126;                             // component types: unsigned int, float
 constexpr int for_vertices = 34962, for_triangles = 34963, triangle_list = 4;  // targets of views, and a mode of primitives
-constexpr const char *scalar = "SCALAR", *vec3 = "VEC3";
+constexpr const char *scalar = "SCALAR", *vec2 = "VEC2", *vec3 = "VEC3";
 
 template <typename Number>
 std::string_view bytes_of(const std::vector<Number>& numbers)
@@ -39,6 +41,37 @@ std::vector<float> weights_in(std::size_t frame, std::size_t frames)
     return weights;
 }
 
+std::string padded(std::string bytes)
+{
+    bytes.resize((bytes.size() + 3) / 4 * 4, '\0');
+    return bytes;
+}
+
+// The numbers of a set of texture coordinates.
+std::vector<float> coordinates(const RigLook& look, Eigen::Index set)
+{
+    const Eigen::Matrix<float, Eigen::Dynamic, 2, Eigen::RowMajor> rows = look.numbers.middleCols<2>(3 + 2 * set);
+    return {rows.data(), rows.data() + rows.size()};
+}
+
+Eigen::Index sets_of(const RigLook& look)
+{
+    return std::max<Eigen::Index>(look.numbers.cols() - 3, 0) / 2;
+}
+
+// The smooth piece that each point belongs to: points at one place with one normal, to a hundredth, are one.
+std::vector<int> smooth_pieces(const Positions& points, const RigLook& look)
+{
+    std::map<std::array<double, 6>, int> pieces;
+    std::vector<int> piece;
+    for (Eigen::Index p = 0; p < points.rows(); ++p) {
+        std::array<double, 6> key{points(p, 0), points(p, 1), points(p, 2)};
+        for (int axis = 0; axis < 3; ++axis) key[3 + axis] = std::round(100.0 * static_cast<double>(look.numbers(p, axis)));
+        piece.push_back(pieces.emplace(key, static_cast<int>(pieces.size())).first->second);
+    }
+    return piece;
+}
+
 std::vector<float> single(const std::vector<double>& numbers)
 {
     return {numbers.begin(), numbers.end()};
@@ -49,15 +82,20 @@ struct GlbDocument {
     json document = {{"asset", {{"generator", "pbskin"}, {"version", "2.0"}}}, {"scene", 0}, {"scenes", {{{"nodes", {0}}}}}};
     std::size_t bytes = 0;  // of the buffer
 
+    std::size_t add_view(std::size_t length, int target)
+    {
+        json view = {{"buffer", 0}, {"byteLength", length}};
+        if (bytes > 0) view["byteOffset"] = bytes;
+        if (target > 0) view["target"] = target;
+        bytes += (length + 3) / 4 * 4;
+        document["bufferViews"].push_back(view);
+        return document["bufferViews"].size() - 1;
+    }
+
     // The number of the accessor. All components have four bytes, so that every view begins at a multiple of four. target: 0 for none.
     std::size_t add(std::size_t count, int component_type, const char* type, int target)
     {
-        json view = {{"buffer", 0}, {"byteLength", bytes_per_number * count * (type == vec3 ? 3 : 1)}};
-        if (bytes > 0) view["byteOffset"] = bytes;
-        if (target > 0) view["target"] = target;
-        bytes += view["byteLength"].get<std::size_t>();
-        document["bufferViews"].push_back(view);
-        const std::size_t number = document["bufferViews"].size() - 1;
+        const std::size_t number = add_view(bytes_per_number * count * (type == vec3 ? 3 : type == vec2 ? 2 : 1), target);
         document["accessors"].push_back({{"bufferView", number}, {"componentType", component_type}, {"count", count}, {"type", type}});
         return document["accessors"].size() - 1;
     }
@@ -98,26 +136,73 @@ void copy(const std::string& from, AtomicFile& file)
 
 }  // namespace
 
-GlbWriter::GlbWriter(std::string path, std::string name, const Triangles& triangles)
-    : path_(std::move(path)), name_(std::move(name)), data_(path_), corners_(static_cast<std::size_t>(triangles.size()))
+GlbWriter::GlbWriter(std::string path, std::string name, const Triangles& triangles, RigLook look, RigMaterials materials)
+    : path_(std::move(path)),
+      name_(std::move(name)),
+      data_(path_),
+      triangles_(triangles),
+      look_(std::move(look)),
+      materials_(std::move(materials)),
+      has_normals_(look_.numbers.cols() > 0 && !look_.numbers.leftCols<3>().isZero())
 {
-    data_.write(bytes_of(std::vector<std::uint32_t>(triangles.data(), triangles.data() + triangles.size())));
+    const int count = materials_.document.empty() ? 0 : static_cast<int>(json::parse(materials_.document)["materials"].size());
+    std::map<int, std::vector<std::uint32_t>> corners;  // by material, -1: none
+    for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
+        const int material = look_.material.empty() ? -1 : look_.material[static_cast<std::size_t>(f)];
+        for (const int corner : triangles.row(f)) corners[material < count ? material : -1].push_back(static_cast<std::uint32_t>(corner));
+    }
+    const auto write = [&](std::string_view bytes) {
+        data_.write(bytes);
+        data_bytes_ += static_cast<double>(bytes.size());
+    };
+    for (const auto& [material, own] : corners) {
+        corners_[material] = own.size();
+        write(bytes_of(own));
+    }
+    for (Eigen::Index set = 0; set < sets_of(look_); ++set) write(bytes_of(coordinates(look_, set)));
+    for (const std::string& image : materials_.images) write(padded(image));
+}
+
+Positions GlbWriter::normals_of(const Positions& points) const
+{
+    Positions sum = Positions::Zero(points.rows(), 3), normals(points.rows(), 3);
+    for (const auto& triangle : triangles_.rowwise()) {
+        const Vec3 a = points.row(triangle(0)), b = points.row(triangle(1)), c = points.row(triangle(2));
+        for (const int corner : triangle) sum.row(piece_[corner]) += (b - a).cross(c - a).transpose();
+    }
+    for (Eigen::Index p = 0; p < points.rows(); ++p) {
+        const Vec3 normal = Vec3(sum.row(piece_[p])).normalized();
+        normals.row(p) = normal.isZero() ? Vec3(Vec3::UnitY()) : normal;  // of a point of no triangle with an area
+    }
+    return normals;
+}
+
+void GlbWriter::write_rows(const Positions& rows)
+{
+    const Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor> single = rows.cast<float>();
+    data_.write({reinterpret_cast<const char*>(single.data()), sizeof(float) * static_cast<std::size_t>(single.size())});
 }
 
 void GlbWriter::add_frame(double time_s, const Positions& points)
 {
-    if (times_s_.empty()) first_frame_ = points;
-    const auto count = static_cast<double>(times_s_.size() + 1), numbers = static_cast<double>(points.size());
-    if (bytes_per_number * count * (numbers + count) > most_glb_bytes)  // the points, and a weight per frame and target
+    const bool is_first = times_s_.empty();
+    const auto count = static_cast<double>(times_s_.size() + 1), numbers = static_cast<double>((has_normals_ ? 2 : 1) * points.size());
+    if (data_bytes_ + bytes_per_number * count * (numbers + count) > most_glb_bytes)  // with a weight per frame and target
         throw InputError(path_, 0, "frames", std::to_string(times_s_.size() + 1),
                          "expected fewer: a .glb file is limited to 4 GiB (output.frames_every writes fewer frames)");
-    const Positions stored = times_s_.empty() ? points : Positions(points - first_frame_);
-    const Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor> single = stored.cast<float>();
-    data_.write({reinterpret_cast<const char*>(single.data()), sizeof(float) * static_cast<std::size_t>(single.size())});
+    if (is_first) first_frame_ = points;
+    const Positions stored = is_first ? points : Positions(points - first_frame_);
+    write_rows(stored);
     Extent extent;
     for (int axis = 0; axis < 3; ++axis) {
-        extent.smallest.push_back(static_cast<double>(single.col(axis).minCoeff()));
-        extent.largest.push_back(static_cast<double>(single.col(axis).maxCoeff()));
+        extent.smallest.push_back(static_cast<double>(static_cast<float>(stored.col(axis).minCoeff())));
+        extent.largest.push_back(static_cast<double>(static_cast<float>(stored.col(axis).maxCoeff())));
+    }
+    if (has_normals_) {
+        if (is_first) piece_ = smooth_pieces(points, look_);
+        const Positions normals = normals_of(points);
+        if (is_first) first_normals_ = normals;
+        write_rows(is_first ? normals : Positions(normals - first_normals_));
     }
     extents_.push_back(extent);
     times_s_.push_back(time_s);
@@ -126,16 +211,27 @@ void GlbWriter::add_frame(double time_s, const Positions& points)
 void GlbWriter::write()
 {
     GlbDocument glb;
-    json primitive = {{"mode", triangle_list}, {"indices", glb.add(corners_, of_indices, scalar, for_triangles)}};
-    for (std::size_t f = 0; f < times_s_.size(); ++f) {
-        const std::size_t accessor = glb.add(static_cast<std::size_t>(first_frame_.rows()), of_floats, vec3, for_vertices);
-        glb.bound(accessor, extents_[f].smallest, extents_[f].largest);
-        if (f == 0)
-            primitive["attributes"]["POSITION"] = accessor;
-        else
-            primitive["targets"].push_back({{"POSITION", accessor}});
+    if (!materials_.document.empty()) glb.document.update(json::parse(materials_.document));
+    const auto points = static_cast<std::size_t>(first_frame_.rows());
+    json mesh = {{"name", name_}, {"primitives", json::array()}}, all;  // all: of all primitives
+    for (const auto& [material, corners] : corners_) {
+        mesh["primitives"].push_back({{"mode", triangle_list}, {"indices", glb.add(corners, of_indices, scalar, for_triangles)}});
+        if (material >= 0) mesh["primitives"].back()["material"] = material;
     }
-    json mesh = {{"name", name_}, {"primitives", json::array({primitive})}};
+    for (Eigen::Index set = 0; set < sets_of(look_); ++set)
+        all["attributes"]["TEXCOORD_" + std::to_string(set)] = glb.add(points, of_floats, vec2, for_vertices);
+    for (std::size_t i = 0; i < materials_.images.size(); ++i)
+        glb.document["images"][i]["bufferView"] = glb.add_view(materials_.images[i].size(), 0);
+    for (std::size_t f = 0; f < times_s_.size(); ++f) {
+        json frame = {{"POSITION", glb.add(points, of_floats, vec3, for_vertices)}};
+        glb.bound(frame["POSITION"], extents_[f].smallest, extents_[f].largest);
+        if (has_normals_) frame["NORMAL"] = glb.add(points, of_floats, vec3, for_vertices);
+        if (f == 0)
+            all["attributes"].update(frame);
+        else
+            all["targets"].push_back(frame);
+    }
+    for (json& primitive : mesh["primitives"]) primitive.update(all);
     if (times_s_.size() > 1) mesh["weights"] = std::vector<double>(times_s_.size() - 1, 0.0);
     glb.document["meshes"] = json::array({mesh});
     glb.document["nodes"] = {{{"mesh", 0}, {"name", name_}}};

@@ -1,5 +1,5 @@
 // A moving surface as a .glb file that Blender and other programs show: the first frame as a mesh, every other frame as a morph target.
-//   GlbWriter writer("pbs.glb", "hero", triangles);
+//   GlbWriter writer("pbs.glb", "hero", triangles);   // or, for a surface that does not look alike everywhere, (..., look, materials)
 //   for (...) writer.add_frame(time_s, points);
 //   writer.write();
 // The frames wait in a temporary file next to the .glb file, so that the memory does not depend on their number.
@@ -7,7 +7,9 @@
 
 #include "pbs/geometry/files.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
+#include "pbs/rig/rig.hpp"
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -15,8 +17,10 @@ namespace pbs {
 
 class GlbWriter {
 public:
-    // An InputError where the folder cannot be written.
-    GlbWriter(std::string path, std::string name, const Triangles& triangles);
+    // Triangles of one material are together, otherwise in their order. Normals are those of the surface in each frame, smooth where the
+    // look's normals are and with its hard edges; without a normal in the look there are none. An InputError where the folder cannot be
+    // written.
+    GlbWriter(std::string path, std::string name, const Triangles& triangles, RigLook look = {}, RigMaterials materials = {});
 
     // points [m], #S x 3, as many in every frame; times ascend. Between frames the points move linearly. Coordinates are stored in single
     // precision, as glTF defines. An InputError where the file would be larger than 4 GiB or the disk is full.
@@ -30,10 +34,19 @@ private:
         std::vector<double> smallest, largest;
     };
 
+    void write_rows(const Positions& rows);
+    Positions normals_of(const Positions& points) const;
+
     std::string path_, name_;
-    AtomicFile data_;  // never finished: the triangles and the points of all frames
-    std::size_t corners_ = 0;
-    Positions first_frame_;
+    AtomicFile data_;  // never finished: what does not move, then the points and normals of all frames
+    double data_bytes_ = 0.0;
+    Triangles triangles_;
+    RigLook look_;
+    RigMaterials materials_;
+    bool has_normals_ = false;
+    std::map<int, std::size_t> corners_;  // of the triangles of each material
+    std::vector<int> piece_;              // of each point: those of one smooth piece of the surface at one place have the same normal
+    Positions first_frame_, first_normals_;
     std::vector<double> times_s_;
     std::vector<Extent> extents_;  // of each frame's points, or differences from the first frame's
 };

@@ -6,6 +6,8 @@
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/rig/tiny_gltf.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -23,6 +25,9 @@ constexpr std::size_t most_elements = 100'000'000;
 // Extensions by how their names begin that do not change where vertices are, and the one that stores them as integers.
 constexpr std::array<std::string_view, 6> known_extensions = {"KHR_materials_",      "KHR_texture_", "EXT_texture_",
                                                               "KHR_lights_punctual", "KHR_xmp",      "KHR_mesh_quantization"};
+
+// Takes the place of an image that is not there: a PNG.
+constexpr const char* white_pixel_base64 = "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAAAAAA6fptVAAAACklEQVR42mP4DwABAQEAHLCMmQAAAABJRU5ErkJggg==";
 
 bool file_exists(const std::string& file, void* path)
 {
@@ -52,6 +57,46 @@ std::string one_line(std::string text)
 {
     std::replace(text.begin(), text.end(), '\n', ' ');
     return text.substr(0, text.find_last_not_of(' ') + 1);
+}
+
+// An image in a buffer view is read by image_bytes.
+bool keep_image_of_a_data_uri(tinygltf::Image* image, int, std::string*, std::string*, int, int, const unsigned char* bytes, int size,
+                              void*)
+{
+    if (image->bufferView < 0) image->image.assign(bytes, bytes + size);
+    return true;
+}
+
+// The bytes of an image in the file, below its folder or next to it; empty: there is none.
+std::string image_bytes(const tinygltf::Model& model, const tinygltf::Image& image, const std::string& path)
+{
+    if (image.bufferView >= 0) {
+        const tinygltf::BufferView& view = model.bufferViews.at(static_cast<std::size_t>(image.bufferView));
+        const std::vector<unsigned char>& bytes = model.buffers.at(static_cast<std::size_t>(view.buffer)).data;
+        const bool fits = view.byteOffset <= bytes.size() && view.byteLength <= bytes.size() - view.byteOffset;
+        return fits ? std::string(reinterpret_cast<const char*>(bytes.data()) + view.byteOffset, view.byteLength) : "";
+    }
+    if (image.uri.empty()) return {image.image.begin(), image.image.end()};
+    std::string name = tinygltf::dlib::urldecode(image.uri);
+    std::replace(name.begin(), name.end(), '\\', '/');  // of Windows
+    const std::filesystem::path folder = std::filesystem::absolute(path).parent_path();
+    for (const auto& file : {folder / image.uri, folder / name, folder / std::filesystem::path(name).filename()})
+        if (may_be_opened_for(path, file.string())) return read_text_file(file.string(), most_mesh_bytes);
+    return "";
+}
+
+// White is no direction.
+void leave_out_normals_of(std::size_t image, nlohmann::json& document)
+{
+    for (nlohmann::json& material : document["materials"])
+        if (const auto normals = material.find("normalTexture"); normals != material.end())
+            if (document.at("textures").at(normals->at("index").get<std::size_t>()).value("source", image) == image)
+                material.erase(normals);
+}
+
+bool has_colours(const tinygltf::Mesh& mesh)
+{
+    return std::ranges::any_of(mesh.primitives, [](const tinygltf::Primitive& part) { return part.attributes.count("COLOR_0") > 0; });
 }
 
 // The place of a number in the file, for errors.
@@ -145,10 +190,15 @@ void apply_sparse(const tinygltf::Model& model, const tinygltf::Accessor& access
 
 void read_gltf_model(const std::string& path, tinygltf::Model& model)
 {
-    const std::string bytes = read_text_file(path, most_mesh_bytes), folder = std::filesystem::absolute(path).parent_path().string();
+    read_gltf_model(read_text_file(path, most_mesh_bytes), path, model);
+}
+
+void read_gltf_model(const std::string& bytes, const std::string& path, tinygltf::Model& model)
+{
+    const std::string folder = std::filesystem::absolute(path).parent_path().string();
     std::string own_path = path, error, warning;
     tinygltf::TinyGLTF loader;
-    loader.SetImageLoader([](tinygltf::Image*, auto...) { return true; }, nullptr);
+    loader.SetImageLoader(keep_image_of_a_data_uri, nullptr);
     loader.SetFsCallbacks({file_exists, [](const std::string& file, void*) { return file; }, read_own_file, nullptr, &own_path});
     const auto length = static_cast<unsigned>(bytes.size());
     const bool read =
@@ -161,6 +211,43 @@ void read_gltf_model(const std::string& path, tinygltf::Model& model)
     }
     if (model.asset.version.rfind("2.", 0) != 0) throw InputError(path, 0, "asset.version", model.asset.version, "expected 2.0");
     require_known_extensions(model, path);
+}
+
+RigMaterials read_gltf_materials(const std::string& path)
+{
+    return gltf_materials(read_text_file(path, most_mesh_bytes), path);
+}
+
+RigMaterials gltf_materials(const std::string& bytes, const std::string& path)
+{
+    tinygltf::Model model;
+    read_gltf_model(bytes, path, model);
+    std::uint32_t length = 0;  // of a .glb file's first chunk
+    const bool is_binary = bytes.starts_with("glTF");
+    if (is_binary) std::memcpy(&length, bytes.data() + 12, sizeof length);
+    const auto source = nlohmann::json::parse(is_binary ? bytes.substr(20, length) : bytes);
+    RigMaterials materials;
+    if (!source.contains("materials")) return materials;
+    nlohmann::json document;
+    for (const char* part : {"materials", "textures", "samplers", "extensionsUsed"})
+        if (source.contains(part)) document[part] = source[part];
+    for (std::size_t i = 0; i < model.images.size(); ++i) {
+        std::string image = image_bytes(model, model.images[i], path);
+        const bool is_jpeg = image.starts_with("\xff\xd8\xff"), is_known = is_jpeg || image.starts_with("\x89PNG");
+        if (!is_known) {
+            const tinygltf::Image& named = model.images[i];
+            materials.remarks.push_back("image " +
+                                        (named.uri.empty() ? number_text(static_cast<double>(i)) + " " + named.name : named.uri) +
+                                        ": expected PNG or JPEG in the file or below its folder; it is white there");
+            image = tinygltf::base64_decode(white_pixel_base64);
+            leave_out_normals_of(i, document);
+        }
+        document["images"].push_back({{"mimeType", is_jpeg ? "image/jpeg" : "image/png"}});
+        materials.images.push_back(std::move(image));
+    }
+    if (std::ranges::any_of(model.meshes, has_colours)) materials.remarks.push_back("colours of points");
+    materials.document = document.dump();
+    return materials;
 }
 
 AccessorNumbers accessor_numbers(const tinygltf::Model& model, int accessor, int components, const std::string& path,

@@ -53,6 +53,10 @@ private:
         const AccessorNumbers points = attribute(primitive, "POSITION", 3, field);
         points_.insert(points_.end(), points.data(), points.data() + points.size());
         add_triangles(primitive, first, static_cast<int>(points.rows()), field);
+        mesh_.look.material.resize(triangles_.size() / 3, primitive.material);
+        add_look(primitive, "NORMAL", first, 0, points.rows(), field);
+        for (int set = 0; primitive.attributes.count("TEXCOORD_" + std::to_string(set)) > 0; ++set)
+            add_look(primitive, "TEXCOORD_" + std::to_string(set), first, 3 + 2 * set, points.rows(), field);
         if (joints > 0) add_weights(primitive, static_cast<int>(points.rows()), joints, field);
     }
 
@@ -83,6 +87,20 @@ private:
             const bool odd = !list && !fan && c % 2 == 1;
             for (const std::size_t corner : {fan ? 0 : c, c + (odd ? 2 : 1), c + (odd ? 1 : 2)})
                 triangles_.push_back(first + corners[corner]);
+        }
+    }
+
+    // No point's place depends on it, so that damaged numbers are left out.
+    void add_look(const tinygltf::Primitive& primitive, const std::string& name, int first, int column, Eigen::Index points,
+                  const std::string& field)
+    {
+        if (primitive.attributes.count(name) == 0) return;
+        try {
+            const AccessorNumbers rows = attribute(primitive, name, column == 0 ? 3 : 2, field);
+            if (rows.rows() != points) throw InputError(rig_.file, 0, field, name, "expected as many as there are points");
+            mesh_.look.put(first, column, rows.cast<float>());
+        } catch (const InputError& error) {
+            rig_.remarks.push_back("mesh " + source_.name + ": " + name + " is left out: " + error.what());
         }
     }
 
@@ -277,6 +295,10 @@ NodeTransform transform_of(const tinygltf::Node& node, const std::string& path, 
     if (node.matrix.size() == 16) {
         Eigen::Affine3d matrix;
         matrix.matrix() = Eigen::Map<const Eigen::Matrix4d>(node.matrix.data());  // by columns
+        if (!node.translation.empty() || !node.rotation.empty() || !node.scale.empty())
+            throw InputError(path, 0, field + "/matrix", "", "expected a matrix or translation, rotation and scale, not both");
+        if (matrix.matrix().row(3) != Eigen::RowVector4d(0.0, 0.0, 0.0, 1.0))
+            throw InputError(path, 0, field + "/matrix", "", "expected the last row 0, 0, 0, 1");
         transform.matrix = matrix;
     }
     transform.translation = vec3_or(node.translation, Vec3::Zero());

@@ -1,5 +1,5 @@
-// A rig from a glTF 2.0 file (.glb, .gltf), read with tinygltf: assimp leaves out the joints of a skin that have no weight. Buffers may be
-// read only from the folder of the file; images are not read.
+// A rig from a glTF 2.0 file (.glb, .gltf), read with tinygltf: assimp leaves out the joints of a skin that have no weight. Buffers and
+// images may be read only from the folder of the file.
 #pragma once
 
 #include "pbs/rig/rig.hpp"
@@ -18,9 +18,15 @@ namespace pbs {
 // of the file that is wrong.
 Rig read_gltf_rig(const std::string& path);
 
-// Its first step: fills `model`. An InputError where the file is no glTF 2.0, refers to buffers that cannot be read, or requires an
-// extension that changes geometry and is not known here, such as KHR_draco_mesh_compression.
+RigMaterials read_gltf_materials(const std::string& path);
+// The same from the bytes of a file, whose images may be below the folder of `path`.
+RigMaterials gltf_materials(const std::string& bytes, const std::string& path);
+
+// The first step of all: fills `model`; images that are files of their own are not read. An InputError where the file is no glTF 2.0,
+// refers to buffers that cannot be read, or requires an extension that changes geometry and is not known here, such as
+// KHR_draco_mesh_compression.
 void read_gltf_model(const std::string& path, pbs_tinygltf::Model& model);
+void read_gltf_model(const std::string& bytes, const std::string& path, pbs_tinygltf::Model& model);
 
 // The numbers of an accessor, checked against the bytes that the file has, and converted as glTF 2.0, Sec. 3.6.2 defines: #elements x
 // `components`. Normalised integers become numbers from -1 or 0 to 1; sparse accessors are applied. An InputError names the field of the

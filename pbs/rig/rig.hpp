@@ -48,7 +48,7 @@ struct NodeTracks {
 };
 
 struct RigAnimation {
-    std::string name;
+    std::string name;                   // of a rig that was read, each once
     double start_s = 0.0, end_s = 0.0;  // of its keys
     std::vector<NodeTracks> nodes;      // each node once
 };
@@ -59,6 +59,24 @@ struct SkinJoint {
     Eigen::Affine3d inverse_bind = Eigen::Affine3d::Identity();
 };
 
+// What a surface looks like, in glTF's terms.
+struct RigLook {
+    // Of each point its normal, zero where the file has none, and its sets of texture coordinates, #P x (3 + 2 #sets) or empty.
+    Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> numbers;
+    std::vector<int> material;  // of each triangle in the order of the file's materials, -1: none; #F or empty
+
+    // Makes room for them where there is none yet; column: 0 or 3 + 2 set.
+    void put(Eigen::Index first_point, Eigen::Index column, const decltype(numbers)& rows);
+    void append(const RigLook& other, Eigen::Index points, Eigen::Index triangles);  // before whose own there are so many
+};
+
+// The materials of a rig's file.
+struct RigMaterials {
+    std::string document;                   // JSON: materials, textures, samplers, extensionsUsed, images; empty: there are none
+    std::vector<std::string> images = {};   // the bytes of each image of the document
+    std::vector<std::string> remarks = {};  // what the file has and this lacks
+};
+
 // A mesh of a node with all its primitives. Points are those of the bind pose, in the mesh's own coordinates and the file's unit.
 struct RigMesh {
     std::string name;
@@ -67,6 +85,7 @@ struct RigMesh {
     Triangles triangles;            // #F x 3
     std::vector<SkinJoint> joints;  // of its skin, weighted or not; empty: it is moved by its node
     Weights skin;                   // of the points; `bone` is an index into `joints`; not read where there are no joints
+    RigLook look;
 };
 
 struct Rig {

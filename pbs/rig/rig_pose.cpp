@@ -151,6 +151,21 @@ Eigen::Affine3d NodeTransform::affine() const
     return Eigen::Translation3d(translation) * rotation * Eigen::Scaling(scale);
 }
 
+void RigLook::put(Eigen::Index first_point, Eigen::Index column, const decltype(numbers)& rows)
+{
+    const Eigen::Index points = std::max(numbers.rows(), first_point + rows.rows()),
+                       columns = std::max(numbers.cols(), column + rows.cols());
+    numbers.conservativeResizeLike(decltype(numbers)::Zero(points, columns));
+    numbers.block(first_point, column, rows.rows(), rows.cols()) = rows.unaryExpr([](float x) { return std::isfinite(x) ? x : 0.0F; });
+}
+
+void RigLook::append(const RigLook& other, Eigen::Index points, Eigen::Index triangles)
+{
+    put(points, 0, other.numbers);
+    material.resize(static_cast<std::size_t>(triangles), -1);
+    material.insert(material.end(), other.material.begin(), other.material.end());
+}
+
 const RigAnimation* find_animation(const Rig& rig, const std::string& name)
 {
     if (name.empty()) return rig.animations.empty() ? nullptr : &rig.animations.front();

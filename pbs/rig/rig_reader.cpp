@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
 
 namespace pbs {
 namespace {
@@ -47,6 +49,7 @@ bool is_sound(const RigMesh& mesh, std::size_t nodes)
     const auto points = static_cast<std::size_t>(mesh.points.rows());
     return is_index(mesh.node, nodes) &&
            std::ranges::all_of(mesh.triangles.reshaped(), [&](int corner) { return is_index(corner, points); }) &&
+           mesh.look.numbers.rows() <= mesh.points.rows() && mesh.look.material.size() <= static_cast<std::size_t>(mesh.triangles.rows()) &&
            std::ranges::all_of(
                mesh.joints, [&](const SkinJoint& joint) { return is_index(joint.node, nodes) && bounded(joint.inverse_bind.matrix()); }) &&
            (mesh.joints.empty() || is_sound(mesh.skin, mesh.points.rows(), mesh.joints.size()));
@@ -68,6 +71,21 @@ bool is_sound(const RigAnimation& animation, std::size_t nodes)
            std::ranges::all_of(animation.nodes, [&](const NodeTracks& tracks) {
                return is_index(tracks.node, nodes) && is_sound(tracks.translation) && is_sound(tracks.rotation) && is_sound(tracks.scale);
            });
+}
+
+// The first of equal names stays, the others are "NAME (2)", "NAME (3)", ..., without a number that makes the name of another animation.
+void tell_apart(std::vector<RigAnimation>& animations)
+{
+    std::set<std::string> names;
+    std::map<std::string, int> last;  // number of each name
+    for (const RigAnimation& animation : animations) names.insert(animation.name);
+    for (RigAnimation& animation : animations) {
+        const std::string name = animation.name;
+        int& number = last[name];
+        if (++number == 1) continue;
+        while (!names.insert(name + " (" + std::to_string(number) + ")").second) ++number;
+        animation.name = name + " (" + std::to_string(number) + ")";
+    }
 }
 
 enum class RigFormat { none, gltf, fbx, collada };
@@ -104,6 +122,18 @@ Rig read_rig(const std::string& path)
     return rig;
 }
 
+RigMaterials read_materials(const std::string& path)
+{
+    RigMaterials materials;
+    try {
+        materials = read_guarded(path, format_of(path) == RigFormat::gltf ? read_gltf_materials : read_assimp_materials);
+    } catch (const InputError& error) {  // a surface needs none
+        materials.remarks = {error.what()};
+    }
+    for (std::string& remark : materials.remarks) remark = path + ": left out of the .glb files: " + remark;
+    return materials;
+}
+
 bool rig_has_skin(const std::string& path)
 {
     const Rig rig = read_any_rig(path);
@@ -127,6 +157,7 @@ Rig checked(Rig rig)
         require(is_sound(mesh, rig.nodes.size()));
     }
     for (const RigAnimation& animation : rig.animations) require(is_sound(animation, rig.nodes.size()));
+    tell_apart(rig.animations);
     return rig;
 }
 

@@ -20,8 +20,11 @@ bool rig_has_skin(const std::string& path);
 // The reader is chosen by the file's content. An InputError where the file is none of these formats, damaged or has no mesh.
 Rig read_rig(const std::string& path);
 
+// The materials of the same file and their images, if they are in the file, below its folder or next to it.
+RigMaterials read_materials(const std::string& path);
+
 // Every index and number that the format does not guarantee, since damage may have led the library astray; an InputError where one is out
-// of range. Rotations of nodes are returned with unit length.
+// of range. Rotations of nodes are returned with unit length, and animations with different names: the second of equal names is "NAME (2)".
 Rig checked(Rig rig);
 
 // The skin weights of a mesh while its points are read one after another.

@@ -19,7 +19,13 @@ Rig read_rig(const std::string& path)
     throw InputError(path, 0, "", "", "rigs are left out of this build (PBS_WITH_RIG_IMPORT is off)");
 }
 
-GlbWriter::GlbWriter(std::string path, std::string name, const Triangles&) : path_(std::move(path)), name_(std::move(name)), data_(path_)
+RigMaterials read_materials(const std::string&)
+{
+    return {};
+}
+
+GlbWriter::GlbWriter(std::string path, std::string name, const Triangles&, RigLook, RigMaterials)
+    : path_(std::move(path)), name_(std::move(name)), data_(path_)
 {
     throw InputError(path_, 0, "", "", "glTF is left out of this build (PBS_WITH_RIG_IMPORT is off)");
 }

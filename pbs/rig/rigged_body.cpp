@@ -229,6 +229,7 @@ void add_surface(const std::map<int, int>& bone_of_node, RiggedBody& body)
     points = triangles = 0;
     for (const RigMesh& mesh : body.binding.meshes) {
         body.surface.middleRows(points, mesh.points.rows()) = rest_points(mesh, body.binding);
+        body.look.append(mesh.look, points, triangles);
         body.triangles.middleRows(triangles, mesh.triangles.rows()) = mesh.triangles.array() + static_cast<int>(points);
         points += mesh.points.rows();
         triangles += mesh.triangles.rows();
@@ -237,6 +238,7 @@ void add_surface(const std::map<int, int>& bone_of_node, RiggedBody& body)
         for (const int joint : mesh.skin.bone) body.skin.bone.push_back(bone_of_node.at(mesh.joints[joint].node));
         body.skin.weight.insert(body.skin.weight.end(), mesh.skin.weight.begin(), mesh.skin.weight.end());
     }
+    body.look.append({}, points, triangles);
 }
 
 std::vector<std::string> containers_of(const Rig& rig, const RigBinding& binding)
@@ -297,6 +299,15 @@ Positions artist_points(const RiggedBody& body, const std::vector<Eigen::Affine3
         first += mesh.points.rows();
     }
     return points;
+}
+
+Positions artist_points(const RiggedBody& body, const Pose& pose)
+{
+    const auto nodes = static_cast<std::size_t>(body.binding.bind.rbegin()->first) + 1;
+    std::vector<Eigen::Affine3d> transforms(nodes, Eigen::Affine3d::Identity());
+    for (std::size_t b = 0; b < body.node.size(); ++b)
+        transforms[body.node[b]] = Eigen::Scaling(1.0 / body.binding.metres_per_unit) * pose[b] * body.binding.bind.at(body.node[b]);
+    return artist_points(body, transforms);
 }
 
 Pose rigid_pose(const RiggedBody& body, const std::vector<Eigen::Affine3d>& node_transforms, double* stretch)

@@ -52,6 +52,7 @@ struct RiggedBody {
     std::vector<int> node;                // of each bone, index into Rig::nodes, #bones
     Positions surface;                    // the points of all moved meshes in rest space [m], #P x 3
     Triangles triangles;                  // of them, #F x 3
+    RigLook look;                         // of both; normals are those of the file
     Weights skin;                         // the artist's weights of the points in bones, #P; not read without bones
     std::vector<DroppedJoint> dropped;    // joints without weight
     std::vector<std::string> containers;  // nodes above joints that are no joints: they contribute their transforms
@@ -65,6 +66,9 @@ RiggedBody make_rigged_body(const Rig& rig, const RigAnimation* animation, doubl
 
 // The surface as the artist's own skinning moves it: the format's formula with scale and shear, [m], #P x 3.
 Positions artist_points(const RiggedBody& body, const std::vector<Eigen::Affine3d>& node_transforms);
+
+// The same for a pose of the skeleton, whose bones move rigidly: each joint with weight follows its bone.
+Positions artist_points(const RiggedBody& body, const Pose& pose);
 
 // The rigid part of every bone's motion from rest. stretch: the largest relative change of a length that is lost with the rest, if wanted.
 Pose rigid_pose(const RiggedBody& body, const std::vector<Eigen::Affine3d>& node_transforms, double* stretch = nullptr);

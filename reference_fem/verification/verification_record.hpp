@@ -1,9 +1,7 @@
-// The verification on record: DIR/verification.csv, verification.json and verification.md, and the table for the terminal.
+// The verification on record: the rows of DIR/verification.csv.
 #pragma once
 
 #include "analysis/records/tables.hpp"
-
-#include <nlohmann/json_fwd.hpp>
 
 #include <optional>
 #include <string>
@@ -14,8 +12,6 @@ namespace reference_fem {
 struct RowMaterial {
     std::string law = {};                // an identifier: stable_neo_hookean; empty without an elastic law
     std::optional<double> poisson = {};  // its Poisson's ratio
-
-    std::string text() const;  // stable_neo_hookean, poisson 0.3
 };
 
 struct RowQuantity {
@@ -63,22 +59,8 @@ std::optional<double> difference_pct(const VerificationRow& row);
 // Value within the bounds and order within order_tolerance; no value where the row requires neither.
 std::optional<bool> holds(const VerificationRow& row);
 
-nlohmann::json to_json(const VerificationRow& row);
-VerificationRow verification_row(const nlohmann::json& json);
-
-// One line of verification.csv: a row and what follows from it.
-struct RecordedRow {
-    VerificationRow row;
-    std::optional<double> difference_pct;
-    std::string holds;  // yes, no, or empty where the row has no bounds
-};
-const analysis::Columns<RecordedRow>& verification_columns();
-
-void write_verification_record(const std::string& folder, const VerificationRows& rows);
-
-// One line per problem: how many rows hold, the range of their differences, and the range of their orders less that of theory. A further
-// line for each row that fails.
-std::string verification_table(const VerificationRows& rows);
+// The columns of verification.csv: a row and what follows from it.
+const analysis::Columns<VerificationRow>& verification_columns();
 
 // How much of a verification problem to run, and with which deliberate error.
 struct Effort {

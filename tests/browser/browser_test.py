@@ -202,14 +202,19 @@ def truth_of_trial(folder):
 
 
 def trial(program, scratch):
-    """The page that `pbskin try` writes for a rigged model."""
+    """The pages that `pbskin try` writes for a rigged model: with a reference, and without one from a centimetre to ten kilometres."""
     folder, truth = scratch / "trial", scratch / "trial_truth.json"
-    shutil.rmtree(folder, ignore_errors=True)
     surroundings = built(scratch, viewer_page=folder / "report.html", viewer_truth=truth)
     model = rig_files.write("two_animations", str(scratch / "hero.glb"))  # a warning names the animation that is taken
-    run([program, "try", model, "-o", folder, "--frames", str(trial_frames), "--vertices", "400"], env=surroundings)
-    truth.write_text(json.dumps(truth_of_trial(folder)))
-    return status_of("trial/*.test.mjs", surroundings)
+    for options in ([], ["--no-reference"], ["--no-reference", "--scale", "0.01"], ["--no-reference", "--scale", "10000"]):
+        shutil.rmtree(folder, ignore_errors=True)
+        run([program, "try", model, "-o", folder, "--frames", str(trial_frames), "--vertices", "400", "--paraview", *options],
+            env=surroundings)
+        truth.write_text(json.dumps(truth_of_trial(folder)))
+        if status := status_of("trial/*.test.mjs", surroundings):
+            print(f"pbskin try {' '.join(options)}")
+            return status
+    return 0
 
 
 if __name__ == "__main__":

@@ -4,7 +4,6 @@ import path from "node:path";
 
 export const file = process.env.PBS_REPORT_PAGE, pictures = process.env.PBS_VIEWER_PICTURES;
 export const results = path.dirname(file);
-export const claims = JSON.parse(fs.readFileSync(path.join(results, "claims.json"), "utf8")).claims;
 
 export const undrawn = JSON.parse(fs.readFileSync(process.env.PBS_VIEWER_TRUTH)).undrawn;  // figures that do not exist
 
@@ -17,22 +16,6 @@ export function rows_of(name) {
 
 function numbers_in(cell) {
     return cell.split(" / ").filter((part) => part.trim() !== "").map(Number).filter((number) => !Number.isNaN(number));
-}
-
-// Rows of a study's CSV as objects, column -> text.
-export function table(name) {
-    const [header, ...rows] = cells_of(fs.readFileSync(path.join(results, name), "utf8"));
-    return rows.map((row) => Object.fromEntries(header.map((column, at) => [column, row[at]])));
-}
-
-// Folders of a study that contain this file.
-export function runs_with(study, name) {
-    const there = (run) => fs.existsSync(path.join(results, study, run, name));
-    return fs.readdirSync(path.join(results, study)).filter(there);
-}
-
-export function json(name) {
-    return JSON.parse(fs.readFileSync(path.join(results, name), "utf8"));
 }
 
 // The cells of each line; a cell in quotes may contain commas.

@@ -68,12 +68,6 @@ test("two fingers drawn apart come nearer by as much; the page keeps its size", 
     assert.deepEqual([after.scrolled, after.scale], [before.scrolled, before.scale]);
 });
 
-test("two fingers upwards tilt the view and leave the page", async () => {
-    const [before, after] = await gesture([[-30, 10], [30, 10]], [[-30, -5], [30, -5]]);
-    assert.ok(after.up < before.up - 0.1, `from ${before.up} to ${after.up}`);
-    assert.equal(after.scrolled, before.scrolled);
-});
-
 test("two fingers shift the view once the button says so, and turn it after", async () => {
     const button = page.locator("#frame-viewer button", { hasText: "two fingers shift" });
     const upwards = () => gesture([[-30, 10], [30, 10]], [[-30, -15], [30, -15]]);

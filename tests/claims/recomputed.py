@@ -404,36 +404,5 @@ class Recomputed(unittest.TestCase):
                                for one in judged["controls"] + judged["compared"]])
 
 
-class OwnFormulae(unittest.TestCase):
-    """Reference: tables of the binomial distribution; the closed forms at 0 and n of n."""
-
-    def test_tails(self):
-        self.assertAlmostEqual(tail(0, 5, 0.3), 1.0)
-        self.assertAlmostEqual(tail(14, 18, 0.5), 0.01544189453125)
-        self.assertAlmostEqual(tail(5, 5, 0.5), 1 / 32)
-
-    def test_means_with_a_zero_or_without_a_value(self):
-        self.assertEqual((mean("geometric", [0.0, 4.0]), mean("geometric", [1.0, 4.0])), (0.0, 2.0))
-        self.assertTrue(all(math.isnan(mean("geometric", values)) for values in ([-1.0, 4.0], [math.nan, 1.0])))
-
-    def test_the_ends_of_a_bootstrap_over_bodies(self):
-        """Two bodies, of which one holds: both draws of one body have a probability of 1/4, more than 2.5 %."""
-        self.assertEqual(bootstrap_ends([(3, 3), (2, 0)]), [(0.0, 0.0), (1.0, 1.0)])
-
-    def test_exact_intervals(self):
-        low, high = exact_interval(0, 6)
-        self.assertEqual(low, 0.0)
-        self.assertAlmostEqual(high, 1 - 0.025 ** (1 / 6))
-        low, high = exact_interval(28, 29)
-        self.assertAlmostEqual(low, 0.8224, places=4)
-        self.assertAlmostEqual(high, 0.99913, places=5)
-
-    def test_what_a_censored_value_decides(self):
-        for bound, value, limit, undecided in (({"high": 24.0}, 1000.0, "more_than", False), ({"high": 24.0}, 20.0, "at_least", True),
-                                               ({"low": 1.05}, 2.0, "at_least", False), ({"low": 1.05}, 1.0, "at_most", False),
-                                               ({"low": 1.05}, 2.0, "at_most", True), ({"low": 1.05}, 0.5, "more_than", True)):
-            self.assertEqual(is_undecided(bound, value, limit), undecided, (bound, value, limit))
-
-
 if __name__ == "__main__":
     unittest.main()

@@ -36,20 +36,6 @@ class VolumeClaims(LimbTest):
         self.assertGreater(int(row["inverted_tets"]), 0)
         self.assertGreater(self.change(row, "volume_abs_change_pct"), 2.0 * abs(self.change(row)))
 
-    def test_the_printed_equations_make_the_volume_worse(self):
-        derived = self.last_frame("limb_bend", 90.0)
-        for form in ("labels_relative", "labels_absolute", "as_printed"):
-            printed = self.last_frame("limb_bend", 90.0, "--set", "pbs.variant.volume_form=" + form)
-            self.assertGreater(self.change(printed["pbs"], "volume_abs_change_pct"), self.change(derived["lbs"], "volume_abs_change_pct"),
-                               form)
-            self.assertGreater(self.change(printed["pbs"], "volume_abs_change_pct"),
-                               2.0 * self.change(derived["pbs"], "volume_abs_change_pct"), form)
-
-    def test_the_printed_sign_blows_up(self):
-        frame = self.last_frame("limb_bend", 90.0, "--set", "pbs.variant.volume_form=sign")["pbs"]
-        change = self.change(frame, "volume_abs_change_pct")
-        self.assertFalse(change <= 100.0, change)  # not a number, or more than the whole volume
-
 
 DROPPED = ("--set", "pbs.k_volume=0.0")
 HALF = ("--set", "pbs.k_volume=0.5")

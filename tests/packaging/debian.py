@@ -71,9 +71,6 @@ class Debian(installation.BuildTest):
         self.assertLess(error_m, 1e-9)
         self.assertLess(abs(volume_change_pct), 1e-7)
 
-    def test_nothing_names_the_source_tree(self):
-        self.assertEqual(installation.files_naming(root, SOURCE), [])
-
     def test_a_native_build_is_refused(self):
         script = (SOURCE / "cmake/package/portable_only.cmake").resolve()
         self.refused(run(CMAKE, "-DCPACK_PBS_NATIVE=ON", "-P", script), "PBS_NATIVE = ON")

@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <type_traits>
@@ -99,26 +100,28 @@ inline GltfDocument two_joint_document()
     return gltf;
 }
 
-// A rigged model as a glTF file: a tetrahedron of 1 m along x, the joints root and elbow, and animations that turn the elbow by 90 degrees
-// in two seconds.
+// A rigged model as a glTF file: a tetrahedron of 1 m along x, the joints root and elbow, and animations that turn the elbow by 90 degrees,
+// or by the angle of each, in two seconds.
 //   const std::string file = test_support::write_rigged_gltf(folder, "arm.gltf", {"Bend", "Wave"});
 inline std::string write_rigged_gltf(const ScratchFolder& folder, const std::string& name, const std::vector<std::string>& animations,
-                                     float duration_s = 2.0f)
+                                     float duration_s = 2.0f, const std::vector<float>& angles_deg = {})
 {
-    constexpr float half = 0.70710678f;
     GltfDocument gltf;
     const int position = gltf.put<float>("VEC3", {0, 0, 0, 1, 0, 0, 0.5, 0.2f, 0, 0.5, 0, 0.2f}),
               weight = gltf.put<float>("VEC4", {1, 0, 0, 0, 0, 1, 0, 0, 0.5, 0.5, 0, 0, 0.5, 0.5, 0, 0}),
               bind = gltf.put<float>("MAT4",
                                      {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -0.5, 0, 0, 1}),
               joint = gltf.put<std::uint8_t>("VEC4", {0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0}),
-              times = gltf.put<float>("SCALAR", {0.0f, duration_s}), turns = gltf.put<float>("VEC4", {0, 0, 0, 1, 0, 0, half, half}),
+              times = gltf.put<float>("SCALAR", {0.0f, duration_s}),
               corners = gltf.put<std::uint16_t>("SCALAR", {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3});
     nlohmann::json moved = nlohmann::json::array();
-    for (const std::string& animation : animations)
-        moved.push_back({{"name", animation},
+    for (std::size_t a = 0; a < animations.size(); ++a) {
+        const float half = (a < angles_deg.size() ? angles_deg[a] : 90.0f) * 0.0087266463f;
+        const int turns = gltf.put<float>("VEC4", {0, 0, 0, 1, 0, 0, std::sin(half), std::cos(half)});
+        moved.push_back({{"name", animations[a]},
                          {"samplers", {{{"input", times}, {"output", turns}}}},
                          {"channels", {{{"sampler", 0}, {"target", {{"node", 1}, {"path", "rotation"}}}}}}});
+    }
     gltf.json.update(nlohmann::json::parse(R"({
         "scene": 0, "scenes": [{"nodes": [0, 2]}],
         "nodes": [{"name": "root", "children": [1]}, {"name": "elbow", "translation": [0.5, 0, 0]},

@@ -109,9 +109,10 @@ def quantised(weights):
 
 
 def add_mesh(gltf, points, triangles, weights, unit, compact):
-    """A mesh with its skin weights, #P x 3; compact: as bytes and shorts."""
-    weights = numpy.pad(weights, ((0, 0), (0, 1)))
-    joints = numpy.tile([0, 1, 2, 0], (len(points), 1))
+    """A mesh with its skin weights, #P x at most 4; compact: as bytes and shorts."""
+    count = weights.shape[1]
+    weights = numpy.pad(weights, ((0, 0), (0, 4 - count)))
+    joints = numpy.tile([*range(count), *[0] * (4 - count)], (len(points), 1))
     attributes = {"POSITION": gltf.put(points / unit, "VEC3", FLOAT)}
     if compact:
         attributes["WEIGHTS_0"] = gltf.put(quantised(weights), "VEC4", UNSIGNED_BYTE, normalized=True)
@@ -152,19 +153,24 @@ def bend(gltf, joints, first_deg=0.0):
 
 
 def rig(containers=(), unit=1.0, compact=False, halves=1, rest_deg=0.0, mesh_name="body", animations=("Bend",), extra=(),
-        shifted_m=(0.0, 0.0, 0.0), first_deg=None, tiny_tip=False):
+        shifted_m=(0.0, 0.0, 0.0), first_deg=None, tiny_tip=False, on_ground=False, one_joint=False, surface=None):
     """The document and the bytes of the buffer of a glTF file.
 
     containers: transforms of the nodes above the root joint, outermost first. unit: metres per unit of the points and joints. rest_deg:
     angle of the elbow in the file's rest pose, which then is not the bind pose. extra: further animations, as add_animation takes them.
     shifted_m: distance of the joints from the tube. first_deg: angle of the elbow in the first frame. tiny_tip: the tip
-    moves a bead inside the tube alone.
+    moves a bead inside the tube alone. on_ground: the root hangs on a joint `ground` 0.5 m below the tube, which has a hundredth of its
+    weight. one_joint: the root alone, which the animation Sway turns. surface: points and triangles in
+    place of the tube.
     """
     gltf, parent, joints = Gltf(), None, []
     for name, members in containers:
         parent = gltf.node(parent, name=name, **members)
-    places = numpy.array(PLACES) + shifted_m
-    for number, (name, place) in enumerate(zip(JOINTS, places)):
+    names, places = JOINTS[:1] if one_joint else JOINTS, numpy.array(PLACES) + shifted_m
+    if on_ground:
+        names, places = ("ground", *names), numpy.vstack([places[:1] - [0.0, 0.5, 0.0], places])
+    places = places[:len(names)]
+    for number, (name, place) in enumerate(zip(names, places)):
         members = {"name": name, "translation": ((place - (places[number - 1] if number else 0.0)) / unit).tolist()}
         if name == "elbow" and rest_deg:
             members["rotation"] = turn((0, 0, 1), rest_deg)
@@ -175,15 +181,23 @@ def rig(containers=(), unit=1.0, compact=False, halves=1, rest_deg=0.0, mesh_nam
     for half in range(halves):
         begin, end = LENGTH * half / halves, LENGTH * (half + 1) / halves
         overlap = 0.05 if halves > 1 else 0.0
-        points, triangles = tube(begin - overlap * (half > 0), end)
+        points, triangles = surface or tube(begin - overlap * (half > 0), end)
         weights = weights_of(points)
         if tiny_tip:  # the elbow has the weights of the tip
             weights = numpy.stack([weights[:, 0], weights[:, 1] + weights[:, 2], numpy.zeros(len(weights))], axis=1)
+        if on_ground:
+            weights = numpy.hstack([0.01 * weights[:, :1], 0.99 * weights[:, :1], weights[:, 1:]])
+        if one_joint:
+            weights = numpy.ones((len(points), 1))
         mesh = add_mesh(gltf, points, triangles, weights, unit, compact)
         gltf.node(name=mesh_name, mesh=mesh, skin=0)
     if tiny_tip:
         add_bead(gltf, unit)
-    for name in animations:
+    if on_ground:
+        joints = joints[1:]  # those that animations move
+    if one_joint:
+        add_animation(gltf, "Sway", [(joints[0], "rotation", [0.0, 1.0], [turn((0, 0, 1), 0), turn((0, 0, 1), 70)], "LINEAR")])
+    for name in () if one_joint else animations:
         if name == "Bend":
             bend(gltf, joints, rest_deg if first_deg is None else first_deg)
         if name == "Twist":

@@ -43,12 +43,13 @@ further = {
         "The reader is chosen by the content of a file where it shows the format. A file with the extension of another format gets a "
         "warning.",
         "Coordinates are in metres. A body of less than 1 mm or more than 100 m gets a warning, for files do not state a unit.",
-        "Accepted with a warning: a tet mesh of several parts (each is skinned by itself); inverted tets (they are turned back); "
+        "Accepted with a warning: a tet mesh of several parts (each is skinned by itself); parts that touch in a vertex or an edge alone "
+        "(they are separated there; `pbskin measure` keeps the file's vertices); unused vertices (they are left out); inverted tets (they "
+        "are turned back); "
         "a surface with unused points or triangles without area (they are left out), with holes or crossing triangles (it is wrapped), "
         "or facing inwards.",
         "Refused: an index out of range, a coordinate that is not a number, an edge of a surface in three or more triangles, a surface "
-        "without volume, a triangle that occurs twice; in a tet mesh an unused vertex, two vertices at one place, or a boundary "
-        "that is not manifold or intersects itself.",
+        "without volume, a triangle that occurs twice; in a tet mesh two vertices at one place, or a boundary that intersects itself.",
         "Points of a surface at the same place are joined without a message, since exporters split them at texture seams.")}
 
 

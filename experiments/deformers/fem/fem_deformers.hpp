@@ -65,8 +65,8 @@ public:
 protected:
     explicit FemDeformer(const FemOptions& options) : options_(options) {}
 
-    // At rest, with character_ and bones_. spring_tet: the tet that holds each spring, -1: outside. A bone that grips nothing is a
-    // pbs::InputError that names it, except with bind. prescribed_vertices: with nodes.
+    // At rest, with character_ and bones_. spring_tet: the tet that holds each spring, -1: outside. A bone that grips nothing is
+    // recorded with tets_gripped = 0. prescribed_vertices: with nodes.
     void start(const std::vector<int>& spring_tet, const std::vector<bool>& prescribed_vertices);
     reference_fem::Targets targets_of(const pbs::Pose& pose) const { return targets(bones_, character_->mesh.rest, pose); }
 

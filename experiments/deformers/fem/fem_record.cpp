@@ -1,5 +1,4 @@
 #include "experiments/deformers/fem/fem_deformers.hpp"
-#include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/topology.hpp"
 
 #include <nlohmann/json.hpp>
@@ -55,14 +54,13 @@ void FemDeformer::start(const std::vector<int>& spring_tet, const std::vector<bo
     const std::vector<bool> skin = pbs::boundary_vertices(mesh.tets, mesh.rest.rows());
     grips_ = nlohmann::json::array();
     for (std::size_t j = 0; j < bones; ++j) {
-        const std::string& name = character_->skeleton.bones[j].name;
-        if (!is_bound && tets[j].empty())
-            throw pbs::InputError(character_->name, 0, "bone", name, "expected a part of its middle to lie inside the flesh");
         const auto on_skin = std::ranges::count_if(vertices[j], [&](int v) { return skin[v]; });
         const double share = vertices[j].empty() ? 0.0 : static_cast<double>(on_skin) / static_cast<double>(vertices[j].size());
         const pbs::BoneCapsule& capsule = bones_.capsules[j];
-        nlohmann::json& grip = grips_.emplace_back(
-            nlohmann::json{{"bone", name}, {"radius_m", capsule.radius_m}, {"radius_from", capsule.radius_from}, {"skin_share", share}});
+        nlohmann::json& grip = grips_.emplace_back(nlohmann::json{{"bone", character_->skeleton.bones[j].name},
+                                                                  {"radius_m", capsule.radius_m},
+                                                                  {"radius_from", capsule.radius_from},
+                                                                  {"skin_share", share}});
         if (is_bound) {
             grip["bound_vertices"] = holds[j];
             continue;

@@ -236,21 +236,12 @@ StudyPlan plan(bool full)
     });
 }
 
-StudyConclusion conclude(const FinishedRuns& finished)
+bool conclude(const FinishedRuns& finished)
 {
     const auto changes = finished.rows(claim_change_columns(), "ambiguity.csv");
     finished.write("ambiguity.csv", used_columns(claim_change_columns(), changes), changes);
     finished.write("figures.csv", volume_change_columns, finished.rows(volume_change_columns, "figures.csv"));
-    std::string text;
-    for (const analysis::Claim& claim : claims()) {
-        const auto count = [&](const std::string& flips) {
-            return std::ranges::count_if(changes,
-                                         [&](const ClaimChange& row) { return row.claim == claim.id && row.verdict_flips == flips; });
-        };
-        if (const auto values = count("yes") + count("no"); values > 0)
-            text += fmt::format("{}: {} of {} values flip\n", claim.id, count("yes"), values);
-    }
-    return {text, !finished.none()};
+    return !finished.none();
 }
 
 }  // namespace

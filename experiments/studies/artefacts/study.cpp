@@ -13,7 +13,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 #include <optional>
 
 namespace experiments {
@@ -111,21 +110,11 @@ StudyPlan plan(bool full)
     });
 }
 
-StudyConclusion conclude(const FinishedRuns& finished)
-{
-    std::map<std::string, std::map<std::string, int>> sections;  // by claim and outcome
-    for (const SectionRow& row : finished.rows(section_columns, "sections.csv")) ++sections[row.claim][row.outcome];
-    std::string text;
-    for (const auto& [claim, outcomes] : sections)
-        for (const auto& [outcome, count] : outcomes) text += fmt::format("{}: {} sections {}\n", claim, count, outcome);
-    return {text, !finished.none()};
-}
-
 }  // namespace
 
 Study artefacts_study()
 {
-    return {"artefacts", plan, quick_and_full, conclude, false, nullptr, read_sections};
+    return {"artefacts", plan, quick_and_full, nullptr, false, nullptr, read_sections};
 }
 
 }  // namespace experiments

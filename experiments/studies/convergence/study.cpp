@@ -6,7 +6,6 @@
 // The reference of a pose takes minutes, so the quick form has it only at twist 90, bend 60, in the human's crouch and on the ladder. It
 // has no solution on finer tets there, and therefore no bound.
 #include "analysis/records/record_files.hpp"
-#include "analysis/records/report_table.hpp"
 #include "analysis/verdicts/measurement.hpp"
 #include "experiments/deformers/deformer_options.hpp"
 #include "experiments/process/terminal.hpp"
@@ -23,8 +22,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <filesystem>
 #include <random>
 
 namespace experiments {
@@ -237,24 +234,6 @@ StudyPlan plan(bool full)
     });
 }
 
-// One row per pose and initial guess, in the default order; of a ladder the LBS guess on each mesh.
-StudyConclusion conclude(const FinishedRuns& finished)
-{
-    std::vector<RateRow> shown;
-    for (const std::string& file : finished.files("rates.csv")) {
-        const bool is_ladder = std::filesystem::path(file).parent_path().filename().string().starts_with("ladder");
-        for (const RateRow& row : rows_of(rate_columns, analysis::read_csv(file))) {
-            const bool is_shown = is_ladder ? row.of.start == name_of(SolverStart::lbs) : row.of.own_mesh;
-            if (is_shown && row.of.order == "ordered" && row.of.precision == "f32") shown.push_back(row);
-        }
-    }
-    return {text_table(table_of(rate_columns, shown),
-                       analysis::report_columns("body pose vertices k_stretch start rate_per_iteration:.4f iterations_to_residual "
-                                                "residual_reached iterations_to_volume volume_reached masked_share_pct:.1f "
-                                                "reference_bound_pct:.2f error_24_pct:.1f least_error_iteration last_error_pct:.1f")),
-            !finished.none()};
-}
-
 // C03, C12: the paths in one pose, on the scene's mesh and in its order. C12 is judged on characters alone. The first reading's k_stretch
 // names the case of all of them.
 std::vector<ReadingValues> read_paths(const StudyCase& of, const std::vector<Overrides>& readings)
@@ -341,7 +320,7 @@ ConvergenceResult measure_convergence(const ConvergenceCase& of)
 
 Study convergence_study()
 {
-    return {"convergence", plan, quick_and_full, conclude, false, nullptr, read_paths};
+    return {"convergence", plan, quick_and_full, nullptr, false, nullptr, read_paths};
 }
 
 }  // namespace experiments

@@ -5,7 +5,6 @@
 //   pbskin reproduce ensemble --full     four hours
 #include "analysis/metrics/frame_metrics.hpp"
 #include "analysis/records/record_files.hpp"
-#include "analysis/records/report_table.hpp"
 #include "experiments/deformers/deformer_options.hpp"
 #include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/deformers/registry.hpp"
@@ -107,32 +106,27 @@ RECORD_SETTINGS(EnsembleCase, of, scene, frame, flesh, members, deformers, pbs, 
 
 std::vector<DeformerSpec> other_attachments(const DeformerSpec& reference)
 {
-    FemOptions flesh = options_of<FemOptions>(reference);
-    flesh.element_order = 2;
-    flesh.nested_start = true;
-    flesh.attachment = FemAttachment::smooth;
-    FemOptions stiffer = flesh, thinner = flesh, embedded = flesh, bind = flesh;
-    stiffer.spring_factor = 100.0;
-    thinner.core_radius = 0.5;
-    embedded.attachment = FemAttachment::embedded;
-    embedded.spring_factor = embedded.core_radius = 0.0;  // the attachment's own
-    bind.attachment = FemAttachment::bind;
-    bind.spring_factor = bind.core_radius = 0.0;
-    FemOptions linear = flesh, linear_embedded = embedded;
-    for (FemOptions* small_strain : {&linear, &linear_embedded}) {
-        small_strain->model = reference_fem::Model::linear;
-        small_strain->nested_start = false;
-        small_strain->most_newton_steps = 0;
-    }
     std::vector<DeformerSpec> others;
-    const std::pair<const char*, FemOptions> all[] = {{"smooth_q_100", stiffer}, {"smooth_core_0.5", thinner},
-                                                      {"embedded", embedded},    {"bind", bind},
-                                                      {"linear_smooth", linear}, {"linear_embedded", linear_embedded}};
-    for (const auto& [label, options] : all) {
-        others.push_back(reference);
-        others.back().name = others.back().label = label;
-        others.back().options = options;
-    }
+    const auto add = [&](const char* label, FemAttachment attachment, double spring_factor, double core_radius, bool is_linear = false) {
+        DeformerSpec& other = others.emplace_back(reference);
+        other.name = other.label = label;
+        auto& options = options_of<FemOptions>(other);
+        options.element_order = 2;
+        options.nested_start = !is_linear;
+        options.attachment = attachment;
+        options.spring_factor = spring_factor;
+        options.core_radius = core_radius;
+        if (!is_linear) return;
+        options.model = reference_fem::Model::linear;
+        options.most_newton_steps = 0;
+    };
+    const auto& own = options_of<FemOptions>(reference);
+    add("smooth_q_100", FemAttachment::smooth, 100.0, own.core_radius);
+    add("smooth_core_0.5", FemAttachment::smooth, own.spring_factor, 0.5);
+    add("embedded", FemAttachment::embedded, 0.0, 0.0);  // 0: the attachment's own
+    add("bind", FemAttachment::bind, 0.0, 0.0);
+    add("linear_smooth", FemAttachment::smooth, own.spring_factor, own.core_radius, true);
+    add("linear_embedded", FemAttachment::embedded, 0.0, 0.0, true);
     return others;
 }
 
@@ -337,23 +331,12 @@ StudyPlan plan(bool full)
     });
 }
 
-// For the terminal: the pairs, and the parts after the paper's 24 iterations.
-StudyConclusion conclude(const FinishedRuns& finished)
+bool conclude(const FinishedRuns& finished)
 {
-    if (finished.none()) return {"", false};
-    const std::vector<PairRow> pairs = finished.rows(pair_columns, "pairs.csv");
-    finished.write("pairs.csv", pair_columns, pairs);
+    if (finished.none()) return false;
+    finished.write("pairs.csv", pair_columns, finished.rows(pair_columns, "pairs.csv"));
     finished.write("members.csv", member_columns, finished.rows(member_columns, "members.csv"));
-    std::vector<PartsRow> parts = finished.rows(part_columns, "parts.csv");
-    std::erase_if(parts, [](const PartsRow& row) { return row.iterations != 24; });
-    const std::string of_pairs =
-        text_table(table_of(pair_columns, pairs), analysis::report_columns("body motion pose angle_deg first second "
-                                                                           "largest_difference_pct:.1f first_is_closer second_is_closer "
-                                                                           "members decision"));
-    const std::string of_parts =
-        text_table(table_of(part_columns, parts), analysis::report_columns("body motion pose angle_deg k_stretch error_joint_pct:.1f "
-                                                                           "solver_pct:.1f model_pct:.1f discretisation_pct:.2f"));
-    return {of_pairs + "\n" + of_parts, true};
+    return true;
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 // The limb is moved along its bones, the only direction in which the bind constraints leave all of its skin free; bodies are moved up.
 // Flesh has no gravity in a jolt, so that it lies still before it, and has gravity in a walk.
 #include "analysis/records/record_files.hpp"
-#include "analysis/records/report_table.hpp"
 #include "experiments/deformers/deformer_options.hpp"
 #include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/process/terminal.hpp"
@@ -18,7 +17,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <numeric>
 
 namespace experiments {
@@ -165,18 +163,6 @@ std::vector<ReadingValues> read_jolts(const StudyCase& of, const std::vector<Ove
     return all;
 }
 
-StudyConclusion conclude(const FinishedRuns& finished)
-{
-    std::string text;
-    for (const std::string& file : finished.files("responses.csv"))
-        text +=
-            std::filesystem::path(file).parent_path().filename().string() + "\n" +
-            text_table(analysis::read_csv(file), analysis::report_columns("deformer k_stretch time_step_ms:.3g iterations masses k_bind "
-                                                                          "outcome frequency_hz:.2f damping_ratio:.3f")) +
-            "\n";
-    return {text, !finished.none()};
-}
-
 }  // namespace
 
 JoltResponse jolt_response(const pbs::Character& character, const DeformerSpec& spec, const std::vector<int>& probe, const Jolt& jolt)
@@ -314,7 +300,7 @@ RECORD_SETTINGS(JiggleSetting, k_stretch, time_step_s, iterations, k_bind, masse
 
 Study jiggle_study()
 {
-    return {"jiggle", plan, quick_and_full, conclude, false, nullptr, read_jolts};
+    return {"jiggle", plan, quick_and_full, nullptr, false, nullptr, read_jolts};
 }
 
 }  // namespace experiments

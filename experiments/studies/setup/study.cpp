@@ -6,7 +6,6 @@
 //
 // Writes DIR/setup/BODY/measurements.csv, changed_keys.csv, trials.csv and run/ (the folder of a run), and setup.csv.
 #include "analysis/records/record_files.hpp"
-#include "analysis/records/report_table.hpp"
 #include "analysis/records/tables.hpp"
 #include "analysis/statistics/statistics.hpp"
 #include "analysis/verdicts/measurement.hpp"
@@ -225,15 +224,6 @@ std::string set_up_and_record(const SetupCase& of, const std::string& folder)
     return is_unsuitable(setup.body) ? "" : tried.back().failure;
 }
 
-// A measured value with its interval, for the terminal.
-const analysis::Columns<Measurement> value_columns = {
-    {"of", [](const Measurement& one) { return text_of(one.of); }, "", "body, motion and size"},
-    {"quantity", &Measurement::quantity, "", "what was measured"},
-    {"value", &Measurement::value, "", "its value"},
-    {"low", &Measurement::low, "", "lower end of its interval"},
-    {"high", &Measurement::high, "", "upper end of its interval"},
-    {"unit", &Measurement::unit, "", "1: none"}};
-
 StudyPlan plan(bool full)
 {
     return plan_of_cases("setup", full, [](const StudyCase& of, StudyPlan& plan) {
@@ -242,7 +232,7 @@ StudyPlan plan(bool full)
     });
 }
 
-StudyConclusion conclude(const FinishedRuns& finished)
+bool conclude(const FinishedRuns& finished)
 {
     std::vector<Measurement> all;
     for (const std::string& file : finished.files("measurements.csv")) {
@@ -251,13 +241,7 @@ StudyConclusion conclude(const FinishedRuns& finished)
         all.insert(all.end(), own.begin(), own.end());
     }
     finished.write("setup.csv", analysis::measurement_table(all));
-    const std::string text = text_table(table_of(value_columns, all), {{"body", "of"},
-                                                                       {"quantity", "quantity"},
-                                                                       {"value", "value", "{:.4g}", 1.0, "none"},
-                                                                       {"low", "low", "{:.4g}"},
-                                                                       {"high", "high", "{:.4g}"},
-                                                                       {"unit", "unit"}});
-    return {text, !finished.none()};
+    return !finished.none();
 }
 
 }  // namespace

@@ -29,12 +29,6 @@ constexpr StabilityOutcome outcomes[] = {StabilityOutcome::converged, StabilityO
 using Group = std::vector<const MeasuredCell*>;
 using Keyed = std::vector<std::pair<analysis::CaseKey, Group>>;
 
-bool jiggles(const StabilityCell& cell)
-{
-    const auto* pbs = options_if<pbs::PbsOptions>(cell.spec);
-    return pbs && pbs->jiggle;
-}
-
 // In the key of its values; empty: the cell has none.
 std::string deformer_of(const StabilityCell& cell)
 {
@@ -51,9 +45,10 @@ Keyed by_sweep(const std::vector<MeasuredCell>& cells)
     for (const MeasuredCell& measured : cells) {
         const StabilityCell& cell = measured.cell;
         if (deformer_of(cell).empty() || cell.named == "not_used") continue;  // not_used: no time step of its own
+        const auto* pbs = options_if<pbs::PbsOptions>(cell.spec);
         const analysis::CaseKey key = {.body = cell.body,
                                        .deformer = deformer_of(cell),
-                                       .variant = jiggles(cell) ? "jiggle" : "",
+                                       .variant = pbs && pbs->jiggle ? "jiggle" : "",
                                        .order = traits_of(cell.spec).order,
                                        .precision = precision_of(cell),
                                        .factor = cell.factor,
@@ -102,29 +97,6 @@ analysis::Interval share(const Group& cells, Predicate of)
 std::string yes_or_no(bool value)
 {
     return value ? "yes" : "no";
-}
-
-struct KeyedOutcome {
-    std::string key, outcome;
-};
-
-// The number of rows with each outcome, one line per key in the order of their first rows, as aligned columns.
-std::string count_table(const std::string& heading, const std::vector<KeyedOutcome>& rows, const std::vector<std::string>& outcomes,
-                        int width)
-{
-    std::vector<std::string> keys;
-    std::map<std::string, std::map<std::string, int>> counts;
-    for (const auto& [key, outcome] : rows) {
-        if (!counts.contains(key)) keys.push_back(key);
-        ++counts[key][outcome];
-    }
-    std::string text = heading;
-    for (const std::string& outcome : outcomes) text += fmt::format(" {:>{}}", outcome, width);
-    for (const std::string& key : keys) {
-        text += "\n" + key;
-        for (const std::string& outcome : outcomes) text += fmt::format(" {:>{}}", counts[key][outcome], width);
-    }
-    return text + "\n";
 }
 
 // The result of so many iterations from the broken shape of the cell, or from the deformer's own initial guess [m], #V x 3.
@@ -277,20 +249,6 @@ CsvTable stability_measurements(const std::vector<MeasuredCell>& cells)
     return analysis::measurement_table(rows);
 }
 
-std::string outcome_table(const std::vector<CellRow>& cells, bool by_factor)
-{
-    std::vector<KeyedOutcome> keyed;
-    for (const CellRow& row : cells) {
-        const StabilityCell& cell = row.of;
-        keyed.push_back({fmt::format("{:<7} {:<31}", cell.body, cell.model), row.outcome});
-        if (by_factor)
-            keyed.back().key += fmt::format(" {:<24}", cell.factor + (cell.second_factor.empty() ? "" : " x " + cell.second_factor));
-    }
-    std::vector<std::string> names;
-    for (const StabilityOutcome outcome : outcomes) names.push_back(name_of(outcome));
-    return count_table(fmt::format("{:<7} {:<31}{}", "body", "model", by_factor ? fmt::format(" {:<24}", "factor") : ""), keyed, names, 10);
-}
-
 std::string blind_spots(const std::vector<CellRow>& cells)
 {
     std::map<std::string, int> counts;
@@ -365,19 +323,6 @@ StartRow run_broken_start(const StabilityCell& cell, int most_iterations)
         row.outcome = StartOutcome::reached;
     row.cpu_s = process_cpu_s() - start_s;
     return row;
-}
-
-std::string start_table(const std::vector<StartRow>& rows)
-{
-    const auto key_of = [](const std::string& body, const std::string& model, const std::string& pose, const std::string& setting) {
-        return fmt::format("{:<7} {:<20} {:<9} {:<25}", body, model, pose, setting);
-    };
-    std::vector<KeyedOutcome> keyed;
-    for (const StartRow& row : rows) {
-        const std::string setting = row.setting.empty() ? "" : fmt::format("{} {:g}", row.setting, row.setting_value.value_or(0.0));
-        keyed.push_back({key_of(row.body, row.model, row.pose, setting), name_of(row.outcome)});
-    }
-    return count_table(key_of("body", "model", "pose", "setting"), keyed, names_of_options<StartOutcome>(), 14);
 }
 
 std::string start_criteria_text(int most_iterations)

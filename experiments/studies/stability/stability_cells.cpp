@@ -1,15 +1,22 @@
 #include "experiments/studies/stability/stability_cells.hpp"
 
 #include "experiments/deformers/deformer_options.hpp"
+#include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/settings/recorded_settings.hpp"
 #include "experiments/settings/scene_values.hpp"
+#include "experiments/studies/study.hpp"
+#include "pbs/author/author_solver.hpp"
+#include "pbs/solver/options.hpp"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <map>
+#include <set>
+#include <stdexcept>
 #include <utility>
 
 namespace experiments {
@@ -82,15 +89,6 @@ std::vector<double> values_of(const Sweep& sweep, bool full)
 
 }  // namespace
 
-const Sweep time_steps{"time_step", "s", {1e-4, 0.01, 0.1, 1.0}, {1e-3, 3e-3, 0.03, 0.3}, set_time_step};
-const Sweep twists{"twist", "deg", {0.0, 90.0, 180.0, 360.0, 720.0}, {45.0, 135.0, 270.0, 540.0}, twist};
-const Sweep jumps{"bend_in_one_step", "deg", {90.0, 180.0}, {45.0, 135.0}, jump};
-const Sweep teleports{
-    "teleport", "m", {10.0, 1000.0}, {0.1, 1.0}, [](StabilityCell& cell, double value) { cell.disturbance.teleport_m = value; }};
-const Sweep starts{"start", "", {1.0, 2.0, 3.0, 4.0}, {}, start};
-const Sweep slivers{"slivers_height_kept", "1", {1e-2, 1e-6}, {1e-1, 1e-3, 1e-4, 1e-5}, spoil<Defect::slivers>};
-const Sweep needles{"needles_edge_kept", "1", {1e-2, 1e-6}, {1e-1, 1e-3, 1e-4, 1e-5}, spoil<Defect::needles>};
-
 std::vector<StabilityCell> cells_of(const Sweep& sweep, const StabilityCell& base, bool full)
 {
     std::vector<StabilityCell> cells;
@@ -124,12 +122,6 @@ void append(std::vector<StabilityCell>& cells, std::vector<StabilityCell> more)
     cells.insert(cells.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }
 
-bool has_option(const std::string& kind, const std::string& key)
-{
-    const std::vector<SceneKey>& keys = find_deformer_kind(kind)->keys;
-    return std::any_of(keys.begin(), keys.end(), [&](const SceneKey& one) { return one.table == kind && one.name == key; });
-}
-
 // The numbers, texts and truth values of JSON are spelled as in TOML.
 DeformerSpec with_option(const DeformerSpec& spec, const std::string& key, const nlohmann::json& value)
 {
@@ -145,8 +137,6 @@ DeformerSpec with_option(const DeformerSpec& spec, const std::string& key, const
 
 namespace {
 
-constexpr pbs::Precision both_precisions[] = {pbs::Precision::f32, pbs::Precision::f64};
-
 pbs::PbsOptions& pbs_of(StabilityCell& cell)
 {
     return options_of<pbs::PbsOptions>(cell.spec);
@@ -158,93 +148,174 @@ void set_k_stretch(StabilityCell& cell, double k)
     if (pbs_of(cell).jiggle) pbs_of(cell).jiggle->k_stretch = k;
 }
 
-const Sweep k_stretches{"k_stretch", "1", {0.0, 0.2, 0.6, 1.0}, {0.01, 0.1, 0.4, 0.8, 0.9}, set_k_stretch};
-const Sweep k_volumes{
-    "k_volume", "1", {0.0, 0.5, 1.0}, {0.1, 0.25, 0.75}, [](StabilityCell& cell, double k) { pbs_of(cell).k_volume = k; }};
-const Sweep k_binds{"k_bind", "1", {0.0, 0.5, 1.0}, {0.1, 0.25, 0.75}, [](StabilityCell& cell, double k) { pbs_of(cell).k_bind = k; }};
-const Sweep iterations{"iterations", "1", {1.0, 24.0, 1000.0}, {2.0, 4.0, 8.0, 96.0, 384.0}, [](StabilityCell& cell, double count) {
-                           pbs_of(cell).iterations = static_cast<int>(count);
-                       }};
-const Sweep iterations_of_maps{"iterations", "1", {1.0, 4.0, 24.0, 96.0}, {2.0, 8.0, 384.0}, iterations.set};
-const Sweep clip_time_steps{"time_step", "s", {0.1}, {1e-4, 1.0}, [](StabilityCell& cell, double value) { cell.time_step_s = value; }};
-const Sweep gravities{"gravity", "g", {1.0, 100.0, 1e4}, {10.0, 1e3}, [](StabilityCell& cell, double count) {
-                          pbs_of(cell).gravity_m_s2.y() = -g_m_s2 * count;
-                      }};
-const Sweep mass_ratios{"mass_ratio", "1", {1e2, 1e8}, {1e4, 1e6}, [](StabilityCell& cell, double ratio) { cell.mass_ratio = ratio; },
-                        false};
-const Sweep held_ends{"held_end", "1", {1.0}, {}, [](StabilityCell& cell, double) { cell.held_end = true; }, false};
-const Sweep orders{"order", "", {1.0, 2.0}, {}, [](StabilityCell& cell, double value) {
-                       pbs_of(cell).order = value == 1.0 ? pbs::Order::plain : pbs::Order::grouped;
-                       cell.named = value == 1.0 ? "plain" : "grouped";
-                   }};
-
-void set_form(StabilityCell& cell, double value)
+void set_form(StabilityCell& cell, pbs::VolumeForm form)
 {
-    pbs_of(cell).volume_form = static_cast<pbs::VolumeForm>(std::lround(value));
-    cell.named = name_of(pbs_of(cell).volume_form);
+    pbs_of(cell).volume_form = form;
+    cell.named = name_of(form);
 }
 
-const Sweep printed_forms{"printed_form", "", {1.0, 2.0, 3.0, 4.0}, {}, set_form, false};
-void set_bind_of_form(StabilityCell& cell, double k_bind)
+void set_order(StabilityCell& cell, double value)
 {
-    pbs_of(cell).k_bind = k_bind;
-    cell.named = name_of(pbs_of(cell).volume_form);
+    pbs_of(cell).order = value == 1.0 ? pbs::Order::plain : pbs::Order::grouped;
+    cell.named = name_of(pbs_of(cell).order);
 }
 
-const Sweep without_bind{"sign_k_bind", "1", {0.0}, {}, set_bind_of_form, false};
-// The square of the distance overflows in f32, and in f64. This is a limit of the numbers, not of the method.
-const Sweep beyond_numbers{
-    "teleport_beyond_numbers", "m", {1e25, 1e160}, {}, [](StabilityCell& cell, double m) { cell.disturbance.teleport_m = m; }, false};
+void set_no_time_step(StabilityCell& cell, double time_step_s)
+{
+    set_time_step(cell, time_step_s);
+    cell.named = "not_used";
+}
+
+void set_own_time_step(StabilityCell& cell, double time_step_s)
+{
+    cell.time_step_s = time_step_s;  // by which it is counted
+    auto& options = options_of<pbs::AuthorOptions>(cell.spec);
+    options.time_step_s = time_step_s;
+    options.gravity_m_s2.y() = -g_m_s2;
+}
+
+void set_chebyshev(StabilityCell& cell, double rho)
+{
+    cell.spec = with_option(with_option(cell.spec, "acceleration", "chebyshev"), "rho", rho);
+}
+
+template <typename Options>
+void set_young(StabilityCell& cell, double pa)
+{
+    options_of<Options>(cell.spec).young_pa = pa;
+}
+
+template <typename Options>
+void set_poisson(StabilityCell& cell, double poisson)
+{
+    options_of<Options>(cell.spec).poisson = poisson;
+}
+
+template <typename Options>
+void set_gravity(StabilityCell& cell, double count)
+{
+    options_of<Options>(cell.spec).gravity_m_s2.y() = -g_m_s2 * count;
+}
+
+template <typename Options>
+void set_iterations(StabilityCell& cell, double count)
+{
+    options_of<Options>(cell.spec).iterations = static_cast<int>(count);
+}
+
+// What the value of a sweep sets.
+const std::map<std::string, Sweep::Set> setters = {
+    {"time_step", set_time_step},
+    {"clip_time_step", [](StabilityCell& cell, double value) { cell.time_step_s = value; }},
+    {"no_time_step", set_no_time_step},
+    {"own_time_step", set_own_time_step},
+    {"twist", twist},
+    {"bend_in_one_step", jump},
+    {"teleport", [](StabilityCell& cell, double value) { cell.disturbance.teleport_m = value; }},
+    {"start", start},
+    {"slivers_height_kept", spoil<Defect::slivers>},
+    {"needles_edge_kept", spoil<Defect::needles>},
+    {"mass_ratio", [](StabilityCell& cell, double ratio) { cell.mass_ratio = ratio; }},
+    {"held_end", [](StabilityCell& cell, double) { cell.held_end = true; }},
+    {"k_stretch", set_k_stretch},
+    {"k_volume", [](StabilityCell& cell, double k) { pbs_of(cell).k_volume = k; }},
+    {"k_bind", [](StabilityCell& cell, double k) { pbs_of(cell).k_bind = k; }},
+    {"order", set_order},
+    {"printed_form", [](StabilityCell& cell, double value) { set_form(cell, static_cast<pbs::VolumeForm>(std::lround(value))); }},
+    {"sign_k_bind",
+     [](StabilityCell& cell, double k) {
+         set_form(cell, pbs::VolumeForm::sign);
+         pbs_of(cell).k_bind = k;
+     }},
+    {"iterations", set_iterations<pbs::PbsOptions>},
+    {"gravity", set_gravity<pbs::PbsOptions>},
+    {"xpbd_young", set_young<pbs::XpbdOptions>},
+    {"xpbd_poisson", set_poisson<pbs::XpbdOptions>},
+    {"xpbd_gravity", set_gravity<pbs::XpbdOptions>},
+    {"xpbd_iterations", set_iterations<pbs::XpbdOptions>},
+    {"fem_young", set_young<FemOptions>},
+    {"fem_poisson", set_poisson<FemOptions>},
+    {"fem_gravity", set_gravity<FemOptions>},
+    {"flesh_poisson", [](StabilityCell& cell, double poisson) { cell.spec = with_option(cell.spec, "poisson", poisson); }},
+    {"own_iterations", [](StabilityCell& cell, double count) { cell.spec = with_option(cell.spec, "iterations", int(count)); }},
+    {"chebyshev_rho", set_chebyshev},
+    {"omega", [](StabilityCell& cell, double omega) { cell.spec = with_option(cell.spec, "omega", omega); }},
+    {"step_of_stiffness", [](StabilityCell& cell, double share) { cell.spec = with_option(cell.spec, "time_step", share); }}};
+
+const nlohmann::json& document()
+{
+    static const nlohmann::json tables = cases_document("stability");
+    return tables;
+}
+
+Sweep sweep_named(const std::string& name)
+{
+    const auto is_named = [&](const nlohmann::json& one) { return one.at("name") == name; };
+    const nlohmann::json& all = document().at("sweep");
+    const auto found = std::ranges::find_if(all, is_named);
+    if (found == all.end()) throw std::logic_error("stability/cases.toml: no sweep " + name);
+    return {found->value("factor", name),
+            found->at("unit"),
+            found->at("values"),
+            found->value("more", std::vector<double>()),
+            setters.at(found->value("sets", name)),
+            found->value("as_published", true)};
+}
+
+const pbs::Vec3 downwards_m_s2(0.0, -g_m_s2, 0.0);
 
 // f64: the paper's order, by which C08 is judged; f32: the default order, which is quicker.
-StabilityCell base(const std::string& body, bool jiggle, pbs::Precision precision, bool full)
+void set_options(pbs::PbsOptions& options, const nlohmann::json& entry)
+{
+    options.precision = option_of<pbs::Precision>(entry.at("precision"));
+    if (options.precision == pbs::Precision::f64 || entry.contains("order")) options.order = pbs::Order::plain;
+    if (entry.contains("volume_form")) options.volume_form = option_of<pbs::VolumeForm>(entry.at("volume_form"));
+    if (entry.value("jiggle", false)) options.jiggle = pbs::Jiggle{options.k_stretch};
+    options.gravity_m_s2 = downwards_m_s2;
+}
+
+// Linear elements on the same tets. In time: generalised-alpha with stiffness-proportional damping, so that the body can come to rest.
+void set_options(FemOptions& options, const nlohmann::json& entry)
+{
+    options.model = option_of<reference_fem::Model>(entry.at("material"));
+    options.element_order = 1;
+    options.gravity_m_s2 = downwards_m_s2;
+    if (!entry.value("in_time", false)) return;
+    options.dynamics = reference_fem::Dynamics::generalized_alpha;
+    options.rayleigh_stiffness_s = 0.05;
+}
+
+DeformerSpec spec_of(const nlohmann::json& entry)
+{
+    DeformerSpec spec = default_spec(entry.at("kind"));
+    if (options_if<pbs::PbsOptions>(spec)) {
+        set_options(options_of<pbs::PbsOptions>(spec), entry);
+        if (entry.value("jiggle", false)) spec.variant = "jiggle";
+    } else if (options_if<FemOptions>(spec)) {
+        set_options(options_of<FemOptions>(spec), entry);
+        spec.name = spec.label = "fem_" + entry.value("material", "") + (entry.value("in_time", false) ? "_in_time" : "");
+    } else if (options_if<pbs::XpbdOptions>(spec)) {
+        auto& xpbd = options_of<pbs::XpbdOptions>(spec);
+        xpbd.jiggle = true;  // the zone, the cost and gravity are those of PBS with jiggle
+        xpbd.gravity_m_s2 = downwards_m_s2;
+        if (entry.value("small_steps", false)) std::swap(xpbd.iterations, xpbd.substeps);
+    }
+    return spec;
+}
+
+// The cell from which the sweeps of an entry of [[cells]] vary one factor.
+StabilityCell base_of(const nlohmann::json& entry, const std::string& body, bool full)
 {
     StabilityCell cell;
     cell.body = body;
-    cell.model = jiggle ? "pbs_jiggle" : "pbs";
-    pbs::PbsOptions options;
-    options.precision = precision;
-    if (precision == pbs::Precision::f64) options.order = pbs::Order::plain;
-    options.gravity_m_s2 = pbs::Vec3(0.0, -g_m_s2, 0.0);
-    if (jiggle) options.jiggle = pbs::Jiggle{options.k_stretch};
-    cell.spec = {.name = "pbs", .kind = "pbs", .label = "pbs", .variant = jiggle ? "jiggle" : "default", .options = options};
-    cell.still_steps = full ? 800 : 600;
-    cell.as_published = true;
+    cell.spec = spec_of(entry);
+    cell.model = entry.value("model", cell.spec.name + (entry.value("jiggle", false) ? "_jiggle" : ""));
+    const nlohmann::json& steps = entry.at("still_steps");
+    cell.still_steps = steps.is_array() ? steps.at(full ? 1 : 0) : steps;
+    cell.nudge_m = entry.value("nudge_m", 0.0);
+    cell.as_published = entry.value("as_published", options_if<pbs::PbsOptions>(cell.spec) != nullptr);
+    if (entry.value("twisted", false)) cell.disturbance.axis = pbs::Vec3::UnitX();
     return cell;
-}
-
-// Without jiggle particles have no memory. Neither the time step nor gravity has an effect, and a few steps at rest suffice.
-StabilityCell without_memory(StabilityCell cell)
-{
-    cell.still_steps = 12;
-    return cell;
-}
-
-// These cells are stable by construction. They are a control and no part of the claim.
-std::vector<StabilityCell> time_steps_without_effect(StabilityCell from, bool full)
-{
-    from.model = "pbs_no_memory";
-    from.as_published = false;
-    return cells_of(time_steps, from, full);
-}
-
-}  // namespace
-
-std::vector<StabilityCell> pbs_cells(bool jiggle, bool full)
-{
-    std::vector<StabilityCell> cells;
-    for (const pbs::Precision precision : both_precisions) {
-        const StabilityCell start = base("limb", jiggle, precision, full), from = jiggle ? start : without_memory(start);
-        append(cells, jiggle ? cells_of(time_steps, from, full) : time_steps_without_effect(from, full));
-        for (const Sweep* sweep : {&teleports, &starts}) append(cells, cells_of(*sweep, from, full));
-        if (precision == pbs::Precision::f64 && !full) continue;
-        for (const Sweep* sweep :
-             {&k_stretches, &k_volumes, &k_binds, &iterations, &twists, &jumps, &slivers, &needles, &mass_ratios, &held_ends})
-            append(cells, cells_of(*sweep, from, full));
-        if (precision == pbs::Precision::f32) append(cells, cells_of(orders, from, full));
-        if (jiggle) append(cells, cells_of(gravities, from, full));
-    }
-    return cells;
 }
 
 // The judged cells in the same pose from the beginning, which is that of rest, and without gravity.
@@ -261,52 +332,50 @@ std::vector<StabilityCell> undisturbed(std::vector<StabilityCell> cells)
     return cells;
 }
 
-std::vector<StabilityCell> pbs_character_cells(const std::string& body, bool full)
+void refuse_unknown_keys(const nlohmann::json& entry)
 {
-    std::vector<StabilityCell> cells;
-    for (const bool jiggle : {true, false}) {
-        StabilityCell start = base(body, jiggle, pbs::Precision::f64, full);
-        start.still_steps = full ? 500 : 200;
-        const StabilityCell from = jiggle ? start : without_memory(start);
-        if (jiggle) append(cells, cells_of(clip_time_steps, from, full));
-        if (!full) continue;
-        for (const Sweep* sweep : {&k_stretches, &teleports, &starts}) append(cells, cells_of(*sweep, from, false));
-        for (const Sweep* sweep : {&gravities, &iterations_of_maps})
-            if (jiggle) append(cells, cells_of(*sweep, from, false));
-    }
-    append(cells, undisturbed(cells));
-    return cells;
+    static const std::set<std::string> known = {
+        "of",    "undisturbed", "kind",    "precision", "jiggle",      "small_steps", "order",        "volume_form", "material", "in_time",
+        "model", "still_steps", "nudge_m", "sweeps",    "full_sweeps", "maps",        "as_published", "short",       "twisted"};
+    for (const auto& [key, value] : entry.items())
+        if (!known.contains(key)) throw std::logic_error("stability/cases.toml: nothing reads the key " + key + " of cells");
 }
 
-std::vector<StabilityCell> pbs_map_cells(bool full)
-{
-    const StabilityCell from = base("limb", true, pbs::Precision::f32, full);
-    std::vector<StabilityCell> cells = cells_of_map(time_steps, k_stretches, from, full);
-    append(cells, cells_of_map(iterations_of_maps, twists, from, full));
-    return cells;
-}
+}  // namespace
 
-std::vector<StabilityCell> controls(bool full)
+std::vector<StabilityCell> stability_cells(const std::string& list, bool full, const std::string& body)
 {
+    using Names = std::vector<std::string>;
     std::vector<StabilityCell> cells;
-    for (const bool jiggle : {false, true}) {
-        append(cells, undisturbed(pbs_cells(jiggle, full)));
-        for (const pbs::Precision precision : both_precisions) {
-            StabilityCell from = base("limb", jiggle, precision, false);
-            from.still_steps = 60;
-            pbs_of(from).order = pbs::Order::plain;
-            if (!jiggle) from = without_memory(from);
-            append(cells, cells_of(printed_forms, from, false));
-            if (jiggle) append(cells, cells_of(beyond_numbers, from, false));
-            pbs_of(from).volume_form = pbs::VolumeForm::sign;
-            append(cells, cells_of(without_bind, from, false));
-            if (!jiggle || precision == pbs::Precision::f32) continue;
-            from.model = "pbs_printed_sign";
-            from.as_published = false;
-            for (const Sweep* sweep : {&time_steps, &teleports, &starts, &jumps, &k_binds}) append(cells, cells_of(*sweep, from, false));
+    for (const nlohmann::json& entry : document().at("cells")) {
+        if (entry.at("of") != list) continue;
+        refuse_unknown_keys(entry);
+        if (const std::string judged = entry.value("undisturbed", ""); !judged.empty()) {
+            append(cells, undisturbed(judged == list ? cells : stability_cells(judged, full, body)));
+            continue;
         }
+        const StabilityCell from = base_of(entry, body, full);
+        const bool more = full && !entry.value("short", false);
+        for (const std::string& sweep : entry.value("sweeps", Names())) append(cells, cells_of(sweep_named(sweep), from, more));
+        for (const std::string& sweep : entry.value("full_sweeps", Names()))
+            if (full) append(cells, cells_of(sweep_named(sweep), from, more));
+        for (const Names& map : entry.value("maps", std::vector<Names>()))
+            append(cells, cells_of_map(sweep_named(map.at(0)), sweep_named(map.at(1)), from, more));
     }
     return cells;
+}
+
+std::vector<StartRow> starts_not_applicable()
+{
+    std::vector<StartRow> rows;
+    for (const nlohmann::json& entry : document().at("without_start")) {
+        StartRow row{.body = "limb", .model = entry.at("model")};
+        row.precision = traits_of(default_spec(row.model)).precision;
+        row.outcome = StartOutcome::not_applicable;
+        row.reason = entry.at("reason");
+        rows.push_back(row);
+    }
+    return rows;
 }
 
 }  // namespace experiments

@@ -98,26 +98,13 @@ struct Sweep {
 std::vector<StabilityCell> cells_of(const Sweep& sweep, const StabilityCell& base, bool full);
 std::vector<StabilityCell> cells_of_map(const Sweep& rows, const Sweep& columns, const StabilityCell& base, bool full);
 
-// The factors that apply to every method.
-extern const Sweep time_steps, twists, jumps, teleports, starts, slivers, needles;
-
 void append(std::vector<StabilityCell>& cells, std::vector<StabilityCell> more);
 
-std::vector<StabilityCell> pbs_cells(bool jiggle, bool full);  // on the limb, in the default order and f32, in the order plain and f64
-// In the order plain and f64, and without a disturbance.
-std::vector<StabilityCell> pbs_character_cells(const std::string& body, bool full);
-std::vector<StabilityCell> pbs_map_cells(bool full);  // time step x k_stretch, iterations x twist
-// On the limb: Eq. 12-20 as printed, distances whose squares overflow, and the cells of pbs_cells() without a disturbance.
-std::vector<StabilityCell> controls(bool full);
-std::vector<StabilityCell> xpbd_cells(bool full);
-std::vector<StabilityCell> fem_static_cells(bool full);   // linear, corotational, stable neo-Hookean; in equilibrium
-std::vector<StabilityCell> fem_dynamic_cells(bool full);  // corotational, stable neo-Hookean; in time
-std::vector<StabilityCell> other_cells(bool full);        // the other deformers, on the limb
+// The cells of a list in cases.toml, for one of the bodies: what is varied is data there. InputError for an option out of its range.
+std::vector<StabilityCell> stability_cells(const std::string& list, bool full, const std::string& body = "limb");
 
 // A deformer's settings, changed as a scene would change them, for deformers whose struct of options only their own file knows.
 //   cell.spec = with_option(cell.spec, "poisson", 0.499);
-bool has_option(const std::string& kind, const std::string& key);  // of the kind's own table
-
 // All other options keep their values. InputError for a value out of its range.
 DeformerSpec with_option(const DeformerSpec& spec, const std::string& key, const nlohmann::json& value);
 
@@ -223,9 +210,6 @@ CellRow cell_row(const MeasuredCell& measured);
 // if the cells were drawn at random from the settings between them.
 analysis::CsvTable stability_measurements(const std::vector<MeasuredCell>& cells);
 
-// The number of cells with each outcome, by body and model and on request by factor, as aligned columns.
-std::string outcome_table(const std::vector<CellRow>& cells, bool by_factor);
-
 // The text states why the map is unreliable: an outcome that occurs in no cell, or a cell in which the printed sign does not
 // diverge. Empty where there is no such defect.
 std::string blind_spots(const std::vector<CellRow>& cells);
@@ -234,7 +218,7 @@ std::string blind_spots(const std::vector<CellRow>& cells);
 analysis::CsvTable map_csv(const std::vector<CellRow>& cells, const std::string& factor, const std::string& second_factor);
 
 // Does a deformer that minimises an energy find its own result again from a broken initial shape, and after how many iterations?
-//   for (const StabilityCell& cell : start_cells(full)) rows.push_back(run_broken_start(cell, most_iterations));
+//   for (const StabilityCell& cell : stability_cells("broken_starts", full)) rows.push_back(run_broken_start(cell, most_iterations));
 // The deformer runs from the broken shape with 1, 2, 4, ... iterations, up to the most, and once with the most from its own initial guess.
 // The result of the latter is its own result. These runs differ from a scene only in the initial shape and in the number of iterations.
 // The outcomes in cells.csv cannot show this: there a deformer without memory forgets a broken shape after one step.
@@ -270,16 +254,11 @@ struct StartRow {
 };
 extern const analysis::Columns<StartRow> start_columns;
 
-// The broken starts of every deformer that minimises an energy: bent and twisted, with default settings, near incompressibility, and with
-// settings beyond those for which the methods are known to converge.
-std::vector<StabilityCell> start_cells(bool full);
-
 StartRow run_broken_start(const StabilityCell& cell, int most_iterations);
 
 // The other deformers of the map, with the reason why they have no broken start.
 std::vector<StartRow> starts_not_applicable();
 
-std::string start_table(const std::vector<StartRow>& rows);  // counts by model and setting, as aligned columns
-std::string start_criteria_text(int most_iterations);        // the definitions in words, as Markdown
+std::string start_criteria_text(int most_iterations);  // the definitions in words, as Markdown
 
 }  // namespace experiments

@@ -9,7 +9,6 @@
 #include "pbs/near_rest/near_rest.hpp"
 
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace experiments {
@@ -102,11 +101,6 @@ struct StiffnessExponent {
 };
 const analysis::Columns<StiffnessExponent>& exponent_columns();
 std::vector<StiffnessExponent> stiffness_exponents(const std::vector<StiffnessRow>& rows, Varied varied);
-
-// The report of the stiffness study for the terminal: the ratios of PBS at k_stretch 0.2, of the same with the exponent, and of XPBD at
-// 30 kPa, whose stiffness is a material's. XPBD that forgets its multipliers shows that the study can tell the difference.
-using SweptRows = std::pair<Varied, std::vector<StiffnessRow>>;
-std::string stiffness_text(const std::vector<SweptRows>& sweeps);
 
 // One run of the stiffness study: one body, and one thing that is varied.
 struct StiffnessSweep {

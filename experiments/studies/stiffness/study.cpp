@@ -2,7 +2,6 @@
 // step and resolution. PBS, PBS with Mueller's exponent and XPBD run. XPBD has the stiffness of a material, and is the control. On the limb
 // XPBD also runs with its multipliers reset in every iteration: a control that has to fail, and no part of the claim. README.md describes
 // the runs and records.
-#include "analysis/records/report_table.hpp"
 #include "analysis/records/tables.hpp"
 #include "analysis/statistics/fits.hpp"
 #include "analysis/verdicts/measurement.hpp"
@@ -38,16 +37,15 @@ const analysis::Columns<StiffnessExponent>& exponent_columns()
 namespace {
 
 struct VariedText {
-    const char* doubled;   // "half the time step"
     const char* quantity;  // in measurements.csv
     double first, last;    // settings next to the paper's: iterations, 1 / time step [1/s], vertices
 };
 
 const VariedText& text_of(Varied varied)
 {
-    static constexpr VariedText texts[] = {{"twice the iterations", "stiffness_ratio_at_twice_iterations", 12.0, 48.0},
-                                           {"half the time step", "stiffness_ratio_at_half_time_step", 1.0 / 0.02, 1.0 / 0.005},
-                                           {"twice the vertices", "stiffness_ratio_at_twice_resolution", 0.0, 1e9}};
+    static constexpr VariedText texts[] = {{"stiffness_ratio_at_twice_iterations", 12.0, 48.0},
+                                           {"stiffness_ratio_at_half_time_step", 1.0 / 0.02, 1.0 / 0.005},
+                                           {"stiffness_ratio_at_twice_resolution", 0.0, 1e9}};
     return texts[static_cast<int>(varied)];
 }
 
@@ -142,25 +140,6 @@ std::optional<analysis::Measurement> ratio_of(const analysis::CaseKey& of, const
     return result;
 }
 
-analysis::CsvTable ratio_table(Varied varied, const std::vector<analysis::Measurement>& ratios)
-{
-    using Ratio = analysis::Measurement;
-    const analysis::Columns<Ratio> columns = {
-        {"at", [varied](const Ratio&) { return std::string(text_of(varied).doubled); }, "", "what is doubled"},
-        {"body", [](const Ratio& ratio) { return ratio.of.body + ", " + ratio.of.load; }, "", "body and load"},
-        {"deformer", [](const Ratio& ratio) { return ratio.of.deformer; }, "", "the solver"},
-        {"ratio", &Ratio::value, "", "of the stiffnesses, for one doubling"},
-        {"least", &Ratio::low, "", "the least of every single doubling"},
-        {"largest", &Ratio::high, "", "the largest of every single doubling"}};
-    return table_of(columns, ratios);
-}
-
-// By the linear map: PBS at k_stretch 0.2, the same with the exponent, and the softer XPBD.
-bool is_in_short(const StiffnessRow& row)
-{
-    return row.by == "linear" && (is_xpbd(row.setting.method) ? row.setting.young_pa == 3.0e4 : row.setting.k_stretch == 0.2);
-}
-
 StudyPlan plan(bool full)
 {
     return plan_of_cases("stiffness", full, [](const StudyCase& of, StudyPlan& plan) {
@@ -177,19 +156,18 @@ std::vector<StiffnessRow> rows_of_sweep(FinishedRuns finished, Varied varied)
     return finished.rows(stiffness_columns, "stiffness.csv");
 }
 
-StudyConclusion conclude(const FinishedRuns& finished)
+bool conclude(const FinishedRuns& finished)
 {
-    std::vector<SweptRows> swept;
     std::vector<StiffnessRow> all;
     std::vector<StiffnessExponent> exponents;
     for (const auto& [varied, name] : OptionNames<Varied>::table) {
-        swept.emplace_back(varied, rows_of_sweep(finished, varied));
-        std::ranges::copy(swept.back().second, std::back_inserter(all));
-        std::ranges::copy(stiffness_exponents(swept.back().second, varied), std::back_inserter(exponents));
+        const std::vector<StiffnessRow> swept = rows_of_sweep(finished, varied);
+        std::ranges::copy(swept, std::back_inserter(all));
+        std::ranges::copy(stiffness_exponents(swept, varied), std::back_inserter(exponents));
     }
     finished.write("stiffness.csv", stiffness_columns, all);
     finished.write("exponents.csv", used_columns(exponent_columns(), exponents), exponents);
-    return {stiffness_text(swept), !finished.none()};
+    return !finished.none();
 }
 
 }  // namespace
@@ -215,23 +193,6 @@ std::vector<StiffnessExponent> stiffness_exponents(const std::vector<StiffnessRo
             {varied, of, shown(x.front()), shown(x.back()), slope.n, found.left_out, slope.estimate, slope.low, slope.high});
     }
     return exponents;
-}
-
-std::string stiffness_text(const std::vector<SweptRows>& sweeps)
-{
-    analysis::CsvTable lines{{}};
-    for (const auto& [varied, all] : sweeps) {
-        std::vector<StiffnessRow> rows;
-        std::ranges::copy_if(all, std::back_inserter(rows), is_in_short);
-        lines.append(ratio_table(varied, stiffness_ratios(rows, varied)));
-    }
-    return "ratio of stiffnesses for one doubling: PBS at k_stretch 0.2, the same with the exponent, XPBD at 30 kPa\n" +
-           text_table(lines, {{"at", "at"},
-                              {"body", "body"},
-                              {"deformer", "deformer"},
-                              {"ratio", "ratio", "{:.3g}"},
-                              {"least", "least", "{:.3g}"},
-                              {"largest", "largest", "{:.3g}"}});
 }
 
 Study stiffness_study()

@@ -1,6 +1,5 @@
 // The bench as a whole: the machine's bandwidth, every body in turn, and the growth of the cost; its record and its table for reading.
 #include "analysis/records/provenance.hpp"
-#include "analysis/records/report_table.hpp"
 #include "analysis/statistics/fits.hpp"
 #include "experiments/process/machine.hpp"
 #include "experiments/settings/recorded_settings.hpp"
@@ -11,6 +10,7 @@
 #include "pbs/solver/pbs_solver.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
 
@@ -20,6 +20,7 @@
 #include <cstring>
 #include <filesystem>
 #include <map>
+#include <sstream>
 
 namespace experiments {
 namespace {
@@ -139,38 +140,30 @@ json context_of(const BenchOptions& options)
             {"provenance", provenance}};
 }
 
-constexpr const char* legend = R"(
-Read ratios, not times. A step is 24 iterations; ns_stretch, ns_volume and ns_bind are per constraint. ratio_to_plain_spread: times faster
-than plain loops, with all that this compiler offers, on constraints whose neighbours in the list share no vertex, so that none waits for
-the stores of the one before; ratio_to_plain: than order `plain`, which is built for the same bits on every machine and whose projections
-wait for each other's stores; ratio_to_plain_native: than the loops of `plain` with all that this compiler offers. Orders give different
-answers: residual_to_plain_spread and volume_rms_to_plain_spread are the combined residual and the root mean square volume error after the
-step over those of the same loops, and _to_plain over those of `plain`; above 1 is a loss. The study timing compares the times to equal
-answers. ms_floor: the time that moving the bytes takes. exponent: the cost of a step is ~ constraints^exponent. Deformers: ms_first is
-the set-up and the first frame; ns_tet and ns_vertex are per iteration, or per frame of a deformer without iterations; ratio_to_plain: to
-the plain implementation of the same deformer. The finite elements have no plain implementation; their iterations are Newton steps.
-)";
-
-// One line per entry of bench.json. Each column is a place inside the entry, with a format for a number.
+// One line per entry of bench.json. Each column is a place inside the entry, with a format for a number. Numbers are aligned to the right.
 std::string table(const json& entries, const std::string& places)
 {
     if (entries.empty()) return "";
-    const std::vector<analysis::ReportColumn> columns = analysis::report_columns(places);
-    std::vector<std::string> names;
-    for (const analysis::ReportColumn& column : columns) names.push_back(column.column);
-    analysis::CsvTable cells(names);
-    for (const json& entry : entries) {
-        std::vector<analysis::CsvTable::Cell> row;
-        for (const std::string& name : names) {
+    std::vector<std::string> lines(entries.size() + 1);
+    std::istringstream words(places);
+    for (std::string place; words >> place;) {
+        const std::size_t end = std::min(place.find(':'), place.size());
+        const std::string name = place.substr(0, end), format = fmt::format("{{{}}}", place.substr(end));
+        std::vector<std::string> cells = {name};
+        for (const json& entry : entries) {
             const json value = entry.value(json::json_pointer("/" + name), json());
-            if (value.is_number())
-                row.emplace_back(value.get<double>());
-            else
-                row.emplace_back(value.is_string() ? value.get<std::string>() : "");
+            cells.push_back(value.is_number()   ? fmt::format(fmt::runtime(format), value.get<double>())
+                            : value.is_string() ? value.get<std::string>()
+                                                : "");
         }
-        cells.add_row(row);
+        const std::size_t width = std::ranges::max_element(cells, {}, &std::string::size)->size();
+        for (std::size_t row = 0; row < cells.size(); ++row) {
+            const std::string gap = lines[row].empty() ? "" : "  ";
+            lines[row] += gap + (end < place.size() ? fmt::format("{:>{}}", cells[row], width) : fmt::format("{:<{}}", cells[row], width));
+        }
     }
-    return fmt::format("\n{}", text_table(cells, columns));
+    for (std::string& line : lines) line.erase(line.find_last_not_of(' ') + 1);
+    return fmt::format("\n{}\n", fmt::join(lines, "\n"));
 }
 
 std::string mesh_text(const json& timed)
@@ -274,7 +267,7 @@ std::string bench_table(const json& record)
     for (const json& mesh : record.at("meshes")) text += mesh_text(mesh);
     return text +
            table(record.value("scaling", json::array()), "variant precision threads:.0f exponent:.3f interval/0:.3f interval/1:.3f") +
-           legend;
+           "\nRead ratios, not times; `pbskin explain timing` explains the columns.\n";
 }
 
 int parse_size(const std::string& text)

@@ -2,7 +2,6 @@
 
 #include "analysis/records/provenance.hpp"
 #include "analysis/records/record_files.hpp"
-#include "analysis/records/report_table.hpp"
 #include "analysis/statistics/fits.hpp"
 #include "analysis/verdicts/measurement.hpp"
 #include "experiments/deformers/deformer_options.hpp"
@@ -14,8 +13,6 @@
 #include "pbs/geometry/topology.hpp"
 #include "pbs/skinning/blend.hpp"
 #include "pbs/solver/pbs_solver.hpp"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <memory>
@@ -287,19 +284,6 @@ std::vector<RealTimeEnd> real_time_ends(const std::vector<TimingRow>& rows)
         ends.push_back({order, precision, end.size, end.beyond, end.exponent});
     }
     return ends;
-}
-
-std::string timing_text(const std::vector<TimingRow>& rows)
-{
-    const std::string frames =
-        text_table(table_of(timing_columns, rows),
-                   analysis::report_columns("body vertices variant precision lbs_ms:.3f bind_ms:.3f stretch_ms:.3f volume_ms:.3f "
-                                            "total_wall_ms:.3g frames_per_s:.0f drawn_frames_per_s:.0f paper_frames_per_s:.1f cpu_model"));
-    const std::vector<RealTimeEnd> ends = real_time_ends(rows);
-    if (ends.empty()) return "Per frame, on one core:\n" + frames;
-    return fmt::format(
-        "Per frame, on one core:\n{}30 frames per second up to:\n{}", frames,
-        text_table(table_of(real_time_columns, ends), analysis::report_columns("variant precision vertices:.3g is_beyond exponent:.2f")));
 }
 
 std::string measure_frames(const TimedCase& of, const std::string& folder)

@@ -9,7 +9,6 @@
 // Writes DIR/timing/RUN/timing.csv and measurements.csv, bench.json and bench.txt, features.csv, or orders.csv and targets.csv; and in
 // DIR/timing timing.csv, real_time.csv, features.csv, answers.csv and bench.txt over all runs.
 #include "analysis/records/record_files.hpp"
-#include "analysis/records/report_table.hpp"
 #include "experiments/studies/shared/bodies.hpp"
 #include "experiments/studies/study.hpp"
 #include "experiments/studies/timing/bench.hpp"
@@ -89,36 +88,23 @@ StudyPlan plan(bool full)
                          [](const StudyCase& of, StudyPlan& plan) { plan.runs.push_back(runs.at(of.value<std::string>("times"))(of)); });
 }
 
-// Writes the rows of all runs, and returns their columns for the terminal.
+// Writes the rows of all runs, if there are any.
 template <typename Row>
-std::string summed_up(const FinishedRuns& finished, const std::string& file, const analysis::Columns<Row>& columns,
-                      const std::vector<Row>& rows, const std::string& shown)
+void sum_up(const FinishedRuns& finished, const std::string& file, const analysis::Columns<Row>& columns, const std::vector<Row>& rows)
 {
-    if (rows.empty()) return "";
-    finished.write(file, columns, rows);
-    return "\n" + text_table(table_of(columns, rows), analysis::report_columns(shown));
+    if (!rows.empty()) finished.write(file, columns, rows);
 }
 
-StudyConclusion conclude(const FinishedRuns& finished)
+bool conclude(const FinishedRuns& finished)
 {
-    if (finished.none()) return {"timing: nothing was timed\n", false};
-    std::string text;
     if (const std::vector<TimingRow> frames = finished.rows(timing_columns, "timing.csv"); !frames.empty()) {
         finished.write("timing.csv", timing_columns, frames);
         finished.write("real_time.csv", real_time_columns, real_time_ends(frames));
-        text += timing_text(frames);
     }
-    for (const std::string& file : finished.files("bench.txt")) {
-        finished.write("bench.txt", analysis::read_text(file));
-        text += analysis::read_text(file);
-    }
-    text += summed_up(finished, "features.csv", feature_columns, finished.rows(feature_columns, "features.csv"),
-                      "scene feature frame_cpu_ms_without:.2f frame_cpu_ms_with:.2f frame_cpu_ms_ratio:.2f start_s_with:.2f "
-                      "peak_mb_with:.0f largest_distance_m:.2g");
-    return {text + summed_up(finished, "answers.csv", answer_columns, equal_answers(finished.rows(target_columns, "targets.csv")),
-                             "body angle_deg:.0f pose order precision target bound:.4g iterations:.0f ms:.2f limit:.4g "
-                             "speedup_to_plain:.2f speedup_to_plain_spread:.2f"),
-            true};
+    for (const std::string& file : finished.files("bench.txt")) finished.write("bench.txt", analysis::read_text(file));
+    sum_up(finished, "features.csv", feature_columns, finished.rows(feature_columns, "features.csv"));
+    sum_up(finished, "answers.csv", answer_columns, equal_answers(finished.rows(target_columns, "targets.csv")));
+    return !finished.none();
 }
 
 }  // namespace

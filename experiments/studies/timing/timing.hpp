@@ -96,9 +96,6 @@ struct RealTimeEnd {
 extern const analysis::Columns<RealTimeEnd> real_time_columns;
 std::vector<RealTimeEnd> real_time_ends(const std::vector<TimingRow>& rows);
 
-// All meshes and the end of real time, for the terminal.
-std::string timing_text(const std::vector<TimingRow>& rows);
-
 // The work of a run: writes timing.csv, and measurements.csv for a mesh made to Table 1.
 std::string measure_frames(const TimedCase& of, const std::string& folder);
 

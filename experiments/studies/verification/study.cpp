@@ -1,6 +1,6 @@
 // The verification of the reference: patch tests, manufactured solutions, closed forms and published benchmarks, each problem a run of its
-// own. No claim depends on it; it shows how far the reference itself can be trusted. The rows are in DIR/verification/verification.csv,
-// .json and .md.
+// own. No claim depends on it; it shows how far the reference itself can be trusted. The rows are in
+// DIR/verification/verification.csv.
 #include "analysis/records/record_files.hpp"
 #include "experiments/process/machine.hpp"
 #include "experiments/settings/recorded_settings.hpp"
@@ -11,15 +11,13 @@
 #include "reference_fem/verification/verification_record.hpp"
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 namespace experiments {
 namespace {
-
-namespace fs = std::filesystem;
 
 // Loads deal.II, when the study is planned or run.
 const std::vector<VerificationProblem>& problems_of_module()
@@ -43,14 +41,12 @@ std::string solve_and_record(const VerificationCase& of, const std::string& fold
 {
     const auto& problems = problems_of_module();
     const auto problem = std::find_if(problems.begin(), problems.end(), [&](const auto& one) { return one.name == of.problem; });
-    nlohmann::json json = nlohmann::json::array();
+    const VerificationRows rows = problem->rows({{.full = of.full}, limb});
     std::string breakdown;
-    for (const VerificationRow& row : problem->rows({{.full = of.full}, limb})) {
-        json.push_back(to_json(row));
+    for (const VerificationRow& row : rows)
         if (!std::isfinite(row.value))
             breakdown += fmt::format("{} of {} on {} is not finite. ", row.quantity.description, row.elements.text(), row.mesh);
-    }
-    analysis::write_text_atomically((fs::path(folder) / "rows.json").string(), json.dump(2) + "\n");
+    table_of(reference_fem::verification_columns(), rows).write(analysis::path_in(folder, "rows.csv"));
     return breakdown;
 }
 
@@ -67,19 +63,19 @@ StudyPlan plan(bool full)
     return plan;
 }
 
-StudyConclusion conclude(const FinishedRuns& finished)
+// Every problem has rows, and every row with bounds holds.
+bool conclude(const FinishedRuns& finished)
 {
-    StudyConclusion conclusion;
-    VerificationRows rows;
-    for (const std::string& file : finished.files("rows.json"))
-        for (const auto& row : nlohmann::json::parse(analysis::read_text(file))) rows.push_back(reference_fem::verification_row(row));
-    for (const std::string& run : finished.missing) conclusion.text += run + ": no rows, its run did not end\n";
-    conclusion.holds = finished.missing.empty();
-    if (rows.empty()) return {"verification: nothing was run\n", false};
-    for (const VerificationRow& row : rows) conclusion.holds &= holds(row).value_or(true);
-    write_verification_record(finished.folder, rows);
-    conclusion.text = verification_table(rows) + conclusion.text;
-    return conclusion;
+    const VerificationRows rows = finished.rows(reference_fem::verification_columns(), "rows.csv");
+    if (!rows.empty()) finished.write("verification.csv", reference_fem::verification_columns(), rows);
+    bool all_hold = !rows.empty() && finished.missing.empty();
+    for (const VerificationRow& row : rows) {
+        if (holds(row).value_or(true)) continue;
+        spdlog::error("pbskin: {} does not hold: {}, {}, {}: {:.6g} {}", row.problem, row.quantity.description, row.elements.text(),
+                      row.mesh, row.value, row.unit);
+        all_hold = false;
+    }
+    return all_hold;
 }
 
 }  // namespace

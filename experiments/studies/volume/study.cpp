@@ -6,14 +6,10 @@
 //
 // README.md describes the runs, deformers and records. Besides the scene's own order of projection PBS has each other order and precision,
 // so that the report can say whether the verdict depends on it.
-#include "analysis/records/report_table.hpp"
 #include "experiments/deformers/deformer_options.hpp"
 #include "experiments/run/run_folder.hpp"
 #include "experiments/studies/study.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -26,51 +22,6 @@ struct RegionOfRun {
     std::string run;  // its name in reports
     RegionChange region;
 };
-
-struct LossRow {
-    std::string run, deformer, kind;
-    double change_pct = 0.0;
-    std::string greatest = {};
-};
-const analysis::Columns<LossRow> loss_columns = {
-    {"run", &LossRow::run, "", "name of the run"},
-    {"deformer", &LossRow::deformer, "", "name of the deformer"},
-    {"kind", &LossRow::kind, "", "bone or joint"},
-    {"change_pct", &LossRow::change_pct, "%", "sum over the regions, mean over the frames"},
-    {"greatest", &LossRow::greatest, "", "the regions that lose most, and what they lose of the body and of themselves"}};
-
-// The sum over all regions of a kind, and the regions with the greatest losses, in shares of the body's volume and of their own.
-LossRow loss_row(const std::vector<RegionOfRun>& all, const std::string& run, const std::string& deformer, const std::string& kind)
-{
-    constexpr int most = 3;
-    std::vector<RegionChange> regions;
-    for (const auto& [of, region] : all)
-        if (of == run && region.deformer == deformer && region.kind == kind) regions.push_back(region);
-    std::ranges::stable_sort(regions, {}, &RegionChange::change_pct);
-    LossRow row{run, deformer, kind};
-    for (std::size_t i = 0; i < regions.size(); ++i) {
-        row.change_pct += regions[i].change_pct;
-        if (i >= most) continue;
-        row.greatest += fmt::format("{}{} {:.2f} ({:.1f})", i > 0 ? ", " : "", regions[i].bones.text(), regions[i].change_pct,
-                                    regions[i].own_change_pct);
-    }
-    return row;
-}
-
-// A row for each run, for LBS and PBS, and for each kind of region.
-std::string region_text(const std::vector<RegionOfRun>& all, const std::vector<std::string>& runs)
-{
-    std::vector<LossRow> rows;
-    for (const std::string& run : runs)
-        for (const char* deformer : {"lbs", "pbs"})
-            for (const char* kind : {"bone", "joint"})
-                if (const LossRow row = loss_row(all, run, deformer, kind); !row.greatest.empty()) rows.push_back(row);
-    return text_table(table_of(loss_columns, rows), {{"mean over frames", "run"},
-                                                     {"", "deformer"},
-                                                     {"by", "kind"},
-                                                     {"all [%]", "change_pct", "{:.2f}"},
-                                                     {"greatest losses [% of the body] (of the region itself)", "greatest"}});
-}
 
 void add_iterations(std::vector<DeformerSpec>& deformers, const DeformerSpec& pbs)
 {
@@ -144,21 +95,18 @@ StudyPlan plan(bool full)
     });
 }
 
-StudyConclusion conclude(const FinishedRuns& finished)
+bool conclude(const FinishedRuns& finished)
 {
     static const analysis::Columns<RegionOfRun> columns =
         analysis::Columns<RegionOfRun>{{"run", &RegionOfRun::run, "", "name of the run"}} +
         analysis::within(&RegionOfRun::region, region_columns);
     std::vector<RegionOfRun> all;
-    std::vector<std::string> runs;
     for (const std::string& file : finished.files("regions.csv")) {
-        runs.push_back(std::filesystem::path(file).parent_path().filename().string());
-        for (const RegionChange& region : rows_of(region_columns, analysis::read_csv(file))) all.push_back({runs.back(), region});
+        const std::string run = std::filesystem::path(file).parent_path().filename().string();
+        for (const RegionChange& region : rows_of(region_columns, analysis::read_csv(file))) all.push_back({run, region});
     }
-    const std::string text = region_text(all, runs);
     finished.write("regions.csv", columns, all);
-    finished.write("regions.txt", text);
-    return {text, !finished.none()};
+    return !finished.none();
 }
 
 }  // namespace

@@ -7,7 +7,6 @@
 #include "experiments/studies/study.hpp"
 
 #include "analysis/records/record_files.hpp"
-#include "analysis/records/report_table.hpp"
 #include "experiments/studies/work_precision/diagram.hpp"
 #include "experiments/studies/work_precision/gains.hpp"
 #include "experiments/studies/work_precision/measured_points.hpp"
@@ -60,38 +59,10 @@ StudyPlan plan_with(bool full, const std::string& external_file)
     return plan_of(full, external_entries(external_file));
 }
 
-// 2. The tables over all cases, and for the terminal who is nearest within each time, and what the changes to PBS gain.
-std::string nearest_text(const std::vector<Diagram>& diagrams)
+// 2. The tables over all cases.
+bool conclude(const FinishedRuns& finished)
 {
-    std::string text;
-    for (const Comparison comparison : comparisons) {
-        std::vector<Diagram> shown;  // the last mean or evaluated pose
-        for (const Diagram& diagram : diagrams)
-            if (diagram.comparison == comparison && diagram.half == Half::evaluation) shown = {diagram};
-        std::vector<BudgetRow> nearest = best_within(shown);
-        std::erase_if(nearest, [](const BudgetRow& row) { return row.rank > 1; });
-        text += text_table(
-                    table_of(budget_columns, nearest),
-                    analysis::report_columns("comparison case budget_ms group deformer iterations tuned ms_median:.2g error_joint_pct:.1f "
-                                             "decision undecided_against")) +
-                "\n";
-    }
-    return text;
-}
-
-std::string gains_text(std::vector<GainRow> gains)
-{
-    std::erase_if(gains, [](const GainRow& gain) { return gain.group != all_poses; });
-    if (gains.empty()) return "";
-    return text_table(
-        table_of(gain_columns, gains),
-        analysis::report_columns("budget_iterations change than poses error_pct:.2f than_error_pct:.2f gain_pct:.2f gain_low_pct:.2f "
-                                 "gain_high_pct:.2f reference_error_pct:.2f decision settings"));
-}
-
-StudyConclusion conclude(const FinishedRuns& finished)
-{
-    if (finished.none()) return {"", false};
+    if (finished.none()) return false;
     std::vector<CaseRecords> cases;
     std::vector<CaseRows> rows;
     std::vector<PointRow> points;
@@ -115,11 +86,10 @@ StudyConclusion conclude(const FinishedRuns& finished)
 
     const std::vector<PointRow> changes = finished.rows(change_columns, "changes.csv");
     const std::vector<EqualTimeRow> at_budgets = at_equal_time(changes);
-    const std::vector<GainRow> gains = gains_of(at_budgets);
     finished.write("equal_time.csv", equal_time_columns, at_budgets);
-    finished.write("gains.csv", gain_columns, gains);
+    finished.write("gains.csv", gain_columns, gains_of(at_budgets));
     finished.write("curves.csv", curve_columns, mean_curves(changes, at_budgets));
-    return {nearest_text(diagrams) + gains_text(gains), true};
+    return true;
 }
 
 }  // namespace

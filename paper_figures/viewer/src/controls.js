@@ -59,7 +59,7 @@ export class Controls {
         const [low, high] = run.rest_range(cut.axis);
         Object.assign(this.cut_at, { min: low, max: high, step: (high - low) / 100 });
         this.cut_at.value = cut.at_m;
-        this.cut_text.textContent = `${cut.axis} ${cut.above ? ">" : "\u2264"} ${cut.at_m.toFixed(2)} m at rest`;
+        this.cut_text.textContent = `${cut.axis} ${cut.above ? ">" : "\u2264"} ${Number(cut.at_m.toPrecision(3))} m at rest`;
     }
 }
 

@@ -62,6 +62,15 @@ export class Run {
         return this.bone_ends.subarray(numbers * at, numbers * (at + 1));
     }
 
+    // A sphere around all points and bones of all frames [m]: the grid's cube, enlarged by the bones.
+    sphere() {
+        const half = 65535 / 2 * this.step_m, middle = this.low_m.map((low) => low + half);
+        let radius = Math.sqrt(3) * half;
+        for (let i = 0; i < this.bone_ends.length; i += 3)
+            radius = Math.max(radius, Math.hypot(...middle.map((at, axis) => this.bone_ends[i + axis] - at)));
+        return { middle, radius };
+    }
+
     // The lowest and highest coordinate at rest [m].
     rest_range(axis) {
         const at = "xyz".indexOf(axis), coordinates = this.rest.filter((_, i) => i % 3 === at);
@@ -77,6 +86,11 @@ export class Run {
     // A recorded number of one frame; null if the record has none.
     figure(label, column, at) {
         return this.deformer(label).figures[column][at];
+    }
+
+    // Whether some frame of some deformer has this number.
+    has_figure(column) {
+        return this.deformers.some((deformer) => deformer.figures[column].some((value) => value !== null));
     }
 
     // Whether the solve of this frame reached its pose, according to the record.

@@ -73,6 +73,7 @@ export function draw_legend(place, { colours }, run, state) {
 // The panels that have no distance in this frame.
 function without_errors(run, { colour, panels, at }) {
     const grey = colour === "error" ? panels.filter((label) => !run.has_errors(label, at)) : [];
+    if (grey.length && !run.labels.includes(run.reference)) return "; grey: no distance, for this run has no FEM";
     return grey.length ? `; grey: no distance, for ${grey.length === panels.length ? "FEM" : "it"} did not reach this frame's pose` : "";
 }
 
@@ -98,7 +99,7 @@ const lines = [
 
 export function draw_figures(place, run, label, at) {
     const is_reference = label === run.reference;
-    place.replaceChildren(...lines.flatMap(({ column, name, unit, text }) => {
+    place.replaceChildren(...lines.filter(({ column }) => run.has_figure(column)).flatMap(({ column, name, unit, text }) => {
         const value = run.figure(label, column, at), is_error = column.startsWith("error");
         const mark = is_error && run.masked_share_pct(at) > 0 ? " *" : "";
         const recorded = text(value) + (unit && value !== null ? `\u202f${unit}` : "") + mark;
@@ -116,7 +117,7 @@ export function note_of(run, every, at) {
     const mark = masked_pct > 0 ? "* In this frame the FEM reference overlaps itself: distances leave out "
         + `${masked_pct.toPrecision(2)} % of the volume. ` : "";
     const kept = every === 1 ? "every recorded frame" : `one of ${every} recorded frames`;
-    const step_um = (1e6 * run.step_m).toFixed(1);
+    const step_um = shown(1e6 * run.step_m);
     const of_reference = run.labels.includes(run.reference) ? locking : "";
     return `${mark}${of_reference}${run.vertices} vertices, ${run.tets} tets${carried_by(run)}; ${kept}. Positions are rounded to steps of `
         + `${step_um} \u00b5m: each coordinate of a vertex is within half a step of the record's; volume ratios to 1/127 up to 2; `

@@ -45,6 +45,14 @@ export function panels_for(run, wanted) {
     return [...new Set([...kept, ...rest])].slice(0, 4);
 }
 
+// The nearest and farthest distance [m] that a camera draws which is this far from the middle of a run, whose points lie within the radius:
+// both follow the size of the model, from millimetres to kilometres. Nearer than a thousandth of the farthest, depths would not be told
+// apart.
+export function range_of_sight(distance_m, radius_m) {
+    const far = distance_m + radius_m;
+    return { near: Math.max(distance_m - radius_m, far / 1000), far };
+}
+
 // Plays the recorded frames at a given rate, in a loop.
 const frames_per_second = 12;
 
@@ -80,7 +88,7 @@ export function pose_of(hash) {
 
 export function hash_of(pose) {
     const words = [`run=${pose.run}`, `frame=${pose.frame}`, `colour=${pose.colour}`, `panels=${pose.panels.join(",")}`];
-    if (pose.cut) words.push(`cut=${pose.cut.axis},${Number(pose.cut.at_m.toFixed(4))},${pose.cut.above ? "above" : "below"}`);
+    if (pose.cut) words.push(`cut=${pose.cut.axis},${Number(pose.cut.at_m.toPrecision(4))},${pose.cut.above ? "above" : "below"}`);
     if (pose.rendered) words.push("surface=rendered");
     if (pose.bones) words.push("bones=1");
     if (pose.claim) words.push(`claim=${encodeURIComponent(pose.claim)}`);

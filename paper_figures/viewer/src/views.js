@@ -3,6 +3,7 @@
 import { Color, ColorManagement, LinearSRGBColorSpace, PerspectiveCamera, Scene, Spherical, TOUCH, Vector3, WebGLRenderer } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { keep_level, leave_scrolling } from "./input.js";
+import { range_of_sight } from "./state.js";
 
 ColorManagement.enabled = false;  // colours appear on the screen as in the legend
 const background = new Color(0xf1f3f5), most_pixels_per_point = 2;
@@ -14,7 +15,7 @@ export class Views {
         this.renderer.outputColorSpace = LinearSRGBColorSpace;
         this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, most_pixels_per_point));
         this.renderer.autoClear = false;
-        this.camera = new PerspectiveCamera(18, 1, 0.01, 200);
+        this.camera = new PerspectiveCamera(18);
         this.target = new Vector3();
         this.on_move = on_move;
         this.views = [];
@@ -70,6 +71,8 @@ export class Views {
 
     first(run, now) {
         this.run_name = run.name;
+        const { middle, radius } = run.sphere();
+        this.sphere = { middle: new Vector3(...middle), radius };
         this.middle = middle_of(run, now.at);
         this.look_at(this.middle, cloud_of(run, now.panels[0]));
     }
@@ -115,6 +118,8 @@ export class Views {
         this.renderer.setClearColor(0xffffff, 0);
         this.renderer.clear();
         this.renderer.setScissorTest(true);
+        const { middle, radius } = this.sphere;
+        Object.assign(this.camera, range_of_sight(this.camera.position.distanceTo(middle), radius));
         for (const { element, scene } of this.views) {
             const part = this.part_of(element);
             this.renderer.setViewport(...part);

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { page, settle, test_that_nothing_was_reported } from "../browser.mjs";
-import { apart, drawn_positions, pictures, roundings, truth } from "../viewer_page.mjs";
+import { apart, colours_of, drawn_positions, pictures, roundings, truth } from "../viewer_page.mjs";
 
 async function show(label, frame) {
     await page.evaluate(([panel, at]) => {
@@ -54,6 +54,22 @@ for (const { label, frame, skin_m, positions_m } of truth.samples)
         assert.ok(largest_m <= largest_sum * (step_m / 2 + roundings(positions_m, 12)), `${largest_m} m apart`);
         if (pictures) await page.locator("#frame-viewer").screenshot({ path: `${pictures}/trial_${label}_${frame}.png` });
     });
+
+test("the moving body is in the picture from the first view, near by and from afar", async () => {
+    for (const factor of [1, 0.5, 4]) {
+        await page.evaluate((times) => {
+            const { reset, zoom } = window.viewer.viewer.actions();
+            reset();
+            zoom(times);
+        }, factor);
+        for (const frame of [0, truth.frames - 1]) {
+            await show("pbs", frame);
+            const { drawn } = await colours_of(0);
+            assert.ok(drawn > 0.005, `${factor} times the distance: ${drawn} of the pixels in frame ${frame}`);
+        }
+    }
+    await page.evaluate(() => window.viewer.viewer.actions().reset());
+});
 
 test("another frame is another picture, and the same frame the same", async () => {
     await show("pbs", 0);

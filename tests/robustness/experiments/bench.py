@@ -39,9 +39,6 @@ class Bench(foreign_arm.ArmTest):
             Bench.of_arm = self.record("--mesh", self.path("arm.msh"))
         return Bench.of_arm
 
-    def test_help(self):
-        self.assertIn("--mesh", self.succeeds("bench", "--help").stdout)
-
     def test_the_fields_of_the_contract(self):
         record = self.record("--mesh", self.path("arm.msh"), "--threads", "2")
         self.assertLessEqual({"context", "mesh", "results", "deformers", "meshes"}, record.keys())

@@ -98,15 +98,6 @@ class ChangingFiles(unittest.TestCase):
             stop.set()
             disturber.join()
 
-    def test_each_state_by_itself(self):
-        for name, (text, command) in READ.items():
-            whole, path = text.encode(), self.folder / name
-            states = [whole[: int(len(whole) * cut)] for cut in CUTS] + [NOISE]
-            for number, state in enumerate(states):
-                with self.subTest(name, state=number):
-                    path.write_bytes(state)
-                    self.expect_refused(name, *self.run_once(command)[:2])
-
     def test_whole_or_refused(self):
         answers = []
         for name, (text, command) in READ.items():

@@ -29,8 +29,8 @@ class Check(foreign_arm.ArmTest):
         return self.ends(status, "check", "--bounds", self.bounds, "-o", self.path("out"), *arguments,
                          env={**self.environment, **environment})
 
-    def volume_changes(self, *folder, deformer="lbs"):
-        return [float(row["volume_change_pct"]) for row in self.rows(*folder, "metrics.csv") if row["deformer"] == deformer]
+    def volume_changes(self):
+        return [float(row["volume_change_pct"]) for row in self.rows("out", "arm", "metrics.csv") if row["deformer"] == "lbs"]
 
     def message_of(self, kind, *key):
         """The message of the failure or error of a case."""
@@ -59,11 +59,6 @@ class Check(foreign_arm.ArmTest):
         self.assertEqual(failed, run_records.baselines_of(other_meshes, self.path("own.xml")), process.stderr)
         self.assertEqual(process.returncode, 1 if failed else 0, process.stderr)
         self.assertEqual(self.json("own", "check.json")["outcome"]["FAILS"], len(failed))
-        volume = run_records.junit_cases(self.path("own.xml"))["human_01_01", "volume kept in the jump"].find("system-out").text
-        least, largest = map(float, re.search(r"volume_change_pct of pbs = (\S+) to (\S+) %", volume).groups())
-        change = self.volume_changes("own", "human_01_01", deformer="pbs")
-        self.assertAlmostEqual(least, min(change), places=4)
-        self.assertAlmostEqual(largest, max(change), places=4)
 
     def test_a_bound_that_holds(self):
         process = self.check(0, "--junit", self.path("volume.xml"))
@@ -76,7 +71,7 @@ class Check(foreign_arm.ArmTest):
 
     def test_a_bound_tightened_until_it_fails_names_the_frame(self):
         self.check(0)
-        change = self.volume_changes("out", "arm")
+        change = self.volume_changes()
         worst = change.index(min(change))
         self.assertGreater(worst, 0)
         self.write("check.toml", BOUNDS % (change[worst] + 1e-3))
@@ -90,23 +85,10 @@ class Check(foreign_arm.ArmTest):
         self.assertIn(annotation, process.stdout.splitlines())
         self.assertIn("| FAILS | arm |", self.read("summary.md"))
 
-    def test_a_bound_holds_up_to_its_very_value_and_in_its_frames_alone(self):
-        self.check(0)
-        change = self.volume_changes("out", "arm")
-        self.write("check.toml", BOUNDS % repr(min(change)))
-        self.check(0)
-        self.write("check.toml", BOUNDS % "-1e-9" + "frames = [0, 0]\n")
-        self.check(0)
-
     def test_on_github_annotations_come_by_themselves(self):
         self.write("check.toml", BOUNDS % "0.5")
         self.assertNotIn("::error", self.check(1).stdout)
         self.assertIn("::error", self.check(1, GITHUB_ACTIONS="true").stdout)
-
-    def test_a_baseline_of_the_same_figures_holds(self):
-        self.check(0, "--write-baseline", self.baseline)
-        process = self.check(0, "--baseline", self.baseline)
-        self.assertIn("baseline of pbs", process.stdout)
 
     def test_another_accuracy_or_count_fails_and_wall_time_does_not(self):
         self.check(0, "--write-baseline", self.baseline)

@@ -50,6 +50,12 @@ class CommandLine(foreign_arm.ArmTest):
                 self.succeeds("explain", line.split()[0])
         self.assertIn("0 leaves the class out", self.succeeds("explain", "k_volume").stdout)
 
+    def test_explains_a_verb_as_its_help_does(self):
+        for verb in ("measure", "explain"):
+            self.assertEqual(self.succeeds("explain", verb).stdout, self.succeeds(verb, "--help").stdout)
+        self.assertIn("character.mesh (scene key)", self.succeeds("explain", "mesh").stdout)  # a verb has this name too
+        self.refuses("explain = mesure: unknown name; the nearest known one is measure", "explain", "mesure")
+
     def listed_claims(self):
         listed = pathlib.Path(program.SOURCE, "experiments", "verdicts", "claims.toml").read_text(encoding="utf-8")
         return {claim["id"]: claim for claim in tomllib.loads(listed)["claim"]}
@@ -93,6 +99,18 @@ class CommandLine(foreign_arm.ArmTest):
     def test_quiet_says_nothing(self):
         process = self.succeeds("run", self.scene, "-o", self.path("out"), "--quiet")
         self.assertEqual((process.stdout, process.stderr), ("", ""))
+
+    def test_parts_that_touch_in_an_edge_are_separated_with_a_warning(self):
+        """Of the four cells around the middle of the arm, two are missing, so that the other two touch in the edge 49-50 alone."""
+        kept = [tet for number, tet in enumerate(self.tets) if number // 6 not in (21, 22)]
+        foreign_arm.write_msh(self.path("arm.msh"), self.points, kept)
+        process = self.succeeds("run", self.scene, "-o", self.path("out"))
+        warning = "arm.msh: edges at which parts touch = 1 (49-50): split, so that each side has its own"
+        self.assertIn(warning, process.stderr)
+        record = self.json("out", "run.json")
+        self.assertTrue(any(warning in line for line in record["outcome"]["warnings"]), record["outcome"]["warnings"])
+        self.assertEqual(record["character"]["tets"], len(kept))
+        self.assertTrue(record["character"]["quality"]["boundary_manifold"])
 
     def test_bounds_of_measure(self):
         self.succeeds("run", self.scene, "-o", self.path("out"), "--quiet")

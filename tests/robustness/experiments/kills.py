@@ -165,28 +165,6 @@ class Kills(program.ProgramTest):
         self.assertIn("frames/limb_twist/run.json pbs", hashes)
 
 
-class KilledReport(program.ProgramTest):
-    def test_the_page_is_whole_or_not_there(self):
-        results, chance = pathlib.Path(self.path("results")), random.Random(SEED)
-        shutil.copytree(undisturbed("momentum")[0], results)
-        start = time.monotonic()
-        self.succeeds("report", results)
-        seconds, page = time.monotonic() - start, results / "report.html"
-        wanted, hits = 5 if LONG else 1, 0
-        for _ in range(20 * wanted):
-            page.unlink()
-            process = subprocess.Popen([program.PBSKIN, "report", str(results)], start_new_session=True, **QUIET)
-            time.sleep(chance.uniform(0.0, 0.9 * seconds))
-            os.killpg(process.pid, signal.SIGKILL)
-            hits += process.wait() == -signal.SIGKILL
-            self.assertTrue(not page.exists() or run_records.what_is_torn(page) is None)
-            self.succeeds("report", results)
-            self.assertEqual([path.name for path in results.iterdir() if path.name.startswith(".")], [])
-            if hits == wanted:
-                break
-        self.assertEqual(hits, wanted)
-
-
 RUNS = ["limb", "human"]
 
 
@@ -206,55 +184,26 @@ class ResumedStudy(program.ProgramTest):
         super().setUp()
         self.whole, self.killed = pathlib.Path(self.path("whole")), pathlib.Path(self.path("killed"))
 
-    def command(self, results, *more, study="momentum"):
-        return [program.PBSKIN, "reproduce", study, "-o", str(results), "-j", "1", *more]
-
-    def kill_after_first_run(self, command, study):
-        """Kills the study after its first run; returns the record of that run."""
-        process = subprocess.Popen(command, **QUIET, start_new_session=True)
-        deadline = time.monotonic() + 120
-        while not (ended := list(study.glob("*/run.json"))) and time.monotonic() < deadline:
-            time.sleep(0.002)
-        os.killpg(process.pid, signal.SIGKILL)
-        process.wait()
-        return ended[0]
+    def command(self, results, *more):
+        return [program.PBSKIN, "reproduce", "momentum", "-o", str(results), "-j", "1", *more]
 
     def test_killed_and_resumed(self):
         whole, _ = undisturbed("momentum")
-        first = self.kill_after_first_run(self.command(self.killed), self.killed / "momentum")
-        ended = identity(first)
+        process = subprocess.Popen(self.command(self.killed), **QUIET, start_new_session=True)
+        deadline = time.monotonic() + 120
+        while not (ended := list(self.killed.glob("momentum/*/run.json"))) and time.monotonic() < deadline:
+            time.sleep(0.002)
+        os.killpg(process.pid, signal.SIGKILL)
+        process.wait()
+        first, before = ended[0], identity(ended[0])
         self.assertFalse((self.killed / "claims.json").exists())
         said = subprocess.run(self.command(self.killed, "--resume"), check=True, capture_output=True, text=True).stderr
         self.assertRegex(said, r"runs to do, [1-9]\d* kept")
-        self.assertEqual(identity(first), ended)
+        self.assertEqual(identity(first), before)
         for run in RUNS:
             path = pathlib.Path("momentum") / run / "measurements.csv"
             self.assertEqual((self.killed / path).read_text(), (whole / path).read_text())
         self.assertEqual((self.killed / "claims.json").read_text(), (whole / "claims.json").read_text())
-
-    def test_whole_runs_of_scenes(self):
-        whole, _ = undisturbed("frames")
-        to_kill = [*run_records.limb_alone(), *self.command(self.killed, study="frames")]
-        first = self.kill_after_first_run(to_kill, self.killed / "frames")
-        ended = identity(first)
-        subprocess.run([*to_kill, "--resume"], check=True, **QUIET)
-        self.assertEqual(identity(first), ended)
-        self.assertEqual(run_records.records(self.killed), run_records.records(whole))
-        self.assertIn("frames/limb_twist/run.json pbs", run_records.state_hashes(run_records.records(self.killed)))
-
-    def test_a_run_with_another_setting_is_repeated(self):
-        results = self.whole
-        subprocess.run(self.command(results, study="audit"), check=True, **QUIET)
-        record, resume = results / "audit" / "print" / "run.json", self.command(results, "--resume", study="audit")
-        whole = json.loads(record.read_text())
-        self.assertEqual(sorted(whole["work"]["settings"]), ["seed", "tets"])
-        for setting in whole["work"]["settings"]:
-            alter(record, lambda altered: altered["work"]["settings"].update({setting: whole["work"]["settings"][setting] + 1}))
-            subprocess.run(resume, check=True, **QUIET)
-            self.assertEqual(json.loads(record.read_text())["work"], whole["work"], setting)
-        repeated = identity(record)
-        subprocess.run(resume, check=True, **QUIET)
-        self.assertEqual(identity(record), repeated)
 
     def verdict(self, results):
         return json.loads((results / "claims.json").read_text())["claims"][0]["verdict"]

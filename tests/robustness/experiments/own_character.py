@@ -1,8 +1,14 @@
 """Rigs from outside: each error that once passed without a message has a test here, and each warning is provoked. The rigs are those of
 rig_files.py."""
+import glob
+import json
 import os
+import re
 import shutil
+import signal
+import subprocess
 import tempfile
+import time
 import unittest
 
 import numpy
@@ -12,6 +18,10 @@ import program
 import rig_files
 import skin_formula
 from written_frames import points_of
+
+MODULES = glob.glob(os.path.join(os.path.dirname(program.PBSKIN), "..", "lib", "**", "libpbskin_*.so"), recursive=True)
+HAS_FEM = any(file.endswith("_fem.so") for file in MODULES)
+
 
 def clip(names):
     """A BVH chain of these joints, all of which turn."""
@@ -24,9 +34,11 @@ class TrialTest(program.ProgramTest):
         """One name for all, so that the cache has one mesh for those with the same surface."""
         return rig_files.write(variant, self.path("rig.glb"), **options)
 
-    def tried(self, model, *arguments, into="out"):
-        """try.json and what was printed."""
-        process = self.succeeds("try", model, "-o", self.path(into), "--no-reference", "--frames", "3", "--vertices", "300", *arguments)
+    def tried(self, model, *arguments, into="out", without=("--no-reference",), vertices="300", **environment):
+        """try.json and what was printed. The page has a viewer, whose program does nothing."""
+        self.write("viewer.js", "// a viewer")
+        process = self.succeeds("try", model, "-o", self.path(into), "--frames", "3", "--vertices", vertices, *without, *arguments,
+                                env={**os.environ, "PBS_VIEWER_BUILD": self.folder, **environment})
         return self.json(into, "try.json"), process.stderr
 
     def refused(self, *arguments):
@@ -36,9 +48,15 @@ class TrialTest(program.ProgramTest):
         """In the terminal, in run.json, in try.json and in the page."""
         self.assertIn(words, printed)
         self.assertTrue(any(words in warning for warning in facts["warnings"]), facts["warnings"])
-        recorded = self.json("out", "run.json")["outcome"]["warnings"]
-        self.assertTrue(any(words in warning for warning in recorded), recorded)
+        recorded = self.json("out", "run.json")["outcome"]
+        self.assertEqual(sum(words in warning for warning in recorded["warnings"]), 1, recorded)
+        self.assertFalse(any(words in note for note in recorded["notes"]), recorded)
         self.assertIn(words, self.read("out", "report.html"))
+
+    def shown(self, folder="out"):
+        """The run in the viewer of a page."""
+        header = re.search(r'id="viewer-header">(.*?)</script>', self.read(folder, "report.html"))[1]
+        return json.loads(header)["runs"][0]
 
 
 class PlainRig(TrialTest):
@@ -53,7 +71,7 @@ class PlainRig(TrialTest):
     def setUp(self):
         self.folder = self.shared.name
         if not self.facts:
-            type(self).facts, _ = self.tried(self.rig())
+            type(self).facts, _ = self.tried(self.rig(), "--paraview")
 
     def test_a_leaf_joint_is_a_bone_and_keeps_its_weight(self):
         self.assertIn("tip", self.facts["model"]["joints"])
@@ -118,6 +136,8 @@ class OwnCharacter(TrialTest):
     def test_every_animation_can_be_chosen_and_an_unknown_one_lists_them(self):
         facts, printed = self.tried(self.rig("two_animations"), "--animation", "Twist")
         self.assertEqual(facts["model"]["animations"], ["Bend", "Twist"])
+        self.assertEqual([(one["name"], round(one["largest_rotation_deg"])) for one in facts["animations"]], [("Bend", 79), ("Twist", 90)])
+        self.assertIn("Animations of the model", self.read("out", "report.html"))
         self.assertNotIn("2 animations", printed)
         self.assertIn("expected one of Bend, Twist", self.refused("try", self.rig("two_animations"), "--animation", "Walk"))
 
@@ -150,25 +170,85 @@ class OwnCharacter(TrialTest):
         self.assertNotIn("unlikely units", printed)
         self.assertAlmostEqual(facts["model"]["extent_m"], 1.036, places=3)
 
+    def test_a_note_where_nothing_is_wrong(self):
+        facts, printed = self.tried(self.rig(first_deg=115.0), vertices="2000")
+        words = "inverted tets in the first frame, of"
+        self.assertEqual([words in note for note in facts["notes"]], [True])
+        self.assertIn(f"pbskin: note: {self.path('out', facts['notes'][0])}\n", printed)
+        self.assertFalse(any(words in warning for warning in facts["warnings"]))
+
+    # The reference, and what the page shows.
+
+    @unittest.skipUnless(HAS_FEM, "the finite elements are not installed")
+    def test_a_root_on_the_ground_is_left_out_of_the_reference(self):
+        facts, printed = self.tried(self.rig(on_ground=True), without=())
+        self.warned(facts, printed, "nh_p1 leaves out 1 of 4 bones, whose middle lies outside the flesh: ground")
+        self.assertEqual(facts["nearer"]["of"], 2)  # the first frame is at rest
+
+    @unittest.skipUnless(HAS_FEM, "the finite elements are not installed")
+    def test_a_model_with_one_joint(self):
+        facts, _ = self.tried(self.rig(one_joint=True), without=())
+        self.assertIn("No flesh deforms", facts["summary"])
+        self.assertNotIn("error at the joints", self.read("out", "report.html"))
+        self.assertEqual(self.shown()["reference"], "nh_p1")
+
+    def test_without_the_finite_elements_the_trial_has_no_reference(self):
+        os.mkdir(self.path("modules"))
+        for file in MODULES:
+            if "_fem" not in file:
+                os.symlink(os.path.realpath(file), self.path("modules", os.path.basename(file)))
+        self.warned(*self.tried(self.rig(), without=(), PBSKIN_MODULES=self.path("modules")),
+                    "the trial has no reference: libpbskin_fem.so: ")
+        self.assertEqual(self.shown()["reference"], "")
+
+    def test_models_of_a_centimetre_and_of_ten_kilometres_are_shown(self):
+        for scale, extent_m in (("0.01", 0.01036), ("10000", 10360.0)):
+            self.tried(self.rig(), "--scale", scale)
+            self.assertAlmostEqual(65535 * self.shown()["step_m"] / extent_m, 1.0, delta=0.1)  # over all frames
+
     # What the files are for.
 
     def test_run_explains_what_a_scene_is(self):
         self.assertRegex(self.refused("run", self.rig()), "is a model(.|\n)*pbskin try")
 
-    @unittest.skipUnless(os.path.exists("/usr/share/assimp/models/BVH/01_01.bvh"), "assimp-testmodels is not installed")
-    def test_a_body_by_name_may_use_few_joints_of_a_clip(self):
+    def test_a_body_by_name_is_no_exception(self):
+        self.write("walk.bvh", clip(["upper", "a", "b"]))
         scene = f"""schema = 1
 [character]
-body = "ring"
+body = "limb"
+vertices = 300
 [motion]
-clip = "01_01.bvh"
-duration_s = 0.1
-rate_hz = 20.0
+clip = "walk.bvh"
+rate_hz = 10.0
 {foreign_arm.PBS}[deformers]
 use = ["lbs"]
 """
-        process = self.succeeds("run", self.write("ring.toml", scene), "-o", self.path("run"))
-        self.assertNotIn("warning", process.stderr)
+        scene = self.write("limb.toml", scene)
+        self.assertIn("joints = 1 of 3 moving joints: expected at least one half", self.refused("run", scene, "-o", self.path("run")))
+        printed = self.succeeds("run", scene, "-o", self.path("run"), "--set", "motion.allow_partial=true").stderr
+        words = "1 of 3 moving joints of the clip match a bone; without a bone: a, b; bones without a motion of their own: forearm"
+        self.assertIn(words, printed)
+        self.assertIn(f"walk.bvh: {words}", self.json("run", "run.json")["outcome"]["warnings"])
+
+    def test_a_trial_that_was_interrupted_runs_again(self):
+        slow = [(1, "rotation", [0.0, 100.0], [rig_files.turn((0, 0, 1), 0), rig_files.turn((0, 0, 1), 60)], "LINEAR")]
+        command = [program.PBSKIN, "try", self.rig(animations=(), extra=[("Slow", slow)]), "-o", self.path("out"), "--no-reference"]
+        with subprocess.Popen([*command, "--frames", "3000", "--vertices", "300"], stderr=subprocess.PIPE, text=True) as process:
+            while process.poll() is None and not os.path.exists(self.path("out", "frames", "lbs_000001.vtu")):
+                time.sleep(0.01)
+            process.send_signal(signal.SIGINT)
+            self.assertEqual(process.wait(), 130, process.stderr.read())
+        self.assertFalse(os.path.exists(self.path("out", "run.json")))
+        self.tried(self.path("rig.glb"))
+        self.assertEqual(self.json("out", "run.json")["outcome"]["frames"], 3)
+
+    def test_the_folder_of_another_model_is_refused_and_kept(self):
+        self.tried(self.rig())
+        other, before = rig_files.write("two_animations", self.path("other.glb")), self.read("out", "try.json")
+        message = self.refused("try", other, "-o", self.path("out"), "--no-reference")
+        self.assertIn("character.model = ../rig.glb: the folder has the trial of this model: expected another folder (-o)", message)
+        self.assertIn(other, message)
+        self.assertEqual(self.read("out", "try.json"), before)
 
     def test_a_joint_that_only_moves_along_is_no_warning(self):
         slide = [(2, "translation", [0.0, 1.0], [[0.35, 0, 0], [0.45, 0, 0]], "LINEAR")]

@@ -96,7 +96,7 @@ class OwnDeformer(program.ProgramTest):
     def python_example(self, body, frames):
         kept = pathlib.Path(self.path("kept"))
         self.write("my_deformer.py", EXAMPLE + KEEP % str(kept))
-        self.scene(body, TABLES[0])
+        self.scene(body, TABLES[0] + '[reference]\nname = "pbs"\n')
         self.run_scene()
         given = Exchanged(kept)
         self.assertEqual(len(given.poses), frames)
@@ -109,6 +109,12 @@ class OwnDeformer(program.ProgramTest):
         run = self.json("out", "run.json")
         self.assertIn("mine", run["state_hash"])
         self.assertEqual([one["label"] for one in run["scene"]["runs"]], ["lbs", "pbs", "mine"])
+        self.succeeds("report", self.path("out"))
+        page = self.read("out", "report.html")
+        figure = page.split('id="figure-error-against-time"')[1].split("</figure>")[0]
+        for label in ("LBS", "mine"):
+            self.assertIn(f">{label}<", figure)
+        self.assertIn('<th scope="row">mine</th>', page)
 
     # The examples.
 
@@ -141,19 +147,6 @@ class OwnDeformer(program.ProgramTest):
             self.run_scene()
             rest = self.frame("mine", 0)[0] - 1.0
             self.expect_equal(self.frame("mine", 5)[0], rest + calls)
-
-    # The page of the run.
-
-    def test_error_against_run_time_has_a_point_for_it(self):
-        self.write("my_deformer.py", EXAMPLE)
-        self.scene(LIMB, TABLES[0] + '[reference]\nname = "pbs"\n')
-        self.run_scene()
-        self.succeeds("report", self.path("out"))
-        page = self.read("out", "report.html")
-        figure = page.split('id="figure-error-against-time"')[1].split("</figure>")[0]
-        for label in ("LBS", "mine"):
-            self.assertIn(f">{label}<", figure)
-        self.assertIn('<th scope="row">mine</th>', page)
 
     # The study of error against run time.
 
@@ -254,10 +247,6 @@ class OwnDeformer(program.ProgramTest):
         self.expect_program_refused("exit 0", "cannot be started: Permission denied", mode=0o644)
         self.expect_program_refused("exit 0", "positions.f64: missing: expected the program to write it")
         self.expect_program_refused("echo 1234567 > $1/positions.f64", "positions.f64: bytes = 8: expected ")
-
-    def test_a_program_that_is_missing(self):
-        self.scene(LIMB, '[[external]]\nname = "mine"\ncommand = ["no_such_program", "--fast"]\n[deformers]\nuse = ["mine"]\n')
-        self.expect_refused("command", "no_such_program --fast", "cannot be started: No such file or directory")
 
     def test_an_exception_in_python_is_named(self):
         self.write("my_deformer.py", "raise ValueError('no such bone')\n")

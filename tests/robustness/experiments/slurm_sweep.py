@@ -5,7 +5,6 @@ Reference: the other engine. The same sweep writes the same bytes of sweep.csv, 
 still queued. The reference solution on two tasks of a Slurm job equals that of one process to within both residuals (see
 verification/experiments/distributed)."""
 import csv
-import fcntl
 import os
 import pathlib
 import shutil
@@ -14,7 +13,6 @@ import subprocess
 import sys
 import time
 import unittest
-import unittest.mock
 
 import numpy
 
@@ -111,12 +109,6 @@ class Sweeps(program.ProgramTest):
         self.assert_same_tables("breaking_here", "breaking_slurm", rows=2)
         self.assertEqual(self.json("breaking_slurm", "sweep.json")["exit_statuses"], {"0": 1, "3": 1})
 
-    def test_two_sweeps_in_one_folder_are_refused(self):
-        with open(self.write(".lock", ""), "w", encoding="utf-8") as lock:
-            fcntl.flock(lock, fcntl.LOCK_EX)
-            process = self.sweep(OWN / "bad.toml", ".", status=2)
-        self.assertIn("another sweep runs there", process.stderr)
-
     def solve(self, command, name, status=0):
         body = ["--bar", "6000", "--gravity", "0", "0", "-9.81", "--nodes", "-o", self.path(name)]
         environment = {**self.cluster.environment, "OPENBLAS_NUM_THREADS": "1", "PBSKIN_DISTRIBUTED": os.environ["PBSKIN_DISTRIBUTED"]}
@@ -138,30 +130,6 @@ class Sweeps(program.ProgramTest):
         print(f"two tasks of Slurm against one process: {error:.1e} relative, tolerance {tolerance:.1e}", flush=True)
         self.assertLess(error, tolerance)
         self.assertAlmostEqual(found["compliance_j"] / expected["compliance_j"], 1.0, delta=tolerance)
-
-
-class Cluster(unittest.TestCase):
-    """Starting the cluster, without Slurm: another process can take a port between the query and the start of listening."""
-
-    def begin(self, *outcomes):
-        cluster = slurm_cluster.SlurmCluster()
-        with unittest.mock.patch.object(cluster, "start", side_effect=outcomes) as started:
-            try:
-                cluster.__enter__()
-            finally:
-                cluster.stop()
-                self.assertFalse(cluster.folder.exists())
-        return started.call_count
-
-    def test_begun_again_once(self):
-        self.assertEqual(self.begin(None), 1)
-        self.assertEqual(self.begin(TimeoutError("an idle node"), None), 2)
-        with self.assertRaisesRegex(RuntimeError, "no Slurm cluster: slurmd ended"):
-            self.begin(TimeoutError("an idle node"), RuntimeError("slurmd ended"), None)
-
-    def test_an_interruption_is_none(self):
-        with self.assertRaises(KeyboardInterrupt):
-            self.begin(KeyboardInterrupt(), None)
 
 
 if __name__ == "__main__":

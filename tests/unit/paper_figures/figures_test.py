@@ -160,7 +160,6 @@ class OtherStudies(ResultsTest):
 
 
 listed = {entry.name: entry for entry in entries.read()}
-own = [entry for entry in listed.values() if entry.name.startswith(("fig_", "table_", "clip_"))]
 
 
 class OwnFigures(ResultsTest):
@@ -169,14 +168,6 @@ class OwnFigures(ResultsTest):
         (self.results / "frames" / scene / "binding.csv").write_text(
             "vertex,bone,parameter,rest_distance_m,blended,jiggles\n1,forearm,0.5,0.2,0,0\n0,upper,0.25,0.1,0,0\n2,forearm,1.5,0.3,1,1\n")
         return recorded_frames.Frames(self.results, scene)
-
-    def test_every_own_figure_is_listed_and_refuses_without_records(self):
-        names = [entry.name[:6] for entry in own if entry.name.startswith("fig_")]
-        self.assertEqual(names, [f"fig_{number:02}" for number in range(1, 11)])
-        for entry in own:
-            with self.subTest(entry.name):
-                with self.refused("does not exist"):
-                    entry.draw(self.results)
 
     def test_projections_lie_on_the_posed_bone_within_its_ends(self):
         frames = self.frames()

@@ -17,6 +17,7 @@ from results_case import ResultsTest, root
 import synthetic_records
 import synthetic_tables
 from records import entries, whole_file
+from words import captions
 
 
 class Listing(ResultsTest):
@@ -31,6 +32,8 @@ class Listing(ResultsTest):
                 module = importlib.import_module(f"figures.{entry.script}")
                 self.assertEqual(list(inspect.signature(getattr(module, entry.name)).parameters), ["results"])
                 self.assertTrue(module.__doc__)
+                if captions.asked(entry) - captions.of_runs:
+                    self.assertTrue(callable(getattr(module, f"{entry.name}_facts", None)))
 
     def test_every_function_that_draws_a_figure_is_listed(self):
         defined = {(file.stem, name) for file in (root / "paper_figures" / "figures").glob("*.py")
@@ -120,9 +123,6 @@ class Staleness(ResultsTest):
         self.assertIn(reason, said)
         self.assertFalse((self.results / "figures" / f"{name}.png").exists())
 
-    def test_fresh_records_are_drawn(self):
-        self.assertEqual(self.make_all("volume_over_angle")[1], "")
-
     def test_a_figure_that_is_refused_leaves_no_old_one(self):
         self.make_all("volume_over_angle")
         self.refused_without("volume/limb_bend/metrics.csv", "volume_over_angle")
@@ -172,13 +172,6 @@ class WholeFile(ResultsTest):
         paths = {**os.environ, "PYTHONPATH": str(pathlib.Path(whole_file.__file__).parent)}
         return subprocess.run([sys.executable, "-B", "-c", text], env=paths, capture_output=True).returncode
 
-    def test_takes_its_place_when_it_is_whole(self):
-        with whole_file.beside(self.file) as path:
-            self.assertEqual(path.suffix, ".png")
-            path.write_text("new")
-            self.assertEqual(self.file.read_text(), "old")
-        self.assertEqual((self.file.read_text(), self.names()), ("new", ["volume.png"]))
-
     def test_a_failure_leaves_the_old_one(self):
         with self.assertRaises(KeyError), whole_file.beside(self.file) as path:
             path.write_text("half")
@@ -191,7 +184,9 @@ class WholeFile(ResultsTest):
         self.assertEqual(self.file.read_text(), "old")
         self.assertEqual(len(self.names()), 2)
         with whole_file.beside(self.file) as path:
+            self.assertEqual(path.suffix, ".png")
             path.write_text("new")
+            self.assertEqual(self.file.read_text(), "old")
         self.assertEqual((self.file.read_text(), self.names()), ("new", ["volume.png"]))
 
     def test_a_full_disk_names_the_file_and_the_reason(self):

@@ -1,6 +1,7 @@
 """What the tests of figures and pages share. Importing this module makes the modules of paper_figures known."""
 import contextlib
 import csv
+import html
 import io
 import pathlib
 import re
@@ -22,6 +23,15 @@ def listening():
     said, complaints = io.StringIO(), io.StringIO()
     with contextlib.redirect_stdout(said), contextlib.redirect_stderr(complaints):
         yield said, complaints
+
+
+def tables_of(text):
+    """The cells of each table by its caption, row by row."""
+    def cells_of(row):
+        return [html.unescape(re.sub("<[^>]+>", "", cell)) for cell in re.findall(r"<t[hd]\b[^>]*>(.*?)</t[hd]>", row, re.DOTALL)]
+
+    return {html.unescape(caption): [cells_of(row) for row in re.findall(r"<tr\b.*?</tr>", body, re.DOTALL)]
+            for caption, body in re.findall(r"<caption>(.*?)</caption>(.*?)</table>", text, re.DOTALL)}
 
 
 class ResultsTest(unittest.TestCase):

@@ -1,14 +1,13 @@
 """The page of a single run. Reference: its records, which are written here with numbers that can be predicted. Each number of a table is
-that of a record, warnings are shown, and nothing is missing that the run was not asked for."""
+that of a record, warnings are shown, and except the frames nothing is missing that the run was not asked for."""
 import csv
-import html.parser
 import json
 import re
 import sys
 import unittest
 import unittest.mock
 
-from results_case import ResultsTest, listening
+from results_case import ResultsTest, listening, tables_of
 import report
 from report import run_page
 from synthetic_records import write_table
@@ -21,33 +20,6 @@ numbers = {"lbs": lambda i: (-2.0 * i, i, 0.01 * (i + 1), 5.0 + i), "pbs": lambd
 MODEL = {"file": "hero.glb", "meshes": ["body", "hat"], "extent_m": 1.75, "metres_per_unit": 0.01, "containers": ["Armature"],
          "joints_dropped": [{"name": "IK <target>", "reason": "no weight"}], "bind_pose_deg": 12.5, "animations": ["Walk", "Run"],
          "joints": ["hips", "knee"], "weights_transferred_pct": 98.7}
-
-
-class Tables(html.parser.HTMLParser):
-    """The cells of each table by its caption, row by row."""
-
-    def __init__(self, text):
-        super().__init__()
-        self.rows, self.caption, self.within = {}, "", ""
-        self.feed(text)
-
-    def handle_starttag(self, tag, attributes):
-        self.within = tag
-        if tag == "caption":
-            self.caption = ""
-        if tag == "tr":
-            self.rows.setdefault(self.caption, []).append([])
-        if tag in ("td", "th"):
-            self.rows[self.caption][-1].append("")
-
-    def handle_endtag(self, tag):
-        self.within = ""
-
-    def handle_data(self, data):
-        if self.within == "caption":
-            self.caption += data
-        if self.within in ("td", "th"):
-            self.rows[self.caption][-1][-1] += data
 
 
 class RunPage(ResultsTest):
@@ -69,15 +41,19 @@ class RunPage(ResultsTest):
         write_table(self.results / "metrics.csv", rows)
 
     def page(self):
+        """Of a run or trial without frames: the page says that, and how to get them."""
         text, missing = run_page.page(self.results)
-        self.assertEqual(missing, [])
+        is_trial = (self.results / "try.json").exists()
+        self.assertEqual(missing, ["viewer: frames/*.vtu: do not exist: `pbskin try --paraview` keeps them" if is_trial else
+                                   "viewer: no frames/*.vtu; run the scene again with `--set output.frames_every=1`"])
+        self.assertIn("The moving model is missing: viewer", text)
         return text
 
     # The tables.
 
     def test_each_number_of_the_summary_is_that_of_the_records(self):
         self.write()
-        header, *rows = Tables(self.page()).rows["Over all frames"]
+        header, *rows = tables_of(self.page())["Over all frames"]
         self.assertEqual(header[0], "deformer")
         self.assertEqual(rows, [["LBS", "\u22128 to 0", "4", "7 (9)", "0.03"], ["PBS", "\u22121 to 0", "0", "2 (3)", "3"],
                                 ["mine", "0 to 2", "8", "2.5 (3)", "18"],
@@ -86,21 +62,27 @@ class RunPage(ResultsTest):
     def test_joints_are_sorted_by_the_loss_of_the_first_deformer(self):
         self.write()
         kinds = [("joint", "hips", "knee", {"lbs": -3.5, "pbs": -0.5}), ("joint", "chest", "arm", {"lbs": -7.25, "pbs": 0.25}),
-                 ("bone", "hips", "", {"lbs": -99.0})]
+                 ("joint", "knee", "arm", {"lbs": -1.0}), ("bone", "hips", "", {"lbs": -99.0})]
         write_table(self.results / "regions.csv",
                     [{"deformer": label, "kind": kind, "bone": bone, "second_bone": second, "own_change_pct": change}
                      for kind, bone, second, changes in kinds for label, change in changes.items()])
-        rows = Tables(self.page()).rows["Mean change of the volume of the tets at a joint [% of their volume at rest]"]
-        self.assertEqual(rows, [["joint", "LBS", "PBS"], ["chest \u2013 arm", "\u22127.25", "0.25"],
-                                ["hips \u2013 knee", "\u22123.5", "\u22120.5"]])
+        write_table(self.results / "bones_rest.csv",
+                    [{"bone": bone, "parent": parent}
+                     for bone, parent in (("hips", ""), ("knee", "hips"), ("chest", "hips"), ("arm", "chest"))])
+        tables = tables_of(self.page())
+        self.assertEqual(tables["Mean change of the volume of the tets at a joint [% of their volume at rest]"],
+                         [["joint", "LBS", "PBS"], ["chest \u2013 arm", "\u22127.25", "0.25"],
+                          ["hips \u2013 knee", "\u22123.5", "\u22120.5"]])
+        self.assertEqual(tables["Mean change of the volume of the tets where two bones meet [% of their volume at rest]"],
+                         [["bones", "LBS"], ["knee \u2013 arm", "\u22121"]])
 
     def test_distances_are_the_median_and_the_largest_over_the_frames(self):
         self.write()
         write_table(self.results / "distances.csv",
                     [{"deformer": "lbs", "other": "pbs", "of": "surface", "frame": frame, "rms_mm": rms, "largest_mm": 10 * rms}
                      for frame, rms in enumerate((1.5, 4.0, 2.5))])
-        rows = Tables(self.page()).rows["Distances between the same points"]
-        self.assertEqual(rows[1], ["lbs and pbs", "surface", "2.5", "40", "3"])
+        rows = tables_of(self.page())["Distances between the same points"]
+        self.assertEqual(rows[1], ["LBS and PBS", "surface", "2.5", "40", "3"])
 
     def test_the_model_is_what_the_run_took_from_it(self):
         self.write(model=MODEL, outcome={"motion": {"clip_joints": 31, "matched_joints": 30}})
@@ -111,16 +93,35 @@ class RunPage(ResultsTest):
                       "30 of the clip&#x27;s 31 moving joints match.", "2 joints that are bones", "<li>knee</li>"):
             self.assertIn(words, text)
 
+    def test_a_trial_lists_the_animations_of_the_model_and_marks_the_one_that_is_shown(self):
+        self.write(model=MODEL | {"animation": "Run"})
+        found = [{"name": name, "duration_s": seconds, "largest_rotation_deg": degrees}
+                 for name, seconds, degrees in (("Walk", 2.5, 0.25), ("Run", 1, 60))]
+        (self.results / "try.json").write_text(json.dumps({"summary": "", "warnings": [], "animations": found}))
+        rows = tables_of(self.page())["Animations of the model; --animation NAME takes another one"]
+        self.assertEqual(rows[1:], [["Walk", "2.5", "0.25", ""], ["Run", "1", "60", "yes"]])
+
     # What the run was not asked for.
 
-    def test_nothing_is_missing_that_the_run_was_not_asked_for(self):
+    def test_no_section_is_there_for_what_the_run_was_not_asked_for(self):
         self.write(reference="")
         text = self.page()
-        for anchor in ("warnings", "viewer", "joints", "distances", "model", "figure-error-against-time"):
+        for anchor in ("warnings", "notes", "joints", "distances", "model", "figure-error-against-time"):
             self.assertNotIn(f'id="{anchor}"', text)
         self.assertIn('id="figure-over-frames"', text)
-        self.assertEqual(Tables(text).rows["Over all frames"][1][3], "\u2013")
+        self.assertEqual(tables_of(text)["Over all frames"][1], ["LBS", "\u22128 to 0", "4", "0.03"])
         self.assertNotIn("not on record", text)
+
+    def test_a_body_without_a_joint_has_no_column_of_errors_there(self):
+        self.write(labels=("lbs", "nh_p1"))
+        with open(self.results / "metrics.csv", newline="") as stream:
+            rows = [row | {"error_joint_pct": "nan"} for row in csv.DictReader(stream)]
+        write_table(self.results / "metrics.csv", rows)
+        header, first, _ = tables_of(self.page())["Over all frames"]
+        self.assertEqual(len(header), len(first))
+        self.assertFalse([name for name in header if "error" in name])
+        names = [axes.get_ylabel() for axes in run_page.over_frames(run_page.RunRecords(self.results)).axes]
+        self.assertEqual(names, ["volume change [%]", "inverted tets"])
 
     def test_written_frames_without_a_viewer_are_missing(self):
         self.write()
@@ -130,7 +131,16 @@ class RunPage(ResultsTest):
             text, missing = run_page.page(self.results)
         self.assertEqual(len(missing), 1)
         self.assertTrue(missing[0].startswith("viewer: "), missing)
-        self.assertNotIn('id="viewer"', text)
+        self.assertRegex(text, r'id="viewer"(.|\n)*The moving model is missing: ')
+
+    def test_the_viewer_of_a_trial_without_frames_is_that_of_its_earlier_page(self):
+        self.write()
+        (self.results / "try.json").write_text(json.dumps({"summary": "PBS keeps it.", "warnings": []}))
+        self.assertEqual(run_page.page(self.results)[1], ["viewer: frames/*.vtu: do not exist: `pbskin try --paraview` keeps them"])
+        viewer = '<div id="frame-viewer">a</div>\n<script type="b">{}</script>\n<script id="viewer-block">c</script>\n<script>d</script>'
+        (self.results / "report.html").write_text(f"<html>{viewer}\n<script>e</script></html>")
+        text, missing = run_page.page(self.results)
+        self.assertEqual((text.count(viewer), text.count("<script>e"), missing), (1, 0, []))
 
     # Warnings and sentences.
 
@@ -150,6 +160,12 @@ class RunPage(ResultsTest):
         text = self.page()
         self.assertIn('<p class="answer">PBS keeps it.</p>', text)
         self.assertEqual((text.count("of the trial"), text.count("of the run")), (1, 1))
+
+    def test_notes_are_apart_from_warnings(self):
+        self.write(outcome={"notes": ["nothing is wrong"]})
+        text = self.page()
+        self.assertNotIn('id="warnings"', text)
+        self.assertRegex(text, r'id="notes"(.|\n)*nothing is wrong')
 
     def test_a_damaged_record_is_refused_by_name(self):
         self.write()
@@ -199,7 +215,7 @@ class RunPage(ResultsTest):
     def test_a_run_in_which_every_number_is_zero(self):
         with unittest.mock.patch.dict(numbers, {"lbs": lambda i: (0.0, 0, 0.01, 0.0)}):
             self.write(labels=("lbs",), reference="")
-        self.assertEqual(Tables(self.page()).rows["Over all frames"][1][1], "0")
+        self.assertEqual(tables_of(self.page())["Over all frames"][1][1], "0")
 
     def test_a_deformer_that_broke_down_in_every_frame(self):
         for value in ("", "nan"):
@@ -207,7 +223,7 @@ class RunPage(ResultsTest):
             with open(self.results / "metrics.csv", newline="") as stream:
                 rows = [row | {"volume_change_pct": value, "step_ms": value} for row in csv.DictReader(stream)]
             write_table(self.results / "metrics.csv", rows)
-            self.assertEqual(Tables(self.page()).rows["Over all frames"][1], ["LBS", "\u2013", "4", "\u2013", "\u2013"])
+            self.assertEqual(tables_of(self.page())["Over all frames"][1], ["LBS", "\u2013", "4", "\u2013"])
 
 
 if __name__ == "__main__":

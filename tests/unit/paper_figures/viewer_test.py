@@ -1,6 +1,7 @@
 """Reference: the definition. The packed data represent the records within what the header states; errors name what is missing, and no page
 is made from incomplete data."""
 import base64
+import csv
 import gzip
 import json
 import os
@@ -11,7 +12,7 @@ import unittest
 
 import numpy
 
-from results_case import ResultsTest, root
+from results_case import ResultsTest
 import records
 import synthetic_frames
 from figures import stills
@@ -103,6 +104,19 @@ class Viewer(ResultsTest):
         self.assertEqual([deformer["colour"] for deformer in run["deformers"]],
                          [looks.of(name).color for name in ("lbs", "dqs", "pbs", "nh_p1")])
 
+    def test_a_run_without_a_reference_or_with_errors_that_are_not_finite_is_packed(self):
+        file = self.run / "metrics.csv"
+        with open(file, newline="") as stream:
+            rows = [row | {"error_joint_pct": "nan"} for row in csv.DictReader(stream)]
+        synthetic_frames.write_table(file, rows)
+        header, _ = self.pack()
+        json.dumps(header, allow_nan=False)
+        self.assertEqual(header["runs"][0]["deformers"][0]["figures"]["error_joint_pct"], [None] * 4)
+        record = json.loads((self.run / "run.json").read_text())
+        record["scene"]["reference"] = {"name": ""}
+        (self.run / "run.json").write_text(json.dumps(record))
+        self.assertEqual(self.pack()[0]["runs"][0]["reference"], "")
+
     def test_frames_whose_pose_was_not_reached_are_packed_as_such(self):
         shutil.rmtree(self.run)
         synthetic_frames.write_frames(self.results, not_reached=[("nh_p1", 2), ("nh_p1", 3), ("pbs", 0)])
@@ -168,13 +182,6 @@ class Viewer(ResultsTest):
         (self.results / "frames" / "plan.json").write_text(json.dumps({"runs": [{"name": "limb_bend"}]}))
         with self.refused("no run of its study"):
             self.pack()
-
-    def test_the_bundle_carries_the_licence_of_three_js(self):
-        build = (root / "paper_figures" / "viewer" / "build.mjs").read_text()
-        self.assertRegex(build, r"node_modules/three/LICENSE")
-        bundle = root / "paper_figures" / "viewer" / "dist" / "viewer.js"
-        if bundle.is_file():
-            self.assertIn("Permission is hereby granted, free of charge", bundle.read_text())
 
     def test_page_with_and_without_the_program(self):
         os.environ["PBS_VIEWER_BUILD"] = str(self.results)

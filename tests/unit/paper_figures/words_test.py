@@ -2,7 +2,6 @@
 contain no number that another run would change. Reference: the definition, and looks.toml, with which checked_looks.py compares every
 figure that other tests draw."""
 import dataclasses
-import importlib
 import re
 import tomllib
 import unittest
@@ -145,9 +144,6 @@ class Facts(unittest.TestCase):
                          "There are 6 claims: 2 hold, 1 fails, 2 are not testable, 1 is a definition.")
         self.assertEqual(set(sentences.kinds), set(sentences.names))
 
-    def test_two_halves_of_a_sentence_share_a_page(self):
-        self.assertEqual([sentences.page_of(name) for name in ("C02a", "C02b", "C13")], ["C02", "C02", "C13"])
-
 
 class Basis(unittest.TestCase):
     def test_it_states_the_unit_its_number_the_bound_with_its_source_chance_and_the_revision(self):
@@ -226,11 +222,6 @@ class Looks(unittest.TestCase):
         for deformer in looks.listed:
             self.assertEqual(case_words.of_field("deformer", deformer), looks.of(deformer).name)
 
-    def test_no_script_has_a_colour_of_a_deformer_of_its_own(self):
-        named = re.compile(r"""["'](lbs|dqs|pbs|xpbd|vbd|nh_p[12]|delta_mush)["']\s*:\s*\(?[^\n]*(#[0-9A-Fa-f]{6}|style\.\w+)""")
-        for file in (root / "paper_figures").rglob("*.py"):
-            self.assertIsNone(named.search(file.read_text(encoding="utf-8")), file)
-
     def test_a_line_of_a_deformer_in_another_colour_is_found(self):
         figure, axes = style.panels(1, 1)
         look = looks.of("dqs")
@@ -271,16 +262,6 @@ class Captions(ResultsTest):
                 for words in same_in_every_run:
                     rest = rest.replace(words, "")
                 self.assertEqual(re.findall(r"\d[\d.,]*", rest), [], entry.name)
-
-    def test_every_caption_that_asks_has_a_script_that_tells(self):
-        asking = [entry for entry in listed.values() if captions.asked(entry) - captions.of_runs]
-        self.assertGreater(len(asking), 5)
-        for entry in asking:
-            script = importlib.import_module(f"figures.{entry.script}")
-            self.assertTrue(callable(getattr(script, f"{entry.name}_facts", None)), entry.name)
-        for entry in listed.values():
-            if not captions.asked(entry):
-                self.assertNotIn("{", entry.caption)
 
     def test_figures_of_time_name_the_processor(self):
         timed = [entry for entry in listed.values() if set(entry.studies()) & {"timing", "work_precision"}]

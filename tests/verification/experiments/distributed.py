@@ -62,15 +62,10 @@ class Distributed(program.ProgramTest):
                 self.assertLess(error, tolerance_of(serial, record))
                 self.assertAlmostEqual(record["compliance_j"] / serial["compliance_j"], 1.0, delta=tolerance_of(serial, record))
 
-    def test_cantilever_of_linear_elements(self):
-        self.compare(("--bar", 6000, *ACROSS), of_residuals)
-
-    def test_cantilever_of_quadratic_elements(self):
-        self.compare(("--bar", 1500, "--order", 2, *ACROSS), of_residuals)
-
-    def test_mesh_of_a_file(self):
+    def test_cantilevers_of_linear_and_quadratic_elements_and_the_mesh_of_a_file(self):
         foreign_arm.write_msh(self.path("arm.msh"), *foreign_arm.mesh())
-        self.compare(("--mesh", self.path("arm.msh"), "--order", 2, *ACROSS), of_residuals)
+        for body in (("--bar", 6000), ("--bar", 1500, "--order", 2), ("--mesh", self.path("arm.msh"), "--order", 2)):
+            self.compare((*body, *ACROSS), of_residuals)
 
     def test_limb_has_the_smooth_attachment_of_the_reference(self):
         """Reference: the same attachment and linear model in a scene of pbskin, whose record states the attachment."""

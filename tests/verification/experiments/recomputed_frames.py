@@ -83,12 +83,6 @@ class RecomputedFrames(foreign_arm.ArmTest):
                 self.assertAlmostEqual(float(row[column]), float(measured[column]), delta=TOLERANCE_PCT)
             self.assertEqual(row["inverted_tets"], measured["inverted_tets"])
 
-    def test_runs_repeat_to_the_bit(self):
-        self.succeeds("run", self.scene, "-o", self.path("again"))
-        hashes = [self.json(folder, "run.json")["state_hash"] for folder in ("out", "again")]
-        self.assertEqual(hashes[0], hashes[1])
-        self.assertEqual(sorted(hashes[0]), ["dqs", "lbs", "pbs"])
-
 
 ITERATIONS, ANGLE_DEG = 24, 120.0
 K_STRETCH, K_VOLUME, K_BIND = 0.2, 1.0, 1.0

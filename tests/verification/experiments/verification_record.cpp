@@ -28,14 +28,14 @@ TEST_P(VerificationRecord, EveryJudgedRowHoldsAndSaysWhy)
     int judged = 0;
     const VerificationRows rows = problem(GetParam()).rows({});
     for (const VerificationRow& row : rows) {
-        const std::string place = row.quantity.description + ", " + row.elements.text() + ", " + row.material.text() + ", " + row.mesh;
+        const std::string place = row.quantity.description + ", " + row.elements.text() + ", " + row.material.law + ", " + row.mesh;
         EXPECT_NO_THROW(problem(row.problem)) << place;
         EXPECT_FALSE(row.quantity.key.empty() || row.quantity.description.empty() || row.mesh.empty() || row.unit.empty()) << place;
         EXPECT_FALSE(row.source.empty()) << place;
         if (!holds(row)) continue;
         ++judged;
         EXPECT_FALSE(row.bound_from.empty()) << place;
-        EXPECT_TRUE(*holds(row)) << place << ": " << to_json(row).dump(2);
+        EXPECT_TRUE(*holds(row)) << place << ": " << row.value << " in " << row.low.value_or(0.0) << " to " << row.high.value_or(0.0);
     }
     EXPECT_TRUE(judged > 0 || rows.empty());  // no rows: the body or the program that the problem needs is missing
 }

@@ -36,7 +36,7 @@ TEST_P(VerificationProblem, EveryRowWithBoundsHoldsAndStatesWhy)
 {
     int judged = 0;
     for (const VerificationRow& row : problems.at(GetParam())({})) {
-        const std::string place = row.quantity.description + ", " + row.elements.text() + ", " + row.material.text() + ", " + row.mesh;
+        const std::string place = row.quantity.description + ", " + row.elements.text() + ", " + row.material.law + ", " + row.mesh;
         EXPECT_EQ(row.problem, GetParam()) << place;
         EXPECT_FALSE(row.quantity.key.empty() || row.quantity.description.empty() || row.mesh.empty() || row.unit.empty()) << place;
         EXPECT_FALSE(row.source.empty()) << place;

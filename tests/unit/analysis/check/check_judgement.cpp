@@ -108,7 +108,7 @@ TEST(GithubReport, NamesTheBoundsLineAndHasATableOfOneLinePerCase)
     EXPECT_EQ(github_annotations(suite_of(CheckState::held)), "");
     const std::string text = github_summary(suite_of(CheckState::failed));
     EXPECT_TRUE(text.starts_with("### pbskin: 0 hold, 1 fail, 0 left out\n")) << text;
-    EXPECT_NE(text.find("| FAILS | arm | a: b, 5 % | frame 3: 7 %,  second \\| line |\n"), std::string::npos) << text;
+    EXPECT_NE(text.find("| FAILS | arm | a: b, 5 % | frame 3: 7 %, second \\| line |\n"), std::string::npos) << text;
 }
 
 }  // namespace

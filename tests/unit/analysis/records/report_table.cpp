@@ -1,34 +1,13 @@
-// Reference: the definitions, on small tables and texts. No line is longer than requested, every word is there and in order, and columns
+// Reference: the definitions, on small texts. No line is longer than requested, every word is there and in order, and columns
 // begin at the same position.
 
 #include "analysis/records/report_table.hpp"
-#include "pbs/geometry/input_error.hpp"
 
 #include <gtest/gtest.h>
 
 namespace {
 
 using namespace analysis;
-
-const std::vector<ReportColumn> columns = {{"body", "body"}, {"step [ms]", "step_s", "{:.1f}", 1e3, "-"}};
-
-CsvTable table()
-{
-    CsvTable table({"step_s", "body", "unused"});
-    table.add_row({0.0125, "limb", 1});
-    table.add_row({std::nullopt, "lady", 2});
-    return table;
-}
-
-TEST(ReportTable, HasARowOfHeadingsAndAScaledNumberPerRow)
-{
-    const CsvTable none({"body", "step_s"});
-    EXPECT_EQ(text_table(table(), report_columns("body step_s:.2f")), "body  step_s\nlimb    0.01\nlady\n");
-    EXPECT_EQ(text_table(table(), columns), "body  step [ms]\nlimb       12.5\nlady          -\n") << "words left, numbers right";
-    EXPECT_EQ(text_table(none, columns), "body  step [ms]\n");
-    EXPECT_THROW(text_table(table(), {{"step", "step_ms"}}), pbs::InputError) << "a missing column";
-    EXPECT_THROW(text_table(table(), {{"body", "body", "{:g}"}}), pbs::InputError) << "text under a format";
-}
 
 TEST(TextColumns, BreakBetweenWords)
 {
@@ -52,6 +31,12 @@ TEST(TextColumns, BeginAtTheSamePlaceAndAColourTakesNoRoom)
 {
     EXPECT_EQ(side_by_side({{"a", 2}, {"\u2264 and more", 5}, {"end of it", 6}}), "a   \u2264 and  end of\n    more   it\n");
     EXPECT_EQ(side_by_side({{"a b", 1, "\033[31m"}, {"c", 1}}), "\033[31ma\033[0m  c\n\033[31mb\033[0m\n");
+}
+
+TEST(TextColumns, KeepThePlaceOfAnEmptyCellAndEndWithoutBlanks)
+{
+    EXPECT_EQ(side_by_side({{"a", 2}, {"", 3}, {"b", 1}}), "a        b\n");
+    EXPECT_EQ(side_by_side({{"a", 2}, {"b", 3}, {"", 4}}), "a   b\n");
 }
 
 TEST(PlainMarkdown, IsSetForATerminal)

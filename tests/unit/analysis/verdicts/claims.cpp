@@ -63,7 +63,7 @@ TEST(Claims, BrokenFilesAreNamedWithTheirLine)
              {whole + again, "claims.toml:14: id = X: expected each claim once"},
              {"", "claims.toml: schema: missing: expected schema = 1"},
              {"schema = 2\n", "claims.toml:1: schema = 2: expected 1"},
-             {"schema = \"1\"\n", "claims.toml:1: schema = 1: expected 1"},
+             {"schema = \"1\"\n", "claims.toml:1: schema = \"1\": expected 1"},
              {"schema = 1\n", "claims.toml: claim: expected [[claim]] tables"},
              {"schema = 1\nverdict = \"holds\"\n", "claims.toml:2: verdict: unknown key: expected schema or check or claim or quantity"},
              {whole + "bound = 3\n", "claims.toml:14: bound: unknown key of a claim"},
@@ -74,6 +74,7 @@ TEST(Claims, BrokenFilesAreNamedWithTheirLine)
              {head + "rule = \"single\"\n", "claims.toml:2: quantities: expected at least one"},
              {head + units + no_effect, "claims.toml:2: bounds: missing in this claim"},
              {head + units + bounds, "claims.toml:2: controls: expected one that must fail, or no_effect"},
+             {head + units + bounds + "no_effect = \"0.1\"\n", "claims.toml:13: no_effect = \"0.1\": expected a number"},
              {whole + "unseen_by = \"LBS\"\n", "claims.toml:14: unseen_by = LBS: expected the name of a control that must fail"},
              {whole + "mean = \"median\"\n", "claims.toml:14: mean = median: expected arithmetic or geometric"},
              {head + units + bounds + "no_effect = 1.5\n", "claims.toml:13: no_effect = 1.5: expected 0 <= no_effect < 1"},
@@ -96,7 +97,7 @@ TEST(Claims, BrokenFilesAreNamedWithTheirLine)
     EXPECT_EQ(message_of("[" + std::string(100, '.') + "]\n").substr(0, 21), "claims.toml:1: key = ");
     std::string other_unit = whole;
     other_unit.replace(other_unit.find("body"), 4, "bone");
-    EXPECT_EQ(message_of(other_unit), "claims.toml:10: unit = [bone]: bone: expected fields of a key, as body or joint, or quantity");
+    EXPECT_EQ(message_of(other_unit), R"(claims.toml:10: unit = ["bone"]: bone: expected fields of a key, as body or joint, or quantity)");
 }
 
 }  // namespace

@@ -1,16 +1,27 @@
 // Colours and width. Reference: the conventions of no-color.org and CLICOLOR_FORCE; a test's standard output is not a terminal.
 
 #include "experiments/process/terminal.hpp"
+#include "pbs/geometry/child_process.hpp"
+#include "pbs/geometry/cost.hpp"
+#include "pbs/geometry/files.hpp"
 #include "pbs/geometry/input_error.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
+#include <functional>
 #include <new>
+#include <optional>
 #include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
 
 // Reference: the contract of exit statuses (experiments/command_line/README.md).
 
@@ -49,6 +60,68 @@ TEST(Failure, HasTheWordsAndTheStatusOfItsKind)
         EXPECT_EQ(failure.message(), message);
         EXPECT_EQ(failure.status, status) << message;
     }
+}
+
+// The exit status of a process that watches interrupts, and the seconds that it took.
+std::pair<int, double> end_of(const std::function<void()>& work)
+{
+    const pbs::Stopwatch stopwatch;
+    const pid_t child = fork();
+    if (child == 0) {
+        dup2(open("/dev/null", O_WRONLY), STDERR_FILENO);
+        watch_interrupts();
+        try {
+            work();
+        } catch (...) {
+            _exit(10 + caught_failure().status);
+        }
+        _exit(exit_finished);
+    }
+    int status = 0;
+    waitpid(child, &status, 0);
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status), stopwatch.seconds()};
+}
+
+[[noreturn]] void never_end()
+{
+    for (;;) pause();
+}
+
+// Reference: the contract in the header. Without the watch, never_end() waits for the time limit of the test.
+TEST(Interruption, EndsAStageThatGoesOnAndRemovesItsUnfinishedFiles)
+{
+    const test_support::ScratchFolder folder;
+    for (const int signal : {SIGINT, SIGTERM}) {
+        const auto [status, seconds] = end_of([&] {
+            pbs::AtomicFile first(folder / "first.csv"), second(folder / "second.csv"), finished(folder / "finished.csv");
+            finished.finish();
+            const pbs::Stage outer("a model"), inner("a library that never ends");
+            std::raise(signal);
+            never_end();
+        });
+        EXPECT_EQ(status, exit_interrupted);
+        EXPECT_LT(seconds, 2.0);
+        std::vector<std::string> left;
+        for (const auto& entry : std::filesystem::directory_iterator(folder.path())) left.push_back(entry.path().filename().string());
+        EXPECT_EQ(left, std::vector<std::string>{"finished.csv"});
+    }
+}
+
+TEST(Interruption, IsNoticedWhereAStageBeginsAndLeavesTheRestInPeace)
+{
+    EXPECT_EQ(end_of([] {
+                  std::raise(SIGTERM);
+                  const pbs::Stage stage("the next one");
+              }).first,
+              10 + exit_interrupted);
+    EXPECT_EQ(end_of([] {
+                  std::optional<pbs::Stage> stage("work that ends by itself");
+                  std::raise(SIGTERM);
+                  stage.reset();
+                  const pbs::Stopwatch writing;  // longer than the time of grace
+                  while (writing.seconds() < 1.0) usleep(10'000);
+              }).first,
+              exit_finished);
 }
 
 class Terminal : public ::testing::Test {

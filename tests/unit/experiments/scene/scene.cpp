@@ -184,6 +184,7 @@ TEST_F(MotionCase, ASweepTurnsItsJointAndOneInWhichNothingTurnsIsRemarkedOn)
     const CaseMotion motion = made(sweep);
     EXPECT_NEAR(motion.largest_rotation_deg, 60.0, 1e-10);
     EXPECT_EQ(motion.motion.frames(), 3);
+    EXPECT_EQ(motion.time_zero, "rest pose, where the sweep begins");
     EXPECT_TRUE(motion.remarks.empty());
     sweep.angle_deg = 0.05;
     sweep.frames = 2;  // about the axis of the bone
@@ -200,7 +201,6 @@ TEST_F(MotionCase, AClipWhoseJointsAllMatch)
     const CaseMotion motion = made(clip({"upper", "forearm"}));
     EXPECT_EQ(motion.clip_joints, 2);
     EXPECT_EQ(motion.matched_joints, 2);
-    EXPECT_EQ(motion.partial_match, "");
     EXPECT_TRUE(motion.remarks.empty());
     EXPECT_NEAR(motion.largest_rotation_deg, 120.0, 1e-3);  // the forearm follows both joints; BVH's numbers are single precision
 }
@@ -219,6 +219,10 @@ TEST_F(MotionCase, AClipThatMatchesLessThanHalfIsRefusedUnlessItIsAllowed)
     walk.allow_partial = true;
     EXPECT_EQ(made(walk).matched_joints, 2);
     EXPECT_EQ(made(clip({"upper", "forearm", "a", "b"})).matched_joints, 2);  // one half is enough
+    walk = clip({"upper", "a"});
+    EXPECT_EQ(made(walk).remarks,
+              std::vector<std::string>{walk.clip + ": 1 of 2 moving joints of the clip match a bone; without a bone: a; "
+                                                   "bones without a motion of their own: forearm"});
 }
 
 TEST_F(MotionCase, AnAnimationOfTheModelAndARefusalOfAModelWithoutOne)
@@ -228,6 +232,9 @@ TEST_F(MotionCase, AnAnimationOfTheModelAndARefusalOfAModelWithoutOne)
     MotionSpec spec;
     spec.of_model = true;
     spec.rate_hz = 10.0;
+    spec.start_s = 0.5;
+    EXPECT_EQ(made(spec).time_zero_s, 0.5);  // the animation begins at 0 s
+    spec.start_s = 0.0;
     const CaseMotion motion = made(spec);
     EXPECT_NEAR(motion.largest_rotation_deg, 90.0, 1e-3);  // glTF's numbers are single precision
     EXPECT_EQ(motion.motion.frames(), 21);

@@ -129,13 +129,11 @@ TEST(StudyCosts, StayOverResumedRunsAlsoWithoutWallTime)
     first.write();
     StudyCosts resumed(folder.path().string());
     resumed.add("human", 30.0, 28.0);  // done again
-    EXPECT_EQ(resumed.expected_s(), 40.0);
-    EXPECT_EQ(resumed.cpu_s(), 40.0);
+    resumed.write();
+    EXPECT_EQ(analysis::read_text(folder / "costs.csv"), "run,expected_cpu_s,cpu_s,wall_s\nlimb,10,12,\nhuman,30,28,\n");
 
     analysis::write_text_atomically(folder / "costs.csv", "run,expected_cpu_s,cpu_s\nlimb,10,12\n");
-    const StudyCosts costs(folder.path().string());
-    EXPECT_EQ(costs.cpu_s(), 12.0);
-    costs.write();
+    StudyCosts(folder.path().string()).write();
     EXPECT_EQ(analysis::read_text(folder / "costs.csv"), "run,expected_cpu_s,cpu_s,wall_s\nlimb,10,12,\n");
 }
 
@@ -174,18 +172,6 @@ TEST(StudyCosts, AreCompletedFromTheRunsThatEndedAndTellTheirCostInTheOrderOfThe
                          {"told", R"({"outcome": {"cpu_seconds": 3.0, "wall_s": "4"}})"}},
                         {{"seen", 2.0, 8.5}}),
               "run,expected_cpu_s,cpu_s,wall_s\nseen,2,8.5,9\ntold,2,3,\n");
-}
-
-TEST(StudyCosts, PointAtWhatIsNotWithinAFactorOfTwo)
-{
-    const ScratchFolder folder;
-    StudyCosts met(folder / "met"), missed(folder / "missed"), tiny(folder / "tiny");
-    met.add("run", 100.0, 190.0);
-    missed.add("run", 100.0, 210.0);
-    tiny.add("run", 1.0, 0.1);
-    EXPECT_EQ(cost_table({{"met", met}}).find("not within"), std::string::npos);
-    EXPECT_NE(cost_table({{"missed", missed}}).find("2.10  not within a factor of 2"), std::string::npos);
-    EXPECT_EQ(cost_table({{"tiny", tiny}}).find("not within"), std::string::npos);
 }
 
 // Reference: cases.toml of the study setup, whose ring is built in.

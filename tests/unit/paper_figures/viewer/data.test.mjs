@@ -2,7 +2,7 @@
 // and outside.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { carried, codes_of, distances_mm, positions_of, ratio_of } from "../../../../paper_figures/viewer/src/data.js";
+import { Run, carried, codes_of, distances_mm, positions_of, ratio_of } from "../../../../paper_figures/viewer/src/data.js";
 
 test("frames are sums of differences modulo 65536", () => {
     // codes 65535 0 300, then 2 65534 300: differences 3 (past the top), -2, 0
@@ -36,4 +36,13 @@ test("points lie where their shares put them", () => {
 test("they are carried along", () => {
     const moved = rest.map((value, i) => 2 * value + [1, 0, -4][i % 3]);
     assert.deepEqual([...carried(surface, corners, moved)], [1.5, 0.5, -3.5, 2, 1, -3, 19, 18, 14]);
+});
+
+test("the sphere of a run holds its grid and its bones", () => {
+    const grid = { low_m: [-1, -1, 4], step_m: 2 / 65535 };
+    const sphere_of = (bone_ends) => Object.assign(Object.create(Run.prototype), { ...grid, bone_ends }).sphere();
+    const { middle, radius } = sphere_of([0, 0, 5, 1, 0, 5]);
+    assert.deepEqual(middle, [0, 0, 5]);
+    assert.equal(radius, Math.sqrt(3));
+    assert.equal(sphere_of([0, 0, 5, 3, 4, 5]).radius, 5);
 });

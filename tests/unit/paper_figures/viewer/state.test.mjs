@@ -4,7 +4,9 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { Run } from "../../../../paper_figures/viewer/src/data.js";
 import { distance_shade, palette_of, ratio_shades, rgb_of, shade_of, shown, signed } from "../../../../paper_figures/viewer/src/legend.js";
-import { State, draws_surface, hash_of, no_surface_because, panels_for, pose_of } from "../../../../paper_figures/viewer/src/state.js";
+import {
+    State, draws_surface, hash_of, no_surface_because, panels_for, pose_of, range_of_sight,
+} from "../../../../paper_figures/viewer/src/state.js";
 
 test("there and back", () => {
     const pose = { run: "human_jump", frame: 12, colour: "error", panels: ["lbs", "nh_p1"], rendered: true,
@@ -55,6 +57,16 @@ test("the rendered surface is drawn where the body has one and nothing is cut", 
         assert.equal(draws_surface(run, { rendered: true, cut: asked }), false);
         assert.match(no_surface_because(run, { cut: asked }), why);
     }
+});
+
+// Reference: geometry. From outside nothing of the sphere may be cut off; the ratio bounds how coarse depths are.
+test("a body of any size lies within the range of sight", () => {
+    for (const radius of [0.005, 1, 5000])
+        for (const distance of [0, 0.5, 1.01, 6, 60].map((times) => times * radius)) {
+            const { near, far } = range_of_sight(distance, radius);
+            assert.ok(near > 0 && far === distance + radius && far / near <= 1000 * (1 + Number.EPSILON), `${distance} m`);
+            if (distance > radius) assert.ok(near === distance - radius, `${distance} m`);
+        }
 });
 
 test("no distance where the deformer or the reference did not reach the frame's pose", () => {

@@ -1,14 +1,11 @@
 // Reference: the errors that assimp 5.2 accepts and should not; each refusal by file, line and field.
 
 #include "pbs/character/clip.hpp"
-#include "pbs/character/named_bodies.hpp"
 #include "tests/support/rounding_error.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/unit/pbs/character/expect_input_error.hpp"
 
 #include <gtest/gtest.h>
-
-#include <set>
 
 namespace {
 
@@ -72,7 +69,7 @@ TEST(Clip, FindClipLooksInTheFolderAndSaysWhereItLooked)
     expect_input_error([&] { find_clip("none.bvh", folder.path().string()); }, "motion.clip = none.bvh: ", "assimp-testmodels");
 }
 
-// Reference: the twist of q = swing * twist is the twist; CMU's names cover every bone of the human except the hips.
+// Reference: the twist of q = swing * twist is the twist.
 
 TEST(TwistAngle, OfATwistWithASwingBeforeIt)
 {
@@ -91,17 +88,6 @@ TEST(TwistAngle, OfASwingAloneIsZeroAndOfAHalfTurnFinite)
     EXPECT_NEAR(twist_angle(Eigen::Quaterniond(Eigen::AngleAxisd(2.0, Vec3::UnitY())), Vec3::UnitX()), 0.0,
                 test_support::motion_error(1, 1.0));
     EXPECT_TRUE(std::isfinite(twist_angle(Eigen::Quaterniond(0.0, 0.0, 1.0, 0.0), Vec3::UnitX()))) << "where the twist is undefined";
-}
-
-TEST(JointMap, NamesTheBonesOfTheHuman)
-{
-    const Skeleton human = human_skeleton();
-    std::set<std::string> mapped;
-    for (const JointMapping& mapping : cmu_joint_map()) {
-        EXPECT_GE(find_bone(human, mapping.bone), 0) << mapping.bone;
-        EXPECT_TRUE(mapped.insert(mapping.bone).second) << mapping.bone << " twice";
-    }
-    for (const Bone& bone : human.bones) EXPECT_EQ(mapped.count(bone.name), bone.name.starts_with("hip.") ? 0u : 1u) << bone.name;
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -42,7 +43,7 @@ struct WrittenGlb {
     {
         const json& info = document["accessors"][std::size_t(accessor)];
         const std::size_t offset = document["bufferViews"][info["bufferView"].get<std::size_t>()].value("byteOffset", 0);
-        std::vector<float> numbers(info["count"].get<std::size_t>() * (info["type"] == "VEC3" ? 3 : 1));
+        std::vector<float> numbers(info["count"].get<std::size_t>() * (info["type"] == "VEC3" ? 3 : info["type"] == "VEC2" ? 2 : 1));
         for (std::size_t n = 0; n < numbers.size(); ++n) numbers[n] = number_in<float>(bytes, offset + 4 * n);
         return numbers;
     }
@@ -56,10 +57,8 @@ std::string file_of(const std::string& path, const std::vector<double>& times_s,
     return read_text_file(path);
 }
 
-WrittenGlb written_glb(const std::vector<double>& times_s, const std::vector<Positions>& frames)
+WrittenGlb parts_of(const std::string& file)
 {
-    const test_support::ScratchFolder folder;
-    const std::string file = file_of(folder / "a.glb", times_s, frames);
     EXPECT_EQ(file.substr(0, 4), "glTF");
     EXPECT_EQ(number_in<std::uint32_t>(file, 4), 2u);
     EXPECT_EQ(number_in<std::uint32_t>(file, 8), file.size());
@@ -68,6 +67,35 @@ WrittenGlb written_glb(const std::vector<double>& times_s, const std::vector<Pos
     EXPECT_EQ(file.substr(16, 4), "JSON");
     EXPECT_EQ(file.substr(20 + length + 4, 4), std::string("BIN\0", 4));
     return {json::parse(file.substr(20, length)), file.substr(28 + length)};
+}
+
+WrittenGlb written_glb(const std::vector<double>& times_s, const std::vector<Positions>& frames)
+{
+    const test_support::ScratchFolder folder;
+    return parts_of(file_of(folder / "a.glb", times_s, frames));
+}
+
+// Two triangles at right angles that share an edge but no points. In the second frame the first one has turned onto its back.
+const Triangles two_triangles = (Triangles(2, 3) << 0, 1, 2, 3, 4, 5).finished();
+const Positions roof = (Positions(6, 3) << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 1).finished();
+
+WrittenGlb written_roof(const RigLook& look, const RigMaterials& materials = {})
+{
+    const test_support::ScratchFolder folder;
+    pbs::GlbWriter writer(folder / "a.glb", "roof", two_triangles, look, materials);
+    Positions turned = roof;
+    turned.row(1) *= -1.0;
+    writer.add_frame(0.0, roof);
+    writer.add_frame(1.0, turned);
+    writer.write();
+    return parts_of(read_text_file(folder / "a.glb"));
+}
+
+std::vector<float> repeated(const std::vector<std::array<float, 3>>& rows)
+{
+    std::vector<float> numbers;
+    for (const auto& row : rows) numbers.insert(numbers.end(), row.begin(), row.end());
+    return numbers;
 }
 
 TEST_F(GlbWriter, TheFirstFrameIsTheMeshWithItsBoundingBox)
@@ -103,6 +131,42 @@ TEST_F(GlbWriter, ItsMeshIsReadAgain)
     const Rig rig = read_gltf_rig(folder / "a.glb");
     EXPECT_EQ(rig.meshes.at(0).points, first_frame);
     EXPECT_EQ(rig.meshes.at(0).triangles, one_triangle);
+}
+
+TEST_F(GlbWriter, NormalsAreThoseOfTheFrameAndKeepTheArtistsHardEdges)
+{
+    RigLook look;
+    look.put(0, 0, (Eigen::MatrixXf(6, 3) << 0, 0, 1, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 1, 0, 0).finished());
+    const WrittenGlb hard = written_roof(look);
+    const json& primitive = hard.document["meshes"][0]["primitives"][0];
+    EXPECT_EQ(hard.floats(primitive["attributes"]["NORMAL"]), repeated({{0, 0, 1}, {0, 0, 1}, {0, 0, 1}, {1, 0, 0}, {1, 0, 0}, {1, 0, 0}}));
+    EXPECT_EQ(hard.floats(primitive["targets"][0]["NORMAL"]), repeated({{0, 0, -2}, {0, 0, -2}, {0, 0, -2}, {}, {}, {}}));
+    look.numbers.setConstant(0.6F);
+    const WrittenGlb smooth = written_roof(look);
+    const std::vector<float> normals = smooth.floats(smooth.document["meshes"][0]["primitives"][0]["attributes"]["NORMAL"]);
+    for (const std::size_t shared : {0, 2, 3, 4}) EXPECT_FLOAT_EQ(normals[3 * shared], std::sqrt(0.5F)) << shared;
+    EXPECT_EQ(normals[3], 0.0F) << "not on the edge";
+}
+
+TEST_F(GlbWriter, TextureCoordinatesMaterialsAndImagesAreCarried)
+{
+    RigLook look;
+    look.put(0, 3, (Eigen::MatrixXf(6, 2) << 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11).finished());
+    look.material = {1, 0};
+    const RigMaterials materials{R"({"materials": [{"name": "a"}, {"name": "b"}], "images": [{"mimeType": "image/png"}]})", {"\x89PNG5"}};
+    const WrittenGlb glb = written_roof(look, materials);
+    const json& primitives = glb.document["meshes"][0]["primitives"];
+    ASSERT_EQ(primitives.size(), 2u);
+    EXPECT_EQ(primitives[0]["material"], 0);
+    EXPECT_EQ(primitives[1]["material"], 1);
+    EXPECT_EQ(number_in<std::uint32_t>(glb.bytes, 0), 3u) << "the second triangle comes first, for it has the first material";
+    EXPECT_EQ(primitives[0]["attributes"], primitives[1]["attributes"]);
+    EXPECT_FALSE(primitives[0]["attributes"].contains("NORMAL"));
+    EXPECT_EQ(glb.floats(primitives[0]["attributes"]["TEXCOORD_0"]), (std::vector<float>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11}));
+    const json& view = glb.document["bufferViews"][glb.document["images"][0]["bufferView"].get<std::size_t>()];
+    EXPECT_EQ(glb.bytes.substr(view["byteOffset"], view["byteLength"]), "\x89PNG5");
+    EXPECT_EQ(glb.floats(primitives[0]["attributes"]["POSITION"])[3], 1.0F) << "what follows the image begins at a multiple of four";
+    EXPECT_EQ(glb.bytes.size(), glb.document["buffers"][0]["byteLength"]);
 }
 
 // Reference: tinygltf's own writer, which holds the whole buffer in memory, of the model that tinygltf reads.

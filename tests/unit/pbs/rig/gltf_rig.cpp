@@ -54,6 +54,7 @@ protected:
 using GltfMeshes = GltfRig;
 using GltfAnimations = GltfRig;
 using GltfNumbers = GltfRig;
+using GltfLook = GltfRig;
 
 TEST_F(GltfRig, HasItsNodesMeshesAndMetres)
 {
@@ -290,6 +291,62 @@ TEST_F(GltfNumbers, IntegersThatAreNotNormalisedKeepTheirValues)  // as KHR_mesh
 {
     primitive()["attributes"]["POSITION"] = gltf.put<std::int16_t>("VEC3", {-300, 0, 7, 1, 2, 0, 1, 4, 0, 2, 2, 0});
     EXPECT_EQ(Vec3(read_mesh().points.row(0)), Vec3(-300, 0, 7));
+}
+
+// Normals and two sets of texture coordinates; the second primitive has no normals and another material.
+TEST_F(GltfLook, IsThatOfEachPrimitive)
+{
+    json second = primitive();
+    primitive()["attributes"]["NORMAL"] = gltf.put<float>("VEC3", {0, 0, 1, 0, 0, 1, 0, 1, 0, 0, 0, 1});
+    const int uv = gltf.put<float>("SCALAR", {0, 1, 2, 3, 4, 5, 6, 7});
+    gltf.json["accessors"][uv].update({{"type", "VEC2"}, {"count", 4}});
+    second["attributes"].update({{"TEXCOORD_0", uv}, {"TEXCOORD_1", uv}});
+    second["material"] = 1;
+    gltf.json["meshes"][0]["primitives"].push_back(second);
+    const RigLook look = read_mesh().look;
+    ASSERT_EQ(look.numbers.rows(), 8);
+    ASSERT_EQ(look.numbers.cols(), 7);
+    EXPECT_EQ(look.numbers.row(2), (Eigen::RowVectorXf(7) << 0, 1, 0, 0, 0, 0, 0).finished());
+    EXPECT_EQ(look.numbers.row(5), (Eigen::RowVectorXf(7) << 0, 0, 0, 2, 3, 2, 3).finished());
+    EXPECT_EQ(look.material, (std::vector<int>{-1, -1, 1, 1}));
+}
+
+TEST_F(GltfLook, DamagedNumbersAreLeftOutWithARemark)
+{
+    primitive()["attributes"]["NORMAL"] = 5;  // two numbers, which are times
+    const Rig rig = read();
+    EXPECT_EQ(rig.meshes.at(0).look.numbers.size(), 0);
+    ASSERT_EQ(rig.remarks.size(), 1u);
+    EXPECT_NE(rig.remarks[0].find("mesh arm: NORMAL is left out: "), std::string::npos) << rig.remarks[0];
+}
+
+TEST_F(GltfLook, MaterialsHaveTheImagesOfTheFileAndOfItsFolderAndWhiteForTheRest)
+{
+    const std::string png = "\x89PNG1", jpeg = "\xff\xd8\xffz", other = "\x89PNG3";
+    const test_support::ScratchFolder folder;
+    folder.file("my skin.jpg", jpeg);
+    const int view = gltf.put_bytes(std::vector<char>(png.begin(), png.end()));
+    gltf.json["images"] = {{{"bufferView", view}, {"mimeType", "image/png"}},
+                           {{"uri", "my%20skin.jpg"}},
+                           {{"uri", "data:image/png;base64," + test_support::base64(other)}},
+                           {{"uri", "lost.png"}},
+                           {{"uri", "../outside.png"}}};
+    for (int image = 0; image < 5; ++image) gltf.json["textures"].push_back({{"source", image}});
+    gltf.json["materials"] = {{{"name", "skin"}, {"normalTexture", {{"index", 1}}}, {"emissiveFactor", {1, 0, 0}}},
+                              {{"name", "cloth"}, {"normalTexture", {{"index", 3}}}}};
+    const RigMaterials materials = read_gltf_materials(folder.file("a.gltf", gltf.text()));
+    ASSERT_EQ(materials.images.size(), 5u);
+    EXPECT_EQ(materials.images[0], png);
+    EXPECT_EQ(materials.images[1], jpeg);
+    EXPECT_EQ(materials.images[2], other);
+    EXPECT_EQ(materials.images[3].substr(0, 4), png.substr(0, 4));
+    ASSERT_EQ(materials.remarks.size(), 2u);
+    EXPECT_NE(materials.remarks[0].find("lost.png: expected PNG or JPEG in the file or below its folder"), std::string::npos);
+    const json document = json::parse(materials.document);
+    EXPECT_EQ(document["images"][1], (json{{"mimeType", "image/jpeg"}}));
+    EXPECT_EQ(document["textures"], gltf.json["textures"]);
+    EXPECT_EQ(document["materials"][0], gltf.json["materials"][0]);
+    EXPECT_EQ(document["materials"][1], (json{{"name", "cloth"}})) << "white is no direction";
 }
 
 TEST_F(GltfNumbers, OfAStridedViewAndAnOffset)

@@ -146,6 +146,7 @@ TEST(RigidPose, CarriesRestPointsAndTheArtistsToTheirPlacesInMetres)
     const Positions expected{{1, 0, 0}, {1, 2, 0}, {1, 0, 0}, {0.5, 2, 0}};
     const Positions points = artist_points(half_round.body, half_round.nodes);
     EXPECT_LE((points - 0.5 * expected).cwiseAbs().maxCoeff(), rigid_rounding);
+    EXPECT_LE((artist_points(half_round.body, pose) - points).cwiseAbs().maxCoeff(), rigid_rounding) << "as of a clip, which has no nodes";
 }
 
 TEST(RigidPose, LeavesOutScaleWhichTheArtistsPointsKeepAndReportsIt)

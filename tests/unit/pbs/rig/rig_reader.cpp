@@ -55,6 +55,20 @@ TEST(CheckedRig, IsTheRigWithRotationsOfUnitLength)
     EXPECT_EQ(same.meshes[0].points, rig.meshes[0].points);
 }
 
+TEST(CheckedRig, TellsAnimationsWithOneNameApartAndKeepsNamesThatAreUnique)
+{
+    Rig rig = test_support::two_joint_rig();
+    const RigAnimation bend = rig.animations[0];
+    rig.animations.clear();
+    for (const char* name : {"Take 001", "Walk", "Take 001", "Take 001 (2)", "Take 001", "Walk"}) {
+        rig.animations.push_back(bend);
+        rig.animations.back().name = name;
+    }
+    std::vector<std::string> names;
+    for (const RigAnimation& animation : checked(rig).animations) names.push_back(animation.name);
+    EXPECT_EQ(names, (std::vector<std::string>{"Take 001", "Walk", "Take 001 (3)", "Take 001 (2)", "Take 001 (4)", "Walk (2)"}));
+}
+
 TEST(CheckedRig, HasNoIndexOutOfRange)
 {
     const Damages damages = {

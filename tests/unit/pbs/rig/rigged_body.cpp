@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace {
 
 using namespace pbs;
@@ -44,6 +46,21 @@ TEST(RiggedBody, HasTheSurfaceAndTheWeightsOfAllItsMeshes)
     EXPECT_EQ(body.triangles, (Triangles(3, 3) << 0, 1, 3, 1, 2, 3, 4, 6, 5).finished());
     EXPECT_EQ(body.skin.first, (std::vector<int>{0, 1, 3, 4, 6, 7, 8, 9}));
     EXPECT_EQ(body.skin.bone, (std::vector<int>{0, 0, 1, 1, 0, 1, 1, 1, 0}));
+}
+
+TEST(RiggedBody, HasTheLookOfAllItsMeshesWithZerosWhereOneHasNone)
+{
+    Rig rig = two_joint_rig();
+    rig.meshes.push_back(rig.meshes[0]);
+    rig.meshes.push_back(rig.meshes[0]);
+    rig.meshes[1].look.put(0, 3, Eigen::MatrixXf::Constant(4, 2, 0.5F));
+    rig.meshes[1].look.put(2, 0, Eigen::MatrixXf::Constant(1, 3, std::nanf("")));
+    rig.meshes[1].look.material = {7, 2};
+    const RiggedBody body = make_rigged_body(rig, nullptr, 1.0);
+    Eigen::MatrixXf expected = Eigen::MatrixXf::Zero(12, 5);
+    expected.block(4, 3, 4, 2).setConstant(0.5F);
+    EXPECT_EQ(Eigen::MatrixXf(body.look.numbers), expected);
+    EXPECT_EQ(body.look.material, (std::vector<int>{-1, -1, 7, 2, -1, -1}));
 }
 
 TEST(RiggedBody, AJointWithoutWeightIsNoBoneAndReported)

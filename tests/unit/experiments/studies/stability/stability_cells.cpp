@@ -91,12 +91,13 @@ TEST(PbsCells, AreJudgedInThePapersOrderAndHaveTheirControls)
     };
     const auto is_undisturbed = [](const StabilityCell& cell) { return cell.model == "pbs_undisturbed"; };
     for (const bool full : {false, true}) {
-        std::vector<StabilityCell> limb = pbs_cells(true, full);
-        append(limb, pbs_cells(false, full));
-        EXPECT_EQ(factors_where(controls(full), is_undisturbed), factors_where(limb, is_judged));
-        EXPECT_GE(factors_where(controls(full), [](const auto& cell) { return cell.model == "pbs_printed_sign"; }).size(), 5u);
-        for (const StabilityCell& cell : controls(full)) EXPECT_FALSE(cell.as_published) << cell.model;
-        const std::vector<StabilityCell> lady = pbs_character_cells("lady", full);
+        std::vector<StabilityCell> limb = stability_cells("pbs_jiggle", full);
+        append(limb, stability_cells("pbs", full));
+        EXPECT_EQ(factors_where(stability_cells("controls", full), is_undisturbed), factors_where(limb, is_judged));
+        EXPECT_GE(
+            factors_where(stability_cells("controls", full), [](const auto& cell) { return cell.model == "pbs_printed_sign"; }).size(), 5u);
+        for (const StabilityCell& cell : stability_cells("controls", full)) EXPECT_FALSE(cell.as_published) << cell.model;
+        const std::vector<StabilityCell> lady = stability_cells("pbs_character", full, "lady");
         EXPECT_EQ(factors_where(lady, is_undisturbed), factors_where(lady, is_judged));
         for (const StabilityCell& cell : lady) EXPECT_NE(cell.as_published, is_undisturbed(cell));
         EXPECT_TRUE(std::ranges::any_of(lady, [&](const auto& cell) { return is_judged(cell) && cell.time_step_s >= 0.05; }));
@@ -121,7 +122,7 @@ std::set<std::string> factors_of(const std::vector<StabilityCell>& cells, const 
 
 StabilityCell cell_with(const std::string& model, const std::string& factor, double value)
 {
-    for (const StabilityCell& cell : other_cells(true))
+    for (const StabilityCell& cell : stability_cells("other_deformers", true))
         if (cell.model == model && cell.factor == factor && cell.value == value) return cell;
     ADD_FAILURE() << "no cell of " << model << " with " << factor << " = " << value;
     return {};
@@ -129,7 +130,7 @@ StabilityCell cell_with(const std::string& model, const std::string& factor, dou
 
 StabilityCell start_of(const std::string& model, Start start, const std::string& setting, double value)
 {
-    for (const StabilityCell& cell : start_cells(true))
+    for (const StabilityCell& cell : stability_cells("broken_starts", true))
         if (cell.model == model && cell.disturbance.start == start && cell.second_factor == setting &&
             (setting.empty() ? cell.disturbance.axis == pbs::Vec3::UnitX() : cell.second_value == value))
             return cell;
@@ -143,7 +144,7 @@ TEST(OtherCells, EveryDeformerHasEveryExtremeCase)
     std::set<std::string> kinds = minimising_kinds;
     kinds.insert(other_kinds.begin(), other_kinds.end());
     for (const bool full : {false, true}) {
-        const std::vector<StabilityCell> cells = other_cells(full);
+        const std::vector<StabilityCell> cells = stability_cells("other_deformers", full);
         std::set<std::string> models;
         for (const StabilityCell& cell : cells) {
             models.insert(cell.model);
@@ -165,7 +166,7 @@ TEST(OtherCells, EveryDeformerHasItsBrokenStarts)
 {
     for (const bool full : {false, true}) {
         std::set<std::pair<std::string, Start>> found, expected;
-        for (const StabilityCell& cell : start_cells(full)) {
+        for (const StabilityCell& cell : stability_cells("broken_starts", full)) {
             EXPECT_FALSE(cell.as_published) << cell.model;
             if (cell.second_factor.empty()) found.insert({cell.model, cell.disturbance.start});
         }
@@ -185,7 +186,7 @@ TEST(OtherCells, EveryDeformerHasItsBrokenStarts)
 // One cell stands for all time steps of a method, which is right only if no time step changes a bit.
 TEST(OtherCells, AMethodWithOneTimeStepCellUsesNone)
 {
-    for (const StabilityCell& cell : other_cells(false)) {
+    for (const StabilityCell& cell : stability_cells("other_deformers", false)) {
         if (cell.factor != "time_step") continue;
         EXPECT_EQ(cell.named, "not_used") << cell.model;
         const auto after_a_step = [&](double time_step_s) {

@@ -145,7 +145,6 @@ TEST(RealTime, EndsByWallTimeOfTheLadder)
     EXPECT_NEAR(ends[0].vertices, 1e5, 1e5 * test_support::rounding_error(20, 1.0));
     EXPECT_NEAR(ends[0].exponent, 1.0, test_support::rounding_error(20, 1.0));
     EXPECT_TRUE(ends[0].is_beyond);
-    EXPECT_NE(timing_text(rows).find("1e+05"), std::string::npos) << timing_text(rows);
     EXPECT_TRUE(real_time_ends(rows_of_mesh()).empty()) << "a size of Table 1 is no step of the ladder";
 }
 

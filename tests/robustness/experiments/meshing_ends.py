@@ -1,0 +1,85 @@
+"""Surfaces on which the mesher would go on without end, and work that is interrupted: each ends soon, with its reason, and leaves nothing
+half-written. Reference: the bounds in pbs/geometry/meshing_surface.cpp and the exit statuses in experiments/command_line/README.md."""
+import os
+import re
+import resource
+import signal
+import subprocess
+import time
+import unittest
+
+import numpy
+
+import program
+import rig_files
+import run_records
+
+MOST_BYTES, MOST_S = 2 << 30, 300  # on a busy machine; 60 s on an idle one
+LARGE = ("--vertices", "99900")  # meshing takes minutes
+
+
+def open_tube():
+    """A tube that lacks a third of its triangles."""
+    points, triangles = rig_files.tube()
+    return points, triangles[:2 * len(triangles) // 3]
+
+
+def open_boxes():
+    """A robot: 36 boxes side by side, each without two of its faces."""
+    corners = numpy.array([[x, y, z] for x in (0.0, 0.07) for y in (-0.05, 0.05) for z in (-0.05, 0.05)])
+    faces = [(0, 4, 6, 2), (1, 3, 7, 5), (0, 1, 5, 4), (2, 6, 7, 3)]
+    box = numpy.array([triangle for a, b, c, d in faces for triangle in ((a, b, c), (a, c, d))])
+    places = [(x / 12, y, 0.0) for x in range(12) for y in (-0.12, 0.0, 0.12)]
+    return (numpy.concatenate([corners + place for place in places]),
+            numpy.concatenate([box + 8 * number for number in range(len(places))]))
+
+
+class MeshingEnds(program.ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.environment = {**os.environ, "PBSKIN_CACHE": self.path("cache"), "NO_COLOR": "1"}
+
+    def rig(self, surface=None):
+        return rig_files.write("plain", self.path("rig.glb"), surface=surface)
+
+    def test_open_surfaces_end_in_a_layer_with_a_warning_or_are_refused(self):
+        """What cannot be meshed is refused; an open tube becomes a layer, and the warning says what to do."""
+        start, tube, boxes = time.monotonic(), self.rig(open_tube()), rig_files.write("plain", self.path("boxes.glb"), surface=open_boxes())
+        process = self.succeeds("try", tube, "-o", self.path("out"), "--no-reference", "--frames", "2", env=self.environment)
+        self.assertIn("3 of 3 bones lie outside the body: root, elbow, tip; the surface is open, and the tets fill a layer along it: "
+                      "close it", process.stderr)
+        tube_s = time.monotonic() - start
+        process = self.refuses("", "try", boxes, "-o", self.path("none"), "--no-reference", env=self.environment)
+        self.assertRegex(process.stderr.splitlines()[-1],
+                         re.escape(f"pbskin: {boxes}: ") + r"(surface|vertices of the tets).*(close it|ask for more vertices)")
+        self.assertFalse(os.path.exists(self.path("none")))
+        self.assertLess(max(tube_s, time.monotonic() - start - tube_s), MOST_S)
+        self.assertLess(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss * 1024, MOST_BYTES)
+
+    def interrupted(self, kill, *arguments):
+        """What was printed by a program that got the signal in the stage `filling the wrap`, whose line it had printed."""
+        process = subprocess.Popen([program.PBSKIN, *arguments], stderr=subprocess.PIPE, text=True, env=self.environment)
+        printed = ""
+        while "filling the wrap with tets, attempt 1 ...\n" not in printed:
+            line = process.stderr.readline()
+            self.assertNotEqual(line, "", f"it ended: {printed}")
+            printed += line
+        start = time.monotonic()
+        process.send_signal(kill)
+        _, rest = process.communicate(timeout=60)
+        self.assertLess(time.monotonic() - start, 2.0)
+        self.assertEqual(process.returncode, 130, printed + rest)
+        self.assertEqual(rest.splitlines()[-1], "pbskin: interrupted; what was finished is kept")
+
+    def test_a_signal_ends_meshing(self):
+        self.interrupted(signal.SIGTERM, "try", self.rig(), "-o", self.path("out"), "--no-reference", *LARGE)
+        left = [path for path in run_records.files(self.folder) if path.name != "making.lock"]  # which stays in the cache
+        self.assertEqual([path for path in left if run_records.is_temporary(path) or run_records.what_is_torn(path)], [])
+        points, triangles = rig_files.tube()
+        lines = [f"v {x} {y} {z}" for x, y, z in points] + [f"f {a} {b} {c}" for a, b, c in triangles + 1]
+        self.interrupted(signal.SIGINT, "mesh", self.write("tube.obj", "\n".join(lines)), "-o", self.path("tets.msh"), *LARGE)
+        self.assertFalse(os.path.exists(self.path("tets.msh")))
+
+
+if __name__ == "__main__":
+    unittest.main()
